@@ -1,0 +1,120 @@
+# Perigal: make [MODE=release|debug|asan] [V=1];  targets: all demo test test-long lint bench install clean
+MODE    ?= release
+prefix  ?= /usr/local
+CC      ?= gcc
+THREADS ?= 0
+T       ?=
+
+# ---- nothing to change below this line -------------------------------------------------------------------------------
+VERSION := 0.1.0
+# One-way order of the folders: a file may include headers of its own folder and of folders to its left only.
+ORDER   := base scene kernel material criterion linalg cloud cells approx integration model stiffness force solve output cli
+
+PACKAGES := gcc make pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libmetis-dev libopenblas-pthread-dev \
+            libgsl-dev libnetcdf-dev libcairo2-dev libcmocka-dev
+
+BUILD   := build/$(MODE)
+LIBS    := -lcholmod -lumfpack -lamd -lcamd -lsuitesparseconfig -lmetis -lopenblas -lgsl -lyaml -ludunits2 -lnetcdf -lcairo -lm -lpthread
+STD     := -std=c17 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700 -DPG_VERSION='"$(VERSION)"'
+WARN    := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
+INCLUDE := -Iinclude -Isrc -I/usr/include/suitesparse -I/usr/include/udunits2 -I/usr/include/cairo
+OPT_release := -O2 -g -ftree-vectorize
+OPT_debug   := -Og -g -DPG_DEBUG
+OPT_asan    := -O1 -g -DPG_DEBUG -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+# -ffp-contract=off: machines with and without FMA round alike
+CFLAGS  := $(STD) $(OPT_$(MODE)) -ffp-contract=off -fno-math-errno -fPIC $(WARN) $(INCLUDE) $(EXTRA_CFLAGS)
+LDFLAGS := $(if $(filter asan,$(MODE)),-fsanitize=address$(comma)undefined,) $(EXTRA_LDFLAGS)
+comma   := ,
+
+SOURCES := $(filter-out src/cli/%,$(wildcard src/*/*.c))
+CLI     := $(wildcard src/cli/*.c)
+TESTS   := $(wildcard test/*/test_*.c)
+TOOLS   := $(wildcard bench/*.c)
+OBJECTS := $(SOURCES:src/%.c=$(BUILD)/src/%.o)
+CLIOBJ  := $(CLI:src/%.c=$(BUILD)/src/%.o)
+TESTBIN := $(TESTS:test/%.c=$(BUILD)/test/%)
+BENCHBIN:= $(TOOLS:bench/%.c=$(BUILD)/bench/%)
+LIB     := $(BUILD)/libperigal.a
+SOLIB   := $(BUILD)/libperigal.so.0
+PROGRAM := $(BUILD)/perigal
+Q       := $(if $(V),,@)
+
+all: $(PROGRAM) $(SOLIB) perigal.pc
+
+perigal: $(PROGRAM)
+	$(Q)ln -sf $(PROGRAM) perigal
+
+$(BUILD)/src/%.o: src/%.c Makefile
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  CC   $<")
+	$(Q)$(CC) $(CFLAGS) -MMD -MP -c $< -o $@
+
+$(LIB): $(OBJECTS)
+	$(if $(V),,@echo "  AR   $@")
+	$(Q)rm -f $@ && ar rcs $@ $^
+
+$(SOLIB): $(OBJECTS)
+	$(if $(V),,@echo "  LD   $@")
+	$(Q)$(CC) -shared -Wl,-soname,libperigal.so.0 $(LDFLAGS) $^ $(LIBS) -o $@
+	$(Q)ln -sf libperigal.so.0 $(BUILD)/libperigal.so
+
+$(PROGRAM): $(CLIOBJ) $(LIB)
+	$(if $(V),,@echo "  LD   $@")
+	$(Q)$(CC) $(LDFLAGS) $^ $(LIBS) -o $@
+
+$(BUILD)/test/%: test/%.c $(LIB)
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  TEST $<")
+	$(Q)$(CC) $(CFLAGS) -Itest -MMD -MP -MF $@.d $< $(LDFLAGS) $(LIB) $(LIBS) -lcmocka -o $@
+
+$(BUILD)/bench/%: bench/%.c $(LIB)
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS) -MMD -MP -MF $@.d $< $(LDFLAGS) $(LIB) $(LIBS) -o $@
+
+perigal.pc: perigal.pc.in Makefile
+	$(Q)sed -e 's|@prefix@|$(prefix)|' -e 's|@version@|$(VERSION)|' -e 's|@libs@|$(LIBS)|' $< > $@
+
+packages:            ## install the Debian packages that are missing
+	$(Q).ci/packages $(PACKAGES)
+
+demo: packages       ## install, build, run the Brazilian disk, leave pictures
+	$(Q)$(MAKE) --no-print-directory -j2 perigal
+	$(Q)./perigal run data/cui_disk_10/scene.yaml -o out/demo --threads $(THREADS)
+
+test: packages       ## everything; last line: N passed, N failed
+	$(Q)$(MAKE) --no-print-directory -j2 perigal test-programs
+	$(Q).ci/test $(BUILD) "$(T)" short
+
+test-long: packages
+	$(Q)$(MAKE) --no-print-directory -j2 perigal test-programs
+	$(Q).ci/test $(BUILD) "$(T)" long
+
+test-programs: $(PROGRAM) $(if $(T),$(filter $(BUILD)/test/$(T)/%,$(TESTBIN)),$(TESTBIN))
+
+lint:                ## one-way includes, file and function lengths
+	$(Q).ci/lint $(ORDER)
+
+bench: packages
+	$(Q)$(MAKE) --no-print-directory -j2 perigal bench-programs
+	$(Q)bench/run $(BUILD)
+
+bench-programs: $(BENCHBIN)
+
+install: all
+	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig $(DESTDIR)$(prefix)/include/perigal
+	install $(PROGRAM) $(DESTDIR)$(prefix)/bin/perigal
+	install -m 644 $(LIB) $(SOLIB) $(DESTDIR)$(prefix)/lib
+	ln -sf libperigal.so.0 $(DESTDIR)$(prefix)/lib/libperigal.so
+	install -m 644 perigal.pc $(DESTDIR)$(prefix)/lib/pkgconfig
+	install -m 644 include/perigal.h $(DESTDIR)$(prefix)/include
+	install -m 644 include/perigal/*.h $(DESTDIR)$(prefix)/include/perigal
+
+clean:
+	rm -rf build out perigal perigal.pc
+
+print-%:
+	@echo '$($*)'
+
+.PHONY: all perigal packages demo test test-long test-programs lint bench bench-programs install clean
+.SECONDARY:
+-include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(TESTBIN:=.d) $(BENCHBIN:=.d)

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * approx.h: N and its derivatives at any point over live bonds. Catalogue: src/approx/<name>.c + one line in list.h.
+ * Sources: Cui 2022 eqs (4)-(19); theory sections D1, E1, E2, F3; degenerate rule: shared design section 3. */
+#ifndef PERIGAL_APPROX_H
+#define PERIGAL_APPROX_H
+#include "perigal/cloud.h"
+#include "perigal/kernel.h"
+
+/* What a point could still do with its live bonds. */
+enum { PG_GRADE_FULL,      /* the basis asked for                                                                        */
+       PG_GRADE_LOWERED,   /* quadratic asked, linear used                                                               */
+       PG_GRADE_SHEPARD,   /* fewer than dim + 1 live neighbours, or smallest eigenvalue of the centred second moment below
+                              1e-3 h^2: N = w / sum w, gradients 0: carries no stress, keeps a displacement              */
+       PG_GRADE_DEAD };    /* no live neighbour: N = 0                                                                   */
+
+typedef struct {                                       /* evaluation points and their shape functions                    */
+    int     dim;
+    size_t  n;
+    double *x;                                         /* m                                  (n x dim)                   */
+    double *weight;                                    /* integration weight, m^3; 0 where none (n)                      */
+    int    *own;                                       /* the node that this point is, or -1 (n)                         */
+    int    *cell;                                      /* background cell or -1              (n)                         */
+    pg_family family;                                  /* nodes seen from each point (own node included)                 */
+    double *N;                                         /* shape functions, 0 on dead bonds   (nnz)                       */
+    double *dN;                                        /* derivatives, 1/m                   (nnz x dim)                 */
+    double *w;                                         /* influence w V (m^3), 0 on dead bonds (nnz)                     */
+    unsigned char *grade;                              /* PG_GRADE_...                       (n)                         */
+} pg_rows;
+
+typedef struct pg_approx_type pg_approx_type;
+typedef struct {
+    const pg_approx_type *type;
+    const pg_kernel *kernel;
+    int    order;                                      /* basis: 1 linear, 2 quadratic                                   */
+    int    shape;                                      /* PG_RADIAL: w(|z|); PG_TENSOR: prod_k w(|z_k|)                  */
+    int    use_volume;                                 /* V_j in the weights (default: nosb, pddo yes; rkpm no: V_j = 1) */
+    double horizon;                                    /* support radius a, m                                            */
+} pg_approx;
+
+struct pg_approx_type {
+    const char *name, *summary;
+    int use_volume;                                    /* the default                                                    */
+    /* Re-evaluates rows list[0..count) (list NULL: rows 0..count) from `alive` (nnz, 0/1; NULL: all alive), on `threads`. */
+    pg_status (*evaluate) (const pg_approx *a, const pg_cloud *cloud, pg_rows *rows, const unsigned char *alive,
+                           size_t count, const size_t *list, int threads);
+};
+const pg_approx_type *pg_approx_find (const char *name);
+const char *pg_approx_names (void);
+
+/* Rows at n points: copies x, searches families, allocates N, dN, w (zero until evaluated). own, cell, weight may be NULL. */
+pg_status pg_rows_create (pg_rows *out, const pg_approx *a, const pg_cloud *cloud, size_t n, const double *x,
+                          const double *weight, const int *own, const int *cell);
+void      pg_rows_clear  (pg_rows *rows);
+size_t    pg_rows_count  (const pg_rows *rows, int grade);
+#endif

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * cloud.h: the body as shapes, points with volumes, families of neighbours, pre-cracks. */
+#ifndef PERIGAL_CLOUD_H
+#define PERIGAL_CLOUD_H
+#include "perigal/scene.h"
+
+/* ---- shapes --------------------------------------------------------------------------------------------------------- */
+enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM };
+typedef struct {
+    int    kind, add;                                  /* add: 1 adds, 0 subtracts                                       */
+    char   boundary[32];                               /* name of its surface for `sets: {boundary: NAME}`: as given by
+                                                          `name:`, else "rim" (round, added), "hole" (subtracted), "side" */
+    double low[3], high[3];                            /* box, prism (along z): m                                        */
+    double centre[3], axis[3], radius, length;         /* disk, sphere; cylinder: axis from centre, length, m            */
+    double *vertex; size_t nvertex;                    /* polygon, prism: nvertex x 2, m                                 */
+} pg_shape;
+typedef struct {
+    int dim;
+    pg_shape *shape; size_t n;
+    double low[3], high[3];                            /* bounding box of the added shapes, m                            */
+} pg_body;
+pg_status pg_body_read  (pg_body *out, const pg_scene *scene);      /* body: list of {add|subtract: {...}}               */
+void      pg_body_clear (pg_body *body);
+int       pg_body_inside (const pg_body *body, const double *x, double tolerance);   /* shapes in order, tolerance in m  */
+/* Index of the shape whose surface is nearest to x, and its distance (m). */
+size_t    pg_body_nearest (const pg_body *body, const double *x, double *distance);
+
+/* ---- background lattice --------------------------------------------------------------------------------------------- */
+typedef struct {
+    int    dim, count[3];                              /* cells per axis (1 beyond dim)                                  */
+    double origin[3], step[3];                         /* m: step = L / round (L / spacing)                              */
+    unsigned char *in;                                 /* count[0]*count[1]*count[2], x fastest: cell centre in the body  */
+} pg_lattice;
+pg_status pg_lattice_fit   (pg_lattice *out, const pg_body *body, double spacing, const double *offset /* fraction of a step or NULL */);
+void      pg_lattice_clear (pg_lattice *lattice);
+
+/* ---- points --------------------------------------------------------------------------------------------------------- */
+typedef struct {
+    int     dim;
+    size_t  n;
+    double *x;                                         /* position, m                        (n x dim)                   */
+    double *volume;                                    /* m^3: 2D area*thickness, 1D length*area (n)                     */
+    int    *block;                                     /* block number, 0 unless given       (n)                         */
+    double  h;                                         /* nominal spacing, m: (volume of a lattice cell)^(1/dim)         */
+    double  step[3];                                   /* lattice step per axis, m                                       */
+    double  thickness;                                 /* 2D m; 1D cross-section m^2; 3D 1                               */
+    double  low[3], high[3];                           /* bounding box, m                                                */
+} pg_cloud;
+/* Points of the scene: lattice: nodes (grid vertices, boundary included) | cells (cell centres), kept where in the body
+ * (nodes: vertices of kept cells); cell volume shared equally by its vertices (nodes). Then perturbed (reproducibly;
+ * only points whose surrounding cells are all kept move), or read from `points: FILE`. The lattice is returned as well
+ * (empty: dim = 0, for points from a file). */
+pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene);
+void      pg_cloud_clear (pg_cloud *cloud);
+
+/* ---- families ------------------------------------------------------------------------------------------------------- */
+typedef struct { size_t n; size_t *start; int *node; } pg_family;    /* CSR: entries start[i]..start[i+1], nodes ascending */
+enum { PG_RADIAL, PG_TENSOR };                                       /* ball |x_j - c| | cube max_k |x_jk - c_k|          */
+/* Cloud points within `reach` of each of n centres. closed: a distance of exactly reach counts (to 1e-9); else not.
+ * A cloud point at the centre itself is included. */
+pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, const double *centre, double reach, int shape, int closed);
+void      pg_family_clear (pg_family *family);
+
+/* ---- pre-cracks ------------------------------------------------------------------------------------------------------ */
+enum { PG_CRACK_SEGMENT, PG_CRACK_POLYGON, PG_CRACK_DISC };
+typedef struct {
+    int    kind;
+    double *vertex; size_t nvertex;                    /* segment: 2 x 2; polygon: n x 3, planar (disc: as drawn, 64-gon)  */
+    double centre[3], normal[3], radius;               /* disc; normal of polygon, unit normal of segment (2D)           */
+} pg_crack;
+typedef struct { int dim; pg_crack *crack; size_t n; } pg_cracks;
+pg_status pg_cracks_read  (pg_cracks *out, const pg_scene *scene);
+void      pg_cracks_clear (pg_cracks *cracks);
+/* Does the bond x - y meet crack c (a touch within `tolerance` m counts)? The answer is the same for y - x. */
+int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance);
+int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance);   /* x lies on the crack        */
+#endif

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * criterion.h: when a bond breaks. Utilisation 1 is the limit; tension positive.
+ * Catalogue: src/criterion/<name>.c + one line in list.h. Sources: Cui 2022 section 1.1; theory F2. */
+#ifndef PERIGAL_CRITERION_H
+#define PERIGAL_CRITERION_H
+#include "perigal/material.h"
+
+enum { PG_NEEDS_STRETCH = 1, PG_NEEDS_STRESS = 2 };
+
+typedef struct pg_criterion_type pg_criterion_type;
+typedef struct {
+    const pg_criterion_type *type;
+    double parameter[8];                               /* of the type                                                    */
+} pg_criterion;
+
+/* What a batch of bonds shows; arrays the criterion did not ask for are NULL. */
+typedef struct {
+    size_t n;
+    int    dim;
+    const double *xi;                                  /* reference bond vector, m   (n x dim)                           */
+    const double *eta;                                 /* relative displacement, m   (n x dim)                           */
+    const double *s1, *s3;                             /* largest, smallest principal stress, mean of both ends, Pa (n)  */
+} pg_bond_measures;
+
+typedef struct {                                       /* what the criterion may need to derive its constants            */
+    pg_mode mode;
+    double  horizon;                                   /* m                                                              */
+    double  modulus, poisson;                          /* Pa, 1                                                          */
+    double  thickness;                                 /* m; 1D: cross-section, m^2                                      */
+    const char *kernel;
+} pg_criterion_setting;
+
+struct pg_criterion_type {
+    const char *name, *summary;
+    int needs;                                         /* PG_NEEDS_...                                                   */
+    pg_status (*read) (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting);
+    /* utilisation (n); kind (n or NULL): 't' tension, 's' shear */
+    void (*utilisation) (const pg_criterion *c, const pg_bond_measures *m, double *utilisation, char *kind);
+    /* Load factor (> 0; INFINITY: never) at which each bond reaches its limit when the measures are those of load factor 1
+     * and all loads are proportional (events, section 4). */
+    void (*factor) (const pg_criterion *c, const pg_bond_measures *m, double *factor);
+    /* One line for logs and reports: constants given and derived. */
+    void (*describe) (const pg_criterion *c, char *text, size_t size);
+};
+const pg_criterion_type *pg_criterion_find (const char *name);
+const char *pg_criterion_names (void);
+/* Critical stretch from fracture energy G0 (J/m^2) and back: theory A1, by quadrature of the kernel moments. */
+double pg_stretch_from_energy (const pg_criterion_setting *setting, double G0);
+double pg_energy_from_stretch (const pg_criterion_setting *setting, double s0);
+#endif

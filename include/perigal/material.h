@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * material.h: stress from strain. Voigt order xx yy zz xy yz zx, engineering shears; 2D (xx yy xy), 1D (xx).
+ * Catalogue: src/material/<name>.c + one line in list.h. */
+#ifndef PERIGAL_MATERIAL_H
+#define PERIGAL_MATERIAL_H
+#include "perigal/base.h"
+#include "perigal/scene.h"
+
+typedef enum { PG_LINE, PG_PLANE_STRESS, PG_PLANE_STRAIN, PG_SOLID } pg_mode;   /* 1D bar, 2D, 2D, 3D                     */
+int pg_voigt_size (int dim);                           /* 1, 3, 6                                                        */
+
+typedef struct pg_material_type pg_material_type;
+typedef struct {
+    const pg_material_type *type;
+    char    name[64];                                  /* as in the scene                                                */
+    pg_mode mode;
+    double  density;                                   /* kg/m^3                                                         */
+    double  parameter[8];                              /* of the type: elastic {E Pa, nu}                                */
+    double  D[36];                                     /* tangent, nv x nv row-major, Pa                                 */
+    double  out_of_plane[6];                           /* sigma_zz = out_of_plane . strain (plane strain), Pa            */
+    double  modulus;                                   /* Young's modulus, the scale of stiffness, Pa                    */
+} pg_material;
+
+struct pg_material_type {
+    const char *name, *summary;
+    /* Fills `m` (mode set by the caller) from materials.<name>; faults go to the scene. */
+    pg_status (*read) (pg_material *m, const pg_scene *scene);
+    /* n strains (n x nv) -> stresses (n x nv, Pa) and, unless NULL, sigma_zz (n; 0 in plane stress). */
+    void (*stress) (const pg_material *m, size_t n, const double *strain, double *stress, double *zz);
+};
+const pg_material_type *pg_material_find (const char *name);
+const char *pg_material_names (void);
+/* Isotropic tangent for a mode (theory section 0). D is nv x nv. */
+void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D);
+/* sigma_1 >= sigma_2 >= sigma_3 of n stresses (n x nv) with out-of-plane zz (n or NULL = 0). principal is n x 3. */
+void pg_principal (int dim, size_t n, const double *stress, const double *zz, double *principal);
+#endif

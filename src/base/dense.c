@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Small dense algebra for moment matrices, shape tensors and principal stresses: A = L L', x = A \ b, A = V diag(lambda) V'. */
+#include "perigal/base.h"
+#include <math.h>
+
+int pg_dense_cholesky (int n, double *A, double tiny)
+{
+    for (int j = 0; j < n; j++) {
+        double d = A[j*n + j], top = d;
+        for (int k = 0; k < j; k++) d -= A[j*n + k] * A[j*n + k];
+        if (!(d > tiny * top)) return j + 1;           /* also catches NaN */
+        d = sqrt (d);
+        A[j*n + j] = d;
+        for (int i = j + 1; i < n; i++) {
+            double s = A[i*n + j];
+            for (int k = 0; k < j; k++) s -= A[i*n + k] * A[j*n + k];
+            A[i*n + j] = s / d;
+        }
+    }
+    return 0;
+}
+
+void pg_dense_solve (int n, const double *L, double *b)
+{
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < i; k++) b[i] -= L[i*n + k] * b[k];
+        b[i] /= L[i*n + i];
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        for (int k = i + 1; k < n; k++) b[i] -= L[k*n + i] * b[k];
+        b[i] /= L[i*n + i];
+    }
+}
+
+/* One Jacobi rotation that zeroes M[p][q]. */
+static void rotate (int n, double *M, double *V, int p, int q)
+{
+    double theta = (M[q*n + q] - M[p*n + p]) / (2 * M[p*n + q]);
+    double t = (theta >= 0 ? 1 : -1) / (fabs (theta) + sqrt (theta * theta + 1));
+    double c = 1 / sqrt (t * t + 1), s = t * c;
+    for (int k = 0; k < n; k++) {
+        double a = M[k*n + p], b = M[k*n + q];
+        M[k*n + p] = c * a - s * b;
+        M[k*n + q] = s * a + c * b;
+    }
+    for (int k = 0; k < n; k++) {
+        double a = M[p*n + k], b = M[q*n + k];
+        M[p*n + k] = c * a - s * b;
+        M[q*n + k] = s * a + c * b;
+        a = V[k*n + p], b = V[k*n + q];
+        V[k*n + p] = c * a - s * b;
+        V[k*n + q] = s * a + c * b;
+    }
+}
+
+void pg_dense_eigen (int n, const double *A, double *lambda, double *V)
+{
+    double M[256], W[256];
+    for (int i = 0; i < n * n; i++) M[i] = A[i], W[i] = 0;
+    for (int i = 0; i < n; i++) W[i*n + i] = 1;
+    for (int sweep = 0; sweep < 60; sweep++) {
+        double off = 0, all = 0;
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++) {
+                all += M[i*n + j] * M[i*n + j];
+                if (i != j) off += M[i*n + j] * M[i*n + j];
+            }
+        if (!(off > 1e-32 * all)) break;
+        for (int p = 0; p < n; p++)
+            for (int q = p + 1; q < n; q++)
+                if (M[p*n + q] * M[p*n + q] > 1e-36 * all) rotate (n, M, W, p, q);
+    }
+    for (int i = 0; i < n; i++) {                      /* selection sort, descending */
+        int top = i;
+        for (int j = i + 1; j < n; j++) if (M[j*n + j] > M[top*n + top]) top = j;
+        lambda[i] = M[top*n + top];
+        M[top*n + top] = M[i*n + i];
+        for (int k = 0; k < n; k++) {
+            double w = W[k*n + top];
+            W[k*n + top] = W[k*n + i];
+            W[k*n + i] = w;
+        }
+    }
+    if (V) for (int i = 0; i < n * n; i++) V[i] = W[i];
+}
+
+double pg_dense_det (int n, const double *A)
+{
+    if (n == 1) return A[0];
+    if (n == 2) return A[0] * A[3] - A[1] * A[2];
+    return A[0] * (A[4] * A[8] - A[5] * A[7]) - A[1] * (A[3] * A[8] - A[5] * A[6]) + A[2] * (A[3] * A[7] - A[4] * A[6]);
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The only file that calls malloc: zero-filled, counted, overflow-checked blocks, and a switch that makes one fail. */
+#include "perigal/base.h"
+#include <stdatomic.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#define HEAD 64                                        /* bytes in front of each block: its size; keeps 64-byte alignment */
+
+static atomic_size_t used, peak, calls, fail_at;
+
+static int must_fail (void)
+{
+    atomic_fetch_add (&calls, 1);
+    size_t k = atomic_load (&fail_at);
+    if (k == 0) return 0;
+    return atomic_fetch_sub (&fail_at, 1) == 1;
+}
+
+static void count (size_t add, size_t drop)
+{
+    size_t now = atomic_fetch_add (&used, add - drop) + add - drop, top = atomic_load (&peak);
+    while (now > top && !atomic_compare_exchange_weak (&peak, &top, now)) continue;
+}
+
+static char *fresh (size_t bytes)
+{
+    size_t whole = (bytes + HEAD + 63) / 64 * 64;
+    char *block = whole < bytes ? NULL : aligned_alloc (64, whole);
+    if (!block) return NULL;
+    memcpy (block, &bytes, sizeof bytes);
+    return block;
+}
+
+void *pg_calloc (size_t n, size_t size)
+{
+    if (n == 0) n = 1;
+    if (must_fail () || (size && n > (SIZE_MAX / 2) / size)) return NULL;
+    char *block = fresh (n * size);
+    if (!block) return NULL;
+    memset (block + HEAD, 0, n * size);
+    count (n * size, 0);
+    return block + HEAD;
+}
+
+void *pg_resize (void *p, size_t n, size_t size)
+{
+    if (!p) return pg_calloc (n, size);
+    if (n == 0) n = 1;
+    if (must_fail () || (size && n > (SIZE_MAX / 2) / size)) return NULL;
+    size_t old;
+    memcpy (&old, (char *) p - HEAD, sizeof old);
+    char *block = fresh (n * size);
+    if (!block) return NULL;
+    size_t keep = old < n * size ? old : n * size;
+    memcpy (block + HEAD, p, keep);
+    memset (block + HEAD + keep, 0, n * size - keep);
+    count (n * size, old);
+    free ((char *) p - HEAD);
+    return block + HEAD;
+}
+
+void pg_free (void *p)
+{
+    if (!p) return;
+    size_t old;
+    memcpy (&old, (char *) p - HEAD, sizeof old);
+    count (0, old);
+    free ((char *) p - HEAD);
+}
+
+char *pg_strdup (const char *text)
+{
+    size_t n = strlen (text) + 1;
+    char *copy = pg_calloc (n, 1);
+    if (copy) memcpy (copy, text, n);
+    return copy;
+}
+
+size_t pg_memory_used (void)  { return atomic_load (&used); }
+size_t pg_memory_peak (void)  { return atomic_load (&peak); }
+size_t pg_memory_calls (void) { return atomic_load (&calls); }
+void pg_memory_fail_at (size_t k) { atomic_store (&fail_at, k); }
+
+size_t pg_memory_process_peak (void)
+{
+    struct rusage usage;
+    if (getrusage (RUSAGE_SELF, &usage) != 0) return 0;
+    return (size_t) usage.ru_maxrss * 1024;
+}
