@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * approx.h: N and its derivatives at any point over live bonds. Catalogue: src/approx/<name>.c + one line in list.h.
+ * nosb at a node expands about the node: N is 1 there, the own node is no neighbour (its alive bit does not matter, its w is 0)
+ * and must be in the family; at any other point nosb equals pddo. On a point without live bonds a node of nosb keeps N = 1
+ * (PG_GRADE_SHEPARD). w in the rows is w V for every approximation.
  * Sources: Cui 2022 eqs (4)-(19); theory sections D1, E1, E2, F3; degenerate rule: shared design section 3. */
 #ifndef PERIGAL_APPROX_H
 #define PERIGAL_APPROX_H
@@ -46,6 +49,8 @@ struct pg_approx_type {
 };
 const pg_approx_type *pg_approx_find (const char *name);
 const char *pg_approx_names (void);
+/* The approximation of `method` in the scene; spacing in m. */
+pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing);
 
 /* Rows at n points: copies x, searches families, allocates N, dN, w (zero until evaluated). own, cell, weight may be NULL. */
 pg_status pg_rows_create (pg_rows *out, const pg_approx *a, const pg_cloud *cloud, size_t n, const double *x,

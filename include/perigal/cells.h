@@ -26,8 +26,9 @@ typedef struct {
     int    *point, *facet;                             /* ascending                                                      */
 } pg_set;
 typedef struct { pg_set *set; size_t n; } pg_sets;
-/* Makes the sets of the scene, those parts that the scene names anywhere (pg_sets_find makes no new ones), and the
- * predefined left right bottom top back front (faces of the bounding box) and all. An empty set that the scene uses is a fault. */
+/* Makes the predefined sets left right bottom top back front (faces of the bounding box) and all (every point and facet), the
+ * sets of the scene, and the parts of each. What has no side in this dimension does not exist. An empty set of the scene is a
+ * fault; an empty predefined set or part is not (npoint = nfacet = 0). */
 pg_status     pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud, const pg_cells *cells);
 const pg_set *pg_sets_find  (const pg_sets *sets, const char *name);
 void          pg_sets_clear (pg_sets *sets);

@@ -28,11 +28,13 @@ size_t    pg_body_nearest (const pg_body *body, const double *x, double *distanc
 /* ---- background lattice --------------------------------------------------------------------------------------------- */
 typedef struct {
     int    dim, count[3];                              /* cells per axis (1 beyond dim)                                  */
-    double origin[3], step[3];                         /* m: step = L / round (L / spacing)                              */
+    double origin[3], high[3], step[3];                /* m: corners of the lattice; step = L / round (L / spacing)      */
     unsigned char *in;                                 /* count[0]*count[1]*count[2], x fastest: cell centre in the body  */
 } pg_lattice;
 pg_status pg_lattice_fit   (pg_lattice *out, const pg_body *body, double spacing, const double *offset /* fraction of a step or NULL */);
 void      pg_lattice_clear (pg_lattice *lattice);
+/* Coordinate (m) of vertex i along an axis, i + 0.5: of a cell centre. Corners exact, mirror symmetric about the middle. */
+double    pg_lattice_at    (const pg_lattice *lattice, int axis, double i);
 
 /* ---- points --------------------------------------------------------------------------------------------------------- */
 typedef struct {

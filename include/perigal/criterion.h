@@ -44,6 +44,8 @@ struct pg_criterion_type {
 };
 const pg_criterion_type *pg_criterion_find (const char *name);
 const char *pg_criterion_names (void);
+/* The criterion of `failure` in the scene; out->type is NULL when nothing breaks. Faults: keys it lacks or would ignore. */
+pg_status pg_criterion_read (pg_criterion *out, const pg_scene *scene, const pg_criterion_setting *setting);
 /* Critical stretch from fracture energy G0 (J/m^2) and back: theory A1, by quadrature of the kernel moments. */
 double pg_stretch_from_energy (const pg_criterion_setting *setting, double G0);
 double pg_energy_from_stretch (const pg_criterion_setting *setting, double s0);

@@ -30,6 +30,8 @@ struct pg_material_type {
 };
 const pg_material_type *pg_material_find (const char *name);
 const char *pg_material_names (void);
+/* The material materials.<name> of the scene, for a mode. */
+pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode);
 /* Isotropic tangent for a mode (theory section 0). D is nv x nv. */
 void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D);
 /* sigma_1 >= sigma_2 >= sigma_3 of n stresses (n x nv) with out-of-plane zz (n or NULL = 0). principal is n x 3. */

@@ -22,6 +22,7 @@ void      pg_exodus_close  (pg_exodus **file);
 pg_status pg_exodus_read   (const char *path, const char *field, int step, size_t *n, int *components, double **value);
 pg_status pg_exodus_points (const char *path, pg_cloud *cloud /* x, n, dim, volume, box, h filled */, size_t *nstep, double **time);
 pg_status pg_exodus_fields (const char *path, char (**names)[32], size_t *n);    /* base names as written                 */
+pg_status pg_exodus_unit   (const char *path, const char *field, char unit[16]);          /* "" when there is none        */
 
 /* ---- tables --------------------------------------------------------------------------------------------------------- */
 /* CSV: header "name [unit]" per column, one row a call, flushed; numbers with 17 digits. */
@@ -49,8 +50,11 @@ typedef struct {
     double      magnify;                               /* points drawn at x + magnify u; 0: undeformed                   */
     const double *u;                                   /* n x dim displacement or NULL                                   */
     const pg_cracks *cracks;                           /* drawn as lines, or NULL                                        */
+    int         section;                               /* 3D: 0: mid-plane of z; 1, 2, 3: the plane x, y, z = at         */
+    double      at;                                    /* m                                                              */
 } pg_picture_style;
-/* 2D field, one cell-sized square per point, length unit chosen by size (mm, m, ...), axes with ticks, colour bar. */
+/* 2D field, one cell-sized square per point, NaN grey, length unit chosen by size (mm, m, ...), axes with ticks, colour bar.
+ * 1D: a chart over x. 3D: the section that style names. Labels may raise and lower text: "c_{x} (m^{2})". */
 pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value /* n */, const pg_picture_style *style);
 
 typedef struct { const char *name; size_t n; const double *x, *y; int points; /* 1: markers, 0: line */ } pg_curve;

@@ -1,3 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * One line per folder that brings keys of the scene file (const pg_key_table pg_keys_<folder>, in src/<folder>/keys.c). */
 PG_KEYS (scene)
+PG_KEYS (material)
+PG_KEYS (criterion)
+PG_KEYS (approx)
+PG_KEYS (cloud)
+PG_KEYS (cells)
+PG_KEYS (model)
+PG_KEYS (solve)
+PG_KEYS (report)

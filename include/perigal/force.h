@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * force.h: out-of-balance force of a displacement, and what solvers need of it. Catalogue: src/force/<name>.c + list.h.
+ * A force owns its fields (displacement; with micropolar models also rotation) and its caches; dofs are numbered node by node. */
+#ifndef PERIGAL_FORCE_H
+#define PERIGAL_FORCE_H
+#include "perigal/linalg.h"
+#include "perigal/model.h"
+
+typedef struct { const char *name, *unit; int components; } pg_field;
+
+/* Bonds that died since the last refresh: indices into state->alive. */
+typedef struct { size_t n, cap; size_t *bond; } pg_changes;
+
+/* What the boundary does: pairs of generalised force and displacement whose product is work, and sums per load. */
+typedef struct {
+    size_t  npair;
+    double *force, *displacement;                      /* N, m (npair)                                                   */
+    double *reaction;                                  /* force on the body per load and component, N (nload x 3)        */
+    double  strain;                                    /* strain energy, J                                               */
+} pg_ledger;
+
+typedef struct {
+    const char *name, *summary;
+    pg_status (*create)  (void **self, const pg_problem *problem);
+    void      (*free)    (void **self);
+    size_t    (*fields)  (const void *self, size_t max, pg_field *out);
+    /* Brings the caches in line with state->alive: all of them (changes NULL), or what the changes touch. */
+    pg_status (*refresh) (void *self, const pg_state *state, const pg_changes *changes);
+    /* residual = loads (t) - internal force (d), boundary terms included; reference: the size it is measured against, N. */
+    pg_status (*balance) (void *self, double t, const double *d, double *residual, double *reference);
+    pg_status (*mass)    (void *self, double *mass);                       /* lumped, per dof, kg                         */
+    const pg_operator *(*operator_) (void *self);                          /* K x, or NULL                                */
+    const pg_sparse   *(*matrix)    (void *self);                          /* K, or NULL: matrix-free                     */
+    /* Essential conditions by elimination: d = T q + g. NULL entries or T NULL: none. */
+    const pg_sparse   *(*basis)     (void *self);
+    pg_status (*impose)  (void *self, double t, double *d);                /* makes d satisfy them                        */
+    /* Utilisation of every bond (NULL entry: nothing can break); factor: load factor of its limit, d being that of factor 1. */
+    pg_status (*utilisation) (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
+    pg_status (*ledger)  (void *self, double t, const double *d, pg_ledger *out);    /* sized on the first call           */
+    /* A field at the nodes: "displacement" (m), "strain", "stress" (Pa), "damage"; *components 0: unknown name. value: n x 6. */
+    pg_status (*field)   (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
+    /* Displacement (3 components) at any place, for gauges; and the largest overlap of broken bonds (m). */
+    pg_status (*probe)   (void *self, const double *d, const double *x, double *u);
+    double    (*overlap) (void *self, const pg_state *state, const double *d);
+    void      (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+} pg_force_type;
+const pg_force_type *pg_force_find  (const char *name);
+const char          *pg_force_names (void);
+void pg_ledger_clear (pg_ledger *ledger);
+#endif

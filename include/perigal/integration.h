@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * integration.h: where the weak form is evaluated. Catalogue: src/integration/<name>.c + one line in list.h.
+ * Cui 2022 section 2.5. (Consistent, SCNI, NSNI and VC integration are entries to come.) */
+#ifndef PERIGAL_INTEGRATION_H
+#define PERIGAL_INTEGRATION_H
+#include "perigal/approx.h"
+#include "perigal/cells.h"
+
+typedef struct { size_t n; double *x, *weight; int *cell; } pg_quadrature;     /* x n x dim (m), weight m^3 (facets: m^2)   */
+void pg_quadrature_clear (pg_quadrature *q);
+
+typedef struct {
+    const char *name, *summary;
+    int at_nodes;                                      /* 1: the evaluation points are the nodes, weight = volume        */
+    pg_status (*points) (pg_quadrature *out, const pg_cells *cells, double thickness, int order);   /* unless at_nodes   */
+} pg_integration_type;
+const pg_integration_type *pg_integration_find (const char *name);
+const char *pg_integration_names (void);
+
+/* Gauss-Legendre nodes and weights on [-1, 1], order 1..5. */
+void pg_gauss_rule (int order, double *x, double *w);
+/* order^(dim-1) points on each facet; cell holds the facet's number; weight includes the thickness. */
+pg_status pg_facet_points (pg_quadrature *out, const pg_cells *cells, int order);
+
+/* Silling 2017 stabilisation of nodally integrated NOSB (theory D3a): adds S_ab I to the blocks (dim x dim each) of local nodes
+ * b = 0..m-1 against a, the energy of point p being (1/2) sum_ab S_ab d_a.d_b; modulus = Gs mu (Pa), volume of the point (m^3). */
+void pg_silling_add (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t a, size_t m, double modulus, double volume, double *blocks);
+#endif

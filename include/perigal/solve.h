@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * solve.h: methods that advance a state, the break loop, what a step and a run report.
+ * Catalogue: src/solve/<name>.c + one line in list.h. Cui 2022 section 3.2; theory F5; events section 4. */
+#ifndef PERIGAL_SOLVE_H
+#define PERIGAL_SOLVE_H
+#include "perigal/force.h"
+
+typedef enum { PG_BREAK_WORST, PG_BREAK_FRACTION, PG_BREAK_ALL } pg_break;
+typedef struct {
+    char     kind[16], linear[16];                     /* static | newmark; auto | cholmod | umfpack | pcg               */
+    int      event;                                    /* static: event stepping                                         */
+    pg_break break_mode;
+    double   break_fraction, tie;                      /* bonds within this share of the worst break with it             */
+    double   tolerance;                                /* of the residual, relative to the reference force               */
+    long     steps, max_iterations, max_events;
+    double   dt, end, beta, gamma, rayleigh_mass, rayleigh_stiffness;      /* newmark: s, s, 1, 1, 1/s, s                 */
+    double   stop_stiffness;                           /* static: stop when the secant stiffness fell below this share   */
+    long     levels;                                   /* reports at k / levels of the load (or of the end time)         */
+} pg_solver_options;
+pg_status pg_solver_options_read (pg_solver_options *out, const pg_problem *problem, const pg_scene *scene);
+
+/* ---- what happened ---------------------------------------------------------------------------------------------------- */
+typedef struct { size_t bond; int set; char kind; double utilisation, place[3]; } pg_broken;
+
+enum { PG_SECONDS_SHAPE, PG_SECONDS_ANALYSE, PG_SECONDS_FACTOR, PG_SECONDS_SOLVE, PG_SECONDS_FORCE, PG_SECONDS_BREAK, PG_SECONDS_COUNT };
+typedef struct { char what[96], why[160]; double seconds_saved; } pg_skip;
+typedef struct {                                       /* of the run so far                                              */
+    long   steps, events, iterations, broken, bonds_over_limit, factorizations, updates, solves;
+    size_t cg_iterations, degenerate_points, isolated_nodes, fragments;
+    double utilisation_max, residual_max, overlap_max; /* over accepted steps; m                                         */
+    double energy_strain, energy_kinetic, energy_external, energy_dissipated;     /* J                                    */
+    double seconds[PG_SECONDS_COUNT];
+    double factor_entries, factor_flops;
+    char   ordering[16], solver[16];
+    pg_skip skipped[16];  size_t nskipped;
+    char   warning[16][256]; size_t nwarning;
+} pg_report;
+void pg_report_warn (pg_report *report, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
+void pg_report_skip (pg_report *report, double seconds, const char *what, const char *why);
+
+typedef struct {                                       /* of one step: a user level, a time step or an event             */
+    long   number, iterations;                         /* break-and-solve rounds                                         */
+    int    level;                                      /* 1: a level at which the user wants fields                      */
+    int    event;                                      /* 1: bonds broke at this load (event stepping)                   */
+    double time, factor, residual, utilisation;        /* utilisation: largest of a live bond in the accepted state      */
+    size_t nbroken;  const pg_broken *broken;          /* borrowed until the next step                                   */
+    const double *reaction;                            /* force on the body per load, N (nload x 3), borrowed            */
+    double dissipated;                                 /* J, in this step                                                */
+} pg_step;
+
+/* ---- solver ----------------------------------------------------------------------------------------------------------- */
+typedef struct pg_solver pg_solver;
+pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg_solver_options *options);
+/* The same with a force of the caller's (tests, experiments). */
+pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, const pg_solver_options *options, const pg_force_type *force);
+void      pg_solver_free   (pg_solver **solver);
+int       pg_solver_components (const pg_solver *solver);              /* dofs per node, for pg_state_create              */
+/* Advances by one step. On a numerical failure the state is that of the last accepted step. */
+pg_status pg_solver_step   (pg_solver *solver, pg_state *state, pg_step *step);
+int       pg_solver_done   (const pg_solver *solver, const pg_state *state);
+double    pg_solver_progress (const pg_solver *solver, const pg_state *state);     /* 0..1                              */
+const pg_report *pg_solver_report (pg_solver *solver, const pg_state *state);      /* with a fresh census and overlap     */
+const pg_report *pg_solver_report_now (const pg_solver *solver);                   /* counts and energies only            */
+/* The force behind it, for fields and gauges. */
+const pg_force_type *pg_solver_force (const pg_solver *solver, void **self);
+const char *pg_solver_names (void);
+/* b0..b7 of Newmark's method (theory F5) for dt, beta, gamma of the options. */
+void pg_newmark_coefficients (const pg_solver_options *options, double *b);
+#endif

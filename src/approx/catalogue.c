@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The table of approximations, and the approximation that the scene asks for. */
+#include "entries.h"
+#include <string.h>
+
+static const pg_approx_type *const table[] = {
+#define PG_APPROX(name) &pg_approx_##name,
+#include "list.h"
+#undef PG_APPROX
+};
+
+static const char names[] =
+#define PG_APPROX(name) "|" #name
+#include "list.h"
+#undef PG_APPROX
+    ;
+
+const pg_approx_type *pg_approx_find (const char *name)
+{
+    for (size_t i = 0; name && i < sizeof table / sizeof *table; i++)
+        if (strcmp (table[i]->name, name) == 0) return table[i];
+    return NULL;
+}
+
+const char *pg_approx_names (void) { return names + 1; }
+
+static int is (const pg_scene *scene, const char *key, const char *value)
+{
+    const char *text = pg_scene_text (scene, "%s", key);
+    return text && strcmp (text, value) == 0;
+}
+
+pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing)
+{
+    pg_status status = PG_OK;
+    *out = (pg_approx) { 0 };
+    const pg_approx_type *type = pg_approx_find (pg_scene_text (scene, "method.approximation"));
+    const pg_kernel *kernel = pg_kernel_find (pg_scene_text (scene, "method.kernel"));
+    if (!type || !kernel) PG_FAIL (PG_E_USAGE, "method.approximation or method.kernel names nothing in this library");
+    pg_approx a = { .type = type, .kernel = kernel, .use_volume = type->use_volume };
+    a.order = is (scene, "method.basis", "quadratic") ? 2 : 1;
+    a.shape = is (scene, "method.support", "tensor") ? PG_TENSOR : PG_RADIAL;
+    if (is (scene, "method.weights", "unit")) a.use_volume = 0;
+    if (is (scene, "method.weights", "volume")) a.use_volume = 1;
+    a.horizon = pg_scene_length (scene, spacing, "method.horizon");
+    if (!(a.horizon >= spacing * (1 - 1e-9))) {
+        pg_scene_fault (scene, "method.horizon", "is %.4g spacings: a point would see no neighbour (use 1.5 or more)",
+                        a.horizon / spacing);
+        PG_TRY (pg_scene_verdict (scene));
+    }
+    *out = a;
+done:
+    return status;
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Keys of method that choose the approximation. */
+#include "perigal/approx.h"
+
+static const pg_key keys[] = {
+    { .path = "method.approximation", .kind = PG_NAME, .fallback = "rkpm", .choices_of = pg_approx_names,
+      .doc = "How a field and its derivatives follow from nodal values." },
+    { .path = "method.basis", .kind = PG_NAME, .fallback = "linear", .choices = "linear|quadratic",
+      .doc = "Polynomials that are reproduced exactly; quadratic wants a horizon of 2.5 to 3 spacings." },
+    { .path = "method.kernel", .kind = PG_NAME, .fallback = "cubic_spline", .choices_of = pg_kernel_names,
+      .doc = "Influence function of the distance divided by the horizon." },
+    { .path = "method.horizon", .kind = PG_NUMBER, .unit = "m|spacing", .range = "(0, inf)", .fallback = "2.0 spacing",
+      .doc = "Radius of influence of a point (radial), or half the edge of its box (tensor)." },
+    { .path = "method.support", .kind = PG_NAME, .fallback = "radial", .choices = "radial|tensor",
+      .doc = "Influence of the distance, or product of the influences of its components (wants a smooth kernel)." },
+    { .path = "method.weights", .kind = PG_NAME, .fallback = "auto", .choices = "unit|volume|auto",
+      .doc = "Neighbours count alike or by their volumes; auto: unit for rkpm, volume for pddo and nosb." },
+};
+
+const pg_key_table pg_keys_approx = { "approx", keys, sizeof keys / sizeof *keys };

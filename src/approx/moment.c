@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Basis p (z) = [1] z_k [z_k z_l], moment matrix A = sum w p p' = L L', and what is left of the basis where too few bonds
+ * live. Theory E1, D1; degenerate rule: approx.h. */
+#include "moment.h"
+#include <string.h>
+
+static int basis_size (int dim, int order, int constant)
+{
+    return constant + dim + (order == 2 ? dim * (dim + 1) / 2 : 0);
+}
+
+static void basis (const pg_star *s, const double *z, double *p)
+{
+    int m = 0;
+    if (s->constant) p[m++] = 1;
+    for (int k = 0; k < s->dim; k++) p[m++] = z[k];
+    for (int k = 0; s->order == 2 && k < s->dim; k++)
+        for (int l = k; l < s->dim; l++) p[m++] = z[k] * z[l];
+}
+
+void pg_basis_slope (const pg_star *s, const double *z, const double *b, double *slope)
+{
+    int m = 1 + s->dim;
+    for (int k = 0; k < s->dim; k++) slope[k] = b[1 + k];
+    for (int k = 0; s->order == 2 && k < s->dim; k++)
+        for (int l = k; l < s->dim; l++, m++) {
+            slope[k] += b[m] * z[l];
+            slope[l] += b[m] * z[k];
+        }
+}
+
+/* Fills p and L; 0 where A is singular to working accuracy. */
+static int factor (pg_star *s, double tiny)
+{
+    int size = s->size;
+    double A[PG_BASIS_MAX * PG_BASIS_MAX] = { 0 };
+    for (size_t j = 0; j < s->n; j++) {
+        double *p = s->p + j * (size_t) size, w = s->w[j];
+        basis (s, s->z + j * (size_t) s->dim, p);
+        for (int r = 0; r < size; r++)
+            for (int c = 0; c <= r; c++) A[r*size + c] += w * p[r] * p[c];
+    }
+    memcpy (s->L, A, sizeof A);
+    return pg_dense_cholesky (size, s->L, tiny) == 0;
+}
+
+/* Is the smallest eigenvalue of the centred second moment below 1e-3 h^2? It is not where M - 1e-3 h^2 I has a factor. */
+static int flat (const pg_star *s, double h)
+{
+    int dim = s->dim;
+    double centre[3] = { 0 }, M[9] = { 0 };
+    for (size_t j = 0; j < s->n; j++)
+        for (int k = 0; k < dim; k++) centre[k] += s->w[j] * s->z[j * (size_t) dim + (size_t) k];
+    for (size_t j = 0; j < s->n; j++) {
+        const double *z = s->z + j * (size_t) dim;
+        for (int k = 0; k < dim; k++)
+            for (int l = 0; l <= k; l++) M[k*dim + l] += s->w[j] * (z[k] - centre[k]) * (z[l] - centre[l]);
+    }
+    for (int k = 0; k < dim; k++) M[k*dim + k] -= 1e-3 * (h / s->a) * (h / s->a);
+    return pg_dense_cholesky (dim, M, 0) != 0;
+}
+
+int pg_star_grade (pg_star *s, int order, double h)
+{
+    if (s->n == 0) return PG_GRADE_DEAD;
+    if (s->n < (size_t) s->dim + 1 || flat (s, h)) return PG_GRADE_SHEPARD;
+    for (s->order = order; s->order >= 1; s->order--) {
+        s->size = basis_size (s->dim, s->order, s->constant);
+        if (s->n >= (size_t) s->size && factor (s, s->order == 2 ? 1e-10 : 1e-8))
+            return s->order == order ? PG_GRADE_FULL : PG_GRADE_LOWERED;
+    }
+    return PG_GRADE_SHEPARD;
+}
+
+void pg_star_solve (const pg_star *s, int row, double *b)
+{
+    for (int k = 0; k < s->size; k++) b[k] = k == row;
+    pg_dense_solve (s->size, s->L, b);
+}
+
+static double dot (int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int k = 0; k < n; k++) sum += a[k] * b[k];
+    return sum;
+}
+
+void pg_star_shape (const pg_star *s, const double *b, double *N)
+{
+    for (size_t j = 0; j < s->n; j++) N[s->entry[j]] = s->w[j] * dot (s->size, b, s->p + j * (size_t) s->size);
+}
+
+void pg_star_differential (const pg_star *s, double *dN)
+{
+    size_t dim = (size_t) s->dim;
+    double b[PG_BASIS_MAX];
+    for (int k = 0; k < s->dim; k++) {
+        pg_star_solve (s, s->constant + k, b);
+        for (size_t j = 0; j < s->n; j++)
+            dN[s->entry[j] * dim + (size_t) k] = s->w[j] * dot (s->size, b, s->p + j * (size_t) s->size) / s->a;
+    }
+}

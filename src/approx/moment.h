@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * moment.h: the live bonds of one point (its star), their basis and moment matrix; shared by all approximations.
+ * Lengths are in horizons: z = (x_j - x) / a. The weights of a star sum to 1: no unit and no volume scale enters. */
+#ifndef PERIGAL_APPROX_MOMENT_H
+#define PERIGAL_APPROX_MOMENT_H
+#include "perigal/approx.h"
+
+enum { PG_BASIS_MAX = 10 };
+
+typedef struct {
+    int     dim, order, size;                          /* basis in use: 1 linear, 2 quadratic; number of functions       */
+    int     constant;                                  /* 1: the basis starts with 1; 0: no 1 (nosb about a node)        */
+    double  a;                                         /* horizon, m                                                     */
+    size_t  n;                                         /* live bonds with w > 0                                          */
+    size_t  own;                                       /* place of the own node in the row, where constant = 0           */
+    int     stray;                                     /* 1: a node that must be in its own family is not                */
+    size_t *entry;                                     /* place in the row                          (n)                  */
+    double *z;                                         /* bond in horizons                          (n x dim)            */
+    double *w;                                         /* weight                                    (n)                  */
+    double *slope;                                     /* a dw/dx                                   (n x dim)            */
+    double *p;                                         /* basis at z                                (n x size)           */
+    double *q, *k, *dk;                                /* arguments and values of the kernel        (n x dim)            */
+    double  L[PG_BASIS_MAX * PG_BASIS_MAX];            /* Cholesky factor of A = sum w p p'                              */
+} pg_star;
+
+/* What an approximation adds to the common loop: N (row) and dN (row x dim, 1/m), zero on entry, of a point with a full or
+ * lowered basis. about_node: a point that is a node expands about its own value (basis without 1, own node no neighbour). */
+typedef struct {
+    int about_node;
+    void (*fill) (const pg_star *star, double *N, double *dN);
+} pg_formula;
+
+/* The loop over points: live bonds, degenerate rule, formula. */
+pg_status pg_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
+                    const unsigned char *alive, size_t count, const size_t *list, int threads);
+
+/* Chooses the basis (`order` or less), fills p and L; spacing h in m. Returns PG_GRADE_FULL, _LOWERED, _SHEPARD or _DEAD. */
+int  pg_star_grade   (pg_star *star, int order, double h);
+/* b with A b = unit vector `row` of the basis. */
+void pg_star_solve   (const pg_star *star, int row, double *b);
+/* N_j = w_j p_j . b */
+void pg_star_shape   (const pg_star *star, const double *b, double *N);
+/* dN_j = (1/a) e_k' A^-1 p_j w_j, e_k the row of z_k: theory E1 (with the 1), D1 (without). */
+void pg_star_differential (const pg_star *star, double *dN);
+/* d (b . p) / dz at z (dim), for a basis with the 1 */
+void pg_basis_slope  (const pg_star *star, const double *z, const double *b, double *slope);
+#endif

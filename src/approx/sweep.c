@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The loop over evaluation points shared by all approximations: gather the live bonds, weigh them, apply the degenerate rule,
+ * call the formula. A row depends on nothing but its own bonds: any list, order or number of threads gives the same bits. */
+#include "moment.h"
+#include <math.h>
+
+typedef struct {
+    const pg_formula *formula;
+    const pg_approx *a;
+    const pg_cloud *cloud;
+    pg_rows *rows;
+    const unsigned char *alive;
+    const size_t *list;
+    pg_star *star;                                     /* one per thread */
+} sweep;
+
+/* Kernel at q (n), no further than 1: a closed family may hold bonds longer by rounding. */
+static void kernel_at (const pg_kernel *kernel, size_t n, double *q, double *k, double *dk)
+{
+    for (size_t i = 0; i < n; i++) if (q[i] > 1) q[i] = 1;
+    kernel->value (n, q, k, dk);
+}
+
+/* w (|z|) and a dw/dx = -w' z / |z| */
+static void radial (const pg_kernel *kernel, pg_star *s)
+{
+    size_t dim = (size_t) s->dim;
+    for (size_t j = 0; j < s->n; j++) {
+        double sum = 0;
+        for (size_t k = 0; k < dim; k++) sum += s->z[j*dim + k] * s->z[j*dim + k];
+        s->q[j] = sqrt (sum);
+    }
+    kernel_at (kernel, s->n, s->q, s->k, s->dk);
+    for (size_t j = 0; j < s->n; j++) {
+        s->w[j] = s->k[j];
+        double rate = s->q[j] > 0 ? -s->dk[j] / s->q[j] : 0;
+        for (size_t k = 0; k < dim; k++) s->slope[j*dim + k] = rate * s->z[j*dim + k];
+    }
+}
+
+/* prod_k w (|z_k|) and its slope */
+static void tensor (const pg_kernel *kernel, pg_star *s)
+{
+    size_t dim = (size_t) s->dim;
+    for (size_t i = 0; i < s->n * dim; i++) s->q[i] = fabs (s->z[i]);
+    kernel_at (kernel, s->n * dim, s->q, s->k, s->dk);
+    for (size_t j = 0; j < s->n; j++) {
+        const double *z = s->z + j * dim, *w = s->k + j * dim, *dw = s->dk + j * dim;
+        double all = 1;
+        for (size_t k = 0; k < dim; k++) {
+            double part = z[k] > 0 ? -dw[k] : z[k] < 0 ? dw[k] : 0;
+            for (size_t l = 0; l < dim; l++) if (l != k) part *= w[l];
+            s->slope[j*dim + k] = part;
+            all *= w[k];
+        }
+        s->w[j] = all;
+    }
+}
+
+/* Live bonds of row i into the star; the own node is none where the point expands about it. */
+static void gather (const sweep *g, size_t i, pg_star *s)
+{
+    const pg_rows *rows = g->rows;
+    size_t dim = (size_t) s->dim, first = rows->family.start[i], last = rows->family.start[i + 1];
+    int own = g->formula->about_node ? rows->own[i] : -1, seen = 0;
+    s->constant = own < 0;
+    s->n = 0;
+    for (size_t e = first; e < last; e++) {
+        int j = rows->family.node[e];
+        if (j == own) s->own = e - first, seen = 1;
+        if (j == own || (g->alive && !g->alive[e])) continue;
+        for (size_t k = 0; k < dim; k++)
+            s->z[s->n * dim + k] = (g->cloud->x[(size_t) j * dim + k] - rows->x[i*dim + k]) / s->a;
+        s->entry[s->n++] = e - first;
+    }
+    if (own >= 0 && !seen) s->stray = 1;
+}
+
+/* Influence of each bond into rows->w; keeps the bonds with a weight, scaled to the sum 1. */
+static void weigh (const sweep *g, size_t i, pg_star *s)
+{
+    size_t dim = (size_t) s->dim, first = g->rows->family.start[i], kept = 0;
+    (g->a->shape == PG_TENSOR ? tensor : radial) (g->a->kernel, s);
+    double total = 0;
+    for (size_t j = 0; j < s->n; j++) {
+        size_t e = first + s->entry[j];
+        double V = g->cloud->volume[g->rows->family.node[e]], scale = g->a->use_volume ? V : 1, w = s->w[j] * scale;
+        g->rows->w[e] = s->w[j] * V;
+        if (!(w > 0)) continue;
+        s->entry[kept] = s->entry[j];
+        s->w[kept] = w;
+        for (size_t k = 0; k < dim; k++) {
+            s->z[kept*dim + k] = s->z[j*dim + k];
+            s->slope[kept*dim + k] = s->slope[j*dim + k] * scale;
+        }
+        total += w;
+        kept++;
+    }
+    s->n = kept;
+    for (size_t j = 0; j < kept; j++) {
+        s->w[j] /= total;
+        for (size_t k = 0; k < dim; k++) s->slope[j*dim + k] /= total;
+    }
+}
+
+static void row (const sweep *g, size_t i, pg_star *s)
+{
+    pg_rows *rows = g->rows;
+    size_t dim = (size_t) s->dim, first = rows->family.start[i], last = rows->family.start[i + 1];
+    for (size_t e = first; e < last; e++) rows->N[e] = rows->w[e] = 0;
+    for (size_t e = first * dim; e < last * dim; e++) rows->dN[e] = 0;
+    gather (g, i, s);
+    weigh (g, i, s);
+    if (s->stray) return;
+    double *N = rows->N + first, *dN = rows->dN + first * dim;
+    int grade = pg_star_grade (s, g->a->order, g->cloud->h);
+    if (grade <= PG_GRADE_LOWERED) g->formula->fill (s, N, dN);
+    else if (s->constant) for (size_t j = 0; j < s->n; j++) N[s->entry[j]] = s->w[j];
+    else {                                             /* a node keeps its own displacement, whatever it lost */
+        N[s->own] = 1;
+        grade = PG_GRADE_SHEPARD;
+    }
+    rows->grade[i] = (unsigned char) grade;
+}
+
+static void work (void *context, size_t first, size_t last, int thread)
+{
+    const sweep *g = context;
+    for (size_t k = first; k < last; k++) row (g, g->list ? g->list[k] : k, &g->star[thread]);
+}
+
+/* Scratch for one thread: families of at most `most` nodes. */
+static pg_status star_create (pg_star *s, const pg_approx *a, int dim, size_t most)
+{
+    pg_status status = PG_OK;
+    size_t vector = most * (size_t) dim;
+    *s = (pg_star) { .dim = dim, .a = a->horizon };
+    PG_ALLOC (s->entry, most);
+    PG_ALLOC (s->z, 5 * vector + most * (1 + PG_BASIS_MAX));
+    s->slope = s->z + vector;
+    s->q = s->slope + vector;
+    s->k = s->q + vector;
+    s->dk = s->k + vector;
+    s->w = s->dk + vector;
+    s->p = s->w + most;
+done:
+    return status;
+}
+
+pg_status pg_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
+                    const unsigned char *alive, size_t count, const size_t *list, int threads)
+{
+    pg_status status = PG_OK;
+    size_t slots = threads < 1 ? 1 : (size_t) threads, most = 0;
+    sweep g = { formula, a, cloud, rows, alive, list, NULL };
+    int dim = rows->dim;
+    if (dim < 1 || dim > 3 || a->order < 1 || a->order > 2 || !(a->horizon > 0))
+        PG_FAIL (PG_E_USAGE, "approximation of order %d in %d dimensions with horizon %g m", a->order, dim, a->horizon);
+    for (size_t k = 0; k < count; k++) {
+        size_t i = list ? list[k] : k, n = rows->family.start[i + 1] - rows->family.start[i];
+        if (n > most) most = n;
+    }
+    PG_ALLOC (g.star, slots);
+    for (size_t t = 0; t < slots; t++) PG_TRY (star_create (&g.star[t], a, dim, most));
+    pg_parallel (threads, count, work, &g);
+    for (size_t t = 0; t < slots; t++)
+        if (g.star[t].stray) PG_FAIL (PG_E_USAGE, "%s: a node is missing in its own family", a->type->name);
+done:
+    for (size_t t = 0; g.star && t < slots; t++) {
+        pg_free (g.star[t].z);
+        pg_free (g.star[t].entry);
+    }
+    pg_free (g.star);
+    return status;
+}

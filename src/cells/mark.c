@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Which points and facets lie on a side of the bounding box or on the surface of a shape? */
+#include "mark.h"
+#include <math.h>
+#include <string.h>
+
+const char *const pg_side_names[PG_SIDES] = {"left", "right", "bottom", "top", "back", "front"};
+
+/* ---- points of facets ------------------------------------------------------------------------------------------------ */
+static size_t vertex_at (const pg_lattice *l, const double *x)
+{
+    size_t v = 0;
+    for (int k = l->dim; k-- > 0; ) v = v * ((size_t) l->count[k] + 1) + (size_t) lround ((x[k] - l->origin[k]) / l->step[k]);
+    return v;
+}
+
+/* Points at vertices are numbered as the vertices that some cell uses, in lattice order. */
+static pg_status number_vertices (int **out, const pg_lattice *l, const pg_cells *cells)
+{
+    pg_status status = PG_OK;
+    size_t n = 1, dim = (size_t) l->dim;
+    int next = 0;
+    for (size_t k = 0; k < dim; k++) n *= (size_t) l->count[k] + 1;
+    PG_ALLOC (*out, n);
+    for (size_t c = 0; c < cells->n * (size_t) cells->corners; c++) (*out)[vertex_at (l, cells->x + c * dim)] = 1;
+    for (size_t v = 0; v < n; v++) (*out)[v] = (*out)[v] ? next++ : -1;
+done:
+    return status;
+}
+
+static pg_status link_facets (pg_marks *m)
+{
+    pg_status status = PG_OK;
+    const pg_cells *c = m->cells;
+    size_t dim = (size_t) c->dim, corners = (size_t) c->facet_corners;
+    int *number = NULL, centred = c->n == m->cloud->n;     /* a lattice has more vertices than cells */
+    m->per = centred ? 1 : corners;
+    PG_ALLOC (m->facet_point, c->nfacet * m->per);
+    if (!centred) PG_TRY (number_vertices (&number, m->lattice, c));
+    for (size_t f = 0; f < c->nfacet; f++)
+        for (size_t k = 0; k < m->per; k++)
+            m->facet_point[f * m->per + k] = centred ? c->facet_cell[f] : number[vertex_at (m->lattice, c->facet_x + (f * corners + k) * dim)];
+done:
+    pg_free (number);
+    return status;
+}
+
+static pg_status find_centres (pg_marks *m)
+{
+    pg_status status = PG_OK;
+    const pg_cells *c = m->cells;
+    size_t dim = (size_t) c->dim, corners = (size_t) c->facet_corners;
+    PG_ALLOC (m->facet_centre, c->nfacet * dim);
+    PG_ALLOC (m->facet_shape, c->nfacet);
+    for (size_t f = 0; f < c->nfacet; f++) {
+        double *x = m->facet_centre + f * dim;
+        for (size_t k = 0; k < dim; k++) {
+            for (size_t e = 0; e < corners; e++) x[k] += c->facet_x[(f * corners + e) * dim + k];
+            x[k] /= (double) corners;
+        }
+        m->facet_shape[f] = (int) pg_body_nearest (m->body, x, NULL);
+    }
+done:
+    return status;
+}
+
+/* ---- life cycle ------------------------------------------------------------------------------------------------------ */
+pg_status pg_marks_create (pg_marks *m, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud, const pg_cells *cells)
+{
+    pg_status status = PG_OK;
+    memset (m, 0, sizeof *m);
+    m->body = body, m->lattice = lattice, m->cloud = cloud, m->cells = cells;
+    int shaped = lattice->dim > 0;
+    for (int k = 0; k < cloud->dim; k++) {
+        m->low[k]  = shaped ? body->low[k] : cloud->low[k];
+        m->high[k] = shaped ? body->high[k] : cloud->high[k];
+        m->centre[k] = 0.5 * (m->low[k] + m->high[k]);
+        m->size = fmax (m->size, m->high[k] - m->low[k]);
+    }
+    PG_ALLOC (m->point, cloud->n);
+    PG_ALLOC (m->facet, cells->nfacet);
+    if (cells->nfacet > 0) {
+        PG_TRY (link_facets (m));
+        PG_TRY (find_centres (m));
+    }
+done:
+    if (status != PG_OK) pg_marks_clear (m);
+    return status;
+}
+
+void pg_marks_clear (pg_marks *m)
+{
+    pg_free (m->facet_point);
+    pg_free (m->facet_centre);
+    pg_free (m->facet_shape);
+    pg_free (m->point);
+    pg_free (m->facet);
+    memset (m, 0, sizeof *m);
+}
+
+void pg_marks_fill (pg_marks *m, int value)
+{
+    memset (m->point, value, m->cloud->n);
+    memset (m->facet, value, m->cells->nfacet);
+}
+
+/* ---- boundary ------------------------------------------------------------------------------------------------------- */
+static int side_named (int dim, const char *name)
+{
+    for (int s = 0; s < 2 * dim; s++) if (!strcmp (name, pg_side_names[s])) return s;
+    return -1;
+}
+
+/* On the low or high face of the box, or within half a step of it when the lattice is shifted. */
+static int on_side (const pg_marks *m, int side, const double *x)
+{
+    int k = side / 2;
+    double face = side % 2 ? m->high[k] : m->low[k];
+    return fabs (x[k] - face) <= 0.5 * m->cloud->step[k] * (1 + 1e-9);
+}
+
+static void mark_facet (pg_marks *m, size_t f)
+{
+    m->facet[f] = 1;
+    for (size_t k = 0; k < m->per; k++) m->point[m->facet_point[f * m->per + k]] = 1;
+}
+
+static int mark_shape (pg_marks *m, const char *name)
+{
+    int known = 0;
+    for (size_t i = 0; i < m->body->n && m->cells->nfacet > 0; i++) known |= !strcmp (m->body->shape[i].boundary, name);
+    for (size_t f = 0; known && f < m->cells->nfacet; f++)
+        if (!strcmp (m->body->shape[m->facet_shape[f]].boundary, name)) mark_facet (m, f);
+    return known;
+}
+
+int pg_marks_boundary (pg_marks *m, const char *name)
+{
+    size_t dim = (size_t) m->cloud->dim;
+    int side = side_named (m->cloud->dim, name), all = !strcmp (name, "all");
+    if (side < 0 && !all) return mark_shape (m, name);
+    for (size_t f = 0; f < m->cells->nfacet; f++) {
+        double n = all ? 0 : m->cells->normal[f * dim + (size_t) side / 2];
+        if (all || ((side % 2 ? n > 0 : n < 0) && on_side (m, side, m->facet_centre + f * dim))) mark_facet (m, f);
+    }
+    for (size_t i = 0; m->cells->nfacet == 0 && i < m->cloud->n; i++)      /* points from a file */
+        for (int s = 0; s < 2 * m->cloud->dim; s++)
+            if ((all || s == side) && on_side (m, s, m->cloud->x + i * dim)) m->point[i] = 1;
+    return 1;
+}
+
+/* ---- tests ---------------------------------------------------------------------------------------------------------- */
+int pg_marks_beyond (const pg_marks *m, int side, const double *x)
+{
+    double d = x[side / 2] - m->centre[side / 2];
+    return (side % 2 ? d : -d) > 1e-9 * m->size;
+}
+
+void pg_marks_keep (pg_marks *m, pg_mark_test test, const void *context)
+{
+    size_t dim = (size_t) m->cloud->dim;
+    for (size_t i = 0; i < m->cloud->n; i++)
+        if (m->point[i] && !test (m, m->cloud->x + i * dim, context)) m->point[i] = 0;
+    for (size_t f = 0; f < m->cells->nfacet; f++)
+        if (m->facet[f] && !test (m, m->facet_centre + f * dim, context)) m->facet[f] = 0;
+}

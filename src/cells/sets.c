@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Named sets: the sides of the bounding box and all, then those of the scene; each with its parts NAME.left, NAME.top, ... */
+#include "mark.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct { pg_sets *out; size_t capacity; pg_marks marks; const pg_scene *scene; } builder;
+
+/* ---- from marks to sets ----------------------------------------------------------------------------------------------- */
+/* Indices of marked items; side >= 0: only those beyond the centre on that side. */
+static pg_status gather (int **out, size_t *n, const pg_marks *m, const unsigned char *mark, size_t all, const double *x, int side)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) m->cloud->dim, k = 0;
+    *n = 0;
+    for (size_t i = 0; i < all; i++) *n += mark[i] && (side < 0 || pg_marks_beyond (m, side, x + i * dim));
+    PG_ALLOC (*out, *n);
+    for (size_t i = 0; i < all; i++)
+        if (mark[i] && (side < 0 || pg_marks_beyond (m, side, x + i * dim))) (*out)[k++] = (int) i;
+done:
+    return status;
+}
+
+static pg_status add_one (builder *b, const char *name, int side)
+{
+    pg_status status = PG_OK;
+    const pg_marks *m = &b->marks;
+    PG_GROW (b->out->set, b->capacity, b->out->n + 1);
+    pg_set *s = &b->out->set[b->out->n];
+    memset (s, 0, sizeof *s);
+    b->out->n++;                                           /* from here on cleared with the rest */
+    snprintf (s->name, sizeof s->name, "%.56s%s%s", name, side < 0 ? "" : ".", side < 0 ? "" : pg_side_names[side]);
+    PG_TRY (gather (&s->point, &s->npoint, m, m->point, m->cloud->n, m->cloud->x, side));
+    PG_TRY (gather (&s->facet, &s->nfacet, m, m->facet, m->cells->nfacet, m->facet_centre, side));
+done:
+    return status;
+}
+
+static pg_status add_set (builder *b, const char *name)
+{
+    pg_status status = PG_OK;
+    for (int side = -1; side < 2 * b->marks.cloud->dim; side++) PG_TRY (add_one (b, name, side));
+done:
+    return status;
+}
+
+static pg_status add_predefined (builder *b)
+{
+    pg_status status = PG_OK;
+    for (int side = 0; side < 2 * b->marks.cloud->dim; side++) {
+        pg_marks_fill (&b->marks, 0);
+        pg_marks_boundary (&b->marks, pg_side_names[side]);
+        PG_TRY (add_set (b, pg_side_names[side]));
+    }
+    pg_marks_fill (&b->marks, 1);
+    PG_TRY (add_set (b, "all"));
+done:
+    return status;
+}
+
+/* ---- conditions ----------------------------------------------------------------------------------------------------- */
+static double angle_of (double y, double x)
+{
+    double a = atan2 (y, x);
+    return a < 0 ? a + 2 * acos (-1) : a;
+}
+
+static int holds (const pg_marks *m, const double *x, const void *context)
+{
+    pg_place at = {0};
+    at.x = x[0];
+    at.y = m->cloud->dim > 1 ? x[1] : 0;
+    at.z = m->cloud->dim > 2 ? x[2] : 0;
+    at.r = sqrt (at.x*at.x + at.y*at.y + at.z*at.z);
+    at.angle = angle_of (at.y, at.x);
+    return pg_expression_value (context, &at) != 0;
+}
+
+typedef struct { size_t n; double *range; } ranges;        /* n x {from, span}                                               */
+
+/* No point at the centre itself has an angle. Ends count, to 1e-9 rad. */
+static int in_ranges (const pg_marks *m, const double *x, const void *context)
+{
+    const ranges *r = context;
+    double dx = x[0] - m->centre[0], dy = x[1] - m->centre[1], turn = 2 * acos (-1), tolerance = 1e-9;
+    if (!(hypot (dx, dy) > 1e-9 * m->size)) return 0;
+    for (size_t i = 0; i < r->n; i++) {
+        double past = fmod (angle_of (dy, dx) - r->range[2*i], turn);
+        if (past < 0) past += turn;
+        if (past <= r->range[2*i + 1] + tolerance || past >= turn - tolerance) return 1;
+    }
+    return 0;
+}
+
+static pg_status keep_angles (builder *b, const char *name)
+{
+    pg_status status = PG_OK;
+    ranges r = {pg_scene_count (b->scene, "sets.%s.angle", name), NULL};
+    double turn = 2 * acos (-1);
+    char at[128];
+    snprintf (at, sizeof at, "sets.%s.angle", name);
+    PG_ALLOC (r.range, 2 * r.n);
+    if (r.n == 0) pg_scene_fault (b->scene, at, "has no range");
+    if (b->marks.cloud->dim == 1) pg_scene_fault (b->scene, at, "needs dimension 2 or 3");
+    for (size_t i = 0; i < r.n; i++) {
+        double v[2] = {0, 0};
+        if (pg_scene_count (b->scene, "%s[%zu]", at, i) != 2) {
+            pg_scene_fault (b->scene, at, "range %zu must be a pair [from, to]", i + 1);
+            continue;
+        }
+        pg_scene_vector (b->scene, 2, v, "%s[%zu]", at, i);
+        double span = v[1] - v[0];
+        if (fabs (span) < turn) span = span < 0 ? span + turn : span;      /* [350 deg, 10 deg] passes 0 */
+        else span = turn;
+        r.range[2*i] = v[0], r.range[2*i + 1] = span;
+    }
+    if (b->marks.cloud->dim > 1) pg_marks_keep (&b->marks, in_ranges, &r);
+done:
+    pg_free (r.range);
+    return status;
+}
+
+static pg_status keep_where (builder *b, const char *name)
+{
+    pg_status status = PG_OK;
+    pg_expression *e = NULL;
+    char at[128];
+    snprintf (at, sizeof at, "sets.%s.where", name);
+    PG_TRY (pg_expression_compile (&e, pg_scene_text (b->scene, "%s", at), "bool"));
+    if (pg_expression_uses (e, 't')) pg_scene_fault (b->scene, at, "a set does not change with t");
+    else pg_marks_keep (&b->marks, holds, e);
+done:
+    pg_expression_free (&e);
+    return status;
+}
+
+static void unknown_boundary (const builder *b, const char *at, const char *name)
+{
+    char names[400] = "";
+    size_t used = 0;
+    const pg_body *body = b->marks.body;
+    for (int s = 0; s < 2 * b->marks.cloud->dim; s++) used += (size_t) snprintf (names + used, sizeof names - used, "%s|", pg_side_names[s]);
+    used += (size_t) snprintf (names + used, sizeof names - used, "all");
+    for (size_t i = 0; b->marks.cells->nfacet > 0 && i < body->n && used + 34 < sizeof names; i++) {
+        size_t k = 0;
+        while (k < i && strcmp (body->shape[k].boundary, body->shape[i].boundary)) k++;
+        if (k == i) used += (size_t) snprintf (names + used, sizeof names - used, "|%s", body->shape[i].boundary);
+    }
+    const char *near = pg_nearest_name (name, names);
+    if (near) pg_scene_fault (b->scene, at, "no boundary is called '%.40s'; did you mean %s? (%s)", name, near, names);
+    else pg_scene_fault (b->scene, at, "no boundary is called '%.40s'; there are %s", name, names);
+}
+
+/* 0 when a name is unknown. */
+static int mark_boundaries (builder *b, const char *name)
+{
+    const char *part;
+    char at[128];
+    int known = 1;
+    snprintf (at, sizeof at, "sets.%s.boundary", name);
+    pg_marks_fill (&b->marks, 0);
+    for (size_t i = 0; (part = pg_scene_name (b->scene, i, "%s", at)); i++)
+        if (!pg_marks_boundary (&b->marks, part)) {
+            unknown_boundary (b, at, part);
+            known = 0;
+        }
+    return known;
+}
+
+/* ---- sets of the scene ------------------------------------------------------------------------------------------------- */
+static int marked (const unsigned char *mark, size_t n) { return n > 0 && memchr (mark, 1, n) != NULL; }
+
+/* What is wrong becomes a fault; the other sets are looked at all the same. */
+static pg_status add_named (builder *b, const char *name)
+{
+    pg_status status = PG_OK;
+    const pg_scene *s = b->scene;
+    char at[96];
+    int boundary = pg_scene_given (s, "sets.%s.boundary", name), angle = pg_scene_given (s, "sets.%s.angle", name);
+    int where = pg_scene_given (s, "sets.%s.where", name), known = 1;
+    const char *why = strlen (name) > 56 ? "at most 56 letters in the name of a set" : !boundary && !angle && !where ? "give boundary, angle or where"
+                    : pg_sets_find (b->out, name) ? "this set is always there, choose another name" : NULL;
+    snprintf (at, sizeof at, "sets.%.80s", name);
+    if (why) {
+        pg_scene_fault (s, at, "%s", why);
+        return PG_OK;
+    }
+    pg_marks_fill (&b->marks, 1);
+    if (boundary) known = mark_boundaries (b, name);
+    if (angle) PG_TRY (keep_angles (b, name));
+    if (where) PG_TRY (keep_where (b, name));
+    if (known && !marked (b->marks.point, b->marks.cloud->n) && !marked (b->marks.facet, b->marks.cells->nfacet))
+        pg_scene_fault (s, at, "the set is empty: no point and no boundary facet meets its conditions");
+    PG_TRY (add_set (b, name));
+done:
+    return status;
+}
+
+pg_status pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud, const pg_cells *cells)
+{
+    pg_status status = PG_OK;
+    builder b = {.out = out, .scene = scene};
+    const char *name;
+    memset (out, 0, sizeof *out);
+    PG_TRY (pg_marks_create (&b.marks, body, lattice, cloud, cells));
+    PG_TRY (add_predefined (&b));
+    for (size_t i = 0; (name = pg_scene_name (scene, i, "sets")); i++) PG_TRY (add_named (&b, name));
+    PG_TRY (pg_scene_verdict (scene));
+done:
+    pg_marks_clear (&b.marks);
+    if (status != PG_OK) pg_sets_clear (out);
+    return status;
+}
+
+const pg_set *pg_sets_find (const pg_sets *sets, const char *name)
+{
+    for (size_t i = 0; i < sets->n; i++) if (!strcmp (sets->set[i].name, name)) return &sets->set[i];
+    return NULL;
+}
+
+void pg_sets_clear (pg_sets *sets)
+{
+    for (size_t i = 0; sets->set && i < sets->n; i++) {
+        pg_free (sets->set[i].point);
+        pg_free (sets->set[i].facet);
+    }
+    pg_free (sets->set);
+    memset (sets, 0, sizeof *sets);
+}

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * perigal: the command line. Sets the thread environment of the libraries before they start (their limits are read once). */
+#include "cli.h"
+#include "plot.h"
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const struct { const char *name; int (*run) (int, char **); const char *summary; } commands[] = {
+    { "run",   pg_cli_run,   "run SCENE.yaml [-o DIR] [--threads N] [--set key=value] [--quiet]" },
+    { "check", pg_cli_check, "check SCENE.yaml [--set key=value]      validate, print points, bonds, dofs, constants" },
+    { "plot",  pg_cli_plot,  "plot DIR [--field NAME] [--step N] ...  pictures from a result folder" },
+    { "list",  pg_cli_list,  "list                                    methods, kernels, criteria ... of this build" },
+    { "help",  pg_cli_help,  "help [KEY | --manual]                   one key of the scene file, or all as markdown" },
+};
+
+static void usage (FILE *to)
+{
+    fprintf (to, "Perigal " PG_VERSION ": peridynamic Galerkin solver for brittle and quasi-brittle fracture\n\nusage:\n");
+    for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) fprintf (to, "  perigal %s\n", commands[k].summary);
+    fprintf (to, "\nexit codes: 0 done, 64 usage, 65 scene wrong, 70 numerical failure, 130 interrupted\n");
+}
+
+/* CHOLMOD's OpenMP threads only slow it down beside a threaded BLAS, and only the environment at process start caps them. */
+static void settle_threads (int argc, char **argv)
+{
+    char count[16];
+    long n = sysconf (_SC_NPROCESSORS_ONLN);
+    if (getenv ("OMP_THREAD_LIMIT")) return;
+    for (int k = 1; k + 1 < argc; k++) if (strcmp (argv[k], "--threads") == 0 && atol (argv[k + 1]) > 0) n = atol (argv[k + 1]);
+    snprintf (count, sizeof count, "%ld", n < 1 ? 1 : n > 64 ? 64 : n);
+    setenv ("OMP_THREAD_LIMIT", "1", 1);
+    setenv ("OMP_WAIT_POLICY", "passive", 1);
+    setenv ("OPENBLAS_NUM_THREADS", count, 0);
+    execv ("/proc/self/exe", argv);                    /* goes on below where this fails                                 */
+}
+
+int main (int argc, char **argv)
+{
+    if (argc < 2) {
+        usage (stderr);
+        return EXIT_USAGE;
+    }
+    if (strcmp (argv[1], "--version") == 0) {
+        printf ("perigal " PG_VERSION "\n");
+        return EXIT_DONE;
+    }
+    if (strcmp (argv[1], "--help") == 0 || strcmp (argv[1], "-h") == 0) {
+        usage (stdout);
+        return EXIT_DONE;
+    }
+    for (size_t k = 0; k < sizeof commands / sizeof *commands; k++)
+        if (strcmp (argv[1], commands[k].name) == 0) {
+            if (k == 0) settle_threads (argc, argv);
+            return commands[k].run (argc - 1, argv + 1);
+        }
+    const char *near = pg_nearest_name (argv[1], "run|check|plot|list|help");
+    fprintf (stderr, "perigal: there is no command %s%s%s%s\n", argv[1], near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+    usage (stderr);
+    return EXIT_USAGE;
+}

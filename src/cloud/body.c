@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The body: shapes added and subtracted in the order of the scene. A point on a surface belongs to the body. */
+#include "shape.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void name_boundary (pg_shape *s, const pg_scene *scene, size_t i)
+{
+    static const char *const taken[] = {"left", "right", "bottom", "top", "back", "front", "all"};
+    const char *name = !s->add ? "hole" : pg_shape_types[s->kind].round ? "rim" : "side";
+    char at[64];
+    snprintf (at, sizeof at, "body[%zu].name", i);
+    if (pg_scene_given (scene, "%s", at)) name = pg_scene_text (scene, "%s", at);
+    for (size_t k = 0; k < sizeof taken / sizeof *taken; k++)
+        if (!strcmp (name, taken[k])) pg_scene_fault (scene, at, "'%s' already names a side of the body", name);
+    if (strlen (name) >= sizeof s->boundary) pg_scene_fault (scene, at, "at most %zu letters", sizeof s->boundary - 1);
+    snprintf (s->boundary, sizeof s->boundary, "%.31s", name);
+}
+
+static pg_status read_shape (pg_shape *s, int dim, const pg_scene *scene, size_t i)
+{
+    char at[96];
+    s->add = pg_scene_given (scene, "body[%zu].add", i);
+    for (s->kind = 0; s->kind < PG_SHAPES; s->kind++) {
+        snprintf (at, sizeof at, "body[%zu].%s.%s", i, s->add ? "add" : "subtract", pg_shape_types[s->kind].name);
+        if (pg_scene_given (scene, "%s", at)) break;
+    }
+    if (s->kind == PG_SHAPES) {
+        s->kind = PG_BOX;
+        snprintf (at, sizeof at, "body[%zu]", i);
+        pg_scene_fault (scene, at, "has no shape");
+        return PG_OK;
+    }
+    const pg_shape_type *type = &pg_shape_types[s->kind];
+    name_boundary (s, scene, i);
+    if (dim >= type->lowest && dim <= type->highest) return type->read (s, dim, scene, at);
+    pg_scene_fault (scene, at, "a %s needs dimension %d, this scene has %d", type->name, type->lowest, dim);
+    return PG_OK;
+}
+
+static void bound (pg_body *body)
+{
+    for (int k = 0; k < body->dim; k++) body->low[k] = INFINITY, body->high[k] = -INFINITY;
+    for (size_t i = 0; i < body->n; i++) {
+        double low[3], high[3];
+        if (!body->shape[i].add) continue;
+        pg_shape_types[body->shape[i].kind].box (&body->shape[i], body->dim, low, high);
+        for (int k = 0; k < body->dim; k++) {
+            body->low[k]  = fmin (body->low[k], low[k]);
+            body->high[k] = fmax (body->high[k], high[k]);
+        }
+    }
+}
+
+pg_status pg_body_read (pg_body *out, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    size_t n = pg_scene_count (scene, "body"), added = 0;
+    memset (out, 0, sizeof *out);
+    out->dim = (int) pg_scene_integer (scene, "dimension");
+    if (n == 0 && !pg_scene_given (scene, "points")) pg_scene_fault (scene, "body", "is missing: give body (a list of shapes) or points (a file)");
+    PG_ALLOC (out->shape, n);
+    out->n = n;
+    for (size_t i = 0; i < n; i++) {
+        PG_TRY (read_shape (&out->shape[i], out->dim, scene, i));
+        added += out->shape[i].add != 0;
+    }
+    if (n > 0 && added == 0) pg_scene_fault (scene, "body", "nothing is added, only subtracted");
+    PG_TRY (pg_scene_verdict (scene));
+    if (n > 0) bound (out);
+done:
+    if (status != PG_OK) pg_body_clear (out);
+    return status;
+}
+
+void pg_body_clear (pg_body *body)
+{
+    for (size_t i = 0; body->shape && i < body->n; i++) pg_free (body->shape[i].vertex);
+    pg_free (body->shape);
+    memset (body, 0, sizeof *body);
+}
+
+int pg_body_inside (const pg_body *body, const double *x, double tolerance)
+{
+    int in = 0;
+    for (size_t i = 0; i < body->n; i++) {
+        const pg_shape *s = &body->shape[i];
+        if (in == s->add) continue;                        /* would change nothing */
+        double d = pg_shape_types[s->kind].distance (s, body->dim, x);
+        in = s->add ? d <= tolerance : !(d < -tolerance);
+    }
+    return in;
+}
+
+size_t pg_body_nearest (const pg_body *body, const double *x, double *distance)
+{
+    size_t nearest = 0;
+    double least = INFINITY;
+    for (size_t i = 0; i < body->n; i++) {
+        double d = fabs (pg_shape_types[body->shape[i].kind].distance (&body->shape[i], body->dim, x));
+        if (d < least) least = d, nearest = i;
+    }
+    if (distance) *distance = least;
+    return nearest;
+}

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Which bonds does a crack cut? The part of the bond within the tolerance of the crack's line or plane is compared there with
+ * the crack, grown by the tolerance: one rule for crossing, touching and lying in the crack. */
+#include "perigal/cloud.h"
+#include "polygon.h"
+#include <math.h>
+#include <string.h>
+
+static double dot (int dim, const double *a, const double *b)
+{
+    double s = 0;
+    for (int k = 0; k < dim; k++) s += a[k] * b[k];
+    return s;
+}
+
+static void point_at (int dim, const double *a, const double *b, double s, double *out)
+{
+    for (int k = 0; k < dim; k++) out[k] = s == 1 ? b[k] : a[k] + s * (b[k] - a[k]);
+}
+
+/* ---- distances ------------------------------------------------------------------------------------------------------ */
+static double distance_point (int dim, const double *p, const double *a, const double *b)      /* of p from segment a b  */
+{
+    double u[3], w[3];
+    for (int k = 0; k < dim; k++) u[k] = b[k] - a[k], w[k] = p[k] - a[k];
+    double uu = dot (dim, u, u), s = uu > 0 ? dot (dim, u, w) / uu : 0;
+    s = s < 0 ? 0 : s > 1 ? 1 : s;
+    for (int k = 0; k < dim; k++) w[k] -= s * u[k];
+    return sqrt (dot (dim, w, w));
+}
+
+/* Segments a b and c d: least of the distances of the ends and, if the lines are nearest inside both, of the lines. */
+static double distance_segments (const double *a, const double *b, const double *c, const double *d)
+{
+    double u[3], v[3], w[3];
+    double least = fmin (fmin (distance_point (3, a, c, d), distance_point (3, b, c, d)), fmin (distance_point (3, c, a, b), distance_point (3, d, a, b)));
+    for (int k = 0; k < 3; k++) u[k] = b[k] - a[k], v[k] = d[k] - c[k], w[k] = c[k] - a[k];
+    double uu = dot (3, u, u), vv = dot (3, v, v), uv = dot (3, u, v), det = uu*vv - uv*uv;
+    if (!(det > 1e-14 * uu * vv)) return least;
+    double s = (dot (3, u, w) * vv - dot (3, v, w) * uv) / det, t = (dot (3, u, w) * uv - dot (3, v, w) * uu) / det;
+    if (s < 0 || s > 1 || t < 0 || t > 1) return least;
+    for (int k = 0; k < 3; k++) w[k] += t * v[k] - s * u[k];
+    return fmin (least, sqrt (dot (3, w, w)));
+}
+
+/* ---- in the line or plane of the crack --------------------------------------------------------------------------------- */
+static int meets_segment (const pg_crack *c, const double *a, const double *b, double tolerance)
+{
+    const double *p = c->vertex, *q = p + 2, t[2] = {c->normal[1], -c->normal[0]};
+    double w[2] = {q[0] - p[0], q[1] - p[1]}, e = dot (2, t, w);
+    double r[2] = {a[0] - p[0], a[1] - p[1]}, s[2] = {b[0] - p[0], b[1] - p[1]};
+    double i = dot (2, t, r), j = dot (2, t, s);
+    return fmax (i, j) >= fmin (0, e) - tolerance && fmin (i, j) <= fmax (0, e) + tolerance;
+}
+
+static int meets_disc (const pg_crack *c, const double *a, const double *b, double tolerance)
+{
+    return distance_point (3, c->centre, a, b) <= c->radius + tolerance;
+}
+
+/* p, lying in the plane of the polygon: inside? Seen along the axis nearest to the normal. */
+static int in_polygon (const pg_crack *c, const double *p)
+{
+    int k = 0, in = 0;
+    for (int m = 1; m < 3; m++) if (fabs (c->normal[m]) > fabs (c->normal[k])) k = m;
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    for (size_t m = 0, l = c->nvertex - 1; m < c->nvertex; l = m++) {
+        const double *a = c->vertex + 3*m, *b = c->vertex + 3*l;
+        if ((a[j] > p[j]) == (b[j] > p[j])) continue;
+        if (p[i] < a[i] + (b[i] - a[i]) * ((p[j] - a[j]) / (b[j] - a[j]))) in = !in;
+    }
+    return in;
+}
+
+static int meets_polygon (const pg_crack *c, const double *a, const double *b, double tolerance)
+{
+    if (in_polygon (c, a) || in_polygon (c, b)) return 1;
+    for (size_t m = 0, l = c->nvertex - 1; m < c->nvertex; l = m++)
+        if (distance_segments (a, b, c->vertex + 3*l, c->vertex + 3*m) <= tolerance) return 1;
+    return 0;
+}
+
+/* ---- the bond ------------------------------------------------------------------------------------------------------- */
+static int (*const meets[]) (const pg_crack *, const double *, const double *, double) = {
+    [PG_CRACK_SEGMENT] = meets_segment, [PG_CRACK_POLYGON] = meets_polygon, [PG_CRACK_DISC] = meets_disc,
+};
+
+static int after (int dim, const double *x, const double *y)       /* order of the ends, so that x - y and y - x agree   */
+{
+    for (int k = 0; k < dim; k++)
+        if (x[k] != y[k]) return x[k] > y[k];
+    return 0;
+}
+
+int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance)
+{
+    const double *p = crack->kind == PG_CRACK_DISC ? crack->centre : crack->vertex;
+    double from[3], to[3], d = 0, e = 0, s = 0, t = 1;
+    if (after (dim, x, y)) {
+        const double *swap = x;
+        x = y, y = swap;
+    }
+    for (int k = 0; k < dim; k++) d += crack->normal[k] * (x[k] - p[k]), e += crack->normal[k] * (y[k] - p[k]);
+    if ((d > tolerance && e > tolerance) || (d < -tolerance && e < -tolerance)) return 0;
+    if (fabs (d) > tolerance) s = (copysign (tolerance, d) - d) / (e - d);
+    if (fabs (e) > tolerance) t = (copysign (tolerance, e) - d) / (e - d);
+    point_at (dim, x, y, s, from);
+    point_at (dim, x, y, t, to);
+    return meets[crack->kind] (crack, from, to, tolerance);
+}
+
+int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance)
+{
+    return pg_crack_cuts (crack, dim, x, x, tolerance);
+}
+
+void pg_cracks_clear (pg_cracks *cracks)
+{
+    for (size_t i = 0; cracks->crack && i < cracks->n; i++) pg_free (cracks->crack[i].vertex);
+    pg_free (cracks->crack);
+    memset (cracks, 0, sizeof *cracks);
+}

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Background lattice: round (L / spacing) equal cells per axis over the bounding box; a cell is kept when its centre lies in the
+ * body. A centre on the surface counts as inside (to 1e-9 of a step), whichever side it is seen from, so symmetry is kept. */
+#include "perigal/cloud.h"
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+static double tolerance_of (const pg_lattice *l)
+{
+    double step = INFINITY, size = 0;
+    for (int k = 0; k < l->dim; k++) {
+        step = fmin (step, l->step[k]);
+        size = fmax (size, fmax (fabs (l->origin[k]), fabs (l->high[k])));
+    }
+    return 1e-9 * step + 8 * DBL_EPSILON * size;           /* far from the origin rounding is coarser than 1e-9 step */
+}
+
+static pg_status fit_axes (pg_lattice *l, const pg_body *body, double spacing, const double *offset)
+{
+    pg_status status = PG_OK;
+    double vertices = 1;
+    for (int k = 0; k < 3; k++) l->count[k] = 1, l->step[k] = 1;
+    for (int k = 0; k < l->dim; k++) {
+        double length = body->high[k] - body->low[k], cells = fmax (1, floor (length / spacing + 0.5));
+        double shift = offset ? offset[k] - ceil (offset[k]) : 0;                  /* in (-1, 0] */
+        vertices *= cells + 2;
+        if (!(vertices < INT_MAX)) PG_FAIL (PG_E_LIMIT, "spacing %g m gives more than %d cells", spacing, INT_MAX);
+        l->step[k]   = length / cells;
+        l->count[k]  = (int) cells + (shift < 0);
+        l->origin[k] = body->low[k] + shift * l->step[k];
+        l->high[k]   = shift < 0 ? body->high[k] + (1 + shift) * l->step[k] : body->high[k];
+    }
+done:
+    return status;
+}
+
+pg_status pg_lattice_fit (pg_lattice *out, const pg_body *body, double spacing, const double *offset)
+{
+    pg_status status = PG_OK;
+    memset (out, 0, sizeof *out);
+    out->dim = body->dim;
+    if (!(spacing > 0) || !isfinite (spacing)) PG_FAIL (PG_E_USAGE, "spacing %g m must be positive", spacing);
+    for (int k = 0; k < body->dim; k++)
+        if (!(body->high[k] > body->low[k]) || !isfinite (body->high[k] - body->low[k])) PG_FAIL (PG_E_USAGE, "the body has no size");
+    PG_TRY (fit_axes (out, body, spacing, offset));
+    PG_ALLOC (out->in, (size_t) out->count[0] * (size_t) out->count[1] * (size_t) out->count[2]);
+    double tolerance = tolerance_of (out);
+    unsigned char *in = out->in;
+    for (int c = 0; c < out->count[2]; c++)
+        for (int b = 0; b < out->count[1]; b++)
+            for (int a = 0; a < out->count[0]; a++) {
+                double i[3] = {a + 0.5, b + 0.5, c + 0.5}, x[3] = {0, 0, 0};
+                for (int k = 0; k < out->dim; k++) x[k] = pg_lattice_at (out, k, i[k]);
+                *in++ = (unsigned char) pg_body_inside (body, x, tolerance);
+            }
+done:
+    if (status != PG_OK) pg_lattice_clear (out);
+    return status;
+}
+
+double pg_lattice_at (const pg_lattice *l, int axis, double i)
+{
+    double n = l->count[axis];
+    if (2 * i == n) return 0.5 * (l->origin[axis] + l->high[axis]);
+    return 2 * i < n ? l->origin[axis] + i * l->step[axis] : l->high[axis] - (n - i) * l->step[axis];
+}
+
+void pg_lattice_clear (pg_lattice *lattice)
+{
+    pg_free (lattice->in);
+    memset (lattice, 0, sizeof *lattice);
+}

@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Points of the body with their volumes: vertices or centres of the kept lattice cells, x fastest, then y, then z; or from a file. */
+#include "perigal/cloud.h"
+#include "points_file.h"
+#include <limits.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+typedef struct {
+    size_t size[3];                                    /* sites (vertices or cells) per axis                             */
+    size_t n;                                          /* all of them                                                    */
+    double shift;                                      /* coordinate index of site 0: 0 vertex, 0.5 centre               */
+    int    whole;                                      /* cells around a site that may move                              */
+    unsigned char *around;                             /* kept cells around each site; 0: no point there                 */
+} sites;
+
+/* ---- sites ---------------------------------------------------------------------------------------------------------- */
+/* Adds one to all sites around cell (a, b, c): its vertices (reach 0..1), or the cell and its neighbours (reach -1..1). */
+static void spread (sites *s, const pg_lattice *l, const int *cell, int first)
+{
+    int i[3], low[3], high[3];
+    for (int k = 0; k < 3; k++) {
+        low[k]  = k < l->dim ? cell[k] + first : 0;
+        high[k] = k < l->dim ? cell[k] + 1 : 0;
+        if (low[k] < 0) low[k] = 0;
+        if (high[k] >= (int) s->size[k]) high[k] = (int) s->size[k] - 1;
+    }
+    for (i[2] = low[2]; i[2] <= high[2]; i[2]++)
+        for (i[1] = low[1]; i[1] <= high[1]; i[1]++)
+            for (i[0] = low[0]; i[0] <= high[0]; i[0]++)
+                s->around[((size_t) i[2] * s->size[1] + (size_t) i[1]) * s->size[0] + (size_t) i[0]]++;
+}
+
+static pg_status count_around (sites *s, const pg_lattice *l, int cells)
+{
+    pg_status status = PG_OK;
+    memset (s, 0, sizeof *s);
+    s->n = s->whole = 1;
+    s->shift = cells ? 0.5 : 0;
+    for (int k = 0; k < 3; k++) {
+        s->size[k] = (size_t) l->count[k] + (k < l->dim && !cells);
+        s->n *= s->size[k];
+        if (k < l->dim) s->whole *= cells ? 3 : 2;
+    }
+    PG_ALLOC (s->around, s->n);
+    const unsigned char *in = l->in;
+    for (int c = 0; c < l->count[2]; c++)
+        for (int b = 0; b < l->count[1]; b++)
+            for (int a = 0; a < l->count[0]; a++)
+                if (*in++) spread (s, l, (int[]) {a, b, c}, cells ? -1 : 0);
+    for (size_t i = 0; cells && i < s->n; i++) if (!l->in[i]) s->around[i] = 0;
+done:
+    return status;
+}
+
+/* ---- random shifts ----------------------------------------------------------------------------------------------------- */
+static uint64_t mix (uint64_t z)                       /* a bijection that spreads every bit                             */
+{
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+/* Uniform in [-1, 1), a function of seed, site and axis only. */
+static double shift_of (uint64_t seed, uint64_t site, int axis)
+{
+    uint64_t z = mix (mix (seed + 0x9e3779b97f4a7c15u) + 3 * site + (uint64_t) axis + 1);
+    return ldexp ((double) (z >> 11), -52) - 1;
+}
+
+/* ---- the cloud ------------------------------------------------------------------------------------------------------ */
+static pg_status place_points (pg_cloud *c, const pg_lattice *l, const sites *s, double amount, uint64_t seed)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) c->dim, n = 0, p = 0;
+    double cell = c->thickness;
+    for (size_t k = 0; k < dim; k++) cell *= l->step[k];
+    for (size_t i = 0; i < s->n; i++) n += s->around[i] != 0;
+    PG_ALLOC (c->x, n * dim);
+    PG_ALLOC (c->volume, n);
+    PG_ALLOC (c->block, n);
+    c->n = n;
+    for (size_t i = 0; i < s->n; i++) {
+        size_t rest = i;
+        if (!s->around[i]) continue;
+        for (size_t k = 0; k < dim; k++, rest /= s->size[k - 1]) {
+            double *x = &c->x[p*dim + k];
+            *x = pg_lattice_at (l, (int) k, (double) (rest % s->size[k]) + s->shift);
+            if (amount > 0 && s->around[i] == s->whole) *x += amount * l->step[k] * shift_of (seed, i, (int) k);
+        }
+        c->volume[p++] = s->shift > 0 ? cell : s->around[i] * (cell / s->whole);
+    }
+done:
+    return status;
+}
+
+static void measure (pg_cloud *c)
+{
+    size_t dim = (size_t) c->dim;
+    for (size_t k = 0; k < dim; k++) {
+        c->low[k] = INFINITY, c->high[k] = -INFINITY;
+        for (size_t i = 0; i < c->n; i++) {
+            c->low[k]  = fmin (c->low[k], c->x[i*dim + k]);
+            c->high[k] = fmax (c->high[k], c->x[i*dim + k]);
+        }
+    }
+}
+
+static pg_status from_file (pg_cloud *c, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    double volume = 0;
+    PG_TRY (pg_points_read (c, scene));
+    for (size_t i = 0; i < c->n; i++) volume += c->volume[i];
+    c->h = pow (volume / (double) c->n / c->thickness, 1.0 / c->dim);
+    for (int k = 0; k < c->dim; k++) c->step[k] = c->h;
+done:
+    return status;
+}
+
+static pg_status fit (pg_lattice *l, const pg_body *body, const pg_scene *scene, double spacing)
+{
+    double offset[3] = {0, 0, 0};
+    int shifted = pg_scene_vector (scene, 3, offset, "lattice_offset") > 0;
+    pg_status status = pg_lattice_fit (l, body, spacing, shifted ? offset : NULL);
+    if (status == PG_E_LIMIT) {
+        pg_scene_fault (scene, "spacing", "too fine for this body: more than %d cells", INT_MAX);
+        return pg_scene_verdict (scene);
+    }
+    if (status != PG_OK) return status;
+    size_t n = (size_t) l->count[0] * (size_t) l->count[1] * (size_t) l->count[2];
+    if (memchr (l->in, 1, n)) return PG_OK;
+    pg_scene_fault (scene, "spacing", "no point: none of the %d x %d x %d lattice cells has its centre in the body", l->count[0], l->count[1], l->count[2]);
+    return pg_scene_verdict (scene);
+}
+
+static pg_status from_lattice (pg_cloud *c, pg_lattice *l, const pg_body *body, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    sites s = {0};
+    const char *kind = pg_scene_text (scene, "lattice");
+    double spacing = pg_scene_number (scene, "spacing"), cell = 1;
+    if (!(spacing > 0)) {
+        pg_scene_fault (scene, "spacing", "is missing: the distance of points is needed to fill the body");
+        PG_TRY (pg_scene_verdict (scene));
+    }
+    PG_TRY (fit (l, body, scene, spacing));
+    for (int k = 0; k < c->dim; k++) c->step[k] = l->step[k], cell *= l->step[k];
+    c->h = c->dim == 1 ? cell : c->dim == 2 ? sqrt (cell) : cbrt (cell);
+    PG_TRY (count_around (&s, l, kind && !strcmp (kind, "cells")));
+    PG_TRY (place_points (c, l, &s, pg_scene_number (scene, "perturb.amount"), (uint64_t) pg_scene_integer (scene, "perturb.seed")));
+done:
+    pg_free (s.around);
+    return status;
+}
+
+pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    memset (out, 0, sizeof *out);
+    memset (lattice, 0, sizeof *lattice);
+    out->dim = body->dim;
+    out->thickness = out->dim == 3 ? 1 : pg_scene_number (scene, out->dim == 2 ? "thickness" : "cross_section");
+    if (pg_scene_given (scene, "points")) PG_TRY (from_file (out, scene));
+    else PG_TRY (from_lattice (out, lattice, body, scene));
+    measure (out);
+done:
+    if (status != PG_OK) {
+        pg_cloud_clear (out);
+        pg_lattice_clear (lattice);
+    }
+    return status;
+}
+
+void pg_cloud_clear (pg_cloud *cloud)
+{
+    pg_free (cloud->x);
+    pg_free (cloud->volume);
+    pg_free (cloud->block);
+    memset (cloud, 0, sizeof *cloud);
+}

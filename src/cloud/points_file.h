@@ -1,0 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Points with volumes from a CSV file. */
+#ifndef PERIGAL_CLOUD_POINTS_FILE_H
+#define PERIGAL_CLOUD_POINTS_FILE_H
+#include "perigal/cloud.h"
+
+/* Fills x, volume, block, n of a cloud whose dim is set. What is wrong with the file becomes a fault at `points`. */
+pg_status pg_points_read (pg_cloud *cloud, const pg_scene *scene);
+#endif

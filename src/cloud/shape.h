@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * One row per kind of shape: its key, where it may be used, how it is read, its signed distance (m, negative inside) and box. */
+#ifndef PERIGAL_CLOUD_SHAPE_H
+#define PERIGAL_CLOUD_SHAPE_H
+#include "perigal/cloud.h"
+
+typedef struct {
+    const char *name;                                  /* key under add: and subtract:                                   */
+    int lowest, highest;                               /* dimensions in which it may be used                             */
+    int round;                                         /* its surface is called rim                                      */
+    pg_status (*read)     (pg_shape *shape, int dim, const pg_scene *scene, const char *at);   /* at: "body[2].add.disk" */
+    double    (*distance) (const pg_shape *shape, int dim, const double *x);
+    void      (*box)      (const pg_shape *shape, int dim, double *low, double *high);
+} pg_shape_type;
+
+enum { PG_SHAPES = PG_PRISM + 1 };
+extern const pg_shape_type pg_shape_types[PG_SHAPES];  /* indexed by pg_shape.kind                                       */
+#endif

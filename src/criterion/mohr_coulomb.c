@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Mohr-Coulomb with tension cut-off on the mean of both ends (Cui 2022 section 1.1, theory F2). Utilisations, both of degree 1:
+ * tension sigma_1 / T;  shear ((sigma_1 - sigma_3)/2 + (sigma_1 + sigma_3)/2 sin phi) / (c cos phi). */
+#include "entries.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { STRENGTH, COHESION, ANGLE };
+
+static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
+{
+    (void) setting;
+    pg_criterion_demand (scene, "mohr_coulomb", "|tensile_strength|cohesion|friction_angle|", "");
+    c->parameter[STRENGTH] = pg_scene_number (scene, "failure.tensile_strength");
+    c->parameter[COHESION] = pg_scene_number (scene, "failure.cohesion");
+    c->parameter[ANGLE] = pg_scene_number (scene, "failure.friction_angle");
+    return pg_scene_verdict (scene);
+}
+
+static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
+{
+    double sine = sin (c->parameter[ANGLE]), bound = c->parameter[COHESION] * cos (c->parameter[ANGLE]);
+    for (size_t b = 0; b < m->n; b++) {
+        double tension = m->s1[b] / c->parameter[STRENGTH];
+        double shear = ((m->s1[b] - m->s3[b]) / 2 + (m->s1[b] + m->s3[b]) / 2 * sine) / bound;
+        double most = tension >= shear ? tension : shear;
+        u[b] = most > 0 ? most : 0;
+        if (kind) kind[b] = tension >= shear ? 't' : 's';
+    }
+}
+
+static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
+{
+    utilisation (c, m, f, NULL);
+    for (size_t b = 0; b < m->n; b++) f[b] = f[b] > 0 ? 1 / f[b] : INFINITY;
+}
+
+static void describe (const pg_criterion *c, char *text, size_t size)
+{
+    double phi = c->parameter[ANGLE], strength = 2 * c->parameter[COHESION] * cos (phi) / (1 - sin (phi));
+    snprintf (text, size, "Mohr-Coulomb: tensile strength %.6g Pa, cohesion %.6g Pa, friction angle %.6g deg"
+              " (uniaxial compressive strength %.6g Pa)", c->parameter[STRENGTH], c->parameter[COHESION],
+              phi * 57.295779513082320877, strength);
+}
+
+const pg_criterion_type pg_criterion_mohr_coulomb = {
+    .name = "mohr_coulomb", .summary = "shear strength of Mohr-Coulomb with a tension cut-off", .needs = PG_NEEDS_STRESS,
+    .read = read, .utilisation = utilisation, .factor = factor, .describe = describe };

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * A bond breaks when its stretch reaches the critical one; shortening never breaks it.
+ * linear: s = xi . eta / |xi|^2; finite: s = (|xi + eta| - |xi|) / |xi|. Events section 4. */
+#include "entries.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LIMIT, FINITE, ENERGY, FROM_ENERGY };
+
+static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
+{
+    pg_status status = PG_OK;
+    pg_criterion_demand (scene, "stretch", "", "|critical_stretch|fracture_energy|stretch|");
+    int limit = pg_scene_given (scene, "failure.critical_stretch"), energy = pg_scene_given (scene, "failure.fracture_energy");
+    if (limit + energy != 1)
+        pg_scene_fault (scene, "failure.criterion", "stretch needs %s failure.critical_stretch or failure.fracture_energy",
+                        limit ? "only one of" : "either");
+    PG_TRY (pg_scene_verdict (scene));
+    c->parameter[FINITE] = strcmp (pg_scene_text (scene, "failure.stretch"), "finite") == 0;
+    c->parameter[FROM_ENERGY] = energy;
+    c->parameter[LIMIT] = pg_scene_number (scene, "failure.critical_stretch");
+    c->parameter[ENERGY] = pg_scene_number (scene, "failure.fracture_energy");
+    if (energy) c->parameter[LIMIT] = pg_stretch_from_energy (setting, c->parameter[ENERGY]);
+    else c->parameter[ENERGY] = pg_energy_from_stretch (setting, c->parameter[LIMIT]);
+    if (!(c->parameter[LIMIT] > 0) || !isfinite (c->parameter[LIMIT])) {
+        pg_scene_fault (scene, "failure.fracture_energy", "gives no critical stretch with this horizon and Young's modulus");
+        PG_TRY (pg_scene_verdict (scene));
+    }
+done:
+    return status;
+}
+
+/* xi . xi, xi . eta, eta . eta of one bond */
+static void products (int dim, const double *xi, const double *eta, double *rr, double *re, double *ee)
+{
+    *rr = *re = *ee = 0;
+    for (int k = 0; k < dim; k++) {
+        *rr += xi[k] * xi[k];
+        *re += xi[k] * eta[k];
+        *ee += eta[k] * eta[k];
+    }
+}
+
+static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
+{
+    double limit = c->parameter[LIMIT], rr, re, ee;
+    int finite = c->parameter[FINITE] > 0;
+    for (size_t b = 0; b < m->n; b++) {
+        size_t at = b * (size_t) m->dim;
+        products (m->dim, m->xi + at, m->eta + at, &rr, &re, &ee);
+        double s = re / rr, grow = 2 * s + ee / rr;                    /* (stretched length / length)^2 - 1 */
+        if (finite) s = grow > -1 ? grow / (1 + sqrt (1 + grow)) : -1;
+        u[b] = s > 0 ? s / limit : 0;
+        if (kind) kind[b] = 't';
+    }
+}
+
+/* Root of |xi + factor eta| = (1 + limit) |xi|: A f^2 + 2 B f + C = 0 with C < 0, without cancellation. */
+static double finite_root (double A, double B, double C)
+{
+    if (!(A > 0)) return INFINITY;
+    double root = sqrt (B * B - A * C);
+    return B >= 0 ? -C / (B + root) : (root - B) / A;
+}
+
+static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
+{
+    double limit = c->parameter[LIMIT], rr, re, ee;
+    int finite = c->parameter[FINITE] > 0;
+    for (size_t b = 0; b < m->n; b++) {
+        size_t at = b * (size_t) m->dim;
+        products (m->dim, m->xi + at, m->eta + at, &rr, &re, &ee);
+        if (finite) f[b] = finite_root (ee, re, -rr * limit * (2 + limit));
+        else f[b] = re > 0 ? limit * rr / re : INFINITY;
+    }
+}
+
+static void describe (const pg_criterion *c, char *text, size_t size)
+{
+    int energy = c->parameter[FROM_ENERGY] > 0;
+    snprintf (text, size, "%s stretch >= %.6g (%s), fracture energy %.6g J/m2 (%s)",
+              c->parameter[FINITE] > 0 ? "finite" : "linear", c->parameter[LIMIT], energy ? "derived" : "given",
+              c->parameter[ENERGY], energy ? "given" : "derived: estimate of bond-based theory");
+}
+
+const pg_criterion_type pg_criterion_stretch = {
+    .name = "stretch", .summary = "elongation of the bond reaches the critical stretch", .needs = PG_NEEDS_STRETCH,
+    .read = read, .utilisation = utilisation, .factor = factor, .describe = describe };

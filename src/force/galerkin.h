@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress, blocks, energy),
+ * galerkin_boundary.c (Nitsche, penalty, loads), galerkin_basis.c (elimination), galerkin_bonds.c (utilisation, overlap, census),
+ * galerkin_field.c (fields, gauges). */
+#ifndef PG_GALERKIN_H
+#define PG_GALERKIN_H
+#include "perigal/force.h"
+#include "perigal/stiffness.h"
+
+typedef struct {                                       /* a prescribed component at a facet point                        */
+    size_t point;
+    int    load, component;
+} pin;
+
+typedef struct {                                       /* one component's elimination: C_s d_s = g - C_m d_m             */
+    int     component;
+    size_t  n, nmaster;
+    int    *slave, *load;                              /* nodes, ascending, and the load that prescribes each            */
+    int    *master;                                    /* nodes coupled to the slaves, not slaves, ascending             */
+    double *inverse;                                   /* C_s^-1 (n x n); NULL: identity                                 */
+    double *X;                                         /* C_s^-1 C_m (n x nmaster)                                       */
+} elimination;
+
+typedef struct {
+    const pg_problem *problem;
+    int      dim, nv, threads, bulk;                   /* bulk: PG_NODES or PG_POINTS                                    */
+    size_t   n;                                        /* nodes                                                          */
+    pg_rows  rows[PG_BOND_SETS];                       /* geometry borrowed from the problem, values owned               */
+    int     *material[PG_BOND_SETS];                   /* per point                                                      */
+    double  *strain[PG_BOND_SETS], *stress[PG_BOND_SETS], *zz[PG_BOND_SETS], *u[PG_BOND_SETS];   /* of the last measure  */
+    double  *s1[PG_BOND_SETS], *s3[PG_BOND_SETS];
+    pg_stiffness *K;
+    pg_operator   op;
+    pin     *pin;  size_t npin;                        /* Nitsche, ascending by point                                    */
+    size_t  *pin_start;                                /* facet point -> pins                                            */
+    pin     *peg;  size_t npeg;                        /* penalty: point = index into peg_node                           */
+    int     *peg_node; size_t npegnode;
+    pg_family peg_family;                              /* constrained nodes -> nodes (copy of the node rows' families)   */
+    elimination side[3];
+    pg_sparse T;
+    int      has_T;
+    double  *work;                                     /* ndof                                                           */
+    const double *at_d;                                /* for workers                                                    */
+    size_t   nlist; size_t *list[PG_BOND_SETS];        /* touched points (scratch of refresh)                            */
+    unsigned char *mark;                               /* scratch: nodes or points                                       */
+} galerkin;
+
+/* bulk */
+void galerkin_measure (galerkin *g, int set, const double *d);         /* u, strain, stress, zz of every point            */
+void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out);
+void galerkin_bulk_force  (galerkin *g, const double *d, double *f);   /* f += internal force (after measure)             */
+double galerkin_bulk_energy (const galerkin *g, const double *d);
+const pg_material *galerkin_material (const galerkin *g, int set, size_t p);
+void galerkin_B_transpose (int dim, const double *grad, const double *stress, double *f);       /* f = B' stress          */
+/* boundary */
+pg_status galerkin_boundary_create (galerkin *g);
+void galerkin_boundary_free (galerkin *g);
+void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double *out);
+void galerkin_peg_blocks   (void *context, size_t p, size_t a, size_t m, double *out);
+/* residual += loads and boundary terms (after measure); external and reaction: squared norms for the reference */
+void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external, double *reaction);
+size_t galerkin_boundary_pairs (const galerkin *g);
+size_t galerkin_boundary_ledger (galerkin *g, double t, const double *d, pg_ledger *out);
+/* basis */
+pg_status galerkin_basis_create (galerkin *g);
+pg_status galerkin_basis_update (galerkin *g);
+void galerkin_basis_free (galerkin *g);
+const pg_sparse *galerkin_basis (void *self);
+pg_status galerkin_impose (void *self, double t, double *d);
+size_t galerkin_basis_ledger (galerkin *g, double t, const double *residual, pg_ledger *out, size_t at);
+/* bonds and fields */
+pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
+double galerkin_overlap (void *self, const pg_state *state, const double *d);
+void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
+pg_status galerkin_probe (void *self, const double *d, const double *x, double *u);
+#endif

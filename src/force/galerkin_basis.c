@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Essential conditions by transformation (theory E6): at the prescribed nodes sum_J N_J(x_s) d_J = g, solved for the slaves,
+ *   d_s = C_s^-1 (g - C_m d_m),   d = T d_m + ...,  T = [ -C_s^-1 C_m ; I ]  per component; K is reduced to T' K T. */
+#include "galerkin.h"
+#include <string.h>
+
+enum { MOST = 6000 };                                  /* slaves per component: the dense inverse stays below 300 MB      */
+
+void galerkin_basis_free (galerkin *g)
+{
+    for (int k = 0; k < 3; k++) {
+        elimination *e = &g->side[k];
+        pg_free (e->slave), pg_free (e->load), pg_free (e->master), pg_free (e->inverse), pg_free (e->X);
+        memset (e, 0, sizeof *e);
+    }
+    pg_sparse_clear (&g->T);
+}
+
+static pg_status find_slaves (galerkin *g, int k, int *role)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = g->problem;
+    elimination *e = &g->side[k];
+    size_t cap = 0, cap_load = 0;
+    e->component = k;
+    for (size_t i = 0; i < g->n; i++) role[i] = -1;
+    for (size_t l = p->nload; l-- > 0;) {              /* the first load wins                                            */
+        const pg_load *load = &p->load[l];
+        if (!pg_load_prescribes (load) || !load->value[k] || load->essential != PG_ESSENTIAL_TRANSFORMATION) continue;
+        for (size_t i = 0; i < load->set->npoint; i++) role[load->set->point[i]] = (int) l;
+    }
+    for (size_t i = 0; i < g->n; i++) {
+        if (role[i] < 0) continue;
+        PG_GROW (e->slave, cap, e->n + 1);
+        PG_GROW (e->load, cap_load, e->n + 1);
+        e->slave[e->n] = (int) i, e->load[e->n++] = role[i];
+    }
+done:
+    return status;
+}
+
+/* Nodes seen by slaves that are no slaves; none when N is the identity (NOSB). role: load index of slaves, else -1 / -2. */
+static pg_status find_masters (galerkin *g, int k, int *role)
+{
+    pg_status status = PG_OK;
+    elimination *e = &g->side[k];
+    const pg_family *f = &g->rows[PG_NODES].family;
+    size_t cap = 0;
+    if (strcmp (g->problem->approx.type->name, "nosb") == 0) goto done;
+    if (e->n > MOST) PG_FAIL (PG_E_LIMIT, "essential: transformation of %zu points in one direction needs too much memory (at most %d): use nitsche",
+                              e->n, MOST);
+    for (size_t s = 0; s < e->n; s++)
+        for (size_t q = f->start[e->slave[s]]; q < f->start[e->slave[s] + 1]; q++) if (role[f->node[q]] == -1) role[f->node[q]] = -2;
+    for (size_t i = 0; i < g->n; i++) {
+        if (role[i] != -2) continue;
+        PG_GROW (e->master, cap, e->nmaster + 1);
+        e->master[e->nmaster++] = (int) i;
+    }
+    PG_ALLOC (e->inverse, e->n * e->n);
+    PG_ALLOC (e->X, e->n * e->nmaster);
+done:
+    return status;
+}
+
+/* T: a column per free dof, ascending; pattern fixed for the run. */
+static pg_status make_T (galerkin *g)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) g->dim, ndof = g->n * dim, nnz = ndof, nslave = 0;
+    char *slave = NULL;
+    long *column = NULL;
+    PG_ALLOC (slave, ndof);
+    PG_ALLOC (column, ndof);
+    for (size_t k = 0; k < dim; k++) {
+        const elimination *e = &g->side[k];
+        nnz += e->n * e->nmaster, nslave += e->n;
+        for (size_t s = 0; s < e->n; s++) slave[(size_t) e->slave[s] * dim + k] = 1;
+    }
+    PG_TRY (pg_sparse_create (&g->T, ndof, ndof - nslave, nnz - nslave, 0));
+    long at = 0, col = 0;
+    for (size_t i = 0; i < ndof; i++) {
+        if (slave[i]) continue;
+        const elimination *e = &g->side[i % dim];
+        int is_master = 0;
+        for (size_t m = 0; m < e->nmaster && !is_master; m++) is_master = (size_t) e->master[m] == i / dim;
+        size_t s = 0;
+        for (; is_master && s < e->n && (size_t) e->slave[s] < i / dim; s++) g->T.row[at++] = (long) ((size_t) e->slave[s] * dim + i % dim);
+        g->T.value[at] = 1;
+        g->T.row[at++] = (long) i;
+        for (; is_master && s < e->n; s++) g->T.row[at++] = (long) ((size_t) e->slave[s] * dim + i % dim);
+        g->T.start[++col] = at;
+    }
+done:
+    pg_free (slave), pg_free (column);
+    return status;
+}
+
+/* Writes -X into T. */
+static void fill_T (galerkin *g)
+{
+    size_t dim = (size_t) g->dim;
+    for (size_t c = 0; c < g->T.ncol; c++) {
+        if (g->T.start[c + 1] - g->T.start[c] == 1) continue;
+        size_t k = (size_t) g->T.row[g->T.start[c]] % dim, m = 0, s = 0;
+        const elimination *e = &g->side[k];
+        long own = -1;
+        for (long q = g->T.start[c]; own < 0; q++) if (g->T.value[q] == 1) {     /* the unit entry: a master's own row   */
+            size_t node = (size_t) g->T.row[q] / dim;
+            for (m = 0; m < e->nmaster && (size_t) e->master[m] != node; m++) continue;
+            if (m < e->nmaster) own = q;
+        }
+        for (long q = g->T.start[c]; q < g->T.start[c + 1]; q++)
+            if (q != own) g->T.value[q] = -e->X[s++ * e->nmaster + m];
+    }
+}
+
+pg_status galerkin_basis_create (galerkin *g)
+{
+    pg_status status = PG_OK;
+    int *role = NULL;
+    size_t slaves = 0;
+    PG_ALLOC (role, g->n);
+    for (int k = 0; k < g->dim; k++) {
+        PG_TRY (find_slaves (g, k, role));
+        PG_TRY (find_masters (g, k, role));
+        slaves += g->side[k].n;
+    }
+    g->has_T = slaves > 0;
+    if (g->has_T) PG_TRY (make_T (g));
+done:
+    pg_free (role);
+    return status;
+}
+
+/* C_s as compressed columns of its transpose's rows: column j = slave j. */
+static pg_status slave_matrix (const galerkin *g, const elimination *e, const int *index, pg_sparse *C)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = &g->rows[PG_NODES];
+    size_t nnz = 0;
+    for (size_t s = 0; s < e->n; s++) nnz += r->family.start[e->slave[s] + 1] - r->family.start[e->slave[s]];
+    PG_TRY (pg_sparse_create (C, e->n, e->n, nnz, 0));
+    nnz = 0;
+    for (size_t s = 0; s < e->n; s++) {                /* column s holds row s of C_s: this is C_s'                      */
+        for (size_t q = r->family.start[e->slave[s]]; q < r->family.start[e->slave[s] + 1]; q++) {
+            if (index[r->family.node[q]] < 0) continue;
+            C->row[nnz] = index[r->family.node[q]];
+            C->value[nnz++] = r->N[q];
+        }
+        C->start[s + 1] = (long) nnz;
+    }
+done:
+    return status;
+}
+
+static pg_status update_side (galerkin *g, elimination *e, int *index)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = &g->rows[PG_NODES];
+    const pg_linear_type *lu = pg_linear_find ("umfpack");
+    pg_sparse C = { 0 };
+    void *solver = NULL;
+    double *unit = NULL;
+    if (e->n == 0 || !e->inverse) goto done;
+    for (size_t i = 0; i < g->n; i++) index[i] = -1;
+    for (size_t s = 0; s < e->n; s++) index[e->slave[s]] = (int) s;
+    PG_TRY (slave_matrix (g, e, index, &C));
+    PG_TRY (lu->analyse (&solver, &C, &(pg_linear_options) { 1, g->dim, g->threads, 0 }));
+    PG_TRY (lu->factor (solver, &C));
+    PG_ALLOC (unit, e->n);
+    for (size_t s = 0; s < e->n; s++) {                /* column s of C_s'^-1 is row s of C_s^-1                          */
+        unit[s] = 1;
+        PG_TRY (lu->solve (solver, 1, unit, e->inverse + s * e->n));
+        unit[s] = 0;
+    }
+    for (size_t m = 0; m < e->nmaster; m++) index[e->master[m]] = (int) (e->n + m);
+    memset (e->X, 0, e->n * e->nmaster * sizeof *e->X);
+    for (size_t j = 0; j < e->n; j++)
+        for (size_t q = r->family.start[e->slave[j]]; q < r->family.start[e->slave[j] + 1]; q++) {
+            int at = index[r->family.node[q]] - (int) e->n;
+            if (at < 0 || r->N[q] == 0) continue;
+            for (size_t s = 0; s < e->n; s++) e->X[s * e->nmaster + (size_t) at] += e->inverse[s * e->n + j] * r->N[q];
+        }
+done:
+    if (solver) lu->free (&solver);
+    pg_sparse_clear (&C);
+    pg_free (unit);
+    return status;
+}
+
+pg_status galerkin_basis_update (galerkin *g)
+{
+    pg_status status = PG_OK;
+    int *index = NULL;
+    if (!g->has_T) return PG_OK;
+    PG_ALLOC (index, g->n);
+    for (int k = 0; k < g->dim; k++)
+        if (update_side (g, &g->side[k], index) != PG_OK)
+            PG_FAIL (PG_E_SINGULAR, "essential: transformation of component %c failed (%s): use nitsche or penalty", "xyz"[k], pg_last_error ());
+    fill_T (g);
+done:
+    pg_free (index);
+    return status;
+}
+
+const pg_sparse *galerkin_basis (void *self)
+{
+    galerkin *g = self;
+    return g->has_T ? &g->T : NULL;
+}
+
+static double goal_of (const galerkin *g, const elimination *e, size_t s, double t)
+{
+    return pg_load_value (&g->problem->load[e->load[s]], e->component, g->dim, g->problem->cloud.x + (size_t) e->slave[s] * (size_t) g->dim, t);
+}
+
+pg_status galerkin_impose (void *self, double t, double *d)
+{
+    galerkin *g = self;
+    size_t dim = (size_t) g->dim;
+    for (size_t k = 0; k < dim; k++) {
+        const elimination *e = &g->side[k];
+        for (size_t s = 0; s < e->n; s++) {
+            double value = 0;
+            if (!e->inverse) value = goal_of (g, e, s, t);
+            else for (size_t j = 0; j < e->n; j++) value += e->inverse[s * e->n + j] * goal_of (g, e, j, t);
+            for (size_t m = 0; m < e->nmaster; m++) value -= e->X[s * e->nmaster + m] * d[(size_t) e->master[m] * dim + k];
+            d[(size_t) e->slave[s] * dim + k] = value;
+        }
+    }
+    return PG_OK;
+}
+
+/* Support forces: residual = -C' lambda on the slaves, lambda = -C_s^-T r_s. */
+size_t galerkin_basis_ledger (galerkin *g, double t, const double *residual, pg_ledger *out, size_t at)
+{
+    size_t dim = (size_t) g->dim;
+    for (size_t k = 0; k < dim; k++) {
+        const elimination *e = &g->side[k];
+        for (size_t s = 0; s < e->n; s++, at++) {
+            double force = 0;
+            if (!e->inverse) force = -residual[(size_t) e->slave[s] * dim + k];
+            else for (size_t j = 0; j < e->n; j++) force -= e->inverse[j * e->n + s] * residual[(size_t) e->slave[j] * dim + k];
+            out->force[at] = force, out->displacement[at] = goal_of (g, e, s, t);
+            out->reaction[e->load[s] * 3 + (int) k] += force;
+        }
+    }
+    return at;
+}

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What the bonds show: utilisation of each live bond from stretch or mean principal stress of its two ends (Cui 2022 section 1.1,
+ * theory F2: displacements and stresses are those of the shape functions, not the coefficients), overlap, census. */
+#include "galerkin.h"
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+    galerkin *g;
+    const pg_state *state;
+    int     set;
+    double *utilisation, *factor;
+    char   *kind;
+} sweep;
+
+enum { BATCH = 128 };
+
+/* Evaluates the criterion on `count` live bonds of point p. */
+static void judge (const sweep *s, size_t p, size_t count, const size_t *bond)
+{
+    const galerkin *g = s->g;
+    const pg_rows *r = &g->rows[s->set];
+    const pg_criterion *c = &g->problem->criterion;
+    size_t dim = (size_t) g->dim, base = g->problem->first_bond[s->set];
+    double xi[BATCH * 3], eta[BATCH * 3], s1[BATCH], s3[BATCH], out[BATCH];
+    char kind[BATCH];
+    for (size_t k = 0; k < count; k++) {
+        size_t j = (size_t) r->family.node[bond[k]];
+        for (size_t a = 0; a < dim; a++) {
+            xi[k * dim + a] = g->problem->cloud.x[j * dim + a] - r->x[p * dim + a];
+            eta[k * dim + a] = g->u[PG_NODES][j * dim + a] - g->u[s->set][p * dim + a];
+        }
+        s1[k] = 0.5 * (g->s1[s->set][p] + g->s1[PG_NODES][j]);
+        s3[k] = 0.5 * (g->s3[s->set][p] + g->s3[PG_NODES][j]);
+    }
+    pg_bond_measures m = { count, g->dim, xi, eta, s1, s3 };
+    if (s->utilisation) {
+        c->type->utilisation (c, &m, out, kind);
+        for (size_t k = 0; k < count; k++) {
+            s->utilisation[base + bond[k]] = out[k];
+            if (s->kind) s->kind[base + bond[k]] = kind[k];
+        }
+    }
+    if (s->factor) {
+        c->type->factor (c, &m, out);
+        for (size_t k = 0; k < count; k++) s->factor[base + bond[k]] = out[k];
+    }
+}
+
+static void sweep_points (void *context, size_t first, size_t last, int thread)
+{
+    const sweep *s = context;
+    const galerkin *g = s->g;
+    const pg_rows *r = &g->rows[s->set];
+    const unsigned char *alive = s->state->alive + g->problem->first_bond[s->set];
+    size_t base = g->problem->first_bond[s->set], bond[BATCH];
+    (void) thread;
+    for (size_t p = first; p < last; p++) {
+        size_t count = 0;
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
+            int j = r->family.node[e];
+            if (s->utilisation) s->utilisation[base + e] = 0;
+            if (s->factor) s->factor[base + e] = INFINITY;
+            if (!alive[e] || j == r->own[p] || g->problem->exempt[s->set][p] || g->problem->exempt[PG_NODES][j]) continue;
+            bond[count++] = e;
+            if (count == BATCH) judge (s, p, count, bond), count = 0;
+        }
+        if (count) judge (s, p, count, bond);
+    }
+}
+
+pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor)
+{
+    galerkin *g = self;
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        const pg_rows *r = &g->rows[set];
+        if (r->n == 0) continue;
+        galerkin_measure (g, set, d);
+        for (size_t p = 0; p < r->n; p++) {
+            double principal[3];
+            pg_principal (g->dim, 1, g->stress[set] + p * (size_t) g->nv, g->zz[set] + p, principal);
+            g->s1[set][p] = principal[0], g->s3[set][p] = principal[2];
+        }
+    }
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        sweep s = { g, state, set, utilisation, factor, kind };
+        pg_parallel (g->threads, g->rows[set].n, sweep_points, &s);
+    }
+    return PG_OK;
+}
+
+/* Approach of the ends of a dead node-node bond beyond their own elastic shortening, largest (m). */
+double galerkin_overlap (void *self, const pg_state *state, const double *d)
+{
+    galerkin *g = self;
+    const pg_rows *r = &g->rows[PG_NODES];
+    size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
+    double worst = 0, limit = 1.5 * g->problem->cloud.h;
+    galerkin_measure (g, PG_NODES, d);
+    for (size_t p = 0; p < r->n; p++)
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
+            size_t j = (size_t) r->family.node[e];
+            if (state->alive[e] || j <= p) continue;
+            if (r->grade[p] >= PG_GRADE_SHEPARD || r->grade[j] >= PG_GRADE_SHEPARD) continue;
+            double xi[3], rr = 0, approach = 0, elastic = 0;
+            for (size_t a = 0; a < dim; a++) xi[a] = r->x[j * dim + a] - r->x[p * dim + a], rr += xi[a] * xi[a];
+            if (rr > limit * limit) continue;
+            for (size_t a = 0; a < dim; a++) approach -= xi[a] * (g->u[PG_NODES][j * dim + a] - g->u[PG_NODES][p * dim + a]);
+            const double *ei = g->strain[PG_NODES] + p * nv, *ej = g->strain[PG_NODES] + j * nv;
+            for (size_t a = 0; a < dim; a++) elastic -= 0.5 * (ei[a] + ej[a]) * xi[a] * xi[a];
+            if (dim == 2) elastic -= 0.5 * (ei[2] + ej[2]) * xi[0] * xi[1];
+            if (dim == 3) elastic -= 0.5 * ((ei[3] + ej[3]) * xi[0] * xi[1] + (ei[4] + ej[4]) * xi[1] * xi[2] + (ei[5] + ej[5]) * xi[2] * xi[0]);
+            double overlap = (approach - fmax (elastic, 0)) / sqrt (rr);
+            if (overlap > worst) worst = overlap;
+        }
+    return worst;
+}
+
+static int root (int *parent, int i)
+{
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
+{
+    galerkin *g = self;
+    const pg_rows *r = &g->rows[g->bulk];
+    int *parent = pg_calloc (g->n, sizeof *parent), *size = pg_calloc (g->n, sizeof *size);
+    *degenerate = *isolated = *fragments = 0;
+    for (size_t p = 0; p < r->n; p++) *degenerate += r->grade[p] >= PG_GRADE_SHEPARD;
+    if (parent && size) {
+        for (size_t i = 0; i < g->n; i++) parent[i] = (int) i;
+        for (size_t p = 0; p < r->n; p++) {
+            int first = -1;
+            if (r->grade[p] >= PG_GRADE_SHEPARD) continue;
+            for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
+                if (r->w[e] == 0 && r->family.node[e] != r->own[p]) continue;
+                if (first < 0) first = root (parent, r->family.node[e]);
+                else parent[root (parent, r->family.node[e])] = first = root (parent, first);
+            }
+        }
+        for (size_t i = 0; i < g->n; i++) size[root (parent, (int) i)]++;
+        for (size_t i = 0; i < g->n; i++) *isolated += size[i] == 1, *fragments += size[i] > 1;
+        if (*fragments) --*fragments;                  /* the body itself is none                                        */
+    }
+    pg_free (parent), pg_free (size);
+}

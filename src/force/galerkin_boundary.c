@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Loads and essential conditions of the Galerkin form (theory E6): Nitsche on facet points,
+ *   R_v += int v_k (sigma n)_k + int (sigma(v) n)_k (u_k - g_k) - beta int v_k (u_k - g_k),   beta = nitsche E / h,
+ * penalty on nodes, tractions and pressures on facets, point and body forces. */
+#include "galerkin.h"
+#include <math.h>
+#include <string.h>
+
+static int member (const int *list, size_t n, int value)
+{
+    size_t lo = 0, hi = n;
+    while (lo < hi) {
+        size_t mid = (lo + hi) / 2;
+        if (list[mid] < value) lo = mid + 1;
+        else hi = mid;
+    }
+    return lo < n && list[lo] == value;
+}
+
+static int free_by (const pg_problem *p, const pg_load *load, int k)    /* component k is not prescribed by the load        */
+{
+    return k >= p->dim || !pg_load_prescribes (load) || !load->value[k];
+}
+
+/* Nitsche pins, ascending by point; a component that two loads prescribe belongs to the first. */
+static pg_status make_pins (galerkin *g)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = g->problem;
+    const pg_rows *r = &g->rows[PG_FACETS];
+    size_t cap = 0;
+    PG_ALLOC (g->pin_start, r->n + 1);
+    for (size_t q = 0; q < r->n; q++) {
+        unsigned taken = 0;
+        for (size_t l = 0; l < p->nload; l++) {
+            const pg_load *load = &p->load[l];
+            if (load->essential != PG_ESSENTIAL_NITSCHE || !member (load->set->facet, load->set->nfacet, r->cell[q])) continue;
+            for (int k = 0; k < g->dim; k++) {
+                if (free_by (p, load, k) || (taken >> k & 1)) continue;
+                PG_GROW (g->pin, cap, g->npin + 1);
+                g->pin[g->npin++] = (pin) { q, (int) l, k };
+                taken |= 1u << k;
+            }
+        }
+        g->pin_start[q + 1] = g->npin;
+    }
+done:
+    return status;
+}
+
+/* Penalty pegs and the families of their nodes. */
+static pg_status make_pegs (galerkin *g)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = g->problem;
+    const pg_family *f = &g->rows[PG_NODES].family;
+    size_t cap = 0, cap_node = 0, cap_start = 0, cap_entry = 0, nnz = 0;
+    for (size_t i = 0; i < g->n; i++) {
+        unsigned taken = 0;
+        for (size_t l = 0; l < p->nload; l++) {
+            const pg_load *load = &p->load[l];
+            if (load->essential != PG_ESSENTIAL_PENALTY || !member (load->set->point, load->set->npoint, (int) i)) continue;
+            for (int k = 0; k < g->dim; k++) {
+                if (free_by (p, load, k) || (taken >> k & 1)) continue;
+                PG_GROW (g->peg, cap, g->npeg + 1);
+                g->peg[g->npeg++] = (pin) { g->npegnode, (int) l, k };
+                taken |= 1u << k;
+            }
+        }
+        if (!taken) continue;
+        PG_GROW (g->peg_node, cap_node, g->npegnode + 1);
+        PG_GROW (g->peg_family.start, cap_start, g->npegnode + 2);
+        PG_GROW (g->peg_family.node, cap_entry, nnz + f->start[i + 1] - f->start[i]);
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) g->peg_family.node[nnz++] = f->node[e];
+        g->peg_node[g->npegnode++] = (int) i;
+        g->peg_family.start[g->npegnode] = nnz;
+        g->peg_family.n = g->npegnode;
+    }
+done:
+    return status;
+}
+
+pg_status galerkin_boundary_create (galerkin *g)
+{
+    pg_status status = make_pins (g);
+    return status == PG_OK ? make_pegs (g) : status;
+}
+
+void galerkin_boundary_free (galerkin *g)
+{
+    pg_free (g->pin), pg_free (g->pin_start), pg_free (g->peg), pg_free (g->peg_node);
+    pg_family_clear (&g->peg_family);
+}
+
+/* Q . sigma = (sigma n)_k in Voigt form */
+static void traction_row (int dim, int k, const double *n, double *Q)
+{
+    static const int voigt3[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } }, voigt2[2][2] = { { 0, 2 }, { 2, 1 } };
+    memset (Q, 0, 6 * sizeof *Q);
+    for (int c = 0; c < dim; c++) Q[dim == 3 ? voigt3[k][c] : dim == 2 ? voigt2[k][c] : 0] += n[c];
+}
+
+static double beta (const galerkin *g, size_t q)
+{
+    return g->problem->nitsche * galerkin_material (g, PG_FACETS, q)->modulus / g->problem->cloud.h;
+}
+
+static const double *normal (const galerkin *g, size_t q)
+{
+    return g->problem->cells.normal + (size_t) g->rows[PG_FACETS].cell[q] * (size_t) g->dim;
+}
+
+/* QD: the Voigt vector D' Q, so that (sigma(v) n)_k = QD . B v */
+static void traction_of_strain (const galerkin *g, size_t q, int k, double *QD)
+{
+    double Q[6];
+    const double *D = galerkin_material (g, PG_FACETS, q)->D;
+    traction_row (g->dim, k, normal (g, q), Q);
+    for (int v = 0; v < g->nv; v++) {
+        QD[v] = 0;
+        for (int w = 0; w < g->nv; w++) QD[v] += D[w * g->nv + v] * Q[w];
+    }
+}
+
+void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double *out)
+{
+    galerkin *g = context;
+    const pg_rows *r = &g->rows[PG_FACETS];
+    size_t dim = (size_t) g->dim, first = r->family.start[p];
+    double w = r->weight[p], QD[6], ta[3], tb[3];
+    for (size_t i = g->pin_start[p]; i < g->pin_start[p + 1]; i++) {
+        size_t k = (size_t) g->pin[i].component;
+        double Na = r->N[first + a];
+        traction_of_strain (g, p, (int) k, QD);
+        galerkin_B_transpose (g->dim, r->dN + (first + a) * dim, QD, ta);
+        for (size_t b = 0; b < m; b++) {
+            double Nb = r->N[first + b], *K = out + b * dim * dim;
+            galerkin_B_transpose (g->dim, r->dN + (first + b) * dim, QD, tb);
+            for (size_t c = 0; c < dim; c++) {
+                K[k * dim + c] -= w * Na * tb[c];
+                K[c * dim + k] -= w * ta[c] * Nb;
+            }
+            K[k * dim + k] += w * beta (g, p) * Na * Nb;
+        }
+    }
+}
+
+static double penalty (const galerkin *g, int node)
+{
+    const pg_problem *p = g->problem;
+    return p->penalty * galerkin_material (g, PG_NODES, (size_t) node)->modulus / (p->cloud.h * p->cloud.h) * p->cloud.volume[node];
+}
+
+void galerkin_peg_blocks (void *context, size_t p, size_t a, size_t m, double *out)
+{
+    galerkin *g = context;
+    const pg_rows *r = &g->rows[PG_NODES];
+    size_t dim = (size_t) g->dim, first = r->family.start[g->peg_node[p]];
+    for (size_t i = 0; i < g->npeg; i++) {
+        if (g->peg[i].point != p) continue;
+        size_t k = (size_t) g->peg[i].component;
+        for (size_t b = 0; b < m; b++)
+            out[b * dim * dim + k * dim + k] += penalty (g, g->peg_node[p]) * r->N[first + a] * r->N[first + b];
+    }
+}
+
+/* ---- what each term adds ------------------------------------------------------------------------------------------------
+ * visit (context, set, point, load, component, force, displacement): `force` acts on the body at that point of that set. */
+typedef void (*visitor) (void *context, int set, size_t point, int load, int k, double force, double displacement);
+
+static double pin_traction (const galerkin *g, const pin *q, double gap)
+{
+    double Q[6], t = 0;
+    const double *s = g->stress[PG_FACETS] + q->point * (size_t) g->nv;
+    traction_row (g->dim, q->component, normal (g, q->point), Q);
+    for (int v = 0; v < g->nv; v++) t += Q[v] * s[v];
+    return t - beta (g, q->point) * gap;
+}
+
+static void visit_supports (const galerkin *g, double t, visitor visit, void *context)
+{
+    size_t dim = (size_t) g->dim;
+    for (size_t i = 0; i < g->npin; i++) {
+        const pin *q = &g->pin[i];
+        double u = g->u[PG_FACETS][q->point * dim + (size_t) q->component];
+        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_FACETS].x + q->point * dim, t);
+        visit (context, PG_FACETS, q->point, q->load, q->component, g->rows[PG_FACETS].weight[q->point] * pin_traction (g, q, u - goal), goal);
+    }
+    for (size_t i = 0; i < g->npeg; i++) {
+        const pin *q = &g->peg[i];
+        size_t node = (size_t) g->peg_node[q->point];
+        double u = g->u[PG_NODES][node * dim + (size_t) q->component];
+        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_NODES].x + node * dim, t);
+        visit (context, PG_NODES, node, q->load, q->component, -penalty (g, (int) node) * (u - goal), goal);
+    }
+}
+
+static void visit_facet_load (const galerkin *g, double t, int l, visitor visit, void *context)
+{
+    const pg_load *load = &g->problem->load[l];
+    const pg_rows *r = &g->rows[PG_FACETS];
+    size_t dim = (size_t) g->dim;
+    for (size_t q = 0; q < r->n; q++) {
+        if (!member (load->set->facet, load->set->nfacet, r->cell[q])) continue;
+        for (size_t k = 0; k < dim; k++) {
+            int pressure = load->kind == PG_PRESSURE;
+            double f = pg_load_value (load, pressure ? 0 : (int) k, g->dim, r->x + q * dim, t);
+            visit (context, PG_FACETS, q, l, (int) k, r->weight[q] * (pressure ? -f * normal (g, q)[k] : f), g->u[PG_FACETS][q * dim + k]);
+        }
+    }
+}
+
+static void visit_point_load (const galerkin *g, double t, int l, visitor visit, void *context)
+{
+    const pg_load *load = &g->problem->load[l];
+    size_t dim = (size_t) g->dim;
+    int everywhere = load->kind == PG_BODY_FORCE && load->set->npoint == g->n, set = everywhere ? g->bulk : PG_NODES;
+    const pg_rows *r = &g->rows[set];
+    size_t count = everywhere ? r->n : load->set->npoint;
+    for (size_t i = 0; i < count; i++) {
+        size_t q = everywhere ? i : (size_t) load->set->point[i];
+        double share = load->kind == PG_BODY_FORCE ? r->weight[q] : 1 / (double) load->set->npoint;
+        for (size_t k = 0; k < dim; k++)
+            visit (context, set, q, l, (int) k, share * pg_load_value (load, (int) k, g->dim, r->x + q * dim, t), g->u[set][q * dim + k]);
+    }
+}
+
+static void visit_loads (const galerkin *g, double t, visitor visit, void *context)
+{
+    for (size_t l = 0; l < g->problem->nload; l++) {
+        pg_load_kind kind = g->problem->load[l].kind;
+        if (kind == PG_TRACTION || kind == PG_PRESSURE) visit_facet_load (g, t, (int) l, visit, context);
+        if (kind == PG_POINT_FORCE || kind == PG_BODY_FORCE) visit_point_load (g, t, (int) l, visit, context);
+    }
+}
+
+typedef struct { galerkin *g; double *f; } spreading;
+
+static void spread (void *context, int set, size_t point, int load, int k, double force, double displacement)
+{
+    const spreading *s = context;
+    const pg_rows *r = &s->g->rows[set];
+    (void) load, (void) displacement;
+    for (size_t e = r->family.start[point]; e < r->family.start[point + 1]; e++)
+        s->f[(size_t) r->family.node[e] * (size_t) s->g->dim + (size_t) k] += r->N[e] * force;
+}
+
+static double squared (const double *a, size_t n)
+{
+    double s = 0;
+    for (size_t i = 0; i < n; i++) s += a[i] * a[i];
+    return s;
+}
+
+/* int (sigma(v) n)_k (u_k - g_k): the symmetric counterpart, no force on the body */
+static void add_adjoint (galerkin *g, double t, double *f)
+{
+    const pg_rows *r = &g->rows[PG_FACETS];
+    size_t dim = (size_t) g->dim;
+    for (size_t i = 0; i < g->npin; i++) {
+        const pin *q = &g->pin[i];
+        double QD[6], part[3], goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, r->x + q->point * dim, t);
+        double gap = r->weight[q->point] * (g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal);
+        traction_of_strain (g, q->point, q->component, QD);
+        for (size_t e = r->family.start[q->point]; e < r->family.start[q->point + 1]; e++) {
+            galerkin_B_transpose (g->dim, r->dN + e * dim, QD, part);
+            for (size_t c = 0; c < dim; c++) f[(size_t) r->family.node[e] * dim + c] += gap * part[c];
+        }
+    }
+}
+
+void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external, double *reaction)
+{
+    size_t ndof = g->n * (size_t) g->dim;
+    spreading s = { g, g->work };
+    (void) d;
+    memset (g->work, 0, ndof * sizeof *g->work);
+    visit_loads (g, t, spread, &s);
+    *external = squared (g->work, ndof);
+    for (size_t i = 0; i < ndof; i++) residual[i] += g->work[i];
+    memset (g->work, 0, ndof * sizeof *g->work);
+    visit_supports (g, t, spread, &s);
+    *reaction = squared (g->work, ndof);
+    add_adjoint (g, t, g->work);
+    for (size_t i = 0; i < ndof; i++) residual[i] += g->work[i];
+}
+
+/* ---- ledger ---------------------------------------------------------------------------------------------------------- */
+static void count_pair (void *context, int set, size_t point, int load, int k, double force, double displacement)
+{
+    (void) set, (void) point, (void) load, (void) k, (void) force, (void) displacement;
+    ++*(size_t *) context;
+}
+
+size_t galerkin_boundary_pairs (const galerkin *g)
+{
+    size_t n = 0;
+    visit_supports (g, 0, count_pair, &n);
+    visit_loads (g, 0, count_pair, &n);
+    return n;
+}
+
+typedef struct { pg_ledger *out; size_t at; } writing;
+
+static void write_pair (void *context, int set, size_t point, int load, int k, double force, double displacement)
+{
+    writing *w = context;
+    (void) set, (void) point;
+    w->out->force[w->at] = force, w->out->displacement[w->at++] = displacement;
+    w->out->reaction[load * 3 + k] += force;
+}
+
+size_t galerkin_boundary_ledger (galerkin *g, double t, const double *d, pg_ledger *out)
+{
+    writing w = { out, 0 };
+    (void) d;
+    visit_supports (g, t, write_pair, &w);
+    visit_loads (g, t, write_pair, &w);
+    return w.at;
+}

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Galerkin bulk terms: eps = B d, sigma = D eps, K_ab = w B_a' D B_b (+ stabilisation), f_a = w B_a' sigma.
+ * Cui 2022 eqs (6), (7); theory D1: with nodal integration and NOSB derivatives this is NOSB-PD itself. */
+#include "galerkin.h"
+#include <string.h>
+
+const pg_material *galerkin_material (const galerkin *g, int set, size_t p) { return &g->problem->material[g->material[set][p]]; }
+
+/* strain += B_a d for one node: Voigt xx yy zz xy yz zx, engineering shears */
+static void add_strain (int dim, const double *q, const double *d, double *e)
+{
+    if (dim == 1) e[0] += q[0] * d[0];
+    else if (dim == 2) e[0] += q[0] * d[0], e[1] += q[1] * d[1], e[2] += q[1] * d[0] + q[0] * d[1];
+    else {
+        e[0] += q[0] * d[0], e[1] += q[1] * d[1], e[2] += q[2] * d[2];
+        e[3] += q[1] * d[0] + q[0] * d[1], e[4] += q[2] * d[1] + q[1] * d[2], e[5] += q[2] * d[0] + q[0] * d[2];
+    }
+}
+
+void galerkin_B_transpose (int dim, const double *q, const double *s, double *f)
+{
+    if (dim == 1) f[0] = q[0] * s[0];
+    else if (dim == 2) f[0] = q[0] * s[0] + q[1] * s[2], f[1] = q[1] * s[1] + q[0] * s[2];
+    else {
+        f[0] = q[0] * s[0] + q[1] * s[3] + q[2] * s[5];
+        f[1] = q[1] * s[1] + q[0] * s[3] + q[2] * s[4];
+        f[2] = q[2] * s[2] + q[1] * s[4] + q[0] * s[5];
+    }
+}
+
+typedef struct { galerkin *g; int set; const double *d; } measuring;
+
+static void measure_points (void *context, size_t first, size_t last, int thread)
+{
+    const measuring *m = context;
+    galerkin *g = m->g;
+    const pg_rows *r = &g->rows[m->set];
+    size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
+    (void) thread;
+    for (size_t p = first; p < last; p++) {
+        double *u = g->u[m->set] + p * dim, *e = g->strain[m->set] + p * nv;
+        memset (u, 0, dim * sizeof *u);
+        memset (e, 0, nv * sizeof *e);
+        for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+            const double *d = m->d + (size_t) r->family.node[k] * dim;
+            for (size_t c = 0; c < dim; c++) u[c] += r->N[k] * d[c];
+            add_strain (g->dim, r->dN + k * dim, d, e);
+        }
+        const pg_material *mat = galerkin_material (g, m->set, p);
+        mat->type->stress (mat, 1, e, g->stress[m->set] + p * nv, g->zz[m->set] + p);
+    }
+}
+
+void galerkin_measure (galerkin *g, int set, const double *d)
+{
+    measuring m = { g, set, d };
+    pg_parallel (g->threads, g->rows[set].n, measure_points, &m);
+}
+
+static double stabilisation (const galerkin *g, size_t p)
+{
+    const pg_material *m = galerkin_material (g, g->bulk, p);
+    double mu = m->parameter[0] / (2 * (1 + m->parameter[1]));
+    return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->problem->silling * mu;
+}
+
+/* block (dim x dim) = w (D B_a)' B_b, DB_a kept as dim x nv */
+static void block_of (int dim, const double *DB, const double *q, double *k)
+{
+    size_t nv = dim == 1 ? 1 : dim == 2 ? 3 : 6;
+    for (int r = 0; r < dim; r++) galerkin_B_transpose (dim, q, DB + (size_t) r * nv, k + r * dim);
+}
+
+void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out)
+{
+    galerkin *g = context;
+    const pg_rows *r = &g->rows[g->bulk];
+    size_t dim = (size_t) g->dim, nv = (size_t) g->nv, first = r->family.start[p];
+    const double *D = galerkin_material (g, g->bulk, p)->D, *qa = r->dN + (first + a) * dim;
+    double DB[18], unit[3];
+    if (r->weight[p] == 0) return;
+    for (size_t c = 0; c < dim; c++)                   /* row c of (D B_a)': D applied to the strain of a unit dof        */
+        for (size_t v = 0; v < nv; v++) {
+            double row[6] = { 0 };
+            memset (unit, 0, sizeof unit);
+            unit[c] = 1;
+            add_strain (g->dim, qa, unit, row);
+            DB[c * nv + v] = 0;
+            for (size_t w = 0; w < nv; w++) DB[c * nv + v] += D[v * nv + w] * row[w];
+            DB[c * nv + v] *= r->weight[p];
+        }
+    for (size_t b = 0; b < m; b++) block_of (g->dim, DB, r->dN + (first + b) * dim, out + b * dim * dim);
+    double Gs = g->problem->silling > 0 ? stabilisation (g, p) : 0;
+    if (Gs > 0) pg_silling_add (r, &g->problem->cloud, p, a, m, Gs, r->weight[p], out);
+}
+
+/* f += Silling forces of point p: f_l = c (w_l z_l - M g_l), z = eta - H xi, M = sum w z xi (theory D3a); returns the energy. */
+static double silling_force (const galerkin *g, size_t p, const double *d, double *f)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    size_t dim = (size_t) g->dim, own = (size_t) r->own[p];
+    double H[9] = { 0 }, M[9] = { 0 }, q = 0, energy = 0, modulus = stabilisation (g, p);
+    if (modulus == 0) return 0;
+    for (int pass = 0; pass < 3; pass++) {
+        double c = q > 0 ? r->weight[p] * modulus * (double) (dim * (dim + 2)) / q : 0;
+        for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+            size_t j = (size_t) r->family.node[k];
+            if (r->w[k] == 0 || j == own) continue;
+            double xi[3], z[3];
+            for (size_t a = 0; a < dim; a++) xi[a] = g->problem->cloud.x[j * dim + a] - r->x[p * dim + a];
+            for (size_t a = 0; a < dim; a++) {
+                z[a] = d[j * dim + a] - d[own * dim + a];
+                if (pass > 0) for (size_t b = 0; b < dim; b++) z[a] -= H[a*3 + b] * xi[b];
+            }
+            for (size_t a = 0; a < dim; a++) {
+                double force = c * r->w[k] * z[a];
+                if (pass == 0) q += r->w[k] * xi[a] * xi[a];
+                for (size_t b = 0; b < dim; b++) {
+                    if (pass == 0) H[a*3 + b] += z[a] * r->dN[k * dim + b];
+                    if (pass == 1) M[a*3 + b] += r->w[k] * z[a] * xi[b];
+                    if (pass == 2) force -= c * M[a*3 + b] * r->dN[k * dim + b];
+                }
+                if (pass == 2 && f) f[j * dim + a] += force, f[own * dim + a] -= force;
+                if (pass == 2) energy += 0.5 * c * r->w[k] * z[a] * z[a];
+            }
+        }
+    }
+    return energy;
+}
+
+void galerkin_bulk_force (galerkin *g, const double *d, double *f)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
+    for (size_t p = 0; p < r->n; p++) {
+        const double *s = g->stress[g->bulk] + p * nv;
+        double part[3];
+        for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+            galerkin_B_transpose (g->dim, r->dN + k * dim, s, part);
+            for (size_t c = 0; c < dim; c++) f[(size_t) r->family.node[k] * dim + c] += r->weight[p] * part[c];
+        }
+        if (g->problem->silling > 0) silling_force (g, p, d, f);
+    }
+}
+
+double galerkin_bulk_energy (const galerkin *g, const double *d)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    size_t nv = (size_t) g->nv;
+    double sum = 0;
+    for (size_t p = 0; p < r->n; p++) {
+        double w = 0;
+        for (size_t v = 0; v < nv; v++) w += 0.5 * g->stress[g->bulk][p * nv + v] * g->strain[g->bulk][p * nv + v];
+        sum += r->weight[p] * w;
+        if (g->problem->silling > 0) sum += silling_force (g, p, d, NULL);
+    }
+    return sum;
+}

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Fields at the nodes and displacement at any place, from the nodal shape functions. */
+#include "galerkin.h"
+#include <string.h>
+
+/* Share of dead bonds among all that end at a node, node-node and point-node. */
+static void damage (const galerkin *g, const pg_state *state, double *value)
+{
+    double *all = g->work;
+    memset (value, 0, g->n * sizeof *value);
+    memset (all, 0, g->n * sizeof *all);
+    for (int set = PG_NODES; set <= PG_POINTS; set++) {
+        const pg_family *f = &g->rows[set].family;
+        const unsigned char *alive = state->alive + g->problem->first_bond[set];
+        for (size_t p = 0; p < f->n; p++)
+            for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
+                int j = f->node[e];
+                if (j == g->rows[set].own[p]) continue;
+                all[j]++, value[j] += !alive[e];
+            }
+    }
+    for (size_t i = 0; i < g->n; i++) value[i] = all[i] > 0 ? value[i] / all[i] : 0;
+}
+
+pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value)
+{
+    galerkin *g = self;
+    size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
+    *components = 0, *unit = "";
+    if (strcmp (name, "damage") == 0) {
+        *components = 1;
+        damage (g, state, value);
+        return PG_OK;
+    }
+    if (strcmp (name, "displacement") == 0 || strcmp (name, "velocity") == 0) {
+        *components = g->dim, *unit = *name == 'd' ? "m" : "m/s";
+        galerkin_measure (g, PG_NODES, *name == 'd' ? d : state->v);
+        memcpy (value, g->u[PG_NODES], g->n * dim * sizeof *value);
+    } else if (strcmp (name, "strain") == 0 || strcmp (name, "stress") == 0) {
+        *components = g->nv, *unit = strcmp (name, "stress") == 0 ? "Pa" : "";
+        galerkin_measure (g, PG_NODES, d);
+        memcpy (value, **unit ? g->stress[PG_NODES] : g->strain[PG_NODES], g->n * nv * sizeof *value);
+    }
+    return PG_OK;
+}
+
+/* First-order expansion about the nearest node: u_i + grad u_i (x - x_i), so that the two faces of a crack stay apart. */
+pg_status galerkin_probe (void *self, const double *d, const double *x, double *u)
+{
+    galerkin *g = self;
+    const pg_rows *r = &g->rows[PG_NODES];
+    size_t dim = (size_t) g->dim, nearest = 0;
+    double best = -1;
+    for (size_t i = 0; i < g->n; i++) {
+        double s = 0;
+        for (size_t k = 0; k < dim; k++) s += (r->x[i * dim + k] - x[k]) * (r->x[i * dim + k] - x[k]);
+        if (best < 0 || s < best) best = s, nearest = i;
+    }
+    memset (u, 0, 3 * sizeof *u);
+    for (size_t e = r->family.start[nearest]; e < r->family.start[nearest + 1]; e++) {
+        double N = r->N[e];
+        for (size_t k = 0; k < dim; k++) N += r->dN[e * dim + k] * (x[k] - r->x[nearest * dim + k]);
+        for (size_t k = 0; k < dim; k++) u[k] += N * d[(size_t) r->family.node[e] * dim + k];
+    }
+    return PG_OK;
+}

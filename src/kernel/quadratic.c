@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * w = 1 - q^2. */
+#include "entries.h"
+
+static void value (size_t n, const double *q, double *w, double *dw)
+{
+    for (size_t i = 0; i < n; i++) w[i] = q[i] < 1 ? (1 - q[i]) * (1 + q[i]) : 0;
+    for (size_t i = 0; dw && i < n; i++) dw[i] = q[i] < 1 ? -2 * q[i] : 0;
+}
+
+const pg_kernel pg_kernel_quadratic = { "quadratic", "1 - q^2 (Shen 2016 eq (12))", 0, value };

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The list of linear solvers. */
+#include "perigal/linalg.h"
+#include <string.h>
+
+#define PG_LINEAR(name) extern const pg_linear_type pg_linear_##name;
+#include "list.h"
+#undef PG_LINEAR
+
+static const pg_linear_type *const entries[] = {
+#define PG_LINEAR(name) &pg_linear_##name,
+#include "list.h"
+#undef PG_LINEAR
+};
+
+const pg_linear_type *pg_linear_find (const char *name)
+{
+    for (size_t i = 0; i < sizeof entries / sizeof *entries; i++)
+        if (strcmp (entries[i]->name, name) == 0) return entries[i];
+    return NULL;
+}
+
+const char *pg_linear_names (void)
+{
+    return ""
+#define PG_LINEAR(name) #name "|"
+#include "list.h"
+#undef PG_LINEAR
+    "auto";
+}

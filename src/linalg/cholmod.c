@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * P K P' = L L', supernodal, by CHOLMOD. Nodes are ordered, not dofs (AMD in 2D and for small 3D bodies, METIS above), the order is
+ * expanded and given: one analysis serves every later factorization of the same pattern. 64-bit interface throughout. */
+#include "perigal/linalg.h"
+#include <cholmod.h>
+#include <stdint.h>
+#include <string.h>
+
+typedef struct {
+    cholmod_common common;
+    cholmod_factor *L;
+    cholmod_dense *X, *Y, *E;                          /* kept between solves                                            */
+    const char *ordering;
+    double entries, flops;
+} chol;
+
+static _Thread_local long failed_row = -1;
+long pg_linear_failed_row (void) { return failed_row; }
+
+static void quiet (int status, const char *file, int line, const char *message)
+{
+    (void) status, (void) file, (void) line, (void) message;
+}
+
+static void chol_free (void **self)
+{
+    chol *c = *self;
+    if (!c) return;
+    cholmod_l_free_factor (&c->L, &c->common);
+    cholmod_l_free_dense (&c->X, &c->common);
+    cholmod_l_free_dense (&c->Y, &c->common);
+    cholmod_l_free_dense (&c->E, &c->common);
+    cholmod_l_finish (&c->common);
+    pg_free (c);
+    *self = NULL;
+}
+
+static cholmod_sparse view (const pg_sparse *A)
+{
+    cholmod_sparse S = { 0 };
+    S.nrow = A->nrow, S.ncol = A->ncol, S.nzmax = (size_t) A->start[A->ncol];
+    S.p = A->start, S.i = A->row, S.x = A->value;
+    S.stype = 1, S.itype = CHOLMOD_LONG, S.xtype = CHOLMOD_REAL, S.dtype = CHOLMOD_DOUBLE, S.sorted = 1, S.packed = 1;
+    return S;
+}
+
+/* Graph of the nodes (upper triangle) from the matrix of the dofs. */
+static pg_status node_graph (pg_sparse *G, const pg_sparse *A, int block)
+{
+    pg_status status = PG_OK;
+    size_t n = A->ncol / (size_t) block, nnz = 0;
+    for (size_t I = 0; I < n; I++) nnz += (size_t) (A->start[I * (size_t) block + 1] - A->start[I * (size_t) block]);
+    PG_TRY (pg_sparse_create (G, n, n, nnz, 1));
+    nnz = 0;
+    for (size_t I = 0; I < n; I++) {
+        long last = -1;
+        for (long p = A->start[I * (size_t) block]; p < A->start[I * (size_t) block + 1]; p++)
+            if (A->row[p] / block != last) G->row[nnz++] = last = A->row[p] / block;
+        G->start[I + 1] = (long) nnz;
+    }
+done:
+    return status;
+}
+
+static pg_status order (chol *c, const pg_sparse *A, const pg_linear_options *o, SuiteSparse_long *perm)
+{
+    pg_status status = PG_OK;
+    pg_sparse G = { 0 };
+    SuiteSparse_long *node = NULL;
+    int block = o->block > 0 && A->ncol % (size_t) o->block == 0 ? o->block : 1;
+    PG_TRY (node_graph (&G, A, block));
+    PG_ALLOC (node, G.ncol);
+    cholmod_sparse S = view (&G);
+    S.xtype = CHOLMOD_PATTERN, S.x = NULL;
+    int metis = o->dim == 3 ? A->ncol > 3000 : A->ncol > 150000;
+    c->ordering = metis ? "metis" : "amd";
+    int fine = metis ? cholmod_l_metis (&S, NULL, 0, 1, node, &c->common) : cholmod_l_amd (&S, NULL, 0, node, &c->common);
+    if (!fine) PG_FAIL (PG_E_MEMORY, "%s could not order %zu nodes", c->ordering, G.ncol);
+    for (size_t k = 0; k < G.ncol; k++)
+        for (int a = 0; a < block; a++) perm[k * (size_t) block + (size_t) a] = node[k] * block + a;
+done:
+    pg_sparse_clear (&G);
+    pg_free (node);
+    return status;
+}
+
+static pg_status chol_analyse (void **self, const pg_sparse *A, const pg_linear_options *options)
+{
+    pg_status status = PG_OK;
+    chol *c = NULL;
+    SuiteSparse_long *perm = NULL;
+    PG_ALLOC (c, 1);
+    *self = c;
+    cholmod_l_start (&c->common);
+    c->common.error_handler = quiet;
+    c->common.print = 0;
+    c->common.supernodal = CHOLMOD_SUPERNODAL;
+    c->common.nmethods = 1;
+    c->common.method[0].ordering = CHOLMOD_GIVEN;
+    c->common.postorder = 1;
+    PG_ALLOC (perm, A->ncol);
+    PG_TRY (order (c, A, options, perm));
+    cholmod_sparse S = view (A);
+    c->L = cholmod_l_analyze_p (&S, perm, NULL, 0, &c->common);
+    if (!c->L) PG_FAIL (PG_E_MEMORY, "the symbolic analysis of %zu unknowns failed (%s)", A->ncol,
+                        c->common.status == CHOLMOD_TOO_LARGE ? "too large" : "no memory");
+    c->entries = c->common.lnz, c->flops = c->common.fl;
+done:
+    pg_free (perm);
+    if (status != PG_OK) chol_free (self);
+    return status;
+}
+
+static pg_status chol_factor (void *self, const pg_sparse *A)
+{
+    pg_status status = PG_OK;
+    chol *c = self;
+    cholmod_sparse S = view (A);
+    cholmod_l_factorize (&S, c->L, &c->common);
+    if (c->common.status == CHOLMOD_NOT_POSDEF || (c->common.status >= 0 && c->L->minor < A->ncol)) {
+        SuiteSparse_long *perm = c->L->Perm;
+        failed_row = (long) (c->L->minor < A->ncol ? perm[c->L->minor] : 0);
+        PG_FAIL (PG_E_NOT_SPD, "the stiffness matrix is not positive definite at unknown %ld of %zu", failed_row, A->ncol);
+    }
+    if (c->common.status < 0) PG_FAIL (PG_E_MEMORY, "the factorization needs %.3g MB and failed (CHOLMOD status %d)",
+                                       c->entries * 8e-6, c->common.status);
+done:
+    return status;
+}
+
+static pg_status chol_solve (void *self, size_t nrhs, const double *b, double *x)
+{
+    pg_status status = PG_OK;
+    chol *c = self;
+    size_t n = c->L->n;
+    cholmod_dense B = { 0 };
+    B.nrow = n, B.ncol = nrhs, B.nzmax = n * nrhs, B.d = n, B.x = (void *) (uintptr_t) b;
+    B.xtype = CHOLMOD_REAL, B.dtype = CHOLMOD_DOUBLE;
+    if (!cholmod_l_solve2 (CHOLMOD_A, c->L, &B, NULL, &c->X, NULL, &c->Y, &c->E, &c->common))
+        PG_FAIL (PG_E_MEMORY, "no memory for a solve with %zu right-hand sides", nrhs);
+    memcpy (x, c->X->x, n * nrhs * sizeof *x);
+done:
+    return status;
+}
+
+static void chol_info (const void *self, pg_linear_info *info)
+{
+    const chol *c = self;
+    *info = (pg_linear_info) { c->ordering, c->entries, c->flops, 0 };
+}
+
+const pg_linear_type pg_linear_cholmod = {
+    "cholmod", "supernodal Cholesky factorization (SuiteSparse CHOLMOD)", 1,
+    chol_analyse, chol_factor, chol_solve, chol_info, chol_free
+};

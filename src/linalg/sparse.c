@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Compressed columns: y = A x, y = A' x, B = T' A T. */
+#include "perigal/linalg.h"
+#include <string.h>
+
+pg_status pg_sparse_create (pg_sparse *out, size_t nrow, size_t ncol, size_t nnz, int symmetric)
+{
+    pg_status status = PG_OK;
+    memset (out, 0, sizeof *out);
+    out->nrow = nrow, out->ncol = ncol, out->symmetric = symmetric;
+    PG_ALLOC (out->start, ncol + 1);
+    PG_ALLOC (out->row, nnz);
+    PG_ALLOC (out->value, nnz);
+done:
+    if (status != PG_OK) pg_sparse_clear (out);
+    return status;
+}
+
+void pg_sparse_clear (pg_sparse *A)
+{
+    pg_free (A->start), pg_free (A->row), pg_free (A->value);
+    memset (A, 0, sizeof *A);
+}
+
+void pg_sparse_multiply (const pg_sparse *A, const double *x, double *y)
+{
+    memset (y, 0, A->nrow * sizeof *y);
+    for (size_t j = 0; j < A->ncol; j++) {
+        double own = 0;
+        for (long p = A->start[j]; p < A->start[j + 1]; p++) {
+            size_t i = (size_t) A->row[p];
+            y[i] += A->value[p] * x[j];
+            if (A->symmetric && i != j) own += A->value[p] * x[i];
+        }
+        if (A->symmetric) y[j] += own;
+    }
+}
+
+void pg_sparse_multiply_transposed (const pg_sparse *A, const double *x, double *y)
+{
+    if (A->symmetric) {
+        pg_sparse_multiply (A, x, y);
+        return;
+    }
+    for (size_t j = 0; j < A->ncol; j++) {
+        double sum = 0;
+        for (long p = A->start[j]; p < A->start[j + 1]; p++) sum += A->value[p] * x[A->row[p]];
+        y[j] = sum;
+    }
+}
+
+static void apply (void *context, const double *x, double *y) { pg_sparse_multiply (context, x, y); }
+
+static void diagonal (void *context, double *d)
+{
+    const pg_sparse *A = context;
+    for (size_t j = 0; j < A->ncol; j++) {
+        d[j] = 0;
+        for (long p = A->start[j]; p < A->start[j + 1]; p++) if ((size_t) A->row[p] == j) d[j] += A->value[p];
+    }
+}
+
+pg_operator pg_sparse_operator (pg_sparse *A) { return (pg_operator) { A->ncol, A, apply, diagonal }; }
+
+/* ---- B = T' A T ---------------------------------------------------------------------------------------------------------
+ * Column k of B: c = A T(:,k) is scattered densely, then T' c on the columns that share a row with it. */
+typedef struct { long *start, *row; double *value; } rows_view;     /* T by rows                                         */
+
+static pg_status by_rows (rows_view *R, const pg_sparse *T)
+{
+    pg_status status = PG_OK;
+    size_t nnz = (size_t) T->start[T->ncol];
+    long *fill = NULL;
+    PG_ALLOC (R->start, T->nrow + 1);
+    PG_ALLOC (R->row, nnz);
+    PG_ALLOC (R->value, nnz);
+    PG_ALLOC (fill, T->nrow);
+    for (size_t p = 0; p < nnz; p++) R->start[T->row[p] + 1]++;
+    for (size_t i = 0; i < T->nrow; i++) R->start[i + 1] += R->start[i], fill[i] = R->start[i];
+    for (size_t j = 0; j < T->ncol; j++)
+        for (long p = T->start[j]; p < T->start[j + 1]; p++) {
+            long q = fill[T->row[p]]++;
+            R->row[q] = (long) j, R->value[q] = T->value[p];
+        }
+done:
+    pg_free (fill);
+    return status;
+}
+
+/* A with both triangles. */
+static pg_status both_triangles (pg_sparse *F, const pg_sparse *A)
+{
+    pg_status status = PG_OK;
+    long *fill = NULL;
+    PG_TRY (pg_sparse_create (F, A->nrow, A->ncol, 2 * (size_t) A->start[A->ncol], 0));
+    PG_ALLOC (fill, A->ncol);
+    for (size_t j = 0; j < A->ncol; j++)
+        for (long p = A->start[j]; p < A->start[j + 1]; p++) {
+            F->start[j + 1]++;
+            if ((size_t) A->row[p] != j) F->start[A->row[p] + 1]++;
+        }
+    for (size_t j = 0; j < A->ncol; j++) F->start[j + 1] += F->start[j], fill[j] = F->start[j];
+    for (size_t j = 0; j < A->ncol; j++)
+        for (long p = A->start[j]; p < A->start[j + 1]; p++) {
+            size_t i = (size_t) A->row[p];
+            F->row[fill[j]] = (long) i, F->value[fill[j]++] = A->value[p];
+            if (i != j) F->row[fill[i]] = (long) j, F->value[fill[i]++] = A->value[p];
+        }
+done:
+    pg_free (fill);
+    return status;
+}
+
+typedef struct { const pg_sparse *A, *T; const rows_view *R; double *c, *b; long *hit_c, *hit_b, nc, nb; char *on_c, *on_b; } work;
+
+/* w->b, w->hit_b: column k of T' A T. */
+static void one_column (work *w, size_t k)
+{
+    w->nc = w->nb = 0;
+    for (long p = w->T->start[k]; p < w->T->start[k + 1]; p++) {
+        long j = w->T->row[p];
+        for (long q = w->A->start[j]; q < w->A->start[j + 1]; q++) {
+            long i = w->A->row[q];
+            if (!w->on_c[i]) w->on_c[i] = 1, w->hit_c[w->nc++] = i, w->c[i] = 0;
+            w->c[i] += w->A->value[q] * w->T->value[p];
+        }
+    }
+    for (long h = 0; h < w->nc; h++) {
+        long i = w->hit_c[h];
+        w->on_c[i] = 0;
+        for (long q = w->R->start[i]; q < w->R->start[i + 1]; q++) {
+            long m = w->R->row[q];
+            if ((size_t) m > k) break;
+            if (!w->on_b[m]) w->on_b[m] = 1, w->hit_b[w->nb++] = m, w->b[m] = 0;
+            w->b[m] += w->R->value[q] * w->c[i];
+        }
+    }
+    for (long h = 0; h < w->nb; h++) w->on_b[w->hit_b[h]] = 0;
+}
+
+static void sort_ascending (long *a, long n)                       /* heap sort                                          */
+{
+    for (long m = n / 2 - 1, top = n; top > 1;) {
+        long root, value;
+        if (m >= 0) root = m--, value = a[root];
+        else root = 0, value = a[--top], a[top] = a[0];
+        for (long child; (child = 2 * root + 1) < top; root = child) {
+            if (child + 1 < top && a[child + 1] > a[child]) child++;
+            if (a[child] <= value) break;
+            a[root] = a[child];
+        }
+        a[root] = value;
+    }
+}
+
+pg_status pg_sparse_congruence (pg_sparse *B, const pg_sparse *A, const pg_sparse *T)
+{
+    pg_status status = PG_OK;
+    rows_view R = { 0 };
+    pg_sparse F = { 0 };
+    work w = { &F, T, &R, NULL, NULL, NULL, NULL, 0, 0, NULL, NULL };
+    size_t cap = 0, nnz = 0, cap_value = 0;
+    memset (B, 0, sizeof *B);
+    B->nrow = B->ncol = T->ncol, B->symmetric = 1;
+    PG_TRY (by_rows (&R, T));
+    PG_TRY (both_triangles (&F, A));
+    PG_ALLOC (B->start, T->ncol + 1);
+    PG_ALLOC (w.c, T->nrow);
+    PG_ALLOC (w.b, T->ncol);
+    PG_ALLOC (w.hit_c, T->nrow);
+    PG_ALLOC (w.hit_b, T->ncol);
+    PG_ALLOC (w.on_c, T->nrow);
+    PG_ALLOC (w.on_b, T->ncol);
+    for (size_t k = 0; k < T->ncol; k++) {
+        one_column (&w, k);
+        sort_ascending (w.hit_b, w.nb);
+        PG_GROW (B->row, cap, nnz + (size_t) w.nb);
+        PG_GROW (B->value, cap_value, nnz + (size_t) w.nb);
+        for (long h = 0; h < w.nb; h++, nnz++) B->row[nnz] = w.hit_b[h], B->value[nnz] = w.b[w.hit_b[h]];
+        B->start[k + 1] = (long) nnz;
+    }
+done:
+    pg_free (R.start), pg_free (R.row), pg_free (R.value);
+    pg_sparse_clear (&F);
+    pg_free (w.c), pg_free (w.b), pg_free (w.hit_c), pg_free (w.hit_b), pg_free (w.on_c), pg_free (w.on_b);
+    if (status != PG_OK) pg_sparse_clear (B);
+    return status;
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Principal stresses sigma_1 >= sigma_2 >= sigma_3: closed forms, and Jacobi rotations where the closed form of 3D loses
+ * digits (two values nearly equal). */
+#include "perigal/material.h"
+#include <math.h>
+
+static void sort3 (double *s)
+{
+    double t;
+    if (s[0] < s[1]) t = s[0], s[0] = s[1], s[1] = t;
+    if (s[1] < s[2]) t = s[1], s[1] = s[2], s[2] = t;
+    if (s[0] < s[1]) t = s[0], s[0] = s[1], s[1] = t;
+}
+
+static void plane (const double *s, double zz, double *principal)
+{
+    double mean = (s[0] + s[1]) / 2, radius = hypot ((s[0] - s[1]) / 2, s[2]);
+    principal[0] = mean + radius;
+    principal[1] = mean - radius;
+    principal[2] = zz;
+    sort3 (principal);
+}
+
+static void solid (const double *s, double *principal)
+{
+    double mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
+    double xy = s[3], yz = s[4], zx = s[5];
+    double p = sqrt ((a * a + b * b + c * c + 2 * (xy * xy + yz * yz + zx * zx)) / 6);
+    double det = a * (b * c - yz * yz) - xy * (xy * c - yz * zx) + zx * (xy * yz - b * zx);
+    double r = p > 0 ? det / p / p / p / 2 : 1;
+    if (fabs (r) < 0.9999) {                           /* mean + 2 p cos (phi + 2 pi k / 3), cos 3 phi = r */
+        double phi = acos (r) / 3, third = 2.0943951023931954923;
+        principal[0] = mean + 2 * p * cos (phi);
+        principal[2] = mean + 2 * p * cos (phi + third);
+        principal[1] = mean + 2 * p * cos (phi - third);
+        return;
+    }
+    const double M[9] = { s[0], xy, zx, xy, s[1], yz, zx, yz, s[2] };
+    pg_dense_eigen (3, M, principal, NULL);
+}
+
+void pg_principal (int dim, size_t n, const double *stress, const double *zz, double *principal)
+{
+    size_t nv = (size_t) pg_voigt_size (dim);
+    for (size_t i = 0; i < n; i++) {
+        const double *s = stress + i * nv;
+        double *out = principal + 3 * i;
+        if (dim == 3) solid (s, out);
+        else if (dim == 2) plane (s, zz ? zz[i] : 0, out);
+        else plane ((const double[]) { s[0], 0, 0 }, zz ? zz[i] : 0, out);
+    }
+}

@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The bond sets: node-node, evaluation point-node, facet point-node (Cui 2022 section 3.1; theory F1), their exemptions, and
+ * the bonds that the pre-cracks cut. */
+#include "model.h"
+#include <stdio.h>
+#include <string.h>
+
+/* Geometry only: the values belong to the force. */
+static void strip (pg_rows *rows)
+{
+    pg_free (rows->N), pg_free (rows->dN), pg_free (rows->w), pg_free (rows->grade);
+    rows->N = rows->dN = rows->w = NULL;
+    rows->grade = NULL;
+}
+
+static pg_status make_nodes (pg_problem *p)
+{
+    pg_status status = PG_OK;
+    int *own = NULL;
+    PG_ALLOC (own, p->cloud.n);
+    for (size_t i = 0; i < p->cloud.n; i++) own[i] = (int) i;
+    PG_TRY (pg_rows_create (&p->rows[PG_NODES], &p->approx, &p->cloud, p->cloud.n, p->cloud.x, p->cloud.volume, own, NULL));
+    strip (&p->rows[PG_NODES]);
+done:
+    pg_free (own);
+    return status;
+}
+
+static pg_status make_points (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_quadrature q = { 0 };
+    if (!p->integration->at_nodes)
+        PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, (int) pg_scene_integer (scene, "method.gauss_points")));
+    PG_TRY (pg_rows_create (&p->rows[PG_POINTS], &p->approx, &p->cloud, q.n, q.x, q.weight, NULL, q.cell));
+    strip (&p->rows[PG_POINTS]);
+done:
+    pg_quadrature_clear (&q);
+    return status;
+}
+
+/* Points on those facets only that a load or support needs. */
+static pg_status make_facets (pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_quadrature q = { 0 };
+    unsigned char *used = NULL;
+    size_t keep = 0, dim = (size_t) p->dim;
+    PG_ALLOC (used, p->cells.nfacet);
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        int needs = load->kind == PG_TRACTION || load->kind == PG_PRESSURE || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
+        for (size_t k = 0; needs && k < load->set->nfacet; k++) used[load->set->facet[k]] = 1;
+    }
+    PG_TRY (pg_facet_points (&q, &p->cells, p->approx.order + 1));
+    for (size_t k = 0; k < q.n; k++) {
+        if (!used[q.cell[k]]) continue;
+        memmove (q.x + keep * dim, q.x + k * dim, dim * sizeof *q.x);
+        q.weight[keep] = q.weight[k], q.cell[keep++] = q.cell[k];
+    }
+    PG_TRY (pg_rows_create (&p->rows[PG_FACETS], &p->approx, &p->cloud, keep, q.x, q.weight, NULL, q.cell));
+    strip (&p->rows[PG_FACETS]);
+done:
+    pg_quadrature_clear (&q);
+    pg_free (used);
+    return status;
+}
+
+static double distance2 (const pg_problem *p, const double *x, int node)
+{
+    double s = 0;
+    for (int k = 0; k < p->dim; k++) {
+        double d = p->cloud.x[(size_t) node * (size_t) p->dim + (size_t) k] - x[k];
+        s += d * d;
+    }
+    return s;
+}
+
+/* A node of an excluded set exempts its bonds; another point follows its nearest node. */
+static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const char *name;
+    for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (p->exempt[s], p->rows[s].n);
+    for (size_t k = 0; (name = pg_scene_name (scene, k, "failure.exclude")); k++) {
+        const pg_set *set = pg_sets_find (&p->sets, name);
+        if (!set || set->npoint == 0) {
+            pg_scene_fault (scene, "failure.exclude", "%s is %s", name, set ? "a set without points" : "no set");
+            continue;
+        }
+        for (size_t i = 0; i < set->npoint; i++) p->exempt[PG_NODES][set->point[i]] = 1;
+    }
+    for (int s = PG_POINTS; s < PG_BOND_SETS; s++)
+        for (size_t q = 0; q < p->rows[s].n; q++) {
+            const pg_family *f = &p->rows[s].family;
+            const double *x = p->rows[s].x + q * (size_t) p->dim;
+            int nearest = -1;
+            for (size_t e = f->start[q]; e < f->start[q + 1]; e++)
+                if (nearest < 0 || distance2 (p, x, f->node[e]) < distance2 (p, x, nearest)) nearest = f->node[e];
+            p->exempt[s][q] = nearest >= 0 && p->exempt[PG_NODES][nearest];
+        }
+done:
+    return status;
+}
+
+pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    PG_TRY (make_nodes (p));
+    PG_TRY (make_points (p, scene));
+    PG_TRY (make_facets (p));
+    for (int s = 0; s < PG_BOND_SETS; s++) p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
+    PG_TRY (make_exempt (p, scene));
+    for (size_t i = 0; i < p->cloud.n; i++)
+        for (size_t c = 0; c < p->cracks.n; c++)
+            if (pg_crack_touches (&p->cracks.crack[c], p->dim, p->cloud.x + i * (size_t) p->dim, 1e-9 * p->cloud.h)) {
+                p->eroded++;
+                break;
+            }
+done:
+    return status;
+}
+
+void pg_bonds_cut (const pg_problem *p, unsigned char *alive)
+{
+    size_t dim = (size_t) p->dim;
+    for (int s = 0; s < PG_BOND_SETS; s++) {
+        const pg_rows *rows = &p->rows[s];
+        for (size_t q = 0; q < rows->n; q++)
+            for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++) {
+                int j = rows->family.node[e], dead = 0;
+                for (size_t c = 0; c < p->cracks.n && !dead && j != rows->own[q]; c++)
+                    dead = pg_crack_cuts (&p->cracks.crack[c], p->dim, rows->x + q * dim, p->cloud.x + (size_t) j * dim, 1e-9 * p->cloud.h);
+                alive[p->first_bond[s] + e] = !dead;
+            }
+    }
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Keys of the model: method (what the approximation folder does not bring), boundary, gauges. */
+#include "perigal/scene.h"
+#include "perigal/integration.h"
+
+static const char *const no_choice = NULL;
+#define LOAD(name, unit, what) \
+    { "boundary[]." name, PG_MAP, NULL, NULL, "", no_choice, NULL, "load:one", what }, \
+    { "boundary[]." name ".x", PG_EXPRESSION, unit, NULL, "", no_choice, NULL, NULL, "Component along x; absent: free (supports) or zero (loads)." }, \
+    { "boundary[]." name ".y", PG_EXPRESSION, unit, NULL, "", no_choice, NULL, NULL, "Component along y." }, \
+    { "boundary[]." name ".z", PG_EXPRESSION, unit, NULL, "", no_choice, NULL, NULL, "Component along z." }
+
+static const pg_key keys[] = {
+    { "method.force", PG_NAME, NULL, NULL, "galerkin", "galerkin", NULL, NULL, "How bonds make forces: galerkin assembles a global stiffness matrix." },
+    { "method.integration", PG_NAME, NULL, NULL, "gauss", NULL, pg_integration_names, NULL, "Where the weak form is evaluated." },
+    { "method.gauss_points", PG_INTEGER, NULL, "[1, 5]", "2", NULL, NULL, NULL, "Gauss points per direction of a background cell." },
+    { "method.stabilization", PG_NAME, NULL, NULL, "auto", "auto|none|silling", NULL, NULL,
+      "Against zero-energy modes of nodal integration; auto: silling for nosb with nodal integration, else none." },
+    { "method.stabilization_factor", PG_NUMBER, "1", "(0, inf)", "0.1", NULL, NULL, NULL, "Strength Gs of the stabilisation, 0.05 to 1." },
+    { "method.essential", PG_NAME, NULL, NULL, "auto", "auto|nitsche|transformation|penalty", NULL, NULL,
+      "How displacements are prescribed; auto: nitsche on boundary facets, transformation on points (always for nosb)." },
+    { "method.nitsche_factor", PG_NUMBER, "1", "(0, inf)", "100", NULL, NULL, NULL, "Nitsche's beta in units of E / spacing." },
+    { "method.penalty_factor", PG_NUMBER, "1", "(0, inf)", "1e6", NULL, NULL, NULL, "Penalty in units of E / spacing." },
+    { "boundary", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "Loads and supports." },
+    { "boundary[].name", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL, "Name in history.csv; default: the set's name." },
+    { "boundary[].set", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Where it acts: a set, a part of one (platens.top), or left, right, bottom, top, back, front, all." },
+    LOAD ("displacement", "m", "Prescribed displacement."),
+    LOAD ("velocity", "m/s", "Prescribed velocity (newmark)."),
+    LOAD ("traction", "Pa", "Force per area on boundary facets."),
+    LOAD ("force", "N", "Total force, shared equally by the points of the set."),
+    LOAD ("body_force", "N/m3", "Force per volume; set all: everywhere, else on the points of the set."),
+    { "boundary[].pressure", PG_EXPRESSION, "Pa", NULL, "", NULL, NULL, "load:one", "Pressure against the boundary facets (positive pushes inwards)." },
+    { "boundary[].ramp", PG_TEXT, NULL, NULL, "", NULL, NULL, "ramp:most",
+      "Factor over time: linear (0 to 1 over the run), constant, or an expression in t; default linear, for velocity constant." },
+    { "boundary[].table", PG_LIST, NULL, NULL, "", NULL, NULL, "ramp:most", "Factor over time as pairs [t, factor], linear between, constant beyond." },
+    { "boundary[].table[]", PG_NUMBERS, NULL, NULL, "", NULL, NULL, NULL, "One pair: t in s (static: load factor 0 to 1), factor." },
+    { "output.gauges", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "Pairs of places whose opening is recorded." },
+    { "output.gauges[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Column name in history.csv." },
+    { "output.gauges[].from", PG_VECTOR, "m", NULL, NULL, NULL, NULL, NULL, "First place." },
+    { "output.gauges[].to", PG_VECTOR, "m", NULL, NULL, NULL, NULL, NULL, "Second place; the record is the change of their distance along the line." },
+};
+const pg_key_table pg_keys_model = { "model", keys, sizeof keys / sizeof *keys };

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Loads and supports: value (x, y, z, t) times a factor of t. */
+#include "model.h"
+#include <stdio.h>
+#include <string.h>
+#include <math.h>
+
+static const struct { const char *key, *unit; pg_load_kind kind; } kinds[] = {
+    { "displacement", "m", PG_DISPLACEMENT }, { "velocity", "m/s", PG_VELOCITY }, { "traction", "Pa", PG_TRACTION },
+    { "pressure", "Pa", PG_PRESSURE }, { "force", "N", PG_POINT_FORCE }, { "body_force", "N/m3", PG_BODY_FORCE },
+};
+
+int pg_load_prescribes (const pg_load *load) { return load->kind == PG_DISPLACEMENT || load->kind == PG_VELOCITY; }
+
+static double table_value (const pg_load *load, double t)
+{
+    const double *row = load->table;
+    size_t n = load->ntable;
+    if (t <= row[0]) return row[1];
+    for (size_t k = 1; k < n; k++)
+        if (t <= row[2*k]) return row[2*k - 1] + (row[2*k + 1] - row[2*k - 1]) * (t - row[2*k - 2]) / (row[2*k] - row[2*k - 2]);
+    return row[2*n - 1];
+}
+
+double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t)
+{
+    if (!load->value[k]) return 0;
+    pg_place at = { x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0, 0, 0, t };
+    at.r = sqrt (at.x * at.x + at.y * at.y + at.z * at.z);
+    at.angle = atan2 (at.y, at.x);
+    if (at.angle < 0) at.angle += 2 * 3.14159265358979323846;
+    double factor = load->table ? table_value (load, t) : pg_expression_value (load->ramp, &at);
+    return pg_expression_value (load->value[k], &at) * factor;
+}
+
+/* The ramp as an expression in t; a velocity's ramp is integrated to one for the displacement. */
+static pg_status read_ramp (pg_load *load, const pg_scene *scene, size_t i, int is_static, double duration)
+{
+    pg_status status = PG_OK;
+    const char *ramp = pg_scene_text (scene, "boundary[%zu].ramp", i);
+    char path[64], text[96];
+    int velocity = load->kind == PG_VELOCITY;
+    if (!ramp || !*ramp) ramp = velocity ? "constant" : "linear";
+    snprintf (path, sizeof path, "boundary[%zu].ramp", i);
+    if (strcmp (ramp, "linear") == 0) {
+        if (velocity) snprintf (text, sizeof text, "t^2 * %.17g", 0.5 / duration);
+        else snprintf (text, sizeof text, "t * %.17g", 1 / duration);
+        load->proportional = is_static;
+    } else if (strcmp (ramp, "constant") == 0) snprintf (text, sizeof text, velocity ? "t" : "1");
+    else if (velocity) {
+        pg_scene_fault (scene, path, "a velocity takes ramp constant or linear");
+        goto done;
+    } else {
+        if (pg_expression_compile (&load->ramp, ramp, "1") != PG_OK)
+            pg_scene_fault (scene, path, "linear, constant or an expression in t: %s", pg_last_error ());
+        goto done;
+    }
+    PG_TRY (pg_expression_compile (&load->ramp, text, "1"));
+done:
+    return status;
+}
+
+static pg_status read_table (pg_load *load, const pg_scene *scene, size_t i)
+{
+    pg_status status = PG_OK;
+    load->ntable = pg_scene_count (scene, "boundary[%zu].table", i);
+    PG_ALLOC (load->table, 2 * load->ntable);
+    for (size_t k = 0; k < load->ntable; k++) {
+        char path[64];
+        snprintf (path, sizeof path, "boundary[%zu].table[%zu]", i, k);
+        if (pg_scene_vector (scene, 2, load->table + 2 * k, "%s", path) != 2) pg_scene_fault (scene, path, "a pair [t, factor] is needed");
+        else if (k && !(load->table[2*k] > load->table[2*k - 2])) pg_scene_fault (scene, path, "t must increase");
+    }
+    if (load->ntable == 0) pg_scene_fault (scene, "boundary", "a table needs at least one pair");
+done:
+    return status;
+}
+
+static pg_status read_values (pg_load *load, const pg_scene *scene, size_t i, const char *key, const char *unit)
+{
+    pg_status status = PG_OK;
+    int found = 0, dim = (int) pg_scene_integer (scene, "dimension");
+    char path[64];
+    if (load->kind == PG_PRESSURE) {
+        PG_TRY (pg_expression_compile (&load->value[0], pg_scene_text (scene, "boundary[%zu].pressure", i), unit));
+        goto done;
+    }
+    for (int k = 0; k < 3; k++) {
+        const char *text = pg_scene_text (scene, "boundary[%zu].%s.%c", i, key, "xyz"[k]);
+        if (!text || !*text) continue;
+        snprintf (path, sizeof path, "boundary[%zu].%s.%c", i, key, "xyz"[k]);
+        if (k >= dim) pg_scene_fault (scene, path, "a %dD body has no such component", dim);
+        else PG_TRY (pg_expression_compile (&load->value[k], text, unit));
+        if (load->value[k] && pg_expression_uses (load->value[k], 't')) {
+            load->proportional = 0;
+            if (load->kind == PG_VELOCITY) pg_scene_fault (scene, path, "a prescribed velocity may not depend on t (use displacement)");
+        }
+        found++;
+    }
+    snprintf (path, sizeof path, "boundary[%zu].%s", i, key);
+    if (!found) pg_scene_fault (scene, path, "at least one component x, y, z is needed");
+done:
+    return status;
+}
+
+static void check_place (const pg_problem *problem, const pg_load *load, const pg_scene *scene, size_t i)
+{
+    char path[64];
+    snprintf (path, sizeof path, "boundary[%zu].set", i);
+    const pg_set *set = load->set;
+    int on_facets = load->kind == PG_TRACTION || load->kind == PG_PRESSURE
+                 || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
+    if (on_facets && problem->cells.n == 0)
+        pg_scene_fault (scene, path, "%s needs boundary facets, and a body of explicit points has none", load->kind == PG_TRACTION ? "a traction"
+                        : load->kind == PG_PRESSURE ? "a pressure" : "essential: nitsche");
+    else if (on_facets && set->nfacet == 0) pg_scene_fault (scene, path, "the set %s holds no boundary facet", set->name);
+    else if (!on_facets && set->npoint == 0) pg_scene_fault (scene, path, "the set %s holds no point", set->name);
+}
+
+static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i, int is_static, double duration)
+{
+    pg_status status = PG_OK;
+    char path[64];
+    const char *set = pg_scene_text (scene, "boundary[%zu].set", i), *name = pg_scene_text (scene, "boundary[%zu].name", i);
+    size_t k = 0;
+    while (k < 5 && !pg_scene_given (scene, "boundary[%zu].%s", i, kinds[k].key)) k++;
+    load->kind = kinds[k].kind;
+    snprintf (load->name, sizeof load->name, "%.63s", name && *name ? name : set);
+    snprintf (path, sizeof path, "boundary[%zu].set", i);
+    load->set = pg_sets_find (&problem->sets, set);
+    if (!load->set) {
+        char names[4096] = "";
+        size_t at = 0;
+        for (size_t s = 0; s < problem->sets.n && at < sizeof names - 70; s++)
+            at += (size_t) snprintf (names + at, sizeof names - at, "%s%s", at ? "|" : "", problem->sets.set[s].name);
+        const char *near = pg_nearest_name (set, names);
+        pg_scene_fault (scene, path, "there is no set of this name%s%s%s", near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+        goto done;
+    }
+    if (is_static && load->kind == PG_VELOCITY) pg_scene_fault (scene, path, "a static run has no velocity: prescribe a displacement");
+    const char *how = pg_scene_text (scene, "method.essential");
+    int nosb = strcmp (pg_scene_text (scene, "method.approximation"), "nosb") == 0;
+    load->essential = strcmp (how, "transformation") == 0 ? PG_ESSENTIAL_TRANSFORMATION : strcmp (how, "penalty") == 0 ? PG_ESSENTIAL_PENALTY
+                    : strcmp (how, "nitsche") == 0 ? PG_ESSENTIAL_NITSCHE
+                    : load->set->nfacet > 0 && !nosb ? PG_ESSENTIAL_NITSCHE : PG_ESSENTIAL_TRANSFORMATION;
+    check_place (problem, load, scene, i);
+    if (pg_scene_given (scene, "boundary[%zu].table", i)) PG_TRY (read_table (load, scene, i));
+    else PG_TRY (read_ramp (load, scene, i, is_static, duration));
+    PG_TRY (read_values (load, scene, i, kinds[k].key, kinds[k].unit));
+done:
+    return status;
+}
+
+pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const char *kind = pg_scene_text (scene, "solver.kind");
+    int is_static = !kind || strcmp (kind, "static") == 0;
+    double duration = is_static ? 1 : pg_scene_number (scene, "solver.end");
+    if (!(duration > 0)) duration = 1;
+    problem->nload = pg_scene_count (scene, "boundary");
+    PG_ALLOC (problem->load, problem->nload);
+    for (size_t i = 0; i < problem->nload; i++) PG_TRY (read_load (problem, &problem->load[i], scene, i, is_static, duration));
+done:
+    return status;
+}
+
+void pg_loads_clear (pg_problem *problem)
+{
+    for (size_t i = 0; problem->load && i < problem->nload; i++) {
+        for (int k = 0; k < 3; k++) pg_expression_free (&problem->load[i].value[k]);
+        pg_expression_free (&problem->load[i].ramp);
+        pg_free (problem->load[i].table);
+    }
+    pg_free (problem->load);
+}

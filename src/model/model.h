@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private to the model folder: the stages of building a problem. */
+#ifndef PG_MODEL_PRIVATE_H
+#define PG_MODEL_PRIVATE_H
+#include "perigal/model.h"
+pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
+void      pg_loads_clear (pg_problem *problem);
+pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
+/* alive = 0 where a bond meets a pre-crack. */
+void      pg_bonds_cut   (const pg_problem *problem, unsigned char *alive);
+#endif

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * From the scene to a problem: body, points, cells, sets, cracks, laws, loads, bonds. Faults of all stages are collected. */
+#include "model.h"
+#include <stdio.h>
+#include <string.h>
+
+static pg_mode mode_of (const pg_scene *scene, int dim)
+{
+    if (dim == 1) return PG_LINE;
+    if (dim == 3) return PG_SOLID;
+    return strcmp (pg_scene_text (scene, "plane"), "strain") == 0 ? PG_PLANE_STRAIN : PG_PLANE_STRESS;
+}
+
+/* The folder of `.../name/scene.yaml`, else the file's own name without ending. */
+static void name_of (char *out, size_t size, const char *file)
+{
+    const char *slash = strrchr (file, '/'), *base = slash ? slash + 1 : file;
+    size_t n = strcspn (base, ".");
+    if (strncmp (base, "scene.", 6) == 0 && slash) {
+        const char *start = slash;
+        while (start > file && start[-1] != '/') start--;
+        base = start, n = (size_t) (slash - start);
+    }
+    snprintf (out, size, "%.*s", (int) n, n ? base : "scene");
+}
+
+static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    PG_TRY (pg_body_read (&p->body, scene));
+    PG_TRY (pg_cracks_read (&p->cracks, scene));
+    PG_TRY (pg_scene_verdict (scene));
+    PG_TRY (pg_cloud_build (&p->cloud, &p->lattice, &p->body, scene));
+    PG_TRY (pg_scene_verdict (scene));
+    if (p->lattice.dim) PG_TRY (pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness));
+    else p->cells.dim = p->dim;
+    PG_TRY (pg_sets_build (&p->sets, scene, &p->body, &p->lattice, &p->cloud, &p->cells));
+done:
+    return status;
+}
+
+static pg_status build_laws (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const char *name, *stab = pg_scene_text (scene, "method.stabilization");
+    p->nmaterial = pg_scene_count (scene, "materials");
+    PG_ALLOC (p->material, p->nmaterial);
+    for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++) PG_TRY (pg_material_read (&p->material[i], scene, name, p->mode));
+    if (p->nmaterial == 0) {
+        pg_scene_fault (scene, "materials", "at least one material is needed");
+        PG_TRY (pg_scene_verdict (scene));
+    }
+    for (size_t i = 0; p->nmaterial > 1 && i < p->cloud.n; i++)
+        if (p->cloud.block[i] < 0 || (size_t) p->cloud.block[i] >= p->nmaterial) {
+            pg_scene_fault (scene, "materials", "point %zu is of block %d, and there are %zu materials", i, p->cloud.block[i], p->nmaterial);
+            break;
+        }
+    PG_TRY (pg_approx_read (&p->approx, scene, p->cloud.h));
+    p->integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
+    snprintf (p->force, sizeof p->force, "%s", pg_scene_text (scene, "method.force"));
+    if (!p->integration->at_nodes && p->cells.n == 0)
+        pg_scene_fault (scene, "method.integration", "a body of explicit points has no background cells: use nodal");
+    int nosb = strcmp (p->approx.type->name, "nosb") == 0;
+    int silling = strcmp (stab, "silling") == 0 || (strcmp (stab, "auto") == 0 && nosb && p->integration->at_nodes && p->dim > 1);
+    if (strcmp (stab, "silling") == 0 && !(nosb && p->integration->at_nodes))
+        pg_scene_fault (scene, "method.stabilization", "silling stabilises nosb with nodal integration");
+    p->silling = silling ? pg_scene_number (scene, "method.stabilization_factor") : 0;
+    p->nitsche = pg_scene_number (scene, "method.nitsche_factor");
+    p->penalty = pg_scene_number (scene, "method.penalty_factor");
+    pg_criterion_setting setting = { p->mode, p->approx.horizon, p->material[0].modulus, p->material[0].parameter[1],
+                                     p->cloud.thickness, p->approx.kernel->name };
+    PG_TRY (pg_criterion_read (&p->criterion, scene, &setting));
+done:
+    return status;
+}
+
+static pg_status read_gauges (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    p->ngauge = pg_scene_count (scene, "output.gauges");
+    PG_ALLOC (p->gauge, p->ngauge);
+    for (size_t i = 0; i < p->ngauge; i++) {
+        pg_gauge *g = &p->gauge[i];
+        snprintf (g->name, sizeof g->name, "%s", pg_scene_text (scene, "output.gauges[%zu].name", i));
+        pg_scene_vector (scene, 3, g->from, "output.gauges[%zu].from", i);
+        pg_scene_vector (scene, 3, g->to, "output.gauges[%zu].to", i);
+    }
+done:
+    return status;
+}
+
+pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads)
+{
+    pg_status status = PG_OK;
+    pg_problem *p = NULL;
+    PG_ALLOC (p, 1);
+    p->dim = (int) pg_scene_integer (scene, "dimension");
+    p->threads = threads < 1 ? 1 : threads;
+    p->mode = mode_of (scene, p->dim);
+    const char *title = pg_scene_text (scene, "title");
+    name_of (p->name, sizeof p->name, pg_scene_file (scene));
+    snprintf (p->title, sizeof p->title, "%s", title && *title ? title : p->name);
+    PG_TRY (build_geometry (p, scene));
+    PG_TRY (build_laws (p, scene));
+    PG_TRY (pg_loads_read (p, scene));
+    PG_TRY (pg_scene_verdict (scene));
+    PG_TRY (pg_bonds_build (p, scene));
+    PG_TRY (read_gauges (p, scene));
+    PG_TRY (pg_scene_verdict (scene));
+    *out = p;
+    p = NULL;
+done:
+    pg_problem_free (&p);
+    return status;
+}
+
+void pg_problem_free (pg_problem **problem)
+{
+    pg_problem *p = *problem;
+    if (!p) return;
+    for (int s = 0; s < PG_BOND_SETS; s++) pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]);
+    pg_loads_clear (p);
+    pg_free (p->gauge), pg_free (p->material);
+    pg_sets_clear (&p->sets);
+    pg_cells_clear (&p->cells);
+    pg_cloud_clear (&p->cloud);
+    pg_lattice_clear (&p->lattice);
+    pg_cracks_clear (&p->cracks);
+    pg_body_clear (&p->body);
+    pg_free (p);
+    *problem = NULL;
+}
+
+int pg_problem_proportional (const pg_problem *p)
+{
+    for (size_t i = 0; i < p->nload; i++) {
+        if (p->load[i].proportional) continue;
+        /* a displacement held at zero is proportional too */
+        static const double places[3][3] = { { 0.37, -0.21, 0.83 }, { -1.3, 2.7, 0.11 }, { 5.1, 0.77, -3.9 } };
+        int held = pg_load_prescribes (&p->load[i]);
+        for (int k = 0; k < p->dim && held; k++)
+            for (int q = 0; q < 9 && held; q++) held = pg_load_value (&p->load[i], k, p->dim, places[q % 3], 0.1 + 0.4 * (q / 3)) == 0;
+        if (!held) return 0;
+    }
+    return 1;
+}

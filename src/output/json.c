@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * JSON (RFC 8259), two blanks a level, keys in the order of the calls. Faults are remembered and reported by pg_json_close,
+ * which moves PATH.tmp to PATH only when all is well. The outer braces may be opened by the caller or are opened by the first key. */
+#include "perigal/output.h"
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { DEPTH = 32 };
+
+struct pg_json {
+    FILE *file;
+    char *path, *temporary;
+    int   depth, misuse;
+    char  bracket[DEPTH];
+    int   count[DEPTH + 1];                            /* members written so far on each level                          */
+};
+
+/* Bytes of the valid UTF-8 sequence at p, 0 when it is none. */
+static int sequence (const unsigned char *p)
+{
+    int n = p[0] < 0x80 ? 1 : p[0] >= 0xc2 && p[0] < 0xe0 ? 2 : p[0] >= 0xe0 && p[0] < 0xf0 ? 3 : p[0] >= 0xf0 && p[0] < 0xf5 ? 4 : 0;
+    for (int k = 1; k < n; k++) if ((p[k] & 0xc0) != 0x80) return 0;
+    if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) || (p[0] == 0xf0 && p[1] < 0x90) || (p[0] == 0xf4 && p[1] > 0x8f))
+        return 0;
+    return n;
+}
+
+static void put_string (FILE *file, const char *text)
+{
+    fputc ('"', file);
+    for (const unsigned char *p = (const unsigned char *) text; *p; ) {
+        int n = sequence (p);
+        const char *found = strchr ("\"\"\\\\\nn\tt\rr\bb\ff", *p);
+        if (n == 0) fputs ("\\ufffd", file), n = 1;
+        else if (*p == '"' || *p == '\\') fputc ('\\', file), fputc (*p, file);
+        else if (*p < 0x20 && found) fputc ('\\', file), fputc (found[1], file);
+        else if (*p < 0x20 || *p == 0x7f) fprintf (file, "\\u%04x", *p);
+        else fwrite (p, 1, (size_t) n, file);
+        p += n;
+    }
+    fputc ('"', file);
+}
+
+/* Comma, new line and key in front of a value; 0 when nothing may follow here. */
+static int begin (pg_json *j, const char *key)
+{
+    if (!j) return 0;
+    if (j->depth == 0 && key && j->count[0] == 0) pg_json_open (j, NULL, '{');
+    int in_map = j->depth > 0 && j->bracket[j->depth - 1] == '{';
+    if (j->misuse || in_map != (key != NULL) || (j->depth == 0 && j->count[0] > 0)) {
+        j->misuse = 1;
+        return 0;
+    }
+    if (j->count[j->depth]++ > 0) fputc (',', j->file);
+    if (j->depth > 0) fprintf (j->file, "\n%*s", 2 * j->depth, "");
+    if (key) {
+        put_string (j->file, key);
+        fputs (": ", j->file);
+    }
+    return 1;
+}
+
+pg_status pg_json_create (pg_json **out, const char *path)
+{
+    pg_status status = PG_OK;
+    pg_json *j = NULL;
+    size_t size = strlen (path) + 5;
+    *out = NULL;
+    PG_ALLOC (j, 1);
+    PG_ALLOC (j->temporary, size);
+    j->path = pg_strdup (path);
+    if (!j->path) PG_FAIL (PG_E_MEMORY, "no memory for a path");
+    snprintf (j->temporary, size, "%s.tmp", path);
+    errno = 0;
+    j->file = fopen (j->temporary, "w");
+    if (!j->file) PG_FAIL (PG_E_FILE, "%s: %s", j->temporary, strerror (errno));
+    *out = j;
+    j = NULL;
+done:
+    if (j) pg_free (j->path), pg_free (j->temporary), pg_free (j);
+    return status;
+}
+
+void pg_json_open (pg_json *j, const char *key, char bracket)
+{
+    if (!begin (j, key)) return;
+    if (j->depth == DEPTH || (bracket != '{' && bracket != '[')) {
+        j->misuse = 1;
+        return;
+    }
+    fputc (bracket, j->file);
+    j->bracket[j->depth++] = bracket;
+    j->count[j->depth] = 0;
+}
+
+void pg_json_shut (pg_json *j)
+{
+    if (!j || j->misuse) return;
+    if (j->depth == 0) {
+        j->misuse = 1;
+        return;
+    }
+    int empty = j->count[j->depth--] == 0;
+    if (!empty) fprintf (j->file, "\n%*s", 2 * j->depth, "");
+    fputc (j->bracket[j->depth] == '{' ? '}' : ']', j->file);
+}
+
+/* As few digits as give the same double back. */
+void pg_json_number (pg_json *j, const char *key, double value)
+{
+    char text[40];
+    if (!begin (j, key)) return;
+    if (!isfinite (value)) {
+        fputs ("null", j->file);
+        return;
+    }
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf (text, sizeof text, "%.*g", digits, value);
+        if (strtod (text, NULL) == value) break;
+    }
+    fputs (text, j->file);
+}
+
+void pg_json_count (pg_json *j, const char *key, size_t value)
+{
+    if (begin (j, key)) fprintf (j->file, "%zu", value);
+}
+
+void pg_json_text (pg_json *j, const char *key, const char *value)
+{
+    if (!begin (j, key)) return;
+    if (value) put_string (j->file, value);
+    else fputs ("null", j->file);
+}
+
+pg_status pg_json_close (pg_json **json)
+{
+    pg_status status = PG_OK;
+    if (!json || !*json) return PG_OK;
+    pg_json *j = *json;
+    while (j->depth > 0 && !j->misuse) pg_json_shut (j);
+    fputc ('\n', j->file);
+    errno = 0;
+    int bad = fflush (j->file) != 0 || ferror (j->file);
+    if (!bad) fsync (fileno (j->file));
+    int reason = errno;
+    if (fclose (j->file) != 0 && !bad) bad = 1, reason = errno;
+    if (j->misuse) PG_FAIL (PG_E_USAGE, "%s: brackets, keys or lists do not match", j->path);
+    if (bad) PG_FAIL (PG_E_FILE, "%s: %s", j->temporary, reason ? strerror (reason) : "write failed");
+    if (rename (j->temporary, j->path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", j->path, strerror (errno));
+done:
+    if (status != PG_OK) remove (j->temporary);
+    pg_free (j->path);
+    pg_free (j->temporary);
+    pg_free (j);
+    *json = NULL;
+    return status;
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * owner[pixel] = the spot whose cell covers the pixel's centre, the nearest where several do. Pixels in narrow gaps between cells
+ * (moved points) go to the nearest spot if there are spots on two opposite sides; the outline of the body does not grow. */
+#include "picture.h"
+#include <math.h>
+
+enum { LEFT = 1, RIGHT = 2, ABOVE = 4, BELOW = 8, INSIDE = 16 };
+
+/* First and one past the last pixel whose centre lies within `half` of `at`, cut to [0, n). Written so that cells side by side
+ * neither overlap nor leave a pixel out. */
+static void span (double at, double half, int n, int *first, int *last)
+{
+    double a = ceil (at - half - 0.5 - 1e-6), b = ceil (at + half - 0.5 - 1e-6);
+    *first = a < 0 ? 0 : a > n ? n : (int) a;
+    *last = b < 0 ? 0 : b > n ? n : (int) b;
+}
+
+static void stamp (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance, unsigned char *seen)
+{
+    const double *at = s->place + 2 * k, *size = s->size;
+    int x[2], y[2], ix[2], iy[2];
+    if (!isfinite (at[0]) || !isfinite (at[1])) return;
+    span (at[0], 0.5 * size[0], width, &ix[0], &ix[1]);
+    span (at[1], 0.5 * size[1], height, &iy[0], &iy[1]);
+    span (at[0], 0.5 * size[0] * s->reach, width, &x[0], &x[1]);
+    span (at[1], 0.5 * size[1] * s->reach, height, &y[0], &y[1]);
+    for (int j = y[0]; j < y[1]; j++)
+        for (int i = x[0]; i < x[1]; i++) {
+            size_t p = (size_t) j * (size_t) width + (size_t) i;
+            double dx = (i + 0.5 - at[0]) / size[0], dy = (j + 0.5 - at[1]) / size[1];
+            float d = (float) (dx * dx + dy * dy);
+            int across = j >= iy[0] && j < iy[1], along = i >= ix[0] && i < ix[1];
+            if (across) seen[p] |= dx > 0 ? LEFT : RIGHT;
+            if (along) seen[p] |= dy > 0 ? ABOVE : BELOW;
+            if (across && along) seen[p] |= INSIDE;
+            if (owner[p] < 0 || d < distance[p]) owner[p] = (int) k, distance[p] = d;
+        }
+}
+
+pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner)
+{
+    pg_status status = PG_OK;
+    size_t n = (size_t) width * (size_t) height;
+    float *distance = NULL;
+    unsigned char *seen = NULL;
+    PG_ALLOC (distance, n);
+    PG_ALLOC (seen, n);
+    for (size_t p = 0; p < n; p++) owner[p] = -1;
+    for (size_t k = 0; k < spots->n; k++) stamp (spots, k, width, height, owner, distance, seen);
+    for (size_t p = 0; p < n; p++)
+        if (!(seen[p] & INSIDE) && (seen[p] & (LEFT | RIGHT)) != (LEFT | RIGHT) && (seen[p] & (ABOVE | BELOW)) != (ABOVE | BELOW))
+            owner[p] = -1;
+done:
+    pg_free (seen);
+    pg_free (distance);
+    return status;
+}

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * history.csv: one row a step with reactions and mean displacements of every load, gauges, energies; events.csv: one row a bond. */
+#include "result.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char axis[3] = { 'x', 'y', 'z' };
+static const char *const first_columns[] = { "step [1]", "time [s]", "load_factor [1]" };
+static const char *const last_columns[] = { "energy_strain [J]", "energy_kinetic [J]", "energy_external [J]", "energy_dissipated [J]",
+                                            "broken [1]", "iterations [1]", "residual [1]", "utilisation [1]", "event [1]", "level [1]" };
+
+pg_status result_history_create (pg_result *r)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
+    char path[4096], (*name)[128] = NULL;
+    const char **column = NULL;
+    size_t n = 0, most = 13 + 6 * p->nload + p->ngauge + 1;
+    PG_ALLOC (name, most);
+    PG_ALLOC (column, most);
+    for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
+    for (size_t l = 0; l < p->nload; l++)
+        for (int k = 0; k < p->dim; k++) {
+            snprintf (name[n++], sizeof *name, "%s.force_%c [N]", p->load[l].name, axis[k]);
+            snprintf (name[n++], sizeof *name, "%s.displacement_%c [m]", p->load[l].name, axis[k]);
+        }
+    for (size_t g = 0; g < p->ngauge; g++) snprintf (name[n++], sizeof *name, "%s [m]", p->gauge[g].name);
+    for (size_t k = 0; k < sizeof last_columns / sizeof *last_columns; k++) snprintf (name[n++], sizeof *name, "%s", last_columns[k]);
+    for (size_t k = 0; k < n; k++) column[k] = name[k];
+    r->ncolumn = n;
+    PG_ALLOC (r->row, n);
+    PG_ALLOC (r->u, p->cloud.n * 6);
+    snprintf (path, sizeof path, "%s/history.csv", r->folder);
+    PG_TRY (pg_table_create (&r->history, path, n, column));
+    static const char *const event_columns[] = { "step [1]", "load_factor [1]", "time [s]", "bond [name]", "kind [name]", "x [m]", "y [m]", "z [m]",
+                                                 "utilisation [1]", "energy_of_step [J]" };
+    snprintf (path, sizeof path, "%s/events.csv", r->folder);
+    PG_TRY (pg_table_create (&r->events, path, 10, event_columns));
+done:
+    pg_free (name), pg_free (column);
+    return status;
+}
+
+static double mean_of (const pg_set *set, const double *u, int dim, int k)
+{
+    double sum = 0;
+    for (size_t i = 0; i < set->npoint; i++) sum += u[(size_t) set->point[i] * (size_t) dim + (size_t) k];
+    return set->npoint ? sum / (double) set->npoint : 0;
+}
+
+static double opening (const pg_gauge *g, int dim, const double *a, const double *b)
+{
+    double length = 0, sum = 0;
+    for (int k = 0; k < dim; k++) {
+        length += (g->to[k] - g->from[k]) * (g->to[k] - g->from[k]);
+        sum += (g->to[k] - g->from[k]) * (b[k] - a[k]);
+    }
+    return length > 0 ? sum / sqrt (length) : 0;
+}
+
+static pg_status event_rows (pg_result *r, const pg_step *step)
+{
+    pg_status status = PG_OK;
+    static const char *const set_name[] = { "node-node", "point-node", "facet-node" };
+    for (size_t i = 0; i < step->nbroken; i++) {
+        const pg_broken *b = &step->broken[i];
+        char text[8][40];
+        const char *cell[10] = { text[0], text[1], text[2], set_name[b->set], b->kind == 's' ? "shear" : "tension", text[3], text[4], text[5], text[6], text[7] };
+        double number[8] = { (double) step->number, step->factor, step->time, b->place[0], b->place[1], b->place[2], b->utilisation,
+                             i == 0 ? step->dissipated : 0 };
+        for (int k = 0; k < 8; k++) snprintf (text[k], sizeof text[k], "%.10g", number[k]);
+        PG_TRY (pg_table_line (r->events, cell));
+    }
+done:
+    return status;
+}
+
+static pg_status add_curve_point (pg_result *r, double x, double y)
+{
+    pg_status status = PG_OK;
+    PG_GROW (r->curve_x, r->cap_x, r->npoint + 1);
+    PG_GROW (r->curve_y, r->cap_y, r->npoint + 1);
+    r->curve_x[r->npoint] = x, r->curve_y[r->npoint++] = y;
+done:
+    return status;
+}
+
+pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    const pg_report *report = pg_solver_report_now (r->solver);
+    size_t n = 0;
+    int components;
+    const char *unit;
+    r->row[n++] = (double) step->number, r->row[n++] = step->time, r->row[n++] = step->factor;
+    PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, r->u));
+    for (size_t l = 0; l < p->nload; l++)
+        for (int k = 0; k < p->dim; k++) {
+            double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0, u = mean_of (p->load[l].set, r->u, p->dim, k);
+            if ((int) l == r->curve_load && k == r->curve_component) PG_TRY (add_curve_point (r, fabs (u), fabs (f)));
+            r->row[n++] = f, r->row[n++] = u;
+        }
+    for (size_t g = 0; g < p->ngauge; g++) {
+        double a[3], b[3];
+        PG_TRY (force->probe (self, state->d, p->gauge[g].from, a));
+        PG_TRY (force->probe (self, state->d, p->gauge[g].to, b));
+        r->row[n++] = opening (&p->gauge[g], p->dim, a, b);
+    }
+    r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic, r->row[n++] = report->energy_external;
+    r->row[n++] = report->energy_dissipated, r->row[n++] = (double) report->broken, r->row[n++] = (double) step->iterations;
+    r->row[n++] = step->residual, r->row[n++] = step->utilisation, r->row[n++] = step->event, r->row[n++] = step->level;
+    PG_TRY (pg_table_row (r->history, r->row));
+    PG_TRY (event_rows (r, step));
+done:
+    return status;
+}

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * report.json: what the run did, in fixed keys (doc/output.md). */
+#include "result.h"
+#include <stdio.h>
+#include <string.h>
+
+static void seconds_block (pg_json *j, const pg_report *r, double search, double write, double total)
+{
+    pg_json_open (j, "seconds", '{');
+    pg_json_number (j, "search", search);
+    pg_json_number (j, "shape", r->seconds[PG_SECONDS_SHAPE]);
+    pg_json_number (j, "analyse", r->seconds[PG_SECONDS_ANALYSE]);
+    pg_json_number (j, "factor", r->seconds[PG_SECONDS_FACTOR]);
+    pg_json_number (j, "solve", r->seconds[PG_SECONDS_SOLVE]);
+    pg_json_number (j, "force", r->seconds[PG_SECONDS_FORCE]);
+    pg_json_number (j, "break", r->seconds[PG_SECONDS_BREAK]);
+    pg_json_number (j, "write", write);
+    pg_json_number (j, "total", total);
+    pg_json_shut (j);
+}
+
+static void run_block (pg_json *j, const pg_result *res, const pg_report *r, const pg_state *state)
+{
+    const pg_problem *p = res->problem;
+    pg_json_count (j, "points", p->cloud.n);
+    pg_json_count (j, "bonds", p->first_bond[PG_BOND_SETS]);
+    pg_json_count (j, "dofs", state->ndof);
+    pg_json_count (j, "evaluation_points", p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n);
+    pg_json_count (j, "eroded_points", p->eroded);
+    pg_json_count (j, "steps", (size_t) r->steps);
+    pg_json_count (j, "events", (size_t) r->events);
+    pg_json_count (j, "iterations", (size_t) r->iterations);
+    pg_json_count (j, "broken", (size_t) r->broken);
+    pg_json_count (j, "bonds_over_limit", (size_t) r->bonds_over_limit);
+    pg_json_number (j, "utilisation_max", r->utilisation_max);
+    pg_json_number (j, "residual_max", r->residual_max);
+    pg_json_count (j, "factorizations", (size_t) r->factorizations);
+    pg_json_count (j, "updates", (size_t) r->updates);
+    pg_json_count (j, "solves", (size_t) r->solves);
+    pg_json_count (j, "cg_iterations", r->cg_iterations);
+    pg_json_count (j, "degenerate_points", r->degenerate_points);
+    pg_json_count (j, "isolated_nodes", r->isolated_nodes);
+    pg_json_count (j, "fragments", r->fragments);
+    pg_json_number (j, "overlap_max", r->overlap_max);
+    pg_json_text (j, "linear_solver", r->solver);
+    pg_json_text (j, "ordering", r->ordering);
+    pg_json_number (j, "factor_entries", r->factor_entries);
+    pg_json_open (j, "energy", '{');
+    pg_json_number (j, "strain", r->energy_strain);
+    pg_json_number (j, "kinetic", r->energy_kinetic);
+    pg_json_number (j, "external", r->energy_external);
+    pg_json_number (j, "dissipated", r->energy_dissipated);
+    pg_json_shut (j);
+}
+
+pg_status result_json (pg_result *res, const pg_state *state, const char *failure, double search, double total)
+{
+    pg_status status = PG_OK;
+    pg_json *j = NULL;
+    char path[4096];
+    const pg_report *r = pg_solver_report (res->solver, state);
+    snprintf (path, sizeof path, "%s/report.json", res->folder);
+    PG_TRY (pg_json_create (&j, path));
+    pg_json_open (j, NULL, '{');
+    pg_json_text (j, "version", PG_VERSION);
+    pg_json_text (j, "scene", res->scene);
+    pg_json_text (j, "scene_sha256", res->hash);
+    pg_json_text (j, "outcome", failure ? failure : "done");
+    run_block (j, res, r, state);
+    seconds_block (j, r, search, res->seconds, total);
+    pg_json_count (j, "peak_bytes", pg_memory_process_peak ());
+    pg_json_count (j, "threads", (size_t) res->problem->threads);
+    if (res->problem->criterion.type) {
+        char text[512] = "";
+        res->problem->criterion.type->describe (&res->problem->criterion, text, sizeof text);
+        pg_json_text (j, "criterion", text);
+    }
+    pg_json_open (j, "skipped", '[');
+    for (size_t k = 0; k < r->nskipped; k++) {
+        pg_json_open (j, NULL, '{');
+        pg_json_text (j, "what", r->skipped[k].what);
+        pg_json_text (j, "why", r->skipped[k].why);
+        pg_json_number (j, "seconds_saved", r->skipped[k].seconds_saved);
+        pg_json_shut (j);
+    }
+    pg_json_shut (j);
+    pg_json_open (j, "warnings", '[');
+    for (size_t k = 0; k < r->nwarning; k++) pg_json_text (j, NULL, r->warning[k]);
+    pg_json_shut (j);
+    pg_json_shut (j);
+    PG_TRY (pg_json_close (&j));
+done:
+    if (j) pg_json_close (&j);
+    return status;
+}

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The result folder: opened before the first step, every row on disk when its step is over. */
+#include "result.h"
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <math.h>
+#include <sys/stat.h>
+
+static pg_status make_folder (const char *path)
+{
+    pg_status status = PG_OK;
+    char part[3072];
+    snprintf (part, sizeof part, "%s", path);
+    for (char *p = part + 1;; p++) {
+        if (*p && *p != '/') continue;
+        char keep = *p;
+        *p = 0;
+        if (mkdir (part, 0777) != 0 && errno != EEXIST) PG_FAIL (PG_E_FILE, "cannot make the folder %s: %s", part, strerror (errno));
+        *p = keep;
+        if (!keep) break;
+    }
+done:
+    return status;
+}
+
+static pg_status copy_scene (const pg_result *r, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    snprintf (path, sizeof path, "%s/scene.yaml", r->folder);
+    const char *text = pg_scene_source (scene);
+    FILE *f = fopen (path, "w");
+    if (!f) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
+    size_t n = strlen (text), wrote = fwrite (text, 1, n, f);
+    if (fclose (f) != 0 || wrote != n) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
+done:
+    return status;
+}
+
+/* The curve follows the prescribed component that moves most, else the first load with a force. */
+static void choose_curve (pg_result *r)
+{
+    const pg_problem *p = r->problem;
+    double most = 0;
+    r->curve_load = -1;
+    for (size_t l = 0; l < p->nload; l++)
+        for (int k = 0; k < p->dim; k++) {
+            const pg_load *load = &p->load[l];
+            if (!pg_load_prescribes (load) || load->set->npoint == 0) continue;
+            double end = load->kind == PG_VELOCITY ? 1e-9 : 1, size = 0;
+            for (size_t i = 0; i < load->set->npoint; i++)
+                size = fmax (size, fabs (pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, end)));
+            if (size > most) most = size, r->curve_load = (int) l, r->curve_component = k;
+        }
+    for (size_t l = 0; l < p->nload && r->curve_load < 0; l++)
+        for (int k = 0; k < p->dim && r->curve_load < 0; k++)
+            if (!pg_load_prescribes (&p->load[l]) && p->load[l].kind != PG_BODY_FORCE && p->load[l].value[k]) r->curve_load = (int) l, r->curve_component = k;
+}
+
+static pg_status read_wishes (pg_result *r, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const char *name;
+    r->magnify = pg_scene_number (scene, "output.magnify");
+    r->every = pg_scene_has (scene, "output.at.events") ? pg_scene_integer (scene, "output.at.events") : 0;
+    r->broken_share = pg_scene_has (scene, "output.at.broken") ? pg_scene_number (scene, "output.at.broken") : 0;
+    for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")) && r->nfield < MOST_FIELDS; k++) {
+        pg_field_view *f = &r->field[r->nfield++];
+        snprintf (f->name, sizeof f->name, "%s", name);
+    }
+    for (size_t k = 0; (name = pg_scene_name (scene, k, "output.pictures")) && r->npicture < MOST_PICTURES - 1; k++)
+        snprintf (r->picture[r->npicture++], sizeof *r->picture, "%s", name);
+    for (size_t k = 0; k < r->nfield; k++) {
+        pg_field_view *f = &r->field[k];
+        int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0;
+        PG_ALLOC (r->value[k], 6 * r->problem->cloud.n);
+        f->components = strcmp (f->name, "damage") == 0 ? 1 : vector ? r->problem->dim : pg_voigt_size (r->problem->dim);
+        snprintf (f->unit, sizeof f->unit, "%s", strcmp (f->name, "stress") == 0 ? "Pa" : !vector ? "" : f->name[0] == 'd' ? "m" : "m/s");
+        f->value = r->value[k];
+    }
+done:
+    return status;
+}
+
+pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver)
+{
+    pg_status status = PG_OK;
+    pg_result *r = NULL;
+    char path[4096];
+    double t0 = pg_seconds ();
+    PG_ALLOC (r, 1);
+    r->problem = problem, r->solver = solver;
+    snprintf (r->folder, sizeof r->folder, "%s", folder);
+    snprintf (r->hash, sizeof r->hash, "%s", pg_scene_hash (scene));
+    snprintf (r->scene, sizeof r->scene, "%s", pg_scene_file (scene));
+    PG_TRY (make_folder (folder));
+    PG_TRY (copy_scene (r, scene));
+    PG_TRY (read_wishes (r, scene));
+    choose_curve (r);
+    PG_TRY (result_history_create (r));
+    snprintf (path, sizeof path, "%s/result.e", folder);
+    PG_TRY (pg_exodus_create (&r->file, path, &problem->cloud, problem->title, r->nfield, r->field));
+    r->next_broken = r->broken_share > 0 ? 1 : 0;
+    r->seconds += pg_seconds () - t0;
+    *out = r;
+    r = NULL;
+done:
+    pg_result_free (&r);
+    return status;
+}
+
+static pg_status write_fields (pg_result *r, const pg_state *state, double time)
+{
+    pg_status status = PG_OK;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    for (size_t k = 0; k < r->nfield; k++) {
+        const char *unit;
+        int components;
+        PG_TRY (force->field (self, state, state->d, r->field[k].name, &components, &unit, r->value[k]));
+    }
+    PG_TRY (pg_exodus_write (r->file, time, r->field));
+    r->exodus_steps++;
+done:
+    return status;
+}
+
+pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *step)
+{
+    pg_status status = PG_OK;
+    double t0 = pg_seconds ();
+    PG_TRY (result_history_row (r, state, step));
+    int stage = r->every > 0 && step->event && state->events % r->every == 0;
+    if (r->broken_share > 0 && (double) state->broken >= r->broken_share * (double) r->next_broken * (double) state->nbond) {
+        stage = 1;
+        r->next_broken = (long) ((double) state->broken / (r->broken_share * (double) state->nbond)) + 1;
+    }
+    r->last_written = step->level || stage;
+    if (r->last_written) PG_TRY (write_fields (r, state, step->time));
+done:
+    r->seconds += pg_seconds () - t0;
+    return status;
+}
+
+pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *failure, double search, double total)
+{
+    pg_status status = PG_OK;
+    double t0 = pg_seconds ();
+    if (!r->last_written) PG_TRY (write_fields (r, state, state->time));
+    r->last_written = 1;
+    PG_TRY (result_pictures (r, state));
+    r->seconds += pg_seconds () - t0;
+    PG_TRY (result_json (r, state, failure, search, total));
+done:
+    return status;
+}
+
+void pg_result_free (pg_result **result)
+{
+    pg_result *r = *result;
+    if (!r) return;
+    pg_exodus_close (&r->file);
+    pg_table_close (&r->history);
+    pg_table_close (&r->events);
+    for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);
+    pg_free (r->row), pg_free (r->u), pg_free (r->curve_x), pg_free (r->curve_y);
+    pg_free (r);
+    *result = NULL;
+}
+
+const char *pg_result_folder (const pg_result *r) { return r->folder; }
+size_t pg_result_pictures (const pg_result *r) { return r->nwritten; }
+const char *pg_result_picture (const pg_result *r, size_t i) { return i < r->nwritten ? r->written[i] : NULL; }

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Values by path: what the user wrote, or the default of the key. */
+#include "document.h"
+#include "unit.h"
+#include "value.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const pg_node *node;                               /* NULL: absent */
+    const pg_node *nearest;                            /* last written node on the way */
+    int            given;                              /* the node is written, not a default */
+} found;
+
+static const pg_node *default_of (const pg_scene *s, const char *pattern)
+{
+    for (size_t k = 0; k < s->schema.n; k++) {
+        const pg_node *node = &s->fallback[k];
+        if (strcmp (s->schema.row[k]->path, pattern) == 0 && node->origin) return node;
+    }
+    return NULL;
+}
+
+static const pg_node *item (const pg_node *list, size_t i)
+{
+    if (!list || list->shape == PG_MAPPING) return NULL;
+    if (list->shape == PG_SCALAR) return i == 0 ? list : NULL;
+    return i < list->n ? &list->child[i] : NULL;
+}
+
+/* Walks "a.b[3].c". Defaults never stand in for an element of a list or for a name the user chooses. */
+static found locate (const pg_scene *s, const char *path)
+{
+    char pattern[PG_PATTERN] = "";
+    found f = { &s->root, &s->root, 1 };
+    while (*path) {
+        int may_default = 1;
+        const pg_node *child;
+        if (*path == '[') {
+            child = item (f.node, (size_t) strtoul (path + 1, NULL, 10));
+            path += strcspn (path, "]");
+            path += *path == ']';
+            pg_schema_item (&s->schema, pattern);
+            may_default = 0;
+        } else {
+            path += *path == '.';
+            size_t n = strcspn (path, ".[");
+            child = f.node && n ? pg_node_child (f.node, path, n) : NULL;
+            int entered = pg_schema_enter (&s->schema, pattern, path, n);
+            if (!entered) return (found) { NULL, f.nearest, 0 };
+            may_default = entered == 1;
+            path += n;
+        }
+        if (child && f.given) f.nearest = child;
+        if (!child) f.given = 0;
+        f.node = child;
+        if (!child && !may_default) return f;
+        if (!child) f.node = default_of (s, pattern);
+    }
+    return f;
+}
+
+#define LOCATE(f, s, path) \
+    found f; \
+    do { \
+        char text_[PG_PATH_TEXT]; \
+        va_list args_; \
+        va_start (args_, path); \
+        vsnprintf (text_, sizeof text_, path, args_); \
+        va_end (args_); \
+        f = locate (s, text_); \
+    } while (0)
+
+int pg_scene_given (const pg_scene *s, const char *path, ...)
+{
+    LOCATE (f, s, path);
+    return f.node && f.given;
+}
+
+int pg_scene_has (const pg_scene *s, const char *path, ...)
+{
+    LOCATE (f, s, path);
+    return f.node != NULL;
+}
+
+size_t pg_scene_count (const pg_scene *s, const char *path, ...)
+{
+    LOCATE (f, s, path);
+    if (!f.node) return 0;
+    return f.node->shape == PG_SCALAR ? 1 : f.node->n;
+}
+
+const char *pg_scene_name (const pg_scene *s, size_t i, const char *path, ...)
+{
+    LOCATE (f, s, path);
+    if (!f.node) return NULL;
+    if (f.node->shape == PG_MAPPING) return i < f.node->n ? f.node->child[i].name : NULL;
+    const pg_node *node = item (f.node, i);
+    return node && node->shape == PG_SCALAR ? node->text : NULL;
+}
+
+/* SI value; `spacing` metres for one point spacing. A node without a numeric kind (dimension: 2) is read as plain number. */
+static double number_of (const pg_node *node, double spacing)
+{
+    double value = 0;
+    if (!node || node->shape != PG_SCALAR) return 0;
+    if (!node->key || node->key->kind == PG_NAME || node->key->kind == PG_TEXT || node->key->kind == PG_NAMES) {
+        if (!node->text || !pg_number_read (node->text, &value)) value = 0;
+        return value;
+    }
+    return node->spacing ? node->value * spacing : node->value;
+}
+
+double pg_scene_number (const pg_scene *s, const char *path, ...)
+{
+    LOCATE (f, s, path);
+    return number_of (f.node, NAN);                    /* multiples of the spacing need pg_scene_length */
+}
+
+double pg_scene_length (const pg_scene *s, double spacing, const char *path, ...)
+{
+    LOCATE (f, s, path);
+    return number_of (f.node, spacing);
+}
+
+long pg_scene_integer (const pg_scene *s, const char *path, ...)
+{
+    LOCATE (f, s, path);
+    double value = number_of (f.node, NAN);
+    return fabs (value) <= 9007199254740992.0 ? (long) value : 0;
+}
+
+int pg_scene_bool (const pg_scene *s, const char *path, ...)
+{
+    LOCATE (f, s, path);
+    return f.node && f.node->shape == PG_SCALAR && f.node->value != 0;
+}
+
+const char *pg_scene_text (const pg_scene *s, const char *path, ...)
+{
+    LOCATE (f, s, path);
+    return f.node && f.node->shape == PG_SCALAR ? f.node->text : NULL;
+}
+
+int pg_scene_vector (const pg_scene *s, int max, double *out, const char *path, ...)
+{
+    LOCATE (f, s, path);
+    int n = 0;
+    for (; n < max; n++) {
+        const pg_node *node = item (f.node, (size_t) n);
+        if (!node) break;
+        out[n] = number_of (node, NAN);
+    }
+    return n;
+}
+
+void pg_scene_fault (const pg_scene *s, const char *path, const char *format, ...)
+{
+    va_list args;
+    found f = locate (s, path);
+    int written = f.node && f.given;
+    va_start (args, format);
+    pg_faults_add_v (s->faults, s->file, f.nearest, path, written, format, args);
+    va_end (args);
+}

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Scene from a file or from memory: read, override, check, verdict. */
+#include "document.h"
+#include "sha256.h"
+#include <errno.h>
+#include <string.h>
+
+enum { LARGEST = 1 << 28 };                            /* bytes of a scene file */
+
+static void hash (pg_scene *s, size_t length, size_t nset, const char *const *set)
+{
+    pg_sha256 sum;
+    pg_sha256_start (&sum);
+    pg_sha256_add (&sum, s->source, length);
+    for (size_t k = 0; k < nset; k++) {
+        pg_sha256_add (&sum, "", 1);
+        pg_sha256_add (&sum, set[k], strlen (set[k]));
+    }
+    pg_sha256_end (&sum, s->hash);
+}
+
+static pg_status keep_texts (pg_scene *s, const char *text, size_t length, const char *name, size_t nset, const char *const *set)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (s->source, length + 1);
+    if (length) memcpy (s->source, text, length);
+    s->file = pg_strdup (name);
+    if (!s->file) PG_FAIL (PG_E_MEMORY, "no memory for the name of the scene");
+    PG_ALLOC (s->faults, 1);
+    PG_ALLOC (s->set, nset);
+    for (s->nset = 0; s->nset < nset; s->nset++) {
+        size_t n = strlen (set[s->nset]) + sizeof "--set ";
+        PG_ALLOC (s->set[s->nset], n);
+        snprintf (s->set[s->nset], n, "--set %s", set[s->nset]);
+    }
+    hash (s, length, nset, set);
+done:
+    return status;
+}
+
+static pg_status read_tree (pg_scene *s, const char *text, size_t length)
+{
+    int good;
+    pg_status status = pg_node_read (&s->root, text, length, NULL, s->file, s->faults, &good);
+    if (status != PG_OK || !good) return status;
+    s->root.line = s->root.column = 1;
+    if ((s->root.shape == PG_SCALAR && !s->root.text) || pg_node_null (&s->root))
+        pg_faults_add (s->faults, s->file, NULL, NULL, 0, "the scene is empty");
+    else if (s->root.shape != PG_MAPPING) pg_faults_add (s->faults, s->file, NULL, NULL, 0, "a scene is a map (key: value)");
+    return PG_OK;
+}
+
+pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset, const char *const *set,
+                         const pg_key_table *table, size_t ntable)
+{
+    pg_status status = PG_OK;
+    pg_scene *s;
+    *out = NULL;
+    PG_ALLOC (s, 1);
+    PG_TRY (keep_texts (s, text, length, name, nset, set));
+    PG_TRY (pg_schema_create (&s->schema, table, ntable));
+    PG_TRY (read_tree (s, text, length));
+    PG_TRY (pg_faults_verdict (s->faults));            /* without a tree there is nothing more to check */
+    for (size_t k = 0; k < nset; k++) PG_TRY (pg_scene_override (s, set[k], s->set[k]));
+    PG_TRY (pg_scene_check (s));
+    PG_TRY (pg_faults_verdict (s->faults));
+    *out = s;
+    s = NULL;
+done:
+    pg_scene_free (&s);
+    return status;
+}
+
+pg_status pg_scene_parse (pg_scene **out, const char *text, const char *name)
+{
+    size_t n;
+    const pg_key_table *table = pg_scene_tables (&n);
+    return pg_scene_read (out, text, strlen (text), name, 0, NULL, table, n);
+}
+
+static pg_status read_file (char **text, size_t *length, const char *path)
+{
+    pg_status status = PG_OK;
+    size_t cap = 0, n = 0, more;
+    FILE *f = fopen (path, "rb");
+    if (!f) PG_FAIL (PG_E_FILE, "%s: cannot be opened: %s", path, strerror (errno));
+    do {
+        PG_GROW (*text, cap, n + 4096);
+        more = fread (*text + n, 1, cap - n, f);
+        n += more;
+        if (n > LARGEST) PG_FAIL (PG_E_LIMIT, "%s: a scene has at most %d bytes", path, LARGEST);
+    } while (more);
+    if (ferror (f)) PG_FAIL (PG_E_FILE, "%s: cannot be read: %s", path, strerror (errno));
+    *length = n;
+done:
+    if (f) fclose (f);
+    return status;
+}
+
+pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, const char *const *set)
+{
+    pg_status status = PG_OK;
+    char *text = NULL;
+    size_t length = 0, n;
+    const pg_key_table *table = pg_scene_tables (&n);
+    *out = NULL;
+    PG_TRY (read_file (&text, &length, path));
+    PG_TRY (pg_scene_read (out, text, length, path, nset, set, table, n));
+done:
+    pg_free (text);
+    return status;
+}
+
+pg_status pg_scene_load (pg_scene **out, const char *path) { return pg_scene_load_with (out, path, 0, NULL); }
+
+void pg_scene_free (pg_scene **scene)
+{
+    if (!scene || !*scene) return;
+    pg_scene *s = *scene;
+    for (size_t k = 0; s->fallback && k < s->schema.n; k++) pg_node_clear (&s->fallback[k]);
+    pg_free (s->fallback);
+    pg_node_clear (&s->root);
+    pg_schema_clear (&s->schema);
+    for (size_t k = 0; k < s->nset; k++) pg_free (s->set[k]);
+    pg_free (s->set);
+    if (s->faults) pg_faults_clear (s->faults);
+    pg_free (s->faults);
+    pg_free (s->source);
+    pg_free (s->file);
+    pg_free (s);
+    *scene = NULL;
+}
+
+const char *pg_scene_file   (const pg_scene *s) { return s->file; }
+const char *pg_scene_source (const pg_scene *s) { return s->source; }
+const char *pg_scene_hash   (const pg_scene *s) { return s->hash; }
+
+pg_status pg_scene_verdict (const pg_scene *s) { return pg_faults_verdict (s->faults); }

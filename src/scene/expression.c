@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Value of a compiled expression at a place: a stack machine. The compiler is in compile.c. */
+#include "expression.h"
+#include <math.h>
+#include <string.h>
+
+static const pg_variable variables[] = {
+    { "x",     PG_OP_X,     "coordinate, m" },
+    { "y",     PG_OP_Y,     "coordinate, m (0 in 1D)" },
+    { "z",     PG_OP_Z,     "coordinate, m (0 in 1D and 2D)" },
+    { "r",     PG_OP_R,     "distance from the origin, m" },
+    { "angle", PG_OP_ANGLE, "atan2 (y, x), rad, from 0 up to 2 pi" },
+    { "t",     PG_OP_T,     "time, s; the load factor 0 to 1 in a static scene" },
+};
+
+static const pg_function functions[] = {
+    { "sin",   PG_OP_SIN,    1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "sine of an angle" },
+    { "cos",   PG_OP_COS,    1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "cosine of an angle" },
+    { "tan",   PG_OP_TAN,    1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "tangent of an angle" },
+    { "exp",   PG_OP_EXP,    1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "exponential" },
+    { "log",   PG_OP_LOG,    1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "natural logarithm" },
+    { "sqrt",  PG_OP_SQRT,   1, PG_TAKES_ANY,   PG_GIVES_ROOT,  "square root" },
+    { "abs",   PG_OP_ABS,    1, PG_TAKES_ANY,   PG_GIVES_SAME,  "absolute value" },
+    { "step",  PG_OP_STEP,   1, PG_TAKES_ANY,   PG_GIVES_PLAIN, "0 below 0, else 1" },
+    { "min",   PG_OP_MIN,   -2, PG_TAKES_ALIKE, PG_GIVES_SAME,  "smallest of two or more" },
+    { "max",   PG_OP_MAX,   -2, PG_TAKES_ALIKE, PG_GIVES_SAME,  "largest of two or more" },
+    { "hypot", PG_OP_HYPOT,  2, PG_TAKES_ALIKE, PG_GIVES_SAME,  "sqrt (a^2 + b^2)" },
+    { "atan2", PG_OP_ATAN2,  2, PG_TAKES_ALIKE, PG_GIVES_PLAIN, "angle of the vector (b, a), rad, from -pi to pi" },
+};
+
+const pg_function *pg_expression_function (size_t i) { return i < sizeof functions / sizeof *functions ? &functions[i] : NULL; }
+const pg_variable *pg_expression_variable (size_t i) { return i < sizeof variables / sizeof *variables ? &variables[i] : NULL; }
+
+double pg_op_apply (pg_op op, double a, double b)
+{
+    switch (op) {
+    case PG_OP_NEGATE:    return -a;
+    case PG_OP_NOT:       return a == 0;
+    case PG_OP_SIN:       return sin (a);
+    case PG_OP_COS:       return cos (a);
+    case PG_OP_TAN:       return tan (a);
+    case PG_OP_SQRT:      return sqrt (a);
+    case PG_OP_ABS:       return fabs (a);
+    case PG_OP_EXP:       return exp (a);
+    case PG_OP_LOG:       return log (a);
+    case PG_OP_STEP:      return a >= 0;
+    case PG_OP_ADD:       return a + b;
+    case PG_OP_SUBTRACT:  return a - b;
+    case PG_OP_MULTIPLY:  return a * b;
+    case PG_OP_DIVIDE:    return a / b;
+    case PG_OP_POWER:     return pow (a, b);
+    case PG_OP_MIN:       return a < b ? a : b;
+    case PG_OP_MAX:       return a > b ? a : b;
+    case PG_OP_HYPOT:     return hypot (a, b);
+    case PG_OP_ATAN2:     return atan2 (a, b);
+    case PG_OP_LESS:      return a < b;
+    case PG_OP_AT_MOST:   return a <= b;
+    case PG_OP_MORE:      return a > b;
+    case PG_OP_AT_LEAST:  return a >= b;
+    case PG_OP_EQUAL:     return a == b;
+    case PG_OP_DIFFERENT: return a != b;
+    case PG_OP_AND:       return a != 0 && b != 0;
+    case PG_OP_OR:        return a != 0 || b != 0;
+    default:              return 0;
+    }
+}
+
+double pg_expression_value (const pg_expression *e, const pg_place *at)
+{
+    double stack[PG_STACK];
+    const double variable[] = { at->x, at->y, at->z, at->r, at->angle, at->t };
+    size_t n = 0;
+    for (size_t k = 0; k < e->n; k++) {
+        pg_op op = e->code[k].op;
+        if (op == PG_OP_CONSTANT) stack[n++] = e->code[k].value;
+        else if (op <= PG_OP_T) stack[n++] = variable[op - PG_OP_X];
+        else if (op < PG_OP_ADD) stack[n - 1] = pg_op_apply (op, stack[n - 1], 0);
+        else {
+            n--;
+            stack[n - 1] = pg_op_apply (op, stack[n - 1], stack[n]);
+        }
+    }
+    return n ? stack[0] : 0;
+}
+
+int pg_expression_uses (const pg_expression *e, char variable)
+{
+    for (size_t k = 0; k < sizeof variables / sizeof *variables; k++)
+        if (variables[k].name[0] == variable) return (e->uses >> variables[k].op & 1) != 0;
+    return 0;
+}
+
+int pg_expression_constant (const pg_expression *e, double *value)
+{
+    static const pg_place origin;
+    if (e->uses) return 0;
+    *value = pg_expression_value (e, &origin);
+    return 1;
+}
+
+void pg_expression_free (pg_expression **e)
+{
+    if (!e || !*e) return;
+    pg_free ((*e)->code);
+    pg_free (*e);
+    *e = NULL;
+}

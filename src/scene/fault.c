@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Faults of a scene: collected, then reported together in the order of the file. */
+#include "node.h"
+#include <ctype.h>
+#include <limits.h>
+#include <string.h>
+
+enum { SHOWN = 50, KEPT = 1000, LINE = 1200, VALUE = 60 };
+
+/* At most `most` bytes of `text` with control characters as '?', cut between characters. */
+static void printable (char *out, size_t most, const char *text)
+{
+    size_t n = 0, length = strlen (text);
+    if (length > most) {
+        for (length = most - 3; length > 0 && ((unsigned char) text[length] & 0xC0) == 0x80; length--) continue;
+    }
+    for (; n < length; n++) out[n] = iscntrl ((unsigned char) text[n]) ? '?' : text[n];
+    snprintf (out + n, 4, "%s", text[n] ? "..." : "");
+}
+
+void pg_faults_add_v (pg_faults *f, const char *file, const pg_node *at, const char *path, int with_value, const char *format, va_list args)
+{
+    char text[2 * LINE], value[VALUE + 4] = "", origin[VALUE + 4], reason[LINE], clean[LINE + 4], name[LINE / 3 + 4];
+    pg_status status = PG_OK;
+    int line = at && at->line ? at->line : 1, column = at && at->column ? at->column : 1;
+    vsnprintf (reason, sizeof reason, format, args);
+    printable (clean, LINE, reason);
+    printable (name, LINE / 3, path ? path : "");
+    if (with_value && at && at->shape == PG_SCALAR && at->text) printable (value, VALUE, at->text);
+    int shows = with_value && *value;
+    size_t used;
+    if (at && at->origin) {
+        printable (origin, VALUE, at->origin);
+        used = (size_t) snprintf (text, sizeof text, "%s: ", origin);
+        line = INT_MAX;
+    } else used = (size_t) snprintf (text, sizeof text, "%.300s:%d:%d: ", file, line, column);
+    snprintf (text + used, sizeof text - used, "%s%s%s%s%s", name, shows ? " = " : "", value, *name ? ": " : "", clean);
+    if (f->n == KEPT) {
+        f->more++;
+        return;
+    }
+    PG_GROW (f->fault, f->cap, f->n + 1);
+    f->fault[f->n] = (pg_fault) { pg_strdup (text), line, column };
+    if (f->fault[f->n].text) f->n++;
+    else f->lost = 1;
+done:
+    if (status != PG_OK) f->lost = 1;
+}
+
+void pg_faults_add (pg_faults *f, const char *file, const pg_node *at, const char *path, int with_value, const char *format, ...)
+{
+    va_list args;
+    va_start (args, format);
+    pg_faults_add_v (f, file, at, path, with_value, format, args);
+    va_end (args);
+}
+
+static int before (const pg_fault *a, const pg_fault *b)
+{
+    return a->line != b->line ? a->line < b->line : a->column < b->column;
+}
+
+static void sort (pg_fault *fault, size_t n)           /* by place, stable */
+{
+    for (size_t i = 1; i < n; i++) {
+        pg_fault moving = fault[i];
+        size_t k = i;
+        for (; k > 0 && before (&moving, &fault[k - 1]); k--) fault[k] = fault[k - 1];
+        fault[k] = moving;
+    }
+}
+
+pg_status pg_faults_verdict (const pg_faults *f)
+{
+    char text[15000];
+    size_t used = 0, k = 0;
+    if (f->lost) return pg_error (PG_E_MEMORY, PG_HERE, "no memory for the faults of the scene");
+    if (f->n == 0) return PG_OK;
+    sort (f->fault, f->n);
+    for (; k < f->n && k < SHOWN; k++) {
+        size_t length = strlen (f->fault[k].text);
+        if (used + length + 2 > sizeof text) break;
+        used += (size_t) snprintf (text + used, sizeof text - used, "%s%s", k ? "\n" : "", f->fault[k].text);
+    }
+    if (k < f->n) return pg_error (PG_E_SCENE, PG_HERE, "%s\n... and %zu more", text, f->n - k + f->more);
+    return pg_error (PG_E_SCENE, PG_HERE, "%s", text);
+}
+
+void pg_faults_clear (pg_faults *f)
+{
+    for (size_t k = 0; k < f->n; k++) pg_free (f->fault[k].text);
+    pg_free (f->fault);
+    *f = (pg_faults) { 0 };
+}

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What a key means, from the tables: for one key on the terminal, for all keys as doc/input.md. */
+#include "help.h"
+#include "schema.h"
+#include <string.h>
+
+const char *pg_key_kind (const pg_key *key)
+{
+    static const char *const kind[] = {
+        "map", "list", "number", "whole number", "on or off", "name", "text", "vector", "numbers", "names", "expression",
+    };
+    return (unsigned) key->kind < sizeof kind / sizeof *kind ? kind[key->kind] : "?";
+}
+
+/* "materials.{}.youngs_modulus" and "materials.youngs_modulus" become the same text: what a user would type. */
+static void plain_path (char out[PG_PATTERN], const char *path)
+{
+    size_t n = 0;
+    for (; *path && n + 1 < PG_PATTERN; path++) {
+        if (*path == '{' || *path == '[') {
+            path += strcspn (path, "}]");
+            if (!*path) break;
+        } else if (*path != '.' || (n > 0 && out[n - 1] != '.')) out[n++] = *path;
+    }
+    while (n > 0 && out[n - 1] == '.') n--;
+    out[n] = '\0';
+}
+
+/* 3: the row's path is the key; 2: it ends with the key; 1: it lies below the key; 0: neither. */
+static int match (const pg_key *row, const char *key)
+{
+    char path[PG_PATTERN];
+    plain_path (path, row->path);
+    size_t n = strlen (path), m = strlen (key);
+    if (strcmp (path, key) == 0) return 3;
+    if (n > m && path[n - m - 1] == '.' && strcmp (path + n - m, key) == 0) return 2;
+    return n > m && path[m] == '.' && strncmp (path, key, m) == 0;
+}
+
+static void print_names (FILE *to, const char *before, const char *names)
+{
+    fprintf (to, "%s", before);
+    for (; *names; names++) {
+        if (*names == '|') fprintf (to, ", ");
+        else fputc (*names, to);
+    }
+    fprintf (to, "\n");
+}
+
+static void print_partners (FILE *to, const pg_schema *s, const pg_key *key)
+{
+    const char *last = strrchr (key->path, '.'), *rule = strrchr (key->group, ':'), *joint = "";
+    size_t n = last ? (size_t) (last - key->path) : 0;
+    fprintf (to, "  group    give %s of ", rule && strcmp (rule, ":one") == 0 ? "exactly one" : "at most one");
+    for (size_t k = 0; k < s->n; k++) {
+        const pg_key *row = s->row[k];
+        const char *other = strrchr (row->path, '.');
+        size_t m = other ? (size_t) (other - row->path) : 0;
+        if (!row->group || strcmp (row->group, key->group) != 0 || n != m || strncmp (row->path, key->path, n) != 0) continue;
+        fprintf (to, "%s%s", joint, other ? other + 1 : row->path);
+        joint = ", ";
+    }
+    fprintf (to, "\n");
+}
+
+static void print_key (FILE *to, const pg_schema *s, const pg_key *key)
+{
+    const char *choices = pg_key_choices (key);
+    char example[PG_LEVEL_NAMES];
+    fprintf (to, "%s\n  %s\n  kind     %s\n", key->path, key->doc ? key->doc : "", pg_key_kind (key));
+    if (key->kind == PG_NUMBER) {
+        pg_schema_wanted (s, key->path, example, sizeof example);
+        fprintf (to, "  value    %s\n", example);
+    }
+    if (key->unit) print_names (to, "  unit     ", key->unit);
+    if (key->range) fprintf (to, "  range    %s\n", key->range);
+    if (choices) print_names (to, "  choices  ", choices);
+    if (key->fallback && *key->fallback) fprintf (to, "  default  %s\n", key->fallback);
+    else fprintf (to, "  default  none%s\n", key->fallback || key->group ? "" : ", required");
+    if (key->group) print_partners (to, s, key);
+}
+
+static void print_below (FILE *to, const pg_schema *s, const char *key)
+{
+    const char *title = "  below it:\n";
+    for (size_t k = 0; k < s->n; k++) {
+        if (match (s->row[k], key) != 1) continue;
+        fprintf (to, "%s    %-44s %s\n", title, s->row[k]->path, s->row[k]->doc ? s->row[k]->doc : "");
+        title = "";
+    }
+}
+
+static size_t count (const pg_schema *s, const char *key, int how)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < s->n; k++) n += match (s->row[k], key) == how;
+    return n;
+}
+
+/* The nearest full path, else the nearest last word. */
+static const char *nearest_key (const pg_schema *s, const char *key)
+{
+    char path[PG_PATTERN];
+    const char *near = NULL;
+    for (int whole = 1; whole >= 0 && !near; whole--) {
+        size_t used = 0;
+        size_t size = s->n * PG_PATTERN + 1;
+        char *all = pg_calloc (size, 1);
+        if (!all) return NULL;
+        for (size_t k = 0; k < s->n; k++) {
+            plain_path (path, s->row[k]->path);
+            const char *last = strrchr (path, '.');
+            used += (size_t) snprintf (all + used, size - used, "%s%s", used ? "|" : "", whole || !last ? path : last + 1);
+        }
+        near = pg_nearest_name (key, all);
+        pg_free (all);
+    }
+    return near;
+}
+
+pg_status pg_help_write (FILE *to, const char *key, const pg_schema *s)
+{
+    char plain[PG_PATTERN];
+    plain_path (plain, key);
+    size_t same = count (s, plain, 3), ends = count (s, plain, 2), below = count (s, plain, 1);
+    if (*plain && (same || below)) {
+        for (size_t k = 0; k < s->n; k++)
+            if (match (s->row[k], plain) == 3) print_key (to, s, s->row[k]);
+        if (!same) fprintf (to, "%s\n", plain);
+        print_below (to, s, plain);
+    } else if (*plain && ends == 1) {
+        for (size_t k = 0; k < s->n; k++)
+            if (match (s->row[k], plain) == 2) print_key (to, s, s->row[k]);
+    } else if (*plain && ends) {
+        fprintf (to, "%s occurs more than once:\n", plain);
+        for (size_t k = 0; k < s->n; k++)
+            if (match (s->row[k], plain) == 2) fprintf (to, "    %-44s %s\n", s->row[k]->path, s->row[k]->doc ? s->row[k]->doc : "");
+    } else {
+        const char *near = nearest_key (s, plain);
+        if (near) return pg_error (PG_E_USAGE, PG_HERE, "unknown key '%.100s'; did you mean %s?", key, near);
+        return pg_error (PG_E_USAGE, PG_HERE, "unknown key '%.100s'", key);
+    }
+    return ferror (to) ? pg_error (PG_E_FILE, PG_HERE, "the help could not be written") : PG_OK;
+}
+
+pg_status pg_scene_help (FILE *to, const char *key)
+{
+    pg_status status = PG_OK;
+    pg_schema s = { 0 };
+    size_t n;
+    const pg_key_table *table = pg_scene_tables (&n);
+    PG_TRY (pg_schema_create (&s, table, n));
+    PG_TRY (pg_help_write (to, key, &s));
+done:
+    pg_schema_clear (&s);
+    return status;
+}

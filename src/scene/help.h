@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * help.h: help and manual of any list of rows (tests bring their own). */
+#ifndef PG_SCENE_HELP_H
+#define PG_SCENE_HELP_H
+#include "schema.h"
+
+const char *pg_key_kind (const pg_key *key);           /* "whole number" */
+pg_status pg_help_write   (FILE *to, const char *key, const pg_schema *s);
+pg_status pg_manual_write (FILE *to, const pg_schema *s);
+#endif

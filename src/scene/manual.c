@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * doc/input.md: an introduction, then one section with a table of keys for each word at the top of a scene. */
+#include "expression.h"
+#include "help.h"
+#include <string.h>
+
+static const char introduction[] =
+    "# The scene file\n\n"
+    "This page is written by the program from the tables that also check a scene; `perigal help KEY` prints one entry.\n\n"
+    "A scene is a YAML map. Every key is checked: an unknown key, a missing one, a wrong unit or a value out of range is\n"
+    "reported with its line and column, all of them in one pass. In the tables `{}` stands for a name of your choice and\n"
+    "`[]` for an element of a list.\n\n"
+    "## Units\n\n"
+    "A number is followed by its unit: `10 GPa`, `-1 um`, `2500 kg/m3`, `40 deg`, `5 %`, `0.1 ms`. Without a unit it is in\n"
+    "SI (m, kg, s, N, Pa, rad). A unit of another kind (`72 mm` for a pressure) is an error. Where the unit is given as\n"
+    "`m, spacing` the value may also be a multiple of the distance of points: `2.0 spacing`. Units are those of udunits2,\n"
+    "plus `deg`; powers are written `mm2` or `mm^2`, products `kN m`.\n\n";
+
+static const char overrides[] =
+    "## Overrides\n\n"
+    "`--set KEY=VALUE` on the command line replaces or adds one value before the scene is checked; VALUE is YAML, KEY is a\n"
+    "path such as `method.horizon` or `cracks[0].from`. Maps on the way are made when they are missing, and a list grows by\n"
+    "naming the element after its last. Overrides enter the hash by which results name their scene.\n\n";
+
+static void write_expressions (FILE *to)
+{
+    fprintf (to, "## Expressions\n\nA value of kind *expression* is a number with unit or a formula. Numbers in it may carry units;\n"
+                 "adding or comparing different units is an error. A number without unit is SI and fits anywhere.\n\n");
+    fprintf (to, "| variable | meaning |\n|---|---|\n");
+    for (size_t k = 0; pg_expression_variable (k); k++)
+        fprintf (to, "| `%s` | %s |\n", pg_expression_variable (k)->name, pg_expression_variable (k)->doc);
+    fprintf (to, "\n| function | meaning |\n|---|---|\n");
+    for (size_t k = 0; pg_expression_function (k); k++) {
+        const pg_function *f = pg_expression_function (k);
+        fprintf (to, "| `%s (%s)` | %s |\n", f->name, f->arguments == 1 ? "a" : f->arguments < 0 ? "a, b, ..." : "a, b", f->doc);
+    }
+    fprintf (to, "\nOperators, from loose to tight: `or`, `and`, `not`, one of `< <= > >= == !=`, `+ -`, `* /`, sign, `^`.\n"
+                 "`pi` is the number. A *condition* (unit `bool`) is an expression such as `r >= 48 mm and y > 0`.\n\n");
+}
+
+static void write_list (FILE *to, const char *names)
+{
+    fprintf (to, "`");
+    for (; *names; names++) {
+        if (*names == '|') fprintf (to, "`, `");
+        else fputc (*names, to);
+    }
+    fprintf (to, "`");
+}
+
+static void write_row (FILE *to, const pg_key *key)
+{
+    const char *choices = pg_key_choices (key);
+    fprintf (to, "| `%s` | %s%s", key->path, pg_key_kind (key), key->unit ? ", " : "");
+    if (key->unit) write_list (to, key->unit);
+    fprintf (to, " | %s%s%s", key->range ? "`" : "", key->range ? key->range : "", key->range ? "`" : "");
+    if (choices && *choices) write_list (to, choices);
+    fprintf (to, " | ");
+    if (key->fallback && *key->fallback) fprintf (to, "`%s`", key->fallback);
+    else if (!key->fallback && !key->group) fprintf (to, "**required**");
+    fprintf (to, " | %s", key->doc ? key->doc : "");
+    if (key->group) {
+        const char *rule = strrchr (key->group, ':');
+        int one = rule && strcmp (rule, ":one") == 0;
+        fprintf (to, " %s of the group *%.*s*.", one ? "Exactly one" : "At most one", (int) strcspn (key->group, ":"), key->group);
+    }
+    fprintf (to, " |\n");
+}
+
+static size_t top_length (const char *path) { return strcspn (path, ".["); }
+
+static int first_of_top (const pg_schema *s, size_t k)
+{
+    size_t n = top_length (s->row[k]->path);
+    for (size_t j = 0; j < k; j++)
+        if (top_length (s->row[j]->path) == n && strncmp (s->row[j]->path, s->row[k]->path, n) == 0) return 0;
+    return 1;
+}
+
+static void write_section (FILE *to, const pg_schema *s, const char *top, size_t n)
+{
+    fprintf (to, "### %.*s\n\n| key | kind, unit | range or choices | default | meaning |\n|---|---|---|---|---|\n", (int) n, top);
+    for (size_t k = 0; k < s->n; k++)
+        if (top_length (s->row[k]->path) == n && strncmp (s->row[k]->path, top, n) == 0) write_row (to, s->row[k]);
+    fprintf (to, "\n");
+}
+
+pg_status pg_manual_write (FILE *to, const pg_schema *s)
+{
+    fprintf (to, "%s", introduction);
+    write_expressions (to);
+    fprintf (to, "%s## Keys\n\n", overrides);
+    for (size_t k = 0; k < s->n; k++)
+        if (first_of_top (s, k)) write_section (to, s, s->row[k]->path, top_length (s->row[k]->path));
+    return ferror (to) ? pg_error (PG_E_FILE, PG_HERE, "the manual could not be written") : PG_OK;
+}
+
+pg_status pg_scene_manual (FILE *to)
+{
+    pg_status status = PG_OK;
+    pg_schema s = { 0 };
+    size_t n;
+    const pg_key_table *table = pg_scene_tables (&n);
+    PG_TRY (pg_schema_create (&s, table, n));
+    PG_TRY (pg_manual_write (to, &s));
+done:
+    pg_schema_clear (&s);
+    return status;
+}

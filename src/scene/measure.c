@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Units through udunits2: text -> factor and powers of the base units. The database is read once, on first use. */
+#include "unit.h"
+#include <locale.h>
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+#include <udunits2.h>
+
+enum { WORD = 40, REMEMBERED = 128 };
+
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static ut_system *units;
+static struct { char text[WORD]; pg_measure measure; } memory[REMEMBERED];   /* units met before, by hash */
+
+static void load (void)
+{
+    locale_t c = newlocale (LC_ALL_MASK, "C", (locale_t) 0), before = (locale_t) 0;
+    if (c) before = uselocale (c);                     /* the database has decimal points */
+    ut_set_error_message_handler (ut_ignore);
+    units = ut_read_xml (NULL);
+    if (units) {
+        ut_unit *degree = ut_get_unit_by_name (units, "arc_degree");
+        if (degree) ut_map_name_to_unit ("deg", UT_ASCII, degree);
+        ut_free (degree);
+    }
+    if (c) {
+        uselocale (before);
+        freelocale (c);
+    }
+}
+
+/* ---- powers of the base units, by visiting the tree of a unit ------------------------------------------------------ */
+static const char *const base_symbol[PG_BASE_UNITS] = { "m", "kg", "s", "A", "K", "mol", "cd" };
+
+static ut_status add_basic (const ut_unit *unit, double power, pg_measure *m)
+{
+    const char *symbol = ut_get_symbol (unit, UT_ASCII);
+    if (!symbol) return UT_MEANINGLESS;
+    for (int k = 0; k < PG_BASE_UNITS; k++)
+        if (strcmp (symbol, base_symbol[k]) == 0) m->power[k] += power;
+    if (strcmp (symbol, "rad") == 0) m->angle += power;
+    return UT_SUCCESS;
+}
+
+static ut_status visit_basic (const ut_unit *unit, void *p) { return add_basic (unit, 1, p); }
+
+static ut_status visit_product (const ut_unit *unit, int n, const ut_unit *const *basic, const int *power, void *p)
+{
+    (void) unit;
+    for (int k = 0; k < n; k++) {
+        ut_status status = add_basic (basic[k], power[k], p);
+        if (status != UT_SUCCESS) return status;
+    }
+    return UT_SUCCESS;
+}
+
+static ut_visitor visitor;
+
+static ut_status visit_galilean (const ut_unit *unit, double scale, const ut_unit *under, double origin, void *p)
+{
+    (void) unit;
+    if (origin != 0) return UT_MEANINGLESS;            /* degC, "m from 5" */
+    ((pg_measure *) p)->factor *= scale;
+    return ut_accept_visitor (under, &visitor, p);
+}
+
+static ut_status visit_time (const ut_unit *unit, const ut_unit *second, double origin, void *p)
+{
+    (void) unit, (void) second, (void) origin, (void) p;
+    return UT_MEANINGLESS;
+}
+
+static ut_status visit_log (const ut_unit *unit, double base, const ut_unit *reference, void *p)
+{
+    (void) unit, (void) base, (void) reference, (void) p;
+    return UT_MEANINGLESS;
+}
+
+static ut_visitor visitor = { visit_basic, visit_product, visit_galilean, visit_time, visit_log };
+
+/* ---- text ----------------------------------------------------------------------------------------------------------- */
+static int is_letter (char c)
+{
+    unsigned char u = (unsigned char) c;
+    return (u >= 'a' && u <= 'z') || (u >= 'A' && u <= 'Z') || u >= 0x80 || u == '%' || u == '_';
+}
+
+static int is_digit (char c) { return c >= '0' && c <= '9'; }
+
+/* Words with whole powers, joined by space . * or /, perhaps after "1/": udunits itself also takes "m)" or "5 m @ 3". */
+static int well_formed (const char *s)
+{
+    if (s[0] == '1' && s[1] == '/') s += 2;
+    for (;;) {
+        if (!is_letter (*s)) return 0;
+        while (is_letter (*s)) s++;
+        if (*s == '^') {
+            s++;
+            if (!is_digit (*s) && !((*s == '-' || *s == '+') && is_digit (s[1]))) return 0;
+        }
+        if ((*s == '-' || *s == '+') && is_digit (s[1])) s++;
+        while (is_digit (*s)) s++;
+        while (*s == ' ' && (s[1] == ' ' || s[1] == '/' || s[1] == '*' || s[1] == '.')) s++;
+        if (*s == '\0') return 1;
+        if (*s != ' ' && *s != '.' && *s != '*' && *s != '/') return 0;
+        s++;
+        while (*s == ' ') s++;
+    }
+}
+
+static int parse (const char *text, pg_measure *m)
+{
+    ut_unit *unit = ut_parse (units, text, UT_UTF8);
+    if (!unit) return 0;
+    *m = (pg_measure) { .factor = 1 };
+    int good = ut_accept_visitor (unit, &visitor, m) == UT_SUCCESS && isfinite (m->factor) && m->factor > 0;
+    ut_free (unit);
+    return good;
+}
+
+static size_t place_of (const char *text)
+{
+    size_t h = 5381;
+    for (; *text; text++) h = h * 33 + (unsigned char) *text;
+    return h % REMEMBERED;
+}
+
+pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
+{
+    static const char usual[] = "m|mm|um|km|cm|Pa|kPa|MPa|GPa|N|kN|MN|J|kJ|s|ms|us|h|kg|g|t|deg|rad|Hz|kg/m3|N/m|m/s|J/m2|N/m2|1/s";
+    char word[WORD];
+    if (n == 1 && text[0] == '1') {
+        *m = (pg_measure) { .factor = 1 };
+        return PG_OK;
+    }
+    snprintf (word, sizeof word, "%.*s", (int) (n < WORD ? n : WORD - 1), text);
+    if (n >= WORD) return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s...'", word);
+    pthread_once (&once, load);
+    if (!units)
+        return pg_error (PG_E_FILE, PG_HERE, "the unit database of udunits2 cannot be read (see UDUNITS2_XML_PATH)");
+    int good = well_formed (word);
+    if (good) {
+        pthread_mutex_lock (&lock);
+        size_t k = place_of (word);
+        if (strcmp (memory[k].text, word) == 0) *m = memory[k].measure;
+        else if ((good = parse (word, m)) != 0) {
+            memcpy (memory[k].text, word, sizeof word);
+            memory[k].measure = *m;
+        }
+        pthread_mutex_unlock (&lock);
+    }
+    if (good) return PG_OK;
+    if (strcmp (word, "spacing") == 0) return pg_error (PG_E_SCENE, PG_HERE, "spacing is not a unit here");
+    const char *near = pg_nearest_name (word, usual);
+    if (near) return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s'; did you mean %s?", word, near);
+    return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s'", word);
+}
+
+int pg_measure_same (const pg_measure *a, const pg_measure *b)
+{
+    for (int k = 0; k < PG_BASE_UNITS; k++)
+        if (fabs (a->power[k] - b->power[k]) > 1e-9) return 0;
+    return 1;
+}
+
+int pg_measure_plain (const pg_measure *m)
+{
+    static const pg_measure one = { .factor = 1 };
+    return pg_measure_same (m, &one);
+}
+
+double pg_measure_scale (double value, const pg_measure *m)
+{
+    double inverse = round (1 / m->factor);
+    if (m->factor < 1 && fabs (inverse * m->factor - 1) < 1e-14) return value / inverse;
+    return value * m->factor;
+}
+
+/* ---- names for messages --------------------------------------------------------------------------------------------- */
+static const struct { const char *unit; double m, kg, s; const char *example; } known[] = {
+    { "1",      0, 0,  0, "0.25" },       { "rad",    0, 0,  0, "40 deg" },     { "m",      1, 0,  0, "5 mm" },
+    { "m2",     2, 0,  0, "20 mm2" },     { "m3",     3, 0,  0, "8 mm3" },      { "s",      0, 0,  1, "0.1 ms" },
+    { "1/s",    0, 0, -1, "100 1/s" },    { "m/s",    1, 0, -1, "2 m/s" },      { "m/s2",   1, 0, -2, "9.81 m/s2" },
+    { "kg",     0, 1,  0, "2 kg" },       { "kg/m3", -3, 1,  0, "2500 kg/m3" }, { "N",      1, 1, -2, "10 kN" },
+    { "Pa",    -1, 1, -2, "10 GPa" },     { "N/m",    0, 1, -2, "10 kN/m" },    { "J/m2",   0, 1, -2, "100 J/m2" },
+    { "J",      2, 1, -2, "5 J" },        { "N/m3",  -2, 1, -2, "25 kN/m3" },   { "N s/m",  0, 1, -1, "5 N s/m" },
+};
+
+static int is_known (size_t k, const pg_measure *m)
+{
+    const pg_measure other = { .factor = 1, .power = { known[k].m, known[k].kg, known[k].s } };
+    return pg_measure_same (m, &other);
+}
+
+void pg_measure_text (const pg_measure *m, char *out, size_t n)
+{
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        if (!is_known (k, m)) continue;
+        snprintf (out, n, "%s", known[k].unit);
+        return;
+    }
+    size_t used = 0;
+    for (int k = 0; k < PG_BASE_UNITS && used < n; k++) {
+        if (fabs (m->power[k]) < 1e-9) continue;
+        int more = snprintf (out + used, n - used, "%s%s", used ? " " : "", base_symbol[k]);
+        used += (size_t) more;
+        if (used < n && m->power[k] != 1) used += (size_t) snprintf (out + used, n - used, "^%g", m->power[k]);
+    }
+}
+
+const char *pg_measure_example (const pg_measure *m, const char *unit)
+{
+    const char *example = NULL;
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        if (strcmp (known[k].unit, unit) == 0) return known[k].example;
+        if (!example && is_known (k, m)) example = known[k].example;
+    }
+    return example;
+}

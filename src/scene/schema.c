@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Finding the row of a key table for a place in the scene. */
+#include "schema.h"
+#include "unit.h"
+#include <string.h>
+
+pg_status pg_schema_create (pg_schema *s, const pg_key_table *table, size_t ntable)
+{
+    pg_status status = PG_OK;
+    size_t n = 0;
+    for (size_t t = 0; t < ntable; t++) n += table[t].n;
+    PG_ALLOC (s->row, n);
+    for (size_t t = 0; t < ntable; t++)
+        for (size_t k = 0; k < table[t].n; k++) s->row[s->n++] = &table[t].key[k];
+done:
+    return status;
+}
+
+void pg_schema_clear (pg_schema *s)
+{
+    pg_free (s->row);
+    *s = (pg_schema) { 0 };
+}
+
+/* What follows the pattern in the path when it leads there; NULL otherwise. */
+static const char *rest_of (const char *path, const char *pattern)
+{
+    size_t n = strlen (pattern);
+    if (strncmp (path, pattern, n) != 0) return NULL;
+    path += n;
+    return *path == '\0' || *path == '.' || *path == '[' || n == 0 ? path : NULL;
+}
+
+static int leads_somewhere (const pg_schema *s, const char *pattern)
+{
+    for (size_t k = 0; k < s->n; k++)
+        if (rest_of (s->row[k]->path, pattern)) return 1;
+    return 0;
+}
+
+static int extend (const pg_schema *s, char *pattern, const char *joint, const char *name, size_t length)
+{
+    size_t n = strlen (pattern);
+    if (n + length + 2 >= PG_PATTERN) return 0;
+    snprintf (pattern + n, PG_PATTERN - n, "%s%.*s", joint, (int) length, name);
+    if (leads_somewhere (s, pattern)) return 1;
+    pattern[n] = '\0';
+    return 0;
+}
+
+int pg_schema_enter (const pg_schema *s, char pattern[PG_PATTERN], const char *name, size_t length)
+{
+    const char *joint = *pattern ? "." : "";
+    if (length == 0 || memchr (name, '.', length) || memchr (name, '[', length) || memchr (name, '{', length)) return 0;
+    if (extend (s, pattern, joint, name, length)) return 1;
+    return extend (s, pattern, joint, "{}", 2) ? 2 : 0;
+}
+
+int pg_schema_item (const pg_schema *s, char pattern[PG_PATTERN]) { return extend (s, pattern, "", "[]", 2); }
+
+static int takes (pg_kind kind, pg_shape shape)
+{
+    switch (kind) {
+    case PG_MAP:     return shape == PG_MAPPING;
+    case PG_LIST:    return shape == PG_SEQUENCE;
+    case PG_VECTOR:
+    case PG_NUMBERS:
+    case PG_NAMES:   return shape != PG_MAPPING;
+    default:         return shape == PG_SCALAR;
+    }
+}
+
+const pg_key *pg_schema_row (const pg_schema *s, const char *pattern, pg_shape shape)
+{
+    for (size_t k = 0; k < s->n; k++)
+        if (takes (s->row[k]->kind, shape) && strcmp (s->row[k]->path, pattern) == 0) return s->row[k];
+    return NULL;
+}
+
+const pg_key *pg_schema_any (const pg_schema *s, const char *pattern)
+{
+    for (size_t k = 0; k < s->n; k++)
+        if (strcmp (s->row[k]->path, pattern) == 0) return s->row[k];
+    return NULL;
+}
+
+int pg_schema_opens (const pg_schema *s, const char *pattern, char next)
+{
+    for (size_t k = 0; k < s->n; k++) {
+        const char *rest = rest_of (s->row[k]->path, pattern);
+        if (rest && (*rest == next || (*pattern == '\0' && next == '.'))) return 1;
+    }
+    return 0;
+}
+
+const char *pg_schema_below (const pg_key *row, const char *pattern)
+{
+    const char *rest = rest_of (row->path, pattern);
+    if (!rest || (*pattern && *rest != '.')) return NULL;
+    rest += *pattern != '\0';
+    return *rest == '{' || strpbrk (rest, ".[") ? NULL : rest;
+}
+
+static int listed (const char *names, const char *name, size_t n)
+{
+    for (const char *s = names; *s; s += *s == '|') {
+        size_t m = strcspn (s, "|");
+        if (m == n && memcmp (s, name, n) == 0) return 1;
+        s += m;
+    }
+    return 0;
+}
+
+void pg_schema_names (const pg_schema *s, const char *pattern, char names[PG_LEVEL_NAMES])
+{
+    size_t used = 0;
+    names[0] = '\0';
+    for (size_t k = 0; k < s->n; k++) {
+        const char *rest = rest_of (s->row[k]->path, pattern);
+        if (!rest || (*pattern && *rest != '.')) continue;
+        rest += *pattern != '\0';
+        size_t n = strcspn (rest, ".[");
+        if (n == 0 || rest[0] == '{' || listed (names, rest, n) || used + n + 2 > PG_LEVEL_NAMES) continue;
+        used += (size_t) snprintf (names + used, PG_LEVEL_NAMES - used, "%s%.*s", used ? "|" : "", (int) n, rest);
+    }
+}
+
+const char *pg_key_choices (const pg_key *key) { return key->choices_of ? key->choices_of () : key->choices; }
+
+void pg_schema_wanted (const pg_schema *s, const char *pattern, char *out, size_t n)
+{
+    const pg_key *key = pg_schema_any (s, pattern);
+    char number[200];
+    pg_quantity_describe (number, sizeof number, key ? key->unit : NULL);
+    if (!key) {
+        snprintf (out, n, "%s", pg_schema_opens (s, pattern, '[') ? "a list" : "a map (key: value)");
+        return;
+    }
+    switch (key->kind) {
+    case PG_MAP:        snprintf (out, n, "a map (key: value)"); break;
+    case PG_LIST:       snprintf (out, n, "a list"); break;
+    case PG_NUMBER:     snprintf (out, n, "%s", number); break;
+    case PG_INTEGER:    snprintf (out, n, "a whole number"); break;
+    case PG_BOOL:       snprintf (out, n, "on or off"); break;
+    case PG_NAME:       snprintf (out, n, "one of %s", pg_key_choices (key) ? pg_key_choices (key) : "the names known here"); break;
+    case PG_TEXT:       snprintf (out, n, "a text"); break;
+    case PG_VECTOR:     snprintf (out, n, "a vector such as [0, 0]"); break;
+    case PG_NUMBERS:    snprintf (out, n, "a list of numbers"); break;
+    case PG_NAMES:      snprintf (out, n, "a name or a list of names"); break;
+    case PG_EXPRESSION: snprintf (out, n, "a number or an expression"); break;
+    }
+}

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Numbers with units, names and calls of functions in an expression. */
+#include "compile.h"
+#include <math.h>
+#include <string.h>
+
+static size_t exponent_length (const char *s)          /* "^2", "^-1"; 0 when none */
+{
+    size_t n = *s == '^';
+    if (!n) return 0;
+    n += s[n] == '-';
+    size_t digits = strspn (s + n, "0123456789");
+    return digits && s[n + digits] != '.' ? n + digits : 0;
+}
+
+/* The unit after a number: "mm", "kN/m2", "kN m": words that are no words of the language. Copies it without spaces. */
+static pg_status read_unit (pg_reader *p, char *unit, size_t size)
+{
+    pg_status status = PG_OK;
+    size_t used = 0;
+    for (;;) {
+        size_t start = p->at;
+        pg_read_skip (p);
+        const char *joint = "";
+        if (used && p->text[p->at] == '/') {
+            p->at++;
+            pg_read_skip (p);
+            joint = "/";
+        } else if (used) joint = ".";
+        const char *s = p->text + p->at;
+        size_t n = pg_word_length (s);
+        const pg_variable *v = pg_variable_of (s, n);
+        if (n && v && *joint != '/') PG_BAD (p->at, "'%s' is a variable: write a sign before it, as in 2*%s", v->name, v->name);
+        if (n == 0 || pg_is_own_word (s, n)) {
+            p->at = start;
+            break;
+        }
+        n += exponent_length (s + n);
+        if (used + n + 2 > size) PG_BAD (p->at, "the unit is too long");
+        used += (size_t) snprintf (unit + used, size - used, "%s%.*s", joint, (int) n, s);
+        p->at += n;
+    }
+    unit[used] = '\0';
+done:
+    return status;
+}
+
+static pg_status measure_of (pg_reader *p, pg_measure *m, const char *word, size_t n, size_t at)
+{
+    pg_status status = pg_measure_read (m, word, n);
+    if (status != PG_E_SCENE) return status;
+    char why[300];
+    snprintf (why, sizeof why, "%s", pg_last_error ());
+    return pg_read_fault (p, at, "%s", why);
+}
+
+pg_status pg_read_number (pg_reader *p, pg_operand *o)
+{
+    pg_status status = PG_OK;
+    char unit[PG_WORD];
+    double value = 0;
+    size_t start = p->at;
+    p->at = (size_t) (pg_number_read (p->text + start, &value) - p->text);
+    if (!isfinite (value)) PG_BAD (start, "the number is too large");
+    size_t at = p->at;
+    PG_TRY (read_unit (p, unit, sizeof unit));
+    o->bare = *unit == '\0';
+    if (*unit) {
+        PG_TRY (measure_of (p, &o->m, unit, strlen (unit), at));
+        value = pg_measure_scale (value, &o->m);
+    }
+    PG_TRY (pg_operand_push (p, o, value));
+done:
+    return status;
+}
+
+static pg_status read_call (pg_reader *p, pg_operand *o, const pg_function *f)
+{
+    pg_status status = PG_OK;
+    size_t start = p->at - strlen (f->name);
+    int n = 0;
+    if (!pg_read_take (p, "(")) PG_BAD (p->at, "%s needs an argument in ( )", f->name);
+    do {
+        pg_operand b = { 0 };
+        pg_read_skip (p);
+        size_t at = p->at;
+        PG_TRY (pg_read_or (p, n ? &b : o));
+        PG_TRY (pg_operand_number (p, n ? &b : o, at));
+        if (f->takes == PG_TAKES_PLAIN && !pg_operand_plain (o)) {
+            char text[80];
+            pg_measure_text (&o->m, text, sizeof text);
+            PG_BAD (at, "%s needs a plain number or an angle, not %s", f->name, text);
+        }
+        if (n) {
+            if (n >= f->arguments && f->arguments > 0)
+                PG_BAD (at, "%s takes %d argument%s", f->name, f->arguments, f->arguments > 1 ? "s" : "");
+            PG_TRY (pg_operand_agree (p, o, &b, at, "compare"));
+            PG_TRY (pg_operand_combine (p, f->op, o, &b));
+        }
+        n++;
+    } while (pg_read_take (p, ","));
+    if (!pg_read_take (p, ")")) PG_BAD (p->at, "')' is missing");
+    if (n < f->arguments) PG_BAD (start, "%s takes %d arguments", f->name, f->arguments);
+    if (n < -f->arguments) PG_BAD (start, "%s takes at least %d arguments", f->name, -f->arguments);
+    if (n == 1) PG_TRY (pg_operand_combine (p, f->op, o, NULL));
+    if (f->gives == PG_GIVES_ROOT) pg_operand_raise (o, 0.5);
+    if (f->gives == PG_GIVES_PLAIN) {
+        o->m = (pg_measure) { .factor = 1 };
+        o->bare = 0;
+    }
+done:
+    return status;
+}
+
+static void unknown_name (const char *s, size_t n, char *out, size_t size)
+{
+    char known[400] = "pi", word[PG_WORD];
+    size_t used = strlen (known);
+    for (size_t k = 0; pg_expression_variable (k); k++)
+        used += (size_t) snprintf (known + used, sizeof known - used, "|%s", pg_expression_variable (k)->name);
+    for (size_t k = 0; pg_expression_function (k); k++)
+        used += (size_t) snprintf (known + used, sizeof known - used, "|%s", pg_expression_function (k)->name);
+    snprintf (word, sizeof word, "%.*s", (int) (n < PG_WORD ? n : PG_WORD - 1), s);
+    const char *near = pg_nearest_name (word, known);
+    if (near) snprintf (out, size, "unknown name '%s'; did you mean %s?", word, near);
+    else snprintf (out, size, "unknown name '%s'; variables are x, y, z, r, angle, t", word);
+}
+
+static pg_status read_variable (pg_reader *p, pg_operand *o, const pg_variable *v)
+{
+    o->first = p->e->n;
+    o->m = (pg_measure) { .factor = 1 };
+    if (v->op <= PG_OP_R) o->m.power[0] = 1;
+    if (v->op == PG_OP_T) {
+        p->met_t = 1;
+        o->m.power[2] = p->t_is_time;
+    }
+    p->e->uses |= 1u << v->op;
+    return pg_operand_emit (p, v->op, 0);
+}
+
+pg_status pg_read_name (pg_reader *p, pg_operand *o)
+{
+    pg_status status = PG_OK;
+    const char *s = p->text + p->at;
+    size_t n = pg_word_length (s), at = p->at;
+    char why[200];
+    const pg_variable *v = pg_variable_of (s, n);
+    const pg_function *f = pg_function_of (s, n);
+    p->at += n;
+    o->m = (pg_measure) { .factor = 1 };
+    if (v) PG_TRY (read_variable (p, o, v));
+    else if (f) PG_TRY (read_call (p, o, f));
+    else if (pg_is_word (s, n, "pi")) {
+        o->bare = 1;
+        PG_TRY (pg_operand_push (p, o, 3.14159265358979323846));
+    } else if (pg_is_word (s, n, "true") || pg_is_word (s, n, "false")) {
+        o->condition = 1;
+        PG_TRY (pg_operand_push (p, o, *s == 't'));
+    } else if (!pg_is_own_word (s, n) && pg_measure_read (&o->m, s, n) == PG_OK) {        /* a unit by itself, as in x/mm */
+        PG_TRY (pg_operand_push (p, o, o->m.factor));
+    } else {
+        unknown_name (s, n, why, sizeof why);
+        PG_BAD (at, "%s", why);
+    }
+done:
+    return status;
+}

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * One value against its row: number, unit, range, choice, length of a vector. */
+#include "value.h"
+#include "expression.h"
+#include "unit.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+const char pg_default_origin[] = "default";
+
+#define FAULT(node, ...) pg_faults_add (s->faults, s->file, (node), path, 1, __VA_ARGS__)
+
+/* The last message becomes a fault; lack of memory or of the unit database stays a failure. */
+static pg_status as_fault (pg_scene *s, const pg_node *node, const char *path, pg_status status)
+{
+    char why[600];
+    if (status != PG_E_SCENE) return status;
+    snprintf (why, sizeof why, "%s", pg_last_error ());
+    FAULT (node, "%s", why);
+    return PG_OK;
+}
+
+static void check_range (pg_scene *s, const pg_node *node, const pg_key *row, const char *path)
+{
+    int wrong, holds = pg_range_holds (row->range, node->value, &wrong);
+    const char *unit = row->unit && !node->spacing && strcmp (row->unit, "1") != 0 ? row->unit : "";
+    if (wrong) FAULT (node, "the range '%s' of its key table is wrong", row->range);
+    if (!holds) FAULT (node, "must lie in %s%s%.*s", row->range, *unit ? " " : "", (int) strcspn (unit, "|"), unit);
+}
+
+static pg_status check_number (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
+{
+    pg_status status = pg_quantity_read (&node->value, &node->spacing, node->text, row->unit);
+    if (status != PG_OK) return as_fault (s, node, path, status);
+    check_range (s, node, row, path);
+    return PG_OK;
+}
+
+static void check_integer (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
+{
+    const char *end = pg_number_read (node->text, &node->value);
+    int whole = end && !*end && fabs (node->value) <= 9007199254740992.0 && node->value == floor (node->value);
+    if (!whole) FAULT (node, "must be a whole number");
+    else check_range (s, node, row, path);
+}
+
+static void check_bool (pg_scene *s, pg_node *node, const char *path)
+{
+    static const char *const word[] = { "off", "on", "no", "yes", "false", "true" };
+    for (size_t k = 0; k < sizeof word / sizeof *word; k++)
+        if (strcasecmp (node->text, word[k]) == 0) {
+            node->value = (double) (k % 2);
+            return;
+        }
+    FAULT (node, "must be on or off");
+}
+
+static int is_choice (const char *text, const char *choices)
+{
+    for (size_t n = strlen (text); ; choices++) {
+        size_t m = strcspn (choices, "|");
+        if (m == n && memcmp (text, choices, n) == 0) return 1;
+        choices += m;
+        if (*choices == '\0') return 0;
+    }
+}
+
+static void check_choice (pg_scene *s, const pg_node *node, const pg_key *row, const char *path)
+{
+    const char *choices = pg_key_choices (row);
+    char listed[700];
+    size_t n = 0;
+    if (!choices || is_choice (node->text, choices)) return;
+    for (const char *c = choices; *c && n + 3 < sizeof listed; c++) {
+        listed[n++] = *c == '|' ? ',' : *c;
+        if (*c == '|') listed[n++] = ' ';
+    }
+    listed[n] = '\0';
+    const char *near = pg_nearest_name (node->text, choices);
+    if (near) FAULT (node, "must be one of %s; did you mean %s?", listed, near);
+    else FAULT (node, "must be one of %s", listed);
+}
+
+static pg_status check_expression (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
+{
+    pg_expression *e = NULL;
+    pg_status status = pg_expression_compile (&e, node->text, row->unit);
+    node->value = NAN;
+    if (status != PG_OK) return as_fault (s, node, path, status);
+    if (pg_expression_constant (e, &node->value)) {
+        if (!isfinite (node->value)) FAULT (node, "has no finite value");
+        else check_range (s, node, row, path);
+    }
+    pg_expression_free (&e);
+    return PG_OK;
+}
+
+static pg_status check_scalar (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
+{
+    node->key = row;
+    if (pg_node_null (node)) {
+        char wanted[PG_LEVEL_NAMES];
+        pg_schema_wanted (&s->schema, row->path, wanted, sizeof wanted);
+        FAULT (node, "has no value: must be %s", wanted);
+        return PG_OK;
+    }
+    switch (row->kind) {
+    case PG_NUMBER:
+    case PG_VECTOR:
+    case PG_NUMBERS:    return check_number (s, node, row, path);
+    case PG_EXPRESSION: return check_expression (s, node, row, path);
+    case PG_INTEGER:    check_integer (s, node, row, path); break;
+    case PG_BOOL:       check_bool (s, node, path); break;
+    case PG_NAME:
+    case PG_NAMES:      check_choice (s, node, row, path); break;
+    default:            break;
+    }
+    return PG_OK;
+}
+
+static void check_length (pg_scene *s, const pg_node *node, const char *path)
+{
+    size_t n = node->shape == PG_SCALAR ? 1 : node->n, dim = (size_t) s->dimension;
+    if (node->origin == pg_default_origin) return;      /* as long as the scene needs */
+    if (dim && n != dim) FAULT (node, "needs %zu number%s in %zuD, has %zu", dim, dim > 1 ? "s" : "", dim, n);
+    else if (n < 1 || n > 3) FAULT (node, "needs 1 to 3 numbers, has %zu", n);
+}
+
+pg_status pg_value_check (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
+{
+    pg_status status = PG_OK;
+    node->key = row;
+    if (row->kind == PG_VECTOR) check_length (s, node, path);
+    if (node->shape == PG_SCALAR) return check_scalar (s, node, row, path);
+    for (size_t k = 0; k < node->n; k++) {
+        char part[PG_PATH_TEXT];
+        snprintf (part, sizeof part, "%.480s[%zu]", path, k);
+        if (node->child[k].shape == PG_SCALAR) PG_TRY (check_scalar (s, &node->child[k], row, part));
+        else pg_faults_add (s->faults, s->file, &node->child[k], part, 0, "must be %s", row->kind == PG_NAMES ? "a name" : "a number");
+    }
+done:
+    return status;
+}

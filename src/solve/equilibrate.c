@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The break loop (Cui 2022 section 3.2, corrected in theory F5): solve, break the bonds over their limit, update what they touched,
+ * solve again, until no bond is over its limit and the residual is small. Shared by static and newmark. */
+#include "solve.h"
+#include <math.h>
+#include <string.h>
+
+pg_status breaker_create (breaker *b)
+{
+    pg_status status = PG_OK;
+    size_t nbond = b->system.problem->first_bond[PG_BOND_SETS];
+    PG_TRY (system_create (&b->system));
+    PG_ALLOC (b->utilisation, nbond);
+    PG_ALLOC (b->factor, nbond);
+    PG_ALLOC (b->kind, nbond);
+done:
+    return status;
+}
+
+void breaker_free (breaker *b)
+{
+    system_free (&b->system);
+    pg_free (b->utilisation), pg_free (b->factor), pg_free (b->kind);
+    pg_free (b->changes.bond), pg_free (b->broken);
+    pg_ledger_clear (&b->ledger);
+    pg_ledger_clear (&b->before);
+}
+
+static void locate (const pg_problem *p, pg_broken *out)
+{
+    int s = 0;
+    while (out->bond >= p->first_bond[s + 1]) s++;
+    const pg_rows *r = &p->rows[s];
+    size_t e = out->bond - p->first_bond[s], lo = 0, hi = r->n, dim = (size_t) p->dim;
+    while (hi - lo > 1) {
+        size_t mid = (lo + hi) / 2;
+        if (r->family.start[mid] <= e) lo = mid;
+        else hi = mid;
+    }
+    out->set = s;
+    for (size_t k = 0; k < dim; k++) out->place[k] = 0.5 * (r->x[lo * dim + k] + p->cloud.x[(size_t) r->family.node[e] * dim + k]);
+}
+
+pg_status breaker_kill (breaker *b, pg_state *state, const double *measure, double cut, double scale)
+{
+    pg_status status = PG_OK;
+    b->changes.n = 0;
+    for (size_t i = 0; i < state->nbond; i++) {
+        if (!state->alive[i] || !(measure[i] >= cut)) continue;
+        PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
+        PG_GROW (b->broken, b->cap_broken, b->nbroken + 1);
+        state->alive[i] = 0;
+        b->changes.bond[b->changes.n++] = i;
+        pg_broken *k = &b->broken[b->nbroken++];
+        *k = (pg_broken) { i, 0, b->kind[i], b->utilisation[i] * scale, { 0 } };
+        locate (b->system.problem, k);
+    }
+    state->broken += (long) b->changes.n;
+done:
+    return status;
+}
+
+static double largest (const double *a, size_t n)
+{
+    double top = 0;
+    for (size_t i = 0; i < n; i++) if (a[i] > top) top = a[i];
+    return top;
+}
+
+pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step)
+{
+    pg_status status = PG_OK;
+    pg_system *s = &b->system;
+    const pg_solver_options *o = s->options;
+    b->nbroken = 0;
+    step->utilisation = 0;
+    for (step->iterations = 0;; step->iterations++) {
+        PG_TRY (system_solve (s, t, d, dyn, &step->residual));
+        PG_TRY (breaker_account (b, t, d, 1));
+        if (!s->force->utilisation || !s->problem->criterion.type) break;
+        double t0 = pg_seconds ();
+        PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
+        double top = step->utilisation = largest (b->utilisation, state->nbond);
+        s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
+        if (!(top > 1)) break;
+        if (step->iterations >= o->max_iterations)
+            PG_FAIL (PG_E_EQUILIBRIUM, "bonds still break after %ld rounds (%zu in this step, worst utilisation %.6g): raise solver.max_iterations "
+                     "or take smaller steps", step->iterations, b->nbroken, top);
+        double cut = o->break_mode == PG_BREAK_ALL ? 1 : top * (1 - (o->break_mode == PG_BREAK_WORST ? o->tie : fmax (o->break_fraction, o->tie)));
+        if (o->break_mode != PG_BREAK_WORST) cut = fmax (cut, 1);
+        PG_TRY (breaker_kill (b, state, b->utilisation, cut, 1));
+        PG_TRY (system_refresh (s, state, &b->changes));
+    }
+    step->nbroken = b->nbroken, step->broken = b->broken;
+done:
+    return status;
+}
+
+pg_status breaker_account (breaker *b, double t, const double *d, double scale)
+{
+    pg_status status = PG_OK;
+    pg_system *s = &b->system;
+    if (!s->force->ledger) return PG_OK;
+    double t0 = pg_seconds ();
+    PG_TRY (s->force->ledger (s->self, t, d, &b->ledger));
+    if (!b->before.force) {                            /* the first state is reached from rest                           */
+        PG_ALLOC (b->before.force, b->ledger.npair);
+        PG_ALLOC (b->before.displacement, b->ledger.npair);
+    }
+    for (size_t k = 0; k < b->ledger.npair; k++) {
+        double f = scale * b->ledger.force[k], u = scale * b->ledger.displacement[k];
+        b->work += 0.5 * (b->before.force[k] + f) * (u - b->before.displacement[k]);
+        b->before.force[k] = f, b->before.displacement[k] = u;
+    }
+done:
+    s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
+    return status;
+}

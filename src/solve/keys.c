@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Keys of the solver and of the levels it reports at. */
+#include "perigal/scene.h"
+#include "perigal/solve.h"
+
+#define ROW(path, kind, unit, range, fallback, choices, doc) { path, kind, unit, range, fallback, choices, NULL, NULL, doc }
+static const pg_key keys[] = {
+    { "solver.kind", PG_NAME, NULL, NULL, "static", NULL, pg_solver_names, NULL, "The method that advances the state." },
+    ROW ("solver.stepping", PG_NAME, NULL, NULL, "auto", "auto|event|fixed",
+         "static: event goes from break to break in closed form, fixed takes equal load steps; auto: event when all loads are proportional."),
+    ROW ("solver.break", PG_NAME, NULL, NULL, "worst", "worst|fraction|all",
+         "Which bonds over the limit break before the next solve: the worst (with ties), those within break_fraction of it, or all (as in the paper; "
+         "the peak load then depends on the increment)."),
+    ROW ("solver.break_fraction", PG_NUMBER, "1", "(0, 1)", "2 %", NULL, "For break: fraction."),
+    ROW ("solver.tie", PG_NUMBER, "1", "[0, 0.1]", "1e-4", NULL, "Bonds within this share of the worst break with it: keeps symmetric scenes symmetric."),
+    ROW ("solver.steps", PG_INTEGER, NULL, "[1, 100000000]", "20", NULL, "static, fixed: number of equal load steps."),
+    ROW ("solver.tolerance", PG_NUMBER, "1", "[1e-13, 1e-4]", "1e-8", NULL, "Largest accepted residual, relative to the reference force."),
+    ROW ("solver.max_iterations", PG_INTEGER, NULL, "[1, 1000000000]", "100000", NULL, "Most break-and-solve rounds of one step; more: the step is refused."),
+    ROW ("solver.max_events", PG_INTEGER, NULL, "[1, 1000000000]", "1000000", NULL, "Event stepping ends after so many events."),
+    ROW ("solver.stop_stiffness", PG_NUMBER, "1", "[0, 1)", "1e-3", NULL,
+         "static: the run ends when breaking has brought the work per squared load factor below this share of its first value (the body is apart)."),
+    ROW ("solver.linear", PG_NAME, NULL, NULL, "auto", "auto|cholmod|umfpack|pcg", "Linear solver; auto: cholmod, umfpack where K is not positive definite."),
+    ROW ("solver.dt", PG_NUMBER, "s", "(0, inf)", "", NULL, "newmark: time step."),
+    ROW ("solver.end", PG_NUMBER, "s", "(0, inf)", "", NULL, "newmark: end time."),
+    ROW ("solver.beta", PG_NUMBER, "1", "(0, 1]", "0.25", NULL, "newmark parameter."),
+    ROW ("solver.gamma", PG_NUMBER, "1", "[0.5, 1.5]", "0.5", NULL, "newmark parameter."),
+    ROW ("solver.rayleigh.mass", PG_NUMBER, "1/s", "[0, inf)", "0", NULL, "newmark: damping C = mass M + stiffness K."),
+    ROW ("solver.rayleigh.stiffness", PG_NUMBER, "s", "[0, inf)", "0", NULL, "newmark: damping C = mass M + stiffness K."),
+    ROW ("output.at.levels", PG_INTEGER, NULL, "[1, 1000000]", "20", NULL, "Fields are written at this many equal levels of load (static) or time (newmark)."),
+};
+const pg_key_table pg_keys_solve = { "solve", keys, sizeof keys / sizeof *keys };

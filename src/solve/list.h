@@ -1,0 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * One line per method. `static` is a word of C: its entry is named static_. */
+PG_SOLVER (static_)
+PG_SOLVER (newmark)

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: the linear system of a force, the break loop, the solver object and its methods. */
+#ifndef PG_SOLVE_PRIVATE_H
+#define PG_SOLVE_PRIVATE_H
+#include "perigal/solve.h"
+
+/* ---- system.c: equilibrium of a force at given alive bits --------------------------------------------------------------- */
+typedef struct {                                       /* what inertia and damping add (NULL: static)                    */
+    double k, m;                                       /* matrix = k K + m M                                             */
+    void (*add) (void *context, const double *d, double *residual);
+    void  *context;
+} dynamics;
+
+typedef struct {
+    const pg_problem    *problem;
+    const pg_force_type *force;
+    void                *self;
+    const pg_solver_options *options;
+    pg_report           *report;
+    int       components, stale, umfpack;
+    size_t    ndof, nred;
+    const pg_linear_type *linear;
+    void     *factor;
+    pg_sparse A;                                       /* the factored matrix: values owned; pattern of K or reduced     */
+    double   *copy;                                    /* with elimination: values of k K + m M before the reduction     */
+    double   *diagonal0, mean_diagonal;                /* of the first K                                                 */
+    double   *mass;
+    double   *residual, *reduced, *delta, *full, *best;
+    double    shift;
+} pg_system;
+pg_status system_create  (pg_system *s);               /* fields up to report set by the caller                           */
+void      system_free    (pg_system *s);
+pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
+/* d becomes the equilibrium at t; *residual relative to the reference force. PG_E_EQUILIBRIUM when it stays above the tolerance. */
+pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
+
+/* ---- equilibrate.c -------------------------------------------------------------------------------------------------------- */
+typedef struct {
+    pg_system  system;
+    double    *utilisation, *factor;                   /* per bond                                                       */
+    char      *kind;
+    pg_changes changes;                                /* died in the last round                                         */
+    pg_broken *broken; size_t nbroken, cap_broken;     /* died in this step                                              */
+    pg_ledger  ledger, before;                         /* now; at the last accounted state                               */
+    double     work;                                   /* external work, J                                               */
+} breaker;
+pg_status breaker_create (breaker *b);
+void      breaker_free   (breaker *b);
+/* Kills the bonds with measure[i] >= cut, logs them with the given utilisation scale. */
+pg_status breaker_kill   (breaker *b, pg_state *state, const double *measure, double cut, double scale);
+/* Solve, break, update, solve ... at time t until no bond is over its limit; d is left in equilibrium. */
+pg_status equilibrate    (breaker *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step);
+/* Adds the work done between the last accounted state and this one (loads scaled by `scale`). */
+pg_status breaker_account (breaker *b, double t, const double *d, double scale);
+
+/* ---- methods ---------------------------------------------------------------------------------------------------------------- */
+typedef struct {
+    const char *name, *summary;
+    pg_status (*start) (pg_solver *s, pg_state *state);           /* before the first step                               */
+    pg_status (*step)  (pg_solver *s, pg_state *state, pg_step *step);
+    int       (*done)  (const pg_solver *s, const pg_state *state);
+    void      (*free)  (pg_solver *s);
+} pg_solver_type;
+
+struct pg_solver {
+    const pg_solver_type *type;
+    pg_solver_options options;
+    const pg_problem *problem;
+    breaker   breaker;
+    pg_report report;
+    int       started, finished;
+    long      next_level;                              /* next level to report: next_level / levels                      */
+    double   *unit;                                    /* event stepping: displacement at load factor 1                  */
+    double    secant0;                                 /* event stepping: first work per squared load factor             */
+    pg_state *backup;                                  /* last accepted state, for refused steps                         */
+    double   *reaction;
+    double   *work1, *work2;                           /* newmark                                                        */
+};
+#endif

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Quasi-static loading. fixed: equal load steps, each with the break loop. event: between breaks everything is linear in the load
+ * factor, so d = lambda d_1 and the factor of the next break follows in closed form (events section 4): go there, break the bonds
+ * that reach their limit (ties included), solve for the new d_1, and so on; user levels are reported as they are passed. */
+#include "solve.h"
+#include <math.h>
+#include <string.h>
+
+static double level_factor (const pg_solver *s, long level) { return (double) level / (double) s->options.levels; }
+
+static pg_status static_start (pg_solver *s, pg_state *state)
+{
+    pg_status status = PG_OK;
+    double residual;
+    PG_TRY (system_refresh (&s->breaker.system, state, NULL));
+    s->next_level = 1;
+    if (s->options.event) {
+        PG_ALLOC (s->unit, state->ndof);
+        for (size_t i = 0; state->factor != 0 && i < state->ndof; i++) s->unit[i] = state->d[i] / state->factor;
+        PG_TRY (system_solve (&s->breaker.system, 1, s->unit, NULL, &residual));
+        s->report.residual_max = fmax (s->report.residual_max, residual);
+    }
+done:
+    return status;
+}
+
+/* ---- fixed ---------------------------------------------------------------------------------------------------------------- */
+static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    double t = (double) (state->step + 1) / (double) s->options.steps;
+    double work = b->work, strain = s->report.energy_strain;
+    PG_TRY (equilibrate (b, state, t, state->d, NULL, step));
+    state->factor = state->time = t;
+    s->report.energy_strain = b->ledger.strain;
+    step->dissipated = b->work - work - (b->ledger.strain - strain);
+    step->factor = step->time = t;
+    while (level_factor (s, s->next_level) <= t * (1 + 1e-12)) s->next_level++, step->level = 1;
+    if (state->step + 1 >= s->options.steps) s->finished = 1;
+done:
+    return status;
+}
+
+/* ---- event ------------------------------------------------------------------------------------------------------------------ */
+static double smallest (const double *a, size_t n)
+{
+    double low = INFINITY;
+    for (size_t i = 0; i < n; i++) if (a[i] < low) low = a[i];
+    return low;
+}
+
+/* d = factor * unit; energies are quadratic in the factor. */
+static pg_status settle (pg_solver *s, pg_state *state, double factor)
+{
+    pg_status status = PG_OK;
+    for (size_t i = 0; i < state->ndof; i++) state->d[i] = factor * s->unit[i];
+    state->factor = state->time = factor;
+    PG_TRY (breaker_account (&s->breaker, 1, s->unit, factor));
+    s->report.energy_strain = factor * factor * s->breaker.ledger.strain;
+done:
+    return status;
+}
+
+/* Work per squared load factor: a stiffness under prescribed displacements, a compliance under forces. */
+static double secant (const breaker *b)
+{
+    double sum = 0;
+    for (size_t k = 0; k < b->ledger.npair; k++) sum += b->ledger.force[k] * b->ledger.displacement[k];
+    return sum;
+}
+
+/* Breaks what reaches its limit at `factor` and finds the next unit displacement. */
+static pg_status break_at (pg_solver *s, pg_state *state, double factor, pg_step *step)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    const pg_solver_options *o = &s->options;
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, residual;
+    for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;   /* utilisation here */
+    PG_TRY (breaker_kill (b, state, b->factor, 1 - width, factor));
+    step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
+    state->events++, s->report.events++;
+    double strain = s->report.energy_strain, work = b->work;
+    PG_TRY (system_refresh (&b->system, state, &b->changes));
+    pg_status now = system_solve (&b->system, 1, s->unit, NULL, &residual);
+    if (now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD || now == PG_E_SINGULAR) {
+        pg_report_warn (&s->report, "the run ends at event %ld, load factor %.6g: %s", state->events, factor, pg_last_error ());
+        s->finished = 1;
+        goto done;
+    }
+    PG_TRY (now);
+    s->report.residual_max = fmax (s->report.residual_max, residual);
+    step->residual = residual;
+    PG_TRY (breaker_account (b, 1, s->unit, factor));
+    s->report.energy_strain = factor * factor * b->ledger.strain;
+    step->dissipated = b->work - work - (s->report.energy_strain - strain);
+    double share = secant (b) / s->secant0;
+    if (s->problem->nload && (share < o->stop_stiffness || share > 1 / fmax (o->stop_stiffness, 1e-12))) {
+        pg_report_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g", state->events, factor);
+        s->finished = 1;
+    }
+done:
+    return status;
+}
+
+static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    double next = INFINITY, level = level_factor (s, s->next_level), t0 = pg_seconds ();
+    b->nbroken = 0;
+    step->iterations = 1;
+    if (s->problem->criterion.type) {
+        PG_TRY (b->system.force->utilisation (b->system.self, state, s->unit, b->utilisation, b->kind, b->factor));
+        next = smallest (b->factor, state->nbond);
+    }
+    s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
+    double factor = next < level ? next : level;
+    PG_TRY (settle (s, state, factor));
+    memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (s->secant0 == 0) s->secant0 = secant (b);
+    step->factor = step->time = factor;
+    step->utilisation = next < INFINITY && next > 0 ? factor / next : 0;
+    step->residual = s->report.residual_max;
+    if (next <= level) PG_TRY (break_at (s, state, factor, step));
+    if (!(level > factor)) {
+        step->level = 1;
+        if (s->next_level++ >= s->options.levels) s->finished = 1;
+    }
+    if (state->events >= s->options.max_events) {
+        pg_report_warn (&s->report, "stopped after solver.max_events = %ld events at load factor %.6g", state->events, factor);
+        s->finished = 1;
+    }
+    for (size_t k = 0; k < 3 * s->problem->nload; k++) s->reaction[k] *= factor;
+done:
+    return status;
+}
+
+static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
+{
+    pg_status status = s->options.event ? step_event (s, state, step) : step_fixed (s, state, step);
+    if (status == PG_OK && !s->options.event)
+        memcpy (s->reaction, s->breaker.ledger.reaction ? s->breaker.ledger.reaction : s->reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    return status;
+}
+
+const pg_solver_type pg_solver_static_ = { "static", "quasi-static equilibrium, event by event or in fixed load steps", static_start, static_step, NULL, NULL };

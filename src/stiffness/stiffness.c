@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * K_IJ = sum over sources and their points of the blocks K_ab: pattern once, then a row-owned gather of all or of some node rows. */
+#include "perigal/stiffness.h"
+#include <string.h>
+
+typedef struct { size_t *start; size_t *point, *local; } inverse;      /* node -> (point, local index)                    */
+
+struct pg_stiffness {
+    size_t     n, nsource, widest;                     /* nodes; sources; most nodes a point sees                        */
+    int        block;
+    pg_source *source;
+    inverse   *inverse;                                /* per source                                                     */
+    pg_family  lower;                                  /* node I -> nodes J <= I, ascending                              */
+    pg_sparse  K;
+};
+
+static pg_status invert (inverse *out, const pg_family *family, size_t n)
+{
+    pg_status status = PG_OK;
+    size_t nnz = family->start[family->n], *fill = NULL;
+    PG_ALLOC (out->start, n + 1);
+    PG_ALLOC (out->point, nnz);
+    PG_ALLOC (out->local, nnz);
+    PG_ALLOC (fill, n);
+    for (size_t e = 0; e < nnz; e++) out->start[family->node[e] + 1]++;
+    for (size_t I = 0; I < n; I++) out->start[I + 1] += out->start[I], fill[I] = out->start[I];
+    for (size_t p = 0; p < family->n; p++)
+        for (size_t e = family->start[p]; e < family->start[p + 1]; e++) {
+            size_t k = fill[family->node[e]]++;
+            out->point[k] = p, out->local[k] = e - family->start[p];
+        }
+done:
+    pg_free (fill);
+    return status;
+}
+
+/* Counts (node NULL) or lists the nodes J <= I that share a point with I; mark[J] = I + 1 once seen. */
+static size_t neighbours (const pg_stiffness *K, size_t I, size_t *mark, int *node)
+{
+    size_t count = 0;
+    for (size_t s = 0; s < K->nsource; s++)
+        for (size_t k = K->inverse[s].start[I]; k < K->inverse[s].start[I + 1]; k++) {
+            const pg_family *f = K->source[s].family;
+            size_t first = f->start[K->inverse[s].point[k]];
+            for (size_t b = 0; b <= K->inverse[s].local[k]; b++) {
+                int J = f->node[first + b];
+                if (mark[J] == I + 1) continue;
+                mark[J] = I + 1;
+                if (node) node[count] = J;
+                count++;
+            }
+        }
+    if (mark[I] != I + 1) {                            /* a node that no point sees keeps its diagonal                   */
+        if (node) node[count] = (int) I;
+        count++;
+    }
+    return count;
+}
+
+static void sort_nodes (int *a, size_t n)              /* insertion sort of nearly sorted runs, shell gaps                */
+{
+    static const size_t gaps[] = { 301, 132, 57, 23, 10, 4, 1 };
+    for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++)
+        for (size_t i = gaps[g]; i < n; i++) {
+            int v = a[i];
+            size_t j = i;
+            for (; j >= gaps[g] && a[j - gaps[g]] > v; j -= gaps[g]) a[j] = a[j - gaps[g]];
+            a[j] = v;
+        }
+}
+
+static pg_status pattern (pg_stiffness *K)
+{
+    pg_status status = PG_OK;
+    size_t *mark = NULL, nnz = 0, m = (size_t) K->block;
+    PG_ALLOC (mark, K->n);
+    PG_ALLOC (K->lower.start, K->n + 1);
+    K->lower.n = K->n;
+    for (size_t I = 0; I < K->n; I++) K->lower.start[I + 1] = K->lower.start[I] + neighbours (K, I, mark, NULL);
+    PG_ALLOC (K->lower.node, K->lower.start[K->n]);
+    memset (mark, 0, K->n * sizeof *mark);
+    for (size_t I = 0; I < K->n; I++) {
+        int *list = K->lower.node + K->lower.start[I];
+        sort_nodes (list, neighbours (K, I, mark, list));
+    }
+    nnz = (K->lower.start[K->n] - K->n) * m * m + K->n * m * (m + 1) / 2;
+    PG_TRY (pg_sparse_create (&K->K, K->n * m, K->n * m, nnz, 1));
+    long at = 0;
+    for (size_t I = 0; I < K->n; I++)
+        for (size_t beta = 0; beta < m; beta++) {
+            K->K.start[I * m + beta] = at;
+            for (size_t k = K->lower.start[I]; k < K->lower.start[I + 1]; k++)
+                for (size_t alpha = 0; alpha < m; alpha++)
+                    if ((size_t) K->lower.node[k] < I || alpha <= beta) K->K.row[at++] = (long) ((size_t) K->lower.node[k] * m + alpha);
+        }
+    K->K.start[K->n * m] = at;
+done:
+    pg_free (mark);
+    return status;
+}
+
+pg_status pg_stiffness_create (pg_stiffness **out, size_t n, int block, size_t nsource, const pg_source *sources)
+{
+    pg_status status = PG_OK;
+    pg_stiffness *K = NULL;
+    PG_ALLOC (K, 1);
+    K->n = n, K->block = block, K->nsource = nsource;
+    PG_ALLOC (K->source, nsource);
+    PG_ALLOC (K->inverse, nsource);
+    for (size_t s = 0; s < nsource; s++) {
+        const pg_family *f = sources[s].family;
+        K->source[s] = sources[s];
+        PG_TRY (invert (&K->inverse[s], f, n));
+        for (size_t p = 0; p < f->n; p++) if (f->start[p + 1] - f->start[p] > K->widest) K->widest = f->start[p + 1] - f->start[p];
+    }
+    PG_TRY (pattern (K));
+    *out = K;
+    K = NULL;
+done:
+    pg_stiffness_free (&K);
+    return status;
+}
+
+void pg_stiffness_free (pg_stiffness **K)
+{
+    if (!*K) return;
+    for (size_t s = 0; (*K)->inverse && s < (*K)->nsource; s++) {
+        inverse *v = &(*K)->inverse[s];
+        pg_free (v->start), pg_free (v->point), pg_free (v->local);
+    }
+    pg_free ((*K)->inverse), pg_free ((*K)->source);
+    pg_family_clear (&(*K)->lower);
+    pg_sparse_clear (&(*K)->K);
+    pg_free (*K);
+    *K = NULL;
+}
+
+pg_sparse *pg_stiffness_matrix (pg_stiffness *K) { return &K->K; }
+
+/* ---- gather ----------------------------------------------------------------------------------------------------------- */
+typedef struct { pg_stiffness *K; const int *list; size_t *slot; double *blocks; } gathering;
+
+/* Adds block b of a row of blocks (row-major m x m, transposed into the columns of node I). */
+static void add_block (pg_stiffness *K, size_t I, size_t J, size_t slot, const double *block)
+{
+    size_t m = (size_t) K->block;
+    for (size_t beta = 0; beta < m; beta++) {
+        double *column = K->K.value + K->K.start[I * m + beta] + slot * m;
+        size_t top = J == I ? beta + 1 : m;
+        for (size_t alpha = 0; alpha < top; alpha++) column[alpha] += block[beta * m + alpha];
+    }
+}
+
+static void gather_row (gathering *g, size_t I, size_t *slot, double *blocks)
+{
+    pg_stiffness *K = g->K;
+    size_t m = (size_t) K->block, mm = m * m;
+    memset (K->K.value + K->K.start[I * m], 0, (size_t) (K->K.start[(I + 1) * m] - K->K.start[I * m]) * sizeof (double));
+    for (size_t k = K->lower.start[I]; k < K->lower.start[I + 1]; k++) slot[K->lower.node[k]] = k - K->lower.start[I];
+    for (size_t s = 0; s < K->nsource; s++) {
+        const pg_source *source = &K->source[s];
+        for (size_t k = K->inverse[s].start[I]; k < K->inverse[s].start[I + 1]; k++) {
+            size_t p = K->inverse[s].point[k], a = K->inverse[s].local[k];
+            const int *node = source->family->node + source->family->start[p];
+            memset (blocks, 0, (a + 1) * mm * sizeof *blocks);
+            source->blocks (source->context, p, a, a + 1, blocks);
+            for (size_t b = 0; b <= a; b++) add_block (K, I, (size_t) node[b], slot[node[b]], blocks + b * mm);
+        }
+    }
+}
+
+static void gather (void *context, size_t first, size_t last, int thread)
+{
+    gathering *g = context;
+    size_t wide = g->K->widest + 1, mm = (size_t) (g->K->block * g->K->block);
+    for (size_t k = first; k < last; k++)
+        gather_row (g, g->list ? (size_t) g->list[k] : k, g->slot + (size_t) thread * g->K->n, g->blocks + (size_t) thread * wide * mm);
+}
+
+pg_status pg_stiffness_gather (pg_stiffness *K, size_t count, const int *list, int threads)
+{
+    pg_status status = PG_OK;
+    gathering g = { K, list, NULL, NULL };
+    if (threads < 1 || count < 64) threads = 1;
+    PG_ALLOC (g.slot, (size_t) threads * K->n);
+    PG_ALLOC (g.blocks, (size_t) threads * (K->widest + 1) * (size_t) (K->block * K->block));
+    pg_parallel (threads, count, gather, &g);
+done:
+    pg_free (g.slot), pg_free (g.blocks);
+    return status;
+}

@@ -1,0 +1,411 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * result.e: what is written comes back to the last bit, while the file is open and in the layout of Exodus. */
+#include "check.h"
+#include "sample.h"
+#include <netcdf.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+enum { FIELDS = 3 };
+
+typedef struct { pg_cloud cloud; pg_field_view view[FIELDS]; double *value[FIELDS]; } sample;
+
+static void fill (sample *s, double step)
+{
+    for (int v = 0; v < FIELDS; v++)
+        for (size_t k = 0; k < s->cloud.n * (size_t) s->view[v].components; k++) s->value[v][k] = sin ((double) k + step) / 3 * pow (10, v);
+}
+
+static void begin (sample *s, int dim)
+{
+    make_cloud (&s->cloud, dim, dim == 3 ? 4 : 7, 1e-3 / 7);
+    s->view[0] = (pg_field_view) { "displacement", "m", dim, NULL };
+    s->view[1] = (pg_field_view) { "stress", "Pa", dim * (dim + 1) / 2, NULL };
+    s->view[2] = (pg_field_view) { "damage", "", 1, NULL };
+    for (int v = 0; v < FIELDS; v++) s->view[v].value = s->value[v] = pg_calloc (s->cloud.n * (size_t) s->view[v].components, sizeof (double));
+}
+
+static void end (sample *s)
+{
+    for (int v = 0; v < FIELDS; v++) pg_free (s->value[v]);
+    drop_cloud (&s->cloud);
+}
+
+static void write_steps (sample *s, const char *path, int steps)
+{
+    pg_exodus *file;
+    check_ok (pg_exodus_create (&file, path, &s->cloud, "a test", FIELDS, s->view));
+    for (int k = 0; k < steps; k++) {
+        fill (s, k);
+        check_ok (pg_exodus_write (file, 0.1 * k, s->view));
+    }
+    pg_exodus_close (&file);
+    assert_null (file);
+}
+
+static void check_field (sample *s, const char *path, int v, int step)
+{
+    size_t n;
+    int m;
+    double *value;
+    check_ok (pg_exodus_read (path, s->view[v].name, step, &n, &m, &value));
+    assert_int_equal (n, s->cloud.n);
+    assert_int_equal (m, s->view[v].components);
+    assert_memory_equal (value, s->value[v], n * (size_t) m * sizeof (double));
+    pg_free (value);
+}
+
+static void round_trip (int dim)
+{
+    sample s;
+    const char *path = file_at ("round.e");
+    begin (&s, dim);
+    write_steps (&s, path, 3);
+    for (int step = 0; step < 3; step++) {
+        fill (&s, step);
+        for (int v = 0; v < FIELDS; v++) check_field (&s, path, v, step);
+    }
+    for (int v = 0; v < FIELDS; v++) check_field (&s, path, v, -1);
+    end (&s);
+}
+static void fields_come_back_exactly_in_1d (void **state) { (void) state; round_trip (1); }
+static void fields_come_back_exactly_in_2d (void **state) { (void) state; round_trip (2); }
+static void fields_come_back_exactly_in_3d (void **state) { (void) state; round_trip (3); }
+
+static void points_come_back_exactly (void **state)
+{
+    (void) state;
+    sample s;
+    const char *path = file_at ("points.e");
+    for (int dim = 1; dim <= 3; dim++) {
+        pg_cloud c;
+        size_t steps;
+        double *time;
+        begin (&s, dim);
+        write_steps (&s, path, 2);
+        check_ok (pg_exodus_points (path, &c, &steps, &time));
+        assert_int_equal (c.dim, dim);
+        assert_int_equal (c.n, s.cloud.n);
+        assert_memory_equal (c.x, s.cloud.x, c.n * (size_t) dim * sizeof (double));
+        assert_memory_equal (c.volume, s.cloud.volume, c.n * sizeof (double));
+        assert_memory_equal (c.block, s.cloud.block, c.n * sizeof (int));
+        assert_memory_equal (c.low, s.cloud.low, sizeof c.low);
+        assert_memory_equal (c.high, s.cloud.high, sizeof c.high);
+        assert_memory_equal (c.step, s.cloud.step, sizeof c.step);
+        assert_true (c.h == s.cloud.h && c.thickness == s.cloud.thickness);
+        assert_int_equal (steps, 2);
+        assert_true (time[0] == 0 && time[1] == 0.1);
+        pg_free (time);
+        drop_cloud (&c);
+        end (&s);
+    }
+}
+
+static void points_come_back_before_the_first_step (void **state)
+{
+    (void) state;
+    sample s;
+    pg_cloud c;
+    size_t steps, n;
+    int m;
+    double *value;
+    const char *path = file_at ("empty.e");
+    begin (&s, 2);
+    write_steps (&s, path, 0);
+    check_ok (pg_exodus_points (path, &c, &steps, NULL));
+    assert_int_equal (steps, 0);
+    assert_memory_equal (c.volume, s.cloud.volume, c.n * sizeof (double));
+    check_fails (pg_exodus_read (path, "damage", -1, &n, &m, &value), PG_E_USAGE);
+    assert_null (value);
+    drop_cloud (&c);
+    end (&s);
+}
+
+static void names_and_units_come_back (void **state)
+{
+    (void) state;
+    sample s;
+    char (*names)[32], unit[16];
+    size_t n;
+    const char *path = file_at ("names.e");
+    begin (&s, 3);
+    write_steps (&s, path, 1);
+    check_ok (pg_exodus_fields (path, &names, &n));
+    assert_int_equal (n, 4);
+    assert_string_equal (names[0], "displacement");
+    assert_string_equal (names[1], "stress");
+    assert_string_equal (names[2], "damage");
+    assert_string_equal (names[3], "volume");
+    pg_free (names);
+    check_ok (pg_exodus_unit (path, "stress", unit));
+    assert_string_equal (unit, "Pa");
+    check_ok (pg_exodus_unit (path, "damage", unit));
+    assert_string_equal (unit, "");
+    end (&s);
+}
+
+static void a_wrong_field_or_step_names_those_present (void **state)
+{
+    (void) state;
+    sample s;
+    size_t n;
+    int m;
+    double *value;
+    const char *path = file_at ("wrong.e");
+    begin (&s, 2);
+    write_steps (&s, path, 2);
+    check_fails (pg_exodus_read (path, "damge", -1, &n, &m, &value), PG_E_USAGE);
+    check_contains (pg_last_error (), "did you mean 'damage'");
+    check_contains (pg_last_error (), "displacement|stress|damage");
+    check_fails (pg_exodus_read (path, "damage", 2, &n, &m, &value), PG_E_USAGE);
+    check_contains (pg_last_error (), "0 to 1");
+    end (&s);
+}
+
+static void name_row (int ncid, size_t k, char *name)
+{
+    int var;
+    assert_int_equal (nc_inq_varid (ncid, "name_nod_var", &var), 0);
+    assert_int_equal (nc_get_vara_text (ncid, var, (size_t[2]) { k, 0 }, (size_t[2]) { 1, 65 }, name), 0);
+}
+
+static size_t length_of (int ncid, const char *name)
+{
+    int dim;
+    size_t n = 0;
+    assert_int_equal (nc_inq_dimid (ncid, name, &dim), 0);
+    nc_inq_dimlen (ncid, dim, &n);
+    return n;
+}
+
+static void the_layout_is_that_of_exodus (void **state)
+{
+    (void) state;
+    static const char *const expected[] = { "displacement_x", "displacement_y", "displacement_z", "stress_xx", "stress_yy", "stress_zz",
+                                            "stress_xy", "stress_yz", "stress_zx", "damage", "volume" };
+    sample s;
+    char name[66] = "", type[8] = "";
+    int ncid, var, id[2], connect[64], deflate, shuffle, level;
+    size_t chunk[2];
+    float version;
+    const char *path = file_at ("layout.e");
+    begin (&s, 3);
+    write_steps (&s, path, 2);
+    assert_int_equal (nc_open (path, NC_NOWRITE, &ncid), 0);
+    assert_int_equal (length_of (ncid, "num_dim"), 3);
+    assert_int_equal (length_of (ncid, "num_nodes"), 64);
+    assert_int_equal (length_of (ncid, "num_elem"), 64);
+    assert_int_equal (length_of (ncid, "num_el_blk"), 2);
+    assert_int_equal (length_of (ncid, "time_step"), 2);
+    assert_int_equal (length_of (ncid, "num_nod_var"), 11);
+    assert_int_equal (length_of (ncid, "num_el_in_blk1") + length_of (ncid, "num_el_in_blk2"), 64);
+    for (size_t k = 0; k < 11; k++) {
+        name_row (ncid, k, name);
+        assert_string_equal (name, expected[k]);
+    }
+    assert_int_equal (nc_get_att_float (ncid, NC_GLOBAL, "api_version", &version), 0);
+    assert_int_equal (nc_inq_varid (ncid, "connect2", &var), 0);
+    assert_int_equal (nc_get_att_text (ncid, var, "elem_type", type), 0);
+    assert_string_equal (type, "SPHERE");
+    nc_get_var_int (ncid, var, connect);
+    assert_int_equal (connect[0], 2);                  /* point 1 is the first of block 4 */
+    assert_int_equal (nc_inq_varid (ncid, "eb_prop1", &var), 0);
+    nc_get_var_int (ncid, var, id);
+    assert_true (id[0] == 1 && id[1] == 5);
+    assert_int_equal (nc_inq_varid (ncid, "vals_nod_var4", &var), 0);
+    nc_inq_var_deflate (ncid, var, &shuffle, &deflate, &level);
+    nc_inq_var_chunking (ncid, var, NULL, chunk);
+    assert_true (deflate == 1 && level == 1 && chunk[0] == 1 && chunk[1] == 64);
+    nc_close (ncid);
+    end (&s);
+}
+
+/* A second program looks while the first still writes. */
+static void an_open_file_is_readable_from_outside (void **state)
+{
+    (void) state;
+    sample s;
+    pg_exodus *file;
+    char command[256];
+    const char *path = file_at ("open.e");
+    begin (&s, 2);
+    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view));
+    for (int k = 0; k < 3; k++) {
+        fill (&s, k);
+        check_ok (pg_exodus_write (file, k, s.view));
+        for (int v = 0; v < FIELDS; v++) check_field (&s, path, v, k);
+    }
+    snprintf (command, sizeof command, "! command -v ncdump > /dev/null || env -u HDF5_USE_FILE_LOCKING ncdump -v time_whole %s "
+              "| grep -q 'time_whole = 0, 1, 2'", path);
+    assert_int_equal (system (command), 0);
+    pg_exodus_close (&file);
+    end (&s);
+}
+
+static void a_killed_writer_leaves_its_steps (void **state)
+{
+    (void) state;
+    sample s;
+    size_t steps;
+    pg_cloud c;
+    const char *path = file_at ("killed.e");
+    begin (&s, 2);
+    pid_t child = fork ();
+    if (child == 0) {
+        pg_exodus *file;
+        if (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view) != PG_OK) _exit (1);
+        for (int k = 0; k < 4; k++) {
+            fill (&s, k);
+            if (pg_exodus_write (file, k, s.view) != PG_OK) _exit (1);
+        }
+        raise (SIGKILL);
+    }
+    int how;
+    waitpid (child, &how, 0);
+    assert_true (WIFSIGNALED (how));
+    check_ok (pg_exodus_points (path, &c, &steps, NULL));
+    assert_int_equal (steps, 4);
+    fill (&s, 3);
+    check_field (&s, path, 1, -1);
+    drop_cloud (&c);
+    end (&s);
+}
+
+static void many_steps_append (void **state)
+{
+    (void) state;
+    sample s;
+    size_t steps;
+    double *time;
+    pg_cloud c;
+    const char *path = file_at ("many.e");
+    begin (&s, 2);
+    write_steps (&s, path, 200);
+    check_ok (pg_exodus_points (path, &c, &steps, &time));
+    assert_int_equal (steps, 200);
+    for (int k = 0; k < 200; k++) assert_true (time[k] == 0.1 * k);
+    fill (&s, 137);
+    check_field (&s, path, 0, 137);
+    pg_free (time);
+    drop_cloud (&c);
+    end (&s);
+}
+
+static void nan_comes_back (void **state)
+{
+    (void) state;
+    sample s;
+    pg_exodus *file;
+    const char *path = file_at ("nan.e");
+    begin (&s, 2);
+    fill (&s, 0);
+    s.value[2][5] = NAN, s.value[2][6] = -INFINITY;
+    check_ok (pg_exodus_create (&file, path, &s.cloud, NULL, FIELDS, s.view));
+    check_ok (pg_exodus_write (file, 0, s.view));
+    pg_exodus_close (&file);
+    check_field (&s, path, 2, 0);
+    end (&s);
+}
+
+static void a_path_that_cannot_be_written_is_named (void **state)
+{
+    (void) state;
+    sample s;
+    pg_exodus *file;
+    const char *path = file_at ("missing/result.e");
+    begin (&s, 2);
+    check_fails (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view), PG_E_FILE);
+    assert_null (file);
+    check_contains (pg_last_error (), path);
+    check_contains (pg_last_error (), "No such file");
+    end (&s);
+}
+
+static void other_fields_than_announced_are_refused (void **state)
+{
+    (void) state;
+    sample s;
+    pg_exodus *file;
+    begin (&s, 2);
+    check_ok (pg_exodus_create (&file, file_at ("other.e"), &s.cloud, "", FIELDS, s.view));
+    strcpy (s.view[1].name, "strain");
+    check_fails (pg_exodus_write (file, 0, s.view), PG_E_USAGE);
+    pg_exodus_close (&file);
+    s.view[1] = s.view[0];
+    check_fails (pg_exodus_create (&file, file_at ("twice.e"), &s.cloud, "", FIELDS, s.view), PG_E_USAGE);
+    end (&s);
+}
+
+static void what_is_no_result_is_refused (void **state)
+{
+    (void) state;
+    pg_cloud c;
+    size_t n;
+    const char *path = file_at ("text.e");
+    FILE *file = fopen (path, "w");
+    fputs ("not a result\n", file);
+    fclose (file);
+    check_fails (pg_exodus_points (path, &c, &n, NULL), PG_E_FILE);
+    check_contains (pg_last_error (), path);
+    check_fails (pg_exodus_points (file_at ("absent.e"), &c, &n, NULL), PG_E_FILE);
+    check_contains (pg_last_error (), "No such file");
+}
+
+static pg_status whole_life (sample *s, const char *path)
+{
+    pg_status status = PG_OK;
+    pg_exodus *file = NULL;
+    pg_cloud c = { 0 };
+    size_t n;
+    int m;
+    double *value = NULL, *time = NULL;
+    char (*names)[32] = NULL;
+    PG_TRY (pg_exodus_create (&file, path, &s->cloud, "", FIELDS, s->view));
+    PG_TRY (pg_exodus_write (file, 1, s->view));
+    pg_exodus_close (&file);
+    PG_TRY (pg_exodus_points (path, &c, &n, &time));
+    PG_TRY (pg_exodus_read (path, "stress", -1, &n, &m, &value));
+    PG_TRY (pg_exodus_fields (path, &names, &n));
+done:
+    pg_exodus_close (&file);
+    drop_cloud (&c);
+    pg_free (names);
+    pg_free (value);
+    pg_free (time);
+    return status;
+}
+
+static void any_allocation_may_fail (void **state)
+{
+    (void) state;
+    sample s;
+    const char *path = file_at ("sweep.e");
+    begin (&s, 3);
+    fill (&s, 0);
+    size_t before = pg_memory_used (), k = 1;
+    pg_status status = PG_E_MEMORY;
+    for (; status != PG_OK && k < 100; k++) {
+        pg_memory_fail_at (k);
+        status = whole_life (&s, path);
+        pg_memory_fail_at (0);
+        assert_true (status == PG_OK || status == PG_E_MEMORY);
+        assert_int_equal (pg_memory_used (), before);
+    }
+    assert_true (status == PG_OK && k > 10);
+    end (&s);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (fields_come_back_exactly_in_1d), cmocka_unit_test (fields_come_back_exactly_in_2d),
+        cmocka_unit_test (fields_come_back_exactly_in_3d), cmocka_unit_test (points_come_back_exactly),
+        cmocka_unit_test (points_come_back_before_the_first_step), cmocka_unit_test (names_and_units_come_back),
+        cmocka_unit_test (a_wrong_field_or_step_names_those_present), cmocka_unit_test (the_layout_is_that_of_exodus),
+        cmocka_unit_test (an_open_file_is_readable_from_outside), cmocka_unit_test (a_killed_writer_leaves_its_steps),
+        cmocka_unit_test (many_steps_append), cmocka_unit_test (nan_comes_back),
+        cmocka_unit_test (a_path_that_cannot_be_written_is_named), cmocka_unit_test (other_fields_than_announced_are_refused),
+        cmocka_unit_test (what_is_no_result_is_refused), cmocka_unit_test (any_allocation_may_fail),
+    };
+    return cmocka_run_group_tests_name ("output/exodus", tests, NULL, remove_folder);
+}
