@@ -23,8 +23,8 @@ OPT_debug   := -Og -g -DPG_DEBUG
 OPT_asan    := -O1 -g -DPG_DEBUG -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 # -ffp-contract=off: machines with and without FMA round alike
 CFLAGS  := $(STD) $(OPT_$(MODE)) -ffp-contract=off -fno-math-errno -fPIC $(WARN) $(INCLUDE) $(EXTRA_CFLAGS)
-LDFLAGS := $(if $(filter asan,$(MODE)),-fsanitize=address$(comma)undefined,) $(EXTRA_LDFLAGS)
 comma   := ,
+LDFLAGS := $(if $(filter asan,$(MODE)),-fsanitize=address$(comma)undefined,) $(EXTRA_LDFLAGS)
 
 SOURCES := $(filter-out src/cli/%,$(wildcard src/*/*.c))
 CLI     := $(wildcard src/cli/*.c)

@@ -16,7 +16,7 @@ typedef struct {
     size_t  npair;
     double *force, *displacement;                      /* N, m (npair)                                                   */
     double *reaction;                                  /* force on the body per load and component, N (nload x 3)        */
-    double  strain;                                    /* strain energy, J                                               */
+    double  strain;                                    /* stored energy: strain, stabilisation, boundary terms, J        */
 } pg_ledger;
 
 typedef struct {

@@ -14,7 +14,8 @@ typedef struct {
     double   tolerance;                                /* of the residual, relative to the reference force               */
     long     steps, max_iterations, max_events;
     double   dt, end, beta, gamma, rayleigh_mass, rayleigh_stiffness;      /* newmark: s, s, 1, 1, 1/s, s                 */
-    double   stop_stiffness;                           /* static: stop when the secant stiffness fell below this share   */
+    double   stop_stiffness;                           /* event stepping: stop when the secant stiffness fell below it   */
+    const pg_set *stop_set; double stop_damage;        /* stop when a point of the set is damaged so far; NULL: never    */
     long     levels;                                   /* reports at k / levels of the load (or of the end time)         */
 } pg_solver_options;
 pg_status pg_solver_options_read (pg_solver_options *out, const pg_problem *problem, const pg_scene *scene);

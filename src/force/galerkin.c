@@ -200,7 +200,7 @@ static pg_status galerkin_ledger (void *self, double t, const double *d, pg_ledg
     memset (out->reaction, 0, 3 * g->problem->nload * sizeof *out->reaction);
     PG_TRY (galerkin_balance (g, t, d, residual, &reference));
     galerkin_basis_ledger (g, t, residual, out, galerkin_boundary_ledger (g, t, d, out));
-    out->strain = galerkin_bulk_energy (g, d);
+    out->strain = galerkin_bulk_energy (g, d) + galerkin_boundary_energy (g, t);
 done:
     pg_free (residual);
     return status;

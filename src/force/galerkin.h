@@ -59,6 +59,7 @@ void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double 
 void galerkin_peg_blocks   (void *context, size_t p, size_t a, size_t m, double *out);
 /* residual += loads and boundary terms (after measure); external and reaction: squared norms for the reference */
 void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external, double *reaction);
+double galerkin_boundary_energy (const galerkin *g, double t);
 size_t galerkin_boundary_pairs (const galerkin *g);
 size_t galerkin_boundary_ledger (galerkin *g, double t, const double *d, pg_ledger *out);
 /* basis */

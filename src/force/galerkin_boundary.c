@@ -285,6 +285,28 @@ void galerkin_boundary_force (galerkin *g, double t, const double *d, double *re
     for (size_t i = 0; i < ndof; i++) residual[i] += g->work[i];
 }
 
+/* Energy that the boundary terms store: -int (u - g) (sigma n) + (beta / 2) int (u - g)^2, and the penalty springs. With it the work of
+ * the supports equals the stored energy exactly as long as nothing breaks. */
+double galerkin_boundary_energy (const galerkin *g, double t)
+{
+    size_t dim = (size_t) g->dim;
+    double sum = 0;
+    for (size_t i = 0; i < g->npin; i++) {
+        const pin *q = &g->pin[i];
+        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_FACETS].x + q->point * dim, t);
+        double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal;
+        sum -= g->rows[PG_FACETS].weight[q->point] * gap * 0.5 * (pin_traction (g, q, gap) + pin_traction (g, q, 0));
+    }
+    for (size_t i = 0; i < g->npeg; i++) {
+        const pin *q = &g->peg[i];
+        size_t node = (size_t) g->peg_node[q->point];
+        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_NODES].x + node * dim, t);
+        double gap = g->u[PG_NODES][node * dim + (size_t) q->component] - goal;
+        sum += 0.5 * penalty (g, (int) node) * gap * gap;
+    }
+    return sum;
+}
+
 /* ---- ledger ---------------------------------------------------------------------------------------------------------- */
 static void count_pair (void *context, int set, size_t point, int load, int k, double force, double displacement)
 {

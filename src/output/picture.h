@@ -58,7 +58,7 @@ typedef struct {
     size_t  n;
     double *place;                                     /* pixels from the left and the top (n x 2)                       */
     double *value;                                     /* (n)                                                            */
-    double  size[2], reach;                            /* cell, pixels; gaps up to (reach - 1) cells between cells close */
+    double  size[2], reach;                            /* cell, pixels; gaps up to (reach - 1) / 2 cells close          */
 } pg_spots;
 /* owner (width x height): index of the spot that covers the pixel's centre, -1 for none. */
 pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner);

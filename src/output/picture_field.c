@@ -286,7 +286,7 @@ pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const doubl
     choose_axes (p, cloud, style);
     PG_TRY (choose_points (p, cloud, value, style));
     choose_frame (p, cloud);
-    p->spots.reach = style->u && style->magnify != 0 ? 1.2 : 1.5;   /* opened cracks stay open */
+    p->spots.reach = style->u && style->magnify != 0 ? 1.3 : 1.9;   /* opened cracks stay open */
     PG_TRY (draw_plate (p, path, style));
 done:
     if (p) pg_free (p->spots.place), pg_free (p->spots.value);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * owner[pixel] = the spot whose cell covers the pixel's centre, the nearest where several do. Pixels in narrow gaps between cells
- * (moved points) go to the nearest spot if there are spots on two opposite sides; the outline of the body does not grow. */
+ * (moved points) go to the nearest spot if there are spots on opposite sides; the outline of the body does not grow. */
 #include "picture.h"
 #include <math.h>
 
-enum { LEFT = 1, RIGHT = 2, ABOVE = 4, BELOW = 8, INSIDE = 16 };
+/* Sides on which a pixel has a spot: straight beside it (low four bits), or near in any direction (high four bits). */
+enum { LEFT = 1, RIGHT = 2, ABOVE = 4, BELOW = 8, ALL = 15 };
 
 /* First and one past the last pixel whose centre lies within `half` of `at`, cut to [0, n). Written so that cells side by side
  * neither overlap nor leave a pixel out. */
@@ -30,11 +31,16 @@ static void stamp (const pg_spots *s, size_t k, int width, int height, int *owne
             double dx = (i + 0.5 - at[0]) / size[0], dy = (j + 0.5 - at[1]) / size[1];
             float d = (float) (dx * dx + dy * dy);
             int across = j >= iy[0] && j < iy[1], along = i >= ix[0] && i < ix[1];
-            if (across) seen[p] |= dx > 0 ? LEFT : RIGHT;
-            if (along) seen[p] |= dy > 0 ? ABOVE : BELOW;
-            if (across && along) seen[p] |= INSIDE;
+            int level = dx > 0 ? LEFT : RIGHT, upright = dy > 0 ? ABOVE : BELOW;
+            seen[p] |= (unsigned char) ((level | upright) << 4 | (across ? level : 0) | (along ? upright : 0) | (across && along ? ALL : 0));
             if (owner[p] < 0 || d < distance[p]) owner[p] = (int) k, distance[p] = d;
         }
+}
+
+/* In a cell, or in a gap with spots straight on two opposite sides, or near on all four. */
+static int enclosed (unsigned char seen)
+{
+    return (seen & (LEFT | RIGHT)) == (LEFT | RIGHT) || (seen & (ABOVE | BELOW)) == (ABOVE | BELOW) || seen >> 4 == ALL;
 }
 
 pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner)
@@ -47,9 +53,7 @@ pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner)
     PG_ALLOC (seen, n);
     for (size_t p = 0; p < n; p++) owner[p] = -1;
     for (size_t k = 0; k < spots->n; k++) stamp (spots, k, width, height, owner, distance, seen);
-    for (size_t p = 0; p < n; p++)
-        if (!(seen[p] & INSIDE) && (seen[p] & (LEFT | RIGHT)) != (LEFT | RIGHT) && (seen[p] & (ABOVE | BELOW)) != (ABOVE | BELOW))
-            owner[p] = -1;
+    for (size_t p = 0; p < n; p++) if (!enclosed (seen[p])) owner[p] = -1;
 done:
     pg_free (seen);
     pg_free (distance);

@@ -69,20 +69,44 @@ static void write_row (FILE *to, const pg_key *key)
 
 static size_t top_length (const char *path) { return strcspn (path, ".["); }
 
-static int first_of_top (const pg_schema *s, size_t k)
+static int same_top (const char *a, const char *b)
 {
-    size_t n = top_length (s->row[k]->path);
-    for (size_t j = 0; j < k; j++)
-        if (top_length (s->row[j]->path) == n && strncmp (s->row[j]->path, s->row[k]->path, n) == 0) return 0;
-    return 1;
+    size_t n = top_length (a);
+    return top_length (b) == n && strncmp (a, b, n) == 0;
 }
 
-static void write_section (FILE *to, const pg_schema *s, const char *top, size_t n)
+/* Rows under the same word at the top: before row k, or all. */
+static size_t companions (const pg_schema *s, size_t k, size_t end)
 {
-    fprintf (to, "### %.*s\n\n| key | kind, unit | range or choices | default | meaning |\n|---|---|---|---|---|\n", (int) n, top);
+    size_t n = 0;
+    for (size_t j = 0; j < end; j++) n += same_top (s->row[j]->path, s->row[k]->path);
+    return n;
+}
+
+static int stands_alone (const pg_schema *s, size_t k)
+{
+    return !strpbrk (s->row[k]->path, ".[") && companions (s, k, s->n) == 1;
+}
+
+static void write_title (FILE *to, const char *title, size_t n)
+{
+    fprintf (to, "### %.*s\n\n| key | kind, unit | range or choices | default | meaning |\n|---|---|---|---|---|\n", (int) n, title);
+}
+
+static void write_sections (FILE *to, const pg_schema *s)
+{
+    static const char first[] = "The whole scene";
+    write_title (to, first, strlen (first));
     for (size_t k = 0; k < s->n; k++)
-        if (top_length (s->row[k]->path) == n && strncmp (s->row[k]->path, top, n) == 0) write_row (to, s->row[k]);
-    fprintf (to, "\n");
+        if (stands_alone (s, k)) write_row (to, s->row[k]);
+    for (size_t k = 0; k < s->n; k++) {
+        const char *top = s->row[k]->path;
+        if (stands_alone (s, k) || companions (s, k, k) > 0) continue;
+        fprintf (to, "\n");
+        write_title (to, top, top_length (top));
+        for (size_t j = k; j < s->n; j++)
+            if (same_top (s->row[j]->path, top)) write_row (to, s->row[j]);
+    }
 }
 
 pg_status pg_manual_write (FILE *to, const pg_schema *s)
@@ -90,8 +114,7 @@ pg_status pg_manual_write (FILE *to, const pg_schema *s)
     fprintf (to, "%s", introduction);
     write_expressions (to);
     fprintf (to, "%s## Keys\n\n", overrides);
-    for (size_t k = 0; k < s->n; k++)
-        if (first_of_top (s, k)) write_section (to, s, s->row[k]->path, top_length (s->row[k]->path));
+    write_sections (to, s);
     return ferror (to) ? pg_error (PG_E_FILE, PG_HERE, "the manual could not be written") : PG_OK;
 }
 

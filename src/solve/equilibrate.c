@@ -24,6 +24,7 @@ void breaker_free (breaker *b)
     pg_free (b->changes.bond), pg_free (b->broken);
     pg_ledger_clear (&b->ledger);
     pg_ledger_clear (&b->before);
+    pg_free (b->damage);
 }
 
 static void locate (const pg_problem *p, pg_broken *out)
@@ -103,6 +104,15 @@ pg_status breaker_account (breaker *b, double t, const double *d, double scale)
     if (!s->force->ledger) return PG_OK;
     double t0 = pg_seconds ();
     PG_TRY (s->force->ledger (s->self, t, d, &b->ledger));
+    PG_TRY (breaker_book (b, scale));
+done:
+    s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
+    return status;
+}
+
+pg_status breaker_book (breaker *b, double scale)
+{
+    pg_status status = PG_OK;
     if (!b->before.force) {                            /* the first state is reached from rest                           */
         PG_ALLOC (b->before.force, b->ledger.npair);
         PG_ALLOC (b->before.displacement, b->ledger.npair);
@@ -113,6 +123,21 @@ pg_status breaker_account (breaker *b, double t, const double *d, double scale)
         b->before.force[k] = f, b->before.displacement[k] = u;
     }
 done:
-    s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
+    return status;
+}
+
+pg_status breaker_arrived (breaker *b, const pg_state *state, const double *d, int *arrived)
+{
+    pg_status status = PG_OK;
+    pg_system *s = &b->system;
+    const pg_set *set = s->options->stop_set;
+    int components;
+    const char *unit;
+    *arrived = 0;
+    if (!set || !s->force->field) return PG_OK;
+    if (!b->damage) PG_ALLOC (b->damage, 6 * s->problem->cloud.n);
+    PG_TRY (s->force->field (s->self, state, d, "damage", &components, &unit, b->damage));
+    for (size_t i = 0; components == 1 && i < set->npoint && !*arrived; i++) *arrived = b->damage[set->point[i]] >= s->options->stop_damage;
+done:
     return status;
 }

@@ -88,7 +88,10 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     state->time = step->time = t;
     state->factor = step->factor = t / s->options.end;
     while ((double) s->next_level / (double) s->options.levels <= step->factor * (1 + 1e-12)) s->next_level++, step->level = 1;
-    if (state->step + 1 >= s->options.steps) s->finished = 1;
+    int arrived;
+    PG_TRY (breaker_arrived (b, state, state->d, &arrived));
+    if (arrived) pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at t = %.6g s", s->options.stop_set->name, t);
+    if (arrived || state->step + 1 >= s->options.steps) s->finished = 1;
 done:
     return status;
 }

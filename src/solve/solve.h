@@ -43,6 +43,7 @@ typedef struct {
     pg_broken *broken; size_t nbroken, cap_broken;     /* died in this step                                              */
     pg_ledger  ledger, before;                         /* now; at the last accounted state                               */
     double     work;                                   /* external work, J                                               */
+    double    *damage;                                 /* with stop.set (6 n)                                            */
 } breaker;
 pg_status breaker_create (breaker *b);
 void      breaker_free   (breaker *b);
@@ -50,8 +51,12 @@ void      breaker_free   (breaker *b);
 pg_status breaker_kill   (breaker *b, pg_state *state, const double *measure, double cut, double scale);
 /* Solve, break, update, solve ... at time t until no bond is over its limit; d is left in equilibrium. */
 pg_status equilibrate    (breaker *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step);
-/* Adds the work done between the last accounted state and this one (loads scaled by `scale`). */
+/* The ledger of (t, d), and with it the work done between the last accounted state and this one (loads scaled by `scale`). */
 pg_status breaker_account (breaker *b, double t, const double *d, double scale);
+/* The work alone, from the ledger at hand. */
+pg_status breaker_book    (breaker *b, double scale);
+/* Has the damage of a point of options.stop_set reached options.stop_damage? */
+pg_status breaker_arrived (breaker *b, const pg_state *state, const double *d, int *arrived);
 
 /* ---- methods ---------------------------------------------------------------------------------------------------------------- */
 typedef struct {
@@ -68,9 +73,10 @@ struct pg_solver {
     const pg_problem *problem;
     breaker   breaker;
     pg_report report;
-    int       started, finished;
+    int       started, finished, overlap_told;
     long      next_level;                              /* next level to report: next_level / levels                      */
     double   *unit;                                    /* event stepping: displacement at load factor 1                  */
+    int       ledger_fresh;                            /* the ledger is that of `unit`                                   */
     double    secant0;                                 /* event stepping: first work per squared load factor             */
     pg_state *backup;                                  /* last accepted state, for refused steps                         */
     double   *reaction;

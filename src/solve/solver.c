@@ -63,7 +63,10 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     o->beta = pg_scene_number (scene, "solver.beta"), o->gamma = pg_scene_number (scene, "solver.gamma");
     o->rayleigh_mass = pg_scene_number (scene, "solver.rayleigh.mass");
     o->rayleigh_stiffness = pg_scene_number (scene, "solver.rayleigh.stiffness");
-    o->stop_stiffness = pg_scene_number (scene, "solver.stop_stiffness");
+    o->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
+    o->stop_damage = pg_scene_number (scene, "solver.stop.damage");
+    const char *stop = pg_scene_text (scene, "solver.stop.set");
+    if (stop && *stop && !(o->stop_set = pg_sets_find (&problem->sets, stop))) pg_scene_fault (scene, "solver.stop.set", "there is no set %s", stop);
     o->levels = pg_scene_integer (scene, "output.at.levels");
     int proportional = pg_problem_proportional (problem), is_static = strcmp (o->kind, "static") == 0;
     int breaks = problem->criterion.type != NULL;
@@ -153,6 +156,8 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     r->steps++, r->iterations += step->iterations, r->broken += (long) step->nbroken;
     r->residual_max = fmax (r->residual_max, step->residual);
     r->utilisation_max = fmax (r->utilisation_max, step->utilisation);
+    if (step->level && s->breaker.system.force->overlap)
+        r->overlap_max = fmax (r->overlap_max, s->breaker.system.force->overlap (s->breaker.system.self, state, state->d));
     r->energy_external = s->breaker.work;
     r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic;
 done:
@@ -173,11 +178,22 @@ double pg_solver_progress (const pg_solver *s, const pg_state *state)
     return fmin (1, fmax (0, p));
 }
 
+static double largest_displacement (const pg_solver *s, const pg_state *state)
+{
+    double top = 0;
+    for (size_t i = 0; i < s->breaker.system.ndof; i++) top = fmax (top, fabs (state->d[i]));
+    return top;
+}
+
 const pg_report *pg_solver_report (pg_solver *s, const pg_state *state)
 {
     pg_system *sys = &s->breaker.system;
     if (sys->force->census) sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes, &s->report.fragments);
     if (sys->force->overlap) s->report.overlap_max = fmax (s->report.overlap_max, sys->force->overlap (sys->self, state, state->d));
+    if (!s->overlap_told && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {
+        pg_report_warn (&s->report, "crack faces overlap by up to %.3g m (contact is not modelled)", s->report.overlap_max);
+        s->overlap_told = 1;
+    }
     return &s->report;
 }
 

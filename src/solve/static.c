@@ -37,7 +37,10 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     step->dissipated = b->work - work - (b->ledger.strain - strain);
     step->factor = step->time = t;
     while (level_factor (s, s->next_level) <= t * (1 + 1e-12)) s->next_level++, step->level = 1;
-    if (state->step + 1 >= s->options.steps) s->finished = 1;
+    int arrived;
+    PG_TRY (breaker_arrived (b, state, state->d, &arrived));
+    if (arrived) pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at load factor %.6g", s->options.stop_set->name, t);
+    if (arrived || state->step + 1 >= s->options.steps) s->finished = 1;
 done:
     return status;
 }
@@ -56,7 +59,9 @@ static pg_status settle (pg_solver *s, pg_state *state, double factor)
     pg_status status = PG_OK;
     for (size_t i = 0; i < state->ndof; i++) state->d[i] = factor * s->unit[i];
     state->factor = state->time = factor;
-    PG_TRY (breaker_account (&s->breaker, 1, s->unit, factor));
+    if (!s->ledger_fresh) PG_TRY (breaker_account (&s->breaker, 1, s->unit, factor));
+    else PG_TRY (breaker_book (&s->breaker, factor));
+    s->ledger_fresh = 1;
     s->report.energy_strain = factor * factor * s->breaker.ledger.strain;
 done:
     return status;
@@ -95,6 +100,12 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, pg_step
     PG_TRY (breaker_account (b, 1, s->unit, factor));
     s->report.energy_strain = factor * factor * b->ledger.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
+    int arrived;
+    PG_TRY (breaker_arrived (b, state, state->d, &arrived));
+    if (arrived) {
+        pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at event %ld, load factor %.6g", o->stop_set->name, state->events, factor);
+        s->finished = 1;
+    }
     double share = secant (b) / s->secant0;
     if (s->problem->nload && (share < o->stop_stiffness || share > 1 / fmax (o->stop_stiffness, 1e-12))) {
         pg_report_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g", state->events, factor);

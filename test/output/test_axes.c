@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Axes: round ticks, texts without noise, factors and prefixes in the label, room between texts; colour maps. */
 #include "check.h"
+#include "fonts.h"
 #include "output/picture.h"
 
 static cairo_surface_t *surface;

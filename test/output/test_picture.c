@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Pictures: right size, not blank, the right colour at the right place, failures named and nothing left behind. */
 #include "check.h"
+#include "fonts.h"
 #include "sample.h"
 #include <cairo.h>
 

@@ -88,7 +88,8 @@ static void vectors_of_wrong_length_name_the_dimension (void **state)
     REFUSED (PLATE_HEAD "cracks: [{from: [0, 0, 0]}]\n", "plate.yaml:4:11: cracks[0].from: needs 2 numbers in 2D, has 3");
     REFUSED (PLATE_HEAD "cracks: [{from: 0}]\n", "plate.yaml:4:11: cracks[0].from = 0: needs 2 numbers in 2D, has 1");
     REFUSED ("spacing: 1 mm\nmaterials: {}\ncracks: [{from: []}]\n",
-             "plate.yaml:1:1: dimension: is missing: Number of space dimensions.\nplate.yaml:3:11: cracks[0].from: needs 1 to 3 numbers, has 0");
+             "plate.yaml:1:1: dimension: is missing: Number of space dimensions.\n"
+             "plate.yaml:3:11: cracks[0].from: needs 1 to 3 numbers, has 0");
 }
 
 static void missing_keys_stand_at_their_parent (void **state)
@@ -114,9 +115,11 @@ static void broken_yaml_names_the_place (void **state)
 {
     (void) state;
     REFUSED ("dimension: 2\n\tspacing: 1 mm\n",
-             "plate.yaml:2:1: not valid YAML: found a tab character that violates indentation while scanning a plain scalar (indent with spaces, not tabs)");
+             "plate.yaml:2:1: not valid YAML: found a tab character that violates indentation while "
+             "scanning a plain scalar (indent with spaces, not tabs)");
     REFUSED ("method:\n\tkernel: gaussian\n",
-             "plate.yaml:2:1: not valid YAML: found character that cannot start any token while scanning for the next token (indent with spaces, not tabs)");
+             "plate.yaml:2:1: not valid YAML: found character that cannot start any token while scanning for the "
+             "next token (indent with spaces, not tabs)");
     REFUSED ("a: [1, 2\nb: 3\n", "plate.yaml:2:2: not valid YAML: did not find expected ',' or ']' while parsing a flow sequence");
     REFUSED ("a: *b\n", "plate.yaml:1:4: not valid YAML: found undefined alias");
     REFUSED ("a: 1\nb: \xFF\n", "plate.yaml:2:4: not valid YAML: invalid leading UTF-8 octet");
@@ -146,7 +149,8 @@ static void all_faults_come_in_the_order_of_lines (void **state)
              "plate.yaml:3:31: materials.rock.density = x: must be a number with a unit of kg/m3, for example 2500 kg/m3\n"
              "plate.yaml:4:10: method.kernel = q: must be one of constant, quadratic, gaussian\n"
              "plate.yaml:4:21: method.levels = 500: must lie in [1, 100]\n"
-             "plate.yaml:5:1: nonsense = 1: unknown key; known here: title, dimension, spacing, cracks, materials, failure, method, sets, load, output");
+             "plate.yaml:5:1: nonsense = 1: unknown key; known here: title, dimension, spacing, cracks, materials, "
+             "failure, method, sets, load, output");
 }
 
 static void more_than_fifty_faults_are_counted (void **state)

@@ -30,7 +30,8 @@ static void help_tells_all_of_a_key (void **state)
     (void) state;
     char *text = help_of ("materials.{}.youngs_modulus");
     assert_string_equal (text, "materials.{}.youngs_modulus\n  Young's modulus.\n  kind     number\n"
-                               "  value    a number with a unit of Pa, for example 10 GPa\n  unit     Pa\n  range    (0, inf)\n  default  none, required\n");
+                               "  value    a number with a unit of Pa, for example 10 GPa\n  unit     Pa\n"
+                               "  range    (0, inf)\n  default  none, required\n");
     free (text);
     text = help_of ("method.kernel");
     assert_string_equal (text,
