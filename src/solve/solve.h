@@ -73,7 +73,7 @@ struct pg_solver {
     const pg_problem *problem;
     breaker   breaker;
     pg_report report;
-    int       started, finished, overlap_told;
+    int       started, finished, overlap_told, energy_told;
     long      next_level;                              /* next level to report: next_level / levels                      */
     double   *unit;                                    /* event stepping: displacement at load factor 1                  */
     int       ledger_fresh;                            /* the ledger is that of `unit`                                   */

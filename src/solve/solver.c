@@ -69,8 +69,7 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     if (stop && *stop && !(o->stop_set = pg_sets_find (&problem->sets, stop))) pg_scene_fault (scene, "solver.stop.set", "there is no set %s", stop);
     o->levels = pg_scene_integer (scene, "output.at.levels");
     int proportional = pg_problem_proportional (problem), is_static = strcmp (o->kind, "static") == 0;
-    int breaks = problem->criterion.type != NULL;
-    o->event = is_static && (strcmp (stepping, "event") == 0 || (strcmp (stepping, "auto") == 0 && proportional && breaks && o->break_mode != PG_BREAK_ALL));
+    o->event = is_static && (strcmp (stepping, "event") == 0 || (strcmp (stepping, "auto") == 0 && proportional && o->break_mode != PG_BREAK_ALL));
     if (o->event && !proportional) pg_scene_fault (scene, "solver.stepping", "event stepping needs proportional loads (ramp: linear on every load): use fixed");
     if (o->event && o->break_mode == PG_BREAK_ALL) pg_scene_fault (scene, "solver.break", "all goes with stepping: fixed");
     if (is_static && !pg_scene_given (scene, "solver.steps") && o->levels > o->steps) o->steps = o->levels;
@@ -190,6 +189,11 @@ const pg_report *pg_solver_report (pg_solver *s, const pg_state *state)
     pg_system *sys = &s->breaker.system;
     if (sys->force->census) sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes, &s->report.fragments);
     if (sys->force->overlap) s->report.overlap_max = fmax (s->report.overlap_max, sys->force->overlap (sys->self, state, state->d));
+    if (!s->energy_told && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
+        pg_report_warn (&s->report, "breaking has fed %.3g J into the body instead of dissipating energy (external work %.3g J): single bonds are not an "
+                        "objective measure of fracture", -s->report.energy_dissipated, s->report.energy_external);
+        s->energy_told = 1;
+    }
     if (!s->overlap_told && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {
         pg_report_warn (&s->report, "crack faces overlap by up to %.3g m (contact is not modelled)", s->report.overlap_max);
         s->overlap_told = 1;

@@ -137,7 +137,12 @@ static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
     if (next <= level) PG_TRY (break_at (s, state, factor, step));
     if (!(level > factor)) {
         step->level = 1;
-        if (s->next_level++ >= s->options.levels) s->finished = 1;
+        if (s->next_level++ >= s->options.levels) {
+            s->finished = 1;
+            if (state->events == 0 && s->options.levels > 1)
+                pg_report_skip (&s->report, (double) (s->options.levels - 1) * s->report.seconds[PG_SECONDS_SOLVE],
+                                "solves of all levels but one", "no bond broke: the answer is linear in the load factor");
+        }
     }
     if (state->events >= s->options.max_events) {
         pg_report_warn (&s->report, "stopped after solver.max_events = %ld events at load factor %.6g", state->events, factor);
