@@ -19,6 +19,7 @@ typedef struct {
     double  strain;                                    /* stored energy: strain, stabilisation, boundary terms, J        */
 } pg_ledger;
 
+/* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest may be NULL. */
 typedef struct {
     const char *name, *summary;
     pg_status (*create)  (void **self, const pg_problem *problem);
@@ -36,7 +37,8 @@ typedef struct {
     pg_status (*impose)  (void *self, double t, double *d);                /* makes d satisfy them                        */
     /* Utilisation of every bond (NULL entry: nothing can break); factor: load factor of its limit, d being that of factor 1. */
     pg_status (*utilisation) (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
-    pg_status (*ledger)  (void *self, double t, const double *d, pg_ledger *out);    /* sized on the first call           */
+    /* inertia: what motion adds to the residual, - M a - C v (NULL: static); out is sized on the first call.             */
+    pg_status (*ledger)  (void *self, double t, const double *d, const double *inertia, pg_ledger *out);
     /* A field at the nodes: "displacement" (m), "strain", "stress" (Pa), "damage"; *components 0: unknown name. value: n x 6. */
     pg_status (*field)   (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
     /* Displacement (3 components) at any place, for gauges; and the largest overlap of broken bonds (m). */

@@ -5,6 +5,9 @@
 #include "perigal/output.h"
 #include "perigal/solve.h"
 
+/* Faults of output.fields and output.pictures that only the dimension shows; also part of pg_result_open. */
+pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem);
+
 typedef struct pg_result pg_result;
 pg_status pg_result_open  (pg_result **out, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver);
 pg_status pg_result_step  (pg_result *result, const pg_state *state, const pg_step *step);

@@ -67,6 +67,7 @@ void        pg_scene_fault   (const pg_scene *s, const char *path, const char *f
 pg_status   pg_scene_verdict (const pg_scene *s);
 const char *pg_scene_file    (const pg_scene *s);            /* path as given                                             */
 const char *pg_scene_source  (const pg_scene *s);            /* the text read, overrides not applied                      */
+const char *pg_scene_setting (const pg_scene *s, size_t k);  /* k-th override "key=value"; NULL past the end               */
 const char *pg_scene_hash    (const pg_scene *s);            /* SHA-256 of text and overrides, 64 hex digits               */
 
 /* ---- units ---------------------------------------------------------------------------------------------------------- */

@@ -65,6 +65,7 @@ const pg_report *pg_solver_report_now (const pg_solver *solver);                
 /* The force behind it, for fields and gauges. */
 const pg_force_type *pg_solver_force (const pg_solver *solver, void **self);
 const char *pg_solver_names (void);
+const char *pg_solver_summary (const char *name);                                  /* NULL: unknown                    */
 /* b0..b7 of Newmark's method (theory F5) for dt, beta, gamma of the options. */
 void pg_newmark_coefficients (const pg_solver_options *options, double *b);
 #endif

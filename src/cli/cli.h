@@ -16,8 +16,16 @@ void progress_start (progress *p, int quiet);
 void progress_show  (progress *p, double share, const pg_step *step, const pg_report *report);
 void progress_end   (progress *p);
 
-/* options shared by run and check */
+/* command.c: options shared by run and check */
 typedef struct { const char *scene, *folder, *set[64]; size_t nset; int threads, quiet; } command;
-int command_parse (command *c, int argc, char **argv);       /* 0 or EXIT_USAGE (message printed)                         */
-int exit_code     (pg_status status);
+int       command_parse (command *c, int argc, char **argv);   /* -1: go on; else the exit code (message printed)         */
+int       command_usage (FILE *to, const char *name);          /* 0: there is no such command                             */
+pg_status command_scene (const command *c, pg_scene **scene);  /* a file that cannot be read counts as a wrong scene      */
+void      command_complain (pg_status status, const char *text);
+int       exit_code     (pg_status status);
+
+/* plan.c */
+void plan_print      (const pg_problem *p, const pg_solver_options *o);
+void plan_print_long (const pg_problem *p, const pg_solver_options *o);
+void plan_doubts     (const pg_problem *p, const pg_solver_options *o, FILE *to);
 #endif

@@ -7,18 +7,18 @@
 #include <unistd.h>
 
 static const struct { const char *name; int (*run) (int, char **); const char *summary; } commands[] = {
-    { "run",   pg_cli_run,   "run SCENE.yaml [-o DIR] [--threads N] [--set key=value] [--quiet]" },
-    { "check", pg_cli_check, "check SCENE.yaml [--set key=value]      validate, print points, bonds, dofs, constants" },
-    { "plot",  pg_cli_plot,  "plot DIR [--field NAME] [--step N] ...  pictures from a result folder" },
-    { "list",  pg_cli_list,  "list                                    methods, kernels, criteria ... of this build" },
-    { "help",  pg_cli_help,  "help [KEY | --manual]                   one key of the scene file, or all as markdown" },
+    { "run",   pg_cli_run,   "run SCENE.yaml [-o DIR] [--set KEY=VALUE]  solve, leave a folder of results" },
+    { "check", pg_cli_check, "check SCENE.yaml [--set KEY=VALUE]         what is wrong with a scene, or what it amounts to" },
+    { "plot",  pg_cli_plot,  "plot DIR [--field NAME] [--step N]         pictures from a folder of results" },
+    { "list",  pg_cli_list,  "list                                       methods, kernels, criteria ... of this build" },
+    { "help",  pg_cli_help,  "help [KEY | COMMAND | --manual]            the keys of the scene file" },
 };
 
 static void usage (FILE *to)
 {
     fprintf (to, "Perigal " PG_VERSION ": peridynamic Galerkin solver for brittle and quasi-brittle fracture\n\nusage:\n");
     for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) fprintf (to, "  perigal %s\n", commands[k].summary);
-    fprintf (to, "\nexit codes: 0 done, 64 usage, 65 scene wrong, 70 numerical failure, 130 interrupted\n");
+    fprintf (to, "\nexit codes: 0 done, 64 usage, 65 scene wrong, 70 failed (numerics, memory, files), 130 interrupted\n");
 }
 
 /* CHOLMOD's OpenMP threads only slow it down beside a threaded BLAS, and only the environment at process start caps them. */

@@ -7,19 +7,6 @@
 static volatile sig_atomic_t asked_to_stop;
 static void on_signal (int number) { (void) number, asked_to_stop = 1; }
 
-static void print_plan (const pg_problem *p, const pg_solver_options *o)
-{
-    char text[512] = "nothing breaks";
-    if (p->criterion.type) p->criterion.type->describe (&p->criterion, text, sizeof text);
-    printf ("%s\n", p->title);
-    printf ("  %zu points, spacing %.6g m, %zu evaluation points, %zu bonds, %zu unknowns\n", p->cloud.n, p->cloud.h,
-            p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n, p->first_bond[PG_BOND_SETS], p->cloud.n * (size_t) p->dim);
-    printf ("  %s (%s basis, %s kernel, horizon %.6g m), %s integration, %s\n", p->approx.type->name, p->approx.order == 2 ? "quadratic" : "linear",
-            p->approx.kernel->name, p->approx.horizon, p->integration->name, text);
-    if (p->eroded) printf ("  %zu points lie on a pre-crack and lose their bonds to both sides\n", p->eroded);
-    printf ("  solver %s%s\n", o->kind, strcmp (o->kind, "static") ? "" : o->event ? ", event stepping" : ", fixed load steps");
-}
-
 static void print_summary (const pg_result *result, const pg_report *r, double total)
 {
     printf ("  %ld steps, %ld events, %ld break rounds, %ld bonds broken, %ld factorizations, %ld solves\n", r->steps, r->events, r->iterations, r->broken,
@@ -64,14 +51,16 @@ int pg_cli_run (int argc, char **argv)
     pg_solver_options options;
     char folder[512], failure[4096] = "";
     double start = pg_seconds (), built;
-    if (command_parse (&c, argc, argv)) return EXIT_USAGE;
+    int wrong = command_parse (&c, argc, argv);
+    if (wrong >= 0) return wrong;
     signal (SIGINT, on_signal);
     signal (SIGTERM, on_signal);
-    PG_TRY (pg_scene_load_with (&scene, c.scene, c.nset, c.set));
+    PG_TRY (command_scene (&c, &scene));
     PG_TRY (pg_problem_build (&problem, scene, c.threads));
     PG_TRY (pg_solver_options_read (&options, problem, scene));
     if (!c.folder) snprintf (folder, sizeof folder, "out/%s", problem->name);
-    if (!c.quiet) print_plan (problem, &options);
+    PG_TRY (pg_result_check (scene, problem));
+    if (!c.quiet) plan_print (problem, &options);
     PG_TRY (pg_solver_create (&solver, problem, &options));
     PG_TRY (pg_state_create (&state, problem, pg_solver_components (solver)));
     PG_TRY (pg_result_open (&result, c.folder ? c.folder : folder, scene, problem, solver));
@@ -82,7 +71,7 @@ int pg_cli_run (int argc, char **argv)
     if (!c.quiet) print_summary (result, pg_solver_report_now (solver), pg_seconds () - start);
     status = outcome;
 done:
-    if (status != PG_OK) fprintf (stderr, "%s%s\n", status == PG_E_SCENE ? "" : "perigal: ", *failure ? failure : pg_last_error ());
+    if (status != PG_OK) command_complain (status, *failure ? failure : pg_last_error ());
     pg_result_free (&result);
     pg_state_free (&state);
     pg_solver_free (&solver);

@@ -21,7 +21,7 @@ static void point_at (int dim, const double *a, const double *b, double s, doubl
 /* ---- distances ------------------------------------------------------------------------------------------------------ */
 static double distance_point (int dim, const double *p, const double *a, const double *b)      /* of p from segment a b  */
 {
-    double u[3], w[3];
+    double u[3] = { 0 }, w[3] = { 0 };
     for (int k = 0; k < dim; k++) u[k] = b[k] - a[k], w[k] = p[k] - a[k];
     double uu = dot (dim, u, u), s = uu > 0 ? dot (dim, u, w) / uu : 0;
     s = s < 0 ? 0 : s > 1 ? 1 : s;

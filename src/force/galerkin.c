@@ -19,7 +19,7 @@ static void galerkin_free (void **self)
     for (int s = 0; s < PG_BOND_SETS; s++) {
         pg_free (g->rows[s].N), pg_free (g->rows[s].dN), pg_free (g->rows[s].w), pg_free (g->rows[s].grade);
         pg_free (g->material[s]), pg_free (g->strain[s]), pg_free (g->stress[s]), pg_free (g->zz[s]), pg_free (g->u[s]);
-        pg_free (g->s1[s]), pg_free (g->s3[s]), pg_free (g->list[s]);
+        pg_free (g->s1[s]), pg_free (g->s3[s]), pg_free (g->seen[s]), pg_free (g->list[s]);
     }
     pg_stiffness_free (&g->K);
     galerkin_boundary_free (g);
@@ -50,6 +50,7 @@ static pg_status create_set (galerkin *g, int s)
     PG_ALLOC (g->u[s], r->n * dim);
     PG_ALLOC (g->s1[s], r->n);
     PG_ALLOC (g->s3[s], r->n);
+    PG_ALLOC (g->seen[s], g->n * dim);
     PG_ALLOC (g->list[s], r->n);
     for (size_t q = 0; p->nmaterial > 1 && q < r->n; q++) {
         double best = INFINITY;
@@ -147,8 +148,12 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
     if (changes) touched_points (g, changes, count);
     for (int s = 0; s < PG_BOND_SETS; s++) {
         size_t n = changes ? count[s] : g->rows[s].n;
+        int known = changes && g->fresh[s];
+        g->fresh[s] = 0;
         if (n) PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &g->rows[s], state->alive + p->first_bond[s], n,
                                                  changes ? g->list[s] : NULL, g->threads));
+        g->fresh[s] = known;
+        if (known) galerkin_measure_list (g, s, n, g->list[s]);
     }
     if (!changes) PG_TRY (pg_stiffness_gather (g->K, g->n, NULL, g->threads));
     else PG_TRY (gather_touched (g, count));
@@ -184,7 +189,7 @@ static pg_status galerkin_mass (void *self, double *mass)
 static const pg_operator *galerkin_operator (void *self) { return &((galerkin *) self)->op; }
 static const pg_sparse *galerkin_matrix (void *self) { return pg_stiffness_matrix (((galerkin *) self)->K); }
 
-static pg_status galerkin_ledger (void *self, double t, const double *d, pg_ledger *out)
+static pg_status galerkin_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out)
 {
     pg_status status = PG_OK;
     galerkin *g = self;
@@ -196,9 +201,13 @@ static pg_status galerkin_ledger (void *self, double t, const double *d, pg_ledg
         PG_ALLOC (out->displacement, out->npair);
         PG_ALLOC (out->reaction, 3 * g->problem->nload);
     }
-    PG_ALLOC (residual, g->n * (size_t) g->dim);
     memset (out->reaction, 0, 3 * g->problem->nload * sizeof *out->reaction);
-    PG_TRY (galerkin_balance (g, t, d, residual, &reference));
+    for (int s = 0; s < PG_BOND_SETS; s++) galerkin_measure (g, s, d);
+    if (slaves) {
+        PG_ALLOC (residual, g->n * (size_t) g->dim);
+        PG_TRY (galerkin_balance (g, t, d, residual, &reference));
+        for (size_t i = 0; inertia && i < g->n * (size_t) g->dim; i++) residual[i] += inertia[i];
+    }
     galerkin_basis_ledger (g, t, residual, out, galerkin_boundary_ledger (g, t, d, out));
     out->strain = galerkin_bulk_energy (g, d) + galerkin_boundary_energy (g, t);
 done:

@@ -29,6 +29,8 @@ typedef struct {
     int     *material[PG_BOND_SETS];                   /* per point                                                      */
     double  *strain[PG_BOND_SETS], *stress[PG_BOND_SETS], *zz[PG_BOND_SETS], *u[PG_BOND_SETS];   /* of the last measure  */
     double  *s1[PG_BOND_SETS], *s3[PG_BOND_SETS];
+    double  *seen[PG_BOND_SETS];                       /* the displacement of the last measure (ndof)                    */
+    int      fresh[PG_BOND_SETS];                      /* the measure is that of `seen` and of the rows as they are      */
     pg_stiffness *K;
     pg_operator   op;
     pin     *pin;  size_t npin;                        /* Nitsche, ascending by point                                    */
@@ -46,7 +48,8 @@ typedef struct {
 } galerkin;
 
 /* bulk */
-void galerkin_measure (galerkin *g, int set, const double *d);         /* u, strain, stress, zz of every point            */
+void galerkin_measure (galerkin *g, int set, const double *d);         /* u, strain, stress, zz of every point, unless known */
+void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list);   /* again, after a change of rows  */
 void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out);
 void galerkin_bulk_force  (galerkin *g, const double *d, double *f);   /* f += internal force (after measure)             */
 double galerkin_bulk_energy (const galerkin *g, const double *d);

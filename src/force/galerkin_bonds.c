@@ -15,8 +15,8 @@ typedef struct {
 
 enum { BATCH = 128 };
 
-/* Evaluates the criterion on `count` live bonds of point p. */
-static void judge (const sweep *s, size_t p, size_t count, const size_t *bond)
+/* Evaluates the criterion on `count` live bonds and their points. */
+static void judge (const sweep *s, size_t count, const size_t *bond, const size_t *point)
 {
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
@@ -24,16 +24,20 @@ static void judge (const sweep *s, size_t p, size_t count, const size_t *bond)
     size_t dim = (size_t) g->dim, base = g->problem->first_bond[s->set];
     double xi[BATCH * 3], eta[BATCH * 3], s1[BATCH], s3[BATCH], out[BATCH];
     char kind[BATCH];
-    for (size_t k = 0; k < count; k++) {
-        size_t j = (size_t) r->family.node[bond[k]];
+    int stretch = c->type->needs & PG_NEEDS_STRETCH, stress = c->type->needs & PG_NEEDS_STRESS;
+    for (size_t k = 0; stretch && k < count; k++) {
+        size_t j = (size_t) r->family.node[bond[k]], p = point[k];
         for (size_t a = 0; a < dim; a++) {
             xi[k * dim + a] = g->problem->cloud.x[j * dim + a] - r->x[p * dim + a];
             eta[k * dim + a] = g->u[PG_NODES][j * dim + a] - g->u[s->set][p * dim + a];
         }
+    }
+    for (size_t k = 0; stress && k < count; k++) {
+        size_t j = (size_t) r->family.node[bond[k]], p = point[k];
         s1[k] = 0.5 * (g->s1[s->set][p] + g->s1[PG_NODES][j]);
         s3[k] = 0.5 * (g->s3[s->set][p] + g->s3[PG_NODES][j]);
     }
-    pg_bond_measures m = { count, g->dim, xi, eta, s1, s3 };
+    pg_bond_measures m = { count, g->dim, stretch ? xi : NULL, stretch ? eta : NULL, stress ? s1 : NULL, stress ? s3 : NULL };
     if (s->utilisation) {
         c->type->utilisation (c, &m, out, kind);
         for (size_t k = 0; k < count; k++) {
@@ -53,20 +57,18 @@ static void sweep_points (void *context, size_t first, size_t last, int thread)
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
     const unsigned char *alive = s->state->alive + g->problem->first_bond[s->set];
-    size_t base = g->problem->first_bond[s->set], bond[BATCH];
+    size_t base = g->problem->first_bond[s->set], bond[BATCH], point[BATCH], count = 0;
     (void) thread;
-    for (size_t p = first; p < last; p++) {
-        size_t count = 0;
+    for (size_t p = first; p < last; p++)
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
             int j = r->family.node[e];
             if (s->utilisation) s->utilisation[base + e] = 0;
             if (s->factor) s->factor[base + e] = INFINITY;
             if (!alive[e] || j == r->own[p] || g->problem->exempt[s->set][p] || g->problem->exempt[PG_NODES][j]) continue;
-            bond[count++] = e;
-            if (count == BATCH) judge (s, p, count, bond), count = 0;
+            bond[count] = e, point[count++] = p;
+            if (count == BATCH) judge (s, count, bond, point), count = 0;
         }
-        if (count) judge (s, p, count, bond);
-    }
+    if (count) judge (s, count, bond, point);
 }
 
 pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor)
@@ -76,7 +78,7 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
         const pg_rows *r = &g->rows[set];
         if (r->n == 0) continue;
         galerkin_measure (g, set, d);
-        for (size_t p = 0; p < r->n; p++) {
+        for (size_t p = 0; p < r->n && g->problem->criterion.type->needs & PG_NEEDS_STRESS; p++) {
             double principal[3];
             pg_principal (g->dim, 1, g->stress[set] + p * (size_t) g->nv, g->zz[set] + p, principal);
             g->s1[set][p] = principal[0], g->s3[set][p] = principal[2];

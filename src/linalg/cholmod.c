@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * P K P' = L L', supernodal, by CHOLMOD. Nodes are ordered, not dofs (AMD in 2D and for small 3D bodies, METIS above), the order is
- * expanded and given: one analysis serves every later factorization of the same pattern. 64-bit interface throughout. */
+ * P K P' = L L', supernodal, by CHOLMOD. Nodes are ordered, not dofs (METIS, AMD for small bodies: with the wide rows of meshfree
+ * shape functions METIS saves 15 % of a factorization at 4 000 and at 16 000 unknowns in 2D, for 15 to 60 ms more of analysis), the
+ * order is expanded and given: one analysis serves every later factorization of the same pattern. 64-bit interface throughout. */
 #include "perigal/linalg.h"
 #include <cholmod.h>
 #include <stdint.h>
@@ -72,7 +73,7 @@ static pg_status order (chol *c, const pg_sparse *A, const pg_linear_options *o,
     PG_ALLOC (node, G.ncol);
     cholmod_sparse S = view (&G);
     S.xtype = CHOLMOD_PATTERN, S.x = NULL;
-    int metis = o->dim == 3 ? A->ncol > 3000 : A->ncol > 150000;
+    int metis = A->ncol > 3000;
     c->ordering = metis ? "metis" : "amd";
     int fine = metis ? cholmod_l_metis (&S, NULL, 0, 1, node, &c->common) : cholmod_l_amd (&S, NULL, 0, node, &c->common);
     if (!fine) PG_FAIL (PG_E_MEMORY, "%s could not order %zu nodes", c->ordering, G.ncol);

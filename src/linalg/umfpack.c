@@ -77,7 +77,9 @@ static pg_status lu_factor (void *self, const pg_sparse *A)
         code = umfpack_dl_symbolic ((long) A->nrow, (long) A->ncol, u->F.start, u->F.row, u->F.value, &u->symbolic, u->control, info);
     if (code == UMFPACK_OK)
         code = umfpack_dl_numeric (u->F.start, u->F.row, u->F.value, u->symbolic, &u->numeric, u->control, info);
-    if (code == UMFPACK_WARNING_singular_matrix) PG_FAIL (PG_E_SINGULAR, "the matrix of %zu unknowns is singular", A->ncol);
+    int lost = code == UMFPACK_OK && !(info[UMFPACK_RCOND] > 1e-14);       /* smallest by largest pivot of scaled rows     */
+    if (code == UMFPACK_WARNING_singular_matrix || lost)
+        PG_FAIL (PG_E_SINGULAR, "the matrix of %zu unknowns is singular: a part that can move freely?", A->ncol);
     if (code != UMFPACK_OK) PG_FAIL (PG_E_MEMORY, "the LU factorization of %zu unknowns failed (UMFPACK status %ld)", A->ncol, code);
     u->flops = info[UMFPACK_FLOPS], u->entries = info[UMFPACK_LNZ] + info[UMFPACK_UNZ];
 done:

@@ -22,6 +22,26 @@ static double table_value (const pg_load *load, double t)
     return row[2*n - 1];
 }
 
+/* Integral of the table from its first t to t. */
+static double table_integral (const pg_load *load, double t)
+{
+    const double *row = load->table;
+    double sum = 0;
+    if (t <= row[0]) return row[1] * (t - row[0]);
+    for (size_t k = 1; k < load->ntable && row[2*k - 2] < t; k++) {
+        double end = t < row[2*k] ? t : row[2*k];
+        sum += 0.5 * (row[2*k - 1] + table_value (load, end)) * (end - row[2*k - 2]);
+    }
+    const double *last = row + 2 * load->ntable - 2;
+    return t > last[0] ? sum + last[1] * (t - last[0]) : sum;
+}
+
+static double factor_at (const pg_load *load, const pg_place *at)
+{
+    if (!load->table) return pg_expression_value (load->ramp, at);
+    return load->kind == PG_VELOCITY ? table_integral (load, at->t) - table_integral (load, 0) : table_value (load, at->t);
+}
+
 double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t)
 {
     if (!load->value[k]) return 0;
@@ -29,8 +49,7 @@ double pg_load_value (const pg_load *load, int k, int dim, const double *x, doub
     at.r = sqrt (at.x * at.x + at.y * at.y + at.z * at.z);
     at.angle = atan2 (at.y, at.x);
     if (at.angle < 0) at.angle += 2 * 3.14159265358979323846;
-    double factor = load->table ? table_value (load, t) : pg_expression_value (load->ramp, &at);
-    return pg_expression_value (load->value[k], &at) * factor;
+    return pg_expression_value (load->value[k], &at) * factor_at (load, &at);
 }
 
 /* The ramp as an expression in t; a velocity's ramp is integrated to one for the displacement. */
@@ -68,7 +87,7 @@ static pg_status read_table (pg_load *load, const pg_scene *scene, size_t i)
     for (size_t k = 0; k < load->ntable; k++) {
         char path[64];
         snprintf (path, sizeof path, "boundary[%zu].table[%zu]", i, k);
-        if (pg_scene_vector (scene, 2, load->table + 2 * k, "%s", path) != 2) pg_scene_fault (scene, path, "a pair [t, factor] is needed");
+        if (pg_scene_count (scene, "%s", path) != 2 || pg_scene_vector (scene, 2, load->table + 2 * k, "%s", path) != 2) pg_scene_fault (scene, path, "a pair [t, factor] is needed");
         else if (k && !(load->table[2*k] > load->table[2*k - 2])) pg_scene_fault (scene, path, "t must increase");
     }
     if (load->ntable == 0) pg_scene_fault (scene, "boundary", "a table needs at least one pair");

@@ -6,6 +6,10 @@
 
 static pg_mode mode_of (const pg_scene *scene, int dim)
 {
+    static const struct { const char *key; int dim; } bound[] = { { "cross_section", 1 }, { "plane", 2 }, { "thickness", 2 } };
+    for (size_t k = 0; k < sizeof bound / sizeof *bound; k++)
+        if (bound[k].dim != dim && pg_scene_given (scene, "%s", bound[k].key))
+            pg_scene_fault (scene, bound[k].key, "has a meaning only in %dD, and dimension is %d", bound[k].dim, dim);
     if (dim == 1) return PG_LINE;
     if (dim == 3) return PG_SOLID;
     return strcmp (pg_scene_text (scene, "plane"), "strain") == 0 ? PG_PLANE_STRAIN : PG_PLANE_STRESS;

@@ -97,7 +97,7 @@ pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step
     int components;
     const char *unit;
     r->row[n++] = (double) step->number, r->row[n++] = step->time, r->row[n++] = step->factor;
-    PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, r->u));
+    if (force->field) PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, r->u));
     for (size_t l = 0; l < p->nload; l++)
         for (int k = 0; k < p->dim; k++) {
             double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0, u = mean_of (p->load[l].set, r->u, p->dim, k);
@@ -105,9 +105,11 @@ pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step
             r->row[n++] = f, r->row[n++] = u;
         }
     for (size_t g = 0; g < p->ngauge; g++) {
-        double a[3], b[3];
-        PG_TRY (force->probe (self, state->d, p->gauge[g].from, a));
-        PG_TRY (force->probe (self, state->d, p->gauge[g].to, b));
+        double a[3] = { NAN, NAN, NAN }, b[3] = { NAN, NAN, NAN };
+        if (force->probe) {
+            PG_TRY (force->probe (self, state->d, p->gauge[g].from, a));
+            PG_TRY (force->probe (self, state->d, p->gauge[g].to, b));
+        }
         r->row[n++] = opening (&p->gauge[g], p->dim, a, b);
     }
     r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic, r->row[n++] = report->energy_external;

@@ -5,14 +5,18 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const voigt[4][6] = { { "" }, { "xx" }, { "xx", "yy", "xy" }, { "xx", "yy", "zz", "xy", "yz", "zx" } };
+const char *result_voigt (int dim, int k)
+{
+    static const char *const part[4][6] = { { "" }, { "xx" }, { "xx", "yy", "xy" }, { "xx", "yy", "zz", "xy", "yz", "zx" } };
+    return part[dim][k];
+}
 
 /* "stress.xx" -> component; -1: magnitude of a vector, or the only one */
 static int part_of (const char *dot, int dim, int components)
 {
     if (!dot) return components == 1 ? 0 : components == dim ? -1 : 0;
-    if (components == dim) return dot[1] >= 'x' && dot[1] < 'x' + dim && !dot[2] ? dot[1] - 'x' : -2;
-    for (int k = 0; k < components; k++) if (strcmp (dot + 1, voigt[dim][k]) == 0) return k;
+    if (components == dim && dot[1] && !dot[2]) return dot[1] >= 'x' && dot[1] < 'x' + dim ? dot[1] - 'x' : -2;
+    for (int k = 0; k < components; k++) if (strcmp (dot + 1, result_voigt (dim, k)) == 0) return k;
     return -2;
 }
 
@@ -87,7 +91,7 @@ pg_status result_pictures (pg_result *r, const pg_state *state)
     double *value = NULL, *u = NULL;
     PG_ALLOC (value, 6 * r->problem->cloud.n);
     PG_ALLOC (u, 6 * r->problem->cloud.n);
-    for (size_t k = 0; k < r->npicture; k++) PG_TRY (one_picture (r, state, r->picture[k], value, u));
+    for (size_t k = 0; pg_solver_force (r->solver, NULL)->field && k < r->npicture; k++) PG_TRY (one_picture (r, state, r->picture[k], value, u));
     if (r->curve_load >= 0 && r->npoint > 1) PG_TRY (load_displacement (r));
 done:
     pg_free (value), pg_free (u);

@@ -24,6 +24,17 @@ done:
     return status;
 }
 
+/* What --set changed, as comments at the end of the copy. */
+static void write_settings (FILE *f, const pg_scene *scene)
+{
+    const char *set;
+    for (size_t k = 0; (set = pg_scene_setting (scene, k)); k++) {
+        fputs ("# --set ", f);
+        for (; *set; set++) fputc (*set == '\n' || *set == '\r' ? ' ' : *set, f);
+        fputc ('\n', f);
+    }
+}
+
 static pg_status copy_scene (const pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -33,9 +44,21 @@ static pg_status copy_scene (const pg_result *r, const pg_scene *scene)
     FILE *f = fopen (path, "w");
     if (!f) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
     size_t n = strlen (text), wrote = fwrite (text, 1, n, f);
+    if (pg_scene_setting (scene, 0) && n && text[n - 1] != '\n') fputc ('\n', f);
+    write_settings (f, scene);
     if (fclose (f) != 0 || wrote != n) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
 done:
     return status;
+}
+
+/* A pressure acts along the axis nearest to its first normal. */
+static int pushes_along (const pg_problem *p, const pg_load *load, int k)
+{
+    if (load->kind == PG_TRACTION || load->kind == PG_POINT_FORCE) return load->value[k] != NULL;
+    if (load->kind != PG_PRESSURE) return 0;
+    const double *normal = p->cells.normal + (size_t) load->set->facet[0] * (size_t) p->dim;
+    for (int c = 0; c < p->dim; c++) if (fabs (normal[c]) > fabs (normal[k])) return 0;
+    return 1;
 }
 
 /* The curve follows the prescribed component that moves most, else the first load with a force. */
@@ -55,7 +78,7 @@ static void choose_curve (pg_result *r)
         }
     for (size_t l = 0; l < p->nload && r->curve_load < 0; l++)
         for (int k = 0; k < p->dim && r->curve_load < 0; k++)
-            if (!pg_load_prescribes (&p->load[l]) && p->load[l].kind != PG_BODY_FORCE && p->load[l].value[k]) r->curve_load = (int) l, r->curve_component = k;
+            if (pushes_along (p, &p->load[l], k)) r->curve_load = (int) l, r->curve_component = k;
 }
 
 static pg_status read_wishes (pg_result *r, const pg_scene *scene)
@@ -89,6 +112,7 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     pg_result *r = NULL;
     char path[4096];
     double t0 = pg_seconds ();
+    PG_TRY (pg_result_check (scene, problem));
     PG_ALLOC (r, 1);
     r->problem = problem, r->solver = solver;
     snprintf (r->folder, sizeof r->folder, "%s", folder);
@@ -115,7 +139,7 @@ static pg_status write_fields (pg_result *r, const pg_state *state, double time)
     pg_status status = PG_OK;
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    for (size_t k = 0; k < r->nfield; k++) {
+    for (size_t k = 0; force->field && k < r->nfield; k++) {
         const char *unit;
         int components;
         PG_TRY (force->field (self, state, state->d, r->field[k].name, &components, &unit, r->value[k]));
@@ -150,10 +174,10 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     if (!r->last_written) PG_TRY (write_fields (r, state, state->time));
     r->last_written = 1;
     PG_TRY (result_pictures (r, state));
-    r->seconds += pg_seconds () - t0;
-    PG_TRY (result_json (r, state, failure, search, total));
 done:
-    return status;
+    r->seconds += pg_seconds () - t0;
+    pg_status written = result_json (r, state, failure, search, total);    /* the report comes also without pictures     */
+    return status == PG_OK ? written : status;
 }
 
 void pg_result_free (pg_result **result)

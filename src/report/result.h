@@ -29,6 +29,7 @@ struct pg_result {
 };
 pg_status result_history_create (pg_result *r);
 pg_status result_history_row    (pg_result *r, const pg_state *state, const pg_step *step);
+const char *result_voigt        (int dim, int k);       /* "xx", "yy", ... of component k                                 */
 pg_status result_pictures       (pg_result *r, const pg_state *state);
 pg_status result_json           (pg_result *r, const pg_state *state, const char *failure, double search, double total);
 #endif

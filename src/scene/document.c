@@ -133,6 +133,8 @@ void pg_scene_free (pg_scene **scene)
 
 const char *pg_scene_file   (const pg_scene *s) { return s->file; }
 const char *pg_scene_source (const pg_scene *s) { return s->source; }
+const char *pg_scene_setting (const pg_scene *s, size_t k) { return k < s->nset ? s->set[k] + sizeof "--set" : NULL; }
+
 const char *pg_scene_hash   (const pg_scene *s) { return s->hash; }
 
 pg_status pg_scene_verdict (const pg_scene *s) { return pg_faults_verdict (s->faults); }

@@ -77,7 +77,7 @@ pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const d
     step->utilisation = 0;
     for (step->iterations = 0;; step->iterations++) {
         PG_TRY (system_solve (s, t, d, dyn, &step->residual));
-        PG_TRY (breaker_account (b, t, d, 1));
+        PG_TRY (breaker_account (b, t, d, dyn, 1));
         if (!s->force->utilisation || !s->problem->criterion.type) break;
         double t0 = pg_seconds ();
         PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
@@ -97,13 +97,17 @@ done:
     return status;
 }
 
-pg_status breaker_account (breaker *b, double t, const double *d, double scale)
+pg_status breaker_account (breaker *b, double t, const double *d, const dynamics *dyn, double scale)
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
     if (!s->force->ledger) return PG_OK;
-    double t0 = pg_seconds ();
-    PG_TRY (s->force->ledger (s->self, t, d, &b->ledger));
+    double t0 = pg_seconds (), unused = 0;
+    if (dyn) {
+        memset (s->full, 0, s->ndof * sizeof *s->full);
+        dyn->add (dyn->context, d, s->full, &unused);
+    }
+    PG_TRY (s->force->ledger (s->self, t, d, dyn ? s->full : NULL, &b->ledger));
     PG_TRY (breaker_book (b, scale));
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;

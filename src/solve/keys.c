@@ -22,7 +22,7 @@ static const pg_key keys[] = {
     ROW ("solver.stop.set", PG_TEXT, NULL, NULL, "", NULL, "The run ends when the crack arrives at a point of this set."),
     ROW ("solver.stop.damage", PG_NUMBER, "1", "(0, 1]", "50 %", NULL, "Damage of a point of stop.set that counts as arrival."),
     ROW ("solver.linear", PG_NAME, NULL, NULL, "auto", "auto|cholmod|umfpack|pcg", "Linear solver; auto: cholmod, umfpack where K is not positive definite."),
-    ROW ("solver.dt", PG_NUMBER, "s", "(0, inf)", "", NULL, "newmark: time step."),
+    ROW ("solver.dt", PG_NUMBER, "s", "(0, inf)", "", NULL, "newmark: time step; made a little smaller where a whole number does not fill the run."),
     ROW ("solver.end", PG_NUMBER, "s", "(0, inf)", "", NULL, "newmark: end time."),
     ROW ("solver.beta", PG_NUMBER, "1", "(0, 1]", "0.25", NULL, "newmark parameter."),
     ROW ("solver.gamma", PG_NUMBER, "1", "[0.5, 1.5]", "0.5", NULL, "newmark parameter."),

@@ -7,7 +7,7 @@
 /* ---- system.c: equilibrium of a force at given alive bits --------------------------------------------------------------- */
 typedef struct {                                       /* what inertia and damping add (NULL: static)                    */
     double k, m;                                       /* matrix = k K + m M                                             */
-    void (*add) (void *context, const double *d, double *residual);
+    void (*add) (void *context, const double *d, double *residual, double *reference);     /* reference: at least its size */
     void  *context;
 } dynamics;
 
@@ -24,13 +24,15 @@ typedef struct {
     pg_sparse A;                                       /* the factored matrix: values owned; pattern of K or reduced     */
     double   *copy;                                    /* with elimination: values of k K + m M before the reduction     */
     double   *diagonal0, mean_diagonal;                /* of the first K                                                 */
+    unsigned char *touched;                            /* nodes that the pre-cracks touched (n)                          */
     double   *mass;
-    double   *residual, *reduced, *delta, *full, *best;
+    double   *residual, *reduced, *delta, *full, *best, *scratch;
     double    shift;
 } pg_system;
 pg_status system_create  (pg_system *s);               /* fields up to report set by the caller                           */
 void      system_free    (pg_system *s);
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
+void      system_multiply (const pg_system *s, const double *x, double *y);        /* y = K x, by operator or matrix       */
 /* d becomes the equilibrium at t; *residual relative to the reference force. PG_E_EQUILIBRIUM when it stays above the tolerance. */
 pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 
@@ -52,7 +54,7 @@ pg_status breaker_kill   (breaker *b, pg_state *state, const double *measure, do
 /* Solve, break, update, solve ... at time t until no bond is over its limit; d is left in equilibrium. */
 pg_status equilibrate    (breaker *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step);
 /* The ledger of (t, d), and with it the work done between the last accounted state and this one (loads scaled by `scale`). */
-pg_status breaker_account (breaker *b, double t, const double *d, double scale);
+pg_status breaker_account (breaker *b, double t, const double *d, const dynamics *dyn, double scale);
 /* The work alone, from the ledger at hand. */
 pg_status breaker_book    (breaker *b, double scale);
 /* Has the damage of a point of options.stop_set reached options.stop_damage? */
@@ -80,6 +82,15 @@ struct pg_solver {
     double    secant0;                                 /* event stepping: first work per squared load factor             */
     pg_state *backup;                                  /* last accepted state, for refused steps                         */
     double   *reaction;
-    double   *work1, *work2;                           /* newmark                                                        */
+    double   *work1, *work2, *work3;                   /* newmark                                                        */
+    double   *support;                                 /* newmark: motion z, z', z'' of prescribed nodes (3 x ndof)      */
+    long      support_updates;                         /* report.updates when it was found: breaking changes z           */
 };
+
+/* ---- newmark_start.c --------------------------------------------------------------------------------------------------------- */
+pg_status newmark_start    (pg_solver *s, pg_state *state);
+pg_status newmark_supports (pg_solver *s, double t, int start);                  /* fills s->support for time t              */
+void      newmark_follow   (pg_solver *s, double t, double *v, double *a);       /* V and A of prescribed nodes from support */
+void      newmark_resist   (pg_solver *s, const double *v, const double *a, double *residual);     /* residual -= M a + C v  */
+double    newmark_kinetic  (const pg_solver *s, const double *v);
 #endif

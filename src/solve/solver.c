@@ -28,6 +28,12 @@ const char *pg_solver_names (void)
     return names;
 }
 
+const char *pg_solver_summary (const char *name)
+{
+    for (size_t i = 0; i < COUNT; i++) if (strcmp (entries[i]->name, name) == 0) return entries[i]->summary;
+    return NULL;
+}
+
 void pg_report_warn (pg_report *report, const char *format, ...)
 {
     if (report->nwarning >= sizeof report->warning / sizeof *report->warning) return;
@@ -80,6 +86,7 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
             double steps = ceil (o->end / o->dt * (1 - 1e-12));
             if (steps > 1e9) pg_scene_fault (scene, "solver.dt", "%g time steps are too many", steps);
             o->steps = (long) fmin (steps, 1e9);
+            if (fabs (steps * o->dt - o->end) > 1e-9 * o->end) o->dt = o->end / steps;      /* equal steps, none longer than asked */
         }
         if (o->gamma > 2 * o->beta) pg_scene_fault (scene, "solver.beta", "newmark is unconditionally stable only for 2 beta >= gamma");
         for (size_t i = 0; i < problem->nmaterial; i++)
@@ -124,7 +131,7 @@ void pg_solver_free (pg_solver **solver)
     pg_solver *s = *solver;
     if (!s) return;
     breaker_free (&s->breaker);
-    pg_free (s->unit), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2);
+    pg_free (s->unit), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2), pg_free (s->work3), pg_free (s->support);
     pg_state_free (&s->backup);
     pg_free (s);
     *solver = NULL;
@@ -163,6 +170,8 @@ done:
     if (status != PG_OK && s->started) {
         char text[2048];
         snprintf (text, sizeof text, "%s", pg_last_error ());
+        system_refresh (&s->breaker.system, s->backup, NULL);      /* fields asked for now are those of the accepted state       */
+        s->breaker.work = s->backup->work;
         if (status != PG_E_MEMORY) pg_error (status, PG_HERE, "step %ld at load factor %.6g is refused: %s", state->step + 1, state->factor, text);
         pg_state_copy (state, s->backup);
     }
@@ -189,7 +198,7 @@ const pg_report *pg_solver_report (pg_solver *s, const pg_state *state)
     pg_system *sys = &s->breaker.system;
     if (sys->force->census) sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes, &s->report.fragments);
     if (sys->force->overlap) s->report.overlap_max = fmax (s->report.overlap_max, sys->force->overlap (sys->self, state, state->d));
-    if (!s->energy_told && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
+    if (!s->energy_told && s->report.broken > 0 && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
         pg_report_warn (&s->report, "breaking has fed %.3g J into the body instead of dissipating energy (external work %.3g J): single bonds are not an "
                         "objective measure of fracture", -s->report.energy_dissipated, s->report.energy_external);
         s->energy_told = 1;

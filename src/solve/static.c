@@ -59,7 +59,7 @@ static pg_status settle (pg_solver *s, pg_state *state, double factor)
     pg_status status = PG_OK;
     for (size_t i = 0; i < state->ndof; i++) state->d[i] = factor * s->unit[i];
     state->factor = state->time = factor;
-    if (!s->ledger_fresh) PG_TRY (breaker_account (&s->breaker, 1, s->unit, factor));
+    if (!s->ledger_fresh) PG_TRY (breaker_account (&s->breaker, 1, s->unit, NULL, factor));
     else PG_TRY (breaker_book (&s->breaker, factor));
     s->ledger_fresh = 1;
     s->report.energy_strain = factor * factor * s->breaker.ledger.strain;
@@ -97,7 +97,7 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, pg_step
     PG_TRY (now);
     s->report.residual_max = fmax (s->report.residual_max, residual);
     step->residual = residual;
-    PG_TRY (breaker_account (b, 1, s->unit, factor));
+    PG_TRY (breaker_account (b, 1, s->unit, NULL, factor));
     s->report.energy_strain = factor * factor * b->ledger.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     int arrived;
@@ -122,14 +122,14 @@ static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
     double next = INFINITY, level = level_factor (s, s->next_level), t0 = pg_seconds ();
     b->nbroken = 0;
     step->iterations = 1;
-    if (s->problem->criterion.type) {
+    if (s->problem->criterion.type && b->system.force->utilisation) {
         PG_TRY (b->system.force->utilisation (b->system.self, state, s->unit, b->utilisation, b->kind, b->factor));
         next = smallest (b->factor, state->nbond);
     }
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     double factor = next < level ? next : level;
     PG_TRY (settle (s, state, factor));
-    memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     if (s->secant0 == 0) s->secant0 = secant (b);
     step->factor = step->time = factor;
     step->utilisation = next < INFINITY && next > 0 ? factor / next : 0;
@@ -156,8 +156,8 @@ done:
 static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = s->options.event ? step_event (s, state, step) : step_fixed (s, state, step);
-    if (status == PG_OK && !s->options.event)
-        memcpy (s->reaction, s->breaker.ledger.reaction ? s->breaker.ledger.reaction : s->reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (status == PG_OK && !s->options.event && s->breaker.ledger.reaction)
+        memcpy (s->reaction, s->breaker.ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     return status;
 }
 

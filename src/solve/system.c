@@ -17,7 +17,17 @@ void system_free (pg_system *s)
     if (s->copy) pg_sparse_clear (&s->A);
     else pg_free (s->A.value);
     pg_free (s->copy), pg_free (s->diagonal0), pg_free (s->mass);
-    pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best);
+    pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best), pg_free (s->scratch), pg_free (s->touched);
+}
+
+static const pg_sparse *matrix_of (const pg_system *s) { return s->force->matrix ? s->force->matrix (s->self) : NULL; }
+static const pg_operator *operator_of (const pg_system *s) { return s->force->operator_ ? s->force->operator_ (s->self) : NULL; }
+
+void system_multiply (const pg_system *s, const double *x, double *y)
+{
+    const pg_operator *op = operator_of (s);
+    if (op) op->apply (op->context, x, y);
+    else pg_sparse_multiply (matrix_of (s), x, y);
 }
 
 pg_status system_create (pg_system *s)
@@ -31,6 +41,8 @@ pg_status system_create (pg_system *s)
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     s->nred = T ? T->ncol : s->ndof;
     s->stale = 1;
+    if (!matrix_of (s) && !operator_of (s)) PG_FAIL (PG_E_USAGE, "the force %s offers neither a matrix nor an operator", s->force->name);
+    if (!matrix_of (s)) PG_ALLOC (s->scratch, s->ndof);
     PG_ALLOC (s->mass, s->ndof);
     PG_ALLOC (s->residual, s->ndof);
     PG_ALLOC (s->reduced, s->ndof);
@@ -38,6 +50,7 @@ pg_status system_create (pg_system *s)
     PG_ALLOC (s->full, s->ndof);
     PG_ALLOC (s->best, s->ndof);
     PG_ALLOC (s->diagonal0, s->ndof);
+    PG_ALLOC (s->touched, s->problem->cloud.n);
     if (s->force->mass) PG_TRY (s->force->mass (s->self, s->mass));
     const char *name = strcmp (s->options->linear, "auto") == 0 ? "cholmod" : s->options->linear;
     s->linear = pg_linear_find (name);
@@ -46,10 +59,24 @@ done:
     return status;
 }
 
+/* Nodes of points that lack a bond: breaking changes their diagonal, but the first K is already without it. */
+static void mark_touched (pg_system *s, const pg_state *state)
+{
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        const pg_family *f = &s->problem->rows[set].family;
+        const unsigned char *alive = state->alive + s->problem->first_bond[set];
+        for (size_t p = 0; p < f->n; p++) {
+            if (!memchr (alive + f->start[p], 0, f->start[p + 1] - f->start[p])) continue;
+            for (size_t e = f->start[p]; e < f->start[p + 1]; e++) s->touched[f->node[e]] = 1;
+        }
+    }
+}
+
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes)
 {
     double t0 = pg_seconds ();
-    pg_status status = s->force->refresh (s->self, state, changes);
+    pg_status status = s->force->refresh ? s->force->refresh (s->self, state, changes) : PG_OK;
+    if (!changes) mark_touched (s, state);
     s->stale = 1;
     s->report->updates += changes != NULL;
     s->report->seconds[PG_SECONDS_SHAPE] += pg_seconds () - t0;
@@ -73,7 +100,7 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
     for (size_t j = 0; j < s->ndof; j++) {
         long q = K->start[j + 1] - 1;
         double now = K->value[q], first = s->diagonal0[j];
-        int weak = !(first > 1e-9 * s->mean_diagonal) || fabs (now - first) > 1e-12 * first;
+        int weak = s->touched[j / (size_t) s->components] || !(first > 1e-9 * s->mean_diagonal) || fabs (now - first) > 1e-12 * first;
         value[q] += m * s->mass[j];
         if (m == 0 && weak) value[q] += s->shift * s->mean_diagonal;
     }
@@ -153,35 +180,50 @@ done:
 }
 
 /* ---- matrix-free ------------------------------------------------------------------------------------------------------- */
-typedef struct { pg_system *s; const dynamics *dyn; } combined;
+typedef struct { pg_system *s; const dynamics *dyn; const pg_sparse *T; } combined;
 
+/* y = T' (k K + m M) T x */
 static void apply_combined (void *context, const double *x, double *y)
 {
     const combined *c = context;
-    const pg_operator *op = c->s->force->operator_ (c->s->self);
-    op->apply (op->context, x, y);
-    for (size_t i = 0; c->dyn && i < c->s->ndof; i++) y[i] = c->dyn->k * y[i] + c->dyn->m * c->s->mass[i] * x[i];
+    pg_system *s = c->s;
+    double *z = c->T ? s->scratch : y;
+    if (c->T) pg_sparse_multiply (c->T, x, s->full);
+    const double *full = c->T ? s->full : x;
+    system_multiply (s, full, z);
+    for (size_t i = 0; c->dyn && i < s->ndof; i++) z[i] = c->dyn->k * z[i] + c->dyn->m * s->mass[i] * full[i];
+    if (c->T) pg_sparse_multiply_transposed (c->T, z, y);
 }
 
+/* With T: of T' diag (k K + m M) T, which preconditions as well. */
 static void diagonal_combined (void *context, double *d)
 {
     const combined *c = context;
-    const pg_operator *op = c->s->force->operator_ (c->s->self);
-    op->diagonal (op->context, d);
-    for (size_t i = 0; c->dyn && i < c->s->ndof; i++) d[i] = c->dyn->k * d[i] + c->dyn->m * c->s->mass[i];
+    pg_system *s = c->s;
+    const pg_operator *op = operator_of (s);
+    double *z = c->T ? s->scratch : d;
+    op->diagonal (op->context, z);
+    for (size_t i = 0; c->dyn && i < s->ndof; i++) z[i] = c->dyn->k * z[i] + c->dyn->m * s->mass[i];
+    for (size_t j = 0; c->T && j < s->nred; j++) {
+        d[j] = 0;
+        for (long p = c->T->start[j]; p < c->T->start[j + 1]; p++) d[j] += c->T->value[p] * c->T->value[p] * z[c->T->row[p]];
+    }
 }
 
 static pg_status solve_once (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
-    if (s->force->matrix && s->force->matrix (s->self)) {
+    if (matrix_of (s)) {
         if (s->stale) PG_TRY (factorize (s, dyn));
         double t0 = pg_seconds ();
+        pg_linear_info info;
         PG_TRY (s->linear->solve (s->factor, 1, s->reduced, s->delta));
+        s->linear->info (s->factor, &info);
+        s->report->cg_iterations = info.iterations;
         s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     } else {
-        combined c = { s, dyn };
-        pg_operator op = { s->ndof, &c, apply_combined, diagonal_combined };
+        combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL };
+        pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
         size_t used = 0;
         double t0 = pg_seconds ();
         memset (s->delta, 0, s->ndof * sizeof *s->delta);
@@ -202,22 +244,44 @@ static double norm (const double *a, size_t n)
     return sqrt (sum);
 }
 
+/* Where nothing resists (parts moved as rigid bodies) all forces are rounding, and their own size is no measure. This makes the
+ * tolerance a backward error of 1e-14 there; with resistance it is far below the forces, and a loaded loose part, which the shift
+ * holds at 1e-11 to 1e-9, stays far above it. */
+static double force_of_rounding (const pg_system *s, const double *d)
+{
+    double sum = 0;
+    if (!(s->mean_diagonal > 0)) return 0;
+    for (size_t i = 0; i < s->ndof; i++) sum += s->diagonal0[i] * d[i] * s->diagonal0[i] * d[i];
+    return 1e-14 / s->options->tolerance * sqrt (sum);
+}
+
 static pg_status measure_residual (pg_system *s, double t, const double *d, const dynamics *dyn, double *relative)
 {
     pg_status status = PG_OK;
     double reference = 0, t0 = pg_seconds ();
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     PG_TRY (s->force->balance (s->self, t, d, s->residual, &reference));
-    if (dyn) dyn->add (dyn->context, d, s->residual);
+    if (dyn) dyn->add (dyn->context, d, s->residual, &reference);
     if (T) pg_sparse_multiply_transposed (T, s->residual, s->reduced);
     else memcpy (s->reduced, s->residual, s->ndof * sizeof *s->reduced);
     if (T) reference = fmax (reference, norm (s->residual, s->ndof));
+    reference = fmax (reference, force_of_rounding (s, d));
     double size = norm (s->reduced, s->nred);
     if (!isfinite (size)) PG_FAIL (PG_E_EQUILIBRIUM, "the out-of-balance force is not finite");
     *relative = reference > 0 ? size / reference : size > 0 ? 1 : 0;
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     return status;
+}
+
+/* The unknown with the largest out-of-balance force; with elimination the reactions of the slaves are none. */
+static size_t worst_unknown (const pg_system *s, const pg_sparse *T)
+{
+    size_t worst = 0;
+    for (size_t i = 1; i < s->nred; i++) if (fabs (s->reduced[i]) > fabs (s->reduced[worst])) worst = i;
+    if (!T) return worst;
+    for (long q = T->start[worst]; q < T->start[worst + 1]; q++) if (T->value[q] == 1) return (size_t) T->row[q];
+    return (size_t) T->row[T->start[worst]];
 }
 
 pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
@@ -243,8 +307,7 @@ pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, 
     }
     *residual = r;
     if (!(r <= s->options->tolerance)) {
-        size_t worst = 0;
-        for (size_t i = 0; i < s->ndof; i++) if (fabs (s->residual[i]) > fabs (s->residual[worst])) worst = i;
+        size_t worst = worst_unknown (s, T);
         PG_FAIL (PG_E_EQUILIBRIUM, "the residual stays at %.3g of the reference force (allowed %.3g), largest at point %zu (%g, %g, %g) m: "
                  "probably a loaded part has come loose; try prescribed displacements, newmark, or a coarser criterion",
                  r, s->options->tolerance, worst / (size_t) s->components,

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * perigal list, help: what this build holds, what a key means. */
+#include "cli.h"
+#include <string.h>
+
+typedef const char *(*summary_of) (const char *name);
+static const char *of_force       (const char *n) { const pg_force_type *t = pg_force_find (n);             return t ? t->summary : ""; }
+static const char *of_approx      (const char *n) { const pg_approx_type *t = pg_approx_find (n);           return t ? t->summary : ""; }
+static const char *of_integration (const char *n) { const pg_integration_type *t = pg_integration_find (n); return t ? t->summary : ""; }
+static const char *of_kernel      (const char *n) { const pg_kernel *t = pg_kernel_find (n);                return t ? t->summary : ""; }
+static const char *of_material    (const char *n) { const pg_material_type *t = pg_material_find (n);       return t ? t->summary : ""; }
+static const char *of_criterion   (const char *n) { const pg_criterion_type *t = pg_criterion_find (n);     return t ? t->summary : ""; }
+static const char *of_linear      (const char *n) { const pg_linear_type *t = pg_linear_find (n);           return t ? t->summary : "chosen by the matrix"; }
+static const char *of_solver      (const char *n) { const char *text = pg_solver_summary (n);                return text ? text : ""; }
+
+static const struct { const char *key; const char *(*names) (void); summary_of summary; } catalogues[] = {
+    { "method.force", pg_force_names, of_force },           { "method.approximation", pg_approx_names, of_approx },
+    { "method.integration", pg_integration_names, of_integration }, { "method.kernel", pg_kernel_names, of_kernel },
+    { "materials.{}.model", pg_material_names, of_material }, { "failure.criterion", pg_criterion_names, of_criterion },
+    { "solver.kind", pg_solver_names, of_solver },          { "solver.linear", pg_linear_names, of_linear },
+};
+
+int pg_cli_list (int argc, char **argv)
+{
+    char name[64];
+    if (argc > 1) {
+        int asked = strcmp (argv[1], "--help") == 0;
+        fprintf (asked ? stdout : stderr, "usage: perigal list     (no arguments)\n");
+        return asked ? EXIT_DONE : EXIT_USAGE;
+    }
+    for (size_t k = 0; k < sizeof catalogues / sizeof *catalogues; k++) {
+        printf ("%s\n", catalogues[k].key);
+        for (const char *s = catalogues[k].names (); *s; s += strcspn (s, "|"), s += *s == '|') {
+            snprintf (name, sizeof name, "%.*s", (int) strcspn (s, "|"), s);
+            const char *text = catalogues[k].summary (name);
+            printf ("  %-18s%s%s\n", name, *text ? " " : "", text);
+        }
+    }
+    return EXIT_DONE;
+}
+
+static void all_keys (void)
+{
+    size_t n;
+    const pg_key_table *table = pg_scene_tables (&n);
+    printf ("keys of the scene file (perigal help KEY explains one, perigal help --manual prints all):\n");
+    for (size_t t = 0; t < n; t++)
+        for (size_t k = 0; k < table[t].n; k++) printf ("  %s\n", table[t].key[k].path);
+}
+
+int pg_cli_help (int argc, char **argv)
+{
+    pg_status status = PG_OK;
+    if (argc < 2) all_keys ();
+    else if (strcmp (argv[1], "--manual") == 0) status = pg_scene_manual (stdout);
+    else if (command_usage (stdout, argv[1])) return EXIT_DONE;
+    else status = pg_scene_help (stdout, argv[1]);
+    if (status != PG_OK) fprintf (stderr, "perigal: %s\n", pg_last_error ());
+    return exit_code (status);
+}

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Newmark's method: where it starts, and nodes whose motion is prescribed by elimination, d = T q + z (t). Their V = T q' + z' and
+ * A = T q'' + z'' follow from z: Newmark's own recursion would turn any error in them into an oscillation that never dies.
+ * Start: d, V as given but for the supports; T' M T q'' = T' (P - F_int - C V - M z''). */
+#include "solve.h"
+#include <string.h>
+
+static const pg_sparse *elimination (const pg_system *sys)
+{
+    return sys->force->basis && sys->force->impose ? sys->force->basis (sys->self) : NULL;
+}
+
+void newmark_resist (pg_solver *s, const double *v, const double *a, double *residual)
+{
+    pg_system *sys = &s->breaker.system;
+    double *Kv = s->work2, cm = s->options.rayleigh_mass, ck = s->options.rayleigh_stiffness;
+    for (size_t i = 0; i < sys->ndof; i++) residual[i] -= sys->mass[i] * (a[i] + cm * v[i]);
+    if (ck == 0) return;
+    system_multiply (sys, v, Kv);
+    for (size_t i = 0; i < sys->ndof; i++) residual[i] -= ck * Kv[i];
+}
+
+double newmark_kinetic (const pg_solver *s, const double *v)
+{
+    const pg_system *sys = &s->breaker.system;
+    double sum = 0;
+    for (size_t i = 0; i < sys->ndof; i++) sum += 0.5 * sys->mass[i] * v[i] * v[i];
+    return sum;
+}
+
+/* z, z', z'' at t by differences over a part of the step: forward at the start, else central. */
+pg_status newmark_supports (pg_solver *s, double t, int start)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->breaker.system;
+    double *z[3], e = s->options.dt / 16;
+    s->support_updates = s->report.updates;
+    if (!elimination (sys)) return PG_OK;
+    for (size_t k = 0; k < 3; k++) {
+        z[k] = s->support + k * sys->ndof;
+        memset (z[k], 0, sys->ndof * sizeof *z[k]);
+        PG_TRY (sys->force->impose (sys->self, t + ((double) k - !start) * e, z[k]));
+    }
+    for (size_t i = 0; i < sys->ndof; i++) {
+        double z0 = z[0][i], z1 = z[1][i], z2 = z[2][i];
+        z[0][i] = start ? z0 : z1;
+        z[1][i] = start ? (4 * (z1 - z0) - (z2 - z0)) / (2 * e) : (z2 - z0) / (2 * e);
+        z[2][i] = ((z2 - z1) - (z1 - z0)) / (e * e);
+    }
+done:
+    return status;
+}
+
+void newmark_follow (pg_solver *s, double t, double *v, double *a)
+{
+    const pg_system *sys = &s->breaker.system;
+    if (!elimination (sys)) return;
+    if (s->support_updates != s->report.updates) newmark_supports (s, t, 0);
+    for (size_t k = 1; k < 3; k++) {
+        double *w = k == 1 ? v : a;
+        sys->force->impose (sys->self, t, w);          /* prescribed nodes: T q + z                                      */
+        for (size_t i = 0; i < sys->ndof; i++) w[i] += s->support[k * sys->ndof + i] - s->support[i];
+    }
+}
+
+/* ---- start -------------------------------------------------------------------------------------------------------------- */
+static void apply_mass (void *context, const double *x, double *y)
+{
+    const pg_system *sys = context;
+    const pg_sparse *T = elimination (sys);
+    pg_sparse_multiply (T, x, sys->full);
+    for (size_t i = 0; i < sys->ndof; i++) sys->full[i] *= sys->mass[i];
+    pg_sparse_multiply_transposed (T, sys->full, y);
+}
+
+static void diagonal_mass (void *context, double *d)
+{
+    const pg_system *sys = context;
+    const pg_sparse *T = elimination (sys);
+    for (size_t j = 0; j < T->ncol; j++) {
+        d[j] = 0;
+        for (long p = T->start[j]; p < T->start[j + 1]; p++) d[j] += T->value[p] * T->value[p] * sys->mass[T->row[p]];
+    }
+}
+
+/* a += the acceleration that the residual gives to what is free */
+static pg_status accelerate (pg_system *sys, double *a)
+{
+    pg_status status = PG_OK;
+    const pg_sparse *T = elimination (sys);
+    if (!T) {
+        for (size_t i = 0; i < sys->ndof; i++) a[i] += sys->residual[i] / sys->mass[i];
+        return PG_OK;
+    }
+    pg_operator op = { T->ncol, sys, apply_mass, diagonal_mass };
+    size_t used = 0;
+    pg_sparse_multiply_transposed (T, sys->residual, sys->reduced);
+    memset (sys->delta, 0, sys->ndof * sizeof *sys->delta);
+    PG_TRY (pg_conjugate_gradients (&op, sys->reduced, sys->delta, 1e-13, 20 * T->ncol + 1000, &used));
+    pg_sparse_multiply (T, sys->delta, sys->full);
+    for (size_t i = 0; i < sys->ndof; i++) a[i] += sys->full[i];
+done:
+    return status;
+}
+
+/* The energy that the run starts with counts as work done before. */
+static pg_status first_account (pg_solver *s, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    pg_system *sys = &b->system;
+    s->report.energy_kinetic = newmark_kinetic (s, state->v);
+    if (!sys->force->ledger) goto done;
+    memset (sys->full, 0, sys->ndof * sizeof *sys->full);
+    newmark_resist (s, state->v, state->a, sys->full);
+    PG_TRY (sys->force->ledger (sys->self, state->time, state->d, sys->full, &b->ledger));
+    PG_TRY (breaker_book (b, 1));
+    s->report.energy_strain = b->ledger.strain;
+    b->work = s->report.energy_strain + s->report.energy_kinetic;
+done:
+    return status;
+}
+
+pg_status newmark_start (pg_solver *s, pg_state *state)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->breaker.system;
+    size_t ndof = sys->ndof;
+    double reference;
+    PG_TRY (system_refresh (sys, state, NULL));
+    s->next_level = 1;
+    if (!s->work3) PG_ALLOC (s->work3, ndof);
+    if (!s->support) PG_ALLOC (s->support, 3 * ndof);
+    if (state->step > 0) goto done;
+    for (size_t i = 0; i < ndof; i++)
+        if (!(sys->mass[i] > 0)) PG_FAIL (PG_E_USAGE, "newmark needs mass at every point: give the material a density");
+    memset (state->a, 0, ndof * sizeof *state->a);
+    if (elimination (sys)) {
+        PG_TRY (sys->force->impose (sys->self, state->time, state->d));
+        PG_TRY (newmark_supports (s, state->time, 1));
+        newmark_follow (s, state->time, state->v, state->a);
+    }
+    PG_TRY (sys->force->balance (sys->self, state->time, state->d, sys->residual, &reference));
+    newmark_resist (s, state->v, state->a, sys->residual);
+    PG_TRY (accelerate (sys, state->a));
+    PG_TRY (first_account (s, state));
+done:
+    return status;
+}

@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Which bonds a crack cuts, against exact integer geometry: bonds and cracks with whole coordinates (u, v, w), w = 0 the crack's
+ * plane, mapped to a tilted plane in space. */
+#include "check.h"
+#include "perigal/cloud.h"
+
+typedef struct { long u, v, w; } whole;
+
+static uint32_t seed = 1;
+static long pick (long n) { seed = seed * 1664525u + 1013904223u; return (long) ((seed >> 8) % (uint32_t) (2*n + 1)) - n; }
+static double real (void) { seed = seed * 1664525u + 1013904223u; return (seed >> 8) / 8388608.0 - 1; }
+
+/* ---- exact planar geometry, closed sets -------------------------------------------------------------------------------- */
+static long turn (whole a, whole b, whole c)
+{
+    long s = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+    return (s > 0) - (s < 0);
+}
+
+static int between (long a, long b, long c) { return (a <= c && c <= b) || (b <= c && c <= a); }
+static int on (whole a, whole b, whole c) { return !turn (a, b, c) && between (a.u, b.u, c.u) && between (a.v, b.v, c.v); }
+
+static int meet (whole a, whole b, whole c, whole d)
+{
+    if (turn (a, b, c) * turn (a, b, d) < 0 && turn (c, d, a) * turn (c, d, b) < 0) return 1;
+    return on (a, b, c) || on (a, b, d) || on (c, d, a) || on (c, d, b);
+}
+
+/* Inside or on the outline: winding number by quadrant-free ray, exact. */
+static int within (int n, const whole *p, whole x)
+{
+    int wind = 0;
+    for (int i = 0; i < n; i++) {
+        whole a = p[i], b = p[(i + 1) % n];
+        if (on (a, b, x)) return 1;
+        if (a.v <= x.v && b.v > x.v && turn (a, b, x) > 0) wind++;
+        if (a.v > x.v && b.v <= x.v && turn (a, b, x) < 0) wind--;
+    }
+    return wind != 0;
+}
+
+/* Where the bond x y pierces w = 0, times the denominator. */
+static long pierce (whole x, whole y, whole *at)
+{
+    long m = y.w - x.w;
+    *at = (whole) {x.u * m - x.w * (y.u - x.u), x.v * m - x.w * (y.v - x.v), 0};
+    return m;
+}
+
+static int polygon_meets (int n, const whole *p, whole x, whole y)
+{
+    whole q[8], at;
+    if (x.w * y.w > 0) return 0;
+    if (x.w == 0 && y.w == 0) {
+        if (within (n, p, x) || within (n, p, y)) return 1;
+        for (int i = 0; i < n; i++) if (meet (x, y, p[i], p[(i + 1) % n])) return 1;
+        return 0;
+    }
+    long m = pierce (x, y, &at);
+    for (int i = 0; i < n; i++) q[i] = (whole) {p[i].u * m, p[i].v * m, 0};
+    return within (n, q, at);
+}
+
+static int disc_meets (long radius, whole x, whole y)
+{
+    whole at;
+    if (x.w * y.w > 0) return 0;
+    if (x.w != y.w) {
+        long m = pierce (x, y, &at);
+        return at.u * at.u + at.v * at.v <= radius * radius * m * m;
+    }
+    long du = y.u - x.u, dv = y.v - x.v, l = du*du + dv*dv, s = -(x.u*du + x.v*dv), c = x.u*dv - x.v*du;
+    if (s <= 0 || l == 0) return x.u*x.u + x.v*x.v <= radius*radius;
+    if (s >= l) return y.u*y.u + y.v*y.v <= radius*radius;
+    return c*c <= radius*radius*l;
+}
+
+/* ---- into space ------------------------------------------------------------------------------------------------------- */
+static void to_space (whole a, double *x)              /* orthonormal (2 1 -2)/3, (2 -2 1)/3, (1 2 2)/3                  */
+{
+    double u = (double) a.u / 3, v = (double) a.v / 3, w = (double) a.w / 3;
+    x[0] = 0.7 + 2*u + 2*v + w, x[1] = -0.3 + u - 2*v + 2*w, x[2] = 0.1 - 2*u + v + 2*w;
+}
+
+static void compare (const pg_crack *c, int dim, const double *x, const double *y, int expected)
+{
+    assert_int_equal (pg_crack_cuts (c, dim, x, y, 1e-9), expected);
+    assert_int_equal (pg_crack_cuts (c, dim, y, x, 1e-9), expected);
+}
+
+static void segment (pg_crack *c, double *vertex)
+{
+    double t[2] = {vertex[2] - vertex[0], vertex[3] - vertex[1]}, l = hypot (t[0], t[1]);
+    *c = (pg_crack) {.kind = PG_CRACK_SEGMENT, .vertex = vertex, .nvertex = 2, .normal = {-t[1] / l, t[0] / l, 0}};
+}
+
+static void bonds_and_segments_agree_with_integers (void **state)
+{
+    (void) state;
+    int cut = 0;
+    for (int k = 0; k < 200000; k++) {
+        whole p = {pick (4), pick (4), 0}, q = {pick (4), pick (4), 0}, a = {pick (4), pick (4), 0}, b = {pick (4), pick (4), 0};
+        if (p.u == q.u && p.v == q.v) continue;
+        double v[4] = {(double) p.u, (double) p.v, (double) q.u, (double) q.v}, x[2] = {(double) a.u, (double) a.v}, y[2] = {(double) b.u, (double) b.v};
+        pg_crack c;
+        segment (&c, v);
+        compare (&c, 2, x, y, meet (p, q, a, b));
+        cut += meet (p, q, a, b);
+    }
+    assert_true (cut > 20000);
+}
+
+static void polygon_agrees (int n, const whole *p)
+{
+    double v[24], x[3], y[3];
+    int cut = 0;
+    for (int i = 0; i < n; i++) to_space (p[i], v + 3*i);
+    pg_crack c = {.kind = PG_CRACK_POLYGON, .vertex = v, .nvertex = (size_t) n, .normal = {1.0/3, 2.0/3, 2.0/3}};
+    for (int k = 0; k < 100000; k++) {
+        whole a = {pick (6), pick (6), pick (2)}, b = {pick (6), pick (6), pick (2)};
+        to_space (a, x), to_space (b, y);
+        compare (&c, 3, x, y, polygon_meets (n, p, a, b));
+        assert_int_equal (pg_crack_touches (&c, 3, x, 1e-9), a.w == 0 && within (n, p, a));
+        cut += polygon_meets (n, p, a, b);
+    }
+    assert_true (cut > 5000 && cut < 60000);
+}
+
+static void bonds_and_a_convex_polygon_agree_with_integers (void **state)
+{
+    (void) state;
+    polygon_agrees (4, (whole[]) {{-3, -2, 0}, {4, -3, 0}, {5, 2, 0}, {-1, 4, 0}});
+}
+
+static void bonds_and_a_concave_polygon_agree_with_integers (void **state)
+{
+    (void) state;
+    polygon_agrees (6, (whole[]) {{-4, -4, 0}, {5, -4, 0}, {5, 5, 0}, {3, 5, 0}, {3, -2, 0}, {-4, -2, 0}});
+    polygon_agrees (5, (whole[]) {{0, 5, 0}, {-5, -5, 0}, {0, 0, 0}, {5, -5, 0}, {2, 3, 0}});
+}
+
+static void bonds_and_a_disc_agree_with_integers (void **state)
+{
+    (void) state;
+    double x[3], y[3];
+    int cut = 0;
+    pg_crack c = {.kind = PG_CRACK_DISC, .normal = {1.0/3, 2.0/3, 2.0/3}, .radius = 5};
+    to_space ((whole) {0, 0, 0}, c.centre);
+    for (int k = 0; k < 200000; k++) {
+        whole a = {pick (7), pick (7), pick (2)}, b = {pick (7), pick (7), pick (2)};
+        to_space (a, x), to_space (b, y);
+        compare (&c, 3, x, y, disc_meets (5, a, b));
+        assert_int_equal (pg_crack_touches (&c, 3, x, 1e-9), a.w == 0 && a.u*a.u + a.v*a.v <= 25);
+        cut += disc_meets (5, a, b);
+    }
+    assert_true (cut > 5000);
+}
+
+static void swapping_the_ends_never_changes_the_answer (void **state)
+{
+    (void) state;
+    double v[4] = {-0.3, -0.2, 0.4, 0.35}, near = 0;
+    pg_crack c;
+    segment (&c, v);
+    for (int k = 0; k < 200000; k++) {                         /* ends about one tolerance off the line */
+        double s = 0.8 * real (), t = 0.8 * real (), d = 2e-9 * real (), e = k % 2 ? 2e-9 * real () : 0.5 * real ();
+        double x[2] = {0.05 + s*0.7 + d*c.normal[0], 0.075 + s*0.55 + d*c.normal[1]}, y[2] = {0.05 + t*0.7 + e*c.normal[0], 0.075 + t*0.55 + e*c.normal[1]};
+        assert_int_equal (pg_crack_cuts (&c, 2, x, y, 1e-9), pg_crack_cuts (&c, 2, y, x, 1e-9));
+        near += pg_crack_cuts (&c, 2, x, y, 1e-9);
+    }
+    assert_true (near > 1000 && near < 199000);
+}
+
+static void a_point_on_the_crack_loses_both_sides (void **state)
+{
+    (void) state;
+    double v[4] = {-10.6e-3, -10.6e-3, 10.6e-3, 10.6e-3};      /* the 45 degree crack of the disk, 2 mm lattice */
+    int on_crack = 0;
+    pg_crack c;
+    segment (&c, v);
+    for (int i = -8; i <= 8; i++) {
+        double x[2] = {0.002 * i, 0.002 * i};
+        int touches = pg_crack_touches (&c, 2, x, 2e-12);
+        assert_int_equal (touches, i >= -5 && i <= 5);
+        on_crack += touches;
+        for (int k = 0; k < 4 && touches; k++) {
+            double y[2] = {x[0] + (k % 2 ? 0.002 : -0.002), x[1] + (k / 2 ? 0.002 : -0.002)};
+            assert_true (pg_crack_cuts (&c, 2, x, y, 2e-12));
+        }
+    }
+    assert_int_equal (on_crack, 11);
+}
+
+static void mirrored_and_turned_bonds_and_cracks_agree (void **state)
+{
+    (void) state;
+    double v[4] = {-10.6e-3, -10.6e-3, 10.6e-3, 10.6e-3};
+    pg_crack c;
+    segment (&c, v);
+    for (int j = -8; j <= 8; j++) for (int i = -8; i <= 8; i++) for (int q = -3; q <= 3; q++) for (int p = -3; p <= 3; p++) {
+        double x[2] = {0.002 * i, 0.002 * j}, y[2] = {0.002 * (i + p), 0.002 * (j + q)};
+        int cut = pg_crack_cuts (&c, 2, x, y, 2e-12);
+        double mx[2] = {x[1], x[0]}, my[2] = {y[1], y[0]}, tx[2] = {-x[0], -x[1]}, ty[2] = {-y[0], -y[1]};
+        assert_int_equal (pg_crack_cuts (&c, 2, mx, my, 2e-12), cut);
+        assert_int_equal (pg_crack_cuts (&c, 2, tx, ty, 2e-12), cut);
+    }
+}
+
+static void a_bond_that_ends_just_before_the_crack_lives (void **state)
+{
+    (void) state;
+    double v[4] = {-1, 0, 1, 0};
+    pg_crack c;
+    segment (&c, v);
+    assert_true (pg_crack_cuts (&c, 2, (double[]) {0, 1}, (double[]) {0, 0.9e-9}, 1e-9));
+    assert_false (pg_crack_cuts (&c, 2, (double[]) {0, 1}, (double[]) {0, 1.1e-9}, 1e-9));
+    assert_true (pg_crack_cuts (&c, 2, (double[]) {1 + 0.9e-9, 1}, (double[]) {1 + 0.9e-9, -1}, 1e-9));
+    assert_false (pg_crack_cuts (&c, 2, (double[]) {1 + 1.1e-9, 1}, (double[]) {1 + 1.1e-9, -1}, 1e-9));
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (bonds_and_segments_agree_with_integers), cmocka_unit_test (bonds_and_a_convex_polygon_agree_with_integers),
+        cmocka_unit_test (bonds_and_a_concave_polygon_agree_with_integers), cmocka_unit_test (bonds_and_a_disc_agree_with_integers),
+        cmocka_unit_test (swapping_the_ends_never_changes_the_answer), cmocka_unit_test (a_point_on_the_crack_loses_both_sides),
+        cmocka_unit_test (mirrored_and_turned_bonds_and_cracks_agree), cmocka_unit_test (a_bond_that_ends_just_before_the_crack_lives),
+    };
+    return cmocka_run_group_tests_name ("cloud/crack", tests, NULL, NULL);
+}

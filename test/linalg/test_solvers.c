@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Linear solvers: every entry of the catalogue on lattices in 1, 2 and 3 dimensions with 1 to 3 unknowns per node; what each
+ * refuses; one analysis for many factorizations; memory that runs out. */
+#include "systems.h"
+
+static const char *const names[] = { "cholmod", "umfpack", "pcg" };
+enum { NAMES = 3, MOST_RHS = 4 };
+
+static pg_status solve_with (const char *name, const pg_sparse *A, const pg_linear_options *options, size_t nrhs, const double *b, double *x)
+{
+    pg_status status = PG_OK;
+    const pg_linear_type *type = pg_linear_find (name);
+    void *solver = NULL;
+    PG_TRY (type->analyse (&solver, A, options));
+    PG_TRY (type->factor (solver, A));
+    PG_TRY (type->solve (solver, nrhs, b, x));
+done:
+    if (solver) type->free (&solver);
+    return status;
+}
+
+static void the_catalogue_knows_its_entries (void **state)
+{
+    (void) state;
+    for (int k = 0; k < NAMES; k++) {
+        const pg_linear_type *type = pg_linear_find (names[k]);
+        assert_non_null (type);
+        assert_string_equal (type->name, names[k]);
+        check_contains (pg_linear_names (), names[k]);
+    }
+    assert_null (pg_linear_find ("gauss_seidel"));
+    assert_null (pg_linear_find ("auto"));
+}
+
+static void every_solver_on_every_lattice (void **state)
+{
+    (void) state;
+    static const struct { int dim; size_t side; } lattices[] = { { 1, 300 }, { 2, 17 }, { 3, 6 } };
+    for (int l = 0; l < 3; l++)
+        for (size_t block = 1; block <= 3; block++) {
+            dense D = random_laplacian (lattices[l].side, lattices[l].dim, block);
+            pg_sparse A = sparse_of (&D, 1);
+            double *b = pg_calloc (MOST_RHS * D.nrow, sizeof *b), *x = pg_calloc (MOST_RHS * D.nrow, sizeof *x);
+            for (size_t i = 0; i < MOST_RHS * D.nrow; i++) b[i] = random_number ();
+            for (int k = 0; k < NAMES; k++)
+                for (size_t nrhs = 1; nrhs <= MOST_RHS; nrhs += MOST_RHS - 1) {
+                    pg_linear_options o = { (int) block, lattices[l].dim, 1, 1e-13 };
+                    memset (x, 0xff, MOST_RHS * D.nrow * sizeof *x);               /* NaN: the old content must not count */
+                    check_ok (solve_with (names[k], &A, &o, nrhs, b, x));
+                    check_below (misfit (&D, nrhs, x, b), 1e-11);
+                }
+            pg_free (b), pg_free (x);
+            pg_sparse_clear (&A);
+            dense_free (&D);
+        }
+}
+
+/* 3D with more than 3000 unknowns goes through METIS; checked by residual in the sparse matrix. */
+static void a_larger_body_is_ordered_by_metis (void **state)
+{
+    (void) state;
+    size_t side = 14, n = side * side * side, block = 2, nnz = 0, step[3] = { 1, side, side * side };
+    pg_sparse A;
+    check_ok (pg_sparse_create (&A, n * block, n * block, 9 * n * block, 1));
+    for (size_t j = 0; j < n; j++)
+        for (size_t b = 0; b < block; b++) {
+            for (int k = 2; k >= 0; k--)
+                if (j / step[k] % side > 0)
+                    for (size_t a = 0; a < block; a++) A.row[nnz] = (long) ((j - step[k]) * block + a), A.value[nnz++] = a == b ? -1 : 0;
+            for (size_t a = 0; a <= b; a++) A.row[nnz] = (long) (j * block + a), A.value[nnz++] = a == b ? 6.5 : 0.3;
+            A.start[j * block + b + 1] = (long) nnz;
+        }
+    double *x = pg_calloc (n * block, sizeof *x), *b = pg_calloc (n * block, sizeof *b), *y = pg_calloc (n * block, sizeof *y);
+    for (size_t i = 0; i < n * block; i++) b[i] = random_number ();
+    const pg_linear_type *type = pg_linear_find ("cholmod");
+    void *solver = NULL;
+    pg_linear_info info;
+    check_ok (type->analyse (&solver, &A, &(pg_linear_options) { (int) block, 3, 1, 0 }));
+    check_ok (type->factor (solver, &A));
+    check_ok (type->solve (solver, 1, b, x));
+    type->info (solver, &info);
+    assert_string_equal (info.ordering, "metis");
+    assert_true (info.factor_entries > (double) A.start[n * block] && info.flops > info.factor_entries);
+    type->free (&solver);
+    assert_null (solver);
+    pg_sparse_multiply (&A, x, y);
+    for (size_t i = 0; i < n * block; i++) check_absolute (y[i], b[i], 1e-12);
+    pg_free (x), pg_free (b), pg_free (y);
+    pg_sparse_clear (&A);
+}
+
+static void one_analysis_serves_many_factorizations (void **state)
+{
+    (void) state;
+    dense D = random_laplacian (9, 2, 2);
+    size_t n = D.nrow;
+    pg_sparse A = sparse_of (&D, 1);
+    double *b = pg_calloc (n, sizeof *b), *x = pg_calloc (n, sizeof *x), *fresh = pg_calloc (n, sizeof *fresh);
+    for (size_t i = 0; i < n; i++) b[i] = random_number ();
+    for (int k = 0; k < NAMES; k++) {
+        const pg_linear_type *type = pg_linear_find (names[k]);
+        pg_linear_options o = { 2, 2, 1, 1e-13 };
+        void *solver = NULL;
+        check_ok (type->analyse (&solver, &A, &o));
+        for (int round = 0; round < 5; round++) {
+            for (size_t i = 0; i < n; i++) dense_set (&D, i, i, dense_at (&D, i, i) * (1 + 0.3 * round));
+            if (round == 3)                            /* a broken tie stays in the pattern as a zero                     */
+                for (size_t i = 0; i < 2; i++) for (size_t j = 2; j < 4; j++) dense_set (&D, i, j, 0), dense_set (&D, j, i, 0);
+            pg_sparse now = sparse_of (&D, 1);
+            check_ok (type->factor (solver, &now));
+            check_ok (type->solve (solver, 1, b, x));
+            check_below (misfit (&D, 1, x, b), 1e-11);
+            check_ok (solve_with (names[k], &now, &o, 1, b, fresh));
+            for (size_t i = 0; i < n; i++) check_scaled (x[i], fresh[i], 1e-11, 1);
+            pg_sparse_clear (&now);
+        }
+        type->free (&solver);
+    }
+    pg_free (b), pg_free (x), pg_free (fresh);
+    pg_sparse_clear (&A);
+    dense_free (&D);
+}
+
+static void cholesky_refuses_what_is_not_positive_definite (void **state)
+{
+    (void) state;
+    const pg_linear_type *type = pg_linear_find ("cholmod");
+    dense D = random_laplacian (7, 2, 2);
+    pg_sparse A = sparse_of (&D, 1);
+    void *solver = NULL;
+    double *b = pg_calloc (D.nrow, sizeof *b), *x = pg_calloc (D.nrow, sizeof *x);
+    b[3] = 1;
+    check_ok (type->analyse (&solver, &A, &(pg_linear_options) { 2, 2, 1, 0 }));
+    for (size_t bad = 0; bad < D.nrow; bad += 9) {
+        double keep = A.value[A.start[bad + 1] - 1];
+        A.value[A.start[bad + 1] - 1] = -100;
+        check_fails (type->factor (solver, &A), PG_E_NOT_SPD);
+        assert_int_equal (pg_linear_failed_row (), bad);
+        char row[64];
+        snprintf (row, sizeof row, "unknown %zu of %zu", bad, D.nrow);
+        check_contains (pg_last_error (), row);
+        A.value[A.start[bad + 1] - 1] = keep;
+        check_ok (type->factor (solver, &A));          /* and recovers                                                   */
+        check_ok (type->solve (solver, 1, b, x));
+        check_below (misfit (&D, 1, x, b), 1e-12);
+    }
+    type->free (&solver);
+    pg_free (b), pg_free (x);
+    pg_sparse_clear (&A);
+    dense_free (&D);
+}
+
+static void conjugate_gradients_refuse_what_is_not_positive_definite (void **state)
+{
+    (void) state;
+    dense D = random_laplacian (7, 2, 1);
+    dense_set (&D, 20, 20, -100);
+    pg_sparse A = sparse_of (&D, 1);
+    double b[49], x[49];
+    for (int i = 0; i < 49; i++) b[i] = random_number ();
+    check_fails (solve_with ("pcg", &A, &(pg_linear_options) { 1, 2, 1, 1e-12 }, 1, b, x), PG_E_NOT_SPD);
+    pg_sparse_clear (&A);
+    dense_free (&D);
+}
+
+static void conjugate_gradients_say_when_they_do_not_arrive (void **state)
+{
+    (void) state;
+    dense D = random_laplacian (9, 2, 2);
+    pg_sparse A = sparse_of (&D, 1);
+    pg_operator op = pg_sparse_operator (&A);
+    double b[162], x[162] = { 0 };
+    size_t used = 0, all = 0;
+    for (int i = 0; i < 162; i++) b[i] = random_number ();
+    check_fails (pg_conjugate_gradients (&op, b, x, 1e-12, 5, &used), PG_E_EQUILIBRIUM);
+    assert_int_equal (used, 5);
+    check_ok (pg_conjugate_gradients (&op, b, x, 1e-12, 10000, &used));
+    check_below (misfit (&D, 1, x, b), 1e-10);
+    double y[162] = { 0 };
+    check_ok (pg_conjugate_gradients (&op, b, y, 1e-12, 10000, &all));
+    assert_true (used < all);                          /* the first guess was used                                       */
+    check_ok (pg_conjugate_gradients (&op, b, y, 1e-11, 10000, &used));
+    assert_int_equal (used, 0);                        /* the answer is a fixed point                                    */
+    double zero[162] = { 0 }, z[162] = { 0 };
+    check_ok (pg_conjugate_gradients (&op, zero, z, 1e-12, 10000, &used));
+    for (int i = 0; i < 162; i++) assert_true (z[i] == 0);
+    pg_sparse_clear (&A);
+    dense_free (&D);
+}
+
+static void lu_sees_a_singular_matrix (void **state)
+{
+    (void) state;
+    dense D = random_laplacian (6, 2, 1);
+    for (size_t i = 0; i < 36; i++) {                  /* a free body: rows sum to zero, exactly                         */
+        double sum = 0;
+        for (size_t j = 0; j < 36; j++) if (j != i) {
+            dense_set (&D, i, j, D.in[i*36 + j] ? -1 : 0);
+            sum += dense_at (&D, i, j);
+        }
+        dense_set (&D, i, i, -sum);
+    }
+    pg_sparse A = sparse_of (&D, 1);
+    double b[36], x[36];
+    for (int i = 0; i < 36; i++) b[i] = random_number ();
+    check_fails (solve_with ("umfpack", &A, &(pg_linear_options) { 1, 2, 1, 0 }, 1, b, x), PG_E_SINGULAR);
+    pg_sparse_clear (&A);
+    dense_free (&D);
+}
+
+static void lu_solves_indefinite_and_unsymmetric_systems (void **state)
+{
+    (void) state;
+    size_t n = 60;
+    for (int symmetric = 0; symmetric < 2; symmetric++) {
+        dense D = dense_new (n, n);
+        for (size_t i = 0; i < n; i++) dense_set (&D, i, i, i % 3 ? random_number () : 0);
+        for (size_t k = 0; k < 6 * n; k++) {
+            size_t i = (size_t) (n * (0.5 + 0.5 * random_number ())), j = (size_t) (n * (0.5 + 0.5 * random_number ()));
+            dense_set (&D, i, j, random_number ());
+            if (symmetric) dense_set (&D, j, i, dense_at (&D, i, j));
+        }
+        pg_sparse A = sparse_of (&D, symmetric);
+        double b[180], x[180];
+        for (int i = 0; i < 180; i++) b[i] = random_number ();
+        check_ok (solve_with ("umfpack", &A, &(pg_linear_options) { 1, 2, 1, 0 }, 3, b, x));
+        check_below (misfit (&D, 3, x, b), 1e-10);
+        pg_sparse_clear (&A);
+        dense_free (&D);
+    }
+}
+
+static void each_failed_allocation_is_reported (void **state)
+{
+    (void) state;
+    dense D = random_laplacian (5, 2, 2);
+    pg_sparse A = sparse_of (&D, 1);
+    double b[50] = { 1 }, x[50];
+    size_t used = pg_memory_used ();
+    for (int s = 0; s < NAMES; s++) {
+        pg_status status = PG_E_MEMORY;
+        size_t k = 0;
+        while (status != PG_OK) {
+            pg_memory_fail_at (++k);
+            status = solve_with (names[s], &A, &(pg_linear_options) { 2, 2, 1, 1e-12 }, 1, b, x);
+            pg_memory_fail_at (0);
+            if (status != PG_OK) assert_int_equal (status, PG_E_MEMORY);
+            assert_int_equal (pg_memory_used (), used);
+            assert_true (k < 100);
+        }
+        assert_true (k > 1);
+    }
+    pg_sparse_clear (&A);
+    dense_free (&D);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (the_catalogue_knows_its_entries),
+        cmocka_unit_test (every_solver_on_every_lattice),
+        cmocka_unit_test (a_larger_body_is_ordered_by_metis),
+        cmocka_unit_test (one_analysis_serves_many_factorizations),
+        cmocka_unit_test (cholesky_refuses_what_is_not_positive_definite),
+        cmocka_unit_test (conjugate_gradients_refuse_what_is_not_positive_definite),
+        cmocka_unit_test (conjugate_gradients_say_when_they_do_not_arrive),
+        cmocka_unit_test (lu_sees_a_singular_matrix),
+        cmocka_unit_test (lu_solves_indefinite_and_unsymmetric_systems),
+        cmocka_unit_test (each_failed_allocation_is_reported),
+    };
+    return cmocka_run_group_tests_name ("linalg/solvers", tests, NULL, NULL);
+}

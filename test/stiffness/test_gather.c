@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The row-owned gather against a naive dense assembly of random families; redoing rows and adding threads change no bit. */
+#include "check.h"
+#include "perigal/stiffness.h"
+
+/* Points see random nodes; point p brings sum_r g_r g_r', g_r (p, node, component) from a hash, times a factor of the point. */
+typedef struct { pg_family family; int block, salt; double *factor; } random_source;
+
+static uint64_t mix (uint64_t h)
+{
+    h ^= h >> 30, h *= 0xbf58476d1ce4e5b9u, h ^= h >> 27, h *= 0x94d049bb133111ebu;
+    return h ^ h >> 31;
+}
+
+static double hash (int salt, size_t p, size_t node, int r, int k)
+{
+    uint64_t h = mix ((uint64_t) salt * 1000003 + mix (p * 7919 + mix (node * 104729 + (uint64_t) (10 * r + k))));
+    return (double) (h >> 11) / 4503599627370496.0 - 1;
+}
+
+static random_source random_points (size_t npoint, size_t n, double share, int block, int salt)
+{
+    random_source s = { { npoint, pg_calloc (npoint + 1, sizeof (size_t)), pg_calloc (npoint * n, sizeof (int)) }, block, salt,
+                        pg_calloc (npoint, sizeof (double)) };
+    size_t at = 0;
+    for (size_t p = 0; p < npoint; p++) {
+        for (size_t i = 0; i < n; i++) if (hash (salt, p, i, 7, 7) < 2 * share - 1) s.family.node[at++] = (int) i;
+        s.family.start[p + 1] = at;
+        s.factor[p] = 1 + (double) (p % 5);
+    }
+    return s;
+}
+
+static void random_free (random_source *s) { pg_family_clear (&s->family), pg_free (s->factor); }
+
+static void entry (const random_source *s, size_t p, size_t i, size_t j, int alpha, int beta, double *out)
+{
+    for (int r = 0; r < 3; r++) *out += s->factor[p] * hash (s->salt, p, i, r, alpha) * hash (s->salt, p, j, r, beta);
+}
+
+static void blocks (void *context, size_t p, size_t a, size_t m, double *out)
+{
+    random_source *s = context;
+    const int *node = s->family.node + s->family.start[p];
+    for (size_t b = 0; b < m; b++)
+        for (int k = 0; k < s->block * s->block; k++)
+            entry (s, p, (size_t) node[a], (size_t) node[b], k / s->block, k % s->block, out + b * (size_t) (s->block * s->block) + k);
+}
+
+static double *assemble (size_t n, int block, size_t nsource, const random_source *sources)
+{
+    size_t m = (size_t) block, ndof = n * m;
+    double *K = pg_calloc (ndof * ndof, sizeof *K);
+    for (size_t s = 0; s < nsource; s++)
+        for (size_t p = 0; p < sources[s].family.n; p++)
+            for (size_t a = sources[s].family.start[p]; a < sources[s].family.start[p + 1]; a++)
+                for (size_t b = sources[s].family.start[p]; b < sources[s].family.start[p + 1]; b++)
+                    for (size_t k = 0; k < m * m; k++) {
+                        size_t i = (size_t) sources[s].family.node[a], j = (size_t) sources[s].family.node[b];
+                        entry (&sources[s], p, i, j, (int) (k / m), (int) (k % m), &K[(i * m + k / m) * ndof + j * m + k % m]);
+                    }
+    return K;
+}
+
+static pg_stiffness *gathered (size_t n, int block, size_t nsource, random_source *sources, int threads)
+{
+    pg_source list[3];
+    pg_stiffness *K = NULL;
+    for (size_t s = 0; s < nsource; s++) list[s] = (pg_source) { &sources[s].family, &sources[s], blocks };
+    check_ok (pg_stiffness_create (&K, n, block, nsource, list));
+    check_ok (pg_stiffness_gather (K, n, NULL, threads));
+    return K;
+}
+
+static void well_formed (const pg_sparse *A)
+{
+    for (size_t j = 0; j < A->ncol; j++) {
+        assert_true (A->start[j + 1] > A->start[j] && A->row[A->start[j + 1] - 1] == (long) j);    /* ends on its diagonal  */
+        for (long p = A->start[j] + 1; p < A->start[j + 1]; p++) assert_true (A->row[p] > A->row[p - 1]);
+    }
+}
+
+static void equals_the_naive_assembly (void **state)
+{
+    (void) state;
+    for (int block = 1; block <= 3; block++)
+        for (size_t nsource = 1; nsource <= 3; nsource++) {
+            size_t n = 40, ndof = n * (size_t) block;
+            random_source s[3] = { random_points (60, n, 0.12, block, 1), random_points (9, n, 0.3, block, 2), random_points (1, n, 0.0, block, 3) };
+            pg_stiffness *K = gathered (n, block, nsource, s, 1);
+            const pg_sparse *A = pg_stiffness_matrix (K);
+            double *D = assemble (n, block, nsource, s);
+            assert_true (A->symmetric && A->nrow == ndof && A->ncol == ndof);
+            well_formed (A);
+            for (size_t j = 0; j < ndof; j++)
+                for (long p = A->start[j]; p < A->start[j + 1]; p++) {
+                    size_t at = (size_t) A->row[p] * ndof + j;
+                    check_scaled (A->value[p], D[at], 1e-13, 10);
+                    D[at] = 0;
+                }
+            for (size_t j = 0; j < ndof; j++) for (size_t i = 0; i <= j; i++) assert_true (D[i * ndof + j] == 0);    /* none is missing */
+            pg_free (D);
+            pg_stiffness_free (&K);
+            assert_null (K);
+            for (int k = 0; k < 3; k++) random_free (&s[k]);
+        }
+}
+
+static void redone_rows_equal_a_full_gather (void **state)
+{
+    (void) state;
+    for (int block = 1; block <= 3; block++) {
+        size_t n = 120;
+        random_source s[2] = { random_points (150, n, 0.05, block, 4), random_points (30, n, 0.04, block, 5) };
+        pg_stiffness *K = gathered (n, block, 2, s, 1);
+        static const size_t touched[] = { 3, 4, 77, 149 };
+        unsigned char mark[120] = { 0 };
+        int list[120];
+        size_t count = 0;
+        for (int k = 0; k < 4; k++) {
+            s[0].factor[touched[k]] = k ? 0.37 * k : 0;
+            for (size_t e = s[0].family.start[touched[k]]; e < s[0].family.start[touched[k] + 1]; e++) mark[s[0].family.node[e]] = 1;
+        }
+        for (int i = 0; i < 120; i++) if (mark[i]) list[count++] = i;
+        assert_true (count > 0 && count < n);
+        check_ok (pg_stiffness_gather (K, count, list, 1));
+        pg_stiffness *fresh = gathered (n, block, 2, s, 1);
+        const pg_sparse *A = pg_stiffness_matrix (K), *B = pg_stiffness_matrix (fresh);
+        assert_memory_equal (A->value, B->value, (size_t) A->start[A->ncol] * sizeof *A->value);
+        pg_stiffness_free (&K), pg_stiffness_free (&fresh);
+        random_free (&s[0]), random_free (&s[1]);
+    }
+}
+
+static void threads_change_no_bit (void **state)
+{
+    (void) state;
+    size_t n = 200;
+    random_source s[1] = { random_points (250, n, 0.05, 2, 6) };
+    pg_stiffness *one = gathered (n, 2, 1, s, 1);
+    const pg_sparse *A = pg_stiffness_matrix (one);
+    for (int threads = 2; threads <= 7; threads += 5) {
+        pg_stiffness *many = gathered (n, 2, 1, s, threads);
+        assert_memory_equal (A->value, pg_stiffness_matrix (many)->value, (size_t) A->start[A->ncol] * sizeof *A->value);
+        pg_stiffness_free (&many);
+    }
+    pg_stiffness_free (&one);
+    random_free (&s[0]);
+}
+
+static void a_node_that_no_point_sees_keeps_its_diagonal (void **state)
+{
+    (void) state;
+    size_t start[] = { 0, 2, 3 };
+    int node[] = { 1, 3, 1 };
+    double factor[] = { 1, 1 };
+    random_source s = { { 2, start, node }, 2, 8, factor };
+    pg_stiffness *K = gathered (5, 2, 1, &s, 1);
+    const pg_sparse *A = pg_stiffness_matrix (K);
+    well_formed (A);
+    assert_int_equal (A->start[10], 5 * 3 + 4);
+    for (size_t j = 0; j < 10; j++)
+        for (long p = A->start[j]; p < A->start[j + 1]; p++) {
+            if (j / 2 != 1 && j / 2 != 3) assert_true (A->value[p] == 0);
+            else assert_true (A->value[p] != 0);
+        }
+    pg_stiffness_free (&K);
+}
+
+static void each_failed_allocation_is_reported (void **state)
+{
+    (void) state;
+    random_source s[2] = { random_points (20, 30, 0.2, 2, 9), random_points (5, 30, 0.2, 2, 10) };
+    pg_source list[2] = { { &s[0].family, &s[0], blocks }, { &s[1].family, &s[1], blocks } };
+    size_t used = pg_memory_used (), k = 0;
+    pg_status status = PG_E_MEMORY;
+    while (status != PG_OK) {
+        pg_stiffness *K = NULL;
+        pg_memory_fail_at (++k);
+        status = pg_stiffness_create (&K, 30, 2, 2, list);
+        if (status != PG_OK) assert_null (K);
+        else status = pg_stiffness_gather (K, 30, NULL, 2);
+        pg_memory_fail_at (0);
+        if (status != PG_OK) assert_int_equal (status, PG_E_MEMORY);
+        pg_stiffness_free (&K);
+        assert_int_equal (pg_memory_used (), used);
+        assert_true (k < 100);
+    }
+    assert_true (k > 15);
+    random_free (&s[0]), random_free (&s[1]);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (equals_the_naive_assembly),
+        cmocka_unit_test (redone_rows_equal_a_full_gather),
+        cmocka_unit_test (threads_change_no_bit),
+        cmocka_unit_test (a_node_that_no_point_sees_keeps_its_diagonal),
+        cmocka_unit_test (each_failed_allocation_is_reported),
+    };
+    return cmocka_run_group_tests_name ("stiffness/gather", tests, NULL, NULL);
+}
