@@ -45,6 +45,8 @@ typedef struct {
     pg_status (*probe)   (void *self, const double *d, const double *x, double *u);
     double    (*overlap) (void *self, const pg_state *state, const double *d);
     void      (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+    /* Changes whenever refresh changed K or the basis: an old factor may serve until then (NULL: every refresh changes them). */
+    unsigned long (*revision) (const void *self);
 } pg_force_type;
 const pg_force_type *pg_force_find  (const char *name);
 const char          *pg_force_names (void);

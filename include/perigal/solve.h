@@ -23,7 +23,8 @@ pg_status pg_solver_options_read (pg_solver_options *out, const pg_problem *prob
 /* ---- what happened ---------------------------------------------------------------------------------------------------- */
 typedef struct { size_t bond; int set; char kind; double utilisation, place[3]; } pg_broken;
 
-enum { PG_SECONDS_SHAPE, PG_SECONDS_ANALYSE, PG_SECONDS_FACTOR, PG_SECONDS_SOLVE, PG_SECONDS_FORCE, PG_SECONDS_BREAK, PG_SECONDS_COUNT };
+enum { PG_SECONDS_SHAPE, PG_SECONDS_ANALYSE, PG_SECONDS_FACTOR, PG_SECONDS_SOLVE, PG_SECONDS_FORCE, PG_SECONDS_BREAK,
+       PG_SECONDS_ASSEMBLE, PG_SECONDS_UPDATE, PG_SECONDS_COUNT };    /* update: shapes and rows that breaks have touched */
 typedef struct { char what[96], why[160]; double seconds_saved; } pg_skip;
 typedef struct {                                       /* of the run so far                                              */
     long   steps, events, iterations, broken, bonds_over_limit, factorizations, updates, solves;

@@ -133,7 +133,8 @@ static pg_status gather_touched (galerkin *g, const size_t *count)
     for (size_t k = 0; g->npeg && k < count[PG_NODES]; k++) mark_family (g, PG_NODES, g->list[PG_NODES][k]);
     PG_ALLOC (node, g->n);
     for (size_t i = 0; i < g->n; i++) if (g->mark[i]) node[nnode++] = (int) i;
-    PG_TRY (pg_stiffness_gather (g->K, nnode, node, g->threads));
+    if (nnode) PG_TRY (pg_stiffness_gather (g->K, nnode, node, g->threads));
+    g->revision += nnode > 0;
 done:
     pg_free (node);
     return status;
@@ -155,9 +156,14 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
         g->fresh[s] = known;
         if (known) galerkin_measure_list (g, s, n, g->list[s]);
     }
-    if (!changes) PG_TRY (pg_stiffness_gather (g->K, g->n, NULL, g->threads));
-    else PG_TRY (gather_touched (g, count));
-    if (!changes || count[PG_NODES]) PG_TRY (galerkin_basis_update (g));
+    if (!changes) {
+        PG_TRY (pg_stiffness_gather (g->K, g->n, NULL, g->threads));
+        g->revision++;
+    } else PG_TRY (gather_touched (g, count));
+    if (g->has_T && (!changes || count[PG_NODES])) {
+        PG_TRY (galerkin_basis_update (g));
+        g->revision++;
+    }
 done:
     return status;
 }
@@ -186,6 +192,7 @@ static pg_status galerkin_mass (void *self, double *mass)
     return PG_OK;
 }
 
+static unsigned long galerkin_revision (const void *self) { return ((const galerkin *) self)->revision; }
 static const pg_operator *galerkin_operator (void *self) { return &((galerkin *) self)->op; }
 static const pg_sparse *galerkin_matrix (void *self) { return pg_stiffness_matrix (((galerkin *) self)->K); }
 
@@ -218,5 +225,6 @@ done:
 const pg_force_type pg_force_galerkin = {
     "galerkin", "global stiffness from NOSB, PDDO or RKPM bonds (Cui 2022)",
     galerkin_create, galerkin_free, galerkin_fields, galerkin_refresh, galerkin_balance, galerkin_mass, galerkin_operator, galerkin_matrix,
-    galerkin_basis, galerkin_impose, galerkin_utilisation, galerkin_ledger, galerkin_field, galerkin_probe, galerkin_overlap, galerkin_census
+    galerkin_basis, galerkin_impose, galerkin_utilisation, galerkin_ledger, galerkin_field, galerkin_probe, galerkin_overlap, galerkin_census,
+    galerkin_revision
 };

@@ -41,6 +41,7 @@ typedef struct {
     elimination side[3];
     pg_sparse T;
     int      has_T;
+    unsigned long revision;                            /* of K and T                                                     */
     double  *work;                                     /* ndof                                                           */
     const double *at_d;                                /* for workers                                                    */
     size_t   nlist; size_t *list[PG_BOND_SETS];        /* touched points (scratch of refresh)                            */

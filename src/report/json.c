@@ -9,8 +9,10 @@ static void seconds_block (pg_json *j, const pg_report *r, double search, double
     pg_json_open (j, "seconds", '{');
     pg_json_number (j, "search", search);
     pg_json_number (j, "shape", r->seconds[PG_SECONDS_SHAPE]);
+    pg_json_number (j, "assemble", r->seconds[PG_SECONDS_ASSEMBLE]);
     pg_json_number (j, "analyse", r->seconds[PG_SECONDS_ANALYSE]);
     pg_json_number (j, "factor", r->seconds[PG_SECONDS_FACTOR]);
+    pg_json_number (j, "update", r->seconds[PG_SECONDS_UPDATE]);
     pg_json_number (j, "solve", r->seconds[PG_SECONDS_SOLVE]);
     pg_json_number (j, "force", r->seconds[PG_SECONDS_FORCE]);
     pg_json_number (j, "break", r->seconds[PG_SECONDS_BREAK]);

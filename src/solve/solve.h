@@ -18,6 +18,8 @@ typedef struct {
     const pg_solver_options *options;
     pg_report           *report;
     int       components, stale, umfpack;
+    unsigned long revision;                            /* of K when it was last factored or found stale                  */
+    long      kept;                                    /* refreshes that left K as it was                                */
     size_t    ndof, nred;
     const pg_linear_type *linear;
     void     *factor;
@@ -75,7 +77,7 @@ struct pg_solver {
     const pg_problem *problem;
     breaker   breaker;
     pg_report report;
-    int       started, finished, overlap_told, energy_told;
+    int       started, finished, overlap_told, energy_told, skips_told;
     long      next_level;                              /* next level to report: next_level / levels                      */
     double   *unit;                                    /* event stepping: displacement at load factor 1                  */
     int       ledger_fresh;                            /* the ledger is that of `unit`                                   */

@@ -198,6 +198,13 @@ const pg_report *pg_solver_report (pg_solver *s, const pg_state *state)
     pg_system *sys = &s->breaker.system;
     if (sys->force->census) sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes, &s->report.fragments);
     if (sys->force->overlap) s->report.overlap_max = fmax (s->report.overlap_max, sys->force->overlap (sys->self, state, state->d));
+    if (sys->kept && !s->skips_told && s->report.factorizations) {
+        char what[96];
+        snprintf (what, sizeof what, "factorization after %ld break rounds", sys->kept);
+        pg_report_skip (&s->report, (double) sys->kept * s->report.seconds[PG_SECONDS_FACTOR] / (double) s->report.factorizations, what,
+                        "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
+        s->skips_told = 1;
+    }
     if (!s->energy_told && s->report.broken > 0 && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
         pg_report_warn (&s->report, "breaking has fed %.3g J into the body instead of dissipating energy (external work %.3g J): single bonds are not an "
                         "objective measure of fracture", -s->report.energy_dissipated, s->report.energy_external);

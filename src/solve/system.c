@@ -77,9 +77,12 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     double t0 = pg_seconds ();
     pg_status status = s->force->refresh ? s->force->refresh (s->self, state, changes) : PG_OK;
     if (!changes) mark_touched (s, state);
-    s->stale = 1;
+    unsigned long now = s->force->revision ? s->force->revision (s->self) : s->revision + 1;
+    if (now != s->revision) s->stale = 1;
+    else s->kept++;
+    s->revision = now;
     s->report->updates += changes != NULL;
-    s->report->seconds[PG_SECONDS_SHAPE] += pg_seconds () - t0;
+    s->report->seconds[changes ? PG_SECONDS_UPDATE : PG_SECONDS_SHAPE] += pg_seconds () - t0;
     return status;
 }
 
@@ -154,9 +157,11 @@ static pg_status factorize (pg_system *s, const dynamics *dyn)
     int automatic = strcmp (s->options->linear, "auto") == 0;
     s->shift = 1e-11;
     for (;;) {
-        PG_TRY (build_matrix (s, dyn));
-        if (!s->factor) PG_TRY (analyse (s));
         double t0 = pg_seconds ();
+        PG_TRY (build_matrix (s, dyn));
+        s->report->seconds[PG_SECONDS_ASSEMBLE] += pg_seconds () - t0;
+        if (!s->factor) PG_TRY (analyse (s));
+        t0 = pg_seconds ();
         pg_status now = s->linear->factor (s->factor, &s->A);
         s->report->factorizations++;
         s->report->seconds[PG_SECONDS_FACTOR] += pg_seconds () - t0;

@@ -35,8 +35,8 @@ static run patch_run (int dim, const patch *p)
     snprintf (method, sizeof method, "method: {approximation: %s, integration: %s, basis: %s, support: %s, essential: %s, horizon: %g spacing, "
               "gauss_points: %d, penalty_factor: %g}\n", p->approximation, p->integration, p->basis, p->support, p->essential ? p->essential : "auto",
               p->horizon, p->points ? p->points : 2, p->penalty > 0 ? p->penalty : 1e6);
-    return scene_of (1, "dimension: %d\nplane: %s\nbody: [{add: {box: {%s}}}]\nspacing: %g\nperturb: {amount: %g}\n%s%s%s",
-                     dim, p->plane ? p->plane : "stress", box[dim - 1], p->spacing, p->perturb, method, pull, materials);
+    return scene_of (1, "dimension: %d\n%s%s\nbody: [{add: {box: {%s}}}]\nspacing: %g\nperturb: {amount: %g}\n%s%s%s",
+                     dim, dim == 2 ? "plane: " : "", dim != 2 ? "" : p->plane ? p->plane : "stress", box[dim - 1], p->spacing, p->perturb, method, pull, materials);
 }
 
 static void linear_field (const pg_problem *p, double *u)

@@ -117,7 +117,7 @@ static void events_and_fixed_steps_reach_the_same_place (void **state)
     to_the_end (&a), to_the_end (&b);
     check_below (largest_difference (a.state->d, b.state->d, a.state->ndof), 1e-9 * largest_of (b.state->d, b.state->ndof));
     for (int k = 0; k < 6; k++) check_scaled (a.step.reaction[k], b.step.reaction[k], 1e-9, 1e5);
-    assert_int_equal (pg_solver_report_now (a.solver)->solves < 20, 1);
+    check_below ((double) pg_solver_report_now (a.solver)->solves, 13);    /* one solve, refined, for all levels          */
     clear (&a), clear (&b);
 }
 
@@ -140,10 +140,8 @@ static void three_ways_to_prescribe_agree (void **state)
         snprintf (rest, sizeof rest, "method: {essential: %s}\n", ways[w]);
         u[w] = displacement (rest);
     }
-    for (int w = 0; w < 3; w++)
-        for (int v = 0; v < w; v++) print_message ("# %s - %s: %.3g\n", ways[w], ways[v], largest_difference (u[w], u[v], 21 * 11 * 2) / 1e-3);
-    check_below (largest_difference (u[1], u[2], 21 * 11 * 2), 1e-5 * 1e-3);       /* both at the nodes                   */
-    check_below (largest_difference (u[0], u[1], 21 * 11 * 2), 2e-2 * 1e-3);       /* nodes or facets                     */
+    check_below (largest_difference (u[1], u[2], 21 * 11 * 2), 1e-6 * 1e-3);       /* both at the nodes: 1 / penalty      */
+    check_below (largest_difference (u[0], u[1], 21 * 11 * 2), 1e-3 * 1e-3);       /* nodes against facets: 1 / 1000      */
     for (int w = 0; w < 3; w++) pg_free (u[w]);
 }
 
