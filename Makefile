@@ -1,4 +1,4 @@
-# Perigal: make [MODE=release|debug|asan] [V=1];  targets: all demo test test-long lint bench install clean
+# Perigal: make [MODE=release|debug|asan] [V=1];  targets: all demo test test-long lint doc bench install clean
 MODE    ?= release
 prefix  ?= /usr/local
 CC      ?= gcc
@@ -71,7 +71,7 @@ $(BUILD)/bench/%: bench/%.c $(LIB)
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) -MMD -MP -MF $@.d $< $(LDFLAGS) $(LIB) $(LIBS) -o $@
 
-perigal.pc: perigal.pc.in Makefile
+perigal.pc: perigal.pc.in FORCE
 	$(Q)sed -e 's|@prefix@|$(prefix)|' -e 's|@version@|$(VERSION)|' -e 's|@libs@|$(LIBS)|' $< > $@
 
 packages:            ## install the Debian packages that are missing
@@ -94,6 +94,9 @@ test-programs: $(PROGRAM) $(if $(T),$(filter $(BUILD)/test/$(T)/%,$(TESTBIN)),$(
 lint:                ## one-way includes, file and function lengths
 	$(Q).ci/lint $(ORDER)
 
+doc: perigal         ## doc/input.md, from the tables that check a scene
+	$(Q)./perigal help --manual > doc/input.md.new && mv doc/input.md.new doc/input.md
+
 bench: packages
 	$(Q)$(MAKE) --no-print-directory -j2 perigal bench-programs
 	$(Q)bench/run $(BUILD)
@@ -112,9 +115,11 @@ install: all
 clean:
 	rm -rf build out perigal perigal.pc
 
+FORCE:
+
 print-%:
 	@echo '$($*)'
 
-.PHONY: all perigal packages demo test test-long test-programs lint bench bench-programs install clean
+.PHONY: FORCE all perigal packages demo test test-long test-programs lint doc bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(TESTBIN:=.d) $(BENCHBIN:=.d)

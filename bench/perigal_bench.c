@@ -46,7 +46,7 @@ done:
 static void print_header (void)
 {
     puts ("group,case,method,points,evaluation_points,bonds,dofs,error_across,error_along,peak_load_N,load_factor,steps,events,rounds,bonds_broken,"
-          "factorizations,solves,residual_max,build_s,shape_s,analyse_s,factor_s,solve_s,force_s,break_s,total_s,cpu_s,ms_per_round,peak_bytes,outcome");
+          "factorizations,solves,residual_max,build_s,shape_s,analyse_s,factor_s,solve_s,force_s,break_s,assemble_s,update_s,total_s,cpu_s,ms_per_round,peak_bytes,outcome");
 }
 
 static void print_error (double error)

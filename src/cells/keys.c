@@ -4,13 +4,18 @@
 
 static const pg_key keys[] = {
     { .path = "sets", .kind = PG_MAP, .fallback = "",
-      .doc = "Named parts of the body. Always there: left, right, bottom, top, back, front (faces of the bounding box) and all (every point); "
-             "NAME.top, NAME.left, ... is the half of a set on that side of the centre." },
-    { .path = "sets.{}", .kind = PG_MAP, .fallback = "", .doc = "One set, under a name of your choice: what meets all the conditions given." },
+      .doc = "Named parts of the body. Always there: left, right, bottom, top, back, front (faces of the bounding box) "
+             "and all (every point); NAME.top, NAME.left, ... is the half of a set on that side of the centre." },
+    { .path = "sets.{}", .kind = PG_MAP, .fallback = "",
+      .doc = "One set, under a name of your choice: what meets all the conditions given." },
     { .path = "sets.{}.boundary", .kind = PG_NAMES, .fallback = "",
-      .doc = "On the boundary: left, right, bottom, top, back, front, all (the whole boundary), or the surface of a shape: rim, side, hole, or its name." },
-    { .path = "sets.{}.angle", .kind = PG_LIST, .fallback = "", .doc = "Within one of these ranges of the angle in the xy plane about the centre of the body." },
-    { .path = "sets.{}.angle[]", .kind = PG_NUMBERS, .unit = "rad", .fallback = "", .doc = "One range [from, to], counted counter-clockwise from the x axis." },
-    { .path = "sets.{}.where", .kind = PG_EXPRESSION, .unit = "bool", .fallback = "", .doc = "Where this condition in x, y, z, r, angle holds." },
+      .doc = "On the boundary: left, right, bottom, top, back, front, all (the whole boundary), "
+             "or the surface of a shape: rim, side, hole, or its name." },
+    { .path = "sets.{}.angle", .kind = PG_LIST, .fallback = "",
+      .doc = "Within one of these ranges of the angle in the xy plane about the centre of the body." },
+    { .path = "sets.{}.angle[]", .kind = PG_NUMBERS, .unit = "rad", .fallback = "",
+      .doc = "One range [from, to], counted counter-clockwise from the x axis." },
+    { .path = "sets.{}.where", .kind = PG_EXPRESSION, .unit = "bool", .fallback = "",
+      .doc = "Where this condition in x, y, z, r, angle holds." },
 };
 const pg_key_table pg_keys_cells = { "cells", keys, sizeof keys / sizeof *keys };

@@ -38,8 +38,10 @@ static pg_status link_facets (pg_marks *m)
     PG_ALLOC (m->facet_point, c->nfacet * m->per);
     if (!centred) PG_TRY (number_vertices (&number, m->lattice, c));
     for (size_t f = 0; f < c->nfacet; f++)
-        for (size_t k = 0; k < m->per; k++)
-            m->facet_point[f * m->per + k] = centred ? c->facet_cell[f] : number[vertex_at (m->lattice, c->facet_x + (f * corners + k) * dim)];
+        for (size_t k = 0; k < m->per; k++) {
+            const double *x = c->facet_x + (f * corners + k) * dim;
+            m->facet_point[f * m->per + k] = centred ? c->facet_cell[f] : number[vertex_at (m->lattice, x)];
+        }
 done:
     pg_free (number);
     return status;

@@ -33,7 +33,8 @@ static double distance_point (int dim, const double *p, const double *a, const d
 static double distance_segments (const double *a, const double *b, const double *c, const double *d)
 {
     double u[3], v[3], w[3];
-    double least = fmin (fmin (distance_point (3, a, c, d), distance_point (3, b, c, d)), fmin (distance_point (3, c, a, b), distance_point (3, d, a, b)));
+    double p = fmin (distance_point (3, a, c, d), distance_point (3, b, c, d));
+    double q = fmin (distance_point (3, c, a, b), distance_point (3, d, a, b)), least = fmin (p, q);
     for (int k = 0; k < 3; k++) u[k] = b[k] - a[k], v[k] = d[k] - c[k], w[k] = c[k] - a[k];
     double uu = dot (3, u, u), vv = dot (3, v, v), uv = dot (3, u, v), det = uu*vv - uv*uv;
     if (!(det > 1e-14 * uu * vv)) return least;

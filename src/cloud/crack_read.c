@@ -161,6 +161,14 @@ static pg_status read_crack (pg_crack *c, int dim, const pg_scene *scene, size_t
     return PG_OK;
 }
 
+static void fault_outside (const pg_scene *scene, const char *at, const pg_body *body, int dim)
+{
+    char text[128];
+    int n = 0;
+    for (int k = 0; k < dim; k++) n += snprintf (text + n, sizeof text - (size_t) n, "%s%c %.5g to %.5g m", k ? ", " : "", "xyz"[k], body->low[k], body->high[k]);
+    pg_scene_fault (scene, at, "lies outside the body, which fills %s", text);
+}
+
 pg_status pg_cracks_read (pg_cracks *out, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -176,7 +184,7 @@ pg_status pg_cracks_read (pg_cracks *out, const pg_scene *scene)
     for (size_t i = 0; i < n && body.n > 0; i++) {
         char at[64];
         snprintf (at, sizeof at, "cracks[%zu]", i);
-        if (!crack_may_meet (&body, &out->crack[i])) pg_scene_fault (scene, at, "lies outside the body");
+        if (!crack_may_meet (&body, &out->crack[i])) fault_outside (scene, at, &body, out->dim);
     }
     PG_TRY (pg_scene_verdict (scene));
 done:

@@ -17,7 +17,8 @@
     ROUND (op ".disk"), \
     SHAPE (op ".cylinder", "Cylinder, in three dimensions."), \
     { .path = op ".cylinder.center", .kind = PG_VECTOR, .unit = "m", .doc = "Middle of the end face where the axis starts." }, \
-    { .path = op ".cylinder.axis",   .kind = PG_VECTOR, .unit = "1", .fallback = "[0, 0, 1]", .doc = "Direction of the axis; its length does not matter." }, \
+    { .path = op ".cylinder.axis",   .kind = PG_VECTOR, .unit = "1", .fallback = "[0, 0, 1]", \
+      .doc = "Direction of the axis; its length does not matter." }, \
     { .path = op ".cylinder.length", .kind = PG_NUMBER, .unit = "m", .range = LENGTH, .doc = "Length along the axis." }, \
     ROUND (op ".cylinder"), \
     SHAPE (op ".sphere", "Ball, in three dimensions."), \
@@ -49,13 +50,18 @@ static const pg_key keys[] = {
       .doc = "Points at the vertices of the cells, so that some lie on the boundary, or at their centres." },
     { .path = "lattice_offset", .kind = PG_VECTOR, .unit = "1", .range = "[-1, 1]", .fallback = "",
       .doc = "Shift of the lattice against the bounding box, in steps of the lattice." },
-    { .path = "perturb", .kind = PG_MAP, .fallback = "", .doc = "Moves points away from the lattice at random, reproducibly; boundary points stay." },
-    { .path = "perturb.amount", .kind = PG_NUMBER, .unit = "1", .range = "[0, 0.45]", .fallback = "0", .doc = "Largest shift along each axis, in steps of the lattice." },
+    { .path = "perturb", .kind = PG_MAP, .fallback = "",
+      .doc = "Moves points away from the lattice at random, reproducibly; boundary points stay." },
+    { .path = "perturb.amount", .kind = PG_NUMBER, .unit = "1", .range = "[0, 0.45]", .fallback = "0",
+      .doc = "Largest shift along each axis, in steps of the lattice." },
     { .path = "perturb.seed", .kind = PG_INTEGER, .range = "[0, inf)", .fallback = "1", .doc = "Another seed, another arrangement." },
-    { .path = "cracks", .kind = PG_LIST, .fallback = "", .doc = "Cracks present before loading: bonds that meet one are broken from the start." },
-    { .path = "cracks[].from", .kind = PG_VECTOR, .unit = "m", .fallback = "", .group = "kind:one", .doc = "One end of a straight crack in two dimensions." },
+    { .path = "cracks", .kind = PG_LIST, .fallback = "",
+      .doc = "Cracks present before loading: bonds that meet one are broken from the start." },
+    { .path = "cracks[].from", .kind = PG_VECTOR, .unit = "m", .fallback = "", .group = "kind:one",
+      .doc = "One end of a straight crack in two dimensions." },
     { .path = "cracks[].to",   .kind = PG_VECTOR, .unit = "m", .fallback = "", .doc = "The other end." },
-    { .path = "cracks[].polygon", .kind = PG_LIST, .fallback = "", .group = "kind:one", .doc = "Plane polygon in three dimensions: vertices in order." },
+    { .path = "cracks[].polygon", .kind = PG_LIST, .fallback = "", .group = "kind:one",
+      .doc = "Plane polygon in three dimensions: vertices in order." },
     { .path = "cracks[].polygon[]", .kind = PG_VECTOR, .unit = "m", .fallback = "", .doc = "One vertex [x, y, z]." },
     { .path = "cracks[].disc", .kind = PG_MAP, .fallback = "", .group = "kind:one", .doc = "Penny-shaped crack in three dimensions." },
     { .path = "cracks[].disc.center", .kind = PG_VECTOR, .unit = "m", .doc = "Centre." },

@@ -131,7 +131,8 @@ static pg_status fit (pg_lattice *l, const pg_body *body, const pg_scene *scene,
     if (status != PG_OK) return status;
     size_t n = (size_t) l->count[0] * (size_t) l->count[1] * (size_t) l->count[2];
     if (memchr (l->in, 1, n)) return PG_OK;
-    pg_scene_fault (scene, "spacing", "no point: none of the %d x %d x %d lattice cells has its centre in the body", l->count[0], l->count[1], l->count[2]);
+    pg_scene_fault (scene, "spacing", "no point: none of the %d x %d x %d lattice cells has its centre in the body",
+                    l->count[0], l->count[1], l->count[2]);
     return pg_scene_verdict (scene);
 }
 

@@ -23,7 +23,8 @@ typedef struct {
 } reader;
 
 #define WRONG(r, ...) wrong_at ((r)->scene, (r)->name, (r)->line, __VA_ARGS__)
-static pg_status __attribute__ ((format (printf, 4, 5))) wrong_at (const pg_scene *scene, const char *name, size_t line, const char *format, ...)
+static pg_status __attribute__ ((format (printf, 4, 5)))
+wrong_at (const pg_scene *scene, const char *name, size_t line, const char *format, ...)
 {
     char why[300];
     va_list args;
@@ -137,7 +138,8 @@ static pg_status read_line (reader *r, pg_cloud *c, char *line)
         r->columns = n;
         return PG_OK;
     }
-    if (n < dim + 1 || n > dim + 2) return WRONG (r, "%zu columns; in %zuD a line has %zu (coordinates, volume) or %zu (and block)", n, dim, dim + 1, dim + 2);
+    if (n < dim + 1 || n > dim + 2)
+        return WRONG (r, "%zu columns; in %zuD a line has %zu (coordinates, volume) or %zu (and block)", n, dim, dim + 1, dim + 2);
     if (r->columns && n != r->columns) return WRONG (r, "%zu columns, the lines before have %zu", n, r->columns);
     r->columns = n;
     for (size_t k = 0; k < n; k++)

@@ -85,7 +85,9 @@ static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
     for (size_t k = 0; (name = pg_scene_name (scene, k, "failure.exclude")); k++) {
         const pg_set *set = pg_sets_find (&p->sets, name);
         if (!set || set->npoint == 0) {
-            pg_scene_fault (scene, "failure.exclude", "%s is %s", name, set ? "a set without points" : "no set");
+            const char *near = set ? NULL : pg_sets_near (&p->sets, name);
+            pg_scene_fault (scene, "failure.exclude", "%s is %s%s%s%s", name, set ? "a set without points" : "no set", near ? " (did you mean " : "",
+                            near ? near : "", near ? "?)" : "");
             continue;
         }
         for (size_t i = 0; i < set->npoint; i++) p->exempt[PG_NODES][set->point[i]] = 1;

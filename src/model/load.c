@@ -148,11 +148,7 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     snprintf (path, sizeof path, "boundary[%zu].set", i);
     load->set = pg_sets_find (&problem->sets, set);
     if (!load->set) {
-        char names[4096] = "";
-        size_t at = 0;
-        for (size_t s = 0; s < problem->sets.n && at < sizeof names - 70; s++)
-            at += (size_t) snprintf (names + at, sizeof names - at, "%s%s", at ? "|" : "", problem->sets.set[s].name);
-        const char *near = pg_nearest_name (set, names);
+        const char *near = pg_sets_near (&problem->sets, set);
         pg_scene_fault (scene, path, "there is no set of this name%s%s%s", near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
         goto done;
     }
@@ -170,6 +166,23 @@ done:
     return status;
 }
 
+/* Names become columns of history.csv: two given alike are a fault, a name taken from the set gets a number. */
+static void name_apart (pg_problem *problem, const pg_scene *scene)
+{
+    char path[64];
+    for (size_t i = 1; i < problem->nload; i++)
+        for (size_t k = 0; k < i; k++) {
+            if (strcmp (problem->load[i].name, problem->load[k].name) != 0) continue;
+            snprintf (path, sizeof path, "boundary[%zu].name", i);
+            if (pg_scene_given (scene, "%s", path)) pg_scene_fault (scene, path, "boundary[%zu] has this name too", k);
+            else {
+                char longer[64];
+                snprintf (longer, sizeof longer, "%.40s_%zu", problem->load[k].name, i + 1);
+                memcpy (problem->load[i].name, longer, sizeof longer);
+            }
+        }
+}
+
 pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -180,6 +193,7 @@ pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
     problem->nload = pg_scene_count (scene, "boundary");
     PG_ALLOC (problem->load, problem->nload);
     for (size_t i = 0; i < problem->nload; i++) PG_TRY (read_load (problem, &problem->load[i], scene, i, is_static, duration));
+    name_apart (problem, scene);
 done:
     return status;
 }

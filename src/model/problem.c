@@ -78,6 +78,17 @@ done:
     return status;
 }
 
+static int sees_points (const pg_problem *p, const double *x)
+{
+    size_t dim = (size_t) p->dim;
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        double r = 0;
+        for (size_t k = 0; k < dim; k++) r += (p->cloud.x[i * dim + k] - x[k]) * (p->cloud.x[i * dim + k] - x[k]);
+        if (r < p->approx.horizon * p->approx.horizon) return 1;
+    }
+    return 0;
+}
+
 static pg_status read_gauges (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -88,6 +99,11 @@ static pg_status read_gauges (pg_problem *p, const pg_scene *scene)
         snprintf (g->name, sizeof g->name, "%s", pg_scene_text (scene, "output.gauges[%zu].name", i));
         pg_scene_vector (scene, 3, g->from, "output.gauges[%zu].from", i);
         pg_scene_vector (scene, 3, g->to, "output.gauges[%zu].to", i);
+        for (int end = 0; end < 2; end++) {
+            char path[64];
+            snprintf (path, sizeof path, "output.gauges[%zu].%s", i, end ? "to" : "from");
+            if (!sees_points (p, end ? g->to : g->from)) pg_scene_fault (scene, path, "lies outside the body: no point within the horizon");
+        }
     }
 done:
     return status;

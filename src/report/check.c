@@ -24,7 +24,7 @@ static int among (const char *names, const char *name)
     char framed_names[600], framed[128];
     snprintf (framed_names, sizeof framed_names, "|%s|", names);
     snprintf (framed, sizeof framed, "|%.100s|", name);
-    return strstr (framed_names, framed) != NULL;
+    return !strchr (name, '|') && strstr (framed_names, framed) != NULL;
 }
 
 static void given_once (const pg_scene *scene, const char *key)
@@ -50,7 +50,7 @@ static void fault_of_picture (const pg_scene *scene, size_t i, const char *name,
     }
     listed[n] = 0;
     const char *near = pg_nearest_name (name, names);
-    snprintf (path, sizeof path, pg_scene_count (scene, "output.pictures[0]") ? "output.pictures[%zu]" : "output.pictures", i);
+    snprintf (path, sizeof path, "output.pictures[%zu]", i);
     if (near) pg_scene_fault (scene, path, "there is no such picture; did you mean %s? One of %s", near, listed);
     else pg_scene_fault (scene, path, "there is no such picture: one of %s", listed);
 }

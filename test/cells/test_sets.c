@@ -262,7 +262,7 @@ static void points_from_a_file_have_sides_but_no_facets (void **state)
 static void an_empty_set_of_the_scene_is_a_fault (void **state)
 {
     (void) state;
-    must_fault (PLATE "sets: {far: {where: x > 5}}", "test.yaml:6:13: sets.far: the set is empty");
+    must_fault (PLATE "sets: {far: {where: x > 5}}", "test.yaml:6:8: sets.far: the set is empty");
     must_fault (PLATE "sets: {far: {boundary: left, where: x > 1}}", "sets.far: the set is empty");
 }
 

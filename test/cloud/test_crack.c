@@ -169,6 +169,17 @@ static void swapping_the_ends_never_changes_the_answer (void **state)
         near += pg_crack_cuts (&c, 2, x, y, 1e-9);
     }
     assert_true (near > 1000 && near < 199000);
+    near = 0;
+    for (int k = 0; k < 200000; k++) {                         /* past the tip at exactly the tolerance: rounding decides */
+        double a = 0.3 + 0.2 * real (), b = 0.4 + 0.1 * real (), m = real (), tip[2] = {0.4, 0.35}, x[2], y[2];
+        for (int i = 0; i < 2; i++) {
+            double t = i ? -c.normal[0] : c.normal[1], corner = tip[i] + 0.01 * t + 0.01 * c.normal[i], along = m * t + c.normal[i] * (1 - fabs (m));
+            x[i] = corner - a * along, y[i] = corner + b * along;
+        }
+        assert_int_equal (pg_crack_cuts (&c, 2, x, y, 0.01), pg_crack_cuts (&c, 2, y, x, 0.01));
+        near += pg_crack_cuts (&c, 2, x, y, 0.01);
+    }
+    assert_true (near > 1000 && near < 199000);
 }
 
 static void a_point_on_the_crack_loses_both_sides (void **state)

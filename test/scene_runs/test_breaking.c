@@ -10,7 +10,8 @@ static run plate (const char *essential, const char *solver)
 {
     return scene_of (1, "dimension: 2\nthickness: 20 mm\nbody: [{add: {box: {low: [0, 0], high: [1, 0.77]}}}]\nspacing: 0.07\n"
         "cracks: [{from: [-0.1, 0.31], to: [0.33, 0.41]}]\nmaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
-        "failure: {criterion: stretch, critical_stretch: 5e-4, exclude: [bottom, top]}\nmethod: {approximation: rkpm, integration: gauss, essential: %s}\n"
+        "failure: {criterion: stretch, critical_stretch: 5e-4, exclude: [bottom, top]}\n"
+            "method: {approximation: rkpm, integration: gauss, essential: %s}\n"
         "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {x: 0, y: 0.7 mm}}\n"
         "solver: {%s}\noutput: {at: {levels: 1}}\n", essential, solver);
 }
@@ -185,7 +186,8 @@ static void energies_balance_event_by_event (void **state)
             double gain = report->energy_external - before - (report->energy_strain - strain);
             check_scaled (gain, r.step.dissipated, 1e-9, report->energy_external);
         }
-        print_message ("%s: work %.8g J (from reactions %.8g), strain %.8g, dissipated %.8g J in %ld events, negative in %d\n", essentials[m],
+        print_message ("%s: work %.8g J (from reactions %.8g), strain %.8g, dissipated %.8g J in %ld events, negative in %d\n",
+            essentials[m],
                        report->energy_external, work, report->energy_strain, report->energy_dissipated, r.state->events, negative);
         check_relative (report->energy_external, work, 1e-9);
         check_relative (report->energy_external, report->energy_strain + report->energy_dissipated, 1e-12);

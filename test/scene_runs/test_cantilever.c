@@ -14,7 +14,10 @@ static void timoshenko (const double *at, double *u, double *s)
 }
 
 /* s C s, plane stress */
-static double complementary (const double *s) { return (s[0] * s[0] + s[1] * s[1] - 2 * nu * s[0] * s[1] + 2 * (1 + nu) * s[2] * s[2]) / E; }
+static double complementary (const double *s)
+{
+    return (s[0] * s[0] + s[1] * s[1] - 2 * nu * s[0] * s[1] + 2 * (1 + nu) * s[2] * s[2]) / E;
+}
 
 static run shipped (const char *path, size_t nset, const char *const *set)
 {
@@ -59,13 +62,15 @@ static errors cantilever (double spacing, const char *basis, const char *horizon
     return e;
 }
 
-static void convergence (const char *basis, const char *horizon, const char *essential, int points, double rate_l2, double rate_energy, double finest_l2)
+static void convergence (const char *basis, const char *horizon, const char *essential, int points, double rate_l2, double rate_energy,
+    double finest_l2)
 {
     static const double spacing[3] = { 2, 1, 0.5 };
     errors e[3];
     for (int k = 0; k < 3; k++) {
         e[k] = cantilever (spacing[k], basis, horizon, essential, points);
-        print_message ("%s, %s, %s, %d Gauss points, spacing %.2g: L2 %.3e, energy %.3e, tip %.6e\n", basis, horizon, essential, points, spacing[k],
+        print_message ("%s, %s, %s, %d Gauss points, spacing %.2g: L2 %.3e, energy %.3e, tip %.6e\n", basis, horizon, essential, points,
+            spacing[k],
                        e[k].l2, e[k].energy, e[k].tip);
     }
     for (int k = 1; k < 3; k++) {
@@ -77,7 +82,10 @@ static void convergence (const char *basis, const char *horizon, const char *ess
 }
 
 static void linear_basis_converges (void **state) { (void) state, convergence ("linear", "2.0 spacing", "auto", 2, 2, 1.3, 5e-5); }
-static void linear_basis_with_transformation_converges (void **state) { (void) state, convergence ("linear", "2.0 spacing", "transformation", 2, 2, 1.3, 1e-4); }
+static void linear_basis_with_transformation_converges (void **state)
+{
+    (void) state, convergence ("linear", "2.0 spacing", "transformation", 2, 2, 1.3, 1e-4);
+}
 
 /* The quadratic basis shows its order only where quadrature allows: 3 points per direction. With 2 (the default) the quadrature error of
  * theory E5 takes over: L2 3.6e-4, 9.3e-5, 2.2e-5 at 2.5 spacings, and energy falls by 0.7 to 1.1 powers only. */
@@ -105,7 +113,8 @@ static void shipped_patch_is_uniform_up_to_quadrature (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (linear_basis_converges), cmocka_unit_test (linear_basis_with_transformation_converges), cmocka_unit_test (quadratic_basis_converges),
+        cmocka_unit_test (linear_basis_converges), cmocka_unit_test (linear_basis_with_transformation_converges),
+        cmocka_unit_test (quadratic_basis_converges),
         cmocka_unit_test (shipped_patch_is_uniform_up_to_quadrature),
     };
     return cmocka_run_group_tests_name ("scene_runs/cantilever", tests, NULL, NULL);

@@ -7,8 +7,10 @@
 #include "view.h"
 
 typedef struct { const char *approximation, *integration, *essential, *basis; } method;
-static const method methods[] = { { "rkpm", "gauss", "nitsche", "linear" }, { "rkpm", "gauss", "transformation", "linear" }, { "rkpm", "gauss", "penalty", "linear" },
-                                  { "rkpm", "gauss", "nitsche", "quadratic" }, { "pddo", "gauss", "nitsche", "linear" }, { "nosb", "nodal", "transformation", "linear" } };
+static const method methods[] = {
+    { "rkpm", "gauss", "nitsche", "linear" }, { "rkpm", "gauss", "transformation", "linear" }, { "rkpm", "gauss", "penalty", "linear" },
+    { "rkpm", "gauss", "nitsche", "quadratic" }, { "pddo", "gauss", "nitsche", "linear" }, { "nosb", "nodal", "transformation", "linear" },
+};
 enum { METHODS = sizeof methods / sizeof *methods };
 
 /* 1 m x 0.75 m with a hole, spacing 1/16 m, held at one edge, traction on the opposite one */
@@ -18,12 +20,16 @@ static run plate (const view *v, const method *m)
     double hole[2];
     seen (v, (double[2]) { 0.62, 0.41 }, hole);
     check_box (v, 1, 0.75, box, sizeof box);
-    run r = scene_of (v->threads, "dimension: 2\nthickness: %.17g\nbody:\n  - add: {box: %s}\n  - subtract: {disk: {center: [%.17g, %.17g], radius: %.17g}}\n"
+    run r = scene_of (v->threads, "dimension: 2\nthickness: %.17g\nbody:\n  - add: {box: %s}\n"
+        "  - subtract: {disk: {center: [%.17g, %.17g], radius: %.17g}}\n"
         "spacing: %.17g\nmaterials: {rock: {youngs_modulus: %.17g, poissons_ratio: 0.25}}\n"
         "method: {approximation: %s, integration: %s, essential: %s, basis: %s, horizon: %s spacing}\n"
-        "boundary:\n  - {set: %s, displacement: {x: 0, y: 0}}\n  - {set: %s, traction: {x: %.17g, y: %.17g}}\nsolver: {stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n",
-        0.02 * v->length, box, hole[0], hole[1], 0.1723 * v->length, v->length / 16, 10e9 * v->stress, m->approximation, m->integration, m->essential, m->basis,
-        *m->basis == 'q' ? "3.01" : "2.01", v->sy > 0 ? "bottom" : "top", v->sy > 0 ? "top" : "bottom", 1e6 * v->stress * v->sx, 2e6 * v->stress * v->sy);
+        "boundary:\n  - {set: %s, displacement: {x: 0, y: 0}}\n  - {set: %s, traction: {x: %.17g, y: %.17g}}\n"
+            "solver: {stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n",
+        0.02 * v->length, box, hole[0], hole[1], 0.1723 * v->length, v->length / 16, 10e9 * v->stress, m->approximation, m->integration,
+            m->essential, m->basis,
+        *m->basis == 'q' ? "3.01" : "2.01", v->sy > 0 ? "bottom" : "top", v->sy > 0 ? "top" : "bottom", 1e6 * v->stress * v->sx,
+            2e6 * v->stress * v->sy);
     to_the_end (&r);
     return r;
 }
@@ -42,7 +48,10 @@ static void check_view (const view *v, double tolerance)
     print_message ("%s: displacement %.1e, stress %.1e\n", v->name, worst, worst_stress);
 }
 
-static void millimetres_and_megapascals (void **state) { (void) state, check_view (&(view) { "mm, MPa", 1000, 1e-6, 1, 1, 0, 0, 1 }, 1e-10); }
+static void millimetres_and_megapascals (void **state)
+{
+    (void) state, check_view (&(view) { "mm, MPa", 1000, 1e-6, 1, 1, 0, 0, 1 }, 1e-10);
+}
 static void mirrored_left_to_right (void **state) { (void) state, check_view (&(view) { "mirrored in x", 1, 1, -1, 1, 0, 0, 1 }, 1e-10); }
 static void mirrored_top_to_bottom (void **state) { (void) state, check_view (&(view) { "mirrored in y", 1, 1, 1, -1, 0, 0, 1 }, 1e-10); }
 static void rotated_by_180_degrees (void **state) { (void) state, check_view (&(view) { "rotated", 1, 1, -1, -1, 0, 0, 1 }, 1e-10); }
@@ -59,8 +68,10 @@ static void shifted_by_a_thousand_sizes (void **state)
 static run cloud_run (const char *path, const char *approximation)
 {
     run r = scene_of (1, "dimension: 2\nthickness: 0.02\npoints: %s\nmaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
-        "sets: {low: {where: 'y < 0.06 m'}, high: {where: 'y > 0.69 m'}}\nmethod: {approximation: %s, integration: nodal, horizon: 0.14}\n"
-        "boundary:\n  - {set: low, displacement: {x: 0, y: 0}}\n  - {set: high, displacement: {x: 1e-4, y: 2e-4}}\nsolver: {stepping: fixed, steps: 1}\n"
+        "sets: {low: {where: 'y < 0.06 m'}, high: {where: 'y > 0.69 m'}}\n"
+            "method: {approximation: %s, integration: nodal, horizon: 0.14}\n"
+        "boundary:\n  - {set: low, displacement: {x: 0, y: 0}}\n  - {set: high, displacement: {x: 1e-4, y: 2e-4}}\n"
+            "solver: {stepping: fixed, steps: 1}\n"
         "output: {at: {levels: 1}}\n", path, approximation);
     to_the_end (&r);
     return r;
@@ -88,7 +99,8 @@ static void points_in_another_order (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (millimetres_and_megapascals), cmocka_unit_test (mirrored_left_to_right), cmocka_unit_test (mirrored_top_to_bottom),
+        cmocka_unit_test (millimetres_and_megapascals), cmocka_unit_test (mirrored_left_to_right),
+        cmocka_unit_test (mirrored_top_to_bottom),
         cmocka_unit_test (rotated_by_180_degrees), cmocka_unit_test (two_threads), cmocka_unit_test (shifted_by_a_thousand_sizes),
         cmocka_unit_test (points_in_another_order),
     };

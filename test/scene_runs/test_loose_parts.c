@@ -8,8 +8,10 @@ static const char *const square = "cracks: [{from: [0.31, 0.31], to: [0.69, 0.31
 static const char *const cell = "cracks: [{from: [0.46, 0.46], to: [0.54, 0.46]}, {from: [0.54, 0.46], to: [0.54, 0.54]}, "
                                 "{from: [0.54, 0.54], to: [0.46, 0.54]}, {from: [0.46, 0.54], to: [0.46, 0.46]}]\n";
 static const struct { const char *method; int points_at_nodes; } methods[] = {
-    { "approximation: rkpm, integration: gauss, essential: nitsche", 0 }, { "approximation: rkpm, integration: gauss, essential: transformation", 0 },
-    { "approximation: pddo, integration: gauss, essential: nitsche", 0 }, { "approximation: nosb, integration: nodal, essential: transformation", 1 },
+    { "approximation: rkpm, integration: gauss, essential: nitsche", 0 },
+        { "approximation: rkpm, integration: gauss, essential: transformation", 0 },
+    { "approximation: pddo, integration: gauss, essential: nitsche", 0 },
+        { "approximation: nosb, integration: nodal, essential: transformation", 1 },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 enum { FIXED, EVENT };
@@ -22,7 +24,8 @@ static run plate (int m, int stepping, const char *cracks, const char *load)
         "sets: {block: {where: 'abs(x - 0.5 m) < 0.18 m and abs(y - 0.5 m) < 0.18 m'}}\n"
         "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {x: 0.1 mm, y: 1 mm}}\n%s"
         "solver: {%s}\noutput: {at: {levels: 1}}\n", cracks == cell ? 0.1 : 1.0 / 15, cracks,
-        stepping == EVENT ? "failure: {criterion: stretch, critical_stretch: 5e-4, exclude: [bottom, top]}\n" : "", methods[m].method, load,
+        stepping == EVENT ? "failure: {criterion: stretch, critical_stretch: 5e-4, exclude: [bottom, top]}\n" : "", methods[m].method,
+            load,
         stepping == EVENT ? "stepping: event, max_events: 30" : "stepping: fixed, steps: 2");
 }
 
@@ -32,7 +35,8 @@ static int in_block (const double *x) { return fabs (x[0] - 0.5) < 0.18 && fabs 
 static void check_still (const run *r)
 {
     size_t n = r->problem->cloud.n, inside = 0;
-    double *u = field_of (r, NULL, "displacement", NULL), *s = field_of (r, NULL, "stress", NULL), top = largest_of (u, 2 * n), strength = largest_of (s, 3 * n);
+    double *u = field_of (r, NULL, "displacement", NULL), *s = field_of (r, NULL, "stress", NULL), top = largest_of (u, 2 * n),
+        strength = largest_of (s, 3 * n);
     assert_true (isfinite (top) && top > 0 && isfinite (strength) && strength > 0);
     check_below (top, 2e-3);
     for (size_t i = 0; i < n; i++) {

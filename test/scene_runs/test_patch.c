@@ -16,7 +16,8 @@ static const char *const integrations[] = { "nodal", "gauss" }, *const supports[
 static const char *const essentials[] = { "nitsche", "transformation", "penalty" };
 static const double slope[3][3] = { { 1e-3, 2e-4, -4e-4 }, { -3e-4, 5e-4, 1e-4 }, { 2.5e-4, -1e-4, -7e-4 } };
 
-typedef struct { const char *approximation, *integration, *basis, *support, *essential, *plane, *rim; double spacing, perturb, horizon; int points; double penalty; } patch;
+typedef struct { const char *approximation, *integration, *basis, *support, *essential, *plane, *rim; double spacing, perturb, horizon;
+    int points; double penalty; } patch;
 
 /* Edge 1 m; u = slope x on the set rim. */
 static run patch_run (int dim, const patch *p)
@@ -32,11 +33,13 @@ static run patch_run (int dim, const patch *p)
         }
         snprintf (pull + at, sizeof pull - (size_t) at, "}}]\n");
     }
-    snprintf (method, sizeof method, "method: {approximation: %s, integration: %s, basis: %s, support: %s, essential: %s, horizon: %g spacing, "
-              "gauss_points: %d, penalty_factor: %g}\n", p->approximation, p->integration, p->basis, p->support, p->essential ? p->essential : "auto",
+    snprintf (method, sizeof method, "method: {approximation: %s, integration: %s, basis: %s, support: %s, essential: %s, "
+              "horizon: %g spacing, gauss_points: %d, penalty_factor: %g}\n", p->approximation, p->integration, p->basis, p->support,
+                  p->essential ? p->essential : "auto",
               p->horizon, p->points ? p->points : 2, p->penalty > 0 ? p->penalty : 1e6);
     return scene_of (1, "dimension: %d\n%s%s\nbody: [{add: {box: {%s}}}]\nspacing: %g\nperturb: {amount: %g}\n%s%s%s",
-                     dim, dim == 2 ? "plane: " : "", dim != 2 ? "" : p->plane ? p->plane : "stress", box[dim - 1], p->spacing, p->perturb, method, pull, materials);
+                     dim, dim == 2 ? "plane: " : "", dim != 2 ? "" : p->plane ? p->plane : "stress", box[dim - 1], p->spacing, p->perturb,
+                         method, pull, materials);
 }
 
 static void linear_field (const pg_problem *p, double *u)
@@ -131,7 +134,8 @@ static double inner_force (int dim, const patch *p, double margin)
 static void uniform_stress_exerts_no_force_inside_a_lattice (void **state)
 {
     (void) state;
-    for (int dim = 1; dim <= 2; dim++) for (int a = 0; a < 3; a++) for (int i = 0; i < 2; i++) for (int b = 0; b < 2; b++) for (int s = 0; s < 2; s++) {
+    for (int dim = 1; dim <= 2; dim++) for (int a = 0; a < 3; a++) for (int i = 0; i < 2; i++) for (int b = 0; b < 2; b++)
+        for (int s = 0; s < 2; s++) {
         patch p = { .approximation = approximations[a], .integration = integrations[i], .basis = bases[b], .support = supports[s],
                     .spacing = 1.0 / 16, .horizon = b ? 3.01 : 2.01 };
         check_below (inner_force (dim, &p, b ? 7 : 5), 1e-12);
@@ -144,7 +148,8 @@ static void force_inside_perturbed_points_is_quadrature (void **state)      /* t
     static const int points[3] = { 2, 3, 5 };
     double force[3];
     for (int k = 0; k < 3; k++) {
-        patch p = { .approximation = "rkpm", .integration = "gauss", .basis = "linear", .support = "radial", .spacing = 1.0 / 16, .perturb = 0.15,
+        patch p = { .approximation = "rkpm", .integration = "gauss", .basis = "linear", .support = "radial", .spacing = 1.0 / 16,
+            .perturb = 0.15,
                     .horizon = 2.01, .points = points[k] };
         force[k] = inner_force (2, &p, 5);
     }
@@ -157,10 +162,13 @@ static void force_inside_perturbed_points_is_quadrature (void **state)      /* t
 static void nosb_patches_between_wide_layers_are_exact (void **state)
 {
     (void) state;
-    static const char *const rim[3] = { "where: 'x < 0.33 m or x > 0.67 m'", "where: 'x < 0.33 m or x > 0.67 m or y < 0.33 m or y > 0.67 m'",
+    static const char *const rim[3] = { "where: 'x < 0.33 m or x > 0.67 m'",
+        "where: 'x < 0.33 m or x > 0.67 m or y < 0.33 m or y > 0.67 m'",
                                         "where: 'x < 0.39 m or x > 0.61 m or y < 0.39 m or y > 0.61 m or z < 0.39 m or z > 0.61 m'" };
-    for (int dim = 1; dim <= 3; dim++) for (int i = 0; i < 2; i++) for (int b = 0; b < (dim < 3 ? 2 : 1); b++) for (int s = 0; s < (dim < 3 ? 2 : 1); s++) {
-        patch p = { .approximation = "nosb", .integration = integrations[i], .basis = bases[b], .support = supports[s], .essential = "transformation",
+    for (int dim = 1; dim <= 3; dim++) for (int i = 0; i < 2; i++) for (int b = 0; b < (dim < 3 ? 2 : 1); b++)
+        for (int s = 0; s < (dim < 3 ? 2 : 1); s++) {
+        patch p = { .approximation = "nosb", .integration = integrations[i], .basis = bases[b], .support = supports[s],
+            .essential = "transformation",
                     .rim = rim[dim - 1], .spacing = dim == 3 ? 0.1 : 0.05, .horizon = b ? 3.01 : 2.01 };
         check_below (solved_error (dim, &p), 1e-12);
     }
@@ -200,13 +208,15 @@ static void rkpm_patch_error_is_quadrature_and_falls_with_gauss_points (void **s
     for (int e = 0; e < 2; e++) {
         double error[3], pddo[3];
         for (int k = 0; k < 3; k++) {
-            patch p = { .approximation = "rkpm", .integration = "gauss", .basis = "linear", .support = "radial", .essential = essentials[e],
+            patch p = { .approximation = "rkpm", .integration = "gauss", .basis = "linear", .support = "radial",
+                .essential = essentials[e],
                         .rim = "boundary: all", .spacing = 0.1, .perturb = 0.15, .horizon = 2.2, .points = points[k] };
             error[k] = solved_error (2, &p);
             p.approximation = "pddo";
             pddo[k] = solved_error (2, &p);
         }
-        print_message ("%s: rkpm %.2e %.2e %.2e, pddo %.2e %.2e %.2e\n", essentials[e], error[0], error[1], error[2], pddo[0], pddo[1], pddo[2]);
+        print_message ("%s: rkpm %.2e %.2e %.2e, pddo %.2e %.2e %.2e\n", essentials[e], error[0], error[1], error[2], pddo[0], pddo[1],
+            pddo[2]);
         check_below (error[0], 5e-3);
         check_below (error[1], 0.5 * error[0]);
         check_below (error[2], e ? 1e-3 : 0.5 * error[1]);
@@ -219,7 +229,8 @@ static void transformation_holds_the_boundary_exactly (void **state)
 {
     (void) state;
     for (int a = 0; a < 3; a++) for (int b = 0; b < 2; b++) {
-        patch p = { .approximation = approximations[a], .integration = "gauss", .basis = bases[b], .support = "radial", .essential = "transformation",
+        patch p = { .approximation = approximations[a], .integration = "gauss", .basis = bases[b], .support = "radial",
+            .essential = "transformation",
                     .rim = "boundary: all", .spacing = 0.1, .perturb = 0.15, .horizon = b ? 3.01 : 2.2 };
         run r = patch_run (2, &p);
         size_t n = r.problem->cloud.n;
@@ -229,7 +240,8 @@ static void transformation_holds_the_boundary_exactly (void **state)
         to_the_end (&r);
         double *u = field_of (&r, NULL, "displacement", NULL);
         const pg_set *rim = pg_sets_find (&r.problem->sets, "rim");
-        for (size_t i = 0; i < rim->npoint; i++) check_below (largest_difference (u + 2 * rim->point[i], exact + 2 * rim->point[i], 2) / top, 1e-12);
+        for (size_t i = 0; i < rim->npoint; i++)
+            check_below (largest_difference (u + 2 * rim->point[i], exact + 2 * rim->point[i], 2) / top, 1e-12);
         pg_free (u), pg_free (exact);
         clear (&r);
     }
@@ -240,9 +252,11 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (linear_fields_are_exact_in_1d), cmocka_unit_test (linear_fields_are_exact_in_plane_stress),
         cmocka_unit_test (linear_fields_are_exact_in_plane_strain), cmocka_unit_test (linear_fields_are_exact_in_3d),
-        cmocka_unit_test (uniform_stress_exerts_no_force_inside_a_lattice), cmocka_unit_test (force_inside_perturbed_points_is_quadrature),
+        cmocka_unit_test (uniform_stress_exerts_no_force_inside_a_lattice),
+            cmocka_unit_test (force_inside_perturbed_points_is_quadrature),
         cmocka_unit_test (nosb_patches_between_wide_layers_are_exact), cmocka_unit_test (rkpm_bar_with_nodal_integration_is_exact),
-        cmocka_unit_test (penalty_errs_by_the_inverse_of_its_factor), cmocka_unit_test (rkpm_patch_error_is_quadrature_and_falls_with_gauss_points),
+        cmocka_unit_test (penalty_errs_by_the_inverse_of_its_factor),
+            cmocka_unit_test (rkpm_patch_error_is_quadrature_and_falls_with_gauss_points),
         cmocka_unit_test (transformation_holds_the_boundary_exactly),
     };
     return cmocka_run_group_tests_name ("scene_runs/patch", tests, NULL, NULL);

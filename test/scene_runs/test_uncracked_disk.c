@@ -35,7 +35,8 @@ static run disk_of (double mm, const char *essential)
         "sets: {platens: {boundary: rim, where: 'abs(x) < %g mm'}, axis: {where: 'abs(x) < 0.001 mm'}}\n"
         "method: {approximation: rkpm, integration: gauss, essential: %s}\n"
         "boundary:\n  - {set: platens.top, displacement: {y: -20 um}}\n  - {set: platens.bottom, displacement: {y: 20 um}}\n"
-        "  - {set: axis, displacement: {x: 0}}\nsolver: {stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n", mm, 1.01 * mm, essential);
+        "  - {set: axis, displacement: {x: 0}}\nsolver: {stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n", mm, 1.01 * mm,
+            essential);
 }
 
 static void convergence (const char *essential)
@@ -46,7 +47,8 @@ static void convergence (const char *essential)
         to_the_end (&r);
         centre_errors (&r, error[k], &P[k]);
         check_reactions (&r, P[k]);
-        print_message ("%s, spacing %4.2f mm: P = %.1f N, across %+.3f %%, along %+.3f %%\n", essential, 5 / pow (2, k), P[k], 100 * error[k][0], 100 * error[k][1]);
+        print_message ("%s, spacing %4.2f mm: P = %.1f N, across %+.3f %%, along %+.3f %%\n", essential, 5 / pow (2, k), P[k],
+            100 * error[k][0], 100 * error[k][1]);
         clear (&r);
     }
     for (int c = 0; c < 2; c++) {

@@ -19,7 +19,8 @@ static inline void check_box (const view *v, double width, double height, char *
     double a[2], b[2];
     seen (v, (double[2]) { 0, 0 }, a);
     seen (v, (double[2]) { width, height }, b);
-    snprintf (out, size, "{low: [%.17g, %.17g], high: [%.17g, %.17g]}", fmin (a[0], b[0]), fmin (a[1], b[1]), fmax (a[0], b[0]), fmax (a[1], b[1]));
+    snprintf (out, size, "{low: [%.17g, %.17g], high: [%.17g, %.17g]}", fmin (a[0], b[0]), fmin (a[1], b[1]), fmax (a[0], b[0]),
+        fmax (a[1], b[1]));
 }
 
 /* For each node of `from` the node of `to` at its image (within 1e-6 spacings). */
@@ -46,7 +47,8 @@ static inline double displacement_difference (const view *v, const run *a, const
 {
     size_t n = a->problem->cloud.n;
     int *image = images (v, a, b);
-    double *ua = field_of (a, NULL, "displacement", NULL), *ub = field_of (b, NULL, "displacement", NULL), top = largest_of (ua, 2 * n), worst = 0;
+    double *ua = field_of (a, NULL, "displacement", NULL), *ub = field_of (b, NULL, "displacement", NULL), top = largest_of (ua, 2 * n),
+        worst = 0;
     for (size_t i = 0; i < n; i++) {
         const double *u = ub + 2 * (size_t) image[i];
         worst = fmax (worst, fabs (u[0] / (v->length * v->sx) - ua[2*i]));
@@ -57,7 +59,8 @@ static inline double displacement_difference (const view *v, const run *a, const
         double *sa = field_of (a, NULL, "stress", NULL), *sb = field_of (b, NULL, "stress", NULL), strength = largest_of (sa, 3 * n);
         *stress = 0;
         for (size_t i = 0; i < n; i++) {
-            const double *s = sb + 3 * (size_t) image[i], back[3] = { s[0] / v->stress, s[1] / v->stress, s[2] * v->sx * v->sy / v->stress };
+            const double *s = sb + 3 * (size_t) image[i], back[3] = { s[0] / v->stress, s[1] / v->stress,
+                s[2] * v->sx * v->sy / v->stress };
             *stress = fmax (*stress, largest_difference (back, sa + 3*i, 3) / strength);
         }
         pg_free (sa), pg_free (sb);

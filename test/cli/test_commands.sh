@@ -1,0 +1,87 @@
+#!/bin/bash
+# test_commands.sh BUILD: the program as a user meets it: exit codes, what goes to which stream, result folders.
+perigal=$(realpath "$1/perigal"); n=0; bad=0
+cd "$(dirname "$0")" || exit 1
+work=$(mktemp -d); trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+verdict() {   # name, 0 for good
+    n=$((n + 1))
+    if [ "$2" -eq 0 ]; then echo "ok $n - $1"; return; fi
+    bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" "$work/err"
+}
+# expect NAME CODE PATTERN-OF-STDOUT PATTERN-OF-STDERR ARGUMENTS...: an empty pattern wants an empty stream, '*' anything
+expect() {
+    local name=$1 code=$2 out=$3 err=$4 k good=0; shift 4
+    "$perigal" "$@" > "$work/out" 2> "$work/err"; k=$?
+    [ $k -eq "$code" ] || good=1
+    matches "$out" "$work/out" && matches "$err" "$work/err" || good=1
+    verdict "$name" $good
+}
+matches() {
+    if [ -z "$1" ]; then [ ! -s "$2" ]; elif [ "$1" = '*' ]; then true; else grep -q -- "$1" "$2"; fi
+}
+
+expect "no command: usage on stderr"          64 ''  'usage:' 
+expect "--help: usage on stdout"               0 'usage:' '' --help
+expect "--version"                             0 '^perigal [0-9]' '' --version
+expect "unknown command names the nearest"    64 '' 'did you mean check?' chek
+expect "run without a scene"                  64 '' 'needs exactly one scene file' run
+expect "run with two scenes"                  64 '' 'needs exactly one scene file' run plate.yaml plate.yaml
+expect "run --help"                            0 'result folder' '' run --help
+expect "unknown option is named"              64 '' 'there is no option --foo' run plate.yaml --foo
+expect "option without its value"             64 '' '--out needs a value' run plate.yaml --out
+expect "wrong number of threads"              64 '' '--threads x' run plate.yaml --threads x
+expect "--set without ="                      64 '' 'KEY=VALUE is needed' run plate.yaml --set spacing
+expect "missing scene file"                   65 '' '^nowhere.yaml: cannot be opened' run nowhere.yaml
+expect "a folder is no scene"                 65 '' 'Is a directory' run wrong
+expect "help KEY by its last word"             0 '^method.horizon' '' help horizon
+expect "help of an unknown key"               64 '' 'did you mean' help horizn
+expect "help of a command"                     0 '--threads' '' help run
+expect "help without a key lists the keys"     0 '^  solver.stepping' '' help
+expect "help --manual is markdown"             0 '^| `method.horizon`' '' help --manual
+expect "list explains its entries"             0 'mohr_coulomb .*cut-off' '' list
+expect "check prints the plan"                 0 'points  *66, spacing 0.002 0.002 m' '' check plate.yaml
+expect "check: --set is applied"               0 'points  *231,' '' check plate.yaml --set spacing='1 mm'
+expect "check: faults of --set name it"       65 '' '^--set spcing=1: .*did you mean spacing?' check plate.yaml --set spcing=1
+expect "check: a path that is none"           65 '' 'is not a path' check plate.yaml --set a..b=1
+expect "a body that nothing holds is doubted"  0 'nothing holds the body along x' '' check plate.yaml --set 'boundary[1].displacement={y: 0}'
+expect "a body that nothing loads is doubted"  0 'nothing loads the body' '' check plate.yaml --set 'boundary[0].displacement={y: 0}'
+
+out=$work/deep/er/result
+expect "run makes the folder and its parents"  0 'results in' '*' run plate.yaml -o "$out" --threads 1 --set solver.max_events=3
+good=0; for f in result.e history.csv events.csv report.json scene.yaml damage.png load_displacement.png; do [ -s "$out/$f" ] || good=1; done
+verdict "all files are there" $good
+[ "$(head -c 8 "$out/damage.png" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ]; verdict "pictures are PNG" $?
+rows=$(($(wc -l < "$out/history.csv") - 1)); grep -q "\"steps\": $rows," "$out/report.json"; verdict "history.csv has one row a step" $?
+broken=$(($(wc -l < "$out/events.csv") - 1)); [ $broken -gt 0 ] && grep -q "\"broken\": $broken," "$out/report.json"; verdict "events.csv has one row a bond" $?
+grep -q '^# --set solver.max_events=3$' "$out/scene.yaml"; verdict "the copy of the scene tells the overrides" $?
+expect "the copy is a scene"                   0 'the scene is right' '' check "$out/scene.yaml"
+expect "run --quiet is quiet"                  0 '' '' run plate.yaml -o "$work/quiet" --quiet --threads 1 --set 'failure={criterion: none}'
+expect "a run ends where a wrong scene does"  65 '' 'unknown key' run wrong/unknown_key.yaml -o "$work/none"
+[ ! -e "$work/none" ]; verdict "a wrong scene leaves no folder" $?
+
+expect "plot draws a field"                    0 'stress-yy.png' '' plot "$out" --field stress --component yy
+expect "plot draws SVG"                        0 'a.svg' '' plot "$out" --out "$work/a.svg"
+grep -q '<svg' "$work/a.svg"; verdict "SVG is SVG" $?
+expect "plot draws a curve"                    0 '.png' '' plot "$out" --curve pull.displacement_y pull.force_y
+expect "plot names the nearest field"         64 '' "did you mean 'damage'" plot "$out" --field damag
+expect "plot names the nearest column"        64 '' "did you mean 'pull.force_y'" plot "$out" --curve step pull.force_yy
+expect "plot of no folder"                    70 '' 'No such file' plot "$work/nowhere"
+expect "plot --help"                           0 'usage' '' plot --help
+
+: > "$work/file"
+expect "a file where the folder should be"    70 '*' 'Not a directory' run plate.yaml -o "$work/file" --threads 1
+mkdir "$work/locked"; chmod a-w "$work/locked"
+if [ -w "$work/locked" ]; then                         # root may write anywhere; a kernel file system refuses it too
+    expect "a folder that cannot be made"     70 '*' 'cannot make the folder' run plate.yaml -o /proc/perigal --threads 1
+else
+    expect "a folder that cannot be made"     70 '*' 'cannot make the folder' run plate.yaml -o "$work/locked/x" --threads 1
+fi
+
+"$perigal" run plate.yaml -o "$work/stopped" --threads 1 --set spacing='0.25 mm' > "$work/out" 2> "$work/err" & pid=$!
+for _ in $(seq 200); do [ "$(cat "$work/stopped/history.csv" 2> /dev/null | wc -l)" -gt 5 ] && break; sleep 0.05; done
+kill -INT $pid; wait $pid; code=$?
+[ $code -eq 130 ]; verdict "SIGINT: exit code 130 (got $code)" $?
+grep -q 'interrupted' "$work/stopped/report.json"; verdict "SIGINT: the report tells it" $?
+expect "SIGINT: results are readable"          0 'damage.png' '' plot "$work/stopped"
+echo "1..$n"
+exit $bad
