@@ -10,7 +10,7 @@ VERSION := 0.1.0
 # One-way order of the folders: a file may include headers of its own folder and of folders to its left only.
 ORDER   := base scene kernel material criterion linalg cloud cells approx integration model stiffness force solve output report cli
 
-PACKAGES := gcc make pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libmetis-dev libopenblas-pthread-dev \
+PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libmetis-dev libopenblas-pthread-dev \
             libgsl-dev libnetcdf-dev libcairo2-dev libcmocka-dev
 
 BUILD   := build/$(MODE)

@@ -3,7 +3,7 @@
  * nosb at a node expands about the node: N is 1 there, the own node is no neighbour (its alive bit does not matter, its w is 0)
  * and must be in the family; at any other point nosb equals pddo. On a point without live bonds a node of nosb keeps N = 1
  * (PG_GRADE_SHEPARD). w in the rows is w V for every approximation.
- * Sources: Cui 2022 eqs (4)-(19); theory sections D1, E1, E2, F3; degenerate rule: shared design section 3. */
+ * Sources: Cui 2022 eqs (4)-(19); theory sections D1, E1, E2, F3; degenerate rule: F3. */
 #ifndef PERIGAL_APPROX_H
 #define PERIGAL_APPROX_H
 #include "perigal/cloud.h"
@@ -12,6 +12,8 @@
 /* What a point could still do with its live bonds. */
 enum { PG_GRADE_FULL,      /* the basis asked for                                                                        */
        PG_GRADE_LOWERED,   /* quadratic asked, linear used                                                               */
+       PG_GRADE_PROJECTED, /* `projected`, and of the linear basis only the directions in which the neighbours still spread:
+                              N is that of the foot of the point on their line or plane, gradients are along it         */
        PG_GRADE_SHEPARD,   /* fewer than dim + 1 live neighbours, or smallest eigenvalue of the centred second moment below
                               1e-3 h^2: N = w / sum w, gradients 0: carries no stress, keeps a displacement              */
        PG_GRADE_DEAD };    /* no live neighbour: N = 0                                                                   */
@@ -38,6 +40,7 @@ typedef struct {
     int    shape;                                      /* PG_RADIAL: w(|z|); PG_TENSOR: prod_k w(|z_k|)                  */
     int    use_volume;                                 /* V_j in the weights (default: nosb, pddo yes; rkpm no: V_j = 1) */
     double horizon;                                    /* support radius a, m                                            */
+    int    projected;                                  /* 1: PG_GRADE_PROJECTED is allowed (linear basis); 0: never      */
 } pg_approx;
 
 struct pg_approx_type {

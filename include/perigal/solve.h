@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * solve.h: methods that advance a state, the break loop, what a step and a run report.
- * Catalogue: src/solve/<name>.c + one line in list.h. Cui 2022 section 3.2; theory F5; events section 4. */
+ * Catalogue: src/solve/<name>.c + one line in list.h. Cui 2022 section 3.2; theory F5, F6. */
 #ifndef PERIGAL_SOLVE_H
 #define PERIGAL_SOLVE_H
 #include "perigal/force.h"

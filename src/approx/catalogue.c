@@ -42,6 +42,7 @@ pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing)
     a.shape = is (scene, "method.support", "tensor") ? PG_TENSOR : PG_RADIAL;
     if (is (scene, "method.weights", "unit")) a.use_volume = 0;
     if (is (scene, "method.weights", "volume")) a.use_volume = 1;
+    a.projected = is (scene, "method.degenerate", "projected");
     a.horizon = pg_scene_length (scene, spacing, "method.horizon");
     if (!(a.horizon >= spacing * (1 - 1e-9))) {
         pg_scene_fault (scene, "method.horizon", "is %.4g spacings: a point would see no neighbour (use 1.5 or more)",

@@ -15,6 +15,9 @@ static const pg_key keys[] = {
       .doc = "Influence of the distance, or product of the influences of its components (wants a smooth kernel)." },
     { .path = "method.weights", .kind = PG_NAME, .fallback = "auto", .choices = "unit|volume|auto",
       .doc = "Neighbours count alike or by their volumes; auto: unit for rkpm, volume for pddo and nosb." },
+    { .path = "method.degenerate", .kind = PG_NAME, .fallback = "shepard", .choices = "shepard|projected",
+      .doc = "Where broken bonds leave a point only neighbours on a line or a plane: shepard carries no stress there, projected keeps "
+             "the derivatives along it (linear basis only; a rigid rotation then strains such a point)." },
 };
 
 const pg_key_table pg_keys_approx = { "approx", keys, sizeof keys / sizeof *keys };

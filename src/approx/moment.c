@@ -29,14 +29,19 @@ void pg_basis_slope (const pg_star *s, const double *z, const double *b, double 
         }
 }
 
+static void all_basis (pg_star *s)
+{
+    for (size_t j = 0; j < s->n; j++) basis (s, s->z + j * (size_t) s->dim, s->p + j * (size_t) s->size);
+}
+
 /* Fills p and L; 0 where A is singular to working accuracy. */
 static int factor (pg_star *s, double tiny)
 {
     int size = s->size;
     double A[PG_BASIS_MAX * PG_BASIS_MAX] = { 0 };
+    all_basis (s);
     for (size_t j = 0; j < s->n; j++) {
-        double *p = s->p + j * (size_t) size, w = s->w[j];
-        basis (s, s->z + j * (size_t) s->dim, p);
+        const double *p = s->p + j * (size_t) size, w = s->w[j];
         for (int r = 0; r < size; r++)
             for (int c = 0; c <= r; c++) A[r*size + c] += w * p[r] * p[c];
     }
@@ -44,26 +49,52 @@ static int factor (pg_star *s, double tiny)
     return pg_dense_cholesky (size, s->L, tiny) == 0;
 }
 
-/* Is the smallest eigenvalue of the centred second moment below 1e-3 h^2? It is not where M - 1e-3 h^2 I has a factor. */
-static int flat (const pg_star *s, double h)
+void pg_star_centre (const pg_star *s, double *centre)
 {
     int dim = s->dim;
-    double centre[3] = { 0 }, M[9] = { 0 };
+    for (int k = 0; k < dim; k++) centre[k] = 0;
     for (size_t j = 0; j < s->n; j++)
         for (int k = 0; k < dim; k++) centre[k] += s->w[j] * s->z[j * (size_t) dim + (size_t) k];
+}
+
+void pg_star_spread (const pg_star *s, const double *centre, double *M)
+{
+    int dim = s->dim;
+    for (int k = 0; k < dim * dim; k++) M[k] = 0;
     for (size_t j = 0; j < s->n; j++) {
         const double *z = s->z + j * (size_t) dim;
         for (int k = 0; k < dim; k++)
             for (int l = 0; l <= k; l++) M[k*dim + l] += s->w[j] * (z[k] - centre[k]) * (z[l] - centre[l]);
     }
-    for (int k = 0; k < dim; k++) M[k*dim + k] -= 1e-3 * (h / s->a) * (h / s->a);
+}
+
+/* Is the smallest eigenvalue of the centred second moment below 1e-3 h^2? It is not where M - 1e-3 h^2 I has a factor. */
+static int flat (const pg_star *s, double h)
+{
+    int dim = s->dim;
+    double centre[3], M[9];
+    pg_star_centre (s, centre);
+    pg_star_spread (s, centre, M);
+    for (int k = 0; k < dim; k++) M[k*dim + k] -= PG_THINNEST * (h / s->a) * (h / s->a);
     return pg_dense_cholesky (dim, M, 0) != 0;
+}
+
+/* Where the neighbours spread too little */
+static int left_over (pg_star *s, int order, double h)
+{
+    if (!s->project || order != 1) return PG_GRADE_SHEPARD;
+    s->order = 1;
+    s->size = basis_size (s->dim, 1, s->constant);
+    all_basis (s);
+    s->projected = pg_star_project (s, h);
+    return s->projected ? PG_GRADE_PROJECTED : PG_GRADE_SHEPARD;
 }
 
 int pg_star_grade (pg_star *s, int order, double h)
 {
+    s->projected = 0;
     if (s->n == 0) return PG_GRADE_DEAD;
-    if (s->n < (size_t) s->dim + 1 || flat (s, h)) return PG_GRADE_SHEPARD;
+    if (s->n < (size_t) s->dim + 1 || flat (s, h)) return left_over (s, order, h);
     for (s->order = order; s->order >= 1; s->order--) {
         s->size = basis_size (s->dim, s->order, s->constant);
         if (s->n >= (size_t) s->size && factor (s, s->order == 2 ? 1e-10 : 1e-8))
@@ -72,10 +103,22 @@ int pg_star_grade (pg_star *s, int order, double h)
     return PG_GRADE_SHEPARD;
 }
 
+void pg_star_invert (const pg_star *s, double *b)
+{
+    if (!s->projected) {
+        pg_dense_solve (s->size, s->L, b);
+        return;
+    }
+    double c[4] = { 0 };
+    for (int r = 0; r < s->size; r++)
+        for (int k = 0; k < s->size; k++) c[r] += s->G[r * s->size + k] * b[k];
+    memcpy (b, c, (size_t) s->size * sizeof *b);
+}
+
 void pg_star_solve (const pg_star *s, int row, double *b)
 {
     for (int k = 0; k < s->size; k++) b[k] = k == row;
-    pg_dense_solve (s->size, s->L, b);
+    pg_star_invert (s, b);
 }
 
 static double dot (int n, const double *a, const double *b)

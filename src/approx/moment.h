@@ -6,6 +6,7 @@
 #include "perigal/approx.h"
 
 enum { PG_BASIS_MAX = 10 };
+#define PG_THINNEST 1e-3                               /* a direction is lost where the second moment is below this h^2  */
 
 typedef struct {
     int     dim, order, size;                          /* basis in use: 1 linear, 2 quadratic; number of functions       */
@@ -20,11 +21,14 @@ typedef struct {
     double *slope;                                     /* a dw/dx                                   (n x dim)            */
     double *p;                                         /* basis at z                                (n x size)           */
     double *q, *k, *dk;                                /* arguments and values of the kernel        (n x dim)            */
+    int     project;                                   /* 1: what is left of a linear basis may be used                  */
+    int     projected;                                 /* 1: it is: G in place of L                                      */
     double  L[PG_BASIS_MAX * PG_BASIS_MAX];            /* Cholesky factor of A = sum w p p'                              */
+    double  G[16];                                     /* generalised inverse of A, linear basis         (size x size)   */
 } pg_star;
 
-/* What an approximation adds to the common loop: N (row) and dN (row x dim, 1/m), zero on entry, of a point with a full or
- * lowered basis. about_node: a point that is a node expands about its own value (basis without 1, own node no neighbour). */
+/* What an approximation adds to the common loop: N (row) and dN (row x dim, 1/m), zero on entry, of a point with a full,
+ * lowered or projected basis. about_node: a point that is a node expands about its own value (basis without 1, own node no neighbour). */
 typedef struct {
     int about_node;
     void (*fill) (const pg_star *star, double *N, double *dN);
@@ -34,8 +38,16 @@ typedef struct {
 pg_status pg_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
                     const unsigned char *alive, size_t count, const size_t *list, int threads);
 
-/* Chooses the basis (`order` or less), fills p and L; spacing h in m. Returns PG_GRADE_FULL, _LOWERED, _SHEPARD or _DEAD. */
+/* Chooses the basis (`order` or less), fills p and L or G; spacing h in m. Returns a PG_GRADE_... */
 int  pg_star_grade   (pg_star *star, int order, double h);
+/* Finds the directions of the linear basis that are left, fills G; 0: none is. */
+int  pg_star_project (pg_star *star, double h);
+/* M (dim x dim) = sum w (z - centre) (z - centre)', lower triangle */
+void pg_star_spread  (const pg_star *star, const double *centre, double *M);
+/* centre (dim) = sum w z */
+void pg_star_centre  (const pg_star *star, double *centre);
+/* b = A^-1 b */
+void pg_star_invert  (const pg_star *star, double *b);
 /* b with A b = unit vector `row` of the basis. */
 void pg_star_solve   (const pg_star *star, int row, double *b);
 /* N_j = w_j p_j . b */

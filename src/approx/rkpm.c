@@ -31,7 +31,7 @@ static void fill (const pg_star *s, double *N, double *dN)
     pg_star_solve (s, 0, b);
     pg_star_shape (s, b, N);
     moment_rate (s, b, r);
-    for (int k = 0; k < s->dim; k++) pg_dense_solve (s->size, s->L, r[k]);         /* r = -a b,k */
+    for (int k = 0; k < s->dim; k++) pg_star_invert (s, r[k]);                     /* r = -a b,k */
     for (size_t j = 0; j < s->n; j++) {
         const double *p = s->p + j * (size_t) s->size, *slope = s->slope + j * (size_t) s->dim;
         double value = 0, rise[3];

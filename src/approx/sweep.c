@@ -114,7 +114,7 @@ static void row (const sweep *g, size_t i, pg_star *s)
     if (s->stray) return;
     double *N = rows->N + first, *dN = rows->dN + first * dim;
     int grade = pg_star_grade (s, g->a->order, g->cloud->h);
-    if (grade <= PG_GRADE_LOWERED) g->formula->fill (s, N, dN);
+    if (grade <= PG_GRADE_PROJECTED) g->formula->fill (s, N, dN);
     else if (s->constant) for (size_t j = 0; j < s->n; j++) N[s->entry[j]] = s->w[j];
     else {                                             /* a node keeps its own displacement, whatever it lost */
         N[s->own] = 1;
@@ -134,7 +134,7 @@ static pg_status star_create (pg_star *s, const pg_approx *a, int dim, size_t mo
 {
     pg_status status = PG_OK;
     size_t vector = most * (size_t) dim;
-    *s = (pg_star) { .dim = dim, .a = a->horizon };
+    *s = (pg_star) { .dim = dim, .a = a->horizon, .project = a->projected };
     PG_ALLOC (s->entry, most);
     PG_ALLOC (s->z, 5 * vector + most * (1 + PG_BASIS_MAX));
     s->slope = s->z + vector;

@@ -11,7 +11,7 @@ void progress_start (progress *p, int quiet)
 static void write_line (const progress *p, double share, const pg_step *step, const pg_report *r, double passed)
 {
     char left[32] = "";                                /* events come at no rate that could be foretold */
-    if (share > 0.005 && share < 1 && r->events == 0) snprintf (left, sizeof left, ", about %.0f s left", passed * (1 - share) / share);
+    if (share > 0.005 && share < 1 && passed > 1 && r->events == 0) snprintf (left, sizeof left, ", about %.0f s left", passed * (1 - share) / share);
     fprintf (stderr, "%s%5.1f %%  step %ld, load factor %.4g, %ld events, %ld bonds broken, residual %.1e, %.1f s%s%s", p->tty ? "\r" : "",
              100 * share, step->number, step->factor, r->events, r->broken, r->residual_max, passed, left, p->tty ? "\033[K" : "\n");
     if (p->tty) fflush (stderr);

@@ -14,7 +14,8 @@ static void print_summary (const pg_result *result, const pg_report *r, double t
     printf ("  largest residual %.2e, largest utilisation of an accepted state %.6f, %zu degenerate points, %zu fragments\n", r->residual_max,
             r->utilisation_max, r->degenerate_points, r->fragments);
     printf ("  %.2f s: shape functions and assembly %.2f, analysis %.2f, factorization %.2f, solve %.2f, forces %.2f, bond sweep %.2f; peak memory %.0f MB\n",
-            total, r->seconds[PG_SECONDS_SHAPE] + r->seconds[PG_SECONDS_ASSEMBLE] + r->seconds[PG_SECONDS_UPDATE], r->seconds[PG_SECONDS_ANALYSE], r->seconds[PG_SECONDS_FACTOR], r->seconds[PG_SECONDS_SOLVE],
+            total, r->seconds[PG_SECONDS_SHAPE] + r->seconds[PG_SECONDS_ASSEMBLE] + r->seconds[PG_SECONDS_UPDATE],
+            r->seconds[PG_SECONDS_ANALYSE], r->seconds[PG_SECONDS_FACTOR], r->seconds[PG_SECONDS_SOLVE],
             r->seconds[PG_SECONDS_FORCE], r->seconds[PG_SECONDS_BREAK], (double) pg_memory_process_peak () * 1e-6);
     for (size_t k = 0; k < r->nskipped; k++) printf ("  skipped: %s (%s)\n", r->skipped[k].what, r->skipped[k].why);
     for (size_t k = 0; k < r->nwarning; k++) printf ("  warning: %s\n", r->warning[k]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A bond breaks when its stretch reaches the critical one; shortening never breaks it.
- * linear: s = xi . eta / |xi|^2; finite: s = (|xi + eta| - |xi|) / |xi|. Events section 4. */
+ * linear: s = xi . eta / |xi|^2; finite: s = (|xi + eta| - |xi|) / |xi|. theory F6. */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>

@@ -194,9 +194,12 @@ pg_status galerkin_basis_update (galerkin *g)
     int *index = NULL;
     if (!g->has_T) return PG_OK;
     PG_ALLOC (index, g->n);
-    for (int k = 0; k < g->dim; k++)
-        if (update_side (g, &g->side[k], index) != PG_OK)
+    for (int k = 0; k < g->dim; k++) {
+        status = update_side (g, &g->side[k], index);
+        if (status == PG_E_MEMORY) goto done;
+        if (status != PG_OK)
             PG_FAIL (PG_E_SINGULAR, "essential: transformation of component %c failed (%s): use nitsche or penalty", "xyz"[k], pg_last_error ());
+    }
     fill_T (g);
 done:
     pg_free (index);

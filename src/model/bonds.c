@@ -30,8 +30,8 @@ static pg_status make_points (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
-    if (!p->integration->at_nodes)
-        PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, (int) pg_scene_integer (scene, "method.gauss_points")));
+    int order = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : p->approx.order + 1;
+    if (!p->integration->at_nodes) PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, order));
     PG_TRY (pg_rows_create (&p->rows[PG_POINTS], &p->approx, &p->cloud, q.n, q.x, q.weight, NULL, q.cell));
     strip (&p->rows[PG_POINTS]);
 done:

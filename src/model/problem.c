@@ -65,7 +65,7 @@ static pg_status build_laws (pg_problem *p, const pg_scene *scene)
     if (!p->integration->at_nodes && p->cells.n == 0)
         pg_scene_fault (scene, "method.integration", "a body of explicit points has no background cells: use nodal");
     int nosb = strcmp (p->approx.type->name, "nosb") == 0;
-    int silling = strcmp (stab, "silling") == 0 || (strcmp (stab, "auto") == 0 && nosb && p->integration->at_nodes && p->dim > 1);
+    int silling = strcmp (stab, "silling") == 0 || (strcmp (stab, "auto") == 0 && nosb && p->integration->at_nodes);
     if (strcmp (stab, "silling") == 0 && !(nosb && p->integration->at_nodes))
         pg_scene_fault (scene, "method.stabilization", "silling stabilises nosb with nodal integration");
     p->silling = silling ? pg_scene_number (scene, "method.stabilization_factor") : 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Quasi-static loading. fixed: equal load steps, each with the break loop. event: between breaks everything is linear in the load
- * factor, so d = lambda d_1 and the factor of the next break follows in closed form (events section 4): go there, break the bonds
+ * factor, so d = lambda d_1 and the factor of the next break follows in closed form (theory F6): go there, break the bonds
  * that reach their limit (ties included), solve for the new d_1, and so on; user levels are reported as they are passed. */
 #include "solve.h"
 #include <math.h>

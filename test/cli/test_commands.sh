@@ -45,6 +45,7 @@ expect "check: faults of --set name it"       65 '' '^--set spcing=1: .*did you 
 expect "check: a path that is none"           65 '' 'is not a path' check plate.yaml --set a..b=1
 expect "a body that nothing holds is doubted"  0 'nothing holds the body along x' '' check plate.yaml --set 'boundary[1].displacement={y: 0}'
 expect "a body that nothing loads is doubted"  0 'nothing loads the body' '' check plate.yaml --set 'boundary[0].displacement={y: 0}'
+expect "loads without a name are told apart"   0 'boundary top_4 ' '' check plate.yaml --set 'boundary[2]={set: top, traction: {x: 1 Pa}}' --set 'boundary[3]={set: top, traction: {x: 2 Pa}}'
 
 out=$work/deep/er/result
 expect "run makes the folder and its parents"  0 'results in' '*' run plate.yaml -o "$out" --threads 1 --set solver.max_events=3

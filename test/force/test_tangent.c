@@ -128,10 +128,11 @@ static void a_partial_update_equals_a_fresh_one (void **state)
             const pg_force_type *f = pg_solver_force (part.solver, &self);
             pg_solver_force (whole.solver, &other);
             refresh (&part, NULL);
-            for (int round = 0; round < 3; round++) {
-                size_t bond[64], n = 0;
-                for (size_t i = 0; i < part.state->nbond && n < 64; i++)
-                    if (part.state->alive[i] && 0.5 + 0.5 * random_number () < 0.002) bond[n++] = i, part.state->alive[i] = 0;
+            for (int round = 0; round < 6; round++) {  /* some bonds anywhere; then a single one of each set             */
+                size_t bond[64], n = 0, first = round < 3 ? 0 : part.problem->first_bond[round - 3];
+                size_t last = round < 3 ? part.state->nbond : part.problem->first_bond[round - 2], most = round < 3 ? 64 : 1;
+                for (size_t i = first; i < last && n < most; i++)
+                    if (part.state->alive[i] && 0.5 + 0.5 * random_number () < 0.001 * (double) (1 + round)) bond[n++] = i, part.state->alive[i] = 0;
                 refresh (&part, &(pg_changes) { n, 64, bond });
             }
             check_ok (pg_state_copy (whole.state, part.state));

@@ -33,7 +33,7 @@ static periodic wrap (int dim, size_t n, double h, double horizon)
         memcpy (x + d * at, p.images.x + d * i, d * sizeof *x);
         own[at++] = (int) i;
     }
-    pg_approx approx = { pg_approx_find ("nosb"), pg_kernel_find ("constant"), 1, PG_RADIAL, 1, horizon };
+    pg_approx approx = { pg_approx_find ("nosb"), pg_kernel_find ("constant"), 1, PG_RADIAL, 1, horizon, 0 };
     check_ok (pg_rows_create (&p.rows, &approx, &p.images, at, x, NULL, own, NULL));
     check_ok (approx.type->evaluate (&approx, &p.images, &p.rows, NULL, at, NULL, 1));
     assert_int_equal (pg_rows_count (&p.rows, PG_GRADE_FULL), p.count);
@@ -83,6 +83,57 @@ static size_t periodic_spectrum (int dim, size_t n, double h, double horizon, do
     return ndof;
 }
 
+/* ---- bond-associated correction (theory D3b), built here on the rows of the library: its own entry
+ * `stabilization: bond_associated` is a later issue. ----------------------------------------------------------------------- */
+/* q (count x dim) of bond e from point i, H_ij = sum_l d_l (x) q_l: H_ij = Hbar + (eta - Hbar xi) (x) xi / r^2, Hbar = (H_i + H_j) / 2;
+ * row number = node number, and an image has the H of its original. */
+static void bond_slopes (const periodic *p, size_t i, size_t e, double *q)
+{
+    const pg_rows *r = &p->rows;
+    size_t d = (size_t) p->dim, j = (size_t) p->home[r->family.node[e]], end[2] = { i, j };
+    double xi[3], rr = 0;
+    memset (q, 0, d * p->count * sizeof *q);
+    for (int s = 0; s < 2; s++)
+        for (size_t f = r->family.start[end[s]]; f < r->family.start[end[s] + 1]; f++)
+            for (size_t k = 0; k < d; k++) q[d * (size_t) p->home[r->family.node[f]] + k] += r->dN[d*f + k] / 2;
+    for (size_t k = 0; k < d; k++) xi[k] = p->images.x[d * (size_t) r->family.node[e] + k] - r->x[d*i + k], rr += xi[k] * xi[k];
+    for (size_t l = 0; l < p->count; l++) {
+        double rest = (double) (l == j) - (double) (l == i);
+        for (size_t k = 0; k < d; k++) rest -= q[d*l + k] * xi[k];
+        for (size_t k = 0; k < d; k++) q[d*l + k] += rest * xi[k] / rr;
+    }
+}
+
+/* Eigenvalues per volume of W_i = sum_j (w_ij V_j / omega0_i) psi (sym H_ij), omega0_i = sum_j w_ij V_j; E = 1, nu = 0.3, plane stress. */
+static size_t bond_associated_spectrum (size_t n, double h, double horizon, double *eigenvalue)
+{
+    periodic p = wrap (2, n, h, horizon);
+    size_t ndof = 2 * p.count;
+    double *K = pg_calloc (ndof * ndof, sizeof *K), *q = pg_calloc (ndof, sizeof *q), block[4];
+    for (size_t i = 0; i < p.count; i++) {
+        size_t first = p.rows.family.start[i], last = p.rows.family.start[i + 1];
+        double omega0 = 0;
+        assert_int_equal (p.home[p.rows.own[i]], i);
+        for (size_t e = first; e < last; e++) omega0 += p.rows.family.node[e] == p.rows.own[i] ? 0 : p.rows.w[e];
+        for (size_t e = first; e < last; e++) {
+            if (p.rows.family.node[e] == p.rows.own[i]) continue;
+            double share = p.rows.w[e] / omega0;
+            bond_slopes (&p, i, e, q);
+            for (size_t a = 0; a < p.count; a++)
+                for (size_t b = 0; b < p.count; b++) {
+                    memset (block, 0, sizeof block);
+                    elastic_block (2, share * 0.3 / 0.91, share / 2.6, q + 2*a, q + 2*b, block);
+                    for (size_t k = 0; k < 4; k++) K[(2*a + k / 2) * ndof + 2*b + k % 2] += block[k];
+                }
+        }
+    }
+    eigenvalues (ndof, K, eigenvalue);
+    pg_free (K), pg_free (q);
+    unwrap (&p);
+    return ndof;
+}
+
+/* ---- claims on the periodic lattice ------------------------------------------------------------------------------------ */
 static void periodic_nosb_has_eight_zero_modes (void **state)
 {
     (void) state;
@@ -127,6 +178,27 @@ static void silling_smallest_eigenvalue (void **state)
     check_relative (lambda[2] * 4e-6, 0.10860, 1e-4);
     periodic_spectrum (2, 8, 1, 1.5, 0.1, lambda);
     check_relative (lambda[2], 0.206, 0.0005 / 0.206);
+}
+
+static void bond_associated_leaves_two_translations (void **state)
+{
+    (void) state;
+    double lambda[MOST];
+    size_t n = bond_associated_spectrum (8, 1, 3.015, lambda);
+    assert_int_equal (count_zero (n, lambda, 1e-12), 2);
+    assert_true (lambda[2] > 1e-2 * lambda[n - 1]);
+    n = bond_associated_spectrum (8, 1, 1.5, lambda);
+    assert_int_equal (count_zero (n, lambda, 1e-12), 2);
+}
+
+static void bond_associated_smallest_eigenvalue (void **state)
+{
+    (void) state;
+    double lambda[MOST];
+    bond_associated_spectrum (8, 1, 3.015, lambda);
+    check_relative (lambda[2], 0.14390, 1e-4);
+    bond_associated_spectrum (8, 2e-3, 3.015 * 2e-3, lambda);
+    check_relative (lambda[2] * 4e-6, 0.14390, 1e-4);
 }
 
 /* ---- free bodies -------------------------------------------------------------------------------------------------------
@@ -210,6 +282,8 @@ int main (void)
         cmocka_unit_test (silling_leaves_two_translations),
         cmocka_unit_test (in_space_there_are_24_and_three_are_left),
         cmocka_unit_test (silling_smallest_eigenvalue),
+        cmocka_unit_test (bond_associated_leaves_two_translations),
+        cmocka_unit_test (bond_associated_smallest_eigenvalue),
         cmocka_unit_test (rkpm_gauss_has_rigid_motions_only),
         cmocka_unit_test (stabilised_nosb_has_rigid_motions_only),
         cmocka_unit_test (nosb_alone_has_soft_modes_and_silling_removes_them),

@@ -86,7 +86,7 @@ static void faults_name_key_and_reason (void **state)
     check_refused (PULLED "solver: {kind: newmark, dt: 1, end: 10, beta: 0.2, gamma: 0.5}\n", "unconditionally stable only for 2 beta >= gamma");
     check_refused (HELD BREAKS "solver: {stepping: event}\n", "solver.stepping = event: event stepping needs proportional loads (ramp: linear on every load): use fixed");
     check_refused (PULLED BREAKS "solver: {stepping: event, break: all}\n", "solver.break = all: all goes with stepping: fixed");
-    check_refused (PULLED "solver: {stop: {set: nowhere}}\n", "solver.stop.set = nowhere: there is no set nowhere");
+    check_refused (PULLED "solver: {stop: {set: nowhere}}\n", "solver.stop.set = nowhere: there is no set of this name");
     check_refused (PULLED "solver: {kind: sttaic}\n", "did you mean static");
     check_refused (PULLED "solver: {tolerance: 1}\n", "solver.tolerance");
     check_refused (PULLED "solver: {steps: 0}\n", "solver.steps");
