@@ -44,6 +44,7 @@ typedef struct {                                       /* of one step: a user le
     long   number, iterations;                         /* break-and-solve rounds                                         */
     int    level;                                      /* 1: a level at which the user wants fields                      */
     int    event;                                      /* 1: bonds broke at this load (event stepping)                   */
+    double stamp;                                      /* never falls: the time; the step number under event stepping    */
     double time, factor, residual, utilisation;        /* utilisation: largest of a live bond in the accepted state      */
     size_t nbroken;  const pg_broken *broken;          /* borrowed until the next step                                   */
     const double *reaction;                            /* force on the body per load, N (nload x 3), borrowed            */

@@ -29,19 +29,14 @@ void pg_basis_slope (const pg_star *s, const double *z, const double *b, double 
         }
 }
 
-static void all_basis (pg_star *s)
-{
-    for (size_t j = 0; j < s->n; j++) basis (s, s->z + j * (size_t) s->dim, s->p + j * (size_t) s->size);
-}
-
 /* Fills p and L; 0 where A is singular to working accuracy. */
 static int factor (pg_star *s, double tiny)
 {
     int size = s->size;
     double A[PG_BASIS_MAX * PG_BASIS_MAX] = { 0 };
-    all_basis (s);
     for (size_t j = 0; j < s->n; j++) {
-        const double *p = s->p + j * (size_t) size, w = s->w[j];
+        double *p = s->p + j * (size_t) size, w = s->w[j];
+        basis (s, s->z + j * (size_t) s->dim, p);
         for (int r = 0; r < size; r++)
             for (int c = 0; c <= r; c++) A[r*size + c] += w * p[r] * p[c];
     }
@@ -85,7 +80,6 @@ static int left_over (pg_star *s, int order, double h)
     if (!s->project || order != 1) return PG_GRADE_SHEPARD;
     s->order = 1;
     s->size = basis_size (s->dim, 1, s->constant);
-    all_basis (s);
     s->projected = pg_star_project (s, h);
     return s->projected ? PG_GRADE_PROJECTED : PG_GRADE_SHEPARD;
 }
@@ -118,6 +112,7 @@ void pg_star_invert (const pg_star *s, double *b)
 void pg_star_solve (const pg_star *s, int row, double *b)
 {
     for (int k = 0; k < s->size; k++) b[k] = k == row;
+    for (int k = 0; k < s->dim && s->projected && s->constant && row == 0; k++) b[1 + k] = -s->centre[k];
     pg_star_invert (s, b);
 }
 

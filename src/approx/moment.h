@@ -22,9 +22,10 @@ typedef struct {
     double *p;                                         /* basis at z                                (n x size)           */
     double *q, *k, *dk;                                /* arguments and values of the kernel        (n x dim)            */
     int     project;                                   /* 1: what is left of a linear basis may be used                  */
-    int     projected;                                 /* 1: it is: G in place of L                                      */
+    int     projected;                                 /* 1: it is: p about `centre`, G in place of L                    */
     double  L[PG_BASIS_MAX * PG_BASIS_MAX];            /* Cholesky factor of A = sum w p p'                              */
-    double  G[16];                                     /* generalised inverse of A, linear basis         (size x size)   */
+    double  G[16];                                     /* generalised inverse of A                       (size x size)   */
+    double  centre[3];                                 /* sum w z                                        (dim)           */
 } pg_star;
 
 /* What an approximation adds to the common loop: N (row) and dN (row x dim, 1/m), zero on entry, of a point with a full,
@@ -40,7 +41,7 @@ pg_status pg_sweep (const pg_formula *formula, const pg_approx *a, const pg_clou
 
 /* Chooses the basis (`order` or less), fills p and L or G; spacing h in m. Returns a PG_GRADE_... */
 int  pg_star_grade   (pg_star *star, int order, double h);
-/* Finds the directions of the linear basis that are left, fills G; 0: none is. */
+/* Finds the directions of the linear basis that are left, fills p, G and centre; 0: none is. */
 int  pg_star_project (pg_star *star, double h);
 /* M (dim x dim) = sum w (z - centre) (z - centre)', lower triangle */
 void pg_star_spread  (const pg_star *star, const double *centre, double *M);
@@ -48,7 +49,7 @@ void pg_star_spread  (const pg_star *star, const double *centre, double *M);
 void pg_star_centre  (const pg_star *star, double *centre);
 /* b = A^-1 b */
 void pg_star_invert  (const pg_star *star, double *b);
-/* b with A b = unit vector `row` of the basis. */
+/* b with A b = unit vector `row` of the basis, or p at the point itself for the row of the 1. */
 void pg_star_solve   (const pg_star *star, int row, double *b);
 /* N_j = w_j p_j . b */
 void pg_star_shape   (const pg_star *star, const double *b, double *N);

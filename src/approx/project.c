@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a linear basis still can do where the neighbours of a point lie on a line or a plane (theory F3 item 3). With c their
- * centre, M = sum w (z - c)(z - c)' and M+ its inverse on the directions that are left,
- *     A = T diag (1, M) T',  T = [1 0; c I],     G = T'^-1 diag (1, M+) T^-1 = [1 + c'M+ c, -c'M+; -M+ c, M+].
- * A G p (0) = p (foot of the point on that line or plane) and A G e_k = P e_k, P the projector on its directions: shape functions
- * sum to 1 and their derivatives to 0 for any point. (The Moore-Penrose inverse of A agrees where the point lies on the line or
- * plane and loses both properties beside it: there p (0) is not in the range of A.)
+ * What a linear basis still can do where the neighbours of a point lie on a line or a plane (theory F3 item 3). About their centre
+ * c the basis is p = (1, z - c), A = diag (1, M), M = sum w (z - c)(z - c)', and with M+ the inverse on the directions that are left
+ * G = diag (1, M+). With P the projector on these directions
+ *     A G p (0) = (1, -P c) = p (foot of the point on the line or plane),     A G e_k = P e_k:
+ * shape functions sum to 1 and their derivatives to 0 for any point. (The Moore-Penrose inverse of A about the point itself agrees
+ * where the point is on the line or plane; beside it p (0) leaves the range of A, and both sums are lost.)
  * About a node of nosb c = 0: M is A itself, and the lines and planes pass through the node. */
 #include "moment.h"
 
@@ -26,24 +26,37 @@ static int invert_spread (int dim, double *M, double limit, double *inverse)
     return kept;
 }
 
+/* p = ([1] z - c); a second pass takes out the rounding of c, which M+ would enlarge where the weights are very uneven. */
+static void centred_basis (pg_star *s)
+{
+    size_t dim = (size_t) s->dim, one = (size_t) s->constant, size = dim + one;
+    double rest[3] = { 0 };
+    for (size_t k = 0; k < dim; k++) s->centre[k] = 0;
+    if (one) pg_star_centre (s, s->centre);
+    for (size_t j = 0; j < s->n; j++) {
+        double *p = s->p + j * size;
+        if (one) p[0] = 1;
+        for (size_t k = 0; k < dim; k++) {
+            p[one + k] = s->z[j*dim + k] - s->centre[k];
+            rest[k] += s->w[j] * p[one + k];
+        }
+    }
+    for (size_t k = 0; k < dim && one; k++) {
+        for (size_t j = 0; j < s->n; j++) s->p[j*size + one + k] -= rest[k];
+        s->centre[k] += rest[k];
+    }
+}
+
 int pg_star_project (pg_star *s, double h)
 {
-    int dim = s->dim, size = s->size, one = s->constant;
-    double centre[3] = { 0 }, M[9], inverse[9], shift[3] = { 0 };
+    int dim = s->dim, one = s->constant, size = s->size;
+    double M[9], inverse[9];
     if (s->n < 2) return 0;
-    if (one) pg_star_centre (s, centre);
-    pg_star_spread (s, centre, M);
+    centred_basis (s);
+    pg_star_spread (s, s->centre, M);
     if (!invert_spread (dim, M, PG_THINNEST * (h / s->a) * (h / s->a), inverse)) return 0;
+    for (int k = 0; k < size * size; k++) s->G[k] = k == 0;
     for (int k = 0; k < dim; k++)
-        for (int l = 0; l < dim; l++) {
-            s->G[(k + one) * size + l + one] = inverse[k*dim + l];
-            shift[k] += inverse[k*dim + l] * centre[l];
-        }
-    if (!one) return 1;
-    s->G[0] = 1;
-    for (int k = 0; k < dim; k++) {
-        s->G[0] += shift[k] * centre[k];
-        s->G[k + 1] = s->G[(k + 1) * size] = -shift[k];
-    }
+        for (int l = 0; l < dim; l++) s->G[(k + one) * size + l + one] = inverse[k*dim + l];
     return 1;
 }

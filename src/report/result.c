@@ -161,7 +161,8 @@ pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *st
         r->next_broken = (long) ((double) state->broken / (r->broken_share * (double) state->nbond)) + 1;
     }
     r->last_written = step->level || stage;
-    if (r->last_written) PG_TRY (write_fields (r, state, step->time));
+    r->stamp = step->stamp;
+    if (r->last_written) PG_TRY (write_fields (r, state, step->stamp));
 done:
     r->seconds += pg_seconds () - t0;
     return status;
@@ -171,7 +172,7 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
 {
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
-    if (!r->last_written) PG_TRY (write_fields (r, state, state->time));
+    if (!r->last_written) PG_TRY (write_fields (r, state, r->stamp));
     r->last_written = 1;
     PG_TRY (result_pictures (r, state));
 done:

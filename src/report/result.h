@@ -26,6 +26,7 @@ struct pg_result {
     double   *curve_x, *curve_y;
     int       curve_load, curve_component;
     double    seconds;
+    double    stamp;                                   /* of the last step                                               */
 };
 pg_status result_history_create (pg_result *r);
 pg_status result_history_row    (pg_result *r, const pg_state *state, const pg_step *step);

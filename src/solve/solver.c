@@ -160,6 +160,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     state->step++;
     state->iterations += step->iterations;
     state->work = s->breaker.work;
+    step->stamp = s->options.event ? (double) step->number : step->time;
     step->reaction = s->reaction;
     pg_report *r = &s->report;
     r->steps++, r->iterations += step->iterations, r->broken += (long) step->nbroken;

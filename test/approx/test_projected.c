@@ -235,6 +235,7 @@ static void a_nearly_flat_sheet_is_flat (void **state)
             }
             check_absolute (one, 1, 1e-14);
             for (size_t k = 0; k < m; k++) check_absolute (rate[k], 0, 1e-14);
+            pg_rows_clear (&r);
             if (t % 3 == 0) continue;                  /* rkpm: exact along the sheet only */
             for (size_t k = 0; k < m; k++)             /* gradients of the coordinates: a projector of rank `flat` */
                 for (size_t l = 0; l < m; l++) {
@@ -245,7 +246,6 @@ static void a_nearly_flat_sheet_is_flat (void **state)
                     if (k == l) trace += P[k*m + k];
                 }
             check_absolute (trace, s.flat, 1e-12);
-            pg_rows_clear (&r);
         }
 }
 
@@ -400,6 +400,7 @@ static void only_points_of_the_plain_rule_change (void **state)
     assert_true (changed > 100);
 }
 
+/* rkpm's derivative is a difference of terms up to 1e2 times as large where all that lives is close to the support's edge. */
 static void random_deaths_keep_the_partition_of_unity (void **state)
 {
     (void) state;
@@ -423,7 +424,7 @@ static void random_deaths_keep_the_partition_of_unity (void **state)
             seen[r.grade[i]]++;
             if (r.grade[i] != PG_GRADE_PROJECTED) continue;
             check_scaled (sum, 1, 1e-14, size);
-            for (int k = 0; k < dim; k++) check_scaled (slope[k], 0, 1e-14, size);
+            for (int k = 0; k < dim; k++) check_scaled (slope[k], 0, t % 3 == 0 ? 1e-12 : 1e-14, size);
         }
         pg_free (alive);
         pg_rows_clear (&r);
@@ -497,37 +498,41 @@ static void the_scene_chooses (void **state)
     pg_scene_free (&s);
 }
 
-/* A row of points cut off from those above and below, in a plate that is pulled along it: a bar, or nothing. */
-static void a_row_between_two_cuts_carries_stress (void **state)
+/* A row of points cut off from those above and below, in a plate that is pulled along it: nothing, or the bar of one dimension. */
+#define BAR "spacing: 0.1\nmaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0}}\nsolver: {stepping: fixed, steps: 1}\n" \
+    "output: {at: {levels: 1}}\nmethod: {approximation: %s, integration: nodal, stabilization: none, " \
+    "essential: transformation, degenerate: %s}\n"
+static void a_row_between_two_cuts_carries_the_stress_of_a_bar (void **state)
 {
     (void) state;
-    for (int t = 0; t < 3; t++)
-        for (int projected = 0; projected < 2; projected++) {
-            run r = scene_of (1, "dimension: 2\nthickness: 20 mm\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\n"
-                "spacing: 0.1\ncracks: [{from: [-0.2, 0.35], to: [1.2, 0.35]}, {from: [-0.2, 0.45], to: [1.2, 0.45]}]\n"
-                "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0}}\n"
-                "method: {approximation: %s, integration: nodal, stabilization: none, essential: transformation, degenerate: %s}\n"
-                "boundary:\n  - {set: left, displacement: {x: 0, y: 0}}\n  - {set: right, displacement: {x: 1 mm, y: 0}}\n"
-                "solver: {stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n", type[t], projected ? "projected" : "shepard");
-            size_t row = 0, degenerate, isolated, fragments;
-            int components;
-            void *self;
-            to_the_end (&r);
-            double *s = field_of (&r, NULL, "stress", &components);
-            const pg_force_type *force = pg_solver_force (r.solver, &self);
-            for (size_t i = 0; i < r.problem->cloud.n; i++) {
-                const double *x = r.problem->cloud.x + 2*i, *stress = s + i * (size_t) components;
-                if (fabs (x[1] - 0.4) > 0.01) continue;
-                row++;
-                if (!projected) assert_true (stress[0] == 0 && stress[2] == 0);
-                else if (x[0] > 0.25 && x[0] < 0.75) check_relative (stress[0], 10e9 * 1e-3, 0.02);
-            }
-            assert_int_equal (row, 11);
-            force->census (self, &degenerate, &isolated, &fragments);
-            assert_int_equal (degenerate, projected ? 0 : 11);
-            pg_free (s);
-            clear (&r);
+    for (int t = 0; t < 4; t++) {
+        const char *rule = t / 2 ? "projected" : "shepard";
+        run bar = scene_of (1, BAR "dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\n"
+            "boundary: [{set: left, displacement: {x: 0}}, {set: right, displacement: {x: 1 mm}}]\n", type[t % 2], rule);
+        run plate = scene_of (1, BAR "dimension: 2\nthickness: 20 mm\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\n"
+            "cracks: [{from: [-0.2, 0.35], to: [1.2, 0.35]}, {from: [-0.2, 0.45], to: [1.2, 0.45]}]\n"
+            "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 1 mm, y: 0}}]\n", type[t % 2], rule);
+        size_t row = 0, degenerate, isolated, fragments;
+        int components;
+        void *self;
+        to_the_end (&bar);
+        to_the_end (&plate);
+        double *s = field_of (&plate, NULL, "stress", &components), *exact = field_of (&bar, NULL, "stress", NULL);
+        for (size_t i = 0; i < plate.problem->cloud.n; i++) {
+            const double *x = plate.problem->cloud.x + 2*i, *stress = s + i * (size_t) components;
+            if (fabs (x[1] - 0.4) > 0.01) continue;
+            check_scaled (stress[0], t / 2 ? exact[lround (10 * x[0])] : 0, 1e-9, 10e9 * 1e-3);
+            row++;
         }
+        assert_int_equal (row, 11);
+        check_relative (exact[5], 10e9 * 1e-3, 0.1);
+        const pg_force_type *force = pg_solver_force (plate.solver, &self);
+        force->census (self, &degenerate, &isolated, &fragments);
+        assert_int_equal (degenerate, t / 2 ? 0 : 11);
+        pg_free (s), pg_free (exact);
+        clear (&plate);
+        clear (&bar);
+    }
 }
 
 int main (void)
@@ -549,7 +554,7 @@ int main (void)
         cmocka_unit_test (threads_do_not_change_a_bit),
         cmocka_unit_test (no_point_allocates),
         cmocka_unit_test (the_scene_chooses),
-        cmocka_unit_test (a_row_between_two_cuts_carries_stress),
+        cmocka_unit_test (a_row_between_two_cuts_carries_the_stress_of_a_bar),
     };
     return cmocka_run_group_tests_name ("approx/projected", tests, NULL, NULL);
 }
