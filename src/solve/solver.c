@@ -2,7 +2,6 @@
  * The solver object: options, the list of methods, steps with refusal, the report of the run. */
 #include "solve.h"
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -32,24 +31,6 @@ const char *pg_solver_summary (const char *name)
 {
     for (size_t i = 0; i < COUNT; i++) if (strcmp (entries[i]->name, name) == 0) return entries[i]->summary;
     return NULL;
-}
-
-void pg_report_warn (pg_report *report, const char *format, ...)
-{
-    if (report->nwarning >= sizeof report->warning / sizeof *report->warning) return;
-    va_list args;
-    va_start (args, format);
-    vsnprintf (report->warning[report->nwarning++], sizeof *report->warning, format, args);
-    va_end (args);
-}
-
-void pg_report_skip (pg_report *report, double seconds, const char *what, const char *why)
-{
-    if (report->nskipped >= sizeof report->skipped / sizeof *report->skipped) return;
-    pg_skip *s = &report->skipped[report->nskipped++];
-    snprintf (s->what, sizeof s->what, "%s", what);
-    snprintf (s->why, sizeof s->why, "%s", why);
-    s->seconds_saved = seconds;
 }
 
 pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)

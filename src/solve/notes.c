@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What a run tells about itself: warnings, and work it skipped. */
+#include "perigal/solve.h"
+#include <stdarg.h>
+#include <stdio.h>
+
+void pg_report_warn (pg_report *report, const char *format, ...)
+{
+    if (report->nwarning >= sizeof report->warning / sizeof *report->warning) return;
+    va_list args;
+    va_start (args, format);
+    vsnprintf (report->warning[report->nwarning++], sizeof *report->warning, format, args);
+    va_end (args);
+}
+
+void pg_report_skip (pg_report *report, double seconds, const char *what, const char *why)
+{
+    if (report->nskipped >= sizeof report->skipped / sizeof *report->skipped) return;
+    pg_skip *s = &report->skipped[report->nskipped++];
+    snprintf (s->what, sizeof s->what, "%s", what);
+    snprintf (s->why, sizeof s->why, "%s", why);
+    s->seconds_saved = seconds;
+}
