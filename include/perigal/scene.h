@@ -29,7 +29,8 @@ typedef struct {
                                the point spacing, resolved by pg_scene_length; NULL where it makes no sense              */
     const char *range;      /* "[0, 0.5)", "(0, inf)", NULL: any finite number                                            */
     const char *fallback;   /* default as the user would write it, "" optional without default, NULL required            */
-    const char *choices;    /* "static|newmark", for PG_NAME; NULL: ask choices_of                                        */
+    const char *choices;    /* "static|newmark", for PG_NAME; "sets.{}|left|right": also any name of that map of the scene
+                               (or a part of it, NAME.top); NULL: ask choices_of                                          */
     const char *(*choices_of) (void);   /* the same from a catalogue                                                      */
     const char *group;      /* keys of one parent sharing "name:one" must appear exactly once; "name:most" at most once  */
     const char *doc;        /* one sentence                                                                               */

@@ -27,7 +27,7 @@ static const pg_key keys[] = {
       .doc = "mohr_coulomb: shear strength without normal stress." },
     { .path = "failure.friction_angle", .kind = PG_NUMBER, .unit = "rad", .range = "[0, 1.5707)", .fallback = "",
       .doc = "mohr_coulomb: angle of internal friction, below 90 deg." },
-    { .path = "failure.exclude", .kind = PG_NAMES, .fallback = "",
+    { .path = "failure.exclude", .kind = PG_NAMES, .fallback = "", .choices = "sets.{}|left|right|bottom|top|back|front|all",
       .doc = "Sets of nodes whose bonds never break, such as grips." },
 };
 

@@ -24,7 +24,7 @@ static const pg_key keys[] = {
     { "method.penalty_factor", PG_NUMBER, "1", "(0, inf)", "1e6", NULL, NULL, NULL, "Penalty in units of E / spacing." },
     { "boundary", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "Loads and supports." },
     { "boundary[].name", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL, "Name in history.csv; default: the set's name." },
-    { "boundary[].set", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Where it acts: a set, a part of one (platens.top), or left, right, bottom, top, back, front, all." },
+    { "boundary[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all", NULL, NULL, "Where it acts: a set, a part of one (platens.top), or left, right, bottom, top, back, front, all." },
     LOAD ("displacement", "m", "Prescribed displacement."),
     LOAD ("velocity", "m/s", "Prescribed velocity (newmark)."),
     LOAD ("traction", "Pa", "Force per area on boundary facets."),

@@ -67,12 +67,32 @@ static int is_choice (const char *text, const char *choices)
     }
 }
 
+/* Choices "sets.{}|left|...": a name of that map of the scene, one of the others, or a part of either (name.top). */
+static void check_reference (pg_scene *s, const pg_node *node, const char *choices, const char *path)
+{
+    char names[4096], base[64], map[64];
+    size_t m = strcspn (choices, "."), at;
+    snprintf (map, sizeof map, "%.*s", (int) m, choices);
+    snprintf (base, sizeof base, "%.*s", (int) strcspn (node->text, "."), node->text);
+    at = (size_t) snprintf (names, sizeof names, "%s", choices[m + 3] ? choices + m + 4 : "");
+    const pg_node *known = pg_node_child (&s->root, map, m);
+    for (size_t k = 0; known && k < known->n && at < sizeof names - 70; k++)
+        if (known->child[k].name) at += (size_t) snprintf (names + at, sizeof names - at, "|%s", known->child[k].name);
+    if (is_choice (base, names)) return;
+    const char *near = pg_nearest_name (node->text, names);
+    FAULT (node, "there is no %.*s of this name%s%s%s", (int) (m ? m - 1 : 0), map, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+}
+
 static void check_choice (pg_scene *s, const pg_node *node, const pg_key *row, const char *path)
 {
     const char *choices = pg_key_choices (row);
     char listed[700];
     size_t n = 0;
     if (!choices || is_choice (node->text, choices)) return;
+    if (strstr (choices, ".{}")) {
+        check_reference (s, node, choices, path);
+        return;
+    }
     for (const char *c = choices; *c && n + 3 < sizeof listed; c++) {
         listed[n++] = *c == '|' ? ',' : *c;
         if (*c == '|') listed[n++] = ' ';

@@ -19,7 +19,7 @@ static const pg_key keys[] = {
     ROW ("solver.max_events", PG_INTEGER, NULL, "[1, 1000000000]", "1000000", NULL, "Event stepping ends after so many events."),
     ROW ("solver.stop.stiffness", PG_NUMBER, "1", "[0, 1)", "1e-3", NULL,
          "Event stepping ends when breaking has brought the work per squared load factor below this share of its first value (the body is apart)."),
-    ROW ("solver.stop.set", PG_TEXT, NULL, NULL, "", NULL, "The run ends when the crack arrives at a point of this set."),
+    ROW ("solver.stop.set", PG_NAME, NULL, NULL, "", "sets.{}|left|right|bottom|top|back|front|all", "The run ends when the crack arrives at a point of this set."),
     ROW ("solver.stop.damage", PG_NUMBER, "1", "(0, 1]", "50 %", NULL, "Damage of a point of stop.set that counts as arrival."),
     ROW ("solver.linear", PG_NAME, NULL, NULL, "auto", "auto|cholmod|umfpack|pcg", "Linear solver; auto: cholmod, umfpack where K is not positive definite."),
     ROW ("solver.dt", PG_NUMBER, "s", "(0, inf)", "", NULL, "newmark: time step; made a little smaller where a whole number does not fill the run."),

@@ -71,7 +71,7 @@ static void strengths_are_read_with_units (void **state)
     check_ok (reading ("{criterion: principal_stress, tensile_strength: 2 MPa}", &c));
     check_relative (c.parameter[0], 2e6, 1e-15);
     check_ok (reading ("{criterion: mohr_coulomb, tensile_strength: 0.5 MPa, cohesion: 5 MPa, friction_angle: 40 deg,"
-                       " exclude: [grip]}", &c));
+                       " exclude: [left]}", &c));
     double s1 = 0, s3 = -21.4450692e6, f;
     const pg_bond_measures m = { .n = 1, .dim = 3, .s1 = &s1, .s3 = &s3 };
     c.type->factor (&c, &m, &f);

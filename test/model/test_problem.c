@@ -155,7 +155,7 @@ static void a_body_needs_a_material (void **state)
 static void faults_name_key_and_reason (void **state)
 {
     (void) state;
-    check_refused (PLATE "failure: {criterion: stretch, critical_stretch: 1, exclude: [nowhere]}\n", "nowhere is no set");
+    check_refused (PLATE "failure: {criterion: stretch, critical_stretch: 1, exclude: [nowhere]}\n", "failure.exclude[0] = nowhere: there is no set of this name");
     check_refused (PLATE "method: {stabilization: silling}\n", "silling stabilises nosb with nodal integration");
     check_refused (PLATE "method: {integration: gaus}\n", "did you mean gauss");
     check_refused (PLATE "method: {horizon: -1}\n", "method.horizon");
