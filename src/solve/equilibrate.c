@@ -68,6 +68,19 @@ static double largest (const double *a, size_t n)
     return top;
 }
 
+long breaker_over (const breaker *b, const pg_state *state, double scale, double *top)
+{
+    long over = 0;
+    *top = 0;
+    for (size_t i = 0; i < state->nbond; i++) {
+        if (!state->alive[i]) continue;
+        double u = scale * b->utilisation[i];
+        *top = fmax (*top, u);
+        over += u > 1 + b->system.options->tie;
+    }
+    return over;
+}
+
 pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -83,7 +96,10 @@ pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const d
         PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
         double top = step->utilisation = largest (b->utilisation, state->nbond);
         s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
-        if (!(top > 1)) break;
+        if (!(top > 1)) {
+            s->report->bonds_over_limit += breaker_over (b, state, 1, &step->utilisation);
+            break;
+        }
         if (step->iterations >= o->max_iterations)
             PG_FAIL (PG_E_EQUILIBRIUM, "bonds still break after %ld rounds (%zu in this step, worst utilisation %.6g): raise solver.max_iterations "
                      "or take smaller steps", step->iterations, b->nbroken, top);

@@ -55,6 +55,8 @@ void      breaker_free   (breaker *b);
 pg_status breaker_kill   (breaker *b, pg_state *state, const double *measure, double cut, double scale);
 /* Solve, break, update, solve ... at time t until no bond is over its limit; d is left in equilibrium. */
 pg_status equilibrate    (breaker *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step);
+/* Live bonds over their limit (and its ties) in the last sweep, measured utilisation times scale; *top: the largest. */
+long      breaker_over   (const breaker *b, const pg_state *state, double scale, double *top);
 /* The ledger of (t, d), and with it the work done between the last accounted state and this one (loads scaled by `scale`). */
 pg_status breaker_account (breaker *b, double t, const double *d, const dynamics *dyn, double scale);
 /* The work alone, from the ledger at hand. */
@@ -80,6 +82,8 @@ struct pg_solver {
     int       started, finished, overlap_told, energy_told, skips_told;
     long      next_level;                              /* next level to report: next_level / levels                      */
     double   *unit;                                    /* event stepping: displacement at load factor 1                  */
+    double    unit_residual;                           /* of `unit`                                                      */
+    pg_status ended;  char why[1024];                  /* event stepping: why no step can follow, told by the next       */
     int       ledger_fresh;                            /* the ledger is that of `unit`                                   */
     double    secant0;                                 /* event stepping: first work per squared load factor             */
     pg_state *backup;                                  /* last accepted state, for refused steps                         */

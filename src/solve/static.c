@@ -4,6 +4,7 @@
  * that reach their limit (ties included), solve for the new d_1, and so on; user levels are reported as they are passed. */
 #include "solve.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static double level_factor (const pg_solver *s, long level) { return (double) level / (double) s->options.levels; }
@@ -18,7 +19,7 @@ static pg_status static_start (pg_solver *s, pg_state *state)
         PG_ALLOC (s->unit, state->ndof);
         for (size_t i = 0; state->factor != 0 && i < state->ndof; i++) s->unit[i] = state->d[i] / state->factor;
         PG_TRY (system_solve (&s->breaker.system, 1, s->unit, NULL, &residual));
-        s->report.residual_max = fmax (s->report.residual_max, residual);
+        s->unit_residual = residual;
     }
 done:
     return status;
@@ -75,28 +76,27 @@ static double secant (const breaker *b)
     return sum;
 }
 
-/* Breaks what reaches its limit at `factor` and finds the next unit displacement. */
-static pg_status break_at (pg_solver *s, pg_state *state, double factor, pg_step *step)
+/* Breaks what reaches its limit at `factor` and finds the next unit displacement; where there is none the next step is refused. */
+static pg_status break_at (pg_solver *s, pg_state *state, double factor, double scale, pg_step *step)
 {
     pg_status status = PG_OK;
     breaker *b = &s->breaker;
     const pg_solver_options *o = &s->options;
     double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, residual;
     for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;   /* utilisation here */
-    PG_TRY (breaker_kill (b, state, b->factor, 1 - width, factor));
+    PG_TRY (breaker_kill (b, state, b->factor, 1 - width, scale));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
     state->events++, s->report.events++;
     double strain = s->report.energy_strain, work = b->work;
     PG_TRY (system_refresh (&b->system, state, &b->changes));
     pg_status now = system_solve (&b->system, 1, s->unit, NULL, &residual);
     if (now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD || now == PG_E_SINGULAR) {
-        pg_report_warn (&s->report, "the run ends at event %ld, load factor %.6g: %s", state->events, factor, pg_last_error ());
-        s->finished = 1;
+        s->ended = now;
+        snprintf (s->why, sizeof s->why, "after event %ld at load factor %.6g: %s", state->events, factor, pg_last_error ());
         goto done;
     }
     PG_TRY (now);
-    s->report.residual_max = fmax (s->report.residual_max, residual);
-    step->residual = residual;
+    s->unit_residual = residual;
     PG_TRY (breaker_account (b, 1, s->unit, NULL, factor));
     s->report.energy_strain = factor * factor * b->ledger.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
@@ -115,11 +115,31 @@ done:
     return status;
 }
 
+/* Utilisation of the accepted state, from the sweep of the unit displacement: independent of the closed form that gave the factor. Where
+ * a measure is not linear (finite stretch) and seems over its limit, the state itself is measured. *scale belongs to the sweep kept. */
+static pg_status look_over (pg_solver *s, const pg_state *state, double factor, double *scale, pg_step *step)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    *scale = factor;
+    if (!s->problem->criterion.type || !b->system.force->utilisation) return PG_OK;
+    long over = breaker_over (b, state, *scale, &step->utilisation);
+    if (over) {
+        *scale = 1;
+        PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
+        over = breaker_over (b, state, *scale, &step->utilisation);
+    }
+    s->report.bonds_over_limit += over;
+done:
+    return status;
+}
+
 static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
     breaker *b = &s->breaker;
-    double next = INFINITY, level = level_factor (s, s->next_level), t0 = pg_seconds ();
+    double next = INFINITY, level = level_factor (s, s->next_level), scale, t0 = pg_seconds ();
+    if (s->ended != PG_OK) PG_FAIL (s->ended, "%s", s->why);
     b->nbroken = 0;
     step->iterations = 1;
     if (s->problem->criterion.type && b->system.force->utilisation) {
@@ -132,9 +152,9 @@ static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
     if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     if (s->secant0 == 0) s->secant0 = secant (b);
     step->factor = step->time = factor;
-    step->utilisation = next < INFINITY && next > 0 ? factor / next : 0;
-    step->residual = s->report.residual_max;
-    if (next <= level) PG_TRY (break_at (s, state, factor, step));
+    step->residual = s->unit_residual;
+    PG_TRY (look_over (s, state, factor, &scale, step));
+    if (next <= level) PG_TRY (break_at (s, state, factor, scale, step));
     if (!(level > factor)) {
         step->level = 1;
         if (s->next_level++ >= s->options.levels) {

@@ -243,6 +243,7 @@ static void test_no_accepted_state_has_a_bond_over_its_limit (void **unused)
     (void) unused;
     print_message ("# largest utilisation %.9f\n", disk.utilisation);
     check_below (disk.utilisation, 1 + disk.r.options.tie);
+    assert_int_equal (pg_solver_report_now (disk.r.solver)->bonds_over_limit, 0);
 }
 
 static void test_every_field_is_finite (void **unused)
