@@ -31,6 +31,7 @@ typedef struct { pg_set *set; size_t n; } pg_sets;
  * fault; an empty predefined set or part is not (npoint = nfacet = 0). */
 pg_status     pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud, const pg_cells *cells);
 const pg_set *pg_sets_find  (const pg_sets *sets, const char *name);
-const char   *pg_sets_near  (const pg_sets *sets, const char *name);   /* the set of the nearest name, for messages; or NULL */
+/* The same for a name that the scene gives at `path`: an unknown one is a fault there that names the nearest. */
+const pg_set *pg_sets_named (const pg_sets *sets, const pg_scene *scene, const char *path, const char *name);
 void          pg_sets_clear (pg_sets *sets);
 #endif

@@ -50,6 +50,8 @@ typedef struct {
 } pg_problem;
 pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads);
 void      pg_problem_free  (pg_problem **problem);
+/* The bond set and the point of that set that own a bond (an index into state->alive). */
+void      pg_problem_locate (const pg_problem *problem, size_t bond, int *set, size_t *point);
 int       pg_problem_proportional (const pg_problem *problem);   /* every load is a constant pattern times t               */
 
 /* ---- state: one block, copyable, comparable, savable ---------------------------------------------------------------------- */

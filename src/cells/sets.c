@@ -219,15 +219,17 @@ const pg_set *pg_sets_find (const pg_sets *sets, const char *name)
     return NULL;
 }
 
-const char *pg_sets_near (const pg_sets *sets, const char *name)
+const pg_set *pg_sets_named (const pg_sets *sets, const pg_scene *scene, const char *path, const char *name)
 {
+    const pg_set *set = pg_sets_find (sets, name);
     char names[4096] = "";
     size_t at = 0;
+    if (set) return set;
     for (size_t s = 0; s < sets->n && at < sizeof names - 70; s++)
         at += (size_t) snprintf (names + at, sizeof names - at, "%s%s", at ? "|" : "", sets->set[s].name);
     const char *near = pg_nearest_name (name, names);
-    const pg_set *set = near ? pg_sets_find (sets, near) : NULL;
-    return set ? set->name : NULL;
+    pg_scene_fault (scene, path, "there is no set of this name%s%s%s", near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+    return NULL;
 }
 
 void pg_sets_clear (pg_sets *sets)

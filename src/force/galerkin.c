@@ -104,15 +104,10 @@ static void touched_points (const galerkin *g, const pg_changes *changes, size_t
 {
     for (int s = 0; s < PG_BOND_SETS; s++) count[s] = 0;
     for (size_t c = 0; c < changes->n; c++) {
-        int s = 0;
-        while (changes->bond[c] >= g->problem->first_bond[s + 1]) s++;
-        size_t e = changes->bond[c] - g->problem->first_bond[s], lo = 0, hi = g->rows[s].n;
-        while (hi - lo > 1) {
-            size_t mid = (lo + hi) / 2;
-            if (g->rows[s].family.start[mid] <= e) lo = mid;
-            else hi = mid;
-        }
-        if (count[s] == 0 || g->list[s][count[s] - 1] != lo) g->list[s][count[s]++] = lo;    /* changes are ascending     */
+        int s;
+        size_t point;
+        pg_problem_locate (g->problem, changes->bond[c], &s, &point);
+        if (count[s] == 0 || g->list[s][count[s] - 1] != point) g->list[s][count[s]++] = point;    /* changes are ascending     */
     }
 }
 

@@ -83,13 +83,11 @@ static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
     const char *name;
     for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (p->exempt[s], p->rows[s].n);
     for (size_t k = 0; (name = pg_scene_name (scene, k, "failure.exclude")); k++) {
-        const pg_set *set = pg_sets_find (&p->sets, name);
-        if (!set || set->npoint == 0) {
-            const char *near = set ? NULL : pg_sets_near (&p->sets, name);
-            pg_scene_fault (scene, "failure.exclude", "%s is %s%s%s%s", name, set ? "a set without points" : "no set", near ? " (did you mean " : "",
-                            near ? near : "", near ? "?)" : "");
-            continue;
-        }
+        char path[64];
+        snprintf (path, sizeof path, "failure.exclude[%zu]", k);
+        const pg_set *set = pg_sets_named (&p->sets, scene, path, name);
+        if (set && set->npoint == 0) pg_scene_fault (scene, path, "%s is a set without points", name);
+        if (!set) continue;
         for (size_t i = 0; i < set->npoint; i++) p->exempt[PG_NODES][set->point[i]] = 1;
     }
     for (int s = PG_POINTS; s < PG_BOND_SETS; s++)
@@ -121,6 +119,20 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
             }
 done:
     return status;
+}
+
+void pg_problem_locate (const pg_problem *p, size_t bond, int *set, size_t *point)
+{
+    *set = 0;
+    while (bond >= p->first_bond[*set + 1]) ++*set;
+    const size_t *start = p->rows[*set].family.start;
+    size_t e = bond - p->first_bond[*set], lo = 0, hi = p->rows[*set].n;
+    while (hi - lo > 1) {
+        size_t mid = (lo + hi) / 2;
+        if (start[mid] <= e) lo = mid;
+        else hi = mid;
+    }
+    *point = lo;
 }
 
 void pg_bonds_cut (const pg_problem *p, unsigned char *alive)

@@ -146,12 +146,8 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     load->kind = kinds[k].kind;
     snprintf (load->name, sizeof load->name, "%.63s", name && *name ? name : set);
     snprintf (path, sizeof path, "boundary[%zu].set", i);
-    load->set = pg_sets_find (&problem->sets, set);
-    if (!load->set) {
-        const char *near = pg_sets_near (&problem->sets, set);
-        pg_scene_fault (scene, path, "there is no set of this name%s%s%s", near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
-        goto done;
-    }
+    load->set = pg_sets_named (&problem->sets, scene, path, set);
+    if (!load->set) goto done;
     if (is_static && load->kind == PG_VELOCITY) pg_scene_fault (scene, path, "a static run has no velocity: prescribe a displacement");
     const char *how = pg_scene_text (scene, "method.essential");
     int nosb = strcmp (pg_scene_text (scene, "method.approximation"), "nosb") == 0;

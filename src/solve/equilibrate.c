@@ -29,17 +29,11 @@ void breaker_free (breaker *b)
 
 static void locate (const pg_problem *p, pg_broken *out)
 {
-    int s = 0;
-    while (out->bond >= p->first_bond[s + 1]) s++;
-    const pg_rows *r = &p->rows[s];
-    size_t e = out->bond - p->first_bond[s], lo = 0, hi = r->n, dim = (size_t) p->dim;
-    while (hi - lo > 1) {
-        size_t mid = (lo + hi) / 2;
-        if (r->family.start[mid] <= e) lo = mid;
-        else hi = mid;
-    }
-    out->set = s;
-    for (size_t k = 0; k < dim; k++) out->place[k] = 0.5 * (r->x[lo * dim + k] + p->cloud.x[(size_t) r->family.node[e] * dim + k]);
+    size_t point, dim = (size_t) p->dim;
+    pg_problem_locate (p, out->bond, &out->set, &point);
+    const pg_rows *r = &p->rows[out->set];
+    const double *end = p->cloud.x + (size_t) r->family.node[out->bond - p->first_bond[out->set]] * dim;
+    for (size_t k = 0; k < dim; k++) out->place[k] = 0.5 * (r->x[point * dim + k] + end[k]);
 }
 
 pg_status breaker_kill (breaker *b, pg_state *state, const double *measure, double cut, double scale)

@@ -53,10 +53,7 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     o->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
     o->stop_damage = pg_scene_number (scene, "solver.stop.damage");
     const char *stop = pg_scene_text (scene, "solver.stop.set");
-    if (stop && *stop && !(o->stop_set = pg_sets_find (&problem->sets, stop))) {
-        const char *near = pg_sets_near (&problem->sets, stop);
-        pg_scene_fault (scene, "solver.stop.set", "there is no set of this name%s%s%s", near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
-    }
+    if (stop && *stop) o->stop_set = pg_sets_named (&problem->sets, scene, "solver.stop.set", stop);
     o->levels = pg_scene_integer (scene, "output.at.levels");
     int proportional = pg_problem_proportional (problem), is_static = strcmp (o->kind, "static") == 0;
     o->event = is_static && (strcmp (stepping, "event") == 0 || (strcmp (stepping, "auto") == 0 && proportional && o->break_mode != PG_BREAK_ALL));
