@@ -1,4 +1,4 @@
-# Perigal: make [MODE=release|debug|asan] [V=1];  targets: all demo test test-long lint doc bench install clean
+# Perigal: make [MODE=release|debug|asan] [V=1];  targets: all demo test test-long fuzz lint doc bench install clean
 MODE    ?= release
 prefix  ?= /usr/local
 CC      ?= gcc
@@ -20,11 +20,15 @@ WARN    := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla
 INCLUDE := -Iinclude -Isrc -I/usr/include/suitesparse -I/usr/include/udunits2 -I/usr/include/cairo
 OPT_release := -O2 -g -ftree-vectorize
 OPT_debug   := -Og -g -DPG_DEBUG
+OPT_fuzz    := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT_asan    := -O1 -g -DPG_DEBUG -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 # -ffp-contract=off: machines with and without FMA round alike
 CFLAGS  := $(STD) $(OPT_$(MODE)) -ffp-contract=off -fno-math-errno -fPIC $(WARN) $(INCLUDE) $(EXTRA_CFLAGS)
 comma   := ,
 LDFLAGS := $(if $(filter asan,$(MODE)),-fsanitize=address$(comma)undefined,) $(EXTRA_LDFLAGS)
+SECONDS ?= 60
+FUZZ    ?= scene points expression
+FUZZ_BUILD ?= build/fuzz
 
 SOURCES := $(filter-out src/cli/%,$(wildcard src/*/*.c))
 CLI     := $(wildcard src/cli/*.c)
@@ -91,6 +95,15 @@ test-long: packages
 
 test-programs: $(PROGRAM) $(if $(T),$(filter $(BUILD)/test/$(T)/%,$(TESTBIN)),$(TESTBIN))
 
+fuzz:                ## random inputs for SECONDS each (FUZZ=scene: one of them); findings land in build/fuzz
+	$(Q)command -v clang > /dev/null || { echo "make fuzz needs libFuzzer: install the Debian package clang"; exit 1; }
+	$(Q)$(MAKE) --no-print-directory MODE=fuzz CC=clang BUILD=$(FUZZ_BUILD) $(FUZZ:%=$(FUZZ_BUILD)/test/fuzz/fuzz_%)
+	$(Q).ci/fuzz $(FUZZ_BUILD) $(SECONDS) $(FUZZ)
+
+$(BUILD)/test/fuzz/fuzz_%: test/fuzz/fuzz_%.c $(LIB)
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS) -Itest -MMD -MP -MF $@.d $< -fsanitize=fuzzer,address,undefined $(LIB) $(LIBS) -o $@
+
 lint:                ## one-way includes, file and function lengths
 	$(Q).ci/lint $(ORDER)
 
@@ -120,6 +133,6 @@ FORCE:
 print-%:
 	@echo '$($*)'
 
-.PHONY: FORCE all perigal packages demo test test-long test-programs lint doc bench bench-programs install clean
+.PHONY: FORCE all perigal packages demo test test-long test-programs fuzz lint doc bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(TESTBIN:=.d) $(BENCHBIN:=.d)

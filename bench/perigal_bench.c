@@ -59,7 +59,7 @@ static void print_row (const bench_case *c, const pg_problem *p, const pg_solver
 {
     static const char *const rule[] = { "worst", "fraction", "all" };
     printf ("%s,%s,%s %s %s %s,%zu,%zu,%zu,%zu,", c->group, c->name, p->approx.type->name, p->integration->name, o->event ? "event" : "fixed",
-            p->criterion.type ? rule[o->break_mode] : "-", p->cloud.n, p->rows[PG_POINTS].n, p->first_bond[PG_BOND_SETS], state->ndof);
+            p->criterion->type ? rule[o->break_mode] : "-", p->cloud.n, p->rows[PG_POINTS].n, p->first_bond[PG_BOND_SETS], state->ndof);
     print_error (out->across);
     print_error (out->along);
     printf ("%.6g,%.6g,%ld,%ld,%ld,%ld,%ld,%ld,%.3e,%.4f,", out->peak_load, state->factor, r->steps, r->events, r->iterations, r->broken,

@@ -58,12 +58,23 @@ size_t pg_memory_process_peak (void);                  /* peak resident bytes of
     if (!q_) PG_FAIL (PG_E_MEMORY, "no memory for %zu x %zu bytes", cap_, sizeof *(p)); \
     (p) = q_; (cap) = cap_; } } while (0)
 
+/* ---- keeping -------------------------------------------------------------------------------------------------------
+ * One walk over what a run must remember: writes it, or reads it back into the same places (reading = 1).              */
+typedef struct {
+    void *context;
+    int   reading;
+    pg_status (*numbers) (void *context, const char *name, size_t n, double *value);
+    pg_status (*counts)  (void *context, const char *name, size_t n, long *value);
+    pg_status (*bytes)   (void *context, const char *name, size_t n, void *value);
+} pg_keeper;
+
 /* ---- clock and threads ---------------------------------------------------------------------------------------------- */
 double pg_seconds (void);                              /* monotonic wall clock, s                                       */
 /* Calls work (context, first, last, thread) on disjoint ranges covering [0, n). Which thread gets which range never
  * changes a result as long as each item writes only its own output.                                                   */
 typedef void (*pg_work) (void *context, size_t first, size_t last, int thread);
-void pg_parallel (int threads, size_t n, pg_work work, void *context);
+void pg_parallel (int threads, size_t n, pg_work work, void *context);               /* many light items               */
+void pg_parallel_heavy (int threads, size_t n, pg_work work, void *context);         /* few items, each worth a thread */
 
 /* ---- small dense algebra (row-major, n <= 16) ------------------------------------------------------------------------ */
 /* A = L L' in place (lower triangle); returns 0, or 1 + the row whose pivot fell to <= tiny * its diagonal. */

@@ -5,11 +5,12 @@
 #define PERIGAL_CRITERION_H
 #include "perigal/material.h"
 
-enum { PG_NEEDS_STRETCH = 1, PG_NEEDS_STRESS = 2 };
+enum { PG_NEEDS_STRETCH = 1, PG_NEEDS_STRESS = 2, PG_MOST_LIMITS = 4 };
 
 typedef struct pg_criterion_type pg_criterion_type;
 typedef struct {
     const pg_criterion_type *type;
+    int    never;                                      /* 1: bonds that end in this material never break                 */
     double parameter[8];                               /* of the type                                                    */
 } pg_criterion;
 
@@ -28,11 +29,15 @@ typedef struct {                                       /* what the criterion may
     double  modulus, poisson;                          /* Pa, 1                                                          */
     double  thickness;                                 /* m; 1D: cross-section, m^2                                      */
     const char *kernel;
+    const char *material;                              /* its name in the scene; NULL: limits of `failure` only          */
 } pg_criterion_setting;
 
 struct pg_criterion_type {
     const char *name, *summary;
     int needs;                                         /* PG_NEEDS_...                                                   */
+    const char *limit[PG_MOST_LIMITS];                 /* keys of failure that it needs: "a", or "a or b" for either      */
+    const char *option;                                /* one more that it takes; NULL                                   */
+    /* Fills c from the limits of the setting's material; what is wrong becomes a fault of the scene. */
     pg_status (*read) (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting);
     /* utilisation (n); kind (n or NULL): 't' tension, 's' shear */
     void (*utilisation) (const pg_criterion *c, const pg_bond_measures *m, double *utilisation, char *kind);
@@ -44,8 +49,11 @@ struct pg_criterion_type {
 };
 const pg_criterion_type *pg_criterion_find (const char *name);
 const char *pg_criterion_names (void);
-/* The criterion of `failure` in the scene; out->type is NULL when nothing breaks. Faults: keys it lacks or would ignore. */
-pg_status pg_criterion_read (pg_criterion *out, const pg_scene *scene, const pg_criterion_setting *setting);
+/* The criterion of `failure` in the scene for each of n materials, with the limits of materials.NAME.failure before those of failure.
+ * All have one type; it is NULL when nothing breaks. Faults: keys they lack or would ignore. */
+pg_status pg_criterion_read (pg_criterion *out, size_t n, const pg_scene *scene, const pg_criterion_setting *setting /* n */);
+/* One line for logs and reports. */
+void      pg_criterion_describe (const pg_criterion *c, char *text, size_t size);
 /* Critical stretch from fracture energy G0 (J/m^2) and back: theory A1, by quadrature of the kernel moments. */
 double pg_stretch_from_energy (const pg_criterion_setting *setting, double G0);
 double pg_energy_from_stretch (const pg_criterion_setting *setting, double s0);

@@ -31,7 +31,7 @@ typedef struct {
     pg_status (*balance) (void *self, double t, const double *d, double *residual, double *reference);
     pg_status (*mass)    (void *self, double *mass);                       /* lumped, per dof, kg                         */
     const pg_operator *(*operator_) (void *self);                          /* K x, or NULL                                */
-    const pg_sparse   *(*matrix)    (void *self);                          /* K, or NULL: matrix-free                     */
+    const pg_sparse   *(*matrix)    (void *self);                          /* K after assemble; or no such entry: matrix-free */
     /* Essential conditions by elimination: d = T q + g. NULL entries or T NULL: none. */
     const pg_sparse   *(*basis)     (void *self);
     pg_status (*impose)  (void *self, double t, double *d);                /* makes d satisfy them                        */
@@ -47,6 +47,11 @@ typedef struct {
     void      (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
     /* Changes whenever refresh changed K or the basis: an old factor may serve until then (NULL: every refresh changes them). */
     unsigned long (*revision) (const void *self);
+    /* Brings the matrix in line with the last refresh; before it, or after another refresh, matrix is not asked for. NULL: refresh does it. */
+    pg_status (*assemble) (void *self);
+    /* Consistent mass, kg: one number for each pair of nodes (upper triangle, n x n), the same for every component. It is that of the bonds
+     * alive when it is first asked for, and stays: breaking moves no mass. NULL: lumped mass only. */
+    pg_status (*mass_matrix) (void *self, const pg_sparse **M);
 } pg_force_type;
 const pg_force_type *pg_force_find  (const char *name);
 const char          *pg_force_names (void);

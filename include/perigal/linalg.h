@@ -52,8 +52,16 @@ typedef struct pg_linear_type {
 const pg_linear_type *pg_linear_find  (const char *name);
 const char           *pg_linear_names (void);
 
+/* What cholmod's factor of a matrix with dense blocks (block x block) on `graph` (upper triangle, diagonal included; values ignored)
+ * will hold and cost, by the same ordering and a symbolic analysis of the graph alone. */
+pg_status pg_linear_forecast (const pg_sparse *graph, int block, pg_linear_info *info);
+
 /* Conjugate gradients with diagonal preconditioning on any operator; x holds the first guess and the answer. */
 pg_status pg_conjugate_gradients (const pg_operator *A, const double *b, double *x, double tolerance, size_t limit, size_t *iterations);
+/* The same with a preconditioner of the caller's: z = P^-1 r, symmetric positive definite (NULL: the diagonal). */
+typedef struct { void *context; pg_status (*solve) (void *context, const double *r, double *z); } pg_preconditioner;
+pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b, double *x, double tolerance, size_t limit,
+                                       size_t *iterations);
 /* Row whose pivot failed in the last factor call on this thread (-1: none). */
 long pg_linear_failed_row (void);
 #endif

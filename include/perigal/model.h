@@ -34,8 +34,9 @@ typedef struct {
     int      dim, threads;
     pg_mode  mode;
     pg_body  body;  pg_lattice lattice;  pg_cloud cloud;  pg_cells cells;  pg_sets sets;  pg_cracks cracks;
-    pg_material  *material;  size_t nmaterial;         /* material[cloud.block[i]]                                       */
-    pg_criterion  criterion;                           /* type NULL: nothing breaks                                      */
+    pg_material  *material;  size_t nmaterial;
+    pg_criterion *criterion;                           /* per material, all of one type; type NULL: nothing breaks       */
+    int          *block[PG_BOND_SETS];                 /* material of every point of a bond set                          */
     pg_approx     approx;
     const pg_integration_type *integration;
     char     force[32];
@@ -45,7 +46,7 @@ typedef struct {
     pg_gauge *gauge; size_t ngauge;
     pg_rows  rows[PG_BOND_SETS];                       /* geometry only: N, dN, w, grade are NULL                        */
     size_t   first_bond[PG_BOND_SETS + 1];             /* bond b of set k is alive[first_bond[k] + b]                    */
-    unsigned char *exempt[PG_BOND_SETS];               /* per point: its bonds never break (failure: exclude)            */
+    unsigned char *exempt[PG_BOND_SETS];               /* per point: its bonds never break (failure: exclude, never)     */
     size_t   eroded;                                   /* points that lie on a pre-crack                                 */
 } pg_problem;
 pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads);
@@ -67,4 +68,42 @@ typedef struct {
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components /* dofs per node */);
 pg_status pg_state_copy   (pg_state *to, const pg_state *from);
 void      pg_state_free   (pg_state **state);
+
+/* ---- forecast: sizes and memory of a run before anything large is allocated ------------------------------------------------ */
+enum { PG_BYTES_PROGRAM, PG_BYTES_POINTS, PG_BYTES_BONDS, PG_BYTES_SHAPES, PG_BYTES_BREAKING, PG_BYTES_MATRIX, PG_BYTES_FACTOR,
+       PG_BYTES_VECTORS, PG_BYTES_RESULTS, PG_BYTES_COUNT };
+typedef struct {
+    int    dim, nodal, breaks, pictures;               /* nodal: the points of evaluation are the nodes; breaks: with a criterion */
+    int    counted, analysed;                          /* 1: the counts, the factor are exact, not estimates             */
+    char   linear[16];                                 /* what will solve: "cholmod", "umfpack", "cg" (no matrix at all)  */
+    int    automatic, dynamic;                         /* solver.linear: auto; newmark                                   */
+    double weight;                                     /* dynamic: beta (2 c_p dt)^2, m^2: K against M at spacing 1      */
+    char   ordering[16];                               /* of an analysed factor                                          */
+    double spacing, step[3], horizon;                  /* m                                                              */
+    double points, cells, evaluation, facets;          /* evaluation: Gauss points, 0 if nodal; facets: their points     */
+    double bonds[PG_BOND_SETS], dofs;
+    double slaves, eliminated;                         /* essential: transformation: unknowns, entries of its matrices   */
+    double pairs;                                      /* nodes I <= J that share a point of evaluation                  */
+    double edge[3], width;                             /* nodes along the body, of a separator (nested dissection)       */
+    double fields;                                     /* of result.e                                                    */
+    double matrix_entries, factor_entries, factor_flops;                              /* upper triangle; of L            */
+    double bytes[PG_BYTES_COUNT], peak;
+} pg_forecast;
+/* From the scene alone: points and bonds by counting on its lattice (a coarser one when it has more than 4e6 cells), the factor by the
+ * law of nested dissection. PG_E_SCENE: the scene has faults, which were added to it. */
+pg_status pg_forecast_scene   (pg_forecast *out, const pg_scene *scene);
+/* Replaces counts by those of the problem built from that scene. */
+pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *problem);
+/* Replaces pairs and factor by those of an analysis (pg_stiffness_graph, pg_linear_forecast). */
+void      pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, double entries, double flops);
+/* The same body at another spacing, by scaling; another linear solver or integration: set linear, nodal and sum anew. */
+pg_forecast pg_forecast_at    (const pg_forecast *f, double spacing);
+void        pg_forecast_sum   (pg_forecast *f);        /* bytes and peak from the counts                                 */
+double      pg_forecast_fitting (const pg_forecast *f, double available);      /* smallest spacing (m, 2 digits) that fits */
+/* PG_E_LIMIT with needs, means and ways out when the peak exceeds `available` bytes. */
+pg_status   pg_forecast_afford (const pg_forecast *f, double available);
+const char *pg_forecast_item  (int item);              /* "bonds", ...                                                   */
+/* Bytes that this process may still take: least of free memory, control groups (v2, v1) and RLIMIT_AS. root: "" (tests: a folder
+ * that holds proc and sys). */
+double      pg_available_memory (const char *root);
 #endif

@@ -12,11 +12,17 @@ typedef struct {
     const double *value;                               /* n x components                                                 */
 } pg_field_view;
 
-/* ---- result.e: Exodus layout in netCDF-4, one SPHERE element and one node per point; readable after a kill ------------ */
+/* ---- result.e: Exodus layout in classic netCDF, one SPHERE element and one node per point; readable after a kill ------ */
 typedef struct pg_exodus pg_exodus;
 pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
                             size_t nfield, const pg_field_view *fields /* values ignored */);
-pg_status pg_exodus_write  (pg_exodus *file, double time, const pg_field_view *fields);   /* appends a step and syncs      */
+/* To go on: later steps than `steps` are cut off; `steps` and `bytes` as pg_exodus_size told. */
+pg_status pg_exodus_open   (pg_exodus **out, const char *path, const pg_cloud *cloud, size_t nfield, const pg_field_view *fields,
+                            long steps, long bytes);
+/* Appends a step; refused, the file stays as it was. */
+pg_status pg_exodus_write  (pg_exodus *file, double time, const pg_field_view *fields);
+void      pg_exodus_size   (const pg_exodus *file, long *steps, long *bytes);
+pg_status pg_exodus_sync   (const pg_exodus *file);                                       /* to the disk itself            */
 void      pg_exodus_close  (pg_exodus **file);
 /* Reads a field back: step -1 is the last. *value is n x *components, to be freed with pg_free. */
 pg_status pg_exodus_read   (const char *path, const char *field, int step, size_t *n, int *components, double **value);
@@ -25,12 +31,23 @@ pg_status pg_exodus_fields (const char *path, char (**names)[32], size_t *n);   
 pg_status pg_exodus_unit   (const char *path, const char *field, char unit[16]);          /* "" when there is none        */
 
 /* ---- tables --------------------------------------------------------------------------------------------------------- */
-/* CSV: header "name [unit]" per column, one row a call, flushed; numbers with 17 digits. */
+/* CSV: header "name [unit]" per column, one row a call, at once in the file or not at all; numbers with 17 digits. */
 typedef struct pg_table pg_table;
 pg_status pg_table_create (pg_table **out, const char *path, size_t n, const char *const *columns);
+pg_status pg_table_open   (pg_table **out, const char *path, size_t n, long rows);     /* to go on: later rows are cut off */
+long      pg_table_rows   (const pg_table *table);     /* without the header                                             */
+pg_status pg_table_sync   (const pg_table *table);     /* to the disk itself                                             */
 pg_status pg_table_row    (pg_table *table, const double *values);
 pg_status pg_table_line   (pg_table *table, const char *const *values);
 void      pg_table_close  (pg_table **table);
+
+/* ---- checkpoint.nc: what a run must remember, in classic netCDF --------------------------------------------------------- */
+typedef pg_status (*pg_keep) (void *context, const pg_keeper *keeper);
+/* The walk is made twice, with the same names and lengths: to define and to write. At any instant `path` is the old file or the whole
+ * new one (written as PATH.new, synced, moved). */
+pg_status pg_checkpoint_write (const char *path, pg_keep walk, void *context);
+/* The same walk; a name that the file lacks or has in another length is PG_E_FILE. */
+pg_status pg_checkpoint_read  (const char *path, pg_keep walk, void *context);
 
 /* ---- JSON ----------------------------------------------------------------------------------------------------------- */
 typedef struct pg_json pg_json;                        /* written to PATH.tmp, renamed on close                          */
@@ -50,12 +67,35 @@ typedef struct {
     double      magnify;                               /* points drawn at x + magnify u; 0: undeformed                   */
     const double *u;                                   /* n x dim displacement or NULL                                   */
     const pg_cracks *cracks;                           /* drawn as lines, or NULL                                        */
-    int         section;                               /* 3D: 0: mid-plane of z; 1, 2, 3: the plane x, y, z = at         */
+    int         section;                               /* 3D: 0: mid-plane of z; 1, 2, 3: the plane x, y, z = at;
+                                                          4: the plane direction . x / |direction| = at                  */
     double      at;                                    /* m                                                              */
+    int         view;                                  /* 3D: a pg_view; other than PG_SECTION: the body from outside    */
+    double      direction[3];                          /* section 4: normal; iso, crack: towards the eye, 0: usual       */
+    const double *select;                              /* only points with select > above or equal are drawn, the body
+                                                          as an outline behind them; NULL: all                (n)       */
+    double      above;
+    int         clip;                                  /* colour range without a few stray values, see pg_picture_range   */
+    int         by_depth;                              /* coloured by the coordinate along the eye's main axis instead   */
 } pg_picture_style;
+/* Sides as the sets of the same name: left x, bottom y, back z low; right, top, front high. The eye looks at that side from
+ * outside, y up (top, bottom: x to the right). iso and crack: obliquely, y up, with light. */
+enum { PG_SECTION, PG_VIEW_FRONT, PG_VIEW_BACK, PG_VIEW_LEFT, PG_VIEW_RIGHT, PG_VIEW_TOP, PG_VIEW_BOTTOM, PG_VIEW_ISO, PG_VIEW_CRACK, PG_VIEWS };
+#define PG_CRACK_DAMAGE 0.35                           /* damage of points that view crack shows unless told otherwise  */
+extern const char pg_view_names[];                     /* "section|front|back|..." in that order                         */
+/* Range of n finite values; excess > 0: without the outer 0.5 % at each end if the rest spans less than 1 / excess of the whole
+ * (loose fragments fly far). 1 in *found when there is a finite value, else 0 to 1.                                     */
+pg_status pg_picture_range (size_t n, const double *value, double excess, double *low, double *high, int *found);
+/* "z = 5 mm", "1, 0, 1 = 5 mm" (normal = distance from the origin along it): sets section, at, direction. */
+pg_status pg_picture_section (pg_picture_style *style, const char *text);
+pg_status pg_picture_direction (double direction[3], const char *text);       /* "1, 0.5, 2", not zero                     */
 /* 2D field, one cell-sized square per point, NaN grey, length unit chosen by size (mm, m, ...), axes with ticks, colour bar.
- * 1D: a chart over x. 3D: the section that style names. Labels may raise and lower text: "c_{x} (m^{2})". */
+ * 1D: a chart over x. 3D: the section or the view that style names. Labels may raise and lower text: "c_{x} (m^{2})". */
 pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value /* n */, const pg_picture_style *style);
+
+typedef struct { const char *title; const double *value, *u, *select; } pg_panel;
+/* Several states in one picture with one colour bar, row by row; columns 0: as many as suit. style's value, u, select unused. */
+pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel, int columns, const pg_picture_style *style);
 
 typedef struct { const char *name; size_t n; const double *x, *y; int points; /* 1: markers, 0: line */ } pg_curve;
 typedef struct { const char *title, *xlabel, *ylabel; int logx, logy; } pg_chart_style;

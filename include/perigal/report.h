@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * report.h: the result folder of a run: result.e, history.csv, events.csv, report.json, pictures, a copy of the scene. */
+ * report.h: the result folder of a run: result.e, history.csv, events.csv, report.json, pictures, a copy of the scene, checkpoint.nc. */
 #ifndef PERIGAL_REPORT_H
 #define PERIGAL_REPORT_H
 #include "perigal/output.h"
@@ -11,10 +11,26 @@ pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem);
 typedef struct pg_result pg_result;
 pg_status pg_result_open  (pg_result **out, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver);
 pg_status pg_result_step  (pg_result *result, const pg_state *state, const pg_step *step);
+/* In the middle of a step (a pg_watch): fields, when another share output.at.broken of the bonds has broken. */
+pg_status pg_result_stage (pg_result *result, const pg_state *state, const pg_step *so_far);
+/* The step at hand was refused: the state is that of its start again. */
+void      pg_result_refused (pg_result *result);
 /* Writes the last fields, pictures and report.json; `failure` is NULL or the message of what ended the run; seconds: of the run
  * by phase search, total. The files stay readable whatever happens. */
 pg_status pg_result_finish (pg_result *result, const pg_state *state, const char *failure, double search, double total);
 void      pg_result_free  (pg_result **result);
+
+/* ---- going on later ----------------------------------------------------------------------------------------------------- */
+/* checkpoint.nc: the run as it is, the files of the folder synced before. Also after a refused step, after pg_result_step has failed,
+ * in the middle of a step after pg_result_stage. pg_result_finish removes it when all is done. */
+pg_status pg_result_checkpoint (pg_result *result, pg_state *state);
+int       pg_result_due    (const pg_result *result);       /* output.checkpoint has passed since the last one            */
+typedef struct { long step, rounds; double seconds; int threads; } pg_resumed;         /* steps done, break rounds of the next */
+/* Brings solver and state to where the checkpoint of the folder was written, cuts off what the files have got since. */
+pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver,
+                            pg_state *state, pg_resumed *from);
+/* 1: the folder holds the whole results of this scene and no checkpoint. */
+int       pg_result_finished (const char *folder, const pg_scene *scene);
 const char *pg_result_folder (const pg_result *result);
 size_t    pg_result_pictures (const pg_result *result);     /* written                                                   */
 const char *pg_result_picture (const pg_result *result, size_t i);

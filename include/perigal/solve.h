@@ -9,11 +9,12 @@ typedef enum { PG_BREAK_WORST, PG_BREAK_FRACTION, PG_BREAK_ALL } pg_break;
 typedef struct {
     char     kind[16], linear[16];                     /* static | newmark; auto | cholmod | umfpack | pcg               */
     int      event;                                    /* static: event stepping                                         */
+    int      consistent;                               /* newmark: consistent mass, not lumped                           */
     pg_break break_mode;
     double   break_fraction, tie;                      /* bonds within this share of the worst break with it             */
     double   tolerance;                                /* of the residual, relative to the reference force               */
     long     steps, max_iterations, max_events;
-    double   dt, end, beta, gamma, rayleigh_mass, rayleigh_stiffness;      /* newmark: s, s, 1, 1, 1/s, s                 */
+    double   dt, end, alpha, beta, gamma, rayleigh_mass, rayleigh_stiffness;      /* newmark: s, s, 1, 1, 1, 1/s, s          */
     double   stop_stiffness;                           /* event stepping: stop when the secant stiffness fell below it   */
     const pg_set *stop_set; double stop_damage;        /* stop when a point of the set is damaged so far; NULL: never    */
     long     levels;                                   /* reports at k / levels of the load (or of the end time)         */
@@ -60,6 +61,15 @@ void      pg_solver_free   (pg_solver **solver);
 int       pg_solver_components (const pg_solver *solver);              /* dofs per node, for pg_state_create              */
 /* Advances by one step. On a numerical failure the state is that of the last accepted step. */
 pg_status pg_solver_step   (pg_solver *solver, pg_state *state, pg_step *step);
+/* Called between the break rounds of a step, with the state and the step so far. A status other than PG_OK ends pg_solver_step with it;
+ * the state is then one in the middle of the step, from which pg_solver_step goes on when it is called again. */
+typedef pg_status (*pg_watch) (void *context, const pg_state *state, const pg_step *so_far);
+void      pg_solver_watch  (pg_solver *solver, pg_watch watch, void *context);
+/* Writes or reads back all that later steps depend on, state included, also in the middle of a step. A solver read back goes on bit
+ * by bit as the written one would have (same machine, threads and libraries). */
+pg_status pg_solver_keep   (pg_solver *solver, pg_state *state, const pg_keeper *keeper);
+/* Largest eigenfrequency sqrt (K x / M x), rad/s, from below within about 1 %: explicit steps are stable up to 2 / omega. */
+pg_status pg_solver_fastest (pg_solver *solver, const pg_state *state, double *omega);
 int       pg_solver_done   (const pg_solver *solver, const pg_state *state);
 double    pg_solver_progress (const pg_solver *solver, const pg_state *state);     /* 0..1                              */
 const pg_report *pg_solver_report (pg_solver *solver, const pg_state *state);      /* with a fresh census and overlap     */

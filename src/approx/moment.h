@@ -6,6 +6,8 @@
 #include "perigal/approx.h"
 
 enum { PG_BASIS_MAX = 10 };
+#define PG_WILDEST 3.0                                 /* sum |N| above it: the bonds left cannot bear the basis        */
+#define PG_WILDEST_QUADRATIC 6.0
 #define PG_THINNEST 1e-3                               /* a direction is lost where the second moment is below this h^2  */
 
 typedef struct {
@@ -15,6 +17,7 @@ typedef struct {
     size_t  n;                                         /* live bonds with w > 0                                          */
     size_t  own;                                       /* place of the own node in the row, where constant = 0           */
     int     stray;                                     /* 1: a node that must be in its own family is not                */
+    int     lost;                                      /* 1: a bond of the family is dead                                 */
     size_t *entry;                                     /* place in the row                          (n)                  */
     double *z;                                         /* bond in horizons                          (n x dim)            */
     double *w;                                         /* weight                                    (n)                  */

@@ -63,11 +63,12 @@ static void gather (const sweep *g, size_t i, pg_star *s)
     const pg_rows *rows = g->rows;
     size_t dim = (size_t) s->dim, first = rows->family.start[i], last = rows->family.start[i + 1];
     int own = g->formula->about_node ? rows->own[i] : -1, seen = 0;
-    s->constant = own < 0;
+    s->constant = own < 0, s->lost = 0;
     s->n = 0;
     for (size_t e = first; e < last; e++) {
         int j = rows->family.node[e];
         if (j == own) s->own = e - first, seen = 1;
+        if (g->alive && !g->alive[e]) s->lost = 1;
         if (j == own || (g->alive && !g->alive[e])) continue;
         for (size_t k = 0; k < dim; k++)
             s->z[s->n * dim + k] = (g->cloud->x[(size_t) j * dim + k] - rows->x[i*dim + k]) / s->a;
@@ -103,20 +104,48 @@ static void weigh (const sweep *g, size_t i, pg_star *s)
     }
 }
 
+/* Does the point extrapolate? sum |N| (the Lebesgue constant of its star) is 1 to 2 on an intact body; where the few bonds left hang on
+ * influences near zero it grows, the derivatives grow still faster, and the point would feed energy into the body. */
+static int wild (const pg_star *s, const double *N)
+{
+    double sum = 0;
+    for (size_t j = 0; s->constant && s->lost && j < s->n; j++) sum += fabs (N[s->entry[j]]);
+    return !(sum <= (s->order == 2 ? PG_WILDEST_QUADRATIC : PG_WILDEST));
+}
+
+static void clear (pg_rows *rows, size_t first, size_t last)
+{
+    size_t dim = (size_t) rows->dim;
+    for (size_t e = first; e < last; e++) rows->N[e] = 0;
+    for (size_t e = first * dim; e < last * dim; e++) rows->dN[e] = 0;
+}
+
+/* Shape functions by the richest basis that the live bonds bear; returns its grade. */
+static int fill (const sweep *g, pg_star *s, pg_rows *rows, size_t first, size_t last)
+{
+    for (int order = g->a->order; order >= 1; order--) {
+        int grade = pg_star_grade (s, order, g->cloud->h);
+        if (grade > PG_GRADE_PROJECTED) return grade;
+        g->formula->fill (s, rows->N + first, rows->dN + first * (size_t) s->dim);
+        if (!wild (s, rows->N + first)) return order < g->a->order && grade == PG_GRADE_FULL ? PG_GRADE_LOWERED : grade;
+        clear (rows, first, last);
+    }
+    return PG_GRADE_SHEPARD;
+}
+
 static void row (const sweep *g, size_t i, pg_star *s)
 {
     pg_rows *rows = g->rows;
-    size_t dim = (size_t) s->dim, first = rows->family.start[i], last = rows->family.start[i + 1];
-    for (size_t e = first; e < last; e++) rows->N[e] = rows->w[e] = 0;
-    for (size_t e = first * dim; e < last * dim; e++) rows->dN[e] = 0;
+    size_t first = rows->family.start[i], last = rows->family.start[i + 1];
+    for (size_t e = first; e < last; e++) rows->w[e] = 0;
+    clear (rows, first, last);
     gather (g, i, s);
     weigh (g, i, s);
     if (s->stray) return;
-    double *N = rows->N + first, *dN = rows->dN + first * dim;
-    int grade = pg_star_grade (s, g->a->order, g->cloud->h);
-    if (grade <= PG_GRADE_PROJECTED) g->formula->fill (s, N, dN);
-    else if (s->constant) for (size_t j = 0; j < s->n; j++) N[s->entry[j]] = s->w[j];
-    else {                                             /* a node keeps its own displacement, whatever it lost */
+    double *N = rows->N + first;
+    int grade = fill (g, s, rows, first, last);
+    if (grade > PG_GRADE_PROJECTED && s->constant) for (size_t j = 0; j < s->n; j++) N[s->entry[j]] = s->w[j];
+    if (grade > PG_GRADE_PROJECTED && !s->constant) {  /* a node keeps its own displacement, whatever it lost */
         N[s->own] = 1;
         grade = PG_GRADE_SHEPARD;
     }

@@ -22,10 +22,13 @@ static void *run (void *p)
     return NULL;
 }
 
-void pg_parallel (int threads, size_t n, pg_work work, void *context)
+void pg_parallel (int threads, size_t n, pg_work work, void *context) { pg_parallel_heavy (n < 64 ? 1 : threads, n, work, context); }
+
+void pg_parallel_heavy (int threads, size_t n, pg_work work, void *context)
 {
     if (threads > MAX_THREADS) threads = MAX_THREADS;
-    if (threads < 1 || n < 64) threads = 1;
+    if (threads < 1) threads = 1;
+    if ((size_t) threads > n) threads = n > 0 ? (int) n : 1;
     job jobs[MAX_THREADS];
     pthread_t id[MAX_THREADS];
     int started[MAX_THREADS] = { 0 };

@@ -9,14 +9,21 @@ int pg_cli_check (int argc, char **argv)
     pg_scene *scene = NULL;
     pg_problem *p = NULL;
     pg_solver_options o;
+    pg_forecast f;
+    first_break first = { 0 };
     int wrong = command_parse (&c, argc, argv);
     if (wrong >= 0) return wrong;
     PG_TRY (command_scene (&c, &scene));
+    PG_TRY (afford_scene (&c, &f));
     PG_TRY (pg_problem_build (&p, scene, c.threads));
     PG_TRY (pg_solver_options_read (&o, p, scene));
     PG_TRY (pg_result_check (scene, p));
-    printf ("%s: the scene is right\n", c.scene);
-    if (!c.quiet) plan_print_long (p, &o);
+    PG_TRY (afford_problem (&c, &f, p, 1));
+    if (c.solve) PG_TRY (first_break_find (&first, p, &o));
+    plan all = { p, &o, &f, afford_available (&c), &first };
+    if (c.json) PG_TRY (plan_print_json (&all));
+    else printf ("%s: the scene is right\n", c.scene);
+    if (!c.quiet && !c.json) plan_print_long (&all);
 done:
     if (status != PG_OK) command_complain (status, pg_last_error ());
     pg_problem_free (&p);

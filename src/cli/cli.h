@@ -17,15 +17,39 @@ void progress_show  (progress *p, double share, const pg_step *step, const pg_re
 void progress_end   (progress *p);
 
 /* command.c: options shared by run and check */
-typedef struct { const char *scene, *folder, *set[64]; size_t nset; int threads, quiet; } command;
+typedef struct { const char *scene, *folder, *set[64]; size_t nset; int threads, quiet, resume, json, solve; double memory; const char *given; } command;
 int       command_parse (command *c, int argc, char **argv);   /* -1: go on; else the exit code (message printed)         */
 int       command_usage (FILE *to, const char *name);          /* 0: there is no such command                             */
 pg_status command_scene (const command *c, pg_scene **scene);  /* a file that cannot be read counts as a wrong scene      */
 void      command_complain (pg_status status, const char *text);
+void      command_again (const command *c);                    /* how to go on with this run, on stderr                   */
 int       exit_code     (pg_status status);
+
+/* afford.c: PG_E_LIMIT where the run would need more than is available (--memory, else what the machine grants). */
+double    afford_size      (const char *text);                 /* "8GB" in bytes; NAN: no size                           */
+double    afford_available (const command *c);
+pg_status afford_scene     (const command *c, pg_forecast *f); /* a wrong scene gives an empty forecast                  */
+pg_status afford_problem   (const command *c, pg_forecast *f, const pg_problem *p, int thorough /* analyse whatever is free */);
+
+/* first_break.c: one solve at load factor 1 without failure */
+typedef struct {
+    int    asked, is_static, solved, proportional, nload; /* solved: the fields below hold                              */
+    double omega;                                      /* rad/s; 0: no density                                           */
+    double factor, utilisation, place[3];              /* INFINITY: no bond can break; largest at load factor 1          */
+    char   kind;  int set;                             /* of the first bond                                              */
+    double residual, displacement;                     /* m, largest                                                     */
+} first_break;
+pg_status first_break_find (first_break *out, const pg_problem *p, const pg_solver_options *o);
 
 /* plan.c */
 void plan_print      (const pg_problem *p, const pg_solver_options *o);
-void plan_print_long (const pg_problem *p, const pg_solver_options *o);
+typedef struct { const pg_problem *problem; const pg_solver_options *options; const pg_forecast *forecast; double available; const first_break *first; } plan;
+typedef struct { double lambda, mu, pressure, shear; } plan_waves;       /* Pa, m/s; 0: none                              */
+plan_waves plan_waves_of (const pg_material *m, int dim);
+typedef struct { double omega, dt, courant; int measured; } plan_times;  /* rad/s, s stable, c_p dt / h of newmark        */
+plan_times plan_times_of (const plan *p);
+size_t plan_skips (const plan *p, pg_skip *skip, size_t most);           /* what the run will not do, as far as known     */
+void plan_print_long (const plan *p);
+pg_status plan_print_json (const plan *p);
 void plan_doubts     (const pg_problem *p, const pg_solver_options *o, FILE *to);
 #endif

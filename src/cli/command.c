@@ -7,14 +7,20 @@
 #include <unistd.h>
 
 static const struct { const char *name, *text; } usages[] = {
-    { "run", "perigal run SCENE.yaml [-o DIR] [--threads N] [--set KEY=VALUE]... [--quiet]\n"
+    { "run", "perigal run SCENE.yaml [-o DIR] [--resume] [--threads N] [--memory SIZE] [--set KEY=VALUE]... [--quiet]\n"
              "  -o, --out DIR        result folder, made if need be; default out/NAME, NAME from the scene's folder or file\n"
+             "      --resume         goes on from DIR/checkpoint.nc of an interrupted run, with the same scene and --set\n"
              "      --threads N      0 (the default): one per processor\n"
+             "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A run that needs more is refused\n"
              "  -s, --set KEY=VALUE  replaces or adds one value of the scene, such as method.horizon='2.5 spacing'\n"
              "  -q, --quiet          neither progress nor summary; warnings are in DIR/report.json\n"
-             "  Ctrl-C ends the run after the step at hand; what was written stays readable.\n" },
-    { "check", "perigal check SCENE.yaml [--set KEY=VALUE]... [--quiet]\n"
-               "  All faults of the scene with line and column, or what it amounts to: points, bonds, unknowns, constants.\n" },
+             "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) leaves a checkpoint after the break round at hand; a second one ends at once.\n" },
+    { "check", "perigal check SCENE.yaml [--json] [--solve] [--memory SIZE] [--set KEY=VALUE]... [--quiet]\n"
+               "  All faults of the scene with line and column, or what it amounts to: points, bonds, unknowns, memory, constants,\n"
+               "  time steps, and what the run will skip.\n"
+               "      --solve          solves once: the load at which the first bond breaks, and where; the stable time step\n"
+               "      --json           the same for programs\n"
+               "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A scene that needs more is refused\n" },
     { "plot", "perigal plot DIR [--field NAME] [--component x|xx|magnitude] [--step N] [--magnify FACTOR] [--section AXIS=VALUE] [--out FILE]\n"
               "perigal plot DIR --curve X Y [--out FILE]\n"
               "  A field of DIR/result.e (damage, last step), or two columns of DIR/history.csv, as PNG or SVG.\n" },
@@ -37,8 +43,16 @@ static int read_threads (command *c, const char *text)
         fprintf (stderr, "perigal: --threads %s: a number from 0 (all) to 64 is needed\n", text);
         return EXIT_USAGE;
     }
-    c->threads = (int) n;
+    c->threads = (int) n, c->given = text;
     return -1;
+}
+
+static int read_memory (command *c, const char *text)
+{
+    c->memory = afford_size (text);
+    if (c->memory > 0) return -1;
+    fprintf (stderr, "perigal: --memory %s: a size is needed, such as 500MB or 8GB\n", text);
+    return EXIT_USAGE;
 }
 
 static int read_set (command *c, const char *text)
@@ -63,7 +77,9 @@ int command_parse (command *c, int argc, char **argv)
 {
     static const struct option options[] = {
         { "out", required_argument, NULL, 'o' }, { "threads", required_argument, NULL, 't' }, { "set", required_argument, NULL, 's' },
-        { "quiet", no_argument, NULL, 'q' }, { "help", no_argument, NULL, 'h' }, { NULL, 0, NULL, 0 } };
+        { "resume", no_argument, NULL, 'r' }, { "memory", required_argument, NULL, 'm' }, { "json", no_argument, NULL, 'j' },
+        { "solve", no_argument, NULL, 'v' }, { "quiet", no_argument, NULL, 'q' }, { "help", no_argument, NULL, 'h' }, { NULL, 0, NULL, 0 } };
+    int checks = strcmp (argv[0], "check") == 0;
     memset (c, 0, sizeof *c);
     optind = 1, opterr = 0;
     for (int k, wrong = -1; (k = getopt_long (argc, argv, ":o:qs:h", options, NULL)) != -1;) {
@@ -72,6 +88,10 @@ int command_parse (command *c, int argc, char **argv)
         else if (k == 't') wrong = read_threads (c, optarg);
         else if (k == 's') wrong = read_set (c, optarg);
         else if (k == 'q') c->quiet = 1;
+        else if (k == 'r') c->resume = 1;
+        else if (k == 'm') wrong = read_memory (c, optarg);
+        else if (k == 'j' && checks) c->json = 1;
+        else if (k == 'v' && checks) c->solve = 1;
         else wrong = refuse (argv[0], k, argv[optind - 1]);
         if (wrong >= 0) return wrong;
     }
@@ -95,6 +115,29 @@ pg_status command_scene (const command *c, pg_scene **scene)
 void command_complain (pg_status status, const char *text)
 {
     fprintf (stderr, "%s%s\n", status == PG_E_SCENE ? "" : "perigal: ", text);
+}
+
+/* For the shell, in quotes where they are needed. */
+static void put_word (const char *word)
+{
+    if (!*word || word[strcspn (word, " \t\n\"'\\$`!*?[](){}<>|&;#~")]) {
+        fputc ('\'', stderr);
+        for (; *word; word++) {
+            if (*word == '\'') fputs ("'\\'", stderr);
+            fputc (*word, stderr);
+        }
+        fputc ('\'', stderr);
+    } else fputs (word, stderr);
+}
+
+void command_again (const command *c)
+{
+    fputs ("perigal: go on with: perigal run ", stderr);
+    put_word (c->scene);
+    if (c->folder) fputs (" -o ", stderr), put_word (c->folder);
+    for (size_t k = 0; k < c->nset; k++) fputs (" --set ", stderr), put_word (c->set[k]);
+    if (c->given) fprintf (stderr, " --threads %s", c->given);
+    fputs (" --resume\n", stderr);
 }
 
 int exit_code (pg_status status)

@@ -51,7 +51,7 @@ int main (int argc, char **argv)
     }
     for (size_t k = 0; k < sizeof commands / sizeof *commands; k++)
         if (strcmp (argv[1], commands[k].name) == 0) {
-            if (k == 0) settle_threads (argc, argv);
+            if (k <= 1) settle_threads (argc, argv);
             return commands[k].run (argc - 1, argv + 1);
         }
     const char *near = pg_nearest_name (argv[1], "run|check|plot|list|help");

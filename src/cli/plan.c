@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What a scene amounts to, in words: before a run, and at length for check. */
 #include "cli.h"
+#include <math.h>
 #include <string.h>
 
 static const char *stepping (const pg_solver_options *o)
@@ -8,10 +9,20 @@ static const char *stepping (const pg_solver_options *o)
     return strcmp (o->kind, "static") ? "" : o->event ? ", event stepping" : ", fixed load steps";
 }
 
-static void describe (const pg_problem *p, char *text, size_t size)
+/* The criterion; of several materials one line each, with their points. */
+static void describe (const pg_problem *p, int width)
 {
-    snprintf (text, size, "none: nothing breaks");
-    if (p->criterion.type) p->criterion.type->describe (&p->criterion, text, size);
+    char text[512];
+    pg_criterion_describe (p->criterion, text, sizeof text);
+    if (p->nmaterial == 1) printf ("  %-*s %s\n", width, "criterion", text);
+    for (size_t m = 0; p->nmaterial > 1 && m < p->nmaterial; m++) {
+        size_t points = 0, inside = 0;
+        for (size_t i = 0; i < p->cloud.n; i++) points += p->block[PG_NODES][i] == (int) m;
+        for (size_t i = 0; i < p->rows[PG_POINTS].n; i++) inside += p->block[PG_POINTS][i] == (int) m;
+        pg_criterion_describe (&p->criterion[m], text, sizeof text);
+        printf ("  %-*s %s: %zu points, %zu evaluation points; criterion %s\n", width, "material", p->material[m].name, points,
+                p->rows[PG_POINTS].n ? inside : points, text);
+    }
 }
 
 static int acts (const pg_problem *p, const pg_load *load, int k, double end)
@@ -40,37 +51,186 @@ void plan_doubts (const pg_problem *p, const pg_solver_options *o, FILE *to)
 
 void plan_print (const pg_problem *p, const pg_solver_options *o)
 {
-    char text[512];
-    describe (p, text, sizeof text);
     printf ("%s\n", p->title);
     printf ("  %zu points, spacing %.6g m, %zu evaluation points, %zu bonds, %zu unknowns\n", p->cloud.n, p->cloud.h,
             p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n, p->first_bond[PG_BOND_SETS], p->cloud.n * (size_t) p->dim);
     printf ("  %s (%s basis, %s kernel, horizon %.6g m), %s integration\n", p->approx.type->name, p->approx.order == 2 ? "quadratic" : "linear",
             p->approx.kernel->name, p->approx.horizon, p->integration->name);
-    printf ("  criterion %s\n", text);
+    describe (p, 9);
     if (p->eroded) printf ("  %zu points lie on a pre-crack and lose their bonds to both sides\n", p->eroded);
     printf ("  solver %s%s\n", o->kind, stepping (o));
     plan_doubts (p, o, stdout);
     fflush (stdout);                                   /* progress goes to the other stream */
 }
 
-void plan_print_long (const pg_problem *p, const pg_solver_options *o)
+/* ---- at length -------------------------------------------------------------------------------------------------------------- */
+plan_waves plan_waves_of (const pg_material *m, int dim)
 {
-    char text[512];
-    const size_t *first = p->first_bond;
-    describe (p, text, sizeof text);
-    printf ("  %-18s  %s\n  %-18s  %zu, spacing", "title", p->title, "points", p->cloud.n);
-    for (int k = 0; k < p->dim && p->lattice.dim; k++) printf (" %.6g", p->cloud.step[k]);
-    if (!p->lattice.dim) printf (" about %.6g", p->cloud.h);
-    printf (" m\n  %-18s  %zu, boundary facets %zu\n", "background cells", p->cells.n, p->cells.nfacet);
+    plan_waves w = { 0, 0, 0, 0 };
+    if (dim > 1) w.lambda = m->D[1], w.mu = m->D[dim == 3 ? 21 : 8];
+    if (m->density > 0) w.pressure = sqrt (m->D[0] / m->density), w.shear = sqrt (w.mu / m->density);
+    return w;
+}
+
+/* Unless measured: 2 c_p / h inside, and where Nitsche's terms (beta = nitsche E / h) stiffen boundary points omega^2 = 2 nitsche E / (rho h^2). */
+plan_times plan_times_of (const plan *p)
+{
+    const pg_problem *q = p->problem;
+    plan_times t = { 0, 0, 0, 0 };
+    double speed = 0, stiff = 0;
+    int nitsche = 0;
+    for (size_t l = 0; l < q->nload; l++) nitsche |= pg_load_prescribes (&q->load[l]) && q->load[l].essential == PG_ESSENTIAL_NITSCHE;
+    for (size_t m = 0; m < q->nmaterial; m++) {
+        if (!(q->material[m].density > 0)) return t;
+        speed = fmax (speed, plan_waves_of (&q->material[m], q->dim).pressure);
+        stiff = fmax (stiff, q->material[m].modulus / q->material[m].density);
+    }
+    t.omega = fmax (2 * speed, nitsche ? sqrt (2 * q->nitsche * stiff) : 0) / q->cloud.h;
+    if (p->first->omega > 0) t.omega = p->first->omega, t.measured = 1;
+    t.dt = 2 / t.omega;
+    t.courant = strcmp (p->options->kind, "static") ? speed * p->options->dt / q->cloud.h : 0;
+    return t;
+}
+
+static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, const char *why)
+{
+    if (*n == most) return;
+    snprintf (skip[*n].what, sizeof skip[*n].what, "%s", what);
+    snprintf (skip[*n].why, sizeof skip[*n].why, "%s", why);
+    skip[(*n)++].seconds_saved = 0;
+}
+
+size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
+{
+    const pg_solver_options *o = p->options;
+    int is_static = strcmp (o->kind, "static") == 0, breaks = p->problem->criterion->type != NULL, none = strcmp (p->forecast->linear, "cg") == 0;
+    size_t n = 0;
+    if (!breaks) add_skip (skip, &n, most, "bond sweeps", "there is no failure criterion");
+    if (!breaks && o->event)
+        add_skip (skip, &n, most, "all solves but one", "nothing can break: the answer is linear in the load factor");
+    if (breaks && o->event)
+        add_skip (skip, &n, most, "load increments in which nothing breaks", "event stepping goes from break to break in closed form");
+    if (none && !is_static)
+        add_skip (skip, &n, most, "stiffness matrix and factorization", "small time step: the mass dominates, conjugate gradients need few rounds");
+    if (none && is_static) add_skip (skip, &n, most, "stiffness matrix and factorization", "conjugate gradients need neither");
+    if (!none && !is_static && !breaks) add_skip (skip, &n, most, "all factorizations but one", "the time step is constant and nothing breaks");
+    if (!none && breaks && !p->forecast->nodal)
+        add_skip (skip, &n, most, "factorization where only node-node bonds broke", "they do not enter K under Gauss integration");
+    return n;
+}
+
+static void print_counts (const plan *p)
+{
+    const pg_problem *q = p->problem;
+    const size_t *first = q->first_bond;
+    printf ("  %-18s  %s\n  %-18s  %zu, spacing", "title", q->title, "points", q->cloud.n);
+    for (int k = 0; k < q->dim && q->lattice.dim; k++) printf (" %.6g", q->cloud.step[k]);
+    if (!q->lattice.dim) printf (" about %.6g", q->cloud.h);
+    printf (" m\n  %-18s  %zu, boundary facets %zu\n", "background cells", q->cells.n, q->cells.nfacet);
+    printf ("  %-18s  %zu, on the boundary %zu\n", "evaluation points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n,
+            q->rows[PG_FACETS].n);
     printf ("  %-18s  node-node %zu, point-node %zu, facet-node %zu\n", "bonds", first[1], first[2] - first[1], first[3] - first[2]);
-    printf ("  %-18s  %zu\n  %-18s  %.6g m = %.4g spacings\n", "unknowns", p->cloud.n * (size_t) p->dim, "horizon", p->approx.horizon,
-            p->approx.horizon / p->cloud.h);
-    printf ("  %-18s  %s, %s basis, %s kernel, %s integration\n", "method", p->approx.type->name, p->approx.order == 2 ? "quadratic" : "linear",
-            p->approx.kernel->name, p->integration->name);
-    printf ("  %-18s  %s\n  %-18s  %s%s\n", "criterion", text, "solver", o->kind, stepping (o));
-    for (size_t s = 0; s < p->nload; s++)
-        printf ("  boundary %-9s  %zu points, %zu facets\n", p->load[s].name, p->load[s].set->npoint, p->load[s].set->nfacet);
-    if (p->eroded) printf ("  %-18s  %zu points lie on a pre-crack and lose their bonds to both sides\n", "eroded", p->eroded);
-    plan_doubts (p, o, stdout);
+    printf ("  %-18s  %zu\n  %-18s  %.6g m = %.4g spacings, mean family %.3g points\n", "unknowns", q->cloud.n * (size_t) q->dim, "horizon",
+            q->approx.horizon, q->approx.horizon / q->cloud.h, (double) first[1] / (double) q->cloud.n);
+}
+
+static void print_materials (const pg_problem *p)
+{
+    for (size_t k = 0; k < p->nmaterial; k++) {
+        const pg_material *m = &p->material[k];
+        plan_waves w = plan_waves_of (m, p->dim);
+        printf ("  constants %-9s E %.6g Pa, nu %.6g", m->name, m->modulus, m->parameter[1]);
+        if (p->dim > 1) printf (", lambda %.6g Pa, mu %.6g Pa%s", w.lambda, w.mu, p->mode == PG_PLANE_STRESS ? " (plane stress)" : "");
+        if (m->density > 0) printf (", density %.6g kg/m3, c_p %.5g m/s", m->density, w.pressure);
+        if (m->density > 0 && p->dim > 1) printf (", c_s %.5g m/s", w.shear);
+        printf ("\n");
+    }
+}
+
+static void print_times (const plan *p)
+{
+    plan_times t = plan_times_of (p);
+    const pg_solver_options *o = p->options;
+    if (strcmp (o->kind, "static")) {
+        printf ("  %-18s  %ld of %.6g s", "time steps", o->steps, o->dt);
+        if (t.courant > 0) printf (", c_p dt / h = %.4g", t.courant);
+        printf ("\n");
+    }
+    if (t.omega > 0) printf ("  %-18s  stable up to %.3g s (%s)\n", "explicit steps", t.dt,
+                             t.measured ? "2 / largest frequency" : "estimate; measured by --solve");
+}
+
+static void print_factor (const pg_forecast *f)
+{
+    printf ("  %-18s  %s", "linear solver", strcmp (f->linear, "cg") == 0 ? "conjugate gradients, no matrix\n" : f->linear);
+    if (strcmp (f->linear, "cg") == 0) return;
+    printf (", %.4g entries in the upper triangle of K\n", f->matrix_entries);
+    printf ("  %-18s  %.4g entries, %.3g operations, about %.2g s each at 20 GFLOP/s (%s%s)\n", "factor", f->factor_entries, f->factor_flops,
+            f->factor_flops / 20e9, f->analysed ? "analysed: " : "estimate", f->analysed ? f->ordering : "");
+}
+
+static void print_bytes (double bytes)
+{
+    if (bytes < 999.5e6) printf ("%.3g MB", bytes * 1e-6);
+    else if (bytes < 999.5e9) printf ("%.3g GB", bytes * 1e-9);
+    else printf ("%.3g TB", bytes * 1e-12);
+}
+
+static void print_memory (const plan *p)
+{
+    const pg_forecast *f = p->forecast;
+    printf ("  %-18s  about ", "memory");
+    print_bytes (f->peak);
+    if (isfinite (p->available)) printf (" of "), print_bytes (p->available), printf (" available");
+    printf ("\n");
+    for (int k = 0; k < PG_BYTES_COUNT; k++) {
+        if (f->bytes[k] < 5e4) continue;
+        printf ("    %-16s  ", pg_forecast_item (k)), print_bytes (f->bytes[k]), printf ("\n");
+    }
+}
+
+static void print_first_break (const plan *p)
+{
+    static const char *const sets[PG_BOND_SETS] = { "node-node", "point-node", "facet-node" };
+    const first_break *b = p->first;
+    if (!b->asked) return;
+    if (!b->is_static) printf ("  %-18s  only for static scenes\n", "first break");
+    if (!b->solved) return;
+    printf ("  %-18s  largest displacement %.4g m, residual %.1e\n", "load factor 1", b->displacement, b->residual);
+    if (!p->problem->criterion->type) {
+        printf ("  %-18s  none: there is no failure criterion\n", "first break");
+        return;
+    }
+    if (!isfinite (b->factor)) {
+        printf ("  warning: no bond can break under these loads, however large: nothing that may break is stretched or sheared (see failure.exclude)\n");
+        return;
+    }
+    if (b->proportional) printf ("  %-18s  at load factor %.5g", "first break", b->factor);
+    else printf ("  %-18s  largest utilisation %.5g at load factor 1", "first break", b->utilisation);
+    printf (", a %s bond %s at (%.4g", sets[b->set], b->kind == 's' ? "in shear" : "in tension", b->place[0]);
+    for (int k = 1; k < p->problem->dim; k++) printf (", %.4g", b->place[k]);
+    printf (") m\n");
+    if (b->factor > 1) printf ("  warning: nothing breaks up to load factor 1: the first bond needs %.4g times this load\n", b->factor);
+}
+
+void plan_print_long (const plan *p)
+{
+    const pg_problem *q = p->problem;
+    pg_skip skip[8];
+    size_t nskip = plan_skips (p, skip, 8);
+    print_counts (p);
+    printf ("  %-18s  %s, %s basis, %s kernel, %s integration\n", "method", q->approx.type->name, q->approx.order == 2 ? "quadratic" : "linear",
+            q->approx.kernel->name, q->integration->name);
+    describe (q, 19);
+    print_materials (q);
+    printf ("  %-18s  %s%s\n", "solver", p->options->kind, stepping (p->options));
+    print_times (p);
+    print_factor (p->forecast);
+    for (size_t s = 0; s < q->nload; s++)
+        printf ("  boundary %-9s  %zu points, %zu facets\n", q->load[s].name, q->load[s].set->npoint, q->load[s].set->nfacet);
+    if (q->eroded) printf ("  %-18s  %zu points lie on a pre-crack and lose their bonds to both sides\n", "eroded", q->eroded);
+    for (size_t k = 0; k < nskip; k++) printf ("  %-18s  %s (%s)\n", "skipped", skip[k].what, skip[k].why);
+    print_memory (p);
+    plan_doubts (q, p->options, stdout);
+    print_first_break (p);
 }

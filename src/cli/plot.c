@@ -1,35 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal plot DIR: one field of DIR/result.e, or with --curve two columns of DIR/history.csv, as PNG or SVG. */
+ * perigal plot DIR: one field of DIR/result.e, or with --curve columns of DIR/history.csv, as PNG or SVG. */
 #include "plot.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-enum { EXIT_USAGE = 64, EXIT_FAILED = 70, PATH = 4096 };
-
-typedef struct {
-    const char *directory, *field, *component, *out, *x, *y;
-    char  result[PATH], picture[PATH];
-    int   step, section;
-    double at, magnify;
-} request;
-
-typedef struct {
-    pg_cloud cloud;
-    pg_scene *scene;
-    pg_cracks cracks;
-    size_t   nstep;
-    double  *time, *field, *value, *u;                 /* field n x m, value n, u n x dim                                */
-    int      m;
-} source;
+enum { EXIT_USAGE = 64, EXIT_FAILED = 70 };
 
 static const char usage[] =
-    "usage: perigal plot DIR [--field NAME] [--component NUMBER|x|xx|magnitude] [--step N] [--section AXIS=VALUE]\n"
-    "                        [--magnify FACTOR] [--out FILE.png|FILE.svg]\n"
-    "       perigal plot DIR --curve X Y [--out FILE]\n"
-    "Draws a field of DIR/result.e (damage, last step) or two columns of DIR/history.csv.\n";
+    "usage: perigal plot DIR [--field NAME] [--component NUMBER|x|xx|magnitude] [--step N|all | --steps N,N,...]\n"
+    "                        [--view front|back|left|right|top|bottom|iso|crack | --section 'z = 5 mm']\n"
+    "                        [--direction X,Y,Z] [--above VALUE] [--range LOW,HIGH] [--magnify FACTOR]\n"
+    "                        [--columns N] [--out FILE.png|FILE.svg]\n"
+    "       perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--out FILE]\n"
+    "Draws a field of DIR/result.e (damage, last step) or two columns of DIR/history.csv.\n"
+    "  --step all    one picture a step;  --steps 2,5,8: one picture with a panel a step, --columns of them in a row\n"
+    "  --view        3D: the side of that name (front is the face of largest z), or obliquely: iso; crack: points of\n"
+    "                damage 0.35 and more\n"
+    "  --section     3D: AXIS = PLACE, or NORMAL = DISTANCE along it: '1, 0, 1 = 5 mm'\n"
+    "  --direction   of view iso and crack: from the body to the eye\n"
+    "  --above       3D views: only points whose value is at least this, the body grey behind them\n";
 
 static int number_of (const char *text, double *value)
 {
@@ -38,210 +29,175 @@ static int number_of (const char *text, double *value)
     return end != text && *end == 0 && isfinite (*value);
 }
 
-/* Place of a word in "a|b|c", -1 when it is not there. */
-static int index_of (const char *word, const char *list)
+static int place_of (const char *word, const char *names)
 {
     int k = 0;
-    for (const char *s = list; *s; s += strcspn (s, "|"), s += *s == '|', k++)
+    for (const char *s = names; *s; s += strcspn (s, "|"), s += *s == '|', k++)
         if (strlen (word) == strcspn (s, "|") && strncmp (s, word, strlen (word)) == 0) return k;
     return -1;
 }
 
-/* "z=0.005", "z=5 mm" */
-static pg_status read_section (request *q, const char *text)
+/* ---- options ----------------------------------------------------------------------------------------------------------------- */
+static pg_status read_number (const char *name, const char *text, double low, double *out)
 {
     pg_status status = PG_OK;
-    const char *axis = text[0] ? strchr ("xyz", text[0]) : NULL;
-    if (!axis || text[1] != '=') PG_FAIL (PG_E_USAGE, "--section %s: expected AXIS=VALUE, such as z=0.005", text);
-    q->section = text[0] - 'x' + 1;
-    if (!number_of (text + 2, &q->at)) PG_TRY (pg_unit_parse (&q->at, text + 2, "m"));
+    if (!number_of (text, out)) PG_FAIL (PG_E_USAGE, "%s %s: not a number", name, text);
+    if (*out < low) PG_FAIL (PG_E_USAGE, "%s %s: must be %g or more", name, text, low);
 done:
     return status;
 }
 
-static pg_status read_option (request *q, const char *name, char **value, int left, int *used)
+/* "3,5,8" */
+static pg_status read_steps (plot_request *q, const char *name, const char *text, int most)
 {
-    static const char names[] = "--field|--component|--step|--section|--magnify|--out|--curve";
     pg_status status = PG_OK;
-    double number;
-    *used = 2;
-    int curve = strcmp (name, "--curve") == 0;
-    if (index_of (name, names) < 0) {
-        const char *near = pg_nearest_name (name, names);
-        PG_FAIL (PG_E_USAGE, "unknown option %s%s%s", name, near ? "; did you mean " : "", near ? near : "");
-    }
-    if (left < 1 + curve) PG_FAIL (PG_E_USAGE, "%s needs %s", name, curve ? "two column names" : "a value");
-    if (curve) q->x = value[0], q->y = value[1], *used = 3;
-    else if (strcmp (name, "--field") == 0) q->field = value[0];
-    else if (strcmp (name, "--component") == 0) q->component = value[0];
-    else if (strcmp (name, "--out") == 0) q->out = value[0];
-    else if (strcmp (name, "--section") == 0) PG_TRY (read_section (q, value[0]));
-    else if (!number_of (value[0], &number)) PG_FAIL (PG_E_USAGE, "%s %s: not a number", name, value[0]);
-    else if (strcmp (name, "--magnify") == 0) q->magnify = number;
-    else if (strcmp (name, "--step") == 0) {
-        if (number != floor (number) || number < -1 || number > 1e9) PG_FAIL (PG_E_USAGE, "--step %s: expected 0, 1, 2 ...", value[0]);
-        q->step = (int) number;
+    const char *s = text;
+    q->steps = 0;
+    for (;; s++) {
+        char *end;
+        long k = strtol (s, &end, 10);
+        if (end == s || k < -1 || k > 1000000000 || (*end && *end != ',')) PG_FAIL (PG_E_USAGE, "%s %s: expected 0, 1, 2 ...", name, text);
+        if (q->steps == most) PG_FAIL (PG_E_USAGE, "%s %s: at most %d", name, text, most);
+        q->step[q->steps++] = (int) k;
+        s = end;
+        if (!*s) break;
     }
 done:
     return status;
 }
 
-static pg_status read_arguments (request *q, int argc, char **argv)
+static pg_status read_step (plot_request *q, const char *text)
+{
+    q->all = strcmp (text, "all") == 0;
+    return q->all ? PG_OK : read_steps (q, "--step", text, 1);
+}
+
+static pg_status read_panels (plot_request *q, const char *text)
+{
+    q->panels = 1;
+    return read_steps (q, "--steps", text, PLOT_STEPS);
+}
+
+static pg_status read_view (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
-    *q = (request) { .field = "damage", .step = -1 };
-    for (int k = 1, used; k < argc; k += used) {
-        used = 1;
-        if (argv[k][0] == '-' && argv[k][1]) PG_TRY (read_option (q, argv[k], argv + k + 1, argc - k - 1, &used));
-        else if (q->directory) PG_FAIL (PG_E_USAGE, "one directory at a time: %s, %s", q->directory, argv[k]);
+    const char *views = strchr (pg_view_names, '|') + 1, *near = pg_nearest_name (text, views);
+    if (q->style.section) PG_FAIL (PG_E_USAGE, "--view and --section exclude each other");
+    int view = place_of (text, views);
+    if (view < 0) PG_FAIL (PG_E_USAGE, "--view %s: %s%s%sone of %s", text, near ? "did you mean " : "", near ? near : "", near ? "? " : "", views);
+    q->style.view = view + 1, q->look = text;
+done:
+    return status;
+}
+
+static pg_status read_section (plot_request *q, const char *text)
+{
+    pg_status status = PG_OK;
+    if (q->style.view) PG_FAIL (PG_E_USAGE, "--view and --section exclude each other");
+    if (pg_picture_section (&q->style, text) != PG_OK)
+        PG_FAIL (PG_E_USAGE, "--section %s: expected AXIS=VALUE, such as z=0.005 or 'z = 5 mm', or a normal: '1, 0, 1 = 5 mm'", text);
+    q->look = text;
+done:
+    return status;
+}
+
+static pg_status read_direction (plot_request *q, const char *text)
+{
+    pg_status status = PG_OK;
+    if (pg_picture_direction (q->style.direction, text) != PG_OK) PG_FAIL (PG_E_USAGE, "--direction %s: expected X,Y,Z, such as 1,0.5,2", text);
+done:
+    return status;
+}
+
+static pg_status read_above (plot_request *q, const char *text)
+{
+    q->limited = 1;
+    return read_number ("--above", text, -INFINITY, &q->style.above);
+}
+
+static pg_status read_range (plot_request *q, const char *text)
+{
+    pg_status status = PG_OK;
+    char *end, *last;
+    double low = strtod (text, &end), high = *end == ',' ? strtod (end + 1, &last) : 0;
+    if (end == text || *end != ',' || last == end + 1 || *last || !(low < high) || !isfinite (high - low))
+        PG_FAIL (PG_E_USAGE, "--range %s: expected LOW,HIGH", text);
+    q->style.low = low, q->style.high = high, q->ranged = 1;
+done:
+    return status;
+}
+
+static pg_status read_magnify (plot_request *q, const char *text) { return read_number ("--magnify", text, -INFINITY, &q->style.magnify); }
+
+static pg_status read_columns (plot_request *q, const char *text)
+{
+    pg_status status = PG_OK;
+    double n;
+    PG_TRY (read_number ("--columns", text, 1, &n));
+    if (n != floor (n) || n > PLOT_STEPS) PG_FAIL (PG_E_USAGE, "--columns %s: expected 1 to %d", text, PLOT_STEPS);
+    q->columns = (int) n;
+done:
+    return status;
+}
+
+static pg_status read_field (plot_request *q, const char *text) { q->field = text; return PG_OK; }
+static pg_status read_component (plot_request *q, const char *text) { q->component = text; return PG_OK; }
+static pg_status read_out (plot_request *q, const char *text) { q->out = text; return PG_OK; }
+
+static const struct { const char *name; pg_status (*read) (plot_request *q, const char *text); } options[] = {
+    { "--field", read_field }, { "--component", read_component }, { "--step", read_step }, { "--steps", read_panels }, { "--columns", read_columns },
+    { "--view", read_view }, { "--section", read_section }, { "--direction", read_direction }, { "--above", read_above }, { "--range", read_range },
+    { "--magnify", read_magnify }, { "--out", read_out },
+};
+
+static pg_status read_option (plot_request *q, const char *name, const char *value)
+{
+    pg_status status = PG_OK;
+    char names[256] = "--curve";
+    for (size_t k = 0; k < sizeof options / sizeof *options; k++) {
+        size_t n = strlen (names);
+        snprintf (names + n, sizeof names - n, "|%s", options[k].name);
+        if (strcmp (name, options[k].name) != 0) continue;
+        if (!value) PG_FAIL (PG_E_USAGE, "%s needs a value", name);
+        return options[k].read (q, value);
+    }
+    const char *near = pg_nearest_name (name, names);
+    PG_FAIL (PG_E_USAGE, "unknown option %s%s%s", name, near ? "; did you mean " : "", near ? near : "");
+done:
+    return status;
+}
+
+static pg_status read_arguments (plot_request *q, int argc, char **argv)
+{
+    pg_status status = PG_OK;
+    *q = (plot_request) { .field = "damage", .step = { -1 }, .steps = 1 };
+    for (int k = 1; k < argc; k++) {
+        if (argv[k][0] == '-' && argv[k][1]) {
+            PG_TRY (read_option (q, argv[k], k + 1 < argc ? argv[k + 1] : NULL));
+            k++;
+        } else if (q->directory) PG_FAIL (PG_E_USAGE, "one directory at a time: %s, %s", q->directory, argv[k]);
         else q->directory = argv[k];
     }
     if (!q->directory) PG_FAIL (PG_E_USAGE, "no directory given");
-    if (strlen (q->directory) > PATH / 2) PG_FAIL (PG_E_USAGE, "the path is too long");
+    if (strlen (q->directory) > PLOT_PATH / 2) PG_FAIL (PG_E_USAGE, "the path is too long");
+    if (q->all && q->panels) PG_FAIL (PG_E_USAGE, "--step all and --steps exclude each other");
     snprintf (q->result, sizeof q->result, "%s/result.e", q->directory);
 done:
-    return status;
-}
-
-/* DIR/NAME.png with what is no letter, digit, - or _ turned into _ */
-static void name_picture (request *q, const char *first, const char *second)
-{
-    char name[128];
-    if (q->out) {
-        snprintf (q->picture, sizeof q->picture, "%s", q->out);
-        return;
-    }
-    snprintf (name, sizeof name, "%.60s%s%.60s", first, second ? "-" : "", second ? second : "");
-    for (char *s = name; *s; s++)
-        if (!strchr ("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_", *s)) *s = '_';
-    snprintf (q->picture, sizeof q->picture, "%.2100s/%s.png", q->directory, name);
-}
-
-/* "x|y|z", "xx|yy|xy" ...: names of the components of m values a point. */
-static const char *component_names (int dim, int m)
-{
-    static const char *const axes[] = { "", "x", "x|y", "x|y|z" };
-    if (m > 1 && m == dim) return axes[dim];
-    if (dim == 2 && m == 3) return "xx|yy|xy";
-    return dim == 3 && m == 6 ? "xx|yy|zz|xy|yz|zx" : "";
-}
-
-/* Length of a vector or norm of a symmetric tensor (engineering strains count half). */
-static double magnitude (const double *v, int dim, int m, double shear)
-{
-    double sum = 0;
-    int tensor = m != dim && m == dim * (dim + 1) / 2;
-    for (int c = 0; c < m; c++) sum += v[c] * v[c] * (tensor && c >= dim ? 2 * shear * shear : 1);
-    return sqrt (sum);
-}
-
-/* Fills value from field; label gets the component. */
-static pg_status choose_component (const request *q, source *s, char *label, size_t size)
-{
-    pg_status status = PG_OK;
-    int dim = s->cloud.dim, k = 0;
-    const char *names = component_names (dim, s->m), *wanted = q->component;
-    double number;
-    if (!wanted && s->m > 1) wanted = s->m == dim || !names[0] ? "magnitude" : "xx";
-    int norm = wanted && strcmp (wanted, "magnitude") == 0 && s->m > 1;
-    if (wanted && !norm) {
-        k = index_of (wanted, names);
-        if (k < 0 && number_of (wanted, &number) && number == floor (number) && number >= 0 && number < s->m) k = (int) number;
-        if (k < 0 && s->m == 1) PG_FAIL (PG_E_USAGE, "field %s has one component", q->field);
-        if (k < 0) PG_FAIL (PG_E_USAGE, "field %s has no component %s: 0 to %d%s%s or magnitude", q->field, wanted, s->m - 1,
-                            names[0] ? ", " : "", names);
-    }
-    PG_ALLOC (s->value, s->cloud.n);
-    double shear = strstr (q->field, "strain") ? 0.5 : 1;
-    for (size_t i = 0; i < s->cloud.n; i++) {
-        const double *v = s->field + i * (size_t) s->m;
-        s->value[i] = norm ? magnitude (v, dim, s->m, shear) : v[k];
-    }
-    if (norm) snprintf (label, size, "|%.31s|", q->field);
-    else if (s->m > 1 && names[0]) {
-        for (; k > 0; k--) names += strcspn (names, "|") + 1;
-        snprintf (label, size, "%.31s_{%.*s}", q->field, (int) strcspn (names, "|"), names);
-    } else snprintf (label, size, s->m > 1 ? "%.31s %d" : "%.31s", q->field, k);
-done:
-    return status;
-}
-
-/* The cracks of the scene the run kept a copy of; a picture without them when there is none. */
-static void read_cracks (const request *q, source *s)
-{
-    char path[PATH];
-    snprintf (path, sizeof path, "%.2100s/scene.yaml", q->directory);
-    if (access (path, R_OK) != 0 || pg_scene_load (&s->scene, path) != PG_OK) return;
-    if (pg_cracks_read (&s->cracks, s->scene) != PG_OK) s->cracks = (pg_cracks) { 0 };
-}
-
-static pg_status read_displacement (const request *q, source *s)
-{
-    pg_status status = PG_OK;
-    size_t n;
-    int m;
-    if (q->magnify == 0) goto done;
-    PG_TRY (pg_exodus_read (q->result, "displacement", q->step, &n, &m, &s->u));
-    if (m != s->cloud.dim) PG_FAIL (PG_E_FILE, "%s: displacement has %d components", q->result, m);
-done:
-    return status;
-}
-
-static pg_status draw (const request *q, source *s, const char *name, const char *unit)
-{
-    char title[192], label[128];
-    int step = q->step < 0 ? (int) s->nstep - 1 : q->step, negative = 0, positive = 0;
-    for (size_t i = 0; i < s->cloud.n; i++) negative |= s->value[i] < 0, positive |= s->value[i] > 0;
-    snprintf (label, sizeof label, "%s%s%s%s", name, unit[0] ? " (" : "", unit, unit[0] ? ")" : "");
-    int used = snprintf (title, sizeof title, "%s, step %d, time %.6g", name, step, s->time[step]);
-    if (q->magnify != 0 && used > 0) snprintf (title + used, sizeof title - (size_t) used, ", displacements x %g", q->magnify);
-    pg_picture_style style = { .title = title, .label = label, .diverging = negative && positive, .magnify = q->magnify, .u = s->u,
-        .cracks = s->cracks.n ? &s->cracks : NULL, .section = q->section, .at = q->at };
-    if (strcmp (q->field, "damage") == 0) style.low = 0, style.high = 1;
-    return pg_picture_field (q->picture, &s->cloud, s->value, &style);
-}
-
-static pg_status plot_field (request *q)
-{
-    pg_status status = PG_OK;
-    source s = { 0 };
-    char name[64], unit[16];
-    size_t n;
-    PG_TRY (pg_exodus_points (q->result, &s.cloud, &s.nstep, &s.time));
-    PG_TRY (pg_exodus_read (q->result, q->field, q->step, &n, &s.m, &s.field));
-    PG_TRY (pg_exodus_unit (q->result, q->field, unit));
-    if (q->section && s.cloud.dim != 3) PG_FAIL (PG_E_USAGE, "--section is for 3D results; %s is %dD", q->result, s.cloud.dim);
-    PG_TRY (choose_component (q, &s, name, sizeof name));
-    PG_TRY (read_displacement (q, &s));
-    read_cracks (q, &s);
-    name_picture (q, q->field, q->component);
-    PG_TRY (draw (q, &s, name, unit));
-done:
-    pg_cracks_clear (&s.cracks);
-    pg_scene_free (&s.scene);
-    pg_free (s.u);
-    pg_free (s.value);
-    pg_free (s.field);
-    pg_free (s.time);
-    pg_cloud_clear (&s.cloud);
     return status;
 }
 
 int pg_cli_plot (int argc, char **argv)
 {
     pg_status status = PG_OK;
-    request q;
+    plot_request q;
+    for (int k = 1; k < argc; k++) if (strcmp (argv[k], "--curve") == 0) return pg_cli_plot_curve (argc, argv);
     for (int k = 1; k < argc; k++)
         if (strcmp (argv[k], "--help") == 0 || strcmp (argv[k], "-h") == 0) {
             fputs (usage, stdout);
             return 0;
         }
     PG_TRY (read_arguments (&q, argc, argv));
-    if (q.x) {
-        name_picture (&q, q.y, q.x);
-        PG_TRY (pg_plot_curve (q.picture, q.directory, q.x, q.y));
-    } else PG_TRY (plot_field (&q));
-    puts (q.picture);
+    PG_TRY (pg_plot_field (&q));
 done:
     if (status == PG_OK) return 0;
     fprintf (stderr, "perigal plot: %s\n", pg_last_error ());

@@ -6,6 +6,19 @@
 
 int pg_cli_plot (int argc, char **argv);               /* argv[0] = "plot"; returns the exit code                        */
 
-/* plot_curve.c: columns x and y (names of the header, with or without " [unit]") of DIR/history.csv as a chart in `path`. */
-pg_status pg_plot_curve (const char *path, const char *directory, const char *x, const char *y);
+/* What the command line of a picture of a field asks for. */
+enum { PLOT_PATH = 4096, PLOT_STEPS = 64 };
+typedef struct {
+    const char *directory, *field, *component, *out, *look;        /* look: of the view or the section, for names       */
+    char   result[PLOT_PATH];
+    int    step[PLOT_STEPS], steps;                    /* -1: the last one                                               */
+    int    all, panels, columns;                       /* all: every step; panels: in one picture                        */
+    int    limited, ranged;                            /* --above, --range given                                         */
+    pg_picture_style style;
+} plot_request;
+/* plot_field.c: draws and prints the names of the files. */
+pg_status pg_plot_field (const plot_request *q);
+
+/* plot_curve.c: the same with --curve: columns of the history.csv of one or several runs as a chart.                       */
+int pg_cli_plot_curve (int argc, char **argv);
 #endif

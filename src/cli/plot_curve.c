@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Two columns of a run's history.csv as a chart. */
+ * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs as a chart. */
 #include "plot.h"
 #include <errno.h>
 #include <math.h>
@@ -7,7 +7,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELL = 256, LIST = 4096 };
+enum { CELL = 256, LIST = 4096, MOST = 24, EXIT_USAGE = 64, EXIT_FAILED = 70 };
+
+typedef struct {
+    const char *directory[MOST], *x, *y, *out;
+    char   *labels;                                    /* cut in place                                                   */
+    size_t  n;
+    int     negate, absolute;
+} request;
+
+typedef struct {
+    size_t  n;
+    double *at[2];                                     /* x, y of each row                                               */
+    char    column[2][CELL], name[CELL];               /* "name (unit)"; name in the legend                              */
+} run_curve;
+
+static const char usage[] =
+    "usage: perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--out FILE.png|FILE.svg]\n"
+    "Draws columns X and Y of every DIR/history.csv in one picture; --negate turns the signs of both (not of step,\n"
+    "time, load_factor), --abs drops them. The legend shows --labels, else the names of the folders.\n";
+
 
 /* Reads one cell of a CSV row at *s (RFC 4180, cut to size) and steps over the comma; 0 at the end of the row. */
 static int next_cell (const char **s, char *cell, size_t size)
@@ -52,7 +71,7 @@ static pg_status find_column (const char *path, const char *header, const char *
         if (!is_column (cell, wanted)) continue;
         snprintf (label, CELL, "%s", cell);
         char *open = strrchr (label, '['), *close = strrchr (label, ']');
-        if (open && close > open + 1) *open = '(', *close = ')';
+        if (open && close > open + 1 && strcmp (open, "[1]") != 0) *open = '(', *close = ')';
         else if (open) label[name] = 0;
         *column = k;
         goto done;
@@ -73,30 +92,165 @@ static double cell_of (const char *row, int column)
     return end == cell ? NAN : value;
 }
 
-pg_status pg_plot_curve (const char *path, const char *directory, const char *x, const char *y)
+/* ---- one run -------------------------------------------------------------------------------------------------------------- */
+static pg_status read_rows (run_curve *c, const char *directory, const char *const *wanted)
 {
     pg_status status = PG_OK;
-    char table[LIST], label[2][CELL], *row = NULL;
-    double *at[2] = { NULL, NULL };
-    size_t room[2] = { 0, 0 }, width = 0, n = 0;
+    char table[LIST], *row = NULL;
+    size_t room[2] = { 0, 0 }, width = 0;
     int column[2];
     snprintf (table, sizeof table, "%s/history.csv", directory);
     FILE *file = fopen (table, "r");
     if (!file) PG_FAIL (PG_E_FILE, "%s: %s", table, strerror (errno));
     if (getline (&row, &width, file) < 0) PG_FAIL (PG_E_FILE, "%s is empty", table);
-    PG_TRY (find_column (table, row, x, &column[0], label[0]));
-    PG_TRY (find_column (table, row, y, &column[1], label[1]));
-    for (; getline (&row, &width, file) > 0; n++)
-        for (int c = 0; c < 2; c++) {
-            PG_GROW (at[c], room[c], n + 1);
-            at[c][n] = cell_of (row, column[c]);
+    for (int k = 0; k < 2; k++) PG_TRY (find_column (table, row, wanted[k], &column[k], c->column[k]));
+    for (; getline (&row, &width, file) > 0; c->n++)
+        for (int k = 0; k < 2; k++) {
+            PG_GROW (c->at[k], room[k], c->n + 1);
+            c->at[k][c->n] = cell_of (row, column[k]);
         }
-    if (n == 0) PG_FAIL (PG_E_FILE, "%s has no rows yet", table);
-    pg_curve curve = { .name = y, .n = n, .x = at[0], .y = at[1], .points = n < 3 };
-    PG_TRY (pg_picture_chart (path, 1, &curve, &(pg_chart_style) { .title = NULL, .xlabel = label[0], .ylabel = label[1] }));
+    if (c->n == 0) PG_FAIL (PG_E_FILE, "%s has no rows yet", table);
 done:
-    for (int c = 0; c < 2; c++) pg_free (at[c]);
     free (row);                                        /* of getline */
     if (file) fclose (file);
     return status;
+}
+
+/* The last part of a path, slashes at its end aside. */
+static void name_of_folder (const char *path, char *out, size_t size)
+{
+    size_t end = strlen (path);
+    while (end > 1 && path[end - 1] == '/') end--;
+    size_t start = end;
+    while (start > 0 && path[start - 1] != '/') start--;
+    snprintf (out, size, "%.*s", (int) (end - start), path + start);
+}
+
+/* Names in the legend: the labels, one a folder, or the folders themselves (the whole path where two are called alike). */
+static pg_status name_curves (const request *q, run_curve *c)
+{
+    pg_status status = PG_OK;
+    char *label = q->labels;
+    size_t given = label ? 1 : q->n;
+    for (const char *s = label; s && *s; s++) given += *s == ',';
+    if (given != q->n) PG_FAIL (PG_E_USAGE, "--labels has %zu names for %zu folders", given, q->n);
+    for (size_t i = 0; i < q->n; i++) {
+        name_of_folder (q->directory[i], c[i].name, sizeof c[i].name);
+        if (!label) continue;
+        size_t n = strcspn (label, ",");
+        snprintf (c[i].name, sizeof c[i].name, "%.*s", (int) n, label);
+        label += n + 1;
+    }
+    for (size_t i = 0; i < q->n && !q->labels; i++)
+        for (size_t k = 0; k < q->n; k++)
+            if (k != i && strcmp (c[k].name, c[i].name) == 0) snprintf (c[i].name, sizeof c[i].name, "%s", q->directory[i]);
+done:
+    return status;
+}
+
+static void change_signs (const request *q, run_curve *c)
+{
+    for (int k = 0; k < 2; k++) {
+        if (is_column (c->column[k], "step") || strncmp (c->column[k], "time (", 6) == 0 || is_column (c->column[k], "load_factor")) continue;
+        for (size_t i = 0; i < c->n; i++) c->at[k][i] = q->negate ? 0 - c->at[k][i] : q->absolute ? fabs (c->at[k][i]) : c->at[k][i];
+        char plain[CELL];
+        memcpy (plain, c->column[k], sizeof plain);
+        size_t n = strcspn (plain, "("), end = n;
+        while (end > 0 && plain[end - 1] == ' ') end--;
+        const char *gap = plain[n] ? " " : "";
+        const char *bar = q->absolute ? "|" : "";
+        if (q->negate || q->absolute) snprintf (c->column[k], sizeof c->column[k], "%s%.*s%s%s%.60s", q->negate ? "\xE2\x88\x92" : bar, (int) (end < 180 ? end : 180), plain, bar, gap, plain + n);
+    }
+}
+
+/* ---- the picture ------------------------------------------------------------------------------------------------------------ */
+/* DIR/Y-X.png with what is no letter, digit, - or _ turned into _ */
+static void name_picture (const request *q, char *path, size_t size)
+{
+    char name[128];
+    snprintf (name, sizeof name, "%.60s-%.60s", q->y, q->x);
+    for (char *s = name; *s; s++)
+        if (!strchr ("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_", *s)) *s = '_';
+    if (q->out) snprintf (path, size, "%s", q->out);
+    else snprintf (path, size, "%s/%s.png", q->directory[0], name);
+}
+
+static pg_status draw (const request *q, const char *path)
+{
+    pg_status status = PG_OK;
+    run_curve *c = NULL;
+    pg_curve curve[MOST];
+    PG_ALLOC (c, q->n);
+    PG_TRY (name_curves (q, c));
+    for (size_t i = 0; i < q->n; i++) {
+        PG_TRY (read_rows (&c[i], q->directory[i], (const char *const[]) { q->x, q->y }));
+        for (int k = 0; k < 2; k++)
+            if (strcmp (c[i].column[k], c[0].column[k]) != 0)
+                PG_FAIL (PG_E_USAGE, "%s has %s and %s has %s: one picture needs one unit", q->directory[0], c[0].column[k], q->directory[i], c[i].column[k]);
+    }
+    for (size_t i = 0; i < q->n; i++) {
+        change_signs (q, &c[i]);
+        curve[i] = (pg_curve) { .name = c[i].name, .n = c[i].n, .x = c[i].at[0], .y = c[i].at[1], .points = c[i].n < 3 };
+    }
+    PG_TRY (pg_picture_chart (path, q->n, curve, &(pg_chart_style) { .title = NULL, .xlabel = c[0].column[0], .ylabel = c[0].column[1] }));
+done:
+    for (size_t i = 0; c && i < q->n; i++) pg_free (c[i].at[0]), pg_free (c[i].at[1]);
+    pg_free (c);
+    return status;
+}
+
+/* ---- command line ----------------------------------------------------------------------------------------------------------- */
+static pg_status read_option (request *q, const char *name, char **value, int left, int *used)
+{
+    static const char names[] = "--curve|--labels|--negate|--abs|--out";
+    pg_status status = PG_OK;
+    int curve = strcmp (name, "--curve") == 0, label = strcmp (name, "--labels") == 0, out = strcmp (name, "--out") == 0;
+    int negate = strcmp (name, "--negate") == 0, absolute = strcmp (name, "--abs") == 0;
+    if (!curve && !label && !out && !negate && !absolute) {
+        const char *near = pg_nearest_name (name, names);
+        PG_FAIL (PG_E_USAGE, "unknown option %s beside --curve%s%s", name, near ? "; did you mean " : "", near ? near : "");
+    }
+    *used = 1 + label + out + 2 * curve;
+    if (left < *used - 1) PG_FAIL (PG_E_USAGE, "%s needs %s", name, curve ? "two column names" : "a value");
+    if (curve) q->x = value[0], q->y = value[1];
+    if (label) q->labels = value[0];
+    if (out) q->out = value[0];
+    q->negate |= negate, q->absolute |= absolute;
+done:
+    return status;
+}
+
+static pg_status read_arguments (request *q, int argc, char **argv)
+{
+    pg_status status = PG_OK;
+    for (int k = 1, used; k < argc; k += used) {
+        used = 1;
+        if (argv[k][0] == '-' && argv[k][1]) PG_TRY (read_option (q, argv[k], argv + k + 1, argc - k - 1, &used));
+        else if (q->n == MOST) PG_FAIL (PG_E_USAGE, "at most %d folders in one picture", MOST);
+        else q->directory[q->n++] = argv[k];
+    }
+    if (q->n == 0) PG_FAIL (PG_E_USAGE, "no directory given");
+    if (q->negate && q->absolute) PG_FAIL (PG_E_USAGE, "--negate and --abs exclude each other");
+done:
+    return status;
+}
+
+int pg_cli_plot_curve (int argc, char **argv)
+{
+    pg_status status = PG_OK;
+    request q = { .n = 0 };
+    char path[LIST];
+    for (int k = 1; k < argc; k++)
+        if (strcmp (argv[k], "--help") == 0 || strcmp (argv[k], "-h") == 0) {
+            fputs (usage, stdout);
+            return 0;
+        }
+    PG_TRY (read_arguments (&q, argc, argv));
+    name_picture (&q, path, sizeof path);
+    PG_TRY (draw (&q, path));
+    puts (path);
+done:
+    if (status == PG_OK) return 0;
+    fprintf (stderr, "perigal plot: %s\n", pg_last_error ());
+    return status == PG_E_USAGE ? EXIT_USAGE : EXIT_FAILED;
 }

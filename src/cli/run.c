@@ -5,7 +5,19 @@
 #include <string.h>
 
 static volatile sig_atomic_t asked_to_stop;
-static void on_signal (int number) { (void) number, asked_to_stop = 1; }
+static void on_signal (int number) { asked_to_stop = number; }
+
+/* The first signal asks for a checkpoint, the second of its kind ends the program; a full disk is an error, no signal. */
+static void settle_signals (void)
+{
+    static const int asking[] = { SIGINT, SIGTERM, SIGHUP };
+    struct sigaction act = { 0 }, before;
+    act.sa_handler = on_signal;
+    act.sa_flags = SA_RESTART | (int) SA_RESETHAND;
+    for (size_t k = 0; k < sizeof asking / sizeof *asking; k++)
+        if (sigaction (asking[k], NULL, &before) == 0 && (before.sa_handler != SIG_IGN || asking[k] == SIGINT)) sigaction (asking[k], &act, NULL);
+    signal (SIGXFSZ, SIG_IGN);
+}
 
 static void print_summary (const pg_result *result, const pg_report *r, double total)
 {
@@ -23,20 +35,67 @@ static void print_summary (const pg_result *result, const pg_report *r, double t
     for (size_t k = 0; k < pg_result_pictures (result); k++) printf ("  picture %s\n", pg_result_picture (result, k));
 }
 
-static pg_status advance (pg_solver *solver, pg_state *state, pg_result *result, int quiet)
+typedef struct { pg_result *result; pg_state *state; int within; } watched;
+
+/* An old checkpoint is better than no run: one that cannot be written ends nothing. */
+static void keep_now (const watched *w)
+{
+    if (pg_result_checkpoint (w->result, w->state) != PG_OK) fprintf (stderr, "perigal: no checkpoint: %s\n", pg_last_error ());
+}
+
+/* Between the break rounds of a step */
+static pg_status look (void *context, const pg_state *state, const pg_step *so_far)
 {
     pg_status status = PG_OK;
+    watched *w = context;
+    w->within = 1;
+    PG_TRY (pg_result_stage (w->result, state, so_far));
+    if (asked_to_stop) PG_FAIL (PG_E_INTERRUPTED, "interrupted in step %ld after %ld break rounds", so_far->number, so_far->iterations);
+    if (pg_result_due (w->result)) keep_now (w);
+    w->within = 0;                                     /* set: it was this look that has ended the step                  */
+done:
+    return status;
+}
+
+static pg_status advance (pg_solver *solver, watched *w, int quiet)
+{
+    pg_status status = PG_OK;
+    pg_state *state = w->state;
     pg_step step;
     progress p;
     progress_start (&p, quiet);
+    pg_solver_watch (solver, look, w);
     while (!pg_solver_done (solver, state)) {
-        if (asked_to_stop) PG_FAIL (PG_E_INTERRUPTED, "interrupted at step %ld, load factor %.6g", state->step, state->factor);
-        PG_TRY (pg_solver_step (solver, state, &step));
-        PG_TRY (pg_result_step (result, state, &step));
+        if (asked_to_stop) PG_FAIL (PG_E_INTERRUPTED, "interrupted after step %ld, load factor %.6g", state->step, state->factor);
+        status = pg_solver_step (solver, state, &step);
+        if (status != PG_OK && !w->within) pg_result_refused (w->result);
+        PG_TRY (status);
+        PG_TRY (pg_result_step (w->result, state, &step));
+        if (pg_result_due (w->result)) keep_now (w);
         progress_show (&p, pg_solver_progress (solver, state), &step, pg_solver_report_now (solver));
     }
 done:
     progress_end (&p);
+    return status;
+}
+
+/* The end of a run that did not come to its end: what it takes to go on is written first. 1: there is a checkpoint to go on from. */
+static int keep_for_later (const watched *w)
+{
+    if (w->state->step == 0 && !w->within) return 0;   /* nothing has been done yet                                      */
+    return pg_result_checkpoint (w->result, w->state) == PG_OK;
+}
+
+static pg_status open_result (const command *c, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver, watched *w)
+{
+    pg_status status = PG_OK;
+    pg_resumed from;
+    if (!c->resume) return pg_result_open (&w->result, folder, scene, problem, solver);
+    PG_TRY (pg_result_resume (&w->result, folder, scene, problem, solver, w->state, &from));
+    if (from.threads != problem->threads)
+        fprintf (stderr, "perigal: the checkpoint was written with %d threads, now there are %d: the last digits may differ\n", from.threads, problem->threads);
+    if (!c->quiet) printf ("  going on after step %ld%s, %.0f s after the start\n", from.step, from.rounds ? " in the middle of the next" : "", from.seconds);
+done:
     return status;
 }
 
@@ -49,42 +108,63 @@ static void settle_blas (const pg_problem *p)
     openblas_set_num_threads (unknowns < enough ? 1 : p->threads);
 }
 
+/* Everything between an open result and the last message. */
+static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w, double search, double start)
+{
+    char failure[4096] = "", last[4096];
+    pg_status outcome = advance (solver, w, c->quiet), status;
+    int kept = 0;
+    if (outcome != PG_OK) {
+        snprintf (failure, sizeof failure, "%s", pg_last_error ());
+        kept = keep_for_later (w);
+    }
+    status = pg_result_finish (w->result, w->state, outcome == PG_OK ? NULL : failure, search, pg_seconds () - start);
+    snprintf (last, sizeof last, "%s", pg_last_error ());
+    if (status != PG_OK && outcome == PG_OK) kept = keep_for_later (w);
+    if (status == PG_OK && !c->quiet) print_summary (w->result, pg_solver_report_now (solver), pg_seconds () - start);
+    if (outcome != PG_OK) command_complain (outcome, failure);
+    if (status != PG_OK && (outcome == PG_OK || strcmp (failure, last) != 0)) command_complain (status, last);
+    if (kept && (outcome == PG_OK || outcome == PG_E_INTERRUPTED || outcome == PG_E_FILE || outcome == PG_E_MEMORY)) command_again (c);
+    return outcome != PG_OK ? outcome : status;
+}
+
 int pg_cli_run (int argc, char **argv)
 {
-    pg_status status = PG_OK, outcome = PG_OK;
+    pg_status status = PG_OK;
     command c;
     pg_scene *scene = NULL;
     pg_problem *problem = NULL;
     pg_solver *solver = NULL;
-    pg_state *state = NULL;
-    pg_result *result = NULL;
+    watched w = { 0 };
     pg_solver_options options;
-    char folder[512], failure[4096] = "";
-    double start = pg_seconds (), built;
-    int wrong = command_parse (&c, argc, argv);
+    pg_forecast forecast;
+    char folder[512];
+    double start = pg_seconds ();
+    int wrong = command_parse (&c, argc, argv), told = 0;
     if (wrong >= 0) return wrong;
-    signal (SIGINT, on_signal);
-    signal (SIGTERM, on_signal);
+    settle_signals ();
     PG_TRY (command_scene (&c, &scene));
+    PG_TRY (afford_scene (&c, &forecast));
     PG_TRY (pg_problem_build (&problem, scene, c.threads));
     PG_TRY (pg_solver_options_read (&options, problem, scene));
-    if (!c.folder) snprintf (folder, sizeof folder, "out/%s", problem->name);
+    PG_TRY (afford_problem (&c, &forecast, problem, 0));
+    snprintf (folder, sizeof folder, "out/%s", problem->name);
     PG_TRY (pg_result_check (scene, problem));
+    if (c.resume && pg_result_finished (c.folder ? c.folder : folder, scene)) {
+        if (!c.quiet) printf ("%s: this run is finished\n", c.folder ? c.folder : folder);
+        goto done;
+    }
     if (!c.quiet) plan_print (problem, &options);
     settle_blas (problem);
     PG_TRY (pg_solver_create (&solver, problem, &options));
-    PG_TRY (pg_state_create (&state, problem, pg_solver_components (solver)));
-    PG_TRY (pg_result_open (&result, c.folder ? c.folder : folder, scene, problem, solver));
-    built = pg_seconds ();
-    outcome = advance (solver, state, result, c.quiet);
-    if (outcome != PG_OK) snprintf (failure, sizeof failure, "%s", pg_last_error ());
-    PG_TRY (pg_result_finish (result, state, outcome == PG_OK ? NULL : failure, built - start, pg_seconds () - start));
-    if (!c.quiet) print_summary (result, pg_solver_report_now (solver), pg_seconds () - start);
-    status = outcome;
+    PG_TRY (pg_state_create (&w.state, problem, pg_solver_components (solver)));
+    PG_TRY (open_result (&c, c.folder ? c.folder : folder, scene, problem, solver, &w));
+    told = 1;
+    status = run_to_the_end (&c, solver, &w, pg_seconds () - start, start);
 done:
-    if (status != PG_OK) command_complain (status, *failure ? failure : pg_last_error ());
-    pg_result_free (&result);
-    pg_state_free (&state);
+    if (status != PG_OK && !told) command_complain (status, pg_last_error ());
+    pg_result_free (&w.result);
+    pg_state_free (&w.state);
     pg_solver_free (&solver);
     pg_problem_free (&problem);
     pg_scene_free (&scene);

@@ -125,7 +125,10 @@ static pg_status fit (pg_lattice *l, const pg_body *body, const pg_scene *scene,
     int shifted = pg_scene_vector (scene, 3, offset, "lattice_offset") > 0;
     pg_status status = pg_lattice_fit (l, body, spacing, shifted ? offset : NULL);
     if (status == PG_E_LIMIT) {
-        pg_scene_fault (scene, "spacing", "too fine for this body: more than %d cells", INT_MAX);
+        double cells = 1;
+        for (int k = 0; k < body->dim; k++) cells *= (body->high[k] - body->low[k]) / spacing;
+        pg_scene_fault (scene, "spacing", "too fine for this body: %.3g cells, and %d are possible (%.2g m or more)", cells, INT_MAX,
+                        1.01 * spacing * pow (cells / INT_MAX, 1.0 / body->dim));
         return pg_scene_verdict (scene);
     }
     if (status != PG_OK) return status;

@@ -42,7 +42,7 @@ static pg_status load (reader *r)
     pg_status status = PG_OK;
     char *path = NULL;
     FILE *file = NULL;
-    size_t size = 0, capacity = 0, got;
+    size_t size = 0, capacity = 0, got = 0;
     const char *scene = pg_scene_file (r->scene), *slash = scene ? strrchr (scene, '/') : NULL;
     size_t folder = slash && r->name[0] != '/' ? (size_t) (slash - scene) + 1 : 0, length = strlen (r->name) + 1;
     PG_ALLOC (path, folder + length);
@@ -53,11 +53,11 @@ static pg_status load (reader *r)
     do {
         PG_GROW (r->text, capacity, size + 65537);
         got = fread (r->text + size, 1, 65536, file);
+        if (memchr (r->text + size, 0, got)) PG_TRY (WRONG (r, "is not a text file"));
         size += got;
     } while (got > 0);
     if (ferror (file)) PG_TRY (WRONG (r, "%s", strerror (errno)));
     r->text[size] = '\0';
-    if (strlen (r->text) != size) PG_TRY (WRONG (r, "is not a text file"));
 done:
     if (file) fclose (file);
     pg_free (path);
@@ -187,24 +187,46 @@ done:
     return status;
 }
 
-pg_status pg_points_read (pg_cloud *cloud, const pg_scene *scene)
+static pg_status read_text (reader *r, pg_cloud *cloud)
 {
     pg_status status = PG_OK;
-    reader r = {.scene = scene, .name = pg_scene_text (scene, "points")};
-    PG_TRY (load (&r));
-    char *line = r.text;
+    char *line = r->text;
     if (!strncmp (line, "\xEF\xBB\xBF", 3)) line += 3;     /* byte order mark */
     while (*line) {
         size_t length = strcspn (line, "\n");
         char *next = line + length + (line[length] == '\n');
         line[length] = '\0';
-        r.line++;
-        PG_TRY (read_line (&r, cloud, line));
+        r->line++;
+        PG_TRY (read_line (r, cloud, line));
         line = next;
     }
-    r.line = 0;
-    if (cloud->n == 0) PG_TRY (WRONG (&r, "has no points"));
-    PG_TRY (find_twins (&r, cloud));
+    r->line = 0;
+    if (cloud->n == 0) PG_TRY (WRONG (r, "has no points"));
+    PG_TRY (find_twins (r, cloud));
+done:
+    return status;
+}
+
+pg_status pg_points_read (pg_cloud *cloud, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    reader r = {.scene = scene, .name = pg_scene_text (scene, "points")};
+    PG_TRY (load (&r));
+    PG_TRY (read_text (&r, cloud));
+done:
+    pg_free (r.text);
+    pg_free (r.line_of);
+    return status;
+}
+
+pg_status pg_points_parse (pg_cloud *cloud, const pg_scene *scene, const char *text, size_t size)
+{
+    pg_status status = PG_OK;
+    reader r = {.scene = scene, .name = pg_scene_text (scene, "points")};
+    if (memchr (text, 0, size)) PG_TRY (WRONG (&r, "is not a text file"));
+    PG_ALLOC (r.text, size + 1);
+    memcpy (r.text, text, size);
+    PG_TRY (read_text (&r, cloud));
 done:
     pg_free (r.text);
     pg_free (r.line_of);

@@ -5,5 +5,7 @@
 #include "perigal/cloud.h"
 
 /* Fills x, volume, block, n of a cloud whose dim is set. What is wrong with the file becomes a fault at `points`. */
-pg_status pg_points_read (pg_cloud *cloud, const pg_scene *scene);
+pg_status pg_points_read  (pg_cloud *cloud, const pg_scene *scene);
+/* The same from memory: `text` stands for the content of the file. */
+pg_status pg_points_parse (pg_cloud *cloud, const pg_scene *scene, const char *text, size_t size);
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The table of criteria, and the criterion that the scene asks for. */
 #include "entries.h"
+#include <stdio.h>
 #include <string.h>
 
 static const pg_criterion_type *const table[] = {
@@ -24,16 +25,27 @@ const pg_criterion_type *pg_criterion_find (const char *name)
 
 const char *pg_criterion_names (void) { return names + 1; }
 
-pg_status pg_criterion_read (pg_criterion *out, const pg_scene *scene, const pg_criterion_setting *setting)
+pg_status pg_criterion_read (pg_criterion *out, size_t n, const pg_scene *scene, const pg_criterion_setting *setting)
 {
     pg_status status = PG_OK;
-    *out = (pg_criterion) { 0 };
     const char *name = pg_scene_given (scene, "failure") ? pg_scene_text (scene, "failure.criterion") : NULL;
-    if (!name || strcmp (name, "none") == 0) goto done;
-    const pg_criterion_type *type = pg_criterion_find (name);
-    if (!type) PG_FAIL (PG_E_USAGE, "failure.criterion = %s: this library has no such criterion", name);
-    out->type = type;
-    PG_TRY (type->read (out, scene, setting));
+    const pg_criterion_type *type = !name || strcmp (name, "none") == 0 ? NULL : pg_criterion_find (name);
+    memset (out, 0, n * sizeof *out);
+    if (name && !type && strcmp (name, "none")) PG_FAIL (PG_E_USAGE, "failure.criterion = %s: this library has no such criterion", name);
+    pg_criterion_check (scene, type, n, setting);
+    for (size_t i = 0; type && i < n; i++) {
+        out[i].type = type;
+        out[i].never = pg_criterion_never (scene, &setting[i]);
+        if (!out[i].never) PG_TRY (type->read (&out[i], scene, &setting[i]));
+    }
+    PG_TRY (pg_scene_verdict (scene));
 done:
     return status;
+}
+
+void pg_criterion_describe (const pg_criterion *c, char *text, size_t size)
+{
+    if (!c->type) snprintf (text, size, "none: nothing breaks");
+    else if (c->never) snprintf (text, size, "never breaks");
+    else c->type->describe (c, text, size);
 }

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of failure, and which of them a criterion needs or would ignore. */
+ * Keys of failure and of materials.<name>.failure. */
 #include "entries.h"
-#include <stdio.h>
-#include <string.h>
 
 static const char choices[] =
 #define PG_CRITERION(name) #name "|"
@@ -29,25 +27,20 @@ static const pg_key keys[] = {
       .doc = "mohr_coulomb: angle of internal friction, below 90 deg." },
     { .path = "failure.exclude", .kind = PG_NAMES, .fallback = "", .choices = "sets.{}|left|right|bottom|top|back|front|all",
       .doc = "Sets of nodes whose bonds never break, such as grips." },
+    { .path = "materials.{}.failure", .kind = PG_MAP, .fallback = "",
+      .doc = "Limits of this material in place of those of failure; one criterion serves all. The weaker end decides for a bond between two materials." },
+    { .path = "materials.{}.failure.never", .kind = PG_BOOL, .fallback = "off",
+      .doc = "Bonds that end in this material never break." },
+    { .path = "materials.{}.failure.critical_stretch", .kind = PG_NUMBER, .unit = "1", .range = "(0, inf)", .fallback = "", .group = "limit:most",
+      .doc = "As failure.critical_stretch, for this material." },
+    { .path = "materials.{}.failure.fracture_energy", .kind = PG_NUMBER, .unit = "J/m2", .range = "(0, inf)", .fallback = "", .group = "limit:most",
+      .doc = "As failure.fracture_energy, for this material, with its own Young's modulus." },
+    { .path = "materials.{}.failure.tensile_strength", .kind = PG_NUMBER, .unit = "Pa", .range = "(0, inf)", .fallback = "",
+      .doc = "As failure.tensile_strength, for this material." },
+    { .path = "materials.{}.failure.cohesion", .kind = PG_NUMBER, .unit = "Pa", .range = "(0, inf)", .fallback = "",
+      .doc = "As failure.cohesion, for this material." },
+    { .path = "materials.{}.failure.friction_angle", .kind = PG_NUMBER, .unit = "rad", .range = "[0, 1.5707)", .fallback = "",
+      .doc = "As failure.friction_angle, for this material." },
 };
 
 const pg_key_table pg_keys_criterion = { "criterion", keys, sizeof keys / sizeof *keys };
-
-static int in (const char *list, const char *word)
-{
-    char framed[96];
-    snprintf (framed, sizeof framed, "|%s|", word);
-    return strstr (list, framed) != NULL;
-}
-
-void pg_criterion_demand (const pg_scene *scene, const char *name, const char *needs, const char *takes)
-{
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
-        const char *path = keys[i].path, *word = strchr (path, '.') + 1;
-        if (strcmp (word, "criterion") == 0 || strcmp (word, "exclude") == 0) continue;
-        int given = pg_scene_given (scene, "%s", path);
-        if (!given && in (needs, word)) pg_scene_fault (scene, "failure.criterion", "%s needs %s", name, path);
-        if (given && !in (needs, word) && !in (takes, word))
-            pg_scene_fault (scene, path, "has no effect with the criterion %s", name);
-    }
-}

@@ -9,12 +9,10 @@ enum { STRENGTH, COHESION, ANGLE };
 
 static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
 {
-    (void) setting;
-    pg_criterion_demand (scene, "mohr_coulomb", "|tensile_strength|cohesion|friction_angle|", "");
-    c->parameter[STRENGTH] = pg_scene_number (scene, "failure.tensile_strength");
-    c->parameter[COHESION] = pg_scene_number (scene, "failure.cohesion");
-    c->parameter[ANGLE] = pg_scene_number (scene, "failure.friction_angle");
-    return pg_scene_verdict (scene);
+    c->parameter[STRENGTH] = pg_criterion_limit (scene, setting, "tensile_strength");
+    c->parameter[COHESION] = pg_criterion_limit (scene, setting, "cohesion");
+    c->parameter[ANGLE] = pg_criterion_limit (scene, setting, "friction_angle");
+    return PG_OK;
 }
 
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
@@ -45,4 +43,5 @@ static void describe (const pg_criterion *c, char *text, size_t size)
 
 const pg_criterion_type pg_criterion_mohr_coulomb = {
     .name = "mohr_coulomb", .summary = "shear strength of Mohr-Coulomb with a tension cut-off", .needs = PG_NEEDS_STRESS,
+    .limit = { "tensile_strength", "cohesion", "friction_angle" },
     .read = read, .utilisation = utilisation, .factor = factor, .describe = describe };

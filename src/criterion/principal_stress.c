@@ -8,10 +8,8 @@ enum { STRENGTH };
 
 static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
 {
-    (void) setting;
-    pg_criterion_demand (scene, "principal_stress", "|tensile_strength|", "");
-    c->parameter[STRENGTH] = pg_scene_number (scene, "failure.tensile_strength");
-    return pg_scene_verdict (scene);
+    c->parameter[STRENGTH] = pg_criterion_limit (scene, setting, "tensile_strength");
+    return PG_OK;
 }
 
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
@@ -34,4 +32,5 @@ static void describe (const pg_criterion *c, char *text, size_t size)
 
 const pg_criterion_type pg_criterion_principal_stress = {
     .name = "principal_stress", .summary = "largest principal stress reaches the tensile strength", .needs = PG_NEEDS_STRESS,
+    .limit = { "tensile_strength" },
     .read = read, .utilisation = utilisation, .factor = factor, .describe = describe };

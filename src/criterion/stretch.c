@@ -8,27 +8,24 @@
 
 enum { LIMIT, FINITE, ENERGY, FROM_ENERGY };
 
+#define EITHER "critical_stretch or fracture_energy"
+
 static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
 {
-    pg_status status = PG_OK;
-    pg_criterion_demand (scene, "stretch", "", "|critical_stretch|fracture_energy|stretch|");
-    int limit = pg_scene_given (scene, "failure.critical_stretch"), energy = pg_scene_given (scene, "failure.fracture_energy");
-    if (limit + energy != 1)
-        pg_scene_fault (scene, "failure.criterion", "stretch needs %s failure.critical_stretch or failure.fracture_energy",
-                        limit ? "only one of" : "either");
-    PG_TRY (pg_scene_verdict (scene));
+    char map[PG_LIMITS], path[PG_LIMITS + 32];
+    if (!pg_criterion_holder (map, scene, setting, EITHER)) return PG_OK;
+    int energy = pg_scene_given (scene, "%s.fracture_energy", map);
     c->parameter[FINITE] = strcmp (pg_scene_text (scene, "failure.stretch"), "finite") == 0;
     c->parameter[FROM_ENERGY] = energy;
-    c->parameter[LIMIT] = pg_scene_number (scene, "failure.critical_stretch");
-    c->parameter[ENERGY] = pg_scene_number (scene, "failure.fracture_energy");
+    c->parameter[LIMIT] = pg_scene_number (scene, "%s.critical_stretch", map);
+    c->parameter[ENERGY] = pg_scene_number (scene, "%s.fracture_energy", map);
     if (energy) c->parameter[LIMIT] = pg_stretch_from_energy (setting, c->parameter[ENERGY]);
     else c->parameter[ENERGY] = pg_energy_from_stretch (setting, c->parameter[LIMIT]);
     if (!(c->parameter[LIMIT] > 0) || !isfinite (c->parameter[LIMIT])) {
-        pg_scene_fault (scene, "failure.fracture_energy", "gives no critical stretch with this horizon and Young's modulus");
-        PG_TRY (pg_scene_verdict (scene));
+        snprintf (path, sizeof path, "%s.fracture_energy", map);
+        pg_scene_fault (scene, path, "gives no critical stretch with this horizon and Young's modulus");
     }
-done:
-    return status;
+    return PG_OK;
 }
 
 /* xi . xi, xi . eta, eta . eta of one bond */
@@ -86,4 +83,5 @@ static void describe (const pg_criterion *c, char *text, size_t size)
 
 const pg_criterion_type pg_criterion_stretch = {
     .name = "stretch", .summary = "elongation of the bond reaches the critical stretch", .needs = PG_NEEDS_STRETCH,
+    .limit = { EITHER }, .option = "stretch",
     .read = read, .utilisation = utilisation, .factor = factor, .describe = describe };

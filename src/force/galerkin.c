@@ -18,18 +18,20 @@ static void galerkin_free (void **self)
     if (!g) return;
     for (int s = 0; s < PG_BOND_SETS; s++) {
         pg_free (g->rows[s].N), pg_free (g->rows[s].dN), pg_free (g->rows[s].w), pg_free (g->rows[s].grade);
-        pg_free (g->material[s]), pg_free (g->strain[s]), pg_free (g->stress[s]), pg_free (g->zz[s]), pg_free (g->u[s]);
+        pg_free (g->strain[s]), pg_free (g->stress[s]), pg_free (g->zz[s]), pg_free (g->u[s]);
         pg_free (g->s1[s]), pg_free (g->s3[s]), pg_free (g->seen[s]), pg_free (g->list[s]);
     }
     pg_stiffness_free (&g->K);
+    pg_stiffness_free (&g->M);
     galerkin_boundary_free (g);
     galerkin_basis_free (g);
-    pg_free (g->work), pg_free (g->mark);
+    galerkin_slices_free (g);
+    pg_free (g->work), pg_free (g->mark), pg_free (g->stale), pg_free (g->diagonal);
     pg_free (g);
     *self = NULL;
 }
 
-/* Values of one bond set; a point follows the block of its nearest node. */
+/* Values of one bond set. */
 static pg_status create_set (galerkin *g, int s)
 {
     pg_status status = PG_OK;
@@ -43,7 +45,7 @@ static pg_status create_set (galerkin *g, int s)
     PG_ALLOC (r->dN, nnz * dim);
     PG_ALLOC (r->w, nnz);
     PG_ALLOC (r->grade, r->n);
-    PG_ALLOC (g->material[s], r->n);
+    g->material[s] = p->block[s];
     PG_ALLOC (g->strain[s], r->n * (size_t) g->nv);
     PG_ALLOC (g->stress[s], r->n * (size_t) g->nv);
     PG_ALLOC (g->zz[s], r->n);
@@ -52,33 +54,14 @@ static pg_status create_set (galerkin *g, int s)
     PG_ALLOC (g->s3[s], r->n);
     PG_ALLOC (g->seen[s], g->n * dim);
     PG_ALLOC (g->list[s], r->n);
-    for (size_t q = 0; p->nmaterial > 1 && q < r->n; q++) {
-        double best = INFINITY;
-        for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++) {
-            size_t j = (size_t) r->family.node[e];
-            double d2 = 0;
-            for (size_t k = 0; k < dim; k++) d2 += (p->cloud.x[j * dim + k] - r->x[q * dim + k]) * (p->cloud.x[j * dim + k] - r->x[q * dim + k]);
-            if (d2 < best) best = d2, g->material[s][q] = p->cloud.block[j];
-        }
-    }
 done:
     return status;
-}
-
-static void apply (void *context, const double *x, double *y) { pg_sparse_multiply (pg_stiffness_matrix (context), x, y); }
-
-static void diagonal (void *context, double *d)
-{
-    pg_operator op = pg_sparse_operator (pg_stiffness_matrix (context));
-    op.diagonal (op.context, d);
 }
 
 static pg_status galerkin_create (void **self, const pg_problem *problem)
 {
     pg_status status = PG_OK;
     galerkin *g = NULL;
-    pg_source source[3];
-    size_t nsource = 0;
     PG_ALLOC (g, 1);
     *self = g;
     g->problem = problem, g->dim = problem->dim, g->nv = pg_voigt_size (problem->dim), g->threads = problem->threads, g->n = problem->cloud.n;
@@ -88,11 +71,11 @@ static pg_status galerkin_create (void **self, const pg_problem *problem)
     PG_ALLOC (g->mark, g->n);
     PG_TRY (galerkin_boundary_create (g));
     PG_TRY (galerkin_basis_create (g));
-    source[nsource++] = (pg_source) { &g->rows[g->bulk].family, g, galerkin_bulk_blocks };
-    if (g->npin) source[nsource++] = (pg_source) { &g->rows[PG_FACETS].family, g, galerkin_facet_blocks };
-    if (g->npeg) source[nsource++] = (pg_source) { &g->peg_family, g, galerkin_peg_blocks };
-    PG_TRY (pg_stiffness_create (&g->K, g->n, g->dim, nsource, source));
-    g->op = (pg_operator) { g->n * (size_t) g->dim, g->K, apply, diagonal };
+    PG_ALLOC (g->stale, g->n);
+    PG_ALLOC (g->diagonal, g->n * (size_t) g->dim);
+    PG_TRY (galerkin_slices_create (g));
+    g->all_stale = 1;
+    g->op = (pg_operator) { g->n * (size_t) g->dim, g, galerkin_apply, galerkin_diagonal };
 done:
     if (status != PG_OK) galerkin_free (self);
     return status;
@@ -111,30 +94,6 @@ static void touched_points (const galerkin *g, const pg_changes *changes, size_t
     }
 }
 
-static void mark_family (galerkin *g, int set, size_t p)
-{
-    const pg_family *f = &g->rows[set].family;
-    for (size_t e = f->start[p]; e < f->start[p + 1]; e++) g->mark[f->node[e]] = 1;
-}
-
-static pg_status gather_touched (galerkin *g, const size_t *count)
-{
-    pg_status status = PG_OK;
-    int *node = NULL;
-    size_t nnode = 0;
-    memset (g->mark, 0, g->n);
-    for (size_t k = 0; k < count[g->bulk]; k++) mark_family (g, g->bulk, g->list[g->bulk][k]);
-    for (size_t k = 0; g->npin && k < count[PG_FACETS]; k++) mark_family (g, PG_FACETS, g->list[PG_FACETS][k]);
-    for (size_t k = 0; g->npeg && k < count[PG_NODES]; k++) mark_family (g, PG_NODES, g->list[PG_NODES][k]);
-    PG_ALLOC (node, g->n);
-    for (size_t i = 0; i < g->n; i++) if (g->mark[i]) node[nnode++] = (int) i;
-    if (nnode) PG_TRY (pg_stiffness_gather (g->K, nnode, node, g->threads));
-    g->revision += nnode > 0;
-done:
-    pg_free (node);
-    return status;
-}
-
 static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes *changes)
 {
     pg_status status = PG_OK;
@@ -151,10 +110,8 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
         g->fresh[s] = known;
         if (known) galerkin_measure_list (g, s, n, g->list[s]);
     }
-    if (!changes) {
-        PG_TRY (pg_stiffness_gather (g->K, g->n, NULL, g->threads));
-        g->revision++;
-    } else PG_TRY (gather_touched (g, count));
+    if (!changes) g->all_stale = 1, g->revision++;
+    else galerkin_mark_stale (g, count);
     if (g->has_T && (!changes || count[PG_NODES])) {
         PG_TRY (galerkin_basis_update (g));
         g->revision++;
@@ -189,8 +146,6 @@ static pg_status galerkin_mass (void *self, double *mass)
 
 static unsigned long galerkin_revision (const void *self) { return ((const galerkin *) self)->revision; }
 static const pg_operator *galerkin_operator (void *self) { return &((galerkin *) self)->op; }
-static const pg_sparse *galerkin_matrix (void *self) { return pg_stiffness_matrix (((galerkin *) self)->K); }
-
 static pg_status galerkin_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out)
 {
     pg_status status = PG_OK;
@@ -221,5 +176,5 @@ const pg_force_type pg_force_galerkin = {
     "galerkin", "global stiffness from NOSB, PDDO or RKPM bonds (Cui 2022)",
     galerkin_create, galerkin_free, galerkin_fields, galerkin_refresh, galerkin_balance, galerkin_mass, galerkin_operator, galerkin_matrix,
     galerkin_basis, galerkin_impose, galerkin_utilisation, galerkin_ledger, galerkin_field, galerkin_probe, galerkin_overlap, galerkin_census,
-    galerkin_revision
+    galerkin_revision, galerkin_assemble, galerkin_mass_matrix
 };

@@ -21,18 +21,26 @@ typedef struct {                                       /* one component's elimin
     double *X;                                         /* C_s^-1 C_m (n x nmaster)                                       */
 } elimination;
 
+typedef struct galerkin_slices galerkin_slices;         /* galerkin_sum.c                                                 */
+
 typedef struct {
     const pg_problem *problem;
     int      dim, nv, threads, bulk;                   /* bulk: PG_NODES or PG_POINTS                                    */
     size_t   n;                                        /* nodes                                                          */
     pg_rows  rows[PG_BOND_SETS];                       /* geometry borrowed from the problem, values owned               */
-    int     *material[PG_BOND_SETS];                   /* per point                                                      */
+    const int *material[PG_BOND_SETS];                 /* per point; the problem's                                       */
     double  *strain[PG_BOND_SETS], *stress[PG_BOND_SETS], *zz[PG_BOND_SETS], *u[PG_BOND_SETS];   /* of the last measure  */
     double  *s1[PG_BOND_SETS], *s3[PG_BOND_SETS];
     double  *seen[PG_BOND_SETS];                       /* the displacement of the last measure (ndof)                    */
     int      fresh[PG_BOND_SETS];                      /* the measure is that of `seen` and of the rows as they are      */
-    pg_stiffness *K;
+    galerkin_slices *slices;
+    pg_stiffness *K;                                   /* NULL until someone asks for the matrix                         */
+    pg_stiffness *M;                                   /* consistent mass, NULL until asked for                          */
+    int      all_stale;                                /* rows of K to be gathered again: all, or those marked           */
+    unsigned char *stale;
     pg_operator   op;
+    double  *diagonal;                                 /* of K; known as long as diagonal_of is the revision             */
+    unsigned long diagonal_of;
     pin     *pin;  size_t npin;                        /* Nitsche, ascending by point                                    */
     size_t  *pin_start;                                /* facet point -> pins                                            */
     pin     *peg;  size_t npeg;                        /* penalty: point = index into peg_node                           */
@@ -48,11 +56,24 @@ typedef struct {
     unsigned char *mark;                               /* scratch: nodes or points                                       */
 } galerkin;
 
-/* bulk */
+/* sum: the loops over points */
+pg_status galerkin_slices_create (galerkin *g);
+void galerkin_slices_free (galerkin *g);
 void galerkin_measure (galerkin *g, int set, const double *d);         /* u, strain, stress, zz of every point, unless known */
 void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list);   /* again, after a change of rows  */
+void galerkin_sum_stress  (galerkin *g, double *f);                    /* f += sum w B' sigma of the last measure           */
+void galerkin_sum_tangent (galerkin *g, const double *x, double *f);   /* f += sum w B' D B x                               */
+/* operator: K x without K, and K */
+void galerkin_apply (void *context, const double *x, double *y);
+void galerkin_diagonal (void *context, double *d);
+pg_status galerkin_assemble (void *self);
+const pg_sparse *galerkin_matrix (void *self);
+pg_status galerkin_mass_matrix (void *self, const pg_sparse **M);
+void galerkin_mark_stale (galerkin *g, const size_t *count);           /* rows that the touched points of each set enter    */
+/* bulk */
 void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out);
 void galerkin_bulk_force  (galerkin *g, const double *d, double *f);   /* f += internal force (after measure)             */
+void galerkin_bulk_apply  (galerkin *g, const double *x, double *y);   /* y += K x of the bulk                            */
 double galerkin_bulk_energy (const galerkin *g, const double *d);
 const pg_material *galerkin_material (const galerkin *g, int set, size_t p);
 void galerkin_B_transpose (int dim, const double *grad, const double *stress, double *f);       /* f = B' stress          */
@@ -61,6 +82,8 @@ pg_status galerkin_boundary_create (galerkin *g);
 void galerkin_boundary_free (galerkin *g);
 void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double *out);
 void galerkin_peg_blocks   (void *context, size_t p, size_t a, size_t m, double *out);
+/* y += what supports add to K x; facet points and constrained nodes only */
+void galerkin_boundary_apply (galerkin *g, const double *x, double *y);
 /* residual += loads and boundary terms (after measure); external and reaction: squared norms for the reference */
 void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external, double *reaction);
 double galerkin_boundary_energy (const galerkin *g, double t);

@@ -15,16 +15,59 @@ typedef struct {
 
 enum { BATCH = 128 };
 
-/* Evaluates the criterion on `count` live bonds and their points. */
+/* What `count` bonds show against one law; the weaker of the laws that judge a bond decides. */
+static void judge_by (const sweep *s, const pg_criterion *c, const pg_bond_measures *m, const size_t *bond)
+{
+    size_t base = s->g->problem->first_bond[s->set];
+    double out[BATCH];
+    char kind[BATCH];
+    if (s->utilisation) c->type->utilisation (c, m, out, kind);
+    for (size_t k = 0; s->utilisation && k < m->n; k++) {
+        if (out[k] < s->utilisation[base + bond[k]]) continue;
+        s->utilisation[base + bond[k]] = out[k];
+        if (s->kind) s->kind[base + bond[k]] = kind[k];
+    }
+    if (s->factor) c->type->factor (c, m, out);
+    for (size_t k = 0; s->factor && k < m->n; k++)
+        if (!(out[k] > s->factor[base + bond[k]])) s->factor[base + bond[k]] = out[k];
+}
+
+/* Those of a batch with an end in a material, by its law. */
+static void judge_material (const sweep *s, int material, pg_bond_measures m, const size_t *bond, const size_t *point)
+{
+    const galerkin *g = s->g;
+    const int *node = g->rows[s->set].family.node;
+    double xi[BATCH * 3], eta[BATCH * 3], s1[BATCH], s3[BATCH];
+    size_t some[BATCH], count = 0, dim = (size_t) g->dim;
+    for (size_t k = 0; k < m.n; k++) {
+        if (g->material[s->set][point[k]] != material && g->material[PG_NODES][node[bond[k]]] != material) continue;
+        if (m.xi) memcpy (xi + count * dim, m.xi + k * dim, dim * sizeof *xi), memcpy (eta + count * dim, m.eta + k * dim, dim * sizeof *eta);
+        if (m.s1) s1[count] = m.s1[k], s3[count] = m.s3[k];
+        some[count++] = bond[k];
+    }
+    m = (pg_bond_measures) { count, m.dim, m.xi ? xi : NULL, m.xi ? eta : NULL, m.s1 ? s1 : NULL, m.s1 ? s3 : NULL };
+    if (count) judge_by (s, &g->problem->criterion[material], &m, some);
+}
+
+/* The only material that the ends of these bonds are made of, or -1. */
+static int one_material (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point)
+{
+    const int *node = g->rows[set].family.node;
+    int first = g->material[set][point[0]], same = 1;
+    for (size_t k = 0; k < count && same; k++)
+        same = g->material[set][point[k]] == first && g->material[PG_NODES][node[bond[k]]] == first;
+    return same ? first : -1;
+}
+
+/* Evaluates the criteria on `count` live bonds and their points. */
 static void judge (const sweep *s, size_t count, const size_t *bond, const size_t *point)
 {
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
-    const pg_criterion *c = &g->problem->criterion;
-    size_t dim = (size_t) g->dim, base = g->problem->first_bond[s->set];
-    double xi[BATCH * 3], eta[BATCH * 3], s1[BATCH], s3[BATCH], out[BATCH];
-    char kind[BATCH];
-    int stretch = c->type->needs & PG_NEEDS_STRETCH, stress = c->type->needs & PG_NEEDS_STRESS;
+    size_t dim = (size_t) g->dim;
+    double xi[BATCH * 3], eta[BATCH * 3], s1[BATCH], s3[BATCH];
+    int needs = g->problem->criterion->type->needs, stretch = needs & PG_NEEDS_STRETCH, stress = needs & PG_NEEDS_STRESS;
+    int material = one_material (g, s->set, count, bond, point);
     for (size_t k = 0; stretch && k < count; k++) {
         size_t j = (size_t) r->family.node[bond[k]], p = point[k];
         for (size_t a = 0; a < dim; a++) {
@@ -38,17 +81,8 @@ static void judge (const sweep *s, size_t count, const size_t *bond, const size_
         s3[k] = 0.5 * (g->s3[s->set][p] + g->s3[PG_NODES][j]);
     }
     pg_bond_measures m = { count, g->dim, stretch ? xi : NULL, stretch ? eta : NULL, stress ? s1 : NULL, stress ? s3 : NULL };
-    if (s->utilisation) {
-        c->type->utilisation (c, &m, out, kind);
-        for (size_t k = 0; k < count; k++) {
-            s->utilisation[base + bond[k]] = out[k];
-            if (s->kind) s->kind[base + bond[k]] = kind[k];
-        }
-    }
-    if (s->factor) {
-        c->type->factor (c, &m, out);
-        for (size_t k = 0; k < count; k++) s->factor[base + bond[k]] = out[k];
-    }
+    if (material >= 0) judge_by (s, &g->problem->criterion[material], &m, bond);
+    else for (size_t k = 0; k < g->problem->nmaterial; k++) judge_material (s, (int) k, m, bond, point);
 }
 
 static void sweep_points (void *context, size_t first, size_t last, int thread)
@@ -71,6 +105,20 @@ static void sweep_points (void *context, size_t first, size_t last, int thread)
     if (count) judge (s, count, bond, point);
 }
 
+typedef struct { galerkin *g; int set; } principals;
+
+static void principal_points (void *context, size_t first, size_t last, int thread)
+{
+    const principals *c = context;
+    galerkin *g = c->g;
+    double principal[3];
+    (void) thread;
+    for (size_t p = first; p < last; p++) {
+        pg_principal (g->dim, 1, g->stress[c->set] + p * (size_t) g->nv, g->zz[c->set] + p, principal);
+        g->s1[c->set][p] = principal[0], g->s3[c->set][p] = principal[2];
+    }
+}
+
 pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor)
 {
     galerkin *g = self;
@@ -78,11 +126,8 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
         const pg_rows *r = &g->rows[set];
         if (r->n == 0) continue;
         galerkin_measure (g, set, d);
-        for (size_t p = 0; p < r->n && g->problem->criterion.type->needs & PG_NEEDS_STRESS; p++) {
-            double principal[3];
-            pg_principal (g->dim, 1, g->stress[set] + p * (size_t) g->nv, g->zz[set] + p, principal);
-            g->s1[set][p] = principal[0], g->s3[set][p] = principal[2];
-        }
+        principals c = { g, set };
+        if (g->problem->criterion->type->needs & PG_NEEDS_STRESS) pg_parallel (g->threads, r->n, principal_points, &c);
     }
     for (int set = 0; set < PG_BOND_SETS; set++) {
         sweep s = { g, state, set, utilisation, factor, kind };

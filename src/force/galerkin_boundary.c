@@ -245,6 +245,42 @@ static void spread (void *context, int set, size_t point, int load, int k, doubl
         s->f[(size_t) r->family.node[e] * (size_t) s->g->dim + (size_t) k] += r->N[e] * force;
 }
 
+/* K x of the supports: facet points and nodes measured for x alone, with all goals zero */
+void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
+{
+    size_t dim = (size_t) g->dim;
+    const pg_rows *r = &g->rows[PG_FACETS];
+    for (size_t i = 0; i < g->npin; i++) {
+        const pin *q = &g->pin[i];
+        size_t k = (size_t) q->component, p = q->point;
+        double QD[6], part[3], u = 0, t = 0, w = r->weight[p];
+        traction_of_strain (g, p, q->component, QD);
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
+            const double *d = x + (size_t) r->family.node[e] * dim;
+            galerkin_B_transpose (g->dim, r->dN + e * dim, QD, part);
+            u += r->N[e] * d[k];
+            for (size_t c = 0; c < dim; c++) t += part[c] * d[c];
+        }
+        double force = w * (beta (g, p) * u - t);
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
+            double *to = y + (size_t) r->family.node[e] * dim;
+            galerkin_B_transpose (g->dim, r->dN + e * dim, QD, part);
+            to[k] += r->N[e] * force;
+            for (size_t c = 0; c < dim; c++) to[c] -= w * u * part[c];
+        }
+    }
+    for (size_t i = 0; i < g->npeg; i++) {
+        const pin *q = &g->peg[i];
+        int node = g->peg_node[q->point];
+        const pg_rows *n = &g->rows[PG_NODES];
+        double u = 0;
+        for (size_t e = n->family.start[node]; e < n->family.start[node + 1]; e++)
+            u += n->N[e] * x[(size_t) n->family.node[e] * dim + (size_t) q->component];
+        for (size_t e = n->family.start[node]; e < n->family.start[node + 1]; e++)
+            y[(size_t) n->family.node[e] * dim + (size_t) q->component] += penalty (g, node) * n->N[e] * u;
+    }
+}
+
 static double squared (const double *a, size_t n)
 {
     double s = 0;

@@ -28,61 +28,6 @@ void galerkin_B_transpose (int dim, const double *q, const double *s, double *f)
     }
 }
 
-/* u and strain of one point in 2D (the general loop with its sums in registers) */
-static void sum_plane (const pg_rows *r, size_t p, const double *d, double *u, double *e)
-{
-    double u0 = 0, u1 = 0, e0 = 0, e1 = 0, e2 = 0;
-    for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
-        const double *dj = d + 2 * (size_t) r->family.node[k], *q = r->dN + 2 * k;
-        u0 += r->N[k] * dj[0], u1 += r->N[k] * dj[1];
-        e0 += q[0] * dj[0], e1 += q[1] * dj[1], e2 += q[1] * dj[0] + q[0] * dj[1];
-    }
-    u[0] = u0, u[1] = u1, e[0] = e0, e[1] = e1, e[2] = e2;
-}
-
-typedef struct { galerkin *g; int set; const size_t *list; } measuring;
-
-static void measure_points (void *context, size_t first, size_t last, int thread)
-{
-    const measuring *m = context;
-    galerkin *g = m->g;
-    const pg_rows *r = &g->rows[m->set];
-    size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
-    (void) thread;
-    for (size_t i = first; i < last; i++) {
-        size_t p = m->list ? m->list[i] : i;
-        double *u = g->u[m->set] + p * dim, *e = g->strain[m->set] + p * nv;
-        if (dim == 2) sum_plane (r, p, g->seen[m->set], u, e);
-        else {
-            memset (u, 0, dim * sizeof *u);
-            memset (e, 0, nv * sizeof *e);
-            for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
-                const double *d = g->seen[m->set] + (size_t) r->family.node[k] * dim;
-                for (size_t c = 0; c < dim; c++) u[c] += r->N[k] * d[c];
-                add_strain (g->dim, r->dN + k * dim, d, e);
-            }
-        }
-        const pg_material *mat = galerkin_material (g, m->set, p);
-        mat->type->stress (mat, 1, e, g->stress[m->set] + p * nv, g->zz[m->set] + p);
-    }
-}
-
-void galerkin_measure (galerkin *g, int set, const double *d)
-{
-    size_t bytes = g->n * (size_t) g->dim * sizeof *d;
-    measuring m = { g, set, NULL };
-    if (g->fresh[set] && memcmp (g->seen[set], d, bytes) == 0) return;
-    memcpy (g->seen[set], d, bytes);
-    pg_parallel (g->threads, g->rows[set].n, measure_points, &m);
-    g->fresh[set] = 1;
-}
-
-void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list)
-{
-    measuring m = { g, set, list };
-    measure_points (&m, 0, count, 0);
-}
-
 static double stabilisation (const galerkin *g, size_t p)
 {
     const pg_material *m = galerkin_material (g, g->bulk, p);
@@ -154,30 +99,16 @@ static double silling_force (const galerkin *g, size_t p, const double *d, doubl
     return energy;
 }
 
-static void add_force_plane (const pg_rows *r, size_t p, const double *s, double *f)
-{
-    double w = r->weight[p], s0 = s[0], s1 = s[1], s2 = s[2];
-    for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
-        const double *q = r->dN + 2 * k;
-        double *fj = f + 2 * (size_t) r->family.node[k];
-        fj[0] += w * (q[0] * s0 + q[1] * s2), fj[1] += w * (q[1] * s1 + q[0] * s2);
-    }
-}
-
 void galerkin_bulk_force (galerkin *g, const double *d, double *f)
 {
-    const pg_rows *r = &g->rows[g->bulk];
-    size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
-    for (size_t p = 0; p < r->n; p++) {
-        const double *s = g->stress[g->bulk] + p * nv;
-        double part[3];
-        if (dim == 2) add_force_plane (r, p, s, f);
-        else for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
-            galerkin_B_transpose (g->dim, r->dN + k * dim, s, part);
-            for (size_t c = 0; c < dim; c++) f[(size_t) r->family.node[k] * dim + c] += r->weight[p] * part[c];
-        }
-        if (g->problem->silling > 0) silling_force (g, p, d, f);
-    }
+    galerkin_sum_stress (g, f);
+    for (size_t p = 0; p < g->rows[g->bulk].n && g->problem->silling > 0; p++) silling_force (g, p, d, f);
+}
+
+void galerkin_bulk_apply (galerkin *g, const double *x, double *y)
+{
+    galerkin_sum_tangent (g, x, y);
+    for (size_t p = 0; p < g->rows[g->bulk].n && g->problem->silling > 0; p++) silling_force (g, p, x, y);
 }
 
 double galerkin_bulk_energy (const galerkin *g, const double *d)

@@ -11,39 +11,61 @@ static double dot (size_t n, const double *a, const double *b)
     return s;
 }
 
-pg_status pg_conjugate_gradients (const pg_operator *A, const double *b, double *x, double tolerance, size_t limit, size_t *iterations)
+typedef struct { double *r, *z, *p, *q, *d; } vectors;
+
+static pg_status precondition (const pg_preconditioner *P, size_t n, const vectors *v)
+{
+    if (P) return P->solve (P->context, v->r, v->z);
+    for (size_t i = 0; i < n; i++) v->z[i] = v->d[i] * v->r[i];
+    return PG_OK;
+}
+
+static void first_residual (const pg_operator *A, const double *b, const double *x, const vectors *v)
+{
+    size_t n = A->n, zero = 1;
+    for (size_t i = 0; i < n && zero; i++) zero = x[i] == 0;
+    if (zero) memcpy (v->r, b, n * sizeof *b);
+    else A->apply (A->context, x, v->q);
+    for (size_t i = 0; i < n && !zero; i++) v->r[i] = b[i] - v->q[i];
+}
+
+pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b, double *x, double tolerance, size_t limit,
+                                       size_t *iterations)
 {
     pg_status status = PG_OK;
-    double *r = NULL, *z = NULL, *p = NULL, *q = NULL, *d = NULL;
+    vectors v = { 0 };
     size_t n = A->n, k = 0;
-    PG_ALLOC (r, n);
-    PG_ALLOC (z, n);
-    PG_ALLOC (p, n);
-    PG_ALLOC (q, n);
-    PG_ALLOC (d, n);
-    A->diagonal (A->context, d);
-    A->apply (A->context, x, q);
-    for (size_t i = 0; i < n; i++) {
-        r[i] = b[i] - q[i];
-        d[i] = d[i] > 0 ? 1 / d[i] : 1;
-        p[i] = z[i] = d[i] * r[i];
-    }
-    double goal = tolerance * sqrt (dot (n, b, b)), rz = dot (n, r, z), rr = sqrt (dot (n, r, r));
+    PG_ALLOC (v.r, n);
+    PG_ALLOC (v.z, n);
+    PG_ALLOC (v.p, n);
+    PG_ALLOC (v.q, n);
+    PG_ALLOC (v.d, P ? 0 : n);
+    if (!P) A->diagonal (A->context, v.d);
+    for (size_t i = 0; i < n && !P; i++) v.d[i] = v.d[i] > 0 ? 1 / v.d[i] : 1;
+    first_residual (A, b, x, &v);
+    double goal = tolerance * sqrt (dot (n, b, b)), rz = 0, rr = sqrt (dot (n, v.r, v.r));
     for (k = 0; rr > goal && k < limit; k++) {
-        A->apply (A->context, p, q);
-        double pq = dot (n, p, q);
+        PG_TRY (precondition (P, n, &v));
+        double next = dot (n, v.r, v.z), turn = k ? next / rz : 0;
+        for (size_t i = 0; i < n; i++) v.p[i] = v.z[i] + turn * v.p[i];
+        rz = next;
+        A->apply (A->context, v.p, v.q);
+        double pq = dot (n, v.p, v.q);
         if (!(pq > 0)) PG_FAIL (PG_E_NOT_SPD, "conjugate gradients met a direction of energy %g after %zu iterations", pq, k);
         double alpha = rz / pq;
-        for (size_t i = 0; i < n; i++) x[i] += alpha * p[i], r[i] -= alpha * q[i], z[i] = d[i] * r[i];
-        double next = dot (n, r, z);
-        for (size_t i = 0; i < n; i++) p[i] = z[i] + next / rz * p[i];
-        rz = next, rr = sqrt (dot (n, r, r));
+        for (size_t i = 0; i < n; i++) x[i] += alpha * v.p[i], v.r[i] -= alpha * v.q[i];
+        rr = sqrt (dot (n, v.r, v.r));
     }
     if (!(rr <= goal)) PG_FAIL (PG_E_EQUILIBRIUM, "conjugate gradients stopped after %zu iterations at residual %g of %g", k, rr, goal);
 done:
     if (iterations) *iterations = k;
-    pg_free (r), pg_free (z), pg_free (p), pg_free (q), pg_free (d);
+    pg_free (v.r), pg_free (v.z), pg_free (v.p), pg_free (v.q), pg_free (v.d);
     return status;
+}
+
+pg_status pg_conjugate_gradients (const pg_operator *A, const double *b, double *x, double tolerance, size_t limit, size_t *iterations)
+{
+    return pg_conjugate_gradients_with (A, NULL, b, x, tolerance, limit, iterations);
 }
 
 typedef struct { const pg_sparse *A; double tolerance; size_t iterations; } pcg;

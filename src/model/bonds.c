@@ -66,6 +66,7 @@ done:
     return status;
 }
 
+/* Squared; m^2 */
 static double distance2 (const pg_problem *p, const double *x, int node)
 {
     double s = 0;
@@ -76,7 +77,17 @@ static double distance2 (const pg_problem *p, const double *x, int node)
     return s;
 }
 
-/* A node of an excluded set exempts its bonds; another point follows its nearest node. */
+int pg_bonds_nearest (const pg_problem *p, int set, size_t point)
+{
+    const pg_family *f = &p->rows[set].family;
+    const double *x = p->rows[set].x + point * (size_t) p->dim;
+    int nearest = -1;
+    for (size_t e = f->start[point]; e < f->start[point + 1]; e++)
+        if (nearest < 0 || distance2 (p, x, f->node[e]) < distance2 (p, x, nearest)) nearest = f->node[e];
+    return nearest;
+}
+
+/* A node of an excluded set exempts its bonds; another point follows its nearest node. A material that never breaks exempts its points. */
 static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -92,13 +103,11 @@ static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
     }
     for (int s = PG_POINTS; s < PG_BOND_SETS; s++)
         for (size_t q = 0; q < p->rows[s].n; q++) {
-            const pg_family *f = &p->rows[s].family;
-            const double *x = p->rows[s].x + q * (size_t) p->dim;
-            int nearest = -1;
-            for (size_t e = f->start[q]; e < f->start[q + 1]; e++)
-                if (nearest < 0 || distance2 (p, x, f->node[e]) < distance2 (p, x, nearest)) nearest = f->node[e];
+            int nearest = pg_bonds_nearest (p, s, q);
             p->exempt[s][q] = nearest >= 0 && p->exempt[PG_NODES][nearest];
         }
+    for (int s = 0; s < PG_BOND_SETS; s++)
+        for (size_t q = 0; q < p->rows[s].n; q++) p->exempt[s][q] |= (unsigned char) (p->criterion[p->block[s][q]].never != 0);
 done:
     return status;
 }
@@ -110,6 +119,7 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
     PG_TRY (make_points (p, scene));
     PG_TRY (make_facets (p));
     for (int s = 0; s < PG_BOND_SETS; s++) p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
+    PG_TRY (pg_blocks_build (p, scene));
     PG_TRY (make_exempt (p, scene));
     for (size_t i = 0; i < p->cloud.n; i++)
         for (size_t c = 0; c < p->cracks.n; c++)

@@ -42,13 +42,19 @@ static double factor_at (const pg_load *load, const pg_place *at)
     return load->kind == PG_VELOCITY ? table_integral (load, at->t) - table_integral (load, 0) : table_value (load, at->t);
 }
 
-double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t)
+pg_place pg_place_of (int dim, const double *x, double t)
 {
-    if (!load->value[k]) return 0;
     pg_place at = { x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0, 0, 0, t };
     at.r = sqrt (at.x * at.x + at.y * at.y + at.z * at.z);
     at.angle = atan2 (at.y, at.x);
     if (at.angle < 0) at.angle += 2 * 3.14159265358979323846;
+    return at;
+}
+
+double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t)
+{
+    if (!load->value[k]) return 0;
+    pg_place at = pg_place_of (dim, x, t);
     return pg_expression_value (load->value[k], &at) * factor_at (load, &at);
 }
 

@@ -5,7 +5,13 @@
 #include "perigal/model.h"
 pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
+/* Variables of expressions at a place (m) and time. */
+pg_place  pg_place_of    (int dim, const double *x, double t);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
+/* The node nearest to a point of a bond set among those it sees; -1: it sees none. */
+int       pg_bonds_nearest (const pg_problem *problem, int set, size_t point);
+/* block of every point, once the rows are there. */
+pg_status pg_blocks_build (pg_problem *problem, const pg_scene *scene);
 /* alive = 0 where a bond meets a pre-crack. */
 void      pg_bonds_cut   (const pg_problem *problem, unsigned char *alive);
 #endif

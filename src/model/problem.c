@@ -43,6 +43,21 @@ done:
     return status;
 }
 
+static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_criterion_setting *setting = NULL;
+    PG_ALLOC (setting, p->nmaterial);
+    PG_ALLOC (p->criterion, p->nmaterial);
+    for (size_t i = 0; i < p->nmaterial; i++)
+        setting[i] = (pg_criterion_setting) { p->mode, p->approx.horizon, p->material[i].modulus, p->material[i].parameter[1],
+                                              p->cloud.thickness, p->approx.kernel->name, p->material[i].name };
+    PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));
+done:
+    pg_free (setting);
+    return status;
+}
+
 static pg_status build_laws (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -54,11 +69,6 @@ static pg_status build_laws (pg_problem *p, const pg_scene *scene)
         pg_scene_fault (scene, "materials", "at least one material is needed");
         PG_TRY (pg_scene_verdict (scene));
     }
-    for (size_t i = 0; p->nmaterial > 1 && i < p->cloud.n; i++)
-        if (p->cloud.block[i] < 0 || (size_t) p->cloud.block[i] >= p->nmaterial) {
-            pg_scene_fault (scene, "materials", "point %zu is of block %d, and there are %zu materials", i, p->cloud.block[i], p->nmaterial);
-            break;
-        }
     PG_TRY (pg_approx_read (&p->approx, scene, p->cloud.h));
     p->integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
     snprintf (p->force, sizeof p->force, "%s", pg_scene_text (scene, "method.force"));
@@ -71,9 +81,7 @@ static pg_status build_laws (pg_problem *p, const pg_scene *scene)
     p->silling = silling ? pg_scene_number (scene, "method.stabilization_factor") : 0;
     p->nitsche = pg_scene_number (scene, "method.nitsche_factor");
     p->penalty = pg_scene_number (scene, "method.penalty_factor");
-    pg_criterion_setting setting = { p->mode, p->approx.horizon, p->material[0].modulus, p->material[0].parameter[1],
-                                     p->cloud.thickness, p->approx.kernel->name };
-    PG_TRY (pg_criterion_read (&p->criterion, scene, &setting));
+    PG_TRY (read_criteria (p, scene));
 done:
     return status;
 }
@@ -138,9 +146,9 @@ void pg_problem_free (pg_problem **problem)
 {
     pg_problem *p = *problem;
     if (!p) return;
-    for (int s = 0; s < PG_BOND_SETS; s++) pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]);
+    for (int s = 0; s < PG_BOND_SETS; s++) pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]);
     pg_loads_clear (p);
-    pg_free (p->gauge), pg_free (p->material);
+    pg_free (p->gauge), pg_free (p->material), pg_free (p->criterion);
     pg_sets_clear (&p->sets);
     pg_cells_clear (&p->cells);
     pg_cloud_clear (&p->cloud);

@@ -97,7 +97,7 @@ static double extent (const pg_axis *a, cairo_t *cr, int k)
 static int texts_fit (const pg_axis *a, cairo_t *cr, double length)
 {
     for (int k = 0; k + 1 < a->n; k++) {
-        double gap = (pg_axis_at (a, a->tick[k + 1]) - pg_axis_at (a, a->tick[k])) * length;
+        double gap = fabs (pg_axis_at (a, a->tick[k + 1]) - pg_axis_at (a, a->tick[k])) * length;
         if (gap < 0.5 * (extent (a, cr, k) + extent (a, cr, k + 1))) return 0;
     }
     return 1;
@@ -192,8 +192,8 @@ void pg_axis_fit (pg_axis *a, cairo_t *cr, double low, double high, double lengt
 
 double pg_axis_at (const pg_axis *a, double value)
 {
-    if (a->log) return log10 (value / a->low) / log10 (a->high / a->low);
-    return (value - a->low) / (a->high - a->low);
+    double t = a->log ? log10 (value / a->low) / log10 (a->high / a->low) : (value - a->low) / (a->high - a->low);
+    return a->reverse ? 1 - t : t;
 }
 
 static double widest (const pg_axis *a, cairo_t *cr)

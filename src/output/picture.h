@@ -31,7 +31,7 @@ enum { PG_TICKS = 24, PG_MINOR = 128 };
 typedef enum { PG_BOTTOM, PG_LEFT, PG_RIGHT } pg_side;
 typedef struct {
     double  low, high;
-    int     log, n, nminor;
+    int     log, reverse, n, nminor;                   /* reverse (set after the fit): falls to the right, or upwards    */
     pg_side side;
     double  tick[PG_TICKS], minor[PG_MINOR];
     char    text[PG_TICKS][40], label[200];
@@ -57,9 +57,81 @@ void pg_colour_curve (size_t k, double rgb[3]);
 typedef struct {
     size_t  n;
     double *place;                                     /* pixels from the left and the top (n x 2)                       */
-    double *value;                                     /* (n)                                                            */
     double  size[2], reach;                            /* cell, pixels; gaps up to (reach - 1) / 2 cells close          */
 } pg_spots;
 /* owner (width x height): index of the spot that covers the pixel's centre, -1 for none. */
 pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner);
+
+/* ---- picture_grid.c: the points as cells of a lattice ------------------------------------------------------------------ */
+typedef struct {
+    int     count[3], loose;                           /* loose: no lattice (points share cells), at is NULL             */
+    double  origin[3], step[3];                        /* first point; edges of a cell, m                                */
+    double  low[3], high[3];                           /* box of the cubes, cut where the outer points are half a cell, m */
+    int    *at;                                        /* point of a cell, x fastest, or -1                              */
+} pg_grid;
+pg_status pg_grid_build (pg_grid *g, const pg_cloud *cloud);
+void      pg_grid_clear (pg_grid *g);
+int       pg_grid_place (const pg_grid *g, int axis, double x);              /* index along an axis, may be outside        */
+int       pg_grid_point (const pg_grid *g, const int *cell);                 /* -1 outside and where there is none         */
+
+/* ---- picture_view.c: where the eye is ------------------------------------------------------------------------------------ */
+typedef enum { PG_FLAT, PG_LAYER, PG_SLICE, PG_SOLID } pg_eye_kind;          /* 2D; axis section; oblique section; outside */
+typedef struct {
+    pg_eye_kind kind;
+    double right[3], up[3], toward[3];                 /* unit vectors; toward the eye                                   */
+    int    axis[2], sign[2];                           /* coordinate across and up, -1: none                             */
+    int    cut, framed;                                /* layer: its axis, else -1; framed: with axes                    */
+    double at;                                         /* section: toward . x = at, m                                    */
+} pg_eye;
+pg_status pg_eye_open (pg_eye *eye, const pg_cloud *cloud, const pg_picture_style *style);
+double    pg_along (const double *direction, const double *x, int dim);      /* direction . x                              */
+
+/* ---- a frame of the picture's plane on pixels ------------------------------------------------------------------------------ */
+typedef struct {
+    int     width, height;
+    double  left, top, scale;                          /* m at the upper left corner; pixels per m                       */
+    int    *owner;                                     /* point, or one of the following (width x height)                */
+    float  *shade, *depth;                             /* brightness, 1 full; depth towards the eye, m                   */
+} pg_screen;
+enum { PG_EMPTY = -1, PG_GHOST = -2, PG_EDGE = -3 };   /* nothing; the body behind a choice of points; its outline       */
+pg_status pg_screen_open (pg_screen *s, int width, int height);
+void      pg_screen_close (pg_screen *s);
+
+/* ---- picture_solid.c: cubes around points, hidden faces hidden ---------------------------------------------------------------- */
+typedef struct {
+    const pg_cloud *cloud;
+    const pg_grid *grid;
+    const pg_eye *eye;
+    const double *u;                                   /* NULL: undeformed                                               */
+    double magnify;
+    const unsigned char *keep;                         /* points drawn, NULL: all                                        */
+} pg_solid;
+void      pg_solid_draw (const pg_solid *solid, pg_screen *screen);
+pg_status pg_ghost_draw (const pg_solid *solid, pg_screen *screen);          /* the whole body under what is drawn         */
+void      pg_slice_draw (const pg_grid *grid, const pg_eye *eye, pg_screen *screen);
+
+/* ---- picture_plate.c: frames, axes, colour bar ------------------------------------------------------------------------------- */
+typedef struct {
+    pg_eye  eye;
+    double  low[2], high[2];                           /* frame, m                                                       */
+    double  unit;                                      /* length unit, m                                                 */
+    int     flat, columns, rows, titles;               /* flat: colour bar below                                         */
+    size_t  panels;
+    double  left, top, width, height, pitch[2], total[2];      /* first frame, distance of frames, picture: pixels       */
+    double  bar_at[4];                                 /* left, top, width, height                                       */
+    pg_axis x, y, bar;
+    int     beyond[2];                                 /* values below, above the colour bar: it ends in arrows          */
+    pg_colour_map colour;
+} pg_plate;
+const char *pg_plate_unit (const pg_plate *p);
+void pg_plate_fit  (pg_plate *p, const pg_picture_style *style, double low, double high);    /* low, high: of the colours  */
+void pg_plate_to   (const pg_plate *p, size_t panel, double a, double b, double *px, double *py);
+void pg_plate_draw (const pg_plate *p, cairo_t *cr, const pg_cloud *cloud, const pg_grid *grid, const pg_picture_style *style);
+void pg_panel_draw (const pg_plate *p, cairo_t *cr, size_t panel, const char *title);
+pg_status pg_panel_paint (const pg_plate *p, cairo_t *cr, size_t panel, const pg_screen *screen, const double *value, int fine);
+
+/* ---- picture_wire.c: lines in the body's space ---------------------------------------------------------------------------------- */
+void pg_wire_box    (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *grid, int hidden);
+void pg_wire_cracks (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *grid, const pg_cracks *cracks, const pg_screen *screen /* NULL: see-through */);
+void pg_wire_triad  (const pg_plate *p, cairo_t *cr, double x, double y, double length);
 #endif

@@ -1,295 +1,365 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields as pictures: a coloured cell per point in a frame of equal scales, colour bar, cracks. 1D: value over x; 3D: a section. */
+ * Fields as pictures: which points are seen, the frame they fill, their colours; one state or several side by side.
+ * 2D: a coloured cell per point; 3D: a section, or the body from outside; 1D: value over x. */
 #include "picture.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDE = 1120, BROAD = 900, TALL = 1000, BAR = 30, BAR_GAP = 34, LEAST = 640 };
-
 typedef struct {
+    const pg_cloud *cloud;
+    const pg_picture_style *style;
+    size_t  n;                                         /* panels                                                         */
+    const pg_panel *panel;
+    pg_grid grid;                                      /* 3D                                                             */
+    pg_plate plate;
+    unsigned char *seen;                               /* points in the section, or all                                  */
+    unsigned char *keep;                               /* points above the limit, of the panel at work                   */
+    double *own;                                       /* coloured by depth: coordinate in the picture's unit            */
+    int    *index, layer;                              /* of a spot's point; of the section                              */
     pg_spots spots;
-    double  step[2], low[2], high[2];                  /* cell; frame, m                                                 */
-    int     axis[2], cut;                              /* axes across and up; 3D: the axis cut, else -1                  */
-    double  at, unit;                                  /* place of the cut, m; length unit, m                            */
-    int     flat;                                      /* colour bar below                                               */
-    double  left, top, width, height, total[2];        /* frame and picture, pixels                                      */
-    pg_axis x, y, bar;
-    pg_colour_map colour;
-} plate;
+    char    label[32];
+} drawing;
 
-/* The points drawn: all (2D), or those within half a step of the section (3D); places in m, moved by magnify u. */
-static pg_status choose_points (plate *p, const pg_cloud *cloud, const double *value, const pg_picture_style *style)
+static const double *displaced (const drawing *d, size_t panel)
+{
+    return d->style->magnify != 0 ? d->panel[panel].u : NULL;
+}
+
+static const double *value_of (const drawing *d, size_t panel)
+{
+    return d->own ? d->own : d->panel[panel].value;
+}
+
+/* ---- points ---------------------------------------------------------------------------------------------------------------- */
+/* A section shows the layer of points it lies in (the lower of two when it lies between them). */
+static pg_status choose_layer (drawing *d)
 {
     pg_status status = PG_OK;
-    size_t dim = (size_t) cloud->dim;
-    PG_ALLOC (p->spots.place, 2 * cloud->n);
-    PG_ALLOC (p->spots.value, cloud->n);
-    for (size_t i = 0; i < cloud->n; i++) {
-        const double *x = cloud->x + i * dim;
-        if (p->cut >= 0) {
-            double half = 0.5 * (cloud->step[p->cut] > 0 ? cloud->step[p->cut] : cloud->h);
-            if (fabs (x[p->cut] - p->at) > half * (1 + 1e-6)) continue;
-        }
-        size_t k = p->spots.n++;
-        p->spots.value[k] = value[i];
-        for (int a = 0; a < 2; a++)
-            p->spots.place[2 * k + (size_t) a] = x[p->axis[a]] + (style->u ? style->magnify * style->u[i * dim + (size_t) p->axis[a]] : 0);
-    }
-    if (p->spots.n == 0) PG_FAIL (PG_E_USAGE, "the section %c = %g m meets no points", "xyz"[p->cut < 0 ? 0 : p->cut], p->at);
+    const pg_eye *e = &d->plate.eye;
+    const pg_grid *g = &d->grid;
+    double t = (e->at - g->origin[e->cut]) / g->step[e->cut];
+    d->layer = (int) fmin (fmax (ceil (t - 0.5 - 1e-6), -2), g->count[e->cut]);
+    if (d->layer == -1 && t > -0.5 - 1e-6) d->layer = 0;
+    if (d->layer < 0 || d->layer >= g->count[e->cut])
+        PG_FAIL (PG_E_USAGE, "the section %c = %g m meets no points: they lie between %g and %g m", "xyz"[e->cut], e->at, g->low[e->cut], g->high[e->cut]);
+    for (size_t i = 0; i < d->cloud->n; i++) d->seen[i] = pg_grid_place (g, e->cut, d->cloud->x[3 * i + (size_t) e->cut]) == d->layer;
 done:
     return status;
 }
 
-static void choose_axes (plate *p, const pg_cloud *cloud, const pg_picture_style *style)
+/* How far a cell reaches from its point along a direction, m. */
+static double half_cell (const drawing *d, const double *direction)
 {
-    int section = style->section >= 1 && style->section <= 3 ? style->section - 1 : 2;
-    p->cut = cloud->dim == 3 ? section : -1;
-    p->axis[0] = p->cut == 0 ? 1 : 0;
-    p->axis[1] = p->cut == 0 || p->cut == 1 ? 2 : 1;
-    if (p->cut >= 0) p->at = style->section ? style->at : 0.5 * (cloud->low[2] + cloud->high[2]);
+    double s = 0;
+    for (int a = 0; a < d->cloud->dim; a++) {
+        double step = d->cloud->dim == 3 ? d->grid.step[a] : d->cloud->step[a] > 0 ? d->cloud->step[a] : d->cloud->h;
+        s += 0.5 * step * fabs (direction[a]);
+    }
+    return s;
 }
 
-static void choose_frame (plate *p, const pg_cloud *cloud)
+static pg_status choose_points (drawing *d)
 {
-    static const double unit[] = { 1e3, 1, 1e-3, 1e-6 };
-    double size = 0;
-    for (int a = 0; a < 2; a++) {
-        double *low = &p->low[a], *high = &p->high[a];
-        int found = 0;
-        for (size_t k = 0; k < p->spots.n; k++) {
-            double x = p->spots.place[2 * k + (size_t) a];
-            if (!isfinite (x)) continue;
-            *low = found ? fmin (*low, x) : x, *high = found ? fmax (*high, x) : x;
-            found = 1;
-        }
-        p->step[a] = cloud->step[p->axis[a]] > 0 ? cloud->step[p->axis[a]] : cloud->h;
-        if (!(p->step[a] > 0)) p->step[a] = *high > *low ? (*high - *low) / sqrt ((double) p->spots.n) : 1;
-        *low -= 0.5 * p->step[a], *high += 0.5 * p->step[a];
-        size = fmax (size, *high - *low);
+    pg_status status = PG_OK;
+    const pg_eye *e = &d->plate.eye;
+    size_t found = 0;
+    PG_ALLOC (d->seen, d->cloud->n);
+    PG_ALLOC (d->keep, d->cloud->n);
+    memset (d->seen, 1, d->cloud->n);
+    if (e->kind == PG_LAYER) PG_TRY (choose_layer (d));
+    for (size_t i = 0; e->kind == PG_SLICE && i < d->cloud->n; i++)
+        d->seen[i] = fabs (pg_along (e->toward, d->cloud->x + 3 * i, 3) - e->at) <= half_cell (d, e->toward) * (1 + 1e-6);
+    for (size_t i = 0; i < d->cloud->n; i++) found += d->seen[i];
+    if (found == 0) PG_FAIL (PG_E_USAGE, "the section meets no points");
+done:
+    return status;
+}
+
+/* ---- frame ------------------------------------------------------------------------------------------------------------------- */
+/* Places of the points of one panel along a direction; NAN for those not seen and, displaced, for fragments that fly far. */
+static pg_status places (const drawing *d, size_t panel, const double *direction, double *out)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) d->cloud->dim;
+    const double *u = displaced (d, panel);
+    double low = 0, high = 0;
+    int found;
+    for (size_t i = 0; i < d->cloud->n; i++) out[i] = u ? d->style->magnify * pg_along (direction, u + i * dim, (int) dim) : 0;
+    if (u) PG_TRY (pg_picture_range (d->cloud->n, out, 2, &low, &high, &found));
+    double slack = 0.5 * (high - low);
+    for (size_t i = 0; i < d->cloud->n; i++) {
+        int near = out[i] >= low - slack && out[i] <= high + slack;
+        out[i] = d->seen[i] && near ? out[i] + pg_along (direction, d->cloud->x + i * dim, (int) dim) : NAN;
     }
-    for (int a = 0; a < 2; a++) p->low[a] -= 0.025 * size, p->high[a] += 0.025 * size;
+done:
+    return status;
+}
+
+/* Range of the cells drawn along one axis of the picture, over all panels. */
+static pg_status extent (const drawing *d, const double *direction, double *low, double *high)
+{
+    pg_status status = PG_OK;
+    double *place = NULL, from, to;
+    int any = 0;
+    PG_ALLOC (place, d->cloud->n);
+    for (size_t k = 0; k < d->n; k++) {
+        PG_TRY (places (d, k, direction, place));
+        if (!pg_range_of (d->cloud->n, place, 0, &from, &to)) continue;
+        *low = any ? fmin (*low, from) : from, *high = any ? fmax (*high, to) : to;
+        any = 1;
+    }
+    double half = half_cell (d, direction);
+    if (!(half > 0)) half = *high > *low ? 0.5 * (*high - *low) / sqrt ((double) d->cloud->n) : 0.5;
+    *low -= half, *high += half;
+done:
+    pg_free (place);
+    return status;
+}
+
+/* The box of a solid, which may end at the points themselves. */
+static void extent_of_box (const drawing *d, const double *direction, double *low, double *high)
+{
+    for (int corner = 0; corner < 8; corner++) {
+        double x[3];
+        for (int a = 0; a < 3; a++) x[a] = corner >> a & 1 ? d->grid.high[a] : d->grid.low[a];
+        double s = pg_along (direction, x, 3);
+        *low = corner ? fmin (*low, s) : s, *high = corner ? fmax (*high, s) : s;
+    }
+}
+
+static pg_status choose_frame (drawing *d)
+{
+    pg_status status = PG_OK;
+    static const double unit[] = { 1e3, 1, 1e-3, 1e-6 };
+    pg_plate *p = &d->plate;
+    double size = 0, margin = p->eye.framed ? 0.025 : 0.015;
+    int deformed = 0;
+    for (size_t k = 0; k < d->n; k++) deformed |= displaced (d, k) != NULL;
+    for (int a = 0; a < 2; a++) {
+        const double *direction = a ? p->eye.up : p->eye.right;
+        if (p->eye.kind == PG_SOLID && !deformed) extent_of_box (d, direction, &p->low[a], &p->high[a]);
+        else PG_TRY (extent (d, direction, &p->low[a], &p->high[a]));
+        size = fmax (size, p->high[a] - p->low[a]);
+    }
+    for (int a = 0; a < 2; a++) p->low[a] -= margin * size, p->high[a] += margin * size;
     p->unit = 1e-9;
     for (int k = 3; k >= 0; k--) if (size >= 0.999 * unit[k]) p->unit = unit[k];
+done:
+    return status;
 }
 
-static void choose_colours (plate *p, const pg_picture_style *style, double *low, double *high)
+/* ---- colours ----------------------------------------------------------------------------------------------------------------- */
+static int above (const drawing *d, size_t panel, size_t i)
 {
-    p->colour = style->diverging ? pg_colour_diverging : pg_colour_sequential;
+    const double *select = d->panel[panel].select;
+    return !select || select[i] >= d->style->above;
+}
+
+static pg_status colour_by_depth (drawing *d)
+{
+    pg_status status = PG_OK;
+    const double *toward = d->plate.eye.toward;
+    int axis = fabs (toward[1]) > fabs (toward[0]) ? 1 : 0;
+    if (fabs (toward[2]) >= fabs (toward[axis])) axis = 2;
+    PG_ALLOC (d->own, d->cloud->n);
+    for (size_t i = 0; i < d->cloud->n; i++) d->own[i] = d->cloud->x[3 * i + (size_t) axis] / d->plate.unit;
+    snprintf (d->label, sizeof d->label, "%c (%s)", "xyz"[axis], pg_plate_unit (&d->plate));
+done:
+    return status;
+}
+
+/* Range of what is shown in all panels; a point that is not seen counts as no number. */
+static pg_status range_of_panels (const drawing *d, double *low, double *high)
+{
+    pg_status status = PG_OK;
+    double *shown = NULL, from, to;
+    int any = 0, found;
+    PG_ALLOC (shown, d->cloud->n);
+    *low = 0, *high = 1;
+    for (size_t k = 0; k < d->n; k++) {
+        for (size_t i = 0; i < d->cloud->n; i++) shown[i] = d->seen[i] && (d->own || above (d, k, i)) ? value_of (d, k)[i] : NAN;
+        PG_TRY (pg_picture_range (d->cloud->n, shown, d->style->clip && !d->own ? 2 : 0, &from, &to, &found));
+        if (found) *low = any ? fmin (*low, from) : from, *high = any ? fmax (*high, to) : to;
+        any |= found;
+    }
+done:
+    pg_free (shown);
+    return status;
+}
+
+static pg_status choose_colours (drawing *d, double *low, double *high)
+{
+    pg_status status = PG_OK;
+    const pg_picture_style *style = d->style;
+    d->plate.colour = style->diverging ? pg_colour_diverging : pg_colour_sequential;
     *low = style->low, *high = style->high;
-    if (*low < *high) return;
-    pg_range_of (p->spots.n, p->spots.value, 0, low, high);
-    if (!style->diverging) return;
+    if (*low < *high && !d->own) return PG_OK;
+    PG_TRY (range_of_panels (d, low, high));
+    if (!style->diverging || d->own) goto done;
     double top = fmax (fabs (*low), fabs (*high));
     if (!(top > 0)) top = 1;
     *low = -top, *high = top;
-}
-
-static void lay_out (plate *p, cairo_t *cr, const pg_picture_style *style, double low, double high)
-{
-    const char *unit = p->unit > 1 ? "km" : p->unit == 1 ? "m" : p->unit == 1e-3 ? "mm" : p->unit == 1e-6 ? "\xc2\xb5m" : "nm";
-    char text[2][16];
-    double w = p->high[0] - p->low[0], h = p->high[1] - p->low[1];
-    p->flat = w > 2.2 * h;
-    double scale = fmin ((p->flat ? WIDE : BROAD) / w, TALL / h);
-    p->width = ceil (fmax (w * scale, 0.15 * BROAD)), p->height = ceil (fmax (h * scale, 60));
-    for (int a = 0; a < 2; a++) {                      /* a frame wider than the body keeps the scale */
-        double extra = 0.5 * ((a ? p->height : p->width) / scale - (a ? h : w));
-        p->low[a] -= extra, p->high[a] += extra;
-        snprintf (text[a], sizeof text[a], "%c (%s)", "xyz"[p->axis[a]], unit);
-    }
-    pg_axis_wish wx = { text[0], PG_BOTTOM, 0, 0, 1 }, wy = { text[1], PG_LEFT, 0, 0, 1 };
-    pg_axis_wish wb = { style->label ? style->label : "", p->flat ? PG_BOTTOM : PG_RIGHT, 0, 0, 0 };
-    pg_axis_fit (&p->x, cr, p->low[0] / p->unit, p->high[0] / p->unit, p->width, &wx);
-    pg_axis_fit (&p->y, cr, p->low[1] / p->unit, p->high[1] / p->unit, p->height, &wy);
-    pg_axis_fit (&p->bar, cr, low, high, p->flat ? p->width : p->height, &wb);
-    p->left = ceil (pg_axis_room (&p->y, cr)) + 6;
-    p->top = style->title && style->title[0] ? 74 : 24;
-    double below = pg_axis_room (&p->x, cr), bar = pg_axis_room (&p->bar, cr);
-    p->total[0] = p->left + p->width + (p->flat ? 46 : BAR_GAP + BAR + bar + 4);
-    p->total[1] = ceil (p->top + p->height + below + (p->flat ? 14 + BAR + bar : 0) + 6);
-    if (p->total[0] < LEAST) p->left += floor (0.5 * (LEAST - p->total[0])), p->total[0] = LEAST;
-    p->total[0] = ceil (p->total[0]);
-}
-
-/* The frame as an image: colours by a table of 1024, NaN grey, empty pixels clear. */
-static pg_status paint_points (plate *p, cairo_t *cr, int fine)
-{
-    pg_status status = PG_OK;
-    int width = (int) p->width * fine, height = (int) p->height * fine, *owner = NULL;
-    uint32_t table[1024];
-    double rgb[3], scale = width / (p->high[0] - p->low[0]);
-    cairo_surface_t *image = NULL;
-    for (int k = 0; k < 1024; k++) {
-        p->colour (k / 1023.0, rgb);
-        table[k] = 0xff000000u;
-        for (int c = 0; c < 3; c++) table[k] |= (uint32_t) lround (255 * rgb[c]) << (16 - 8 * c);
-    }
-    for (size_t k = 0; k < p->spots.n; k++) {
-        double *x = p->spots.place + 2 * k;
-        x[0] = (x[0] - p->low[0]) * scale, x[1] = (p->high[1] - x[1]) * scale;
-    }
-    for (int a = 0; a < 2; a++) p->spots.size[a] = p->step[a] * scale;
-    PG_ALLOC (owner, (size_t) width * (size_t) height);
-    PG_TRY (pg_raster (&p->spots, width, height, owner));
-    image = cairo_image_surface_create (CAIRO_FORMAT_ARGB32, width, height);
-    if (cairo_surface_status (image) != CAIRO_STATUS_SUCCESS) PG_FAIL (PG_E_MEMORY, "no memory for %d x %d pixels", width, height);
-    unsigned char *bytes = cairo_image_surface_get_data (image);
-    for (int j = 0; j < height; j++)
-        for (int i = 0; i < width; i++) {
-            int k = owner[(size_t) j * (size_t) width + (size_t) i];
-            double t = k < 0 ? 0 : pg_axis_at (&p->bar, p->spots.value[k]);
-            uint32_t pixel = k < 0 ? 0 : !isfinite (t) ? 0xff9e9e9eu : table[(int) lround (1023 * fmin (fmax (t, 0), 1))];
-            memcpy (bytes + (size_t) j * (size_t) cairo_image_surface_get_stride (image) + 4 * (size_t) i, &pixel, 4);
-        }
-    cairo_surface_mark_dirty (image);
-    cairo_save (cr);
-    cairo_translate (cr, p->left, p->top);
-    cairo_scale (cr, 1.0 / fine, 1.0 / fine);
-    cairo_set_source_surface (cr, image, 0, 0);
-    cairo_pattern_set_filter (cairo_get_source (cr), CAIRO_FILTER_NEAREST);
-    cairo_paint (cr);
-    cairo_restore (cr);
 done:
-    if (image) cairo_surface_destroy (image);
-    pg_free (owner);
     return status;
 }
 
-static void to_frame (const plate *p, double x, double y, double *px, double *py)
+/* Does the bar end before the values do? */
+static void choose_arrows (drawing *d)
 {
-    *px = p->left + (x - p->low[0]) / (p->high[0] - p->low[0]) * p->width;
-    *py = p->top + (p->high[1] - y) / (p->high[1] - p->low[1]) * p->height;
-}
-
-/* Adds the line that one crack shows in the picture to the path: 2D as it is, 3D where its polygon meets the section. */
-static void crack_path (const plate *p, cairo_t *cr, const pg_crack *crack)
-{
-    double px, py;
-    int pen = 0;
-    if (p->cut < 0) {
-        for (size_t k = 0; k < crack->nvertex; k++) {
-            to_frame (p, crack->vertex[2 * k], crack->vertex[2 * k + 1], &px, &py);
-            if (k) cairo_line_to (cr, px, py);
-            else cairo_move_to (cr, px, py);
+    const pg_axis *bar = &d->plate.bar;
+    double slack = 1e-9 * (bar->high - bar->low);
+    for (size_t k = 0; k < d->n; k++)
+        for (size_t i = 0; i < d->cloud->n; i++) {
+            double v = value_of (d, k)[i];
+            if (!isfinite (v) || !d->seen[i] || !above (d, k, i)) continue;
+            d->plate.beyond[0] |= v < bar->low - slack, d->plate.beyond[1] |= v > bar->high + slack;
         }
-        return;
-    }
-    for (size_t k = 0; k < crack->nvertex; k++) {
-        const double *a = crack->vertex + 3 * k, *b = crack->vertex + 3 * ((k + 1) % crack->nvertex);
-        double s = a[p->cut] - p->at, e = b[p->cut] - p->at;
-        if ((s < 0) == (e < 0)) continue;
-        double t = s / (s - e), u = a[p->axis[0]] + t * (b[p->axis[0]] - a[p->axis[0]]), v = a[p->axis[1]] + t * (b[p->axis[1]] - a[p->axis[1]]);
-        to_frame (p, u, v, &px, &py);
-        if (pen++ % 2) cairo_line_to (cr, px, py);
-        else cairo_move_to (cr, px, py);
-    }
 }
 
-/* Black on a thin white rim, so that cracks show on dark colours. */
-static void draw_cracks (const plate *p, cairo_t *cr, const pg_cracks *cracks)
+/* ---- painting ---------------------------------------------------------------------------------------------------------------- */
+/* Cells of the points in the plane, as 2D bodies and sections show them. */
+static pg_status paint_spots (drawing *d, size_t panel, pg_screen *s)
 {
-    cairo_save (cr);
-    cairo_rectangle (cr, p->left, p->top, p->width, p->height);
-    cairo_clip (cr);
-    cairo_set_line_cap (cr, CAIRO_LINE_CAP_ROUND);
-    for (int pass = 0; pass < 2; pass++) {
-        for (size_t k = 0; k < cracks->n; k++) crack_path (p, cr, &cracks->crack[k]);
-        cairo_set_source_rgb (cr, !pass, !pass, !pass);
-        cairo_set_line_width (cr, pass ? 2.5 : 5);
-        cairo_stroke (cr);
+    pg_status status = PG_OK;
+    const double *u = displaced (d, panel);
+    const pg_eye *e = &d->plate.eye;
+    size_t dim = (size_t) d->cloud->dim, cells = (size_t) s->width * (size_t) s->height;
+    d->spots.n = 0;
+    for (size_t i = 0; i < d->cloud->n; i++) {
+        const double *x = d->cloud->x + i * dim;
+        if (!d->seen[i] || !d->keep[i]) continue;
+        size_t k = d->spots.n++;
+        for (int a = 0; a < 2; a++) {
+            const double *direction = a ? e->up : e->right;
+            double place = pg_along (direction, x, (int) dim) + (u ? d->style->magnify * pg_along (direction, u + i * dim, (int) dim) : 0);
+            d->spots.place[2 * k + (size_t) a] = a ? (s->top - place) * s->scale : (place - s->left) * s->scale;
+        }
+        d->index[k] = (int) i;
     }
-    cairo_restore (cr);
-}
-
-static void draw_frame (cairo_t *cr, double x, double y, double w, double h)
-{
-    cairo_set_source_rgb (cr, 0, 0, 0);
-    cairo_set_line_width (cr, 2);
-    cairo_rectangle (cr, floor (x) + 0.5, floor (y) + 0.5, floor (w), floor (h));
-    cairo_stroke (cr);
-}
-
-static void draw_bar (const plate *p, cairo_t *cr)
-{
-    double x = p->flat ? p->left : p->left + p->width + BAR_GAP, w = p->flat ? p->width : BAR, rgb[3];
-    double y = p->flat ? p->top + p->height + ceil (pg_axis_room (&p->x, cr)) + 14 : p->top, h = p->flat ? BAR : p->height;
-    cairo_pattern_t *shade = cairo_pattern_create_linear (x, y + (p->flat ? 0 : h), x + (p->flat ? w : 0), y);
-    for (int k = 0; k <= 64; k++) {
-        p->colour (k / 64.0, rgb);
-        cairo_pattern_add_color_stop_rgb (shade, k / 64.0, rgb[0], rgb[1], rgb[2]);
+    for (int a = 0; a < 2; a++) {
+        double half = half_cell (d, a ? e->up : e->right);
+        d->spots.size[a] = 2 * (half > 0 ? half : 0.5 * (d->plate.high[a] - d->plate.low[a]) / sqrt ((double) d->cloud->n)) * s->scale;
     }
-    cairo_rectangle (cr, x, y, w, h);
-    cairo_set_source (cr, shade);
-    cairo_fill (cr);
-    cairo_pattern_destroy (shade);
-    draw_frame (cr, x, y, w, h);
-    pg_axis_draw (&p->bar, cr, x, y, w, h);
+    d->spots.reach = u ? 1.3 : 1.9;                    /* opened cracks stay open                                        */
+    PG_TRY (pg_raster (&d->spots, s->width, s->height, s->owner));
+    for (size_t p = 0; p < cells; p++) if (s->owner[p] >= 0) s->owner[p] = d->index[s->owner[p]];
+done:
+    return status;
 }
 
-static pg_status draw_plate (plate *p, const char *path, const pg_picture_style *style)
+static void paint_slice (drawing *d, pg_screen *s)
+{
+    pg_slice_draw (&d->grid, &d->plate.eye, s);
+    for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++) if (s->owner[p] >= 0 && !d->keep[s->owner[p]]) s->owner[p] = PG_GHOST;
+}
+
+static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
+{
+    pg_status status = PG_OK;
+    const pg_plate *p = &d->plate;
+    const pg_eye *e = &p->eye;
+    const double *u = displaced (d, panel);
+    pg_screen s = { .left = p->low[0], .top = p->high[1], .scale = fine * p->width / (p->high[0] - p->low[0]) };
+    PG_TRY (pg_screen_open (&s, (int) p->width * fine, (int) p->height * fine));
+    for (size_t i = 0; i < d->cloud->n; i++) d->keep[i] = (unsigned char) above (d, panel, i);
+    pg_solid solid = { d->cloud, &d->grid, e, u, d->style->magnify, d->keep };
+    if (e->kind == PG_SOLID) {
+        pg_solid_draw (&solid, &s);
+        if (d->panel[panel].select) PG_TRY (pg_ghost_draw (&solid, &s));
+    } else if (e->kind == PG_SLICE && !d->grid.loose && !u) paint_slice (d, &s);
+    else PG_TRY (paint_spots (d, panel, &s));
+    int box = e->kind == PG_SOLID && !e->framed && d->panel[panel].select;
+    if (box) pg_wire_box (p, cr, panel, &d->grid, 1);
+    PG_TRY (pg_panel_paint (p, cr, panel, &s, value_of (d, panel), fine));
+    if (box) pg_wire_box (p, cr, panel, &d->grid, 0);
+    if (d->style->cracks && (d->cloud->dim == 2 || !u)) pg_wire_cracks (p, cr, panel, &d->grid, d->style->cracks, d->panel[panel].select ? NULL : &s);
+    pg_panel_draw (p, cr, panel, d->panel[panel].title);
+done:
+    pg_screen_close (&s);
+    return status;
+}
+
+static pg_status draw_sheet (drawing *d, const char *path)
 {
     pg_status status = PG_OK;
     pg_canvas canvas = { 0 };
+    pg_picture_style style = *d->style;
     double low, high;
-    choose_colours (p, style, &low, &high);
-    cairo_surface_t *scratch = cairo_image_surface_create (CAIRO_FORMAT_A8, 1, 1);     /* to measure texts on */
-    cairo_t *measure = cairo_create (scratch);
-    lay_out (p, measure, style, low, high);
-    cairo_destroy (measure);
-    cairo_surface_destroy (scratch);
-    PG_TRY (pg_canvas_open (&canvas, path, p->total[0], p->total[1]));
-    PG_TRY (paint_points (p, canvas.cr, canvas.svg ? 2 : 1));
-    if (style->cracks) draw_cracks (p, canvas.cr, style->cracks);
-    draw_frame (canvas.cr, p->left, p->top, p->width, p->height);
-    pg_axis_draw (&p->x, canvas.cr, p->left, p->top, p->width, p->height);
-    pg_axis_draw (&p->y, canvas.cr, p->left, p->top, p->width, p->height);
-    draw_bar (p, canvas.cr);
-    if (style->title) pg_title (canvas.cr, style->title, p->left + 0.5 * p->width, p->top - 36, p->total[0]);
+    if (style.by_depth && d->plate.eye.kind == PG_SOLID) PG_TRY (colour_by_depth (d));
+    if (d->own) style.label = d->label;
+    PG_TRY (choose_colours (d, &low, &high));
+    pg_plate_fit (&d->plate, &style, low, high);
+    choose_arrows (d);
+    PG_ALLOC (d->spots.place, 2 * d->cloud->n);
+    PG_ALLOC (d->index, d->cloud->n);
+    PG_TRY (pg_canvas_open (&canvas, path, d->plate.total[0], d->plate.total[1]));
+    for (size_t k = 0; k < d->n; k++) PG_TRY (paint_panel (d, canvas.cr, k, canvas.svg || !d->plate.eye.framed ? 2 : 1));
+    pg_plate_draw (&d->plate, canvas.cr, d->cloud, &d->grid, &style);
 done:
-    return pg_canvas_close (&canvas, status);
+    return canvas.path ? pg_canvas_close (&canvas, status) : status;
 }
 
+/* ---- 1D ------------------------------------------------------------------------------------------------------------------------ */
 static int by_place (const void *a, const void *b)
 {
     double p = *(const double *) a, q = *(const double *) b;
     return (p > q) - (p < q);
 }
 
-static pg_status draw_bar_1d (const char *path, const pg_cloud *cloud, const double *value, const pg_picture_style *style)
+static pg_status draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, const pg_panel *panel, const pg_picture_style *style)
 {
     pg_status status = PG_OK;
     double *pair = NULL, *x = NULL, *y = NULL;
+    pg_curve *curve = NULL;
     size_t n = cloud->n;
     PG_ALLOC (pair, 2 * n);
-    PG_ALLOC (x, n);
-    PG_ALLOC (y, n);
-    for (size_t i = 0; i < n; i++) pair[2*i] = cloud->x[i] + (style->u ? style->magnify * style->u[i] : 0), pair[2*i + 1] = value[i];
-    qsort (pair, n, 2 * sizeof (double), by_place);
-    for (size_t i = 0; i < n; i++) x[i] = pair[2*i], y[i] = pair[2*i + 1];
-    pg_curve curve = { .n = n, .x = x, .y = y, .points = n <= 60 };
-    PG_TRY (pg_picture_chart (path, 1, &curve, &(pg_chart_style) { .title = style->title, .xlabel = "x (m)", .ylabel = style->label }));
+    PG_ALLOC (x, n * npanel);
+    PG_ALLOC (y, n * npanel);
+    PG_ALLOC (curve, npanel);
+    for (size_t k = 0; k < npanel; k++) {
+        const double *u = panel[k].u;
+        for (size_t i = 0; i < n; i++) pair[2*i] = cloud->x[i] + (u ? style->magnify * u[i] : 0), pair[2*i + 1] = panel[k].value[i];
+        qsort (pair, n, 2 * sizeof (double), by_place);
+        for (size_t i = 0; i < n; i++) x[k * n + i] = pair[2*i], y[k * n + i] = pair[2*i + 1];
+        curve[k] = (pg_curve) { panel[k].title, n, x + k * n, y + k * n, n <= 60 };
+    }
+    PG_TRY (pg_picture_chart (path, npanel, curve, &(pg_chart_style) { .title = style->title, .xlabel = "x (m)", .ylabel = style->label }));
 done:
+    pg_free (curve);
     pg_free (y);
     pg_free (x);
     pg_free (pair);
     return status;
 }
 
-pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value, const pg_picture_style *style)
+pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel, int columns, const pg_picture_style *style)
 {
     pg_status status = PG_OK;
-    plate *p = NULL;
-    if (cloud->n == 0) PG_FAIL (PG_E_USAGE, "%s: no points to draw", path);
-    if (cloud->dim == 1) return draw_bar_1d (path, cloud, value, style);
-    PG_ALLOC (p, 1);
-    choose_axes (p, cloud, style);
-    PG_TRY (choose_points (p, cloud, value, style));
-    choose_frame (p, cloud);
-    p->spots.reach = style->u && style->magnify != 0 ? 1.3 : 1.9;   /* opened cracks stay open */
-    PG_TRY (draw_plate (p, path, style));
+    drawing *d = NULL;
+    if (cloud->n == 0 || n == 0) PG_FAIL (PG_E_USAGE, "%s: no points to draw", path);
+    if (cloud->dim == 1) return draw_bars (path, cloud, n, panel, style);
+    PG_ALLOC (d, 1);
+    d->cloud = cloud, d->style = style, d->n = n, d->panel = panel;
+    d->plate.panels = n, d->plate.columns = columns;
+    for (size_t k = 0; k < n; k++) d->plate.titles |= panel[k].title && panel[k].title[0];
+    PG_TRY (pg_eye_open (&d->plate.eye, cloud, style));
+    if (cloud->dim == 3) PG_TRY (pg_grid_build (&d->grid, cloud));
+    PG_TRY (choose_points (d));
+    PG_TRY (choose_frame (d));
+    PG_TRY (draw_sheet (d, path));
 done:
-    if (p) pg_free (p->spots.place), pg_free (p->spots.value);
-    pg_free (p);
+    if (d) {
+        pg_grid_clear (&d->grid);
+        pg_free (d->seen), pg_free (d->keep), pg_free (d->own), pg_free (d->index), pg_free (d->spots.place);
+    }
+    pg_free (d);
     return status;
+}
+
+pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value, const pg_picture_style *style)
+{
+    pg_panel panel = { NULL, value, style->u, style->select };
+    return pg_picture_panels (path, cloud, 1, &panel, 1, style);
 }

@@ -1,38 +1,78 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Tables as CSV (RFC 4180): one row a call, flushed, so that a killed run leaves whole lines. */
-#include "perigal/output.h"
+ * Tables as CSV (RFC 4180): a row goes to the file in one write, whole, or the file stays as it was. */
+#include "disk.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
-struct pg_table { FILE *file; char *path; size_t n; };
+struct pg_table {
+    int    file;
+    char  *path;
+    size_t n;
+    long   rows, bytes;                                /* without the header; of the whole rows                          */
+    char  *text;                                       /* the row at hand                                                */
+    size_t length, cap;
+};
 
-static void put_cell (FILE *file, const char *text)
+static pg_status append (pg_table *t, const char *text, size_t length)
 {
-    if (!text) return;
-    if (!strpbrk (text, ",\"\r\n")) {
-        fputs (text, file);
-        return;
-    }
-    fputc ('"', file);
+    pg_status status = PG_OK;
+    PG_GROW (t->text, t->cap, t->length + length);
+    memcpy (t->text + t->length, text, length);
+    t->length += length;
+done:
+    return status;
+}
+
+static pg_status append_cell (pg_table *t, const char *text)
+{
+    pg_status status = PG_OK;
+    if (!text) return PG_OK;
+    if (!strpbrk (text, ",\"\r\n")) return append (t, text, strlen (text));
+    PG_TRY (append (t, "\"", 1));
     for (; *text; text++) {
-        if (*text == '"') fputc ('"', file);
-        fputc (*text, file);
+        if (*text == '"') PG_TRY (append (t, "\"", 1));
+        PG_TRY (append (t, text, 1));
     }
-    fputc ('"', file);
+    PG_TRY (append (t, "\"", 1));
+done:
+    return status;
 }
 
 static pg_status end_row (pg_table *t)
 {
     pg_status status = PG_OK;
-    errno = 0;
-    fputc ('\n', t->file);
-    if (fflush (t->file) != 0 || ferror (t->file)) {
-        int reason = errno;
-        clearerr (t->file);
-        PG_FAIL (PG_E_FILE, "%s: %s", t->path, reason ? strerror (reason) : "write failed");
+    size_t written = 0;
+    PG_TRY (append (t, "\n", 1));
+    while (written < t->length) {
+        ssize_t n = write (t->file, t->text + written, t->length - written);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) PG_FAIL (PG_E_FILE, "%s: %s", t->path, n < 0 ? strerror (errno) : "nothing could be written");
+        written += (size_t) n;
     }
+    t->bytes += (long) t->length;
 done:
+    if (status != PG_OK && written > 0 && ftruncate (t->file, t->bytes) == 0) lseek (t->file, t->bytes, SEEK_SET);
+    t->length = 0;
+    return status;
+}
+
+static pg_status prepare (pg_table **out, const char *path, int how)
+{
+    pg_status status = PG_OK;
+    pg_table *t = NULL;
+    PG_ALLOC (t, 1);
+    t->file = -1;
+    t->path = pg_strdup (path);
+    if (!t->path) PG_FAIL (PG_E_MEMORY, "no memory for a path");
+    t->file = open (path, how, 0666);
+    if (t->file < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    *out = t;
+    t = NULL;
+done:
+    pg_table_close (&t);
     return status;
 }
 
@@ -41,39 +81,85 @@ pg_status pg_table_create (pg_table **out, const char *path, size_t n, const cha
     pg_status status = PG_OK;
     pg_table *t = NULL;
     *out = NULL;
-    PG_ALLOC (t, 1);
+    PG_TRY (prepare (&t, path, O_WRONLY | O_CREAT | O_TRUNC));
     t->n = n;
-    t->path = pg_strdup (path);
-    if (!t->path) PG_FAIL (PG_E_MEMORY, "no memory for a path");
-    errno = 0;
-    t->file = fopen (path, "w");
-    if (!t->file) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
     PG_TRY (pg_table_line (t, columns));
+    t->rows = 0;
     *out = t;
 done:
     if (status != PG_OK) pg_table_close (&t);
     return status;
 }
 
+/* Moves behind the header and `rows` rows: line ends within quotes do not count. */
+static pg_status skip_rows (pg_table *t, long rows)
+{
+    pg_status status = PG_OK;
+    char part[4096];
+    ssize_t n;
+    int quoted = 0;
+    t->rows = -1;
+    while (t->rows < rows && (n = read (t->file, part, sizeof part)) > 0)
+        for (ssize_t k = 0; k < n && t->rows < rows; k++, t->bytes++) {
+            if (part[k] == '"') quoted = !quoted;
+            t->rows += part[k] == '\n' && !quoted;
+        }
+    if (t->rows < rows) PG_FAIL (PG_E_FILE, "%s has %ld rows of the %ld it had: it was changed since", t->path, t->rows < 0 ? 0 : t->rows, rows);
+done:
+    return status;
+}
+
+pg_status pg_table_open (pg_table **out, const char *path, size_t n, long rows)
+{
+    pg_status status = PG_OK;
+    pg_table *t = NULL;
+    *out = NULL;
+    PG_TRY (prepare (&t, path, O_RDWR));
+    t->n = n;
+    PG_TRY (skip_rows (t, rows));
+    PG_TRY (disk_cut (path, t->file, t->bytes));
+    if (lseek (t->file, t->bytes, SEEK_SET) < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    *out = t;
+done:
+    if (status != PG_OK) pg_table_close (&t);
+    return status;
+}
+
+long pg_table_rows (const pg_table *t) { return t->rows; }
+
 pg_status pg_table_row (pg_table *t, const double *values)
 {
-    for (size_t k = 0; k < t->n; k++) fprintf (t->file, "%s%.17g", k ? "," : "", values[k]);
-    return end_row (t);
+    pg_status status = PG_OK;
+    char cell[40];
+    for (size_t k = 0; k < t->n; k++) PG_TRY (append (t, cell, (size_t) snprintf (cell, sizeof cell, "%s%.17g", k ? "," : "", values[k])));
+    PG_TRY (end_row (t));
+    t->rows++;
+done:
+    t->length = 0;
+    return status;
 }
 
 pg_status pg_table_line (pg_table *t, const char *const *values)
 {
+    pg_status status = PG_OK;
     for (size_t k = 0; k < t->n; k++) {
-        if (k) fputc (',', t->file);
-        put_cell (t->file, values[k]);
+        if (k) PG_TRY (append (t, ",", 1));
+        PG_TRY (append_cell (t, values[k]));
     }
-    return end_row (t);
+    PG_TRY (end_row (t));
+    t->rows++;
+done:
+    t->length = 0;
+    return status;
 }
+
+pg_status pg_table_sync (const pg_table *t) { return disk_sync (t->path); }
 
 void pg_table_close (pg_table **table)
 {
     if (!table || !*table) return;
-    if ((*table)->file) fclose ((*table)->file);
+    if ((*table)->file >= 0) close ((*table)->file);
+    pg_free ((*table)->text);
     pg_free ((*table)->path);
     pg_free (*table);
     *table = NULL;

@@ -10,13 +10,13 @@ static const char *const first_columns[] = { "step [1]", "time [s]", "load_facto
 static const char *const last_columns[] = { "energy_strain [J]", "energy_kinetic [J]", "energy_external [J]", "energy_dissipated [J]",
                                             "broken [1]", "iterations [1]", "residual [1]", "utilisation [1]", "event [1]", "level [1]" };
 
-pg_status result_history_create (pg_result *r)
+pg_status result_history_create (pg_result *r, const result_marks *from)
 {
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
     char path[4096], (*name)[128] = NULL;
     const char **column = NULL;
-    size_t n = 0, most = 13 + 6 * p->nload + p->ngauge + 1;
+    size_t n = 0, most = 13 + 6 * p->nload + p->ngauge + r->naverage + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
@@ -26,17 +26,18 @@ pg_status result_history_create (pg_result *r)
             snprintf (name[n++], sizeof *name, "%s.displacement_%c [m]", p->load[l].name, axis[k]);
         }
     for (size_t g = 0; g < p->ngauge; g++) snprintf (name[n++], sizeof *name, "%s [m]", p->gauge[g].name);
+    for (size_t a = 0; a < r->naverage; a++) result_average_column (r, a, name[n++], sizeof *name);
     for (size_t k = 0; k < sizeof last_columns / sizeof *last_columns; k++) snprintf (name[n++], sizeof *name, "%s", last_columns[k]);
     for (size_t k = 0; k < n; k++) column[k] = name[k];
     r->ncolumn = n;
     PG_ALLOC (r->row, n);
     PG_ALLOC (r->u, p->cloud.n * 6);
     snprintf (path, sizeof path, "%s/history.csv", r->folder);
-    PG_TRY (pg_table_create (&r->history, path, n, column));
+    PG_TRY (from ? pg_table_open (&r->history, path, n, from->history) : pg_table_create (&r->history, path, n, column));
     static const char *const event_columns[] = { "step [1]", "load_factor [1]", "time [s]", "bond [name]", "kind [name]", "x [m]", "y [m]", "z [m]",
                                                  "utilisation [1]", "energy_of_step [J]" };
     snprintf (path, sizeof path, "%s/events.csv", r->folder);
-    PG_TRY (pg_table_create (&r->events, path, 10, event_columns));
+    PG_TRY (from ? pg_table_open (&r->events, path, 10, from->events) : pg_table_create (&r->events, path, 10, event_columns));
 done:
     pg_free (name), pg_free (column);
     return status;
@@ -112,6 +113,8 @@ pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step
         }
         r->row[n++] = opening (&p->gauge[g], p->dim, a, b);
     }
+    PG_TRY (result_averages_row (r, state, r->row + n, r->u));
+    n += r->naverage;
     r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic, r->row[n++] = report->energy_external;
     r->row[n++] = report->energy_dissipated, r->row[n++] = (double) report->broken, r->row[n++] = (double) step->iterations;
     r->row[n++] = step->residual, r->row[n++] = step->utilisation, r->row[n++] = step->event, r->row[n++] = step->level;

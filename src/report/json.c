@@ -55,6 +55,19 @@ static void run_block (pg_json *j, const pg_result *res, const pg_report *r, con
     pg_json_shut (j);
 }
 
+/* One line; of several materials one each. */
+static void criteria (pg_json *j, const pg_problem *p)
+{
+    char text[512] = "";
+    if (!p->criterion->type) return;
+    if (p->nmaterial > 1) pg_json_open (j, "criteria", '{');
+    for (size_t i = 0; i < p->nmaterial; i++) {
+        pg_criterion_describe (&p->criterion[i], text, sizeof text);
+        pg_json_text (j, p->nmaterial > 1 ? p->material[i].name : "criterion", text);
+    }
+    if (p->nmaterial > 1) pg_json_shut (j);
+}
+
 pg_status result_json (pg_result *res, const pg_state *state, const char *failure, double search, double total)
 {
     pg_status status = PG_OK;
@@ -72,11 +85,7 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
     seconds_block (j, r, search, res->seconds, total);
     pg_json_count (j, "peak_bytes", pg_memory_process_peak ());
     pg_json_count (j, "threads", (size_t) res->problem->threads);
-    if (res->problem->criterion.type) {
-        char text[512] = "";
-        res->problem->criterion.type->describe (&res->problem->criterion, text, sizeof text);
-        pg_json_text (j, "criterion", text);
-    }
+    criteria (j, res->problem);
     pg_json_open (j, "skipped", '[');
     for (size_t k = 0; k < r->nskipped; k++) {
         pg_json_open (j, NULL, '{');

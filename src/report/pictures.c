@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Pictures of the last state and the load-displacement curve. */
+ * Pictures of the last state or of a stage, and the load-displacement curve. */
 #include "result.h"
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 const char *result_voigt (int dim, int k)
 {
@@ -20,38 +22,95 @@ static int part_of (const char *dot, int dim, int components)
     return -2;
 }
 
-static pg_status one_picture (pg_result *r, const pg_state *state, const char *name, double *value, double *u)
+/* The part of a field that `name` means, n values to be freed with pg_free; work holds 6 a point. unit as the force names it. */
+static pg_status read_part (pg_result *r, const pg_state *state, const char *name, double *work, double **out, const char **unit)
 {
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    const char *dot = strchr (name, '.'), *unit;
-    char field[32], label[96], title[320];
-    int components, uc;
-    double *one = NULL;
+    const char *dot = strchr (name, '.');
+    char field[32];
+    int components;
     snprintf (field, sizeof field, "%.*s", (int) (dot ? (size_t) (dot - name) : strlen (name)), name);
-    PG_TRY (force->field (self, state, state->d, field, &components, &unit, value));
+    PG_TRY (force->field (self, state, state->d, field, &components, unit, work));
     int part = components ? part_of (dot, p->dim, components) : -2;
     if (part == -2) PG_FAIL (PG_E_USAGE, "output.pictures: there is no field %s", name);
-    PG_ALLOC (one, p->cloud.n);
+    PG_ALLOC (*out, p->cloud.n);
     for (size_t i = 0; i < p->cloud.n; i++) {
         double s = 0;
-        for (int k = 0; k < components; k++) s += value[i * (size_t) components + (size_t) k] * value[i * (size_t) components + (size_t) k];
-        one[i] = part < 0 ? sqrt (s) : value[i * (size_t) components + (size_t) part];
+        const double *v = work + i * (size_t) components;
+        for (int k = 0; k < components; k++) s += v[k] * v[k];
+        (*out)[i] = part < 0 ? sqrt (s) : v[part];
     }
-    PG_TRY (force->field (self, state, state->d, "displacement", &uc, &(const char *) { NULL }, u));
-    int damage = strcmp (field, "damage") == 0;
-    snprintf (label, sizeof label, "%s%s%s%s", name, *unit ? " (" : "", unit, *unit ? ")" : "");
-    snprintf (title, sizeof title, "%s, load factor %.4g", p->title, state->factor);
-    pg_picture_style style = { .title = title, .label = label, .high = damage ? 1 : 0, .diverging = strcmp (field, "stress") == 0,
-                               .magnify = r->magnify, .u = u, .cracks = &p->cracks };
-    char path[4096];
-    snprintf (path, sizeof path, "%s/%s.png", r->folder, name);
-    PG_TRY (pg_picture_field (path, &p->cloud, one, &style));
-    memcpy (r->written[r->nwritten++], path, sizeof path);
 done:
-    pg_free (one);
+    return status;
+}
+
+/* "Disk: damage, back, load factor 0.5" */
+static void write_title (const pg_result *r, const pg_state *state, const result_view *v, const char *unit, char *title, size_t size)
+{
+    char limit[48] = "";
+    if (v->limited || v->by_damage) snprintf (limit, sizeof limit, " (%s\xe2\x89\xa5 %.4g%s%s)", v->by_damage ? "damage " : "", v->style.above,
+        v->limited && *unit ? " " : "", v->limited ? unit : "");
+    int used = snprintf (title, size, "%.200s%s%s%s, ", r->problem->title, v->look[0] ? ", " : "", v->look, limit);
+    if (r->dynamic) snprintf (title + used, size - (size_t) used, "time %.4g s", state->time);
+    else snprintf (title + used, size - (size_t) used, "load factor %.4g", state->factor);
+}
+
+static pg_status one_picture (pg_result *r, const pg_state *state, const result_view *v, const char *path, double *work, double *u)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    const char *unit, *none;
+    char label[96], title[400];
+    int components;
+    double *one = NULL, *damage = NULL;
+    PG_TRY (read_part (r, state, v->field, work, &one, &unit));
+    if (v->by_damage) PG_TRY (read_part (r, state, "damage", work, &damage, &none));
+    PG_TRY (force->field (self, state, state->d, "displacement", &components, &none, u));
+    snprintf (label, sizeof label, "%s%s%s%s", v->field, *unit ? " (" : "", unit, *unit ? ")" : "");
+    write_title (r, state, v, unit, title, sizeof title);
+    pg_picture_style style = v->style;
+    style.title = title, style.label = label, style.u = u, style.cracks = &p->cracks;
+    style.diverging = !(style.low < style.high) && strncmp (v->field, "stress", 6) == 0;
+    style.clip = strncmp (v->field, "displacement", 12) == 0 || strncmp (v->field, "velocity", 8) == 0;
+    style.select = v->by_damage ? damage : v->limited ? one : NULL;
+    PG_TRY (pg_picture_field (path, &p->cloud, one, &style));
+done:
+    pg_free (one), pg_free (damage);
+    return status;
+}
+
+/* All pictures; suffix: what follows their names. listed: they belong to those the run names at its end. */
+static pg_status draw_all (pg_result *r, const pg_state *state, const char *within, const char *suffix, int listed)
+{
+    pg_status status = PG_OK;
+    double *work = NULL, *u = NULL;
+    char path[4096];
+    PG_ALLOC (work, 6 * r->problem->cloud.n);
+    PG_ALLOC (u, 6 * r->problem->cloud.n);
+    for (size_t k = 0; pg_solver_force (r->solver, NULL)->field && k < r->npicture; k++) {
+        snprintf (path, sizeof path, "%s/%s%s%s.png", r->folder, within, r->picture[k].name, suffix);
+        PG_TRY (one_picture (r, state, &r->picture[k], path, work, u));
+        if (listed) memcpy (r->written[r->nwritten++], path, sizeof path);
+    }
+done:
+    pg_free (work), pg_free (u);
+    return status;
+}
+
+pg_status result_stage (pg_result *r, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    char path[4096], suffix[32];
+    snprintf (path, sizeof path, "%s/stages", r->folder);
+    if (mkdir (path, 0777) != 0 && errno != EEXIST) PG_FAIL (PG_E_FILE, "cannot make the folder %s: %s", path, strerror (errno));
+    snprintf (suffix, sizeof suffix, "_%04ld", r->exodus_steps - 1);
+    PG_TRY (draw_all (r, state, "stages/", suffix, 0));
+done:
     return status;
 }
 
@@ -88,12 +147,8 @@ done:
 pg_status result_pictures (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
-    double *value = NULL, *u = NULL;
-    PG_ALLOC (value, 6 * r->problem->cloud.n);
-    PG_ALLOC (u, 6 * r->problem->cloud.n);
-    for (size_t k = 0; pg_solver_force (r->solver, NULL)->field && k < r->npicture; k++) PG_TRY (one_picture (r, state, r->picture[k], value, u));
+    PG_TRY (draw_all (r, state, "", "", 1));
     if (r->curve_load >= 0 && r->npoint > 1) PG_TRY (load_displacement (r));
 done:
-    pg_free (value), pg_free (u);
     return status;
 }

@@ -46,7 +46,8 @@ static pg_status copy_scene (const pg_result *r, const pg_scene *scene)
     size_t n = strlen (text), wrote = fwrite (text, 1, n, f);
     if (pg_scene_setting (scene, 0) && n && text[n - 1] != '\n') fputc ('\n', f);
     write_settings (f, scene);
-    if (fclose (f) != 0 || wrote != n) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
+    int bad = ferror (f);
+    if (fclose (f) != 0 || wrote != n || bad) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
 done:
     return status;
 }
@@ -86,14 +87,14 @@ static pg_status read_wishes (pg_result *r, const pg_scene *scene)
     pg_status status = PG_OK;
     const char *name;
     r->magnify = pg_scene_number (scene, "output.magnify");
+    r->interval = pg_scene_number (scene, "output.checkpoint");
     r->every = pg_scene_has (scene, "output.at.events") ? pg_scene_integer (scene, "output.at.events") : 0;
     r->broken_share = pg_scene_has (scene, "output.at.broken") ? pg_scene_number (scene, "output.at.broken") : 0;
     for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")) && r->nfield < MOST_FIELDS; k++) {
         pg_field_view *f = &r->field[r->nfield++];
         snprintf (f->name, sizeof f->name, "%s", name);
     }
-    for (size_t k = 0; (name = pg_scene_name (scene, k, "output.pictures")) && r->npicture < MOST_PICTURES - 1; k++)
-        snprintf (r->picture[r->npicture++], sizeof *r->picture, "%s", name);
+    PG_TRY (result_views_read (r, scene));
     for (size_t k = 0; k < r->nfield; k++) {
         pg_field_view *f = &r->field[k];
         int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0;
@@ -106,6 +107,37 @@ done:
     return status;
 }
 
+pg_status result_remove (const pg_result *r, const char *name)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    snprintf (path, sizeof path, "%s/%s", r->folder, name);
+    if (remove (path) != 0 && errno != ENOENT) PG_FAIL (PG_E_FILE, "cannot remove %s: %s", path, strerror (errno));
+done:
+    return status;
+}
+
+/* What new and resumed results have in common; leaves the folder as it is. */
+pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver)
+{
+    pg_status status = PG_OK;
+    pg_solver_options o;
+    r->problem = problem, r->solver = solver;
+    r->opened = r->checkpoint_at = pg_seconds ();
+    snprintf (r->folder, sizeof r->folder, "%s", folder);
+    snprintf (r->hash, sizeof r->hash, "%s", pg_scene_hash (scene));
+    snprintf (r->scene, sizeof r->scene, "%s", pg_scene_file (scene));
+    PG_TRY (pg_solver_options_read (&o, problem, scene));
+    r->length = (strcmp (o.kind, "static") == 0 ? 1 : o.end) / (double) o.steps;
+    PG_TRY (read_wishes (r, scene));
+    PG_TRY (result_averages_read (r, scene));
+    choose_curve (r);
+    r->next_broken = r->broken_share > 0 ? 1 : 0;
+done:
+    return status;
+}
+
+/* Nothing of an earlier run may be taken for this one's: its checkpoint goes first. */
 pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver)
 {
     pg_status status = PG_OK;
@@ -114,18 +146,15 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     double t0 = pg_seconds ();
     PG_TRY (pg_result_check (scene, problem));
     PG_ALLOC (r, 1);
-    r->problem = problem, r->solver = solver;
-    snprintf (r->folder, sizeof r->folder, "%s", folder);
-    snprintf (r->hash, sizeof r->hash, "%s", pg_scene_hash (scene));
-    snprintf (r->scene, sizeof r->scene, "%s", pg_scene_file (scene));
+    PG_TRY (result_prepare (r, folder, scene, problem, solver));
     PG_TRY (make_folder (folder));
+    PG_TRY (result_remove (r, "checkpoint.nc"));
+    PG_TRY (result_remove (r, "report.json"));
     PG_TRY (copy_scene (r, scene));
-    PG_TRY (read_wishes (r, scene));
-    choose_curve (r);
-    PG_TRY (result_history_create (r));
+    PG_TRY (result_history_create (r, NULL));
     snprintf (path, sizeof path, "%s/result.e", folder);
     PG_TRY (pg_exodus_create (&r->file, path, &problem->cloud, problem->title, r->nfield, r->field));
-    r->next_broken = r->broken_share > 0 ? 1 : 0;
+    r->done = result_marks_now (r);
     r->seconds += pg_seconds () - t0;
     *out = r;
     r = NULL;
@@ -134,6 +163,14 @@ done:
     return status;
 }
 
+result_marks result_marks_now (const pg_result *r)
+{
+    result_marks m = { pg_table_rows (r->history), pg_table_rows (r->events), 0, 0, r->next_broken, (long) r->npoint, r->last_written, r->stamp, r->time };
+    pg_exodus_size (r->file, &m.steps, &m.bytes);
+    return m;
+}
+
+/* Times in result.e ascend, whatever is written. */
 static pg_status write_fields (pg_result *r, const pg_state *state, double time)
 {
     pg_status status = PG_OK;
@@ -144,25 +181,61 @@ static pg_status write_fields (pg_result *r, const pg_state *state, double time)
         int components;
         PG_TRY (force->field (self, state, state->d, r->field[k].name, &components, &unit, r->value[k]));
     }
+    if (r->exodus_steps > 0 && !(time > r->time)) time = nextafter (r->time, INFINITY);
     PG_TRY (pg_exodus_write (r->file, time, r->field));
     r->exodus_steps++;
+    if (r->stages) PG_TRY (result_stage (r, state));
+    r->time = time;
 done:
     return status;
+}
+
+/* Has another share of the bonds broken? */
+static int share_has_broken (pg_result *r, const pg_state *state)
+{
+    if (!(r->broken_share > 0) || (double) state->broken < r->broken_share * (double) r->next_broken * (double) state->nbond) return 0;
+    r->next_broken = (long) ((double) state->broken / (r->broken_share * (double) state->nbond)) + 1;
+    return 1;
+}
+
+/* Within a step there is no time: its rounds stand for it, from the last step's towards the end of this one's. */
+static double time_within (const pg_result *r) { return r->stamp + r->length * (double) r->rounds / ((double) r->rounds + 100); }
+
+pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *so_far)
+{
+    pg_status status = PG_OK;
+    double t0 = pg_seconds ();
+    long next = r->next_broken;
+    r->rounds = so_far->iterations;
+    r->last_written = share_has_broken (r, state);
+    if (r->last_written) status = write_fields (r, state, time_within (r));
+    if (status != PG_OK) r->last_written = 0, r->next_broken = next;
+    r->seconds += pg_seconds () - t0;
+    return status;
+}
+
+void pg_result_refused (pg_result *r)
+{
+    r->rounds = 0;
+    r->last_written = r->done.last_written || r->time > r->stamp;      /* stages of the refused step stay the last          */
 }
 
 pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
-    PG_TRY (result_history_row (r, state, step));
-    int stage = r->every > 0 && step->event && state->events % r->every == 0;
-    if (r->broken_share > 0 && (double) state->broken >= r->broken_share * (double) r->next_broken * (double) state->nbond) {
-        stage = 1;
-        r->next_broken = (long) ((double) state->broken / (r->broken_share * (double) state->nbond)) + 1;
-    }
-    r->last_written = step->level || stage;
+    r->done = result_marks_now (r);
+    r->pending = *step, r->is_pending = 1;
+    r->rounds = 0;
+    r->last_written = 0;
     r->stamp = step->stamp;
-    if (r->last_written) PG_TRY (write_fields (r, state, step->stamp));
+    PG_TRY (result_history_row (r, state, step));
+    int due = r->every > 0 && step->event && state->events % r->every == 0;
+    due |= share_has_broken (r, state) || step->level;
+    if (due) PG_TRY (write_fields (r, state, step->stamp));
+    r->last_written = due;
+    r->done = result_marks_now (r);
+    r->is_pending = 0;
 done:
     r->seconds += pg_seconds () - t0;
     return status;
@@ -172,13 +245,15 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
 {
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
-    if (!r->last_written) PG_TRY (write_fields (r, state, r->stamp));
+    if (!r->last_written) PG_TRY (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp));
     r->last_written = 1;
     PG_TRY (result_pictures (r, state));
 done:
     r->seconds += pg_seconds () - t0;
-    pg_status written = result_json (r, state, failure, search, total);    /* the report comes also without pictures     */
-    return status == PG_OK ? written : status;
+    pg_status written = result_json (r, state, failure, search, r->earlier + total);    /* the report comes also without pictures */
+    if (status == PG_OK) status = written;
+    if (status == PG_OK && !failure) status = result_remove (r, "checkpoint.nc");
+    return status;
 }
 
 void pg_result_free (pg_result **result)
@@ -189,7 +264,7 @@ void pg_result_free (pg_result **result)
     pg_table_close (&r->history);
     pg_table_close (&r->events);
     for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);
-    pg_free (r->row), pg_free (r->u), pg_free (r->curve_x), pg_free (r->curve_y);
+    pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve_x), pg_free (r->curve_y);
     pg_free (r);
     *result = NULL;
 }

@@ -5,6 +5,16 @@
 #include "perigal/report.h"
 
 enum { MOST_FIELDS = 16, MOST_PICTURES = 32 };
+/* How far the files are, and what they depend on, at the end of a step or in its middle. */
+typedef struct {
+    long     history, events;                          /* rows                                                           */
+    long     steps, bytes;                             /* of result.e                                                    */
+    long     next_broken, points, last_written;
+    double   stamp, time;                              /* of the last step; of the last fields in result.e               */
+} result_marks;
+typedef struct { char name[32], field[32]; const char *unit; const pg_set *set; int component; } result_average;
+/* A picture: NAME.png of field. limited: only points of the field above style.above; by_damage: of damage. */
+typedef struct { char name[64], field[64], look[64]; pg_picture_style style; int limited, by_damage; } result_view;
 struct pg_result {
     char     folder[3072];
     const pg_problem *problem;
@@ -15,10 +25,13 @@ struct pg_result {
     size_t    nfield, npicture, nwritten, ncolumn;
     pg_field_view field[MOST_FIELDS];
     double   *value[MOST_FIELDS];
-    char      picture[MOST_PICTURES][64], written[MOST_PICTURES][4096];
+    result_view picture[MOST_PICTURES];
+    char      written[MOST_PICTURES][4096];
+    int       stages, dynamic;                         /* pictures at every written stage; time instead of load factor   */
     double    magnify, broken_share;
     long      every, next_broken;
     double   *row, *u;
+    result_average *average;  size_t naverage;
     long      exodus_steps;
     int       last_written;                            /* the state of the last step is in result.e                      */
     /* load-displacement curve */
@@ -27,10 +40,29 @@ struct pg_result {
     int       curve_load, curve_component;
     double    seconds;
     double    stamp;                                   /* of the last step                                               */
+    double    time;                                    /* of the last fields in result.e                                 */
+    double    length;                                  /* of a step whose middle can be seen: s, or load factor          */
+    /* going on later */
+    result_marks done;                                 /* when the last step was made, and again when it was written     */
+    long      rounds;                                  /* break rounds of the step at hand: its middle has been seen     */
+    pg_step   pending;  int is_pending;                /* a step whose rows and fields are not all written               */
+    double    opened, earlier;                         /* pg_seconds at the opening; s in processes before this one      */
+    double    interval, checkpoint_at, checkpoint_cost;        /* s                                                      */
 };
-pg_status result_history_create (pg_result *r);
+pg_status result_prepare        (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver);
+result_marks result_marks_now   (const pg_result *r);
+pg_status result_remove         (const pg_result *r, const char *name);
+/* New tables, or those of `from`, cut to its rows. */
+pg_status result_history_create (pg_result *r, const result_marks *from);
 pg_status result_history_row    (pg_result *r, const pg_state *state, const pg_step *step);
+void      result_averages_check (const pg_scene *scene, const pg_problem *problem);
+pg_status result_averages_read  (pg_result *r, const pg_scene *scene);
+void      result_average_column (const pg_result *r, size_t i, char *out, size_t size);
+pg_status result_averages_row   (pg_result *r, const pg_state *state, double *row, double *work /* 6 a point */);
 const char *result_voigt        (int dim, int k);       /* "xx", "yy", ... of component k                                 */
 pg_status result_pictures       (pg_result *r, const pg_state *state);
+pg_status result_stage          (pg_result *r, const pg_state *state);         /* stages/NAME_0007.png of step 7 of result.e */
+pg_status result_view_read      (result_view *v, const pg_scene *scene, size_t i, int dim);
+pg_status result_views_read     (pg_result *r, const pg_scene *scene);
 pg_status result_json           (pg_result *r, const pg_state *state, const char *failure, double search, double total);
 #endif

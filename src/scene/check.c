@@ -35,7 +35,8 @@ static void unknown_key (pg_scene *s, const pg_node *node, const char *pattern, 
     pg_schema_names (&s->schema, pattern, names);
     const char *near = pg_nearest_name (node->name, names), *other = known_elsewhere (&s->schema, node->name);
     list_with_commas (listed, sizeof listed, names);
-    if (near) FAULT (node, 1, "unknown key; did you mean %s?", near);
+    if (strcmp (node->name, "<<") == 0) FAULT (node, 0, "merge keys are not known: write the keys again (an alias may stand for a whole value)");
+    else if (near) FAULT (node, 1, "unknown key; did you mean %s?", near);
     else if (other) FAULT (node, 1, "unknown key here; it belongs at %s", other);
     else FAULT (node, 1, "unknown key; known here: %s", listed);
 }
@@ -166,7 +167,7 @@ done:
 static void shape_of_nothing (const pg_schema *schema, pg_node *node, const char *pattern)
 {
     if (!pg_node_null (node) || pg_schema_row (schema, pattern, PG_SCALAR)) return;
-    pg_shape shape = pg_schema_opens (schema, pattern, '[') || pg_schema_row (schema, pattern, PG_SEQUENCE) ? PG_SEQUENCE : PG_MAPPING;
+    pg_node_shape shape = pg_schema_opens (schema, pattern, '[') || pg_schema_row (schema, pattern, PG_SEQUENCE) ? PG_SEQUENCE : PG_MAPPING;
     pg_free (node->text);
     node->text = NULL;
     node->shape = shape;

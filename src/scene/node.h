@@ -5,11 +5,11 @@
 #include "perigal/scene.h"
 #include <stdarg.h>
 
-typedef enum { PG_SCALAR, PG_SEQUENCE, PG_MAPPING } pg_shape;
+typedef enum { PG_SCALAR, PG_SEQUENCE, PG_MAPPING } pg_node_shape;
 
 typedef struct pg_node pg_node;
 struct pg_node {
-    pg_shape      shape;
+    pg_node_shape shape;
     int           plain;                               /* a scalar without quotes */
     int           line, column;                        /* of the key or the list element, from 1; 0: not in the file */
     const char   *origin;                              /* "--set ..." or "default of ..."; NULL: the file (borrowed) */

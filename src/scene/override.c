@@ -6,7 +6,7 @@
 enum { DEEPEST = 30, WORD = 128 };
 
 /* An empty node becomes the shape the path needs. 0: it is something else already. */
-static int become (pg_node *node, pg_shape shape)
+static int become (pg_node *node, pg_node_shape shape)
 {
     if (pg_node_null (node)) {
         pg_free (node->text);

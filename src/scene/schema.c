@@ -58,7 +58,7 @@ int pg_schema_enter (const pg_schema *s, char pattern[PG_PATTERN], const char *n
 
 int pg_schema_item (const pg_schema *s, char pattern[PG_PATTERN]) { return extend (s, pattern, "", "[]", 2); }
 
-static int takes (pg_kind kind, pg_shape shape)
+static int takes (pg_kind kind, pg_node_shape shape)
 {
     switch (kind) {
     case PG_MAP:     return shape == PG_MAPPING;
@@ -70,7 +70,7 @@ static int takes (pg_kind kind, pg_shape shape)
     }
 }
 
-const pg_key *pg_schema_row (const pg_schema *s, const char *pattern, pg_shape shape)
+const pg_key *pg_schema_row (const pg_schema *s, const char *pattern, pg_node_shape shape)
 {
     for (size_t k = 0; k < s->n; k++)
         if (takes (s->row[k]->kind, shape) && strcmp (s->row[k]->path, pattern) == 0) return s->row[k];

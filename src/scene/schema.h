@@ -14,7 +14,7 @@ void      pg_schema_clear  (pg_schema *s);
 int  pg_schema_enter (const pg_schema *s, char pattern[PG_PATTERN], const char *name, size_t length);
 int  pg_schema_item  (const pg_schema *s, char pattern[PG_PATTERN]);           /* appends "[]" */
 /* The row of exactly this pattern that takes such a node; NULL. */
-const pg_key *pg_schema_row (const pg_schema *s, const char *pattern, pg_shape shape);
+const pg_key *pg_schema_row (const pg_schema *s, const char *pattern, pg_node_shape shape);
 const pg_key *pg_schema_any (const pg_schema *s, const char *pattern);
 /* 1 when some path goes on from the pattern with `next`: '.' or '['. */
 int  pg_schema_opens (const pg_schema *s, const char *pattern, char next);

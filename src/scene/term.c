@@ -61,7 +61,6 @@ pg_status pg_read_number (pg_reader *p, pg_operand *o)
     double value = 0;
     size_t start = p->at;
     p->at = (size_t) (pg_number_read (p->text + start, &value) - p->text);
-    if (!isfinite (value)) PG_BAD (start, "the number is too large");
     size_t at = p->at;
     PG_TRY (read_unit (p, unit, sizeof unit));
     o->bare = *unit == '\0';
@@ -69,6 +68,8 @@ pg_status pg_read_number (pg_reader *p, pg_operand *o)
         PG_TRY (measure_of (p, &o->m, unit, strlen (unit), at));
         value = pg_measure_scale (value, &o->m);
     }
+    if (!(fabs (value) <= 1e60)) PG_BAD (start, "the number is too large: in SI units at most 1e60");
+    if (value != 0 && fabs (value) < 1e-60) PG_BAD (start, "the number is too small: in SI units 0, or at least 1e-60");
     PG_TRY (pg_operand_push (p, o, value));
 done:
     return status;

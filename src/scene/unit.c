@@ -104,6 +104,13 @@ static pg_status convert (double *out, double value, const char *word, size_t n,
     return PG_OK;
 }
 
+pg_status pg_quantity_sane (double value)
+{
+    if (!(fabs (value) <= 1e60)) return pg_error (PG_E_SCENE, PG_HERE, "is too large for a number: in SI units at most 1e60");
+    if (value != 0 && fabs (value) < 1e-60) return pg_error (PG_E_SCENE, PG_HERE, "is too small for a number: in SI units 0, or at least 1e-60");
+    return PG_OK;
+}
+
 pg_status pg_quantity_read (double *out, int *spacing, const char *text, const char *unit)
 {
     double value;
@@ -115,20 +122,18 @@ pg_status pg_quantity_read (double *out, int *spacing, const char *text, const c
         pg_quantity_describe (words, sizeof words, unit);
         return pg_error (PG_E_SCENE, PG_HERE, "must be %s", words);
     }
-    if (!isfinite (value)) return pg_error (PG_E_SCENE, PG_HERE, "is too large for a number");
     word = skip_space (word);
     size_t n = strlen (word);
     while (n > 0 && strchr (" \t\n\r", word[n - 1])) n--;
     *out = value;
-    if (n == 0) return PG_OK;
+    if (n == 0) return pg_quantity_sane (value);
     if (*word == ',') return pg_error (PG_E_SCENE, PG_HERE, "is not a number: the decimal mark is a point");
     if (n == 7 && takes_spacing (unit) && memcmp (word, "spacing", n) == 0) {
         *spacing = 1;
-        return PG_OK;
+        return pg_quantity_sane (value);
     }
     pg_status status = convert (out, value, word, n, unit);
-    if (status == PG_OK && !isfinite (*out)) return pg_error (PG_E_SCENE, PG_HERE, "is too large for a number");
-    return status;
+    return status == PG_OK ? pg_quantity_sane (*out) : status;
 }
 
 pg_status pg_unit_parse (double *out, const char *text, const char *unit)

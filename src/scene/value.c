@@ -27,7 +27,10 @@ static void check_range (pg_scene *s, const pg_node *node, const pg_key *row, co
     int wrong, holds = pg_range_holds (row->range, node->value, &wrong);
     const char *unit = row->unit && !node->spacing && strcmp (row->unit, "1") != 0 ? row->unit : "";
     if (wrong) FAULT (node, "the range '%s' of its key table is wrong", row->range);
-    if (!holds) FAULT (node, "must lie in %s%s%.*s", row->range, *unit ? " " : "", (int) strcspn (unit, "|"), unit);
+    int bare = strcmp (unit, "rad") == 0 && node->text && node->text[strspn (node->text, "+-.0123456789eE ")] == '\0';
+    if (!holds)
+        FAULT (node, "must lie in %s%s%.*s%s", row->range, *unit ? " " : "", (int) strcspn (unit, "|"), unit,
+               bare ? "; a number without unit is in rad, degrees are written 40 deg" : "");
 }
 
 static pg_status check_number (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
@@ -111,6 +114,7 @@ static pg_status check_expression (pg_scene *s, pg_node *node, const pg_key *row
     if (status != PG_OK) return as_fault (s, node, path, status);
     if (pg_expression_constant (e, &node->value)) {
         if (!isfinite (node->value)) FAULT (node, "has no finite value");
+        else if (pg_quantity_sane (node->value) != PG_OK) FAULT (node, "%s", pg_last_error ());
         else check_range (s, node, row, path);
     }
     pg_expression_free (&e);
@@ -140,6 +144,14 @@ static pg_status check_scalar (pg_scene *s, pg_node *node, const pg_key *row, co
     return PG_OK;
 }
 
+/* A list in quotes: "0, 5 mm". */
+static int is_quoted_list (pg_scene *s, const pg_node *node, const char *path)
+{
+    if (node->shape != PG_SCALAR || !strchr (node->text, ',')) return 0;
+    FAULT (node, "is one text: write a list such as [0, 5 mm], without quotes");
+    return 1;
+}
+
 static void check_length (pg_scene *s, const pg_node *node, const char *path)
 {
     size_t n = node->shape == PG_SCALAR ? 1 : node->n, dim = (size_t) s->dimension;
@@ -152,6 +164,7 @@ pg_status pg_value_check (pg_scene *s, pg_node *node, const pg_key *row, const c
 {
     pg_status status = PG_OK;
     node->key = row;
+    if ((row->kind == PG_VECTOR || row->kind == PG_NUMBERS) && is_quoted_list (s, node, path)) return PG_OK;
     if (row->kind == PG_VECTOR) check_length (s, node, path);
     if (node->shape == PG_SCALAR) return check_scalar (s, node, row, path);
     for (size_t k = 0; k < node->n; k++) {

@@ -110,11 +110,22 @@ static int has_tab (const char *text, size_t length, int line, int column)
 static void syntax_fault (reader *r, const yaml_parser_t *parser, const char *text, size_t length)
 {
     pg_node at = { .origin = r->origin, .line = (int) parser->problem_mark.line + 1, .column = (int) parser->problem_mark.column + 1 };
-    if (parser->error == YAML_READER_ERROR) locate (&at, text, length, parser->problem_offset);
+    r->good = 0;
+    if (parser->error == YAML_READER_ERROR) {
+        locate (&at, text, length, parser->problem_offset);
+        pg_faults_add (r->faults, r->file, &at, NULL, 0, "not a text in UTF-8: %s", parser->problem ? parser->problem : "cannot be read");
+        return;
+    }
+    if (parser->context && strstr (parser->context, "simple key")) {
+        at.line = (int) parser->context_mark.line + 1, at.column = (int) parser->context_mark.column + 1;
+        pg_faults_add (r->faults, r->file, &at, NULL, 0, "not valid YAML: a key is followed by a colon and a space, as in spacing: 2 mm");
+        return;
+    }
+    int alias = parser->problem && strstr (parser->problem, "undefined alias") != NULL;
     int tab = parser->error == YAML_SCANNER_ERROR && has_tab (text, length, at.line, at.column);
     pg_faults_add (r->faults, r->file, &at, NULL, 0, "not valid YAML: %s%s%s%s", parser->problem ? parser->problem : "cannot be read",
-                   parser->context ? " " : "", parser->context ? parser->context : "", tab ? " (indent with spaces, not tabs)" : "");
-    r->good = 0;
+                   parser->context ? " " : "", parser->context ? parser->context : "",
+                   tab ? " (indent with spaces, not tabs)" : alias ? " (a text that begins with * needs quotes)" : "");
 }
 
 static pg_status load_one (reader *r, yaml_parser_t *parser, pg_node *root, const char *text, size_t length)

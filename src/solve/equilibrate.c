@@ -80,12 +80,18 @@ pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const d
     pg_status status = PG_OK;
     pg_system *s = &b->system;
     const pg_solver_options *o = s->options;
-    b->nbroken = 0;
+    if (b->round == 0) b->nbroken = 0;
     step->utilisation = 0;
-    for (step->iterations = 0;; step->iterations++) {
+    for (step->iterations = b->round;; b->round = ++step->iterations) {
+        if (b->watch && step->iterations > b->began) {
+            step->nbroken = b->nbroken, step->broken = b->broken;
+            b->stopped = 1;
+            PG_TRY (b->watch (b->watching, state, step));
+            b->stopped = 0;
+        }
         PG_TRY (system_solve (s, t, d, dyn, &step->residual));
         PG_TRY (breaker_account (b, t, d, dyn, 1));
-        if (!s->force->utilisation || !s->problem->criterion.type) break;
+        if (!s->force->utilisation || !s->problem->criterion->type) break;
         double t0 = pg_seconds ();
         PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
         double top = step->utilisation = largest (b->utilisation, state->nbond);
@@ -102,6 +108,7 @@ pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const d
         PG_TRY (breaker_kill (b, state, b->utilisation, cut, 1));
         PG_TRY (system_refresh (s, state, &b->changes));
     }
+    b->round = 0;
     step->nbroken = b->nbroken, step->broken = b->broken;
 done:
     return status;

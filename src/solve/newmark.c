@@ -2,7 +2,10 @@
  * Newmark's method with the break loop inside each step (Cui 2022 eqs (21)-(26), corrected in theory F5): with
  * b0 = 1/(beta dt^2), b1 = 1/(beta dt), b2 = 1/(2 beta), b3 = gamma/(beta dt), b4 = gamma/beta, b5 = dt (gamma/(2 beta) - 1),
  *   A = b0 dU - b1 V - (b2 - 1) A_t,   V = b3 dU + (1 - b4) V_t - b5 A_t,
- *   Khat = (1 + b3 c_K) K + (b0 + b3 c_M) M,   R = P - F_int - M A - C V,   C = c_M M + c_K K.
+ *   Khat = (1 + alpha) (1 + b3 c_K) K + (b0 + (1 + alpha) b3 c_M) M,   C = c_M M + c_K K,
+ *   R = (1 + alpha) G - alpha G_t - M A,   G = P - F_int - C V.
+ * alpha = 0 is Newmark's method; alpha in [-1/3, 0) that of Hilber, Hughes and Taylor (1977), which damps the motions that the step cannot
+ * resolve; beta = (1 - alpha)^2 / 4 and gamma = 1/2 - alpha then keep it of second order.
  * Nodes whose motion is prescribed by elimination take V and A from that motion (newmark_start.c). */
 #include "solve.h"
 #include <math.h>
@@ -37,21 +40,43 @@ static void rates (const motion *m, const double *d, double *v, double *a)
     newmark_follow (m->s, m->t, v, a);
 }
 
-/* residual -= M A + C V. M A counts for the reference; so does a millionth of the parts it is the difference of, M (b1 V_t + (b2 - 1) A_t):
- * a body in free flight has no other force, and its M A is their rounding. */
+/* The first guess: acceleration goes on as it was. */
+static void predict (const motion *m, double *d)
+{
+    const pg_state *f = m->from;
+    double dt = m->s->options.dt;
+    for (size_t i = 0; i < f->ndof; i++) d[i] = f->d[i] + dt * (f->v[i] + 0.5 * dt * f->a[i]);
+}
+
+/* residual <- (1 + alpha) residual - alpha (that of the last step's end) - M A, where residual holds P - F_int - C V. M A counts for the
+ * reference; so does a millionth of the parts it is the difference of, M (b1 V_t + (b2 - 1) A_t): a body in free flight has no other
+ * force, and its M A is their rounding. */
 static void add_inertia (void *context, const double *d, double *residual, double *reference)
 {
     const motion *m = context;
     pg_system *sys = &m->s->breaker.system;
     const pg_state *f = m->from;
-    double *v = m->s->work1, *a = m->s->work3, size = 0, parts = 0;
+    double *v = m->s->work1, *a = m->s->work3, size = 0, parts = 0, alpha = m->s->options.alpha;
     rates (m, d, v, a);
-    newmark_resist (m->s, v, a, residual);
-    for (size_t i = 0; i < sys->ndof; i++) {
-        double known = sys->mass[i] * (m->c.b[1] * f->v[i] + (m->c.b[2] - 1) * f->a[i]);
-        parts += known * known, size += sys->mass[i] * a[i] * sys->mass[i] * a[i];
-    }
+    newmark_damp (m->s, v, residual);
+    for (size_t i = 0; alpha != 0 && i < sys->ndof; i++) residual[i] = (1 + alpha) * residual[i] - alpha * m->s->force0[i];
+    newmark_accelerate (m->s, a, residual);
+    double *known = m->s->work4, *Mx = m->s->work4 + sys->ndof;
+    memset (Mx, 0, 2 * sys->ndof * sizeof *Mx);
+    for (size_t i = 0; i < sys->ndof; i++) known[i] = m->c.b[1] * f->v[i] + (m->c.b[2] - 1) * f->a[i];
+    system_add_mass (sys, 1, known, Mx);
+    system_add_mass (sys, 1, a, Mx + sys->ndof);
+    for (size_t i = 0; i < sys->ndof; i++) parts += Mx[i] * Mx[i], size += Mx[sys->ndof + i] * Mx[sys->ndof + i];
     *reference = fmax (*reference, fmax (sqrt (size), 1e-6 * sqrt (parts)));
+}
+
+static const dynamics *newmark_dynamics (pg_solver *s)
+{
+    double b[8], share = 1 + s->options.alpha;
+    pg_newmark_coefficients (&s->options, b);
+    s->dyn.k = share * (1 + b[3] * s->options.rayleigh_stiffness);
+    s->dyn.m = b[0] + share * b[3] * s->options.rayleigh_mass;
+    return &s->dyn;
 }
 
 static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
@@ -60,14 +85,17 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     breaker *b = &s->breaker;
     int last = state->step + 1 >= s->options.steps;
     motion m = { s, s->backup, coefficients_of (&s->options), last ? s->options.end : (double) (state->step + 1) * s->options.dt };
-    dynamics dyn = { 1 + m.c.b[3] * s->options.rayleigh_stiffness, m.c.b[0] + m.c.b[3] * s->options.rayleigh_mass, add_inertia, &m };
-    double t = m.t, work = b->work, stored = s->report.energy_strain + s->report.energy_kinetic;
+    dynamics dyn = *newmark_dynamics (s);
+    dyn.add = add_inertia, dyn.context = &m;
+    double t = m.t;
     PG_TRY (newmark_supports (s, t, 0));
+    if (b->round == 0) predict (&m, state->d);
     PG_TRY (equilibrate (b, state, t, state->d, &dyn, step));
     rates (&m, state->d, state->v, state->a);
+    if (s->options.alpha != 0) PG_TRY (newmark_remember (s, t, state));
     s->report.energy_kinetic = newmark_kinetic (s, state->v);
     s->report.energy_strain = b->ledger.strain;
-    step->dissipated = b->work - work - (s->report.energy_strain + s->report.energy_kinetic - stored);
+    step->dissipated = b->work - b->work0 - (s->report.energy_strain + s->report.energy_kinetic - b->stored0);
     if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     state->time = step->time = t;
     state->factor = step->factor = t / s->options.end;
@@ -80,4 +108,4 @@ done:
     return status;
 }
 
-const pg_solver_type pg_solver_newmark = { "newmark", "implicit dynamics, Newmark's method", newmark_start, newmark_step, NULL, NULL };
+const pg_solver_type pg_solver_newmark = { "newmark", "implicit dynamics, Newmark's method", newmark_start, newmark_step, NULL, NULL, newmark_dynamics };

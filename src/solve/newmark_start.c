@@ -10,21 +10,48 @@ static const pg_sparse *elimination (const pg_system *sys)
     return sys->force->basis && sys->force->impose ? sys->force->basis (sys->self) : NULL;
 }
 
-void newmark_resist (pg_solver *s, const double *v, const double *a, double *residual)
+/* residual -= C v */
+void newmark_damp (pg_solver *s, const double *v, double *residual)
 {
     pg_system *sys = &s->breaker.system;
     double *Kv = s->work2, cm = s->options.rayleigh_mass, ck = s->options.rayleigh_stiffness;
-    for (size_t i = 0; i < sys->ndof; i++) residual[i] -= sys->mass[i] * (a[i] + cm * v[i]);
+    system_add_mass (sys, -cm, v, residual);
     if (ck == 0) return;
     system_multiply (sys, v, Kv);
     for (size_t i = 0; i < sys->ndof; i++) residual[i] -= ck * Kv[i];
 }
 
-double newmark_kinetic (const pg_solver *s, const double *v)
+/* residual -= M a */
+void newmark_accelerate (pg_solver *s, const double *a, double *residual)
+{
+    system_add_mass (&s->breaker.system, -1, a, residual);
+}
+
+void newmark_resist (pg_solver *s, const double *v, const double *a, double *residual)
+{
+    newmark_damp (s, v, residual);
+    newmark_accelerate (s, a, residual);
+}
+
+/* force0 = P - F_int - C V at the state */
+pg_status newmark_remember (pg_solver *s, double t, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->breaker.system;
+    double unused;
+    PG_TRY (sys->force->balance (sys->self, t, state->d, s->force0, &unused));
+    newmark_damp (s, state->v, s->force0);
+done:
+    return status;
+}
+
+double newmark_kinetic (pg_solver *s, const double *v)
 {
     const pg_system *sys = &s->breaker.system;
-    double sum = 0;
-    for (size_t i = 0; i < sys->ndof; i++) sum += 0.5 * sys->mass[i] * v[i] * v[i];
+    double sum = 0, *Mv = s->work2;
+    memset (Mv, 0, sys->ndof * sizeof *Mv);
+    system_add_mass (sys, 1, v, Mv);
+    for (size_t i = 0; i < sys->ndof; i++) sum += 0.5 * v[i] * Mv[i];
     return sum;
 }
 
@@ -68,18 +95,23 @@ static void apply_mass (void *context, const double *x, double *y)
 {
     const pg_system *sys = context;
     const pg_sparse *T = elimination (sys);
-    pg_sparse_multiply (T, x, sys->full);
-    for (size_t i = 0; i < sys->ndof; i++) sys->full[i] *= sys->mass[i];
-    pg_sparse_multiply_transposed (T, sys->full, y);
+    double *z = T ? sys->scratch : y;
+    if (T) pg_sparse_multiply (T, x, sys->full);
+    memset (z, 0, sys->ndof * sizeof *z);
+    system_add_mass (sys, 1, T ? sys->full : x, z);
+    if (T) pg_sparse_multiply_transposed (T, z, y);
 }
 
 static void diagonal_mass (void *context, double *d)
 {
     const pg_system *sys = context;
     const pg_sparse *T = elimination (sys);
-    for (size_t j = 0; j < T->ncol; j++) {
+    double *z = T ? sys->scratch : d;
+    memset (z, 0, sys->ndof * sizeof *z);
+    system_add_mass_diagonal (sys, 1, z);
+    for (size_t j = 0; T && j < T->ncol; j++) {
         d[j] = 0;
-        for (long p = T->start[j]; p < T->start[j + 1]; p++) d[j] += T->value[p] * T->value[p] * sys->mass[T->row[p]];
+        for (long p = T->start[j]; p < T->start[j + 1]; p++) d[j] += T->value[p] * T->value[p] * z[T->row[p]];
     }
 }
 
@@ -88,17 +120,17 @@ static pg_status accelerate (pg_system *sys, double *a)
 {
     pg_status status = PG_OK;
     const pg_sparse *T = elimination (sys);
-    if (!T) {
-        for (size_t i = 0; i < sys->ndof; i++) a[i] += sys->residual[i] / sys->mass[i];
-        return PG_OK;
-    }
-    pg_operator op = { T->ncol, sys, apply_mass, diagonal_mass };
+    for (size_t i = 0; !T && !sys->M && i < sys->ndof; i++) a[i] += sys->residual[i] / sys->mass[i];
+    if (!T && !sys->M) return PG_OK;
+    pg_operator op = { sys->nred, sys, apply_mass, diagonal_mass };
     size_t used = 0;
-    pg_sparse_multiply_transposed (T, sys->residual, sys->reduced);
+    if (T) pg_sparse_multiply_transposed (T, sys->residual, sys->reduced);
+    else memcpy (sys->reduced, sys->residual, sys->ndof * sizeof *sys->reduced);
     memset (sys->delta, 0, sys->ndof * sizeof *sys->delta);
-    PG_TRY (pg_conjugate_gradients (&op, sys->reduced, sys->delta, 1e-13, 20 * T->ncol + 1000, &used));
-    pg_sparse_multiply (T, sys->delta, sys->full);
-    for (size_t i = 0; i < sys->ndof; i++) a[i] += sys->full[i];
+    PG_TRY (pg_conjugate_gradients (&op, sys->reduced, sys->delta, 1e-13, 20 * sys->nred + 1000, &used));
+    if (T) pg_sparse_multiply (T, sys->delta, sys->full);
+    const double *gain = T ? sys->full : sys->delta;
+    for (size_t i = 0; i < sys->ndof; i++) a[i] += gain[i];
 done:
     return status;
 }
@@ -130,7 +162,10 @@ pg_status newmark_start (pg_solver *s, pg_state *state)
     PG_TRY (system_refresh (sys, state, NULL));
     s->next_level = 1;
     if (!s->work3) PG_ALLOC (s->work3, ndof);
+    if (!s->work4) PG_ALLOC (s->work4, 3 * ndof);
+    PG_TRY (system_mass (sys));
     if (!s->support) PG_ALLOC (s->support, 3 * ndof);
+    if (s->options.alpha != 0 && !s->force0) PG_ALLOC (s->force0, ndof);
     if (state->step > 0) goto done;
     for (size_t i = 0; i < ndof; i++)
         if (!(sys->mass[i] > 0)) PG_FAIL (PG_E_USAGE, "newmark needs mass at every point: give the material a density");
@@ -144,6 +179,7 @@ pg_status newmark_start (pg_solver *s, pg_state *state)
     newmark_resist (s, state->v, state->a, sys->residual);
     PG_TRY (accelerate (sys, state->a));
     PG_TRY (first_account (s, state));
+    if (s->force0) PG_TRY (newmark_remember (s, state->time, state));
 done:
     return status;
 }

@@ -11,14 +11,18 @@ typedef struct {                                       /* what inertia and dampi
     void  *context;
 } dynamics;
 
+/* How the linear systems are solved; TRIAL: not known yet, a few iterations are tried first. */
+enum { SYSTEM_UNDECIDED, SYSTEM_TRIAL, SYSTEM_FACTOR, SYSTEM_KEPT_FACTOR, SYSTEM_NO_FACTOR };
+
 typedef struct {
     const pg_problem    *problem;
     const pg_force_type *force;
     void                *self;
     const pg_solver_options *options;
     pg_report           *report;
-    int       components, stale, umfpack;
+    int       components, stale, umfpack, mode, unshifted, mean_known;
     unsigned long revision;                            /* of K when it was last factored or found stale                  */
+    long      spared;                                  /* solves by the factor of an earlier K                           */
     long      kept;                                    /* refreshes that left K as it was                                */
     size_t    ndof, nred;
     const pg_linear_type *linear;
@@ -27,16 +31,31 @@ typedef struct {
     double   *copy;                                    /* with elimination: values of k K + m M before the reduction     */
     double   *diagonal0, mean_diagonal;                /* of the first K                                                 */
     unsigned char *touched;                            /* nodes that the pre-cracks touched (n)                          */
-    double   *mass;
+    double   *mass;                                    /* lumped, per unknown, kg                                        */
+    const pg_sparse *M;                                /* consistent, or NULL                                            */
     double   *residual, *reduced, *delta, *full, *best, *scratch;
     double    shift;
+    double    size, reference;                         /* of the last residual, N                                        */
+    double    rent;                                    /* s spent on iterations that a new factor would have spared      */
+    size_t    matrix_iterations;
+    const unsigned char *alive;                        /* of the last refresh, borrowed                                  */
+    unsigned char *factored;                           /* what lived when the factor was made                            */
 } pg_system;
 pg_status system_create  (pg_system *s);               /* fields up to report set by the caller                           */
 void      system_free    (pg_system *s);
+pg_status system_factor_again (pg_system *s, const dynamics *dyn);                   /* of the last refresh           */
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
 void      system_multiply (const pg_system *s, const double *x, double *y);        /* y = K x, by operator or matrix       */
+/* delta = (k K + m M)^-1 reduced by conjugate gradients, preconditioned by the factor at hand or by the diagonal (iterate.c). */
+pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, double tolerance, size_t limit, size_t *used);
 /* d becomes the equilibrium at t; *residual relative to the reference force. PG_E_EQUILIBRIUM when it stays above the tolerance. */
 pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
+
+/* mass.c: y += factor M x; d += factor diag M; value += factor M */
+pg_status system_mass (pg_system *s);                  /* after the first refresh                                        */
+void system_add_mass (const pg_system *s, double factor, const double *x, double *y);
+void system_add_mass_diagonal (const pg_system *s, double factor, double *d);
+void system_add_mass_matrix (const pg_system *s, double factor, const pg_sparse *K, double *value);
 
 /* ---- equilibrate.c -------------------------------------------------------------------------------------------------------- */
 typedef struct {
@@ -45,6 +64,10 @@ typedef struct {
     char      *kind;
     pg_changes changes;                                /* died in the last round                                         */
     pg_broken *broken; size_t nbroken, cap_broken;     /* died in this step                                              */
+    long       round;                                  /* break rounds of the step at hand; > 0 between steps: it was stopped in its middle */
+    long       began;                                  /* round at which this call began                                 */
+    pg_watch   watch; void *watching; int stopped;     /* the caller's look between rounds; 1: it ended the step         */
+    double     work0, stored0;                         /* at the start of the step, J                                    */
     pg_ledger  ledger, before;                         /* now; at the last accounted state                               */
     double     work;                                   /* external work, J                                               */
     double    *damage;                                 /* with stop.set (6 n)                                            */
@@ -71,6 +94,7 @@ typedef struct {
     pg_status (*step)  (pg_solver *s, pg_state *state, pg_step *step);
     int       (*done)  (const pg_solver *s, const pg_state *state);
     void      (*free)  (pg_solver *s);
+    const dynamics *(*dynamics) (pg_solver *s);        /* what the matrix holds besides K (NULL: nothing)                */
 } pg_solver_type;
 
 struct pg_solver {
@@ -79,7 +103,7 @@ struct pg_solver {
     const pg_problem *problem;
     breaker   breaker;
     pg_report report;
-    int       started, finished, overlap_told, energy_told, skips_told;
+    int       started, finished, overlap_told, energy_told, skips_told, spared_told;
     long      next_level;                              /* next level to report: next_level / levels                      */
     double   *unit;                                    /* event stepping: displacement at load factor 1                  */
     double    unit_residual;                           /* of `unit`                                                      */
@@ -88,7 +112,9 @@ struct pg_solver {
     double    secant0;                                 /* event stepping: first work per squared load factor             */
     pg_state *backup;                                  /* last accepted state, for refused steps                         */
     double   *reaction;
-    double   *work1, *work2, *work3;                   /* newmark                                                        */
+    double   *work1, *work2, *work3, *work4;           /* newmark (work4: 3 x ndof)                                      */
+    double   *force0;                                  /* newmark with alpha: loads less resistance at the last step's end, N */
+    dynamics  dyn;                                     /* newmark: coefficients of its matrix                            */
     double   *support;                                 /* newmark: motion z, z', z'' of prescribed nodes (3 x ndof)      */
     long      support_updates;                         /* report.updates when it was found: breaking changes z           */
 };
@@ -98,5 +124,8 @@ pg_status newmark_start    (pg_solver *s, pg_state *state);
 pg_status newmark_supports (pg_solver *s, double t, int start);                  /* fills s->support for time t              */
 void      newmark_follow   (pg_solver *s, double t, double *v, double *a);       /* V and A of prescribed nodes from support */
 void      newmark_resist   (pg_solver *s, const double *v, const double *a, double *residual);     /* residual -= M a + C v  */
-double    newmark_kinetic  (const pg_solver *s, const double *v);
+void      newmark_damp     (pg_solver *s, const double *v, double *residual);
+void      newmark_accelerate (pg_solver *s, const double *a, double *residual);
+pg_status newmark_remember (pg_solver *s, double t, const pg_state *state);      /* fills s->force0                      */
+double    newmark_kinetic  (pg_solver *s, const double *v);
 #endif

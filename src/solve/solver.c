@@ -47,7 +47,10 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     o->max_iterations = pg_scene_integer (scene, "solver.max_iterations");
     o->max_events = pg_scene_integer (scene, "solver.max_events");
     o->dt = pg_scene_number (scene, "solver.dt"), o->end = pg_scene_number (scene, "solver.end");
-    o->beta = pg_scene_number (scene, "solver.beta"), o->gamma = pg_scene_number (scene, "solver.gamma");
+    o->consistent = strcmp (pg_scene_text (scene, "solver.mass"), "consistent") == 0;
+    o->alpha = pg_scene_number (scene, "solver.alpha");
+    o->beta = pg_scene_given (scene, "solver.beta") ? pg_scene_number (scene, "solver.beta") : (1 - o->alpha) * (1 - o->alpha) / 4;
+    o->gamma = pg_scene_given (scene, "solver.gamma") ? pg_scene_number (scene, "solver.gamma") : 0.5 - o->alpha;
     o->rayleigh_mass = pg_scene_number (scene, "solver.rayleigh.mass");
     o->rayleigh_stiffness = pg_scene_number (scene, "solver.rayleigh.stiffness");
     o->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
@@ -98,7 +101,7 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     PG_ALLOC (s->work1, sys->ndof);
     PG_ALLOC (s->work2, sys->ndof);
     PG_TRY (pg_state_create (&s->backup, problem, sys->components));
-    if (options->break_mode == PG_BREAK_ALL && problem->criterion.type)
+    if (options->break_mode == PG_BREAK_ALL && problem->criterion->type)
         pg_report_warn (&s->report, "break: all breaks every bond over its limit at once: the peak load depends on the increment");
     *out = s;
     s = NULL;
@@ -112,7 +115,7 @@ void pg_solver_free (pg_solver **solver)
     pg_solver *s = *solver;
     if (!s) return;
     breaker_free (&s->breaker);
-    pg_free (s->unit), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2), pg_free (s->work3), pg_free (s->support);
+    pg_free (s->unit), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2), pg_free (s->work3), pg_free (s->work4), pg_free (s->support), pg_free (s->force0);
     pg_state_free (&s->backup);
     pg_free (s);
     *solver = NULL;
@@ -132,7 +135,12 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     memset (step, 0, sizeof *step);
     if (!s->started) PG_TRY (s->type->start (s, state));
     s->started = 1;
-    PG_TRY (pg_state_copy (s->backup, state));
+    breaker *b = &s->breaker;
+    b->began = b->round, b->stopped = 0;
+    if (b->round == 0) {                               /* else the step goes on where it was stopped                     */
+        PG_TRY (pg_state_copy (s->backup, state));
+        b->work0 = b->work, b->stored0 = s->report.energy_strain + s->report.energy_kinetic;
+    }
     step->number = state->step + 1;
     PG_TRY (s->type->step (s, state, step));
     state->step++;
@@ -149,16 +157,18 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     r->energy_external = s->breaker.work;
     r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic;
 done:
-    if (status != PG_OK && s->started) {
+    if (status != PG_OK && s->started && !s->breaker.stopped) {
         char text[2048];
         snprintf (text, sizeof text, "%s", pg_last_error ());
         system_refresh (&s->breaker.system, s->backup, NULL);      /* fields asked for now are those of the accepted state       */
-        s->breaker.work = s->backup->work;
+        s->breaker.work = s->backup->work, s->breaker.round = 0;
         if (status != PG_E_MEMORY) pg_error (status, PG_HERE, "step %ld at load factor %.6g is refused: %s", state->step + 1, state->factor, text);
         pg_state_copy (state, s->backup);
     }
     return status;
 }
+
+void pg_solver_watch (pg_solver *s, pg_watch watch, void *context) { s->breaker.watch = watch, s->breaker.watching = context; }
 
 int pg_solver_done (const pg_solver *s, const pg_state *state) { return s->finished || (s->type->done && s->type->done (s, state)); }
 
@@ -186,6 +196,13 @@ const pg_report *pg_solver_report (pg_solver *s, const pg_state *state)
         pg_report_skip (&s->report, (double) sys->kept * s->report.seconds[PG_SECONDS_FACTOR] / (double) s->report.factorizations, what,
                         "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
         s->skips_told = 1;
+    }
+    if (sys->spared && !s->spared_told && s->report.factorizations) {
+        char what[96];
+        snprintf (what, sizeof what, "factorization in %ld solves after a break", sys->spared);
+        pg_report_skip (&s->report, (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR] / (double) s->report.factorizations, what,
+                        "the factor of an earlier K preconditions conjugate gradients until a new one would pay (their time is not taken off)");
+        s->spared_told = 1;
     }
     if (!s->energy_told && s->report.broken > 0 && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
         pg_report_warn (&s->report, "breaking has fed %.3g J into the body instead of dissipating energy (external work %.3g J): single bonds are not an "

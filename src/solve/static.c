@@ -31,11 +31,10 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     pg_status status = PG_OK;
     breaker *b = &s->breaker;
     double t = (double) (state->step + 1) / (double) s->options.steps;
-    double work = b->work, strain = s->report.energy_strain;
     PG_TRY (equilibrate (b, state, t, state->d, NULL, step));
     state->factor = state->time = t;
     s->report.energy_strain = b->ledger.strain;
-    step->dissipated = b->work - work - (b->ledger.strain - strain);
+    step->dissipated = b->work - b->work0 - (b->ledger.strain - b->stored0);
     step->factor = step->time = t;
     while (level_factor (s, s->next_level) <= t * (1 + 1e-12)) s->next_level++, step->level = 1;
     int arrived;
@@ -122,7 +121,7 @@ static pg_status look_over (pg_solver *s, const pg_state *state, double factor, 
     pg_status status = PG_OK;
     breaker *b = &s->breaker;
     *scale = factor;
-    if (!s->problem->criterion.type || !b->system.force->utilisation) return PG_OK;
+    if (!s->problem->criterion->type || !b->system.force->utilisation) return PG_OK;
     long over = breaker_over (b, state, *scale, &step->utilisation);
     if (over) {
         *scale = 1;
@@ -142,7 +141,7 @@ static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
     if (s->ended != PG_OK) PG_FAIL (s->ended, "%s", s->why);
     b->nbroken = 0;
     step->iterations = 1;
-    if (s->problem->criterion.type && b->system.force->utilisation) {
+    if (s->problem->criterion->type && b->system.force->utilisation) {
         PG_TRY (b->system.force->utilisation (b->system.self, state, s->unit, b->utilisation, b->kind, b->factor));
         next = smallest (b->factor, state->nbond);
     }
@@ -181,4 +180,4 @@ static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
     return status;
 }
 
-const pg_solver_type pg_solver_static_ = { "static", "quasi-static equilibrium, event by event or in fixed load steps", static_start, static_step, NULL, NULL };
+const pg_solver_type pg_solver_static_ = { "static", "quasi-static equilibrium, event by event or in fixed load steps", static_start, static_step, NULL, NULL, NULL };

@@ -5,6 +5,7 @@
  * takes its effect out again wherever the body can carry load. */
 #include "solve.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { MOST_REFINEMENTS = 12 };
@@ -17,17 +18,17 @@ void system_free (pg_system *s)
     if (s->copy) pg_sparse_clear (&s->A);
     else pg_free (s->A.value);
     pg_free (s->copy), pg_free (s->diagonal0), pg_free (s->mass);
-    pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best), pg_free (s->scratch), pg_free (s->touched);
+    pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best), pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored);
 }
 
-static const pg_sparse *matrix_of (const pg_system *s) { return s->force->matrix ? s->force->matrix (s->self) : NULL; }
+static int has_matrix (const pg_system *s) { return s->force->matrix && (s->force->assemble || s->force->matrix (s->self)); }
 static const pg_operator *operator_of (const pg_system *s) { return s->force->operator_ ? s->force->operator_ (s->self) : NULL; }
 
 void system_multiply (const pg_system *s, const double *x, double *y)
 {
     const pg_operator *op = operator_of (s);
     if (op) op->apply (op->context, x, y);
-    else pg_sparse_multiply (matrix_of (s), x, y);
+    else pg_sparse_multiply (s->force->matrix (s->self), x, y);
 }
 
 pg_status system_create (pg_system *s)
@@ -41,8 +42,8 @@ pg_status system_create (pg_system *s)
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     s->nred = T ? T->ncol : s->ndof;
     s->stale = 1;
-    if (!matrix_of (s) && !operator_of (s)) PG_FAIL (PG_E_USAGE, "the force %s offers neither a matrix nor an operator", s->force->name);
-    if (!matrix_of (s)) PG_ALLOC (s->scratch, s->ndof);
+    if (!has_matrix (s) && !operator_of (s)) PG_FAIL (PG_E_USAGE, "the force %s offers neither a matrix nor an operator", s->force->name);
+    PG_ALLOC (s->scratch, s->ndof);
     PG_ALLOC (s->mass, s->ndof);
     PG_ALLOC (s->residual, s->ndof);
     PG_ALLOC (s->reduced, s->ndof);
@@ -76,7 +77,8 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
 {
     double t0 = pg_seconds ();
     pg_status status = s->force->refresh ? s->force->refresh (s->self, state, changes) : PG_OK;
-    if (!changes) mark_touched (s, state);
+    if (!changes && !s->mean_known) mark_touched (s, state), s->mean_known = 1;
+    s->alive = state->alive;
     unsigned long now = s->force->revision ? s->force->revision (s->self) : s->revision + 1;
     if (now != s->revision) s->stale = 1;
     else s->kept++;
@@ -104,14 +106,15 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
         long q = K->start[j + 1] - 1;
         double now = K->value[q], first = s->diagonal0[j];
         int weak = s->touched[j / (size_t) s->components] || !(first > 1e-9 * s->mean_diagonal) || fabs (now - first) > 1e-12 * first;
-        value[q] += m * s->mass[j];
         if (m == 0 && weak) value[q] += s->shift * s->mean_diagonal;
     }
+    if (m != 0) system_add_mass_matrix (s, m, K, value);
 }
 
 static pg_status build_matrix (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
+    if (s->force->assemble) PG_TRY (s->force->assemble (s->self));
     const pg_sparse *K = s->force->matrix (s->self), *T = s->force->basis ? s->force->basis (s->self) : NULL;
     remember_diagonal (s, K);
     if (!T) {
@@ -180,65 +183,108 @@ static pg_status factorize (pg_system *s, const dynamics *dyn)
         s->umfpack = 1;
     }
     s->stale = 0;
+    s->unshifted = s->shift < 1e-10;
+    if (s->alive) {                                    /* from which the factor can be made again                        */
+        if (!s->factored) PG_ALLOC (s->factored, s->problem->first_bond[PG_BOND_SETS]);
+        memcpy (s->factored, s->alive, s->problem->first_bond[PG_BOND_SETS]);
+    }
 done:
     return status;
 }
 
-/* ---- matrix-free ------------------------------------------------------------------------------------------------------- */
-typedef struct { pg_system *s; const dynamics *dyn; const pg_sparse *T; } combined;
+pg_status system_factor_again (pg_system *s, const dynamics *dyn) { return factorize (s, dyn); }
 
-/* y = T' (k K + m M) T x */
-static void apply_combined (void *context, const double *x, double *y)
+/* ---- solving ------------------------------------------------------------------------------------------------------------ */
+/* A plain factor serves again and again; one that costs more than this many of its solves is worth keeping when K has changed a little. */
+static const double worth_keeping = 15;
+
+/* Seconds by stored rates: supernodal factorization, triangular solve, K x without a matrix. Never measured: a run must not depend on the clock. */
+static double factor_cost (const pg_system *s) { return s->report->factor_flops / 20e9; }
+static double solve_cost (const pg_system *s) { return 4 * s->report->factor_entries / 3e9; }
+static double apply_cost (const pg_system *s)
 {
-    const combined *c = context;
-    pg_system *s = c->s;
-    double *z = c->T ? s->scratch : y;
-    if (c->T) pg_sparse_multiply (c->T, x, s->full);
-    const double *full = c->T ? s->full : x;
-    system_multiply (s, full, z);
-    for (size_t i = 0; c->dyn && i < s->ndof; i++) z[i] = c->dyn->k * z[i] + c->dyn->m * s->mass[i] * full[i];
-    if (c->T) pg_sparse_multiply_transposed (c->T, z, y);
+    const pg_problem *p = s->problem;
+    return 4e-9 * (double) (p->first_bond[PG_BOND_SETS] - (p->integration->at_nodes ? 0 : p->first_bond[PG_POINTS]));
 }
 
-/* With T: of T' diag (k K + m M) T, which preconditions as well. */
-static void diagonal_combined (void *context, double *d)
-{
-    const combined *c = context;
-    pg_system *s = c->s;
-    const pg_operator *op = operator_of (s);
-    double *z = c->T ? s->scratch : d;
-    op->diagonal (op->context, z);
-    for (size_t i = 0; c->dyn && i < s->ndof; i++) z[i] = c->dyn->k * z[i] + c->dyn->m * s->mass[i];
-    for (size_t j = 0; c->T && j < s->nred; j++) {
-        d[j] = 0;
-        for (long p = c->T->start[j]; p < c->T->start[j + 1]; p++) d[j] += c->T->value[p] * c->T->value[p] * z[c->T->row[p]];
-    }
-}
-
-static pg_status solve_once (pg_system *s, const dynamics *dyn)
+static pg_status solve_by_factor (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
-    if (matrix_of (s)) {
-        if (s->stale) PG_TRY (factorize (s, dyn));
-        double t0 = pg_seconds ();
-        pg_linear_info info;
-        PG_TRY (s->linear->solve (s->factor, 1, s->reduced, s->delta));
-        s->linear->info (s->factor, &info);
-        s->report->cg_iterations = info.iterations;
-        s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
-    } else {
-        combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL };
-        pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
-        size_t used = 0;
-        double t0 = pg_seconds ();
-        memset (s->delta, 0, s->ndof * sizeof *s->delta);
-        PG_TRY (pg_conjugate_gradients (&op, s->reduced, s->delta, 1e-3 * s->options->tolerance, 20 * s->ndof + 1000, &used));
-        s->report->cg_iterations += used;
-        s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
-        strcpy (s->report->solver, "cg");
-    }
-    s->report->solves++;
+    if (s->stale) PG_TRY (factorize (s, dyn));
+    double t0 = pg_seconds ();
+    pg_linear_info info;
+    PG_TRY (s->linear->solve (s->factor, 1, s->reduced, s->delta));
+    s->linear->info (s->factor, &info);
+    s->report->cg_iterations += info.iterations - s->matrix_iterations;
+    s->matrix_iterations = info.iterations;
+    s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
+    int keep = operator_of (s) && strcmp (s->options->linear, "auto") == 0 && !s->umfpack && s->unshifted;
+    if (keep && factor_cost (s) > worth_keeping * solve_cost (s)) s->mode = SYSTEM_KEPT_FACTOR;
 done:
+    return status;
+}
+
+/* The factor of an earlier K preconditions; it is renewed when the iterations it cost too much would have paid for a new one (rent or buy). */
+static pg_status solve_by_kept_factor (pg_system *s, const dynamics *dyn, double tolerance)
+{
+    pg_status status = PG_OK;
+    size_t used = 0;
+    if (s->stale && s->rent > factor_cost (s)) {
+        PG_TRY (factorize (s, dyn));
+        s->rent = 0;
+    }
+    s->spared += s->stale;
+    pg_status now = system_iterate (s, dyn, 1, tolerance, 200, &used);
+    if (used > 2) s->rent += (double) (used - 2) * (solve_cost (s) + apply_cost (s));
+    if (now == PG_OK) return PG_OK;
+    if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
+    s->stale = 1, s->rent = 0;
+    status = solve_by_factor (s, dyn);
+done:
+    return status;
+}
+
+/* Chosen once: solver.linear says it, a force without a matrix leaves no choice, and in a small time step the mass dominates: then a few
+ * iterations without any factor do, which is simply tried. Large static 3D bodies have factors that outgrow everything else. */
+static void choose_mode (pg_system *s, const dynamics *dyn)
+{
+    const char *linear = s->options->linear;
+    int automatic = strcmp (linear, "auto") == 0;
+    s->mode = SYSTEM_FACTOR;
+    if (!has_matrix (s) || (strcmp (linear, "pcg") == 0 && operator_of (s))) s->mode = SYSTEM_NO_FACTOR;
+    else if (automatic && operator_of (s) && dyn) s->mode = SYSTEM_TRIAL;
+    else if (automatic && operator_of (s) && s->problem->dim == 3 && s->ndof > 200000) s->mode = SYSTEM_NO_FACTOR;
+}
+
+enum { FEW_ITERATIONS = 40 };
+
+static void tell_small_step (pg_system *s, size_t used)
+{
+    char why[160];
+    snprintf (why, sizeof why, "the time step is small, so that the mass dominates: %zu iterations of conjugate gradients did in the first step", used);
+    pg_report_skip (s->report, NAN, "stiffness matrix, analysis and factorization", why);
+}
+
+static pg_status solve_once (pg_system *s, const dynamics *dyn, double tolerance)
+{
+    pg_status status = PG_OK;
+    size_t used = 0;
+    if (s->mode == SYSTEM_UNDECIDED) choose_mode (s, dyn);
+    if (s->mode == SYSTEM_TRIAL) {
+        pg_status now = system_iterate (s, dyn, 0, tolerance, FEW_ITERATIONS, &used);
+        if (now != PG_OK && now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
+        s->mode = now == PG_OK ? SYSTEM_NO_FACTOR : SYSTEM_FACTOR;
+        if (now == PG_OK) {
+            tell_small_step (s, used);
+            goto done;
+        }
+        memset (s->delta, 0, s->nred * sizeof *s->delta);
+    }
+    if (s->mode == SYSTEM_NO_FACTOR) PG_TRY (system_iterate (s, dyn, 0, tolerance, 20 * s->ndof + 1000, &used));
+    if (s->mode == SYSTEM_KEPT_FACTOR) PG_TRY (solve_by_kept_factor (s, dyn, tolerance));
+    else if (s->mode == SYSTEM_FACTOR) PG_TRY (solve_by_factor (s, dyn));
+done:
+    s->report->solves += status == PG_OK;
     return status;
 }
 
@@ -274,6 +320,7 @@ static pg_status measure_residual (pg_system *s, double t, const double *d, cons
     double size = norm (s->reduced, s->nred);
     if (!isfinite (size)) PG_FAIL (PG_E_EQUILIBRIUM, "the out-of-balance force is not finite");
     *relative = reference > 0 ? size / reference : size > 0 ? 1 : 0;
+    s->size = size, s->reference = reference;
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     return status;
@@ -302,10 +349,10 @@ pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, 
             r = last;
             break;
         }
-        if (r <= goal || k == MOST_REFINEMENTS || (k > 1 && r > 0.5 * last)) break;
+        if (r <= (s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_UNDECIDED ? goal : 0.01 * s->options->tolerance) || k == MOST_REFINEMENTS || (k > 1 && r > 0.5 * last)) break;
         memcpy (s->best, d, s->ndof * sizeof *d);
         last = r;
-        PG_TRY (solve_once (s, dyn));
+        PG_TRY (solve_once (s, dyn, fmin (0.1, 0.003 * s->options->tolerance / r)));
         if (T) pg_sparse_multiply (T, s->delta, s->full);
         const double *step = T ? s->full : s->delta;
         for (size_t i = 0; i < s->ndof; i++) d[i] += step[i];

@@ -69,10 +69,11 @@ static void sort_nodes (int *a, size_t n)              /* insertion sort of near
         }
 }
 
-static pg_status pattern (pg_stiffness *K)
+/* K->lower: which nodes share a point. */
+static pg_status couple (pg_stiffness *K)
 {
     pg_status status = PG_OK;
-    size_t *mark = NULL, nnz = 0, m = (size_t) K->block;
+    size_t *mark = NULL;
     PG_ALLOC (mark, K->n);
     PG_ALLOC (K->lower.start, K->n + 1);
     K->lower.n = K->n;
@@ -83,6 +84,16 @@ static pg_status pattern (pg_stiffness *K)
         int *list = K->lower.node + K->lower.start[I];
         sort_nodes (list, neighbours (K, I, mark, list));
     }
+done:
+    pg_free (mark);
+    return status;
+}
+
+static pg_status pattern (pg_stiffness *K)
+{
+    pg_status status = PG_OK;
+    size_t nnz = 0, m = (size_t) K->block;
+    PG_TRY (couple (K));
     nnz = (K->lower.start[K->n] - K->n) * m * m + K->n * m * (m + 1) / 2;
     PG_TRY (pg_sparse_create (&K->K, K->n * m, K->n * m, nnz, 1));
     long at = 0;
@@ -95,11 +106,11 @@ static pg_status pattern (pg_stiffness *K)
         }
     K->K.start[K->n * m] = at;
 done:
-    pg_free (mark);
     return status;
 }
 
-pg_status pg_stiffness_create (pg_stiffness **out, size_t n, int block, size_t nsource, const pg_source *sources)
+/* Sources and their inverses; no pattern yet. */
+static pg_status create (pg_stiffness **out, size_t n, int block, size_t nsource, const pg_source *sources)
 {
     pg_status status = PG_OK;
     pg_stiffness *K = NULL;
@@ -113,11 +124,44 @@ pg_status pg_stiffness_create (pg_stiffness **out, size_t n, int block, size_t n
         PG_TRY (invert (&K->inverse[s], f, n));
         for (size_t p = 0; p < f->n; p++) if (f->start[p + 1] - f->start[p] > K->widest) K->widest = f->start[p + 1] - f->start[p];
     }
+    *out = K;
+    K = NULL;
+done:
+    pg_stiffness_free (&K);
+    return status;
+}
+
+pg_status pg_stiffness_create (pg_stiffness **out, size_t n, int block, size_t nsource, const pg_source *sources)
+{
+    pg_status status = PG_OK;
+    pg_stiffness *K = NULL;
+    PG_TRY (create (&K, n, block, nsource, sources));
     PG_TRY (pattern (K));
     *out = K;
     K = NULL;
 done:
     pg_stiffness_free (&K);
+    return status;
+}
+
+pg_status pg_stiffness_graph (pg_sparse *out, size_t n, size_t nfamily, const pg_family *const *families)
+{
+    pg_status status = PG_OK;
+    pg_stiffness *K = NULL;
+    pg_source *source = NULL;
+    PG_ALLOC (source, nfamily);
+    for (size_t s = 0; s < nfamily; s++) source[s].family = families[s];
+    PG_TRY (create (&K, n, 1, nfamily, source));
+    PG_TRY (couple (K));
+    *out = (pg_sparse) { .nrow = n, .ncol = n, .symmetric = 1 };
+    PG_ALLOC (out->start, n + 1);
+    PG_ALLOC (out->row, K->lower.start[n]);
+    for (size_t I = 0; I <= n; I++) out->start[I] = (long) K->lower.start[I];
+    for (size_t e = 0; e < K->lower.start[n]; e++) out->row[e] = K->lower.node[e];
+done:
+    if (status != PG_OK) pg_sparse_clear (out);
+    pg_stiffness_free (&K);
+    pg_free (source);
     return status;
 }
 

@@ -64,6 +64,12 @@ expect "plot draws a field"                    0 'stress-yy.png' '' plot "$out" 
 expect "plot draws SVG"                        0 'a.svg' '' plot "$out" --out "$work/a.svg"
 grep -q '<svg' "$work/a.svg"; verdict "SVG is SVG" $?
 expect "plot draws a curve"                    0 '.png' '' plot "$out" --curve pull.displacement_y pull.force_y
+expect "plot draws curves of several runs"     0 'ab.svg' '' plot "$out" "$work/quiet" --curve step pull.force_y --labels 'a run,another' --abs --out "$work/ab.svg"
+grep -q '<svg' "$work/ab.svg"; verdict "curves as SVG" $?
+expect "plot counts the labels"               64 '' '1 names for 2 folders' plot "$out" "$work/quiet" --curve step pull.force_y --labels one
+expect "plot: a column that one run lacks"    64 '' "quiet/history.csv has no column 'pull'" plot "$work/quiet" --curve step pull
+expect "plot --negate or --abs"               64 '' 'exclude each other' plot "$out" --curve step pull.force_y --abs --negate
+expect "plot names the nearest curve option"  64 '' 'did you mean --labels' plot "$out" --curve step pull.force_y --label a
 expect "plot names the nearest field"         64 '' "did you mean 'damage'" plot "$out" --field damag
 expect "plot names the nearest column"        64 '' "did you mean 'pull.force_y'" plot "$out" --curve step pull.force_yy
 expect "plot of no folder"                    70 '' 'No such file' plot "$work/nowhere"

@@ -13,7 +13,7 @@ static double rnd (void)                               /* in (-1, 1) */
 
 static pg_criterion make (const char *name, double a, double b, double c)
 {
-    return (pg_criterion) { pg_criterion_find (name), { a, b, c } };
+    return (pg_criterion) { .type = pg_criterion_find (name), .parameter = { a, b, c } };
 }
 
 static pg_criterion rock (void) { return make ("mohr_coulomb", 0.5e6, 5e6, 40 * 3.14159265358979323846 / 180); }

@@ -3,7 +3,7 @@
 #include "check.h"
 #include "perigal/criterion.h"
 
-static const pg_criterion_setting setting = { PG_SOLID, 0.06, 30e9, 0.2, 1, "constant" };
+static const pg_criterion_setting setting = { PG_SOLID, 0.06, 30e9, 0.2, 1, "constant", NULL };
 
 /* Reads `failure: {...}`; the scene itself may already refuse. */
 static pg_status reading (const char *failure, pg_criterion *c)
@@ -12,7 +12,7 @@ static pg_status reading (const char *failure, pg_criterion *c)
     char text[512];
     snprintf (text, sizeof text, "dimension: 3\n%s%s\n", failure ? "failure: " : "", failure ? failure : "");
     pg_status status = pg_scene_parse (&s, text, "f.yaml");
-    if (status == PG_OK) status = pg_criterion_read (c, s, &setting);
+    if (status == PG_OK) status = pg_criterion_read (c, 1, s, &setting);
     pg_scene_free (&s);
     return status;
 }

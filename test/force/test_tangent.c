@@ -137,6 +137,8 @@ static void a_partial_update_equals_a_fresh_one (void **state)
             }
             check_ok (pg_state_copy (whole.state, part.state));
             refresh (&whole, NULL);
+            check_ok (f->assemble (self));
+            check_ok (f->assemble (other));
             const pg_sparse *A = f->matrix (self), *B = f->matrix (other);
             assert_memory_equal (A->value, B->value, (size_t) A->start[A->ncol] * sizeof *A->value);
             size_t n = part.state->ndof;

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * result.e: what is written comes back to the last bit, while the file is open and in the layout of Exodus. */
+ * result.e: what is written comes back to the last bit, while the file is open and in the layout of Exodus; a kill at any instant or a
+ * full disk costs nothing that was written before; a run that goes on appends where it was told. */
 #include "check.h"
 #include "sample.h"
 #include <netcdf.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 
 enum { FIELDS = 3 };
 
@@ -185,8 +188,7 @@ static void the_layout_is_that_of_exodus (void **state)
                                             "stress_xy", "stress_yz", "stress_zx", "damage", "volume" };
     sample s;
     char name[66] = "", type[8] = "";
-    int ncid, var, id[2], connect[64], deflate, shuffle, level;
-    size_t chunk[2];
+    int ncid, var, id[2], connect[64], kind;
     float version;
     const char *path = file_at ("layout.e");
     begin (&s, 3);
@@ -212,10 +214,8 @@ static void the_layout_is_that_of_exodus (void **state)
     assert_int_equal (nc_inq_varid (ncid, "eb_prop1", &var), 0);
     nc_get_var_int (ncid, var, id);
     assert_true (id[0] == 1 && id[1] == 5);
-    assert_int_equal (nc_inq_varid (ncid, "vals_nod_var4", &var), 0);
-    nc_inq_var_deflate (ncid, var, &shuffle, &deflate, &level);
-    nc_inq_var_chunking (ncid, var, NULL, chunk);
-    assert_true (deflate == 1 && level == 1 && chunk[0] == 1 && chunk[1] == 64);
+    assert_int_equal (nc_inq_format (ncid, &kind), 0);
+    assert_int_equal (kind, NC_FORMAT_64BIT_OFFSET);
     nc_close (ncid);
     end (&s);
 }
@@ -235,7 +235,7 @@ static void an_open_file_is_readable_from_outside (void **state)
         check_ok (pg_exodus_write (file, k, s.view));
         for (int v = 0; v < FIELDS; v++) check_field (&s, path, v, k);
     }
-    snprintf (command, sizeof command, "! command -v ncdump > /dev/null || env -u HDF5_USE_FILE_LOCKING ncdump -v time_whole %s "
+    snprintf (command, sizeof command, "! command -v ncdump > /dev/null || ncdump -v time_whole %s "
               "| grep -q 'time_whole = 0, 1, 2'", path);
     assert_int_equal (system (command), 0);
     pg_exodus_close (&file);
@@ -269,6 +269,152 @@ static void a_killed_writer_leaves_its_steps (void **state)
     check_field (&s, path, 1, -1);
     drop_cloud (&c);
     end (&s);
+}
+
+/* A child writes steps whose values are all their number until it is killed; what counts then is whole. */
+static void no_instant_to_be_killed_at_is_bad (void **state)
+{
+    (void) state;
+    sample s;
+    pg_cloud c;
+    size_t steps, n, seen = 0;
+    int m, how;
+    double *time, *value;
+    const char *path = file_at ("any_instant.e");
+    begin (&s, 2);
+    for (int round = 0; round < 25; round++) {
+        pid_t child = fork ();
+        if (child == 0) {
+            pg_exodus *file;
+            if (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view) != PG_OK) _exit (1);
+            for (int k = 0;; k++) {
+                for (int v = 0; v < FIELDS; v++) for (size_t i = 0; i < s.cloud.n * (size_t) s.view[v].components; i++) s.value[v][i] = k;
+                if (pg_exodus_write (file, k, s.view) != PG_OK) _exit (1);
+            }
+        }
+        nanosleep (&(struct timespec) { .tv_nsec = 500000 + 137000 * round }, NULL);
+        kill (child, SIGKILL);
+        waitpid (child, &how, 0);
+        assert_true (WIFSIGNALED (how));
+        if (access (path, F_OK) != 0) continue;
+        check_ok (pg_exodus_points (path, &c, &steps, &time));
+        for (size_t k = 0; k < steps; k++) assert_true (time[k] == (double) k);
+        for (int v = 0; v < FIELDS && steps > 0; v++) {
+            check_ok (pg_exodus_read (path, s.view[v].name, -1, &n, &m, &value));
+            for (size_t i = 0; i < n * (size_t) m; i++) assert_true (value[i] == (double) (steps - 1));
+            pg_free (value);
+        }
+        seen += steps;
+        pg_free (time);
+        drop_cloud (&c);
+    }
+    assert_true (seen > 25);
+    end (&s);
+}
+
+static size_t steps_of (const char *path)
+{
+    pg_cloud c;
+    size_t steps;
+    check_ok (pg_exodus_points (path, &c, &steps, NULL));
+    drop_cloud (&c);
+    return steps;
+}
+
+static void a_step_that_does_not_fit_costs_no_other (void **state)
+{
+    (void) state;
+    sample s;
+    pg_exodus *file;
+    struct rlimit old, tight;
+    long steps, bytes, first;
+    const char *path = file_at ("full.e");
+    begin (&s, 2);
+    signal (SIGXFSZ, SIG_IGN);
+    getrlimit (RLIMIT_FSIZE, &old);
+    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view));
+    pg_exodus_size (file, &steps, &first);
+    for (int k = 0; k < 2; k++) {
+        fill (&s, k);
+        check_ok (pg_exodus_write (file, k, s.view));
+    }
+    pg_exodus_size (file, &steps, &bytes);
+    for (long room = 0; room < (bytes - first) / 2; room += 1 + (bytes - first) / 16) {
+        tight = (struct rlimit) { (rlim_t) (bytes + room), old.rlim_max };
+        setrlimit (RLIMIT_FSIZE, &tight);
+        fill (&s, 2);
+        pg_status status = pg_exodus_write (file, 2, s.view);
+        setrlimit (RLIMIT_FSIZE, &old);
+        assert_int_equal (status, PG_E_FILE);
+        check_contains (pg_last_error (), "full.e: File too large");
+        assert_int_equal (steps_of (path), 2);
+        fill (&s, 1);
+        for (int v = 0; v < FIELDS; v++) check_field (&s, path, v, -1);
+    }
+    fill (&s, 2);
+    check_ok (pg_exodus_write (file, 2, s.view));      /* there is room again                                             */
+    assert_int_equal (steps_of (path), 3);
+    for (int v = 0; v < FIELDS; v++) check_field (&s, path, v, 2);
+    pg_exodus_close (&file);
+    end (&s);
+}
+
+static void an_opened_file_goes_on_where_it_is_told (void **state)
+{
+    (void) state;
+    sample s;
+    pg_exodus *file;
+    long steps = 0, bytes = 0;
+    size_t n;
+    double *time;
+    pg_cloud c;
+    const char *path = file_at ("goes_on.e");
+    begin (&s, 3);
+    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view));
+    for (int k = 0; k < 5; k++) {
+        fill (&s, k);
+        check_ok (pg_exodus_write (file, k, s.view));
+        if (k == 2) pg_exodus_size (file, &steps, &bytes);
+    }
+    pg_exodus_close (&file);
+    assert_int_equal (steps, 3);
+    check_ok (pg_exodus_open (&file, path, &s.cloud, FIELDS, s.view, steps, bytes));
+    assert_int_equal (steps_of (path), 3);
+    fill (&s, 7);
+    check_ok (pg_exodus_write (file, 7, s.view));
+    pg_exodus_close (&file);
+    check_ok (pg_exodus_points (path, &c, &n, &time));
+    assert_int_equal (n, 4);
+    assert_true (time[2] == 2 && time[3] == 7);
+    for (int v = 0; v < FIELDS; v++) check_field (&s, path, v, 3);
+    fill (&s, 1);
+    for (int v = 0; v < FIELDS; v++) check_field (&s, path, v, 1);
+    pg_free (time);
+    drop_cloud (&c);
+    end (&s);
+}
+
+static void a_file_of_another_run_is_not_gone_on_with (void **state)
+{
+    (void) state;
+    sample s, other;
+    pg_exodus *file = NULL;
+    long steps, bytes;
+    const char *path = file_at ("another.e");
+    begin (&s, 2), begin (&other, 3);
+    check_ok (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view));
+    fill (&s, 0);
+    check_ok (pg_exodus_write (file, 0, s.view));
+    pg_exodus_size (file, &steps, &bytes);
+    pg_exodus_close (&file);
+    check_fails (pg_exodus_open (&file, path, &other.cloud, FIELDS, other.view, steps, bytes), PG_E_FILE);
+    check_fails (pg_exodus_open (&file, path, &s.cloud, FIELDS - 1, s.view, steps, bytes), PG_E_FILE);
+    check_fails (pg_exodus_open (&file, path, &s.cloud, FIELDS, s.view, steps, bytes + 1), PG_E_FILE);
+    check_contains (pg_last_error (), "another.e has");
+    check_fails (pg_exodus_open (&file, file_at ("absent.e"), &s.cloud, FIELDS, s.view, steps, bytes), PG_E_FILE);
+    assert_null (file);
+    assert_int_equal (steps_of (path), 1);
+    end (&s), end (&other);
 }
 
 static void many_steps_append (void **state)
@@ -360,8 +506,13 @@ static pg_status whole_life (sample *s, const char *path)
     int m;
     double *value = NULL, *time = NULL;
     char (*names)[32] = NULL;
+    long steps, bytes;
     PG_TRY (pg_exodus_create (&file, path, &s->cloud, "", FIELDS, s->view));
     PG_TRY (pg_exodus_write (file, 1, s->view));
+    pg_exodus_size (file, &steps, &bytes);
+    pg_exodus_close (&file);
+    PG_TRY (pg_exodus_open (&file, path, &s->cloud, FIELDS, s->view, steps, bytes));
+    PG_TRY (pg_exodus_write (file, 2, s->view));
     pg_exodus_close (&file);
     PG_TRY (pg_exodus_points (path, &c, &n, &time));
     PG_TRY (pg_exodus_read (path, "stress", -1, &n, &m, &value));
@@ -403,6 +554,8 @@ int main (void)
         cmocka_unit_test (points_come_back_before_the_first_step), cmocka_unit_test (names_and_units_come_back),
         cmocka_unit_test (a_wrong_field_or_step_names_those_present), cmocka_unit_test (the_layout_is_that_of_exodus),
         cmocka_unit_test (an_open_file_is_readable_from_outside), cmocka_unit_test (a_killed_writer_leaves_its_steps),
+        cmocka_unit_test (no_instant_to_be_killed_at_is_bad), cmocka_unit_test (a_step_that_does_not_fit_costs_no_other),
+        cmocka_unit_test (an_opened_file_goes_on_where_it_is_told), cmocka_unit_test (a_file_of_another_run_is_not_gone_on_with),
         cmocka_unit_test (many_steps_append), cmocka_unit_test (nan_comes_back),
         cmocka_unit_test (a_path_that_cannot_be_written_is_named), cmocka_unit_test (other_fields_than_announced_are_refused),
         cmocka_unit_test (what_is_no_result_is_refused), cmocka_unit_test (any_allocation_may_fail),

@@ -97,8 +97,45 @@ static void a_row_that_does_not_fit_is_reported (void **state)
     for (int k = 0; k < 20 && status == PG_OK; k++) status = pg_table_row (t, (double[]) { 0.1, 0.2, 0.3 });
     setrlimit (RLIMIT_FSIZE, &old);
     assert_int_equal (status, PG_E_FILE);
-    check_contains (pg_last_error (), "limited.csv");
+    check_contains (pg_last_error (), "limited.csv: File too large");
+    long rows = pg_table_rows (t);
+    char text[1000];
+    size_t n = slurp (file_at ("limited.csv"), text, sizeof text), lines = 0;
+    for (size_t k = 0; k < n; k++) lines += text[k] == '\n';
+    assert_true (rows > 0 && (long) lines == rows + 1 && text[n - 1] == '\n');     /* whole rows only                    */
+    check_ok (pg_table_row (t, (double[]) { 4, 5, 6 }));                           /* there is room again                */
+    slurp (file_at ("limited.csv"), text, sizeof text);
+    check_contains (text, "0.29999999999999999\n4,5,6\n");
     pg_table_close (&t);
+}
+
+static void an_opened_table_goes_on_after_the_rows_kept (void **state)
+{
+    (void) state;
+    const char *path = file_at ("goes_on.csv");
+    char text[1000];
+    pg_table *t;
+    check_ok (pg_table_create (&t, path, 2, (const char *const[]) { "a", "two\nlines" }));
+    for (int k = 0; k < 4; k++) check_ok (pg_table_line (t, (const char *const[]) { k == 1 ? "x\ny" : "x", "\"" }));
+    assert_int_equal (pg_table_rows (t), 4);
+    pg_table_close (&t);
+    FILE *file = fopen (path, "a");
+    fputs ("x,half a ro", file);                       /* as a killed run may leave it                                    */
+    fclose (file);
+    check_ok (pg_table_open (&t, path, 2, 2));
+    assert_int_equal (pg_table_rows (t), 2);
+    check_ok (pg_table_row (t, (double[]) { 1, 2 }));
+    pg_table_close (&t);
+    slurp (path, text, sizeof text);
+    assert_string_equal (text, "a,\"two\nlines\"\nx,\"\"\"\"\n\"x\ny\",\"\"\"\"\n1,2\n");
+    check_ok (pg_table_open (&t, path, 2, 0));
+    pg_table_close (&t);
+    slurp (path, text, sizeof text);
+    assert_string_equal (text, "a,\"two\nlines\"\n");
+    check_fails (pg_table_open (&t, path, 2, 1), PG_E_FILE);
+    check_contains (pg_last_error (), "goes_on.csv has 0 rows of the 1");
+    assert_null (t);
+    check_fails (pg_table_open (&t, file_at ("absent.csv"), 2, 0), PG_E_FILE);
 }
 
 static void any_allocation_may_fail (void **state)
@@ -122,7 +159,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (numbers_come_back_exactly), cmocka_unit_test (a_row_is_on_disk_at_once),
         cmocka_unit_test (texts_are_quoted_where_they_must_be), cmocka_unit_test (a_folder_that_is_missing_is_named),
-        cmocka_unit_test (a_full_disk_is_reported), cmocka_unit_test (a_row_that_does_not_fit_is_reported),
+        cmocka_unit_test (a_full_disk_is_reported), cmocka_unit_test (an_opened_table_goes_on_after_the_rows_kept), cmocka_unit_test (a_row_that_does_not_fit_is_reported),
         cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/table", tests, NULL, remove_folder);

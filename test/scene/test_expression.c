@@ -147,7 +147,8 @@ static void wrong_words_name_their_column (void **state)
     REFUSED ("x ** 2", "m2", "column 3: a power is written with ^");
     REFUSED ("* x", "m", "column 1: a number or a name is expected, not '*'");
     REFUSED ("x + 3 glob", "m", "column 6: unknown unit 'glob'");
-    REFUSED ("1e999*x", "m", "column 1: the number is too large");
+    REFUSED ("1e999*x", "m", "column 1: the number is too large: in SI units at most 1e60");
+    REFUSED ("x + 1e-300 m", "m", "column 5: the number is too small: in SI units 0, or at least 1e-60");
 }
 
 static void variables_used_are_known (void **state)

@@ -121,8 +121,8 @@ static void broken_yaml_names_the_place (void **state)
              "plate.yaml:2:1: not valid YAML: found character that cannot start any token while scanning for the "
              "next token (indent with spaces, not tabs)");
     REFUSED ("a: [1, 2\nb: 3\n", "plate.yaml:2:2: not valid YAML: did not find expected ',' or ']' while parsing a flow sequence");
-    REFUSED ("a: *b\n", "plate.yaml:1:4: not valid YAML: found undefined alias");
-    REFUSED ("a: 1\nb: \xFF\n", "plate.yaml:2:4: not valid YAML: invalid leading UTF-8 octet");
+    REFUSED ("a: *b\n", "plate.yaml:1:4: not valid YAML: found undefined alias (a text that begins with * needs quotes)");
+    REFUSED ("a: 1\nb: \xFF\n", "plate.yaml:2:4: not a text in UTF-8: invalid leading UTF-8 octet");
     REFUSED ("a: 1\n---\nb: 2\n", "plate.yaml:3:1: a second document: a scene is one document");
     REFUSED ("", "plate.yaml:1:1: the scene is empty");
     REFUSED ("# nothing\n", "plate.yaml:1:1: the scene is empty");

@@ -56,8 +56,11 @@ static void nonsense_is_refused (void **state)
     REFUSED ("fast", "Pa", "must be a number with a unit of Pa, for example 10 GPa");
     REFUSED ("", "1", "must be a number, for example 0.25");
     REFUSED ("0,5", "1", "is not a number: the decimal mark is a point");
-    REFUSED ("1e999", "1", "is too large for a number");
-    REFUSED ("1e306 GPa", "Pa", "is too large for a number");
+    REFUSED ("1e999", "1", "is too large for a number: in SI units at most 1e60");
+    REFUSED ("1e306 GPa", "Pa", "is too large for a number: in SI units at most 1e60");
+    REFUSED ("-1e58 GPa", "Pa", "is too large for a number: in SI units at most 1e60");
+    REFUSED ("1e-61", "1", "is too small for a number: in SI units 0, or at least 1e-60");
+    REFUSED ("1e-309 us", "s", "is too small for a number: in SI units 0, or at least 1e-60");
     REFUSED ("2 spacing", "m", "spacing is not a unit here");
     REFUSED ("inf", "m", "must be a number with a unit of m, for example 5 mm");
     REFUSED ("nan", "m", "must be a number with a unit of m, for example 5 mm");

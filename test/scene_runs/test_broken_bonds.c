@@ -54,6 +54,7 @@ static const pg_sparse *matrix_of (const run *r)
 {
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
+    check_ok (force->assemble (self));
     return force->matrix (self);
 }
 

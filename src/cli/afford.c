@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Before anything large is allocated: what will the run need, and is there that much? */
+#include "cli.h"
+#include "perigal/stiffness.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* "8GB", "500 MB", "1.5 GiB", "1e9": bytes; NAN: none. */
+double afford_size (const char *text)
+{
+    static const struct { const char *unit; double size; } units[] = {
+        { "", 1 }, { "B", 1 }, { "kB", 1e3 }, { "KB", 1e3 }, { "MB", 1e6 }, { "GB", 1e9 }, { "TB", 1e12 },
+        { "k", 1e3 }, { "K", 1e3 }, { "M", 1e6 }, { "G", 1e9 }, { "T", 1e12 },
+        { "KiB", 1024 }, { "MiB", 1048576 }, { "GiB", 1073741824 }, { "TiB", 1099511627776 } };
+    char *end;
+    double v = strtod (text, &end);
+    if (end == text || !(v > 0) || !isfinite (v)) return NAN;
+    while (*end == ' ') end++;
+    for (size_t k = 0; k < sizeof units / sizeof *units; k++) if (strcmp (end, units[k].unit) == 0) return v * units[k].size;
+    return NAN;
+}
+
+double afford_available (const command *c) { return c->memory > 0 ? c->memory : pg_available_memory (""); }
+
+/* A scene of its own: faults are told when the problem is built, once. */
+pg_status afford_scene (const command *c, pg_forecast *f)
+{
+    pg_status status = PG_OK;
+    pg_scene *scene = NULL;
+    memset (f, 0, sizeof *f);
+    PG_TRY (command_scene (c, &scene));
+    status = pg_forecast_scene (f, scene);
+    if (status == PG_E_SCENE || status == PG_E_FILE) {
+        memset (f, 0, sizeof *f);
+        status = PG_OK;
+        goto done;
+    }
+    PG_TRY (status);
+    PG_TRY (pg_forecast_afford (f, afford_available (c)));
+done:
+    pg_scene_free (&scene);
+    return status;
+}
+
+/* Ordering and symbolic analysis of the node graph, as the solver will do it. */
+static pg_status analyse (pg_forecast *f, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_sparse G = { 0 };
+    pg_linear_info info;
+    const pg_family *seen[2] = { &p->rows[f->nodal ? PG_NODES : PG_POINTS].family, &p->rows[PG_FACETS].family };
+    size_t pinned = 0;
+    for (size_t l = 0; l < p->nload; l++) pinned += pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
+    PG_TRY (pg_stiffness_graph (&G, p->cloud.n, pinned ? 2 : 1, seen));
+    PG_TRY (pg_linear_forecast (&G, p->dim, &info));
+    pg_forecast_analysed (f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
+    if (f->slaves > 0) f->analysed = 0;                /* elimination joins the masters: a little more                   */
+done:
+    pg_sparse_clear (&G);
+    return status;
+}
+
+pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p, int thorough)
+{
+    static const double most = 3e5;                    /* points whose graph is analysed: some ten seconds               */
+    pg_status status = PG_OK;
+    double available = afford_available (c);
+    PG_TRY (pg_forecast_problem (f, p));
+    int close = f->peak > 0.5 * available;
+    if ((thorough || close) && f->points <= most && strcmp (f->linear, "cholmod") == 0) PG_TRY (analyse (f, p));
+    PG_TRY (pg_forecast_afford (f, available));
+done:
+    return status;
+}

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The plan of perigal check as JSON (doc/output.md). */
+#include "cli.h"
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static void counts (pg_json *j, const plan *p)
+{
+    static const char *const sets[PG_BOND_SETS] = { "node_node", "point_node", "facet_node" };
+    const pg_problem *q = p->problem;
+    pg_json_text (j, "title", q->title);
+    pg_json_count (j, "dimension", (size_t) q->dim);
+    pg_json_count (j, "points", q->cloud.n);
+    pg_json_open (j, "spacing", '[');
+    for (int k = 0; k < q->dim; k++) pg_json_number (j, NULL, q->cloud.step[k]);
+    pg_json_shut (j);
+    pg_json_count (j, "cells", q->cells.n);
+    pg_json_count (j, "facets", q->cells.nfacet);
+    pg_json_count (j, "evaluation_points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n);
+    pg_json_count (j, "boundary_points", q->rows[PG_FACETS].n);
+    pg_json_open (j, "bonds", '{');
+    for (int s = 0; s < PG_BOND_SETS; s++) pg_json_count (j, sets[s], q->first_bond[s + 1] - q->first_bond[s]);
+    pg_json_shut (j);
+    pg_json_count (j, "dofs", q->cloud.n * (size_t) q->dim);
+    pg_json_count (j, "eroded_points", q->eroded);
+    pg_json_number (j, "horizon", q->approx.horizon);
+    pg_json_number (j, "horizon_spacings", q->approx.horizon / q->cloud.h);
+    pg_json_number (j, "mean_family", (double) q->first_bond[1] / (double) q->cloud.n);
+}
+
+static void constants (pg_json *j, const pg_problem *p)
+{
+    char text[512];
+    pg_json_open (j, "materials", '[');
+    for (size_t k = 0; k < p->nmaterial; k++) {
+        const pg_material *m = &p->material[k];
+        plan_waves w = plan_waves_of (m, p->dim);
+        pg_json_open (j, NULL, '{');
+        pg_json_text (j, "name", m->name);
+        pg_json_number (j, "youngs_modulus", m->modulus);
+        pg_json_number (j, "poissons_ratio", m->parameter[1]);
+        pg_json_number (j, "density", m->density);
+        pg_json_number (j, "lambda", w.lambda);
+        pg_json_number (j, "mu", w.mu);
+        pg_json_number (j, "pressure_wave", w.pressure);
+        pg_json_number (j, "shear_wave", w.shear);
+        pg_criterion_describe (&p->criterion[k], text, sizeof text);
+        pg_json_text (j, "criterion", text);
+        pg_json_shut (j);
+    }
+    pg_json_shut (j);
+}
+
+static void steps (pg_json *j, const plan *p)
+{
+    plan_times t = plan_times_of (p);
+    pg_json_text (j, "solver", p->options->kind);
+    if (strcmp (p->options->kind, "static") == 0) pg_json_text (j, "stepping", p->options->event ? "event" : "fixed");
+    else {
+        pg_json_number (j, "dt", p->options->dt);
+        pg_json_count (j, "steps", (size_t) p->options->steps);
+        pg_json_number (j, "courant", t.courant);
+    }
+    pg_json_number (j, "explicit_dt", t.omega > 0 ? t.dt : NAN);
+    pg_json_text (j, "explicit_dt_from", t.omega > 0 ? t.measured ? "measured" : "estimate" : "no density");
+}
+
+static void memory (pg_json *j, const plan *p)
+{
+    const pg_forecast *f = p->forecast;
+    int factors = strcmp (f->linear, "cg") != 0;
+    pg_json_text (j, "linear_solver", f->linear);
+    if (factors) {
+        pg_json_text (j, "ordering", f->analysed ? f->ordering : "estimate");
+        pg_json_number (j, "matrix_entries", f->matrix_entries);
+        pg_json_number (j, "factor_entries", f->factor_entries);
+        pg_json_number (j, "factor_flops", f->factor_flops);
+        pg_json_number (j, "factor_seconds", f->factor_flops / 20e9);
+    }
+    pg_json_open (j, "bytes", '{');
+    for (int k = 0; k < PG_BYTES_COUNT; k++) {
+        char name[32];
+        snprintf (name, sizeof name, "%s", pg_forecast_item (k));
+        for (char *c = name; *c; c++) if (*c == ' ') *c = '_';
+        pg_json_number (j, name, f->bytes[k]);
+    }
+    pg_json_number (j, "peak", f->peak);
+    pg_json_number (j, "available", p->available);
+    pg_json_shut (j);
+}
+
+static void first (pg_json *j, const plan *p)
+{
+    const first_break *b = p->first;
+    if (!b->solved) return;
+    pg_json_open (j, "first_break", '{');
+    pg_json_number (j, "load_factor", b->factor);
+    pg_json_number (j, "utilisation", b->utilisation);
+    pg_json_open (j, "place", '[');
+    for (int k = 0; k < p->problem->dim && isfinite (b->factor); k++) pg_json_number (j, NULL, b->place[k]);
+    pg_json_shut (j);
+    pg_json_number (j, "displacement", b->displacement);
+    pg_json_number (j, "residual", b->residual);
+    pg_json_shut (j);
+}
+
+static pg_status write_plan (const plan *p, const char *path)
+{
+    pg_status status = PG_OK;
+    pg_json *j = NULL;
+    pg_skip skip[8];
+    size_t n = plan_skips (p, skip, 8);
+    PG_TRY (pg_json_create (&j, path));
+    pg_json_open (j, NULL, '{');
+    counts (j, p);
+    constants (j, p->problem);
+    steps (j, p);
+    memory (j, p);
+    first (j, p);
+    pg_json_open (j, "skipped", '[');
+    for (size_t k = 0; k < n; k++) {
+        pg_json_open (j, NULL, '{');
+        pg_json_text (j, "what", skip[k].what);
+        pg_json_text (j, "why", skip[k].why);
+        pg_json_shut (j);
+    }
+    pg_json_shut (j);
+    pg_json_shut (j);
+    status = pg_json_close (&j);
+done:
+    return status;
+}
+
+/* The writer replaces files as a whole; so through one. */
+pg_status plan_print_json (const plan *p)
+{
+    pg_status status = PG_OK;
+    const char *folder = getenv ("TMPDIR");
+    char path[1024], text[4096];
+    FILE *file = NULL;
+    snprintf (path, sizeof path, "%.900s/perigal-plan-XXXXXX", folder && *folder ? folder : "/tmp");
+    int made = mkstemp (path);
+    if (made < 0) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
+    close (made);
+    PG_TRY (write_plan (p, path));
+    file = fopen (path, "r");
+    if (!file) PG_FAIL (PG_E_FILE, "cannot read %s: %s", path, strerror (errno));
+    while (fgets (text, sizeof text, file)) fputs (text, stdout);
+done:
+    if (file) fclose (file);
+    if (made >= 0) remove (path);
+    return status;
+}

@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Fields of a result as pictures: reads steps of DIR/result.e, chooses component and points, names files, titles panels. */
+#include "plot.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct {
+    pg_cloud cloud;
+    pg_scene *scene;                                   /* the copy the run left, NULL when there is none                 */
+    pg_cracks cracks;
+    size_t   nstep;
+    double  *time;
+    int      component, components, norm;              /* of the field; norm: its size                                   */
+    char     name[128], unit[16];                      /* on the colour bar                                              */
+} source;
+
+typedef struct { double *value, *u, *select; char title[64]; } stage;          /* n, n x dim, n                          */
+
+/* ---- components ---------------------------------------------------------------------------------------------------------------- */
+static int index_of (const char *word, const char *list)
+{
+    int k = 0;
+    for (const char *s = list; *s; s += strcspn (s, "|"), s += *s == '|', k++)
+        if (strlen (word) == strcspn (s, "|") && strncmp (s, word, strlen (word)) == 0) return k;
+    return -1;
+}
+
+/* "x|y|z", "xx|yy|xy" ...: names of the components of m values a point. */
+static const char *component_names (int dim, int m)
+{
+    static const char *const axes[] = { "", "x", "x|y", "x|y|z" };
+    if (m > 1 && m == dim) return axes[dim];
+    if (dim == 2 && m == 3) return "xx|yy|xy";
+    return dim == 3 && m == 6 ? "xx|yy|zz|xy|yz|zx" : "";
+}
+
+/* "2" -> 2; -1 for anything else */
+static int number_of (const char *text, int most)
+{
+    char *end;
+    long k = strtol (text, &end, 10);
+    return end == text || *end || k < 0 || k >= most ? -1 : (int) k;
+}
+
+static pg_status choose_component (const plot_request *q, source *s)
+{
+    pg_status status = PG_OK;
+    int dim = s->cloud.dim, m = s->components, k = 0;
+    const char *names = component_names (dim, m), *wanted = q->component;
+    if (!wanted && m > 1) wanted = m == dim || !names[0] ? "magnitude" : "xx";
+    s->norm = wanted && strcmp (wanted, "magnitude") == 0 && m > 1;
+    if (wanted && !s->norm) {
+        k = index_of (wanted, names);
+        if (k < 0) k = number_of (wanted, m);
+        if (k < 0 && m == 1) PG_FAIL (PG_E_USAGE, "field %s has one component", q->field);
+        if (k < 0) PG_FAIL (PG_E_USAGE, "field %s has no component %s: 0 to %d%s%s or magnitude", q->field, wanted, m - 1, names[0] ? ", " : "", names);
+    }
+    s->component = k;
+    if (s->norm) snprintf (s->name, sizeof s->name, "|%.31s|", q->field);
+    else if (m > 1 && names[0]) {
+        for (; k > 0; k--) names += strcspn (names, "|") + 1;
+        snprintf (s->name, sizeof s->name, "%.31s_{%.*s}", q->field, (int) strcspn (names, "|"), names);
+    } else snprintf (s->name, sizeof s->name, m > 1 ? "%.31s %d" : "%.31s", q->field, k);
+done:
+    return status;
+}
+
+/* Length of a vector or norm of a symmetric tensor (engineering strains count half). */
+static double magnitude (const double *v, int dim, int m, double shear)
+{
+    double sum = 0;
+    int tensor = m != dim && m == dim * (dim + 1) / 2;
+    for (int c = 0; c < m; c++) sum += v[c] * v[c] * (tensor && c >= dim ? 2 * shear * shear : 1);
+    return sqrt (sum);
+}
+
+/* ---- reading ---------------------------------------------------------------------------------------------------------------------- */
+/* The cracks of the scene the run kept a copy of; a picture without them when there is none. */
+static void read_scene (const plot_request *q, source *s)
+{
+    char path[PLOT_PATH];
+    snprintf (path, sizeof path, "%.2100s/scene.yaml", q->directory);
+    if (access (path, R_OK) != 0 || pg_scene_load (&s->scene, path) != PG_OK) return;
+    if (pg_cracks_read (&s->cracks, s->scene) != PG_OK) s->cracks = (pg_cracks) { 0 };
+}
+
+static pg_status open_source (const plot_request *q, source *s)
+{
+    pg_status status = PG_OK;
+    double *field = NULL;
+    size_t n;
+    PG_TRY (pg_exodus_points (q->result, &s->cloud, &s->nstep, &s->time));
+    PG_TRY (pg_exodus_read (q->result, q->field, 0, &n, &s->components, &field));
+    PG_TRY (pg_exodus_unit (q->result, q->field, s->unit));
+    if (s->cloud.dim != 3 && (q->style.section || q->style.view || q->limited || q->style.direction[0] != 0 || q->style.direction[1] != 0 || q->style.direction[2] != 0))
+        PG_FAIL (PG_E_USAGE, "--section, --view, --direction and --above are for 3D results; %s is %dD", q->result, s->cloud.dim);
+    PG_TRY (choose_component (q, s));
+    read_scene (q, s);
+done:
+    pg_free (field);
+    return status;
+}
+
+static void close_source (source *s)
+{
+    pg_cracks_clear (&s->cracks);
+    pg_scene_free (&s->scene);
+    pg_free (s->time);
+    pg_cloud_clear (&s->cloud);
+}
+
+/* "time 0.002 s", "load factor 0.5"; by event stepping the number of the event. */
+static void name_stage (const source *s, int step, char *text, size_t size)
+{
+    const char *kind = s->scene ? pg_scene_text (s->scene, "solver.kind") : "", *stepping = s->scene ? pg_scene_text (s->scene, "solver.stepping") : "";
+    double time = s->time[step], last = s->time[s->nstep - 1];
+    int event = strcmp (stepping, "event") == 0 || (strcmp (stepping, "auto") == 0 && last > 1);        /* load factors end at 1 */
+    if (strcmp (kind, "newmark") == 0) snprintf (text, size, "time %.4g s", time);
+    else if (strcmp (kind, "static") == 0) snprintf (text, size, event ? "after event %.0f" : "load factor %.4g", time);
+    else snprintf (text, size, "step %d, time %.6g", step, time);
+}
+
+static pg_status read_stage (const plot_request *q, const source *s, int step, stage *g)
+{
+    pg_status status = PG_OK;
+    double *field = NULL, shear = strstr (q->field, "strain") ? 0.5 : 1;
+    size_t n;
+    int m;
+    PG_TRY (pg_exodus_read (q->result, q->field, step, &n, &m, &field));
+    PG_ALLOC (g->value, n);
+    for (size_t i = 0; i < n; i++) {
+        const double *v = field + i * (size_t) m;
+        g->value[i] = s->norm ? magnitude (v, s->cloud.dim, m, shear) : v[s->component];
+    }
+    if (q->style.magnify != 0) {
+        PG_TRY (pg_exodus_read (q->result, "displacement", step, &n, &m, &g->u));
+        if (m != s->cloud.dim) PG_FAIL (PG_E_FILE, "%s: displacement has %d components", q->result, m);
+    }
+    if (q->style.view == PG_VIEW_CRACK && !q->limited) PG_TRY (pg_exodus_read (q->result, "damage", step, &n, &m, &g->select));
+    name_stage (s, step < 0 ? (int) s->nstep - 1 : step, g->title, sizeof g->title);
+done:
+    pg_free (field);
+    return status;
+}
+
+static void drop_stage (stage *g)
+{
+    pg_free (g->value), pg_free (g->u), pg_free (g->select);
+    *g = (stage) { 0 };
+}
+
+/* ---- drawing ---------------------------------------------------------------------------------------------------------------------- */
+static void add_plain (char *out, size_t size, const char *text)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
+    size_t n = strlen (out);
+    for (; *text && n + 1 < size; text++) {
+        if (strchr (plain, *text)) out[n++] = *text;
+        else if (n > 0 && out[n - 1] != '_') out[n++] = '_';
+    }
+    while (n > 0 && out[n - 1] == '_') n--;
+    out[n] = 0;
+}
+
+/* DIR/FIELD-COMPONENT_VIEW_0007.png, or --out with the number before its ending. */
+static void name_picture (const plot_request *q, int number, char *path, size_t size)
+{
+    char name[160] = "", count[16] = "";
+    if (number >= 0) snprintf (count, sizeof count, "_%04d", number);
+    if (q->out) {
+        const char *dot = strrchr (q->out, '.');
+        size_t n = dot && !strchr (dot, '/') ? (size_t) (dot - q->out) : strlen (q->out);
+        snprintf (path, size, "%.*s%s%s", (int) n, q->out, count, q->out + n);
+        return;
+    }
+    add_plain (name, 60, q->field);
+    if (q->component) strcat (name, "-"), add_plain (name, 90, q->component);
+    if (q->look) strcat (name, "_"), add_plain (name, 130, q->look);
+    if (q->panels) strcat (name, "_steps");
+    snprintf (path, size, "%.2100s/%s%s.png", q->directory, name, count);
+}
+
+/* One colour bar for all pictures of a series; blue to red where both signs occur. */
+static pg_status widen_range (const plot_request *q, const source *s, const stage *g, pg_picture_style *style, int *any)
+{
+    pg_status status = PG_OK;
+    double low, high;
+    int found;
+    PG_TRY (pg_picture_range (s->cloud.n, g->value, style->clip ? 2 : 0, &low, &high, &found));
+    if (q->limited) low = fmax (low, fmin (q->style.above, high));
+    if (found) style->low = *any ? fmin (style->low, low) : low, style->high = *any ? fmax (style->high, high) : high;
+    *any |= found;
+done:
+    return status;
+}
+
+static void settle_range (const plot_request *q, pg_picture_style *style)
+{
+    style->diverging = style->low < 0 && style->high > 0;
+    if (style->diverging) style->high = fmax (-style->low, style->high), style->low = -style->high;
+    if (strcmp (q->field, "damage") == 0) style->low = 0, style->high = 1;
+    if (q->ranged) style->low = q->style.low, style->high = q->style.high, style->diverging &= style->low == -style->high;
+}
+
+static pg_status draw (const plot_request *q, const source *s, size_t n, const stage *g, const pg_picture_style *given, int number)
+{
+    pg_status status = PG_OK;
+    char title[256], label[160], path[PLOT_PATH];
+    pg_panel *panel = NULL;
+    pg_picture_style style = *given;
+    int crack = style.view == PG_VIEW_CRACK;
+    PG_ALLOC (panel, n);
+    for (size_t k = 0; k < n; k++)
+        panel[k] = (pg_panel) { n > 1 || s->cloud.dim == 1 ? g[k].title : NULL, g[k].value, g[k].u, q->limited ? g[k].value : g[k].select };
+    if (crack && !q->limited) style.above = PG_CRACK_DAMAGE;
+    style.by_depth = crack && strcmp (q->field, "damage") == 0;
+    int used = snprintf (title, sizeof title, "%s%s%.60s", s->name, q->look ? ", " : "", q->look ? q->look : "");
+    if (crack || q->limited) used += snprintf (title + used, sizeof title - (size_t) used, " (%s\xe2\x89\xa5 %.4g%s%s)", q->limited ? "" : "damage ", style.above,
+        q->limited && s->unit[0] ? " " : "", q->limited ? s->unit : "");
+    if (n == 1) used += snprintf (title + used, sizeof title - (size_t) used, ", %s", g->title);
+    if (style.magnify != 0) snprintf (title + used, sizeof title - (size_t) used, ", displacements \xc3\x97 %g", style.magnify);
+    snprintf (label, sizeof label, "%s%s%s%s", s->name, s->unit[0] ? " (" : "", s->unit, s->unit[0] ? ")" : "");
+    style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL;
+    name_picture (q, number, path, sizeof path);
+    PG_TRY (pg_picture_panels (path, &s->cloud, n, panel, q->columns, &style));
+    puts (path);
+done:
+    pg_free (panel);
+    return status;
+}
+
+static pg_status draw_each (const plot_request *q, const source *s)
+{
+    pg_status status = PG_OK;
+    pg_picture_style style = q->style;
+    style.clip = strcmp (q->field, "displacement") == 0 || strcmp (q->field, "velocity") == 0;
+    stage g = { 0 };
+    int found = 0;
+    for (int k = 0; k < (int) s->nstep; k++) {
+        PG_TRY (read_stage (q, s, k, &g));
+        PG_TRY (widen_range (q, s, &g, &style, &found));
+        drop_stage (&g);
+    }
+    settle_range (q, &style);
+    for (int k = 0; k < (int) s->nstep; k++) {
+        PG_TRY (read_stage (q, s, k, &g));
+        PG_TRY (draw (q, s, 1, &g, &style, k));
+        drop_stage (&g);
+    }
+done:
+    drop_stage (&g);
+    return status;
+}
+
+static pg_status draw_together (const plot_request *q, const source *s)
+{
+    pg_status status = PG_OK;
+    pg_picture_style style = q->style;
+    style.clip = strcmp (q->field, "displacement") == 0 || strcmp (q->field, "velocity") == 0;
+    stage *g = NULL;
+    int found = 0;
+    PG_ALLOC (g, (size_t) q->steps);
+    for (int k = 0; k < q->steps; k++) {
+        PG_TRY (read_stage (q, s, q->step[k], &g[k]));
+        PG_TRY (widen_range (q, s, &g[k], &style, &found));
+    }
+    settle_range (q, &style);
+    if (!q->ranged && strcmp (q->field, "damage") != 0) style.low = style.high = 0;      /* of what is shown */
+    PG_TRY (draw (q, s, (size_t) q->steps, g, &style, -1));
+done:
+    for (int k = 0; g && k < q->steps; k++) drop_stage (&g[k]);
+    pg_free (g);
+    return status;
+}
+
+pg_status pg_plot_field (const plot_request *q)
+{
+    pg_status status = PG_OK;
+    source s = { 0 };
+    PG_TRY (open_source (q, &s));
+    PG_TRY (q->all ? draw_each (q, &s) : draw_together (q, &s));
+done:
+    close_source (&s);
+    return status;
+}

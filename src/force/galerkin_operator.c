@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * K of the Galerkin form, twice: as a product K x straight from the shape functions (nothing to assemble, nothing to update after a break),
+ * and as a sparse matrix, which is made when it is first asked for and whose rows are gathered again when breaking has touched them. */
+#include "galerkin.h"
+#include <string.h>
+
+void galerkin_apply (void *context, const double *x, double *y)
+{
+    galerkin *g = context;
+    memset (y, 0, g->n * (size_t) g->dim * sizeof *y);
+    galerkin_bulk_apply (g, x, y);
+    if (g->npin || g->npeg) galerkin_boundary_apply (g, x, y);
+}
+
+/* diag K_aa += w B_a' D B_a of the bulk; the diagonal of the boundary and stabilisation terms from their blocks */
+static void bulk_diagonal (galerkin *g, double *d)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
+    for (size_t p = 0; p < r->n; p++) {
+        const double *D = galerkin_material (g, g->bulk, p)->D;
+        double w = r->weight[p], normal[3], shear[3][3] = { { 0 } };
+        for (size_t a = 0; a < dim; a++) normal[a] = w * D[a * nv + a];
+        if (dim == 2) shear[0][1] = shear[1][0] = w * D[8];
+        if (dim == 3) shear[0][1] = shear[1][0] = w * D[21], shear[1][2] = shear[2][1] = w * D[28], shear[2][0] = shear[0][2] = w * D[35];
+        for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+            const double *q = r->dN + k * dim;
+            double *to = d + (size_t) r->family.node[k] * dim;
+            for (size_t a = 0; a < dim; a++) {
+                to[a] += normal[a] * q[a] * q[a];
+                for (size_t b = 0; b < dim; b++) if (b != a) to[a] += shear[a][b] * q[b] * q[b];
+            }
+        }
+    }
+}
+
+typedef void (*blocks) (void *context, size_t p, size_t a, size_t m, double *out);
+
+/* Adds the diagonal of the blocks K_aa of every point; `wide` holds a row of blocks. */
+static void add_diagonal_blocks (galerkin *g, const pg_family *f, blocks make, double *wide, double *d)
+{
+    size_t dim = (size_t) g->dim;
+    for (size_t p = 0; p < f->n; p++)
+        for (size_t a = 0; a < f->start[p + 1] - f->start[p]; a++) {
+            memset (wide, 0, (a + 1) * dim * dim * sizeof *wide);
+            make (g, p, a, a + 1, wide);
+            for (size_t k = 0; k < dim; k++) d[(size_t) f->node[f->start[p] + a] * dim + k] += wide[(a * dim + k) * dim + k];
+        }
+}
+
+static size_t widest (const pg_family *f)
+{
+    size_t most = 0;
+    for (size_t p = 0; p < f->n; p++) if (f->start[p + 1] - f->start[p] > most) most = f->start[p + 1] - f->start[p];
+    return most;
+}
+
+/* Exact for isotropic tangents. Without memory for the scratch the boundary terms are left out: it preconditions all the same. */
+void galerkin_diagonal (void *context, double *d)
+{
+    galerkin *g = context;
+    size_t ndof = g->n * (size_t) g->dim;
+    if (g->diagonal_of != g->revision || g->revision == 0) {
+        size_t most = widest (&g->rows[PG_FACETS].family), bulk = g->problem->silling > 0 ? widest (&g->rows[g->bulk].family) : 0;
+        size_t peg = widest (&g->peg_family);
+        most = most > bulk ? most : bulk, most = most > peg ? most : peg;
+        double *wide = pg_calloc (most * (size_t) (g->dim * g->dim), sizeof *wide);
+        memset (g->diagonal, 0, ndof * sizeof *g->diagonal);
+        if (!wide || !(g->problem->silling > 0)) bulk_diagonal (g, g->diagonal);
+        else add_diagonal_blocks (g, &g->rows[g->bulk].family, galerkin_bulk_blocks, wide, g->diagonal);
+        if (wide && g->npin) add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, wide, g->diagonal);
+        if (wide && g->npeg) add_diagonal_blocks (g, &g->peg_family, galerkin_peg_blocks, wide, g->diagonal);
+        g->diagonal_of = g->revision;
+        pg_free (wide);
+    }
+    memcpy (d, g->diagonal, ndof * sizeof *d);
+}
+
+/* ---- the matrix -------------------------------------------------------------------------------------------------------------- */
+static void mark_family (galerkin *g, int set, size_t p)
+{
+    const pg_family *f = &g->rows[set].family;
+    for (size_t e = f->start[p]; e < f->start[p + 1]; e++) g->stale[f->node[e]] = 1;
+}
+
+void galerkin_mark_stale (galerkin *g, const size_t *count)
+{
+    size_t marked = count[g->bulk] + (g->npin ? count[PG_FACETS] : 0) + (g->npeg ? count[PG_NODES] : 0);
+    for (size_t k = 0; k < count[g->bulk]; k++) mark_family (g, g->bulk, g->list[g->bulk][k]);
+    for (size_t k = 0; g->npin && k < count[PG_FACETS]; k++) mark_family (g, PG_FACETS, g->list[PG_FACETS][k]);
+    for (size_t k = 0; g->npeg && k < count[PG_NODES]; k++) mark_family (g, PG_NODES, g->list[PG_NODES][k]);
+    g->revision += marked > 0;
+}
+
+static pg_status create_matrix (galerkin *g)
+{
+    pg_source source[3];
+    size_t n = 0;
+    source[n++] = (pg_source) { &g->rows[g->bulk].family, g, galerkin_bulk_blocks };
+    if (g->npin) source[n++] = (pg_source) { &g->rows[PG_FACETS].family, g, galerkin_facet_blocks };
+    if (g->npeg) source[n++] = (pg_source) { &g->peg_family, g, galerkin_peg_blocks };
+    g->all_stale = 1;
+    return pg_stiffness_create (&g->K, g->n, g->dim, n, source);
+}
+
+pg_status galerkin_assemble (void *self)
+{
+    pg_status status = PG_OK;
+    galerkin *g = self;
+    int *node = NULL;
+    size_t nnode = 0;
+    if (!g->K) PG_TRY (create_matrix (g));
+    if (g->all_stale) PG_TRY (pg_stiffness_gather (g->K, g->n, NULL, g->threads));
+    else {
+        PG_ALLOC (node, g->n);
+        for (size_t i = 0; i < g->n; i++) if (g->stale[i]) node[nnode++] = (int) i;
+        if (nnode) PG_TRY (pg_stiffness_gather (g->K, nnode, node, g->threads));
+    }
+    g->all_stale = 0;
+    memset (g->stale, 0, g->n);
+done:
+    pg_free (node);
+    return status;
+}
+
+const pg_sparse *galerkin_matrix (void *self)
+{
+    galerkin *g = self;
+    return g->K ? pg_stiffness_matrix (g->K) : NULL;
+}
+
+/* ---- consistent mass --------------------------------------------------------------------------------------------------------- */
+/* M_ab = int rho N_a N_b */
+static void mass_blocks (void *context, size_t p, size_t a, size_t m, double *out)
+{
+    const galerkin *g = context;
+    const pg_rows *r = &g->rows[g->bulk];
+    const double *N = r->N + r->family.start[p];
+    double share = galerkin_material (g, g->bulk, p)->density * r->weight[p] * N[a];
+    for (size_t b = 0; b < m; b++) out[b] = share * N[b];
+}
+
+pg_status galerkin_mass_matrix (void *self, const pg_sparse **M)
+{
+    pg_status status = PG_OK;
+    galerkin *g = self;
+    if (!g->M) {
+        pg_source source = { &g->rows[g->bulk].family, g, mass_blocks };
+        PG_TRY (pg_stiffness_create (&g->M, g->n, 1, 1, &source));
+        PG_TRY (pg_stiffness_gather (g->M, g->n, NULL, g->threads));
+    }
+    *M = pg_stiffness_matrix (g->M);
+done:
+    return status;
+}

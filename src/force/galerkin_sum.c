@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The two loops over evaluation points that everything costs: displacement and strain from nodal values, and nodal forces from stress,
+ * f_J = sum_p w_p B_pJ' sigma_p. Together they are K x without a matrix: 24 bytes a bond instead of 9 numbers a node pair.
+ * Forces are summed in a fixed number of slices of the points, each over its own range of nodes, and the slices in their order: the
+ * answer does not depend on the number of threads. */
+#include "galerkin.h"
+#include <string.h>
+
+enum { SLICES = 16 };
+
+/* Four numbers at a time; the same operations in the same order with and without AVX. */
+typedef double four __attribute__ ((vector_size (32), aligned (8)));
+#if defined (__x86_64__) && defined (__GNUC__) && !defined (__clang__) && !defined (PG_DEBUG)
+#define WIDE __attribute__ ((target_clones ("avx2", "default")))
+#else
+#define WIDE
+#endif
+#define INLINE static inline __attribute__ ((always_inline))
+
+struct galerkin_slices {
+    size_t  first[SLICES + 1];                         /* points of a slice                                              */
+    size_t  low[SLICES], high[SLICES];                 /* nodes they see                                                 */
+    double *sum[SLICES];                               /* per node of the range, 4 numbers (3D) or dim                   */
+    double *x;                                         /* nodal values, 4 numbers a node (3D)                            */
+};
+
+pg_status galerkin_slices_create (galerkin *g)
+{
+    pg_status status = PG_OK;
+    const pg_family *f = &g->rows[g->bulk].family;
+    galerkin_slices *s = NULL;
+    size_t stride = g->dim == 3 ? 4 : (size_t) g->dim;
+    PG_ALLOC (s, 1);
+    g->slices = s;
+    for (size_t k = 0; k <= SLICES; k++) s->first[k] = f->n * k / SLICES;
+    for (size_t k = 0; k < SLICES; k++) {
+        size_t low = g->n, high = 0;
+        for (size_t e = f->start[s->first[k]]; e < f->start[s->first[k + 1]]; e++) {
+            size_t j = (size_t) f->node[e];
+            low = j < low ? j : low, high = j >= high ? j + 1 : high;
+        }
+        s->low[k] = low < high ? low : 0, s->high[k] = low < high ? high : 0;
+        PG_ALLOC (s->sum[k], (s->high[k] - s->low[k]) * stride);
+    }
+    PG_ALLOC (s->x, g->n * stride);
+done:
+    return status;
+}
+
+void galerkin_slices_free (galerkin *g)
+{
+    galerkin_slices *s = g->slices;
+    for (size_t k = 0; s && k < SLICES; k++) pg_free (s->sum[k]);
+    if (s) pg_free (s->x);
+    pg_free (s);
+    g->slices = NULL;
+}
+
+/* ---- one point -------------------------------------------------------------------------------------------------------------- */
+/* u (optional) and strain of a point in 3D, x having 4 numbers a node */
+INLINE void strain_solid (const pg_rows *r, size_t p, const double *x, double *u, double *e)
+{
+    four h0 = { 0 }, h1 = { 0 }, h2 = { 0 }, s = { 0 };
+    const int *node = r->family.node;
+    for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+        four d = *(const four *) (x + 4 * (size_t) node[k]);
+        const double *q = r->dN + 3 * k;
+        h0 += q[0] * d, h1 += q[1] * d, h2 += q[2] * d;
+        if (u) s += r->N[k] * d;
+    }
+    e[0] = h0[0], e[1] = h1[1], e[2] = h2[2], e[3] = h1[0] + h0[1], e[4] = h2[1] + h1[2], e[5] = h2[0] + h0[2];
+    for (int c = 0; u && c < 3; c++) u[c] = s[c];
+}
+
+/* f (4 numbers a node, from node `low` on) += w B' sigma */
+INLINE void force_solid (const pg_rows *r, size_t p, const double *s, double *f, size_t low)
+{
+    double w = r->weight[p];
+    four s0 = { w * s[0], w * s[3], w * s[5], 0 }, s1 = { w * s[3], w * s[1], w * s[4], 0 }, s2 = { w * s[5], w * s[4], w * s[2], 0 };
+    const int *node = r->family.node;
+    for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+        four *to = (four *) (f + 4 * ((size_t) node[k] - low));
+        const double *q = r->dN + 3 * k;
+        *to += q[0] * s0 + q[1] * s1 + q[2] * s2;
+    }
+}
+
+INLINE void strain_flat (int dim, const pg_rows *r, size_t p, const double *x, double *u, double *e)
+{
+    double u0 = 0, u1 = 0, e0 = 0, e1 = 0, e2 = 0;
+    for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+        if (dim == 1) {
+            double d = x[r->family.node[k]];
+            u0 += r->N[k] * d, e0 += r->dN[k] * d;
+        } else {
+            const double *d = x + 2 * (size_t) r->family.node[k], *q = r->dN + 2 * k;
+            u0 += r->N[k] * d[0], u1 += r->N[k] * d[1];
+            e0 += q[0] * d[0], e1 += q[1] * d[1], e2 += q[1] * d[0] + q[0] * d[1];
+        }
+    }
+    e[0] = e0;
+    if (dim == 2) e[1] = e1, e[2] = e2;
+    if (u) u[0] = u0;
+    if (u && dim == 2) u[1] = u1;
+}
+
+INLINE void force_flat (int dim, const pg_rows *r, size_t p, const double *s, double *f, size_t low)
+{
+    double w = r->weight[p];
+    for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+        size_t j = (size_t) r->family.node[k] - low;
+        if (dim == 1) f[j] += w * r->dN[k] * s[0];
+        else {
+            const double *q = r->dN + 2 * k;
+            f[2 * j] += w * (q[0] * s[0] + q[1] * s[2]), f[2 * j + 1] += w * (q[1] * s[1] + q[0] * s[2]);
+        }
+    }
+}
+
+/* ---- measures ---------------------------------------------------------------------------------------------------------------- */
+typedef struct { galerkin *g; int set; const double *x; const size_t *list; } measuring;
+
+WIDE static void measure_solid (const measuring *m, size_t first, size_t last)
+{
+    galerkin *g = m->g;
+    for (size_t i = first; i < last; i++) {
+        size_t p = m->list ? m->list[i] : i;
+        strain_solid (&g->rows[m->set], p, m->x, g->u[m->set] + 3 * p, g->strain[m->set] + 6 * p);
+    }
+}
+
+static void measure_points (void *context, size_t first, size_t last, int thread)
+{
+    const measuring *m = context;
+    galerkin *g = m->g;
+    size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
+    (void) thread;
+    if (dim == 3) measure_solid (m, first, last);
+    for (size_t i = first; i < last; i++) {
+        size_t p = m->list ? m->list[i] : i;
+        double *e = g->strain[m->set] + p * nv;
+        if (dim < 3) strain_flat (g->dim, &g->rows[m->set], p, m->x, g->u[m->set] + p * dim, e);
+        const pg_material *mat = galerkin_material (g, m->set, p);
+        mat->type->stress (mat, 1, e, g->stress[m->set] + p * nv, g->zz[m->set] + p);
+    }
+}
+
+/* In 3D with 4 numbers a node. */
+static const double *widened (galerkin *g, const double *d)
+{
+    if (g->dim != 3) return d;
+    double *x = g->slices->x;
+    for (size_t i = 0; i < g->n; i++) x[4 * i] = d[3 * i], x[4 * i + 1] = d[3 * i + 1], x[4 * i + 2] = d[3 * i + 2];
+    return x;
+}
+
+void galerkin_measure (galerkin *g, int set, const double *d)
+{
+    size_t bytes = g->n * (size_t) g->dim * sizeof *d;
+    if (g->fresh[set] && memcmp (g->seen[set], d, bytes) == 0) return;
+    memcpy (g->seen[set], d, bytes);
+    measuring m = { g, set, widened (g, d), NULL };
+    pg_parallel (g->threads, g->rows[set].n, measure_points, &m);
+    g->fresh[set] = 1;
+}
+
+void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list)
+{
+    measuring m = { g, set, widened (g, g->seen[set]), list };
+    measure_points (&m, 0, count, 0);
+}
+
+/* ---- forces ------------------------------------------------------------------------------------------------------------------ */
+typedef struct { galerkin *g; const double *x; double *f; } summing;      /* x NULL: stresses of the last measure            */
+
+INLINE void tangent (const double *D, const double *e, double *s)
+{
+    for (int v = 0; v < 6; v++) {
+        s[v] = 0;
+        for (int w = 0; w < 6; w++) s[v] += D[v * 6 + w] * e[w];
+    }
+}
+
+WIDE static void sum_solid (const summing *m, size_t first, size_t last, double *sum, size_t low)
+{
+    galerkin *g = m->g;
+    const pg_rows *r = &g->rows[g->bulk];
+    double e[6], own[6];
+    for (size_t p = first; p < last; p++) {
+        const double *s = g->stress[g->bulk] + 6 * p;
+        if (m->x) {
+            strain_solid (r, p, m->x, NULL, e);
+            tangent (galerkin_material (g, g->bulk, p)->D, e, own);
+            s = own;
+        }
+        force_solid (r, p, s, sum, low);
+    }
+}
+
+static void sum_flat (const summing *m, size_t first, size_t last, double *sum, size_t low)
+{
+    galerkin *g = m->g;
+    const pg_rows *r = &g->rows[g->bulk];
+    size_t nv = (size_t) g->nv;
+    double e[3], own[3];
+    for (size_t p = first; p < last; p++) {
+        const double *s = g->stress[g->bulk] + nv * p, *D = galerkin_material (g, g->bulk, p)->D;
+        if (m->x) {
+            strain_flat (g->dim, r, p, m->x, NULL, e);
+            for (size_t v = 0; v < nv; v++) {
+                own[v] = 0;
+                for (size_t w = 0; w < nv; w++) own[v] += D[v * nv + w] * e[w];
+            }
+            s = own;
+        }
+        force_flat (g->dim, r, p, s, sum, low);
+    }
+}
+
+static void sum_slices (void *context, size_t first, size_t last, int thread)
+{
+    const summing *m = context;
+    galerkin_slices *s = m->g->slices;
+    (void) thread;
+    for (size_t k = first; k < last; k++) {
+        size_t stride = m->g->dim == 3 ? 4 : (size_t) m->g->dim;
+        memset (s->sum[k], 0, (s->high[k] - s->low[k]) * stride * sizeof *s->sum[k]);
+        (m->g->dim == 3 ? sum_solid : sum_flat) (m, s->first[k], s->first[k + 1], s->sum[k], s->low[k]);
+    }
+}
+
+static void add_slices (void *context, size_t first, size_t last, int thread)
+{
+    const summing *m = context;
+    const galerkin_slices *s = m->g->slices;
+    size_t dim = (size_t) m->g->dim, stride = dim == 3 ? 4 : dim;
+    (void) thread;
+    for (size_t k = 0; k < SLICES; k++) {
+        size_t from = first > s->low[k] ? first : s->low[k], to = last < s->high[k] ? last : s->high[k];
+        for (size_t i = from; i < to; i++)
+            for (size_t c = 0; c < dim; c++) m->f[i * dim + c] += s->sum[k][(i - s->low[k]) * stride + c];
+    }
+}
+
+static void sum_all (galerkin *g, const double *x, double *f)
+{
+    summing m = { g, x ? widened (g, x) : NULL, f };
+    pg_parallel_heavy (g->threads, SLICES, sum_slices, &m);
+    pg_parallel (g->threads, g->n, add_slices, &m);
+}
+
+void galerkin_sum_stress (galerkin *g, double *f) { sum_all (g, NULL, f); }
+void galerkin_sum_tangent (galerkin *g, const double *x, double *f) { sum_all (g, x, f); }

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Which material every point is made of: the last entry of `blocks` that claims it. A condition holds or not at the point itself, so that
+ * an interface along edges of cells is exact; a block number of the points' file goes with the nearest node. */
+#include "model.h"
+#include <stdio.h>
+#include <string.h>
+
+typedef struct {
+    pg_expression *where;                              /* NULL: by number                                                */
+    int    number, material;
+    size_t claimed;                                    /* points at which it holds, overridden ones included             */
+} entry;
+typedef struct { size_t n; entry *entry; } entries;
+
+static const char *const kind_of_points[PG_BOND_SETS] = { "nodes", "evaluation points", "boundary points" };
+
+static void clear (entries *e)
+{
+    for (size_t k = 0; e->entry && k < e->n; k++) pg_expression_free (&e->entry[k].where);
+    pg_free (e->entry);
+    *e = (entries) { 0 };
+}
+
+/* ---- the list --------------------------------------------------------------------------------------------------------- */
+static pg_status read_entry (entry *e, const pg_problem *p, const pg_scene *scene, size_t k)
+{
+    pg_status status = PG_OK;
+    char path[64];
+    const char *material = pg_scene_text (scene, "blocks[%zu].material", k);
+    for (size_t m = 0; m < p->nmaterial; m++) if (strcmp (p->material[m].name, material) == 0) e->material = (int) m;
+    if (!pg_scene_given (scene, "blocks[%zu].where", k)) {
+        snprintf (path, sizeof path, "blocks[%zu].block", k);
+        e->number = (int) pg_scene_integer (scene, "%s", path);
+        if (p->lattice.dim) pg_scene_fault (scene, path, "only points from a file have block numbers: use where");
+        return PG_OK;
+    }
+    snprintf (path, sizeof path, "blocks[%zu].where", k);
+    PG_TRY (pg_expression_compile (&e->where, pg_scene_text (scene, "%s", path), "bool"));
+    if (pg_expression_uses (e->where, 't')) pg_scene_fault (scene, path, "a block does not change with t");
+done:
+    return status;
+}
+
+static pg_status read_entries (entries *out, const pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    out->n = pg_scene_count (scene, "blocks");
+    PG_ALLOC (out->entry, out->n);
+    for (size_t k = 0; k < out->n; k++) PG_TRY (read_entry (&out->entry[k], p, scene, k));
+    PG_TRY (pg_scene_verdict (scene));
+done:
+    return status;
+}
+
+/* ---- claims ----------------------------------------------------------------------------------------------------------- */
+/* A point on the boundary is looked at a hair inside its cell: rounding must not take it out of the body. */
+static void inside (const pg_problem *p, int set, size_t point, double *x)
+{
+    const pg_cells *c = &p->cells;
+    size_t dim = (size_t) p->dim, corners = (size_t) c->corners;
+    memcpy (x, p->rows[set].x + point * dim, dim * sizeof *x);
+    if (set != PG_FACETS) return;
+    const double *corner = c->x + (size_t) c->facet_cell[p->rows[set].cell[point]] * corners * dim;
+    for (size_t k = 0; k < dim; k++) {
+        double middle = 0;
+        for (size_t i = 0; i < corners; i++) middle += corner[i * dim + k] / (double) corners;
+        x[k] += 1e-9 * (middle - x[k]);
+    }
+}
+
+/* Block number of a point: its own, or that of the nearest node; -1: it sees no node. */
+static int number_of (const pg_problem *p, int set, size_t point)
+{
+    int node = set == PG_NODES ? (int) point : pg_bonds_nearest (p, set, point);
+    return node < 0 ? -1 : p->cloud.block[node];
+}
+
+/* Material of one point, -1: no entry claims it. */
+static int claim (entries *e, const pg_problem *p, int set, size_t point)
+{
+    double x[3] = { 0 };
+    int found = -1;
+    inside (p, set, point, x);
+    pg_place at = pg_place_of (p->dim, x, 0);
+    for (size_t k = 0; k < e->n; k++) {
+        entry *one = &e->entry[k];
+        int holds = one->where ? pg_expression_value (one->where, &at) != 0 : number_of (p, set, point) == one->number;
+        if (holds) found = one->material, one->claimed++;
+    }
+    return found;
+}
+
+static void fault_of_place (const pg_problem *p, const pg_scene *scene, int set, size_t point, size_t count)
+{
+    char place[96];
+    size_t dim = (size_t) p->dim, at = 0;
+    for (size_t k = 0; k < dim; k++)
+        at += (size_t) snprintf (place + at, sizeof place - at, "%s%.6g", k ? ", " : "", p->rows[set].x[point * dim + k]);
+    pg_scene_fault (scene, "blocks", "no entry claims %zu of %zu %s, the first at [%s] m", count, p->rows[set].n, kind_of_points[set], place);
+}
+
+static void claim_all (entries *e, pg_problem *p, const pg_scene *scene)
+{
+    size_t first = 0;
+    for (int s = 0; s < PG_BOND_SETS; s++) {
+        size_t nobody = 0;
+        for (size_t q = 0; q < p->rows[s].n; q++) {
+            int material = claim (e, p, s, q);
+            if (material < 0 && nobody++ == 0) first = q;
+            p->block[s][q] = material < 0 ? 0 : material;
+        }
+        if (nobody) fault_of_place (p, scene, s, first, nobody);
+    }
+    for (size_t k = 0; k < e->n; k++) {
+        char path[64];
+        snprintf (path, sizeof path, "blocks[%zu].%s", k, e->entry[k].where ? "where" : "block");
+        if (e->entry[k].claimed == 0) pg_scene_fault (scene, path, "claims no point");
+    }
+}
+
+/* Without a list the block column of the file counts the materials; other points follow their nearest node. */
+static void by_number (pg_problem *p, const pg_scene *scene)
+{
+    for (size_t i = 0; i < p->cloud.n; i++)
+        if (p->cloud.block[i] < 0 || (size_t) p->cloud.block[i] >= p->nmaterial) {
+            pg_scene_fault (scene, "materials", "point %zu is of block %d, and there are %zu materials", i, p->cloud.block[i], p->nmaterial);
+            return;
+        }
+    for (int s = 0; s < PG_BOND_SETS; s++)
+        for (size_t q = 0; q < p->rows[s].n; q++) {
+            int number = number_of (p, s, q);
+            p->block[s][q] = number < 0 ? 0 : number;
+        }
+}
+
+static void check_used (const pg_problem *p, const pg_scene *scene)
+{
+    for (size_t m = 0; m < p->nmaterial; m++) {
+        char path[96];
+        size_t used = 0;
+        for (int s = 0; s < PG_BOND_SETS; s++)
+            for (size_t q = 0; q < p->rows[s].n && !used; q++) used += p->block[s][q] == (int) m;
+        snprintf (path, sizeof path, "materials.%.63s", p->material[m].name);
+        if (!used) pg_scene_fault (scene, path, "is used by no block");
+    }
+}
+
+pg_status pg_blocks_build (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    entries e = { 0 };
+    for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (p->block[s], p->rows[s].n);
+    if (pg_scene_given (scene, "blocks")) {
+        PG_TRY (read_entries (&e, p, scene));
+        claim_all (&e, p, scene);
+    } else if (p->nmaterial == 1) goto done;
+    else if (p->lattice.dim) pg_scene_fault (scene, "materials", "there are %zu: say with blocks which part of the body is made of which", p->nmaterial);
+    else by_number (p, scene);
+    PG_TRY (pg_scene_verdict (scene));
+    check_used (p, scene);
+    PG_TRY (pg_scene_verdict (scene));
+done:
+    clear (&e);
+    return status;
+}

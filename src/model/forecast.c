@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What a run will need, before it allocates: counts from the lattice, bytes from counts, the factor by nested dissection of the
+ * body's box: separators of `width` nodes halve the longest edge again and again, and a separator of s nodes with b boundary nodes
+ * around its part fills s^2/2 + s b entries and costs s^3/3 + s^2 b + s b^2 operations (per node; dofs: times dim^2, dim^3). With width = 0.93
+ * times the radius of the ball of as many nodes as one is coupled to, this is within 20 % of METIS for disks, cubes and plates of
+ * 10^3 to 10^5 nodes (test/model/test_forecast.c). */
+#include "forecast.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- the factor --------------------------------------------------------------------------------------------------------- */
+/* Parts of one level differ in how many of their faces are separators: 0, 1 or 2 along each axis. */
+typedef struct { double count[3][3][3]; } parts;
+
+/* Every part is cut across axis k. */
+static void halve (parts *p, int k)
+{
+    parts q = { 0 };
+    for (int a = 0; a < 27; a++) {
+        int f[3] = { a % 3, a / 3 % 3, a / 9 };
+        double n = p->count[f[0]][f[1]][f[2]];
+        int left = f[k] == 0 ? 1 : 2, right = f[k] == 2 ? 2 : 1;
+        f[k] = left, q.count[f[0]][f[1]][f[2]] += n;
+        f[k] = right, q.count[f[0]][f[1]][f[2]] += n;
+    }
+    *p = q;
+}
+
+static void dissect (const pg_forecast *f, double *entries, double *flops)
+{
+    parts p = { 0 };
+    double L[3] = { f->edge[0], f->edge[1], f->edge[2] }, m = f->dim;
+    p.count[0][0][0] = 1;
+    *entries = *flops = 0;
+    for (int level = 0, k = 0, last = 0; level < 200 && !last; level++) {
+        double n = L[0] * L[1] * L[2];
+        k = 0;
+        for (int i = 1; i < f->dim; i++) if (L[i] > L[k]) k = i;
+        last = L[k] <= 2 * f->width;
+        double s = m * (last ? n : f->width * n / L[k]);
+        for (int a = 0; a < 27; a++) {
+            double c = p.count[a % 3][a / 3 % 3][a / 9], faces = a % 3 / L[0] + a / 3 % 3 / L[1] + a / 9 / L[2], b = m * f->width * n * faces;
+            *entries += c * (s * s / 2 + s * b);
+            *flops += c * (s * s * s / 3 + s * s * b + s * b * b);
+        }
+        halve (&p, k);
+        L[k] = (L[k] - f->width) / 2;
+    }
+}
+
+/* ---- the linear solver ------------------------------------------------------------------------------------------------------ */
+/* As the solver decides under `auto`: no factor where the mass dominates (conjugate gradients then need some 40 iterations at most, which
+ * takes beta dt^2 omega^2 <= 9 with omega = 2 c_p / h), nor for large solids at rest. */
+static void choose_linear (pg_forecast *f)
+{
+    if (!f->automatic) return;
+    int none = f->dynamic ? f->weight <= 9 * f->spacing * f->spacing : f->dim == 3 && f->points * 3 > 200000;
+    strcpy (f->linear, none ? "cg" : "cholmod");
+}
+
+/* ---- bytes ------------------------------------------------------------------------------------------------------------------ */
+const char *pg_forecast_item (int item)
+{
+    static const char *const names[PG_BYTES_COUNT] = { "program", "points and cells", "bond lists", "shape functions", "breaking", "stiffness matrix",
+                                                       "factor", "vectors", "results" };
+    return item >= 0 && item < PG_BYTES_COUNT ? names[item] : "";
+}
+
+/* 8 bytes a number; see the structures named. Of each pair of phases that do not meet, the larger counts. */
+void pg_forecast_sum (pg_forecast *f)
+{
+    double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->points, all = f->bonds[0] + f->bonds[1] + f->bonds[2], rows = n + f->evaluation + f->facets;
+    double bulk = f->nodal ? f->bonds[PG_NODES] : f->bonds[PG_POINTS], corners = pow (2, d), *b = f->bytes;
+    choose_linear (f);
+    int factors = strcmp (f->linear, "cg") != 0, lu = strcmp (f->linear, "umfpack") == 0;
+    f->dofs = n * d;
+    f->matrix_entries = (f->pairs - n) * d * d + n * d * (d + 1) / 2;
+    b[PG_BYTES_PROGRAM] = 35e6;
+    b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->cells * 8 * d * corners;                    /* pg_cloud, pg_cells             */
+    b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows                        */
+    b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;                  /* galerkin      */
+    b[PG_BYTES_BREAKING] = (2 + 17 + factors) * all;                                       /* states; breaker; factored      */
+    b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
+    b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
+    b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
+    if (factors)
+        b[PG_BYTES_MATRIX] = 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
+    if (factors) {
+        double entries = lu ? 2 * f->factor_entries : f->factor_entries;
+        b[PG_BYTES_FACTOR] = 8 * 1.45 * entries + 16 * f->matrix_entries + (lu ? 48 * f->matrix_entries : 0);
+    }
+    f->peak = 0;
+    for (int i = 0; i < PG_BYTES_COUNT; i++) f->peak += b[i];
+}
+
+void forecast_factor (pg_forecast *f)
+{
+    if (f->analysed) return;
+    dissect (f, &f->factor_entries, &f->factor_flops);
+}
+
+/* ---- from the problem ------------------------------------------------------------------------------------------------------- */
+/* Nodes that transformation eliminates along axis k, and those that they see: a dense inverse and a dense product. */
+static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned char *role)
+{
+    const pg_family *fam = &p->rows[PG_NODES].family;
+    double slaves = 0, masters = 0;
+    memset (role, 0, p->cloud.n);
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        if (!pg_load_prescribes (load) || !load->value[k] || load->essential != PG_ESSENTIAL_TRANSFORMATION) continue;
+        for (size_t i = 0; i < load->set->npoint; i++) role[load->set->point[i]] = 1;
+    }
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        slaves += role[i] == 1;
+        for (size_t e = fam->start[i]; role[i] == 1 && e < fam->start[i + 1]; e++) if (!role[fam->node[e]]) role[fam->node[e]] = 2;
+    }
+    for (size_t i = 0; i < p->cloud.n; i++) masters += role[i] == 2;
+    if (strcmp (p->approx.type->name, "nosb") == 0) masters = 0;
+    f->slaves += slaves;
+    f->eliminated += (masters > 0 ? slaves * slaves : 0) + 3 * slaves * masters;
+}
+
+pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    unsigned char *role = NULL;
+    double shared = f->points > 0 ? f->pairs / f->points : 0;
+    PG_ALLOC (role, p->cloud.n);
+    f->slaves = f->eliminated = 0;
+    for (int k = 0; k < p->dim; k++) count_slaves (f, p, k, role);
+    f->points = (double) p->cloud.n, f->cells = (double) p->cells.n;
+    f->evaluation = (double) p->rows[PG_POINTS].n, f->facets = (double) p->rows[PG_FACETS].n;
+    for (int s = 0; s < PG_BOND_SETS; s++) f->bonds[s] = (double) (p->first_bond[s + 1] - p->first_bond[s]);
+    f->pairs = shared * f->points;
+    f->horizon = p->approx.horizon, f->spacing = p->cloud.h;
+    f->counted = 1;
+    forecast_factor (f);
+    pg_forecast_sum (f);
+done:
+    pg_free (role);
+    return status;
+}
+
+void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, double entries, double flops)
+{
+    f->pairs = pairs, f->factor_entries = entries, f->factor_flops = flops;
+    f->analysed = 1;
+    snprintf (f->ordering, sizeof f->ordering, "%s", ordering);
+    pg_forecast_sum (f);
+}
+
+/* ---- what would fit ----------------------------------------------------------------------------------------------------------- */
+pg_forecast pg_forecast_at (const pg_forecast *f, double spacing)
+{
+    pg_forecast g = *f;
+    double finer = f->spacing / spacing, more = pow (finer, f->dim), entries, flops, known = f->factor_entries, known_flops = f->factor_flops;
+    g.spacing = spacing;
+    g.points *= more, g.cells *= more, g.evaluation *= more, g.pairs *= more;
+    g.facets *= more / finer, g.slaves *= more / finer, g.eliminated *= more * more / (finer * finer);
+    g.bonds[PG_NODES] *= more, g.bonds[PG_POINTS] *= more, g.bonds[PG_FACETS] *= more / finer;
+    for (int k = 0; k < f->dim; k++) g.step[k] /= finer, g.edge[k] *= finer;
+    dissect (f, &entries, &flops);
+    dissect (&g, &g.factor_entries, &g.factor_flops);
+    if (entries > 0) g.factor_entries *= known / entries, g.factor_flops *= known_flops / flops;
+    g.counted = g.analysed = 0;
+    pg_forecast_sum (&g);
+    return g;
+}
+
+double pg_forecast_fitting (const pg_forecast *f, double available)
+{
+    double fine = log (f->spacing), coarse = fine + log (1e6);
+    if (pg_forecast_at (f, exp (coarse)).peak > available) return INFINITY;
+    for (int k = 0; k < 60; k++) {
+        double middle = 0.5 * (fine + coarse);
+        if (pg_forecast_at (f, exp (middle)).peak > available) fine = middle;
+        else coarse = middle;
+    }
+    double unit = pow (10, floor (coarse / log (10)) - 1);
+    return ceil (exp (coarse) / unit) * unit;
+}
+
+static const char *in_words (char *text, size_t size, double bytes)
+{
+    static const char *const unit[] = { "B", "kB", "MB", "GB", "TB", "PB", "EB" };
+    int k = 0;
+    for (; k < 6 && bytes >= 999.5; k++) bytes /= 1000;
+    snprintf (text, size, "%.3g %s", bytes, unit[k]);
+    return text;
+}
+
+/* "; with method.integration: nodal 3.1 GB" */
+static void alternative (const pg_forecast *g, const char *what, double available, char *text, size_t size)
+{
+    char words[32];
+    size_t used = strlen (text);
+    snprintf (text + used, size - used, "; %s %s%s", what, in_words (words, sizeof words, g->peak), g->peak <= available ? " (fits)" : "");
+}
+
+pg_status pg_forecast_afford (const pg_forecast *f, double available)
+{
+    char text[1200] = "", need[32], have[32], items[400] = "", word[32];
+    size_t used = 0;
+    if (f->peak <= available) return PG_OK;
+    for (int i = PG_BYTES_POINTS; i < PG_BYTES_COUNT; i++)
+        if (f->bytes[i] > 0.05 * f->peak)
+            used += (size_t) snprintf (items + used, sizeof items - used, "%s%s %s", used ? ", " : "", pg_forecast_item (i),
+                                       in_words (word, sizeof word, f->bytes[i]));
+    double fit = pg_forecast_fitting (f, available);
+    if (isfinite (fit)) snprintf (text, sizeof text, "; a spacing of %.3g m or more fits", fit);
+    if (!f->nodal) {
+        pg_forecast g = *f;
+        double share = f->bonds[PG_POINTS] > 0 ? f->bonds[PG_NODES] / f->points * f->evaluation / f->bonds[PG_POINTS] : 1;
+        g.nodal = 1, g.evaluation = 0, g.bonds[PG_POINTS] = 0, g.pairs *= fmin (1, 0.55 * share), g.factor_entries *= 0.55, g.analysed = 1;
+        pg_forecast_sum (&g);
+        alternative (&g, "method.integration: nodal needs about", available, text, sizeof text);
+    }
+    if (strcmp (f->linear, "cg") != 0) {
+        pg_forecast g = *f;
+        g.automatic = 0;
+        strcpy (g.linear, "cg");
+        pg_forecast_sum (&g);
+        alternative (&g, "solver.linear: pcg needs about", available, text, sizeof text);
+    }
+    size_t at = strlen (text);
+    if (f->dim == 3) snprintf (text + at, sizeof text - at, "; a plane model (dimension: 2) has about %.2g points", pow (f->points, 2.0 / 3));
+    return pg_error (PG_E_LIMIT, PG_HERE, "the run would need about %s of memory, and %s are available: %.4g points at spacing %.4g m, %.4g bonds, "
+                     "%.3g entries in the stiffness matrix (%s)%s", in_words (need, sizeof need, f->peak), in_words (have, sizeof have, available),
+                     f->points, f->spacing, f->bonds[0] + f->bonds[1] + f->bonds[2], f->matrix_entries, items, text);
+}

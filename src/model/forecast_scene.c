@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Sizes of a run from the scene alone: method and solver as written, points and bonds counted on the lattice or sampled from a file. */
+#include "forecast.h"
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+static const double most_cells = 4e6;                  /* counted one by one                                             */
+
+static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
+
+/* Radius, in nodes, of the ball that holds as many nodes as one is coupled to. */
+static double radius_of (int dim, double coupled)
+{
+    return dim == 3 ? cbrt (coupled * 3 / (4 * pi)) : dim == 2 ? sqrt (coupled / pi) : coupled / 2;
+}
+
+/* Facets that loads and supports use, as far as the names of their sets tell. */
+static double used_facets (const pg_scene *scene, const pg_tally *t, int dim)
+{
+    static const char *const sides[6] = { "left", "right", "bottom", "top", "back", "front" };
+    double used = 0, all = 0;
+    const char *how = pg_scene_text (scene, "method.essential");
+    int nitsche = is (how, "nitsche") || (is (how, "auto") && !is (pg_scene_text (scene, "method.approximation"), "nosb"));
+    for (int k = 0; k < 2 * dim; k++) all += t->open[k];
+    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
+        const char *set = pg_scene_text (scene, "boundary[%zu].set", i);
+        int prescribes = pg_scene_given (scene, "boundary[%zu].displacement", i) || pg_scene_given (scene, "boundary[%zu].velocity", i);
+        int pushes = pg_scene_given (scene, "boundary[%zu].traction", i) || pg_scene_given (scene, "boundary[%zu].pressure", i);
+        double open = all / (2 * dim);
+        if (!(pushes || (prescribes && nitsche))) continue;
+        for (int k = 0; k < 2 * dim; k++) if (is (set, sides[k])) open = t->open[k];
+        used += is (set, "all") ? all : open;
+    }
+    return fmin (used, all);
+}
+
+/* Largest speed of a pressure wave, m/s; 0 without densities. */
+static double fastest_wave (const pg_scene *scene, int dim)
+{
+    const char *name;
+    int strain = dim == 3 || is (pg_scene_text (scene, "plane"), "strain");
+    double top = 0;
+    for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++) {
+        double E = pg_scene_number (scene, "materials.%s.youngs_modulus", name), nu = pg_scene_number (scene, "materials.%s.poissons_ratio", name);
+        double rho = pg_scene_number (scene, "materials.%s.density", name);
+        double M = dim == 1 ? E : strain ? E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) : E / (1 - nu * nu);
+        if (rho > 0 && M > 0) top = fmax (top, sqrt (M / rho));
+    }
+    return top;
+}
+
+static void read_solver (pg_forecast *f, const pg_scene *scene)
+{
+    const char *linear = pg_scene_text (scene, "solver.linear"), *kind = pg_scene_text (scene, "solver.kind");
+    double alpha = pg_scene_number (scene, "solver.alpha"), beta = pg_scene_number (scene, "solver.beta"), dt = pg_scene_number (scene, "solver.dt");
+    f->automatic = !linear || is (linear, "auto");
+    f->dynamic = kind && !is (kind, "static");
+    snprintf (f->linear, sizeof f->linear, "%s", f->automatic ? "cholmod" : is (linear, "pcg") ? "cg" : linear);
+    if (!(beta > 0)) beta = (1 - alpha) * (1 - alpha) / 4;
+    f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
+}
+
+static void read_method (pg_forecast *f, const pg_scene *scene)
+{
+    const pg_integration_type *integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
+    f->nodal = integration && integration->at_nodes;
+    f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
+    f->fields = (double) pg_scene_count (scene, "output.fields");
+    f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
+    read_solver (f, scene);
+}
+
+/* Counts of the lattice at hand, times `finer` per axis. */
+static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t, const pg_counting *how, const pg_lattice *l, double finer)
+{
+    double more = pow (finer, f->dim), facets = used_facets (scene, t, f->dim) * pow (finer, f->dim - 1), per = 1, sites = 1;
+    for (int k = 0; k + 1 < f->dim; k++) per *= how->approx->order + 1;
+    f->points = t->points * more, f->cells = t->cells * more, f->evaluation = t->evaluation * more, f->pairs = t->pairs * more;
+    f->bonds[PG_NODES] = t->node_bonds * more, f->bonds[PG_POINTS] = t->point_bonds * more;
+    f->facets = facets * per;
+    f->bonds[PG_FACETS] = f->facets * 0.6 * t->node_bonds / t->points;
+    f->width = 0.93 * radius_of (f->dim, t->coupled);
+    f->counted = !t->sampled && finer == 1;
+    for (int k = 0; k < 3; k++) f->edge[k] = k < f->dim ? l->count[k] + !how->centred : 1, sites *= f->edge[k];
+    double fill = pow (t->points / sites, 1.0 / f->dim);       /* a body that fills its box by half is a smaller box     */
+    for (int k = 0; k < f->dim; k++) f->edge[k] *= fill * finer;
+}
+
+static double lattice_step (const pg_lattice *l)
+{
+    double cell = 1;
+    for (int k = 0; k < l->dim; k++) cell *= l->step[k];
+    return l->dim == 1 ? cell : l->dim == 2 ? sqrt (cell) : cbrt (cell);
+}
+
+static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_body *body)
+{
+    pg_status status = PG_OK;
+    pg_lattice l = { 0 };
+    pg_approx a;
+    pg_tally t;
+    double spacing = pg_scene_number (scene, "spacing"), cells = 1, offset[3] = { 0 }, finer = 1;
+    int shifted = pg_scene_vector (scene, 3, offset, "lattice_offset") > 0;
+    if (!(spacing > 0)) PG_FAIL (PG_E_SCENE, "there is no spacing");
+    for (int k = 0; k < body->dim; k++) cells *= (body->high[k] - body->low[k]) / spacing;
+    if (!(cells < 1e15)) PG_FAIL (PG_E_SCENE, "spacing %g m gives %.3g lattice cells", spacing, cells);
+    while (cells / pow (finer, body->dim) > most_cells) finer *= 2;
+    PG_TRY (pg_lattice_fit (&l, body, spacing * finer, shifted ? offset : NULL));
+    f->spacing = lattice_step (&l) / finer;
+    PG_TRY (pg_approx_read (&a, scene, f->spacing));
+    f->horizon = a.horizon, a.horizon *= finer;            /* as many spacings on the coarser lattice                      */
+    for (int k = 0; k < 3; k++) f->step[k] = l.step[k] / finer;
+    int order = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : a.order + 1;
+    pg_counting how = { &l, &a, is (pg_scene_text (scene, "lattice"), "cells"), f->nodal, order };
+    PG_TRY (pg_tally_count (&t, &how));
+    if (!(t.points > 0)) PG_FAIL (PG_E_SCENE, "no point lies in the body");
+    take_tally (f, scene, &t, &how, &l, finer);
+done:
+    pg_lattice_clear (&l);
+    return status;
+}
+
+/* Points of a file: their families are searched for as they are, on a sample of centres; what they share is about a ball of 1.6 horizons. */
+static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_body *body)
+{
+    pg_status status = PG_OK;
+    pg_lattice l = { 0 };
+    pg_cloud c = { 0 };
+    pg_family near = { 0 }, far = { 0 };
+    pg_approx a;
+    double *centre = NULL;
+    PG_TRY (pg_cloud_build (&c, &l, body, scene));
+    PG_TRY (pg_approx_read (&a, scene, c.h));
+    size_t stride = c.n / 20000 + 1, n = 0, dim = (size_t) c.dim;
+    PG_ALLOC (centre, (c.n / stride + 1) * dim);
+    for (size_t i = 0; i < c.n; i += stride) memcpy (centre + n++ * dim, c.x + i * dim, dim * sizeof *centre);
+    PG_TRY (pg_family_build (&near, &c, n, centre, a.horizon, a.shape, a.kernel->closed));
+    PG_TRY (pg_family_build (&far, &c, n / 8 + 1, centre, 1.6 * a.horizon, a.shape, a.kernel->closed));
+    f->spacing = c.h, f->horizon = a.horizon, f->points = (double) c.n, f->nodal = 1;
+    f->bonds[PG_NODES] = (double) near.start[n] / (double) n * f->points;
+    double coupled = (double) far.start[far.n] / (double) far.n, side = 1;
+    f->pairs = 0.5 * f->points * (coupled + 1);
+    f->width = 0.93 * radius_of (f->dim, coupled);
+    for (int k = 0; k < 3; k++) f->step[k] = c.h, f->edge[k] = k < f->dim ? (c.high[k] - c.low[k]) / c.h + 1 : 1, side *= f->edge[k];
+    for (int k = 0; k < f->dim; k++) f->edge[k] *= pow (f->points / side, 1.0 / f->dim);
+    f->counted = stride == 1;
+done:
+    pg_free (centre);
+    pg_family_clear (&near), pg_family_clear (&far);
+    pg_cloud_clear (&c), pg_lattice_clear (&l);
+    return status;
+}
+
+pg_status pg_forecast_scene (pg_forecast *out, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_body body = { 0 };
+    memset (out, 0, sizeof *out);
+    out->dim = (int) pg_scene_integer (scene, "dimension");
+    PG_TRY (pg_scene_verdict (scene));
+    PG_TRY (pg_body_read (&body, scene));
+    PG_TRY (pg_scene_verdict (scene));
+    read_method (out, scene);
+    if (pg_scene_given (scene, "points")) PG_TRY (count_file (out, scene, &body));
+    else PG_TRY (count_lattice (out, scene, &body));
+    PG_TRY (pg_scene_verdict (scene));
+    forecast_factor (out);
+    pg_forecast_sum (out);
+done:
+    pg_body_clear (&body);
+    return status;
+}

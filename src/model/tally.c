@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Sizes of a body on its lattice without building it: cells, points and open faces exactly; bonds from stencils (the points that a node
+ * or a Gauss point would see), exactly for small bodies, else on an even sample; likewise the node pairs that share a point. */
+#include "forecast.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double most_visits = 1e7;                 /* a few hundredths of a second                                   */
+
+typedef struct { size_t n; int (*step)[3]; } stencil;  /* sites seen, relative to the node or the cell                   */
+
+typedef struct {
+    const pg_counting *how;
+    const pg_lattice *l;
+    int     size[3];                                   /* sites per axis                                                 */
+    size_t  nsite, ncell;
+    unsigned char *site;                               /* 1: a point                                                     */
+    stencil node, *gauss;  size_t ngauss;
+    int     span[3], wide[3];                          /* pairs: largest step, 2 span + 1                                */
+    long   *mark, epoch;                               /* box of marks                                                   */
+} counter;
+
+static void counter_clear (counter *c)
+{
+    pg_free (c->site), pg_free (c->node.step), pg_free (c->mark);
+    for (size_t g = 0; c->gauss && g < c->ngauss; g++) pg_free (c->gauss[g].step);
+    pg_free (c->gauss);
+}
+
+static int kept (const pg_lattice *l, int a, int b, int c)
+{
+    if (a < 0 || b < 0 || c < 0 || a >= l->count[0] || b >= l->count[1] || c >= l->count[2]) return 0;
+    return l->in[((size_t) c * (size_t) l->count[1] + (size_t) b) * (size_t) l->count[0] + (size_t) a];
+}
+
+static size_t site_at (const counter *c, int x, int y, int z)
+{
+    return ((size_t) z * (size_t) c->size[1] + (size_t) y) * (size_t) c->size[0] + (size_t) x;
+}
+
+static int is_point (const counter *c, const int *at, const int *step)
+{
+    int x = at[0] + step[0], y = at[1] + step[1], z = at[2] + step[2];
+    if (x < 0 || y < 0 || z < 0 || x >= c->size[0] || y >= c->size[1] || z >= c->size[2]) return 0;
+    return c->site[site_at (c, x, y, z)];
+}
+
+/* Cells, open faces, and which sites are points. */
+static pg_status count_sites (counter *c, pg_tally *t)
+{
+    pg_status status = PG_OK;
+    const pg_lattice *l = c->l;
+    int far[3];
+    for (int k = 0; k < 3; k++) far[k] = !c->how->centred && k < l->dim, c->size[k] = l->count[k] + far[k];
+    c->nsite = (size_t) c->size[0] * (size_t) c->size[1] * (size_t) c->size[2];
+    PG_ALLOC (c->site, c->nsite);
+    for (int z = 0; z < l->count[2]; z++)
+        for (int y = 0; y < l->count[1]; y++)
+            for (int x = 0; x < l->count[0]; x++) {
+                if (!kept (l, x, y, z)) continue;
+                c->ncell++;
+                t->open[0] += !kept (l, x - 1, y, z), t->open[1] += !kept (l, x + 1, y, z);
+                if (l->dim > 1) t->open[2] += !kept (l, x, y - 1, z), t->open[3] += !kept (l, x, y + 1, z);
+                if (l->dim > 2) t->open[4] += !kept (l, x, y, z - 1), t->open[5] += !kept (l, x, y, z + 1);
+                for (int k = 0; k < 8; k++)
+                    c->site[site_at (c, x + (k & far[0]), y + (k >> 1 & far[1]), z + (k >> 2 & far[2]))] = 1;
+            }
+    t->cells = (double) c->ncell;
+    for (size_t i = 0; i < c->nsite; i++) t->points += c->site[i];
+done:
+    return status;
+}
+
+/* ---- stencils --------------------------------------------------------------------------------------------------------- */
+/* Sites within the horizon of `at` (lattice steps from site 0). */
+static pg_status make_stencil (stencil *out, const counter *c, const double *at)
+{
+    pg_status status = PG_OK;
+    const pg_approx *a = c->how->approx;
+    double far = a->horizon * (a->kernel->closed ? 1 + 1e-9 : 1 - 1e-9);
+    int reach[3] = { 0, 0, 0 };
+    size_t cap = 0;
+    for (int k = 0; k < c->l->dim; k++) reach[k] = (int) ceil (a->horizon / c->l->step[k]) + 1;
+    for (int z = -reach[2]; z <= reach[2]; z++)
+        for (int y = -reach[1]; y <= reach[1]; y++)
+            for (int x = -reach[0]; x <= reach[0]; x++) {
+                int step[3] = { x, y, z };
+                double r = 0;
+                for (int k = 0; k < c->l->dim; k++) {
+                    double d = fabs ((step[k] - at[k]) * c->l->step[k]);
+                    r = a->shape == PG_TENSOR ? fmax (r, d) : r + d * d;
+                }
+                if (a->shape != PG_TENSOR) r = sqrt (r);
+                if (a->kernel->closed ? r > far : r >= far) continue;
+                PG_GROW (out->step, cap, out->n + 1);
+                memcpy (out->step[out->n++], step, sizeof step);
+            }
+done:
+    return status;
+}
+
+static pg_status make_stencils (counter *c)
+{
+    pg_status status = PG_OK;
+    double x[5], w[5], at[3] = { 0, 0, 0 };
+    int order = c->how->order;
+    PG_TRY (make_stencil (&c->node, c, at));
+    c->ngauss = c->how->nodal ? 0 : 1;
+    for (int k = 0; k < c->l->dim; k++) c->ngauss *= (size_t) order;
+    PG_ALLOC (c->gauss, c->ngauss);
+    pg_gauss_rule (order, x, w);
+    for (size_t g = 0; g < c->ngauss; g++) {
+        size_t rest = g;
+        for (int k = 0; k < c->l->dim; k++, rest /= (size_t) order) at[k] = (1 + x[rest % (size_t) order]) / 2 - (c->how->centred ? 0.5 : 0);
+        PG_TRY (make_stencil (&c->gauss[g], c, at));
+    }
+done:
+    return status;
+}
+
+static size_t seen (const counter *c, const int *at, const stencil *s)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < s->n; k++) n += (size_t) is_point (c, at, s->step[k]);
+    return n;
+}
+
+/* ---- pairs ------------------------------------------------------------------------------------------------------------ */
+static size_t mark_seen (counter *c, const int *node, const int *from, const stencil *s)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        if (!is_point (c, from, s->step[k])) continue;
+        int d[3];
+        for (int i = 0; i < 3; i++) d[i] = from[i] + s->step[k][i] - node[i] + c->span[i];
+        long *m = &c->mark[((size_t) d[2] * (size_t) c->wide[1] + (size_t) d[1]) * (size_t) c->wide[0] + (size_t) d[0]];
+        n += *m != c->epoch;
+        *m = c->epoch;
+    }
+    return n;
+}
+
+/* Nodes that share a point of evaluation with the node, itself included. */
+static size_t coupled (counter *c, const int *node)
+{
+    size_t n = 0;
+    c->epoch++;
+    for (size_t g = 0; g < c->ngauss; g++)
+        for (size_t k = 0; k < c->gauss[g].n; k++) {
+            const int *s = c->gauss[g].step[k];
+            int cell[3] = { node[0] - s[0], node[1] - s[1], node[2] - s[2] };
+            if (kept (c->l, cell[0], cell[1], cell[2])) n += mark_seen (c, node, cell, &c->gauss[g]);
+        }
+    for (size_t k = 0; c->how->nodal && k < c->node.n; k++) {
+        const int *s = c->node.step[k], other[3] = { node[0] + s[0], node[1] + s[1], node[2] + s[2] };
+        if (is_point (c, node, s)) n += mark_seen (c, node, other, &c->node);
+    }
+    return n;
+}
+
+static pg_status make_marks (counter *c)
+{
+    pg_status status = PG_OK;
+    for (size_t g = 0; g <= c->ngauss; g++) {
+        const stencil *s = g < c->ngauss ? &c->gauss[g] : &c->node;
+        for (size_t k = 0; k < s->n; k++)
+            for (int i = 0; i < 3; i++) if (abs (s->step[k][i]) > c->span[i]) c->span[i] = abs (s->step[k][i]);
+    }
+    for (int i = 0; i < 3; i++) c->span[i] *= 2, c->wide[i] = 2 * c->span[i] + 1;
+    PG_ALLOC (c->mark, (size_t) c->wide[0] * (size_t) c->wide[1] * (size_t) c->wide[2]);
+done:
+    return status;
+}
+
+/* ---- the sample --------------------------------------------------------------------------------------------------------- */
+/* One of every `stride` items, at a place that changes from stride to stride. */
+static int chosen (size_t i, size_t stride) { return i % stride == (size_t) (i / stride * 2654435761u) % stride; }
+
+static size_t stride_for (double items, double visits_each)
+{
+    return (size_t) fmax (1, fmin (ceil (items * visits_each / most_visits), floor (items / 64)));
+}
+
+static void count_nodes (counter *c, pg_tally *t)
+{
+    double work = c->how->nodal ? (double) c->node.n * (double) c->node.n : 0, bonds = 0, pairs = 0;
+    for (size_t g = 0; g < c->ngauss; g++) work += (double) c->gauss[g].n * (double) c->gauss[g].n;
+    size_t stride = stride_for (t->points, (double) c->node.n), pair_stride = stride_for (t->points, work), i = 0, nbond = 0, npair = 0;
+    int at[3];
+    for (at[2] = 0; at[2] < c->size[2]; at[2]++)
+        for (at[1] = 0; at[1] < c->size[1]; at[1]++)
+            for (at[0] = 0; at[0] < c->size[0]; at[0]++) {
+                if (!c->site[site_at (c, at[0], at[1], at[2])]) continue;
+                if (chosen (i, stride)) bonds += (double) seen (c, at, &c->node), nbond++;
+                if (chosen (i, pair_stride)) {
+                    double n = (double) coupled (c, at);
+                    pairs += n, npair++;
+                    t->coupled = fmax (t->coupled, n);
+                }
+                i++;
+            }
+    t->sampled |= stride > 1 || pair_stride > 1;
+    t->node_bonds = nbond ? bonds * (t->points / (double) nbond) : 0;
+    t->pairs = npair ? 0.5 * (pairs * (t->points / (double) npair) + t->points) : 0;
+}
+
+static void count_gauss (counter *c, pg_tally *t)
+{
+    double work = 0, bonds = 0;
+    for (size_t g = 0; g < c->ngauss; g++) work += (double) c->gauss[g].n;
+    size_t stride = stride_for (t->cells, work), i = 0, n = 0;
+    int at[3];
+    for (at[2] = 0; at[2] < c->l->count[2]; at[2]++)
+        for (at[1] = 0; at[1] < c->l->count[1]; at[1]++)
+            for (at[0] = 0; at[0] < c->l->count[0]; at[0]++) {
+                if (!kept (c->l, at[0], at[1], at[2])) continue;
+                if (!chosen (i++, stride)) continue;
+                for (size_t g = 0; g < c->ngauss; g++) bonds += (double) seen (c, at, &c->gauss[g]);
+                n++;
+            }
+    t->sampled |= stride > 1;
+    t->evaluation = t->cells * (double) c->ngauss;
+    t->point_bonds = n ? bonds * (t->cells / (double) n) : 0;
+}
+
+/* Bonds so long that stencils would be large: as in the interior of an endless body. */
+static int wide_open (const counter *c, pg_tally *t)
+{
+    const pg_approx *a = c->how->approx;
+    double box = 1, ball = a->shape == PG_TENSOR ? 1 : c->l->dim == 3 ? 0.5236 : c->l->dim == 2 ? 0.7854 : 1, points = 1;
+    for (int k = 0; k < c->l->dim; k++) box *= 2 * a->horizon / c->l->step[k] + 3, points *= c->how->order;
+    if (box < 2e5) return 0;
+    double each = fmin (t->points, ball * box);
+    t->evaluation = c->how->nodal ? 0 : points * t->cells;
+    t->node_bonds = t->points * each, t->point_bonds = t->evaluation * each;
+    t->coupled = fmin (t->points, ball * box * (1 << c->l->dim));
+    t->pairs = 0.5 * t->points * (t->coupled + 1);
+    t->sampled = 1;
+    return 1;
+}
+
+pg_status pg_tally_count (pg_tally *out, const pg_counting *how)
+{
+    pg_status status = PG_OK;
+    counter c = { .how = how, .l = how->lattice };
+    memset (out, 0, sizeof *out);
+    PG_TRY (count_sites (&c, out));
+    if (wide_open (&c, out)) goto done;
+    PG_TRY (make_stencils (&c));
+    PG_TRY (make_marks (&c));
+    count_nodes (&c, out);
+    count_gauss (&c, out);
+done:
+    counter_clear (&c);
+    return status;
+}

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * checkpoint.nc: each name of a pg_keeper's walk is one variable of a CDF-5 file (doubles, 64-bit integers, bytes); the last one,
+ * `complete`, tells a whole file from one that was cut off. A first walk defines, a second writes; reading is one walk. */
+#include "disk.h"
+#include "exodus.h"
+#include <errno.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double whole = 0x1.921fb54442d18p+1;      /* any value that is not 0                                        */
+typedef struct { const char *path; int ncid, open, defining, reading; } checkpoint;
+
+static pg_status define (checkpoint *c, const char *name, size_t n, nc_type type)
+{
+    pg_status status = PG_OK;
+    char length[40];
+    int dim, var;
+    snprintf (length, sizeof length, "length_%zu", n);
+    if (nc_inq_dimid (c->ncid, length, &dim) != NC_NOERR) NC_TRY (c->path, nc_def_dim (c->ncid, length, n, &dim));
+    int code = nc_def_var (c->ncid, name, type, 1, &dim, &var);
+    if (code != NC_NOERR) PG_FAIL (PG_E_USAGE, "%s: '%s': %s", c->path, name, nc_strerror (code));
+done:
+    return status;
+}
+
+/* Variable of a name; its length and type must be those of the walk. */
+static pg_status find (const checkpoint *c, const char *name, size_t n, nc_type type, int *var)
+{
+    pg_status status = PG_OK;
+    nc_type found;
+    int ndim, dim[NC_MAX_VAR_DIMS];
+    size_t m = 0;
+    if (nc_inq_varid (c->ncid, name, var) != NC_NOERR) PG_FAIL (PG_E_FILE, "%s lacks '%s'", c->path, name);
+    NC_TRY (c->path, nc_inq_var (c->ncid, *var, NULL, &found, &ndim, dim, NULL));
+    if (ndim == 1) NC_TRY (c->path, nc_inq_dimlen (c->ncid, dim[0], &m));
+    if (m != n || found != type) PG_FAIL (PG_E_FILE, "%s: '%s' has %zu values, not %zu", c->path, name, m, n);
+done:
+    return status;
+}
+
+static pg_status keep (checkpoint *c, const char *name, size_t n, nc_type type, void *value)
+{
+    pg_status status = PG_OK;
+    int var;
+    if (n == 0) goto done;                             /* netCDF knows no empty dimension                                */
+    if (c->defining) {
+        status = define (c, name, n, type);
+        goto done;
+    }
+    PG_TRY (find (c, name, n, type, &var));
+    NC_TRY (c->path, c->reading ? nc_get_var (c->ncid, var, value) : nc_put_var (c->ncid, var, value));
+done:
+    return status;
+}
+
+_Static_assert (sizeof (long) == sizeof (int64_t), "counts are kept as 64-bit integers");
+static pg_status keep_numbers (void *c, const char *name, size_t n, double *value) { return keep (c, name, n, NC_DOUBLE, value); }
+static pg_status keep_counts (void *c, const char *name, size_t n, long *value) { return keep (c, name, n, NC_INT64, value); }
+static pg_status keep_bytes (void *c, const char *name, size_t n, void *value) { return keep (c, name, n, NC_BYTE, value); }
+
+static pg_status make_walk (checkpoint *c, pg_keep walk, void *context)
+{
+    pg_status status = PG_OK;
+    double complete = whole;
+    pg_keeper keeper = { c, c->reading, keep_numbers, keep_counts, keep_bytes };
+    if (c->reading) {
+        PG_TRY (keep_numbers (c, "complete", 1, &complete));
+        if (complete != whole) PG_FAIL (PG_E_FILE, "%s is not complete", c->path);
+    }
+    PG_TRY (walk (context, &keeper));
+    if (!c->reading) PG_TRY (keep_numbers (c, "complete", 1, &complete));
+done:
+    return status;
+}
+
+static pg_status write_file (checkpoint *c, pg_keep walk, void *context)
+{
+    pg_status status = PG_OK;
+    int before;
+    size_t buffer = 1 << 20;
+    errno = 0;
+    FILE *probe = fopen (c->path, "wb");               /* netCDF does not always tell the system's reason                */
+    if (!probe) PG_FAIL (PG_E_FILE, "%s: %s", c->path, strerror (errno));
+    fclose (probe);
+    NC_TRY (c->path, nc__create (c->path, NC_CLOBBER | NC_64BIT_DATA, 0, &buffer, &c->ncid));
+    c->open = 1;
+    NC_TRY (c->path, nc_set_fill (c->ncid, NC_NOFILL, &before));
+    c->defining = 1;
+    PG_TRY (make_walk (c, walk, context));
+    NC_TRY (c->path, nc_enddef (c->ncid));
+    c->defining = 0;
+    PG_TRY (make_walk (c, walk, context));
+    c->open = 0;
+    NC_TRY (c->path, nc_close (c->ncid));
+    PG_TRY (disk_sync (c->path));
+done:
+    if (c->open) nc_close (c->ncid);
+    return status;
+}
+
+static pg_status sync_folder_of (const char *path, char *work)
+{
+    const char *slash = strrchr (path, '/');
+    size_t n = slash == path ? 1 : slash ? (size_t) (slash - path) : 1;
+    memcpy (work, slash ? path : ".", n);
+    work[n] = 0;
+    return disk_sync (work);
+}
+
+pg_status pg_checkpoint_write (const char *path, pg_keep walk, void *context)
+{
+    pg_status status = PG_OK;
+    checkpoint c = { 0 };
+    char *fresh = NULL;
+    int moved = 0;
+    size_t size = strlen (path) + 5;
+    PG_ALLOC (fresh, size);
+    snprintf (fresh, size, "%s.new", path);
+    c.path = fresh;
+    PG_TRY (write_file (&c, walk, context));
+    if (rename (fresh, path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    moved = 1;
+    PG_TRY (sync_folder_of (path, fresh));
+done:
+    if (fresh && !moved) remove (fresh);
+    pg_free (fresh);
+    return status;
+}
+
+pg_status pg_checkpoint_read (const char *path, pg_keep walk, void *context)
+{
+    pg_status status = PG_OK;
+    checkpoint c = { .path = path, .reading = 1 };
+    errno = 0;
+    FILE *probe = fopen (path, "rb");
+    if (!probe) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    fclose (probe);
+    NC_TRY (path, nc_open (path, NC_NOWRITE, &c.ncid));
+    c.open = 1;
+    PG_TRY (make_walk (&c, walk, context));
+done:
+    if (c.open) nc_close (c.ncid);
+    return status;
+}

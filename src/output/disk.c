@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Bytes to the disk: written whole or refused with the system's reason, and what was there before stays as it was. */
+#include "disk.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <unistd.h>
+
+pg_status disk_write (const char *path, int file, const void *data, size_t bytes, long offset)
+{
+    pg_status status = PG_OK;
+    const char *from = data;
+    while (bytes > 0) {
+        ssize_t n = pwrite (file, from, bytes, offset);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) PG_FAIL (PG_E_FILE, "%s: %s", path, n < 0 ? strerror (errno) : "nothing could be written");
+        from += n, bytes -= (size_t) n, offset += n;
+    }
+done:
+    return status;
+}
+
+pg_status disk_cut (const char *path, int file, long bytes)
+{
+    return ftruncate (file, bytes) == 0 ? PG_OK : pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
+}
+
+pg_status disk_sync (const char *path)
+{
+    int file = open (path, O_RDONLY);
+    if (file < 0) return pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
+    int bad = fsync (file) != 0 && errno != EINVAL && errno != ENOTSUP, reason = errno;     /* not every system syncs folders */
+    close (file);
+    return bad ? pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (reason)) : PG_OK;
+}

@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Bytes to the disk: all of them or PG_E_FILE with path and reason. */
+#ifndef PERIGAL_OUTPUT_DISK_H
+#define PERIGAL_OUTPUT_DISK_H
+#include "perigal/output.h"
+
+pg_status disk_write (const char *path, int file, const void *data, size_t bytes, long offset);
+pg_status disk_cut   (const char *path, int file, long bytes);
+pg_status disk_sync  (const char *path);               /* of a file or folder, opened by its name                        */
+#endif

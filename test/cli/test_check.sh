@@ -1,0 +1,97 @@
+#!/bin/bash
+# test_check.sh BUILD [--accept]: perigal check: the plan of every shipped scene (plans/NAME.txt; without memory, whose bytes follow the
+# code), the forecast against runs, refusals. After a deliberate change: test/cli/test_check.sh BUILD --accept, and read the differences.
+perigal=$(realpath "$1/perigal"); accept=$2; n=0; bad=0
+cd "$(dirname "$0")" || exit 1
+work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
+verdict() {   # name, 0 for good
+    n=$((n + 1))
+    if [ "$2" -eq 0 ]; then echo "ok $n - $1"; return; fi
+    bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" "$work/err" | head -40
+}
+# expect NAME CODE PATTERN-OF-STDOUT PATTERN-OF-STDERR ARGUMENTS...: an empty pattern wants an empty stream, '*' anything
+expect() {
+    local name=$1 code=$2 out=$3 err=$4 k good=0; shift 4
+    "$perigal" "$@" > "$work/out" 2> "$work/err"; k=$?
+    [ $k -eq "$code" ] || good=1
+    matches "$out" "$work/out" && matches "$err" "$work/err" || good=1
+    verdict "$name" $good
+}
+matches() {
+    if [ -z "$1" ]; then [ ! -s "$2" ]; elif [ "$1" = '*' ]; then true; else grep -q -- "$1" "$2"; fi
+}
+number() { sed -n "s/^ *\"$1\": \([0-9.e+-]*\),*$/\1/p" "$2" | head -1; }
+within() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { exit !(a > 0 && b > 0 && a <= b * (1 + t) && a >= b * (1 - t)) }'; }
+
+# ---- plans of the shipped scenes ----------------------------------------------------------------------------------------
+for scene in plate.yaml ../../data/*/scene.yaml; do
+    name=$(basename "${scene%/scene.yaml}" .yaml)
+    [ "$accept" = --accept ] || [ -e "plans/$name.txt" ] || continue
+    "$perigal" check "$scene" > "$work/all" 2> "$work/err"; code=$?
+    grep -v -e '^  memory ' -e '^    ' -e ': the scene is right$' "$work/all" > "$work/out"
+    [ "$accept" = --accept ] && cp "$work/out" "plans/$name.txt"
+    [ $code -eq 0 ] && diff "plans/$name.txt" "$work/out" > "$work/diff"; verdict "plan of $name" $?
+    [ ! -s "$work/diff" ] || sed 's/^/# /' "$work/diff"
+done
+
+# ---- the forecast and the run --------------------------------------------------------------------------------------------
+cat > "$work/solid.yaml" <<'EOF'
+dimension: 3
+body: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]
+spacing: 0.07
+materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}}
+failure: {criterion: principal_stress, tensile_strength: 1 MPa}
+boundary:
+  - {name: base, set: bottom, displacement: {x: 0, y: 0, z: 0}}
+  - {name: lid, set: top, displacement: {y: 0.1 mm}}
+solver: {max_events: 1}
+output: {at: {levels: 1}, pictures: []}
+EOF
+compare() {   # name, tolerance, scene, settings...: bytes against the peak of the process, entries of the factor exactly
+    local name=$1 tolerance=$2 scene=$3; shift 3
+    "$perigal" check "$scene" --json "$@" > "$work/out" 2> "$work/err"
+    "$perigal" run "$scene" --quiet --threads 1 -o "$work/run" "$@" > /dev/null 2>> "$work/err"
+    within "$(number peak "$work/out")" "$(number peak_bytes "$work/run/report.json")" "$tolerance"; verdict "$name: memory as forecast" $?
+    local told found
+    told=$(number factor_entries "$work/out") found=$(number factor_entries "$work/run/report.json")
+    [ "${told:-0}" = "$found" ]; verdict "$name: factor entries as forecast (${told:-0}, $found)" $?
+}
+asan=$(nm "$perigal" 2> /dev/null | grep -c __asan_init)
+if [ "$asan" -eq 0 ]; then
+    compare "plane"  0.3 ../../data/cui_disk_10/scene.yaml --set spacing='1 mm' --set solver.max_events=1
+    compare "solid"  0.3 "$work/solid.yaml"
+    compare "no factor" 0.3 "$work/solid.yaml" --set solver.linear=pcg
+    compare "small time steps" 0.3 "$work/solid.yaml" --set solver='{kind: newmark, dt: 2 us, end: 4 us}' --set failure='{criterion: none}'
+fi
+
+# ---- the first break -----------------------------------------------------------------------------------------------------
+"$perigal" run plate.yaml --quiet --threads 1 -o "$work/plate" --set solver.max_events=1 --set output.pictures='[]' > /dev/null 2>&1
+factor=$(awk -F, 'NR == 2 { printf "%.5g", $2 }' "$work/plate/events.csv")
+expect "--solve finds the first event of a run ($factor)" 0 "first break  *at load factor $factor, a .* bond in tension at" '' check plate.yaml --solve
+expect "--solve warns where nothing breaks"  0 'warning: nothing breaks up to load factor 1: the first bond needs' '' check plate.yaml --solve --set failure.tensile_strength='30 GPa'
+expect "--solve warns where nothing can"     0 'warning: no bond can break' '' check plate.yaml --solve --set failure.exclude='[all]'
+expect "--solve without a criterion"         0 'there is no failure criterion' '' check plate.yaml --solve --set failure='{criterion: none}'
+expect "--solve measures the time step"      0 'stable up to .*(2 / largest frequency)' '' check plate.yaml --solve --set materials.glass.density='2500 kg/m3'
+expect "without --solve it is an estimate"   0 'stable up to .*(estimate' '' check plate.yaml --set materials.glass.density='2500 kg/m3'
+expect "newmark: its steps"                  0 'time steps  *1000 of 1e-07 s, c_p dt / h = ' '' check plate.yaml \
+    --set materials.glass.density='2500 kg/m3' --set solver='{kind: newmark, dt: 0.1 us, end: 0.1 ms}'
+expect "newmark: what a small step skips"    0 'skipped  *stiffness matrix and factorization (small time step' '' check plate.yaml \
+    --set materials.glass.density='2500 kg/m3' --set solver='{kind: newmark, dt: 0.1 us, end: 0.1 ms}'
+
+# ---- refusals ------------------------------------------------------------------------------------------------------------
+expect "a run that does not fit is refused"  70 '' '^perigal: the run would need about .* of memory, and 1 MB are available' run plate.yaml --memory 1MB -o "$work/none"
+[ ! -e "$work/none" ]; verdict "it leaves no folder" $?
+expect "check refuses it too"                70 '' 'are available' check plate.yaml --memory 1MB
+expect "what fits is not refused"             0 'of 2.15 GB available' '' check plate.yaml --memory 2GiB
+expect "--memory without a size"             64 '' '--memory lots: a size is needed' run plate.yaml --memory lots
+expect "--memory 0"                          64 '' '--memory 0' run plate.yaml --memory 0
+expect "--json is for check"                 64 '' 'there is no option --json' run plate.yaml --json
+"$perigal" check plate.yaml --json > "$work/out" 2> "$work/err" && python3 -m json.tool "$work/out" > /dev/null 2>> "$work/err"; verdict "--json is JSON" $?
+t0=$(date +%s%N)
+expect "a huge body is refused before it is built" 70 '' 'a spacing of .* m or more fits' run "$work/solid.yaml" --set spacing='1 mm' --memory 20GB -o "$work/none"
+t1=$(date +%s%N)
+[ "$asan" -ne 0 ] || [ $(((t1 - t0) / 1000000)) -lt 5000 ]; verdict "that takes $(((t1 - t0) / 1000000)) ms" $?
+expect "more cells than numbers is a fault"  65 '' 'spacing = 1 nm: too fine for this body: 1e+27 cells' check "$work/solid.yaml" --set spacing='1 nm'
+expect "faults come before sizes"            65 '' 'youngs_modulus' check "$work/solid.yaml" --memory 1MB --set materials.rock.youngs_modulus='-1 GPa'
+echo "1..$n"
+exit $bad

@@ -1,0 +1,106 @@
+#!/bin/bash
+# test_resume.sh BUILD: runs that are interrupted at random moments (10 by TERM, 10 by KILL, some again while they go on) and resumed end
+# with the files of a run that nobody disturbed; finished, foreign and missing checkpoints; disks that are full or read-only.
+perigal=$(realpath "$1/perigal"); n=0; bad=0
+cd "$(dirname "$0")" || exit 1
+work=$(mktemp -d); trap 'umount "$work/small" 2> /dev/null; chmod -R u+w "$work"; rm -rf "$work"' EXIT
+verdict() {   # name, 0 for good
+    n=$((n + 1))
+    if [ "$2" -eq 0 ]; then echo "ok $n - $1"; return; fi
+    bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" "$work/err" "$work/why" 2> /dev/null | head -40
+}
+now() { date +%s%N; }
+run() { "$perigal" run "$@" --quiet --threads 1 --set output.checkpoint='0.05 s' > "$work/out" 2> "$work/err"; }
+
+event=(plate.yaml --set spacing='0.5 mm' --set solver.max_events=60 --set output.at.events=10)
+fixed=(plate.yaml --set spacing='1.25 mm' --set 'solver={stepping: fixed, steps: 8, break: fraction, break_fraction: 2 %}'
+       --set 'output={at: {broken: 2 %, levels: 4}}')
+newmark=(moving.yaml)
+
+# same DIR1 DIR2: tables, fields and pictures byte by byte, report.json without times and memory
+same() {
+    for f in history.csv events.csv result.e damage.png load_displacement.png; do cmp "$1/$f" "$2/$f" || return 1; done
+    diff <(plain "$1/report.json") <(plain "$2/report.json") || return 1
+    [ ! -e "$2/checkpoint.nc" ] && [ ! -e "$2/checkpoint.nc.new" ]
+}
+plain() { sed -e '/"seconds": {/,/}/d' -e '/"peak_bytes"/d' -e '/"seconds_saved"/d' "$1"; }
+
+declare -A took
+for kind in event fixed newmark; do
+    declare -n scene=$kind; t0=$(now)
+    run "${scene[@]}" -o "$work/$kind"; code=$?
+    took[$kind]=$((($(now) - t0) / 1000000))
+    verdict "$kind: the run that nobody disturbs (${took[$kind]} ms)" $code
+done
+[ "$(grep -c , "$work/fixed/history.csv")" -eq 9 ] && [ "$(ncdump -v time_whole "$work/fixed/result.e" | sed -n '/^ time_whole/,$p' | grep -o '[0-9][^ ,;]*' | wc -l)" -gt 12 ]
+verdict "stages in the middle of a step are in result.e, not in history.csv" $?
+
+# disturb SIGNAL DELAY-MS ARGUMENTS...: 0 when the signal came before the end of the run
+disturb() {
+    local signal=$1 delay=$2; shift 2
+    "$perigal" run "$@" --quiet --threads 1 --set output.checkpoint='0.05 s' > "$work/out" 2> "$work/err" & local pid=$!
+    sleep "$(printf '%d.%03d' $((delay / 1000)) $((delay % 1000)))"
+    kill -s "$signal" $pid 2> /dev/null
+    wait $pid 2> /dev/null; code=$?
+    [ $code -eq 130 ] || [ $code -eq 137 ] || [ $code -eq 143 ]        # 143: before the program listens
+}
+# resumed ARGUMENTS...: goes on; from the beginning where there was no checkpoint yet
+resumed() {
+    if [ -e "$out/checkpoint.nc" ]; then run "$@" --resume; else run "$@"; fi
+}
+RANDOM=20220
+kinds=(event fixed newmark)
+for k in $(seq 20); do
+    kind=${kinds[$((k % 3))]}; declare -n scene=$kind; out=$work/run$k; times=1
+    [ $((k % 2)) -eq 0 ] && signal=TERM || signal=KILL
+    limit=${took[$kind]}
+    until disturb $signal $((limit * (RANDOM % 900 + 80) / 1000)) "${scene[@]}" -o "$out"; do limit=$((limit * 3 / 4 + 1)); done
+    if [ $((k % 4)) -lt 2 ] && [ -e "$out/checkpoint.nc" ]; then      # once or twice more
+        for _ in $(seq $((RANDOM % 2 + 1))); do
+            disturb $signal $((limit * (RANDOM % 500 + 50) / 1000)) "${scene[@]}" -o "$out" --resume && times=$((times + 1))
+            [ -e "$out/checkpoint.nc" ] || break
+        done
+    fi
+    if [ $signal = TERM ] && [ -e "$out/checkpoint.nc" ]; then grep -q -- '--resume' "$work/err" || [ ! -s "$work/err" ]; verdict "$k $kind: TERM tells how to go on" $?; fi
+    if grep -q '"outcome": "done"' "$out/report.json" 2> /dev/null && [ ! -e "$out/checkpoint.nc" ]; then code=0; else resumed "${scene[@]}" -o "$out"; code=$?; fi
+    same "$work/$kind" "$out" > "$work/why" 2>&1; other=$?
+    verdict "$k $kind: $times times $signal, then the files of an undisturbed run" $((code + other))
+    rm -rf "$out"
+done
+
+# ---- refusals
+"$perigal" run "${event[@]}" --quiet --threads 1 --set output.checkpoint='0.05 s' -o "$work/event" --resume > "$work/out" 2> "$work/err"
+verdict "a finished run has nothing to go on with" $?
+run plate.yaml -o "$work/none" --resume; [ $? -eq 64 ] && grep -q 'no .*checkpoint.nc' "$work/err" && [ ! -e "$work/none" ]
+verdict "no checkpoint: said, nothing made" $?
+until disturb TERM $((took[event] * 7 / 10)) "${event[@]}" -o "$work/half" && [ -e "$work/half/checkpoint.nc" ]; do took[event]=$((took[event] * 9 / 10 + 5)); done
+[ $code -eq 130 ] && grep -q 'go on with: perigal run plate.yaml -o .*--set .spacing=0.5 mm. .*--resume' "$work/err"; verdict "TERM: exit code 130 and the command to go on" $?
+grep -q '"outcome": "interrupted' "$work/half/report.json"; verdict "TERM: the report tells it" $?
+sum=$(cd "$work/half" && cat checkpoint.nc history.csv result.e | cksum)
+run "${event[@]}" --set solver.tie=1e-9 -o "$work/half" --resume; [ $? -eq 64 ] && grep -q 'of another scene' "$work/err" && [ "$sum" = "$(cd "$work/half" && cat checkpoint.nc history.csv result.e | cksum)" ]
+verdict "a changed scene is refused, the folder stays" $?
+head -c 3000 "$work/half/checkpoint.nc" > "$work/cut" && cp -r "$work/half" "$work/torn" && cp "$work/cut" "$work/torn/checkpoint.nc"
+run "${event[@]}" -o "$work/torn" --resume; [ $? -eq 70 ] && grep -q 'checkpoint.nc' "$work/err"; verdict "a torn checkpoint is refused" $?
+run "${event[@]}" -o "$work/half"; code=$?; same "$work/event" "$work/half" > "$work/why" 2>&1; verdict "without --resume it begins anew" $((code + $?))
+
+# ---- disks: limited file size (EFBIG), a small disk (ENOSPC), a folder that cannot be written
+readable() { ncdump -h "$1/result.e" > /dev/null 2>&1 && head -1 "$1/history.csv" | grep -q 'load_factor' && [ "$(tail -c 1 "$1/history.csv" | od -An -c | tr -d ' ')" = '\n' ]; }
+(ulimit -f 120; exec "$perigal" run "${fixed[@]}" --quiet --threads 1 --set output.checkpoint='0.05 s' -o "$work/limited") > "$work/out" 2> "$work/err"
+[ $? -eq 70 ] && grep -q 'File too large' "$work/err"; verdict "a file that may not grow: exit code 70 and the reason" $?
+readable "$work/limited"; verdict "its results are readable" $?
+[ ! -e "$work/limited/checkpoint.nc" ] || { run "${fixed[@]}" -o "$work/limited" --resume && same "$work/fixed" "$work/limited"; } > "$work/why" 2>&1; verdict "it can be gone on with" $?
+mkdir "$work/small"
+if mount -t tmpfs -o size=400k tmpfs "$work/small" 2> /dev/null; then
+    run "${event[@]}" --set 'output.at.events=1' -o "$work/small/out"
+    [ $? -eq 70 ] && grep -q 'No space left' "$work/err"; verdict "a full disk: exit code 70 and the reason" $?
+    readable "$work/small/out"; verdict "its results are readable" $?
+    if [ -e "$work/small/out/checkpoint.nc" ]; then
+        cp -r "$work/small/out" "$work/moved"; run "${event[@]}" --set 'output.at.events=1' -o "$work/moved" --resume; code=$?
+        run "${event[@]}" --set 'output.at.events=1' -o "$work/whole"; same "$work/whole" "$work/moved" > "$work/why" 2>&1; verdict "moved to a larger disk it goes on" $((code + $?))
+    fi
+    mount -o remount,ro "$work/small"
+    run "${event[@]}" -o "$work/small/out"; [ $? -eq 70 ] && grep -q 'small/out.*Read-only' "$work/err"; verdict "a read-only disk: exit code 70 and the reason" $?
+    umount "$work/small"
+fi
+echo "1..$n"
+exit $bad

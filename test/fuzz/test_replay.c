@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The seeds of the fuzzers, the wrong scenes and all that fuzzing ever found, once more and without libFuzzer. Run from the top folder. */
+#include "check.h"
+#define FUZZ_REPLAY
+#define FUZZ_BROKEN(what) do { print_error ("%s: broken: %s; last error: %s\n", replayed, (what), pg_last_error ()); _fail (__FILE__, __LINE__); } while (0)
+static char replayed[300];
+
+#define LLVMFuzzerTestOneInput fuzz_scene
+#include "fuzz_scene.c"
+#undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_points
+#include "fuzz_points.c"
+#undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_expression
+#include "fuzz_expression.c"
+#undef LLVMFuzzerTestOneInput
+#include <dirent.h>
+
+typedef int (*fuzzer) (const uint8_t *data, size_t size);
+
+static void replay_file (fuzzer f)
+{
+    size_t cap = 1 << 17, n;
+    uint8_t *data = pg_calloc (cap, 1);
+    FILE *file = fopen (replayed, "rb");
+    assert_non_null (data);
+    assert_non_null (file);
+    n = fread (data, 1, cap, file);
+    fclose (file);
+    f (data, n);
+    pg_free (data);
+}
+
+/* All files of a folder whose names begin so. */
+static size_t replay (fuzzer f, const char *folder, const char *start)
+{
+    size_t count = 0;
+    DIR *d = opendir (folder);
+    if (!d) print_error ("no folder %s: run tests from the top of the tree\n", folder);
+    assert_non_null (d);
+    for (struct dirent *e; (e = readdir (d)); ) {
+        if (e->d_name[0] == '.' || strncmp (e->d_name, start, strlen (start)) != 0) continue;
+        snprintf (replayed, sizeof replayed, "%s/%s", folder, e->d_name);
+        replay_file (f);
+        count++;
+    }
+    closedir (d);
+    return count;
+}
+
+static void scenes_that_were_found_are_answered (void **state)
+{
+    (void) state;
+    assert_true (replay (fuzz_scene, "test/fuzz/found", "scene-") > 0);
+}
+
+static void seeds_are_answered (void **state)
+{
+    (void) state;
+    assert_true (replay (fuzz_scene, "test/fuzz/seed_scene", "") > 3);
+    assert_true (replay (fuzz_points, "test/fuzz/seed_points", "") > 2);
+    assert_true (replay (fuzz_expression, "test/fuzz/seed_expression", "") > 8);
+}
+
+static void points_and_expressions_that_were_found_are_answered (void **state)
+{
+    (void) state;
+    replay (fuzz_points, "test/fuzz/found", "points-");
+    replay (fuzz_expression, "test/fuzz/found", "expression-");
+}
+
+static void wrong_scenes_leave_nothing_behind (void **state)
+{
+    (void) state;
+    assert_true (replay (fuzz_scene, "test/cli/wrong", "") > 90);
+}
+
+/* Also a file that was not written to its end. */
+static void any_seed_cut_anywhere_is_answered (void **state)
+{
+    (void) state;
+    uint8_t text[4096];
+    FILE *file = fopen ("test/fuzz/seed_scene/block.yaml", "rb");
+    assert_non_null (file);
+    size_t n = fread (text, 1, sizeof text, file);
+    fclose (file);
+    snprintf (replayed, sizeof replayed, "block.yaml, cut");
+    for (size_t k = 0; k < n; k += 3) fuzz_scene (text, k);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (scenes_that_were_found_are_answered), cmocka_unit_test (points_and_expressions_that_were_found_are_answered),
+        cmocka_unit_test (seeds_are_answered), cmocka_unit_test (wrong_scenes_leave_nothing_behind),
+        cmocka_unit_test (any_seed_cut_anywhere_is_answered),
+    };
+    return cmocka_run_group_tests_name ("fuzz/replay", tests, NULL, NULL);
+}

@@ -1,0 +1,339 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The forecast against the bodies it foretells: counts, factor, memory, what fits, and what is refused. */
+#include "check.h"
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include "scenes.h"
+#include "perigal/stiffness.h"
+
+#define ROCK "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}}\n"
+#define CUBE "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\n" ROCK
+#define DISK "dimension: 2\nbody: [{add: {disk: {center: [0, 0], diameter: 1}}}, {subtract: {disk: {center: [0.1, 0], diameter: 0.2}}}]\n" ROCK
+#define SLAB "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], diameter: 1, length: 0.1}}}]\n" ROCK
+#define HELD "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 1 mm}}]\n"
+
+static pg_forecast forecast (const char *text)
+{
+    pg_forecast f;
+    pg_scene *scene = NULL;
+    check_ok (pg_scene_parse (&scene, text, "test.yaml"));
+    check_ok (pg_forecast_scene (&f, scene));
+    pg_scene_free (&scene);
+    return f;
+}
+
+/* ---- counts ----------------------------------------------------------------------------------------------------------- */
+static void counts_as_built (const char *text)
+{
+    pg_forecast f = forecast (text);
+    built b = build (text);
+    const pg_problem *p = b.problem;
+    assert_true (f.counted);
+    assert_true (f.points == (double) p->cloud.n);
+    assert_true (f.cells == (double) p->cells.n);
+    assert_true (f.evaluation == (double) p->rows[PG_POINTS].n);
+    assert_true (f.bonds[PG_NODES] == (double) p->first_bond[1]);
+    assert_true (f.bonds[PG_POINTS] == (double) (p->first_bond[2] - p->first_bond[1]));
+    const pg_family *bulk = &p->rows[f.nodal ? PG_NODES : PG_POINTS].family;
+    pg_sparse G;
+    check_ok (pg_stiffness_graph (&G, p->cloud.n, 1, &bulk));
+    assert_true (f.pairs == (double) G.start[G.ncol]);
+    pg_sparse_clear (&G);
+    unbuild (&b);
+}
+
+static void test_bar (void **state)      { (void) state; counts_as_built ("dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.02\n" ROCK); }
+static void test_plane (void **state)    { (void) state; counts_as_built (DISK "spacing: 0.05\n"); }
+static void test_solid (void **state)    { (void) state; counts_as_built (SLAB "spacing: 0.06\n"); }
+static void test_nodal (void **state)    { (void) state; counts_as_built (DISK "spacing: 0.03\nmethod: {integration: nodal, approximation: nosb}\n"); }
+static void test_centres (void **state)  { (void) state; counts_as_built (DISK "spacing: 0.04\nlattice: cells\n"); }
+static void test_tensor (void **state)   { (void) state; counts_as_built (DISK "spacing: 0.05\nmethod: {support: tensor}\n"); }
+static void test_closed (void **state)   { (void) state; counts_as_built (DISK "spacing: 0.05\nmethod: {kernel: constant, approximation: pddo}\n"); }
+static void test_metres (void **state)   { (void) state; counts_as_built (DISK "spacing: 0.05\nmethod: {horizon: 0.12 m}\n"); }
+static void test_quadratic (void **state) { (void) state; counts_as_built (DISK "spacing: 0.06\nmethod: {basis: quadratic, horizon: 3 spacing}\n"); }
+static void test_oblong (void **state)
+{
+    (void) state;
+    counts_as_built ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.33]}}}]\nspacing: 0.06\nlattice_offset: [0.3, -0.2]\n" ROCK);
+}
+
+static void test_a_sample_is_near_the_count (void **state)
+{
+    (void) state;
+    const char *text = CUBE "spacing: 0.033\n";
+    pg_forecast f = forecast (text);
+    built b = build (text);
+    assert_false (f.counted);
+    assert_true (f.points == (double) b.problem->cloud.n);
+    check_relative (f.bonds[PG_NODES], (double) b.problem->first_bond[1], 0.01);
+    check_relative (f.bonds[PG_POINTS], (double) (b.problem->first_bond[2] - b.problem->first_bond[1]), 0.01);
+    check_ok (pg_forecast_problem (&f, b.problem));
+    assert_true (f.counted && f.bonds[PG_POINTS] == (double) (b.problem->first_bond[2] - b.problem->first_bond[1]));
+    unbuild (&b);
+}
+
+static void test_a_coarser_lattice_is_near_the_count (void **state)
+{
+    (void) state;
+    pg_forecast f = forecast (DISK "spacing: 0.0003\n");
+    check_relative (f.points, 0.96 * 3.14159265 / 4 / (0.0003 * 0.0003), 0.01);
+    check_relative (f.bonds[PG_NODES] / f.points, 9, 0.02);
+    check_relative (f.horizon, 0.0006, 1e-3);
+}
+
+static void test_wide_horizons_need_no_stencil (void **state)
+{
+    (void) state;
+    size_t before = pg_memory_peak ();
+    pg_forecast f = forecast (CUBE "spacing: 0.05\nmethod: {horizon: 50 spacing}\n");
+    assert_true (f.points == 9261 && f.bonds[PG_NODES] == f.points * f.points);
+    check_below ((double) (pg_memory_peak () - before), 1e7);
+}
+
+/* ---- factor ----------------------------------------------------------------------------------------------------------- */
+static void factor_is_near (const char *text, double tolerance)
+{
+    pg_forecast f = forecast (text);
+    pg_linear_info info;
+    built b = build (text);
+    const pg_family *bulk = &b.problem->rows[f.nodal ? PG_NODES : PG_POINTS].family;
+    pg_sparse G;
+    check_ok (pg_stiffness_graph (&G, b.problem->cloud.n, 1, &bulk));
+    check_ok (pg_linear_forecast (&G, f.dim, &info));
+    assert_false (f.analysed);
+    check_relative (f.factor_entries, info.factor_entries, tolerance);
+    check_relative (f.factor_flops, info.flops, 2 * tolerance);
+    pg_sparse_clear (&G);
+    unbuild (&b);
+}
+
+static void test_law_of_a_disk (void **state)  { (void) state; factor_is_near (DISK "spacing: 0.01\n", 0.2); }
+static void test_law_of_a_cube (void **state)  { (void) state; factor_is_near (CUBE "spacing: 0.06\n", 0.2); }
+static void test_law_of_a_slab (void **state)  { (void) state; factor_is_near (SLAB "spacing: 0.02\n", 0.2); }
+static void test_law_of_wide_bonds (void **state) { (void) state; factor_is_near (DISK "spacing: 0.012\nmethod: {horizon: 3 spacing}\n", 0.2); }
+
+static pg_forecast analysed (const built *b, const char *text)
+{
+    pg_forecast f = forecast (text);
+    const pg_family *seen[2] = { &b->problem->rows[PG_POINTS].family, &b->problem->rows[PG_FACETS].family };
+    pg_sparse G;
+    pg_linear_info info;
+    check_ok (pg_forecast_problem (&f, b->problem));
+    check_ok (pg_stiffness_graph (&G, b->problem->cloud.n, 2, seen));
+    check_ok (pg_linear_forecast (&G, b->problem->dim, &info));
+    pg_forecast_analysed (&f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
+    pg_sparse_clear (&G);
+    return f;
+}
+
+static void run_has_this_factor (const char *text)
+{
+    built b = build (text);
+    pg_forecast f = analysed (&b, text);
+    pg_solver_options o;
+    pg_solver *solver = NULL;
+    pg_state *s = NULL;
+    pg_step step;
+    check_ok (pg_solver_options_read (&o, b.problem, b.scene));
+    check_ok (pg_solver_create (&solver, b.problem, &o));
+    check_ok (pg_state_create (&s, b.problem, pg_solver_components (solver)));
+    check_ok (pg_solver_step (solver, s, &step));
+    assert_true (pg_solver_report_now (solver)->factor_entries == f.factor_entries);
+    assert_string_equal (pg_solver_report_now (solver)->ordering, f.ordering);
+    pg_state_free (&s), pg_solver_free (&solver);
+    unbuild (&b);
+}
+
+static void test_analysis_is_that_of_a_run (void **state)
+{
+    (void) state;
+    run_has_this_factor (PLATE HELD);
+    run_has_this_factor ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.02\n" ROCK HELD);
+    run_has_this_factor (CUBE "spacing: 0.125\nboundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 1 mm}}]\n");
+}
+
+/* ---- who solves --------------------------------------------------------------------------------------------------------- */
+static void test_small_time_steps_factor_nothing (void **state)
+{
+    (void) state;
+    pg_forecast small = forecast (DISK "spacing: 0.01\nsolver: {kind: newmark, dt: 2 us, end: 1 ms}\n");
+    pg_forecast large = forecast (DISK "spacing: 0.01\nsolver: {kind: newmark, dt: 1 ms, end: 1 s}\n");
+    assert_string_equal (small.linear, "cg");
+    assert_string_equal (large.linear, "cholmod");
+    assert_true (small.bytes[PG_BYTES_FACTOR] == 0 && small.bytes[PG_BYTES_MATRIX] == 0 && large.bytes[PG_BYTES_FACTOR] > 0);
+    assert_string_equal (forecast (DISK "spacing: 0.01\nsolver: {linear: pcg}\n").linear, "cg");
+    assert_string_equal (forecast (DISK "spacing: 0.01\nsolver: {linear: umfpack}\n").linear, "umfpack");
+}
+
+/* ---- refusals ----------------------------------------------------------------------------------------------------------- */
+static void test_what_fits_is_no_error (void **state)
+{
+    (void) state;
+    pg_forecast f = forecast (DISK "spacing: 0.05\n");
+    check_ok (pg_forecast_afford (&f, f.peak));
+    check_ok (pg_forecast_afford (&f, INFINITY));
+}
+
+static void test_refusal_has_the_numbers (void **state)
+{
+    (void) state;
+    pg_forecast f = forecast (CUBE "spacing: 0.04\n");
+    check_fails (pg_forecast_afford (&f, 0.9 * f.peak), PG_E_LIMIT);
+    check_contains (pg_last_error (), " GB of memory, and ");
+    check_contains (pg_last_error (), "points at spacing 0.04 m");
+    check_contains (pg_last_error (), "factor ");
+    check_contains (pg_last_error (), "a spacing of 0.04");
+    check_contains (pg_last_error (), "method.integration: nodal needs about");
+    check_contains (pg_last_error (), "solver.linear: pcg needs about");
+    check_contains (pg_last_error (), "dimension: 2");
+}
+
+static void test_the_spacing_that_fits_fits (void **state)
+{
+    (void) state;
+    pg_forecast f = forecast (CUBE "spacing: 0.02\nsolver: {linear: cholmod}\n");
+    double fit = pg_forecast_fitting (&f, 1e9);
+    char text[512];
+    assert_true (fit > 0.02 && fit < 0.2);
+    snprintf (text, sizeof text, CUBE "spacing: %.17g\nsolver: {linear: cholmod}\n", fit);
+    pg_forecast g = forecast (text);
+    check_below (g.peak, 1.1e9);
+    check_below (0.6e9, g.peak);
+    assert_true (isinf (pg_forecast_fitting (&f, 1e6)));
+}
+
+static void test_astronomic_sizes (void **state)
+{
+    (void) state;
+    pg_forecast f = forecast (CUBE "spacing: 0.00011\n");
+    check_relative (f.points, 1 / (0.00011 * 0.00011 * 0.00011), 0.05);
+    assert_true (f.bonds[PG_POINTS] > 1e13 && isfinite (f.peak) && f.peak > 1e15);
+    check_fails (pg_forecast_afford (&f, 1e13), PG_E_LIMIT);
+    pg_scene *scene = NULL;
+    check_ok (pg_scene_parse (&scene, CUBE "spacing: 1e-9\n", "test.yaml"));
+    check_fails (pg_forecast_scene (&f, scene), PG_E_SCENE);
+    pg_scene_free (&scene);
+    check_refused (CUBE "spacing: 1e-6\n", "too fine for this body: 1e+18 cells, and 2147483647 are possible");
+}
+
+static void test_faults_are_faults (void **state)
+{
+    (void) state;
+    pg_forecast f;
+    pg_scene *scene = NULL;
+    check_ok (pg_scene_parse (&scene, DISK "spacing: 0.1\nmethod: {horizon: 0.01 m}\n", "test.yaml"));
+    check_fails (pg_forecast_scene (&f, scene), PG_E_SCENE);
+    pg_scene_free (&scene);
+}
+
+static void test_failing_allocations (void **state)
+{
+    (void) state;
+    pg_scene *scene = NULL;
+    pg_forecast f;
+    check_ok (pg_scene_parse (&scene, SLAB "spacing: 0.1\n", "test.yaml"));
+    size_t used = pg_memory_used ();
+    for (size_t k = 1;; k++) {
+        pg_memory_fail_at (k);
+        pg_status status = pg_forecast_scene (&f, scene);
+        pg_memory_fail_at (0);
+        assert_int_equal (pg_memory_used (), used);
+        if (status == PG_OK) break;
+        assert_int_equal (status, PG_E_MEMORY);
+    }
+    pg_scene_free (&scene);
+}
+
+/* ---- what is left -------------------------------------------------------------------------------------------------------- */
+static char root[64];
+
+static void put (const char *path, const char *text)
+{
+    char whole[256];
+    snprintf (whole, sizeof whole, "%s/%s", root, path);
+    for (char *s = whole + strlen (root) + 1; (s = strchr (s, '/')); *s++ = '/') *s = 0, mkdir (whole, 0777);
+    FILE *f = fopen (whole, "w");
+    assert_non_null (f);
+    fputs (text, f);
+    assert_int_equal (fclose (f), 0);
+}
+
+static int make_root (void **state)
+{
+    (void) state;
+    snprintf (root, sizeof root, "/tmp/perigal-left-XXXXXX");
+    if (!mkdtemp (root)) return -1;
+    put ("proc/meminfo", "MemTotal:       24000000 kB\nMemFree:         1000000 kB\nMemAvailable:   20000000 kB\n");
+    return 0;
+}
+
+static int drop_root (void **state)
+{
+    (void) state;
+    char line[128];
+    snprintf (line, sizeof line, "rm -rf %s", root);
+    return system (line);
+}
+
+static void test_machine (void **state)
+{
+    (void) state;
+    put ("proc/self/cgroup", "");
+    assert_true (pg_available_memory (root) == 20000000 * 1024.0);
+}
+
+static void test_no_limit_in_the_group (void **state)
+{
+    (void) state;
+    put ("proc/self/cgroup", "0::/a/b\n");
+    put ("sys/fs/cgroup/a/b/memory.max", "max\n");
+    put ("sys/fs/cgroup/a/b/memory.current", "1000\n");
+    assert_true (pg_available_memory (root) == 20000000 * 1024.0);
+}
+
+static void test_a_group_above_limits (void **state)
+{
+    (void) state;
+    put ("proc/self/cgroup", "0::/a/b\n");
+    put ("sys/fs/cgroup/a/memory.max", "5000000000\n");
+    put ("sys/fs/cgroup/a/memory.current", "3000000000\n");
+    put ("sys/fs/cgroup/a/memory.stat", "anon 1\ninactive_file 1000000000\nactive_file 7\n");
+    assert_true (pg_available_memory (root) == 3e9);
+}
+
+static void test_first_version_groups (void **state)
+{
+    (void) state;
+    put ("proc/self/cgroup", "9:name=systemd:/\n4:cpu,memory:/not/seen/here\n0::/\n");
+    put ("sys/fs/cgroup/memory/memory.limit_in_bytes", "2000000000\n");
+    put ("sys/fs/cgroup/memory/memory.usage_in_bytes", "500000000\n");
+    assert_true (pg_available_memory (root) == 1.5e9);
+}
+
+static void test_this_machine (void **state)
+{
+    (void) state;
+    double left = pg_available_memory ("");
+    assert_true (left > 1e6 && !isnan (left));
+    assert_true (isinf (pg_available_memory ("/nowhere")) || pg_available_memory ("/nowhere") > 0);
+}
+
+#define LEFT(test) cmocka_unit_test_setup_teardown (test, make_root, drop_root)
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (test_bar), cmocka_unit_test (test_plane), cmocka_unit_test (test_solid), cmocka_unit_test (test_nodal),
+        cmocka_unit_test (test_centres), cmocka_unit_test (test_tensor), cmocka_unit_test (test_closed), cmocka_unit_test (test_metres),
+        cmocka_unit_test (test_quadratic), cmocka_unit_test (test_oblong), cmocka_unit_test (test_a_sample_is_near_the_count),
+        cmocka_unit_test (test_a_coarser_lattice_is_near_the_count), cmocka_unit_test (test_wide_horizons_need_no_stencil),
+        cmocka_unit_test (test_law_of_a_disk), cmocka_unit_test (test_law_of_a_cube), cmocka_unit_test (test_law_of_a_slab),
+        cmocka_unit_test (test_law_of_wide_bonds), cmocka_unit_test (test_analysis_is_that_of_a_run),
+        cmocka_unit_test (test_small_time_steps_factor_nothing), cmocka_unit_test (test_what_fits_is_no_error),
+        cmocka_unit_test (test_refusal_has_the_numbers), cmocka_unit_test (test_the_spacing_that_fits_fits),
+        cmocka_unit_test (test_astronomic_sizes), cmocka_unit_test (test_faults_are_faults), cmocka_unit_test (test_failing_allocations),
+        LEFT (test_machine), LEFT (test_no_limit_in_the_group), LEFT (test_a_group_above_limits), LEFT (test_first_version_groups),
+        cmocka_unit_test (test_this_machine),
+    };
+    return cmocka_run_group_tests_name ("model/forecast", tests, NULL, NULL);
+}

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * checkpoint.nc: what a walk writes comes back bit by bit; at any instant there is the old file or the whole new one; what is missing,
+ * of another length or cut off is refused by name. */
+#include "check.h"
+#include "sample.h"
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+
+typedef struct {
+    double number[5];
+    long   count[3];
+    char   text[7];
+    size_t n;                                          /* of the numbers                                                  */
+    const char *name;                                  /* of the counts                                                   */
+    pg_status answer;
+} thing;
+
+static pg_status walk (void *context, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    thing *t = context;
+    PG_TRY (k->numbers (k->context, "a.number", t->n, t->number));
+    PG_TRY (k->counts (k->context, t->name, 3, t->count));
+    PG_TRY (k->bytes (k->context, "nothing", 0, t->text));
+    PG_TRY (k->bytes (k->context, "a.text", sizeof t->text, t->text));
+    status = t->answer;
+done:
+    return status;
+}
+
+static thing sample_thing (void)
+{
+    return (thing) { { 1.0 / 3, -0.0, NAN, INFINITY, 5e-324 }, { -1, 0, 0x7ffffffffffffff1 }, "a\0b\xff", 5, "a.count", PG_OK };
+}
+
+static void all_comes_back (void **state)
+{
+    (void) state;
+    thing a = sample_thing (), b = { .n = 5, .name = "a.count" };
+    const char *path = file_at ("all.nc");
+    check_ok (pg_checkpoint_write (path, walk, &a));
+    assert_int_equal (access (file_at ("all.nc.new"), F_OK), -1);
+    check_ok (pg_checkpoint_read (path, walk, &b));
+    assert_memory_equal (a.number, b.number, sizeof a.number);
+    assert_memory_equal (a.count, b.count, sizeof a.count);
+    assert_memory_equal (a.text, b.text, sizeof a.text);
+}
+
+static void what_does_not_fit_is_named (void **state)
+{
+    (void) state;
+    thing a = sample_thing (), b = a;
+    const char *path = file_at ("misfit.nc");
+    check_ok (pg_checkpoint_write (path, walk, &a));
+    b.n = 4;
+    check_fails (pg_checkpoint_read (path, walk, &b), PG_E_FILE);
+    check_contains (pg_last_error (), "misfit.nc: 'a.number' has 5 values, not 4");
+    b.n = 5, b.name = "another";
+    check_fails (pg_checkpoint_read (path, walk, &b), PG_E_FILE);
+    check_contains (pg_last_error (), "misfit.nc lacks 'another'");
+    b.name = "a.text";
+    check_fails (pg_checkpoint_read (path, walk, &b), PG_E_FILE);
+    check_fails (pg_checkpoint_read (file_at ("absent.nc"), walk, &b), PG_E_FILE);
+    check_contains (pg_last_error (), "absent.nc: No such file");
+}
+
+static void a_name_used_twice_is_a_misuse (void **state)
+{
+    (void) state;
+    thing a = sample_thing ();
+    a.name = "a.number";
+    check_fails (pg_checkpoint_write (file_at ("twice.nc"), walk, &a), PG_E_USAGE);
+    check_contains (pg_last_error (), "a.number");
+    assert_int_equal (access (file_at ("twice.nc"), F_OK), -1);
+}
+
+static void a_walk_that_fails_leaves_the_old_file (void **state)
+{
+    (void) state;
+    thing a = sample_thing (), b = { .n = 5, .name = "a.count" };
+    const char *path = file_at ("old.nc");
+    check_ok (pg_checkpoint_write (path, walk, &a));
+    a.count[0] = 7, a.answer = pg_error (PG_E_MEMORY, PG_HERE, "a test");
+    check_fails (pg_checkpoint_write (path, walk, &a), PG_E_MEMORY);
+    assert_int_equal (access (file_at ("old.nc.new"), F_OK), -1);
+    check_ok (pg_checkpoint_read (path, walk, &b));
+    assert_int_equal (b.count[0], -1);
+}
+
+static long bytes_of (const char *path)
+{
+    FILE *file = fopen (path, "r");
+    assert_non_null (file);
+    fseek (file, 0, SEEK_END);
+    long bytes = ftell (file);
+    fclose (file);
+    return bytes;
+}
+
+static void a_full_disk_leaves_the_old_file (void **state)
+{
+    (void) state;
+    thing a = sample_thing (), b = { .n = 5, .name = "a.count" };
+    struct rlimit old, tight;
+    char path[160], fresh[160];                        /* file_at has four buffers                                       */
+    strcpy (path, file_at ("full.nc")), strcpy (fresh, file_at ("full.nc.new"));
+    signal (SIGXFSZ, SIG_IGN);
+    getrlimit (RLIMIT_FSIZE, &old);
+    check_ok (pg_checkpoint_write (path, walk, &a));
+    a.count[0] = 7;
+    for (rlim_t room = 0; (long) room < bytes_of (path); room += 61) {
+        tight = (struct rlimit) { room, old.rlim_max };
+        setrlimit (RLIMIT_FSIZE, &tight);
+        pg_status status = pg_checkpoint_write (path, walk, &a);
+        setrlimit (RLIMIT_FSIZE, &old);
+        assert_int_equal (status, PG_E_FILE);
+        check_contains (pg_last_error (), "File too large");
+        assert_int_equal (access (fresh, F_OK), -1);
+        check_ok (pg_checkpoint_read (path, walk, &b));
+        assert_int_equal (b.count[0], -1);
+    }
+}
+
+static void a_file_cut_off_is_refused (void **state)
+{
+    (void) state;
+    thing a = sample_thing (), b = { .n = 5, .name = "a.count" };
+    const char *path = file_at ("cut.nc");
+    check_ok (pg_checkpoint_write (path, walk, &a));
+    long bytes = bytes_of (path);
+    for (long keep = bytes - 1; keep > 0; keep -= 1 + bytes / 37) {
+        assert_int_equal (truncate (path, keep), 0);
+        check_fails (pg_checkpoint_read (path, walk, &b), PG_E_FILE);
+        check_contains (pg_last_error (), path);
+    }
+}
+
+/* A child writes one checkpoint after the other until it is killed. */
+static void no_instant_to_be_killed_at_is_bad (void **state)
+{
+    (void) state;
+    thing b = { .n = 5, .name = "a.count" };
+    const char *path = file_at ("any_instant.nc");
+    int how;
+    long last = -1;
+    for (int round = 0; round < 25; round++) {
+        pid_t child = fork ();
+        if (child == 0) {
+            thing a = sample_thing ();
+            for (a.count[0] = a.count[1] = last + 1;; a.count[0]++, a.count[1]++) if (pg_checkpoint_write (path, walk, &a) != PG_OK) _exit (1);
+        }
+        nanosleep (&(struct timespec) { .tv_nsec = 3000000 + 731000 * round }, NULL);
+        kill (child, SIGKILL);
+        waitpid (child, &how, 0);
+        assert_true (WIFSIGNALED (how));
+        if (access (path, F_OK) != 0) continue;
+        check_ok (pg_checkpoint_read (path, walk, &b));
+        assert_int_equal (b.count[0], b.count[1]);
+        assert_true (b.count[0] >= last);
+        last = b.count[0];
+    }
+    assert_true (last > 0);
+}
+
+static void any_allocation_may_fail (void **state)
+{
+    (void) state;
+    thing a = sample_thing ();
+    size_t used = pg_memory_used (), k = 1;
+    pg_status status = PG_E_MEMORY;
+    for (; status != PG_OK && k < 20; k++) {
+        pg_memory_fail_at (k);
+        status = pg_checkpoint_write (file_at ("sweep.nc"), walk, &a);
+        pg_memory_fail_at (0);
+        assert_true (status == PG_OK || status == PG_E_MEMORY);
+        assert_int_equal (pg_memory_used (), used);
+    }
+    assert_true (status == PG_OK && k > 1);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (all_comes_back), cmocka_unit_test (what_does_not_fit_is_named), cmocka_unit_test (a_name_used_twice_is_a_misuse),
+        cmocka_unit_test (a_walk_that_fails_leaves_the_old_file), cmocka_unit_test (a_full_disk_leaves_the_old_file),
+        cmocka_unit_test (a_file_cut_off_is_refused), cmocka_unit_test (no_instant_to_be_killed_at_is_bad),
+        cmocka_unit_test (any_allocation_may_fail),
+    };
+    return cmocka_run_group_tests_name ("output/checkpoint", tests, NULL, remove_folder);
+}

@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Going on from a checkpoint: from every break round and every step of small runs the files come out as if nothing had happened; what
+ * was written after the checkpoint is cut off; checkpoints of other scenes, points or versions are refused; a disk that is full for a while. */
+#include "folder.h"
+#include "output/fonts.h"
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#define BODY "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.6, 0.5]}}}]\nspacing: 0.1\n" \
+    "cracks: [{from: [-0.1, 0.25], to: [0.15, 0.25]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2, density: 2000}}\n" \
+    "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\n"
+#define PULL "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: top, displacement: {y: 2 mm}}]\n"
+static const struct { const char *name, *text; } scenes[] = {
+    { "event", BODY PULL "solver: {stepping: event}\noutput: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
+    { "fixed", BODY PULL "solver: {stepping: fixed, steps: 3}\noutput: {pictures: [], at: {levels: 2, broken: 4 %}}\n" },
+    { "transformation", BODY PULL "method: {essential: transformation}\nsolver: {stepping: fixed, steps: 3, stop: {set: right}}\noutput: {pictures: [], at: {broken: 4 %}}\n" },
+    { "nodal", BODY PULL "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty}\n"
+      "solver: {stepping: fixed, steps: 3, break: fraction, break_fraction: 5 %}\noutput: {pictures: [], at: {broken: 4 %}}\n" },
+    { "newmark", BODY "boundary: [{set: bottom, velocity: {x: 0, y: -4 m/s}}, {set: top, velocity: {y: 4 m/s}, table: [[0, 0], [1e-3, 1]]}]\n"
+      "method: {essential: transformation}\nsolver: {kind: newmark, dt: 0.1 ms, end: 1 ms, rayleigh: {stiffness: 1 us}, break: fraction, break_fraction: 5 %}\n"
+      "output: {pictures: [], at: {levels: 5, broken: 4 %}}\n" },
+};
+enum { SCENES = sizeof scenes / sizeof *scenes };
+
+typedef struct { pg_result *result; pg_state *state; long left; int within; } visit;       /* left: looks until it stops */
+
+static pg_status look (void *context, const pg_state *state, const pg_step *so_far)
+{
+    visit *v = context;
+    pg_status status = pg_result_stage (v->result, state, so_far);
+    if (status == PG_OK && --v->left == 0) v->within = 1, status = pg_error (PG_E_INTERRUPTED, PG_HERE, "a test");
+    return status;
+}
+
+/* Steps until it is done or the `left`-th look at it (between rounds, after steps). 1: it was stopped. */
+static int go (run *r, visit *v)
+{
+    v->state = r->state, v->within = 0;
+    pg_solver_watch (r->solver, look, v);
+    while (!pg_solver_done (r->solver, r->state)) {
+        pg_status status = pg_solver_step (r->solver, r->state, &r->step);
+        if (v->within) return 1;
+        check_ok (status);
+        check_ok (pg_result_step (v->result, r->state, &r->step));
+        if (--v->left == 0) return 1;
+    }
+    check_ok (pg_result_finish (v->result, r->state, NULL, 0, 0));
+    return 0;
+}
+
+static void same_file (const char *a, const char *b, const char *name)
+{
+    char path[256], command[700];
+    snprintf (path, sizeof path, "%s", inside (a, name));
+    snprintf (command, sizeof command, "cmp %s %s", path, inside (b, name));
+    assert_int_equal (system (command), 0);
+}
+
+/* Counts of report.json: what comes before its times. */
+static void same_report (const char *a, const char *b)
+{
+    char *one = slurp (inside (a, "report.json")), *other = slurp (inside (b, "report.json"));
+    strstr (one, "\"seconds\"")[0] = 0, strstr (other, "\"seconds\"")[0] = 0;
+    assert_string_equal (one, other);
+    pg_free (one), pg_free (other);
+}
+
+static void same_files (const char *a, const char *b)
+{
+    same_file (a, b, "history.csv"), same_file (a, b, "events.csv"), same_file (a, b, "result.e");
+    same_report (a, b);
+    assert_int_equal (size_of (inside (b, "checkpoint.nc")), -1);
+}
+
+/* Stops at the k-th look, leaves a checkpoint and a little more than it knows of. 0: the run was over before. */
+static int stop_at (const char *text, const char *where, long k)
+{
+    run r = prepare (1, text);
+    visit v = { .left = k };
+    check_ok (pg_result_open (&v.result, where, r.scene, r.problem, r.solver));
+    int stopped = go (&r, &v);
+    if (stopped) {
+        check_ok (pg_result_checkpoint (v.result, r.state));
+        check_ok (pg_result_finish (v.result, r.state, "stopped", 0, 0));
+    }
+    pg_result_free (&v.result);
+    clear (&r);
+    return stopped;
+}
+
+static pg_status resume (const char *text, const char *where, run *r, visit *v, pg_resumed *from)
+{
+    *r = prepare (1, text);
+    *v = (visit) { 0 };
+    return pg_result_resume (&v->result, where, r->scene, r->problem, r->solver, r->state, from);
+}
+
+/* long: from every moment; else from about every tenth */
+static void from_every_moment (int i, long some)
+{
+    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    char plain[64], where[64];
+    long k = 1, stride = size && strcmp (size, "long") == 0 ? 1 : some, within = 0, between = 0;
+    make_folder (plain), make_folder (where);
+    assert_int_equal (stop_at (scenes[i].text, plain, 0), 0);
+    for (; stop_at (scenes[i].text, where, k); k += stride) {
+        run r;
+        visit v;
+        pg_resumed from;
+        check_ok (resume (scenes[i].text, where, &r, &v, &from));
+        from.rounds ? within++ : between++;
+        assert_int_equal (from.step, r.state->step);
+        assert_int_equal (go (&r, &v), 0);
+        pg_result_free (&v.result);
+        clear (&r);
+        same_files (plain, where);
+    }
+    if (between == 0 || (within == 0) != (i == 0)) print_error ("%s: %ld moments within steps, %ld between\n", scenes[i].name, within, between);
+    assert_true (between > 0 && (within == 0) == (i == 0));                        /* events are steps                    */
+    remove_folder (plain), remove_folder (where);
+}
+static void from_every_event (void **state) { (void) state; from_every_moment (0, 5); }
+static void from_every_round_of_load_steps (void **state) { (void) state; from_every_moment (1, 7); }
+static void from_every_round_with_elimination (void **state) { (void) state; from_every_moment (2, 9); }
+static void from_every_round_of_nodal_integration (void **state) { (void) state; from_every_moment (3, 11); }
+static void from_every_round_of_time_steps (void **state) { (void) state; from_every_moment (4, 13); }
+
+/* ---- what does not fit ------------------------------------------------------------------------------------------------------ */
+static void refused (const char *text, const char *where, const char *why)
+{
+    run r;
+    visit v;
+    pg_resumed from;
+    long before = size_of (inside (where, "history.csv"));
+    check_fails (resume (text, where, &r, &v, &from), PG_E_USAGE);
+    check_contains (pg_last_error (), why);
+    assert_null (v.result);
+    assert_int_equal (size_of (inside (where, "history.csv")), before);
+    clear (&r);
+}
+
+static void what_is_not_of_this_run_is_refused (void **state)
+{
+    (void) state;
+    char where[64], changed[2048];
+    make_folder (where);
+    refused (scenes[1].text, where, "there is no");
+    assert_int_equal (stop_at (scenes[1].text, where, 5), 1);
+    snprintf (changed, sizeof changed, "title: another\n%s", scenes[1].text);
+    refused (changed, where, "is of another scene");
+    remove_folder (where);
+}
+
+static void finished_is_told_from_interrupted (void **state)
+{
+    (void) state;
+    char where[64];
+    make_folder (where);
+    run r = prepare (1, scenes[1].text), other = prepare (1, scenes[2].text);
+    assert_int_equal (pg_result_finished (where, r.scene), 0);
+    assert_int_equal (stop_at (scenes[1].text, where, 5), 1);
+    assert_int_equal (pg_result_finished (where, r.scene), 0);
+    assert_int_equal (stop_at (scenes[1].text, where, 0), 0);
+    assert_int_equal (pg_result_finished (where, r.scene), 1);
+    assert_int_equal (pg_result_finished (where, other.scene), 0);
+    clear (&r), clear (&other);
+    remove_folder (where);
+}
+
+static void a_new_run_leaves_no_old_checkpoint_or_report (void **state)
+{
+    (void) state;
+    char where[64];
+    pg_result *result = NULL;
+    make_folder (where);
+    assert_int_equal (stop_at (scenes[1].text, where, 5), 1);
+    run r = prepare (1, scenes[2].text);
+    check_ok (pg_result_open (&result, where, r.scene, r.problem, r.solver));
+    assert_int_equal (size_of (inside (where, "checkpoint.nc")), -1);
+    assert_int_equal (size_of (inside (where, "report.json")), -1);
+    pg_result_free (&result);
+    clear (&r);
+    remove_folder (where);
+}
+
+static void a_file_that_lost_rows_is_refused (void **state)
+{
+    (void) state;
+    char where[64];
+    run r;
+    visit v;
+    pg_resumed from;
+    make_folder (where);
+    assert_int_equal (stop_at (scenes[0].text, where, 3), 1);
+    assert_int_equal (truncate (inside (where, "history.csv"), 400), 0);
+    check_fails (resume (scenes[0].text, where, &r, &v, &from), PG_E_FILE);
+    check_contains (pg_last_error (), "history.csv has");
+    clear (&r);
+    remove_folder (where);
+}
+
+/* ---- stages, full disks ------------------------------------------------------------------------------------------------------- */
+static void stages_within_a_step_ascend_in_time (void **state)
+{
+    (void) state;
+    char where[64];
+    pg_cloud cloud = { 0 };
+    size_t n, within = 0;
+    double *time;
+    make_folder (where);
+    assert_int_equal (stop_at (scenes[1].text, where, 0), 0);
+    check_ok (pg_exodus_points (inside (where, "result.e"), &cloud, &n, &time));
+    for (size_t k = 0; k < n; k++) {
+        assert_true (time[k] > 0 && time[k] <= 1 && (k == 0 || time[k] > time[k - 1]));
+        within += fabs (3 * time[k] - round (3 * time[k])) > 1e-9;
+    }
+    assert_true (within >= 3);
+    char *text = slurp (inside (where, "history.csv"));
+    assert_int_equal (count_lines (text), 4);
+    pg_free (text), pg_free (time);
+    pg_cloud_clear (&cloud);
+    remove_folder (where);
+}
+
+/* Files may grow to `limit` bytes; the first failure is kept. */
+static pg_status go_on_a_small_disk (run *r, visit *v, long limit)
+{
+    struct rlimit old, tight;
+    pg_status status = PG_OK;
+    getrlimit (RLIMIT_FSIZE, &old);
+    tight = (struct rlimit) { (rlim_t) limit, old.rlim_max };
+    setrlimit (RLIMIT_FSIZE, &tight);
+    v->state = r->state;
+    pg_solver_watch (r->solver, look, v);
+    while (status == PG_OK && !pg_solver_done (r->solver, r->state)) {
+        status = pg_solver_step (r->solver, r->state, &r->step);
+        if (status == PG_OK) status = pg_result_step (v->result, r->state, &r->step);
+    }
+    setrlimit (RLIMIT_FSIZE, &old);
+    return status;
+}
+
+/* Wherever the disk is full first - a table, a stage, fields at the end of a step - a checkpoint then goes on to the same files. */
+static void a_disk_that_was_full_costs_nothing (void **state)
+{
+    (void) state;
+    char plain[64], where[64];
+    make_folder (plain), make_folder (where);
+    signal (SIGXFSZ, SIG_IGN);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal (stop_at (scenes[i].text, plain, 0), 0);
+        long most = size_of (inside (plain, "result.e")), failed = 0;
+        for (long limit = 1500; limit < most; limit += most / 7) {
+            run r = prepare (1, scenes[i].text);
+            visit v = { 0 };
+            pg_resumed from;
+            check_ok (pg_result_open (&v.result, where, r.scene, r.problem, r.solver));
+            check_fails (go_on_a_small_disk (&r, &v, limit), PG_E_FILE);
+            check_contains (pg_last_error (), "File too large");
+            if (r.state->step > 0 || r.state->broken > 0) {
+                failed++;
+                check_ok (pg_result_checkpoint (v.result, r.state));
+                pg_result_free (&v.result);
+                clear (&r);
+                check_ok (resume (scenes[i].text, where, &r, &v, &from));
+                assert_int_equal (go (&r, &v), 0);
+                same_files (plain, where);
+            }
+            pg_result_free (&v.result);
+            clear (&r);
+        }
+        assert_true (failed > 2);
+    }
+    remove_folder (plain), remove_folder (where);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (from_every_event), cmocka_unit_test (from_every_round_of_load_steps), cmocka_unit_test (from_every_round_with_elimination),
+        cmocka_unit_test (from_every_round_of_nodal_integration), cmocka_unit_test (from_every_round_of_time_steps),
+        cmocka_unit_test (what_is_not_of_this_run_is_refused), cmocka_unit_test (finished_is_told_from_interrupted),
+        cmocka_unit_test (a_new_run_leaves_no_old_checkpoint_or_report), cmocka_unit_test (a_file_that_lost_rows_is_refused),
+        cmocka_unit_test (stages_within_a_step_ascend_in_time), cmocka_unit_test (a_disk_that_was_full_costs_nothing),
+    };
+    return cmocka_run_group_tests_name ("report/resume", tests, NULL, NULL);
+}
