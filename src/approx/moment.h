@@ -6,8 +6,8 @@
 #include "perigal/approx.h"
 
 enum { PG_BASIS_MAX = 10 };
-#define PG_WILDEST 3.0                                 /* sum |N| above it: the bonds left cannot bear the basis        */
-#define PG_WILDEST_QUADRATIC 6.0
+#define PG_STEEPEST 12.0                               /* a |dN| above it: the bonds left cannot bear the basis        */
+#define PG_STEEPEST_QUADRATIC 20.0
 #define PG_THINNEST 1e-3                               /* a direction is lost where the second moment is below this h^2  */
 
 typedef struct {

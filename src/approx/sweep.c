@@ -104,13 +104,17 @@ static void weigh (const sweep *g, size_t i, pg_star *s)
     }
 }
 
-/* Does the point extrapolate? sum |N| (the Lebesgue constant of its star) is 1 to 2 on an intact body; where the few bonds left hang on
- * influences near zero it grows, the derivatives grow still faster, and the point would feed energy into the body. */
-static int wild (const pg_star *s, const double *N)
+/* Has the point lost bonds, and do those left enter its derivatives by more than PG_STEEPEST / a (intact: up to 3 / a)? They then hang on
+ * influences near zero, whose own derivatives outgrow them: such a point would feed energy into the body instead of losing it. */
+static int wild (const pg_star *s, const double *dN)
 {
-    double sum = 0;
-    for (size_t j = 0; s->constant && s->lost && j < s->n; j++) sum += fabs (N[s->entry[j]]);
-    return !(sum <= (s->order == 2 ? PG_WILDEST_QUADRATIC : PG_WILDEST));
+    double bound = (s->order == 2 ? PG_STEEPEST_QUADRATIC : PG_STEEPEST) / s->a;
+    for (size_t j = 0; s->lost && j < s->n; j++) {
+        double sum = 0;
+        for (size_t k = 0; k < (size_t) s->dim; k++) sum += dN[s->entry[j] * (size_t) s->dim + k] * dN[s->entry[j] * (size_t) s->dim + k];
+        if (!(sum <= bound * bound)) return 1;
+    }
+    return 0;
 }
 
 static void clear (pg_rows *rows, size_t first, size_t last)
@@ -127,7 +131,7 @@ static int fill (const sweep *g, pg_star *s, pg_rows *rows, size_t first, size_t
         int grade = pg_star_grade (s, order, g->cloud->h);
         if (grade > PG_GRADE_PROJECTED) return grade;
         g->formula->fill (s, rows->N + first, rows->dN + first * (size_t) s->dim);
-        if (!wild (s, rows->N + first)) return order < g->a->order && grade == PG_GRADE_FULL ? PG_GRADE_LOWERED : grade;
+        if (!wild (s, rows->dN + first * (size_t) s->dim)) return order < g->a->order && grade == PG_GRADE_FULL ? PG_GRADE_LOWERED : grade;
         clear (rows, first, last);
     }
     return PG_GRADE_SHEPARD;

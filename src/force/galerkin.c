@@ -26,7 +26,7 @@ static void galerkin_free (void **self)
     galerkin_boundary_free (g);
     galerkin_basis_free (g);
     galerkin_slices_free (g);
-    pg_free (g->work), pg_free (g->mark), pg_free (g->stale), pg_free (g->diagonal);
+    pg_free (g->work), pg_free (g->mark), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide);
     pg_free (g);
     *self = NULL;
 }
@@ -71,11 +71,8 @@ static pg_status galerkin_create (void **self, const pg_problem *problem)
     PG_ALLOC (g->mark, g->n);
     PG_TRY (galerkin_boundary_create (g));
     PG_TRY (galerkin_basis_create (g));
-    PG_ALLOC (g->stale, g->n);
-    PG_ALLOC (g->diagonal, g->n * (size_t) g->dim);
     PG_TRY (galerkin_slices_create (g));
-    g->all_stale = 1;
-    g->op = (pg_operator) { g->n * (size_t) g->dim, g, galerkin_apply, galerkin_diagonal };
+    PG_TRY (galerkin_operator_create (g));
 done:
     if (status != PG_OK) galerkin_free (self);
     return status;

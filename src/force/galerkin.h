@@ -39,6 +39,7 @@ typedef struct {
     int      all_stale;                                /* rows of K to be gathered again: all, or those marked           */
     unsigned char *stale;
     pg_operator   op;
+    double  *wide;                                     /* scratch: one row of blocks                                     */
     double  *diagonal;                                 /* of K; known as long as diagonal_of is the revision             */
     unsigned long diagonal_of;
     pin     *pin;  size_t npin;                        /* Nitsche, ascending by point                                    */
@@ -64,6 +65,7 @@ void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *li
 void galerkin_sum_stress  (galerkin *g, double *f);                    /* f += sum w B' sigma of the last measure           */
 void galerkin_sum_tangent (galerkin *g, const double *x, double *f);   /* f += sum w B' D B x                               */
 /* operator: K x without K, and K */
+pg_status galerkin_operator_create (galerkin *g);
 void galerkin_apply (void *context, const double *x, double *y);
 void galerkin_diagonal (void *context, double *d);
 pg_status galerkin_assemble (void *self);

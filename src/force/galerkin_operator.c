@@ -55,23 +55,33 @@ static size_t widest (const pg_family *f)
     return most;
 }
 
-/* Exact for isotropic tangents. Without memory for the scratch the boundary terms are left out: it preconditions all the same. */
+/* After the boundary: scratch for one row of blocks of any source. */
+pg_status galerkin_operator_create (galerkin *g)
+{
+    pg_status status = PG_OK;
+    size_t most = widest (&g->rows[PG_FACETS].family), bulk = widest (&g->rows[g->bulk].family), peg = widest (&g->peg_family);
+    most = most > bulk ? most : bulk, most = most > peg ? most : peg;
+    PG_ALLOC (g->wide, most * (size_t) (g->dim * g->dim));
+    PG_ALLOC (g->stale, g->n);
+    PG_ALLOC (g->diagonal, g->n * (size_t) g->dim);
+    g->all_stale = 1;
+    g->op = (pg_operator) { g->n * (size_t) g->dim, g, galerkin_apply, galerkin_diagonal };
+done:
+    return status;
+}
+
+/* Exact for isotropic tangents. */
 void galerkin_diagonal (void *context, double *d)
 {
     galerkin *g = context;
     size_t ndof = g->n * (size_t) g->dim;
     if (g->diagonal_of != g->revision || g->revision == 0) {
-        size_t most = widest (&g->rows[PG_FACETS].family), bulk = g->problem->silling > 0 ? widest (&g->rows[g->bulk].family) : 0;
-        size_t peg = widest (&g->peg_family);
-        most = most > bulk ? most : bulk, most = most > peg ? most : peg;
-        double *wide = pg_calloc (most * (size_t) (g->dim * g->dim), sizeof *wide);
         memset (g->diagonal, 0, ndof * sizeof *g->diagonal);
-        if (!wide || !(g->problem->silling > 0)) bulk_diagonal (g, g->diagonal);
-        else add_diagonal_blocks (g, &g->rows[g->bulk].family, galerkin_bulk_blocks, wide, g->diagonal);
-        if (wide && g->npin) add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, wide, g->diagonal);
-        if (wide && g->npeg) add_diagonal_blocks (g, &g->peg_family, galerkin_peg_blocks, wide, g->diagonal);
+        if (!(g->problem->silling > 0)) bulk_diagonal (g, g->diagonal);
+        else add_diagonal_blocks (g, &g->rows[g->bulk].family, galerkin_bulk_blocks, g->wide, g->diagonal);
+        if (g->npin) add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, g->wide, g->diagonal);
+        if (g->npeg) add_diagonal_blocks (g, &g->peg_family, galerkin_peg_blocks, g->wide, g->diagonal);
         g->diagonal_of = g->revision;
-        pg_free (wide);
     }
     memcpy (d, g->diagonal, ndof * sizeof *d);
 }

@@ -75,7 +75,7 @@ static pg_status one_picture (pg_result *r, const pg_state *state, const result_
     write_title (r, state, v, unit, title, sizeof title);
     pg_picture_style style = v->style;
     style.title = title, style.label = label, style.u = u, style.cracks = &p->cracks;
-    style.diverging = !(style.low < style.high) && strncmp (v->field, "stress", 6) == 0;
+    style.diverging = style.low < style.high ? style.low == -style.high : strncmp (v->field, "stress", 6) == 0;
     style.clip = strncmp (v->field, "displacement", 12) == 0 || strncmp (v->field, "velocity", 8) == 0;
     style.select = v->by_damage ? damage : v->limited ? one : NULL;
     PG_TRY (pg_picture_field (path, &p->cloud, one, &style));

@@ -184,8 +184,8 @@ static pg_status write_fields (pg_result *r, const pg_state *state, double time)
     if (r->exodus_steps > 0 && !(time > r->time)) time = nextafter (r->time, INFINITY);
     PG_TRY (pg_exodus_write (r->file, time, r->field));
     r->exodus_steps++;
-    if (r->stages) PG_TRY (result_stage (r, state));
     r->time = time;
+    if (r->stages) PG_TRY (result_stage (r, state));
 done:
     return status;
 }
@@ -207,9 +207,11 @@ pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *s
     double t0 = pg_seconds ();
     long next = r->next_broken;
     r->rounds = so_far->iterations;
+    r->now = result_marks_now (r);
     r->last_written = share_has_broken (r, state);
     if (r->last_written) status = write_fields (r, state, time_within (r));
-    if (status != PG_OK) r->last_written = 0, r->next_broken = next;
+    if (status == PG_OK) r->now = result_marks_now (r);
+    else r->last_written = 0, r->next_broken = next;
     r->seconds += pg_seconds () - t0;
     return status;
 }

@@ -44,6 +44,7 @@ struct pg_result {
     double    length;                                  /* of a step whose middle can be seen: s, or load factor          */
     /* going on later */
     result_marks done;                                 /* when the last step was made, and again when it was written     */
+    result_marks now;                                  /* in the middle of a step: after its last round looked at        */
     long      rounds;                                  /* break rounds of the step at hand: its middle has been seen     */
     pg_step   pending;  int is_pending;                /* a step whose rows and fields are not all written               */
     double    opened, earlier;                         /* pg_seconds at the opening; s in processes before this one      */

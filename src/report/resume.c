@@ -134,7 +134,7 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     char path[4096];
     double t0 = pg_seconds ();
     snprintf (path, sizeof path, "%s/checkpoint.nc", r->folder);
-    memory m = { .r = r, .state = state, .path = path, .now = r->rounds > 0 ? result_marks_now (r) : r->done, .rounds = r->rounds,
+    memory m = { .r = r, .state = state, .path = path, .now = r->rounds > 0 ? r->now : r->done, .rounds = r->rounds,
                  .is_pending = r->is_pending, .threads = r->problem->threads, .seconds = r->earlier + t0 - r->opened, .pending = r->pending };
     PG_TRY (pg_table_sync (r->history));
     PG_TRY (pg_table_sync (r->events));

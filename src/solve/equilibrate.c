@@ -137,6 +137,7 @@ pg_status breaker_book (breaker *b, double scale)
     if (!b->before.force) {                            /* the first state is reached from rest                           */
         PG_ALLOC (b->before.force, b->ledger.npair);
         PG_ALLOC (b->before.displacement, b->ledger.npair);
+        b->before.npair = b->ledger.npair;
     }
     for (size_t k = 0; k < b->ledger.npair; k++) {
         double f = scale * b->ledger.force[k], u = scale * b->ledger.displacement[k];

@@ -63,6 +63,14 @@ expect "a run ends where a wrong scene does"  65 '' 'unknown key' run wrong/unkn
 expect "plot draws a field"                    0 'stress-yy.png' '' plot "$out" --field stress --component yy
 expect "plot draws SVG"                        0 'a.svg' '' plot "$out" --out "$work/a.svg"
 grep -q '<svg' "$work/a.svg"; verdict "SVG is SVG" $?
+expect "plot draws panels"                     0 'damage_steps.png' '' plot "$out" --steps 0,-1 --columns 1
+expect "plot draws every step"                 0 'each_0001.png' '' plot "$out" --step all --out "$work/each.png"
+expect "plot: sides are for 3D"               64 '' 'are for 3D results' plot "$out" --view back
+expect "plot names the nearest view"          64 '' 'did you mean back?' plot "$out" --view bak
+expect "plot: what a section is"              64 '' 'expected AXIS=VALUE' plot "$out" --section 5
+expect "plot: what a direction is"            64 '' 'expected X,Y,Z' plot "$out" --direction 1,0
+expect "plot: what a range is"                64 '' 'expected LOW,HIGH' plot "$out" --range 2,1
+expect "plot: one step or several"            64 '' 'exclude each other' plot "$out" --step all --steps 0,1
 expect "plot draws a curve"                    0 '.png' '' plot "$out" --curve pull.displacement_y pull.force_y
 expect "plot draws curves of several runs"     0 'ab.svg' '' plot "$out" "$work/quiet" --curve step pull.force_y --labels 'a run,another' --abs --out "$work/ab.svg"
 grep -q '<svg' "$work/ab.svg"; verdict "curves as SVG" $?

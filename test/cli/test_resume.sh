@@ -85,7 +85,7 @@ run "${event[@]}" -o "$work/half"; code=$?; same "$work/event" "$work/half" > "$
 
 # ---- disks: limited file size (EFBIG), a small disk (ENOSPC), a folder that cannot be written
 readable() { ncdump -h "$1/result.e" > /dev/null 2>&1 && head -1 "$1/history.csv" | grep -q 'load_factor' && [ "$(tail -c 1 "$1/history.csv" | od -An -c | tr -d ' ')" = '\n' ]; }
-(ulimit -f 120; exec "$perigal" run "${fixed[@]}" --quiet --threads 1 --set output.checkpoint='0.05 s' -o "$work/limited") > "$work/out" 2> "$work/err"
+(ulimit -f $(($(stat -c %s "$work/fixed/result.e") * 6 / 10240)); exec "$perigal" run "${fixed[@]}" --quiet --threads 1 --set output.checkpoint='0.05 s' -o "$work/limited") > "$work/out" 2> "$work/err"
 [ $? -eq 70 ] && grep -q 'File too large' "$work/err"; verdict "a file that may not grow: exit code 70 and the reason" $?
 readable "$work/limited"; verdict "its results are readable" $?
 [ ! -e "$work/limited/checkpoint.nc" ] || { run "${fixed[@]}" -o "$work/limited" --resume && same "$work/fixed" "$work/limited"; } > "$work/why" 2>&1; verdict "it can be gone on with" $?

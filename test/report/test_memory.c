@@ -89,6 +89,8 @@ static void the_scene_too (void **state)
     }
 }
 
+static size_t fail_at;
+
 static pg_status write_result (const char *where, const run *r, int finish)
 {
     pg_status status = PG_OK;
@@ -131,6 +133,53 @@ static void every_allocation_of_a_result_may_fail (void **state)
     remove_folder (where);
 }
 
+/* Steps, a checkpoint, another life that goes on from it. */
+static pg_status write_and_resume (const char *where, const char *text)
+{
+    pg_status status = PG_OK;
+    pg_resumed from;
+    run r = scene_of (1, "%s", text), again = { 0 };
+    pg_result *result = NULL;
+    advance (&r), advance (&r);
+    again = scene_of (1, "%s", text);
+    pg_memory_fail_at (fail_at);
+    PG_TRY (pg_result_open (&result, where, r.scene, r.problem, r.solver));
+    PG_TRY (pg_result_step (result, r.state, &r.step));
+    PG_TRY (pg_result_checkpoint (result, r.state));
+    pg_result_free (&result);
+    PG_TRY (pg_result_resume (&result, where, again.scene, again.problem, again.solver, again.state, &from));
+    PG_TRY (pg_solver_step (again.solver, again.state, &again.step));
+    PG_TRY (pg_result_step (result, again.state, &again.step));
+done:
+    pg_memory_fail_at (0);
+    pg_result_free (&result);
+    clear (&r), clear (&again);
+    return status;
+}
+
+static void every_allocation_of_a_checkpoint_and_its_resumption_may_fail (void **state)
+{
+    (void) state;
+    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    char where[64], text[2048];
+    make_folder (where);
+    for (int i = 0; i < 4; i++) {
+        if (i == 2) continue;
+        snprintf (text, sizeof text, "%soutput: {pictures: []}\n", scenes[i].text);
+        size_t used = pg_memory_used (), failed = 0;
+        pg_status status = PG_E_MEMORY;
+        for (fail_at = 1; status != PG_OK; fail_at += size && strcmp (size, "long") == 0 ? 1 : 1 + fail_at / 20, failed++) {
+            status = write_and_resume (where, text);
+            if (status != PG_OK && status != PG_E_MEMORY) print_error ("%s: allocation %zu: '%s'\n", scenes[i].name, fail_at, pg_last_error ());
+            assert_true (status == PG_OK || status == PG_E_MEMORY);
+            if (pg_memory_used () != used) print_error ("%s: allocation %zu: %zu bytes lost\n", scenes[i].name, fail_at, pg_memory_used () - used);
+            assert_int_equal (pg_memory_used (), used);
+        }
+        assert_true (failed > 40);
+    }
+    remove_folder (where);
+}
+
 /* A step refused for memory can be made again, with the same outcome as if nothing had happened. */
 static void a_step_refused_for_memory_can_be_repeated (void **state)
 {
@@ -166,6 +215,7 @@ int main (void)
         cmocka_unit_test (every_allocation_of_a_run_may_fail),
         cmocka_unit_test (the_scene_too),
         cmocka_unit_test (every_allocation_of_a_result_may_fail),
+        cmocka_unit_test (every_allocation_of_a_checkpoint_and_its_resumption_may_fail),
         cmocka_unit_test (a_step_refused_for_memory_can_be_repeated),
     };
     return cmocka_run_group_tests_name ("report/memory", tests, NULL, NULL);

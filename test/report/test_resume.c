@@ -23,13 +23,14 @@ static const struct { const char *name, *text; } scenes[] = {
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
-typedef struct { pg_result *result; pg_state *state; long left; int within; } visit;       /* left: looks until it stops */
+/* left: looks until it stops; negative: it stops after this step */
+typedef struct { pg_result *result; pg_state *state; long left; int within; } visit;
 
 static pg_status look (void *context, const pg_state *state, const pg_step *so_far)
 {
     visit *v = context;
     pg_status status = pg_result_stage (v->result, state, so_far);
-    if (status == PG_OK && --v->left == 0) v->within = 1, status = pg_error (PG_E_INTERRUPTED, PG_HERE, "a test");
+    if (status == PG_OK && v->left > 0 && --v->left == 0) v->within = 1, status = pg_error (PG_E_INTERRUPTED, PG_HERE, "a test");
     return status;
 }
 
@@ -43,7 +44,7 @@ static int go (run *r, visit *v)
         if (v->within) return 1;
         check_ok (status);
         check_ok (pg_result_step (v->result, r->state, &r->step));
-        if (--v->left == 0) return 1;
+        if (v->left == -r->state->step || (v->left > 0 && --v->left == 0)) return 1;
     }
     check_ok (pg_result_finish (v->result, r->state, NULL, 0, 0));
     return 0;
@@ -96,34 +97,38 @@ static pg_status resume (const char *text, const char *where, run *r, visit *v, 
     return pg_result_resume (&v->result, where, r->scene, r->problem, r->solver, r->state, from);
 }
 
-/* long: from every moment; else from about every tenth */
+static void from_moment (const char *text, const char *plain, const char *where, long *within)
+{
+    run r;
+    visit v;
+    pg_resumed from;
+    check_ok (resume (text, where, &r, &v, &from));
+    *within += from.rounds > 0;
+    assert_int_equal (from.step, r.state->step);
+    assert_int_equal (go (&r, &v), 0);
+    pg_result_free (&v.result);
+    clear (&r);
+    same_files (plain, where);
+}
+
+/* From the end of the first three steps, and from every moment (long), else from some. */
 static void from_every_moment (int i, long some)
 {
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    const char *size = getenv ("PERIGAL_TEST_SIZE"), *text = scenes[i].text;
     char plain[64], where[64];
-    long k = 1, stride = size && strcmp (size, "long") == 0 ? 1 : some, within = 0, between = 0;
+    long stride = size && strcmp (size, "long") == 0 ? 1 : some, within = 0, moments = 0;
     make_folder (plain), make_folder (where);
-    assert_int_equal (stop_at (scenes[i].text, plain, 0), 0);
-    for (; stop_at (scenes[i].text, where, k); k += stride) {
-        run r;
-        visit v;
-        pg_resumed from;
-        check_ok (resume (scenes[i].text, where, &r, &v, &from));
-        from.rounds ? within++ : between++;
-        assert_int_equal (from.step, r.state->step);
-        assert_int_equal (go (&r, &v), 0);
-        pg_result_free (&v.result);
-        clear (&r);
-        same_files (plain, where);
-    }
-    if (between == 0 || (within == 0) != (i == 0)) print_error ("%s: %ld moments within steps, %ld between\n", scenes[i].name, within, between);
-    assert_true (between > 0 && (within == 0) == (i == 0));                        /* events are steps                    */
+    assert_int_equal (stop_at (text, plain, 0), 0);
+    for (long k = 1; k <= 3 && stop_at (text, where, -k); k++) from_moment (text, plain, where, &within);
+    assert_int_equal (within, 0);
+    for (long k = 1; stop_at (text, where, k); k += stride, moments++) from_moment (text, plain, where, &within);
+    assert_true (moments > 3 && (within == 0) == (i == 0));            /* an event is a step of its own                   */
     remove_folder (plain), remove_folder (where);
 }
 static void from_every_event (void **state) { (void) state; from_every_moment (0, 5); }
 static void from_every_round_of_load_steps (void **state) { (void) state; from_every_moment (1, 7); }
 static void from_every_round_with_elimination (void **state) { (void) state; from_every_moment (2, 9); }
-static void from_every_round_of_nodal_integration (void **state) { (void) state; from_every_moment (3, 11); }
+static void from_every_round_of_nodal_integration (void **state) { (void) state; from_every_moment (3, 5); }
 static void from_every_round_of_time_steps (void **state) { (void) state; from_every_moment (4, 13); }
 
 /* ---- what does not fit ------------------------------------------------------------------------------------------------------ */
