@@ -128,7 +128,7 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
     pg_report counts = s->report;
     int stale = sys->stale;
     unsigned char *alive = state->alive;
-    if (sys->mode == SYSTEM_KEPT_FACTOR && sys->factored) {
+    if ((sys->mode == SYSTEM_KEPT_FACTOR || !stale) && sys->factored) {
         state->alive = sys->factored;
         status = system_refresh (sys, state, NULL);
         if (status == PG_OK) status = system_factor_again (sys, s->type->dynamics ? s->type->dynamics (s) : NULL);
