@@ -223,10 +223,11 @@ pg_status galerkin_impose (void *self, double t, double *d)
     size_t dim = (size_t) g->dim;
     for (size_t k = 0; k < dim; k++) {
         const elimination *e = &g->side[k];
+        for (size_t s = 0; s < e->n; s++) g->work[s] = goal_of (g, e, s, t);
         for (size_t s = 0; s < e->n; s++) {
             double value = 0;
-            if (!e->inverse) value = goal_of (g, e, s, t);
-            else for (size_t j = 0; j < e->n; j++) value += e->inverse[s * e->n + j] * goal_of (g, e, j, t);
+            if (!e->inverse) value = g->work[s];
+            else for (size_t j = 0; j < e->n; j++) value += e->inverse[s * e->n + j] * g->work[j];
             for (size_t m = 0; m < e->nmaster; m++) value -= e->X[s * e->nmaster + m] * d[(size_t) e->master[m] * dim + k];
             d[(size_t) e->slave[s] * dim + k] = value;
         }

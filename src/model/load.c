@@ -54,7 +54,9 @@ pg_place pg_place_of (int dim, const double *x, double t)
 double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t)
 {
     if (!load->value[k]) return 0;
-    pg_place at = pg_place_of (dim, x, t);
+    const pg_expression *e = load->value[k], *ramp = load->table ? e : load->ramp;
+    int polar = pg_expression_uses (e, 'r') || pg_expression_uses (e, 'a') || pg_expression_uses (ramp, 'r') || pg_expression_uses (ramp, 'a');
+    pg_place at = polar ? pg_place_of (dim, x, t) : (pg_place) { x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0, 0, 0, t };
     return pg_expression_value (load->value[k], &at) * factor_at (load, &at);
 }
 

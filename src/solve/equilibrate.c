@@ -90,7 +90,7 @@ pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const d
             b->stopped = 0;
         }
         PG_TRY (system_solve (s, t, d, dyn, &step->residual));
-        PG_TRY (breaker_account (b, t, d, dyn, 1));
+        if (step->iterations == 0) PG_TRY (breaker_account (b, t, d, dyn, 1));     /* later rounds: loads and goals stay      */
         if (!s->force->utilisation || !s->problem->criterion->type) break;
         double t0 = pg_seconds ();
         PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
@@ -108,6 +108,7 @@ pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const d
         PG_TRY (breaker_kill (b, state, b->utilisation, cut, 1));
         PG_TRY (system_refresh (s, state, &b->changes));
     }
+    if (step->iterations > 0) PG_TRY (breaker_account (b, t, d, dyn, 1));
     b->round = 0;
     step->nbroken = b->nbroken, step->broken = b->broken;
 done:

@@ -349,10 +349,10 @@ pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, 
             r = last;
             break;
         }
-        if (r <= (s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_UNDECIDED ? goal : 0.01 * s->options->tolerance) || k == MOST_REFINEMENTS || (k > 1 && r > 0.5 * last)) break;
+        if (r <= (s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_UNDECIDED ? goal : 0.1 * s->options->tolerance) || k == MOST_REFINEMENTS || (k > 1 && r > 0.5 * last)) break;
         memcpy (s->best, d, s->ndof * sizeof *d);
         last = r;
-        PG_TRY (solve_once (s, dyn, fmin (0.1, 0.003 * s->options->tolerance / r)));
+        PG_TRY (solve_once (s, dyn, fmin (0.1, 0.03 * s->options->tolerance / r)));
         if (T) pg_sparse_multiply (T, s->delta, s->full);
         const double *step = T ? s->full : s->delta;
         for (size_t i = 0; i < s->ndof; i++) d[i] += step[i];
