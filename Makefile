@@ -83,7 +83,7 @@ packages:            ## install the Debian packages that are missing
 
 demo: packages       ## install, build, run the Brazilian disk, leave pictures
 	$(Q)$(MAKE) --no-print-directory -j2 perigal
-	$(Q)./perigal run data/cui_disk_10/scene.yaml -o out/demo --threads $(THREADS)
+	$(Q)./perigal run data/cui_disk_plane/scene.yaml -o out/demo --threads $(THREADS)
 
 test: packages       ## everything; last line: N passed, N failed
 	$(Q)$(MAKE) --no-print-directory -j2 perigal test-programs

@@ -11,7 +11,7 @@ typedef struct {
     const char *set[OVERRIDES];                        /* "key=value", NULL after the last                               */
 } bench_case;
 
-#define CRACKED "data/cui_disk_10/scene.yaml"
+#define CRACKED "data/cui_disk_plane/scene.yaml"
 #define WHOLE   "data/disk_uncracked/scene.yaml"
 static const bench_case cases[] = {
     /* uncracked disk: error against size */

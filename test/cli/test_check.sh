@@ -58,7 +58,7 @@ compare() {   # name, tolerance, scene, settings...: bytes against the peak of t
 }
 asan=$(nm "$perigal" 2> /dev/null | grep -c __asan_init)
 if [ "$asan" -eq 0 ]; then
-    compare "plane"  0.3 ../../data/cui_disk_10/scene.yaml --set spacing='1 mm' --set solver.max_events=1
+    compare "plane"  0.3 ../../data/cui_disk_plane/scene.yaml --set spacing='1 mm' --set solver.max_events=1
     compare "solid"  0.3 "$work/solid.yaml"
     compare "no factor" 0.3 "$work/solid.yaml" --set solver.linear=pcg
     compare "small time steps" 0.3 "$work/solid.yaml" --set solver='{kind: newmark, dt: 2 us, end: 4 us}' --set failure='{criterion: none}'

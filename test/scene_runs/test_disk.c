@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The Brazilian disk of data/cui_disk_10, run once to its end: shape and symmetry of the cracks, equilibrium of every step.
+ * The Brazilian disk of data/cui_disk_plane, run once to its end: shape and symmetry of the cracks, equilibrium of every step.
  * A point is broken when its damage has reached solver.stop.damage (1/2); wing points are broken now and were not before the run. The
  * centre line of a wing holds one point per lattice row: the damage-weighted mean of the row's wing points. Measured values are printed. */
 #include "check.h"
@@ -53,7 +53,7 @@ static int start (void **unused)
 {
     run *r = &disk.r;
     (void) unused;
-    check_ok (pg_scene_load (&r->scene, "data/cui_disk_10/scene.yaml"));
+    check_ok (pg_scene_load (&r->scene, "data/cui_disk_plane/scene.yaml"));
     check_ok (pg_problem_build (&r->problem, r->scene, 1));
     check_ok (pg_solver_options_read (&r->options, r->problem, r->scene));
     check_ok (pg_solver_create (&r->solver, r->problem, &r->options));
