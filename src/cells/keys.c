@@ -10,7 +10,7 @@ static const pg_key keys[] = {
       .doc = "One set, under a name of your choice: what meets all the conditions given." },
     { .path = "sets.{}.boundary", .kind = PG_NAMES, .fallback = "",
       .doc = "On the boundary: left, right, bottom, top, back, front, all (the whole boundary), "
-             "or the surface of a shape: rim, side, hole, or its name." },
+             "or the surface of a shape: rim, side (of a cylinder: its flat ends), hole, or its name." },
     { .path = "sets.{}.angle", .kind = PG_LIST, .fallback = "",
       .doc = "Within one of these ranges of the angle in the xy plane about the centre of the body." },
     { .path = "sets.{}.angle[]", .kind = PG_NUMBERS, .unit = "rad", .fallback = "",

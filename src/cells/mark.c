@@ -127,12 +127,32 @@ static void mark_facet (pg_marks *m, size_t f)
     for (size_t k = 0; k < m->per; k++) m->point[m->facet_point[f * m->per + k]] = 1;
 }
 
+/* The flat ends of a cylinder, whose round surface is called rim. */
+static int is_end (const pg_marks *m, size_t f)
+{
+    const pg_shape *s = &m->body->shape[m->facet_shape[f]];
+    const double *x = m->facet_centre + 3 * f, *n = m->cells->normal + 3 * f;
+    double along = 0, turn = 0, length = 0, step = 0;
+    if (s->kind != PG_CYLINDER || strcmp (s->boundary, "rim")) return 0;
+    for (int k = 0; k < 3; k++) length += s->axis[k] * s->axis[k];
+    length = sqrt (length);
+    for (int k = 0; k < 3; k++) {
+        along += s->axis[k] / length * (x[k] - s->centre[k]);
+        turn += s->axis[k] / length * n[k];
+        step += fabs (s->axis[k]) / length * m->cloud->step[k];
+    }
+    return turn * turn > 0.5 && fmin (fabs (along), fabs (along - s->length)) <= 0.75 * step;
+}
+
 static int mark_shape (pg_marks *m, const char *name)
 {
-    int known = 0;
-    for (size_t i = 0; i < m->body->n && m->cells->nfacet > 0; i++) known |= !strcmp (m->body->shape[i].boundary, name);
+    int known = 0, side = !strcmp (name, "side");
+    for (size_t i = 0; i < m->body->n && m->cells->nfacet > 0; i++) {
+        const pg_shape *s = &m->body->shape[i];
+        known |= !strcmp (s->boundary, name) || (side && s->kind == PG_CYLINDER && !strcmp (s->boundary, "rim"));
+    }
     for (size_t f = 0; known && f < m->cells->nfacet; f++)
-        if (!strcmp (m->body->shape[m->facet_shape[f]].boundary, name)) mark_facet (m, f);
+        if (is_end (m, f) ? side : !strcmp (m->body->shape[m->facet_shape[f]].boundary, name)) mark_facet (m, f);
     return known;
 }
 

@@ -37,7 +37,7 @@ static const pg_key keys[] = {
     { .path = "body", .kind = PG_LIST, .fallback = "", .group = "origin:most",
       .doc = "The body as shapes, added and subtracted one after the other; needed unless points are read from a file." },
     { .path = "body[].name", .kind = PG_TEXT, .fallback = "",
-      .doc = "Name of the surface of this shape for sets; unless given: rim (round), side (straight), hole (subtracted)." },
+      .doc = "Name of the surface of this shape for sets; unless given: rim (round), side (straight, also the flat ends of a cylinder), hole (subtracted)." },
     { .path = "body[].add", .kind = PG_MAP, .fallback = "", .group = "op:one", .doc = "The shape becomes part of the body." },
     SHAPES ("body[].add"),
     { .path = "body[].subtract", .kind = PG_MAP, .fallback = "", .group = "op:one", .doc = "The shape is cut out of the body." },

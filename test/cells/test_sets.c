@@ -324,6 +324,24 @@ static void any_allocation_may_fail (void **state)
     drop (&m);
 }
 
+/* The round surface of a cylinder is its rim, its flat ends are not. */
+static void the_rim_of_a_cylinder_is_round (void **state)
+{
+    (void) state;
+    model m;
+    check_ok (make (&m, "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], length: 10 mm, diameter: 40 mm}}}]\nspacing: 2 mm\n"
+                    "sets: {platens: {boundary: rim, angle: [[80 deg, 100 deg]]}, ends: {boundary: side}, skin: {boundary: all}}"));
+    const pg_set *platens = pg_sets_find (&m.sets, "platens"), *ends = pg_sets_find (&m.sets, "ends"), *skin = pg_sets_find (&m.sets, "skin");
+    assert_true (platens->npoint > 0 && platens->nfacet > 0);
+    for (size_t i = 0; i < platens->npoint; i++) assert_true (m.cloud.x[3 * (size_t) platens->point[i] + 1] > 17e-3);
+    for (size_t i = 0; i < platens->nfacet; i++) assert_true (fabs (m.cells.normal[3 * (size_t) platens->facet[i] + 2]) < 0.5);
+    for (size_t i = 0; i < ends->nfacet; i++) assert_true (fabs (m.cells.normal[3 * (size_t) ends->facet[i] + 2]) > 0.5);
+    size_t flat = 0;
+    for (size_t i = 0; i < skin->nfacet; i++) flat += fabs (m.cells.normal[3 * (size_t) skin->facet[i] + 2]) > 0.5;
+    assert_int_equal (ends->nfacet, flat);
+    drop (&m);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -335,6 +353,7 @@ int main (void)
         cmocka_unit_test (an_empty_set_of_the_scene_is_a_fault), cmocka_unit_test (unknown_boundaries_name_the_known_ones),
         cmocka_unit_test (conditions_that_make_no_sense_are_faults), cmocka_unit_test (names_of_sets_are_checked),
         cmocka_unit_test (all_faulty_sets_are_reported_together), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (the_rim_of_a_cylinder_is_round),
     };
     return cmocka_run_group_tests_name ("cells/sets", tests, NULL, NULL);
 }

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Work that a run skips changes nothing: Newmark steps without a matrix or factor, conjugate gradients by the factor of an earlier K, K x
+ * without K - each against the plain path, on bodies that break. */
+#include "scene_runs/run.h"
+#include <stdint.h>
+#include <string.h>
+
+#define BLOCK "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.8 m, 1 m, 0.4 m]}}}]\nspacing: 0.1 m\nperturb: {amount: 0.1}\n" \
+    "cracks: [{polygon: [[-0.1, 0.55, -0.1], [0.25, 0.55, -0.1], [0.25, 0.45, 0.5], [-0.1, 0.45, 0.5]]}]\n" \
+    "materials: {rock: {youngs_modulus: 30 GPa, poissons_ratio: 0.2, density: 2500}}\n" \
+    "failure: {criterion: stretch, critical_stretch: 1e-4, exclude: [bottom, top]}\n"
+#define PULLED "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, velocity: {y: 0.5 m/s}}]\nmethod: {essential: transformation}\n"
+#define SMALL "solver: {kind: newmark, dt: 12 us, end: 2.4 ms, tolerance: 1e-11, break: fraction, break_fraction: 10 %%, linear: %s}\n"
+
+/* Both runs step by step: the same bonds die, displacements agree. */
+static void compare (run *a, run *b, long steps, double tolerance)
+{
+    size_t n = a->state->ndof, nbond = a->state->nbond;
+    for (long k = 0; k < steps; k++) {
+        advance (a), advance (b);
+        assert_memory_equal (a->state->alive, b->state->alive, nbond);
+        double top = largest_of (a->state->d, n), off = largest_difference (a->state->d, b->state->d, n);
+        assert_true (off <= tolerance * top);
+    }
+}
+
+static void a_small_step_factors_nothing_and_says_so (void **state)
+{
+    (void) state;
+    run a = scene_of (1, BLOCK PULLED SMALL, "auto"), b = scene_of (1, BLOCK PULLED SMALL, "cholmod");
+    compare (&a, &b, 60, 1e-9);
+    const pg_report *r = pg_solver_report (a.solver, a.state), *plain = pg_solver_report (b.solver, b.state);
+    print_message ("%ld bonds broken, %zu iterations in %ld solves; plain: %ld factorizations\n", r->broken, r->cg_iterations, r->solves, plain->factorizations);
+    assert_true (r->broken > 20);
+    assert_int_equal (r->factorizations, 0);
+    assert_true (plain->factorizations > 10);
+    int told = 0;
+    for (size_t k = 0; k < r->nskipped; k++) told |= strstr (r->skipped[k].what, "factorization") && strstr (r->skipped[k].why, "the mass dominates");
+    assert_true (told);
+    clear (&a), clear (&b);
+}
+
+static void a_large_step_factors (void **state)
+{
+    (void) state;
+    run a = scene_of (1, BLOCK PULLED "solver: {kind: newmark, dt: 1 ms, end: 10 ms}\n");
+    advance (&a);
+    const pg_report *r = pg_solver_report (a.solver, a.state);
+    assert_true (r->factorizations >= 1);
+    assert_int_equal (r->nskipped, 0);
+    clear (&a);
+}
+
+#define STRIP "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1 m, 1 m, 0.5 m]}}}]\nspacing: 0.1 m\nperturb: {amount: 0.1}\n" \
+    "cracks: [{polygon: [[-0.1, 0.55, -0.1], [0.25, 0.55, -0.1], [0.25, 0.45, 0.6], [-0.1, 0.45, 0.6]]}]\n" \
+    "materials: {rock: {youngs_modulus: 30 GPa, poissons_ratio: 0.2, density: 2500}}\n" \
+    "failure: {criterion: stretch, critical_stretch: 1e-4, exclude: [bottom, top]}\n" \
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 0.1 mm}}]\n"
+
+static void a_kept_factor_gives_the_same_crack (void **state)
+{
+    (void) state;
+    static const char solver[] = STRIP "solver: {stepping: fixed, steps: 40, tolerance: 1e-11, break: fraction, break_fraction: 10 %%, linear: %s}\n";
+    run a = scene_of (1, solver, "auto"), b = scene_of (1, solver, "cholmod");
+    compare (&a, &b, 21, 1e-9);
+    const pg_report *r = pg_solver_report (a.solver, a.state), *plain = pg_solver_report (b.solver, b.state);
+    print_message ("%ld bonds broken, %ld factorizations, %zu iterations; plain: %ld\n", r->broken, r->factorizations, r->cg_iterations, plain->factorizations);
+    assert_true (r->broken > 20);
+    assert_true (3 * r->factorizations < plain->factorizations);
+    assert_true (r->nskipped > 0);
+    clear (&a), clear (&b);
+}
+
+static void events_with_a_kept_factor_are_the_same (void **state)
+{
+    (void) state;
+    static const char solver[] = STRIP "solver: {stepping: event, tolerance: 1e-11, linear: %s}\n";
+    run a = scene_of (1, solver, "auto"), b = scene_of (1, solver, "cholmod");
+    double first = 0;
+    for (int k = 0; k < 60; k++) {
+        advance (&a), advance (&b);
+        assert_memory_equal (a.state->alive, b.state->alive, a.state->nbond);
+        check_scaled (a.state->factor, b.state->factor, 1e-8, b.state->factor);
+        if (k == 0) first = a.state->factor;
+    }
+    assert_true (first > 0);
+    assert_true (pg_solver_report (a.solver, a.state)->factorizations < pg_solver_report (b.solver, b.state)->factorizations);
+    clear (&a), clear (&b);
+}
+
+static void the_frequency_that_bounds_explicit_steps (void **state)
+{
+    (void) state;
+    /* a row of masses and the bar between them: theory of the linear element with its ends: omega^2 = 4 E / (rho h^2) for a = 2 h in 1D,
+     * where shape functions at the Gauss points are those of the bar's own cell and its neighbours; found here by brute force instead */
+    run r = scene_of (1, "dimension: 1\nbody: [{add: {box: {low: [0], high: [2 m]}}}]\nspacing: 0.1 m\n"
+                      "materials: {rock: {youngs_modulus: 4 Pa, poissons_ratio: 0, density: 1}}\n"
+                      "boundary: [{set: left, displacement: {x: 0}, ramp: constant}]\nmethod: {essential: transformation}\n"
+                      "solver: {kind: newmark, dt: 1 ms, end: 1 s}\n");
+    double omega, best = 0;
+    void *self;
+    check_ok (pg_solver_fastest (r.solver, r.state, &omega));
+    const pg_force_type *f = pg_solver_force (r.solver, &self);
+    size_t n = r.state->ndof;
+    double *x = pg_calloc (3 * n, sizeof *x), *y = x + n, *mass = x + 2 * n;
+    check_ok (f->mass (self, mass));
+    const pg_operator *K = f->operator_ (self);
+    for (size_t i = 0; i < n; i++) x[i] = (i % 2 ? 1 : -1) * (1 + 0.1 * (double) (i % 3));
+    for (int k = 0; k < 20000; k++) {                  /* power iteration */
+        double size = 0;
+        K->apply (K->context, x, y);
+        for (size_t i = 0; i < n; i++) x[i] = y[i] / mass[i], size = fmax (size, fabs (x[i]));
+        for (size_t i = 0; i < n; i++) x[i] /= size;
+        best = sqrt (size);
+    }
+    print_message ("omega %.6f, by power iteration %.6f\n", omega, best);
+    assert_true (omega <= best * (1 + 1e-9) && omega >= 0.98 * best);
+    pg_free (x);
+    clear (&r);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (a_small_step_factors_nothing_and_says_so),
+        cmocka_unit_test (a_large_step_factors),
+        cmocka_unit_test (a_kept_factor_gives_the_same_crack),
+        cmocka_unit_test (events_with_a_kept_factor_are_the_same),
+        cmocka_unit_test (the_frequency_that_bounds_explicit_steps),
+    };
+    return cmocka_run_group_tests_name ("solve/shortcuts", tests, NULL, NULL);
+}
