@@ -70,6 +70,14 @@ pg_status pg_body_read (pg_body *out, const pg_scene *scene)
     if (n > 0 && added == 0) pg_scene_fault (scene, "body", "nothing is added, only subtracted");
     PG_TRY (pg_scene_verdict (scene));
     if (n > 0) bound (out);
+    for (int k = 0; k < out->dim && n > 0; k++) {
+        double width = out->high[k] - out->low[k], far = fmax (fabs (out->low[k]), fabs (out->high[k]));
+        if (!(width > 1e-9 * far)) {
+            pg_scene_fault (scene, "body", "lies %.3g m away from the origin along %c and is %.3g m wide: its size is lost in rounding; move it nearer", far, "xyz"[k], width);
+            break;
+        }
+    }
+    PG_TRY (pg_scene_verdict (scene));
 done:
     if (status != PG_OK) pg_body_clear (out);
     return status;
