@@ -21,9 +21,9 @@ static const struct { const char *name, *text; } usages[] = {
                "      --solve          solves once: the load at which the first bond breaks, and where; the stable time step\n"
                "      --json           the same for programs\n"
                "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A scene that needs more is refused\n" },
-    { "plot", "perigal plot DIR [--field NAME] [--component x|xx|magnitude] [--step N] [--magnify FACTOR] [--section AXIS=VALUE] [--out FILE]\n"
-              "perigal plot DIR --curve X Y [--out FILE]\n"
-              "  A field of DIR/result.e (damage, last step), or two columns of DIR/history.csv, as PNG or SVG.\n" },
+    { "plot", "perigal plot DIR [--field NAME] [--component x|xx|magnitude] [--step N|all | --steps N,N,...] [--view SIDE|iso|crack] [--section CUT] ...\n"
+              "perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--out FILE]\n"
+              "  A field of DIR/result.e (damage, last step), or two columns of DIR/history.csv, as PNG or SVG; all options: perigal plot --help.\n" },
     { "list", "perigal list\n  Methods, kernels, criteria, solvers of this build, one line each.\n" },
     { "help", "perigal help [KEY | COMMAND | --manual]\n  All keys of the scene file; one key; one command; or all keys as markdown.\n" },
 };
