@@ -16,7 +16,7 @@ static dynamic bar (int cells, const char *method, const char *boundary, double 
     snprintf (text, sizeof text,
               "dimension: 1\nbody: [{add: {box: {low: [0], high: [1 m]}}}]\nspacing: %.17g m\n"
               "materials: {m: {youngs_modulus: 1 Pa, poissons_ratio: 0, density: 1 kg/m3}}\nmethod: {%s}\n%s\n"
-              "solver: {kind: newmark, dt: %.17g s, end: %.17g s}\n", 1.0 / cells, method, boundary, dt, end);
+              "solver: {kind: newmark, dt: %.17g s, end: %.17g s, tolerance: 1e-9}\n", 1.0 / cells, method, boundary, dt, end);
     return open_run (text);
 }
 
