@@ -26,7 +26,7 @@ static void galerkin_free (void **self)
     galerkin_boundary_free (g);
     galerkin_basis_free (g);
     galerkin_slices_free (g);
-    pg_free (g->work), pg_free (g->mark), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide);
+    pg_free (g->work), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide);
     pg_free (g);
     *self = NULL;
 }
@@ -68,7 +68,6 @@ static pg_status galerkin_create (void **self, const pg_problem *problem)
     g->bulk = problem->integration->at_nodes ? PG_NODES : PG_POINTS;
     for (int s = 0; s < PG_BOND_SETS; s++) PG_TRY (create_set (g, s));
     PG_ALLOC (g->work, g->n * (size_t) g->dim);
-    PG_ALLOC (g->mark, g->n);
     PG_TRY (galerkin_boundary_create (g));
     PG_TRY (galerkin_basis_create (g));
     PG_TRY (galerkin_slices_create (g));

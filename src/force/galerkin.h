@@ -53,8 +53,7 @@ typedef struct {
     unsigned long revision;                            /* of K and T                                                     */
     double  *work;                                     /* ndof                                                           */
     const double *at_d;                                /* for workers                                                    */
-    size_t   nlist; size_t *list[PG_BOND_SETS];        /* touched points (scratch of refresh)                            */
-    unsigned char *mark;                               /* scratch: nodes or points                                       */
+    size_t  *list[PG_BOND_SETS];                       /* touched points (scratch of refresh)                            */
 } galerkin;
 
 /* sum: the loops over points */

@@ -42,23 +42,13 @@ static pg_status by_factor_of_before (void *context, const double *r, double *z)
     return s->linear->solve (s->factor, 1, r, z);
 }
 
-/* Without a matrix its diagonal still says how large forces of rounding are. */
-static void system_remember_diagonal (pg_system *s)
-{
-    double sum = 0;
-    const pg_operator *op = s->force->operator_ (s->self);
-    op->diagonal (op->context, s->diagonal0);
-    for (size_t j = 0; j < s->ndof; j++) sum += s->diagonal0[j];
-    s->mean_diagonal = sum / (double) s->ndof;
-}
-
 pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, double tolerance, size_t limit, size_t *used)
 {
     combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL };
     pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
     pg_preconditioner P = { s, by_factor_of_before };
     double t0 = pg_seconds ();
-    if (!(s->mean_diagonal > 0)) system_remember_diagonal (s);
+    system_remember_diagonal (s, NULL);
     memset (s->delta, 0, s->ndof * sizeof *s->delta);
     pg_status status = pg_conjugate_gradients_with (&op, by_factor ? &P : NULL, s->reduced, s->delta, tolerance, limit, used);
     s->report->cg_iterations += *used;

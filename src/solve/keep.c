@@ -74,13 +74,13 @@ done:
 static pg_status keep_system (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[8] = { s->mode, s->umfpack, s->kept, s->mean_known, s->factored != NULL, s->stale, s->unshifted, s->spared };
+    long count[8] = { s->mode, s->umfpack, s->kept, s->marked, s->factored != NULL, s->stale, s->unshifted, s->spared };
     double number[3] = { s->mean_diagonal, s->shift, s->rent };
     PG_TRY (k->counts (k->context, "system.counts", 8, count));
     PG_TRY (k->numbers (k->context, "system.numbers", 3, number));
     PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
     PG_TRY (k->bytes (k->context, "system.touched", s->problem->cloud.n, s->touched));
-    s->mode = (int) count[0], s->kept = count[2], s->mean_known = (int) count[3], s->unshifted = (int) count[6], s->spared = count[7];
+    s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6], s->spared = count[7];
     s->mean_diagonal = number[0], s->shift = number[1], s->rent = number[2];
     if (k->reading && count[1] && !s->umfpack) {
         if (s->factor) s->linear->free (&s->factor);
@@ -131,7 +131,7 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
     if ((sys->mode == SYSTEM_KEPT_FACTOR || !stale) && sys->factored) {
         state->alive = sys->factored;
         status = system_refresh (sys, state, NULL);
-        if (status == PG_OK) status = system_factor_again (sys, s->type->dynamics ? s->type->dynamics (s) : NULL);
+        if (status == PG_OK) status = system_factorize (sys, s->type->dynamics ? s->type->dynamics (s) : NULL);
         state->alive = alive;
         PG_TRY (status);
     } else stale = 1;

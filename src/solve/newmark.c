@@ -60,13 +60,12 @@ static void add_inertia (void *context, const double *d, double *residual, doubl
     rates (m, d, v, a);
     newmark_damp (m->s, v, residual);
     for (size_t i = 0; alpha != 0 && i < sys->ndof; i++) residual[i] = (1 + alpha) * residual[i] - alpha * m->s->force0[i];
-    newmark_accelerate (m->s, a, residual);
-    double *known = m->s->work4, *Mx = m->s->work4 + sys->ndof;
-    memset (Mx, 0, 2 * sys->ndof * sizeof *Mx);
+    double *known = m->s->work4, *Mknown = known + sys->ndof, *Ma = Mknown + sys->ndof;
+    memset (Mknown, 0, 2 * sys->ndof * sizeof *Mknown);
     for (size_t i = 0; i < sys->ndof; i++) known[i] = m->c.b[1] * f->v[i] + (m->c.b[2] - 1) * f->a[i];
-    system_add_mass (sys, 1, known, Mx);
-    system_add_mass (sys, 1, a, Mx + sys->ndof);
-    for (size_t i = 0; i < sys->ndof; i++) parts += Mx[i] * Mx[i], size += Mx[sys->ndof + i] * Mx[sys->ndof + i];
+    system_add_mass (sys, 1, known, Mknown);
+    system_add_mass (sys, 1, a, Ma);
+    for (size_t i = 0; i < sys->ndof; i++) residual[i] -= Ma[i], parts += Mknown[i] * Mknown[i], size += Ma[i] * Ma[i];
     *reference = fmax (*reference, fmax (sqrt (size), 1e-6 * sqrt (parts)));
 }
 

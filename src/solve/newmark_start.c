@@ -21,16 +21,11 @@ void newmark_damp (pg_solver *s, const double *v, double *residual)
     for (size_t i = 0; i < sys->ndof; i++) residual[i] -= ck * Kv[i];
 }
 
-/* residual -= M a */
-void newmark_accelerate (pg_solver *s, const double *a, double *residual)
-{
-    system_add_mass (&s->breaker.system, -1, a, residual);
-}
-
+/* residual -= M a + C v */
 void newmark_resist (pg_solver *s, const double *v, const double *a, double *residual)
 {
     newmark_damp (s, v, residual);
-    newmark_accelerate (s, a, residual);
+    system_add_mass (&s->breaker.system, -1, a, residual);
 }
 
 /* force0 = P - F_int - C V at the state */

@@ -20,7 +20,7 @@ typedef struct {
     void                *self;
     const pg_solver_options *options;
     pg_report           *report;
-    int       components, stale, umfpack, mode, unshifted, mean_known;
+    int       components, stale, umfpack, mode, unshifted;
     unsigned long revision;                            /* of K when it was last factored or found stale                  */
     long      spared;                                  /* solves by the factor of an earlier K                           */
     long      kept;                                    /* refreshes that left K as it was                                */
@@ -30,12 +30,11 @@ typedef struct {
     pg_sparse A;                                       /* the factored matrix: values owned; pattern of K or reduced     */
     double   *copy;                                    /* with elimination: values of k K + m M before the reduction     */
     double   *diagonal0, mean_diagonal;                /* of the first K                                                 */
-    unsigned char *touched;                            /* nodes that the pre-cracks touched (n)                          */
+    unsigned char *touched; int marked;                /* nodes that the pre-cracks touched (n); 1: found                */
     double   *mass;                                    /* lumped, per unknown, kg                                        */
     const pg_sparse *M;                                /* consistent, or NULL                                            */
     double   *residual, *reduced, *delta, *full, *best, *scratch;
     double    shift;
-    double    size, reference;                         /* of the last residual, N                                        */
     double    rent;                                    /* s spent on iterations that a new factor would have spared      */
     size_t    matrix_iterations;
     const unsigned char *alive;                        /* of the last refresh, borrowed                                  */
@@ -43,7 +42,8 @@ typedef struct {
 } pg_system;
 pg_status system_create  (pg_system *s);               /* fields up to report set by the caller                           */
 void      system_free    (pg_system *s);
-pg_status system_factor_again (pg_system *s, const dynamics *dyn);                   /* of the last refresh           */
+pg_status system_factorize (pg_system *s, const dynamics *dyn);                      /* k K + m M of the last refresh  */
+void      system_remember_diagonal (pg_system *s, const pg_sparse *K);               /* once; K NULL: by the operator  */
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
 void      system_multiply (const pg_system *s, const double *x, double *y);        /* y = K x, by operator or matrix       */
 /* delta = (k K + m M)^-1 reduced by conjugate gradients, preconditioned by the factor at hand or by the diagonal (iterate.c). */
@@ -125,7 +125,6 @@ pg_status newmark_supports (pg_solver *s, double t, int start);                 
 void      newmark_follow   (pg_solver *s, double t, double *v, double *a);       /* V and A of prescribed nodes from support */
 void      newmark_resist   (pg_solver *s, const double *v, const double *a, double *residual);     /* residual -= M a + C v  */
 void      newmark_damp     (pg_solver *s, const double *v, double *residual);
-void      newmark_accelerate (pg_solver *s, const double *a, double *residual);
 pg_status newmark_remember (pg_solver *s, double t, const pg_state *state);      /* fills s->force0                      */
 double    newmark_kinetic  (pg_solver *s, const double *v);
 #endif

@@ -77,7 +77,7 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
 {
     double t0 = pg_seconds ();
     pg_status status = s->force->refresh ? s->force->refresh (s->self, state, changes) : PG_OK;
-    if (!changes && !s->mean_known) mark_touched (s, state), s->mean_known = 1;
+    if (!changes && !s->marked) mark_touched (s, state), s->marked = 1;
     s->alive = state->alive;
     unsigned long now = s->force->revision ? s->force->revision (s->self) : s->revision + 1;
     if (now != s->revision) s->stale = 1;
@@ -88,12 +88,15 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     return status;
 }
 
-/* Mean of the first diagonal, and which unknowns are weak now. */
-static void remember_diagonal (pg_system *s, const pg_sparse *K)
+/* The first diagonal and its mean tell which unknowns are weak, and how large forces of rounding are. */
+void system_remember_diagonal (pg_system *s, const pg_sparse *K)
 {
     double sum = 0;
+    const pg_operator *op = operator_of (s);
     if (s->mean_diagonal > 0) return;
-    for (size_t j = 0; j < s->ndof; j++) sum += s->diagonal0[j] = K->value[K->start[j + 1] - 1];
+    for (size_t j = 0; K && j < s->ndof; j++) s->diagonal0[j] = K->value[K->start[j + 1] - 1];
+    if (!K) op->diagonal (op->context, s->diagonal0);
+    for (size_t j = 0; j < s->ndof; j++) sum += s->diagonal0[j];
     s->mean_diagonal = sum / (double) s->ndof;
 }
 
@@ -116,7 +119,7 @@ static pg_status build_matrix (pg_system *s, const dynamics *dyn)
     pg_status status = PG_OK;
     if (s->force->assemble) PG_TRY (s->force->assemble (s->self));
     const pg_sparse *K = s->force->matrix (s->self), *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    remember_diagonal (s, K);
+    system_remember_diagonal (s, K);
     if (!T) {
         if (!s->A.value) {
             s->A = *K;
@@ -154,7 +157,7 @@ done:
 }
 
 /* Factors; a matrix that is not positive definite gets a larger shift on its weak unknowns, then goes to UMFPACK (linear: auto). */
-static pg_status factorize (pg_system *s, const dynamics *dyn)
+pg_status system_factorize (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
     int automatic = strcmp (s->options->linear, "auto") == 0;
@@ -192,8 +195,6 @@ done:
     return status;
 }
 
-pg_status system_factor_again (pg_system *s, const dynamics *dyn) { return factorize (s, dyn); }
-
 /* ---- solving ------------------------------------------------------------------------------------------------------------ */
 /* A plain factor serves again and again; one that costs more than this many of its solves is worth keeping when K has changed a little. */
 static const double worth_keeping = 15;
@@ -210,7 +211,7 @@ static double apply_cost (const pg_system *s)
 static pg_status solve_by_factor (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
-    if (s->stale) PG_TRY (factorize (s, dyn));
+    if (s->stale) PG_TRY (system_factorize (s, dyn));
     double t0 = pg_seconds ();
     pg_linear_info info;
     PG_TRY (s->linear->solve (s->factor, 1, s->reduced, s->delta));
@@ -230,7 +231,7 @@ static pg_status solve_by_kept_factor (pg_system *s, const dynamics *dyn, double
     pg_status status = PG_OK;
     size_t used = 0;
     if (s->stale && s->rent > factor_cost (s)) {
-        PG_TRY (factorize (s, dyn));
+        PG_TRY (system_factorize (s, dyn));
         s->rent = 0;
     }
     s->spared += s->stale;
@@ -320,7 +321,6 @@ static pg_status measure_residual (pg_system *s, double t, const double *d, cons
     double size = norm (s->reduced, s->nred);
     if (!isfinite (size)) PG_FAIL (PG_E_EQUILIBRIUM, "the out-of-balance force is not finite");
     *relative = reference > 0 ? size / reference : size > 0 ? 1 : 0;
-    s->size = size, s->reference = reference;
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     return status;

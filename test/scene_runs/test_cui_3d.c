@@ -31,8 +31,6 @@ static double until_broken (run *r, double share)
 static void the_shallower_the_crack_the_larger_the_load (void **state)
 {
     (void) state;
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    if (!size || strcmp (size, "long") != 0) return;  /* two minutes                                                    */
     static const char *const sets[] = { "spacing=3.4 mm", "solver.stop={}" };
     double load[3];
     static const char *const scene[3] = { "data/cui_disk_10/scene.yaml", "data/cui_disk_6/scene.yaml", "data/cui_disk_2/scene.yaml" };
@@ -107,10 +105,11 @@ static void the_plate_parts_near_the_middle_of_the_mouth (void **state)
 
 int main (void)
 {
+    const char *size = getenv ("PERIGAL_TEST_SIZE");
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (the_shallower_the_crack_the_larger_the_load),
         cmocka_unit_test (a_through_crack_is_symmetric),
         cmocka_unit_test (the_plate_parts_near_the_middle_of_the_mouth),
-    };
+    }, minutes[] = { cmocka_unit_test (the_shallower_the_crack_the_larger_the_load) };     /* make test-long only            */
+    if (size && strcmp (size, "long") == 0 && cmocka_run_group_tests_name ("scene_runs/cui_3d, long", minutes, NULL, NULL) != 0) return 1;
     return cmocka_run_group_tests_name ("scene_runs/cui_3d", tests, NULL, NULL);
 }
