@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * mesh.h: finite elements (shape functions, faces, quadrature), meshes read from files, fields on them, and search for the
+ * element that holds a place. Knows no scene: faults are returned as pg_error (PG_E_FILE) that names file and line, or element. */
+#ifndef PERIGAL_MESH_H
+#define PERIGAL_MESH_H
+#include "perigal/base.h"
+
+/* ---- elements -------------------------------------------------------------------------------------------------------- */
+/* Nodes in the order of Exodus II: corners, then middles of edges, (QUAD9, HEX27) centre and faces. Reference elements: bars, quads
+ * and hexes [-1, 1]^d; triangles and tets 0 <= xi, sum <= 1; wedges triangle x [-1, 1]. */
+typedef enum { PG_POINT1, PG_BAR2, PG_BAR3, PG_TRI3, PG_TRI6, PG_QUAD4, PG_QUAD8, PG_QUAD9, PG_TET4, PG_TET10,
+               PG_HEX8, PG_HEX20, PG_HEX27, PG_WEDGE6, PG_WEDGE15, PG_ELEMENTS } pg_element;
+enum { PG_ELEMENT_NODES = 27, PG_ELEMENT_POINTS = 125 };               /* at most                                        */
+typedef struct {
+    const char *name;                                  /* "tri6"                                                         */
+    int dim, nodes, corners, order;                    /* of its own space; order 1, 2                                   */
+    int faces, edges;                                  /* faces: of dimension dim - 1                                    */
+} pg_element_type;
+extern const pg_element_type pg_element_types[PG_ELEMENTS];
+/* Face f of an element: its kind, and its nodes (numbers within the element), so ordered that the normal points outward: in 3D
+ * counter-clockwise seen from outside; in 2D the element lies to the left. Faces are numbered as sides in Exodus (from 0). */
+pg_element pg_element_face  (pg_element kind, int f, int node[9]);
+/* Two corners of edge e. */
+void       pg_element_edge  (pg_element kind, int e, int node[2]);
+/* N (nodes) and dN/dxi (nodes x dim of the element; may be NULL) at xi. */
+void       pg_element_shape (pg_element kind, const double *xi, double *N, double *dN);
+/* Quadrature on the reference element, all weights positive, symmetric under the symmetries of the element: quads and hexes
+ * order^d Gauss points; simplices exact to degree 2 order - 2 at least, 2 order - 1 where a rule as small is known. order 1..5. Returns n. */
+int        pg_element_rule  (pg_element kind, int order, double *xi /* n x dim */, double *weight);
+/* Place, and size factor of the map of an element of dimension d into space of `dim` (length, area, volume; signed where d = dim);
+ * normal (NULL, or dim): of an element with d = dim - 1, by the order of its nodes outward as pg_element_face, unit length.
+ * x: nodes x dim. */
+double     pg_element_map   (pg_element kind, int dim, const double *x, const double *xi, double *place, double *normal);
+/* Newton: xi of a place in an element with d = dim; 0: it did not converge. Inside is for the caller to judge (pg_element_outside). */
+int        pg_element_invert  (pg_element kind, const double *x, const double *place, double *xi);
+double     pg_element_outside (pg_element kind, const double *xi);      /* how far xi lies outside, reference units; <= 0: inside */
+
+/* ---- meshes ----------------------------------------------------------------------------------------------------------- */
+typedef struct { char name[64]; int id; size_t n; int *node; } pg_mesh_nodes;                   /* node set, ascending    */
+typedef struct { char name[64]; int id; size_t n; int *element, *side; } pg_mesh_sides;         /* faces of solid elements, side from 0 */
+typedef struct { char name[64]; int id; size_t n; } pg_mesh_block;                              /* n: elements in it      */
+typedef struct {
+    int     dim;                                       /* of the solid elements: 1, 2, 3                                 */
+    size_t  nnode;
+    double *x;                                         /* place, in units of the file        (nnode x 3)                 */
+    long   *node_id;                                   /* number in the file                 (nnode)                     */
+    size_t  n;                                         /* solid elements (dimension dim), those of lower dimension become sets */
+    unsigned char *kind;                               /* pg_element                         (n)                         */
+    size_t *start;  int *node;                         /* nodes of e: node[start[e]..start[e+1])   (n + 1)               */
+    int    *block;                                     /* index into blocks                  (n)                         */
+    long   *element_id;                                /* number in the file                 (n)                         */
+    size_t  nblock, nnodes, nsides;
+    pg_mesh_block *blocks;
+    pg_mesh_nodes *nodes;                              /* node sets: those of the file, and the nodes of every side set  */
+    pg_mesh_sides *sides;
+} pg_mesh;
+/* Gmsh .msh 2.2 and 4.1 (ASCII, binary), Abaqus and CalculiX .inp, Exodus .e/.exo (any netCDF), CalculiX .frd: told by content, not by name.
+ * Physical groups and sets become blocks, side and node sets. Nodes that no solid element uses are dropped. Elements turned inside out are
+ * put right; flat ones and nodes that are not there are faults. Cracked shells of lower dimension are no fault. */
+pg_status pg_mesh_read  (pg_mesh *out, const char *path);
+void      pg_mesh_clear (pg_mesh *mesh);
+/* A mesh under construction (readers, generators, tests). nodes: any ids; elements: ids of nodes in the file's order of the kind `order`. */
+typedef struct pg_mesh_maker pg_mesh_maker;
+pg_status pg_maker_create  (pg_mesh_maker **out, const char *path);
+void      pg_maker_free    (pg_mesh_maker **m);
+pg_status pg_maker_node    (pg_mesh_maker *m, long id, const double *x);
+/* group: number that names the block or set this element belongs to (0 none); names come by pg_maker_group. line: of the file, 0 unknown. */
+pg_status pg_maker_element (pg_mesh_maker *m, long id, pg_element kind, const long *node, long group, long line);
+pg_status pg_maker_group   (pg_mesh_maker *m, int dim, long group, const char *name);
+pg_status pg_maker_nodeset (pg_mesh_maker *m, const char *name, long id);              /* a set; the next calls fill it   */
+pg_status pg_maker_nodeset_add (pg_mesh_maker *m, long node);
+pg_status pg_maker_sideset (pg_mesh_maker *m, const char *name, long id);
+pg_status pg_maker_sideset_add (pg_mesh_maker *m, long element, int side /* from 0, as pg_element_face */);
+pg_status pg_maker_finish  (pg_mesh_maker *m, pg_mesh *out);                           /* resolves ids, checks, sorts     */
+
+/* Faces that belong to one solid element only: n, element and side (pg_free both). */
+pg_status pg_mesh_surface (const pg_mesh *mesh, size_t *n, int **element, int **side);
+
+/* ---- fields ----------------------------------------------------------------------------------------------------------- */
+typedef struct { char name[32]; int components; double *value; } pg_mesh_field;   /* at nodes: nnode x components; tensors xx yy zz xy yz zx */
+/* Mesh and the nodal fields of one step (-1: the last): CalculiX .frd (ASCII and binary; DISP -> displacement, STRESS -> stress, TOSTRAIN ->
+ * strain), Exodus nodal variables (grouped by their suffixes _x _y _z, _xx ...). time: of that step. */
+pg_status pg_mesh_result (pg_mesh *out, const char *path, int step, size_t *nfield, pg_mesh_field **fields, double *time);
+void      pg_mesh_fields_clear (size_t n, pg_mesh_field **fields);
+
+/* ---- search ----------------------------------------------------------------------------------------------------------- */
+typedef struct pg_mesh_finder pg_mesh_finder;          /* a grid of boxes over the elements                              */
+pg_status pg_finder_create (pg_mesh_finder **out, const pg_mesh *mesh);
+void      pg_finder_free   (pg_mesh_finder **finder);
+/* Element that holds the place (dim of the mesh) and its xi; outside: the nearest element and how far xi is brought back to it, in element
+ * sizes (*away; 0 inside). -1: nothing near. Thread-safe. */
+long      pg_finder_find   (const pg_mesh_finder *finder, const double *place, double *xi, double *away);
+#endif
