@@ -20,6 +20,7 @@
 #include "perigal/material.h"
 #include "perigal/criterion.h"
 #include "perigal/linalg.h"
+#include "perigal/mesh.h"
 #include "perigal/cloud.h"
 #include "perigal/cells.h"
 #include "perigal/approx.h"
