@@ -3,18 +3,33 @@
 #ifndef PERIGAL_CELLS_H
 #define PERIGAL_CELLS_H
 #include "perigal/cloud.h"
+#include "perigal/mesh.h"
 
+enum { PG_CUT = PG_ELEMENTS };                         /* kind of a cell or facet that the surface of the body cuts: its points come
+                                                          from `cut`; its corners are those of the lattice cell, or the facet's box */
 typedef struct {
-    int     dim, corners;                              /* corners per cell: 2, 4, 8; ordered as Exodus BAR QUAD HEX      */
+    int     dim;
     size_t  n;
-    double *x;                                         /* corner positions, m                (n x corners x dim)         */
-    int     facet_corners;                             /* 1, 2, 4                                                        */
+    unsigned char *kind;                               /* pg_element or PG_CUT               (n)                         */
+    size_t *start;                                     /* nodes of cell c: start[c]..start[c + 1]    (n + 1)             */
+    double *x;                                         /* their places, m, in Exodus order   (start[n] x dim)            */
+    double *volume;                                    /* m^3, thickness included            (n)                         */
+    int    *block;                                     /* block of the mesh; 0               (n)                         */
     size_t  nfacet;
-    double *facet_x;                                   /* m                                  (nfacet x facet_corners x dim) */
-    double *normal;                                    /* outward unit normal                (nfacet x dim)              */
+    unsigned char *facet_kind;                         /* pg_element or PG_CUT               (nfacet)                    */
+    size_t *facet_start;                               /* as start                           (nfacet + 1)                */
+    double *facet_x;                                   /* m                                  (facet_start[nfacet] x dim) */
+    double *facet_centre;                              /* centroid, m                        (nfacet x dim)              */
+    double *normal;                                    /* mean outward normal, unit          (nfacet x dim)              */
     double *area;                                      /* m^2, thickness included            (nfacet)                    */
     int    *facet_cell;                                /* cell behind the facet              (nfacet)                    */
+    int    *facet_surface;                             /* surface of `cut`; -1: a face of a whole cell   (nfacet)        */
+    double  thickness;                                 /* 2D m; 1D cross-section m^2; 3D 1                               */
+    const struct pg_cut *cut;                          /* owned; NULL without cut cells                                  */
 } pg_cells;
+/* All arrays for n cells with nx nodes and nfacet facets with nfx nodes together, zeroed; dim and thickness set. */
+pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, size_t nx, size_t nfacet, size_t nfx);
+/* The kept cells of a lattice: bars, quads, hexes. */
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness);
 void      pg_cells_clear (pg_cells *cells);
 

@@ -6,7 +6,13 @@
 #include "perigal/approx.h"
 #include "perigal/cells.h"
 
-typedef struct { size_t n; double *x, *weight; int *cell; } pg_quadrature;     /* x n x dim (m), weight m^3 (facets: m^2)   */
+typedef struct {
+    size_t  n;
+    double *x;                                         /* m                                  (n x dim)                   */
+    double *weight;                                    /* m^3, of facets m^2, thickness included     (n)                 */
+    double *normal;                                    /* outward unit normal of facets; NULL for cells  (n x dim)       */
+    int    *cell;                                      /* cell or facet                      (n)                         */
+} pg_quadrature;
 void pg_quadrature_clear (pg_quadrature *q);
 
 typedef struct {
@@ -19,7 +25,7 @@ const char *pg_integration_names (void);
 
 /* Gauss-Legendre nodes and weights on [-1, 1], order 1..5. */
 void pg_gauss_rule (int order, double *x, double *w);
-/* order^(dim-1) points on each facet; cell holds the facet's number; weight includes the thickness. */
+/* Points on each facet (order^(dim-1) on bars and quads); cell holds the facet's number; the weights of a facet sum to its area. */
 pg_status pg_facet_points (pg_quadrature *out, const pg_cells *cells, int order);
 
 /* Silling 2017 stabilisation of nodally integrated NOSB (theory D3a): adds S_ab I to the blocks (dim x dim each) of local nodes

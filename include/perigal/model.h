@@ -45,6 +45,7 @@ typedef struct {
     pg_load *load;   size_t nload;
     pg_gauge *gauge; size_t ngauge;
     pg_rows  rows[PG_BOND_SETS];                       /* geometry only: N, dN, w, grade are NULL                        */
+    double  *facet_normal;                             /* outward unit normal at the points of PG_FACETS (n x dim)        */
     size_t   first_bond[PG_BOND_SETS + 1];             /* bond b of set k is alive[first_bond[k] + b]                    */
     unsigned char *exempt[PG_BOND_SETS];               /* per point: its bonds never break (failure: exclude, never)     */
     size_t   eroded;                                   /* points that lie on a pre-crack                                 */

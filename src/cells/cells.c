@@ -31,71 +31,104 @@ static void corner_at (const pg_lattice *l, const int *i, int c, double *x)
     for (int k = 0; k < l->dim; k++) x[k] = pg_lattice_at (l, k, i[k] + corner[c][k]);
 }
 
-static void count (pg_cells *out, const pg_lattice *l)
+static void count (size_t *n, size_t *nfacet, const pg_lattice *l)
 {
     int i[3];
     for (i[2] = 0; i[2] < l->count[2]; i[2]++)
         for (i[1] = 0; i[1] < l->count[1]; i[1]++)
             for (i[0] = 0; i[0] < l->count[0]; i[0]++) {
                 if (!kept (l, i)) continue;
-                out->n++;
-                for (int f = 0; f < 2 * l->dim; f++) out->nfacet += (size_t) open_face (l, i, f);
+                ++*n;
+                for (int f = 0; f < 2 * l->dim; f++) *nfacet += (size_t) open_face (l, i, f);
             }
 }
 
-static void put_facet (pg_cells *out, size_t at, const pg_lattice *l, const int *i, int f, double thickness, size_t cell)
+static void put_cell (pg_cells *out, size_t at, const pg_lattice *l, const int *i)
 {
-    size_t dim = (size_t) l->dim, corners = (size_t) out->facet_corners;
-    double area = l->dim == 3 ? 1 : thickness;
+    static const pg_element kind[3] = {PG_BAR2, PG_QUAD4, PG_HEX8};
+    size_t dim = (size_t) l->dim, corners = (size_t) 1 << dim;
+    for (size_t c = 0; c < corners; c++) corner_at (l, i, (int) c, out->x + (at * corners + c) * dim);
+    out->kind[at] = (unsigned char) kind[dim - 1];
+    out->start[at + 1] = (at + 1) * corners;
+    out->volume[at] = out->thickness;
+    for (size_t k = 0; k < dim; k++) out->volume[at] *= l->step[k];
+}
+
+static void put_facet (pg_cells *out, size_t at, const pg_lattice *l, const int *i, int f, size_t cell)
+{
+    static const pg_element kind[3] = {PG_POINT1, PG_BAR2, PG_QUAD4};
+    size_t dim = (size_t) l->dim, corners = (size_t) 1 << (dim - 1);
+    double *x = out->facet_x + at * corners * dim, *centre = out->facet_centre + at * dim, area = out->thickness;
     for (int k = 0; k < l->dim; k++) if (k != f / 2) area *= l->step[k];
-    for (size_t c = 0; c < corners; c++) corner_at (l, i, face[dim - 1][f][c], out->facet_x + (at * corners + c) * dim);
+    for (size_t c = 0; c < corners; c++) corner_at (l, i, face[dim - 1][f][c], x + c * dim);
+    for (size_t k = 0; k < dim; k++) {
+        for (size_t c = 0; c < corners; c++) centre[k] += x[c * dim + k];
+        centre[k] /= (double) corners;
+    }
+    out->facet_kind[at] = (unsigned char) kind[dim - 1];
+    out->facet_start[at + 1] = (at + 1) * corners;
     out->normal[at * dim + (size_t) f / 2] = f % 2 ? 1 : -1;
     out->area[at] = area;
     out->facet_cell[at] = (int) cell;
+    out->facet_surface[at] = -1;
 }
 
-static void fill (pg_cells *out, const pg_lattice *l, double thickness)
+static void fill (pg_cells *out, const pg_lattice *l)
 {
-    size_t cell = 0, facet = 0, dim = (size_t) l->dim, corners = (size_t) out->corners;
+    size_t cell = 0, facet = 0;
     int i[3];
     for (i[2] = 0; i[2] < l->count[2]; i[2]++)
         for (i[1] = 0; i[1] < l->count[1]; i[1]++)
             for (i[0] = 0; i[0] < l->count[0]; i[0]++) {
                 if (!kept (l, i)) continue;
-                for (size_t c = 0; c < corners; c++) corner_at (l, i, (int) c, out->x + (cell * corners + c) * dim);
+                put_cell (out, cell, l, i);
                 for (int f = 0; f < 2 * l->dim; f++)
-                    if (open_face (l, i, f)) put_facet (out, facet++, l, i, f, thickness, cell);
+                    if (open_face (l, i, f)) put_facet (out, facet++, l, i, f, cell);
                 cell++;
             }
 }
 
-pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness)
+pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, size_t nx, size_t nfacet, size_t nfx)
 {
     pg_status status = PG_OK;
+    size_t d = (size_t) dim;
     memset (out, 0, sizeof *out);
-    out->dim = lattice->dim;
-    if (lattice->dim == 0) return PG_OK;                   /* points from a file: no cells */
-    size_t dim = (size_t) lattice->dim, corners = (size_t) 1 << dim, per_facet = corners / 2;
-    out->corners = (int) corners, out->facet_corners = (int) per_facet;
-    count (out, lattice);
-    if (out->n > INT_MAX || out->nfacet > INT_MAX) PG_FAIL (PG_E_LIMIT, "%zu cells with %zu facets are too many", out->n, out->nfacet);
-    PG_ALLOC (out->x, out->n * corners * dim);
-    PG_ALLOC (out->facet_x, out->nfacet * per_facet * dim);
-    PG_ALLOC (out->normal, out->nfacet * dim);
-    PG_ALLOC (out->area, out->nfacet);
-    PG_ALLOC (out->facet_cell, out->nfacet);
-    fill (out, lattice, thickness);
+    if (n > INT_MAX || nfacet > INT_MAX) PG_FAIL (PG_E_LIMIT, "%zu cells with %zu facets are too many", n, nfacet);
+    PG_ALLOC (out->kind, n);
+    PG_ALLOC (out->start, n + 1);
+    PG_ALLOC (out->x, nx * d);
+    PG_ALLOC (out->volume, n);
+    PG_ALLOC (out->block, n);
+    PG_ALLOC (out->facet_kind, nfacet);
+    PG_ALLOC (out->facet_start, nfacet + 1);
+    PG_ALLOC (out->facet_x, nfx * d);
+    PG_ALLOC (out->facet_centre, nfacet * d);
+    PG_ALLOC (out->normal, nfacet * d);
+    PG_ALLOC (out->area, nfacet);
+    PG_ALLOC (out->facet_cell, nfacet);
+    PG_ALLOC (out->facet_surface, nfacet);
+    out->dim = dim, out->n = n, out->nfacet = nfacet;
+    out->thickness = dim == 3 ? 1 : thickness;
 done:
     if (status != PG_OK) pg_cells_clear (out);
     return status;
 }
 
-void pg_cells_clear (pg_cells *cells)
+pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness)
 {
-    pg_free (cells->x);
-    pg_free (cells->facet_x);
-    pg_free (cells->normal);
-    pg_free (cells->area);
-    pg_free (cells->facet_cell);
-    memset (cells, 0, sizeof *cells);
+    size_t n = 0, nfacet = 0, corners = (size_t) 1 << lattice->dim;
+    memset (out, 0, sizeof *out);
+    if (lattice->dim == 0) return PG_OK;                   /* points from a file: no cells */
+    count (&n, &nfacet, lattice);
+    pg_status status = pg_cells_reserve (out, lattice->dim, thickness, n, n * corners, nfacet, nfacet * corners / 2);
+    if (status == PG_OK) fill (out, lattice);
+    return status;
+}
+
+void pg_cells_clear (pg_cells *c)
+{
+    pg_free (c->kind), pg_free (c->start), pg_free (c->x), pg_free (c->volume), pg_free (c->block);
+    pg_free (c->facet_kind), pg_free (c->facet_start), pg_free (c->facet_x), pg_free (c->facet_centre);
+    pg_free (c->normal), pg_free (c->area), pg_free (c->facet_cell), pg_free (c->facet_surface);
+    memset (c, 0, sizeof *c);
 }

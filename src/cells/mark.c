@@ -22,7 +22,7 @@ static pg_status number_vertices (int **out, const pg_lattice *l, const pg_cells
     int next = 0;
     for (size_t k = 0; k < dim; k++) n *= (size_t) l->count[k] + 1;
     PG_ALLOC (*out, n);
-    for (size_t c = 0; c < cells->n * (size_t) cells->corners; c++) (*out)[vertex_at (l, cells->x + c * dim)] = 1;
+    for (size_t c = 0; c < cells->start[cells->n]; c++) (*out)[vertex_at (l, cells->x + c * dim)] = 1;
     for (size_t v = 0; v < n; v++) (*out)[v] = (*out)[v] ? next++ : -1;
 done:
     return status;
@@ -32,7 +32,7 @@ static pg_status link_facets (pg_marks *m)
 {
     pg_status status = PG_OK;
     const pg_cells *c = m->cells;
-    size_t dim = (size_t) c->dim, corners = (size_t) c->facet_corners;
+    size_t dim = (size_t) c->dim, corners = (size_t) 1 << (dim - 1);
     int *number = NULL, centred = c->n == m->cloud->n;     /* a lattice has more vertices than cells */
     m->per = centred ? 1 : corners;
     PG_ALLOC (m->facet_point, c->nfacet * m->per);
@@ -47,21 +47,12 @@ done:
     return status;
 }
 
-static pg_status find_centres (pg_marks *m)
+static pg_status find_shapes (pg_marks *m)
 {
     pg_status status = PG_OK;
-    const pg_cells *c = m->cells;
-    size_t dim = (size_t) c->dim, corners = (size_t) c->facet_corners;
-    PG_ALLOC (m->facet_centre, c->nfacet * dim);
-    PG_ALLOC (m->facet_shape, c->nfacet);
-    for (size_t f = 0; f < c->nfacet; f++) {
-        double *x = m->facet_centre + f * dim;
-        for (size_t k = 0; k < dim; k++) {
-            for (size_t e = 0; e < corners; e++) x[k] += c->facet_x[(f * corners + e) * dim + k];
-            x[k] /= (double) corners;
-        }
-        m->facet_shape[f] = (int) pg_body_nearest (m->body, x, NULL);
-    }
+    size_t dim = (size_t) m->cells->dim;
+    PG_ALLOC (m->facet_shape, m->cells->nfacet);
+    for (size_t f = 0; f < m->cells->nfacet; f++) m->facet_shape[f] = (int) pg_body_nearest (m->body, m->cells->facet_centre + f * dim, NULL);
 done:
     return status;
 }
@@ -83,7 +74,7 @@ pg_status pg_marks_create (pg_marks *m, const pg_body *body, const pg_lattice *l
     PG_ALLOC (m->facet, cells->nfacet);
     if (cells->nfacet > 0) {
         PG_TRY (link_facets (m));
-        PG_TRY (find_centres (m));
+        PG_TRY (find_shapes (m));
     }
 done:
     if (status != PG_OK) pg_marks_clear (m);
@@ -93,7 +84,6 @@ done:
 void pg_marks_clear (pg_marks *m)
 {
     pg_free (m->facet_point);
-    pg_free (m->facet_centre);
     pg_free (m->facet_shape);
     pg_free (m->point);
     pg_free (m->facet);
@@ -131,7 +121,7 @@ static void mark_facet (pg_marks *m, size_t f)
 static int is_end (const pg_marks *m, size_t f)
 {
     const pg_shape *s = &m->body->shape[m->facet_shape[f]];
-    const double *x = m->facet_centre + 3 * f, *n = m->cells->normal + 3 * f;
+    const double *x = m->cells->facet_centre + 3 * f, *n = m->cells->normal + 3 * f;
     double along = 0, turn = 0, length = 0, step = 0;
     if (s->kind != PG_CYLINDER || strcmp (s->boundary, "rim")) return 0;
     for (int k = 0; k < 3; k++) length += s->axis[k] * s->axis[k];
@@ -163,7 +153,7 @@ int pg_marks_boundary (pg_marks *m, const char *name)
     if (side < 0 && !all) return mark_shape (m, name);
     for (size_t f = 0; f < m->cells->nfacet; f++) {
         double n = all ? 0 : m->cells->normal[f * dim + (size_t) side / 2];
-        if (all || ((side % 2 ? n > 0 : n < 0) && on_side (m, side, m->facet_centre + f * dim))) mark_facet (m, f);
+        if (all || ((side % 2 ? n > 0 : n < 0) && on_side (m, side, m->cells->facet_centre + f * dim))) mark_facet (m, f);
     }
     for (size_t i = 0; m->cells->nfacet == 0 && i < m->cloud->n; i++)      /* points from a file */
         for (int s = 0; s < 2 * m->cloud->dim; s++)
@@ -184,5 +174,5 @@ void pg_marks_keep (pg_marks *m, pg_mark_test test, const void *context)
     for (size_t i = 0; i < m->cloud->n; i++)
         if (m->point[i] && !test (m, m->cloud->x + i * dim, context)) m->point[i] = 0;
     for (size_t f = 0; f < m->cells->nfacet; f++)
-        if (m->facet[f] && !test (m, m->facet_centre + f * dim, context)) m->facet[f] = 0;
+        if (m->facet[f] && !test (m, m->cells->facet_centre + f * dim, context)) m->facet[f] = 0;
 }

@@ -15,7 +15,6 @@ typedef struct {
     double  low[3], high[3], centre[3], size;          /* box of the body (points from a file: of the cloud), m          */
     int    *facet_point;                               /* points on, or in the cells behind, each facet (nfacet x per)   */
     size_t  per;                                       /* points per facet                                               */
-    double *facet_centre;                              /* m (nfacet x dim)                                               */
     int    *facet_shape;                               /* nearest shape (nfacet)                                         */
     unsigned char *point, *facet;                      /* the marks                                                      */
 } pg_marks;

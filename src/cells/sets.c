@@ -32,7 +32,7 @@ static pg_status add_one (builder *b, const char *name, int side)
     b->out->n++;                                           /* from here on cleared with the rest */
     snprintf (s->name, sizeof s->name, "%.56s%s%s", name, side < 0 ? "" : ".", side < 0 ? "" : pg_side_names[side]);
     PG_TRY (gather (&s->point, &s->npoint, m, m->point, m->cloud->n, m->cloud->x, side));
-    PG_TRY (gather (&s->facet, &s->nfacet, m, m->facet, m->cells->nfacet, m->facet_centre, side));
+    PG_TRY (gather (&s->facet, &s->nfacet, m, m->facet, m->cells->nfacet, m->cells->facet_centre, side));
 done:
     return status;
 }

@@ -107,7 +107,7 @@ static double beta (const galerkin *g, size_t q)
 
 static const double *normal (const galerkin *g, size_t q)
 {
-    return g->problem->cells.normal + (size_t) g->rows[PG_FACETS].cell[q] * (size_t) g->dim;
+    return g->problem->facet_normal + q * (size_t) g->dim;
 }
 
 /* QD: the Voigt vector D' Q, so that (sigma(v) n)_k = QD . B v */

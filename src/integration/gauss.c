@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Gauss-Legendre points in background cells (multilinear map of the corners) and on boundary facets. */
+ * Gauss-Legendre points in background cells (multilinear map of the corners) and on boundary facets, with their normals. */
 #include "perigal/integration.h"
 #include <math.h>
 #include <string.h>
@@ -22,7 +22,7 @@ void pg_gauss_rule (int order, double *x, double *w)
 
 void pg_quadrature_clear (pg_quadrature *q)
 {
-    pg_free (q->x), pg_free (q->weight), pg_free (q->cell);
+    pg_free (q->x), pg_free (q->weight), pg_free (q->normal), pg_free (q->cell);
     memset (q, 0, sizeof *q);
 }
 
@@ -69,51 +69,125 @@ static double measure (int dim, int nref, double J[3][3])
     return fabs (n[0] * J[0][2] + n[1] * J[1][2] + n[2] * J[2][2]);
 }
 
-/* order^nref points in each of n elements with 2^nref corners; scale multiplies the weights. */
-static pg_status fill (pg_quadrature *out, int dim, int nref, size_t n, const double *corners, const double *scale, double factor, int order)
+/* ---- elements --------------------------------------------------------------------------------------------------------- */
+static int own_dim (int kind) { return kind == PG_POINT1 ? 0 : kind == PG_BAR2 ? 1 : kind == PG_QUAD4 ? 2 : 3; }
+
+/* As pg_element_rule. */
+static int rule (int kind, int order, double *xi, double *weight)
+{
+    double gx[5], gw[5];
+    int d = own_dim (kind), n = 1;
+    for (int r = 0; r < d; r++) n *= order;
+    pg_gauss_rule (order, gx, gw);
+    for (int k = 0; k < n; k++) {
+        weight[k] = 1;
+        for (int r = 0, rest = k; r < d; r++, rest /= order) xi[k * d + r] = gx[rest % order], weight[k] *= gw[rest % order];
+    }
+    return n;
+}
+
+static void normal_of (int dim, double J[3][3], double *n)
+{
+    double size = 0;
+    if (dim == 1) n[0] = 0;                            /* a point has none of its own                                    */
+    if (dim == 2) n[0] = J[1][0], n[1] = -J[0][0];
+    for (int k = 0; k < 3 && dim == 3; k++) {
+        int a = (k + 1) % 3, b = (k + 2) % 3;
+        n[k] = J[a][0] * J[b][1] - J[b][0] * J[a][1];
+    }
+    for (int k = 0; k < dim; k++) size += n[k] * n[k];
+    for (int k = 0; k < dim && size > 0; k++) n[k] /= sqrt (size);
+}
+
+/* As pg_element_map. */
+static double map (int kind, int dim, const double *corner, const double *xi, double *x, double *normal)
+{
+    double J[3][3], all[3] = { 0, 0, 0 };
+    int d = own_dim (kind);
+    for (int r = 0; r < d; r++) all[r] = xi[r];
+    map_point (dim, d, corner, all, x, J);
+    if (normal) normal_of (dim, J, normal);
+    return measure (dim, d, J);
+}
+
+/* ---- cells and facets -------------------------------------------------------------------------------------------------- */
+typedef struct { int dim, facets; size_t n; const unsigned char *kind; const size_t *start; const double *x; } mesh;
+
+static pg_status reserve (pg_quadrature *out, const mesh *m, int order)
 {
     pg_status status = PG_OK;
-    double gx[5], gw[5], J[3][3];
-    size_t per = 1, nc = (size_t) 1 << nref;
-    for (int r = 0; r < nref; r++) per *= (size_t) order;
+    size_t n = 0, dim = (size_t) m->dim;
+    double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS];
+    int points[PG_ELEMENTS + 1] = { 0 };
     memset (out, 0, sizeof *out);
-    PG_ALLOC (out->x, n * per * (size_t) dim);
-    PG_ALLOC (out->weight, n * per);
-    PG_ALLOC (out->cell, n * per);
-    out->n = n * per;
-    pg_gauss_rule (order, gx, gw);
-    for (size_t e = 0; e < n; e++)
-        for (size_t k = 0; k < per; k++) {
-            double xi[3] = { 0, 0, 0 }, w = 1;
-            size_t rest = k;
-            for (int r = 0; r < nref; r++, rest /= (size_t) order) xi[r] = gx[rest % (size_t) order], w *= gw[rest % (size_t) order];
-            size_t q = e * per + k;
-            map_point (dim, nref, corners + e * nc * (size_t) dim, xi, out->x + q * (size_t) dim, J);
-            out->weight[q] = w * measure (dim, nref, J) * factor;
-            if (nref == 0) out->weight[q] = scale[e];
-            out->cell[q] = (int) e;
-        }
+    for (size_t e = 0; e < m->n; e++) {
+        int kind = m->kind[e];
+        if (!points[kind]) points[kind] = rule (kind, order, xi, w);
+        n += (size_t) points[kind];
+    }
+    PG_ALLOC (out->x, n * dim);
+    PG_ALLOC (out->weight, n);
+    PG_ALLOC (out->cell, n);
+    if (m->facets) PG_ALLOC (out->normal, n * dim);
 done:
+    return status;
+}
+
+/* Adds the points of element e; factor multiplies the weights. */
+static void add (pg_quadrature *out, const mesh *m, size_t e, int n, const double *xi, const double *w, double factor)
+{
+    size_t dim = (size_t) m->dim;
+    int kind = m->kind[e], d = own_dim (kind);
+    const double *corner = m->x + m->start[e] * dim;
+    for (int k = 0; k < n; k++, out->n++) {
+        double *normal = m->facets ? out->normal + out->n * dim : NULL;
+        out->weight[out->n] = w[k] * map (kind, m->dim, corner, xi + k * d, out->x + out->n * dim, normal) * factor;
+        out->cell[out->n] = (int) e;
+    }
+}
+
+static pg_status fill (pg_quadrature *out, const mesh *m, double factor, int order)
+{
+    double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS];
+    int last = -1, n = 0;
+    pg_status status = reserve (out, m, order);
+    for (size_t e = 0; e < m->n && status == PG_OK; e++) {
+        if (m->kind[e] != last) n = rule (m->kind[e], order, xi, w), last = m->kind[e];
+        add (out, m, e, n, xi, w, factor);
+    }
     if (status != PG_OK) pg_quadrature_clear (out);
     return status;
 }
 
-static pg_status gauss_points (pg_quadrature *out, const pg_cells *cells, double thickness, int order)
+static pg_status gauss_points (pg_quadrature *out, const pg_cells *c, double thickness, int order)
 {
-    return fill (out, cells->dim, cells->dim, cells->n, cells->x, NULL, cells->dim == 3 ? 1 : thickness, order);
+    mesh m = { c->dim, 0, c->n, c->kind, c->start, c->x };
+    return fill (out, &m, c->dim == 3 ? 1 : thickness, order);
 }
 
-pg_status pg_facet_points (pg_quadrature *out, const pg_cells *cells, int order)
+/* A flat facet has one normal, the same in every bit. */
+static void flatten (double *normal, const double *mean, size_t dim)
 {
-    pg_status status = fill (out, cells->dim, cells->dim - 1, cells->nfacet, cells->facet_x, cells->area, 1, order);
-    if (status != PG_OK || cells->nfacet == 0) return status;
-    size_t per = out->n / cells->nfacet;
-    for (size_t f = 0; f < cells->nfacet; f++) {       /* the facet's own area carries the thickness                     */
-        double sum = 0;
-        for (size_t k = 0; k < per; k++) sum += out->weight[f * per + k];
-        for (size_t k = 0; k < per; k++) out->weight[f * per + k] *= cells->area[f] / sum;
+    double cosine = 0, size = 0;
+    for (size_t k = 0; k < dim; k++) cosine += normal[k] * mean[k], size += normal[k] * normal[k];
+    if (!(size > 0) || fabs (cosine - 1) < 1e-14) memcpy (normal, mean, dim * sizeof *normal);
+}
+
+pg_status pg_facet_points (pg_quadrature *out, const pg_cells *c, int order)
+{
+    mesh m = { c->dim, 1, c->nfacet, c->facet_kind, c->facet_start, c->facet_x };
+    size_t dim = (size_t) c->dim;
+    pg_status status = fill (out, &m, 1, order);
+    for (size_t q = 0, end = 0; q < out->n; q = end) {
+        int f = out->cell[q];
+        double sum = 0;                                /* the facet's own area carries the thickness                     */
+        for (end = q; end < out->n && out->cell[end] == f; end++) sum += out->weight[end];
+        for (size_t k = q; k < end; k++) {
+            out->weight[k] *= c->area[f] / sum;
+            flatten (out->normal + k * dim, c->normal + (size_t) f * dim, dim);
+        }
     }
-    return PG_OK;
+    return status;
 }
 
 const pg_integration_type pg_integration_gauss = { "gauss", "Gauss-Legendre points in background cells", 0, gauss_points };

@@ -57,10 +57,11 @@ done:
 static void inside (const pg_problem *p, int set, size_t point, double *x)
 {
     const pg_cells *c = &p->cells;
-    size_t dim = (size_t) p->dim, corners = (size_t) c->corners;
+    size_t dim = (size_t) p->dim;
     memcpy (x, p->rows[set].x + point * dim, dim * sizeof *x);
     if (set != PG_FACETS) return;
-    const double *corner = c->x + (size_t) c->facet_cell[p->rows[set].cell[point]] * corners * dim;
+    size_t cell = (size_t) c->facet_cell[p->rows[set].cell[point]], first = c->start[cell], corners = c->start[cell + 1] - first;
+    const double *corner = c->x + first * dim;
     for (size_t k = 0; k < dim; k++) {
         double middle = 0;
         for (size_t i = 0; i < corners; i++) middle += corner[i * dim + k] / (double) corners;

@@ -56,10 +56,12 @@ static pg_status make_facets (pg_problem *p)
     for (size_t k = 0; k < q.n; k++) {
         if (!used[q.cell[k]]) continue;
         memmove (q.x + keep * dim, q.x + k * dim, dim * sizeof *q.x);
+        memmove (q.normal + keep * dim, q.normal + k * dim, dim * sizeof *q.normal);
         q.weight[keep] = q.weight[k], q.cell[keep++] = q.cell[k];
     }
     PG_TRY (pg_rows_create (&p->rows[PG_FACETS], &p->approx, &p->cloud, keep, q.x, q.weight, NULL, q.cell));
     strip (&p->rows[PG_FACETS]);
+    p->facet_normal = q.normal, q.normal = NULL;
 done:
     pg_quadrature_clear (&q);
     pg_free (used);

@@ -148,7 +148,7 @@ void pg_problem_free (pg_problem **problem)
     if (!p) return;
     for (int s = 0; s < PG_BOND_SETS; s++) pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]);
     pg_loads_clear (p);
-    pg_free (p->gauge), pg_free (p->material), pg_free (p->criterion);
+    pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->material), pg_free (p->criterion);
     pg_sets_clear (&p->sets);
     pg_cells_clear (&p->cells);
     pg_cloud_clear (&p->cloud);

@@ -31,10 +31,10 @@ static void drop (meshed *m)
 
 static void facet_middle (const pg_cells *c, size_t f, double *x)
 {
-    int dim = c->dim, n = c->facet_corners;
+    int dim = c->dim, n = (int) (c->facet_start[f + 1] - c->facet_start[f]);
     for (int k = 0; k < dim; k++) {
         x[k] = 0;
-        for (int e = 0; e < n; e++) x[k] += c->facet_x[((int) f * n + e) * dim + k] / n;
+        for (int e = 0; e < n; e++) x[k] += c->facet_x[((int) c->facet_start[f] + e) * dim + k] / n;
     }
 }
 
@@ -47,7 +47,13 @@ static void cells_are_the_kept_cells_of_the_lattice (void **state)
         for (size_t i = 0; i < all; i++) n += m.lattice.in[i];
         assert_int_equal (m.cells.n, n);
         assert_true (n < all);
-        assert_int_equal (m.cells.corners, 1 << dim);
+        double volume = 1;
+        for (int k = 0; k < dim; k++) volume *= m.lattice.step[k];
+        for (size_t c = 0; c < n; c++) {
+            assert_int_equal (m.cells.kind[c], dim == 1 ? PG_BAR2 : dim == 2 ? PG_QUAD4 : PG_HEX8);
+            assert_int_equal (m.cells.start[c + 1] - m.cells.start[c], 1 << dim);
+            assert_true (m.cells.volume[c] == volume && m.cells.block[c] == 0);
+        }
         drop (&m);
     }
 }
@@ -101,7 +107,7 @@ static void shared_corners_are_equal_in_every_bit (void **state)
     for (int dim = 1; dim <= 3; dim++) {
         meshed m = mesh (dim, 1);
         const pg_cells *c = &m.cells;
-        size_t d = (size_t) dim, n = c->n * (size_t) c->corners;
+        size_t d = (size_t) dim, n = c->start[c->n];
         for (size_t i = 0; i < n; i++) {
             for (size_t k = 0; k < d; k++) {
                 double v = rint ((c->x[i*d + k] - m.lattice.origin[k]) / m.lattice.step[k]);
@@ -170,7 +176,8 @@ static void each_facet_lies_on_its_cell_and_points_out_of_it (void **state)
             facet_middle (c, f, x);
             for (size_t k = 0; k < d; k++) {
                 double middle = 0;
-                for (size_t e = 0; e < (size_t) c->corners; e++) middle += c->x[(cell * (size_t) c->corners + e) * d + k] / c->corners;
+                for (size_t e = c->start[cell]; e < c->start[cell + 1]; e++) middle += c->x[e * d + k] / (double) (1 << d);
+                assert_true (c->facet_centre[f*d + k] == x[k] || fabs (c->facet_centre[f*d + k] - x[k]) < 1e-15);
                 out += (x[k] - middle) * c->normal[f*d + k] / (0.5 * m.lattice.step[k]);
             }
             check_relative (out, 1, 1e-12);
@@ -195,7 +202,7 @@ static void any_allocation_may_fail (void **state)
     (void) state;
     meshed m = mesh (2, 1);
     size_t before = pg_memory_used ();
-    for (size_t k = 1; k <= 5; k++) {
+    for (size_t k = 1; k <= 13; k++) {
         pg_cells c;
         pg_memory_fail_at (k);
         check_fails (pg_cells_from_lattice (&c, &m.lattice, 1), PG_E_MEMORY);

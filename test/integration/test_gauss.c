@@ -107,7 +107,9 @@ static void distorted_quadrilaterals_are_integrated_exactly (void **state)
     static const double square[8] = { 0, 0, 1, 0, 1, 1, 0, 1 };
     double corner[5 * 8], thickness = 0.25;
     for (int i = 0; i < 40; i++) corner[i] = square[i % 8] + 0.3 * random_number ();
-    pg_cells cells = { .dim = 2, .corners = 4, .n = 5, .x = corner };
+    unsigned char kind[5] = { PG_QUAD4, PG_QUAD4, PG_QUAD4, PG_QUAD4, PG_QUAD4 };
+    size_t start[6] = { 0, 4, 8, 12, 16, 20 };
+    pg_cells cells = { .dim = 2, .n = 5, .kind = kind, .start = start, .x = corner };
     for (int order = 1; order <= 5; order++) {
         pg_quadrature q;
         check_ok (pg_integration_find ("gauss")->points (&q, &cells, thickness, order));
@@ -129,7 +131,9 @@ static void distorted_hexahedra_are_integrated_exactly (void **state)
     static const double cube[24] = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1 };
     double corner[3 * 24];
     for (int i = 0; i < 72; i++) corner[i] = cube[i % 24] + 0.2 * random_number ();
-    pg_cells cells = { .dim = 3, .corners = 8, .n = 3, .x = corner };
+    unsigned char kind[3] = { PG_HEX8, PG_HEX8, PG_HEX8 };
+    size_t start[4] = { 0, 8, 16, 24 };
+    pg_cells cells = { .dim = 3, .n = 3, .kind = kind, .start = start, .x = corner };
     for (int order = 2; order <= 5; order++) {
         pg_quadrature q;
         check_ok (pg_integration_find ("gauss")->points (&q, &cells, 0.25 /* not used in 3D */, order));
@@ -149,7 +153,9 @@ static void bars_are_integrated_exactly (void **state)
 {
     (void) state;
     double corner[4] = { -0.3, 0.5, 0.5, 2.5 };
-    pg_cells cells = { .dim = 1, .corners = 2, .n = 2, .x = corner };
+    unsigned char kind[2] = { PG_BAR2, PG_BAR2 };
+    size_t start[3] = { 0, 2, 4 };
+    pg_cells cells = { .dim = 1, .n = 2, .kind = kind, .start = start, .x = corner };
     for (int order = 1; order <= 5; order++) {
         pg_quadrature q;
         check_ok (pg_integration_find ("gauss")->points (&q, &cells, 3, order));
@@ -184,14 +190,16 @@ static void facet_weights_sum_to_areas (void **state)
             assert_int_equal (q.n, per * cells.nfacet);
             for (size_t f = 0; f < cells.nfacet; f++) {
                 double sum = 0, low[3], high[3];
-                const double *corner = cells.facet_x + f * (size_t) (cells.facet_corners * dim);
+                int corners = (int) (cells.facet_start[f + 1] - cells.facet_start[f]);
+                const double *corner = cells.facet_x + cells.facet_start[f] * (size_t) dim;
                 for (int k = 0; k < dim; k++) {
                     low[k] = high[k] = corner[k];
-                    for (int c = 1; c < cells.facet_corners; c++) low[k] = fmin (low[k], corner[c*dim + k]), high[k] = fmax (high[k], corner[c*dim + k]);
+                    for (int c = 1; c < corners; c++) low[k] = fmin (low[k], corner[c*dim + k]), high[k] = fmax (high[k], corner[c*dim + k]);
                 }
                 for (size_t i = 0; i < q.n; i++) {
                     if (q.cell[i] != (int) f) continue;
                     sum += q.weight[i];
+                    assert_memory_equal (q.normal + i * (size_t) dim, cells.normal + f * (size_t) dim, (size_t) dim * sizeof (double));
                     assert_true (q.weight[i] > 0);
                     for (int k = 0; k < dim; k++) assert_true (q.x[i * (size_t) dim + (size_t) k] > low[k] - 1e-12 && q.x[i * (size_t) dim + (size_t) k] < high[k] + 1e-12);
                 }
@@ -214,7 +222,7 @@ static void facets_close_the_body (void **state)
         check_ok (pg_facet_points (&q, &cells, 2));
         check_ok (pg_integration_find ("gauss")->points (&bulk, &cells, thickness, 2));
         for (size_t i = 0; i < q.n; i++)
-            for (int k = 0; k < dim; k++) flux += q.weight[i] * q.x[i * (size_t) dim + (size_t) k] * cells.normal[(size_t) q.cell[i] * (size_t) dim + (size_t) k];
+            for (int k = 0; k < dim; k++) flux += q.weight[i] * q.x[i * (size_t) dim + (size_t) k] * q.normal[i * (size_t) dim + (size_t) k];
         for (size_t i = 0; i < bulk.n; i++) volume += bulk.weight[i];
         check_relative (flux, dim * volume, 1e-13);
         pg_quadrature_clear (&q), pg_quadrature_clear (&bulk);

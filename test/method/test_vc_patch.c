@@ -81,7 +81,7 @@ static integrated integrate (const patch *t, int order)
     for (size_t q = 0; q < facet.n; q++)
         for (size_t e = facet.family.start[q]; e < facet.family.start[q + 1]; e++)
             for (int k = 0; k < 2; k++)
-                g.boundary[2 * facet.family.node[e] + k] += facet.weight[q] * facet.N[e] * t->problem->cells.normal[2 * facet.cell[q] + k];
+                g.boundary[2 * facet.family.node[e] + k] += facet.weight[q] * facet.N[e] * around.normal[2 * q + (size_t) k];
     memcpy (g.xi, g.boundary, sizeof g.xi);
     for (size_t q = 0; q < r->n; q++)
         for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++) {
@@ -135,7 +135,7 @@ static size_t add_supports (const patch *t, size_t n, double *A, double *b)
     const pg_problem *p = t->problem;
     double scale = p->material[0].modulus * p->cloud.thickness;
     size_t c = 0;
-    pg_quadrature at = { NODES, p->cloud.x, NULL, NULL };
+    pg_quadrature at = { .n = NODES, .x = p->cloud.x };
     pg_rows rows = evaluated (t, &at);
     for (size_t dof = 0; dof < NDOF; dof++) {
         if (!held (t, dof)) continue;
