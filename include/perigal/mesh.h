@@ -20,7 +20,9 @@ extern const pg_element_type pg_element_types[PG_ELEMENTS];
 /* Face f of an element: its kind, and its nodes (numbers within the element), so ordered that the normal points outward: in 3D
  * counter-clockwise seen from outside; in 2D the element lies to the left. Faces are numbered as sides in Exodus (from 0). */
 pg_element pg_element_face  (pg_element kind, int f, int node[9]);
-/* Two corners of edge e. */
+/* xi of a node. */
+void       pg_element_node  (pg_element kind, int node, double *xi);
+/* Two corners of edge e (the middle node of a quadratic element: corners + e). */
 void       pg_element_edge  (pg_element kind, int e, int node[2]);
 /* N (nodes) and dN/dxi (nodes x dim of the element; may be NULL) at xi. */
 void       pg_element_shape (pg_element kind, const double *xi, double *N, double *dN);
@@ -59,12 +61,15 @@ typedef struct {
  * put right; flat ones and nodes that are not there are faults. Cracked shells of lower dimension are no fault. */
 pg_status pg_mesh_read  (pg_mesh *out, const char *path);
 void      pg_mesh_clear (pg_mesh *mesh);
-/* A mesh under construction (readers, generators, tests). nodes: any ids; elements: ids of nodes in the file's order of the kind `order`. */
+/* A mesh under construction (readers, generators, tests). Nodes and elements have any numbers; the nodes of an element come in the order
+ * of Exodus II (pg_element), whatever the order of the file. Faults are PG_E_FILE and name `path`. */
 typedef struct pg_mesh_maker pg_mesh_maker;
 pg_status pg_maker_create  (pg_mesh_maker **out, const char *path);
 void      pg_maker_free    (pg_mesh_maker **m);
 pg_status pg_maker_node    (pg_mesh_maker *m, long id, const double *x);
-/* group: number that names the block or set this element belongs to (0 none); names come by pg_maker_group. line: of the file, 0 unknown. */
+/* group: number that names the block (elements of the highest dimension) or set (all others) this element belongs to, 0: block "0", no set;
+ * names come by pg_maker_group, else the number is the name. line: of the file, 0 unknown. An element of the highest dimension given again
+ * with the same nodes and another group joins a node set of that group. */
 pg_status pg_maker_element (pg_mesh_maker *m, long id, pg_element kind, const long *node, long group, long line);
 pg_status pg_maker_group   (pg_mesh_maker *m, int dim, long group, const char *name);
 pg_status pg_maker_nodeset (pg_mesh_maker *m, const char *name, long id);              /* a set; the next calls fill it   */

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The isoparametric map x (xi) = sum N x_i: size, normal, and its inverse by Newton. */
+#include "element.h"
+#include <math.h>
+
+/* x and J[axis][reference axis]. */
+static void place_and_slope (pg_element kind, int dim, const double *x, const double *xi, double place[3], double J[3][3])
+{
+    int d = pg_element_types[kind].dim, nodes = pg_element_types[kind].nodes;
+    double N[PG_ELEMENT_NODES], dN[3 * PG_ELEMENT_NODES];
+    pg_element_shape (kind, xi, N, dN);
+    for (int a = 0; a < dim; a++) {
+        place[a] = 0;
+        for (int r = 0; r < 3; r++) J[a][r] = 0;
+    }
+    for (int i = 0; i < nodes; i++)
+        for (int a = 0; a < dim; a++) {
+            place[a] += N[i] * x[i * dim + a];
+            for (int r = 0; r < d; r++) J[a][r] += dN[i * d + r] * x[i * dim + a];
+        }
+}
+
+/* Length, area or volume of the image of the unit cube; n: normal, not of unit length. */
+static double size_of (int d, int dim, double J[3][3], double n[3])
+{
+    n[0] = 1, n[1] = n[2] = 0;
+    if (d == 0) return 1;
+    if (d == 1) {
+        double square = 0;
+        for (int a = 0; a < dim; a++) square += J[a][0] * J[a][0];
+        if (dim == 2) n[0] = J[1][0], n[1] = -J[0][0];
+        return dim == 1 ? J[0][0] : sqrt (square);
+    }
+    if (d == 2 && dim == 2) return J[0][0] * J[1][1] - J[0][1] * J[1][0];
+    n[0] = J[1][0] * J[2][1] - J[2][0] * J[1][1];
+    n[1] = J[2][0] * J[0][1] - J[0][0] * J[2][1];
+    n[2] = J[0][0] * J[1][1] - J[1][0] * J[0][1];
+    if (d == 2) return sqrt (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    return n[0] * J[0][2] + n[1] * J[1][2] + n[2] * J[2][2];
+}
+
+double pg_element_map (pg_element kind, int dim, const double *x, const double *xi, double *place, double *normal)
+{
+    int d = pg_element_types[kind].dim;
+    double J[3][3], at[3] = { 0 }, n[3];
+    place_and_slope (kind, dim, x, xi, at, J);
+    double size = size_of (d, dim, J, n);
+    for (int a = 0; place && a < dim; a++) place[a] = at[a];
+    for (int a = 0; normal && a < dim; a++) normal[a] = d == dim - 1 && size > 0 ? n[a] / size : 0;
+    return size;
+}
+
+/* ---- inverse ---------------------------------------------------------------------------------------------------------- */
+/* step = J^-1 r; 0 where J is singular. */
+static int solve (int d, double J[3][3], const double r[3], double step[3])
+{
+    double n[3], det = size_of (d, d, J, n);
+    if (d == 1 || !(fabs (det) > 0)) {
+        step[0] = r[0] / det;
+        return fabs (det) > 0;
+    }
+    if (d == 2) {
+        step[0] = (r[0] * J[1][1] - r[1] * J[0][1]) / det;
+        step[1] = (r[1] * J[0][0] - r[0] * J[1][0]) / det;
+        return 1;
+    }
+    for (int k = 0; k < 3; k++) {                          /* Cramer                                                    */
+        double C[3][3], unused[3];
+        for (int a = 0; a < 3; a++) for (int b = 0; b < 3; b++) C[a][b] = b == k ? r[a] : J[a][b];
+        step[k] = size_of (3, 3, C, unused) / det;
+    }
+    return 1;
+}
+
+void element_centre (pg_element kind, double *xi)
+{
+    int d = pg_element_types[kind].dim, corners = pg_element_types[kind].corners;
+    double node[3];
+    for (int a = 0; a < d; a++) xi[a] = 0;
+    for (int i = 0; i < corners; i++) {
+        pg_element_node (kind, i, node);
+        for (int a = 0; a < d; a++) xi[a] += node[a] / corners;
+    }
+}
+
+int pg_element_invert (pg_element kind, const double *x, const double *place, double *xi)
+{
+    enum { STEPS = 40 };
+    int d = pg_element_types[kind].dim, linear = kind == PG_TRI3 || kind == PG_TET4 || kind == PG_BAR2;
+    if (d == 0) return 1;
+    element_centre (kind, xi);
+    for (int k = 0; k < STEPS; k++) {
+        double at[3], J[3][3], r[3], step[3], longest = 0, size = 1;
+        place_and_slope (kind, d, x, xi, at, J);
+        for (int a = 0; a < d; a++) r[a] = place[a] - at[a];
+        if (!solve (d, J, r, step)) return 0;
+        for (int a = 0; a < d; a++) longest = fmax (longest, fabs (step[a])), size = fmax (size, fabs (xi[a]));
+        if (!isfinite (longest)) return 0;
+        double short_of = linear || longest <= 2 ? 1 : 2 / longest;   /* no leaps out of a curved element                      */
+        for (int a = 0; a < d; a++) xi[a] += short_of * step[a];
+        if (longest <= 1e-12 * size || (linear && k > 0)) return 1;
+    }
+    return 0;
+}
+
+double pg_element_outside (pg_element kind, const double *xi)
+{
+    int d = pg_element_types[kind].dim, corners = pg_element_types[kind].corners, simplex = d > 1 && (corners == d + 1), wedge = corners == 6;
+    int triangle = simplex ? d : wedge ? 2 : 0;            /* the first axes: 0 <= xi, sum <= 1; the others in [-1, 1]    */
+    double out = d == 0 ? 0 : -1, sum = 0;
+    for (int a = 0; a < triangle; a++) out = fmax (out, -xi[a]), sum += xi[a];
+    if (triangle) out = fmax (out, sum - 1);
+    for (int a = triangle; a < d; a++) out = fmax (out, fabs (xi[a]) - 1);
+    return out;
+}
