@@ -43,6 +43,7 @@ typedef struct {
     double *x;                                         /* position, m                        (n x dim)                   */
     double *volume;                                    /* m^3: 2D area*thickness, 1D length*area (n)                     */
     int    *block;                                     /* block number, 0 unless given       (n)                         */
+    double *size;                                      /* local spacing, m; NULL: h everywhere (n)                       */
     double  h;                                         /* nominal spacing, m: (volume of a lattice cell)^(1/dim)         */
     double  step[3];                                   /* lattice step per axis, m                                       */
     double  thickness;                                 /* 2D m; 1D cross-section m^2; 3D 1                               */
@@ -54,12 +55,15 @@ typedef struct {
  * (empty: dim = 0, for points from a file). */
 pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene);
 void      pg_cloud_clear (pg_cloud *cloud);
+/* Local spacing of point i over the nominal one: the support of node i is `horizon` times this. Exactly 1 where size is NULL or h. */
+double    pg_cloud_ratio (const pg_cloud *cloud, size_t i);
+double    pg_cloud_finest (const pg_cloud *cloud);     /* smallest local spacing, m                                      */
 
 /* ---- families ------------------------------------------------------------------------------------------------------- */
 typedef struct { size_t n; size_t *start; int *node; } pg_family;    /* CSR: entries start[i]..start[i+1], nodes ascending */
 enum { PG_RADIAL, PG_TENSOR };                                       /* ball |x_j - c| | cube max_k |x_jk - c_k|          */
-/* Cloud points within `reach` of each of n centres. closed: a distance of exactly reach counts (to 1e-9); else not.
- * A cloud point at the centre itself is included. */
+/* Cloud points within `reach` of each of n centres; where the cloud has local spacings, point j is within reach * size[j] / h: a node may
+ * see another that does not see it. closed: a distance of exactly reach counts (to 1e-9); else not. A point at the centre is included. */
 pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, const double *centre, double reach, int shape, int closed);
 void      pg_family_clear (pg_family *family);
 

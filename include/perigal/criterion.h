@@ -20,6 +20,7 @@ typedef struct {
     int    dim;
     const double *xi;                                  /* reference bond vector, m   (n x dim)                           */
     const double *eta;                                 /* relative displacement, m   (n x dim)                           */
+    const double *reach;                               /* support of the bond over the horizon of the setting; NULL: 1 (n) */
     const double *s1, *s3;                             /* largest, smallest principal stress, mean of both ends, Pa (n)  */
 } pg_bond_measures;
 
@@ -30,6 +31,7 @@ typedef struct {                                       /* what the criterion may
     double  thickness;                                 /* m; 1D: cross-section, m^2                                      */
     const char *kernel;
     const char *material;                              /* its name in the scene; NULL: limits of `failure` only          */
+    int     graded;                                    /* 1: spacings differ, the horizon is that of the nominal one     */
 } pg_criterion_setting;
 
 struct pg_criterion_type {

@@ -41,12 +41,13 @@ typedef struct {
     const pg_integration_type *integration;
     char     force[32];
     double   silling;                                  /* Gs; 0: no stabilisation                                        */
-    double   nitsche, penalty;                         /* factors of E / h                                               */
+    double   nitsche, penalty;                         /* factors of E / h, h the local spacing                          */
     pg_load *load;   size_t nload;
     pg_gauge *gauge; size_t ngauge;
     pg_rows  rows[PG_BOND_SETS];                       /* geometry only: N, dN, w, grade are NULL                        */
     double  *facet_normal;                             /* outward unit normal at the points of PG_FACETS (n x dim)        */
     size_t   first_bond[PG_BOND_SETS + 1];             /* bond b of set k is alive[first_bond[k] + b]                    */
+    double  *spacing[PG_BOND_SETS];                    /* local spacing of every point (its nearest node's), m; NULL: h  */
     unsigned char *exempt[PG_BOND_SETS];               /* per point: its bonds never break (failure: exclude, never)     */
     size_t   eroded;                                   /* points that lie on a pre-crack                                 */
 } pg_problem;
@@ -54,6 +55,7 @@ pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads
 void      pg_problem_free  (pg_problem **problem);
 /* The bond set and the point of that set that own a bond (an index into state->alive). */
 void      pg_problem_locate (const pg_problem *problem, size_t bond, int *set, size_t *point);
+double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);   /* local, m                            */
 int       pg_problem_proportional (const pg_problem *problem);   /* every load is a constant pattern times t               */
 
 /* ---- state: one block, copyable, comparable, savable ---------------------------------------------------------------------- */

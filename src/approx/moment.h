@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * moment.h: the live bonds of one point (its star), their basis and moment matrix; shared by all approximations.
- * Lengths are in horizons: z = (x_j - x) / a. The weights of a star sum to 1: no unit and no volume scale enters. */
+ * Lengths are in horizons: z = (x_j - x) / a, a the support at the point (that of its nearest node where spacings differ; w_j has its
+ * own a_j, and nothing but rounding depends on a). The weights of a star sum to 1: no unit and no volume scale enters. */
 #ifndef PERIGAL_APPROX_MOMENT_H
 #define PERIGAL_APPROX_MOMENT_H
 #include "perigal/approx.h"
@@ -13,7 +14,8 @@ enum { PG_BASIS_MAX = 10 };
 typedef struct {
     int     dim, order, size;                          /* basis in use: 1 linear, 2 quadratic; number of functions       */
     int     constant;                                  /* 1: the basis starts with 1; 0: no 1 (nosb about a node)        */
-    double  a;                                         /* horizon, m                                                     */
+    double  a, h;                                      /* support and spacing at the point, m                            */
+    double *ratio;                                     /* a / a_j; NULL: 1                          (n)                  */
     size_t  n;                                         /* live bonds with w > 0                                          */
     size_t  own;                                       /* place of the own node in the row, where constant = 0           */
     int     stray;                                     /* 1: a node that must be in its own family is not                */

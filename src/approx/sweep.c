@@ -28,12 +28,13 @@ static void radial (const pg_kernel *kernel, pg_star *s)
     for (size_t j = 0; j < s->n; j++) {
         double sum = 0;
         for (size_t k = 0; k < dim; k++) sum += s->z[j*dim + k] * s->z[j*dim + k];
-        s->q[j] = sqrt (sum);
+        s->q[j] = s->ratio ? sqrt (sum) * s->ratio[j] : sqrt (sum);
     }
     kernel_at (kernel, s->n, s->q, s->k, s->dk);
     for (size_t j = 0; j < s->n; j++) {
         s->w[j] = s->k[j];
         double rate = s->q[j] > 0 ? -s->dk[j] / s->q[j] : 0;
+        if (s->ratio) rate *= s->ratio[j] * s->ratio[j];
         for (size_t k = 0; k < dim; k++) s->slope[j*dim + k] = rate * s->z[j*dim + k];
     }
 }
@@ -42,7 +43,7 @@ static void radial (const pg_kernel *kernel, pg_star *s)
 static void tensor (const pg_kernel *kernel, pg_star *s)
 {
     size_t dim = (size_t) s->dim;
-    for (size_t i = 0; i < s->n * dim; i++) s->q[i] = fabs (s->z[i]);
+    for (size_t i = 0; i < s->n * dim; i++) s->q[i] = s->ratio ? fabs (s->z[i]) * s->ratio[i / dim] : fabs (s->z[i]);
     kernel_at (kernel, s->n * dim, s->q, s->k, s->dk);
     for (size_t j = 0; j < s->n; j++) {
         const double *z = s->z + j * dim, *w = s->k + j * dim, *dw = s->dk + j * dim;
@@ -50,11 +51,38 @@ static void tensor (const pg_kernel *kernel, pg_star *s)
         for (size_t k = 0; k < dim; k++) {
             double part = z[k] > 0 ? -dw[k] : z[k] < 0 ? dw[k] : 0;
             for (size_t l = 0; l < dim; l++) if (l != k) part *= w[l];
-            s->slope[j*dim + k] = part;
+            s->slope[j*dim + k] = s->ratio ? part * s->ratio[j] : part;
             all *= w[k];
         }
         s->w[j] = all;
     }
+}
+
+/* The node that row i is, else the nearest one it sees; -1: it sees none. */
+static int nearest_node (const sweep *g, size_t i)
+{
+    const pg_rows *rows = g->rows;
+    size_t dim = (size_t) rows->dim;
+    int nearest = rows->own[i];
+    double best = INFINITY;
+    for (size_t e = rows->family.start[i]; rows->own[i] < 0 && e < rows->family.start[i + 1]; e++) {
+        double sum = 0;
+        for (size_t k = 0; k < dim; k++) {
+            double z = g->cloud->x[(size_t) rows->family.node[e] * dim + k] - rows->x[i*dim + k];
+            sum += z * z;
+        }
+        if (sum < best) best = sum, nearest = rows->family.node[e];
+    }
+    return nearest;
+}
+
+/* Support and spacing at row i. */
+static void measure_place (const sweep *g, size_t i, pg_star *s)
+{
+    int nearest = g->cloud->size ? nearest_node (g, i) : -1;
+    double ratio = nearest < 0 ? 1 : pg_cloud_ratio (g->cloud, (size_t) nearest);
+    s->a = g->a->horizon * ratio;
+    s->h = g->cloud->h * ratio;
 }
 
 /* Live bonds of row i into the star; the own node is none where the point expands about it. */
@@ -65,6 +93,7 @@ static void gather (const sweep *g, size_t i, pg_star *s)
     int own = g->formula->about_node ? rows->own[i] : -1, seen = 0;
     s->constant = own < 0, s->lost = 0;
     s->n = 0;
+    measure_place (g, i, s);
     for (size_t e = first; e < last; e++) {
         int j = rows->family.node[e];
         if (j == own) s->own = e - first, seen = 1;
@@ -72,6 +101,7 @@ static void gather (const sweep *g, size_t i, pg_star *s)
         if (j == own || (g->alive && !g->alive[e])) continue;
         for (size_t k = 0; k < dim; k++)
             s->z[s->n * dim + k] = (g->cloud->x[(size_t) j * dim + k] - rows->x[i*dim + k]) / s->a;
+        if (s->ratio) s->ratio[s->n] = s->a / (g->a->horizon * pg_cloud_ratio (g->cloud, (size_t) j));
         s->entry[s->n++] = e - first;
     }
     if (own >= 0 && !seen) s->stray = 1;
@@ -128,7 +158,7 @@ static void clear (pg_rows *rows, size_t first, size_t last)
 static int fill (const sweep *g, pg_star *s, pg_rows *rows, size_t first, size_t last)
 {
     for (int order = g->a->order; order >= 1; order--) {
-        int grade = pg_star_grade (s, order, g->cloud->h);
+        int grade = pg_star_grade (s, order, s->h);
         if (grade > PG_GRADE_PROJECTED) return grade;
         g->formula->fill (s, rows->N + first, rows->dN + first * (size_t) s->dim);
         if (!wild (s, rows->dN + first * (size_t) s->dim)) return order < g->a->order && grade == PG_GRADE_FULL ? PG_GRADE_LOWERED : grade;
@@ -163,12 +193,13 @@ static void work (void *context, size_t first, size_t last, int thread)
 }
 
 /* Scratch for one thread: families of at most `most` nodes. */
-static pg_status star_create (pg_star *s, const pg_approx *a, int dim, size_t most)
+static pg_status star_create (pg_star *s, const pg_approx *a, const pg_cloud *cloud, int dim, size_t most)
 {
     pg_status status = PG_OK;
     size_t vector = most * (size_t) dim;
-    *s = (pg_star) { .dim = dim, .a = a->horizon, .project = a->projected };
+    *s = (pg_star) { .dim = dim, .a = a->horizon, .h = cloud->h, .project = a->projected };
     PG_ALLOC (s->entry, most);
+    if (cloud->size) PG_ALLOC (s->ratio, most);
     PG_ALLOC (s->z, 5 * vector + most * (1 + PG_BASIS_MAX));
     s->slope = s->z + vector;
     s->q = s->slope + vector;
@@ -194,13 +225,14 @@ pg_status pg_sweep (const pg_formula *formula, const pg_approx *a, const pg_clou
         if (n > most) most = n;
     }
     PG_ALLOC (g.star, slots);
-    for (size_t t = 0; t < slots; t++) PG_TRY (star_create (&g.star[t], a, dim, most));
+    for (size_t t = 0; t < slots; t++) PG_TRY (star_create (&g.star[t], a, cloud, dim, most));
     pg_parallel (threads, count, work, &g);
     for (size_t t = 0; t < slots; t++)
         if (g.star[t].stray) PG_FAIL (PG_E_USAGE, "%s: a node is missing in its own family", a->type->name);
 done:
     for (size_t t = 0; g.star && t < slots; t++) {
         pg_free (g.star[t].z);
+        pg_free (g.star[t].ratio);
         pg_free (g.star[t].entry);
     }
     pg_free (g.star);

@@ -103,12 +103,12 @@ static int side_named (int dim, const char *name)
     return -1;
 }
 
-/* On the low or high face of the box, or within half a step of it when the lattice is shifted. */
-static int on_side (const pg_marks *m, int side, const double *x)
+/* On the low or high face of the box, or within half a step of it when the lattice is shifted (of `finer` steps, for points of a file). */
+static int on_side (const pg_marks *m, int side, const double *x, double finer)
 {
     int k = side / 2;
     double face = side % 2 ? m->high[k] : m->low[k];
-    return fabs (x[k] - face) <= 0.5 * m->cloud->step[k] * (1 + 1e-9);
+    return fabs (x[k] - face) <= 0.5 * finer * m->cloud->step[k] * (1 + 1e-9);
 }
 
 static void mark_facet (pg_marks *m, size_t f)
@@ -153,11 +153,11 @@ int pg_marks_boundary (pg_marks *m, const char *name)
     if (side < 0 && !all) return mark_shape (m, name);
     for (size_t f = 0; f < m->cells->nfacet; f++) {
         double n = all ? 0 : m->cells->normal[f * dim + (size_t) side / 2];
-        if (all || ((side % 2 ? n > 0 : n < 0) && on_side (m, side, m->cells->facet_centre + f * dim))) mark_facet (m, f);
+        if (all || ((side % 2 ? n > 0 : n < 0) && on_side (m, side, m->cells->facet_centre + f * dim, 1))) mark_facet (m, f);
     }
     for (size_t i = 0; m->cells->nfacet == 0 && i < m->cloud->n; i++)      /* points from a file */
         for (int s = 0; s < 2 * m->cloud->dim; s++)
-            if ((all || s == side) && on_side (m, s, m->cloud->x + i * dim)) m->point[i] = 1;
+            if ((all || s == side) && on_side (m, s, m->cloud->x + i * dim, pg_cloud_ratio (m->cloud, i))) m->point[i] = 1;
     return 1;
 }
 

@@ -85,10 +85,10 @@ plan_times plan_times_of (const plan *p)
         speed = fmax (speed, plan_waves_of (&q->material[m], q->dim).pressure);
         stiff = fmax (stiff, q->material[m].modulus / q->material[m].density);
     }
-    t.omega = fmax (2 * speed, nitsche ? sqrt (2 * q->nitsche * stiff) : 0) / q->cloud.h;
+    t.omega = fmax (2 * speed, nitsche ? sqrt (2 * q->nitsche * stiff) : 0) / pg_cloud_finest (&q->cloud);
     if (p->first->omega > 0) t.omega = p->first->omega, t.measured = 1;
     t.dt = 2 / t.omega;
-    t.courant = strcmp (p->options->kind, "static") ? speed * p->options->dt / q->cloud.h : 0;
+    t.courant = strcmp (p->options->kind, "static") ? speed * p->options->dt / pg_cloud_finest (&q->cloud) : 0;
     return t;
 }
 
@@ -126,6 +126,7 @@ static void print_counts (const plan *p)
     printf ("  %-18s  %s\n  %-18s  %zu, spacing", "title", q->title, "points", q->cloud.n);
     for (int k = 0; k < q->dim && q->lattice.dim; k++) printf (" %.6g", q->cloud.step[k]);
     if (!q->lattice.dim) printf (" about %.6g", q->cloud.h);
+    if (q->cloud.size) printf (" (locally from %.6g)", pg_cloud_finest (&q->cloud));
     printf (" m\n  %-18s  %zu, boundary facets %zu\n", "background cells", q->cells.n, q->cells.nfacet);
     printf ("  %-18s  %zu, on the boundary %zu\n", "evaluation points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n,
             q->rows[PG_FACETS].n);

@@ -17,6 +17,7 @@ static void counts (pg_json *j, const plan *p)
     pg_json_open (j, "spacing", '[');
     for (int k = 0; k < q->dim; k++) pg_json_number (j, NULL, q->cloud.step[k]);
     pg_json_shut (j);
+    pg_json_number (j, "finest_spacing", pg_cloud_finest (&q->cloud));
     pg_json_count (j, "cells", q->cells.n);
     pg_json_count (j, "facets", q->cells.nfacet);
     pg_json_count (j, "evaluation_points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n);

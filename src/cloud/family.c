@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Families { j : |x_j - c_i| <= reach } in O(n): the centres are sorted into grid cells; the points then visit, in ascending
- * order, the cells near them, so that each family comes out sorted. */
+ * order, the cells near them, so that each family comes out sorted. Where every point has its own reach the centres are sorted
+ * into a tree instead: O(n log n) however crowded some places are. */
 #include "perigal/cloud.h"
+#include "tree.h"
 #include <math.h>
 #include <string.h>
 
@@ -75,6 +77,8 @@ done:
 
 typedef struct {
     const grid *g;
+    const pg_tree *tree;                               /* in place of g where reaches differ                             */
+    int dim;
     const double *centre;
     double reach, limit;                               /* search width; largest distance (radial: squared)               */
     int shape, closed;
@@ -90,6 +94,17 @@ static int belongs (const search *s, int dim, const double *c, const double *x)
         d = s->shape == PG_RADIAL ? d + z*z : fmax (d, z);
     }
     return s->closed ? d <= s->limit : d < s->limit;
+}
+
+typedef struct { const search *s; const double *x; int j; } visitor;
+
+static void tell (void *context, size_t i)
+{
+    const visitor *v = context;
+    const search *s = v->s;
+    if (!belongs (s, s->dim, s->centre + i * (size_t) s->dim, v->x)) return;
+    if (s->node) s->node[s->next[i]] = v->j;
+    s->next[i]++;
 }
 
 static void visit_row (const search *s, const double *x, int j, size_t first, size_t last)
@@ -120,6 +135,21 @@ static void visit_point (const search *s, const double *x, int j)
         }
 }
 
+/* Tells all centres, point after point; the reach of a point follows its spacing. */
+static void visit_points (const search *all, const pg_cloud *cloud, double reach)
+{
+    search s = *all;
+    for (size_t j = 0; j < cloud->n; j++) {
+        const double *x = cloud->x + j * (size_t) cloud->dim;
+        if (cloud->size) {
+            double far = reach * pg_cloud_ratio (cloud, j);
+            s.reach = all->reach * pg_cloud_ratio (cloud, j);
+            s.limit = s.shape == PG_RADIAL ? far * far : far;
+            pg_tree_near (s.tree, x, s.reach, tell, &(visitor) { &s, x, (int) j });
+        } else visit_point (&s, x, (int) j);
+    }
+}
+
 static pg_status check_input (const pg_cloud *cloud, size_t n, const double *centre, double reach)
 {
     pg_status status = PG_OK;
@@ -128,6 +158,8 @@ static pg_status check_input (const pg_cloud *cloud, size_t n, const double *cen
         if (!isfinite (centre[i])) PG_FAIL (PG_E_USAGE, "centre %zu of a family is not a finite position", i / (size_t) cloud->dim);
     for (size_t i = 0; i < cloud->n * (size_t) cloud->dim; i++)
         if (!isfinite (cloud->x[i])) PG_FAIL (PG_E_USAGE, "point %zu has no finite position", i / (size_t) cloud->dim);
+    for (size_t i = 0; cloud->size && i < cloud->n; i++)
+        if (!(cloud->size[i] > 0) || !isfinite (cloud->size[i])) PG_FAIL (PG_E_USAGE, "point %zu has the spacing %g m", i, cloud->size[i]);
 done:
     return status;
 }
@@ -136,26 +168,28 @@ pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, cons
 {
     pg_status status = PG_OK;
     grid g = {0};
+    pg_tree tree = {0};
     double far = reach * (closed ? 1 + 1e-9 : 1 - 1e-9);
-    search s = {&g, centre, reach * (1 + 1e-8), shape == PG_RADIAL ? far * far : far, shape, closed, NULL, NULL};
-    size_t dim = (size_t) cloud->dim;
+    search s = {&g, &tree, cloud->dim, centre, reach * (1 + 1e-8), shape == PG_RADIAL ? far * far : far, shape, closed, NULL, NULL};
     memset (out, 0, sizeof *out);
     PG_TRY (check_input (cloud, n, centre, reach));
-    PG_TRY (grid_build (&g, cloud->dim, n, centre, s.reach));
+    if (cloud->size) PG_TRY (pg_tree_build (&tree, cloud->dim, n, centre));
+    else PG_TRY (grid_build (&g, cloud->dim, n, centre, s.reach));
     PG_ALLOC (out->start, n + 1);
     PG_ALLOC (s.next, n);
     out->n = n;
-    for (size_t j = 0; j < cloud->n; j++) visit_point (&s, cloud->x + j * dim, (int) j);
+    visit_points (&s, cloud, far);
     for (size_t i = 0; i < n; i++) {
         out->start[i + 1] = out->start[i] + s.next[i];
         s.next[i] = out->start[i];
     }
     PG_ALLOC (out->node, out->start[n]);
     s.node = out->node;
-    for (size_t j = 0; j < cloud->n; j++) visit_point (&s, cloud->x + j * dim, (int) j);
+    visit_points (&s, cloud, far);
 done:
     pg_free (s.next);
     grid_clear (&g);
+    pg_tree_clear (&tree);
     if (status != PG_OK) pg_family_clear (out);
     return status;
 }

@@ -43,7 +43,8 @@ static const pg_key keys[] = {
     { .path = "body[].subtract", .kind = PG_MAP, .fallback = "", .group = "op:one", .doc = "The shape is cut out of the body." },
     SHAPES ("body[].subtract"),
     { .path = "points", .kind = PG_TEXT, .fallback = "", .group = "origin:most",
-      .doc = "CSV file of points in place of a body, next to the scene file; columns x [y [z]] volume [block] in m and m3." },
+      .doc = "CSV file of points in place of a body, next to the scene file; columns x [y [z]] volume [block] [spacing] in m and m3."
+             " With a spacing (distance to the neighbours) the support of each point follows it." },
     { .path = "spacing", .kind = PG_NUMBER, .unit = "m", .range = LENGTH, .fallback = "",
       .doc = "Wanted distance of points; adapted per axis so that a whole number of cells fills the bounding box. Needed with body." },
     { .path = "lattice", .kind = PG_NAME, .fallback = "nodes", .choices = "nodes|cells",

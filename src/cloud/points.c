@@ -177,8 +177,18 @@ done:
     return status;
 }
 
+double pg_cloud_ratio (const pg_cloud *cloud, size_t i) { return cloud->size ? cloud->size[i] / cloud->h : 1; }
+
+double pg_cloud_finest (const pg_cloud *cloud)
+{
+    double least = cloud->size ? INFINITY : cloud->h;
+    for (size_t i = 0; cloud->size && i < cloud->n; i++) least = fmin (least, cloud->size[i]);
+    return least;
+}
+
 void pg_cloud_clear (pg_cloud *cloud)
 {
+    pg_free (cloud->size);
     pg_free (cloud->x);
     pg_free (cloud->volume);
     pg_free (cloud->block);

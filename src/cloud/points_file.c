@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * points: FILE. One point a line, x [y [z]] volume [block], by commas or blanks; '#' starts a comment; one header line may lead. */
+ * points: FILE. One point a line, x [y [z]] volume [block] [spacing], by commas or blanks; '#' starts a comment; one header line may
+ * lead (and must, for a spacing without a block). */
 #include "points_file.h"
 #include <errno.h>
 #include <limits.h>
@@ -18,6 +19,7 @@ typedef struct {
     char   *text;
     size_t  line;                                      /* being read, from 1                                             */
     size_t  columns;                                   /* of all lines, 0: not known yet                                 */
+    size_t  block, spacing;                            /* columns that hold these, 0: none does                          */
     size_t  capacity;
     size_t *line_of;                                   /* line of each point                                             */
 } reader;
@@ -91,16 +93,23 @@ static int number (const char *text, double *value)
     return end != text && !*end && isfinite (*value);
 }
 
-/* A header names the columns in their order; a unit may follow each name. */
-static int is_header (size_t n, char *const *field, size_t dim)
+static int names (const char *field, const char *name) /* a unit may follow                                              */
 {
-    static const char *const word[] = {"x", "y", "z", "volume", "block"};
-    if (n < dim + 1 || n > dim + 2) return 0;
-    for (size_t k = 0; k < n; k++) {
-        const char *name = word[k < dim ? k : 3 + k - dim];
-        size_t length = strlen (name);
-        if (strncasecmp (field[k], name, length) || !strchr (" [(", field[k][length])) return 0;
-    }
+    size_t length = strlen (name);
+    return !strncasecmp (field, name, length) && strchr (" [(", field[length]);
+}
+
+/* A header names the columns in their order. */
+static int is_header (reader *r, size_t n, char *const *field, size_t dim)
+{
+    static const char *const word[] = {"x", "y", "z"};
+    if (n < dim + 1 || n > dim + 3) return 0;
+    for (size_t k = 0; k < dim; k++) if (!names (field[k], word[k])) return 0;
+    if (!names (field[dim], "volume")) return 0;
+    size_t block = n > dim + 1 && names (field[dim + 1], "block") ? dim + 1 : 0;
+    size_t spacing = n > dim + 1 && names (field[n - 1], "spacing") ? n - 1 : 0;
+    if (n != dim + 1 + (block > 0) + (spacing > 0)) return 0;
+    r->columns = n, r->block = block, r->spacing = spacing;
     return 1;
 }
 
@@ -110,7 +119,8 @@ static pg_status add_point (reader *r, pg_cloud *c, const double *value)
     size_t dim = (size_t) c->dim, n = c->n + 1;
     if (n > INT_MAX / 4) PG_FAIL (PG_E_LIMIT, "%s has more than %d points", r->name, INT_MAX / 4);
     if (n > r->capacity) {
-        size_t cx = 0, cv = 0, cb = 0, cl = 0;             /* 0: grow now, all alike */
+        size_t cx = 0, cv = 0, cb = 0, cs = 0, cl = 0;     /* 0: grow now, all alike */
+        if (r->spacing) PG_GROW (c->size, cs, n);
         PG_GROW (c->x, cx, n * dim);
         PG_GROW (c->volume, cv, n);
         PG_GROW (c->block, cb, n);
@@ -119,7 +129,8 @@ static pg_status add_point (reader *r, pg_cloud *c, const double *value)
     }
     memcpy (c->x + c->n * dim, value, dim * sizeof *value);
     c->volume[c->n] = value[dim];
-    c->block[c->n] = r->columns == dim + 2 ? (int) value[dim + 1] : 0;
+    c->block[c->n] = r->block ? (int) value[r->block] : 0;
+    if (r->spacing) c->size[c->n] = value[r->spacing];
     r->line_of[c->n] = r->line;
     c->n = n;
 done:
@@ -134,19 +145,18 @@ static pg_status read_line (reader *r, pg_cloud *c, char *line)
     line[strcspn (line, "#\r")] = '\0';
     if (!line[strspn (line, " \t")]) return PG_OK;
     size_t n = split (line, field);
-    if (c->n == 0 && r->columns == 0 && is_header (n, field, dim)) {
-        r->columns = n;
-        return PG_OK;
-    }
-    if (n < dim + 1 || n > dim + 2)
-        return WRONG (r, "%zu columns; in %zuD a line has %zu (coordinates, volume) or %zu (and block)", n, dim, dim + 1, dim + 2);
+    if (c->n == 0 && r->columns == 0 && is_header (r, n, field, dim)) return PG_OK;
+    if (n < dim + 1 || n > dim + 3)
+        return WRONG (r, "%zu columns; in %zuD a line has %zu (coordinates, volume), %zu (and block) or %zu (and spacing)", n, dim, dim + 1, dim + 2, dim + 3);
     if (r->columns && n != r->columns) return WRONG (r, "%zu columns, the lines before have %zu", n, r->columns);
+    if (!r->columns) r->block = n > dim + 1 ? dim + 1 : 0, r->spacing = n > dim + 2 ? dim + 2 : 0;
     r->columns = n;
     for (size_t k = 0; k < n; k++)
         if (!number (field[k], &value[k])) return WRONG (r, "'%.40s' in column %zu is not a finite number", field[k], k + 1);
     if (!(value[dim] > 0)) return WRONG (r, "the volume %g must be positive", value[dim]);
-    if (n == dim + 2 && !(value[dim + 1] >= 0 && value[dim + 1] <= INT_MAX && value[dim + 1] == floor (value[dim + 1])))
-        return WRONG (r, "the block %g must be a whole number from 0", value[dim + 1]);
+    double block = r->block ? value[r->block] : 0, spacing = r->spacing ? value[r->spacing] : 1;
+    if (!(block >= 0 && block <= INT_MAX && block == floor (block))) return WRONG (r, "the block %g must be a whole number from 0", block);
+    if (!(spacing > 0)) return WRONG (r, "the spacing %g must be positive", spacing);
     return add_point (r, c, value);
 }
 

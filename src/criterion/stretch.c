@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A bond breaks when its stretch reaches the critical one; shortening never breaks it.
+ * From a fracture energy s0 ~ horizon^(-1/2): where spacings differ every bond has the limit of its own support.
  * linear: s = xi . eta / |xi|^2; finite: s = (|xi + eta| - |xi|) / |xi|. theory F6. */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { LIMIT, FINITE, ENERGY, FROM_ENERGY };
+enum { LIMIT, FINITE, ENERGY, FROM_ENERGY, GRADED };
 
 #define EITHER "critical_stretch or fracture_energy"
 
@@ -17,6 +18,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     int energy = pg_scene_given (scene, "%s.fracture_energy", map);
     c->parameter[FINITE] = strcmp (pg_scene_text (scene, "failure.stretch"), "finite") == 0;
     c->parameter[FROM_ENERGY] = energy;
+    c->parameter[GRADED] = setting->graded;
     c->parameter[LIMIT] = pg_scene_number (scene, "%s.critical_stretch", map);
     c->parameter[ENERGY] = pg_scene_number (scene, "%s.fracture_energy", map);
     if (energy) c->parameter[LIMIT] = pg_stretch_from_energy (setting, c->parameter[ENERGY]);
@@ -39,16 +41,22 @@ static void products (int dim, const double *xi, const double *eta, double *rr, 
     }
 }
 
+static double limit_of (const pg_criterion *c, const pg_bond_measures *m, size_t b)
+{
+    double limit = c->parameter[LIMIT];
+    return m->reach && c->parameter[FROM_ENERGY] > 0 ? limit / sqrt (m->reach[b]) : limit;
+}
+
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
-    double limit = c->parameter[LIMIT], rr, re, ee;
+    double rr, re, ee;
     int finite = c->parameter[FINITE] > 0;
     for (size_t b = 0; b < m->n; b++) {
         size_t at = b * (size_t) m->dim;
         products (m->dim, m->xi + at, m->eta + at, &rr, &re, &ee);
         double s = re / rr, grow = 2 * s + ee / rr;                    /* (stretched length / length)^2 - 1 */
         if (finite) s = grow > -1 ? grow / (1 + sqrt (1 + grow)) : -1;
-        u[b] = s > 0 ? s / limit : 0;
+        u[b] = s > 0 ? s / limit_of (c, m, b) : 0;
         if (kind) kind[b] = 't';
     }
 }
@@ -63,10 +71,11 @@ static double finite_root (double A, double B, double C)
 
 static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 {
-    double limit = c->parameter[LIMIT], rr, re, ee;
+    double rr, re, ee;
     int finite = c->parameter[FINITE] > 0;
     for (size_t b = 0; b < m->n; b++) {
         size_t at = b * (size_t) m->dim;
+        double limit = limit_of (c, m, b);
         products (m->dim, m->xi + at, m->eta + at, &rr, &re, &ee);
         if (finite) f[b] = finite_root (ee, re, -rr * limit * (2 + limit));
         else f[b] = re > 0 ? limit * rr / re : INFINITY;
@@ -76,8 +85,9 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
     int energy = c->parameter[FROM_ENERGY] > 0;
-    snprintf (text, size, "%s stretch >= %.6g (%s), fracture energy %.6g J/m2 (%s)",
+    snprintf (text, size, "%s stretch >= %.6g (%s%s), fracture energy %.6g J/m2 (%s)",
               c->parameter[FINITE] > 0 ? "finite" : "linear", c->parameter[LIMIT], energy ? "derived" : "given",
+              c->parameter[GRADED] > 0 && energy ? " at the mean spacing h; elsewhere times sqrt (h / local spacing)" : "",
               c->parameter[ENERGY], energy ? "given" : "derived: estimate of bond-based theory");
 }
 

@@ -37,15 +37,16 @@ static void judge_material (const sweep *s, int material, pg_bond_measures m, co
 {
     const galerkin *g = s->g;
     const int *node = g->rows[s->set].family.node;
-    double xi[BATCH * 3], eta[BATCH * 3], s1[BATCH], s3[BATCH];
+    double xi[BATCH * 3], eta[BATCH * 3], reach[BATCH], s1[BATCH], s3[BATCH];
     size_t some[BATCH], count = 0, dim = (size_t) g->dim;
     for (size_t k = 0; k < m.n; k++) {
         if (g->material[s->set][point[k]] != material && g->material[PG_NODES][node[bond[k]]] != material) continue;
         if (m.xi) memcpy (xi + count * dim, m.xi + k * dim, dim * sizeof *xi), memcpy (eta + count * dim, m.eta + k * dim, dim * sizeof *eta);
+        if (m.reach) reach[count] = m.reach[k];
         if (m.s1) s1[count] = m.s1[k], s3[count] = m.s3[k];
         some[count++] = bond[k];
     }
-    m = (pg_bond_measures) { count, m.dim, m.xi ? xi : NULL, m.xi ? eta : NULL, m.s1 ? s1 : NULL, m.s1 ? s3 : NULL };
+    m = (pg_bond_measures) { count, m.dim, m.xi ? xi : NULL, m.xi ? eta : NULL, m.reach ? reach : NULL, m.s1 ? s1 : NULL, m.s1 ? s3 : NULL };
     if (count) judge_by (s, &g->problem->criterion[material], &m, some);
 }
 
@@ -65,7 +66,8 @@ static void judge (const sweep *s, size_t count, const size_t *bond, const size_
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
     size_t dim = (size_t) g->dim;
-    double xi[BATCH * 3], eta[BATCH * 3], s1[BATCH], s3[BATCH];
+    double xi[BATCH * 3], eta[BATCH * 3], reach[BATCH], s1[BATCH], s3[BATCH];
+    int graded = g->problem->cloud.size != NULL;
     int needs = g->problem->criterion->type->needs, stretch = needs & PG_NEEDS_STRETCH, stress = needs & PG_NEEDS_STRESS;
     int material = one_material (g, s->set, count, bond, point);
     for (size_t k = 0; stretch && k < count; k++) {
@@ -75,12 +77,14 @@ static void judge (const sweep *s, size_t count, const size_t *bond, const size_
             eta[k * dim + a] = g->u[PG_NODES][j * dim + a] - g->u[s->set][p * dim + a];
         }
     }
+    for (size_t k = 0; graded && k < count; k++)           /* mean of both ends: the same from either end                    */
+        reach[k] = 0.5 * (pg_problem_spacing (g->problem, s->set, point[k]) + g->problem->cloud.size[r->family.node[bond[k]]]) / g->problem->cloud.h;
     for (size_t k = 0; stress && k < count; k++) {
         size_t j = (size_t) r->family.node[bond[k]], p = point[k];
         s1[k] = 0.5 * (g->s1[s->set][p] + g->s1[PG_NODES][j]);
         s3[k] = 0.5 * (g->s3[s->set][p] + g->s3[PG_NODES][j]);
     }
-    pg_bond_measures m = { count, g->dim, stretch ? xi : NULL, stretch ? eta : NULL, stress ? s1 : NULL, stress ? s3 : NULL };
+    pg_bond_measures m = { count, g->dim, stretch ? xi : NULL, stretch ? eta : NULL, graded ? reach : NULL, stress ? s1 : NULL, stress ? s3 : NULL };
     if (material >= 0) judge_by (s, &g->problem->criterion[material], &m, bond);
     else for (size_t k = 0; k < g->problem->nmaterial; k++) judge_material (s, (int) k, m, bond, point);
 }
@@ -142,12 +146,14 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
     galerkin *g = self;
     const pg_rows *r = &g->rows[PG_NODES];
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
-    double worst = 0, limit = 1.5 * g->problem->cloud.h;
+    double worst = 0;
+    int both = g->problem->cloud.size != NULL;             /* a bond of unlike ends may exist one way only                   */
     galerkin_measure (g, PG_NODES, d);
-    for (size_t p = 0; p < r->n; p++)
+    for (size_t p = 0; p < r->n; p++) {
+        double limit = 1.5 * pg_problem_spacing (g->problem, PG_NODES, p);
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
             size_t j = (size_t) r->family.node[e];
-            if (state->alive[e] || j <= p) continue;
+            if (state->alive[e] || j == p || (j < p && !both)) continue;
             if (r->grade[p] >= PG_GRADE_SHEPARD || r->grade[j] >= PG_GRADE_SHEPARD) continue;
             double xi[3], rr = 0, approach = 0, elastic = 0;
             for (size_t a = 0; a < dim; a++) xi[a] = r->x[j * dim + a] - r->x[p * dim + a], rr += xi[a] * xi[a];
@@ -160,6 +166,7 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
             double overlap = (approach - fmax (elastic, 0)) / sqrt (rr);
             if (overlap > worst) worst = overlap;
         }
+    }
     return worst;
 }
 

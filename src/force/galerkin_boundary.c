@@ -102,7 +102,7 @@ static void traction_row (int dim, int k, const double *n, double *Q)
 
 static double beta (const galerkin *g, size_t q)
 {
-    return g->problem->nitsche * galerkin_material (g, PG_FACETS, q)->modulus / g->problem->cloud.h;
+    return g->problem->nitsche * galerkin_material (g, PG_FACETS, q)->modulus / pg_problem_spacing (g->problem, PG_FACETS, q);
 }
 
 static const double *normal (const galerkin *g, size_t q)
@@ -148,7 +148,8 @@ void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double 
 static double penalty (const galerkin *g, int node)
 {
     const pg_problem *p = g->problem;
-    return p->penalty * galerkin_material (g, PG_NODES, (size_t) node)->modulus / (p->cloud.h * p->cloud.h) * p->cloud.volume[node];
+    double h = pg_problem_spacing (p, PG_NODES, (size_t) node);
+    return p->penalty * galerkin_material (g, PG_NODES, (size_t) node)->modulus / (h * h) * p->cloud.volume[node];
 }
 
 void galerkin_peg_blocks (void *context, size_t p, size_t a, size_t m, double *out)

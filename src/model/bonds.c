@@ -13,13 +13,37 @@ static void strip (pg_rows *rows)
     rows->grade = NULL;
 }
 
-static pg_status make_nodes (pg_problem *p)
+/* Local spacings are the user's: every point of the whole body must see enough to carry a strain. */
+static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
+{
+    static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
+    pg_status status = PG_OK;
+    pg_rows *r = &p->rows[set];
+    char at[100];
+    if (!p->cloud.size || r->n == 0) goto done;
+    PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, NULL, r->n, NULL, p->threads));
+    for (size_t q = 0; q < r->n; q++) {
+        int used = 0;
+        if (r->grade[q] < PG_GRADE_PROJECTED) continue;
+        for (int k = 0; k < p->dim; k++)
+            used += snprintf (at + used, sizeof at - (size_t) used, k ? ", %.6g" : "%.6g", r->x[q * (size_t) p->dim + (size_t) k]);
+        pg_scene_fault (scene, "method.horizon", "%s %zu at (%s) m sees %zu points, too few or too flat a set for a strain: "
+                        "use a larger horizon or larger spacings of the points there",
+                        what[set], q + 1, at, r->family.start[q + 1] - r->family.start[q]);
+        PG_TRY (pg_scene_verdict (scene));
+    }
+done:
+    return status;
+}
+
+static pg_status make_nodes (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     int *own = NULL;
     PG_ALLOC (own, p->cloud.n);
     for (size_t i = 0; i < p->cloud.n; i++) own[i] = (int) i;
     PG_TRY (pg_rows_create (&p->rows[PG_NODES], &p->approx, &p->cloud, p->cloud.n, p->cloud.x, p->cloud.volume, own, NULL));
+    PG_TRY (check_support (p, scene, PG_NODES));
     strip (&p->rows[PG_NODES]);
 done:
     pg_free (own);
@@ -33,6 +57,7 @@ static pg_status make_points (pg_problem *p, const pg_scene *scene)
     int order = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : p->approx.order + 1;
     if (!p->integration->at_nodes) PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, order));
     PG_TRY (pg_rows_create (&p->rows[PG_POINTS], &p->approx, &p->cloud, q.n, q.x, q.weight, NULL, q.cell));
+    PG_TRY (check_support (p, scene, PG_POINTS));
     strip (&p->rows[PG_POINTS]);
 done:
     pg_quadrature_clear (&q);
@@ -40,7 +65,7 @@ done:
 }
 
 /* Points on those facets only that a load or support needs. */
-static pg_status make_facets (pg_problem *p)
+static pg_status make_facets (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
@@ -60,6 +85,7 @@ static pg_status make_facets (pg_problem *p)
         q.weight[keep] = q.weight[k], q.cell[keep++] = q.cell[k];
     }
     PG_TRY (pg_rows_create (&p->rows[PG_FACETS], &p->approx, &p->cloud, keep, q.x, q.weight, NULL, q.cell));
+    PG_TRY (check_support (p, scene, PG_FACETS));
     strip (&p->rows[PG_FACETS]);
     p->facet_normal = q.normal, q.normal = NULL;
 done:
@@ -89,6 +115,22 @@ int pg_bonds_nearest (const pg_problem *p, int set, size_t point)
     return nearest;
 }
 
+static pg_status measure_spacing (pg_problem *p)
+{
+    pg_status status = PG_OK;
+    for (int s = 0; s < PG_BOND_SETS && p->cloud.size; s++) {
+        PG_ALLOC (p->spacing[s], p->rows[s].n);
+        for (size_t q = 0; q < p->rows[s].n; q++) {
+            int nearest = s == PG_NODES ? (int) q : pg_bonds_nearest (p, s, q);
+            p->spacing[s][q] = nearest < 0 ? p->cloud.h : p->cloud.size[nearest];
+        }
+    }
+done:
+    return status;
+}
+
+double pg_problem_spacing (const pg_problem *p, int set, size_t point) { return p->spacing[set] ? p->spacing[set][point] : p->cloud.h; }
+
 /* A node of an excluded set exempts its bonds; another point follows its nearest node. A material that never breaks exempts its points. */
 static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
 {
@@ -117,10 +159,11 @@ done:
 pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    PG_TRY (make_nodes (p));
+    PG_TRY (make_nodes (p, scene));
     PG_TRY (make_points (p, scene));
-    PG_TRY (make_facets (p));
+    PG_TRY (make_facets (p, scene));
     for (int s = 0; s < PG_BOND_SETS; s++) p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
+    PG_TRY (measure_spacing (p));
     PG_TRY (pg_blocks_build (p, scene));
     PG_TRY (make_exempt (p, scene));
     for (size_t i = 0; i < p->cloud.n; i++)

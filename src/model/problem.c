@@ -51,7 +51,7 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
     PG_ALLOC (p->criterion, p->nmaterial);
     for (size_t i = 0; i < p->nmaterial; i++)
         setting[i] = (pg_criterion_setting) { p->mode, p->approx.horizon, p->material[i].modulus, p->material[i].parameter[1],
-                                              p->cloud.thickness, p->approx.kernel->name, p->material[i].name };
+                                              p->cloud.thickness, p->approx.kernel->name, p->material[i].name, p->cloud.size != NULL };
     PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));
 done:
     pg_free (setting);
@@ -92,7 +92,8 @@ static int sees_points (const pg_problem *p, const double *x)
     for (size_t i = 0; i < p->cloud.n; i++) {
         double r = 0;
         for (size_t k = 0; k < dim; k++) r += (p->cloud.x[i * dim + k] - x[k]) * (p->cloud.x[i * dim + k] - x[k]);
-        if (r < p->approx.horizon * p->approx.horizon) return 1;
+        double a = p->approx.horizon * pg_cloud_ratio (&p->cloud, i);
+        if (r < a * a) return 1;
     }
     return 0;
 }
@@ -146,7 +147,7 @@ void pg_problem_free (pg_problem **problem)
 {
     pg_problem *p = *problem;
     if (!p) return;
-    for (int s = 0; s < PG_BOND_SETS; s++) pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]);
+    for (int s = 0; s < PG_BOND_SETS; s++) pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]);
     pg_loads_clear (p);
     pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->material), pg_free (p->criterion);
     pg_sets_clear (&p->sets);

@@ -72,6 +72,36 @@ static void clusters_and_flat_clouds_match_brute_force (void **state)
     same_as_brute_force (3, 200, x, 200, x, 0);
 }
 
+/* Point j reaches centres within reach * size[j] / h of it; sizes over three decades. */
+static void own_reaches_match_brute_force (void **state)
+{
+    (void) state;
+    uint32_t seed = 11;
+    for (int dim = 1; dim <= 3; dim++)
+        for (int how = 0; how < 4; how++) {
+            size_t n = 300, d = (size_t) dim;
+            double x[900], size[300], reach = 0.04;
+            for (size_t i = 0; i < n * d; i++) x[i] = i < n * d / 2 ? 1e-2 * next (&seed) : next (&seed);
+            for (size_t i = 0; i < n; i++) size[i] = pow (10, 3 * next (&seed) - 2), x[i * d] = i % 7 ? x[i * d] : 0.25;
+            pg_cloud cloud = {.dim = dim, .n = n, .x = x, .size = size, .h = 0.5};
+            pg_family f;
+            size_t bonds = 0, single = 0;
+            check_ok (pg_family_build (&f, &cloud, n, x, reach, how % 2, how / 2));
+            for (size_t i = 0; i < n; i++) {
+                size_t e = f.start[i];
+                for (size_t j = 0; j < n; j++) {
+                    if (!in_family (dim, x + i * d, x + j * d, reach * (size[j] / 0.5), how % 2, how / 2)) continue;
+                    assert_true (e < f.start[i + 1]);
+                    assert_int_equal (f.node[e++], j);
+                    bonds++, single += !in_family (dim, x + j * d, x + i * d, reach * (size[i] / 0.5), how % 2, how / 2);
+                }
+                assert_int_equal (e, f.start[i + 1]);
+            }
+            assert_true (bonds > 3 * n && single > n);
+            pg_family_clear (&f);
+        }
+}
+
 static void an_end_exactly_at_the_reach_counts_only_when_closed (void **state)
 {
     (void) state;
@@ -124,6 +154,9 @@ static void bad_numbers_are_refused (void **state)
     check_fails (pg_family_build (&f, &cloud, 1, x, NAN, PG_RADIAL, 1), PG_E_USAGE);
     check_fails (pg_family_build (&f, &cloud, 1, x, -1, PG_RADIAL, 1), PG_E_USAGE);
     check_fails (pg_family_build (&f, &cloud, 1, bad, 1, PG_RADIAL, 1), PG_E_USAGE);
+    cloud.size = bad, cloud.h = 1;                             /* a spacing of 0 */
+    check_fails (pg_family_build (&f, &cloud, 1, x, 1, PG_RADIAL, 1), PG_E_USAGE);
+    check_contains (pg_last_error (), "point 0 has the spacing 0 m");
 }
 
 static void any_allocation_may_fail (void **state)
@@ -150,7 +183,8 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (random_clouds_match_brute_force), cmocka_unit_test (lattice_points_lie_on_cell_borders),
-        cmocka_unit_test (clusters_and_flat_clouds_match_brute_force), cmocka_unit_test (an_end_exactly_at_the_reach_counts_only_when_closed),
+        cmocka_unit_test (clusters_and_flat_clouds_match_brute_force),
+        cmocka_unit_test (own_reaches_match_brute_force), cmocka_unit_test (an_end_exactly_at_the_reach_counts_only_when_closed),
         cmocka_unit_test (families_do_not_depend_on_the_unit), cmocka_unit_test (no_centres_and_no_points_are_fine),
         cmocka_unit_test (bad_numbers_are_refused), cmocka_unit_test (any_allocation_may_fail),
     };

@@ -77,6 +77,26 @@ static void blanks_separate_where_there_are_no_commas (void **state)
     pg_cloud_clear (&c);
 }
 
+static void spacings_follow_the_block_or_a_header (void **state)
+{
+    (void) state;
+    const char *const csv[3] = {"0,0,0.02,3,0.1\n1,0,0.02,4,0.3\n", "x y volume block spacing\n0 0 0.02 3 0.1\n1 0 0.02 4 0.3\n",
+                                "x,y,volume,spacing [m]\n0,0,0.02,0.1\n1,0,0.02,0.3\n"};
+    for (int k = 0; k < 3; k++) {
+        pg_cloud c;
+        check_ok (cloud_of (&c, 2, csv[k], strlen (csv[k])));
+        check_relative (c.size[0], 0.1, 0);
+        check_relative (pg_cloud_ratio (&c, 1), 0.3 / c.h, 0);
+        check_relative (pg_cloud_finest (&c), 0.1, 0);
+        assert_int_equal (c.block[1], k < 2 ? 4 : 0);
+        pg_cloud_clear (&c);
+    }
+    must_fault (2, "0 0 1 0 0.1\n1 0 1 0 0\n", "the spacing 0 must be positive");
+    must_fault (2, "0 0 1 0 0.1\n1 0 1 0\n", "4 columns, the lines before have 5");
+    must_fault (2, "x y volume spacing block\n0 0 1 1 1\n", "'x' in column 1");
+    must_fault (2, "0 0 1 0 0.1 7\n", "6 columns; in 2D a line has 3 (coordinates, volume), 4 (and block) or 5 (and spacing)");
+}
+
 static void many_points_keep_their_order (void **state)
 {
     (void) state;
@@ -96,7 +116,7 @@ static void faults_name_the_line (void **state)
     must_fault (2, "x,y,volume\n0,0,1\n0,nan,1\n", "cloud.csv:3: 'nan' in column 2");
     must_fault (2, "0,0,1\n0,1,inf\n", "cloud.csv:2: 'inf' in column 3");
     must_fault (2, "0,0,1\n\n0,1,1e999\n", "cloud.csv:3: '1e999' in column 3");
-    must_fault (2, "0,0,1\n1,0\n", "cloud.csv:2: 2 columns; in 2D a line has 3 (coordinates, volume) or 4");
+    must_fault (2, "0,0,1\n1,0\n", "cloud.csv:2: 2 columns; in 2D a line has 3 (coordinates, volume), 4 (and block)");
     must_fault (2, "0,0,1\n1,0,1,0\n", "cloud.csv:2: 4 columns, the lines before have 3");
     must_fault (2, "0,0,1\n1,,1\n", "cloud.csv:2: '' in column 2");
     must_fault (2, "0,0,1\n1,2 3,1\n", "cloud.csv:2: '2 3' in column 2");
@@ -175,6 +195,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (header_comments_blanks_and_blocks_are_read), cmocka_unit_test (blanks_separate_where_there_are_no_commas),
+        cmocka_unit_test (spacings_follow_the_block_or_a_header),
         cmocka_unit_test (many_points_keep_their_order), cmocka_unit_test (faults_name_the_line), cmocka_unit_test (a_header_must_name_the_columns_in_order),
         cmocka_unit_test (empty_files_and_binary_files_are_faults), cmocka_unit_test (the_same_point_twice_is_a_fault),
         cmocka_unit_test (a_missing_file_or_a_folder_is_a_fault), cmocka_unit_test (random_bytes_never_crash_the_reader),
