@@ -30,5 +30,6 @@
 #include "perigal/force.h"
 #include "perigal/solve.h"
 #include "perigal/output.h"
+#include "perigal/compare.h"
 #include "perigal/report.h"
 #endif

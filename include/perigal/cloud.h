@@ -67,6 +67,14 @@ enum { PG_RADIAL, PG_TENSOR };                                       /* ball |x_
 pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, const double *centre, double reach, int shape, int closed);
 void      pg_family_clear (pg_family *family);
 
+/* ---- nearest point --------------------------------------------------------------------------------------------------- */
+typedef struct pg_nearest pg_nearest;                  /* a grid over points; x is borrowed                              */
+typedef int (*pg_refuse) (void *context, const double *place, size_t point);          /* 1: this point does not count     */
+pg_status pg_nearest_create (pg_nearest **out, int dim, size_t n, const double *x /* n x dim, m */);
+void      pg_nearest_free   (pg_nearest **nearest);
+/* The nearest point that is not refused (refuse NULL: none is); of equals the lowest number; -1: all are refused. Thread-safe. */
+long      pg_nearest_find   (const pg_nearest *nearest, const double *place, pg_refuse refuse, void *context);
+
 /* ---- pre-cracks ------------------------------------------------------------------------------------------------------ */
 enum { PG_CRACK_SEGMENT, PG_CRACK_POLYGON, PG_CRACK_DISC };
 typedef struct {

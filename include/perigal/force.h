@@ -52,7 +52,13 @@ typedef struct {
     /* Consistent mass, kg: one number for each pair of nodes (upper triangle, n x n), the same for every component. It is that of the bonds
      * alive when it is first asked for, and stays: breaking moves no mass. NULL: lumped mass only. */
     pg_status (*mass_matrix) (void *self, const pg_sparse **M);
+    /* Displacement (m) and stress (Pa; NULL: not wanted) at any n places by the force's own shape functions, the bonds being those of the last
+     * refresh: places on the two sides of a crack keep their own values. x: n x dim; u: n x 3, 0 beyond dim; stress: n x 6, always xx yy zz xy
+     * yz zx (2D: zz as the mode has it). Outside the body: continued from the nearest point. NULL: least squares (perigal/compare.h). */
+    pg_status (*sample)  (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress);
 } pg_force_type;
+/* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
+void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);
 const pg_force_type *pg_force_find  (const char *name);
 const char          *pg_force_names (void);
 void pg_ledger_clear (pg_ledger *ledger);

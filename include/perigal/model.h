@@ -23,6 +23,7 @@ typedef struct {
 } pg_load;
 /* Component k of the load at place x and time t (s; static: load factor). */
 double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t);
+pg_place pg_place_of (int dim, const double *x, double t);             /* what expressions see at x                      */
 int    pg_load_prescribes (const pg_load *load);       /* displacement or velocity                                       */
 
 /* ---- problem ----------------------------------------------------------------------------------------------------------- */

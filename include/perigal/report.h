@@ -2,6 +2,7 @@
  * report.h: the result folder of a run: result.e, history.csv, events.csv, report.json, pictures, a copy of the scene, checkpoint.nc. */
 #ifndef PERIGAL_REPORT_H
 #define PERIGAL_REPORT_H
+#include "perigal/compare.h"
 #include "perigal/output.h"
 #include "perigal/solve.h"
 
@@ -31,6 +32,8 @@ pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene 
                             pg_state *state, pg_resumed *from);
 /* 1: the folder holds the whole results of this scene and no checkpoint. */
 int       pg_result_finished (const char *folder, const pg_scene *scene);
+/* What pg_result_finish measured against the scene's reference; NULL: there is none. */
+const pg_errors *pg_result_errors (const pg_result *result);
 const char *pg_result_folder (const pg_result *result);
 size_t    pg_result_pictures (const pg_result *result);     /* written                                                   */
 const char *pg_result_picture (const pg_result *result, size_t i);

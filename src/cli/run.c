@@ -29,6 +29,9 @@ static void print_summary (const pg_result *result, const pg_report *r, double t
             total, r->seconds[PG_SECONDS_SHAPE] + r->seconds[PG_SECONDS_ASSEMBLE] + r->seconds[PG_SECONDS_UPDATE],
             r->seconds[PG_SECONDS_ANALYSE], r->seconds[PG_SECONDS_FACTOR], r->seconds[PG_SECONDS_SOLVE],
             r->seconds[PG_SECONDS_FORCE], r->seconds[PG_SECONDS_BREAK], (double) pg_memory_process_peak () * 1e-6);
+    char row[400];
+    for (size_t k = 0; pg_result_errors (result) && pg_errors_row (pg_result_errors (result), k, row, sizeof row); k++)
+        printf ("  %s%s\n", k ? "" : "against the reference: ", row);
     for (size_t k = 0; k < r->nskipped; k++) printf ("  skipped: %s (%s)\n", r->skipped[k].what, r->skipped[k].why);
     for (size_t k = 0; k < r->nwarning; k++) printf ("  warning: %s\n", r->warning[k]);
     printf ("  results in %s: result.e history.csv events.csv report.json\n", pg_result_folder (result));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress, blocks, energy),
  * galerkin_boundary.c (Nitsche, penalty, loads), galerkin_basis.c (elimination), galerkin_bonds.c (utilisation, overlap, census),
- * galerkin_field.c (fields, gauges). */
+ * galerkin_field.c (fields, gauges), galerkin_sample.c (any place). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
 #include "perigal/force.h"
@@ -54,6 +54,7 @@ typedef struct {
     double  *work;                                     /* ndof                                                           */
     const double *at_d;                                /* for workers                                                    */
     size_t  *list[PG_BOND_SETS];                       /* touched points (scratch of refresh)                            */
+    pg_nearest *near_point, *near_node;                /* bulk points, nodes; NULL until a place is asked for            */
 } galerkin;
 
 /* sum: the loops over points */
@@ -103,4 +104,5 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d);
 void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
 pg_status galerkin_probe (void *self, const double *d, const double *x, double *u);
+pg_status galerkin_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress);
 #endif

@@ -5,8 +5,6 @@
 #include "perigal/model.h"
 pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
-/* Variables of expressions at a place (m) and time. */
-pg_place  pg_place_of    (int dim, const double *x, double t);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
 /* The node nearest to a point of a bond set among those it sees; -1: it sees none. */
 int       pg_bonds_nearest (const pg_problem *problem, int set, size_t point);

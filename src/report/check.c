@@ -109,7 +109,7 @@ static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
     if (result_view_read (&mine, scene, i, p->dim) != PG_OK) return;
     for (size_t k = 0; (word = pg_scene_name (scene, k, "output.pictures")); k++) twice |= strcmp (word, mine.name) == 0;
     for (size_t k = 0; k < i; k++) twice |= result_view_read (&other, scene, k, p->dim) == PG_OK && strcmp (other.name, mine.name) == 0;
-    if (twice || strcmp (mine.name, "load_displacement") == 0)
+    if (twice || strcmp (mine.name, "load_displacement") == 0 || strcmp (mine.name, "error") == 0)
         pg_scene_fault (scene, path, "another picture is called %s.png; give another name", mine.name);
 }
 
@@ -132,6 +132,7 @@ pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
     char names[512], path[64];
     const char *name;
     size_t count = 0;
+    pg_reference *reference = NULL;
     picture_names (problem->dim, names, sizeof names);
     for (; (name = pg_scene_name (scene, count, "output.pictures")); count++)
         if (!among (names, name)) {
@@ -141,6 +142,8 @@ pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
     for (size_t i = 0; i < pg_scene_count (scene, "output.views"); i++, count++) check_view (scene, problem, i, names);
     if (count >= MOST_PICTURES) pg_scene_fault (scene, "output.pictures", "at most %d pictures", MOST_PICTURES - 1);
     result_averages_check (scene, problem);
+    if (pg_reference_read (&reference, scene, problem) == PG_E_MEMORY) return PG_E_MEMORY;
+    pg_reference_free (&reference);
     given_once (scene, "output.pictures");
     given_once (scene, "output.fields");
     return pg_scene_verdict (scene);

@@ -83,6 +83,11 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
     pg_json_text (j, "outcome", failure ? failure : "done");
     run_block (j, res, r, state);
     seconds_block (j, r, search, res->seconds, total);
+    if (res->measured) {
+        pg_json_open (j, "error", '{');
+        pg_errors_json (j, &res->errors);
+        pg_json_shut (j);
+    }
     pg_json_count (j, "peak_bytes", pg_memory_process_peak ());
     pg_json_count (j, "threads", (size_t) res->problem->threads);
     criteria (j, res->problem);

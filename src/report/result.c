@@ -131,6 +131,7 @@ pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scen
     r->length = (strcmp (o.kind, "static") == 0 ? 1 : o.end) / (double) o.steps;
     PG_TRY (read_wishes (r, scene));
     PG_TRY (result_averages_read (r, scene));
+    PG_TRY (pg_reference_read (&r->reference, scene, problem));
     choose_curve (r);
     r->next_broken = r->broken_share > 0 ? 1 : 0;
 done:
@@ -250,6 +251,7 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     if (!r->last_written) PG_TRY (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp));
     r->last_written = 1;
     PG_TRY (result_pictures (r, state));
+    PG_TRY (result_errors (r, state));
 done:
     r->seconds += pg_seconds () - t0;
     pg_status written = result_json (r, state, failure, search, r->earlier + total);    /* the report comes also without pictures */
@@ -266,11 +268,14 @@ void pg_result_free (pg_result **result)
     pg_table_close (&r->history);
     pg_table_close (&r->events);
     for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);
+    pg_reference_free (&r->reference);
+    pg_errors_clear (&r->errors);
     pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve_x), pg_free (r->curve_y);
     pg_free (r);
     *result = NULL;
 }
 
+const pg_errors *pg_result_errors (const pg_result *r) { return r->measured ? &r->errors : NULL; }
 const char *pg_result_folder (const pg_result *r) { return r->folder; }
 size_t pg_result_pictures (const pg_result *r) { return r->nwritten; }
 const char *pg_result_picture (const pg_result *r, size_t i) { return i < r->nwritten ? r->written[i] : NULL; }

@@ -26,7 +26,7 @@ struct pg_result {
     pg_field_view field[MOST_FIELDS];
     double   *value[MOST_FIELDS];
     result_view picture[MOST_PICTURES];
-    char      written[MOST_PICTURES][4096];
+    char      written[MOST_PICTURES + 1][4096];
     int       stages, dynamic;                         /* pictures at every written stage; time instead of load factor   */
     double    magnify, broken_share;
     long      every, next_broken;
@@ -47,6 +47,8 @@ struct pg_result {
     result_marks now;                                  /* in the middle of a step: after its last round looked at        */
     long      rounds;                                  /* break rounds of the step at hand: its middle has been seen     */
     pg_step   pending;  int is_pending;                /* a step whose rows and fields are not all written               */
+    pg_reference *reference;                           /* NULL: none                                                     */
+    pg_errors errors;  int measured;
     double    opened, earlier;                         /* pg_seconds at the opening; s in processes before this one      */
     double    interval, checkpoint_at, checkpoint_cost;        /* s                                                      */
 };
@@ -65,5 +67,6 @@ pg_status result_pictures       (pg_result *r, const pg_state *state);
 pg_status result_stage          (pg_result *r, const pg_state *state);         /* stages/NAME_0007.png of step 7 of result.e */
 pg_status result_view_read      (result_view *v, const pg_scene *scene, size_t i, int dim);
 pg_status result_views_read     (pg_result *r, const pg_scene *scene);
+pg_status result_errors         (pg_result *r, const pg_state *state);         /* measured against the reference, error.png  */
 pg_status result_json           (pg_result *r, const pg_state *state, const char *failure, double search, double total);
 #endif

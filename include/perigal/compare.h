@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * compare.h: a result against what is known of it: closed forms, tables of places, finite element results, other results.
+ * Everything to be compared is a sampler: it can be asked for displacement and stress at any place. */
+#ifndef PERIGAL_COMPARE_H
+#define PERIGAL_COMPARE_H
+#include "perigal/mesh.h"
+#include "perigal/output.h"
+#include "perigal/solve.h"
+
+/* ---- samplers ---------------------------------------------------------------------------------------------------------- */
+/* x: n x dim, m; u: n x 3, m, 0 beyond dim; stress: n x 6, Pa, xx yy zz xy yz zx, or NULL: not wanted. What is not known is NAN. Borrows what
+ * it was made of; pg_sampler_clear frees what it made itself. */
+typedef struct {
+    void *context;
+    int   dim;
+    int   displacement, stress;                        /* bit k: component k is known                                    */
+    pg_status (*sample) (void *context, size_t n, const double *x, double *u, double *stress);
+    void (*free) (void *context);                      /* NULL: nothing to free                                          */
+} pg_sampler;
+void      pg_sampler_clear    (pg_sampler *sampler);
+/* A state of a force: by its own shape functions (pg_force_type.sample), else by least squares through its nodal displacements. */
+pg_status pg_sampler_solution (pg_sampler *out, const pg_problem *problem, const pg_force_type *force, void *self, const pg_state *state);
+/* Displacements at points (n x dim, m), between them by least squares with a linear basis; stress from its gradient and the materials of
+ * the nearest evaluation point. cracks and materials are the problem's. */
+pg_status pg_sampler_points   (pg_sampler *out, const pg_problem *problem, const double *u);
+
+/* ---- reference -------------------------------------------------------------------------------------------------------- */
+/* A table of places with values. Columns: 0..2 displacement, 3..8 stress. */
+typedef struct {
+    char    name[128];                                 /* of the file, without folders                                   */
+    int     dim;
+    size_t  n, ncolumn;
+    int     column[9];
+    double *x;                                         /* m                                      (n x dim)               */
+    double *value;                                     /* m, Pa; NAN: missing                    (n x ncolumn)           */
+} pg_line;
+/* unit: length of columns that name none, m; factor: of the values; along: coordinates that are no column, m. Faults: PG_E_FILE with line. */
+pg_status pg_line_read  (pg_line *out, const char *path, int dim, double unit, double factor, const double *along /* 3 */);
+void      pg_line_clear (pg_line *line);
+const char *pg_column_name (int column);               /* "u_x" ... "s_zx"                                               */
+const char *pg_column_unit (int column);               /* "m", "Pa"                                                      */
+
+/* `reference` of a scene. Files are looked for beside the scene. *out is NULL when there is none; faults go to the scene. */
+typedef struct pg_reference pg_reference;
+pg_status pg_reference_read  (pg_reference **out, const pg_scene *scene, const pg_problem *problem);
+void      pg_reference_free  (pg_reference **reference);
+/* The field it describes at time t (s; static: load factor); no bits set when it has lines only. */
+pg_status pg_reference_sampler (pg_sampler *out, const pg_reference *reference, double t);
+
+/* ---- norms ------------------------------------------------------------------------------------------------------------ */
+typedef struct {
+    double difference, reference;                      /* norms of the difference and of the reference                   */
+    double relative;                                   /* their quotient; 0 / 0 = 0, INFINITY where only the reference vanishes */
+    double place[3];                                   /* of the largest difference (maxima only), m                     */
+} pg_norm;
+typedef struct {
+    int     displacement, stress;                      /* 1: measured                                                    */
+    pg_norm l2;                                        /* sqrt (int |u - u_ref|^2 dV), m^(5/2)                           */
+    pg_norm maximum;                                   /* largest |u - u_ref|, m, at the quadrature points and at the nodes */
+    pg_norm energy;                                    /* sqrt (int (s - s_ref) : C : (s - s_ref) dV), J^(1/2)           */
+    pg_norm stress_maximum;                            /* largest |s - s_ref| (of all components), Pa                    */
+    double  volume;                                    /* m^3, measured                                                  */
+    size_t  places, skipped;                           /* skipped: excluded by where, or the reference is not finite there */
+} pg_norms;
+/* Over quadrature points and weights (x n x dim). material: elastic law of each place (which: n, indices; NULL: all the first). where: NULL,
+ * or a condition. Components that either side does not know are left out; stress needs all of the dimension. */
+typedef struct { const pg_material *material; const int *which; const pg_expression *where; } pg_norm_options;
+pg_status pg_norms_measure (pg_norms *out, const pg_quadrature *q, const pg_sampler *value, const pg_sampler *reference, const pg_norm_options *options);
+
+/* Of one column of a table. */
+typedef struct {
+    char    file[128];  int column;
+    size_t  rows, missed;                              /* missed: no value there, or not finite                          */
+    pg_norm l2, maximum;                               /* root of the sum over the rows; largest                         */
+    double  pointwise, place[3];                       /* largest |v - ref| / |ref| where |ref| > 1e-3 of the largest; where */
+} pg_line_norms;
+pg_status pg_line_measure (pg_line_norms *out /* ncolumn */, const pg_line *line, const pg_sampler *value);
+
+/* All that a scene's reference says about a state. */
+typedef struct {
+    pg_norms norms;
+    int      order;                                    /* Gauss points per direction of the norms; 0: the points' volumes */
+    size_t   nline;  pg_line_norms *line;
+    double  *difference;                               /* |u - u_ref| at the points, m, NAN where unknown; NULL: none    */
+    double   seconds;
+} pg_errors;
+pg_status pg_errors_measure (pg_errors *out, const pg_reference *reference, const pg_problem *problem, const pg_sampler *value, double t);
+void      pg_errors_clear   (pg_errors *errors);
+void      pg_errors_json    (pg_json *j, const pg_errors *errors);       /* entries of the map that is open              */
+/* Row i of a short table for people; 0 past its end. */
+int       pg_errors_row     (const pg_errors *errors, size_t i, char *text, size_t size);
+#endif

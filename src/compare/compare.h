@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: what a scene's reference is made of. */
+#ifndef PG_COMPARE_PRIVATE_H
+#define PG_COMPARE_PRIVATE_H
+#include "perigal/compare.h"
+
+struct pg_reference {
+    int     dim, threads, order;                       /* order: Gauss points per direction of the norms                 */
+    pg_expression *u[3], *s[6], *where;                /* NULL: not given                                                */
+    pg_line *line;  size_t nline;
+};
+/* Path of a file that the scene names: beside the scene unless it is absolute. */
+pg_status compare_file_beside (const pg_scene *scene, const char *name, char *path, size_t size);
+#endif

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Tables of places with values, as pg_table writes them: a first row of names with units in brackets, then numbers. Empty cells and nan
+ * are missing values; columns of other names are passed over; '#' starts a comment. */
+#include "perigal/compare.h"
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_COLUMNS = 64, PLACE = 16 };                /* PLACE + k: coordinate k                                        */
+
+static const char *const names[9] = { "u_x", "u_y", "u_z", "s_xx", "s_yy", "s_zz", "s_xy", "s_yz", "s_zx" };
+static const char *const longer[9] = { "displacement_x", "displacement_y", "displacement_z", "stress_xx", "stress_yy", "stress_zz", "stress_xy",
+                                       "stress_yz", "stress_zx" };
+const char *pg_column_name (int column) { return column >= 0 && column < 9 ? names[column] : ""; }
+const char *pg_column_unit (int column) { return column < 3 ? "m" : "Pa"; }
+
+typedef struct {
+    const char *path;
+    pg_line *line;
+    int    meaning[MOST_COLUMNS];                      /* column of pg_line's list, PLACE + k, -1: passed over            */
+    double scale[MOST_COLUMNS];
+    size_t columns, at, cap_x, cap_value;              /* at: line of the file, from 1                                   */
+    double unit, factor;
+    const double *along;
+} reader;
+
+static pg_status load (const char *path, char **text)
+{
+    pg_status status = PG_OK;
+    size_t size = 0, cap = 0, got = 0;
+    FILE *f = fopen (path, "rb");
+    if (!f) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    do {
+        PG_GROW (*text, cap, size + 65537);
+        got = fread (*text + size, 1, 65536, f);
+        if (memchr (*text + size, 0, got)) PG_FAIL (PG_E_FILE, "%s is not a text file", path);
+        size += got;
+    } while (got > 0);
+    if (ferror (f)) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    (*text)[size] = 0;
+done:
+    if (f) fclose (f);
+    return status;
+}
+
+/* Cuts at commas (semicolons, tabs), takes off blanks and quotes. */
+static size_t split (char *row, char *cell[MOST_COLUMNS])
+{
+    size_t n = 0;
+    for (char *s = row;; n++) {
+        char *end = s + strcspn (s, ",;\t"), *tail = end;
+        int last = !*end;
+        s += strspn (s, " \"");
+        while (tail > s && strchr (" \"", tail[-1])) tail--;
+        *tail = 0;
+        if (n < MOST_COLUMNS) cell[n] = s < end ? s : tail;
+        if (last) return n + 1;
+        s = end + 1;
+    }
+}
+
+static int meaning_of (const char *name, int dim)
+{
+    static const int place_of[3] = { 'x', 'y', 'z' };
+    for (int k = 0; k < dim; k++) if (name[0] == place_of[k] && !name[1]) return PLACE + k;
+    for (int k = 0; k < 9; k++) {
+        int beyond = k < 3 ? k >= dim : dim == 1 ? k > 3 : dim == 2 ? k > 6 : 0;
+        if (!beyond && (strcmp (name, names[k]) == 0 || strcmp (name, longer[k]) == 0)) return k;
+    }
+    return -1;
+}
+
+/* "u_x [mm]" */
+static pg_status read_name (reader *r, size_t k, char *cell)
+{
+    pg_status status = PG_OK;
+    char *open = strchr (cell, '['), *shut = open ? strchr (open, ']') : NULL, one[96];
+    double size = 0;
+    if (open) {
+        char *tail = open;
+        while (tail > cell && tail[-1] == ' ') tail--;
+        if (!shut) PG_FAIL (PG_E_FILE, "%s:%zu: column %zu: the bracket of its unit does not close", r->path, r->at, k + 1);
+        *tail = *shut = 0;
+    }
+    int what = r->meaning[k] = meaning_of (cell, r->line->dim);
+    r->scale[k] = what < 0 || (what >= 3 && what < PLACE) ? 1 : r->unit;
+    if (what >= 0 && open && open[1]) {
+        snprintf (one, sizeof one, "1 %.80s", open + 1);
+        const char *unit = what >= PLACE ? "m" : pg_column_unit (what);
+        if (pg_unit_parse (&size, one, unit) != PG_OK)
+            PG_FAIL (PG_E_FILE, "%s:%zu: column %s: [%.40s] is no unit of the kind of %s", r->path, r->at, cell, open + 1, unit);
+        r->scale[k] = size;
+    }
+    for (size_t j = 0; j < k; j++)
+        if (what >= 0 && r->meaning[j] == what) PG_FAIL (PG_E_FILE, "%s:%zu: there are two columns %s", r->path, r->at, cell);
+    if (what >= 0 && what < PLACE) r->line->column[r->line->ncolumn++] = what, r->scale[k] *= r->factor;
+done:
+    return status;
+}
+
+static pg_status read_header (reader *r, char *row)
+{
+    pg_status status = PG_OK;
+    char *cell[MOST_COLUMNS];
+    int places = 0;
+    r->columns = split (row, cell);
+    if (r->columns > MOST_COLUMNS) PG_FAIL (PG_E_FILE, "%s:%zu: more than %d columns", r->path, r->at, MOST_COLUMNS);
+    for (size_t k = 0; k < r->columns; k++) {
+        PG_TRY (read_name (r, k, cell[k]));
+        places += r->meaning[k] >= PLACE;
+    }
+    if (!places) PG_FAIL (PG_E_FILE, "%s:%zu: no column x%s: the first row names the columns, such as x [mm], u_x [mm], s_xx [MPa]", r->path, r->at,
+                          r->line->dim == 1 ? "" : r->line->dim == 2 ? ", y" : ", y, z");
+    if (!r->line->ncolumn) PG_FAIL (PG_E_FILE, "%s:%zu: no column of values: u_x, u_y ..., s_xx, s_yy, s_xy ... with units in brackets", r->path, r->at);
+done:
+    return status;
+}
+
+static pg_status read_number (const reader *r, const char *cell, size_t k, double *out)
+{
+    pg_status status = PG_OK;
+    char *end;
+    *out = NAN;
+    if (!*cell) return PG_OK;
+    *out = strtod (cell, &end);
+    if (end == cell || *end) PG_FAIL (PG_E_FILE, "%s:%zu: '%.40s' in column %zu is not a number", r->path, r->at, cell, k + 1);
+    *out *= r->scale[k];
+done:
+    return status;
+}
+
+static pg_status read_row (reader *r, char *row)
+{
+    pg_status status = PG_OK;
+    char *cell[MOST_COLUMNS];
+    pg_line *l = r->line;
+    size_t n = split (row, cell), dim = (size_t) l->dim, c = 0;
+    if (n != r->columns) PG_FAIL (PG_E_FILE, "%s:%zu: %zu columns, the first row names %zu", r->path, r->at, n, r->columns);
+    PG_GROW (l->x, r->cap_x, (l->n + 1) * dim);
+    PG_GROW (l->value, r->cap_value, (l->n + 1) * l->ncolumn);
+    for (size_t k = 0; k < dim; k++) l->x[l->n * dim + k] = r->along[k];
+    for (size_t k = 0; k < n; k++) {
+        double v;
+        int what = r->meaning[k];
+        if (what < 0) continue;
+        PG_TRY (read_number (r, cell[k], k, &v));
+        if (what >= PLACE && !isfinite (v)) PG_FAIL (PG_E_FILE, "%s:%zu: the place has no %c", r->path, r->at, "xyz"[what - PLACE]);
+        if (what >= PLACE) l->x[l->n * dim + (size_t) (what - PLACE)] = v;
+        else l->value[l->n * l->ncolumn + c++] = v;
+    }
+    l->n++;
+done:
+    return status;
+}
+
+pg_status pg_line_read (pg_line *out, const char *path, int dim, double unit, double factor, const double *along)
+{
+    pg_status status = PG_OK;
+    reader r = { .path = path, .line = out, .unit = unit, .factor = factor, .along = along };
+    char *text = NULL;
+    const char *slash = strrchr (path, '/');
+    memset (out, 0, sizeof *out);
+    out->dim = dim;
+    snprintf (out->name, sizeof out->name, "%.127s", slash ? slash + 1 : path);
+    PG_TRY (load (path, &text));
+    for (char *row = strncmp (text, "\xEF\xBB\xBF", 3) ? text : text + 3; *row;) {
+        size_t length = strcspn (row, "\n");
+        char *next = row + length + (row[length] == '\n');
+        row[length] = 0;
+        row[strcspn (row, "#\r")] = 0;
+        r.at++;
+        if (row[strspn (row, " \t")]) PG_TRY (r.columns ? read_row (&r, row) : read_header (&r, row));
+        row = next;
+    }
+    if (out->n == 0) PG_FAIL (PG_E_FILE, "%s has no rows", path);
+done:
+    pg_free (text);
+    if (status != PG_OK) pg_line_clear (out);
+    return status;
+}
+
+void pg_line_clear (pg_line *line)
+{
+    pg_free (line->x), pg_free (line->value);
+    memset (line, 0, sizeof *line);
+}

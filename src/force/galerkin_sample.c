@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Displacement and stress at any place, by the method's own shape functions evaluated there.
+ * Which bonds live at a place: those that no pre-crack cuts; and where the nearest evaluation point on the same side of the pre-cracks has lost
+ * bonds since, those nodes only that it still sees. Where that leaves a poorer basis than the evaluation point has, its first-order expansion
+ * u_q + grad u_q (x - x_q) and its stress hold. So the two faces of a crack stay apart. */
+#include "galerkin.h"
+#include <string.h>
+
+enum { CHUNK = 2048 };                                 /* places at a time: bounds the memory                            */
+
+typedef struct {
+    galerkin *g;
+    const pg_state *state;
+    const double *d;
+    pg_rows rows;                                      /* of the places at hand                                          */
+    unsigned char *alive;
+    size_t *at;                                        /* nearest evaluation point                                       */
+    double *u, *stress;                                /* n x 3, n x 6 or NULL                                           */
+} sampling;
+
+static int cut (const pg_problem *p, const double *x, const double *y)
+{
+    for (size_t c = 0; c < p->cracks.n; c++)
+        if (pg_crack_cuts (&p->cracks.crack[c], p->dim, x, y, 1e-9 * p->cloud.h)) return 1;
+    return 0;
+}
+
+static int other_side (void *context, const double *place, size_t point)
+{
+    const galerkin *g = ((const sampling *) context)->g;
+    return cut (g->problem, place, g->rows[g->bulk].x + point * (size_t) g->dim);
+}
+
+static const double *node_at (const galerkin *g, int node) { return g->problem->cloud.x + (size_t) node * (size_t) g->dim; }
+
+/* Is bond e of evaluation point q dead for another reason than a pre-crack? */
+static int broken (const sampling *s, size_t q, size_t e)
+{
+    const galerkin *g = s->g;
+    const pg_rows *r = &g->rows[g->bulk];
+    if (s->state->alive[g->problem->first_bond[g->bulk] + e]) return 0;
+    return !cut (g->problem, r->x + q * (size_t) g->dim, node_at (g, r->family.node[e]));
+}
+
+/* Evaluation point q has lost bonds: node j counts only if q still sees it. */
+static int still_sees (const sampling *s, size_t q, int j)
+{
+    const pg_family *f = &s->g->rows[s->g->bulk].family;
+    size_t low = f->start[q], high = f->start[q + 1];
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (f->node[middle] < j) low = middle + 1;
+        else high = middle;
+    }
+    return low < f->start[q + 1] && f->node[low] == j && !broken (s, q, low);
+}
+
+static void find_bonds (void *context, size_t first, size_t last, int thread)
+{
+    sampling *s = context;
+    const galerkin *g = s->g;
+    const pg_family *f = &s->rows.family, *of_q = &g->rows[g->bulk].family;
+    (void) thread;
+    for (size_t p = first; p < last; p++) {
+        const double *x = s->rows.x + p * (size_t) g->dim;
+        long found = pg_nearest_find (g->near_point, x, g->problem->cracks.n ? other_side : NULL, s);
+        size_t q = s->at[p] = (size_t) (found >= 0 ? found : pg_nearest_find (g->near_point, x, NULL, NULL));
+        int lost = 0;
+        for (size_t e = of_q->start[q]; e < of_q->start[q + 1] && !lost; e++) lost = broken (s, q, e);
+        for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
+            int j = f->node[e];
+            s->alive[e] = j == s->rows.own[p] || !(cut (g->problem, x, node_at (g, j)) || (lost && !still_sees (s, q, j)));
+        }
+    }
+}
+
+/* u and its gradient H[c * dim + k] = du_c/dx_k from row `at` of r */
+static void gradient (const sampling *s, const pg_rows *r, size_t at, double *u, double *H)
+{
+    size_t dim = (size_t) s->g->dim;
+    memset (u, 0, 3 * sizeof *u), memset (H, 0, 9 * sizeof *H);
+    for (size_t e = r->family.start[at]; e < r->family.start[at + 1]; e++) {
+        const double *d = s->d + (size_t) r->family.node[e] * dim;
+        for (size_t c = 0; c < dim; c++) {
+            u[c] += r->N[e] * d[c];
+            for (size_t k = 0; k < dim; k++) H[c*dim + k] += r->dN[e*dim + k] * d[c];
+        }
+    }
+}
+
+void pg_stress_of_gradient (const pg_material *m, int dim, const double *H, double *stress)
+{
+    double e[6] = { H[0] }, s[6], zz = 0;
+    memset (stress, 0, 6 * sizeof *stress);
+    if (dim == 2) e[1] = H[3], e[2] = H[1] + H[2];
+    if (dim == 3) e[1] = H[4], e[2] = H[8], e[3] = H[1] + H[3], e[4] = H[5] + H[7], e[5] = H[2] + H[6];
+    m->type->stress (m, 1, e, s, &zz);
+    if (dim == 3) memcpy (stress, s, 6 * sizeof *stress);
+    else stress[0] = s[0];
+    if (dim == 2) stress[1] = s[1], stress[2] = zz, stress[3] = s[2];
+}
+
+static void evaluate (void *context, size_t first, size_t last, int thread)
+{
+    const sampling *s = context;
+    const galerkin *g = s->g;
+    const pg_rows *bulk = &g->rows[g->bulk];
+    size_t dim = (size_t) g->dim;
+    (void) thread;
+    for (size_t p = first; p < last; p++) {
+        size_t q = s->at[p];
+        double *u = s->u + 3*p, H[9];
+        if (s->rows.grade[p] <= bulk->grade[q]) gradient (s, &s->rows, p, u, H);
+        else {
+            gradient (s, bulk, q, u, H);
+            for (size_t c = 0; c < dim; c++)
+                for (size_t k = 0; k < dim; k++) u[c] += H[c*dim + k] * (s->rows.x[p*dim + k] - bulk->x[q*dim + k]);
+        }
+        if (s->stress) pg_stress_of_gradient (galerkin_material (g, g->bulk, q), g->dim, H, s->stress + 6*p);
+    }
+}
+
+/* A place that is a node: the methods that expand about nodes do so there. */
+static void find_nodes (const galerkin *g, size_t n, const double *x, int *own)
+{
+    for (size_t p = 0; p < n; p++) {
+        long j = pg_nearest_find (g->near_node, x + p * (size_t) g->dim, NULL, NULL);
+        double away = 0;
+        for (int k = 0; k < g->dim; k++) {
+            double step = x[p * (size_t) g->dim + (size_t) k] - node_at (g, (int) j)[k];
+            away += step * step;
+        }
+        own[p] = away <= 1e-18 * g->problem->cloud.h * g->problem->cloud.h ? (int) j : -1;
+    }
+}
+
+static pg_status sample_chunk (sampling *s, size_t n, const double *x, int *own)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = s->g->problem;
+    find_nodes (s->g, n, x, own);
+    PG_TRY (pg_rows_create (&s->rows, &p->approx, &p->cloud, n, x, NULL, own, NULL));
+    PG_ALLOC (s->alive, s->rows.family.start[n]);
+    pg_parallel (s->g->threads, n, find_bonds, s);
+    PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &s->rows, s->alive, n, NULL, s->g->threads));
+    pg_parallel (s->g->threads, n, evaluate, s);
+done:
+    pg_free (s->alive), s->alive = NULL;
+    pg_rows_clear (&s->rows);
+    return status;
+}
+
+pg_status galerkin_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress)
+{
+    pg_status status = PG_OK;
+    galerkin *g = self;
+    const pg_rows *bulk = &g->rows[g->bulk];
+    sampling s = { .g = g, .state = state, .d = d };
+    int *own = NULL;
+    if (!g->near_point) PG_TRY (pg_nearest_create (&g->near_point, g->dim, bulk->n, bulk->x));
+    if (!g->near_node) PG_TRY (pg_nearest_create (&g->near_node, g->dim, g->n, g->problem->cloud.x));
+    PG_ALLOC (s.at, CHUNK);
+    PG_ALLOC (own, CHUNK);
+    for (size_t first = 0; first < n; first += CHUNK) {
+        s.u = u + 3 * first, s.stress = stress ? stress + 6 * first : NULL;
+        PG_TRY (sample_chunk (&s, n - first < CHUNK ? n - first : CHUNK, x + first * (size_t) g->dim, own));
+    }
+done:
+    pg_free (s.at), pg_free (own);
+    return status;
+}
