@@ -89,4 +89,21 @@ void      pg_errors_clear   (pg_errors *errors);
 void      pg_errors_json    (pg_json *j, const pg_errors *errors);       /* entries of the map that is open              */
 /* Row i of a short table for people; 0 past its end. */
 int       pg_errors_row     (const pg_errors *errors, size_t i, char *text, size_t size);
+
+/* ---- order of convergence: pure functions of numbers ------------------------------------------------------------------- */
+typedef struct {
+    double      order;                                 /* p of value = limit + c h^p; NAN: none is seen                  */
+    double      limit;                                 /* Richardson's value for h -> 0; NAN where there is no order     */
+    double      error;                                 /* estimated |finest value - limit|, in the unit of the values    */
+    const char *why;                                   /* NULL, or why there is no order ("oscillates", ...; static)     */
+} pg_observed;
+/* From the last three of n values at falling sizes h (any ratios; Roache 1998): p solves
+ * (v1 - v2) / (v2 - v3) = (h1^p - h2^p) / (h2^p - h3^p). Values that swing or part from each other have no order, nor have those that
+ * agree within 1e-13 of the largest value (then limit is the last value and error 0). Order above 20: differences too unlike to tell. */
+pg_observed pg_observed_of_values (size_t n, const double *h, const double *value);
+/* Of errors, whose limit is 0: log (e1 / e2) / log (h1 / h2) of the last two; error: the last one. */
+pg_observed pg_observed_of_errors (size_t n, const double *h, const double *error);
+/* y where x reaches `at`, along straight lines between the points (x, y) in logarithms of both, in the order given; the first crossing
+ * counts. NAN: no two neighbours enclose it (nothing is extrapolated), or they are not positive. */
+double      pg_loglog_at (size_t n, const double *x, const double *y, double at);
 #endif
