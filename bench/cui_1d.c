@@ -99,7 +99,8 @@ static pg_status figure_1 (const char *folder)
         curves[k - 2] = (pg_curve) { legend[k - 2], PLACES, v, at + 2 * PLACES, 0 };
     }
     PG_TRY (write_table (folder, "fig1", 25, columns, PLACES, v));
-    PG_TRY (draw (folder, "fig1", 4, curves, &(pg_chart_style) { "Derivative of one shape function (node at x = 5, D = 1)", "x / D", "D N_{,x}", 0, 0 }));
+    PG_TRY (draw (folder, "fig1", 4, curves, &(pg_chart_style) { .title = "Derivative of one shape function (node at x = 5, D = 1)",
+                  .xlabel = "x / D", .ylabel = "D N_{,x}" }));
 done:
     pg_free (v);
     return status;
@@ -127,8 +128,8 @@ static pg_status figure_2 (const char *folder)
         curves[k] = (pg_curve) { names[k], RULES, v[0], v[1 + k], 1 };
     }
     PG_TRY (write_table (folder, "fig2", 7, columns, RULES, &v[0][0]));
-    PG_TRY (draw (folder, "fig2", 6, curves, &(pg_chart_style) { "Force imbalance of a bar under stress 1 (10 cells)",
-                  "Gauss points per cell (0: nodal integration)", "max |f_{int} - f_{ext}|", 0, 1 }));
+    PG_TRY (draw (folder, "fig2", 6, curves, &(pg_chart_style) { .title = "Force imbalance of a bar under stress 1 (10 cells)",
+                  .xlabel = "Gauss points per cell (0: nodal integration)", .ylabel = "max |f_{int} - f_{ext}|", .logy = 1 }));
 done:
     return status;
 }
@@ -161,7 +162,7 @@ static pg_status figure_3 (const char *folder)
         if (k % 4 != 3) continue;
         snprintf (title, sizeof title, "-u'' = 1, a = %.1f D", a);
         snprintf (name, sizeof name, "fig3_a%.1f", a);
-        PG_TRY (draw (folder, name, 4, curves, &(pg_chart_style) { title, "cells", "relative L_{2} error", 1, 1 }));
+        PG_TRY (draw (folder, name, 4, curves, &(pg_chart_style) { .title = title, .xlabel = "cells", .ylabel = "relative L_{2} error", .logx = 1, .logy = 1 }));
     }
     PG_TRY (write_table (folder, "fig3", SCHEMES + 1, columns, SIZES, &v[0][0]));
 done:

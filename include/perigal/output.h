@@ -97,7 +97,17 @@ typedef struct { const char *title; const double *value, *u, *select; } pg_panel
 /* Several states in one picture with one colour bar, row by row; columns 0: as many as suit. style's value, u, select unused. */
 pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel, int columns, const pg_picture_style *style);
 
-typedef struct { const char *name; size_t n; const double *x, *y; int points; /* 1: markers, 0: line */ } pg_curve;
-typedef struct { const char *title, *xlabel, *ylabel; int logx, logy; } pg_chart_style;
+enum { PG_CURVE_LINE, PG_CURVE_MARKERS, PG_CURVE_BOTH };
+typedef struct { const char *name; size_t n; const double *x, *y; int points; /* PG_CURVE_... */ } pg_curve;
+/* A triangle of slope `order` (y ~ x^order) between x low and high, beside that curve, with the order written at it. low == high:
+ * the middle part of the curve. Drawn where both axes are logarithmic and the curve passes both ends. */
+typedef struct { double order; size_t curve; double low, high; } pg_chart_slope;
+typedef struct {
+    const char *title, *xlabel, *ylabel;
+    int logx, logy;
+    int beside;                                        /* legend beside the frame; else there only if it would hide data */
+    size_t nslope;  const pg_chart_slope *slopes;
+} pg_chart_style;
+/* Curves differ in colour and marker, from the ninth on also in dashes and hollow markers. */
 pg_status pg_picture_chart (const char *path, size_t ncurve, const pg_curve *curves, const pg_chart_style *style);
 #endif

@@ -13,7 +13,7 @@ typedef struct {
     const char *directory[MOST], *x, *y, *out;
     char   *labels;                                    /* cut in place                                                   */
     size_t  n;
-    int     negate, absolute;
+    int     negate, absolute, markers, log[2];         /* log: of x, of y                                                */
 } request;
 
 typedef struct {
@@ -23,9 +23,10 @@ typedef struct {
 } run_curve;
 
 static const char usage[] =
-    "usage: perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--out FILE.png|FILE.svg]\n"
+    "usage: perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--log x|y|xy] [--markers]\n"
+    "                    [--out FILE.png|FILE.svg]\n"
     "Draws columns X and Y of every DIR/history.csv in one picture; --negate turns the signs of both (not of step,\n"
-    "time, load_factor), --abs drops them. The legend shows --labels, else the names of the folders.\n";
+    "time, load_factor), --abs drops them. The legend shows --labels, else the names of the folders. --markers: a marker on every row.\n";
 
 
 /* Reads one cell of a CSV row at *s (RFC 4180, cut to size) and steps over the comma; 0 at the end of the row. */
@@ -190,9 +191,10 @@ static pg_status draw (const request *q, const char *path)
     }
     for (size_t i = 0; i < q->n; i++) {
         change_signs (q, &c[i]);
-        curve[i] = (pg_curve) { .name = c[i].name, .n = c[i].n, .x = c[i].at[0], .y = c[i].at[1], .points = c[i].n < 3 };
+        curve[i] = (pg_curve) { .name = c[i].name, .n = c[i].n, .x = c[i].at[0], .y = c[i].at[1], .points = c[i].n < 3 ? PG_CURVE_MARKERS : q->markers ? PG_CURVE_BOTH : PG_CURVE_LINE };
     }
-    PG_TRY (pg_picture_chart (path, q->n, curve, &(pg_chart_style) { .title = NULL, .xlabel = c[0].column[0], .ylabel = c[0].column[1] }));
+    pg_chart_style style = { .xlabel = c[0].column[0], .ylabel = c[0].column[1], .logx = q->log[0], .logy = q->log[1] };
+    PG_TRY (pg_picture_chart (path, q->n, curve, &style));
 done:
     for (size_t i = 0; c && i < q->n; i++) pg_free (c[i].at[0]), pg_free (c[i].at[1]);
     pg_free (c);
@@ -202,20 +204,23 @@ done:
 /* ---- command line ----------------------------------------------------------------------------------------------------------- */
 static pg_status read_option (request *q, const char *name, char **value, int left, int *used)
 {
-    static const char names[] = "--curve|--labels|--negate|--abs|--out";
+    static const char names[] = "--curve|--labels|--negate|--abs|--log|--markers|--out";
     pg_status status = PG_OK;
     int curve = strcmp (name, "--curve") == 0, label = strcmp (name, "--labels") == 0, out = strcmp (name, "--out") == 0;
     int negate = strcmp (name, "--negate") == 0, absolute = strcmp (name, "--abs") == 0;
-    if (!curve && !label && !out && !negate && !absolute) {
+    int logs = strcmp (name, "--log") == 0, markers = strcmp (name, "--markers") == 0;
+    if (!curve && !label && !out && !negate && !absolute && !logs && !markers) {
         const char *near = pg_nearest_name (name, names);
         PG_FAIL (PG_E_USAGE, "unknown option %s beside --curve%s%s", name, near ? "; did you mean " : "", near ? near : "");
     }
-    *used = 1 + label + out + 2 * curve;
+    *used = 1 + label + out + logs + 2 * curve;
     if (left < *used - 1) PG_FAIL (PG_E_USAGE, "%s needs %s", name, curve ? "two column names" : "a value");
     if (curve) q->x = value[0], q->y = value[1];
     if (label) q->labels = value[0];
     if (out) q->out = value[0];
-    q->negate |= negate, q->absolute |= absolute;
+    q->negate |= negate, q->absolute |= absolute, q->markers |= markers;
+    if (logs && strcmp (value[0], "x") != 0 && strcmp (value[0], "y") != 0 && strcmp (value[0], "xy") != 0) PG_FAIL (PG_E_USAGE, "--log %s: expected x, y or xy", value[0]);
+    if (logs) for (int k = 0; k < 2; k++) q->log[k] = strchr (value[0], "xy"[k]) != NULL;
 done:
     return status;
 }

@@ -32,9 +32,9 @@ void pg_colour_diverging (double t, double rgb[3])
 
 void pg_colour_curve (size_t k, double rgb[3])
 {
-    static const double colour[][3] = {
+    static const double colour[PG_CURVE_COLOURS][3] = {
         { 0.07, 0.29, 0.60 }, { 0.84, 0.33, 0.06 }, { 0.10, 0.55, 0.36 }, { 0.55, 0.24, 0.62 }, { 0.80, 0.62, 0.05 },
         { 0.15, 0.65, 0.78 }, { 0.72, 0.12, 0.24 }, { 0.35, 0.35, 0.35 },
     };
-    for (int c = 0; c < 3; c++) rgb[c] = colour[k % (sizeof colour / sizeof *colour)][c];
+    for (int c = 0; c < 3; c++) rgb[c] = colour[k % PG_CURVE_COLOURS][c];
 }

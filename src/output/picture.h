@@ -51,6 +51,7 @@ void   pg_range_widen (double *low, double *high);
 typedef void (*pg_colour_map) (double t, double rgb[3]);                     /* t in [0, 1], clamped                       */
 void pg_colour_sequential (double t, double rgb[3]);
 void pg_colour_diverging  (double t, double rgb[3]);
+enum { PG_CURVE_COLOURS = 8 };
 void pg_colour_curve (size_t k, double rgb[3]);
 
 /* ---- raster.c -------------------------------------------------------------------------------------------------------- */

@@ -134,7 +134,7 @@ static pg_status load_displacement (pg_result *r)
     PG_ALLOC (y, r->npoint + 1);
     size_t n = envelope (r, x, y);
     pg_curve curve[2] = { { "every step", r->npoint, r->curve_x, r->curve_y, 1 }, { "at rising displacement", n, x, y, 0 } };
-    pg_chart_style style = { r->problem->title, xlabel, ylabel, 0, 0 };
+    pg_chart_style style = { .title = r->problem->title, .xlabel = xlabel, .ylabel = ylabel };
     char path[4096];
     snprintf (path, sizeof path, "%s/load_displacement.png", r->folder);
     PG_TRY (pg_picture_chart (path, n < r->npoint + 1 ? 2 : 1, n < r->npoint + 1 ? curve : curve + 1, &style));

@@ -207,10 +207,60 @@ static void every_curve_has_its_colour (void **state)
     pg_curve curves[] = { { "a", 4, x, y, 0 }, { "b", 4, x, z, 1 } };
     image m;
     const char *path = file_at ("chart.png");
-    check_ok (pg_picture_chart (path, 2, curves, &(pg_chart_style) { "t", "x", "y", 0, 0 }));
+    check_ok (pg_picture_chart (path, 2, curves, &(pg_chart_style) { .title = "t", .xlabel = "x", .ylabel = "y" }));
     open_image (&m, path);
     assert_true (count_near (&m, 0x124a99, 2) > 300 && count_near (&m, 0xd6540f, 2) > 300);
     cairo_surface_destroy (m.surface);
+}
+
+/* 12 curves: two colours occur twice, solid and dashed; the legend moves beside the frame where it would hide one. */
+static void many_curves_stay_apart (void **state)
+{
+    (void) state;
+    double x[] = { 1, 2, 4, 8 }, y[12][4];
+    pg_curve curve[12];
+    image m;
+    for (int k = 0; k < 12; k++) {
+        for (int i = 0; i < 4; i++) y[k][i] = pow (2, k) * x[i] * x[i];
+        curve[k] = (pg_curve) { "a method", 4, x, y[k], PG_CURVE_LINE };
+    }
+    const char *path = file_at ("many.png");
+    size_t solid, dashed;
+    check_ok (pg_picture_chart (path, 1, curve, &(pg_chart_style) { .logx = 1, .logy = 1 }));
+    open_image (&m, path);
+    solid = count_near (&m, 0x124a99, 2);
+    assert_int_equal (m.width, 1200);
+    cairo_surface_destroy (m.surface);
+    pg_curve ninth[9] = { [8] = { "a method", 4, x, y[0], PG_CURVE_LINE } };
+    check_ok (pg_picture_chart (path, 9, ninth, &(pg_chart_style) { .logx = 1, .logy = 1 }));
+    open_image (&m, path);
+    dashed = count_near (&m, 0x124a99, 2);
+    assert_true (dashed > solid / 3 && dashed < 0.9 * (double) solid);
+    cairo_surface_destroy (m.surface);
+    check_ok (pg_picture_chart (path, 12, curve, &(pg_chart_style) { .logx = 1, .logy = 1 }));
+    open_image (&m, path);
+    assert_true (m.width > 1300);
+    cairo_surface_destroy (m.surface);
+}
+
+/* The triangle of the right slope is filled in the pale colour of its curve: half of its box of pixels; none on linear axes. */
+static void slopes_are_drawn_under_their_curve (void **state)
+{
+    (void) state;
+    double x[] = { 1, 10, 100 }, y[] = { 1, 100, 10000 };
+    pg_curve curve = { NULL, 3, x, y, PG_CURVE_BOTH };
+    pg_chart_slope slope[] = { { 2, 0, 2, 50 }, { 2, 7, 0, 0 }, { 2, 0, 200, 300 } };
+    image m;
+    const char *path = file_at ("slope.png");
+    for (int log = 0; log < 2; log++) {
+        check_ok (pg_picture_chart (path, 1, &curve, &(pg_chart_style) { .logx = log, .logy = 1, .nslope = 3, .slopes = slope }));
+        open_image (&m, path);
+        size_t pale = count_near (&m, 0xe1e8f2, 4);
+        double box = 0.6 * 1000 * 0.6 * 700;           /* share of the axes that ln 25 takes of about ln 1000             */
+        if (log) assert_true ((double) pale > 0.25 * box && (double) pale < 0.75 * box);
+        else assert_true (pale < 1000);                /* edges of curve and grid                                        */
+        cairo_surface_destroy (m.surface);
+    }
 }
 
 static void a_chart_of_nothing_is_drawn (void **state)
@@ -219,7 +269,7 @@ static void a_chart_of_nothing_is_drawn (void **state)
     double x[] = { NAN, -1 }, y[] = { 1, -1 };
     pg_curve curve = { NULL, 2, x, y, 0 };
     check_ok (pg_picture_chart (file_at ("nothing.png"), 0, NULL, &(pg_chart_style) { .logx = 1 }));
-    check_ok (pg_picture_chart (file_at ("negative.png"), 1, &curve, &(pg_chart_style) { NULL, NULL, NULL, 1, 1 }));
+    check_ok (pg_picture_chart (file_at ("negative.png"), 1, &curve, &(pg_chart_style) { .logx = 1, .logy = 1 }));
 }
 
 static void svg_is_written_by_the_ending (void **state)
@@ -289,7 +339,7 @@ int main (void)
         cmocka_unit_test (a_field_shows_the_right_colour_at_the_right_place), cmocka_unit_test (nan_is_grey),
         cmocka_unit_test (equal_values_are_drawn), cmocka_unit_test (cracks_are_black_lines),
         cmocka_unit_test (a_section_shows_its_own_layer), cmocka_unit_test (points_on_a_line_make_a_chart),
-        cmocka_unit_test (every_curve_has_its_colour), cmocka_unit_test (a_chart_of_nothing_is_drawn),
+        cmocka_unit_test (every_curve_has_its_colour), cmocka_unit_test (many_curves_stay_apart), cmocka_unit_test (slopes_are_drawn_under_their_curve), cmocka_unit_test (a_chart_of_nothing_is_drawn),
         cmocka_unit_test (svg_is_written_by_the_ending), cmocka_unit_test (a_failed_write_is_named),
         cmocka_unit_test (any_allocation_may_fail),
     };
