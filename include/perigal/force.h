@@ -19,6 +19,15 @@ typedef struct {
     double  strain;                                    /* stored energy: strain, stabilisation, boundary terms, J        */
 } pg_ledger;
 
+/* Estimated error of the stress s against the recovered stress s*; norms: sqrt (int s C s dV), C = compliance, so their squares are
+ * twice an energy. */
+typedef struct {
+    double error, norm;                                /* of s* - s, of s; sqrt (J)                                      */
+    double relative;                                   /* error / sqrt (norm^2 + error^2)                                */
+    double seconds;
+    size_t points, left_out;                           /* of evaluation: taken part; degenerate, or without a patch      */
+} pg_estimate;
+
 /* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest may be NULL. */
 typedef struct {
     const char *name, *summary;
@@ -52,6 +61,8 @@ typedef struct {
     /* Consistent mass, kg: one number for each pair of nodes (upper triangle, n x n), the same for every component. It is that of the bonds
      * alive when it is first asked for, and stays: breaking moves no mass. NULL: lumped mass only. */
     pg_status (*mass_matrix) (void *self, const pg_sparse **M);
+    /* NULL: none. value: NULL, or the root of E times the mean of (s* - s) C (s* - s) around each node, Pa (n). */
+    pg_status (*estimate) (void *self, const double *d, pg_estimate *out, double *value);
 } pg_force_type;
 const pg_force_type *pg_force_find  (const char *name);
 const char          *pg_force_names (void);
