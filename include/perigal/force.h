@@ -19,6 +19,15 @@ typedef struct {
     double  strain;                                    /* stored energy: strain, stabilisation, boundary terms, J        */
 } pg_ledger;
 
+/* Estimated error of the stress s against the recovered stress s*; norms: sqrt (int s C s dV), C = compliance, so their squares are
+ * twice an energy. */
+typedef struct {
+    double error, norm;                                /* of s* - s, of s; sqrt (J)                                      */
+    double relative;                                   /* error / sqrt (norm^2 + error^2)                                */
+    double seconds;
+    size_t points, left_out;                           /* of evaluation: taken part; degenerate, or without a patch      */
+} pg_estimate;
+
 /* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest may be NULL. */
 typedef struct {
     const char *name, *summary;
@@ -56,6 +65,8 @@ typedef struct {
      * refresh: places on the two sides of a crack keep their own values. x: n x dim; u: n x 3, 0 beyond dim; stress: n x 6, always xx yy zz xy
      * yz zx (2D: zz as the mode has it). Outside the body: continued from the nearest point. NULL: least squares (perigal/compare.h). */
     pg_status (*sample)  (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress);
+    /* NULL: none. value: NULL, or the root of E times the mean of (s* - s) C (s* - s) around each node, Pa (n). */
+    pg_status (*estimate) (void *self, const double *d, pg_estimate *out, double *value);
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

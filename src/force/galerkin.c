@@ -174,5 +174,5 @@ const pg_force_type pg_force_galerkin = {
     "galerkin", "global stiffness from NOSB, PDDO or RKPM bonds (Cui 2022)",
     galerkin_create, galerkin_free, galerkin_fields, galerkin_refresh, galerkin_balance, galerkin_mass, galerkin_operator, galerkin_matrix,
     galerkin_basis, galerkin_impose, galerkin_utilisation, galerkin_ledger, galerkin_field, galerkin_probe, galerkin_overlap, galerkin_census,
-    galerkin_revision, galerkin_assemble, galerkin_mass_matrix, galerkin_sample
+    galerkin_revision, galerkin_assemble, galerkin_mass_matrix, galerkin_sample, galerkin_estimate
 };

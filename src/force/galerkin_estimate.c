@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Estimated error of the stress. Every node fits a polynomial of the order of the basis to the stresses at the evaluation points that
+ * see it through a live bond (its patch), weighted by kernel and volume; the recovered stress s* at a point is the mean of the
+ * polynomials of the nodes it sees, weighted alike. eta^2 = int (s* - s) C (s* - s) dV. Zienkiewicz & Zhu 1992 (patches),
+ * Blacker & Belytschko 1994 (mean of polynomials). Patches do not cross cracks (live bonds only) nor borders of materials; points
+ * that carry less than a linear basis take no part. */
+#include "galerkin.h"
+#include <math.h>
+#include <string.h>
+
+enum { TERMS = 10, VOIGT = 6, TRIANGLE = TERMS * (TERMS + 1) / 2 };
+typedef struct {
+    galerkin *g;
+    const pg_rows *rows;
+    const double *stress;                              /* at the points                      (points x nv)               */
+    int     order, terms;                              /* of the polynomials                                             */
+    size_t  stride;                                    /* numbers a node in `fit`                                        */
+    double *fit;                                       /* A (lower triangle by rows), then b; after the solution the coefficients in b */
+    unsigned char *known;                              /* the node has a polynomial          (n)                         */
+    double *error, *size;                              /* (s* - s) C (s* - s), s C s; NAN: left out   (points), Pa       */
+    double *L;                                         /* factor of D of each material       (36 each)                   */
+} recovery;
+
+static int takes_part (const recovery *r, size_t p)
+{
+    return r->rows->grade[p] <= PG_GRADE_LOWERED && r->rows->weight[p] > 0;
+}
+
+static int terms_of (int dim, int order) { return order == 0 ? 1 : order == 1 ? 1 + dim : 1 + dim + dim * (dim + 1) / 2; }
+
+/* 1, z_k, z_k z_l; z in horizons from the node */
+static void polynomial (const recovery *r, size_t p, size_t node, double *q)
+{
+    const galerkin *g = r->g;
+    size_t dim = (size_t) g->dim;
+    double z[3];
+    int m = 0;
+    for (size_t k = 0; k < dim; k++) z[k] = (r->rows->x[p * dim + k] - g->problem->cloud.x[node * dim + k]) / g->problem->approx.horizon;
+    q[m++] = 1;
+    for (size_t k = 0; k < dim && r->order > 0; k++) q[m++] = z[k];
+    for (size_t k = 0; k < dim && r->order > 1; k++)
+        for (size_t l = k; l < dim; l++) q[m++] = z[k] * z[l];
+}
+
+/* Of the bond p - node; 0: the patch of the node does without the point. */
+static double weight_of (const recovery *r, size_t p, size_t e)
+{
+    size_t j = (size_t) r->rows->family.node[e];
+    if (r->g->material[r->g->bulk][p] != r->g->material[PG_NODES][j]) return 0;
+    return r->rows->w[e] / r->g->problem->cloud.volume[j];
+}
+
+/* ---- polynomials ---------------------------------------------------------------------------------------------------------- */
+/* The lowest-order polynomial that the patch bears, up to the order wanted. Without a factor: 0. */
+static int solve (const recovery *r, double *fit)
+{
+    int nv = r->g->nv, dim = r->g->dim;
+    double *b = fit + r->terms * (r->terms + 1) / 2, mass = fit[0];
+    if (!(mass > 0)) return 0;
+    for (int order = r->order; order >= 0; order--) {
+        int m = terms_of (dim, order);
+        double L[TERMS * TERMS], x[TERMS];
+        for (int a = 0, at = 0; a < m; a++)
+            for (int c = 0; c <= a; c++, at++) L[a * m + c] = fit[at] / mass;
+        if (pg_dense_cholesky (m, L, order > 1 ? 1e-6 : 1e-4) != 0) continue;
+        for (int v = 0; v < nv; v++) {
+            for (int a = 0; a < m; a++) x[a] = b[a * nv + v] / mass;
+            pg_dense_solve (m, L, x);
+            for (int a = 0; a < r->terms; a++) b[a * nv + v] = a < m ? x[a] : 0;
+        }
+        return 1;
+    }
+    return 0;
+}
+
+/* Nodes first .. last, each adding its points in ascending order */
+static void fit_nodes (void *context, size_t first, size_t last, int thread)
+{
+    recovery *r = context;
+    const pg_family *f = &r->rows->family;
+    int nv = r->g->nv;
+    double q[TERMS];
+    (void) thread;
+    for (size_t p = 0; p < f->n; p++) {
+        if (!takes_part (r, p)) continue;
+        for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
+            size_t j = (size_t) f->node[e];
+            if (j < first || j >= last) continue;
+            double w = weight_of (r, p, e) * r->rows->weight[p], *to = r->fit + j * r->stride;
+            if (!(w > 0)) continue;
+            polynomial (r, p, j, q);
+            for (int a = 0; a < r->terms; a++)
+                for (int c = 0; c <= a; c++) *to++ += w * q[a] * q[c];
+            for (int a = 0; a < r->terms; a++)
+                for (int v = 0; v < nv; v++) *to++ += w * q[a] * r->stress[p * (size_t) nv + (size_t) v];
+        }
+    }
+    for (size_t j = first; j < last; j++) r->known[j] = (unsigned char) solve (r, r->fit + j * r->stride);
+}
+
+/* ---- error ------------------------------------------------------------------------------------------------------------------ */
+/* s D^-1 s */
+static double complementary (const recovery *r, size_t p, const double *s)
+{
+    double e[VOIGT], sum = 0;
+    memcpy (e, s, (size_t) r->g->nv * sizeof *s);
+    pg_dense_solve (r->g->nv, r->L + 36 * r->g->material[r->g->bulk][p], e);
+    for (int v = 0; v < r->g->nv; v++) sum += s[v] * e[v];
+    return sum;
+}
+
+static void compare_points (void *context, size_t first, size_t last, int thread)
+{
+    recovery *r = context;
+    const pg_family *f = &r->rows->family;
+    int nv = r->g->nv, triangle = r->terms * (r->terms + 1) / 2;
+    double q[TERMS];
+    (void) thread;
+    for (size_t p = first; p < last; p++) {
+        const double *s = r->stress + p * (size_t) nv;
+        double sum = 0, star[VOIGT] = { 0 };
+        r->error[p] = r->size[p] = NAN;
+        if (!takes_part (r, p)) continue;
+        for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
+            size_t j = (size_t) f->node[e];
+            double w = r->known[j] ? weight_of (r, p, e) : 0;
+            const double *c = r->fit + j * r->stride + triangle;
+            if (!(w > 0)) continue;
+            polynomial (r, p, j, q);
+            for (int a = 0; a < r->terms; a++)
+                for (int v = 0; v < nv; v++) star[v] += w * q[a] * *c++;
+            sum += w;
+        }
+        if (!(sum > 0)) continue;
+        for (int v = 0; v < nv; v++) star[v] = star[v] / sum - s[v];
+        r->error[p] = complementary (r, p, star), r->size[p] = complementary (r, p, s);
+    }
+}
+
+/* Every point's share to the node it lies nearest to, or to those equally near: root of E times the mean density, Pa. */
+static void to_nodes (const recovery *r, double *volume, double *value)
+{
+    const galerkin *g = r->g;
+    const pg_family *f = &r->rows->family;
+    size_t dim = (size_t) g->dim;
+    memset (value, 0, g->n * sizeof *value);
+    for (size_t p = 0; p < f->n; p++) {
+        double nearest = INFINITY;
+        for (int pass = 0; pass < 2 && isfinite (r->error[p]); pass++)
+            for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
+                size_t j = (size_t) f->node[e];
+                double s = 0;
+                for (size_t k = 0; k < dim; k++) s += pow (r->rows->x[p * dim + k] - g->problem->cloud.x[j * dim + k], 2);
+                if (pass == 0) nearest = fmin (nearest, s);
+                else if (s <= nearest * (1 + 1e-6)) value[j] += r->rows->weight[p] * r->error[p], volume[j] += r->rows->weight[p];
+            }
+    }
+    for (size_t j = 0; j < g->n; j++) value[j] = volume[j] > 0 ? sqrt (galerkin_material (g, PG_NODES, j)->modulus * value[j] / volume[j]) : 0;
+}
+
+static void add_up (const recovery *r, pg_estimate *out)
+{
+    double error = 0, size = 0;
+    for (size_t p = 0; p < r->rows->n; p++) {
+        int counts = isfinite (r->error[p]);
+        if (counts) error += r->rows->weight[p] * r->error[p], size += r->rows->weight[p] * r->size[p];
+        out->points += (size_t) counts, out->left_out += (size_t) !counts;
+    }
+    out->error = sqrt (error), out->norm = sqrt (size);
+    out->relative = size + error > 0 ? sqrt (error / (size + error)) : 0;
+}
+
+pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, double *value)
+{
+    pg_status status = PG_OK;
+    galerkin *g = self;
+    const pg_problem *p = g->problem;
+    recovery r = { .g = g, .rows = &g->rows[g->bulk], .order = p->approx.order };
+    double *volume = NULL, start = pg_seconds ();
+    size_t points = r.rows->n;
+    *out = (pg_estimate) { 0 };
+    r.terms = terms_of (g->dim, r.order);
+    r.stride = (size_t) (r.terms * (r.terms + 1) / 2 + r.terms * g->nv);
+    PG_ALLOC (r.fit, g->n * r.stride);
+    PG_ALLOC (r.known, g->n);
+    PG_ALLOC (r.error, points);
+    PG_ALLOC (r.size, points);
+    PG_ALLOC (r.L, 36 * p->nmaterial);
+    PG_ALLOC (volume, g->n);
+    for (size_t m = 0; m < p->nmaterial; m++) {
+        memcpy (r.L + 36 * m, p->material[m].D, 36 * sizeof *r.L);
+        if (pg_dense_cholesky (g->nv, r.L + 36 * m, 1e-12) != 0) PG_FAIL (PG_E_NOT_SPD, "material %s: its stiffness has no inverse", p->material[m].name);
+    }
+    galerkin_measure (g, g->bulk, d);
+    r.stress = g->stress[g->bulk];
+    pg_parallel_heavy (g->threads, g->n, fit_nodes, &r);
+    pg_parallel (g->threads, points, compare_points, &r);
+    add_up (&r, out);
+    if (value) to_nodes (&r, volume, value);
+    out->seconds = pg_seconds () - start;
+done:
+    pg_free (volume), pg_free (r.L), pg_free (r.size), pg_free (r.error), pg_free (r.known), pg_free (r.fit);
+    return status;
+}
