@@ -33,6 +33,20 @@ pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, 
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness);
 void      pg_cells_clear (pg_cells *cells);
 
+/* Faces of the cells, each once, with their points. */
+typedef struct {
+    int     dim;
+    size_t  n, npoint;
+    double *x;                                         /* m                                  (npoint x dim)              */
+    double *flux;                                      /* normal times weight, outward of cell[0], m^2 (npoint x dim)    */
+    size_t *start;                                     /* points of face f: start[f]..start[f + 1]   (n + 1)             */
+    int    *cell;                                      /* the cells on both sides, second -1 on the boundary (n x 2)     */
+    size_t *of;  int *face;                            /* faces of cell c: face[of[c]..of[c + 1])                        */
+} pg_faces;
+/* Gauss points of `order` on every face (pg_element_rule). Two cells share a face when its corners are the same, bit by bit. */
+pg_status pg_faces_build (pg_faces *out, const pg_cells *cells, int order);
+void      pg_faces_clear (pg_faces *faces);
+
 /* Named groups: `sets: NAME: {boundary: ..., angle: ..., where: ...}`. NAME.top/.bottom/.left/.right/.front/.back is the part
  * on that side of the centre of the body's bounding box. */
 typedef struct {

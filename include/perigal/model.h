@@ -40,6 +40,7 @@ typedef struct {
     int          *block[PG_BOND_SETS];                 /* material of every point of a bond set                          */
     pg_approx     approx;
     const pg_integration_type *integration;
+    pg_consistency *consistency;                       /* integration: consistent; else NULL                             */
     char     force[32];
     double   silling;                                  /* Gs; 0: no stabilisation                                        */
     double   nitsche, penalty;                         /* factors of E / h, h the local spacing                          */
@@ -87,6 +88,7 @@ typedef struct {
     double points, cells, evaluation, facets;          /* evaluation: Gauss points, 0 if nodal; facets: their points     */
     double bonds[PG_BOND_SETS], dofs;
     double slaves, eliminated;                         /* essential: transformation: unknowns, entries of its matrices   */
+    double summed;                                     /* consistent integration: what its points and faces see; else 0  */
     double pairs;                                      /* nodes I <= J that share a point of evaluation                  */
     double edge[3], width;                             /* nodes along the body, of a separator (nested dissection)       */
     double fields;                                     /* of result.e                                                    */

@@ -45,7 +45,7 @@ static void block_of (int dim, const double *DB, const double *q, double *k)
 void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
-    const pg_rows *r = &g->rows[g->bulk];
+    const pg_rows *r = &g->sums;
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv, first = r->family.start[p];
     const double *D = galerkin_material (g, g->bulk, p)->D, *qa = r->dN + (first + a) * dim;
     double DB[18], unit[3];

@@ -190,4 +190,4 @@ pg_status pg_facet_points (pg_quadrature *out, const pg_cells *c, int order)
     return status;
 }
 
-const pg_integration_type pg_integration_gauss = { "gauss", "Gauss-Legendre points in background cells", 0, gauss_points };
+const pg_integration_type pg_integration_gauss = { "gauss", "Gauss-Legendre points in background cells", 0, 0, gauss_points };

@@ -65,10 +65,28 @@ static void read_method (pg_forecast *f, const pg_scene *scene)
 {
     const pg_integration_type *integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
     f->nodal = integration && integration->at_nodes;
+    f->summed = integration && integration->consistent;  /* until bonds are counted                                        */
     f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
     f->fields = (double) pg_scene_count (scene, "output.fields");
     f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
     read_solver (f, scene);
+}
+
+static double lattice_step (const pg_lattice *l)
+{
+    double cell = 1;
+    for (int k = 0; k < l->dim; k++) cell *= l->step[k];
+    return l->dim == 1 ? cell : l->dim == 2 ? sqrt (cell) : cbrt (cell);
+}
+
+/* Consistent integration: a cell's points see what any of them, or of its faces, sees: about half a spacing further. Faces: as many points
+ * again as there are in the cell. */
+static void widen (pg_forecast *f, double reach)
+{
+    double wider = pow ((reach + 0.5) / reach, f->dim);
+    if (!(f->summed > 0)) return;
+    f->summed = f->bonds[PG_POINTS] * (wider + 1);
+    f->pairs *= pow ((reach + 0.25) / reach, f->dim);
 }
 
 /* Counts of the lattice at hand, times `finer` per axis. */
@@ -79,19 +97,13 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
     f->points = t->points * more, f->cells = t->cells * more, f->evaluation = t->evaluation * more, f->pairs = t->pairs * more;
     f->bonds[PG_NODES] = t->node_bonds * more, f->bonds[PG_POINTS] = t->point_bonds * more;
     f->facets = facets * per;
+    widen (f, how->approx->horizon / lattice_step (l));
     f->bonds[PG_FACETS] = f->facets * 0.6 * t->node_bonds / t->points;
     f->width = 0.93 * radius_of (f->dim, t->coupled);
     f->counted = !t->sampled && finer == 1;
     for (int k = 0; k < 3; k++) f->edge[k] = k < f->dim ? l->count[k] + !how->centred : 1, sites *= f->edge[k];
     double fill = pow (t->points / sites, 1.0 / f->dim);       /* a body that fills its box by half is a smaller box     */
     for (int k = 0; k < f->dim; k++) f->edge[k] *= fill * finer;
-}
-
-static double lattice_step (const pg_lattice *l)
-{
-    double cell = 1;
-    for (int k = 0; k < l->dim; k++) cell *= l->step[k];
-    return l->dim == 1 ? cell : l->dim == 2 ? sqrt (cell) : cbrt (cell);
 }
 
 static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_body *body)
