@@ -31,6 +31,12 @@ typedef struct {
 pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, size_t nx, size_t nfacet, size_t nfx);
 /* The kept cells of a lattice: bars, quads, hexes. */
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness);
+/* The same lattice over the exact body: cells that its surface crosses are cut (kind PG_CUT) and kept while their share of volume is above
+ * 1e-13, wherever their centre lies; facets are pieces of the surface, one for each cell and surface. The body must outlive the cells. */
+pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness);
+/* Volumes of the points become those of the cells: each cell is shared equally by its points (vertices, or its centre); one without
+ * any goes to the nearest point. */
+pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_lattice *lattice);
 void      pg_cells_clear (pg_cells *cells);
 
 /* Faces of the cells, each once, with their points. */
@@ -46,6 +52,17 @@ typedef struct {
 /* Gauss points of `order` on every face (pg_element_rule). Two cells share a face when its corners are the same, bit by bit. */
 pg_status pg_faces_build (pg_faces *out, const pg_cells *cells, int order);
 void      pg_faces_clear (pg_faces *faces);
+
+/* ---- cut cells -------------------------------------------------------------------------------------------------------- */
+/* Quadrature of given order in a cell of kind PG_CUT, or on a facet of that kind, appended to `out` (zero at first): all weights positive,
+ * m^3 or m^2 with the thickness, their sum exact to the order only. Errors: PG_E_MEMORY. Dimension reduction: Saye 2015, doi 10.1137/140966290. */
+typedef struct { size_t n, capacity; double *x, *weight, *normal; } pg_cut_points;          /* normal: of facets, outward, unit; n x dim */
+pg_status pg_cut_cell   (pg_cut_points *out, const pg_cells *cells, size_t cell, int order);
+pg_status pg_cut_facet  (pg_cut_points *out, const pg_cells *cells, size_t facet, int order);
+void      pg_cut_points_clear (pg_cut_points *points);
+/* Of a surface (facet_surface >= 0): the shape of the body it belongs to; whether it is a flat end of a cylinder. */
+int       pg_cut_shape  (const struct pg_cut *cut, int surface);
+int       pg_cut_is_end (const struct pg_cut *cut, int surface);
 
 /* Named groups: `sets: NAME: {boundary: ..., angle: ..., where: ...}`. NAME.top/.bottom/.left/.right/.front/.back is the part
  * on that side of the centre of the body's bounding box. */
