@@ -99,7 +99,7 @@ typedef struct {
 } pg_observed;
 /* From the last three of n values at falling sizes h (any ratios; Roache 1998): p solves
  * (v1 - v2) / (v2 - v3) = (h1^p - h2^p) / (h2^p - h3^p). Values that swing or part from each other have no order, nor have those that
- * agree within 1e-13 of the largest value (then limit is the last value and error 0). Order above 20: differences too unlike to tell. */
+ * agree within 1e-10 of the largest (residuals end there) value (then limit is the last value and error 0). Order above 20: differences too unlike to tell. */
 pg_observed pg_observed_of_values (size_t n, const double *h, const double *value);
 /* Of errors, whose limit is 0: log (e1 / e2) / log (h1 / h2) of the last two; error: the last one. */
 pg_observed pg_observed_of_errors (size_t n, const double *h, const double *error);
