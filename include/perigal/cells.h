@@ -39,26 +39,14 @@ pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *la
 pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_lattice *lattice);
 void      pg_cells_clear (pg_cells *cells);
 
-/* Faces of the cells, each once, with their points. */
-typedef struct {
-    int     dim;
-    size_t  n, npoint;
-    double *x;                                         /* m                                  (npoint x dim)              */
-    double *flux;                                      /* normal times weight, outward of cell[0], m^2 (npoint x dim)    */
-    size_t *start;                                     /* points of face f: start[f]..start[f + 1]   (n + 1)             */
-    int    *cell;                                      /* the cells on both sides, second -1 on the boundary (n x 2)     */
-    size_t *of;  int *face;                            /* faces of cell c: face[of[c]..of[c + 1])                        */
-} pg_faces;
-/* Gauss points of `order` on every face (pg_element_rule). Two cells share a face when its corners are the same, bit by bit. */
-pg_status pg_faces_build (pg_faces *out, const pg_cells *cells, int order);
-void      pg_faces_clear (pg_faces *faces);
-
 /* ---- cut cells -------------------------------------------------------------------------------------------------------- */
 /* Quadrature of given order in a cell of kind PG_CUT, or on a facet of that kind, appended to `out` (zero at first): all weights positive,
  * m^3 or m^2 with the thickness, their sum exact to the order only. Errors: PG_E_MEMORY. Dimension reduction: Saye 2015, doi 10.1137/140966290. */
 typedef struct { size_t n, capacity; double *x, *weight, *normal; } pg_cut_points;          /* normal: of facets, outward, unit; n x dim */
 pg_status pg_cut_cell   (pg_cut_points *out, const pg_cells *cells, size_t cell, int order);
 pg_status pg_cut_facet  (pg_cut_points *out, const pg_cells *cells, size_t facet, int order);
+/* The part of a face (-x +x -y +y -z +z) of a cell of any lattice kind that has the body on both of its sides; dim > 1, no normals. */
+pg_status pg_cut_face   (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order);
 void      pg_cut_points_clear (pg_cut_points *points);
 /* Of a surface (facet_surface >= 0): the shape of the body it belongs to; whether it is a flat end of a cylinder. */
 int       pg_cut_shape  (const struct pg_cut *cut, int surface);

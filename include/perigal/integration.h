@@ -29,6 +29,22 @@ void pg_gauss_rule (int order, double *x, double *w);
 /* Points on each facet (order^(dim-1) on bars and quads); cell holds the facet's number; the weights of a facet sum to its area. */
 pg_status pg_facet_points (pg_quadrature *out, const pg_cells *cells, int order);
 
+/* ---- faces ---------------------------------------------------------------------------------------------------------------- */
+/* Faces of the cells, each once, with their points: those between two cells, and the facets of the boundary. */
+typedef struct {
+    int     dim;
+    size_t  n, npoint;
+    double *x;                                         /* m                                  (npoint x dim)              */
+    double *flux;                                      /* normal times weight, outward of cell[0], m^2 (npoint x dim)    */
+    size_t *start;                                     /* points of face f: start[f]..start[f + 1]   (n + 1)             */
+    int    *cell;                                      /* the cells on both sides, second -1 on the boundary (n x 2)     */
+    size_t *of;  int *face;                            /* faces of cell c: face[of[c]..of[c + 1])                        */
+} pg_faces;
+/* Gauss points of `order` on faces between cells (of cut cells: on what lies in the body), those of pg_facet_points on the boundary. Two
+ * cells share a face when its corners are the same, bit by bit. */
+pg_status pg_faces_build (pg_faces *out, const pg_cells *cells, int order);
+void      pg_faces_clear (pg_faces *faces);
+
 /* ---- consistent derivatives ------------------------------------------------------------------------------------------------
  * In a whole cell the derivatives of every shape function are so corrected that they obey the divergence identity for polynomials p,
  *     sum_g w_g p (g) N_I,k (g) = oint p N_I n_k dS - sum_g w_g p,k (g) N_I (g),

@@ -70,6 +70,8 @@ void      cut_work_free   (cut_work **work);
 pg_status cut_work_cell   (cut_work *w, const double *low, const double *high, size_t n, const int *near);
 /* Points within the body (surface < 0), or on that surface where it bounds the body; appended. */
 pg_status cut_work_points (cut_work *w, int surface, int order, pg_cut_points *out);
+/* Points of the face (-x +x -y +y -z +z) of the cell that lie in the body on both of its sides; weights without normals. dim > 1. */
+pg_status cut_work_face   (cut_work *w, int face, int order, pg_cut_points *out);
 /* Size (thickness included), centroid and integral of the normal, to rounding. */
 typedef struct { double size, centre[3], normal[3]; } cut_piece;
 pg_status cut_work_piece  (cut_work *w, int surface, cut_piece *piece);

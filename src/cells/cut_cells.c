@@ -292,5 +292,11 @@ pg_status pg_cut_facet (pg_cut_points *out, const pg_cells *cells, size_t facet,
     return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet], order, out) : status;
 }
 
+pg_status pg_cut_face (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order)
+{
+    pg_status status = enter (cells, cell);
+    return status == PG_OK ? cut_work_face (cells->cut->work, face, order, out) : status;
+}
+
 int pg_cut_shape  (const struct pg_cut *cut, int surface) { return cut->surface[surface].shape; }
 int pg_cut_is_end (const struct pg_cut *cut, int surface) { return cut->surface[surface].end; }

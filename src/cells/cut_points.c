@@ -7,12 +7,13 @@
 #include <string.h>
 
 enum { RULE = 40 };
+static const double beyond = 2e-7;                     /* just off a face (local)                                        */
 struct cut_work {
     const struct pg_cut *cut;
     double thickness, centre[3], half[3];
     cut_slices slices;
     double *node;  int *owner;                         /* roots along a line (2 n + 2), and whose                        */
-    int    surface, order;                             /* of this walk; index into slices.number, or -1                  */
+    int    surface, order, face;                       /* of this walk; index into slices.number, or -1; a face, or -1   */
     pg_cut_points *out;
     double *x, *w;                                     /* Gauss rules of RULE points at most, by order                   */
 };
@@ -52,7 +53,7 @@ pg_status cut_work_create (cut_work **out, const struct pg_cut *cut, double thic
     pg_status status = PG_OK;
     cut_work *w = NULL;
     PG_ALLOC (w, 1);
-    w->cut = cut, w->thickness = thickness;
+    w->cut = cut, w->thickness = thickness, w->face = -1;
     PG_ALLOC (w->x, RULE * (RULE + 1) / 2);
     PG_ALLOC (w->w, RULE * (RULE + 1) / 2);
     for (int n = 1; n <= RULE; n++) make_rule (n, w->x + n * (n - 1) / 2, w->w + n * (n - 1) / 2);
@@ -118,6 +119,11 @@ static int inside (const cut_work *w, double z)
     const cut_slices *s = &w->slices;
     double x[3] = {0, 0, 0};
     for (int k = 0; k < s->dim; k++) x[k] = w->centre[k] + w->half[k] * (k == s->axis[s->dim - 1] ? z : s->at[k]);
+    if (w->face < 0) return pg_body_inside (w->cut->body, x, 0);
+    double *across = &x[w->face / 2], at = *across, step = beyond * w->half[w->face / 2];
+    *across = at - step;
+    if (!pg_body_inside (w->cut->body, x, 0)) return 0;
+    *across = at + step;
     return pg_body_inside (w->cut->body, x, 0);
 }
 
@@ -203,7 +209,7 @@ static void line_surface (cut_work *w, const cut_quadric *q, double weight)
 {
     const cut_slices *s = &w->slices;
     int m = line_roots (w, q), z = s->axis[s->dim - 1];
-    const double beyond = 2e-7, *t = w->node;
+    const double *t = w->node;
     for (int k = 1; k <= m; k++) {
         int a = k, b = k;
         double n[3], size = 0, at[3] = {s->at[0], s->at[1], s->at[2]};
@@ -331,6 +337,22 @@ pg_status cut_work_points (cut_work *w, int surface, int order, pg_cut_points *o
     if (surface >= 0 && w->surface < 0) return PG_OK;
     choose_axes (w);
     walk (w, 0, w->surface < 0 ? w->thickness : 1);
+    return s->status;
+}
+
+/* The height of the walk within a face is steepest there; the place is in the body when it is on both sides of the face. */
+pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
+{
+    cut_slices *s = &w->slices;
+    int axis = face / 2, side = face % 2 ? 1 : -1, k = 0;
+    w->surface = -1, w->out = out, w->order = order < 1 ? 1 : order > RULE ? RULE : order;
+    choose_axes (w);
+    while (s->axis[k] != axis) k++;
+    for (; k > 0; k--) s->axis[k] = s->axis[k - 1];
+    s->axis[0] = axis;
+    w->face = face;
+    if (s->dim > 1) go_on (w, 0, side, w->thickness / w->half[axis]);
+    w->face = -1;
     return s->status;
 }
 
