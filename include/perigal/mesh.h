@@ -27,10 +27,12 @@ void       pg_element_edge  (pg_element kind, int e, int node[2]);
 /* N (nodes) and dN/dxi (nodes x dim of the element; may be NULL) at xi. */
 void       pg_element_shape (pg_element kind, const double *xi, double *N, double *dN);
 /* Quadrature on the reference element, all weights positive, symmetric under the symmetries of the element: quads and hexes
- * order^d Gauss points; simplices exact to degree 2 order - 2 at least, 2 order - 1 where a rule as small is known. order 1..5. Returns n. */
+ * order^d Gauss points (the first axis runs fastest, degree 2 order - 1); triangles 1, 3, 7, 12, 16 and tetrahedra 1, 4, 14, 24, 46 points,
+ * exact to degree 1, 2, 5, 6, 8; wedges the product of both. order 1..5. Room for PG_ELEMENT_POINTS. Returns n. */
 int        pg_element_rule  (pg_element kind, int order, double *xi /* n x dim */, double *weight);
 /* Place, and size factor of the map of an element of dimension d into space of `dim` (length, area, volume; signed where d = dim);
- * normal (NULL, or dim): of an element with d = dim - 1, by the order of its nodes outward as pg_element_face, unit length.
+ * normal (NULL, or dim): of an element with d = dim - 1, by the order of its nodes outward as pg_element_face, unit length (a point in 1D: +1;
+ * other elements: 0). place, normal: NULL or dim numbers.
  * x: nodes x dim. */
 double     pg_element_map   (pg_element kind, int dim, const double *x, const double *xi, double *place, double *normal);
 /* Newton: xi of a place in an element with d = dim; 0: it did not converge. Inside is for the caller to judge (pg_element_outside). */

@@ -90,12 +90,12 @@ int pg_element_invert (pg_element kind, const double *x, const double *place, do
     if (d == 0) return 1;
     element_centre (kind, xi);
     for (int k = 0; k < STEPS; k++) {
-        double at[3], J[3][3], r[3], step[3], longest = 0, size = 1;
+        double at[3], J[3][3], r[3], step[3], longest = 0, size = 1, all = 0;
         place_and_slope (kind, d, x, xi, at, J);
         for (int a = 0; a < d; a++) r[a] = place[a] - at[a];
         if (!solve (d, J, r, step)) return 0;
-        for (int a = 0; a < d; a++) longest = fmax (longest, fabs (step[a])), size = fmax (size, fabs (xi[a]));
-        if (!isfinite (longest)) return 0;
+        for (int a = 0; a < d; a++) longest = fmax (longest, fabs (step[a])), size = fmax (size, fabs (xi[a])), all += fabs (step[a]);
+        if (!isfinite (all)) return 0;                     /* fmax hides NaN                                             */
         double short_of = linear || longest <= 2 ? 1 : 2 / longest;   /* no leaps out of a curved element                      */
         for (int a = 0; a < d; a++) xi[a] += short_of * step[a];
         if (longest <= 1e-12 * size || (linear && k > 0)) return 1;
