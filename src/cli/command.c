@@ -24,6 +24,13 @@ static const struct { const char *name, *text; } usages[] = {
     { "plot", "perigal plot DIR [--field NAME] [--component x|xx|magnitude] [--step N|all | --steps N,N,...] [--view SIDE|iso|crack] [--section CUT] ...\n"
               "perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--out FILE]\n"
               "  A field of DIR/result.e (damage, last step), or two columns of DIR/history.csv, as PNG or SVG; all options: perigal plot --help.\n" },
+    { "compare", "perigal compare DIR [REFERENCE] [--step N] [--field NAME] [--unit mm] [--shift X,Y,Z] [--scale S] [--out FILE.png] [--json] [--quiet]\n"
+                 "  Norms of the difference of the result in DIR and a reference: that of its scene, or REFERENCE: a table (.csv: x [mm], y [mm],\n"
+                 "  u_x [mm], s_xx [MPa] ...), another result folder. Writes DIR/compare.csv, compare.json, compare.png.\n"
+                 "      --step N         of DIR/result.e, the last if not given;  --reference-step N: of the other result\n"
+                 "      --field NAME     of the picture: displacement, stress, displacement.x, stress.xx ...\n"
+                 "      --unit mm        length unit of a table's columns that name none\n"
+                 "      --shift X,Y,Z    moves the reference, m if no unit is given;  --scale S: multiplies its values\n" },
     { "bench", "perigal bench [SCENE.yaml]... [--approximation A,B] [--integration A,B] [--basis A,B] [--spacing A,B] [--perturb 0,0.2] ...\n"
                "  Runs every combination, each in a process of its own, and measures it against the scene's reference: DIR/bench.csv, time_error.png,\n"
                "  dofs_error.png. What is not listed: all the catalogue has, and twice, once and half the spacing of the scene.\n"

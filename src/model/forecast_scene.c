@@ -67,7 +67,7 @@ static void read_method (pg_forecast *f, const pg_scene *scene)
     f->nodal = integration && integration->at_nodes;
     f->summed = integration && integration->consistent;  /* until bonds are counted                                        */
     f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
-    f->fields = (double) pg_scene_count (scene, "output.fields");
+    f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients                                   */
     f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
     read_solver (f, scene);
 }

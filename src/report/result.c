@@ -86,6 +86,7 @@ static pg_status read_wishes (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     const char *name;
+    int with_u = 0;
     r->magnify = pg_scene_number (scene, "output.magnify");
     r->estimating = pg_scene_bool (scene, "output.estimate") && strcmp (pg_scene_text (scene, "solver.kind"), "static") == 0;
     r->interval = pg_scene_number (scene, "output.checkpoint");
@@ -94,14 +95,18 @@ static pg_status read_wishes (pg_result *r, const pg_scene *scene)
     for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")) && r->nfield < MOST_FIELDS; k++) {
         pg_field_view *f = &r->field[r->nfield++];
         snprintf (f->name, sizeof f->name, "%s", name);
+        with_u |= strcmp (name, "displacement") == 0;
     }
+    /* shape functions that do not interpolate: the field between points is that of the coefficients                     */
+    if (with_u && r->nfield < MOST_FIELDS && strcmp (r->problem->approx.type->name, "nosb") != 0)
+        snprintf (r->field[r->nfield++].name, sizeof r->field[0].name, "coefficient");
     PG_TRY (result_views_read (r, scene));
     for (size_t k = 0; k < r->nfield; k++) {
         pg_field_view *f = &r->field[k];
-        int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0;
+        int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0 || strcmp (f->name, "coefficient") == 0;
         PG_ALLOC (r->value[k], 6 * r->problem->cloud.n);
         f->components = strcmp (f->name, "damage") == 0 || strcmp (f->name, "error_estimate") == 0 ? 1 : vector ? r->problem->dim : pg_voigt_size (r->problem->dim);
-        snprintf (f->unit, sizeof f->unit, "%s", strcmp (f->name, "stress") == 0 || *f->name == 'e' ? "Pa" : !vector ? "" : f->name[0] == 'd' ? "m" : "m/s");
+        snprintf (f->unit, sizeof f->unit, "%s", strcmp (f->name, "stress") == 0 || *f->name == 'e' ? "Pa" : !vector ? "" : f->name[0] == 'v' ? "m/s" : "m");
         f->value = r->value[k];
     }
 done:
