@@ -140,13 +140,22 @@ static pg_status run_once (bench_case *c, const bench_request *q, trial *t)
     return trial_run (t, &run);
 }
 
+static void tell_error (const char *name, double error)
+{
+    if (isnan (error)) printf ("  %s         -", name);
+    else printf ("  %s %9.2e", name, error);
+}
+
 static void tell (const bench_case *c)
 {
     const double *v = c->best.value;
     printf ("  %-22s %-34s", c->name, c->method);
-    if (!c->runs) printf (" %s\n", c->trouble);
-    else printf (" %8.0f dofs  L2 %9.2e  energy %9.2e  %7.2f s CPU  %5.0f MB\n", v[TRIAL_DOFS], isnan (v[TRIAL_L2]) ? v[TRIAL_LINES] : v[TRIAL_L2],
-                 v[TRIAL_ENERGY], v[TRIAL_CPU], 1e-6 * v[TRIAL_PEAK]);
+    if (c->runs) {
+        printf (" %8.0f dofs", v[TRIAL_DOFS]);
+        tell_error ("L2", isnan (v[TRIAL_L2]) ? v[TRIAL_LINES] : v[TRIAL_L2]);
+        tell_error ("energy", v[TRIAL_ENERGY]);
+        printf ("  %7.2f s CPU  %5.0f MB\n", v[TRIAL_CPU], 1e-6 * v[TRIAL_PEAK]);
+    } else printf (" %s\n", c->trouble);
     fflush (stdout);
 }
 
@@ -158,13 +167,16 @@ static pg_status run_all (bench_cases *cases, const bench_request *q)
         for (size_t k = 0; k < cases->n; k++) {
             bench_case *c = &cases->at[k];
             trial t;
-            if (c->trouble[0]) continue;
+            if (c->trouble[0]) {
+                if (!q->quiet && r == 0) tell (c);
+                continue;
+            }
             pg_status outcome = c->fem ? bench_fem_run (c, q) : run_once (c, q, &t);
             if (outcome == PG_E_INTERRUPTED) PG_TRY (outcome);
             if (outcome != PG_OK) {
                 snprintf (c->trouble, sizeof c->trouble, "%s: %s", outcome == PG_E_SCENE ? "skipped" : "failed", pg_last_error ());
                 for (size_t i = k + 1; outcome == PG_E_SCENE && i < cases->n && cases->at[i].curve == c->curve; i++)
-                    snprintf (cases->at[i].trouble, sizeof c->trouble, "skipped as the size before");
+                    snprintf (cases->at[i].trouble, sizeof c->trouble, "skipped: see the size before");
             } else if (!c->fem && (!c->runs++ || t.value[TRIAL_CPU] < c->best.value[TRIAL_CPU])) c->best = t;
             if (!q->quiet && r == 0) tell (c);
         }

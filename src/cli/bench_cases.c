@@ -2,7 +2,7 @@
  * The cases of a benchmark: every combination of what the catalogues hold or the command line names. */
 #include "cli.h"
 #include "bench.h"
-#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 pg_status bench_look (bench_base *b, const char *path, size_t nset, const char *const *set)
@@ -30,6 +30,17 @@ static void fill (bench_words *w, const char *names)
     if (w->given) return;
     for (const char *s = names; *s && w->n < BENCH_WORDS; s += strcspn (s, "|"), s += *s == '|')
         snprintf (w->word[w->n++], BENCH_TEXT, "%.*s", (int) strcspn (s, "|"), s);
+}
+
+/* A number alone counts spacings, as in `converge --horizon`. */
+static void count_spacings (bench_words *w)
+{
+    for (size_t k = 0; k < w->n; k++) {
+        char *end;
+        size_t n = strlen (w->word[k]);
+        strtod (w->word[k], &end);
+        if (!*end && n + 9 < BENCH_TEXT) snprintf (w->word[k] + n, BENCH_TEXT - n, " spacing");
+    }
 }
 
 static void put (bench_case *c, const char *key, const char *value)
@@ -88,6 +99,7 @@ pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
     *q = *asked;
     fill (&q->force, pg_force_names ()), fill (&q->approximation, pg_approx_names ()), fill (&q->integration, pg_integration_names ());
     fill (&q->basis, "linear|quadratic");
+    count_spacings (&q->horizon);
     for (size_t s = 0; s < q->nscene; s++) {
         bench_base b;
         const bench_words *list[7] = { &q->force, &q->approximation, &q->integration, &q->basis, &q->cells, &q->perturb, &q->horizon };

@@ -35,7 +35,7 @@ static const struct { const char *name, *text; } usages[] = {
                "  Runs every combination, each in a process of its own, and measures it against the scene's reference: DIR/bench.csv, time_error.png,\n"
                "  dofs_error.png. What is not listed: all the catalogue has, and twice, once and half the spacing of the scene.\n"
                "      --force, --approximation, --integration, --basis LIST   of the catalogues (perigal list)\n"
-               "      --spacing, --horizon, --perturb, --cells LIST           such as --spacing '1 mm,0.5 mm' --horizon '2 spacing,2.5 spacing'\n"
+               "      --spacing, --horizon, --perturb, --cells LIST           such as --spacing '1 mm,0.5 mm' --horizon 2,2.5 (spacings)\n"
                "      --fem            the same bodies by CalculiX (ccx, one thread); also --fem-element CPS4,CPS8 --fem-size 8,16,32\n"
                "      --repeat N       every run N times, one after the other; the least CPU seconds count\n"
                "      --threads N      of each run, 1 unless given\n"

@@ -19,12 +19,19 @@ static double size_of (const study *s, const quantity *q)
     return most;
 }
 
-/* Zero but for rounding, such as a reaction across: beside those of its unit. */
-static int is_noise (const study *s, const quantity *q)
+static double largest (const study *s, const char *unit)
 {
     double most = 0;
+    for (size_t k = 0; k < s->nquantity; k++) if (!s->list[k].error && strcmp (s->list[k].unit, unit) == 0) most = fmax (most, size_of (s, &s->list[k]));
+    return most;
+}
+
+/* Zero but for rounding, such as a reaction across: beside those of its unit; forces also beside energy by displacement. */
+static int is_noise (const study *s, const quantity *q)
+{
+    double most = largest (s, q->unit), way = largest (s, "m");
     if (q->error) return 0;
-    for (size_t k = 0; k < s->nquantity; k++) if (!s->list[k].error && strcmp (s->list[k].unit, q->unit) == 0) most = fmax (most, size_of (s, &s->list[k]));
+    if (strcmp (q->unit, "N") == 0 && way > 0) most = fmax (most, largest (s, "J") / way);
     return size_of (s, q) <= noise * most;
 }
 
