@@ -141,9 +141,11 @@ static void colours_over_decades (void **state)
     double *v = pg_calloc (c.n, sizeof *v);
     for (size_t i = 0; i < c.n; i++) v[i] = i % 9 == 0 ? 0 : -pow (10, (double) (i % 9) - 9);       /* columns 1e-8 ... 1e-1           */
     check_ok (pg_picture_field (path, &c, v, &(pg_picture_style) { .log = 1 }));
+    beside = 180;
     counts low = count (path, LOW, 3);                 /* six decades: zero and 1e-8 lie below, 2 of 9 columns              */
     check_relative ((double) (low.to[0] - low.from[0] + 1) / (low.to[1] - low.from[1] + 1), 2.0 / 9, 0.01);
     assert_true (count (path, GREY, 0).near < 100);            /* of letters                                                 */
+    beside = 120;
     pg_free (v);
     drop_cloud (&c);
 }
