@@ -179,7 +179,10 @@ static pg_status range_of_panels (const drawing *d, double *low, double *high)
     PG_ALLOC (shown, d->cloud->n);
     *low = 0, *high = 1;
     for (size_t k = 0; k < d->n; k++) {
-        for (size_t i = 0; i < d->cloud->n; i++) shown[i] = d->seen[i] && (d->own || above (d, k, i)) ? value_of (d, k)[i] : NAN;
+        for (size_t i = 0; i < d->cloud->n; i++) {
+            double v = value_of (d, k)[i];
+            shown[i] = !d->seen[i] || !(d->own || above (d, k, i)) ? NAN : !d->style->log ? v : v != 0 ? fabs (v) : NAN;
+        }
         PG_TRY (pg_picture_range (d->cloud->n, shown, d->style->clip && !d->own ? 2 : 0, &from, &to, &found));
         if (found) *low = any ? fmin (*low, from) : from, *high = any ? fmax (*high, to) : to;
         any |= found;
@@ -193,11 +196,12 @@ static pg_status choose_colours (drawing *d, double *low, double *high)
 {
     pg_status status = PG_OK;
     const pg_picture_style *style = d->style;
-    d->plate.colour = style->diverging ? pg_colour_diverging : pg_colour_sequential;
+    d->plate.colour = style->diverging && !style->log ? pg_colour_diverging : pg_colour_sequential;
     *low = style->low, *high = style->high;
     if (*low < *high && !d->own) return PG_OK;
     PG_TRY (range_of_panels (d, low, high));
-    if (!style->diverging || d->own) goto done;
+    if (style->log) pg_range_decades (low, high);
+    if (!style->diverging || style->log || d->own) goto done;
     double top = fmax (fabs (*low), fabs (*high));
     if (!(top > 0)) top = 1;
     *low = -top, *high = top;
@@ -209,11 +213,12 @@ done:
 static void choose_arrows (drawing *d)
 {
     const pg_axis *bar = &d->plate.bar;
-    double slack = 1e-9 * (bar->high - bar->low);
+    double slack = 1e-9 * (bar->log ? bar->low : bar->high - bar->low);
     for (size_t k = 0; k < d->n; k++)
         for (size_t i = 0; i < d->cloud->n; i++) {
             double v = value_of (d, k)[i];
             if (!isfinite (v) || !d->seen[i] || !above (d, k, i)) continue;
+            if (bar->log) v = v != 0 ? fabs (v) : bar->low;
             d->plate.beyond[0] |= v < bar->low - slack, d->plate.beyond[1] |= v > bar->high + slack;
         }
 }
