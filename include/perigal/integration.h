@@ -55,7 +55,8 @@ typedef struct {
     const pg_cells *cells;                             /* borrowed                                                       */
     pg_faces  faces;
     pg_rows   face;                                    /* N at the points of the faces, all bonds alive                  */
-    pg_family family;                                  /* of the evaluation points: all points of a cell see the same nodes */
+    pg_family cell_family;                             /* nodes that the points of a cell, or of its faces, see          */
+    pg_family family;                                  /* of the evaluation points: that of their cell                   */
     size_t   *first;                                   /* points of cell c: first[c]..first[c + 1]                       */
 } pg_consistency;
 pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, const pg_approx *approx, const pg_cloud *cloud,

@@ -83,6 +83,7 @@ void galerkin_consistent_free (galerkin *g);
 pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int all, size_t *count);
 /* bulk */
 void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out);
+void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out);        /* consistent: all points of a cell at once */
 void galerkin_bulk_force  (galerkin *g, const double *d, double *f);   /* f += internal force (after measure)             */
 void galerkin_bulk_apply  (galerkin *g, const double *x, double *y);   /* y += K x of the bulk                            */
 double galerkin_bulk_energy (const galerkin *g, const double *d);

@@ -106,7 +106,8 @@ static pg_status create_matrix (galerkin *g)
 {
     pg_source source[3];
     size_t n = 0;
-    source[n++] = (pg_source) { &g->sums.family, g, galerkin_bulk_blocks };
+    if (g->whole) source[n++] = (pg_source) { &g->problem->consistency->cell_family, g, galerkin_cell_blocks };
+    else source[n++] = (pg_source) { &g->sums.family, g, galerkin_bulk_blocks };
     if (g->npin) source[n++] = (pg_source) { &g->rows[PG_FACETS].family, g, galerkin_facet_blocks };
     if (g->npeg) source[n++] = (pg_source) { &g->peg_family, g, galerkin_peg_blocks };
     g->all_stale = 1;

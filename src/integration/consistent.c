@@ -31,18 +31,23 @@ static pg_status unite (pg_consistency *c, const pg_rows *points, size_t nodes)
 {
     pg_status status = PG_OK;
     int *seen = NULL, *list = NULL;
-    size_t cap = 0;
+    size_t cap = 0, cap_cell = 0;
     PG_ALLOC (seen, nodes);
     PG_ALLOC (list, nodes);
     PG_ALLOC (c->family.start, points->n + 1);
-    c->family.n = points->n;
+    PG_ALLOC (c->cell_family.start, c->cells->n + 1);
+    c->family.n = points->n, c->cell_family.n = c->cells->n;
     for (size_t cell = 0; cell < c->cells->n; cell++) {
         size_t n = collect (&points->family, c->first[cell], c->first[cell + 1], seen, (int) cell + 1, list, 0);
         for (size_t k = c->faces.of[cell]; k < c->faces.of[cell + 1]; k++) {
             size_t f = (size_t) c->faces.face[k];
             n = collect (&c->face.family, c->faces.start[f], c->faces.start[f + 1], seen, (int) cell + 1, list, n);
         }
+        size_t own = c->cell_family.start[cell];
         qsort (list, n, sizeof *list, compare_nodes);
+        PG_GROW (c->cell_family.node, cap_cell, own + n);
+        memcpy (c->cell_family.node + own, list, n * sizeof *list);
+        c->cell_family.start[cell + 1] = own + n;
         for (size_t p = c->first[cell]; p < c->first[cell + 1]; p++) {
             size_t at = c->family.start[p];
             PG_GROW (c->family.node, cap, at + n);
@@ -83,6 +88,7 @@ void pg_consistency_free (pg_consistency **out)
     pg_faces_clear (&c->faces);
     pg_rows_clear (&c->face);
     pg_family_clear (&c->family);
+    pg_family_clear (&c->cell_family);
     pg_free (c->first);
     pg_free (c);
     *out = NULL;
