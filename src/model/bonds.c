@@ -13,14 +13,14 @@ static void strip (pg_rows *rows)
     rows->grade = NULL;
 }
 
-/* Local spacings are the user's: every point of the whole body must see enough to carry a strain. */
+/* Spacings are those of a file: every point of the whole body must see enough to carry a strain. */
 static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
 {
     static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
     pg_status status = PG_OK;
     pg_rows *r = &p->rows[set];
     char at[100];
-    if (!p->cloud.size || r->n == 0) goto done;
+    if ((!p->cloud.size && !p->part.mesh.n) || r->n == 0) goto done;
     PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, NULL, r->n, NULL, p->threads));
     for (size_t q = 0; q < r->n; q++) {
         int used = 0;

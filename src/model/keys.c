@@ -27,7 +27,7 @@ static const pg_key keys[] = {
     { "blocks[].material", PG_NAME, NULL, NULL, NULL, "materials.{}", NULL, NULL, "One of materials." },
     { "blocks[].where", PG_EXPRESSION, "bool", NULL, "", no_choice, NULL, "claim:one",
       "Where this condition in x, y, z, r, angle holds: at nodes and at integration points, each for itself." },
-    { "blocks[].block", PG_INTEGER, NULL, "[0, inf)", "", NULL, NULL, "claim:one", "Points of this block number of the points' file." },
+    { "blocks[].block", PG_TEXT, NULL, NULL, "", no_choice, NULL, "claim:one", "Points of this block number of the points' file; of a mesh: of this block, by name or number." },
     { "boundary", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "Loads and supports." },
     { "boundary[].name", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL, "Name in history.csv; default: the set's name." },
     { "boundary[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all", NULL, NULL, "Where it acts: a set, a part of one (platens.top), or left, right, bottom, top, back, front, all." },
