@@ -79,6 +79,8 @@ pg_status pg_mesh_body_read  (pg_mesh_body *out, const pg_scene *scene);
  * horizon of 1.7 spacings on; h: its mean. Fills body->point. */
 pg_status pg_mesh_body_cloud (pg_cloud *out, pg_mesh_body *body, const pg_scene *scene);
 void      pg_mesh_body_clear (pg_mesh_body *body);
+/* 1: there are elements with points in the middle of their edges, half an edge apart: they want finer quadrature. */
+int       pg_mesh_body_halved (const pg_mesh_body *body);
 /* Index of the block of that name, or else of that number; -1: there is none. All names as a|b|c. */
 int       pg_mesh_body_block  (const pg_mesh *mesh, const char *name);
 void      pg_mesh_body_blocks (const pg_mesh *mesh, char *out, size_t size);

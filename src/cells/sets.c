@@ -189,7 +189,8 @@ static pg_status add_named (builder *b, const char *name)
     int boundary = pg_scene_given (s, "sets.%s.boundary", name), angle = pg_scene_given (s, "sets.%s.angle", name);
     int where = pg_scene_given (s, "sets.%s.where", name), known = 1;
     const char *why = strlen (name) > 56 ? "at most 56 letters in the name of a set" : !boundary && !angle && !where ? "give boundary, angle or where"
-                    : pg_sets_find (b->out, name) ? "this set is always there, or comes with the mesh: choose another name" : NULL;
+                    : pg_sets_find (b->out, name) ? b->marks.cells->ngiven ? "this set is always there or comes with the mesh, choose another name"
+                    : "this set is always there, choose another name" : NULL;
     snprintf (at, sizeof at, "sets.%.80s", name);
     if (why) {
         pg_scene_fault (s, at, "%s", why);

@@ -16,6 +16,14 @@ static pg_element straight (pg_element kind)
     return kind;
 }
 
+int pg_mesh_body_halved (const pg_mesh_body *b)
+{
+    const pg_mesh *m = &b->mesh;
+    for (size_t e = 0; e < m->n; e++)
+        if (pg_element_types[m->kind[e]].order == 2 && b->point[m->node[m->start[e + 1] - 1]] >= 0) return 1;
+    return 0;
+}
+
 /* ---- volumes ---------------------------------------------------------------------------------------------------------- */
 /* Share of the volume for each node of `shape`, which has its own N on the same reference element. */
 static void share_of (const pg_mesh *m, size_t e, pg_element shape, double volume, double *share)

@@ -139,7 +139,8 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
     pg_status status = PG_OK;
     const pg_mesh *m = &part->mesh;
     double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS], count[PG_ELEMENTS], facets = 0, all = 0, each = f->bonds[PG_NODES] / f->points;
-    int order = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : a->order + 1;
+    int usual = a->order + 1 + 2 * pg_mesh_body_halved (part), order = usual;
+    if (pg_scene_given (scene, "method.gauss_points")) order = (int) pg_scene_integer (scene, "method.gauss_points");
     size_t n = 0;
     int *element = NULL, *side = NULL, node[9];
     for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, order, xi, w);
@@ -147,7 +148,7 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
     for (size_t e = 0; e < m->n && !f->nodal; e++) f->evaluation += count[m->kind[e]];
     f->bonds[PG_POINTS] = f->evaluation * each;
     PG_TRY (pg_mesh_surface (m, &n, &element, &side));
-    for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, a->order + 1, xi, w);
+    for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, usual, xi, w);
     for (size_t k = 0; k < n; k++) all += count[pg_element_face ((pg_element) m->kind[element[k]], side[k], node)];
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);      /* a side each      */
     f->facets = fmin (facets, all), f->bonds[PG_FACETS] = f->facets * 0.6 * each;
