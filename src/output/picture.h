@@ -60,6 +60,7 @@ typedef struct {
     size_t  n;
     double *place;                                     /* pixels from the left and the top (n x 2)                       */
     double  size[2], reach;                            /* cell, pixels; gaps up to (reach - 1) / 2 cells close          */
+    double *spacing;                                   /* of each spot, pixels: no lattice (n); NULL: cells             */
 } pg_spots;
 /* owner (width x height): index of the spot that covers the pixel's centre, -1 for none. */
 pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner);
@@ -73,6 +74,8 @@ typedef struct {
 } pg_grid;
 pg_status pg_grid_build (pg_grid *g, const pg_cloud *cloud);
 void      pg_grid_clear (pg_grid *g);
+/* 2D points that lie on no lattice (also when moved a little): spacing about each, m (n, pg_free); NULL for a lattice. */
+pg_status pg_loose_spacing (const pg_cloud *cloud, double **spacing);
 int       pg_grid_place (const pg_grid *g, int axis, double x);              /* index along an axis, may be outside        */
 int       pg_grid_point (const pg_grid *g, const int *cell);                 /* -1 outside and where there is none         */
 

@@ -19,6 +19,7 @@ typedef struct {
     double *own;                                       /* coloured by depth: coordinate in the picture's unit            */
     int    *index, layer;                              /* of a spot's point; of the section                              */
     pg_spots spots;
+    double *spacing;                                   /* of the points of a 2D cloud that is no lattice, m, or NULL   */
     char    label[32];
 } drawing;
 
@@ -242,6 +243,7 @@ static pg_status paint_spots (drawing *d, size_t panel, pg_screen *s)
             d->spots.place[2 * k + (size_t) a] = a ? (s->top - place) * s->scale : (place - s->left) * s->scale;
         }
         d->index[k] = (int) i;
+        if (d->spacing) d->spots.spacing[k] = d->spacing[i] * s->scale;
     }
     for (int a = 0; a < 2; a++) {
         double half = half_cell (d, a ? e->up : e->right);
@@ -299,6 +301,7 @@ static pg_status draw_sheet (drawing *d, const char *path)
     choose_arrows (d);
     PG_ALLOC (d->spots.place, 2 * d->cloud->n);
     PG_ALLOC (d->index, d->cloud->n);
+    if (d->spacing) PG_ALLOC (d->spots.spacing, d->cloud->n);
     PG_TRY (pg_canvas_open (&canvas, path, d->plate.total[0], d->plate.total[1]));
     for (size_t k = 0; k < d->n; k++) PG_TRY (paint_panel (d, canvas.cr, k, canvas.svg || !d->plate.eye.framed ? 2 : 1));
     pg_plate_draw (&d->plate, canvas.cr, d->cloud, &d->grid, &style);
@@ -351,6 +354,7 @@ pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, 
     for (size_t k = 0; k < n; k++) d->plate.titles |= panel[k].title && panel[k].title[0];
     PG_TRY (pg_eye_open (&d->plate.eye, cloud, style));
     if (cloud->dim == 3) PG_TRY (pg_grid_build (&d->grid, cloud));
+    else PG_TRY (pg_loose_spacing (cloud, &d->spacing));
     PG_TRY (choose_points (d));
     PG_TRY (choose_frame (d));
     PG_TRY (draw_sheet (d, path));
@@ -358,6 +362,7 @@ done:
     if (d) {
         pg_grid_clear (&d->grid);
         pg_free (d->seen), pg_free (d->keep), pg_free (d->own), pg_free (d->index), pg_free (d->spots.place);
+        pg_free (d->spots.spacing), pg_free (d->spacing);
     }
     pg_free (d);
     return status;
