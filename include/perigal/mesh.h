@@ -89,12 +89,23 @@ typedef struct { char name[32]; int components; double *value; } pg_mesh_field; 
  * strain), Exodus nodal variables (grouped by their suffixes _x _y _z, _xx ...). time: of that step. */
 pg_status pg_mesh_result (pg_mesh *out, const char *path, int step, size_t *nfield, pg_mesh_field **fields, double *time);
 void      pg_mesh_fields_clear (size_t n, pg_mesh_field **fields);
+/* Vectors (3 components) of a plane mesh come with 2; strains are those of the tensor (xy: half the angle), as CalculiX writes them. A field
+ * that is not given at every node is a fault. */
+/* Plane elements that CalculiX made solid: a mesh one element thick between two planes z = const becomes the plane mesh between them, its
+ * nodes named as those at the lower z, x and y and fields the mean of both sides (vectors: without z). PG_E_USAGE: it is not one. */
+pg_status pg_mesh_flatten (pg_mesh *mesh, size_t nfield, pg_mesh_field *fields);
+/* Field at xi of an element: out[components]. */
+void      pg_mesh_value    (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi, double *out);
+/* Its gradient, out[components x dim] = d value_c / d x_a; 0: the element is turned inside out there. */
+int       pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi, double *out);
 
 /* ---- search ----------------------------------------------------------------------------------------------------------- */
-typedef struct pg_mesh_finder pg_mesh_finder;          /* a grid of boxes over the elements                              */
+typedef struct pg_mesh_finder pg_mesh_finder;          /* a tree of boxes over the elements; borrows the mesh           */
 pg_status pg_finder_create (pg_mesh_finder **out, const pg_mesh *mesh);
 void      pg_finder_free   (pg_mesh_finder **finder);
-/* Element that holds the place (dim of the mesh) and its xi; outside: the nearest element and how far xi is brought back to it, in element
- * sizes (*away; 0 inside). -1: nothing near. Thread-safe. */
+/* Element that holds the place (dim of the mesh) and its xi (dim); of several, on a face between them, the lowest. A place is in an element
+ * up to 1e-9 of its reference element. Outside: the element nearest to it, xi of the nearest place in it, *away the distance from there in
+ * sizes of that element (longest side of the box of its corners; 0 inside). -1: none is as near as its own size. away NULL: -1 for
+ * every place outside, which is quicker. Thread-safe. */
 long      pg_finder_find   (const pg_mesh_finder *finder, const double *place, double *xi, double *away);
 #endif

@@ -3,3 +3,5 @@
 PG_MESH_FORMAT (gmsh2)
 PG_MESH_FORMAT (gmsh4)
 PG_MESH_FORMAT (abaqus)
+PG_MESH_FORMAT (frd)
+PG_MESH_FORMAT (exodus)

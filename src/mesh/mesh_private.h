@@ -14,6 +14,8 @@ typedef struct {
 } mesh_format;
 /* Mesh from bytes (pg_mesh_read after the file is in memory). */
 pg_status mesh_parse (pg_mesh *out, const mesh_bytes *file);
+/* Mesh and fields from bytes (pg_mesh_result). */
+pg_status mesh_parse_result (pg_mesh *out, const mesh_bytes *file, int step, size_t *nfield, pg_mesh_field **fields, double *time);
 /* Bytes of a whole file; pg_free (text). */
 pg_status mesh_load  (mesh_bytes *out, const char *path);
 
