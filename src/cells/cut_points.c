@@ -118,7 +118,7 @@ static int inside (const cut_work *w, double z)
     const cut_slices *s = &w->slices;
     double x[3] = {0, 0, 0};
     for (int k = 0; k < s->dim; k++) x[k] = w->centre[k] + w->half[k] * (k == s->axis[s->dim - 1] ? z : s->at[k]);
-    return pg_body_inside (w->cut->body, x, 0);
+    return pg_body_inside (&w->cut->body, x, 0);
 }
 
 static void emit (cut_work *w, double z, double weight, const double *normal)

@@ -50,12 +50,16 @@ done:
     return status;
 }
 
+static int gauss_order (const pg_problem *p, const pg_scene *scene)
+{
+    return pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : p->approx.order + 1;
+}
+
 static pg_status make_points (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
-    int order = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : p->approx.order + 1;
-    if (!p->integration->at_nodes) PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, order));
+    if (!p->integration->at_nodes) PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, gauss_order (p, scene)));
     PG_TRY (pg_rows_create (&p->rows[PG_POINTS], &p->approx, &p->cloud, q.n, q.x, q.weight, NULL, q.cell));
     PG_TRY (check_support (p, scene, PG_POINTS));
     strip (&p->rows[PG_POINTS]);
@@ -64,20 +68,22 @@ done:
     return status;
 }
 
-/* Points on those facets only that a load or support needs. */
+/* Points on those facets only that a load or support needs. On a cut surface as fine as in the cells: linear fields balance only then. */
 static pg_status make_facets (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
     unsigned char *used = NULL;
     size_t keep = 0, dim = (size_t) p->dim;
+    int order = p->approx.order + 1, fine = gauss_order (p, scene);
+    if (p->cells.cut && fine > order) order = fine;
     PG_ALLOC (used, p->cells.nfacet);
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         int needs = load->kind == PG_TRACTION || load->kind == PG_PRESSURE || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
         for (size_t k = 0; needs && k < load->set->nfacet; k++) used[load->set->facet[k]] = 1;
     }
-    PG_TRY (pg_facet_points (&q, &p->cells, p->approx.order + 1));
+    PG_TRY (pg_facet_points (&q, &p->cells, order));
     for (size_t k = 0; k < q.n; k++) {
         if (!used[q.cell[k]]) continue;
         memmove (q.x + keep * dim, q.x + k * dim, dim * sizeof *q.x);
