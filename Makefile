@@ -27,7 +27,7 @@ CFLAGS  := $(STD) $(OPT_$(MODE)) -ffp-contract=off -fno-math-errno -fPIC $(WARN)
 comma   := ,
 LDFLAGS := $(if $(filter asan,$(MODE)),-fsanitize=address$(comma)undefined,) $(EXTRA_LDFLAGS)
 SECONDS ?= 60
-FUZZ    ?= scene points expression
+FUZZ    ?= scene points expression mesh
 FUZZ_BUILD ?= build/fuzz
 
 SOURCES := $(filter-out src/cli/%,$(wildcard src/*/*.c))

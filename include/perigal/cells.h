@@ -8,6 +8,12 @@
 enum { PG_CUT = PG_ELEMENTS };                         /* kind of a cell or facet that the surface of the body cuts: its points come
                                                           from `cut`; its corners are those of the lattice cell, or the facet's box */
 typedef struct {
+    char    name[64];
+    size_t  npoint, nfacet;
+    int    *point, *facet;                             /* ascending                                                      */
+} pg_set;
+
+typedef struct {
     int     dim;
     size_t  n;
     unsigned char *kind;                               /* pg_element or PG_CUT               (n)                         */
@@ -24,6 +30,8 @@ typedef struct {
     double *area;                                      /* m^2, thickness included            (nfacet)                    */
     int    *facet_cell;                                /* cell behind the facet              (nfacet)                    */
     int    *facet_surface;                             /* surface of `cut`; -1: a face of a whole cell   (nfacet)        */
+    int    *facet_point;                               /* of a mesh: point of the cloud at each node of a facet, -1: none (facet_start[nfacet]) */
+    pg_set *given;  size_t ngiven;                     /* sets that the mesh brought                                     */
     double  thickness;                                 /* 2D m; 1D cross-section m^2; 3D 1                               */
     const struct pg_cut *cut;                          /* owned; NULL without cut cells                                  */
 } pg_cells;
@@ -31,19 +39,39 @@ typedef struct {
 pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, size_t nx, size_t nfacet, size_t nfx);
 /* The kept cells of a lattice: bars, quads, hexes. */
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness);
+/* The same lattice over the exact body: cells that its surface crosses are cut (kind PG_CUT) and kept while their share of volume is above
+ * 1e-13, wherever their centre lies; facets are pieces of the surface, one for each cell and surface. The body must outlive the cells. */
+pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness);
+/* Volumes of the points become those of the cells: each cell is shared equally by its points (vertices, or its centre); one without
+ * any goes to the nearest point. */
+pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_lattice *lattice);
+/* The elements of a mesh (block: index into its blocks) and its surface, after pg_mesh_body_cloud. Its side sets become sets of facets and
+ * of their points, without faces inside the body; its node sets become sets of points and of the facets whose nodes all belong to them. */
+pg_status pg_cells_from_mesh (pg_cells *out, const pg_mesh_body *body, double thickness);
+/* The name of a mesh's set as the scene writes it: what is no letter, digit, - or _ becomes _; at most 56 letters; all: mesh_all. */
+void      pg_set_name (char out[57], const char *name);
 void      pg_cells_clear (pg_cells *cells);
+
+/* ---- cut cells -------------------------------------------------------------------------------------------------------- */
+/* Quadrature of given order in a cell of kind PG_CUT, or on a facet of that kind, appended to `out` (zero at first): all weights positive,
+ * m^3 or m^2 with the thickness, their sum exact to the order only. Errors: PG_E_MEMORY. Dimension reduction: Saye 2015, doi 10.1137/140966290. */
+typedef struct { size_t n, capacity; double *x, *weight, *normal; } pg_cut_points;          /* normal: of facets, outward, unit; n x dim */
+pg_status pg_cut_cell   (pg_cut_points *out, const pg_cells *cells, size_t cell, int order);
+pg_status pg_cut_facet  (pg_cut_points *out, const pg_cells *cells, size_t facet, int order);
+/* The part of a face (-x +x -y +y -z +z) of a cell of any lattice kind that has the body on both of its sides; dim > 1, no normals. */
+pg_status pg_cut_face   (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order);
+void      pg_cut_points_clear (pg_cut_points *points);
+/* Of a surface (facet_surface >= 0): the shape of the body it belongs to; whether it is a flat end of a cylinder. */
+int       pg_cut_shape  (const struct pg_cut *cut, int surface);
+int       pg_cut_is_end (const struct pg_cut *cut, int surface);
 
 /* Named groups: `sets: NAME: {boundary: ..., angle: ..., where: ...}`. NAME.top/.bottom/.left/.right/.front/.back is the part
  * on that side of the centre of the body's bounding box. */
-typedef struct {
-    char    name[64];
-    size_t  npoint, nfacet;
-    int    *point, *facet;                             /* ascending                                                      */
-} pg_set;
 typedef struct { pg_set *set; size_t n; } pg_sets;
 /* Makes the predefined sets left right bottom top back front (faces of the bounding box) and all (every point and facet), the
  * sets of the scene, and the parts of each. What has no side in this dimension does not exist. An empty set of the scene is a
- * fault; an empty predefined set or part is not (npoint = nfacet = 0). */
+ * fault; an empty predefined set or part is not (npoint = nfacet = 0). Sets of a mesh come before those of the scene, with their parts, and
+ * take the place of predefined ones of the same name. */
 pg_status     pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud, const pg_cells *cells);
 const pg_set *pg_sets_find  (const pg_sets *sets, const char *name);
 /* The same for a name that the scene gives at `path`: an unknown one is a fault there that names the nearest. */

@@ -3,6 +3,7 @@
 #ifndef PERIGAL_CLOUD_H
 #define PERIGAL_CLOUD_H
 #include "perigal/scene.h"
+#include "perigal/mesh.h"
 
 /* ---- shapes --------------------------------------------------------------------------------------------------------- */
 enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM };
@@ -58,6 +59,31 @@ void      pg_cloud_clear (pg_cloud *cloud);
 /* Local spacing of point i over the nominal one: the support of node i is `horizon` times this. Exactly 1 where size is NULL or h. */
 double    pg_cloud_ratio (const pg_cloud *cloud, size_t i);
 double    pg_cloud_finest (const pg_cloud *cloud);     /* smallest local spacing, m                                      */
+
+/* ---- points of a mesh ------------------------------------------------------------------------------------------------- */
+typedef struct {                                       /* the body as a mesh; mesh.n = 0: the scene has none             */
+    pg_mesh mesh;                                      /* the blocks in use, in metres                                   */
+    double  unit;                                      /* m per unit of the file                                         */
+    double *volume;                                    /* of every element, m^dim            (mesh.n)                    */
+    double  smallest, largest;                         /* elements' size, volume^(1/dim), m                              */
+    double  quality;                                   /* worst scaled Jacobian at a corner: 1 best, 0 flat; of the straight element */
+    size_t  worst;                                     /* the element that has it                                        */
+    int    *point;                                     /* point of the cloud at each node, -1: none  (mesh.nnode)        */
+} pg_mesh_body;
+/* `mesh` of the scene: file, unit, blocks. A file that cannot be read, another dimension, unknown blocks and elements whose map turns
+ * inside out somewhere are faults of the scene. */
+pg_status pg_mesh_body_read  (pg_mesh_body *out, const pg_scene *scene);
+/* Points at the nodes (`mesh.points`: all or corners). Volumes: integrals of the shape functions, in elements where one is not positive
+ * (tri6, tet10, quad8 ...) in the ratio of the integrals of their squares; the sum is that of the elements. size: mean length of the edges
+ * at a node (half of it where middle nodes are points), and so large that each end of an edge lies in the support of the other from a
+ * horizon of 1.7 spacings on; h: its mean. Fills body->point. */
+pg_status pg_mesh_body_cloud (pg_cloud *out, pg_mesh_body *body, const pg_scene *scene);
+void      pg_mesh_body_clear (pg_mesh_body *body);
+/* 1: there are elements with points in the middle of their edges, half an edge apart: they want finer quadrature. */
+int       pg_mesh_body_halved (const pg_mesh_body *body);
+/* Index of the block of that name, or else of that number; -1: there is none. All names as a|b|c. */
+int       pg_mesh_body_block  (const pg_mesh *mesh, const char *name);
+void      pg_mesh_body_blocks (const pg_mesh *mesh, char *out, size_t size);
 
 /* ---- families ------------------------------------------------------------------------------------------------------- */
 typedef struct { size_t n; size_t *start; int *node; } pg_family;    /* CSR: entries start[i]..start[i+1], nodes ascending */

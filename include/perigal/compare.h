@@ -21,8 +21,29 @@ void      pg_sampler_clear    (pg_sampler *sampler);
 /* A state of a force: by its own shape functions (pg_force_type.sample), else by least squares through its nodal displacements. */
 pg_status pg_sampler_solution (pg_sampler *out, const pg_problem *problem, const pg_force_type *force, void *self, const pg_state *state);
 /* Displacements at points (n x dim, m), between them by least squares with a linear basis; stress from its gradient and the materials of
- * the nearest evaluation point. cracks and materials are the problem's. */
-pg_status pg_sampler_points   (pg_sampler *out, const pg_problem *problem, const double *u);
+ * the nearest evaluation point. cracks and materials are the problem's. torn (n, or NULL): points that have lost bonds since; a place that
+ * reaches one has the displacement of the nearest point and no stress. */
+pg_status pg_sampler_points   (pg_sampler *out, const pg_problem *problem, const double *u, const unsigned char *torn);
+/* The reference moved by shift (3, m), its values times factor; takes `sampler` over. */
+pg_status pg_sampler_moved    (pg_sampler *out, pg_sampler *sampler, const double *shift, double factor);
+
+/* ---- results of runs --------------------------------------------------------------------------------------------------- */
+/* A result folder opened for questions: the problem built anew from its copy of the scene, the fields of one step of its result.e. */
+typedef struct {
+    pg_scene   *scene;
+    pg_problem *problem;
+    const pg_force_type *force;  void *self;
+    pg_state   *state;
+    pg_sampler  sampler;                               /* NAN beyond sqrt (dim) spacings of the nearest point            */
+    double      t, stamp;                              /* time of expressions; the step's own in result.e                */
+    int         step;
+    char        how[200];                              /* "by its own shape functions", or what replaces them and why    */
+} pg_stored;
+/* step -1: the last. */
+pg_status pg_stored_open (pg_stored **out, const char *folder, int step, int threads);
+void      pg_stored_free (pg_stored **stored);
+/* The scene of a result folder: its copy with the --set options noted in it; files beside the scene are looked for where it was. */
+pg_status pg_stored_scene (pg_scene **out, const char *folder);
 
 /* ---- reference -------------------------------------------------------------------------------------------------------- */
 /* A table of places with values. Columns: 0..2 displacement, 3..8 stress. */
@@ -46,6 +67,8 @@ pg_status pg_reference_read  (pg_reference **out, const pg_scene *scene, const p
 void      pg_reference_free  (pg_reference **reference);
 /* The field it describes at time t (s; static: load factor); no bits set when it has lines only. */
 pg_status pg_reference_sampler (pg_sampler *out, const pg_reference *reference, double t);
+/* Its tables, borrowed. */
+const pg_line *pg_reference_lines (const pg_reference *reference, size_t *n);
 
 /* ---- norms ------------------------------------------------------------------------------------------------------------ */
 typedef struct {
@@ -85,10 +108,21 @@ typedef struct {
     double   seconds;
 } pg_errors;
 pg_status pg_errors_measure (pg_errors *out, const pg_reference *reference, const pg_problem *problem, const pg_sampler *value, double t);
+/* Norms and difference against any sampler, over the cells of `problem`; order: Gauss points per direction, see pg_norm_order. */
+pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int order, const pg_expression *where, const pg_sampler *value, const pg_sampler *reference);
+int       pg_norm_order     (const pg_scene *scene, const pg_problem *problem);       /* two more than the run's, at most 5 */
 void      pg_errors_clear   (pg_errors *errors);
 void      pg_errors_json    (pg_json *j, const pg_errors *errors);       /* entries of the map that is open              */
 /* Row i of a short table for people; 0 past its end. */
 int       pg_errors_row     (const pg_errors *errors, size_t i, char *text, size_t size);
+
+/* ---- files ------------------------------------------------------------------------------------------------------------ */
+/* CSV of place, value, reference, difference of every column both know: at the points of a body, in the rows of a table. NAN: unknown. */
+pg_status pg_compare_points (const char *path, const pg_cloud *cloud, const pg_sampler *value, const pg_sampler *reference);
+pg_status pg_compare_line   (const char *path, const pg_line *line, const pg_sampler *value);
+/* value - reference at the points: column 0..8; PG_COMPARE_U, PG_COMPARE_S: size of the difference of all components. out: n. */
+enum { PG_COMPARE_U = 16, PG_COMPARE_S };
+pg_status pg_compare_field  (double *out, const pg_cloud *cloud, int column, const pg_sampler *value, const pg_sampler *reference);
 
 /* ---- order of convergence: pure functions of numbers ------------------------------------------------------------------- */
 typedef struct {
@@ -99,7 +133,7 @@ typedef struct {
 } pg_observed;
 /* From the last three of n values at falling sizes h (any ratios; Roache 1998): p solves
  * (v1 - v2) / (v2 - v3) = (h1^p - h2^p) / (h2^p - h3^p). Values that swing or part from each other have no order, nor have those that
- * agree within 1e-13 of the largest value (then limit is the last value and error 0). Order above 20: differences too unlike to tell. */
+ * agree within 1e-10 of the largest (residuals end there) value (then limit is the last value and error 0). Order above 20: differences too unlike to tell. */
 pg_observed pg_observed_of_values (size_t n, const double *h, const double *value);
 /* Of errors, whose limit is 0: log (e1 / e2) / log (h1 / h2) of the last two; error: the last one. */
 pg_observed pg_observed_of_errors (size_t n, const double *h, const double *error);

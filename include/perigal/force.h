@@ -48,7 +48,8 @@ typedef struct {
     pg_status (*utilisation) (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
     /* inertia: what motion adds to the residual, - M a - C v (NULL: static); out is sized on the first call.             */
     pg_status (*ledger)  (void *self, double t, const double *d, const double *inertia, pg_ledger *out);
-    /* A field at the nodes: "displacement" (m), "strain", "stress" (Pa), "damage"; *components 0: unknown name. value: n x 6. */
+    /* A field at the nodes: "displacement" (m), "coefficient" (of the shape functions, m), "strain", "stress" (Pa), "damage", "error_estimate"
+     * (Pa); *components 0: unknown name. value: n x 6. */
     pg_status (*field)   (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
     /* Displacement (3 components) at any place, for gauges; and the largest overlap of broken bonds (m). */
     pg_status (*probe)   (void *self, const double *d, const double *x, double *u);

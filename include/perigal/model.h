@@ -34,12 +34,14 @@ typedef struct {
     char     title[256], name[64];                     /* name: of the scene's folder or file                            */
     int      dim, threads;
     pg_mode  mode;
-    pg_body  body;  pg_lattice lattice;  pg_cloud cloud;  pg_cells cells;  pg_sets sets;  pg_cracks cracks;
+    pg_body  body;  pg_mesh_body part;                 /* one of them, or none: points of a file                         */
+    pg_lattice lattice;  pg_cloud cloud;  pg_cells cells;  pg_sets sets;  pg_cracks cracks;
     pg_material  *material;  size_t nmaterial;
     pg_criterion *criterion;                           /* per material, all of one type; type NULL: nothing breaks       */
     int          *block[PG_BOND_SETS];                 /* material of every point of a bond set                          */
     pg_approx     approx;
     const pg_integration_type *integration;
+    pg_consistency *consistency;                       /* integration: consistent; else NULL                             */
     char     force[32];
     double   silling;                                  /* Gs; 0: no stabilisation                                        */
     double   nitsche, penalty;                         /* factors of E / h, h the local spacing                          */
@@ -87,6 +89,7 @@ typedef struct {
     double points, cells, evaluation, facets;          /* evaluation: Gauss points, 0 if nodal; facets: their points     */
     double bonds[PG_BOND_SETS], dofs;
     double slaves, eliminated;                         /* essential: transformation: unknowns, entries of its matrices   */
+    double summed;                                     /* consistent integration: what its points and faces see; else 0  */
     double pairs;                                      /* nodes I <= J that share a point of evaluation                  */
     double edge[3], width;                             /* nodes along the body, of a separator (nested dissection)       */
     double fields;                                     /* of result.e                                                    */

@@ -3,6 +3,7 @@
 #ifndef PERIGAL_OUTPUT_H
 #define PERIGAL_OUTPUT_H
 #include "perigal/cloud.h"
+#include "perigal/mesh.h"
 
 /* ---- fields on points ----------------------------------------------------------------------------------------------- */
 typedef struct {
@@ -77,6 +78,10 @@ typedef struct {
     double      above;
     int         clip;                                  /* colour range without a few stray values, see pg_picture_range   */
     int         by_depth;                              /* coloured by the coordinate along the eye's main axis instead   */
+    int         log;                                   /* colours by the decades of |value|, six at most                 */
+    double      length;                                /* meshes: m in a unit of the mesh; 0: not known, axes without unit */
+    int         edges;                                 /* meshes: edges of elements: 0: if they are fewer than 5000; 1: drawn; -1: not */
+    int         sets;                                  /* meshes: sets of sides (or nodes) in colours instead of the value */
 } pg_picture_style;
 /* Sides as the sets of the same name: left x, bottom y, back z low; right, top, front high. The eye looks at that side from
  * outside, y up (top, bottom: x to the right). iso and crack: obliquely, y up, with light. */
@@ -96,6 +101,11 @@ pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const doubl
 typedef struct { const char *title; const double *value, *u, *select; } pg_panel;
 /* Several states in one picture with one colour bar, row by row; columns 0: as many as suit. style's value, u, select unused. */
 pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel, int columns, const pg_picture_style *style);
+
+/* A mesh: values at its nodes (nnode, in the unit of the label; NULL: elements coloured by block), u in units of the mesh (nnode x dim of the
+ * mesh), cracks and select unused. 2D: its elements, curved edges as they are; 3D: the surface from a view (PG_SECTION: iso).
+ * PG_E_USAGE: 1D meshes and sections. */
+pg_status pg_picture_mesh (const char *path, const pg_mesh *mesh, const double *value, const pg_picture_style *style);
 
 enum { PG_CURVE_LINE, PG_CURVE_MARKERS, PG_CURVE_BOTH };
 typedef struct { const char *name; size_t n; const double *x, *y; int points; /* PG_CURVE_... */ } pg_curve;

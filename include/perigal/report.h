@@ -34,6 +34,8 @@ pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene 
 int       pg_result_finished (const char *folder, const pg_scene *scene);
 /* What pg_result_finish measured against the scene's reference; NULL: there is none. */
 const pg_errors *pg_result_errors (const pg_result *result);
+/* After pg_result_finish: the estimated error of the last stress; NULL: none was made. */
+const pg_estimate *pg_result_estimate (const pg_result *result);
 const char *pg_result_folder (const pg_result *result);
 size_t    pg_result_pictures (const pg_result *result);     /* written                                                   */
 const char *pg_result_picture (const pg_result *result, size_t i);

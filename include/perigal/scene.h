@@ -47,6 +47,8 @@ pg_status pg_scene_load   (pg_scene **out, const char *path);
 /* The same with overrides "key=value" (value is YAML), applied before the checks. */
 pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, const char *const *set);
 pg_status pg_scene_parse  (pg_scene **out, const char *text, const char *name);      /* from memory, `name` for messages */
+/* The same with overrides as in pg_scene_load_with. */
+pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset, const char *const *set);
 void      pg_scene_free   (pg_scene **scene);
 
 /* ---- use: paths are printf formats, e.g. pg_scene_number (s, "cracks[%zu].width", i) --------------------------------- */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Background cells of the kept lattice cells, and the facets between a kept cell and none, with outward normals. */
-#include "perigal/cells.h"
+#include "cut.h"
 #include <limits.h>
 #include <string.h>
 
@@ -54,23 +54,28 @@ static void put_cell (pg_cells *out, size_t at, const pg_lattice *l, const int *
     for (size_t k = 0; k < dim; k++) out->volume[at] *= l->step[k];
 }
 
-static void put_facet (pg_cells *out, size_t at, const pg_lattice *l, const int *i, int f, size_t cell)
+void cells_put_face (pg_cells *out, size_t at, int f, const double *step)
 {
     static const pg_element kind[3] = {PG_POINT1, PG_BAR2, PG_QUAD4};
-    size_t dim = (size_t) l->dim, corners = (size_t) 1 << (dim - 1);
-    double *x = out->facet_x + at * corners * dim, *centre = out->facet_centre + at * dim, area = out->thickness;
-    for (int k = 0; k < l->dim; k++) if (k != f / 2) area *= l->step[k];
-    for (size_t c = 0; c < corners; c++) corner_at (l, i, face[dim - 1][f][c], x + c * dim);
+    size_t dim = (size_t) out->dim, corners = (size_t) 1 << (dim - 1);
+    const double *cell = out->x + out->start[out->facet_cell[at]] * dim;
+    double *x = out->facet_x + out->facet_start[at] * dim, *centre = out->facet_centre + at * dim, area = out->thickness;
+    for (int k = 0; k < out->dim; k++) if (k != f / 2) area *= step[k];
+    for (size_t c = 0; c < corners; c++) memcpy (x + c * dim, cell + face[dim - 1][f][c] * dim, dim * sizeof *x);
     for (size_t k = 0; k < dim; k++) {
         for (size_t c = 0; c < corners; c++) centre[k] += x[c * dim + k];
         centre[k] /= (double) corners;
     }
     out->facet_kind[at] = (unsigned char) kind[dim - 1];
-    out->facet_start[at + 1] = (at + 1) * corners;
+    out->facet_start[at + 1] = out->facet_start[at] + corners;
     out->normal[at * dim + (size_t) f / 2] = f % 2 ? 1 : -1;
     out->area[at] = area;
-    out->facet_cell[at] = (int) cell;
-    out->facet_surface[at] = -1;
+}
+
+static void put_facet (pg_cells *out, size_t at, const pg_lattice *l, int f, size_t cell)
+{
+    out->facet_cell[at] = (int) cell, out->facet_surface[at] = -1;
+    cells_put_face (out, at, f, l->step);
 }
 
 static void fill (pg_cells *out, const pg_lattice *l)
@@ -83,7 +88,7 @@ static void fill (pg_cells *out, const pg_lattice *l)
                 if (!kept (l, i)) continue;
                 put_cell (out, cell, l, i);
                 for (int f = 0; f < 2 * l->dim; f++)
-                    if (open_face (l, i, f)) put_facet (out, facet++, l, i, f, cell);
+                    if (open_face (l, i, f)) put_facet (out, facet++, l, f, cell);
                 cell++;
             }
 }
@@ -129,6 +134,9 @@ void pg_cells_clear (pg_cells *c)
 {
     pg_free (c->kind), pg_free (c->start), pg_free (c->x), pg_free (c->volume), pg_free (c->block);
     pg_free (c->facet_kind), pg_free (c->facet_start), pg_free (c->facet_x), pg_free (c->facet_centre);
-    pg_free (c->normal), pg_free (c->area), pg_free (c->facet_cell), pg_free (c->facet_surface);
+    cut_free ((struct pg_cut *) c->cut);
+    pg_free (c->normal), pg_free (c->area), pg_free (c->facet_cell), pg_free (c->facet_surface), pg_free (c->facet_point);
+    for (size_t i = 0; i < c->ngiven; i++) pg_free (c->given[i].point), pg_free (c->given[i].facet);
+    pg_free (c->given);
     memset (c, 0, sizeof *c);
 }

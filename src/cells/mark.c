@@ -28,8 +28,25 @@ done:
     return status;
 }
 
+/* Of a mesh: a facet with fewer points than others names its first again. */
+static pg_status link_elements (pg_marks *m)
+{
+    pg_status status = PG_OK;
+    const pg_cells *c = m->cells;
+    for (size_t f = 0; f < c->nfacet; f++) if (c->facet_start[f + 1] - c->facet_start[f] > m->per) m->per = c->facet_start[f + 1] - c->facet_start[f];
+    PG_ALLOC (m->facet_point, c->nfacet * m->per);
+    for (size_t f = 0; f < c->nfacet; f++)
+        for (size_t k = 0, first = c->facet_start[f]; k < m->per; k++) {
+            size_t at = first + k < c->facet_start[f + 1] ? first + k : first;
+            m->facet_point[f * m->per + k] = c->facet_point[at] >= 0 ? c->facet_point[at] : c->facet_point[first];
+        }
+done:
+    return status;
+}
+
 static pg_status link_facets (pg_marks *m)
 {
+    if (m->cells->facet_point) return link_elements (m);
     pg_status status = PG_OK;
     const pg_cells *c = m->cells;
     size_t dim = (size_t) c->dim, corners = (size_t) 1 << (dim - 1);
@@ -108,6 +125,7 @@ static int on_side (const pg_marks *m, int side, const double *x, double finer)
 {
     int k = side / 2;
     double face = side % 2 ? m->high[k] : m->low[k];
+    if (m->cells->facet_point) return fabs (x[k] - face) <= 1e-6 * m->size;        /* a mesh ends where its nodes are     */
     return fabs (x[k] - face) <= 0.5 * finer * m->cloud->step[k] * (1 + 1e-9);
 }
 
@@ -146,8 +164,22 @@ static int mark_shape (pg_marks *m, const char *name)
     return known;
 }
 
+/* A set that the mesh brought */
+static int mark_given (pg_marks *m, const char *name)
+{
+    for (size_t i = 0; i < m->cells->ngiven; i++) {
+        const pg_set *s = &m->cells->given[i];
+        if (strcmp (s->name, name)) continue;
+        for (size_t k = 0; k < s->npoint; k++) m->point[s->point[k]] = 1;
+        for (size_t k = 0; k < s->nfacet; k++) m->facet[s->facet[k]] = 1;
+        return 1;
+    }
+    return 0;
+}
+
 int pg_marks_boundary (pg_marks *m, const char *name)
 {
+    if (mark_given (m, name)) return 1;
     size_t dim = (size_t) m->cloud->dim;
     int side = side_named (m->cloud->dim, name), all = !strcmp (name, "all");
     if (side < 0 && !all) return mark_shape (m, name);

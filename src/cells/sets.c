@@ -55,6 +55,13 @@ static pg_status add_predefined (builder *b)
     }
     pg_marks_fill (&b->marks, 1);
     PG_TRY (add_set (b, "all"));
+    for (size_t i = 0; i < b->marks.cells->ngiven; i++) {
+        const char *name = b->marks.cells->given[i].name;
+        if (pg_sets_find (b->out, name)) continue;         /* the mesh's own left, top ... is there already */
+        pg_marks_fill (&b->marks, 0);
+        pg_marks_boundary (&b->marks, name);
+        PG_TRY (add_set (b, name));
+    }
 done:
     return status;
 }
@@ -147,6 +154,8 @@ static void unknown_boundary (const builder *b, const char *at, const char *name
         while (k < i && strcmp (body->shape[k].boundary, body->shape[i].boundary)) k++;
         if (k == i) used += (size_t) snprintf (names + used, sizeof names - used, "|%s", body->shape[i].boundary);
     }
+    for (size_t i = 0; i < b->marks.cells->ngiven && used + 60 < sizeof names; i++)
+        used += (size_t) snprintf (names + used, sizeof names - used, "|%s", b->marks.cells->given[i].name);
     const char *near = pg_nearest_name (name, names);
     if (near) pg_scene_fault (b->scene, at, "no boundary is called '%.40s'; did you mean %s? (%s)", name, near, names);
     else pg_scene_fault (b->scene, at, "no boundary is called '%.40s'; there are %s", name, names);
@@ -180,7 +189,8 @@ static pg_status add_named (builder *b, const char *name)
     int boundary = pg_scene_given (s, "sets.%s.boundary", name), angle = pg_scene_given (s, "sets.%s.angle", name);
     int where = pg_scene_given (s, "sets.%s.where", name), known = 1;
     const char *why = strlen (name) > 56 ? "at most 56 letters in the name of a set" : !boundary && !angle && !where ? "give boundary, angle or where"
-                    : pg_sets_find (b->out, name) ? "this set is always there, choose another name" : NULL;
+                    : pg_sets_find (b->out, name) ? b->marks.cells->ngiven ? "this set is always there or comes with the mesh, choose another name"
+                    : "this set is always there, choose another name" : NULL;
     snprintf (at, sizeof at, "sets.%.80s", name);
     if (why) {
         pg_scene_fault (s, at, "%s", why);

@@ -49,7 +49,7 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
     pg_status status = PG_OK;
     pg_sparse G = { 0 };
     pg_linear_info info;
-    const pg_family *seen[2] = { &p->rows[f->nodal ? PG_NODES : PG_POINTS].family, &p->rows[PG_FACETS].family };
+    const pg_family *seen[2] = { p->consistency ? &p->consistency->cell_family : &p->rows[f->nodal ? PG_NODES : PG_POINTS].family, &p->rows[PG_FACETS].family };
     size_t pinned = 0;
     for (size_t l = 0; l < p->nload; l++) pinned += pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
     PG_TRY (pg_stiffness_graph (&G, p->cloud.n, pinned ? 2 : 1, seen));

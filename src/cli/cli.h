@@ -7,8 +7,11 @@
 enum { EXIT_DONE = 0, EXIT_USAGE = 64, EXIT_SCENE = 65, EXIT_FAILED = 70, EXIT_INTERRUPTED = 130 };
 int pg_cli_run   (int argc, char **argv);
 int pg_cli_check (int argc, char **argv);
+int pg_cli_compare (int argc, char **argv);
 int pg_cli_list  (int argc, char **argv);
 int pg_cli_help  (int argc, char **argv);
+int pg_cli_bench (int argc, char **argv);
+int pg_cli_converge (int argc, char **argv);
 
 /* progress.c: a line that rewrites itself on a terminal, every tenth elsewhere. */
 typedef struct { double start, last; int tenth, tty, quiet; } progress;

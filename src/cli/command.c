@@ -24,6 +24,34 @@ static const struct { const char *name, *text; } usages[] = {
     { "plot", "perigal plot DIR [--field NAME] [--component x|xx|magnitude] [--step N|all | --steps N,N,...] [--view SIDE|iso|crack] [--section CUT] ...\n"
               "perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--out FILE]\n"
               "  A field of DIR/result.e (damage, last step), or two columns of DIR/history.csv, as PNG or SVG; all options: perigal plot --help.\n" },
+    { "compare", "perigal compare DIR [REFERENCE] [--step N] [--field NAME] [--unit mm] [--shift X,Y,Z] [--scale S] [--out FILE.png] [--json] [--quiet]\n"
+                 "  Norms of the difference of the result in DIR and a reference: that of its scene, or REFERENCE: a table (.csv: x [mm], y [mm],\n"
+                 "  u_x [mm], s_xx [MPa] ...), another result folder. Writes DIR/compare.csv, compare.json, compare.png.\n"
+                 "      --step N         of DIR/result.e, the last if not given;  --reference-step N: of the other result\n"
+                 "      --field NAME     of the picture: displacement, stress, displacement.x, stress.xx ...\n"
+                 "      --unit mm        length unit of a table's columns that name none\n"
+                 "      --shift X,Y,Z    moves the reference, m if no unit is given;  --scale S: multiplies its values\n" },
+    { "bench", "perigal bench [SCENE.yaml]... [--approximation A,B] [--integration A,B] [--basis A,B] [--spacing A,B] [--perturb 0,0.2] ...\n"
+               "  Runs every combination, each in a process of its own, and measures it against the scene's reference: DIR/bench.csv, time_error.png,\n"
+               "  dofs_error.png. What is not listed: all the catalogue has, and twice, once and half the spacing of the scene.\n"
+               "      --force, --approximation, --integration, --basis LIST   of the catalogues (perigal list)\n"
+               "      --spacing, --horizon, --perturb, --cells LIST           such as --spacing '1 mm,0.5 mm' --horizon 2,2.5 (spacings)\n"
+               "      --fem            the same bodies by CalculiX (ccx, one thread); also --fem-element CPS4,CPS8 --fem-size 8,16,32\n"
+               "      --repeat N       every run N times, one after the other; the least CPU seconds count\n"
+               "      --threads N      of each run, 1 unless given\n"
+               "  -o, --out DIR        default out/bench\n"
+               "  -s, --set KEY=VALUE  for every run\n"
+               "  -q, --quiet          only the files\n" },
+    { "converge", "perigal converge SCENE.yaml [--spacing 4] [--ratio 2] [--horizon 2,2.5,3] [--delta | --m] [-o DIR] [--set KEY=VALUE]... [--threads N]\n"
+               "  The scene at falling sizes, and of every number it gives (errors, reactions, displacements, gauges, averages, energies): the order of\n"
+               "  convergence, Richardson's value and the estimated error. Table on the screen and in DIR/convergence.csv, picture DIR/convergence.png.\n"
+               "      --spacing N      sizes: the scene's spacing and N - 1 smaller ones; 4 unless given (3 with --m)\n"
+               "      --ratio R        of a spacing to the next, 2 unless given\n"
+               "      --horizon LIST   in spacings; a study for each; the scene's unless given\n"
+               "      --delta          horizon / spacing is kept: both go to 0 (the default)\n"
+               "      --m              the horizon is kept, that of the first spacing: more and more neighbours\n"
+               "  -o, --out DIR        default out/converge\n"
+               "  -q, --quiet          only the files\n" },
     { "list", "perigal list\n  Methods, kernels, criteria, solvers of this build, one line each.\n" },
     { "help", "perigal help [KEY | COMMAND | --manual]\n  All keys of the scene file; one key; one command; or all keys as markdown.\n" },
 };

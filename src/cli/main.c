@@ -10,6 +10,9 @@ static const struct { const char *name; int (*run) (int, char **); const char *s
     { "run",   pg_cli_run,   "run SCENE.yaml [-o DIR] [--set KEY=VALUE]  solve, leave a folder of results" },
     { "check", pg_cli_check, "check SCENE.yaml [--set KEY=VALUE]         what is wrong with a scene, or what it amounts to" },
     { "plot",  pg_cli_plot,  "plot DIR [--field NAME] [--step N]         pictures from a folder of results" },
+    { "compare", pg_cli_compare, "compare DIR [REFERENCE]                    a result against a closed form, a table, another result" },
+    { "bench", pg_cli_bench, "bench [SCENE...] [--fem]                   error and cost of methods and sizes, beside CalculiX" },
+    { "converge", pg_cli_converge, "converge SCENE.yaml [--m]                  order of convergence of every quantity of a scene" },
     { "list",  pg_cli_list,  "list                                       methods, kernels, criteria ... of this build" },
     { "help",  pg_cli_help,  "help [KEY | COMMAND | --manual]            the keys of the scene file" },
 };
@@ -54,7 +57,7 @@ int main (int argc, char **argv)
             if (k <= 1) settle_threads (argc, argv);
             return commands[k].run (argc - 1, argv + 1);
         }
-    const char *near = pg_nearest_name (argv[1], "run|check|plot|list|help");
+    const char *near = pg_nearest_name (argv[1], "run|check|plot|compare|bench|converge|list|help");
     fprintf (stderr, "perigal: there is no command %s%s%s%s\n", argv[1], near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     usage (stderr);
     return EXIT_USAGE;

@@ -19,12 +19,15 @@ static void settle_signals (void)
     signal (SIGXFSZ, SIG_IGN);
 }
 
-static void print_summary (const pg_result *result, const pg_report *r, double total)
+static void print_summary (const pg_result *result, const pg_report *r, int nodal, double total)
 {
     printf ("  %ld steps, %ld events, %ld break rounds, %ld bonds broken, %ld factorizations, %ld solves\n", r->steps, r->events, r->iterations, r->broken,
             r->factorizations, r->solves);
     printf ("  largest residual %.2e, largest utilisation of an accepted state %.6f, %zu degenerate points, %zu fragments\n", r->residual_max,
             r->utilisation_max, r->degenerate_points, r->fragments);
+    const pg_estimate *e = pg_result_estimate (result);
+    if (e) printf ("  estimated error of the stress: %s%.2g %% in the energy norm, %zu of %zu points left out (%.2g s)\n", nodal ? "more than " : "",
+                   100 * e->relative, e->left_out, e->points + e->left_out, e->seconds);
     printf ("  %.2f s: shape functions and assembly %.2f, analysis %.2f, factorization %.2f, solve %.2f, forces %.2f, bond sweep %.2f; peak memory %.0f MB\n",
             total, r->seconds[PG_SECONDS_SHAPE] + r->seconds[PG_SECONDS_ASSEMBLE] + r->seconds[PG_SECONDS_UPDATE],
             r->seconds[PG_SECONDS_ANALYSE], r->seconds[PG_SECONDS_FACTOR], r->seconds[PG_SECONDS_SOLVE],
@@ -38,7 +41,7 @@ static void print_summary (const pg_result *result, const pg_report *r, double t
     for (size_t k = 0; k < pg_result_pictures (result); k++) printf ("  picture %s\n", pg_result_picture (result, k));
 }
 
-typedef struct { pg_result *result; pg_state *state; int within; } watched;
+typedef struct { pg_result *result; pg_state *state; int within, nodal; } watched;
 
 /* An old checkpoint is better than no run: one that cannot be written ends nothing. */
 static void keep_now (const watched *w)
@@ -124,7 +127,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     status = pg_result_finish (w->result, w->state, outcome == PG_OK ? NULL : failure, search, pg_seconds () - start);
     snprintf (last, sizeof last, "%s", pg_last_error ());
     if (status != PG_OK && outcome == PG_OK) kept = keep_for_later (w);
-    if (status == PG_OK && !c->quiet) print_summary (w->result, pg_solver_report_now (solver), pg_seconds () - start);
+    if (status == PG_OK && !c->quiet) print_summary (w->result, pg_solver_report_now (solver), w->nodal, pg_seconds () - start);
     if (outcome != PG_OK) command_complain (outcome, failure);
     if (status != PG_OK && (outcome == PG_OK || strcmp (failure, last) != 0)) command_complain (status, last);
     if (kept && (outcome == PG_OK || outcome == PG_E_INTERRUPTED || outcome == PG_E_FILE || outcome == PG_E_MEMORY)) command_again (c);
@@ -162,7 +165,7 @@ int pg_cli_run (int argc, char **argv)
     PG_TRY (pg_solver_create (&solver, problem, &options));
     PG_TRY (pg_state_create (&w.state, problem, pg_solver_components (solver)));
     PG_TRY (open_result (&c, c.folder ? c.folder : folder, scene, problem, solver, &w));
-    told = 1;
+    told = 1, w.nodal = problem->integration->at_nodes;
     status = run_to_the_end (&c, solver, &w, pg_seconds () - start, start);
 done:
     if (status != PG_OK && !told) command_complain (status, pg_last_error ());

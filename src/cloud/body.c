@@ -59,8 +59,8 @@ pg_status pg_body_read (pg_body *out, const pg_scene *scene)
     size_t n = pg_scene_count (scene, "body"), added = 0;
     memset (out, 0, sizeof *out);
     out->dim = (int) pg_scene_integer (scene, "dimension");
-    if (n == 0 && !pg_scene_given (scene, "points"))
-        pg_scene_fault (scene, "body", "is missing: give body (a list of shapes) or points (a file)");
+    if (n == 0 && !pg_scene_given (scene, "points") && !pg_scene_given (scene, "mesh"))
+        pg_scene_fault (scene, "body", "is missing: give body (a list of shapes), points (a file) or mesh (a file)");
     PG_ALLOC (out->shape, n);
     out->n = n;
     for (size_t i = 0; i < n; i++) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Points of the body with their volumes: vertices or centres of the kept lattice cells, x fastest, then y, then z; or from a file. */
 #include "perigal/cloud.h"
+#include "place.h"
 #include "points_file.h"
 #include <limits.h>
 #include <math.h>
@@ -62,8 +63,7 @@ static uint64_t mix (uint64_t z)                       /* a bijection that sprea
     return z ^ (z >> 31);
 }
 
-/* Uniform in [-1, 1), a function of seed, site and axis only. */
-static double shift_of (uint64_t seed, uint64_t site, int axis)
+double pg_place_shift (uint64_t seed, uint64_t site, int axis)
 {
     uint64_t z = mix (mix (seed + 0x9e3779b97f4a7c15u) + 3 * site + (uint64_t) axis + 1);
     return ldexp ((double) (z >> 11), -52) - 1;
@@ -87,7 +87,7 @@ static pg_status place_points (pg_cloud *c, const pg_lattice *l, const sites *s,
         for (size_t k = 0; k < dim; k++, rest /= s->size[k - 1]) {
             double *x = &c->x[p*dim + k];
             *x = pg_lattice_at (l, (int) k, (double) (rest % s->size[k]) + s->shift);
-            if (amount > 0 && s->around[i] == s->whole) *x += amount * l->step[k] * shift_of (seed, i, (int) k);
+            if (amount > 0 && s->around[i] == s->whole) *x += amount * l->step[k] * pg_place_shift (seed, i, (int) k);
         }
         c->volume[p++] = s->shift > 0 ? cell : s->around[i] * (cell / s->whole);
     }
@@ -95,7 +95,7 @@ done:
     return status;
 }
 
-static void measure (pg_cloud *c)
+void pg_place_bounds (pg_cloud *c)
 {
     size_t dim = (size_t) c->dim;
     for (size_t k = 0; k < dim; k++) {
@@ -168,7 +168,7 @@ pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *bod
     out->thickness = out->dim == 3 ? 1 : pg_scene_number (scene, out->dim == 2 ? "thickness" : "cross_section");
     if (pg_scene_given (scene, "points")) PG_TRY (from_file (out, scene));
     else PG_TRY (from_lattice (out, lattice, body, scene));
-    measure (out);
+    pg_place_bounds (out);
 done:
     if (status != PG_OK) {
         pg_cloud_clear (out);

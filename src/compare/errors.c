@@ -82,29 +82,41 @@ done:
     return status;
 }
 
-pg_status pg_errors_measure (pg_errors *out, const pg_reference *reference, const pg_problem *problem, const pg_sampler *value, double t)
+pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int order, const pg_expression *where, const pg_sampler *value, const pg_sampler *reference)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
-    pg_sampler field = { 0 };
     int *which = NULL;
     double start = pg_seconds ();
     memset (out, 0, sizeof *out);
-    out->order = reference->order;
-    PG_TRY (pg_reference_sampler (&field, reference, t));
-    if (field.displacement || field.stress) {
+    out->order = order;
+    if (reference->displacement || reference->stress) {
         PG_TRY (quadrature (&q, problem, &out->order));
         PG_TRY (materials (problem, &q, &which));
-        pg_norm_options options = { problem->material, which, reference->where };
-        PG_TRY (pg_norms_measure (&out->norms, &q, value, &field, &options));
-        PG_TRY (at_points (out, problem, value, &field, reference->where));
+        pg_norm_options options = { problem->material, which, where };
+        PG_TRY (pg_norms_measure (&out->norms, &q, value, reference, &options));
+        PG_TRY (at_points (out, problem, value, reference, where));
     }
-    PG_TRY (lines (out, reference, value));
     out->seconds = pg_seconds () - start;
 done:
     pg_quadrature_clear (&q);
-    pg_sampler_clear (&field);
     pg_free (which);
+    if (status != PG_OK) pg_errors_clear (out);
+    return status;
+}
+
+pg_status pg_errors_measure (pg_errors *out, const pg_reference *reference, const pg_problem *problem, const pg_sampler *value, double t)
+{
+    pg_status status = PG_OK;
+    pg_sampler field = { 0 };
+    double start = pg_seconds ();
+    memset (out, 0, sizeof *out);
+    PG_TRY (pg_reference_sampler (&field, reference, t));
+    PG_TRY (pg_errors_against (out, problem, reference->order, reference->where, value, &field));
+    PG_TRY (lines (out, reference, value));
+    out->seconds = pg_seconds () - start;
+done:
+    pg_sampler_clear (&field);
     if (status != PG_OK) pg_errors_clear (out);
     return status;
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Tables of places with values, as pg_table writes them: a first row of names with units in brackets, then numbers. Empty cells and nan
  * are missing values; columns of other names are passed over; '#' starts a comment. */
-#include "perigal/compare.h"
-#include <errno.h>
+#include "compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,25 +24,6 @@ typedef struct {
     double unit, factor;
     const double *along;
 } reader;
-
-static pg_status load (const char *path, char **text)
-{
-    pg_status status = PG_OK;
-    size_t size = 0, cap = 0, got = 0;
-    FILE *f = fopen (path, "rb");
-    if (!f) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-    do {
-        PG_GROW (*text, cap, size + 65537);
-        got = fread (*text + size, 1, 65536, f);
-        if (memchr (*text + size, 0, got)) PG_FAIL (PG_E_FILE, "%s is not a text file", path);
-        size += got;
-    } while (got > 0);
-    if (ferror (f)) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-    (*text)[size] = 0;
-done:
-    if (f) fclose (f);
-    return status;
-}
 
 /* Cuts at commas (semicolons, tabs), takes off blanks and quotes. */
 static size_t split (char *row, char *cell[MOST_COLUMNS])
@@ -164,7 +144,7 @@ pg_status pg_line_read (pg_line *out, const char *path, int dim, double unit, do
     memset (out, 0, sizeof *out);
     out->dim = dim;
     snprintf (out->name, sizeof out->name, "%.127s", slash ? slash + 1 : path);
-    PG_TRY (load (path, &text));
+    PG_TRY (compare_load_text (path, &text));
     for (char *row = strncmp (text, "\xEF\xBB\xBF", 3) ? text : text + 3; *row;) {
         size_t length = strcspn (row, "\n");
         char *next = row + length + (row[length] == '\n');

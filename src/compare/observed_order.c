@@ -5,7 +5,7 @@
 #include <math.h>
 
 enum { HALVINGS = 80 };
-static const double highest = 20, same = 1e-13;
+static const double highest = 20, same = 1e-10;
 
 static pg_observed none (double limit, double error, const char *why)
 {

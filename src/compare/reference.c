@@ -89,8 +89,7 @@ done:
     return status;
 }
 
-/* Gauss points per direction of the norms: two more than the run's. */
-static int order_of (const pg_scene *scene, const pg_problem *problem)
+int pg_norm_order (const pg_scene *scene, const pg_problem *problem)
 {
     int own = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : problem->approx.order + 1;
     return own + 2 > 5 ? 5 : own + 2;
@@ -104,7 +103,7 @@ pg_status pg_reference_read (pg_reference **out, const pg_scene *scene, const pg
     if (!pg_scene_given (scene, "reference")) return PG_OK;
     PG_ALLOC (r, 1);
     r->dim = problem->dim, r->threads = problem->threads;
-    r->order = order_of (scene, problem);
+    r->order = pg_norm_order (scene, problem);
     PG_TRY (read_forms (r, scene));
     size_t n = pg_scene_count (scene, "reference.lines");
     PG_ALLOC (r->line, n);
@@ -116,6 +115,12 @@ pg_status pg_reference_read (pg_reference **out, const pg_scene *scene, const pg
 done:
     pg_reference_free (&r);
     return status;
+}
+
+const pg_line *pg_reference_lines (const pg_reference *r, size_t *n)
+{
+    *n = r->nline;
+    return r->line;
 }
 
 void pg_reference_free (pg_reference **reference)

@@ -32,7 +32,7 @@ static pg_status least_squares (pg_sampler *out, const pg_problem *problem, cons
     PG_ALLOC (u, 6 * problem->cloud.n);
     if (force->field) PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, u));
     if (components != problem->dim) PG_FAIL (PG_E_USAGE, "the force %s has no displacement field: nothing to compare", force->name);
-    PG_TRY (pg_sampler_points (out, problem, u));
+    PG_TRY (pg_sampler_points (out, problem, u, NULL));
 done:
     pg_free (u);
     return status;
@@ -52,7 +52,7 @@ done:
 }
 
 /* ---- points ----------------------------------------------------------------------------------------------------------- */
-typedef struct { const pg_problem *problem; double *u; pg_approx approx; pg_nearest *material; int bulk; } points;
+typedef struct { const pg_problem *problem; double *u; unsigned char *torn; pg_approx approx; pg_nearest *material; int bulk; } points;
 
 static int cut (const pg_problem *p, const double *x, int node)
 {
@@ -61,11 +61,30 @@ static int cut (const pg_problem *p, const double *x, int node)
     return 0;
 }
 
+/* Does a place reach a torn point? Then it has the displacement of the nearest point. */
+static int at_tear (const points *s, const pg_rows *r, size_t at, double *u, double *stress)
+{
+    size_t dim = (size_t) s->problem->dim, nearest = 0;
+    double best = INFINITY;
+    int torn = 0;
+    for (size_t e = r->family.start[at]; e < r->family.start[at + 1]; e++) {
+        double d = 0, *x = s->problem->cloud.x + (size_t) r->family.node[e] * dim;
+        for (size_t k = 0; k < dim; k++) d += (x[k] - r->x[at * dim + k]) * (x[k] - r->x[at * dim + k]);
+        if (d < best) best = d, nearest = (size_t) r->family.node[e];
+        torn |= s->torn[r->family.node[e]];
+    }
+    if (!torn) return 0;
+    for (size_t c = 0; c < 3; c++) u[c] = c < dim ? s->u[nearest * dim + c] : 0;
+    for (int k = 0; stress && k < 6; k++) stress[k] = NAN;
+    return 1;
+}
+
 static void fit_one (const points *s, const pg_rows *r, size_t at, double *u, double *stress)
 {
     const pg_problem *p = s->problem;
     size_t dim = (size_t) p->dim;
     double H[9] = { 0 };
+    if (s->torn && at_tear (s, r, at, u, stress)) return;
     memset (u, 0, 3 * sizeof *u);
     for (size_t e = r->family.start[at]; e < r->family.start[at + 1]; e++)
         for (size_t c = 0; c < dim; c++) {
@@ -110,11 +129,11 @@ static void free_points (void *context)
     points *s = context;
     if (!s) return;
     pg_nearest_free (&s->material);
-    pg_free (s->u);
+    pg_free (s->u), pg_free (s->torn);
     pg_free (s);
 }
 
-pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const double *u)
+pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const double *u, const unsigned char *torn)
 {
     pg_status status = PG_OK;
     points *s = NULL;
@@ -126,10 +145,52 @@ pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const d
                               .horizon = 2 * problem->cloud.h };
     PG_ALLOC (s->u, ndof);
     memcpy (s->u, u, ndof * sizeof *u);
+    if (torn) {
+        PG_ALLOC (s->torn, problem->cloud.n);
+        memcpy (s->torn, torn, problem->cloud.n);
+    }
     PG_TRY (pg_nearest_create (&s->material, problem->dim, problem->rows[s->bulk].n, problem->rows[s->bulk].x));
     *out = (pg_sampler) { s, problem->dim, (1 << problem->dim) - 1, stress_bits (problem->dim), sample_points, free_points };
     s = NULL;
 done:
     free_points (s);
+    return status;
+}
+
+/* ---- moved ------------------------------------------------------------------------------------------------------------ */
+typedef struct { pg_sampler field; double shift[3], factor; } moved;
+
+static pg_status sample_moved (void *context, size_t n, const double *x, double *u, double *stress)
+{
+    pg_status status = PG_OK;
+    const moved *m = context;
+    size_t dim = (size_t) m->field.dim;
+    double *at = NULL;
+    PG_ALLOC (at, n * dim);
+    for (size_t i = 0; i < n * dim; i++) at[i] = x[i] - m->shift[i % dim];
+    PG_TRY (m->field.sample (m->field.context, n, at, u, stress));
+    for (size_t i = 0; i < 3 * n; i++) u[i] *= m->factor;
+    for (size_t i = 0; stress && i < 6 * n; i++) stress[i] *= m->factor;
+done:
+    pg_free (at);
+    return status;
+}
+
+static void free_moved (void *context)
+{
+    moved *m = context;
+    pg_sampler_clear (&m->field);
+    pg_free (m);
+}
+
+pg_status pg_sampler_moved (pg_sampler *out, pg_sampler *sampler, const double *shift, double factor)
+{
+    pg_status status = PG_OK;
+    moved *m = NULL;
+    PG_ALLOC (m, 1);
+    *m = (moved) { *sampler, { shift[0], shift[1], shift[2] }, factor };
+    memset (sampler, 0, sizeof *sampler);
+    *out = (pg_sampler) { m, m->field.dim, m->field.displacement, m->field.stress, sample_moved, free_moved };
+done:
     return status;
 }

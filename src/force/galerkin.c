@@ -26,6 +26,7 @@ static void galerkin_free (void **self)
     galerkin_boundary_free (g);
     galerkin_basis_free (g);
     galerkin_slices_free (g);
+    galerkin_consistent_free (g);
     pg_nearest_free (&g->near_point);
     pg_nearest_free (&g->near_node);
     pg_free (g->work), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide);
@@ -69,6 +70,7 @@ static pg_status galerkin_create (void **self, const pg_problem *problem)
     g->problem = problem, g->dim = problem->dim, g->nv = pg_voigt_size (problem->dim), g->threads = problem->threads, g->n = problem->cloud.n;
     g->bulk = problem->integration->at_nodes ? PG_NODES : PG_POINTS;
     for (int s = 0; s < PG_BOND_SETS; s++) PG_TRY (create_set (g, s));
+    PG_TRY (galerkin_consistent_create (g));
     PG_ALLOC (g->work, g->n * (size_t) g->dim);
     PG_TRY (galerkin_boundary_create (g));
     PG_TRY (galerkin_basis_create (g));
@@ -105,6 +107,8 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
         g->fresh[s] = 0;
         if (n) PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &g->rows[s], state->alive + p->first_bond[s], n,
                                                  changes ? g->list[s] : NULL, g->threads));
+        if (s == g->bulk && g->whole) PG_TRY (galerkin_consistent_update (g, state, !changes, &n));
+        count[s] = n;
         g->fresh[s] = known;
         if (known) galerkin_measure_list (g, s, n, g->list[s]);
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress, blocks, energy),
  * galerkin_boundary.c (Nitsche, penalty, loads), galerkin_basis.c (elimination), galerkin_bonds.c (utilisation, overlap, census),
- * galerkin_field.c (fields, gauges), galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
+ * galerkin_consistent.c (rows of the sums), galerkin_field.c (fields, gauges), galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
 #include "perigal/force.h"
@@ -28,6 +28,9 @@ typedef struct {
     int      dim, nv, threads, bulk;                   /* bulk: PG_NODES or PG_POINTS                                    */
     size_t   n;                                        /* nodes                                                          */
     pg_rows  rows[PG_BOND_SETS];                       /* geometry borrowed from the problem, values owned               */
+    pg_rows  sums;                                     /* evaluation points in stiffness and force: those of the bulk, or with
+                                                          consistent integration wider ones with corrected derivatives   */
+    unsigned char *whole;                              /* cells whose derivatives are corrected; NULL: not consistent    */
     const int *material[PG_BOND_SETS];                 /* per point; the problem's                                       */
     double  *strain[PG_BOND_SETS], *stress[PG_BOND_SETS], *zz[PG_BOND_SETS], *u[PG_BOND_SETS];   /* of the last measure  */
     double  *s1[PG_BOND_SETS], *s3[PG_BOND_SETS];
@@ -72,8 +75,15 @@ pg_status galerkin_assemble (void *self);
 const pg_sparse *galerkin_matrix (void *self);
 pg_status galerkin_mass_matrix (void *self, const pg_sparse **M);
 void galerkin_mark_stale (galerkin *g, const size_t *count);           /* rows that the touched points of each set enter    */
+/* consistent */
+pg_status galerkin_consistent_create (galerkin *g);
+void galerkin_consistent_free (galerkin *g);
+/* Brings `sums` in line with the rows of the bulk: all, or cells with the touched points of g->list[bulk], whose number grows to all points
+ * of the cells that changed. */
+pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int all, size_t *count);
 /* bulk */
 void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out);
+void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out);        /* consistent: all points of a cell at once */
 void galerkin_bulk_force  (galerkin *g, const double *d, double *f);   /* f += internal force (after measure)             */
 void galerkin_bulk_apply  (galerkin *g, const double *x, double *y);   /* y += K x of the bulk                            */
 double galerkin_bulk_energy (const galerkin *g, const double *d);

@@ -35,21 +35,31 @@ static double stabilisation (const galerkin *g, size_t p)
     return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->problem->silling * mu;
 }
 
-/* block (dim x dim) = w (D B_a)' B_b, DB_a kept as dim x nv */
-static void block_of (int dim, const double *DB, const double *q, double *k)
+/* Blocks (dim x dim) += w (D B_a)' B_b for b = 0..m-1; DB: (D B_a)' as dim x nv */
+static void add_blocks (int dim, const double *DB, size_t m, const double *q, double *k)
 {
-    size_t nv = dim == 1 ? 1 : dim == 2 ? 3 : 6;
-    for (int r = 0; r < dim; r++) galerkin_B_transpose (dim, q, DB + (size_t) r * nv, k + r * dim);
+    if (dim == 2) {
+        const double a = DB[0], b = DB[1], c = DB[2], d = DB[3], e = DB[4], f = DB[5];
+        for (size_t n = 0; n < m; n++, q += 2, k += 4)
+            k[0] += q[0] * a + q[1] * c, k[1] += q[1] * b + q[0] * c, k[2] += q[0] * d + q[1] * f, k[3] += q[1] * e + q[0] * f;
+        return;
+    }
+    size_t nv = dim == 1 ? 1 : 6, d = (size_t) dim;
+    double f[3];
+    for (size_t n = 0; n < m; n++, q += d, k += d * d)
+        for (size_t r = 0; r < d; r++) {
+            galerkin_B_transpose (dim, q, DB + r * nv, f);
+            for (size_t c = 0; c < d; c++) k[r * d + c] += f[c];
+        }
 }
 
-void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out)
+/* Point p adds its blocks of local node a with 0..m-1. */
+static void add_point (galerkin *g, size_t p, size_t a, size_t m, double *out)
 {
-    galerkin *g = context;
-    const pg_rows *r = &g->rows[g->bulk];
+    const pg_rows *r = &g->sums;
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv, first = r->family.start[p];
     const double *D = galerkin_material (g, g->bulk, p)->D, *qa = r->dN + (first + a) * dim;
     double DB[18], unit[3];
-    if (r->weight[p] == 0) return;
     for (size_t c = 0; c < dim; c++)                   /* row c of (D B_a)': D applied to the strain of a unit dof        */
         for (size_t v = 0; v < nv; v++) {
             double row[6] = { 0 };
@@ -60,9 +70,24 @@ void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *
             for (size_t w = 0; w < nv; w++) DB[c * nv + v] += D[v * nv + w] * row[w];
             DB[c * nv + v] *= r->weight[p];
         }
-    for (size_t b = 0; b < m; b++) block_of (g->dim, DB, r->dN + (first + b) * dim, out + b * dim * dim);
+    add_blocks (g->dim, DB, m, r->dN + first * dim, out);
+}
+
+void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out)
+{
+    galerkin *g = context;
+    const pg_rows *r = &g->sums;
+    if (r->weight[p] == 0) return;
+    add_point (g, p, a, m, out);
     double Gs = g->problem->silling > 0 ? stabilisation (g, p) : 0;
     if (Gs > 0) pg_silling_add (r, &g->problem->cloud, p, a, m, Gs, r->weight[p], out);
+}
+
+void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out)
+{
+    galerkin *g = context;
+    const size_t *first = g->problem->consistency->first;
+    for (size_t p = first[cell]; p < first[cell + 1]; p++) add_point (g, p, a, m, out);
 }
 
 /* f += Silling forces of point p: f_l = c (w_l z_l - M g_l), z = eta - H xi, M = sum w z xi (theory D3a); returns the energy. */

@@ -32,6 +32,16 @@ pg_status galerkin_field (void *self, const pg_state *state, const double *d, co
         damage (g, state, value);
         return PG_OK;
     }
+    if (strcmp (name, "error_estimate") == 0) {
+        pg_estimate sums;
+        *components = 1, *unit = "Pa";
+        return galerkin_estimate (g, d, &sums, value);
+    }
+    if (strcmp (name, "coefficient") == 0) {
+        *components = g->dim, *unit = "m";
+        memcpy (value, d, g->n * dim * sizeof *value);
+        return PG_OK;
+    }
     if (strcmp (name, "displacement") == 0 || strcmp (name, "velocity") == 0) {
         *components = g->dim, *unit = *name == 'd' ? "m" : "m/s";
         galerkin_measure (g, PG_NODES, *name == 'd' ? d : state->v);

@@ -15,7 +15,7 @@ void galerkin_apply (void *context, const double *x, double *y)
 /* diag K_aa += w B_a' D B_a of the bulk; the diagonal of the boundary and stabilisation terms from their blocks */
 static void bulk_diagonal (galerkin *g, double *d)
 {
-    const pg_rows *r = &g->rows[g->bulk];
+    const pg_rows *r = &g->sums;
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
     for (size_t p = 0; p < r->n; p++) {
         const double *D = galerkin_material (g, g->bulk, p)->D;
@@ -59,7 +59,7 @@ static size_t widest (const pg_family *f)
 pg_status galerkin_operator_create (galerkin *g)
 {
     pg_status status = PG_OK;
-    size_t most = widest (&g->rows[PG_FACETS].family), bulk = widest (&g->rows[g->bulk].family), peg = widest (&g->peg_family);
+    size_t most = widest (&g->rows[PG_FACETS].family), bulk = widest (&g->sums.family), peg = widest (&g->peg_family);
     most = most > bulk ? most : bulk, most = most > peg ? most : peg;
     PG_ALLOC (g->wide, most * (size_t) (g->dim * g->dim));
     PG_ALLOC (g->stale, g->n);
@@ -78,7 +78,7 @@ void galerkin_diagonal (void *context, double *d)
     if (g->diagonal_of != g->revision || g->revision == 0) {
         memset (g->diagonal, 0, ndof * sizeof *g->diagonal);
         if (!(g->problem->silling > 0)) bulk_diagonal (g, g->diagonal);
-        else add_diagonal_blocks (g, &g->rows[g->bulk].family, galerkin_bulk_blocks, g->wide, g->diagonal);
+        else add_diagonal_blocks (g, &g->sums.family, galerkin_bulk_blocks, g->wide, g->diagonal);
         if (g->npin) add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, g->wide, g->diagonal);
         if (g->npeg) add_diagonal_blocks (g, &g->peg_family, galerkin_peg_blocks, g->wide, g->diagonal);
         g->diagonal_of = g->revision;
@@ -89,7 +89,7 @@ void galerkin_diagonal (void *context, double *d)
 /* ---- the matrix -------------------------------------------------------------------------------------------------------------- */
 static void mark_family (galerkin *g, int set, size_t p)
 {
-    const pg_family *f = &g->rows[set].family;
+    const pg_family *f = set == g->bulk ? &g->sums.family : &g->rows[set].family;
     for (size_t e = f->start[p]; e < f->start[p + 1]; e++) g->stale[f->node[e]] = 1;
 }
 
@@ -106,7 +106,8 @@ static pg_status create_matrix (galerkin *g)
 {
     pg_source source[3];
     size_t n = 0;
-    source[n++] = (pg_source) { &g->rows[g->bulk].family, g, galerkin_bulk_blocks };
+    if (g->whole) source[n++] = (pg_source) { &g->problem->consistency->cell_family, g, galerkin_cell_blocks };
+    else source[n++] = (pg_source) { &g->sums.family, g, galerkin_bulk_blocks };
     if (g->npin) source[n++] = (pg_source) { &g->rows[PG_FACETS].family, g, galerkin_facet_blocks };
     if (g->npeg) source[n++] = (pg_source) { &g->peg_family, g, galerkin_peg_blocks };
     g->all_stale = 1;
@@ -144,7 +145,7 @@ const pg_sparse *galerkin_matrix (void *self)
 static void mass_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {
     const galerkin *g = context;
-    const pg_rows *r = &g->rows[g->bulk];
+    const pg_rows *r = &g->sums;
     const double *N = r->N + r->family.start[p];
     double share = galerkin_material (g, g->bulk, p)->density * r->weight[p] * N[a];
     for (size_t b = 0; b < m; b++) out[b] = share * N[b];
@@ -155,7 +156,7 @@ pg_status galerkin_mass_matrix (void *self, const pg_sparse **M)
     pg_status status = PG_OK;
     galerkin *g = self;
     if (!g->M) {
-        pg_source source = { &g->rows[g->bulk].family, g, mass_blocks };
+        pg_source source = { &g->sums.family, g, mass_blocks };
         PG_TRY (pg_stiffness_create (&g->M, g->n, 1, 1, &source));
         PG_TRY (pg_stiffness_gather (g->M, g->n, NULL, g->threads));
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Displacement and stress at any place, by the method's own shape functions evaluated there.
- * Which bonds live at a place: those that no pre-crack cuts; and where the nearest evaluation point on the same side of the pre-cracks has lost
- * bonds since, those nodes only that it still sees. Where that leaves a poorer basis than the evaluation point has, its first-order expansion
+ * Which bonds live at a place: those that no pre-crack cuts, and whose node the nearest evaluation point and the nearest node on the same side
+ * of the pre-cracks have not lost since. Where that leaves a poorer basis than the evaluation point has, its first-order expansion
  * u_q + grad u_q (x - x_q) and its stress hold. So the two faces of a crack stay apart. */
 #include "galerkin.h"
 #include <string.h>
@@ -25,51 +25,82 @@ static int cut (const pg_problem *p, const double *x, const double *y)
     return 0;
 }
 
-static int other_side (void *context, const double *place, size_t point)
+static const double *node_at (const galerkin *g, int node) { return g->problem->cloud.x + (size_t) node * (size_t) g->dim; }
+
+static int point_hidden (void *context, const double *place, size_t point)
 {
     const galerkin *g = ((const sampling *) context)->g;
     return cut (g->problem, place, g->rows[g->bulk].x + point * (size_t) g->dim);
 }
 
-static const double *node_at (const galerkin *g, int node) { return g->problem->cloud.x + (size_t) node * (size_t) g->dim; }
-
-/* Is bond e of evaluation point q dead for another reason than a pre-crack? */
-static int broken (const sampling *s, size_t q, size_t e)
+static int node_hidden (void *context, const double *place, size_t node)
 {
-    const galerkin *g = s->g;
-    const pg_rows *r = &g->rows[g->bulk];
-    if (s->state->alive[g->problem->first_bond[g->bulk] + e]) return 0;
-    return !cut (g->problem, r->x + q * (size_t) g->dim, node_at (g, r->family.node[e]));
+    const galerkin *g = ((const sampling *) context)->g;
+    return cut (g->problem, place, node_at (g, (int) node));
 }
 
-/* Evaluation point q has lost bonds: node j counts only if q still sees it. */
-static int still_sees (const sampling *s, size_t q, int j)
+/* Is bond e of a point dead for another reason than a pre-crack? */
+static int broken (const sampling *s, int set, size_t point, size_t e)
 {
-    const pg_family *f = &s->g->rows[s->g->bulk].family;
-    size_t low = f->start[q], high = f->start[q + 1];
+    const galerkin *g = s->g;
+    const pg_rows *r = &g->rows[set];
+    if (s->state->alive[g->problem->first_bond[set] + e] || r->family.node[e] == r->own[point]) return 0;
+    return !cut (g->problem, r->x + point * (size_t) g->dim, node_at (g, r->family.node[e]));
+}
+
+static int hurt (const sampling *s, int set, size_t point)
+{
+    const pg_family *f = &s->g->rows[set].family;
+    for (size_t e = f->start[point]; e < f->start[point + 1]; e++) if (broken (s, set, point, e)) return 1;
+    return 0;
+}
+
+enum { SEEN, LOST, UNKNOWN };
+/* Of node j by a point: its bond lives, or only a pre-crack cuts it; has broken; is none. */
+static int view (const sampling *s, int set, size_t point, int j)
+{
+    const pg_family *f = &s->g->rows[set].family;
+    size_t low = f->start[point], high = f->start[point + 1];
     while (low < high) {
         size_t middle = (low + high) / 2;
         if (f->node[middle] < j) low = middle + 1;
         else high = middle;
     }
-    return low < f->start[q + 1] && f->node[low] == j && !broken (s, q, low);
+    if (low == f->start[point + 1] || f->node[low] != j) return UNKNOWN;
+    return broken (s, set, point, low) ? LOST : SEEN;
+}
+
+/* Whether a place sees node j is asked of its nearest evaluation point q, then of its nearest node i. A node at the rim that neither knows
+ * counts unless both i and j have lost bonds. */
+static int sees (const sampling *s, size_t q, size_t i, int lost /* i has lost bonds */, int j)
+{
+    int bulk = s->g->bulk, answer = view (s, bulk, q, j);
+    if (answer == UNKNOWN && bulk != PG_NODES) answer = view (s, PG_NODES, i, j);
+    if (answer != UNKNOWN) return answer == SEEN;
+    return !(lost && hurt (s, PG_NODES, (size_t) j));
+}
+
+/* The nearest that no pre-crack hides, else the nearest. */
+static size_t nearest_seen (sampling *s, const pg_nearest *grid, const double *x, pg_refuse refuse)
+{
+    long found = pg_nearest_find (grid, x, s->g->problem->cracks.n ? refuse : NULL, s);
+    return (size_t) (found >= 0 ? found : pg_nearest_find (grid, x, NULL, NULL));
 }
 
 static void find_bonds (void *context, size_t first, size_t last, int thread)
 {
     sampling *s = context;
     const galerkin *g = s->g;
-    const pg_family *f = &s->rows.family, *of_q = &g->rows[g->bulk].family;
+    const pg_family *f = &s->rows.family;
     (void) thread;
     for (size_t p = first; p < last; p++) {
         const double *x = s->rows.x + p * (size_t) g->dim;
-        long found = pg_nearest_find (g->near_point, x, g->problem->cracks.n ? other_side : NULL, s);
-        size_t q = s->at[p] = (size_t) (found >= 0 ? found : pg_nearest_find (g->near_point, x, NULL, NULL));
-        int lost = 0;
-        for (size_t e = of_q->start[q]; e < of_q->start[q + 1] && !lost; e++) lost = broken (s, q, e);
+        size_t q = s->at[p] = nearest_seen (s, g->near_point, x, point_hidden);
+        size_t i = g->bulk == PG_NODES ? q : nearest_seen (s, g->near_node, x, node_hidden);
+        int lost = hurt (s, PG_NODES, i);
         for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
             int j = f->node[e];
-            s->alive[e] = j == s->rows.own[p] || !(cut (g->problem, x, node_at (g, j)) || (lost && !still_sees (s, q, j)));
+            s->alive[e] = j == s->rows.own[p] || (!cut (g->problem, x, node_at (g, j)) && sees (s, q, i, lost, j));
         }
     }
 }

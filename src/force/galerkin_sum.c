@@ -27,7 +27,7 @@ struct galerkin_slices {
 pg_status galerkin_slices_create (galerkin *g)
 {
     pg_status status = PG_OK;
-    const pg_family *f = &g->rows[g->bulk].family;
+    const pg_family *f = &g->sums.family;
     galerkin_slices *s = NULL;
     size_t stride = g->dim == 3 ? 4 : (size_t) g->dim;
     PG_ALLOC (s, 1);
@@ -118,14 +118,14 @@ INLINE void force_flat (int dim, const pg_rows *r, size_t p, const double *s, do
 }
 
 /* ---- measures ---------------------------------------------------------------------------------------------------------------- */
-typedef struct { galerkin *g; int set; const double *x; const size_t *list; } measuring;
+typedef struct { galerkin *g; int set; const pg_rows *rows; const double *x; const size_t *list; } measuring;
 
 WIDE static void measure_solid (const measuring *m, size_t first, size_t last)
 {
     galerkin *g = m->g;
     for (size_t i = first; i < last; i++) {
         size_t p = m->list ? m->list[i] : i;
-        strain_solid (&g->rows[m->set], p, m->x, g->u[m->set] + 3 * p, g->strain[m->set] + 6 * p);
+        strain_solid (m->rows, p, m->x, g->u[m->set] + 3 * p, g->strain[m->set] + 6 * p);
     }
 }
 
@@ -139,7 +139,7 @@ static void measure_points (void *context, size_t first, size_t last, int thread
     for (size_t i = first; i < last; i++) {
         size_t p = m->list ? m->list[i] : i;
         double *e = g->strain[m->set] + p * nv;
-        if (dim < 3) strain_flat (g->dim, &g->rows[m->set], p, m->x, g->u[m->set] + p * dim, e);
+        if (dim < 3) strain_flat (g->dim, m->rows, p, m->x, g->u[m->set] + p * dim, e);
         const pg_material *mat = galerkin_material (g, m->set, p);
         mat->type->stress (mat, 1, e, g->stress[m->set] + p * nv, g->zz[m->set] + p);
     }
@@ -159,14 +159,14 @@ void galerkin_measure (galerkin *g, int set, const double *d)
     size_t bytes = g->n * (size_t) g->dim * sizeof *d;
     if (g->fresh[set] && memcmp (g->seen[set], d, bytes) == 0) return;
     memcpy (g->seen[set], d, bytes);
-    measuring m = { g, set, widened (g, d), NULL };
+    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], widened (g, d), NULL };
     pg_parallel (g->threads, g->rows[set].n, measure_points, &m);
     g->fresh[set] = 1;
 }
 
 void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list)
 {
-    measuring m = { g, set, widened (g, g->seen[set]), list };
+    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], widened (g, g->seen[set]), list };
     measure_points (&m, 0, count, 0);
 }
 
@@ -184,7 +184,7 @@ INLINE void tangent (const double *D, const double *e, double *s)
 WIDE static void sum_solid (const summing *m, size_t first, size_t last, double *sum, size_t low)
 {
     galerkin *g = m->g;
-    const pg_rows *r = &g->rows[g->bulk];
+    const pg_rows *r = &g->sums;
     double e[6], own[6];
     for (size_t p = first; p < last; p++) {
         const double *s = g->stress[g->bulk] + 6 * p;
@@ -200,7 +200,7 @@ WIDE static void sum_solid (const summing *m, size_t first, size_t last, double 
 static void sum_flat (const summing *m, size_t first, size_t last, double *sum, size_t low)
 {
     galerkin *g = m->g;
-    const pg_rows *r = &g->rows[g->bulk];
+    const pg_rows *r = &g->sums;
     size_t nv = (size_t) g->nv;
     double e[3], own[3];
     for (size_t p = first; p < last; p++) {

@@ -70,13 +70,15 @@ static double measure (int dim, int nref, double J[3][3])
 }
 
 /* ---- elements --------------------------------------------------------------------------------------------------------- */
-static int own_dim (int kind) { return kind == PG_POINT1 ? 0 : kind == PG_BAR2 ? 1 : kind == PG_QUAD4 ? 2 : 3; }
+static int own_dim (int kind) { return pg_element_types[kind].dim; }
+static int multilinear (int kind) { return kind == PG_POINT1 || kind == PG_BAR2 || kind == PG_QUAD4 || kind == PG_HEX8; }
 
 /* As pg_element_rule. */
 static int rule (int kind, int order, double *xi, double *weight)
 {
     double gx[5], gw[5];
     int d = own_dim (kind), n = 1;
+    if (!multilinear (kind)) return pg_element_rule ((pg_element) kind, order, xi, weight);
     for (int r = 0; r < d; r++) n *= order;
     pg_gauss_rule (order, gx, gw);
     for (int k = 0; k < n; k++) {
@@ -104,6 +106,7 @@ static double map (int kind, int dim, const double *corner, const double *xi, do
 {
     double J[3][3], all[3] = { 0, 0, 0 };
     int d = own_dim (kind);
+    if (!multilinear (kind)) return pg_element_map ((pg_element) kind, dim, corner, xi, x, normal);
     for (int r = 0; r < d; r++) all[r] = xi[r];
     map_point (dim, d, corner, all, x, J);
     if (normal) normal_of (dim, J, normal);
@@ -190,4 +193,4 @@ pg_status pg_facet_points (pg_quadrature *out, const pg_cells *c, int order)
     return status;
 }
 
-const pg_integration_type pg_integration_gauss = { "gauss", "Gauss-Legendre points in background cells", 0, gauss_points };
+const pg_integration_type pg_integration_gauss = { "gauss", "Gauss-Legendre points in background cells", 0, 0, gauss_points };

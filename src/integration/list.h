@@ -2,3 +2,4 @@
  * One line per integration. */
 PG_INTEGRATION (nodal)
 PG_INTEGRATION (gauss)
+PG_INTEGRATION (consistent)

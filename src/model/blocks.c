@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Which material every point is made of: the last entry of `blocks` that claims it. A condition holds or not at the point itself, so that
- * an interface along edges of cells is exact; a block number of the points' file goes with the nearest node. */
+ * an interface along edges of cells is exact; a block number of the points' file goes with the nearest node, a block of a mesh with the
+ * element itself (a node between blocks belongs to the first of them). */
 #include "model.h"
+#include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct {
@@ -22,6 +25,24 @@ static void clear (entries *e)
 }
 
 /* ---- the list --------------------------------------------------------------------------------------------------------- */
+/* What `block` names, -1 with a fault. */
+static int block_named (const pg_problem *p, const pg_scene *scene, const char *path)
+{
+    const char *text = pg_scene_text (scene, "%s", path);
+    char *end, names[2000];
+    if (p->part.mesh.n) {
+        int k = pg_mesh_body_block (&p->part.mesh, text);
+        pg_mesh_body_blocks (&p->part.mesh, names, sizeof names);
+        if (k < 0) pg_scene_fault (scene, path, "the mesh has no block of this name or number; there are %s", names);
+        return k;
+    }
+    long number = strtol (text, &end, 10);
+    if (p->lattice.dim) pg_scene_fault (scene, path, "only points and meshes from a file have blocks: use where");
+    else if (end == text || *end || number < 0 || number > INT_MAX) pg_scene_fault (scene, path, "must be a whole number from 0: points have no names of blocks");
+    else return (int) number;
+    return -1;
+}
+
 static pg_status read_entry (entry *e, const pg_problem *p, const pg_scene *scene, size_t k)
 {
     pg_status status = PG_OK;
@@ -30,8 +51,7 @@ static pg_status read_entry (entry *e, const pg_problem *p, const pg_scene *scen
     for (size_t m = 0; m < p->nmaterial; m++) if (strcmp (p->material[m].name, material) == 0) e->material = (int) m;
     if (!pg_scene_given (scene, "blocks[%zu].where", k)) {
         snprintf (path, sizeof path, "blocks[%zu].block", k);
-        e->number = (int) pg_scene_integer (scene, "%s", path);
-        if (p->lattice.dim) pg_scene_fault (scene, path, "only points from a file have block numbers: use where");
+        e->number = block_named (p, scene, path);
         return PG_OK;
     }
     snprintf (path, sizeof path, "blocks[%zu].where", k);
@@ -69,9 +89,11 @@ static void inside (const pg_problem *p, int set, size_t point, double *x)
     }
 }
 
-/* Block number of a point: its own, or that of the nearest node; -1: it sees no node. */
+/* Block number of a point: its own, that of its element, or that of the nearest node; -1: it sees no node. */
 static int number_of (const pg_problem *p, int set, size_t point)
 {
+    int cell = p->part.mesh.n && set != PG_NODES ? p->rows[set].cell[point] : -1;
+    if (cell >= 0) return p->cells.block[set == PG_FACETS ? p->cells.facet_cell[cell] : cell];
     int node = set == PG_NODES ? (int) point : pg_bonds_nearest (p, set, point);
     return node < 0 ? -1 : p->cloud.block[node];
 }
@@ -119,9 +141,29 @@ static void claim_all (entries *e, pg_problem *p, const pg_scene *scene)
     }
 }
 
+/* Without a list the blocks of a mesh have the names of their materials. */
+static void by_name (pg_problem *p, const pg_scene *scene)
+{
+    const pg_mesh *m = &p->part.mesh;
+    int missing = 0;
+    for (int s = 0; s < PG_BOND_SETS && !missing; s++)
+        for (size_t q = 0; q < p->rows[s].n && !missing; q++) {
+            int block = number_of (p, s, q), material = -1;
+            for (size_t k = 0; block >= 0 && k < p->nmaterial; k++) if (!strcmp (p->material[k].name, m->blocks[block].name)) material = (int) k;
+            p->block[s][q] = material < 0 ? 0 : material;
+            missing = material < 0;
+            if (missing) pg_scene_fault (scene, "materials", "there are %zu, and none has the name of the block '%s' of the mesh: say with blocks "
+                                         "which block is made of which", p->nmaterial, block < 0 ? "" : m->blocks[block].name);
+        }
+}
+
 /* Without a list the block column of the file counts the materials; other points follow their nearest node. */
 static void by_number (pg_problem *p, const pg_scene *scene)
 {
+    if (p->part.mesh.n) {
+        by_name (p, scene);
+        return;
+    }
     for (size_t i = 0; i < p->cloud.n; i++)
         if (p->cloud.block[i] < 0 || (size_t) p->cloud.block[i] >= p->nmaterial) {
             pg_scene_fault (scene, "materials", "point %zu is of block %d, and there are %zu materials", i, p->cloud.block[i], p->nmaterial);

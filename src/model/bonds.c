@@ -13,14 +13,14 @@ static void strip (pg_rows *rows)
     rows->grade = NULL;
 }
 
-/* Local spacings are the user's: every point of the whole body must see enough to carry a strain. */
+/* Spacings are those of a file: every point of the whole body must see enough to carry a strain. */
 static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
 {
     static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
     pg_status status = PG_OK;
     pg_rows *r = &p->rows[set];
     char at[100];
-    if (!p->cloud.size || r->n == 0) goto done;
+    if ((!p->cloud.size && !p->part.mesh.n) || r->n == 0) goto done;
     PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, NULL, r->n, NULL, p->threads));
     for (size_t q = 0; q < r->n; q++) {
         int used = 0;
@@ -50,14 +50,22 @@ done:
     return status;
 }
 
+/* Points per direction of a cell: as many as the basis needs between two nodes; an element with middle nodes spans two such steps. */
+static int quadrature_order (const pg_problem *p)
+{
+    return p->approx.order + 1 + pg_mesh_body_halved (&p->part) * 2;       /* at most 5, the highest rule there is       */
+}
+
 static pg_status make_points (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
-    int order = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : p->approx.order + 1;
+    int order = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : quadrature_order (p);
     if (!p->integration->at_nodes) PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, order));
     PG_TRY (pg_rows_create (&p->rows[PG_POINTS], &p->approx, &p->cloud, q.n, q.x, q.weight, NULL, q.cell));
     PG_TRY (check_support (p, scene, PG_POINTS));
+    if (p->integration->consistent)
+        PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS], p->approx.order + 1, p->threads));
     strip (&p->rows[PG_POINTS]);
 done:
     pg_quadrature_clear (&q);
@@ -77,7 +85,7 @@ static pg_status make_facets (pg_problem *p, const pg_scene *scene)
         int needs = load->kind == PG_TRACTION || load->kind == PG_PRESSURE || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
         for (size_t k = 0; needs && k < load->set->nfacet; k++) used[load->set->facet[k]] = 1;
     }
-    PG_TRY (pg_facet_points (&q, &p->cells, p->approx.order + 1));
+    PG_TRY (pg_facet_points (&q, &p->cells, quadrature_order (p)));
     for (size_t k = 0; k < q.n; k++) {
         if (!used[q.cell[k]]) continue;
         memmove (q.x + keep * dim, q.x + k * dim, dim * sizeof *q.x);

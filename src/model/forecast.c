@@ -70,7 +70,7 @@ const char *pg_forecast_item (int item)
 void pg_forecast_sum (pg_forecast *f)
 {
     double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->points, all = f->bonds[0] + f->bonds[1] + f->bonds[2], rows = n + f->evaluation + f->facets;
-    double bulk = f->nodal ? f->bonds[PG_NODES] : f->bonds[PG_POINTS], corners = pow (2, d), *b = f->bytes;
+    double bulk = f->nodal ? f->bonds[PG_NODES] : f->summed > 0 ? f->summed : f->bonds[PG_POINTS], corners = pow (2, d), *b = f->bytes;
     choose_linear (f);
     int factors = strcmp (f->linear, "cg") != 0, lu = strcmp (f->linear, "umfpack") == 0;
     f->dofs = n * d;
@@ -79,6 +79,7 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->cells * 8 * d * corners;                    /* pg_cloud, pg_cells             */
     b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows                        */
     b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;                  /* galerkin      */
+    b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;                                        /* pg_consistency                 */
     b[PG_BYTES_BREAKING] = (2 + 17 + factors) * all;                                       /* states; breaker; factored      */
     b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
     b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
@@ -133,6 +134,7 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
     f->evaluation = (double) p->rows[PG_POINTS].n, f->facets = (double) p->rows[PG_FACETS].n;
     for (int s = 0; s < PG_BOND_SETS; s++) f->bonds[s] = (double) (p->first_bond[s + 1] - p->first_bond[s]);
     f->pairs = shared * f->points;
+    f->summed = p->consistency ? (double) (p->consistency->family.start[p->consistency->family.n] + p->consistency->face.family.start[p->consistency->face.n]) : 0;
     f->horizon = p->approx.horizon, f->spacing = p->cloud.h;
     f->counted = 1;
     forecast_factor (f);
@@ -156,7 +158,7 @@ pg_forecast pg_forecast_at (const pg_forecast *f, double spacing)
     pg_forecast g = *f;
     double finer = f->spacing / spacing, more = pow (finer, f->dim), entries, flops, known = f->factor_entries, known_flops = f->factor_flops;
     g.spacing = spacing;
-    g.points *= more, g.cells *= more, g.evaluation *= more, g.pairs *= more;
+    g.points *= more, g.cells *= more, g.evaluation *= more, g.pairs *= more, g.summed *= more;
     g.facets *= more / finer, g.slaves *= more / finer, g.eliminated *= more * more / (finer * finer);
     g.bonds[PG_NODES] *= more, g.bonds[PG_POINTS] *= more, g.bonds[PG_FACETS] *= more / finer;
     for (int k = 0; k < f->dim; k++) g.step[k] /= finer, g.edge[k] *= finer;

@@ -65,10 +65,28 @@ static void read_method (pg_forecast *f, const pg_scene *scene)
 {
     const pg_integration_type *integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
     f->nodal = integration && integration->at_nodes;
+    f->summed = integration && integration->consistent;  /* until bonds are counted                                        */
     f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
-    f->fields = (double) pg_scene_count (scene, "output.fields");
+    f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients                                   */
     f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
     read_solver (f, scene);
+}
+
+static double lattice_step (const pg_lattice *l)
+{
+    double cell = 1;
+    for (int k = 0; k < l->dim; k++) cell *= l->step[k];
+    return l->dim == 1 ? cell : l->dim == 2 ? sqrt (cell) : cbrt (cell);
+}
+
+/* Consistent integration: a cell's points see what any of them, or of its faces, sees: about half a spacing further. Faces: as many points
+ * again as there are in the cell. */
+static void widen (pg_forecast *f, double reach)
+{
+    double wider = pow ((reach + 0.5) / reach, f->dim);
+    if (!(f->summed > 0)) return;
+    f->summed = f->bonds[PG_POINTS] * (wider + 1);
+    f->pairs *= pow ((reach + 0.25) / reach, f->dim);
 }
 
 /* Counts of the lattice at hand, times `finer` per axis. */
@@ -79,19 +97,13 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
     f->points = t->points * more, f->cells = t->cells * more, f->evaluation = t->evaluation * more, f->pairs = t->pairs * more;
     f->bonds[PG_NODES] = t->node_bonds * more, f->bonds[PG_POINTS] = t->point_bonds * more;
     f->facets = facets * per;
+    widen (f, how->approx->horizon / lattice_step (l));
     f->bonds[PG_FACETS] = f->facets * 0.6 * t->node_bonds / t->points;
     f->width = 0.93 * radius_of (f->dim, t->coupled);
     f->counted = !t->sampled && finer == 1;
     for (int k = 0; k < 3; k++) f->edge[k] = k < f->dim ? l->count[k] + !how->centred : 1, sites *= f->edge[k];
     double fill = pow (t->points / sites, 1.0 / f->dim);       /* a body that fills its box by half is a smaller box     */
     for (int k = 0; k < f->dim; k++) f->edge[k] *= fill * finer;
-}
-
-static double lattice_step (const pg_lattice *l)
-{
-    double cell = 1;
-    for (int k = 0; k < l->dim; k++) cell *= l->step[k];
-    return l->dim == 1 ? cell : l->dim == 2 ? sqrt (cell) : cbrt (cell);
 }
 
 static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_body *body)
@@ -121,23 +133,52 @@ done:
     return status;
 }
 
-/* Points of a file: their families are searched for as they are, on a sample of centres; what they share is about a ball of 1.6 horizons. */
+/* Elements, their points, and faces with theirs; bonds of these see as many nodes as a node. */
+static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg_mesh_body *part, const pg_approx *a)
+{
+    pg_status status = PG_OK;
+    const pg_mesh *m = &part->mesh;
+    double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS], count[PG_ELEMENTS], facets = 0, all = 0, each = f->bonds[PG_NODES] / f->points;
+    int usual = a->order + 1 + 2 * pg_mesh_body_halved (part), order = usual;
+    if (pg_scene_given (scene, "method.gauss_points")) order = (int) pg_scene_integer (scene, "method.gauss_points");
+    size_t n = 0;
+    int *element = NULL, *side = NULL, node[9];
+    for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, order, xi, w);
+    f->cells = (double) m->n, f->evaluation = 0;
+    for (size_t e = 0; e < m->n && !f->nodal; e++) f->evaluation += count[m->kind[e]];
+    f->bonds[PG_POINTS] = f->evaluation * each;
+    PG_TRY (pg_mesh_surface (m, &n, &element, &side));
+    for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, usual, xi, w);
+    for (size_t k = 0; k < n; k++) all += count[pg_element_face ((pg_element) m->kind[element[k]], side[k], node)];
+    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);      /* a side each      */
+    f->facets = fmin (facets, all), f->bonds[PG_FACETS] = f->facets * 0.6 * each;
+done:
+    pg_free (element), pg_free (side);
+    return status;
+}
+
+/* Points of a file or a mesh: their families are searched for as they are, on a sample of centres; what they share is about a ball of 1.6 horizons. */
 static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_body *body)
 {
     pg_status status = PG_OK;
     pg_lattice l = { 0 };
     pg_cloud c = { 0 };
     pg_family near = { 0 }, far = { 0 };
+    pg_mesh_body part = { 0 };
     pg_approx a;
     double *centre = NULL;
-    PG_TRY (pg_cloud_build (&c, &l, body, scene));
+    if (pg_scene_given (scene, "mesh")) {
+        PG_TRY (pg_mesh_body_read (&part, scene));
+        PG_TRY (pg_mesh_body_cloud (&c, &part, scene));
+    } else PG_TRY (pg_cloud_build (&c, &l, body, scene));
     PG_TRY (pg_approx_read (&a, scene, c.h));
     size_t stride = c.n / 20000 + 1, n = 0, dim = (size_t) c.dim;
     PG_ALLOC (centre, (c.n / stride + 1) * dim);
     for (size_t i = 0; i < c.n; i += stride) memcpy (centre + n++ * dim, c.x + i * dim, dim * sizeof *centre);
     PG_TRY (pg_family_build (&near, &c, n, centre, a.horizon, a.shape, a.kernel->closed));
     PG_TRY (pg_family_build (&far, &c, n / 8 + 1, centre, 1.6 * a.horizon, a.shape, a.kernel->closed));
-    f->spacing = c.h, f->horizon = a.horizon, f->points = (double) c.n, f->nodal = 1;
+    f->spacing = c.h, f->horizon = a.horizon, f->points = (double) c.n;
+    if (!part.mesh.n) f->nodal = 1;
     f->bonds[PG_NODES] = (double) near.start[n] / (double) n * f->points;
     double coupled = (double) far.start[far.n] / (double) far.n, side = 1;
     f->pairs = 0.5 * f->points * (coupled + 1);
@@ -145,7 +186,9 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
     for (int k = 0; k < 3; k++) f->step[k] = c.h, f->edge[k] = k < f->dim ? (c.high[k] - c.low[k]) / c.h + 1 : 1, side *= f->edge[k];
     for (int k = 0; k < f->dim; k++) f->edge[k] *= pow (f->points / side, 1.0 / f->dim);
     f->counted = stride == 1;
+    if (part.mesh.n) PG_TRY (count_elements (f, scene, &part, &a));
 done:
+    pg_mesh_body_clear (&part);
     pg_free (centre);
     pg_family_clear (&near), pg_family_clear (&far);
     pg_cloud_clear (&c), pg_lattice_clear (&l);
@@ -162,7 +205,7 @@ pg_status pg_forecast_scene (pg_forecast *out, const pg_scene *scene)
     PG_TRY (pg_body_read (&body, scene));
     PG_TRY (pg_scene_verdict (scene));
     read_method (out, scene);
-    if (pg_scene_given (scene, "points")) PG_TRY (count_file (out, scene, &body));
+    if (pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh")) PG_TRY (count_file (out, scene, &body));
     else PG_TRY (count_lattice (out, scene, &body));
     PG_TRY (pg_scene_verdict (scene));
     forecast_factor (out);

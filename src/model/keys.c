@@ -14,7 +14,8 @@ static const pg_key keys[] = {
     { "method.force", PG_NAME, NULL, NULL, "galerkin", "galerkin", NULL, NULL, "How bonds make forces: galerkin assembles a global stiffness matrix." },
     { "method.integration", PG_NAME, NULL, NULL, "gauss", NULL, pg_integration_names, NULL, "Where the weak form is evaluated." },
     { "method.gauss_points", PG_INTEGER, NULL, "[1, 5]", "", NULL, NULL, NULL,
-      "Gauss points per direction of a background cell; default 2 for the linear basis, 3 for the quadratic one (with 2 it converges slowly)." },
+      "Gauss points per direction of a background cell; default 2 for the linear basis, 3 for the quadratic one (with 2 it converges slowly); "
+      "2 more in a mesh with points in the middle of edges. Triangles and tetrahedra take the rule of the same degree." },
     { "method.stabilization", PG_NAME, NULL, NULL, "auto", "auto|none|silling", NULL, NULL,
       "Against zero-energy modes of nodal integration; auto: silling for nosb with nodal integration, else none." },
     { "method.stabilization_factor", PG_NUMBER, "1", "(0, inf)", "0.1", NULL, NULL, NULL, "Strength Gs of the stabilisation, 0.05 to 1." },
@@ -27,7 +28,7 @@ static const pg_key keys[] = {
     { "blocks[].material", PG_NAME, NULL, NULL, NULL, "materials.{}", NULL, NULL, "One of materials." },
     { "blocks[].where", PG_EXPRESSION, "bool", NULL, "", no_choice, NULL, "claim:one",
       "Where this condition in x, y, z, r, angle holds: at nodes and at integration points, each for itself." },
-    { "blocks[].block", PG_INTEGER, NULL, "[0, inf)", "", NULL, NULL, "claim:one", "Points of this block number of the points' file." },
+    { "blocks[].block", PG_TEXT, NULL, NULL, "", no_choice, NULL, "claim:one", "Points of this block number of the points' file; of a mesh: of this block, by name or number." },
     { "boundary", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "Loads and supports." },
     { "boundary[].name", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL, "Name in history.csv; default: the set's name." },
     { "boundary[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all", NULL, NULL, "Where it acts: a set, a part of one (platens.top), or left, right, bottom, top, back, front, all." },

@@ -34,9 +34,13 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_body_read (&p->body, scene));
     PG_TRY (pg_cracks_read (&p->cracks, scene));
     PG_TRY (pg_scene_verdict (scene));
-    PG_TRY (pg_cloud_build (&p->cloud, &p->lattice, &p->body, scene));
+    if (pg_scene_given (scene, "mesh")) {
+        PG_TRY (pg_mesh_body_read (&p->part, scene));
+        PG_TRY (pg_mesh_body_cloud (&p->cloud, &p->part, scene));
+    } else PG_TRY (pg_cloud_build (&p->cloud, &p->lattice, &p->body, scene));
     PG_TRY (pg_scene_verdict (scene));
-    if (p->lattice.dim) PG_TRY (pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness));
+    if (p->part.mesh.n) PG_TRY (pg_cells_from_mesh (&p->cells, &p->part, p->cloud.thickness));
+    else if (p->lattice.dim) PG_TRY (pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness));
     else p->cells.dim = p->dim;
     PG_TRY (pg_sets_build (&p->sets, scene, &p->body, &p->lattice, &p->cloud, &p->cells));
 done:
@@ -148,6 +152,7 @@ void pg_problem_free (pg_problem **problem)
     pg_problem *p = *problem;
     if (!p) return;
     for (int s = 0; s < PG_BOND_SETS; s++) pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]);
+    pg_consistency_free (&p->consistency);
     pg_loads_clear (p);
     pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->material), pg_free (p->criterion);
     pg_sets_clear (&p->sets);
@@ -155,6 +160,7 @@ void pg_problem_free (pg_problem **problem)
     pg_cloud_clear (&p->cloud);
     pg_lattice_clear (&p->lattice);
     pg_cracks_clear (&p->cracks);
+    pg_mesh_body_clear (&p->part);
     pg_body_clear (&p->body);
     pg_free (p);
     *problem = NULL;

@@ -16,6 +16,13 @@ void pg_range_widen (double *low, double *high)
     else *low = middle - 0.1 * size, *high = middle + 0.1 * size;
 }
 
+void pg_range_decades (double *low, double *high)
+{
+    if (!(*high > 0)) *high = 1;
+    if (!(*low >= 1e-6 * *high)) *low = 1e-6 * *high;
+    if (!(*low < 0.999 * *high)) *low = 0.1 * *high;
+}
+
 int pg_range_of (size_t n, const double *value, int log, double *low, double *high)
 {
     int found = 0;

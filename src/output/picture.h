@@ -46,6 +46,7 @@ void   pg_axis_draw (const pg_axis *a, cairo_t *cr, double x, double y, double w
 /* Smallest and largest finite value, widened when they are equal; positive values only for log. 0: there was none. */
 int    pg_range_of  (size_t n, const double *value, int log, double *low, double *high);
 void   pg_range_widen (double *low, double *high);
+void   pg_range_decades (double *low, double *high);                          /* six at most, of positive values          */
 
 /* ---- colour.c -------------------------------------------------------------------------------------------------------- */
 typedef void (*pg_colour_map) (double t, double rgb[3]);                     /* t in [0, 1], clamped                       */
@@ -59,6 +60,7 @@ typedef struct {
     size_t  n;
     double *place;                                     /* pixels from the left and the top (n x 2)                       */
     double  size[2], reach;                            /* cell, pixels; gaps up to (reach - 1) / 2 cells close          */
+    double *spacing;                                   /* of each spot, pixels: no lattice (n); NULL: cells             */
 } pg_spots;
 /* owner (width x height): index of the spot that covers the pixel's centre, -1 for none. */
 pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner);
@@ -72,6 +74,8 @@ typedef struct {
 } pg_grid;
 pg_status pg_grid_build (pg_grid *g, const pg_cloud *cloud);
 void      pg_grid_clear (pg_grid *g);
+/* 2D points that lie on no lattice (also when moved a little): spacing about each, m (n, pg_free); NULL for a lattice. */
+pg_status pg_loose_spacing (const pg_cloud *cloud, double **spacing);
 int       pg_grid_place (const pg_grid *g, int axis, double x);              /* index along an axis, may be outside        */
 int       pg_grid_point (const pg_grid *g, const int *cell);                 /* -1 outside and where there is none         */
 
@@ -93,10 +97,16 @@ typedef struct {
     double  left, top, scale;                          /* m at the upper left corner; pixels per m                       */
     int    *owner;                                     /* point, or one of the following (width x height)                */
     float  *shade, *depth;                             /* brightness, 1 full; depth towards the eye, m                   */
+    double *value;                                     /* of pixels, where triangles carry values, or NULL               */
 } pg_screen;
 enum { PG_EMPTY = -1, PG_GHOST = -2, PG_EDGE = -3 };   /* nothing; the body behind a choice of points; its outline       */
 pg_status pg_screen_open (pg_screen *s, int width, int height);
 void      pg_screen_close (pg_screen *s);
+/* v: pixels across and down, depth; value: at the corners, or NULL. Fills pixels whose centre lies inside or on an edge, nearest in front. */
+void      pg_triangle (pg_screen *s, const double v[3][3], int owner, float shade, const double *value);
+float     pg_light_on (const pg_eye *eye, const double *normal);             /* brightness of a face                       */
+/* Does the body end at this pixel, or step back by more than `jump`? */
+int       pg_on_outline (const pg_screen *s, int i, int j, double jump);
 
 /* ---- picture_solid.c: cubes around points, hidden faces hidden ---------------------------------------------------------------- */
 typedef struct {
@@ -123,7 +133,12 @@ typedef struct {
     pg_axis x, y, bar;
     int     beyond[2];                                 /* values below, above the colour bar: it ends in arrows          */
     pg_colour_map colour;
+    int     bare;                                      /* lengths have no unit                                           */
+    size_t  nlegend;                                   /* names with their colours instead of the colour bar; value k is name k */
+    const char *const *legend;
 } pg_plate;
+enum { PG_CATEGORIES = 1023 };
+
 const char *pg_plate_unit (const pg_plate *p);
 void pg_plate_fit  (pg_plate *p, const pg_picture_style *style, double low, double high);    /* low, high: of the colours  */
 void pg_plate_to   (const pg_plate *p, size_t panel, double a, double b, double *px, double *py);

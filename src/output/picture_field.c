@@ -19,6 +19,7 @@ typedef struct {
     double *own;                                       /* coloured by depth: coordinate in the picture's unit            */
     int    *index, layer;                              /* of a spot's point; of the section                              */
     pg_spots spots;
+    double *spacing;                                   /* of the points of a 2D cloud that is no lattice, m, or NULL   */
     char    label[32];
 } drawing;
 
@@ -179,7 +180,10 @@ static pg_status range_of_panels (const drawing *d, double *low, double *high)
     PG_ALLOC (shown, d->cloud->n);
     *low = 0, *high = 1;
     for (size_t k = 0; k < d->n; k++) {
-        for (size_t i = 0; i < d->cloud->n; i++) shown[i] = d->seen[i] && (d->own || above (d, k, i)) ? value_of (d, k)[i] : NAN;
+        for (size_t i = 0; i < d->cloud->n; i++) {
+            double v = value_of (d, k)[i];
+            shown[i] = !d->seen[i] || !(d->own || above (d, k, i)) ? NAN : !d->style->log ? v : v != 0 ? fabs (v) : NAN;
+        }
         PG_TRY (pg_picture_range (d->cloud->n, shown, d->style->clip && !d->own ? 2 : 0, &from, &to, &found));
         if (found) *low = any ? fmin (*low, from) : from, *high = any ? fmax (*high, to) : to;
         any |= found;
@@ -193,11 +197,12 @@ static pg_status choose_colours (drawing *d, double *low, double *high)
 {
     pg_status status = PG_OK;
     const pg_picture_style *style = d->style;
-    d->plate.colour = style->diverging ? pg_colour_diverging : pg_colour_sequential;
+    d->plate.colour = style->diverging && !style->log ? pg_colour_diverging : pg_colour_sequential;
     *low = style->low, *high = style->high;
     if (*low < *high && !d->own) return PG_OK;
     PG_TRY (range_of_panels (d, low, high));
-    if (!style->diverging || d->own) goto done;
+    if (style->log) pg_range_decades (low, high);
+    if (!style->diverging || style->log || d->own) goto done;
     double top = fmax (fabs (*low), fabs (*high));
     if (!(top > 0)) top = 1;
     *low = -top, *high = top;
@@ -209,11 +214,12 @@ done:
 static void choose_arrows (drawing *d)
 {
     const pg_axis *bar = &d->plate.bar;
-    double slack = 1e-9 * (bar->high - bar->low);
+    double slack = 1e-9 * (bar->log ? bar->low : bar->high - bar->low);
     for (size_t k = 0; k < d->n; k++)
         for (size_t i = 0; i < d->cloud->n; i++) {
             double v = value_of (d, k)[i];
             if (!isfinite (v) || !d->seen[i] || !above (d, k, i)) continue;
+            if (bar->log) v = v != 0 ? fabs (v) : bar->low;
             d->plate.beyond[0] |= v < bar->low - slack, d->plate.beyond[1] |= v > bar->high + slack;
         }
 }
@@ -237,6 +243,7 @@ static pg_status paint_spots (drawing *d, size_t panel, pg_screen *s)
             d->spots.place[2 * k + (size_t) a] = a ? (s->top - place) * s->scale : (place - s->left) * s->scale;
         }
         d->index[k] = (int) i;
+        if (d->spacing) d->spots.spacing[k] = d->spacing[i] * s->scale;
     }
     for (int a = 0; a < 2; a++) {
         double half = half_cell (d, a ? e->up : e->right);
@@ -294,6 +301,7 @@ static pg_status draw_sheet (drawing *d, const char *path)
     choose_arrows (d);
     PG_ALLOC (d->spots.place, 2 * d->cloud->n);
     PG_ALLOC (d->index, d->cloud->n);
+    if (d->spacing) PG_ALLOC (d->spots.spacing, d->cloud->n);
     PG_TRY (pg_canvas_open (&canvas, path, d->plate.total[0], d->plate.total[1]));
     for (size_t k = 0; k < d->n; k++) PG_TRY (paint_panel (d, canvas.cr, k, canvas.svg || !d->plate.eye.framed ? 2 : 1));
     pg_plate_draw (&d->plate, canvas.cr, d->cloud, &d->grid, &style);
@@ -346,6 +354,7 @@ pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, 
     for (size_t k = 0; k < n; k++) d->plate.titles |= panel[k].title && panel[k].title[0];
     PG_TRY (pg_eye_open (&d->plate.eye, cloud, style));
     if (cloud->dim == 3) PG_TRY (pg_grid_build (&d->grid, cloud));
+    else PG_TRY (pg_loose_spacing (cloud, &d->spacing));
     PG_TRY (choose_points (d));
     PG_TRY (choose_frame (d));
     PG_TRY (draw_sheet (d, path));
@@ -353,6 +362,7 @@ done:
     if (d) {
         pg_grid_clear (&d->grid);
         pg_free (d->seen), pg_free (d->keep), pg_free (d->own), pg_free (d->index), pg_free (d->spots.place);
+        pg_free (d->spots.spacing), pg_free (d->spacing);
     }
     pg_free (d);
     return status;

@@ -2,6 +2,7 @@
  * The points of a 3D cloud as cells of the lattice they came from, found from places, steps and volumes alone. */
 #include "picture.h"
 #include <math.h>
+#include <stdlib.h>
 
 /* Edges of a cell, and how many fit between the first and the last point. 0: too many to keep as a lattice. */
 static int measure (pg_grid *g, const pg_cloud *cloud)
@@ -84,4 +85,45 @@ void pg_grid_clear (pg_grid *g)
 {
     pg_free (g->at);
     *g = (pg_grid) { 0 };
+}
+
+/* ---- 2D ------------------------------------------------------------------------------------------------------------------------- */
+static int ascending (const void *a, const void *b)
+{
+    double p = *(const double *) a, q = *(const double *) b;
+    return (p > q) - (p < q);
+}
+
+/* Along an axis: do the phases of the points spread over a step, and are most coordinates of their own? (Lattices moved a little keep their
+ * phase, those with another step than the nominal one have few coordinates.) work: n */
+static int spreads (const pg_cloud *cloud, int axis, double *work)
+{
+    double step = cloud->step[axis] > 0 ? cloud->step[axis] : cloud->h, c = 0, s = 0;
+    size_t own = 1, n = cloud->n;
+    if (!(step > 0)) return 0;
+    for (size_t i = 0; i < n; i++) {
+        work[i] = cloud->x[2 * i + (size_t) axis];
+        c += cos (6.283185307179586 * work[i] / step), s += sin (6.283185307179586 * work[i] / step);
+    }
+    qsort (work, n, sizeof *work, ascending);
+    for (size_t i = 1; i < n; i++) own += work[i] - work[i - 1] > 1e-6 * step;
+    return hypot (c, s) < 0.3 * (double) n && 3 * own > n;
+}
+
+pg_status pg_loose_spacing (const pg_cloud *cloud, double **spacing)
+{
+    pg_status status = PG_OK;
+    double *sorted = NULL;
+    *spacing = NULL;
+    if (cloud->dim != 2 || cloud->n < 16) return PG_OK;
+    PG_ALLOC (sorted, cloud->n);
+    if (!spreads (cloud, 0, sorted) || !spreads (cloud, 1, sorted)) goto done;
+    PG_ALLOC (*spacing, cloud->n);
+    for (size_t i = 0; i < cloud->n; i++) sorted[i] = cloud->volume ? cloud->volume[i] : 1;
+    qsort (sorted, cloud->n, sizeof *sorted, ascending);
+    double middle = sorted[cloud->n / 2];
+    for (size_t i = 0; i < cloud->n; i++) (*spacing)[i] = cloud->h * sqrt (cloud->volume && middle > 0 ? cloud->volume[i] / middle : 1);
+done:
+    pg_free (sorted);
+    return status;
 }

@@ -10,7 +10,7 @@ enum { WIDE = 1120, BROAD = 900, TALL = 1000, SHARED = 1440, LEAST_FRAME = 340, 
 
 const char *pg_plate_unit (const pg_plate *p)
 {
-    return p->unit > 1 ? "km" : p->unit == 1 ? "m" : p->unit == 1e-3 ? "mm" : p->unit == 1e-6 ? "\xc2\xb5m" : "nm";
+    return p->bare ? "" : p->unit > 1 ? "km" : p->unit == 1 ? "m" : p->unit == 1e-3 ? "mm" : p->unit == 1e-6 ? "\xc2\xb5m" : "nm";
 }
 
 static double most_of (double share, int parts)
@@ -26,7 +26,7 @@ static void size_frame (pg_plate *p)
     if (p->columns < 1) p->columns = n < 2 || (w > 2.2 * h && n < 6) ? 1 : n < 5 ? 2 : n < 10 ? 3 : 4;
     if (p->columns > n) p->columns = n;
     p->rows = (n + p->columns - 1) / p->columns;
-    p->flat = n == 1 && w > 2.2 * h && p->eye.framed;
+    p->flat = n == 1 && w > 2.2 * h && p->eye.framed && !p->nlegend;
     double broad = p->columns > 1 ? most_of (SHARED, p->columns) : w > 2.2 * h ? WIDE : BROAD;
     double scale = fmin (broad / w, (p->rows > 1 ? most_of (SHARED, p->rows) : TALL) / h);
     p->width = ceil (fmax (w * scale, 0.15 * broad)), p->height = ceil (fmax (h * scale, 60));
@@ -40,16 +40,24 @@ static void fit_axis (const pg_plate *p, pg_axis *axis, cairo_t *cr, int a)
 {
     char text[32];
     int k = p->eye.axis[a], reverse = k >= 0 && p->eye.sign[a] < 0;
-    snprintf (text, sizeof text, "%c (%s)", k < 0 ? (a ? 't' : 's') : "xyz"[k], pg_plate_unit (p));
+    snprintf (text, sizeof text, p->bare ? "%c" : "%c (%s)", k < 0 ? (a ? 't' : 's') : "xyz"[k], pg_plate_unit (p));
     double low = (reverse ? -p->high[a] : p->low[a]) / p->unit, high = (reverse ? -p->low[a] : p->high[a]) / p->unit;
     pg_axis_wish wish = { text, a ? PG_LEFT : PG_BOTTOM, 0, 0, 1 };
     pg_axis_fit (axis, cr, low, high, a ? p->height : p->width, &wish);
     axis->reverse = reverse;
 }
 
+/* Pixels beside the bar, or of the names of the legend. */
+static double room_of_bar (const pg_plate *p, cairo_t *cr)
+{
+    double w = 0;
+    for (size_t k = 0; k < p->nlegend; k++) w = fmax (w, pg_text (cr, p->legend[k], PG_FONT, 0, 0, 0, 0, 0));
+    return p->nlegend ? ceil (w) + 24 : pg_axis_room (&p->bar, cr);
+}
+
 static void place_parts (pg_plate *p, cairo_t *cr, const pg_picture_style *style)
 {
-    double bar = pg_axis_room (&p->bar, cr), beside = p->eye.framed ? ceil (pg_axis_room (&p->y, cr)) + 6 : SIDE;
+    double bar = room_of_bar (p, cr), beside = p->eye.framed ? ceil (pg_axis_room (&p->y, cr)) + 6 : SIDE;
     double below = p->eye.framed ? pg_axis_room (&p->x, cr) : STRIP, above = p->titles ? PANEL_TITLE : 0;
     p->left = beside, p->top = (style->title && style->title[0] ? TITLE : SIDE) + above;
     p->pitch[0] = p->width + GAP, p->pitch[1] = p->height + GAP + above;
@@ -69,9 +77,10 @@ void pg_plate_fit (pg_plate *p, const pg_picture_style *style, double low, doubl
     size_frame (p);
     fit_axis (p, &p->x, cr, 0);
     fit_axis (p, &p->y, cr, 1);
-    pg_axis_wish wish = { style->label ? style->label : "", p->flat ? PG_BOTTOM : PG_RIGHT, 0, 0, 0 };
+    pg_axis_wish wish = { style->label ? style->label : "", p->flat ? PG_BOTTOM : PG_RIGHT, style->log, 0, 0 };
     double h = p->height + (p->rows - 1) * (p->height + GAP + (p->titles ? PANEL_TITLE : 0));
     pg_axis_fit (&p->bar, cr, low, high, p->flat ? p->width : h, &wish);
+    if (p->nlegend) p->bar.low = 0, p->bar.high = PG_CATEGORIES, p->bar.log = 0;
     place_parts (p, cr, style);
     cairo_destroy (cr);
     cairo_surface_destroy (scratch);
@@ -140,13 +149,29 @@ static void draw_bar (const pg_plate *p, cairo_t *cr)
     pg_axis_draw (&p->bar, cr, x, y, w, h);
 }
 
+static void draw_legend (const pg_plate *p, cairo_t *cr)
+{
+    double x = p->bar_at[0], y = p->bar_at[1], rgb[3];
+    for (size_t k = 0; k < p->nlegend; k++, y += 1.6 * PG_FONT) {
+        p->colour ((double) k / PG_CATEGORIES, rgb);
+        cairo_rectangle (cr, x + 0.5, floor (y) + 0.5, BAR, 0.9 * PG_FONT);
+        cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
+        cairo_fill_preserve (cr);
+        cairo_set_source_rgb (cr, 0.25, 0.25, 0.25);
+        cairo_set_line_width (cr, 1.5);
+        cairo_stroke (cr);
+        cairo_set_source_rgb (cr, 0, 0, 0);
+        pg_text (cr, p->legend[k], PG_FONT, x + BAR + 12, y + 0.45 * PG_FONT, 0, 0, 1);
+    }
+}
+
 /* Below a picture without axes: the triad and the size of the body. */
 static void draw_strip (const pg_plate *p, cairo_t *cr, const pg_grid *g)
 {
     char text[160];
     double room = p->total[0] - 2 * SIDE - 130, size = PG_FONT, y = p->total[1] - 0.5 * STRIP - 4;
-    snprintf (text, sizeof text, "%.4g \xc3\x97 %.4g \xc3\x97 %.4g %s (x \xc3\x97 y \xc3\x97 z)", (g->high[0] - g->low[0]) / p->unit,
-              (g->high[1] - g->low[1]) / p->unit, (g->high[2] - g->low[2]) / p->unit, pg_plate_unit (p));
+    snprintf (text, sizeof text, "%.4g \xc3\x97 %.4g \xc3\x97 %.4g %s%s(x \xc3\x97 y \xc3\x97 z)", (g->high[0] - g->low[0]) / p->unit,
+              (g->high[1] - g->low[1]) / p->unit, (g->high[2] - g->low[2]) / p->unit, pg_plate_unit (p), p->bare ? "" : " ");
     double w = pg_text (cr, text, size, 0, 0, 0, 0, 0);
     if (w > room) size *= room / w;
     pg_wire_triad (p, cr, SIDE + 52, y + 10, 42);
@@ -157,7 +182,8 @@ static void draw_strip (const pg_plate *p, cairo_t *cr, const pg_grid *g)
 void pg_plate_draw (const pg_plate *p, cairo_t *cr, const pg_cloud *cloud, const pg_grid *grid, const pg_picture_style *style)
 {
     double w = p->width + (p->columns - 1) * p->pitch[0];
-    draw_bar (p, cr);
+    if (p->nlegend) draw_legend (p, cr);
+    else draw_bar (p, cr);
     if (!p->eye.framed && cloud->dim == 3) draw_strip (p, cr, grid);
     cairo_set_source_rgb (cr, 0, 0, 0);
     if (style->title) pg_title (cr, style->title, p->left + 0.5 * w, p->top - (p->titles ? PANEL_TITLE : 0) - 36, p->total[0]);
@@ -187,8 +213,8 @@ static uint32_t pixel_of (const pg_plate *p, const pg_screen *s, size_t at, cons
     if (k == PG_GHOST) for (int c = 0; c < 3; c++) rgb[c] = 0.96, shade = 0.55 + 0.45 * s->shade[at];
     else if (k == PG_EDGE) for (int c = 0; c < 3; c++) rgb[c] = 0.50, shade = 1;
     else {
-        double t = pg_axis_at (&p->bar, value[k]);
-        if (isfinite (t)) p->colour (lround (1023 * fmin (fmax (t, 0), 1)) / 1023.0, rgb);
+        double t = pg_axis_at (&p->bar, p->bar.log ? fmax (fabs (value[k]), p->bar.low) : value[k]);
+        if (isfinite (value[k]) && isfinite (t)) p->colour (lround (1023 * fmin (fmax (t, 0), 1)) / 1023.0, rgb);
     }
     uint32_t pixel = 0xff000000u;
     for (int c = 0; c < 3; c++) pixel |= (uint32_t) lround (255 * shade * rgb[c]) << (16 - 8 * c);

@@ -22,11 +22,11 @@ void pg_screen_close (pg_screen *s)
     pg_free (s->owner);
     pg_free (s->shade);
     pg_free (s->depth);
+    pg_free (s->value);
     *s = (pg_screen) { 0 };
 }
 
-/* v: pixels across and down, depth. Pixels whose centre lies inside or on an edge. */
-static void triangle (pg_screen *s, const double v[3][3], int owner, float shade)
+void pg_triangle (pg_screen *s, const double v[3][3], int owner, float shade, const double *value)
 {
     double area = (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
     if (!(fabs (area) > 1e-9)) return;
@@ -46,12 +46,14 @@ static void triangle (pg_screen *s, const double v[3][3], int owner, float shade
             if (w[0] < -1e-6 || w[1] < -1e-6 || w[2] < -1e-6) continue;
             float depth = (float) (w[0] * v[0][2] + w[1] * v[1][2] + w[2] * v[2][2]);
             size_t at = (size_t) j * (size_t) s->width + (size_t) i;
-            if (depth > s->depth[at]) s->depth[at] = depth, s->owner[at] = owner, s->shade[at] = shade;
+            if (!(depth > s->depth[at])) continue;
+            s->depth[at] = depth, s->owner[at] = owner, s->shade[at] = shade;
+            if (value) s->value[at] = w[0] * value[0] + w[1] * value[1] + w[2] * value[2];
         }
 }
 
 /* Light from above, slightly from the left, behind the eye; a face towards the eye of a side view is fully bright. */
-static float light_on (const pg_eye *e, const double *normal)
+float pg_light_on (const pg_eye *e, const double *normal)
 {
     double right = pg_along (e->right, normal, 3), up = pg_along (e->up, normal, 3), toward = pg_along (e->toward, normal, 3);
     if (e->framed) return toward > 0.5 ? 1 : 0.8f;
@@ -103,10 +105,10 @@ static void draw_face (const pg_solid *s, pg_screen *screen, int i, const int *c
         v[k][2] -= pg_along (s->eye->toward, normal, 3) < 0.1 ? 0.02 * s->grid->step[axis] : 0;     /* edge-on: behind its neighbours */
         if (!isfinite (v[k][0]) || !isfinite (v[k][1]) || !isfinite (v[k][2])) return;
     }
-    float shade = light_on (s->eye, normal);
+    float shade = pg_light_on (s->eye, normal);
     double second[3][3] = { { v[0][0], v[0][1], v[0][2] }, { v[2][0], v[2][1], v[2][2] }, { v[3][0], v[3][1], v[3][2] } };
-    triangle (screen, v, i, shade);
-    triangle (screen, second, i, shade);
+    pg_triangle (screen, v, i, shade, NULL);
+    pg_triangle (screen, second, i, shade, NULL);
 }
 
 void pg_solid_draw (const pg_solid *s, pg_screen *screen)
@@ -125,7 +127,7 @@ void pg_solid_draw (const pg_solid *s, pg_screen *screen)
 }
 
 /* An outline where the body ends or steps back by more than two cells. */
-static int on_outline (const pg_screen *s, int i, int j, double jump)
+int pg_on_outline (const pg_screen *s, int i, int j, double jump)
 {
     static const int beside[4][2] = { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 } };
     float depth = s->depth[(size_t) j * (size_t) s->width + (size_t) i];
@@ -149,7 +151,7 @@ pg_status pg_ghost_draw (const pg_solid *solid, pg_screen *screen)
         for (int i = 0; i < body.width; i++) {
             size_t p = (size_t) j * (size_t) body.width + (size_t) i;
             if (screen->owner[p] >= 0 || body.owner[p] < 0) continue;
-            screen->owner[p] = on_outline (&body, i, j, jump) ? PG_EDGE : PG_GHOST;
+            screen->owner[p] = pg_on_outline (&body, i, j, jump) ? PG_EDGE : PG_GHOST;
             screen->shade[p] = body.shade[p], screen->depth[p] = body.depth[p];
         }
 done:

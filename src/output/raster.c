@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * owner[pixel] = the spot whose cell covers the pixel's centre, the nearest where several do. Pixels in narrow gaps between cells
- * (moved points) go to the nearest spot if there are spots on opposite sides; the outline of the body does not grow. */
+ * (moved points) go to the nearest spot if there are spots on opposite sides; the outline of the body does not grow.
+ * Spots of no lattice have pixels nearest to them, as far as their neighbours. */
 #include "picture.h"
 #include <math.h>
 
@@ -43,6 +44,44 @@ static int enclosed (unsigned char seen)
     return (seen & (LEFT | RIGHT)) == (LEFT | RIGHT) || (seen & (ABOVE | BELOW)) == (ABOVE | BELOW) || seen >> 4 == ALL;
 }
 
+/* ---- spots without a lattice -------------------------------------------------------------------------------------------------- */
+/* Sectors of 45 degrees in which a pixel has spots within one and a half of their spacings. */
+static void stamp_near (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance, unsigned char *seen)
+{
+    const double *at = s->place + 2 * k, reach = 1.5 * s->spacing[k];
+    int x[2], y[2];
+    if (!isfinite (at[0]) || !isfinite (at[1])) return;
+    span (at[0], reach, width, &x[0], &x[1]);
+    span (at[1], reach, height, &y[0], &y[1]);
+    for (int j = y[0]; j < y[1]; j++)
+        for (int i = x[0]; i < x[1]; i++) {
+            size_t p = (size_t) j * (size_t) width + (size_t) i;
+            double dx = at[0] - i - 0.5, dy = at[1] - j - 0.5, r = hypot (dx, dy);
+            if (r > reach) continue;
+            int sector = dx >= 0 ? (dy >= 0 ? (dy < dx ? 0 : 1) : (-dy <= dx ? 7 : 6)) : (dy >= 0 ? (dy > -dx ? 2 : 3) : (-dy < -dx ? 4 : 5));
+            seen[p] |= (unsigned char) (1 << sector);
+            if (owner[p] < 0 || r < distance[p]) owner[p] = (int) k, distance[p] = (float) r;
+        }
+}
+
+/* Spots on about opposite sides: sectors three to five apart. */
+static int between (unsigned char seen)
+{
+    for (int k = 0; k < 8; k++)
+        for (int apart = 3; apart <= 5; apart++) if (seen >> k & 1 && seen >> (k + apart) % 8 & 1) return 1;
+    return 0;
+}
+
+/* Near its spot, or not far and between others: the outline grows by a quarter of a spacing. */
+static void keep_near (const pg_spots *s, size_t n, const unsigned char *seen, const float *distance, int *owner)
+{
+    for (size_t p = 0; p < n; p++) {
+        if (owner[p] < 0) continue;
+        double r = distance[p] / s->spacing[owner[p]];
+        if (!(r <= 0.25 || (r <= 1 && between (seen[p])))) owner[p] = -1;
+    }
+}
+
 pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner)
 {
     pg_status status = PG_OK;
@@ -52,8 +91,9 @@ pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner)
     PG_ALLOC (distance, n);
     PG_ALLOC (seen, n);
     for (size_t p = 0; p < n; p++) owner[p] = -1;
-    for (size_t k = 0; k < spots->n; k++) stamp (spots, k, width, height, owner, distance, seen);
-    for (size_t p = 0; p < n; p++) if (!enclosed (seen[p])) owner[p] = -1;
+    for (size_t k = 0; k < spots->n; k++) (spots->spacing ? stamp_near : stamp) (spots, k, width, height, owner, distance, seen);
+    if (spots->spacing) keep_near (spots, n, seen, distance, owner);
+    for (size_t p = 0; p < n && !spots->spacing; p++) if (!enclosed (seen[p])) owner[p] = -1;
 done:
     pg_free (seen);
     pg_free (distance);

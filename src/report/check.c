@@ -19,6 +19,7 @@ static void picture_names (int dim, char *out, size_t size)
         if (dim == 1) at += (size_t) snprintf (out + at, size - at, "|%s", tensor[f]);
         for (int k = 0; k < pg_voigt_size (dim); k++) at += (size_t) snprintf (out + at, size - at, "|%s.%s", tensor[f], result_voigt (dim, k));
     }
+    snprintf (out + at, size - at, "|error_estimate");
 }
 
 static int among (const char *names, const char *name)

@@ -55,6 +55,22 @@ static void run_block (pg_json *j, const pg_result *res, const pg_report *r, con
     pg_json_shut (j);
 }
 
+/* lower_bound: integrated at the nodes, recovery sees roughness only. */
+static void estimate_block (pg_json *j, const pg_result *res)
+{
+    const pg_estimate *e = pg_result_estimate (res);
+    if (!e) return;
+    pg_json_open (j, "error_estimate", '{');
+    pg_json_number (j, "relative", e->relative);
+    pg_json_number (j, "error", e->error);
+    pg_json_number (j, "norm", e->norm);
+    pg_json_text (j, "kind", res->problem->integration->at_nodes ? "lower bound" : "estimate");
+    pg_json_count (j, "points", e->points);
+    pg_json_count (j, "left_out", e->left_out);
+    pg_json_number (j, "seconds", e->seconds);
+    pg_json_shut (j);
+}
+
 /* One line; of several materials one each. */
 static void criteria (pg_json *j, const pg_problem *p)
 {
@@ -82,6 +98,7 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
     pg_json_text (j, "scene_sha256", res->hash);
     pg_json_text (j, "outcome", failure ? failure : "done");
     run_block (j, res, r, state);
+    estimate_block (j, res);
     seconds_block (j, r, search, res->seconds, total);
     if (res->measured) {
         pg_json_open (j, "error", '{');

@@ -3,7 +3,7 @@
 #include "perigal/scene.h"
 
 static const pg_key keys[] = {
-    { "output.fields", PG_NAMES, NULL, NULL, "[displacement, damage, stress]", "displacement|velocity|damage|stress|strain", NULL, NULL, "Fields of result.e." },
+    { "output.fields", PG_NAMES, NULL, NULL, "[displacement, damage, stress]", "displacement|velocity|damage|stress|strain|error_estimate", NULL, NULL, "Fields of result.e; error_estimate: of the stress, by recovery." },
     { "output.pictures", PG_NAMES, NULL, NULL, "[damage]", NULL, NULL, NULL, "Pictures of the last state: a field, or a part of one (displacement.y, stress.xx)." },
     { "output.views", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "More pictures of the last state, each with its own view, range or name: {field: damage, view: back}." },
     { "output.views[].field", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL, "A field, or a part of one, as in output.pictures; damage if not given." },
@@ -15,6 +15,7 @@ static const pg_key keys[] = {
     { "output.views[].range", PG_NUMBERS, NULL, NULL, "", NULL, NULL, NULL, "Two ends of the colour bar (SI); from the values if not given, damage 0 to 1." },
     { "output.views[].magnify", PG_NUMBER, "1", "[0, inf)", "", NULL, NULL, NULL, "As output.magnify, for this picture." },
     { "output.views[].name", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL, "Name of the file without .png; FIELD_VIEW if not given." },
+    { "output.estimate", PG_BOOL, NULL, NULL, "on", NULL, NULL, NULL, "Static runs: estimated error of the last stress in report.json (stress recovery; takes less time than one assembly)." },
     { "output.stages", PG_BOOL, NULL, NULL, "off", NULL, NULL, NULL, "All pictures also at every stage written to result.e, as stages/NAME_0007.png for its step 7." },
     { "output.magnify", PG_NUMBER, "1", "[0, inf)", "0", NULL, NULL, NULL, "Pictures show the body deformed by this multiple of the displacement." },
     { "output.at.events", PG_INTEGER, NULL, "[1, 1000000000]", "", NULL, NULL, NULL, "Fields are also written every so many events (static: event stepping)." },

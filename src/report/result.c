@@ -86,21 +86,27 @@ static pg_status read_wishes (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     const char *name;
+    int with_u = 0;
     r->magnify = pg_scene_number (scene, "output.magnify");
+    r->estimating = pg_scene_bool (scene, "output.estimate") && strcmp (pg_scene_text (scene, "solver.kind"), "static") == 0;
     r->interval = pg_scene_number (scene, "output.checkpoint");
     r->every = pg_scene_has (scene, "output.at.events") ? pg_scene_integer (scene, "output.at.events") : 0;
     r->broken_share = pg_scene_has (scene, "output.at.broken") ? pg_scene_number (scene, "output.at.broken") : 0;
     for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")) && r->nfield < MOST_FIELDS; k++) {
         pg_field_view *f = &r->field[r->nfield++];
         snprintf (f->name, sizeof f->name, "%s", name);
+        with_u |= strcmp (name, "displacement") == 0;
     }
+    /* shape functions that do not interpolate: the field between points is that of the coefficients                     */
+    if (with_u && r->nfield < MOST_FIELDS && strcmp (r->problem->approx.type->name, "nosb") != 0)
+        snprintf (r->field[r->nfield++].name, sizeof r->field[0].name, "coefficient");
     PG_TRY (result_views_read (r, scene));
     for (size_t k = 0; k < r->nfield; k++) {
         pg_field_view *f = &r->field[k];
-        int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0;
+        int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0 || strcmp (f->name, "coefficient") == 0;
         PG_ALLOC (r->value[k], 6 * r->problem->cloud.n);
-        f->components = strcmp (f->name, "damage") == 0 ? 1 : vector ? r->problem->dim : pg_voigt_size (r->problem->dim);
-        snprintf (f->unit, sizeof f->unit, "%s", strcmp (f->name, "stress") == 0 ? "Pa" : !vector ? "" : f->name[0] == 'd' ? "m" : "m/s");
+        f->components = strcmp (f->name, "damage") == 0 || strcmp (f->name, "error_estimate") == 0 ? 1 : vector ? r->problem->dim : pg_voigt_size (r->problem->dim);
+        snprintf (f->unit, sizeof f->unit, "%s", strcmp (f->name, "stress") == 0 || *f->name == 'e' ? "Pa" : !vector ? "" : f->name[0] == 'v' ? "m/s" : "m");
         f->value = r->value[k];
     }
 done:
@@ -244,6 +250,19 @@ done:
     return status;
 }
 
+/* A run does not fail for want of memory for this. */
+static pg_status estimate (pg_result *r, const pg_state *state)
+{
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    if (!r->estimating || !force->estimate) return PG_OK;
+    pg_status status = force->estimate (self, state->d, &r->estimate, NULL);
+    r->estimated = status == PG_OK;
+    return status == PG_E_MEMORY ? PG_OK : status;
+}
+
+const pg_estimate *pg_result_estimate (const pg_result *r) { return r->estimated ? &r->estimate : NULL; }
+
 pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *failure, double search, double total)
 {
     pg_status status = PG_OK;
@@ -252,6 +271,7 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     r->last_written = 1;
     PG_TRY (result_pictures (r, state));
     PG_TRY (result_errors (r, state));
+    if (!failure) PG_TRY (estimate (r, state));
 done:
     r->seconds += pg_seconds () - t0;
     pg_status written = result_json (r, state, failure, search, r->earlier + total);    /* the report comes also without pictures */

@@ -38,6 +38,8 @@ struct pg_result {
     size_t    npoint, cap_x, cap_y;
     double   *curve_x, *curve_y;
     int       curve_load, curve_component;
+    int       estimating, estimated;                   /* wanted; made                                                   */
+    pg_estimate estimate;
     double    seconds;
     double    stamp;                                   /* of the last step                                               */
     double    time;                                    /* of the last fields in result.e                                 */

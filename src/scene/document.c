@@ -71,12 +71,14 @@ done:
     return status;
 }
 
-pg_status pg_scene_parse (pg_scene **out, const char *text, const char *name)
+pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset, const char *const *set)
 {
     size_t n;
     const pg_key_table *table = pg_scene_tables (&n);
-    return pg_scene_read (out, text, strlen (text), name, 0, NULL, table, n);
+    return pg_scene_read (out, text, strlen (text), name, nset, set, table, n);
 }
+
+pg_status pg_scene_parse (pg_scene **out, const char *text, const char *name) { return pg_scene_parse_with (out, text, name, 0, NULL); }
 
 static pg_status read_file (char **text, size_t *length, const char *path)
 {

@@ -82,6 +82,7 @@ static void check_reference (pg_scene *s, const pg_node *node, const char *choic
     for (size_t k = 0; known && k < known->n && at < sizeof names - 70; k++)
         if (known->child[k].name) at += (size_t) snprintf (names + at, sizeof names - at, "|%s", known->child[k].name);
     if (is_choice (base, names)) return;
+    if (m == 4 && strncmp (map, "sets", 4) == 0 && pg_node_child (&s->root, "mesh", 4)) return;      /* its own sets: looked up once it is read */
     const char *near = pg_nearest_name (node->text, names);
     FAULT (node, "there is no %.*s of this name%s%s%s", (int) (m ? m - 1 : 0), map, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
 }

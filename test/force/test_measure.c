@@ -111,6 +111,13 @@ static void test_kept_measures_equal_fresh_ones_in_2d_at_nodes (void **unused)
     run_plan (&(plan) { "plane: strain\nthickness: 1 mm", "[0, 0]", "[8 mm, 10 mm]", stretch, "pddo", "nodal", "x: 0, y: 0", 2 });
 }
 
+static void test_kept_measures_equal_fresh_ones_with_consistent_derivatives (void **unused)
+{
+    (void) unused;
+    run_plan (&(plan) { "plane: stress\nthickness: 1 mm", "[0, 0]", "[8 mm, 10 mm]", stress, "rkpm", "consistent", "x: 0, y: 0", 2 });
+    run_plan (&(plan) { "", "[0, 0, 0]", "[3 mm, 5 mm, 3 mm]", stretch, "rkpm", "consistent", "x: 0, y: 0, z: 0", 3 });
+}
+
 static void test_kept_measures_equal_fresh_ones_in_3d (void **unused)
 {
     (void) unused;
@@ -122,6 +129,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (test_kept_measures_equal_fresh_ones_in_2d_with_gauss_points),
         cmocka_unit_test (test_kept_measures_equal_fresh_ones_in_2d_at_nodes),
+        cmocka_unit_test (test_kept_measures_equal_fresh_ones_with_consistent_derivatives),
         cmocka_unit_test (test_kept_measures_equal_fresh_ones_in_3d),
     };
     return cmocka_run_group_tests_name ("force/measure", tests, NULL, NULL);

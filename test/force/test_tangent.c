@@ -24,11 +24,13 @@ static const struct { const char *method; int transformation; } methods[] = {
     { "method: {approximation: rkpm, integration: gauss, essential: penalty}\n", 0 },
     { "method: {approximation: rkpm, integration: gauss, essential: transformation}\n", 1 },
     { "method: {approximation: rkpm, basis: quadratic, horizon: 3 spacing, integration: gauss, gauss_points: 3}\n", 0 },
+    { "method: {approximation: rkpm, integration: consistent}\n", 0 },
+    { "method: {approximation: rkpm, basis: quadratic, horizon: 2.6 spacing, integration: consistent}\n", 0 },
     { "method: {approximation: pddo, integration: nodal, horizon: 2.5 spacing}\n", 0 },
     { "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, kernel: constant}\n", 1 },
     { "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty, stabilization: silling}\n", 0 },
 };
-enum { BODIES = 3, METHODS = 7 };
+enum { BODIES = 3, METHODS = 9 };
 
 static run body_of (int body, int method) { return scene_of (1, "%s%s", bodies[body], methods[method].method); }
 

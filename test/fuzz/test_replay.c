@@ -14,6 +14,9 @@ static char replayed[300];
 #define LLVMFuzzerTestOneInput fuzz_expression
 #include "fuzz_expression.c"
 #undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_mesh
+#include "fuzz_mesh.c"
+#undef LLVMFuzzerTestOneInput
 #include <dirent.h>
 
 typedef int (*fuzzer) (const uint8_t *data, size_t size);
@@ -60,11 +63,13 @@ static void seeds_are_answered (void **state)
     assert_true (replay (fuzz_scene, "test/fuzz/seed_scene", "") > 3);
     assert_true (replay (fuzz_points, "test/fuzz/seed_points", "") > 2);
     assert_true (replay (fuzz_expression, "test/fuzz/seed_expression", "") > 8);
+    assert_true (replay (fuzz_mesh, "test/fuzz/seed_mesh", "") > 8);
 }
 
-static void points_and_expressions_that_were_found_are_answered (void **state)
+static void points_expressions_meshes_that_were_found_are_answered (void **state)
 {
     (void) state;
+    replay (fuzz_mesh, "test/fuzz/found", "mesh-");
     replay (fuzz_points, "test/fuzz/found", "points-");
     replay (fuzz_expression, "test/fuzz/found", "expression-");
 }
@@ -88,12 +93,27 @@ static void any_seed_cut_anywhere_is_answered (void **state)
     for (size_t k = 0; k < n; k += 3) fuzz_scene (text, k);
 }
 
+static void any_mesh_cut_anywhere_is_answered (void **state)
+{
+    (void) state;
+    static const char *const names[] = { "box_22.msh", "box_41b.msh", "disk_22b.msh", "disk_41.msh" };
+    for (int i = 0; i < 4; i++) {
+        uint8_t text[1 << 13];
+        snprintf (replayed, sizeof replayed, "test/fuzz/seed_mesh/%s", names[i]);
+        FILE *file = fopen (replayed, "rb");
+        assert_non_null (file);
+        size_t n = fread (text, 1, sizeof text, file);
+        fclose (file);
+        for (size_t k = 0; k < n; k += 5) fuzz_mesh (text, k);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (scenes_that_were_found_are_answered), cmocka_unit_test (points_and_expressions_that_were_found_are_answered),
+        cmocka_unit_test (scenes_that_were_found_are_answered), cmocka_unit_test (points_expressions_meshes_that_were_found_are_answered),
         cmocka_unit_test (seeds_are_answered), cmocka_unit_test (wrong_scenes_leave_nothing_behind),
-        cmocka_unit_test (any_seed_cut_anywhere_is_answered),
+        cmocka_unit_test (any_seed_cut_anywhere_is_answered), cmocka_unit_test (any_mesh_cut_anywhere_is_answered),
     };
     return cmocka_run_group_tests_name ("fuzz/replay", tests, NULL, NULL);
 }

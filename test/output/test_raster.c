@@ -92,12 +92,67 @@ static void points_outside_or_nowhere_do_no_harm (void **state)
     for (int p = 2; p < SIZE * SIZE; p++) if (p % SIZE > 3) assert_int_equal (owner[p], -1);
 }
 
+/* A spiral of 500 points of about equal density in a disk: each pixel inside belongs to the nearest point, none is left out, and the
+ * disk grows by less than half a spacing; a straight cut opened by three spacings stays open. */
+static void points_of_no_lattice_fill_the_body (void **state)
+{
+    (void) state;
+    enum { POINTS = 500 };
+    double at[2 * POINTS], spacing[POINTS], R = 80, h = R * sqrt (3.141592653589793 / POINTS);
+    pg_spots spots = { .n = POINTS, .place = at, .spacing = spacing };
+    for (int open = 0; open < 2; open++) {
+        for (int k = 0; k < POINTS; k++) {
+            double r = R * sqrt ((k + 0.5) / POINTS), t = 2.399963229728653 * k;
+            at[2*k] = 100 + r * cos (t), at[2*k + 1] = 100 + r * sin (t) + (open ? (sin (t) > 0 ? 1.5 * h : -1.5 * h) : 0);
+            spacing[k] = h;
+        }
+        check_ok (pg_raster (&spots, SIZE, SIZE, owner));
+        for (int y = 0; y < SIZE; y++)
+            for (int x = 0; x < SIZE; x++) {
+                double r = hypot (x + 0.5 - 100, y + 0.5 - 100), best = 1e9;
+                int nearest = -1;
+                if (open && fabs (y + 0.5 - 100) < 0.9 * h && r < R) assert_int_equal (covered (x, y), 0);
+                if (open) continue;
+                if (r < R - h) assert_true (covered (x, y));
+                if (r > R + 0.5 * h) assert_false (covered (x, y));
+                for (int k = 0; k < POINTS; k++) {
+                    double d = hypot (x + 0.5 - at[2*k], y + 0.5 - at[2*k + 1]);
+                    if (d < best - 1e-4) best = d, nearest = k;
+                }
+                if (covered (x, y) && owner[y * SIZE + x] != nearest)
+                    check_relative (hypot (x + 0.5 - at[2 * owner[y * SIZE + x]], y + 0.5 - at[2 * owner[y * SIZE + x] + 1]), best, 1e-3);
+            }
+    }
+}
+
+/* Lattices, moved or not, with a step that is not the nominal one, are none; a spiral is. */
+static void lattices_are_told_from_other_points (void **state)
+{
+    (void) state;
+    for (int kind = 0; kind < 4; kind++) {
+        double x[2 * SIDE * SIDE], volume[SIDE * SIDE], *spacing;
+        pg_spots made = lattice (1, kind == 1 ? 0.2 : 0, 1);
+        pg_cloud c = { .dim = 2, .n = SIDE * SIDE, .x = x, .volume = volume, .h = 1 };
+        for (size_t i = 0; i < c.n; i++) {
+            for (int a = 0; a < 2; a++) x[2*i + (size_t) a] = made.place[2*i + (size_t) a] * (kind == 2 ? 1.07 : 1);
+            if (kind == 3) x[2*i] = sqrt ((double) i) * cos (2.4 * (double) i), x[2*i + 1] = sqrt ((double) i) * sin (2.4 * (double) i);
+            volume[i] = i % 23 ? 2 : 0.5;
+        }
+        check_ok (pg_loose_spacing (&c, &spacing));
+        assert_int_equal (spacing != NULL, kind == 3);
+        if (spacing) check_relative (spacing[1], 1, 1e-12);
+        if (spacing) check_relative (spacing[0], 0.5, 1e-12);
+        pg_free (spacing);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (cells_tile_without_gap_or_growth), cmocka_unit_test (the_nearest_point_owns_a_pixel),
         cmocka_unit_test (moved_points_leave_no_holes), cmocka_unit_test (an_opened_crack_stays_open),
-        cmocka_unit_test (points_outside_or_nowhere_do_no_harm),
+        cmocka_unit_test (points_outside_or_nowhere_do_no_harm), cmocka_unit_test (points_of_no_lattice_fill_the_body),
+        cmocka_unit_test (lattices_are_told_from_other_points),
     };
     return cmocka_run_group_tests_name ("output/raster", tests, NULL, NULL);
 }

@@ -164,8 +164,8 @@ static void fields_are_written_at_levels_and_events (void **state)
     assert_int_equal (n, nfield_step);
     for (size_t k = 0; k < n; k++) check_relative (time[k], field_time[k], 1e-15);
     check_ok (pg_exodus_fields (inside (folder, "result.e"), &names, &count));
-    assert_int_equal (count, 4);
-    for (size_t k = 0; k < 4; k++) assert_string_equal (names[k], ((const char *[]) { "displacement", "damage", "stress", "volume" })[k]);
+    assert_int_equal (count, 5);
+    for (size_t k = 0; k < 5; k++) assert_string_equal (names[k], ((const char *[]) { "displacement", "damage", "stress", "coefficient", "volume" })[k]);
     check_ok (pg_exodus_read (inside (folder, "result.e"), "stress", -1, &count, &components, &value));
     assert_int_equal (count, cloud.n);
     assert_int_equal (components, 3);

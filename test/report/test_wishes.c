@@ -20,9 +20,9 @@ static void every_part_of_every_field_has_a_picture (void **state)
 {
     (void) state;
     static const char *const good[] = { "",
-        "damage, displacement, displacement.x, velocity, velocity.x, stress, stress.xx, strain, strain.xx",
-        "damage, displacement, displacement.x, displacement.y, velocity.y, stress.xx, stress.yy, stress.xy, strain.xx, strain.yy, strain.xy",
-        "damage, displacement, displacement.z, velocity.z, stress.xx, stress.yy, stress.zz, stress.xy, stress.yz, stress.zx, strain.zx" };
+        "damage, displacement, displacement.x, velocity, velocity.x, stress, stress.xx, strain, strain.xx, error_estimate",
+        "damage, displacement, displacement.x, displacement.y, velocity.y, stress.xx, stress.yy, stress.xy, strain.xx, strain.yy, strain.xy, error_estimate",
+        "damage, displacement, displacement.z, velocity.z, stress.xx, stress.yy, stress.zz, stress.xy, stress.yz, stress.zx, strain.zx, error_estimate" };
     for (int dim = 1; dim <= 3; dim++) {
         char where[64], rest[400];
         pg_result *result = NULL;
@@ -38,6 +38,45 @@ static void every_part_of_every_field_has_a_picture (void **state)
         size_t wanted = 1;
         for (const char *c = good[dim]; *c; c++) wanted += *c == ',';
         assert_int_equal (pg_result_pictures (result), wanted);
+        pg_result_free (&result);
+        clear (&r);
+        remove_folder (where);
+    }
+}
+
+/* Static runs that ended well, unless output.estimate is off; as a field in Pa in result.e. */
+static void the_error_estimate_is_reported (void **state)
+{
+    (void) state;
+    static const struct { const char *output, *failure; int there; } turn[] = { { "fields: [error_estimate]", NULL, 1 }, { "estimate: off", NULL, 0 }, { "pictures: []", "it broke", 0 } };
+    for (int k = 0; k < 3; k++) {
+        char where[64], unit[16];
+        pg_result *result = NULL;
+        make_folder (where);
+        run r = scene_of (1, "%sboundary: [{set: left, displacement: {x: 0}}, {set: right, displacement: {x: 0.01}}]\noutput: {%s}\n", bodies[2], turn[k].output);
+        check_ok (pg_result_open (&result, where, r.scene, r.problem, r.solver));
+        while (!pg_solver_done (r.solver, r.state)) {
+            advance (&r);
+            check_ok (pg_result_step (result, r.state, &r.step));
+        }
+        check_ok (pg_result_finish (result, r.state, turn[k].failure, 0, 0));
+        char *text = slurp (inside (where, "report.json"));
+        assert_int_equal (strstr (text, "\"error_estimate\": {") != NULL, turn[k].there);
+        assert_int_equal (pg_result_estimate (result) != NULL, turn[k].there);
+        if (turn[k].there) {
+            const pg_estimate *e = pg_result_estimate (result);
+            double *value = NULL;
+            size_t n;
+            int components;
+            check_contains (text, "\"kind\": \"estimate\"");
+            assert_true (e->norm > 0 && e->relative >= 0 && e->relative < 1 && e->points > 0);
+            check_ok (pg_exodus_read (inside (where, "result.e"), "error_estimate", -1, &n, &components, &value));
+            check_ok (pg_exodus_unit (inside (where, "result.e"), "error_estimate", unit));
+            assert_int_equal (components, 1);
+            assert_string_equal (unit, "Pa");
+            pg_free (value);
+        }
+        pg_free (text);
         pg_result_free (&result);
         clear (&r);
         remove_folder (where);
@@ -125,7 +164,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (every_part_of_every_field_has_a_picture),
-        cmocka_unit_test (another_name_is_a_fault_with_the_list),
+        cmocka_unit_test (the_error_estimate_is_reported), cmocka_unit_test (another_name_is_a_fault_with_the_list),
         cmocka_unit_test (parts_depend_on_the_dimension),
         cmocka_unit_test (names_come_once),
         cmocka_unit_test (a_result_is_not_opened_with_such_names),

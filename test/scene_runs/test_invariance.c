@@ -10,6 +10,7 @@ typedef struct { const char *approximation, *integration, *essential, *basis; } 
 static const method methods[] = {
     { "rkpm", "gauss", "nitsche", "linear" }, { "rkpm", "gauss", "transformation", "linear" }, { "rkpm", "gauss", "penalty", "linear" },
     { "rkpm", "gauss", "nitsche", "quadratic" }, { "pddo", "gauss", "nitsche", "linear" }, { "nosb", "nodal", "transformation", "linear" },
+    { "rkpm", "consistent", "nitsche", "linear" },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 

@@ -67,6 +67,7 @@ static const kind kinds[] = {
         "criterion: principal_stress, tensile_strength", 1 },
     { "rkpm gauss, transformation, stretch", "approximation: rkpm, integration: gauss, essential: transformation",
         "criterion: stretch, critical_stretch", 0 },
+    { "rkpm consistent, stress", "approximation: rkpm, integration: consistent", "criterion: principal_stress, tensile_strength", 1 },
     { "nosb nodal, stretch", "approximation: nosb, integration: nodal, essential: transformation",
         "criterion: stretch, critical_stretch", 0 },
 };

@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The cells of a lattice over the exact body: whole, cut or none; and their facets, one for each cell and surface. */
+#include "cut.h"
+#include <math.h>
+#include <string.h>
+
+static const double least_share = 1e-13;               /* of a cell's volume; less is no cell                            */
+enum { NONE, WHOLE, CUT };
+typedef struct { int cell, surface, face; cut_piece piece; } one_facet;       /* face: of the lattice cell, -1: a piece      */
+typedef struct {
+    const pg_lattice *l;
+    struct pg_cut *cut;
+    size_t  n;                                         /* lattice cells                                                  */
+    size_t *start;  int *near;                         /* surfaces near each (CSR)                                       */
+    unsigned char *state, *aligned;                    /* aligned: near surfaces only lie on its faces                   */
+    double *volume;                                    /* m^3                                                            */
+    double  whole;                                     /* volume of a whole cell                                         */
+    one_facet *facet;  size_t nfacet, capacity;
+    size_t  ncell, nnear, ncut;
+} maker;
+
+static size_t number_of (const pg_lattice *l, const int *i)
+{
+    return ((size_t) i[2] * (size_t) l->count[1] + (size_t) i[1]) * (size_t) l->count[0] + (size_t) i[0];
+}
+
+static void index_of (const pg_lattice *l, size_t c, int *i)
+{
+    i[0] = (int) (c % (size_t) l->count[0]), c /= (size_t) l->count[0];
+    i[1] = (int) (c % (size_t) l->count[1]), i[2] = (int) (c / (size_t) l->count[1]);
+}
+
+static void box_of (const pg_lattice *l, const int *i, double *low, double *high)
+{
+    for (int k = 0; k < l->dim; k++) low[k] = pg_lattice_at (l, k, i[k]), high[k] = pg_lattice_at (l, k, i[k] + 1);
+}
+
+/* The face of the cell on which a plane lies, -1: none. */
+static int face_of (const maker *m, const int *i, int surface)
+{
+    const cut_surface *s = &m->cut->surface[surface];
+    if (s->axis < 0) return -1;
+    double at = s->origin[s->axis], tolerance = 0.5 * cut_snap * m->l->step[s->axis];
+    for (int side = 0; side < 2; side++)
+        if (fabs (at - pg_lattice_at (m->l, s->axis, i[s->axis] + side)) <= tolerance) return 2 * s->axis + side;
+    return -1;
+}
+
+/* ---- which surfaces are near -------------------------------------------------------------------------------------------- */
+static int is_near (const maker *m, const cut_surface *s, const int *i)
+{
+    double low[3], high[3], centre[3], half[3], all[3] = {1, 1, 1}, origin[3] = {0, 0, 0};
+    box_of (m->l, i, low, high);
+    for (int k = 0; k < m->l->dim; k++) {
+        centre[k] = 0.5 * (low[k] + high[k]), half[k] = 0.5 * (high[k] - low[k]);
+        if (s->low[k] > high[k] + 1e-7 * half[k] || s->high[k] < low[k] - 1e-7 * half[k]) return 0;
+    }
+    cut_quadric q = cut_local (s, m->l->dim, centre, half);
+    return cut_meets (&q, origin, all, 2 * cut_snap);
+}
+
+/* Counts (near NULL), or writes from the end of each list on. */
+static void visit_near (maker *m, size_t number, int *near)
+{
+    const cut_surface *s = &m->cut->surface[number];
+    const pg_lattice *l = m->l;
+    int first[3] = {0, 0, 0}, last[3] = {0, 0, 0}, i[3];
+    for (int k = 0; k < l->dim; k++) {
+        double a = floor ((s->low[k] - l->origin[k]) / l->step[k]) - 1, b = floor ((s->high[k] - l->origin[k]) / l->step[k]) + 1;
+        first[k] = a > 0 ? (int) fmin (a, l->count[k]) : 0, last[k] = b < l->count[k] - 1 ? (int) fmax (b, -1) : l->count[k] - 1;
+    }
+    for (i[2] = first[2]; i[2] <= last[2]; i[2]++)
+        for (i[1] = first[1]; i[1] <= last[1]; i[1]++)
+            for (i[0] = first[0]; i[0] <= last[0]; i[0]++) {
+                if (!is_near (m, s, i)) continue;
+                size_t c = number_of (l, i);
+                if (near) near[m->start[c]++] = (int) number;
+                else m->start[c + 1]++;
+            }
+}
+
+static pg_status find_near (maker *m)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (m->start, m->n + 1);
+    for (size_t s = 0; s < m->cut->n; s++) visit_near (m, s, NULL);
+    for (size_t c = 0; c < m->n; c++) m->start[c + 1] += m->start[c];
+    PG_ALLOC (m->near, m->start[m->n]);
+    for (size_t s = 0; s < m->cut->n; s++) visit_near (m, s, m->near);
+    for (size_t c = m->n; c > 0; c--) m->start[c] = m->start[c - 1];
+    m->start[0] = 0;
+done:
+    return status;
+}
+
+/* ---- cells ------------------------------------------------------------------------------------------------------------ */
+static pg_status into_cell (const maker *m, size_t c)
+{
+    double low[3], high[3];
+    int i[3];
+    index_of (m->l, c, i);
+    box_of (m->l, i, low, high);
+    return cut_work_cell (m->cut->work, low, high, m->start[c + 1] - m->start[c], m->near + m->start[c]);
+}
+
+static pg_status classify (maker *m, size_t c)
+{
+    pg_status status = PG_OK;
+    cut_piece piece;
+    int i[3], aligned = 1;
+    index_of (m->l, c, i);
+    for (size_t k = m->start[c]; k < m->start[c + 1]; k++) aligned &= face_of (m, i, m->near[k]) >= 0;
+    m->aligned[c] = (unsigned char) aligned;
+    if (aligned) m->state[c] = m->l->in[c] ? WHOLE : NONE;
+    else {
+        PG_TRY (into_cell (m, c));
+        PG_TRY (cut_work_piece (m->cut->work, -1, &piece));
+        double share = piece.size / m->whole;
+        m->state[c] = share > 1 - least_share ? WHOLE : share > least_share ? CUT : NONE;
+        m->volume[c] = piece.size;
+    }
+    if (m->state[c] == WHOLE) m->volume[c] = m->whole;
+    if (m->state[c] == NONE) return PG_OK;
+    m->ncell++, m->nnear += m->start[c + 1] - m->start[c], m->ncut += m->state[c] == CUT || !m->l->in[c];
+done:
+    return status;
+}
+
+/* ---- facets ----------------------------------------------------------------------------------------------------------- */
+/* What lies behind a face: NONE and WHOLE if that is the same all over it, else CUT. */
+static int beyond (const maker *m, const int *i, int face)
+{
+    int at[3] = {i[0], i[1], i[2]};
+    at[face / 2] += face % 2 ? 1 : -1;
+    if (at[face / 2] < 0 || at[face / 2] >= m->l->count[face / 2]) return NONE;
+    size_t c = number_of (m->l, at);
+    return m->aligned[c] ? m->state[c] : CUT;
+}
+
+static pg_status put (maker *m, const one_facet *f)
+{
+    pg_status status = PG_OK;
+    for (size_t k = m->nfacet; f->face >= 0 && k-- > 0 && m->facet[k].cell == f->cell; )
+        if (m->facet[k].face == f->face) return PG_OK;         /* two shapes have the same side                          */
+    PG_GROW (m->facet, m->capacity, m->nfacet + 1);
+    m->facet[m->nfacet++] = *f;
+done:
+    return status;
+}
+
+static pg_status find_facets (maker *m, size_t c, int cell)
+{
+    pg_status status = PG_OK;
+    int i[3], entered = 0;
+    index_of (m->l, c, i);
+    for (size_t k = m->start[c]; k < m->start[c + 1]; k++) {
+        one_facet f = {.cell = cell, .surface = m->near[k], .face = face_of (m, i, m->near[k])};
+        double full = m->whole;
+        if (f.face >= 0 && m->state[c] == WHOLE && m->aligned[c]) {
+            int behind = beyond (m, i, f.face);
+            if (behind == NONE) PG_TRY (put (m, &f));
+            if (behind != CUT) continue;
+        }
+        if (!entered++) PG_TRY (into_cell (m, c));
+        PG_TRY (cut_work_piece (m->cut->work, f.surface, &f.piece));
+        full /= m->l->step[f.face >= 0 ? f.face / 2 : 0];
+        if (f.face >= 0 && f.piece.size >= (1 - 1e-12) * full) f.piece.size = 0;
+        else if (f.piece.size > 1e-13 * full) f.face = -1;
+        else continue;
+        PG_TRY (put (m, &f));
+    }
+done:
+    return status;
+}
+
+/* ---- from the maker to the cells ---------------------------------------------------------------------------------------- */
+static const unsigned char corner[8][3] = {{0,0,0}, {1,0,0}, {1,1,0}, {0,1,0}, {0,0,1}, {1,0,1}, {1,1,1}, {0,1,1}};
+
+static void fill_cell (pg_cells *out, const maker *m, size_t c, size_t at)
+{
+    static const pg_element kind[3] = {PG_BAR2, PG_QUAD4, PG_HEX8};
+    size_t dim = (size_t) m->l->dim, corners = (size_t) 1 << dim, near = m->start[c + 1] - m->start[c];
+    struct pg_cut *cut = m->cut;
+    int i[3];
+    index_of (m->l, c, i);
+    for (size_t e = 0; e < corners; e++)
+        for (size_t k = 0; k < dim; k++) out->x[(at * corners + e) * dim + k] = pg_lattice_at (m->l, (int) k, i[k] + corner[e][k]);
+    out->kind[at] = m->state[c] == CUT ? PG_CUT : (unsigned char) kind[dim - 1];
+    out->start[at + 1] = (at + 1) * corners;
+    out->volume[at] = m->volume[c];
+    cut->start[at + 1] = cut->start[at] + near;
+    memcpy (cut->near + cut->start[at], m->near + m->start[c], near * sizeof *cut->near);
+}
+
+static void fill_facet (pg_cells *out, const maker *m, const one_facet *f, size_t at)
+{
+    size_t dim = (size_t) out->dim;
+    double *normal = out->normal + at * dim, size = 0;
+    out->facet_cell[at] = f->cell, out->facet_surface[at] = f->surface;
+    out->facet_start[at + 1] = out->facet_start[at];
+    if (f->face >= 0) {
+        cells_put_face (out, at, f->face, m->l->step);
+        return;
+    }
+    out->facet_kind[at] = PG_CUT;
+    out->area[at] = f->piece.size;
+    for (size_t k = 0; k < dim; k++) size += f->piece.normal[k] * f->piece.normal[k];
+    for (size_t k = 0; k < dim; k++) {
+        out->facet_centre[at * dim + k] = f->piece.centre[k];
+        normal[k] = size > 0 ? f->piece.normal[k] / sqrt (size) : k == 0;
+    }
+}
+
+static pg_status fill (pg_cells *out, maker *m, double thickness)
+{
+    pg_status status = PG_OK;
+    size_t corners = (size_t) 1 << m->l->dim, at = 0, whole = 0;
+    for (size_t f = 0; f < m->nfacet; f++) whole += m->facet[f].face >= 0;
+    PG_ALLOC (m->cut->start, m->ncell + 1);
+    PG_ALLOC (m->cut->near, m->nnear);
+    PG_TRY (pg_cells_reserve (out, m->l->dim, thickness, m->ncell, m->ncell * corners, m->nfacet, whole * corners / 2));
+    for (size_t c = 0; c < m->n; c++) if (m->state[c] != NONE) fill_cell (out, m, c, at++);
+    for (size_t f = 0; f < m->nfacet; f++) fill_facet (out, m, &m->facet[f], f);
+    out->cut = m->cut;
+    m->cut = NULL;
+done:
+    return status;
+}
+
+static pg_status prepare (maker *m, const pg_body *body, double thickness)
+{
+    pg_status status = PG_OK;
+    m->n = (size_t) m->l->count[0] * (size_t) m->l->count[1] * (size_t) m->l->count[2];
+    m->whole = m->l->dim == 3 ? 1 : thickness;
+    for (int k = 0; k < m->l->dim; k++) m->whole *= m->l->step[k];
+    PG_ALLOC (m->cut, 1);
+    PG_TRY (cut_surfaces (m->cut, body));
+    PG_TRY (cut_work_create (&m->cut->work, m->cut, m->l->dim == 3 ? 1 : thickness));
+    PG_TRY (find_near (m));
+    PG_ALLOC (m->state, m->n);
+    PG_ALLOC (m->aligned, m->n);
+    PG_ALLOC (m->volume, m->n);
+done:
+    return status;
+}
+
+pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness)
+{
+    pg_status status = PG_OK;
+    maker m = {.l = lattice};
+    int cell = 0, other = 0;
+    memset (out, 0, sizeof *out);
+    if (lattice->dim == 0) return PG_OK;
+    PG_TRY (prepare (&m, body, thickness));
+    for (size_t c = 0; c < m.n; c++) PG_TRY (classify (&m, c));
+    for (size_t c = 0; c < m.n; c++) other |= (m.state[c] != NONE) != (m.l->in[c] != 0);
+    for (size_t c = 0; c < m.n; c++) if (m.state[c] != NONE) PG_TRY (find_facets (&m, c, cell++));
+    if (m.ncut == 0 && !other) status = pg_cells_from_lattice (out, lattice, thickness);
+    else status = fill (out, &m, thickness);
+done:
+    cut_free (m.cut);
+    pg_free (m.start), pg_free (m.near), pg_free (m.state), pg_free (m.aligned), pg_free (m.volume), pg_free (m.facet);
+    return status;
+}
+
+void cut_free (struct pg_cut *cut)
+{
+    if (!cut) return;
+    cut_work_free (&cut->work);
+    pg_free (cut->surface), pg_free (cut->start), pg_free (cut->near);
+    pg_free (cut);
+}
+
+/* ---- use -------------------------------------------------------------------------------------------------------------- */
+static pg_status enter (const pg_cells *cells, size_t cell)
+{
+    const struct pg_cut *cut = cells->cut;
+    size_t dim = (size_t) cells->dim, far = dim == 3 ? 6 : dim == 2 ? 2 : 1;           /* the corner across             */
+    const double *x = cells->x + cells->start[cell] * dim;
+    return cut_work_cell (cut->work, x, x + far * dim, cut->start[cell + 1] - cut->start[cell], cut->near + cut->start[cell]);
+}
+
+pg_status pg_cut_cell (pg_cut_points *out, const pg_cells *cells, size_t cell, int order)
+{
+    pg_status status = enter (cells, cell);
+    return status == PG_OK ? cut_work_points (cells->cut->work, -1, order, out) : status;
+}
+
+pg_status pg_cut_facet (pg_cut_points *out, const pg_cells *cells, size_t facet, int order)
+{
+    pg_status status = enter (cells, (size_t) cells->facet_cell[facet]);
+    return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet], order, out) : status;
+}
+
+pg_status pg_cut_face (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order)
+{
+    pg_status status = enter (cells, cell);
+    return status == PG_OK ? cut_work_face (cells->cut->work, face, order, out) : status;
+}
+
+int pg_cut_shape  (const struct pg_cut *cut, int surface) { return cut->surface[surface].shape; }
+int pg_cut_is_end (const struct pg_cut *cut, int surface) { return cut->surface[surface].end; }

@@ -1,0 +1,392 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Quadrature in a cell and on the surfaces in it, by dimension reduction (in the manner of Saye 2015): slices along the outermost axis, lines
+ * in the slices, pieces of the lines that lie in the body; Gauss points on every interval between splits, all weights positive. Where heights
+ * begin like square roots at e, x = e +- s^2 takes the root away. */
+#include "cut.h"
+#include <math.h>
+#include <string.h>
+
+enum { RULE = 40 };
+static const double beyond = 2e-7;                     /* just off a face (local)                                        */
+struct cut_work {
+    const struct pg_cut *cut;
+    double thickness, centre[3], half[3];
+    cut_slices slices;
+    double *node;  int *owner;                         /* roots along a line (2 n + 2), and whose                        */
+    int    surface, order, face;                       /* of this walk; index into slices.number, or -1; a face, or -1   */
+    pg_cut_points *out;
+    double *x, *w;                                     /* Gauss rules of RULE points at most, by order                   */
+};
+
+void pg_cut_points_clear (pg_cut_points *p)
+{
+    pg_free (p->x), pg_free (p->weight), pg_free (p->normal);
+    memset (p, 0, sizeof *p);
+}
+
+/* ---- rules ------------------------------------------------------------------------------------------------------------ */
+/* Gauss-Legendre on [0, 1]: Newton on the Legendre polynomial. */
+static void make_rule (int n, double *x, double *w)
+{
+    for (int i = 0; i < n; i++) {
+        double t = cos (acos (-1) * (i + 0.75) / (n + 0.5)), slope = 1;
+        for (int k = 0; k < 100; k++) {
+            double p = 1, before = 0;
+            for (int j = 0; j < n; j++) {
+                double next = ((2*j + 1) * t * p - j * before) / (j + 1);
+                before = p, p = next;
+            }
+            slope = n * (t * p - before) / (t * t - 1);
+            if (fabs (p / slope) < 1e-16) break;
+            t -= p / slope;
+        }
+        x[n - 1 - i] = 0.5 * (1 + t), w[n - 1 - i] = 1 / ((1 - t * t) * slope * slope);
+    }
+}
+
+static const double *rule_x (const cut_work *w, int n) { return w->x + n * (n - 1) / 2; }
+static const double *rule_w (const cut_work *w, int n) { return w->w + n * (n - 1) / 2; }
+
+/* ---- life cycle -------------------------------------------------------------------------------------------------------- */
+pg_status cut_work_create (cut_work **out, const struct pg_cut *cut, double thickness)
+{
+    pg_status status = PG_OK;
+    cut_work *w = NULL;
+    PG_ALLOC (w, 1);
+    w->cut = cut, w->thickness = thickness, w->face = -1;
+    PG_ALLOC (w->x, RULE * (RULE + 1) / 2);
+    PG_ALLOC (w->w, RULE * (RULE + 1) / 2);
+    for (int n = 1; n <= RULE; n++) make_rule (n, w->x + n * (n - 1) / 2, w->w + n * (n - 1) / 2);
+    *out = w;
+    w = NULL;
+done:
+    cut_work_free (&w);
+    return status;
+}
+
+void cut_work_free (cut_work **work)
+{
+    cut_work *w = *work;
+    if (!w) return;
+    for (int k = 0; k < 3; k++) pg_free (w->slices.level[k].hard.at), pg_free (w->slices.level[k].soft.at), pg_free (w->slices.level[k].q);
+    pg_free (w->slices.number), pg_free (w->slices.low), pg_free (w->slices.high);
+    pg_free (w->node), pg_free (w->owner), pg_free (w->x), pg_free (w->w);
+    pg_free (w);
+    *work = NULL;
+}
+
+static pg_status widen (cut_work *w, size_t n)
+{
+    pg_status status = PG_OK;
+    cut_slices *s = &w->slices;
+    size_t cap[8];
+    if (n <= s->capacity) return PG_OK;
+    for (int k = 0; k < 8; k++) cap[k] = 0;
+    for (int k = 0; k < 3; k++) PG_GROW (s->level[k].q, cap[k], n);
+    PG_GROW (s->number, cap[3], n);
+    PG_GROW (s->low, cap[4], 3 * n);
+    PG_GROW (s->high, cap[5], 3 * n);
+    PG_GROW (w->node, cap[6], 2 * n + 2);
+    PG_GROW (w->owner, cap[7], 2 * n + 2);
+    s->capacity = n;
+done:
+    return status;
+}
+
+pg_status cut_work_cell (cut_work *w, const double *low, const double *high, size_t n, const int *near)
+{
+    cut_slices *s = &w->slices;
+    pg_status status = widen (w, n);
+    if (status != PG_OK) return status;
+    s->dim = w->cut->dim, s->n = n, s->status = PG_OK;
+    for (int k = 0; k < s->dim; k++) w->centre[k] = 0.5 * (low[k] + high[k]), w->half[k] = 0.5 * (high[k] - low[k]);
+    for (size_t i = 0; i < n; i++) {
+        const cut_surface *f = &w->cut->surface[near[i]];
+        s->number[i] = near[i];
+        s->level[0].q[i] = cut_local (f, s->dim, w->centre, w->half);
+        for (int k = 0; k < s->dim; k++) {
+            s->low[3*i + (size_t) k] = (f->low[k] - w->centre[k]) / w->half[k];
+            s->high[3*i + (size_t) k] = (f->high[k] - w->centre[k]) / w->half[k];
+        }
+    }
+    return PG_OK;
+}
+
+/* ---- lines ------------------------------------------------------------------------------------------------------------ */
+/* Is the place on the present line at height z in the body? */
+static int inside (const cut_work *w, double z)
+{
+    const cut_slices *s = &w->slices;
+    double x[3] = {0, 0, 0};
+    for (int k = 0; k < s->dim; k++) x[k] = w->centre[k] + w->half[k] * (k == s->axis[s->dim - 1] ? z : s->at[k]);
+    if (w->face < 0) return pg_body_inside (w->cut->body, x, 0);
+    double *across = &x[w->face / 2], at = *across, step = beyond * w->half[w->face / 2];
+    *across = at - step;
+    if (!pg_body_inside (w->cut->body, x, 0)) return 0;
+    *across = at + step;
+    return pg_body_inside (w->cut->body, x, 0);
+}
+
+static void emit (cut_work *w, double z, double weight, const double *normal)
+{
+    pg_status status = PG_OK;
+    cut_slices *s = &w->slices;
+    pg_cut_points *p = w->out;
+    size_t dim = (size_t) s->dim;
+    s->at[s->axis[dim - 1]] = z;
+    if (p->n == p->capacity) {
+        size_t a = p->capacity, b = a, c = a;
+        PG_GROW (p->weight, a, p->n + 1);
+        size_t wide = dim * b, tall = dim * c;
+        PG_GROW (p->x, wide, dim * a);
+        PG_GROW (p->normal, tall, dim * a);
+        p->capacity = a;
+    }
+    for (size_t k = 0; k < dim; k++) {
+        p->x[p->n * dim + k] = w->centre[k] + w->half[k] * s->at[k];
+        p->normal[p->n * dim + k] = normal ? normal[k] : 0;
+    }
+    p->weight[p->n++] = weight;
+done:
+    if (status != PG_OK) s->status = status;
+}
+
+/* Roots of all surfaces along the line, sorted, those next to the ends moved onto them; node[0] and node[m + 1] are -1 and 1. */
+static int line_roots (cut_work *w, const cut_quadric *q)
+{
+    const cut_slices *s = &w->slices;
+    int z = s->axis[s->dim - 1], m = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        double c[3] = {q[i].c, q[i].b[z], q[i].A[z][z]}, root[2];
+        int n = cut_roots (2, c, -1 - cut_snap, 1 + cut_snap, root);
+        for (int r = 0; r < n; r++) {
+            double t = fabs (root[r]) >= 1 - cut_snap ? copysign (1, root[r]) : root[r];
+            int k = ++m;
+            for (; k > 1 && w->node[k - 1] > t; k--) w->node[k] = w->node[k - 1], w->owner[k] = w->owner[k - 1];
+            w->node[k] = t, w->owner[k] = (int) i;
+        }
+    }
+    w->node[0] = -1, w->node[m + 1] = 1;
+    return m;
+}
+
+static void fill_piece (cut_work *w, double from, double to, double weight)
+{
+    for (int g = 0; to > from && g < w->order; g++)
+        emit (w, from + (to - from) * rule_x (w, w->order)[g], weight * (to - from) * rule_w (w, w->order)[g], NULL);
+}
+
+/* Neighbouring pieces in the body are one: no surface of the body lies between them. */
+static void line_volume (cut_work *w, const cut_quadric *q, double weight)
+{
+    int m = line_roots (w, q), dim = w->slices.dim;
+    double from = 0, to = -2;
+    for (int k = 0; k < dim; k++) weight *= w->half[k];
+    for (int k = 0; k <= m; k++) {
+        double a = w->node[k], b = w->node[k + 1];
+        if (b - a <= 1e-14 || !inside (w, 0.5 * (a + b))) continue;
+        if (to != a) fill_piece (w, from, to, weight), from = a;
+        to = b;
+    }
+    fill_piece (w, from, to, weight);
+}
+
+/* Root k is that of the surface, and no earlier one lies upon it. */
+static int owned (cut_work *w, int k, int m)
+{
+    cut_slices *s = &w->slices;
+    int z = s->axis[s->dim - 1];
+    if (w->owner[k] != w->surface) return 0;
+    s->at[z] = w->node[k];
+    if (!cut_within (s, (size_t) w->surface)) return 0;
+    for (int i = k; i-- > 1 && w->node[k] - w->node[i] < 1e-13; ) if (w->owner[i] < w->surface && cut_within (s, (size_t) w->owner[i])) return 0;
+    for (int i = k + 1; i <= m && w->node[i] - w->node[k] < 1e-13; i++) if (w->owner[i] < w->surface && cut_within (s, (size_t) w->owner[i])) return 0;
+    return 1;
+}
+
+/* A root on an end of the line counts if the body lies on this side of it. */
+static void line_surface (cut_work *w, const cut_quadric *q, double weight)
+{
+    const cut_slices *s = &w->slices;
+    int m = line_roots (w, q), z = s->axis[s->dim - 1];
+    const double *t = w->node;
+    for (int k = 1; k <= m; k++) {
+        int a = k, b = k;
+        double n[3], size = 0, at[3] = {s->at[0], s->at[1], s->at[2]};
+        if (!owned (w, k, m)) continue;
+        while (a > 0 && t[k] - t[a] < 1e-13) a--;
+        while (b < m + 1 && t[b] - t[k] < 1e-13) b++;
+        int under = inside (w, 0.5 * (t[k] + (t[k] - t[a] < 1e-13 ? -1 - beyond : t[a])));
+        int over = inside (w, 0.5 * (t[k] + (t[b] - t[k] < 1e-13 ? 1 + beyond : t[b])));
+        if (under == over || (t[k] == -1 && under) || (t[k] == 1 && over)) continue;
+        at[z] = t[k];
+        cut_gradient (&s->level[0].q[w->surface], at, n);
+        double steep = fabs (n[z]) / w->half[z], sign = (n[z] > 0) == under ? 1 : -1, scale = weight * w->thickness;
+        for (int i = 0; i < s->dim; i++) {
+            n[i] *= sign / w->half[i], size += n[i] * n[i];
+            if (i != z) scale *= w->half[i];
+        }
+        size = sqrt (size);
+        for (int i = 0; i < s->dim; i++) n[i] /= size;
+        emit (w, t[k], scale * size / steep, n);
+        w->slices.at[z] = at[z];
+    }
+}
+
+/* ---- the walk ---------------------------------------------------------------------------------------------------------- */
+static void walk (cut_work *w, int k, double weight);
+
+static void go_on (cut_work *w, int k, double at, double weight)
+{
+    cut_slices *s = &w->slices;
+    s->at[s->axis[k]] = at;
+    for (size_t i = 0; i < s->n; i++) {
+        s->level[k + 1].q[i] = s->level[k].q[i];
+        cut_restrict (&s->level[k + 1].q[i], s->axis[k], at);
+    }
+    walk (w, k + 1, weight);
+}
+
+/* Points on [a, b]; root: NAN, or where square roots begin, outside or at an end: x = root +- s^2. */
+static void interval (cut_work *w, int k, double a, double b, double root, double weight)
+{
+    int order = w->order, rooted = !isnan (root), up = rooted && root <= a;
+    if (rooted) order = order + 1 + order / 2;
+    if (order > RULE) order = RULE;
+    double from = !rooted ? a : sqrt (fmax (0, up ? a - root : root - b)), to = !rooted ? b : sqrt (up ? b - root : root - a);
+    for (int g = 0; g < order; g++) {
+        double t = from + (to - from) * rule_x (w, order)[g], v = weight * (to - from) * rule_w (w, order)[g];
+        if (!rooted) go_on (w, k, t, v);
+        else go_on (w, k, up ? root + t * t : root - t * t, 2 * t * v);
+    }
+}
+
+/* The nearest root at or before a (or at or behind b) that matters for an interval of this length, NAN: none. */
+static double nearest (const cut_list *soft, double at, int before, double length)
+{
+    double best = NAN;
+    for (size_t i = 0; i < soft->n; i++) {
+        double gap = before ? at - soft->at[i] : soft->at[i] - at;
+        if (gap < -1e-12 || gap > length) continue;
+        double root = gap < 0 ? at : soft->at[i];
+        if (isnan (best) || fabs (root - at) < fabs (best - at)) best = root;
+    }
+    return best;
+}
+
+static void sort (cut_list *list)
+{
+    for (size_t i = 1; i < list->n; i++) {
+        double v = list->at[i];
+        size_t k = i;
+        for (; k > 0 && list->at[k - 1] > v; k--) list->at[k] = list->at[k - 1];
+        list->at[k] = v;
+    }
+}
+
+static void walk (cut_work *w, int k, double weight)
+{
+    cut_slices *s = &w->slices;
+    if (s->status != PG_OK) return;
+    if (k == s->dim - 1) {
+        if (w->surface < 0) line_volume (w, s->level[k].q, weight);
+        else line_surface (w, s->level[k].q, weight);
+        return;
+    }
+    cut_split (s, k);
+    if (s->status != PG_OK) return;
+    sort (&s->level[k].hard);
+    double a = -1;
+    for (size_t i = 0; i <= s->level[k].hard.n; i++) {
+        double b = i < s->level[k].hard.n ? s->level[k].hard.at[i] : 1;
+        if (b - a < 1e-12) continue;
+        double left = nearest (&s->level[k].soft, a, 1, b - a), right = nearest (&s->level[k].soft, b, 0, b - a), middle = 0.5 * (a + b);
+        if (!isnan (left) && !isnan (right)) {
+            interval (w, k, a, middle, left, weight);
+            interval (w, k, middle, b, right, weight);
+        } else interval (w, k, a, b, isnan (left) ? right : left, weight);
+        a = b;
+    }
+}
+
+/* The height follows the normals at the centre; the axis with the least of them is outermost. */
+static void choose_axes (cut_work *w)
+{
+    cut_slices *s = &w->slices;
+    double steep[3] = {0, 0, 0}, origin[3] = {0, 0, 0};
+    for (size_t i = 0; i < s->n; i++) {
+        double g[3], size = 0;
+        if (w->surface >= 0 && (size_t) w->surface != i) continue;
+        cut_gradient (&s->level[0].q[i], origin, g);
+        for (int k = 0; k < s->dim; k++) size = fmax (size, fabs (g[k]));
+        for (int k = 0; k < s->dim && size > 0; k++) steep[k] += fabs (g[k]) / size;
+    }
+    for (int k = 0; k < s->dim; k++) s->axis[k] = k;
+    for (int i = 1; i < s->dim; i++)
+        for (int k = i; k > 0 && steep[s->axis[k - 1]] > steep[s->axis[k]]; k--) {
+            int t = s->axis[k];
+            s->axis[k] = s->axis[k - 1], s->axis[k - 1] = t;
+        }
+}
+
+pg_status cut_work_points (cut_work *w, int surface, int order, pg_cut_points *out)
+{
+    cut_slices *s = &w->slices;
+    w->surface = -1, w->out = out, w->order = order < 1 ? 1 : order > RULE ? RULE : order;
+    for (size_t i = 0; i < s->n && surface >= 0; i++) if (s->number[i] == surface) w->surface = (int) i;
+    if (surface >= 0 && w->surface < 0) return PG_OK;
+    choose_axes (w);
+    walk (w, 0, w->surface < 0 ? w->thickness : 1);
+    return s->status;
+}
+
+/* The height of the walk within a face is steepest there; the place is in the body when it is on both sides of the face. */
+pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
+{
+    cut_slices *s = &w->slices;
+    int axis = face / 2, side = face % 2 ? 1 : -1, k = 0;
+    w->surface = -1, w->out = out, w->order = order < 1 ? 1 : order > RULE ? RULE : order;
+    choose_axes (w);
+    while (s->axis[k] != axis) k++;
+    for (; k > 0; k--) s->axis[k] = s->axis[k - 1];
+    s->axis[0] = axis;
+    w->face = face;
+    if (s->dim > 1) go_on (w, 0, side, w->thickness / w->half[axis]);
+    w->face = -1;
+    return s->status;
+}
+
+/* ---- to rounding -------------------------------------------------------------------------------------------------------- */
+static cut_piece sum_up (const pg_cut_points *p, size_t dim)
+{
+    cut_piece s = {0, {0, 0, 0}, {0, 0, 0}};
+    for (size_t i = 0; i < p->n; i++) {
+        s.size += p->weight[i];
+        for (size_t k = 0; k < dim; k++) {
+            s.centre[k] += p->weight[i] * p->x[i * dim + k];
+            s.normal[k] += p->weight[i] * p->normal[i * dim + k];
+        }
+    }
+    for (size_t k = 0; k < dim && s.size > 0; k++) s.centre[k] /= s.size;
+    return s;
+}
+
+pg_status cut_work_piece (cut_work *w, int surface, cut_piece *piece)
+{
+    static const int orders[] = {3, 5, 8, 12, 18, 27, 40};
+    pg_status status = PG_OK;
+    pg_cut_points p = {0};
+    double whole = w->thickness, before = NAN;
+    for (int k = 0; k < w->cut->dim; k++) whole *= 2 * w->half[k];
+    if (surface >= 0) whole /= 2 * fmin (w->half[0], fmin (w->cut->dim > 1 ? w->half[1] : INFINITY, w->cut->dim > 2 ? w->half[2] : INFINITY));
+    for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
+        p.n = 0;
+        PG_TRY (cut_work_points (w, surface, orders[i], &p));
+        *piece = sum_up (&p, (size_t) w->cut->dim);
+        if (fabs (piece->size - before) <= 1e-13 * whole) break;
+        before = piece->size;
+    }
+done:
+    pg_cut_points_clear (&p);
+    return status;
+}

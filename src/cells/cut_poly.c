@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Real roots of polynomials of low degree: between the roots of the derivative the polynomial is monotone. */
+#include "cut.h"
+#include <math.h>
+
+static double value (int degree, const double *c, double x)
+{
+    double v = c[degree];
+    for (int k = degree; k-- > 0; ) v = v * x + c[k];
+    return v;
+}
+
+static double size_of (int degree, const double *c, double far)
+{
+    double size = 0, power = 1;
+    for (int k = 0; k <= degree; k++, power *= far) size += fabs (c[k]) * power;
+    return size;
+}
+
+/* Roots that differ by 1e-7 of their size are one: a tangent, torn apart by rounding. */
+static int quadratic (const double *c, double *root)
+{
+    double D = c[1] * c[1] - 4 * c[0] * c[2], tiny = 1e-14 * (c[1] * c[1] + fabs (4 * c[0] * c[2]));
+    if (D < -tiny) return 0;
+    if (D <= tiny) {
+        root[0] = -0.5 * c[1] / c[2];
+        return 1;
+    }
+    double s = sqrt (D), q = -0.5 * (c[1] + (c[1] < 0 ? -s : s)), a = q / c[2], b = c[0] / q;
+    root[0] = fmin (a, b), root[1] = fmax (a, b);
+    return 2;
+}
+
+/* The root in [a, b], where the signs differ: Newton, and bisection where it leaves. */
+static double between (int degree, const double *c, double a, double b)
+{
+    double slope[CUT_DEGREE], x = 0.5 * (a + b);
+    int rising = value (degree, c, b) > 0;
+    for (int k = 0; k < degree; k++) slope[k] = (k + 1) * c[k + 1];
+    for (int i = 0; i < 100; i++) {
+        double v = value (degree, c, x), d = value (degree - 1, slope, x), next = x - v / d;
+        if (v == 0) return x;
+        if ((v > 0) == rising) b = x;
+        else a = x;
+        if (!(next > a && next < b)) next = 0.5 * (a + b);
+        if (fabs (next - x) < 1e-16 || next == a || next == b) return next;
+        x = next;
+    }
+    return x;
+}
+
+static int wider (int degree, const double *c, double low, double high, double touch, double *root)
+{
+    double slope[CUT_DEGREE], turn[CUT_DEGREE + 2];
+    int n = 0;
+    for (int k = 0; k < degree; k++) slope[k] = (k + 1) * c[k + 1];
+    int turns = cut_roots (degree - 1, slope, low, high, turn + 1);
+    turn[0] = low, turn[turns + 1] = high;
+    for (int i = 0; i <= turns; i++) {
+        double p = value (degree, c, turn[i]), q = value (degree, c, turn[i + 1]);
+        if (fabs (p) <= touch) {
+            if (n == 0 || root[n - 1] < turn[i]) root[n++] = turn[i];
+        } else if (fabs (q) > touch && (p > 0) != (q > 0)) root[n++] = between (degree, c, turn[i], turn[i + 1]);
+    }
+    if (fabs (value (degree, c, high)) <= touch && n < degree && (n == 0 || root[n - 1] < high)) root[n++] = high;
+    return n < degree ? n : degree;
+}
+
+int cut_roots (int degree, const double *c, double low, double high, double *root)
+{
+    double far = fmax (fabs (low), fabs (high)), size = size_of (degree, c, far), found[2];
+    int n = 0, kept = 0;
+    while (degree > 0 && fabs (c[degree]) * pow (far, degree) <= 1e-14 * size) degree--;
+    if (degree == 0) return 0;
+    if (degree > 2) return wider (degree, c, low, high, 1e-12 * size, root);
+    if (degree == 1) found[0] = -c[0] / c[1], n = 1;
+    else n = quadratic (c, found);
+    for (int i = 0; i < n; i++) if (found[i] >= low && found[i] <= high) root[kept++] = found[i];
+    return kept;
+}

@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Where slices of a cell change: between the values found here the surfaces keep their number and order along the height. Hard values
+ * end intervals of the quadrature; at soft ones, also beyond the cell, heights begin like square roots (a tangent along the height). */
+#include "cut.h"
+#include <math.h>
+
+static const double near_box = 1 + 1e-9, flat = 1e-13;
+
+static void push (cut_slices *s, cut_list *list, double value)
+{
+    pg_status status = PG_OK;
+    PG_GROW (list->at, list->capacity, list->n + 1);
+    list->at[list->n++] = value;
+done:
+    if (status != PG_OK) s->status = status;
+}
+
+/* The part of surface i that may bound the body holds the place s->at? */
+int cut_within (const cut_slices *s, size_t i)
+{
+    for (int k = 0; k < s->dim; k++)
+        if (s->at[k] < s->low[3*i + (size_t) k] - 1e-7 || s->at[k] > s->high[3*i + (size_t) k] + 1e-7) return 0;
+    return 1;
+}
+
+static int overlap (const cut_slices *s, size_t i, size_t j)
+{
+    for (size_t k = 0; k < (size_t) s->dim; k++)
+        if (s->low[3*i + k] > s->high[3*j + k] + 1e-7 || s->low[3*j + k] > s->high[3*i + k] + 1e-7) return 0;
+    return 1;
+}
+
+/* ---- slices: psi = a z^2 + B (y) z + C (y) --------------------------------------------------------------------------------- */
+typedef struct { double a, B[2], C[3]; } conic;
+
+static conic conic_of (const cut_quadric *q, int y, int z)
+{
+    return (conic) {q->A[z][z], {q->b[z], 2 * q->A[y][z]}, {q->c, q->b[y], q->A[y][y]}};
+}
+
+static double at_B (const conic *p, double y) { return p->B[0] + p->B[1] * y; }
+static double at_C (const conic *p, double y) { return p->C[0] + y * (p->C[1] + y * p->C[2]); }
+
+/* On the low and the high face. */
+static void split_faces (cut_slices *s, cut_level *out, size_t i, const conic *p, int y, int z)
+{
+    for (int side = -1; side <= 1; side += 2) {
+        double c[3] = {p->C[0] + side * p->B[0] + p->a, p->C[1] + side * p->B[1], p->C[2]}, root[2];
+        int n = cut_roots (2, c, -1, 1, root);
+        for (int r = 0; r < n; r++) {
+            s->at[y] = root[r], s->at[z] = side;
+            if (cut_within (s, i)) push (s, &out->hard, root[r]);
+        }
+    }
+}
+
+/* Tangents along z: B^2 = 4 a C. */
+static void split_turns (cut_slices *s, cut_level *out, const conic *p)
+{
+    double root[2];
+    if (fabs (p->a) < flat) return;
+    double D[3] = {p->B[0] * p->B[0] - 4 * p->a * p->C[0], 2 * p->B[0] * p->B[1] - 4 * p->a * p->C[1], p->B[1] * p->B[1] - 4 * p->a * p->C[2]};
+    int n = cut_roots (2, D, -3, 3, root);
+    for (int r = 0; r < n; r++) {
+        double z = -at_B (p, root[r]) / (2 * p->a);
+        if (fabs (z) > 2) continue;
+        push (s, &out->soft, root[r]);
+        if (fabs (root[r]) < 1 && fabs (z) <= near_box) push (s, &out->hard, root[r]);
+    }
+}
+
+/* Polynomial whose roots hold the y at which two conics have a z in common; its degree, 0: none. */
+static int resultant (const conic *p, const conic *q, double *R)
+{
+    double B[2], C[3], scale = 0;
+    if (fabs (p->a) < fabs (q->a)) { const conic *t = p; p = q, q = t; }
+    if (fabs (p->a) < flat) {
+        for (int k = 0; k < 4; k++) R[k] = 0;
+        for (int i = 0; i < 2; i++) for (int k = 0; k < 3; k++) R[i + k] += p->B[i] * q->C[k] - q->B[i] * p->C[k];
+        return 3;
+    }
+    for (int k = 0; k < 2; k++) {
+        double u = p->a * q->B[k], v = q->a * p->B[k];
+        B[k] = fabs (u - v) <= 1e-14 * (fabs (u) + fabs (v)) ? 0 : u - v;
+    }
+    for (int k = 0; k < 3; k++) {
+        double u = p->a * q->C[k], v = q->a * p->C[k];
+        C[k] = fabs (u - v) <= 1e-14 * (fabs (u) + fabs (v)) ? 0 : u - v;
+        scale = fmax (scale, fabs (C[k]));
+    }
+    if (fabs (B[0]) + fabs (B[1]) <= flat * scale) {       /* mirror images: every z is common                           */
+        for (int k = 0; k < 3; k++) R[k] = C[k];
+        return 2;
+    }
+    for (int k = 0; k < 5; k++) R[k] = 0;
+    for (int i = 0; i < 3; i++) for (int k = 0; k < 3; k++) R[i + k] += p->a * C[i] * C[k];
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++)
+            for (int m = 0; m < 3; m++) R[i + k + m] += B[i] * (B[k] * p->C[m] - p->B[k] * C[m]);
+    return 4;
+}
+
+/* The heights of surface p at y within the box (and a little beyond). */
+static int heights (const conic *p, double y, double *z)
+{
+    double c[3] = {at_C (p, y), at_B (p, y), p->a};
+    int n = cut_roots (2, c, -1 - 1e-6, 1 + 1e-6, z);
+    if (n == 0 && fabs (p->a) > flat && fabs (at_B (p, y) / (2 * p->a)) < 1 && fabs (c[1] * c[1] - 4 * p->a * c[0]) < 1e-9)
+        z[0] = -c[1] / (2 * p->a), n = 1;                  /* a tangent, missed by rounding                              */
+    return n;
+}
+
+static void split_pair (cut_slices *s, cut_level *out, size_t i, size_t j, const conic *p, const conic *q, int y, int z)
+{
+    double R[5], root[CUT_DEGREE + 2], at[2];
+    int n = cut_roots (resultant (p, q, R), R, -1, 1, root);
+    for (int r = 0; r < n; r++) {
+        int m = heights (p, root[r], at), meet = 0;
+        for (int k = 0; k < m; k++) {
+            s->at[y] = root[r], s->at[z] = at[k];
+            meet |= fabs (at_C (q, root[r]) + at[k] * (at_B (q, root[r]) + at[k] * q->a)) < 1e-6 && cut_within (s, i) && cut_within (s, j);
+        }
+        if (meet) push (s, &out->hard, root[r]);
+    }
+}
+
+static void split_slice (cut_slices *s, const cut_quadric *surface, cut_level *out, int y, int z)
+{
+    for (size_t i = 0; i < s->n; i++) {
+        conic p = conic_of (&surface[i], y, z);
+        split_faces (s, out, i, &p, y, z);
+        split_turns (s, out, &p);
+        for (size_t j = 0; j < i; j++) {
+            conic q = conic_of (&surface[j], y, z);
+            if (overlap (s, i, j)) split_pair (s, out, i, j, &p, &q, y, z);
+        }
+    }
+}
+
+/* ---- solids ---------------------------------------------------------------------------------------------------------- */
+/* Where a surface has its ends along x inside the cell: psi_y = psi_z = 0. */
+static void split_ends (cut_slices *s, cut_level *out, const cut_quadric *q, int x, int y, int z)
+{
+    double a = 2 * q->A[y][y], b = 2 * q->A[y][z], c = 2 * q->A[z][z], det = a * c - b * b, v[3], root[2];
+    if (fabs (det) < 1e-9 * (a * a + 2 * b * b + c * c) || det == 0) return;
+    double at[3][3] = {{0}};
+    for (int i = 0; i < 3; i++) {
+        double f = -q->b[y] - 2 * q->A[x][y] * (i - 1), g = -q->b[z] - 2 * q->A[x][z] * (i - 1);
+        at[i][x] = i - 1, at[i][y] = (c * f - b * g) / det, at[i][z] = (a * g - b * f) / det;
+        v[i] = cut_value (q, at[i]);
+    }
+    double poly[3] = {v[1], 0.5 * (v[2] - v[0]), 0.5 * (v[2] + v[0]) - v[1]};
+    int n = cut_roots (2, poly, -3, 3, root);
+    for (int r = 0; r < n; r++) {
+        double Y = at[1][y] + root[r] * (at[2][y] - at[1][y]), Z = at[1][z] + root[r] * (at[2][z] - at[1][z]);
+        if (fabs (Y) > 2 || fabs (Z) > 2) continue;
+        push (s, &out->soft, root[r]);
+        if (fabs (root[r]) < 1 && fabs (Y) <= near_box && fabs (Z) <= near_box) push (s, &out->hard, root[r]);
+    }
+}
+
+/* Where three surfaces meet, or (number 2) where the curve of two has its ends along x. */
+static void split_points (cut_slices *s, cut_level *out, const cut_quadric *three, const size_t *which, int number, int x)
+{
+    double at[3 * CUT_MEETINGS];
+    int n = cut_solve (three, number == 2 ? 1.6 : 1, at);
+    for (int r = 0; r < n; r++) {
+        int in = 1;
+        for (int k = 0; k < 3; k++) s->at[k] = at[3*r + k], in &= fabs (at[3*r + k]) <= near_box;
+        if (number == 2) push (s, &out->soft, at[3*r + x]);
+        for (int k = 0; k < number; k++) in &= cut_within (s, which[k]);
+        if (in) push (s, &out->hard, at[3*r + x]);
+    }
+}
+
+/* p_y q_z - p_z q_y */
+static cut_quadric jacobian (const cut_quadric *p, const cut_quadric *q, int y, int z)
+{
+    cut_quadric J = {{{0}}, {0}, 0};
+    const cut_quadric *f[2] = {p, q};
+    for (int t = 0; t < 2; t++) {
+        const cut_quadric *u = f[t], *v = f[1 - t];
+        double sign = t ? -1 : 1;
+        J.c += sign * u->b[y] * v->b[z];
+        for (int i = 0; i < 3; i++) {
+            J.b[i] += sign * 2 * (u->A[y][i] * v->b[z] + u->b[y] * v->A[z][i]);
+            for (int k = 0; k < 3; k++) J.A[i][k] += sign * 2 * (u->A[y][i] * v->A[z][k] + u->A[y][k] * v->A[z][i]);
+        }
+    }
+    return J;
+}
+
+static int straight (const cut_quadric *q)
+{
+    double size = 0;
+    for (int i = 0; i < 9; i++) size = fmax (size, fabs (q->A[i / 3][i % 3]));
+    return size == 0;
+}
+
+static void split_solid (cut_slices *s, const cut_quadric *q, cut_level *out)
+{
+    int x = s->axis[0], y = s->axis[1], z = s->axis[2];
+    for (size_t i = 0; i < s->n; i++) {
+        split_ends (s, out, &q[i], x, y, z);
+        for (size_t j = 0; j < i; j++) {
+            if (!overlap (s, i, j)) continue;
+            if (!straight (&q[i]) || !straight (&q[j]))
+                split_points (s, out, (cut_quadric[]) {q[i], q[j], jacobian (&q[i], &q[j], y, z)}, (size_t[]) {i, j}, 2, x);
+            for (size_t k = 0; k < j; k++)
+                if (overlap (s, i, k) && overlap (s, j, k)) split_points (s, out, (cut_quadric[]) {q[i], q[j], q[k]}, (size_t[]) {i, j, k}, 3, x);
+        }
+    }
+    cut_quadric *face = s->level[1].q;                     /* room that the walk needs only later                        */
+    for (int f = 0; f < 4; f++) {
+        int across = f < 2 ? z : y, along = f < 2 ? y : z;
+        s->at[across] = f % 2 ? 1 : -1;
+        for (size_t i = 0; i < s->n; i++) face[i] = q[i], cut_restrict (&face[i], across, f % 2 ? 1 : -1);
+        split_slice (s, face, out, x, along);
+        s->at[across] = f % 2 ? 1 : -1;
+    }
+}
+
+void cut_split (cut_slices *s, int k)
+{
+    cut_level *out = &s->level[k];
+    out->hard.n = out->soft.n = 0;
+    if (k == s->dim - 2) split_slice (s, out->q, out, s->axis[k], s->axis[k + 1]);
+    else split_solid (s, out->q, out);
+}

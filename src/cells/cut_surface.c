@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The surface of the body as planes, circles, cylinders and spheres: |grad psi| = 1 where psi = 0. */
+#include "cut.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- quadrics -------------------------------------------------------------------------------------------------------- */
+double cut_value (const cut_quadric *q, const double *x)
+{
+    double v = q->c;
+    for (int i = 0; i < 3; i++) {
+        v += q->b[i] * x[i];
+        for (int k = 0; k < 3; k++) v += x[i] * q->A[i][k] * x[k];
+    }
+    return v;
+}
+
+void cut_gradient (const cut_quadric *q, const double *x, double *g)
+{
+    for (int i = 0; i < 3; i++) {
+        g[i] = q->b[i];
+        for (int k = 0; k < 3; k++) g[i] += 2 * q->A[i][k] * x[k];
+    }
+}
+
+void cut_restrict (cut_quadric *q, int axis, double at)
+{
+    q->c += q->b[axis] * at + q->A[axis][axis] * at * at;
+    for (int i = 0; i < 3; i++) {
+        if (i != axis) q->b[i] += 2 * q->A[i][axis] * at;
+        q->A[i][axis] = q->A[axis][i] = 0;
+    }
+    q->b[axis] = 0;
+}
+
+int cut_meets (const cut_quadric *q, const double *centre, const double *half, double slack)
+{
+    double g[3], reach = slack;
+    cut_gradient (q, centre, g);
+    for (int i = 0; i < 3; i++) {
+        reach += fabs (g[i]) * half[i];
+        for (int k = 0; k < 3; k++) reach += fabs (q->A[i][k]) * half[i] * half[k];
+    }
+    return fabs (cut_value (q, centre)) <= reach;
+}
+
+cut_quadric cut_local (const cut_surface *s, int dim, const double *centre, const double *half)
+{
+    cut_quadric q = {{{0}}, {0}, 0};
+    double m[3] = {0, 0, 0}, g[3], size = 0;
+    for (int i = 0; i < dim; i++) m[i] = centre[i] - s->origin[i];
+    cut_gradient (&s->psi, m, g);
+    q.c = cut_value (&s->psi, m);
+    for (int i = 0; i < dim; i++) {
+        q.b[i] = g[i] * half[i];
+        for (int k = 0; k < dim; k++) q.A[i][k] = s->psi.A[i][k] * half[i] * half[k];
+    }
+    for (int i = 0; i < dim; i++) size = fmax (size, fabs (q.b[i]) + fabs (q.A[i][i]));
+    for (int i = 0; i < dim; i++) {
+        q.b[i] /= size;
+        for (int k = 0; k < dim; k++) q.A[i][k] /= size;
+    }
+    q.c /= size;
+    return q;
+}
+
+/* ---- surfaces of shapes ------------------------------------------------------------------------------------------------ */
+typedef struct { struct pg_cut *cut; size_t capacity; } maker;
+
+static int same (const cut_surface *a, const cut_surface *b, int dim)
+{
+    double centre[3], half[3] = {1, 1, 1}, size = 0, plus = 0, minus = 0;
+    for (int k = 0; k < dim; k++) {
+        if (!(a->low[k] == b->low[k] && a->high[k] == b->high[k])) return 0;
+        centre[k] = 0.5 * (a->low[k] + a->high[k]), size = fmax (size, a->high[k] - a->low[k]);
+    }
+    for (int k = 0; k < dim; k++) half[k] = size;
+    cut_quadric p = cut_local (a, dim, centre, half), q = cut_local (b, dim, centre, half);
+    plus = fabs (p.c + q.c), minus = fabs (p.c - q.c);
+    for (int i = 0; i < dim; i++) {
+        plus += fabs (p.b[i] + q.b[i]), minus += fabs (p.b[i] - q.b[i]);
+        for (int k = 0; k < dim; k++) plus += fabs (p.A[i][k] + q.A[i][k]), minus += fabs (p.A[i][k] - q.A[i][k]);
+    }
+    return fmin (plus, minus) < 1e-13;
+}
+
+static pg_status add (maker *m, const cut_surface *s)
+{
+    pg_status status = PG_OK;
+    for (size_t i = 0; i < m->cut->n; i++) if (same (&m->cut->surface[i], s, m->cut->dim)) return PG_OK;
+    PG_GROW (m->cut->surface, m->capacity, m->cut->n + 1);
+    m->cut->surface[m->cut->n++] = *s;
+done:
+    return status;
+}
+
+/* A plane through a point, with a unit normal. */
+static pg_status add_plane (maker *m, cut_surface s, const double *point, const double *normal)
+{
+    s.flat = 1, s.axis = -1;
+    memcpy (s.origin, point, (size_t) m->cut->dim * sizeof *point);
+    for (int k = 0; k < m->cut->dim; k++) {
+        s.psi.b[k] = normal[k];
+        if (fabs (normal[k]) == 1) s.axis = k, s.low[k] = s.high[k] = point[k];
+    }
+    return add (m, &s);
+}
+
+static pg_status add_box (maker *m, cut_surface s, const pg_shape *shape)
+{
+    pg_status status = PG_OK;
+    memcpy (s.low, shape->low, sizeof s.low);
+    memcpy (s.high, shape->high, sizeof s.high);
+    for (int f = 0; f < 2 * m->cut->dim; f++) {
+        double n[3] = {0, 0, 0};
+        n[f / 2] = f % 2 ? 1 : -1;
+        PG_TRY (add_plane (m, s, f % 2 ? shape->high : shape->low, n));
+    }
+done:
+    return status;
+}
+
+/* Circle, sphere; cylinder: at right angles to its axis. */
+static pg_status add_round (maker *m, cut_surface s, const pg_shape *shape)
+{
+    double R = shape->radius;
+    int cylinder = shape->kind == PG_CYLINDER;
+    s.axis = -1;
+    memcpy (s.origin, shape->centre, sizeof s.origin);
+    for (int i = 0; i < m->cut->dim; i++)
+        for (int k = 0; k < m->cut->dim; k++)
+            s.psi.A[i][k] = ((i == k) - (cylinder ? shape->axis[i] * shape->axis[k] : 0)) / (2 * R);
+    s.psi.c = -R / 2;
+    return add (m, &s);
+}
+
+static pg_status add_cylinder (maker *m, cut_surface s, const pg_shape *shape)
+{
+    pg_status status = PG_OK;
+    double far[3], back[3];
+    for (int k = 0; k < 3; k++) far[k] = shape->centre[k] + shape->length * shape->axis[k], back[k] = -shape->axis[k];
+    PG_TRY (add_round (m, s, shape));
+    s.end = 1;
+    for (int k = 0; k < 3; k++) {
+        double wide = shape->radius * sqrt (fmax (0, 1 - shape->axis[k] * shape->axis[k]));
+        s.low[k] = shape->centre[k] - wide, s.high[k] = shape->centre[k] + wide;
+    }
+    PG_TRY (add_plane (m, s, shape->centre, back));
+    for (int k = 0; k < 3; k++) s.low[k] += far[k] - shape->centre[k], s.high[k] += far[k] - shape->centre[k];
+    PG_TRY (add_plane (m, s, far, shape->axis));
+done:
+    return status;
+}
+
+static pg_status add_polygon (maker *m, cut_surface s, const pg_shape *shape)
+{
+    pg_status status = PG_OK;
+    cut_surface end = s;
+    for (size_t i = 0, j = shape->nvertex - 1; i < shape->nvertex; j = i++) {
+        const double *a = shape->vertex + 2 * j, *b = shape->vertex + 2 * i;
+        double length = hypot (b[0] - a[0], b[1] - a[1]), n[3] = {(b[1] - a[1]) / length, (a[0] - b[0]) / length, 0};
+        double point[3] = {a[0], a[1], 0};
+        for (int k = 0; k < 2; k++) s.low[k] = fmin (a[k], b[k]), s.high[k] = fmax (a[k], b[k]);
+        PG_TRY (add_plane (m, s, point, n));
+    }
+    for (int f = 0; f < 2 && shape->kind == PG_PRISM; f++) {
+        double point[3] = {0, 0, f ? shape->high[2] : shape->low[2]}, n[3] = {0, 0, f ? 1 : -1};
+        PG_TRY (add_plane (m, end, point, n));
+    }
+done:
+    return status;
+}
+
+/* Box of the shape. */
+static void bound (cut_surface *s, const pg_shape *shape, int dim)
+{
+    for (int k = 0; k < dim; k++) {
+        double a = shape->centre[k], b = a, wide = shape->radius;
+        if (shape->kind == PG_CYLINDER) b += shape->length * shape->axis[k], wide *= sqrt (fmax (0, 1 - shape->axis[k] * shape->axis[k]));
+        s->low[k] = fmin (a, b) - wide, s->high[k] = fmax (a, b) + wide;
+        if (shape->kind == PG_BOX || shape->kind == PG_PRISM) s->low[k] = shape->low[k], s->high[k] = shape->high[k];
+        for (size_t i = 0; k < 2 && i < shape->nvertex; i++) {
+            double v = shape->vertex[2 * i + (size_t) k];
+            s->low[k] = i ? fmin (s->low[k], v) : v, s->high[k] = i ? fmax (s->high[k], v) : v;
+        }
+    }
+}
+
+pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body)
+{
+    pg_status status = PG_OK;
+    maker m = {cut, 0};
+    cut->dim = body->dim, cut->body = body;
+    for (size_t i = 0; i < body->n; i++) {
+        const pg_shape *shape = &body->shape[i];
+        cut_surface s = {.shape = (int) i, .axis = -1};
+        bound (&s, shape, body->dim);
+        if (shape->kind == PG_BOX) PG_TRY (add_box (&m, s, shape));
+        else if (shape->kind == PG_CYLINDER) PG_TRY (add_cylinder (&m, s, shape));
+        else if (shape->kind == PG_DISK || shape->kind == PG_SPHERE) PG_TRY (add_round (&m, s, shape));
+        else PG_TRY (add_polygon (&m, s, shape));
+    }
+done:
+    return status;
+}

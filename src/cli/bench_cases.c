@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The cases of a benchmark: every combination of what the catalogues hold or the command line names. */
+#include "cli.h"
+#include "bench.h"
+#include <stdlib.h>
+#include <string.h>
+
+pg_status bench_look (bench_base *b, const char *path, size_t nset, const char *const *set)
+{
+    pg_status status = PG_OK;
+    pg_scene *scene = NULL;
+    const char *file = strrchr (path, '/'), *start = path;
+    PG_TRY (pg_scene_load_with (&scene, path, nset, set));
+    b->spacing = pg_scene_given (scene, "spacing") ? pg_scene_number (scene, "spacing") : 0;
+    b->horizon = b->spacing > 0 ? pg_scene_length (scene, b->spacing, "method.horizon") / b->spacing : 0;
+    b->has_horizon = pg_scene_given (scene, "method.horizon");
+    b->quadratic = strcmp (pg_scene_text (scene, "method.basis"), "quadratic") == 0;
+    snprintf (b->name, sizeof b->name, "%.63s", file ? file + 1 : path);
+    if (strcmp (b->name, "scene.yaml") == 0 && file) {
+        for (const char *p = path; p < file; p++) if (*p == '/') start = p + 1;
+        snprintf (b->name, sizeof b->name, "%.*s", (int) (file - start < 63 ? file - start : 63), start);
+    } else if (strlen (b->name) > 5 && strcmp (b->name + strlen (b->name) - 5, ".yaml") == 0) b->name[strlen (b->name) - 5] = 0;
+done:
+    pg_scene_free (&scene);
+    return status == PG_E_FILE ? PG_E_SCENE : status;
+}
+
+static void fill (bench_words *w, const char *names)
+{
+    if (w->given) return;
+    for (const char *s = names; *s && w->n < BENCH_WORDS; s += strcspn (s, "|"), s += *s == '|')
+        snprintf (w->word[w->n++], BENCH_TEXT, "%.*s", (int) strcspn (s, "|"), s);
+}
+
+/* A number alone counts spacings, as in `converge --horizon`. */
+static void count_spacings (bench_words *w)
+{
+    for (size_t k = 0; k < w->n; k++) {
+        char *end;
+        size_t n = strlen (w->word[k]);
+        strtod (w->word[k], &end);
+        if (!*end && n + 9 < BENCH_TEXT) snprintf (w->word[k] + n, BENCH_TEXT - n, " spacing");
+    }
+}
+
+static void put (bench_case *c, const char *key, const char *value)
+{
+    if (value) snprintf (c->set[c->nset++], sizeof *c->set, "%s=%s", key, value);
+}
+
+/* The horizon follows the basis where only the basis is asked to change: 2 spacings for the linear one, 2.5 for the quadratic one. */
+static const char *horizon_for (const bench_base *b, const bench_request *q, const char *basis)
+{
+    for (size_t k = 0; k < q->nset; k++) if (strncmp (q->set[k], "method.horizon=", 15) == 0) return NULL;
+    int quadratic = strcmp (basis, "quadratic") == 0;
+    if (b->has_horizon && quadratic == b->quadratic) return NULL;
+    return quadratic ? "2.5 spacing" : "2 spacing";
+}
+
+typedef struct { const char *force, *approximation, *integration, *basis, *cells, *perturb, *horizon; } mix;
+
+static pg_status add_curve (bench_cases *out, const bench_request *q, size_t s, const bench_base *b, const mix *m)
+{
+    pg_status status = PG_OK;
+    static const double factor[3] = { 2, 1, 0.5 };
+    size_t sizes = q->spacing.n ? q->spacing.n : b->spacing > 0 ? 3 : 1;
+    char number[32];
+    for (size_t k = 0; k < sizes; k++) {
+        PG_GROW (out->at, out->cap, out->n + 1);
+        bench_case *c = &out->at[out->n++];
+        memset (c, 0, sizeof *c);
+        c->scene = s, c->curve = out->ncurve;
+        trial_read (&c->best, "");
+        snprintf (c->name, sizeof c->name, "%s", b->name);
+        snprintf (c->perturb, sizeof c->perturb, "%s", m->perturb ? m->perturb : "");
+        snprintf (c->cells, sizeof c->cells, "%s", m->cells ? m->cells : "");
+        snprintf (c->method, sizeof c->method, "%s%s%s %s %s%s%s%s%s%s%s", q->force.n > 1 ? m->force : "", q->force.n > 1 ? " " : "", m->approximation,
+                  m->integration, m->basis, m->horizon ? " " : "", m->horizon ? m->horizon : "", m->perturb && strcmp (m->perturb, "0") != 0 ? " perturbed " : "",
+                  m->perturb && strcmp (m->perturb, "0") != 0 ? m->perturb : "", m->cells ? " " : "", m->cells ? m->cells : "");
+        put (c, "method.force", m->force), put (c, "method.approximation", m->approximation), put (c, "method.integration", m->integration);
+        put (c, "method.basis", m->basis), put (c, "cells", m->cells), put (c, "perturb.amount", m->perturb);
+        put (c, "method.horizon", m->horizon ? m->horizon : horizon_for (b, q, m->basis));
+        snprintf (number, sizeof number, "%.15g", b->spacing * factor[k < 3 ? k : 2]);
+        if (q->spacing.n) put (c, "spacing", q->spacing.word[k]);
+        else if (b->spacing > 0) put (c, "spacing", number);
+    }
+    out->ncurve++;
+done:
+    return status;
+}
+
+static const char *word_of (const bench_words *w, size_t k, size_t of) { return w->n ? w->word[k / of % w->n] : NULL; }
+
+pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
+{
+    pg_status status = PG_OK;
+    bench_request *q = NULL;
+    PG_ALLOC (q, 1);
+    *q = *asked;
+    fill (&q->force, pg_force_names ()), fill (&q->approximation, pg_approx_names ()), fill (&q->integration, pg_integration_names ());
+    fill (&q->basis, "linear|quadratic");
+    count_spacings (&q->horizon);
+    for (size_t s = 0; s < q->nscene; s++) {
+        bench_base b;
+        const bench_words *list[7] = { &q->force, &q->approximation, &q->integration, &q->basis, &q->cells, &q->perturb, &q->horizon };
+        size_t of[7], all = 1;
+        PG_TRY (bench_look (&b, q->scene[s], q->nset, q->set));
+        for (int k = 6; k >= 0; k--) of[k] = all, all *= list[k]->n ? list[k]->n : 1;
+        for (size_t k = 0; k < all; k++) {
+            mix m = { word_of (list[0], k, of[0]), word_of (list[1], k, of[1]), word_of (list[2], k, of[2]), word_of (list[3], k, of[3]),
+                      word_of (list[4], k, of[4]), word_of (list[5], k, of[5]), word_of (list[6], k, of[6]) };
+            PG_TRY (add_curve (out, q, s, &b, &m));
+        }
+        if (q->fem) PG_TRY (bench_fem_add (out, q, s, b.name));
+    }
+done:
+    pg_free (q);
+    return status;
+}

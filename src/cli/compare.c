@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * perigal compare DIR [REFERENCE]: a result against its scene's reference, a table, another result or a finite element result. */
+#include "cli.h"
+#include "compare.h"
+#include <getopt.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static int complain (const char *format, const char *text)
+{
+    fputs ("perigal compare: ", stderr);
+    fprintf (stderr, format, text);
+    fputc ('\n', stderr);
+    return EXIT_USAGE;
+}
+
+/* "1, -2 mm, 0": lengths */
+static int read_shift (const char *text, double shift[3])
+{
+    char part[64];
+    for (int k = 0; k < 3; k++) {
+        size_t n = strcspn (text, ",");
+        snprintf (part, sizeof part, "%.*s", (int) (n < 60 ? n : 60), text);
+        if (pg_unit_parse (&shift[k], part, "m") != PG_OK) return 0;
+        text += n;
+        if (!*text) return 1;
+        text++;
+    }
+    return 0;
+}
+
+static int read_unit (const char *text, double *unit)
+{
+    char one[64];
+    snprintf (one, sizeof one, "1 %.50s", text);
+    return pg_unit_parse (unit, one, "m") == PG_OK && *unit > 0;
+}
+
+/* "displacement", "displacement.x", "stress.xx" */
+static int read_field (const char *text, int *column)
+{
+    if (strcmp (text, "displacement") == 0) *column = PG_COMPARE_U;
+    else if (strcmp (text, "stress") == 0) *column = PG_COMPARE_S;
+    else *column = -1;
+    for (int c = 0; c < 9 && *column < 0; c++) {
+        char name[32];
+        snprintf (name, sizeof name, "%s.%s", c < 3 ? "displacement" : "stress", pg_column_name (c) + 2);
+        if (strcmp (text, name) == 0) *column = c;
+    }
+    return *column >= 0;
+}
+
+static int read_step (const char *text, int *step)
+{
+    char *end;
+    long n = strtol (text, &end, 10);
+    if (end == text || *end || n < -1 || n > 1000000000) return 0;
+    *step = (int) n;
+    return 1;
+}
+
+static int read_number (const char *text, double *out)
+{
+    char *end;
+    *out = strtod (text, &end);
+    return end != text && !*end && isfinite (*out);
+}
+
+static int read_option (compare_request *q, int option, const char *text)
+{
+    double threads = 0;
+    switch (option) {
+    case 'n': return read_step (text, &q->step) ? -1 : complain ("--step %s: expected 0, 1, 2 ... or -1 (the last)", text);
+    case 'm': return read_step (text, &q->other_step) ? -1 : complain ("--reference-step %s: expected 0, 1, 2 ... or -1 (the last)", text);
+    case 'f': return read_field (text, &q->column) ? -1 : complain ("--field %s: displacement, stress, or a part such as displacement.x, stress.xx", text);
+    case 'u': return read_unit (text, &q->unit) ? -1 : complain ("--unit %s: a unit of length is needed, such as mm", text);
+    case 'd': return read_shift (text, q->shift) ? -1 : complain ("--shift %s: up to three lengths are needed, such as 0,-5mm", text);
+    case 'c': return read_number (text, &q->scale) ? -1 : complain ("--scale %s: a number is needed", text);
+    case 't':
+        if (!read_number (text, &threads) || threads < 0 || threads > 64) return complain ("--threads %s: a number from 0 (all) to 64 is needed", text);
+        q->threads = (int) threads;
+        return -1;
+    case 'o': q->out = text; return -1;
+    case 'j': q->json = 1; return -1;
+    default:  q->quiet = 1; return -1;
+    }
+}
+
+static int parse (compare_request *q, int argc, char **argv)
+{
+    static const struct option options[] = {
+        { "step", required_argument, NULL, 'n' }, { "reference-step", required_argument, NULL, 'm' }, { "field", required_argument, NULL, 'f' },
+        { "unit", required_argument, NULL, 'u' }, { "shift", required_argument, NULL, 'd' }, { "scale", required_argument, NULL, 'c' },
+        { "threads", required_argument, NULL, 't' }, { "out", required_argument, NULL, 'o' }, { "json", no_argument, NULL, 'j' },
+        { "quiet", no_argument, NULL, 'q' }, { "help", no_argument, NULL, 'h' }, { NULL, 0, NULL, 0 } };
+    *q = (compare_request) { .step = -1, .other_step = -1, .unit = 1, .scale = 1, .column = -1 };
+    optind = 1, opterr = 0;
+    for (int k, wrong = -1; (k = getopt_long (argc, argv, ":o:qh", options, NULL)) != -1;) {
+        if (k == 'h') return command_usage (stdout, argv[0]) ? EXIT_DONE : EXIT_USAGE;
+        if (k == ':') wrong = complain ("%s needs a value", argv[optind - 1]);
+        else if (k == '?') wrong = complain ("there is no option %s", argv[optind - 1]);
+        else wrong = read_option (q, k, optarg);
+        if (wrong >= 0) return wrong;
+    }
+    if (optind >= argc || optind + 2 < argc) {
+        complain ("%s", "a result folder is needed, and at most one reference");
+        command_usage (stderr, argv[0]);
+        return EXIT_USAGE;
+    }
+    q->folder = argv[optind], q->reference = optind + 1 < argc ? argv[optind + 1] : NULL;
+    if (strlen (q->folder) > 2000) return complain ("%s", "the path is too long");
+    if (q->threads < 1) q->threads = (int) sysconf (_SC_NPROCESSORS_ONLN);
+    return -1;
+}
+
+static void print_rows (const comparison *c, const compare_request *q)
+{
+    char row[400];
+    printf ("%s, step %d, against %s\n  %s", q->folder, c->own->step, q->reference ? q->reference : "its scene's reference", c->own->how);
+    if (c->note[0]) printf ("\n  %s", c->note);
+    printf ("\n");
+    for (size_t k = 0; pg_errors_row (&c->errors, k, row, sizeof row); k++) printf ("  %s\n", row);
+}
+
+int pg_cli_compare (int argc, char **argv)
+{
+    pg_status status = PG_OK;
+    compare_request q;
+    comparison c = { 0 };
+    int wrong = parse (&q, argc, argv);
+    if (wrong >= 0) return wrong;
+    PG_TRY (compare_sides (&c, &q));
+    if (!q.json && !q.quiet) print_rows (&c, &q);
+    PG_TRY (compare_files (&c, &q));
+done:
+    if (status != PG_OK) command_complain (status, pg_last_error ());
+    compare_clear (&c);
+    return exit_code (status);
+}

@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * mesh_body.h: what the files of a body from a mesh share. */
+#ifndef PERIGAL_CLOUD_MESH_BODY_H
+#define PERIGAL_CLOUD_MESH_BODY_H
+#include "perigal/cloud.h"
+
+enum { PG_MESH_BODY_ORDER = 4 };                       /* of the rule for volumes: curved elements too                   */
+/* Places of the nodes of element e (nodes x dim). */
+void pg_mesh_body_nodes (const pg_mesh *mesh, size_t e, double *x);
+#endif

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Points at the nodes of a mesh: lumped volumes, local spacings, random shifts. */
+#include "place.h"
+#include "mesh_body.h"
+#include <math.h>
+#include <string.h>
+
+/* The element of the same shape with corners only. */
+static pg_element straight (pg_element kind)
+{
+    const pg_element_type *t = &pg_element_types[kind];
+    for (int k = 0; k < PG_ELEMENTS; k++) {
+        const pg_element_type *s = &pg_element_types[k];
+        if (s->order == 1 && s->dim == t->dim && s->corners == t->corners) return (pg_element) k;
+    }
+    return kind;
+}
+
+int pg_mesh_body_halved (const pg_mesh_body *b)
+{
+    const pg_mesh *m = &b->mesh;
+    for (size_t e = 0; e < m->n; e++)
+        if (pg_element_types[m->kind[e]].order == 2 && b->point[m->node[m->start[e + 1] - 1]] >= 0) return 1;
+    return 0;
+}
+
+/* ---- volumes ---------------------------------------------------------------------------------------------------------- */
+/* Share of the volume for each node of `shape`, which has its own N on the same reference element. */
+static void share_of (const pg_mesh *m, size_t e, pg_element shape, double volume, double *share)
+{
+    double x[3 * PG_ELEMENT_NODES], xi[3 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS], N[PG_ELEMENT_NODES];
+    double row[PG_ELEMENT_NODES] = { 0 }, square[PG_ELEMENT_NODES] = { 0 }, rows = 0, squares = 0, least = INFINITY;
+    pg_element kind = (pg_element) m->kind[e];
+    int n = pg_element_rule (kind, PG_MESH_BODY_ORDER, xi, weight), nodes = pg_element_types[shape].nodes;
+    pg_mesh_body_nodes (m, e, x);
+    for (int q = 0; q < n; q++) {
+        double w = weight[q] * pg_element_map (kind, m->dim, x, xi + q * m->dim, NULL, NULL);
+        pg_element_shape (shape, xi + q * m->dim, N, NULL);
+        for (int i = 0; i < nodes; i++) row[i] += w * N[i], square[i] += w * N[i] * N[i];
+    }
+    for (int i = 0; i < nodes; i++) rows += row[i], squares += square[i], least = fmin (least, row[i]);
+    int scaled = least < 0.01 * volume / nodes;        /* tri6: 0 at corners; tet10, quad8, hex20, wedge15: negative      */
+    for (int i = 0; i < nodes; i++) share[i] = volume * (scaled ? square[i] / squares : row[i] / rows);
+}
+
+static void place_volumes (pg_cloud *c, const pg_mesh_body *b, int corners)
+{
+    const pg_mesh *m = &b->mesh;
+    for (size_t i = 0; i < c->n; i++) c->block[i] = (int) m->nblock;
+    for (size_t e = 0; e < m->n; e++) {
+        double share[PG_ELEMENT_NODES];
+        pg_element shape = corners ? straight ((pg_element) m->kind[e]) : (pg_element) m->kind[e];
+        share_of (m, e, shape, b->volume[e] * c->thickness, share);
+        for (int i = 0; i < pg_element_types[shape].nodes; i++) {
+            size_t p = (size_t) b->point[m->node[m->start[e] + (size_t) i]];
+            c->volume[p] += share[i];
+            if (m->block[e] < c->block[p]) c->block[p] = m->block[e];
+        }
+    }
+}
+
+/* ---- spacings --------------------------------------------------------------------------------------------------------- */
+typedef struct { double sum, longest; size_t n; } edges;
+
+static void add_edge (edges *at, double length)
+{
+    at->sum += length, at->n++;
+    at->longest = fmax (at->longest, length);
+}
+
+/* Lengths between neighbouring points: to the corners of each edge, and of all edges to the nodes that are no corners. */
+static void collect (edges *at, const pg_mesh_body *b, int corners)
+{
+    const pg_mesh *m = &b->mesh;
+    for (size_t e = 0; e < m->n; e++) {
+        const pg_element_type *t = &pg_element_types[m->kind[e]];
+        const int *node = m->node + m->start[e];
+        for (int k = 0; k < t->edges; k++) {
+            int end[2];
+            double length = 0;
+            pg_element_edge ((pg_element) m->kind[e], k, end);
+            for (int a = 0; a < m->dim; a++) length += pow (m->x[3 * (size_t) node[end[0]] + (size_t) a] - m->x[3 * (size_t) node[end[1]] + (size_t) a], 2);
+            length = sqrt (length) * (t->order == 2 && !corners ? 0.5 : 1);
+            for (int i = 0; i < 2; i++) add_edge (&at[b->point[node[end[i]]]], length);
+            for (int i = t->corners; i < t->nodes && !corners; i++) add_edge (&at[b->point[node[i]]], length);
+        }
+    }
+}
+
+static pg_status place_sizes (pg_cloud *c, const pg_mesh_body *b, int corners, int local)
+{
+    static const double reach = 0.6;                   /* of the longest edge at a node: 1.7 times it passes the other end */
+    pg_status status = PG_OK;
+    edges *at = NULL;
+    double sum = 0;
+    PG_ALLOC (at, c->n);
+    PG_ALLOC (c->size, c->n);
+    collect (at, b, corners);
+    for (size_t i = 0; i < c->n; i++) {
+        c->size[i] = fmax (at[i].sum / (double) at[i].n, reach * at[i].longest);
+        sum += c->size[i];
+    }
+    c->h = sum / (double) c->n;
+    for (int k = 0; k < c->dim; k++) c->step[k] = c->h;
+done:
+    pg_free (at);
+    if (!local) pg_free (c->size), c->size = NULL;
+    return status;
+}
+
+/* ---- the cloud -------------------------------------------------------------------------------------------------------- */
+/* Moves the points inside the body; the cells stay. */
+static pg_status perturb (pg_cloud *c, const pg_mesh_body *b, double amount, uint64_t seed)
+{
+    pg_status status = PG_OK;
+    const pg_mesh *m = &b->mesh;
+    unsigned char *outside = NULL;
+    int *element = NULL, *side = NULL;
+    size_t n = 0, dim = (size_t) c->dim;
+    if (!(amount > 0)) return PG_OK;
+    PG_ALLOC (outside, c->n);
+    PG_TRY (pg_mesh_surface (m, &n, &element, &side));
+    for (size_t f = 0; f < n; f++) {
+        int node[9], count = pg_element_types[pg_element_face ((pg_element) m->kind[element[f]], side[f], node)].nodes;
+        for (int k = 0; k < count; k++) {
+            int p = b->point[m->node[m->start[element[f]] + (size_t) node[k]]];
+            if (p >= 0) outside[p] = 1;
+        }
+    }
+    for (size_t i = 0; i < c->n; i++)
+        for (size_t k = 0; k < dim && !outside[i]; k++)
+            c->x[i * dim + k] += amount * pg_cloud_ratio (c, i) * c->h * pg_place_shift (seed, i, (int) k);
+done:
+    pg_free (outside), pg_free (element), pg_free (side);
+    return status;
+}
+
+/* Which nodes are points, numbered in their order. */
+static pg_status number_points (pg_mesh_body *b, int corners, size_t *count)
+{
+    pg_status status = PG_OK;
+    const pg_mesh *m = &b->mesh;
+    int n = 0;
+    PG_ALLOC (b->point, m->nnode);
+    for (size_t e = 0; e < m->n; e++) {
+        int nodes = corners ? pg_element_types[m->kind[e]].corners : pg_element_types[m->kind[e]].nodes;
+        for (int i = 0; i < nodes; i++) b->point[m->node[m->start[e] + (size_t) i]] = 1;
+    }
+    for (size_t i = 0; i < m->nnode; i++) b->point[i] = b->point[i] ? n++ : -1;
+    *count = (size_t) n;
+done:
+    return status;
+}
+
+pg_status pg_mesh_body_cloud (pg_cloud *out, pg_mesh_body *body, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const pg_mesh *m = &body->mesh;
+    size_t dim = (size_t) m->dim;
+    int corners = !strcmp (pg_scene_text (scene, "mesh.points"), "corners"), local = !strcmp (pg_scene_text (scene, "mesh.support"), "local");
+    memset (out, 0, sizeof *out);
+    out->dim = m->dim;
+    out->thickness = m->dim == 3 ? 1 : pg_scene_number (scene, m->dim == 2 ? "thickness" : "cross_section");
+    PG_TRY (number_points (body, corners, &out->n));
+    PG_ALLOC (out->x, out->n * dim);
+    PG_ALLOC (out->volume, out->n);
+    PG_ALLOC (out->block, out->n);
+    for (size_t i = 0; i < m->nnode; i++)
+        if (body->point[i] >= 0) memcpy (out->x + (size_t) body->point[i] * dim, m->x + 3 * i, dim * sizeof *out->x);
+    place_volumes (out, body, corners);
+    PG_TRY (place_sizes (out, body, corners, local));
+    PG_TRY (perturb (out, body, pg_scene_number (scene, "perturb.amount"), (uint64_t) pg_scene_integer (scene, "perturb.seed")));
+    pg_place_bounds (out);
+done:
+    if (status != PG_OK) pg_cloud_clear (out);
+    return status;
+}

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Consistent integration: the points of gauss, with derivatives that obey the divergence identity cell by cell (see integration.h). */
+#include "perigal/integration.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { POLYNOMIALS = 8 };
+
+/* ---- set-up ----------------------------------------------------------------------------------------------------------- */
+static int compare_nodes (const void *a, const void *b)
+{
+    int i = *(const int *) a, j = *(const int *) b;
+    return (i > j) - (i < j);
+}
+
+/* Nodes that the points first..last of a family see and that `seen` does not yet hold at `stamp`, appended to list. */
+static size_t collect (const pg_family *f, size_t first, size_t last, int *seen, int stamp, int *list, size_t n)
+{
+    for (size_t e = f->start[first]; e < f->start[last]; e++) {
+        int j = f->node[e];
+        if (seen[j] == stamp) continue;
+        seen[j] = stamp;
+        list[n++] = j;
+    }
+    return n;
+}
+
+/* One list of nodes for all points of a cell: those that its points or those of its faces see. */
+static pg_status unite (pg_consistency *c, const pg_rows *points, size_t nodes)
+{
+    pg_status status = PG_OK;
+    int *seen = NULL, *list = NULL;
+    size_t cap = 0, cap_cell = 0;
+    PG_ALLOC (seen, nodes);
+    PG_ALLOC (list, nodes);
+    PG_ALLOC (c->family.start, points->n + 1);
+    PG_ALLOC (c->cell_family.start, c->cells->n + 1);
+    c->family.n = points->n, c->cell_family.n = c->cells->n;
+    for (size_t cell = 0; cell < c->cells->n; cell++) {
+        size_t n = collect (&points->family, c->first[cell], c->first[cell + 1], seen, (int) cell + 1, list, 0);
+        for (size_t k = c->faces.of[cell]; k < c->faces.of[cell + 1]; k++) {
+            size_t f = (size_t) c->faces.face[k];
+            n = collect (&c->face.family, c->faces.start[f], c->faces.start[f + 1], seen, (int) cell + 1, list, n);
+        }
+        size_t own = c->cell_family.start[cell];
+        qsort (list, n, sizeof *list, compare_nodes);
+        PG_GROW (c->cell_family.node, cap_cell, own + n);
+        memcpy (c->cell_family.node + own, list, n * sizeof *list);
+        c->cell_family.start[cell + 1] = own + n;
+        for (size_t p = c->first[cell]; p < c->first[cell + 1]; p++) {
+            size_t at = c->family.start[p];
+            PG_GROW (c->family.node, cap, at + n);
+            memcpy (c->family.node + at, list, n * sizeof *list);
+            c->family.start[p + 1] = at + n;
+        }
+    }
+done:
+    pg_free (seen), pg_free (list);
+    return status;
+}
+
+pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, const pg_approx *approx, const pg_cloud *cloud,
+                                 const pg_rows *points, int face_order, int threads)
+{
+    pg_status status = PG_OK;
+    pg_consistency *c = NULL;
+    PG_ALLOC (c, 1);
+    c->cells = cells;
+    PG_ALLOC (c->first, cells->n + 1);
+    for (size_t p = 0; p < points->n; p++) c->first[points->cell[p] + 1]++;
+    for (size_t cell = 0; cell < cells->n; cell++) c->first[cell + 1] += c->first[cell];
+    PG_TRY (pg_faces_build (&c->faces, cells, face_order));
+    PG_TRY (pg_rows_create (&c->face, approx, cloud, c->faces.npoint, c->faces.x, NULL, NULL, NULL));
+    PG_TRY (approx->type->evaluate (approx, cloud, &c->face, NULL, c->face.n, NULL, threads));
+    pg_free (c->face.dN), c->face.dN = NULL;
+    PG_TRY (unite (c, points, cloud->n));
+    *out = c, c = NULL;
+done:
+    pg_consistency_free (&c);
+    return status;
+}
+
+void pg_consistency_free (pg_consistency **out)
+{
+    pg_consistency *c = *out;
+    if (!c) return;
+    pg_faces_clear (&c->faces);
+    pg_rows_clear (&c->face);
+    pg_family_clear (&c->family);
+    pg_family_clear (&c->cell_family);
+    pg_free (c->first);
+    pg_free (c);
+    *out = NULL;
+}
+
+/* ---- one cell --------------------------------------------------------------------------------------------------------- */
+typedef struct {
+    int    dim, n;                                     /* polynomials in use                                             */
+    double centre[3], size;                            /* m: z = (x - centre) / size                                     */
+    double L[POLYNOMIALS * POLYNOMIALS];               /* Cholesky factor of sum w p p'                                  */
+} space;
+
+/* 1, z_k, products; slope (n x dim): 1/m */
+static void polynomials (const space *s, const double *x, double *p, double *slope)
+{
+    static const int products[4][3] = { { 1, 1, 0 }, { 0, 1, 1 }, { 1, 0, 1 }, { 1, 1, 1 } };
+    double z[3] = { 0, 0, 0 };
+    int n = 1;
+    for (int k = 0; k < s->dim; k++) z[k] = (x[k] - s->centre[k]) / s->size;
+    memset (slope, 0, (size_t) (s->n * s->dim) * sizeof *slope);
+    p[0] = 1;
+    for (int k = 0; k < s->dim && n < s->n; k++, n++) p[n] = z[k], slope[n * s->dim + k] = 1 / s->size;
+    for (int m = 0; n < s->n; m++, n++) {
+        p[n] = 1;
+        for (int k = 0; k < s->dim; k++) if (products[m][k]) p[n] *= z[k];
+        for (int k = 0; k < s->dim; k++) {
+            double part = products[m][k] ? 1 / s->size : 0;
+            for (int l = 0; l < s->dim; l++) if (l != k && products[m][l]) part *= z[l];
+            slope[n * s->dim + k] = part;
+        }
+    }
+}
+
+/* As many polynomials as the points bear; 0: not even the constant. */
+static void find_space (space *s, const pg_rows *points, size_t first, size_t last)
+{
+    size_t dim = (size_t) points->dim, n = last - first;
+    double volume = 0, p[POLYNOMIALS], slope[3 * POLYNOMIALS];
+    *s = (space) { .dim = points->dim };
+    for (size_t q = first; q < last; q++) volume += points->weight[q];
+    for (size_t q = first; q < last; q++)
+        for (size_t k = 0; k < dim; k++) s->centre[k] += points->weight[q] / volume * points->x[q * dim + k];
+    for (size_t q = first; q < last; q++)
+        for (size_t k = 0; k < dim; k++) s->size = fmax (s->size, fabs (points->x[q * dim + k] - s->centre[k]));
+    if (!(s->size > 0)) s->size = 1;                   /* one point */
+    for (s->n = n >= (size_t) 1 << dim ? 1 << dim : n > dim ? (int) dim + 1 : 1; s->n > 0; s->n = s->n > (int) dim + 1 ? (int) dim + 1 : s->n > 1 ? 1 : 0) {
+        memset (s->L, 0, sizeof s->L);
+        for (size_t q = first; q < last; q++) {
+            polynomials (s, points->x + q * dim, p, slope);
+            for (int a = 0; a < s->n; a++) for (int b = 0; b <= a; b++) s->L[a * s->n + b] += points->weight[q] / volume * p[a] * p[b];
+        }
+        if (pg_dense_cholesky (s->n, s->L, 1e-8) == 0) break;
+    }
+    for (int k = 0; k < s->n * s->n; k++) s->L[k] *= sqrt (volume);
+}
+
+/* Calls of `entry` places: values of an ascending list of nodes put at their places in a wider one. */
+static void spread (size_t n, const int *node, size_t stride, const double *value, const int *wide_node, double *wide)
+{
+    for (size_t i = 0, at = 0; i < n; i++, at++) {
+        while (wide_node[at] != node[i]) at++;
+        for (size_t k = 0; k < stride; k++) wide[at * stride + k] = value[i * stride + k];
+    }
+}
+
+typedef struct {
+    const pg_consistency *c;
+    const pg_rows *points;
+    pg_rows *wide;
+    const unsigned char *whole;
+    const size_t *list;
+    double **room;                                     /* per thread: residual of the identity, POLYNOMIALS x dim per node, and N */
+} job;
+
+/* rest (nodes x n x dim) = oint p N n dS - sum w (p,k N + p dN,k) */
+static void add_points (const job *j, const space *s, size_t cell, size_t m, double *rest)
+{
+    const pg_rows *w = j->wide;
+    size_t dim = (size_t) s->dim, n = (size_t) s->n;
+    double p[POLYNOMIALS], slope[3 * POLYNOMIALS];
+    for (size_t q = j->c->first[cell]; q < j->c->first[cell + 1]; q++) {
+        const double *N = w->N + j->c->family.start[q], *dN = w->dN + j->c->family.start[q] * dim;
+        double weight = j->points->weight[q];
+        polynomials (s, j->points->x + q * dim, p, slope);
+        for (size_t i = 0; i < m; i++)
+            for (size_t a = 0; a < n; a++)
+                for (size_t k = 0; k < dim; k++) rest[(i * n + a) * dim + k] -= weight * (slope[a * dim + k] * N[i] + p[a] * dN[i * dim + k]);
+    }
+}
+
+static void add_faces (const job *j, const space *s, size_t cell, size_t m, const int *node, double *rest, double *N)
+{
+    const pg_consistency *c = j->c;
+    const pg_faces *f = &c->faces;
+    size_t dim = (size_t) s->dim, n = (size_t) s->n;
+    double p[POLYNOMIALS], slope[3 * POLYNOMIALS];
+    for (size_t e = f->of[cell]; e < f->of[cell + 1]; e++) {
+        size_t face = (size_t) f->face[e];
+        double sign = f->cell[2 * face] == (int) cell ? 1 : -1;
+        for (size_t q = f->start[face]; q < f->start[face + 1]; q++) {
+            size_t start = c->face.family.start[q];
+            memset (N, 0, m * sizeof *N);
+            spread (c->face.family.start[q + 1] - start, c->face.family.node + start, 1, c->face.N + start, node, N);
+            polynomials (s, f->x + q * dim, p, slope);
+            for (size_t i = 0; i < m; i++)
+                for (size_t a = 0; a < n; a++)
+                    for (size_t k = 0; k < dim; k++) rest[(i * n + a) * dim + k] += sign * p[a] * N[i] * f->flux[q * dim + k];
+        }
+    }
+}
+
+static void correct (const job *j, const space *s, size_t cell, size_t m, double *rest)
+{
+    size_t dim = (size_t) s->dim, n = (size_t) s->n;
+    double p[POLYNOMIALS], slope[3 * POLYNOMIALS], b[POLYNOMIALS];
+    for (size_t i = 0; i < m; i++)
+        for (size_t k = 0; k < dim; k++) {
+            for (size_t a = 0; a < n; a++) b[a] = rest[(i * n + a) * dim + k];
+            pg_dense_solve (s->n, s->L, b);
+            for (size_t a = 0; a < n; a++) rest[(i * n + a) * dim + k] = b[a];
+        }
+    for (size_t q = j->c->first[cell]; q < j->c->first[cell + 1]; q++) {
+        double *dN = j->wide->dN + j->c->family.start[q] * dim;
+        polynomials (s, j->points->x + q * dim, p, slope);
+        for (size_t i = 0; i < m; i++)
+            for (size_t a = 0; a < n; a++)
+                for (size_t k = 0; k < dim; k++) dN[i * dim + k] += p[a] * rest[(i * n + a) * dim + k];
+    }
+}
+
+static void treat (const job *j, size_t cell, double *room)
+{
+    const pg_consistency *c = j->c;
+    size_t dim = (size_t) j->points->dim, first = c->first[cell], last = c->first[cell + 1];
+    if (first == last) return;
+    const int *node = c->family.node + c->family.start[first];
+    size_t m = c->family.start[first + 1] - c->family.start[first];
+    for (size_t q = first; q < last; q++) {
+        size_t from = j->points->family.start[q], n = j->points->family.start[q + 1] - from, to = c->family.start[q];
+        memset (j->wide->N + to, 0, m * sizeof (double));
+        memset (j->wide->dN + to * dim, 0, m * dim * sizeof (double));
+        spread (n, j->points->family.node + from, 1, j->points->N + from, node, j->wide->N + to);
+        spread (n, j->points->family.node + from, dim, j->points->dN + from * dim, node, j->wide->dN + to * dim);
+    }
+    space s;
+    if (!j->whole[cell]) return;
+    find_space (&s, j->points, first, last);
+    if (s.n == 0) return;
+    double *rest = room, *N = room + m * dim * POLYNOMIALS;
+    memset (rest, 0, m * dim * POLYNOMIALS * sizeof *rest);
+    add_points (j, &s, cell, m, rest);
+    add_faces (j, &s, cell, m, node, rest, N);
+    correct (j, &s, cell, m, rest);
+}
+
+static void work (void *context, size_t first, size_t last, int thread)
+{
+    const job *j = context;
+    for (size_t k = first; k < last; k++) treat (j, j->list ? j->list[k] : k, j->room[thread]);
+}
+
+pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, pg_rows *wide, const unsigned char *whole,
+                                size_t count, const size_t *list, int threads)
+{
+    pg_status status = PG_OK;
+    size_t most = 0, slots = threads < 1 ? 1 : (size_t) threads;
+    job j = { c, points, wide, whole, list, NULL };
+    for (size_t p = 0; p < points->n; p++) if (c->family.start[p + 1] - c->family.start[p] > most) most = c->family.start[p + 1] - c->family.start[p];
+    PG_ALLOC (j.room, slots);
+    for (size_t t = 0; t < slots; t++) PG_ALLOC (j.room[t], most * ((size_t) points->dim * POLYNOMIALS + 1));
+    pg_parallel (threads, list ? count : c->cells->n, work, &j);
+done:
+    for (size_t t = 0; j.room && t < slots; t++) pg_free (j.room[t]);
+    pg_free (j.room);
+    return status;
+}
+
+static pg_status points (pg_quadrature *out, const pg_cells *cells, double thickness, int order)
+{
+    return pg_integration_find ("gauss")->points (out, cells, thickness, order);
+}
+
+const pg_integration_type pg_integration_consistent = {
+    "consistent", "Gauss points with derivatives that obey the divergence identity: exact patch test on any points", 0, 1, points };

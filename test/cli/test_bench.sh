@@ -1,0 +1,71 @@
+#!/bin/bash
+# test_bench.sh BUILD: perigal bench and perigal converge on a small cantilever: tables, pictures, orders, what is refused and how.
+perigal=$(realpath "$1/perigal"); n=0; bad=0
+cd "$(dirname "$0")/../.." || exit 1
+work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
+beam=data/textbook_cantilever/scene.yaml
+verdict() {   # name, 0 for good
+    n=$((n + 1))
+    if [ "$2" -eq 0 ]; then echo "ok $n - $1"; return; fi
+    bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" "$work/err"
+}
+expect() {   # name, exit code, pattern of stdout, pattern of stderr ('' wants nothing), arguments...
+    local name=$1 code=$2 out=$3 err=$4 k good=0; shift 4
+    "$perigal" "$@" > "$work/out" 2> "$work/err"; k=$?
+    [ $k -eq "$code" ] || good=1
+    if [ -z "$out" ]; then [ ! -s "$work/out" ] || good=1; else grep -q -- "$out" "$work/out" || good=1; fi
+    if [ -z "$err" ]; then [ ! -s "$work/err" ] || good=1; else grep -q -- "$err" "$work/err" || good=1; fi
+    verdict "$name" $good
+}
+# column FILE NAME [FILTER]: the values of a column (unit dropped) in the rows that match
+column() {
+    awk -F, -v want="$2" -v filter="${3:-.}" 'NR == 1 { for (k = 1; k <= NF; k++) { split ($k, part, " \\["); if (part[1] == want) at = k } next } $0 ~ filter { print $at }' "$1"
+}
+picture() { [ -s "$1" ] && [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] && [ "$(stat -c %s "$1")" -gt 15000 ]; }
+between() { awk -v v="$1" -v low="$2" -v high="$3" 'BEGIN { exit !(v != "" && v >= low && v <= high) }'; }
+
+expect "bench: two methods, two sizes" 0 'rkpm gauss linear .*dofs  L2' '' bench $beam --approximation rkpm --integration gauss,nodal --basis linear \
+       --spacing 3,1.5 --repeat 2 -o "$work/bench"
+table=$work/bench/bench.csv
+[ "$(wc -l < "$table")" -eq 5 ]; verdict "a row for each run" $?
+good=0
+for name in case method points dofs l2 energy maximum assemble factor solve cpu wall peak; do
+    [ "$(column "$table" $name | grep -c .)" -eq 4 ] || { good=1; echo "column $name" >> "$work/err"; }
+done
+verdict "every column is filled" $good
+[ "$(column "$table" runs | sort -u)" = 2 ]; verdict "every run was repeated" $?
+[ "$(column "$table" dofs gauss | tr '\n' ' ')" = "170 594 " ]; verdict "unknowns of both sizes" $?
+between "$(column "$table" l2 'gauss,linear' | tail -1)" 2e-4 3.5e-4; verdict "the error of doc/accuracy.md" $?
+picture "$work/bench/time_error.png"; verdict "time_error.png" $?
+picture "$work/bench/dofs_error.png"; verdict "dofs_error.png" $?
+grep -q 'L2 1e-03: perigal [0-9.]* s (rkpm gauss linear)' "$work/out"; verdict "the least seconds at an error, and whose" $?
+grep -q 'L2 1e-05: perigal: not reached' "$work/out"; verdict "an error that was not reached is said so" $?
+expect "bench: impossible combinations are named and skipped" 0 'skipped: .*horizon' '' bench $beam --approximation rkpm --basis linear --integration gauss \
+       --horizon 0.5,2 --spacing 3 -o "$work/skip"
+grep -q 'skipped' "$work/skip/bench.csv"; verdict "the table says so too" $?
+expect "bench: --fem of a scene without a mesh" 0 'ccx .*skipped: no mesh of this scene' '' bench test/cli/plate.yaml --approximation rkpm --basis linear --integration nodal \
+       --spacing '4 mm' --fem --set solver.max_events=1 -o "$work/fem"
+expect "bench: an entry that is none names the nearest" 64 '' 'did you mean rkpm' bench $beam --approximation rkpn
+expect "bench: an option that is none"                 64 '' 'there is no option --spacin (did you mean --spacing' bench $beam --spacin 3
+expect "bench: a list without its value"               64 '' '--spacing needs a list' bench $beam --spacing
+expect "bench: a scene that is none"                   65 '' '^nowhere.yaml' bench nowhere.yaml -o "$work/none"
+expect "bench --help"                                   0 'dofs_error.png' '' bench --help
+
+expect "converge: nodal quadrature" 0 'delta-convergence' '' converge $beam --set spacing=3 --set method.integration=nodal --spacing 3 -o "$work/nodal"
+table=$work/nodal/convergence.csv
+between "$(column "$table" order 'L2 error' | tail -1)" 1.8 2.2; verdict "nodal quadrature: order 2" $?
+[ "$(column "$table" value 'L2 error' | wc -l)" -eq 3 ]; verdict "a row for each size" $?
+between "$(column "$table" limit 'end.displacement_y' | tail -1)" -0.00894 -0.00884; verdict "Richardson's value of the deflection is near the exact one" $?
+grep -q 'end.force_x' "$table"; [ $? -ne 0 ]; verdict "a reaction that is rounding is left out" $?
+picture "$work/nodal/convergence.png"; verdict "convergence.png" $?
+expect "converge: Gauss quadrature, two horizons" 0 'horizon 2.5 spacings' '' converge $beam --set spacing=3 --spacing 3 --horizon 2,2.5 -o "$work/gauss"
+between "$(column "$work/gauss/convergence.csv" order '^2,L2 error' | tail -1)" 2.4 3.2; verdict "Gauss quadrature on a lattice: better than order 2" $?
+expect "converge --m keeps the horizon" 0 'm-convergence' '' converge $beam --set spacing=3 --m --ratio 1.5 --spacing 2 -o "$work/m"
+expect "converge: points of a file cannot be refined"   65 '' 'needs a body and spacing' converge test/fuzz/seed_scene/points.yaml -o "$work/points"
+expect "converge: --delta and --m"                     64 '' 'exclude each other' converge $beam --delta --m
+expect "converge: no number"                           64 '' '--ratio x: a number from' converge $beam --ratio x
+expect "converge without a scene"                      64 '' 'a scene file is needed' converge
+expect "converge: a wrong scene"                       65 '' 'unknown key' converge test/cli/wrong/unknown_key.yaml -o "$work/wrong"
+expect "converge --help"                                0 'Richardson' '' converge --help
+echo "1..$n"
+exit $bad

@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Bodies from meshes: points, volumes, sets and blocks of every kind of element, patches, units, faults. */
+#include "run.h"
+#include "mesh/grid.h"
+#include <unistd.h>
+
+static char folder[64], path[128];
+
+static int make_folder (void **state)
+{
+    (void) state;
+    snprintf (folder, sizeof folder, "/tmp/perigal_mesh_XXXXXX");
+    if (!mkdtemp (folder)) return -1;
+    snprintf (path, sizeof path, "%s/grid.msh", folder);
+    return 0;
+}
+
+static int drop_folder (void **state)
+{
+    (void) state;
+    unlink (path);
+    return rmdir (folder);
+}
+
+static const char *const rock = "materials: {steel: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n",
+                  *const both = "materials: {steel: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}, foam: {youngs_modulus: 1 GPa, poissons_ratio: 0.1}}\n";
+#define STATIC "solver: {steps: 1, stepping: fixed}\noutput: {at: {levels: 1}}\n"
+
+static pg_status scene_text (pg_scene **scene, const grid *g, const char *mesh, const char *more)
+{
+    char text[4000], file[128];
+    snprintf (text, sizeof text, "dimension: %d\nmesh: {file: grid.msh%s}\n%s", pg_element_types[g->kind].dim, mesh, more);
+    snprintf (file, sizeof file, "%s/scene.yaml", folder);
+    return pg_scene_parse (scene, text, file);
+}
+
+static pg_problem *problem_of (const grid *g, const char *mesh, const char *more)
+{
+    pg_scene *scene;
+    pg_problem *p;
+    grid_file (g, path);
+    check_ok (scene_text (&scene, g, mesh, more));
+    check_ok (pg_problem_build (&p, scene, 1));
+    pg_scene_free (&scene);
+    return p;
+}
+
+static run run_of (const grid *g, int threads, const char *mesh, const char *more)
+{
+    run r = { 0 };
+    grid_file (g, path);
+    check_ok (scene_text (&r.scene, g, mesh, more));
+    check_ok (pg_problem_build (&r.problem, r.scene, threads));
+    check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
+    check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
+    check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
+    return r;
+}
+
+static void faulty (const grid *g, const char *mesh, const char *more, const char *part)
+{
+    pg_scene *scene = NULL;
+    pg_problem *p = NULL;
+    grid_file (g, path);
+    pg_status status = scene_text (&scene, g, mesh, more);
+    if (status == PG_OK) status = pg_problem_build (&p, scene, 1);
+    assert_int_equal (status, PG_E_SCENE);
+    check_contains (pg_last_error (), part);
+    pg_scene_free (&scene);
+}
+
+static int side_of (int dim) { return dim == 3 ? 4 : dim == 2 ? 6 : 8; }
+
+/* ---- geometry --------------------------------------------------------------------------------------------------------- */
+static void volumes_areas_and_sets_of_every_element (void **state)
+{
+    (void) state;
+    for (int kind = PG_BAR2; kind < PG_ELEMENTS; kind++) for (int corners = 0; corners < 2; corners++) {
+        const pg_element_type *t = &pg_element_types[kind];
+        grid g = { (pg_element) kind, side_of (t->dim), 0.05, 1000, 0 };
+        pg_problem *p = problem_of (&g, corners ? ", unit: mm, points: corners" : ", unit: mm", both);
+        double volume = 0, cells = 0, area = 0, sum[3] = { 0 };
+        for (size_t i = 0; i < p->cloud.n; i++) {
+            assert_true (p->cloud.volume[i] > 0 && p->cloud.size[i] > 0);
+            volume += p->cloud.volume[i];
+        }
+        for (size_t c = 0; c < p->cells.n; c++) cells += p->cells.volume[c];
+        for (size_t f = 0; f < p->cells.nfacet; f++) {
+            area += p->cells.area[f];
+            for (int k = 0; k < t->dim; k++) sum[k] += p->cells.area[f] * p->cells.normal[f * (size_t) t->dim + (size_t) k];
+        }
+        check_relative (volume, 1, 1e-12);
+        check_relative (cells, 1, 1e-12);
+        check_relative (area, 2 * t->dim, 1e-12);
+        for (int k = 0; k < t->dim; k++) check_absolute (sum[k], 0, 1e-13);
+        check_relative (p->cloud.high[0], 1, 1e-14);
+        size_t along = (size_t) (t->order == 2 && !corners ? 2 * g.n + 1 : g.n + 1);
+        const pg_set *clamp = pg_sets_find (&p->sets, "clamp"), *left = pg_sets_find (&p->sets, "left");
+        assert_non_null (clamp);
+        assert_non_null (pg_sets_find (&p->sets, t->dim > 1 ? "tip.top" : "tip.right"));
+        assert_int_equal (clamp->nfacet, left->nfacet);
+        assert_int_equal (clamp->npoint, left->npoint);
+        assert_memory_equal (clamp->facet, left->facet, left->nfacet * sizeof *left->facet);
+        if (t->dim == 1) assert_int_equal (p->cloud.n, along);
+        for (int s = PG_NODES; s <= PG_POINTS; s++)
+            for (size_t q = 0; q < p->rows[s].n; q++) {
+                double x = p->rows[s].x[q * (size_t) t->dim];
+                if (g.bend > 0 && fabs (x - 0.5) < 0.06) continue;
+                assert_int_equal (p->block[s][q], x > 0.5);
+            }
+        pg_problem_free (&p);
+    }
+}
+
+static void spacings_follow_the_edges (void **state)
+{
+    (void) state;
+    for (int corners = 0; corners < 2; corners++) {
+        grid g = { PG_QUAD8, 6, 0, 1, 1 };
+        pg_problem *p = problem_of (&g, corners ? ", points: corners" : "", rock);
+        for (size_t i = 0; i < p->cloud.n; i++) check_relative (p->cloud.size[i], corners ? 1.0 / 6 : 1.0 / 12, 1e-12);
+        check_relative (p->approx.horizon, 2 * p->cloud.h, 1e-14);
+        pg_problem_free (&p);
+        p = problem_of (&g, ", support: equal", rock);
+        assert_null (p->cloud.size);
+        check_relative (p->cloud.h, 1.0 / 12, 1e-12);
+        pg_problem_free (&p);
+    }
+}
+
+static void a_perturbed_mesh_keeps_its_cells_and_surface (void **state)
+{
+    (void) state;
+    grid g = { PG_TRI3, 6, 0.05, 1, 1 };
+    pg_problem *p = problem_of (&g, "", rock);
+    char more[400];
+    snprintf (more, sizeof more, "%sperturb: {amount: 0.2}\n", rock);
+    pg_problem *q = problem_of (&g, "", more);
+    size_t moved = 0;
+    const pg_set *all = pg_sets_find (&p->sets, "left");
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        double d = fmax (fabs (p->cloud.x[2*i] - q->cloud.x[2*i]), fabs (p->cloud.x[2*i + 1] - q->cloud.x[2*i + 1]));
+        int rim = p->cloud.x[2*i] == 0 || p->cloud.x[2*i] == 1 || p->cloud.x[2*i + 1] == 0 || p->cloud.x[2*i + 1] == 1;
+        if (rim) assert_true (d == 0);
+        else check_below (d, 0.2 * p->cloud.size[i]);
+        moved += d > 0;
+    }
+    assert_int_equal (moved, 25);
+    assert_true (all->npoint > 0);
+    assert_memory_equal (p->cells.x, q->cells.x, p->cells.start[p->cells.n] * 2 * sizeof (double));
+    pg_problem_free (&p), pg_problem_free (&q);
+}
+
+/* ---- patches ---------------------------------------------------------------------------------------------------------- */
+static const double slope[3] = { 1e-3, -2e-4, 5e-4 };
+
+/* Linear field on the whole surface by Nitsche; error at the nodes over the largest displacement. */
+static double patch_error (const grid *g, int threads, const char *mesh, const char *method, double *keep)
+{
+    char more[1000];
+    int dim = pg_element_types[g->kind].dim;
+    snprintf (more, sizeof more, "%smethod: {approximation: rkpm, %s}\nsets: {rim: {boundary: all}}\nboundary: [{set: rim, displacement: {x: '1e-3*x'%s%s}}]\n" STATIC,
+              rock, method, dim > 1 ? ", y: '-2e-4*y'" : "", dim > 2 ? ", z: '5e-4*z'" : "");
+    run r = run_of (g, threads, mesh, more);
+    size_t n = r.problem->cloud.n * (size_t) dim;
+    double *exact = pg_calloc (n, sizeof *exact);
+    for (size_t i = 0; i < n; i++) exact[i] = slope[i % (size_t) dim] * r.problem->cloud.x[i];
+    to_the_end (&r);
+    double *u = field_of (&r, NULL, "displacement", NULL), error = largest_difference (u, exact, n) / largest_of (exact, n);
+    if (keep) memcpy (keep, u, n * sizeof *u);
+    pg_free (exact), pg_free (u);
+    clear (&r);
+    return error;
+}
+
+static void patches_on_every_element (void **state)
+{
+    (void) state;
+    for (int kind = PG_BAR2; kind < PG_ELEMENTS; kind++) {
+        const pg_element_type *t = &pg_element_types[kind];
+        grid g = { (pg_element) kind, side_of (t->dim), 0.03, 1, 1 };
+        double e[4];
+        int fine = t->order == 2 ? 2 : 0;             /* as the default        */
+        if (t->dim == 3 && t->order == 2) g.n = 2;
+        for (int k = 0; k < 4; k++) {
+            char method[200];
+            snprintf (method, sizeof method, "basis: %s, horizon: %s spacing, gauss_points: %d", k < 2 ? "linear" : "quadratic", k < 2 ? "2" : "3.1", (int) fmin (5, (k < 2 ? 2 : 3) + k % 2 + fine));
+            e[k] = patch_error (&g, 1, "", method, NULL);
+        }
+        print_message ("%-8s linear, default points and 1 more: %.2g %.2g; quadratic: %.2g %.2g\n", t->name, e[0], e[1], e[2], e[3]);
+        for (int k = 0; k < 4; k++) check_below (e[k], 0.007);
+    }
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (volumes_areas_and_sets_of_every_element),
+        cmocka_unit_test (spacings_follow_the_edges),
+        cmocka_unit_test (a_perturbed_mesh_keeps_its_cells_and_surface),
+        cmocka_unit_test (patches_on_every_element),
+    };
+    (void) faulty, (void) both;
+    return cmocka_run_group_tests_name ("scene_runs/mesh", tests, make_folder, drop_folder);
+}
