@@ -65,7 +65,7 @@ static pg_status make_points (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_rows_create (&p->rows[PG_POINTS], &p->approx, &p->cloud, q.n, q.x, q.weight, NULL, q.cell));
     PG_TRY (check_support (p, scene, PG_POINTS));
     if (p->integration->consistent)
-        PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS], p->approx.order + 1, p->threads));
+        PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS], quadrature_order (p), p->threads));
     strip (&p->rows[PG_POINTS]);
 done:
     pg_quadrature_clear (&q);
