@@ -11,7 +11,7 @@
 /* Scene (name of its folder), case of make_mesh.py, dimension, length unit of its meshes. */
 static const struct { const char *scene, *mesh; int dim; const char *unit; } known[] = {
     { "textbook_cantilever", "cantilever", 2, "m" }, { "kirsch", "kirsch", 2, "m" }, { "lame_cylinder", "lame", 2, "m" },
-    { "lame_cylinder_strain", "lame_strain", 2, "m" }, { "plate_hole", "plate_clamped", 2, "mm" }, { "plate_sliding", "plate_sliding", 2, "mm" },
+    { "lame_cylinder_strain", "lame_strain", 2, "m" }, { "plate_hole", "plate_clamped", 2, "mm" }, { "plate_hole_sliding", "plate_sliding", 2, "mm" },
     { "bending_3d", "bending_3d", 3, "m" }, { "cantilever_3d", "cantilever_3d", 3, "m" },
 };
 enum { KNOWN = sizeof known / sizeof *known };
