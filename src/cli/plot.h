@@ -9,7 +9,8 @@ int pg_cli_plot (int argc, char **argv);               /* argv[0] = "plot"; retu
 /* What the command line of a picture of a field asks for. */
 enum { PLOT_PATH = 4096, PLOT_STEPS = 64 };
 typedef struct {
-    const char *directory, *field, *component, *out, *look;        /* directory: or a mesh; look: of the view or the section, for names */
+    char *directory;
+    const char *field, *component, *out, *look;        /* directory: or a mesh file; look: of the view or the section, for names */
     double length;                                     /* meshes: m in a unit of the file, 0: not given                  */
     char   result[PLOT_PATH];
     int    step[PLOT_STEPS], steps;                    /* -1: the last one                                               */

@@ -223,7 +223,8 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
         q->limited && s->unit[0] ? " " : "", q->limited ? s->unit : "");
     if (n == 1) used += snprintf (title + used, sizeof title - (size_t) used, ", %s", g->title);
     if (style.magnify != 0) snprintf (title + used, sizeof title - (size_t) used, ", displacements \xc3\x97 %g", style.magnify);
-    snprintf (label, sizeof label, "%s%s%s%s", s->name, s->unit[0] ? " (" : "", s->unit, s->unit[0] ? ")" : "");
+    const char *bar = style.log && !s->norm ? "|" : "";
+    snprintf (label, sizeof label, "%s%s%s%s%s%s", bar, s->name, bar, s->unit[0] ? " (" : "", s->unit, s->unit[0] ? ")" : "");
     style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL;
     name_picture (q, number, path, sizeof path);
     PG_TRY (pg_picture_panels (path, &s->cloud, n, panel, q->columns, &style));

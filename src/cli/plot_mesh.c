@@ -72,8 +72,7 @@ static pg_status choose_value (const plot_request *q, fem *f)
         f->value[i] = norm ? size_of (v, m) : equal ? mises (v) : v[k];
     }
     if (norm) snprintf (f->label, sizeof f->label, "|%.31s|", q->field);
-    else if (m > 1) snprintf (f->label, sizeof f->label, "%.31s_{%.10s}", q->field, wanted);
-    else snprintf (f->label, sizeof f->label, "%.31s", q->field);
+    else snprintf (f->label, sizeof f->label, m > 1 ? "%s%.31s_{%.10s}%s" : "%s%.31s%.0s%s", q->style.log ? "|" : "", q->field, wanted, q->style.log ? "|" : "");
 done:
     return status;
 }

@@ -61,6 +61,7 @@ expect "a run ends where a wrong scene does"  65 '' 'unknown key' run wrong/unkn
 [ ! -e "$work/none" ]; verdict "a wrong scene leaves no folder" $?
 
 expect "plot draws a field"                    0 'stress-yy.png' '' plot "$out" --field stress --component yy
+expect "plot takes result.e for its folder"     0 'damage.png' '' plot "$out/result.e"
 expect "plot draws SVG"                        0 'a.svg' '' plot "$out" --out "$work/a.svg"
 grep -q '<svg' "$work/a.svg"; verdict "SVG is SVG" $?
 expect "plot draws panels"                     0 'damage_steps.png' '' plot "$out" --steps 0,-1 --columns 1
