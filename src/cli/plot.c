@@ -185,6 +185,13 @@ done:
     return status;
 }
 
+/* DIR/result.e means DIR. */
+static void cut_result (char *path)
+{
+    size_t n = strlen (path);
+    if (n > 9 && strcmp (path + n - 9, "/result.e") == 0 && pg_plot_is_file (path)) path[n - 9] = 0;
+}
+
 static pg_status read_arguments (plot_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;
@@ -199,16 +206,10 @@ static pg_status read_arguments (plot_request *q, int argc, char **argv)
     if (!q->directory) PG_FAIL (PG_E_USAGE, "no directory given");
     if (strlen (q->directory) > PLOT_PATH / 2) PG_FAIL (PG_E_USAGE, "the path is too long");
     if (q->all && q->panels) PG_FAIL (PG_E_USAGE, "--step all and --steps exclude each other");
+    cut_result (q->directory);
     snprintf (q->result, sizeof q->result, "%s/result.e", q->directory);
 done:
     return status;
-}
-
-/* DIR/result.e means DIR. */
-static void cut_result (char *path)
-{
-    size_t n = strlen (path);
-    if (n > 9 && strcmp (path + n - 9, "/result.e") == 0 && pg_plot_is_file (path)) path[n - 9] = 0;
 }
 
 int pg_cli_plot (int argc, char **argv)
@@ -222,7 +223,6 @@ int pg_cli_plot (int argc, char **argv)
             return 0;
         }
     PG_TRY (read_arguments (&q, argc, argv));
-    cut_result (q.directory);
     if (pg_plot_is_file (q.directory)) PG_TRY (pg_plot_mesh (&q));
     else {
         if (q.sets || q.length > 0) PG_FAIL (PG_E_USAGE, "--sets and --unit are for mesh files; %s is none", q.directory);
