@@ -34,6 +34,7 @@ typedef struct {
     pg_set *given;  size_t ngiven;                     /* sets that the mesh brought                                     */
     double  thickness;                                 /* 2D m; 1D cross-section m^2; 3D 1                               */
     const struct pg_cut *cut;                          /* owned; NULL without cut cells                                  */
+    int     cut_order;                                 /* least order of quadrature in cut cells and on cut facets       */
 } pg_cells;
 /* All arrays for n cells with nx nodes and nfacet facets with nfx nodes together, zeroed; dim and thickness set. */
 pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, size_t nx, size_t nfacet, size_t nfx);
