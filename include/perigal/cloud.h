@@ -25,6 +25,8 @@ void      pg_body_clear (pg_body *body);
 int       pg_body_inside (const pg_body *body, const double *x, double tolerance);   /* shapes in order, tolerance in m  */
 /* Index of the shape whose surface is nearest to x, and its distance (m). */
 size_t    pg_body_nearest (const pg_body *body, const double *x, double *distance);
+/* Volume (2D: area, m^2) and surface (2D: length, m) in closed form; 0: known for one shape alone. */
+int       pg_body_measure (const pg_body *body, double *volume, double *surface);
 
 /* ---- background lattice --------------------------------------------------------------------------------------------- */
 typedef struct {
