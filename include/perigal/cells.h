@@ -40,7 +40,7 @@ pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, 
 /* The kept cells of a lattice: bars, quads, hexes. */
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness);
 /* The same lattice over the exact body: cells that its surface crosses are cut (kind PG_CUT) and kept while their share of volume is above
- * 1e-13, wherever their centre lies; facets are pieces of the surface, one for each cell and surface. The body must outlive the cells. */
+ * 1e-13, wherever their centre lies; facets are pieces of the surface, one for each cell and surface. The shapes of the body must outlive the cells. */
 pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness);
 /* Volumes of the points become those of the cells: each cell is shared equally by its points (vertices, or its centre); one without
  * any goes to the nearest point. */

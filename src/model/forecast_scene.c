@@ -103,7 +103,7 @@ static void add_cut (pg_forecast *f, const pg_tally *t, double finer)
 static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t, const pg_counting *how, const pg_lattice *l, double finer)
 {
     double more = pow (finer, f->dim), facets = used_facets (scene, t, f->dim) * pow (finer, f->dim - 1), per = 1, sites = 1;
-    for (int k = 0; k + 1 < f->dim; k++) per *= how->approx->order + 1;
+    for (int k = 0; k + 1 < f->dim; k++) per *= t->crossed > 0 ? fmax (how->order, how->approx->order + 1) : how->approx->order + 1;
     f->points = t->points * more, f->cells = t->cells * more, f->evaluation = t->evaluation * more, f->pairs = t->pairs * more;
     f->bonds[PG_NODES] = t->node_bonds * more, f->bonds[PG_POINTS] = t->point_bonds * more;
     add_cut (f, t, finer);
