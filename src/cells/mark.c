@@ -9,7 +9,7 @@ const char *const pg_side_names[PG_SIDES] = {"left", "right", "bottom", "top", "
 
 /* ---- points of facets ------------------------------------------------------------------------------------------------ */
 /* Points of facet f, at most 8: at the corners of a whole face; of a piece the outer points of its cell. */
-static int points_of (const pg_marks *m, const cells_sites *s, size_t f, int *point)
+static int lattice_points (const pg_marks *m, const cells_sites *s, size_t f, int *point)
 {
     const pg_cells *c = m->cells;
     size_t dim = (size_t) c->dim;
@@ -23,35 +23,28 @@ static int points_of (const pg_marks *m, const cells_sites *s, size_t f, int *po
     return n;
 }
 
-/* Of a mesh: the points at the nodes of each facet. */
-static pg_status link_elements (pg_marks *m)
+/* Sites NULL: of a mesh, whose facets know their points. */
+static int points_of (const pg_marks *m, const cells_sites *s, size_t f, int *point)
 {
-    pg_status status = PG_OK;
     const pg_cells *c = m->cells;
-    size_t n = 0;
-    PG_ALLOC (m->facet_first, c->nfacet + 1);
-    PG_ALLOC (m->facet_point, c->facet_start[c->nfacet]);
-    for (size_t f = 0; f < c->nfacet; f++) {
-        for (size_t k = c->facet_start[f]; k < c->facet_start[f + 1]; k++) if (c->facet_point[k] >= 0) m->facet_point[n++] = c->facet_point[k];
-        m->facet_first[f + 1] = n;
-    }
-done:
-    return status;
+    int n = 0;
+    if (s) return lattice_points (m, s, f, point);
+    for (size_t k = c->facet_start[f]; k < c->facet_start[f + 1]; k++) if (c->facet_point[k] >= 0) point[n++] = c->facet_point[k];
+    return n;
 }
 
 static pg_status link_facets (pg_marks *m)
 {
-    if (m->cells->facet_point) return link_elements (m);
     pg_status status = PG_OK;
     const pg_cells *c = m->cells;
-    cells_sites sites = {0};
-    int point[8];
-    PG_TRY (cells_sites_create (&sites, m->lattice, m->cloud));
+    cells_sites sites = {0}, *s = c->facet_point ? NULL : &sites;
+    int point[PG_ELEMENT_NODES];
+    if (s) PG_TRY (cells_sites_create (s, m->lattice, m->cloud));
     PG_ALLOC (m->facet_first, c->nfacet + 1);
-    for (size_t f = 0; f < c->nfacet; f++) m->facet_first[f + 1] = m->facet_first[f] + (size_t) points_of (m, &sites, f, point);
+    for (size_t f = 0; f < c->nfacet; f++) m->facet_first[f + 1] = m->facet_first[f] + (size_t) points_of (m, s, f, point);
     PG_ALLOC (m->facet_point, m->facet_first[c->nfacet]);
     for (size_t f = 0; f < c->nfacet; f++) {
-        int n = points_of (m, &sites, f, point);
+        int n = points_of (m, s, f, point);
         memcpy (m->facet_point + m->facet_first[f], point, (size_t) n * sizeof *point);
     }
 done:

@@ -176,6 +176,7 @@ static void add_cut (pg_quadrature *out, mesh *m, size_t e)
 {
     size_t dim = (size_t) m->dim, from = m->first[m->next++], n = m->first[m->next] - from;
     double sum = 0, size = m->facets ? m->cells->area[e] : m->cells->volume[e];
+    if (n == 0) return;
     for (size_t k = 0; k < n; k++) sum += m->cut.weight[from + k];
     for (size_t k = 0; k < n; k++) {
         out->weight[out->n + k] = m->cut.weight[from + k] * (size / sum);
