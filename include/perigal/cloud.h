@@ -65,6 +65,7 @@ double    pg_cloud_finest (const pg_cloud *cloud);     /* smallest local spacing
 /* ---- points of a mesh ------------------------------------------------------------------------------------------------- */
 typedef struct {                                       /* the body as a mesh; mesh.n = 0: the scene has none             */
     pg_mesh mesh;                                      /* the blocks in use, in metres                                   */
+    char    file[256];                                 /* as the scene names it                                          */
     double  unit;                                      /* m per unit of the file                                         */
     double *volume;                                    /* of every element, m^dim            (mesh.n)                    */
     double  smallest, largest;                         /* elements' size, volume^(1/dim), m                              */

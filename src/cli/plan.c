@@ -47,6 +47,9 @@ void plan_doubts (const pg_problem *p, const pg_solver_options *o, FILE *to)
         if (!held) fprintf (to, "  warning: nothing holds the body along %c: no displacement along %c is prescribed anywhere\n", "xyz"[k], "xyz"[k]);
     }
     if (!moving) fprintf (to, "  warning: nothing loads the body: every prescribed displacement is zero, and there is no force\n");
+    if (p->part.mesh.n && p->part.quality < 0.1)
+        fprintf (to, "  warning: element %ld of the mesh is nearly flat: quality %.2g (scaled Jacobian; better than 0.1 is wanted)\n",
+                 p->part.mesh.element_id[p->part.worst], p->part.quality);
 }
 
 void plan_print (const pg_problem *p, const pg_solver_options *o)
@@ -237,6 +240,7 @@ void plan_print_long (const plan *p)
     pg_skip skip[8];
     size_t nskip = plan_skips (p, skip, 8);
     print_counts (p);
+    plan_mesh (q);
     printf ("  %-18s  %s, %s basis, %s kernel, %s integration\n", "method", q->approx.type->name, q->approx.order == 2 ? "quadratic" : "linear",
             q->approx.kernel->name, q->integration->name);
     describe (q, 19);

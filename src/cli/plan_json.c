@@ -33,6 +33,7 @@ static void counts (pg_json *j, const plan *p)
     pg_json_number (j, "horizon", q->approx.horizon);
     pg_json_number (j, "horizon_spacings", q->approx.horizon / q->cloud.h);
     pg_json_number (j, "mean_family", (double) q->first_bond[1] / (double) q->cloud.n);
+    plan_mesh_json (j, q);
 }
 
 static void constants (pg_json *j, const pg_problem *p)
