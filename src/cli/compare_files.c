@@ -57,7 +57,7 @@ static pg_status mesh_picture (const comparison *c, const compare_request *q, co
     PG_TRY (pg_compare_field (value, &nodes, column, &c->own->sampler, &c->reference));
     name_difference (column, label, sizeof label);
     snprintf (title, sizeof title, "%s: difference from the reference, on its elements", c->own->problem->title);
-    pg_picture_style style = { .title = title, .label = label, .diverging = column < PG_COMPARE_U };
+    pg_picture_style style = { .title = title, .label = label, .diverging = column < PG_COMPARE_U, .length = 1 };
     PG_TRY (pg_picture_mesh (path, mesh, value, &style));
 done:
     pg_free (nodes.x), pg_free (value);

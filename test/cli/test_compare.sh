@@ -60,7 +60,7 @@ python3 -m json.tool "$work/out" > /dev/null 2>> "$work/err"; verdict "is JSON" 
 expect "a table of nothing"                   70 '' 'no column of values' "$work/one" test/cli/wrong/reference_columns.csv
 expect "no such field"                        64 '' 'displacement.x' "$work/one" --field u
 expect "no folder"                            64 '' 'is no result folder' "$work/nowhere"
-expect "no such reference"                    64 '' 'no result folder' "$work/one" "$work/nowhere"
+expect "no such reference"                    70 '' 'nowhere' "$work/one" "$work/nowhere"
 expect "no such step"                         64 '' 'its steps are 0 to 0' "$work/one" --step 3
 expect "unknown option"                       64 '' 'there is no option --foo' "$work/one" --foo
 expect "nothing"                              64 '' 'perigal compare DIR' 
