@@ -60,7 +60,9 @@ typedef struct {
 } pg_mesh;
 /* Gmsh .msh 2.2 and 4.1 (ASCII, binary), Abaqus and CalculiX .inp, Exodus .e/.exo (any netCDF), CalculiX .frd: told by content, not by name.
  * Physical groups and sets become blocks, side and node sets. Nodes that no solid element uses are dropped. Elements turned inside out are
- * put right; flat ones and nodes that are not there are faults. Cracked shells of lower dimension are no fault. */
+ * put right; flat ones and nodes that are not there are faults. Groups
+ * of lower dimension become node sets, and side sets where they are faces of solid elements (a face between two belongs to the first of them); sets of
+ * equal name are one; groups and sets without a name have their number as name. Cracked shells of lower dimension are no fault. */
 pg_status pg_mesh_read  (pg_mesh *out, const char *path);
 void      pg_mesh_clear (pg_mesh *mesh);
 /* A mesh under construction (readers, generators, tests). Nodes and elements have any numbers; the nodes of an element come in the order
