@@ -30,7 +30,7 @@ SECONDS ?= 60
 FUZZ    ?= scene points expression mesh
 FUZZ_BUILD ?= build/fuzz
 
-SOURCES := $(filter-out src/cli/%,$(wildcard src/*/*.c))
+SOURCES := $(filter-out src/cli/% src/convert/%,$(wildcard src/*/*.c))
 CLI     := $(wildcard src/cli/*.c)
 TESTS   := $(wildcard test/*/test_*.c)
 TOOLS   := $(wildcard bench/*.c)
@@ -41,9 +41,12 @@ BENCHBIN:= $(TOOLS:bench/%.c=$(BUILD)/bench/%)
 LIB     := $(BUILD)/libperigal.a
 SOLIB   := $(BUILD)/libperigal.so.0
 PROGRAM := $(BUILD)/perigal
+# perigal-mesh: only where Gmsh's library is installed (libgmsh-dev); newer ones start with one argument more
+GMSH    := $(wildcard /usr/include/gmshc.h)
+CONVERT := $(if $(GMSH),$(BUILD)/perigal-mesh)
 Q       := $(if $(V),,@)
 
-all: $(PROGRAM) $(SOLIB) perigal.pc
+all: $(PROGRAM) $(SOLIB) $(CONVERT) perigal.pc
 
 perigal: $(PROGRAM)
 	$(Q)ln -sf $(PROGRAM) perigal
@@ -65,6 +68,12 @@ $(SOLIB): $(OBJECTS)
 $(PROGRAM): $(CLIOBJ) $(LIB)
 	$(if $(V),,@echo "  LD   $@")
 	$(Q)$(CC) $(LDFLAGS) $^ $(LIBS) -o $@
+
+$(BUILD)/src/convert/%.o: CFLAGS += $(if $(shell grep -A3 '^GMSH_API void gmshInitialize' $(GMSH) /dev/null | grep -w run),-DGMSH_RUN)
+
+$(BUILD)/perigal-mesh: $(BUILD)/src/convert/perigal_mesh.o $(LIB)
+	$(if $(V),,@echo "  LD   $@")
+	$(Q)$(CC) $(LDFLAGS) $^ -lgmsh $(LIBS) -o $@
 
 $(BUILD)/test/%: test/%.c $(LIB)
 	@mkdir -p $(@D)
@@ -93,7 +102,7 @@ test-long: packages
 	$(Q)$(MAKE) --no-print-directory -j2 perigal test-programs
 	$(Q).ci/test $(BUILD) "$(T)" long
 
-test-programs: $(PROGRAM) $(if $(T),$(filter $(BUILD)/test/$(T)/%,$(TESTBIN)),$(TESTBIN))
+test-programs: $(PROGRAM) $(CONVERT) $(if $(T),$(filter $(BUILD)/test/$(T)/%,$(TESTBIN)),$(TESTBIN))
 
 fuzz:                ## random inputs for SECONDS each (FUZZ=scene: one of them); findings land in build/fuzz
 	$(Q)command -v clang > /dev/null || { echo "make fuzz needs libFuzzer: install the Debian package clang"; exit 1; }
@@ -118,7 +127,7 @@ bench-programs: $(BENCHBIN)
 
 install: all
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig $(DESTDIR)$(prefix)/include/perigal
-	install $(PROGRAM) $(DESTDIR)$(prefix)/bin/perigal
+	install $(PROGRAM) $(CONVERT) $(DESTDIR)$(prefix)/bin
 	install -m 644 $(LIB) $(SOLIB) $(DESTDIR)$(prefix)/lib
 	ln -sf libperigal.so.0 $(DESTDIR)$(prefix)/lib/libperigal.so
 	install -m 644 perigal.pc $(DESTDIR)$(prefix)/lib/pkgconfig
@@ -135,4 +144,4 @@ print-%:
 
 .PHONY: FORCE all perigal packages demo test test-long test-programs fuzz lint doc bench bench-programs install clean
 .SECONDARY:
--include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(TESTBIN:=.d) $(BENCHBIN:=.d)
+-include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(TESTBIN:=.d) $(BENCHBIN:=.d)

@@ -34,13 +34,14 @@ typedef struct {
     pg_set *given;  size_t ngiven;                     /* sets that the mesh brought                                     */
     double  thickness;                                 /* 2D m; 1D cross-section m^2; 3D 1                               */
     const struct pg_cut *cut;                          /* owned; NULL without cut cells                                  */
+    int     cut_order;                                 /* least order of quadrature in cut cells and on cut facets       */
 } pg_cells;
 /* All arrays for n cells with nx nodes and nfacet facets with nfx nodes together, zeroed; dim and thickness set. */
 pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, size_t nx, size_t nfacet, size_t nfx);
 /* The kept cells of a lattice: bars, quads, hexes. */
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness);
 /* The same lattice over the exact body: cells that its surface crosses are cut (kind PG_CUT) and kept while their share of volume is above
- * 1e-13, wherever their centre lies; facets are pieces of the surface, one for each cell and surface. The body must outlive the cells. */
+ * 1e-13, wherever their centre lies; facets are pieces of the surface, one for each cell and surface. The shapes of the body must outlive the cells. */
 pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness);
 /* Volumes of the points become those of the cells: each cell is shared equally by its points (vertices, or its centre); one without
  * any goes to the nearest point. */

@@ -25,6 +25,8 @@ void      pg_body_clear (pg_body *body);
 int       pg_body_inside (const pg_body *body, const double *x, double tolerance);   /* shapes in order, tolerance in m  */
 /* Index of the shape whose surface is nearest to x, and its distance (m). */
 size_t    pg_body_nearest (const pg_body *body, const double *x, double *distance);
+/* Volume (2D: area, m^2) and surface (2D: length, m) in closed form; 0: known for one shape alone. */
+int       pg_body_measure (const pg_body *body, double *volume, double *surface);
 
 /* ---- background lattice --------------------------------------------------------------------------------------------- */
 typedef struct {
@@ -63,6 +65,7 @@ double    pg_cloud_finest (const pg_cloud *cloud);     /* smallest local spacing
 /* ---- points of a mesh ------------------------------------------------------------------------------------------------- */
 typedef struct {                                       /* the body as a mesh; mesh.n = 0: the scene has none             */
     pg_mesh mesh;                                      /* the blocks in use, in metres                                   */
+    char    file[256];                                 /* as the scene names it                                          */
     double  unit;                                      /* m per unit of the file                                         */
     double *volume;                                    /* of every element, m^dim            (mesh.n)                    */
     double  smallest, largest;                         /* elements' size, volume^(1/dim), m                              */

@@ -24,6 +24,14 @@ pg_status pg_sampler_solution (pg_sampler *out, const pg_problem *problem, const
  * the nearest evaluation point. cracks and materials are the problem's. torn (n, or NULL): points that have lost bonds since; a place that
  * reaches one has the displacement of the nearest point and no stress. */
 pg_status pg_sampler_points   (pg_sampler *out, const pg_problem *problem, const double *u, const unsigned char *torn);
+/* A finite element result (see pg_mesh_result) of the same body: displacements (both they and places times unit, m), stress from their
+ * gradients and the problem's materials. Plane results of elements one layer thick become plane. Places outside the elements take the nearest
+ * one up to 0.25 element sizes, beyond they are unknown. */
+pg_status pg_sampler_mesh     (pg_sampler *out, const char *path, int step, double unit, const pg_problem *problem);
+/* Its mesh, in m; NULL: another kind of sampler. outside, away (or NULL): places asked for so far that lay outside, the farthest in element sizes. */
+const pg_mesh *pg_sampler_mesh_of (const pg_sampler *sampler, size_t *outside, double *away);
+/* Points and weights (thickness: of plane elements) of all elements; cell: element. */
+pg_status pg_mesh_quadrature  (pg_quadrature *out, const pg_mesh *mesh, double thickness, int order);
 /* The reference moved by shift (3, m), its values times factor; takes `sampler` over. */
 pg_status pg_sampler_moved    (pg_sampler *out, pg_sampler *sampler, const double *shift, double factor);
 
@@ -110,6 +118,8 @@ typedef struct {
 pg_status pg_errors_measure (pg_errors *out, const pg_reference *reference, const pg_problem *problem, const pg_sampler *value, double t);
 /* Norms and difference against any sampler, over the cells of `problem`; order: Gauss points per direction, see pg_norm_order. */
 pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int order, const pg_expression *where, const pg_sampler *value, const pg_sampler *reference);
+/* A finite element result measured against a scene's closed forms, by 5th order on its own elements (lines and points are not looked at). */
+pg_status pg_errors_mesh    (pg_errors *out, const pg_reference *reference, const pg_problem *problem, const char *path, int step, double unit, double t);
 int       pg_norm_order     (const pg_scene *scene, const pg_problem *problem);       /* two more than the run's, at most 5 */
 void      pg_errors_clear   (pg_errors *errors);
 void      pg_errors_json    (pg_json *j, const pg_errors *errors);       /* entries of the map that is open              */

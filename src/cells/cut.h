@@ -17,7 +17,7 @@ typedef struct {
 } cut_surface;
 struct pg_cut {
     int dim;
-    const pg_body *body;                               /* borrowed                                                       */
+    pg_body body;                                      /* its shapes are borrowed                                        */
     cut_surface *surface;  size_t n;
     size_t *start;  int *near;                         /* surfaces near each cell of pg_cells (n + 1)                    */
     cut_work *work;

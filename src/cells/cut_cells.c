@@ -280,22 +280,24 @@ static pg_status enter (const pg_cells *cells, size_t cell)
     return cut_work_cell (cut->work, x, x + far * dim, cut->start[cell + 1] - cut->start[cell], cut->near + cut->start[cell]);
 }
 
+static int finer (const pg_cells *cells, int order) { return order > cells->cut_order ? order : cells->cut_order; }
+
 pg_status pg_cut_cell (pg_cut_points *out, const pg_cells *cells, size_t cell, int order)
 {
     pg_status status = enter (cells, cell);
-    return status == PG_OK ? cut_work_points (cells->cut->work, -1, order, out) : status;
+    return status == PG_OK ? cut_work_points (cells->cut->work, -1, finer (cells, order), out) : status;
 }
 
 pg_status pg_cut_facet (pg_cut_points *out, const pg_cells *cells, size_t facet, int order)
 {
     pg_status status = enter (cells, (size_t) cells->facet_cell[facet]);
-    return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet], order, out) : status;
+    return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet], finer (cells, order), out) : status;
 }
 
 pg_status pg_cut_face (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order)
 {
     pg_status status = enter (cells, cell);
-    return status == PG_OK ? cut_work_face (cells->cut->work, face, order, out) : status;
+    return status == PG_OK ? cut_work_face (cells->cut->work, face, finer (cells, order), out) : status;
 }
 
 int pg_cut_shape  (const struct pg_cut *cut, int surface) { return cut->surface[surface].shape; }

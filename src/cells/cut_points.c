@@ -119,12 +119,12 @@ static int inside (const cut_work *w, double z)
     const cut_slices *s = &w->slices;
     double x[3] = {0, 0, 0};
     for (int k = 0; k < s->dim; k++) x[k] = w->centre[k] + w->half[k] * (k == s->axis[s->dim - 1] ? z : s->at[k]);
-    if (w->face < 0) return pg_body_inside (w->cut->body, x, 0);
+    if (w->face < 0) return pg_body_inside (&w->cut->body, x, 0);
     double *across = &x[w->face / 2], at = *across, step = beyond * w->half[w->face / 2];
     *across = at - step;
-    if (!pg_body_inside (w->cut->body, x, 0)) return 0;
+    if (!pg_body_inside (&w->cut->body, x, 0)) return 0;
     *across = at + step;
-    return pg_body_inside (w->cut->body, x, 0);
+    return pg_body_inside (&w->cut->body, x, 0);
 }
 
 static void emit (cut_work *w, double z, double weight, const double *normal)

@@ -190,7 +190,7 @@ pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body)
 {
     pg_status status = PG_OK;
     maker m = {cut, 0};
-    cut->dim = body->dim, cut->body = body;
+    cut->dim = body->dim, cut->body = *body;
     for (size_t i = 0; i < body->n; i++) {
         const pg_shape *shape = &body->shape[i];
         cut_surface s = {.shape = (int) i, .axis = -1};

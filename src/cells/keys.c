@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of named sets of points and boundary facets. */
+ * Keys of cells and of named sets of points and boundary facets. */
 #include "perigal/cells.h"
 
 static const pg_key keys[] = {
+    { .path = "cells", .kind = PG_NAME, .fallback = "cut", .choices = "cut|staircase",
+      .doc = "Cells of the lattice that the surface of the body crosses are cut along it (exact volume, true normals), "
+             "or are in or out as a whole by their centre." },
     { .path = "sets", .kind = PG_MAP, .fallback = "",
       .doc = "Named parts of the body. Always there: left, right, bottom, top, back, front (faces of the bounding box) "
              "and all (every point); NAME.top, NAME.left, ... is the half of a set on that side of the centre." },

@@ -1,66 +1,54 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Which points and facets lie on a side of the bounding box or on the surface of a shape? */
 #include "mark.h"
+#include "sites.h"
 #include <math.h>
 #include <string.h>
 
 const char *const pg_side_names[PG_SIDES] = {"left", "right", "bottom", "top", "back", "front"};
 
 /* ---- points of facets ------------------------------------------------------------------------------------------------ */
-static size_t vertex_at (const pg_lattice *l, const double *x)
+/* Points of facet f, at most 8: at the corners of a whole face; of a piece the outer points of its cell. */
+static int lattice_points (const pg_marks *m, const cells_sites *s, size_t f, int *point)
 {
-    size_t v = 0;
-    for (int k = l->dim; k-- > 0; ) v = v * ((size_t) l->count[k] + 1) + (size_t) lround ((x[k] - l->origin[k]) / l->step[k]);
-    return v;
-}
-
-/* Points at vertices are numbered as the vertices that some cell uses, in lattice order. */
-static pg_status number_vertices (int **out, const pg_lattice *l, const pg_cells *cells)
-{
-    pg_status status = PG_OK;
-    size_t n = 1, dim = (size_t) l->dim;
-    int next = 0;
-    for (size_t k = 0; k < dim; k++) n *= (size_t) l->count[k] + 1;
-    PG_ALLOC (*out, n);
-    for (size_t c = 0; c < cells->start[cells->n]; c++) (*out)[vertex_at (l, cells->x + c * dim)] = 1;
-    for (size_t v = 0; v < n; v++) (*out)[v] = (*out)[v] ? next++ : -1;
-done:
-    return status;
-}
-
-/* Of a mesh: a facet with fewer points than others names its first again. */
-static pg_status link_elements (pg_marks *m)
-{
-    pg_status status = PG_OK;
     const pg_cells *c = m->cells;
-    for (size_t f = 0; f < c->nfacet; f++) if (c->facet_start[f + 1] - c->facet_start[f] > m->per) m->per = c->facet_start[f + 1] - c->facet_start[f];
-    PG_ALLOC (m->facet_point, c->nfacet * m->per);
-    for (size_t f = 0; f < c->nfacet; f++)
-        for (size_t k = 0, first = c->facet_start[f]; k < m->per; k++) {
-            size_t at = first + k < c->facet_start[f + 1] ? first + k : first;
-            m->facet_point[f * m->per + k] = c->facet_point[at] >= 0 ? c->facet_point[at] : c->facet_point[first];
-        }
-done:
-    return status;
+    size_t dim = (size_t) c->dim;
+    int i[3], n = 0;
+    cells_sites_cell (s, c->x + c->start[c->facet_cell[f]] * dim, i);
+    if (s->centred || c->facet_kind[f] == PG_CUT) return cells_sites_points (s, i, 1, point);
+    for (size_t k = c->facet_start[f]; k < c->facet_start[f + 1]; k++) {
+        int p = cells_sites_at (s, c->facet_x + k * dim);
+        if (p >= 0) point[n++] = p;
+    }
+    return n;
+}
+
+/* Sites NULL: of a mesh, whose facets know their points. */
+static int points_of (const pg_marks *m, const cells_sites *s, size_t f, int *point)
+{
+    const pg_cells *c = m->cells;
+    int n = 0;
+    if (s) return lattice_points (m, s, f, point);
+    for (size_t k = c->facet_start[f]; k < c->facet_start[f + 1]; k++) if (c->facet_point[k] >= 0) point[n++] = c->facet_point[k];
+    return n;
 }
 
 static pg_status link_facets (pg_marks *m)
 {
-    if (m->cells->facet_point) return link_elements (m);
     pg_status status = PG_OK;
     const pg_cells *c = m->cells;
-    size_t dim = (size_t) c->dim, corners = (size_t) 1 << (dim - 1);
-    int *number = NULL, centred = c->n == m->cloud->n;     /* a lattice has more vertices than cells */
-    m->per = centred ? 1 : corners;
-    PG_ALLOC (m->facet_point, c->nfacet * m->per);
-    if (!centred) PG_TRY (number_vertices (&number, m->lattice, c));
-    for (size_t f = 0; f < c->nfacet; f++)
-        for (size_t k = 0; k < m->per; k++) {
-            const double *x = c->facet_x + (f * corners + k) * dim;
-            m->facet_point[f * m->per + k] = centred ? c->facet_cell[f] : number[vertex_at (m->lattice, x)];
-        }
+    cells_sites sites = {0}, *s = c->facet_point ? NULL : &sites;
+    int point[PG_ELEMENT_NODES];
+    if (s) PG_TRY (cells_sites_create (s, m->lattice, m->cloud));
+    PG_ALLOC (m->facet_first, c->nfacet + 1);
+    for (size_t f = 0; f < c->nfacet; f++) m->facet_first[f + 1] = m->facet_first[f] + (size_t) points_of (m, s, f, point);
+    PG_ALLOC (m->facet_point, m->facet_first[c->nfacet]);
+    for (size_t f = 0; f < c->nfacet; f++) {
+        int n = points_of (m, s, f, point);
+        memcpy (m->facet_point + m->facet_first[f], point, (size_t) n * sizeof *point);
+    }
 done:
-    pg_free (number);
+    cells_sites_clear (&sites);
     return status;
 }
 
@@ -69,7 +57,11 @@ static pg_status find_shapes (pg_marks *m)
     pg_status status = PG_OK;
     size_t dim = (size_t) m->cells->dim;
     PG_ALLOC (m->facet_shape, m->cells->nfacet);
-    for (size_t f = 0; f < m->cells->nfacet; f++) m->facet_shape[f] = (int) pg_body_nearest (m->body, m->cells->facet_centre + f * dim, NULL);
+    for (size_t f = 0; f < m->cells->nfacet; f++) {
+        int surface = m->cells->cut ? m->cells->facet_surface[f] : -1;
+        m->facet_shape[f] = surface >= 0 ? pg_cut_shape (m->cells->cut, surface)
+                                         : (int) pg_body_nearest (m->body, m->cells->facet_centre + f * dim, NULL);
+    }
 done:
     return status;
 }
@@ -101,6 +93,7 @@ done:
 void pg_marks_clear (pg_marks *m)
 {
     pg_free (m->facet_point);
+    pg_free (m->facet_first);
     pg_free (m->facet_shape);
     pg_free (m->point);
     pg_free (m->facet);
@@ -132,7 +125,7 @@ static int on_side (const pg_marks *m, int side, const double *x, double finer)
 static void mark_facet (pg_marks *m, size_t f)
 {
     m->facet[f] = 1;
-    for (size_t k = 0; k < m->per; k++) m->point[m->facet_point[f * m->per + k]] = 1;
+    for (size_t k = m->facet_first[f]; k < m->facet_first[f + 1]; k++) m->point[m->facet_point[k]] = 1;
 }
 
 /* The flat ends of a cylinder, whose round surface is called rim. */
@@ -141,6 +134,7 @@ static int is_end (const pg_marks *m, size_t f)
     const pg_shape *s = &m->body->shape[m->facet_shape[f]];
     const double *x = m->cells->facet_centre + 3 * f, *n = m->cells->normal + 3 * f;
     double along = 0, turn = 0, length = 0, step = 0;
+    if (m->cells->cut && m->cells->facet_surface[f] >= 0) return !strcmp (s->boundary, "rim") && pg_cut_is_end (m->cells->cut, m->cells->facet_surface[f]);
     if (s->kind != PG_CYLINDER || strcmp (s->boundary, "rim")) return 0;
     for (int k = 0; k < 3; k++) length += s->axis[k] * s->axis[k];
     length = sqrt (length);
@@ -185,7 +179,7 @@ int pg_marks_boundary (pg_marks *m, const char *name)
     if (side < 0 && !all) return mark_shape (m, name);
     for (size_t f = 0; f < m->cells->nfacet; f++) {
         double n = all ? 0 : m->cells->normal[f * dim + (size_t) side / 2];
-        if (all || ((side % 2 ? n > 0 : n < 0) && on_side (m, side, m->cells->facet_centre + f * dim, 1))) mark_facet (m, f);
+        if (all || ((side % 2 ? n > 0.5 : n < -0.5) && on_side (m, side, m->cells->facet_centre + f * dim, 1))) mark_facet (m, f);
     }
     for (size_t i = 0; m->cells->nfacet == 0 && i < m->cloud->n; i++)      /* points from a file */
         for (int s = 0; s < 2 * m->cloud->dim; s++)

@@ -13,8 +13,7 @@ typedef struct {
     const pg_cloud *cloud;
     const pg_cells *cells;
     double  low[3], high[3], centre[3], size;          /* box of the body (points from a file: of the cloud), m          */
-    int    *facet_point;                               /* points on, or in the cells behind, each facet (nfacet x per)   */
-    size_t  per;                                       /* points per facet                                               */
+    size_t *facet_first;  int *facet_point;            /* points on, or in the cells behind, each facet (CSR)            */
     int    *facet_shape;                               /* nearest shape (nfacet)                                         */
     unsigned char *point, *facet;                      /* the marks                                                      */
 } pg_marks;

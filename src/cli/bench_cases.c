@@ -5,21 +5,27 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* FOLDER/scene.yaml: FOLDER; FOLDER/scene_X.yaml: FOLDER_X; else the file without .yaml. */
+static void name_of (const char *path, char *name, size_t size)
+{
+    const char *file = strrchr (path, '/'), *folder = path;
+    file = file ? file + 1 : path;
+    int rest = (int) strlen (file), dot = rest > 5 && strcmp (file + rest - 5, ".yaml") == 0 ? rest - 5 : rest;
+    if (file > path) for (const char *p = path; p + 1 < file; p++) if (*p == '/') folder = p + 1;
+    if (file == path || strncmp (file, "scene", 5) != 0) snprintf (name, size, "%.*s", dot, file);
+    else snprintf (name, size, "%.*s%.*s", (int) (file - 1 - folder), folder, dot - 5, file + 5);
+}
+
 pg_status bench_look (bench_base *b, const char *path, size_t nset, const char *const *set)
 {
     pg_status status = PG_OK;
     pg_scene *scene = NULL;
-    const char *file = strrchr (path, '/'), *start = path;
     PG_TRY (pg_scene_load_with (&scene, path, nset, set));
     b->spacing = pg_scene_given (scene, "spacing") ? pg_scene_number (scene, "spacing") : 0;
     b->horizon = b->spacing > 0 ? pg_scene_length (scene, b->spacing, "method.horizon") / b->spacing : 0;
     b->has_horizon = pg_scene_given (scene, "method.horizon");
     b->quadratic = strcmp (pg_scene_text (scene, "method.basis"), "quadratic") == 0;
-    snprintf (b->name, sizeof b->name, "%.63s", file ? file + 1 : path);
-    if (strcmp (b->name, "scene.yaml") == 0 && file) {
-        for (const char *p = path; p < file; p++) if (*p == '/') start = p + 1;
-        snprintf (b->name, sizeof b->name, "%.*s", (int) (file - start < 63 ? file - start : 63), start);
-    } else if (strlen (b->name) > 5 && strcmp (b->name + strlen (b->name) - 5, ".yaml") == 0) b->name[strlen (b->name) - 5] = 0;
+    name_of (path, b->name, sizeof b->name);
 done:
     pg_scene_free (&scene);
     return status == PG_E_FILE ? PG_E_SCENE : status;

@@ -54,5 +54,7 @@ plan_times plan_times_of (const plan *p);
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most);           /* what the run will not do, as far as known     */
 void plan_print_long (const plan *p);
 pg_status plan_print_json (const plan *p);
+void plan_mesh       (const pg_problem *p);                               /* plan_mesh.c: nothing without a mesh           */
+void plan_mesh_json  (pg_json *j, const pg_problem *p);
 void plan_doubts     (const pg_problem *p, const pg_solver_options *o, FILE *to);
 #endif

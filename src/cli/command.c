@@ -26,10 +26,11 @@ static const struct { const char *name, *text; } usages[] = {
               "  A field of DIR/result.e (damage, last step), or two columns of DIR/history.csv, as PNG or SVG; all options: perigal plot --help.\n" },
     { "compare", "perigal compare DIR [REFERENCE] [--step N] [--field NAME] [--unit mm] [--shift X,Y,Z] [--scale S] [--out FILE.png] [--json] [--quiet]\n"
                  "  Norms of the difference of the result in DIR and a reference: that of its scene, or REFERENCE: a table (.csv: x [mm], y [mm],\n"
-                 "  u_x [mm], s_xx [MPa] ...), another result folder. Writes DIR/compare.csv, compare.json, compare.png.\n"
-                 "      --step N         of DIR/result.e, the last if not given;  --reference-step N: of the other result\n"
+                 "  u_x [mm], s_xx [MPa] ...), another result folder, a finite element result (CalculiX .frd, Exodus). Writes DIR/compare.csv,\n"
+                 "  compare.json, compare.png.\n"
+                 "      --step N         of DIR/result.e, the last if not given;  --reference-step N: of the reference\n"
                  "      --field NAME     of the picture: displacement, stress, displacement.x, stress.xx ...\n"
-                 "      --unit mm        length unit of a table's columns that name none\n"
+                 "      --unit mm        length unit of a finite element result, and of a table's columns that name none\n"
                  "      --shift X,Y,Z    moves the reference, m if no unit is given;  --scale S: multiplies its values\n" },
     { "bench", "perigal bench [SCENE.yaml]... [--approximation A,B] [--integration A,B] [--basis A,B] [--spacing A,B] [--perturb 0,0.2] ...\n"
                "  Runs every combination, each in a process of its own, and measures it against the scene's reference: DIR/bench.csv, time_error.png,\n"

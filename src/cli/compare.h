@@ -12,6 +12,7 @@ typedef struct {
 } compare_request;
 typedef struct {
     pg_stored *own, *other;                            /* other: a result to compare with                                */
+    pg_sampler fem;                                    /* borrowed view of a finite element reference; sample NULL: none */
     pg_sampler reference;                              /* no bits: tables only                                           */
     pg_line    line;                                   /* of the command line                                            */
     pg_reference *scene;                               /* the scene's own                                                */

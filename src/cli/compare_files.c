@@ -12,6 +12,12 @@ static const pg_problem *finer (const comparison *c)
 }
 
 /* ---- pictures --------------------------------------------------------------------------------------------------------- */
+static void name_difference (int column, char *label, size_t size)
+{
+    if (column >= PG_COMPARE_U) snprintf (label, size, column == PG_COMPARE_U ? "|u - u_{ref}| (m)" : "|stress - reference| (Pa)");
+    else snprintf (label, size, "%s - reference (%s)", pg_column_name (column), pg_column_unit (column));
+}
+
 static pg_status field_picture (const comparison *c, const compare_request *q, const char *path)
 {
     pg_status status = PG_OK;
@@ -24,8 +30,7 @@ static pg_status field_picture (const comparison *c, const compare_request *q, c
     PG_TRY (pg_compare_field (value, &p->cloud, column, &c->own->sampler, &c->reference));
     PG_TRY (pg_picture_range (p->cloud.n, value, 0, &low, &high, &found));
     if (!found) PG_FAIL (PG_E_USAGE, "there is no difference of this field to draw: one side does not know it");
-    if (column >= PG_COMPARE_U) snprintf (label, sizeof label, column == PG_COMPARE_U ? "|u - u_{ref}| (m)" : "|stress - reference| (Pa)");
-    else snprintf (label, sizeof label, "%s - reference (%s)", pg_column_name (column), pg_column_unit (column));
+    name_difference (column, label, sizeof label);
     snprintf (title, sizeof title, "%s: difference from the reference", c->own->problem->title);
     double most = fmax (fabs (low), fabs (high));
     pg_picture_style style = { .title = title, .label = label, .cracks = &p->cracks, .diverging = column < PG_COMPARE_U };
@@ -33,6 +38,29 @@ static pg_status field_picture (const comparison *c, const compare_request *q, c
     PG_TRY (pg_picture_field (path, &p->cloud, value, &style));
 done:
     pg_free (value);
+    return status;
+}
+
+/* |u - u_ref| on the elements of a finite element reference. */
+static pg_status mesh_picture (const comparison *c, const compare_request *q, const pg_mesh *mesh, const char *path)
+{
+    pg_status status = PG_OK;
+    size_t n = mesh->nnode, dim = (size_t) mesh->dim;
+    double *value = NULL;
+    char label[64], title[400];
+    int column = q->column < 0 ? PG_COMPARE_U : q->column;
+    pg_cloud nodes = { .dim = mesh->dim, .n = n };
+    PG_ALLOC (nodes.x, n * dim);
+    PG_ALLOC (value, n);
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < dim; k++) nodes.x[i * dim + k] = mesh->x[3*i + k] + q->shift[k];
+    PG_TRY (pg_compare_field (value, &nodes, column, &c->own->sampler, &c->reference));
+    name_difference (column, label, sizeof label);
+    snprintf (title, sizeof title, "%s: difference from the reference, on its elements", c->own->problem->title);
+    pg_picture_style style = { .title = title, .label = label, .diverging = column < PG_COMPARE_U, .length = 1 };
+    PG_TRY (pg_picture_mesh (path, mesh, value, &style));
+done:
+    pg_free (nodes.x), pg_free (value);
     return status;
 }
 
@@ -156,7 +184,9 @@ pg_status compare_files (const comparison *c, const compare_request *q)
         tell (q, "table", path);
         if (q->out) snprintf (path, sizeof path, "%s", q->out);
         else snprintf (path, sizeof path, "%s/compare.png", q->folder);
-        PG_TRY (field_picture (c, q, path));
+        const pg_mesh *mesh = pg_sampler_mesh_of (&c->fem, NULL, NULL);
+        if (mesh && mesh->dim > 1) PG_TRY (mesh_picture (c, q, mesh, path));
+        else PG_TRY (field_picture (c, q, path));
         tell (q, "picture", path);
     }
     if (c->line.n) PG_TRY (table_files (c, q, &c->line, 1, fields));

@@ -79,6 +79,31 @@ done:
     return status;
 }
 
+/* Norms over the cells of the result. */
+static pg_status against_mesh (comparison *c, const compare_request *q)
+{
+    pg_status status = PG_OK;
+    size_t outside = 0;
+    double away = 0;
+    const pg_stored *a = c->own;
+    pg_sampler plain = { 0 };
+    PG_TRY (pg_sampler_mesh (&plain, q->reference, q->other_step, q->unit, a->problem));
+    c->fem = plain;
+    c->fem.free = NULL;                                /* owned by the moved one; asked for its mesh                     */
+    const pg_mesh *mesh = pg_sampler_mesh_of (&plain, NULL, NULL);
+    size_t elements = mesh->n, nodes = mesh->nnode;
+    PG_TRY (pg_sampler_moved (&c->reference, &plain, q->shift, q->scale));
+    PG_TRY (pg_errors_against (&c->errors, a->problem, pg_norm_order (a->scene, a->problem), NULL, &a->sampler, &c->reference));
+    if (!c->errors.norms.places)
+        PG_FAIL (PG_E_USAGE, "%s and %s have no place in common: the bodies lie apart (--unit, --shift move the reference)", q->folder, q->reference);
+    pg_sampler_mesh_of (&c->fem, &outside, &away);
+    int n = snprintf (c->note, sizeof c->note, "the reference: %zu elements, %zu nodes", elements, nodes);
+    if (outside) snprintf (c->note + n, sizeof c->note - (size_t) n, "; %zu places outside its elements, up to %.2g element sizes, took the nearest one", outside, away);
+done:
+    pg_sampler_clear (&plain);
+    return status;
+}
+
 pg_status compare_sides (comparison *c, const compare_request *q)
 {
     pg_status status = PG_OK;
@@ -89,7 +114,7 @@ pg_status compare_sides (comparison *c, const compare_request *q)
     if (!q->reference) PG_TRY (against_scene (c, q));
     else if (is_result (q->reference, folder)) PG_TRY (against_result (c, q, folder));
     else if (ends (q->reference, ".csv") || ends (q->reference, ".txt")) PG_TRY (against_table (c, q));
-    else PG_FAIL (PG_E_USAGE, "%s: no result folder, result.e, or table (.csv)", q->reference);
+    else PG_TRY (against_mesh (c, q));
 done:
     return status;
 }

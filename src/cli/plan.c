@@ -47,6 +47,9 @@ void plan_doubts (const pg_problem *p, const pg_solver_options *o, FILE *to)
         if (!held) fprintf (to, "  warning: nothing holds the body along %c: no displacement along %c is prescribed anywhere\n", "xyz"[k], "xyz"[k]);
     }
     if (!moving) fprintf (to, "  warning: nothing loads the body: every prescribed displacement is zero, and there is no force\n");
+    if (p->part.mesh.n && p->part.quality < 0.1)
+        fprintf (to, "  warning: element %ld of the mesh is nearly flat: quality %.2g (scaled Jacobian; better than 0.1 is wanted)\n",
+                 p->part.mesh.element_id[p->part.worst], p->part.quality);
 }
 
 void plan_print (const pg_problem *p, const pg_solver_options *o)
@@ -119,6 +122,18 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
     return n;
 }
 
+/* Cut cells, volume and surface beside the exact ones where they are known. */
+static void print_cut (const pg_problem *q)
+{
+    double volume = 0, area = 0, exact_volume, exact_area;
+    for (size_t c = 0; c < q->cells.n; c++) volume += q->cells.volume[c];
+    for (size_t f = 0; f < q->cells.nfacet; f++) area += q->cells.area[f];
+    printf ("  %-18s  volume %.10g m^3, surface %.10g m^2", "", volume, area);
+    if (pg_body_measure (&q->body, &exact_volume, &exact_area))
+        printf ("; exact %.10g m^3, %.10g m^2", exact_volume * q->cells.thickness, exact_area * q->cells.thickness);
+    printf ("\n");
+}
+
 static void print_counts (const plan *p)
 {
     const pg_problem *q = p->problem;
@@ -127,7 +142,12 @@ static void print_counts (const plan *p)
     for (int k = 0; k < q->dim && q->lattice.dim; k++) printf (" %.6g", q->cloud.step[k]);
     if (!q->lattice.dim) printf (" about %.6g", q->cloud.h);
     if (q->cloud.size) printf (" (locally from %.6g)", pg_cloud_finest (&q->cloud));
-    printf (" m\n  %-18s  %zu, boundary facets %zu\n", "background cells", q->cells.n, q->cells.nfacet);
+    size_t cut = 0;
+    for (size_t c = 0; c < q->cells.n; c++) cut += q->cells.kind[c] == PG_CUT;
+    printf (" m\n  %-18s  %zu", "background cells", q->cells.n);
+    if (cut) printf (", of which %zu are cut by the surface", cut);
+    printf (", boundary facets %zu\n", q->cells.nfacet);
+    if (q->cells.cut) print_cut (q);
     printf ("  %-18s  %zu, on the boundary %zu\n", "evaluation points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n,
             q->rows[PG_FACETS].n);
     printf ("  %-18s  node-node %zu, point-node %zu, facet-node %zu\n", "bonds", first[1], first[2] - first[1], first[3] - first[2]);
@@ -220,6 +240,7 @@ void plan_print_long (const plan *p)
     pg_skip skip[8];
     size_t nskip = plan_skips (p, skip, 8);
     print_counts (p);
+    plan_mesh (q);
     printf ("  %-18s  %s, %s basis, %s kernel, %s integration\n", "method", q->approx.type->name, q->approx.order == 2 ? "quadratic" : "linear",
             q->approx.kernel->name, q->integration->name);
     describe (q, 19);

@@ -18,7 +18,10 @@ static void counts (pg_json *j, const plan *p)
     for (int k = 0; k < q->dim; k++) pg_json_number (j, NULL, q->cloud.step[k]);
     pg_json_shut (j);
     pg_json_number (j, "finest_spacing", pg_cloud_finest (&q->cloud));
+    size_t cut = 0;
+    for (size_t c = 0; c < q->cells.n; c++) cut += q->cells.kind[c] == PG_CUT;
     pg_json_count (j, "cells", q->cells.n);
+    pg_json_count (j, "cut_cells", cut);
     pg_json_count (j, "facets", q->cells.nfacet);
     pg_json_count (j, "evaluation_points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n);
     pg_json_count (j, "boundary_points", q->rows[PG_FACETS].n);
@@ -30,6 +33,7 @@ static void counts (pg_json *j, const plan *p)
     pg_json_number (j, "horizon", q->approx.horizon);
     pg_json_number (j, "horizon_spacings", q->approx.horizon / q->cloud.h);
     pg_json_number (j, "mean_family", (double) q->first_bond[1] / (double) q->cloud.n);
+    plan_mesh_json (j, q);
 }
 
 static void constants (pg_json *j, const pg_problem *p)

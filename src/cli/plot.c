@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal plot DIR: one field of DIR/result.e, or with --curve columns of DIR/history.csv, as PNG or SVG. */
+ * perigal plot DIR|FILE: a mesh, one field of DIR/result.e, or with --curve columns of DIR/history.csv, as PNG or SVG. */
 #include "plot.h"
 #include <math.h>
 #include <stdio.h>
@@ -13,13 +13,17 @@ static const char usage[] =
     "                        [--view front|back|left|right|top|bottom|iso|crack | --section 'z = 5 mm']\n"
     "                        [--direction X,Y,Z] [--above VALUE] [--range LOW,HIGH] [--magnify FACTOR]\n"
     "                        [--columns N] [--out FILE.png|FILE.svg]\n"
+    "       perigal plot FILE [--sets | --field NAME ...] [--unit mm] [options as above]\n"
     "       perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--out FILE]\n"
-    "Draws a field of DIR/result.e (damage, last step) or two columns of DIR/history.csv.\n"
+    "Draws a field of DIR/result.e (damage, last step) or two columns of DIR/history.csv,\n"
+    "or a mesh (.msh, .inp) or result of finite elements (.frd, .e): blocks, --sets or a field at its nodes.\n"
     "  --step all    one picture a step;  --steps 2,5,8: one picture with a panel a step, --columns of them in a row\n"
     "  --view        3D: the side of that name (front is the face of largest z), or obliquely: iso; crack: points of\n"
     "                damage 0.35 and more\n"
     "  --section     3D: AXIS = PLACE, or NORMAL = DISTANCE along it: '1, 0, 1 = 5 mm'\n"
     "  --direction   of view iso and crack: from the body to the eye\n"
+    "  --log         colours by the decades of |value|\n"
+    "  --unit        meshes: of the lengths in the file;  --sets: sets of sides and nodes in colours\n"
     "  --above       3D views: only points whose value is at least this, the body grey behind them\n";
 
 static int number_of (const char *text, double *value)
@@ -140,6 +144,18 @@ done:
     return status;
 }
 
+static pg_status read_unit (plot_request *q, const char *text)
+{
+    pg_status status = PG_OK;
+    char one[64];
+    snprintf (one, sizeof one, "1 %.40s", text);
+    if (pg_unit_parse (&q->length, one, "m") != PG_OK || !(q->length > 0)) PG_FAIL (PG_E_USAGE, "--unit %s: expected a unit of length, such as mm", text);
+done:
+    return status;
+}
+
+static pg_status read_sets (plot_request *q, const char *text) { (void) text, q->sets = 1; return PG_OK; }
+static pg_status read_log (plot_request *q, const char *text) { (void) text, q->style.log = 1; return PG_OK; }
 static pg_status read_field (plot_request *q, const char *text) { q->field = text; return PG_OK; }
 static pg_status read_component (plot_request *q, const char *text) { q->component = text; return PG_OK; }
 static pg_status read_out (plot_request *q, const char *text) { q->out = text; return PG_OK; }
@@ -147,10 +163,11 @@ static pg_status read_out (plot_request *q, const char *text) { q->out = text; r
 static const struct { const char *name; pg_status (*read) (plot_request *q, const char *text); } options[] = {
     { "--field", read_field }, { "--component", read_component }, { "--step", read_step }, { "--steps", read_panels }, { "--columns", read_columns },
     { "--view", read_view }, { "--section", read_section }, { "--direction", read_direction }, { "--above", read_above }, { "--range", read_range },
-    { "--magnify", read_magnify }, { "--out", read_out },
+    { "--magnify", read_magnify }, { "--out", read_out }, { "--unit", read_unit }, { "--sets", read_sets }, { "--log", read_log },
 };
 
-static pg_status read_option (plot_request *q, const char *name, const char *value)
+/* used: 1 when the value was. */
+static pg_status read_option (plot_request *q, const char *name, const char *value, int *used)
 {
     pg_status status = PG_OK;
     char names[256] = "--curve";
@@ -158,7 +175,8 @@ static pg_status read_option (plot_request *q, const char *name, const char *val
         size_t n = strlen (names);
         snprintf (names + n, sizeof names - n, "|%s", options[k].name);
         if (strcmp (name, options[k].name) != 0) continue;
-        if (!value) PG_FAIL (PG_E_USAGE, "%s needs a value", name);
+        *used = options[k].read != read_sets && options[k].read != read_log;
+        if (!value && *used) PG_FAIL (PG_E_USAGE, "%s needs a value", name);
         return options[k].read (q, value);
     }
     const char *near = pg_nearest_name (name, names);
@@ -167,20 +185,28 @@ done:
     return status;
 }
 
+/* DIR/result.e means DIR. */
+static void cut_result (char *path)
+{
+    size_t n = strlen (path);
+    if (n > 9 && strcmp (path + n - 9, "/result.e") == 0 && pg_plot_is_file (path)) path[n - 9] = 0;
+}
+
 static pg_status read_arguments (plot_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;
-    *q = (plot_request) { .field = "damage", .step = { -1 }, .steps = 1 };
-    for (int k = 1; k < argc; k++) {
+    *q = (plot_request) { .step = { -1 }, .steps = 1 };
+    for (int k = 1, used = 0; k < argc; k++) {
         if (argv[k][0] == '-' && argv[k][1]) {
-            PG_TRY (read_option (q, argv[k], k + 1 < argc ? argv[k + 1] : NULL));
-            k++;
+            PG_TRY (read_option (q, argv[k], k + 1 < argc ? argv[k + 1] : NULL, &used));
+            k += used;
         } else if (q->directory) PG_FAIL (PG_E_USAGE, "one directory at a time: %s, %s", q->directory, argv[k]);
         else q->directory = argv[k];
     }
     if (!q->directory) PG_FAIL (PG_E_USAGE, "no directory given");
     if (strlen (q->directory) > PLOT_PATH / 2) PG_FAIL (PG_E_USAGE, "the path is too long");
     if (q->all && q->panels) PG_FAIL (PG_E_USAGE, "--step all and --steps exclude each other");
+    cut_result (q->directory);
     snprintf (q->result, sizeof q->result, "%s/result.e", q->directory);
 done:
     return status;
@@ -197,7 +223,12 @@ int pg_cli_plot (int argc, char **argv)
             return 0;
         }
     PG_TRY (read_arguments (&q, argc, argv));
-    PG_TRY (pg_plot_field (&q));
+    if (pg_plot_is_file (q.directory)) PG_TRY (pg_plot_mesh (&q));
+    else {
+        if (q.sets || q.length > 0) PG_FAIL (PG_E_USAGE, "--sets and --unit are for mesh files; %s is none", q.directory);
+        if (!q.field) q.field = "damage";
+        PG_TRY (pg_plot_field (&q));
+    }
 done:
     if (status == PG_OK) return 0;
     fprintf (stderr, "perigal plot: %s\n", pg_last_error ());

@@ -9,15 +9,24 @@ int pg_cli_plot (int argc, char **argv);               /* argv[0] = "plot"; retu
 /* What the command line of a picture of a field asks for. */
 enum { PLOT_PATH = 4096, PLOT_STEPS = 64 };
 typedef struct {
-    const char *directory, *field, *component, *out, *look;        /* look: of the view or the section, for names       */
+    char *directory;
+    const char *field, *component, *out, *look;        /* directory: or a mesh file; look: of the view or the section, for names */
+    double length;                                     /* meshes: m in a unit of the file, 0: not given                  */
     char   result[PLOT_PATH];
     int    step[PLOT_STEPS], steps;                    /* -1: the last one                                               */
     int    all, panels, columns;                       /* all: every step; panels: in one picture                        */
     int    limited, ranged;                            /* --above, --range given                                         */
+    int    sets;
     pg_picture_style style;
 } plot_request;
 /* plot_field.c: draws and prints the names of the files. */
 pg_status pg_plot_field (const plot_request *q);
+
+/* plot_mesh.c: the same for a mesh file. */
+pg_status pg_plot_mesh (const plot_request *q);
+int pg_plot_is_file (const char *path);
+/* "z" in "x|y|z" -> 2, -1: not there (plot_field.c). */
+int pg_plot_index (const char *word, const char *list);
 
 /* plot_curve.c: the same with --curve: columns of the history.csv of one or several runs as a chart.                       */
 int pg_cli_plot_curve (int argc, char **argv);

@@ -20,7 +20,7 @@ typedef struct {
 typedef struct { double *value, *u, *select; char title[64]; } stage;          /* n, n x dim, n                          */
 
 /* ---- components ---------------------------------------------------------------------------------------------------------------- */
-static int index_of (const char *word, const char *list)
+int pg_plot_index (const char *word, const char *list)
 {
     int k = 0;
     for (const char *s = list; *s; s += strcspn (s, "|"), s += *s == '|', k++)
@@ -53,7 +53,7 @@ static pg_status choose_component (const plot_request *q, source *s)
     if (!wanted && m > 1) wanted = m == dim || !names[0] ? "magnitude" : "xx";
     s->norm = wanted && strcmp (wanted, "magnitude") == 0 && m > 1;
     if (wanted && !s->norm) {
-        k = index_of (wanted, names);
+        k = pg_plot_index (wanted, names);
         if (k < 0) k = number_of (wanted, m);
         if (k < 0 && m == 1) PG_FAIL (PG_E_USAGE, "field %s has one component", q->field);
         if (k < 0) PG_FAIL (PG_E_USAGE, "field %s has no component %s: 0 to %d%s%s or magnitude", q->field, wanted, m - 1, names[0] ? ", " : "", names);
@@ -201,7 +201,8 @@ static void settle_range (const plot_request *q, pg_picture_style *style)
 {
     style->diverging = style->low < 0 && style->high > 0;
     if (style->diverging) style->high = fmax (-style->low, style->high), style->low = -style->high;
-    if (strcmp (q->field, "damage") == 0) style->low = 0, style->high = 1;
+    if (strcmp (q->field, "damage") == 0 && !style->log) style->low = 0, style->high = 1;
+    if (style->log) style->low = style->high = 0;
     if (q->ranged) style->low = q->style.low, style->high = q->style.high, style->diverging &= style->low == -style->high;
 }
 
@@ -222,7 +223,8 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
         q->limited && s->unit[0] ? " " : "", q->limited ? s->unit : "");
     if (n == 1) used += snprintf (title + used, sizeof title - (size_t) used, ", %s", g->title);
     if (style.magnify != 0) snprintf (title + used, sizeof title - (size_t) used, ", displacements \xc3\x97 %g", style.magnify);
-    snprintf (label, sizeof label, "%s%s%s%s", s->name, s->unit[0] ? " (" : "", s->unit, s->unit[0] ? ")" : "");
+    const char *bar = style.log && !s->norm ? "|" : "";
+    snprintf (label, sizeof label, "%s%s%s%s%s%s", bar, s->name, bar, s->unit[0] ? " (" : "", s->unit, s->unit[0] ? ")" : "");
     style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL;
     name_picture (q, number, path, sizeof path);
     PG_TRY (pg_picture_panels (path, &s->cloud, n, panel, q->columns, &style));

@@ -11,6 +11,7 @@ static pg_status read_file (pg_mesh_body *b, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     char *path = NULL, why[900];
+    snprintf (b->file, sizeof b->file, "%s", pg_scene_text (scene, "mesh.file"));
     PG_TRY (pg_place_beside (&path, scene, pg_scene_text (scene, "mesh.file")));
     status = pg_mesh_read (&b->mesh, path);
     if (status == PG_E_MEMORY) goto done;

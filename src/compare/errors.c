@@ -22,8 +22,7 @@ done:
     return status;
 }
 
-/* Material of every place: that of the nearest evaluation point. NULL of one material. */
-static pg_status materials (const pg_problem *p, const pg_quadrature *q, int **which)
+pg_status compare_materials (const pg_problem *p, const pg_quadrature *q, int **which)
 {
     pg_status status = PG_OK;
     pg_nearest *near = NULL;
@@ -92,7 +91,7 @@ pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int orde
     out->order = order;
     if (reference->displacement || reference->stress) {
         PG_TRY (quadrature (&q, problem, &out->order));
-        PG_TRY (materials (problem, &q, &which));
+        PG_TRY (compare_materials (problem, &q, &which));
         pg_norm_options options = { problem->material, which, where };
         PG_TRY (pg_norms_measure (&out->norms, &q, value, reference, &options));
         PG_TRY (at_points (out, problem, value, reference, where));

@@ -32,13 +32,14 @@ done:
 
 /* ---- scene ------------------------------------------------------------------------------------------------------------ */
 /* Value of a text key of report.json; "" when there is none. */
-static void report_text (const char *folder, const char *key, char *out, size_t size)
+static pg_status report_text (const char *folder, const char *key, char *out, size_t size)
 {
     char path[4096], wanted[64], *text = NULL;
     size_t n = 0;
     out[0] = 0;
     snprintf (path, sizeof path, "%s/report.json", folder);
-    if (compare_load_text (path, &text) != PG_OK) return;
+    pg_status status = compare_load_text (path, &text);
+    if (status != PG_OK) return status == PG_E_FILE ? PG_OK : status;
     snprintf (wanted, sizeof wanted, "\"%s\": \"", key);
     const char *s = strstr (text, wanted);
     for (s = s ? s + strlen (wanted) : ""; *s && *s != '"' && n + 1 < size; s++) {
@@ -47,6 +48,7 @@ static void report_text (const char *folder, const char *key, char *out, size_t 
     }
     out[n] = 0;
     pg_free (text);
+    return PG_OK;
 }
 
 /* Takes the last lines "# --set KEY=VALUE" off the text; in the order of the file. */
@@ -62,8 +64,7 @@ static size_t cut_settings (char *text, char **set)
         if (strncmp (text + start, mark, sizeof mark - 1) != 0 || n == MOST_SETTINGS) break;
         text[length] = 0;
         set[n++] = text + start + sizeof mark - 1;
-        if (start == 0) break;
-        text[start - 1] = 0;                           /* the line before ends here                                      */
+        text[start] = 0;                               /* the line before ends here                                      */
     }
     for (size_t k = 0; k < n / 2; k++) {
         char *other = set[k];
@@ -79,7 +80,7 @@ pg_status pg_stored_scene (pg_scene **out, const char *folder)
     *out = NULL;
     snprintf (path, sizeof path, "%s/scene.yaml", folder);
     PG_TRY (compare_load_text (path, &text));
-    report_text (folder, "scene", name, sizeof name);
+    PG_TRY (report_text (folder, "scene", name, sizeof name));
     size_t n = cut_settings (text, set);
     PG_TRY (pg_scene_parse_with (out, text, name[0] ? name : path, n, (const char *const *) set));
 done:

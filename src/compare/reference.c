@@ -95,6 +95,30 @@ int pg_norm_order (const pg_scene *scene, const pg_problem *problem)
     return own + 2 > 5 ? 5 : own + 2;
 }
 
+static pg_status read_mesh (pg_reference *r, const pg_scene *scene, const pg_problem *problem)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    double unit, shift[3] = { 0 };
+    pg_sampler plain = { 0 };
+    int step = pg_scene_given (scene, "reference.mesh.step") ? (int) pg_scene_integer (scene, "reference.mesh.step") : -1;
+    if (r->u[0] || r->u[1] || r->u[2]) pg_scene_fault (scene, "reference.mesh", "and reference.displacement exclude each other");
+    if (!length_unit (pg_scene_text (scene, "reference.mesh.unit"), &unit)) pg_scene_fault (scene, "reference.mesh.unit", "must be a unit of length, such as mm");
+    pg_scene_vector (scene, 3, shift, "reference.mesh.shift");
+    PG_TRY (pg_scene_verdict (scene));
+    PG_TRY (compare_file_beside (scene, pg_scene_text (scene, "reference.mesh.file"), path, sizeof path));
+    status = pg_sampler_mesh (&plain, path, step, unit, problem);
+    if (status == PG_E_FILE || status == PG_E_USAGE) {
+        pg_scene_fault (scene, "reference.mesh.file", "%s", pg_last_error ());
+        status = pg_scene_verdict (scene);
+    }
+    PG_TRY (status);
+    PG_TRY (pg_sampler_moved (&r->mesh, &plain, shift, pg_scene_number (scene, "reference.mesh.factor")));
+done:
+    pg_sampler_clear (&plain);
+    return status;
+}
+
 pg_status pg_reference_read (pg_reference **out, const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -108,7 +132,7 @@ pg_status pg_reference_read (pg_reference **out, const pg_scene *scene, const pg
     size_t n = pg_scene_count (scene, "reference.lines");
     PG_ALLOC (r->line, n);
     for (; r->nline < n; r->nline++) PG_TRY (read_line (r, scene, r->nline));
-    if (pg_scene_given (scene, "reference.mesh")) pg_scene_fault (scene, "reference.mesh", "finite element references are not read yet");
+    if (pg_scene_given (scene, "reference.mesh")) PG_TRY (read_mesh (r, scene, problem));
     PG_TRY (pg_scene_verdict (scene));
     *out = r;
     r = NULL;
@@ -130,6 +154,7 @@ void pg_reference_free (pg_reference **reference)
     for (int k = 0; k < 3; k++) pg_expression_free (&r->u[k]);
     for (int k = 0; k < 6; k++) pg_expression_free (&r->s[k]);
     pg_expression_free (&r->where);
+    pg_sampler_clear (&r->mesh);
     for (size_t i = 0; i < r->nline; i++) pg_line_clear (&r->line[i]);
     pg_free (r->line);
     pg_free (r);
@@ -165,6 +190,11 @@ pg_status pg_reference_sampler (pg_sampler *out, const pg_reference *r, double t
     pg_status status = PG_OK;
     forms *f = NULL;
     memset (out, 0, sizeof *out);
+    if (r->mesh.sample) {
+        *out = r->mesh;
+        out->free = NULL;                              /* the reference keeps it                                         */
+        return PG_OK;
+    }
     PG_ALLOC (f, 1);
     *f = (forms) { r, t };
     *out = (pg_sampler) { f, r->dim, 0, 0, sample_forms, pg_free };

@@ -71,14 +71,17 @@ done:
     return status;
 }
 
-static int has_field (const char *path, const char *name)
+static pg_status has_field (const char *path, const char *name, int *found)
 {
+    pg_status status = PG_OK;
     char (*names)[32] = NULL;
     size_t n = 0;
-    int found = 0;
-    if (pg_exodus_fields (path, &names, &n) == PG_OK) for (size_t k = 0; k < n; k++) found |= strcmp (names[k], name) == 0;
+    *found = 0;
+    PG_TRY (pg_exodus_fields (path, &names, &n));
+    for (size_t k = 0; k < n; k++) *found |= strcmp (names[k], name) == 0;
+done:
     pg_free (names);
-    return found;
+    return status;
 }
 
 static pg_status read_field (const pg_stored *s, const char *path, const char *name, int components, double **value)
@@ -98,9 +101,10 @@ static pg_status find_torn (pg_stored *s, const char *path, unsigned char **torn
     pg_status status = PG_OK;
     double *now = NULL, *first = NULL;
     const char *unit;
-    int components;
+    int components, found;
     size_t n = s->problem->cloud.n, count = 0;
-    if (!has_field (path, "damage"))
+    PG_TRY (has_field (path, "damage", &found));
+    if (!found)
         PG_FAIL (PG_E_USAGE, "%s: bonds have broken, and it has no field damage that would say where: add damage to output.fields and run again", path);
     PG_TRY (read_field (s, path, "damage", 1, &now));
     PG_ALLOC (first, n);
@@ -119,14 +123,16 @@ static pg_status read_step (pg_stored *s, const char *path, double broken)
     double *u = NULL;
     unsigned char *torn = NULL;
     pg_sampler field = { 0 };
-    int nosb = strcmp (s->problem->approx.type->name, "nosb") == 0, exact = has_field (path, "coefficient") || nosb;
-    if (broken == 0 && exact) {
-        PG_TRY (read_field (s, path, has_field (path, "coefficient") ? "coefficient" : "displacement", s->problem->dim, &u));
+    int nosb = strcmp (s->problem->approx.type->name, "nosb") == 0, coefficients, displacements;
+    PG_TRY (has_field (path, "coefficient", &coefficients));
+    PG_TRY (has_field (path, "displacement", &displacements));
+    if (broken == 0 && (coefficients || (nosb && displacements))) {
+        PG_TRY (read_field (s, path, coefficients ? "coefficient" : "displacement", s->problem->dim, &u));
         memcpy (s->state->d, u, s->state->ndof * sizeof *u);
         PG_TRY (pg_sampler_solution (&field, s->problem, s->force, s->self, s->state));
         snprintf (s->how, sizeof s->how, s->force->sample ? "by its own shape functions" : "by least squares through its points");
     } else {
-        if (!has_field (path, "displacement")) PG_FAIL (PG_E_USAGE, "%s has no field displacement: add it to output.fields and run again", path);
+        if (!displacements) PG_FAIL (PG_E_USAGE, "%s has no field displacement: add it to output.fields and run again", path);
         PG_TRY (read_field (s, path, "displacement", s->problem->dim, &u));
         snprintf (s->how, sizeof s->how, "by least squares through its points: it has no field coefficient");
         if (broken > 0) PG_TRY (find_torn (s, path, &torn));

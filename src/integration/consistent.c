@@ -122,6 +122,13 @@ static void polynomials (const space *s, const double *x, double *p, double *slo
     }
 }
 
+/* Is the cell so thin along an axis that what its quadrature misses would be amplified? */
+static int thin (const space *s)
+{
+    for (int k = 1; k <= s->dim && k < s->n; k++) if (s->L[k * s->n + k] < 1e-2 * s->L[0]) return 1;
+    return 0;
+}
+
 /* As many polynomials as the points bear; 0: not even the constant. */
 static void find_space (space *s, const pg_rows *points, size_t first, size_t last)
 {
@@ -140,7 +147,7 @@ static void find_space (space *s, const pg_rows *points, size_t first, size_t la
             polynomials (s, points->x + q * dim, p, slope);
             for (int a = 0; a < s->n; a++) for (int b = 0; b <= a; b++) s->L[a * s->n + b] += points->weight[q] / volume * p[a] * p[b];
         }
-        if (pg_dense_cholesky (s->n, s->L, 1e-8) == 0) break;
+        if (!thin (s) && pg_dense_cholesky (s->n, s->L, 1e-8) == 0) break;
     }
     for (int k = 0; k < s->n * s->n; k++) s->L[k] *= sqrt (volume);
 }

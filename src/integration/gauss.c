@@ -114,18 +114,40 @@ static double map (int kind, int dim, const double *corner, const double *xi, do
 }
 
 /* ---- cells and facets -------------------------------------------------------------------------------------------------- */
-typedef struct { int dim, facets; size_t n; const unsigned char *kind; const size_t *start; const double *x; } mesh;
+typedef struct {
+    const pg_cells *cells;
+    int    dim, facets, order;
+    size_t n;
+    const unsigned char *kind;  const size_t *start;  const double *x;
+    size_t ncut, next;  size_t *first;                 /* points of the cut ones, in order: first[k]..first[k + 1]       */
+    pg_cut_points cut;
+} mesh;
 
-static pg_status reserve (pg_quadrature *out, const mesh *m, int order)
+/* The cut ones first: only then is the number of points known. */
+static pg_status find_cut (mesh *m)
 {
     pg_status status = PG_OK;
-    size_t n = 0, dim = (size_t) m->dim;
+    for (size_t e = 0; e < m->n; e++) m->ncut += m->kind[e] == PG_CUT;
+    PG_ALLOC (m->first, m->ncut + 1);
+    for (size_t e = 0, k = 0; e < m->n; e++) {
+        if (m->kind[e] != PG_CUT) continue;
+        PG_TRY (m->facets ? pg_cut_facet (&m->cut, m->cells, e, m->order) : pg_cut_cell (&m->cut, m->cells, e, m->order));
+        m->first[++k] = m->cut.n;
+    }
+done:
+    return status;
+}
+
+static pg_status reserve (pg_quadrature *out, const mesh *m)
+{
+    pg_status status = PG_OK;
+    size_t n = m->cut.n, dim = (size_t) m->dim;
     double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS];
-    int points[PG_ELEMENTS + 1] = { 0 };
-    memset (out, 0, sizeof *out);
+    int points[PG_ELEMENTS] = { 0 };
     for (size_t e = 0; e < m->n; e++) {
         int kind = m->kind[e];
-        if (!points[kind]) points[kind] = rule (kind, order, xi, w);
+        if (kind == PG_CUT) continue;
+        if (!points[kind]) points[kind] = rule (kind, m->order, xi, w);
         n += (size_t) points[kind];
     }
     PG_ALLOC (out->x, n * dim);
@@ -149,23 +171,48 @@ static void add (pg_quadrature *out, const mesh *m, size_t e, int n, const doubl
     }
 }
 
-static pg_status fill (pg_quadrature *out, const mesh *m, double factor, int order)
+/* The weights of a cut cell sum to its exact volume at any order. */
+static void add_cut (pg_quadrature *out, mesh *m, size_t e)
 {
+    size_t dim = (size_t) m->dim, from = m->first[m->next++], n = m->first[m->next] - from;
+    double sum = 0, size = m->facets ? m->cells->area[e] : m->cells->volume[e];
+    if (n == 0) return;
+    for (size_t k = 0; k < n; k++) sum += m->cut.weight[from + k];
+    for (size_t k = 0; k < n; k++) {
+        out->weight[out->n + k] = m->cut.weight[from + k] * (size / sum);
+        out->cell[out->n + k] = (int) e;
+    }
+    memcpy (out->x + out->n * dim, m->cut.x + from * dim, n * dim * sizeof *out->x);
+    if (m->facets) memcpy (out->normal + out->n * dim, m->cut.normal + from * dim, n * dim * sizeof *out->normal);
+    out->n += n;
+}
+
+static pg_status fill (pg_quadrature *out, mesh *m, double factor)
+{
+    pg_status status = PG_OK;
     double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS];
     int last = -1, n = 0;
-    pg_status status = reserve (out, m, order);
-    for (size_t e = 0; e < m->n && status == PG_OK; e++) {
-        if (m->kind[e] != last) n = rule (m->kind[e], order, xi, w), last = m->kind[e];
-        add (out, m, e, n, xi, w, factor);
+    memset (out, 0, sizeof *out);
+    PG_TRY (find_cut (m));
+    PG_TRY (reserve (out, m));
+    for (size_t e = 0; e < m->n; e++) {
+        if (m->kind[e] == PG_CUT) add_cut (out, m, e);
+        else {
+            if (m->kind[e] != last) n = rule (m->kind[e], m->order, xi, w), last = m->kind[e];
+            add (out, m, e, n, xi, w, factor);
+        }
     }
+done:
+    pg_free (m->first);
+    pg_cut_points_clear (&m->cut);
     if (status != PG_OK) pg_quadrature_clear (out);
     return status;
 }
 
 static pg_status gauss_points (pg_quadrature *out, const pg_cells *c, double thickness, int order)
 {
-    mesh m = { c->dim, 0, c->n, c->kind, c->start, c->x };
-    return fill (out, &m, c->dim == 3 ? 1 : thickness, order);
+    mesh m = { .cells = c, .dim = c->dim, .order = order, .n = c->n, .kind = c->kind, .start = c->start, .x = c->x };
+    return fill (out, &m, c->dim == 3 ? 1 : thickness);
 }
 
 /* A flat facet has one normal, the same in every bit. */
@@ -178,14 +225,15 @@ static void flatten (double *normal, const double *mean, size_t dim)
 
 pg_status pg_facet_points (pg_quadrature *out, const pg_cells *c, int order)
 {
-    mesh m = { c->dim, 1, c->nfacet, c->facet_kind, c->facet_start, c->facet_x };
+    mesh m = { .cells = c, .dim = c->dim, .facets = 1, .order = order, .n = c->nfacet, .kind = c->facet_kind, .start = c->facet_start, .x = c->facet_x };
     size_t dim = (size_t) c->dim;
-    pg_status status = fill (out, &m, 1, order);
+    pg_status status = fill (out, &m, 1);
     for (size_t q = 0, end = 0; q < out->n; q = end) {
         int f = out->cell[q];
         double sum = 0;                                /* the facet's own area carries the thickness                     */
         for (end = q; end < out->n && out->cell[end] == f; end++) sum += out->weight[end];
         for (size_t k = q; k < end; k++) {
+            if (c->facet_kind[f] == PG_CUT) continue;
             out->weight[k] *= c->area[f] / sum;
             flatten (out->normal + k * dim, c->normal + (size_t) f * dim, dim);
         }

@@ -161,7 +161,7 @@ static int by_group_and_name (const void *p, const void *q)
 void maker_name (const pg_mesh_maker *m, int dim, long group, char name[64])
 {
     snprintf (name, 64, "%ld", group);
-    mesh_group key = { .dim = dim, .group = group }, *g = group ? bsearch (&key, m->groups, m->ngroup, sizeof key, by_group) : NULL;
+    mesh_group key = { .dim = dim, .group = group }, *g = group && m->ngroup ? bsearch (&key, m->groups, m->ngroup, sizeof key, by_group) : NULL;
     while (g && g > m->groups && by_group (g - 1, &key) == 0) g--;
     if (g) memcpy (name, g->name, 64);
 }

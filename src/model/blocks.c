@@ -73,7 +73,7 @@ done:
 }
 
 /* ---- claims ----------------------------------------------------------------------------------------------------------- */
-/* A point on the boundary is looked at a hair inside its cell: rounding must not take it out of the body. */
+/* A point on the boundary is looked at a hair inside its cell, of a cut one inside the surface: rounding must not take it out of the body. */
 static void inside (const pg_problem *p, int set, size_t point, double *x)
 {
     const pg_cells *c = &p->cells;
@@ -81,6 +81,10 @@ static void inside (const pg_problem *p, int set, size_t point, double *x)
     memcpy (x, p->rows[set].x + point * dim, dim * sizeof *x);
     if (set != PG_FACETS) return;
     size_t cell = (size_t) c->facet_cell[p->rows[set].cell[point]], first = c->start[cell], corners = c->start[cell + 1] - first;
+    if (c->facet_kind[p->rows[set].cell[point]] == PG_CUT) {
+        for (size_t k = 0; k < dim; k++) x[k] -= 1e-9 * p->cloud.h * p->facet_normal[point * dim + k];
+        return;
+    }
     const double *corner = c->x + first * dim;
     for (size_t k = 0; k < dim; k++) {
         double middle = 0;

@@ -56,16 +56,28 @@ static int quadrature_order (const pg_problem *p)
     return p->approx.order + 1 + pg_mesh_body_halved (&p->part) * 2;       /* at most 5, the highest rule there is       */
 }
 
+static int gauss_order (const pg_problem *p, const pg_scene *scene)
+{
+    return pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : quadrature_order (p);
+}
+
+/* On a cut surface as fine as in the cells: linear fields balance only then. */
+static int facet_order (const pg_problem *p, const pg_scene *scene)
+{
+    int order = quadrature_order (p), fine = gauss_order (p, scene);
+    return p->cells.cut && fine > order ? fine : order;
+}
+
 static pg_status make_points (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
-    int order = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : quadrature_order (p);
-    if (!p->integration->at_nodes) PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, order));
+    p->cells.cut_order = p->integration->consistent ? 3 : 0;   /* with 2 the identity amplifies the error of thin pieces */
+    if (!p->integration->at_nodes) PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, gauss_order (p, scene)));
     PG_TRY (pg_rows_create (&p->rows[PG_POINTS], &p->approx, &p->cloud, q.n, q.x, q.weight, NULL, q.cell));
     PG_TRY (check_support (p, scene, PG_POINTS));
     if (p->integration->consistent)
-        PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS], p->approx.order + 1, p->threads));
+        PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS], facet_order (p, scene), p->threads));
     strip (&p->rows[PG_POINTS]);
 done:
     pg_quadrature_clear (&q);
@@ -85,7 +97,7 @@ static pg_status make_facets (pg_problem *p, const pg_scene *scene)
         int needs = load->kind == PG_TRACTION || load->kind == PG_PRESSURE || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
         for (size_t k = 0; needs && k < load->set->nfacet; k++) used[load->set->facet[k]] = 1;
     }
-    PG_TRY (pg_facet_points (&q, &p->cells, quadrature_order (p)));
+    PG_TRY (pg_facet_points (&q, &p->cells, facet_order (p, scene)));
     for (size_t k = 0; k < q.n; k++) {
         if (!used[q.cell[k]]) continue;
         memmove (q.x + keep * dim, q.x + k * dim, dim * sizeof *q.x);

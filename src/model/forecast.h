@@ -8,9 +8,11 @@ typedef struct {
     const pg_lattice *lattice;
     const pg_approx  *approx;
     int centred, nodal, order;                         /* points at cell centres; Gauss points per direction             */
+    const pg_body *body;                               /* cells are cut by its surface; NULL: staircase                  */
 } pg_counting;
 typedef struct {                                       /* of the lattice given                                           */
     double cells, points, open[6];                     /* open faces -x +x -y +y -z +z                                   */
+    double crossed;                                    /* open faces off the surface: about as many cells are cut        */
     double node_bonds, evaluation, point_bonds;        /* evaluation: Gauss points, 0 if nodal                           */
     double pairs;                                      /* as in pg_forecast                                              */
     double coupled;                                    /* most nodes that a node shares points with, itself included     */

@@ -39,9 +39,12 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
         PG_TRY (pg_mesh_body_cloud (&p->cloud, &p->part, scene));
     } else PG_TRY (pg_cloud_build (&p->cloud, &p->lattice, &p->body, scene));
     PG_TRY (pg_scene_verdict (scene));
+    p->cells.dim = p->dim;
+    int cut = strcmp (pg_scene_text (scene, "cells"), "cut") == 0;
     if (p->part.mesh.n) PG_TRY (pg_cells_from_mesh (&p->cells, &p->part, p->cloud.thickness));
+    else if (p->lattice.dim && cut) PG_TRY (pg_cells_cut (&p->cells, &p->body, &p->lattice, p->cloud.thickness));
     else if (p->lattice.dim) PG_TRY (pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness));
-    else p->cells.dim = p->dim;
+    if (p->cells.cut) PG_TRY (pg_cells_share (&p->cloud, &p->cells, &p->lattice));
     PG_TRY (pg_sets_build (&p->sets, scene, &p->body, &p->lattice, &p->cloud, &p->cells));
 done:
     return status;

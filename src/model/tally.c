@@ -46,6 +46,27 @@ static int is_point (const counter *c, const int *at, const int *step)
     return c->site[site_at (c, x, y, z)];
 }
 
+/* An open face whose middle is not on the surface: as many cells as such faces are crossed by a plane, whatever its direction. */
+static int off_surface (const counter *c, int x, int y, int z, int f)
+{
+    const pg_lattice *l = c->l;
+    double at[3] = { x + 0.5, y + 0.5, z + 0.5 }, place[3] = { 0, 0, 0 }, away;
+    at[f / 2] += f % 2 ? 0.5 : -0.5;
+    for (int k = 0; k < l->dim; k++) place[k] = pg_lattice_at (l, k, at[k]);
+    pg_body_nearest (c->how->body, place, &away);
+    return away > 1e-6 * l->step[f / 2];
+}
+
+static void count_faces (const counter *c, pg_tally *t, int x, int y, int z)
+{
+    for (int f = 0; f < 2 * c->l->dim; f++) {
+        int step = f % 2 ? 1 : -1;
+        if (kept (c->l, x + (f / 2 == 0 ? step : 0), y + (f / 2 == 1 ? step : 0), z + (f / 2 == 2 ? step : 0))) continue;
+        t->open[f]++;
+        t->crossed += c->how->body && off_surface (c, x, y, z, f);
+    }
+}
+
 /* Cells, open faces, and which sites are points. */
 static pg_status count_sites (counter *c, pg_tally *t)
 {
@@ -60,9 +81,7 @@ static pg_status count_sites (counter *c, pg_tally *t)
             for (int x = 0; x < l->count[0]; x++) {
                 if (!kept (l, x, y, z)) continue;
                 c->ncell++;
-                t->open[0] += !kept (l, x - 1, y, z), t->open[1] += !kept (l, x + 1, y, z);
-                if (l->dim > 1) t->open[2] += !kept (l, x, y - 1, z), t->open[3] += !kept (l, x, y + 1, z);
-                if (l->dim > 2) t->open[4] += !kept (l, x, y, z - 1), t->open[5] += !kept (l, x, y, z + 1);
+                count_faces (c, t, x, y, z);
                 for (int k = 0; k < 8; k++)
                     c->site[site_at (c, x + (k & far[0]), y + (k >> 1 & far[1]), z + (k >> 2 & far[2]))] = 1;
             }

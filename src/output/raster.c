@@ -17,7 +17,7 @@ static void span (double at, double half, int n, int *first, int *last)
     *last = b < 0 ? 0 : b > n ? n : (int) b;
 }
 
-static void stamp (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance, unsigned char *seen)
+static void stamp (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance, unsigned short *seen)
 {
     const double *at = s->place + 2 * k, *size = s->size;
     int x[2], y[2], ix[2], iy[2];
@@ -33,20 +33,20 @@ static void stamp (const pg_spots *s, size_t k, int width, int height, int *owne
             float d = (float) (dx * dx + dy * dy);
             int across = j >= iy[0] && j < iy[1], along = i >= ix[0] && i < ix[1];
             int level = dx > 0 ? LEFT : RIGHT, upright = dy > 0 ? ABOVE : BELOW;
-            seen[p] |= (unsigned char) ((level | upright) << 4 | (across ? level : 0) | (along ? upright : 0) | (across && along ? ALL : 0));
+            seen[p] |= (unsigned short) ((level | upright) << 4 | (across ? level : 0) | (along ? upright : 0) | (across && along ? ALL : 0));
             if (owner[p] < 0 || d < distance[p]) owner[p] = (int) k, distance[p] = d;
         }
 }
 
 /* In a cell, or in a gap with spots straight on two opposite sides, or near on all four. */
-static int enclosed (unsigned char seen)
+static int enclosed (unsigned short seen)
 {
     return (seen & (LEFT | RIGHT)) == (LEFT | RIGHT) || (seen & (ABOVE | BELOW)) == (ABOVE | BELOW) || seen >> 4 == ALL;
 }
 
 /* ---- spots without a lattice -------------------------------------------------------------------------------------------------- */
-/* Sectors of 45 degrees in which a pixel has spots within one and a half of their spacings. */
-static void stamp_near (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance, unsigned char *seen)
+/* The 16 sectors in which a pixel has spots within one and a half of their spacings. */
+static void stamp_near (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance, unsigned short *seen)
 {
     const double *at = s->place + 2 * k, reach = 1.5 * s->spacing[k];
     int x[2], y[2];
@@ -58,22 +58,21 @@ static void stamp_near (const pg_spots *s, size_t k, int width, int height, int 
             size_t p = (size_t) j * (size_t) width + (size_t) i;
             double dx = at[0] - i - 0.5, dy = at[1] - j - 0.5, r = hypot (dx, dy);
             if (r > reach) continue;
-            int sector = dx >= 0 ? (dy >= 0 ? (dy < dx ? 0 : 1) : (-dy <= dx ? 7 : 6)) : (dy >= 0 ? (dy > -dx ? 2 : 3) : (-dy < -dx ? 4 : 5));
-            seen[p] |= (unsigned char) (1 << sector);
+            seen[p] |= (unsigned short) (1 << (int) (8 * (1 + atan2 (dy, dx) / 3.141592653589794)));
             if (owner[p] < 0 || r < distance[p]) owner[p] = (int) k, distance[p] = (float) r;
         }
 }
 
-/* Spots on about opposite sides: sectors three to five apart. */
-static int between (unsigned char seen)
+/* Spots on about opposite sides: sectors seven to nine apart. */
+static int between (unsigned short seen)
 {
-    for (int k = 0; k < 8; k++)
-        for (int apart = 3; apart <= 5; apart++) if (seen >> k & 1 && seen >> (k + apart) % 8 & 1) return 1;
+    for (int k = 0; k < 16; k++)
+        for (int apart = 7; apart <= 9; apart++) if (seen >> k & 1 && seen >> (k + apart) % 16 & 1) return 1;
     return 0;
 }
 
 /* Near its spot, or not far and between others: the outline grows by a quarter of a spacing. */
-static void keep_near (const pg_spots *s, size_t n, const unsigned char *seen, const float *distance, int *owner)
+static void keep_near (const pg_spots *s, size_t n, const unsigned short *seen, const float *distance, int *owner)
 {
     for (size_t p = 0; p < n; p++) {
         if (owner[p] < 0) continue;
@@ -87,7 +86,7 @@ pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner)
     pg_status status = PG_OK;
     size_t n = (size_t) width * (size_t) height;
     float *distance = NULL;
-    unsigned char *seen = NULL;
+    unsigned short *seen = NULL;
     PG_ALLOC (distance, n);
     PG_ALLOC (seen, n);
     for (size_t p = 0; p < n; p++) owner[p] = -1;

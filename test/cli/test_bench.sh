@@ -45,6 +45,20 @@ expect "bench: impossible combinations are named and skipped" 0 'skipped: .*hori
 grep -q 'skipped' "$work/skip/bench.csv"; verdict "the table says so too" $?
 expect "bench: --fem of a scene without a mesh" 0 'ccx .*skipped: no mesh of this scene' '' bench test/cli/plate.yaml --approximation rkpm --basis linear --integration nodal \
        --spacing '4 mm' --fem --set solver.max_events=1 -o "$work/fem"
+if command -v ccx > /dev/null && command -v python3 > /dev/null; then
+    expect "bench: CalculiX beside" 0 'ccx CPS4 .* 170 dofs' '' bench $beam --approximation rkpm --basis linear --integration gauss --spacing 1.5 --fem-element CPS4,CPS8 \
+           --fem-size 4 --repeat 2 -o "$work/ccx"
+    # the errors that data/calculix/make_mesh.py --measure gives, in code of its own
+    between "$(column "$work/ccx/bench.csv" l2 CPS4)" 0.02930 0.02931; verdict "L2 error of CPS4" $?
+    between "$(column "$work/ccx/bench.csv" energy CPS4)" 0.1754 0.1755; verdict "energy error of CPS4" $?
+    between "$(column "$work/ccx/bench.csv" l2 CPS8)" 2.10e-5 2.12e-5; verdict "L2 error of CPS8" $?
+    between "$(column "$work/ccx/bench.csv" peak CPS8)" 2e6 1e8; verdict "memory of the process of ccx" $?
+    python3 data/calculix/make_mesh.py --measure "$work/ccx/fem/cantilever_CPS4_4.frd" cantilever CPS4 4 > "$work/out"
+    between "$(cut -d, -f5 "$work/out")" 0.02930 0.02931; verdict "make_mesh.py --measure agrees" $?
+    expect "bench: an element that make_mesh.py does not know" 0 'skipped: make_mesh.py .*no element CPS5' '' bench $beam --approximation rkpm --basis linear --integration nodal \
+           --spacing 3 --fem-element CPS5 --fem-size 4 -o "$work/ccx5"
+fi
+expect "a result of CalculiX that is none"             70 '' 'nowhere.frd' bench --fem-row $beam nowhere.frd m
 expect "bench: an entry that is none names the nearest" 64 '' 'did you mean rkpm' bench $beam --approximation rkpn
 expect "bench: an option that is none"                 64 '' 'there is no option --spacin (did you mean --spacing' bench $beam --spacin 3
 expect "bench: a list without its value"               64 '' '--spacing needs a list' bench $beam --spacing

@@ -61,6 +61,7 @@ expect "a run ends where a wrong scene does"  65 '' 'unknown key' run wrong/unkn
 [ ! -e "$work/none" ]; verdict "a wrong scene leaves no folder" $?
 
 expect "plot draws a field"                    0 'stress-yy.png' '' plot "$out" --field stress --component yy
+expect "plot takes result.e for its folder"     0 'damage.png' '' plot "$out/result.e"
 expect "plot draws SVG"                        0 'a.svg' '' plot "$out" --out "$work/a.svg"
 grep -q '<svg' "$work/a.svg"; verdict "SVG is SVG" $?
 expect "plot draws panels"                     0 'damage_steps.png' '' plot "$out" --steps 0,-1 --columns 1
@@ -81,6 +82,71 @@ expect "plot names the nearest curve option"  64 '' 'did you mean --labels' plot
 expect "plot names the nearest field"         64 '' "did you mean 'damage'" plot "$out" --field damag
 expect "plot names the nearest column"        64 '' "did you mean 'pull.force_y'" plot "$out" --curve step pull.force_yy
 expect "plot of no folder"                    70 '' 'No such file' plot "$work/nowhere"
+cat > "$work/two.msh" <<'END'
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+1 7 "foot"
+2 8 "steel"
+$EndPhysicalNames
+$Nodes
+6
+1 0 0 0
+2 1 0 0
+3 2 0 0
+4 0 1 0
+5 1 1 0
+6 2 1 0
+$EndNodes
+$Elements
+4
+1 1 2 7 1 1 2
+2 1 2 7 1 2 3
+3 3 2 8 1 1 2 5 4
+4 3 2 8 1 2 3 6 5
+$EndElements
+END
+cat > "$work/two.frd" <<'END'
+    1C
+    2C                             4                                     1
+ -1         1 0.00000E+00 0.00000E+00 0.00000E+00
+ -1         2 1.00000E+00 0.00000E+00 0.00000E+00
+ -1         3 1.00000E+00 1.00000E+00 0.00000E+00
+ -1         4 0.00000E+00 1.00000E+00 0.00000E+00
+ -3
+    3C                             1                                     1
+ -1         1    9    0    1
+ -2         1         2         3         4
+ -3
+    1PSTEP                         1           1           1
+  100CL  101 1.00000E+00           4                     0    1           1
+ -4  DISP        4    1
+ -5  D1          1    2    1    0
+ -5  D2          1    2    2    0
+ -5  D3          1    2    3    0
+ -5  ALL         1    2    0    0    1ALL
+ -1         1 0.00000E+00 0.00000E+00 0.00000E+00
+ -1         2 1.00000E-01 0.00000E+00 0.00000E+00
+ -1         3 1.00000E-01 2.00000E-01 0.00000E+00
+ -1         4 0.00000E+00 0.00000E+00 0.00000E+00
+ -3
+ 9999
+END
+expect "plot draws a mesh"                     0 'two.png' '' plot "$work/two.msh" --unit mm
+expect "plot draws the sets of a mesh"         0 'two_sets.png' '' plot "$work/two.msh" --sets
+expect "plot draws a field of a mesh"          0 'two_displacement-y.png' '' plot "$work/two.frd" --field displacement --component y --magnify 1
+expect "plot names the nearest field of a mesh" 64 '' 'did you mean displacement' plot "$work/two.frd" --field displacment
+expect "plot: components of a field"          64 '' 'one of x|y, magnitude' plot "$work/two.frd" --field displacement --component z
+expect "plot: a mesh without fields"          70 '' 'holds no fields' plot "$work/two.msh" --field stress
+expect "plot: --field or --sets"              64 '' 'exclude each other' plot "$work/two.msh" --field stress --sets
+expect "plot: --unit of a length"             64 '' 'expected a unit of length' plot "$work/two.msh" --unit kg
+expect "plot: sets are of meshes"             64 '' 'are for mesh files' plot "$out" --sets
+expect "plot: steps are of folders"           64 '' 'for result folders' plot "$work/two.frd" --field displacement --step all
+expect "plot draws decades"                    0 'log.png' '' plot "$out" --field stress --component yy --log --out "$work/log.png"
+expect "plot draws curves with markers"        0 'm.png' '' plot "$out" --curve step pull.force_y --log y --abs --markers --out "$work/m.png"
+expect "plot: --log of a curve"               64 '' 'expected x, y or xy' plot "$out" --curve step pull.force_y --log z
 expect "plot --help"                           0 'usage' '' plot --help
 
 : > "$work/file"

@@ -184,7 +184,7 @@ static void wrong_entries_are_named (void **state)
     check_refused (TWO "blocks: [{where: x < 1}]\n", "blocks[0].material: is missing");
     check_refused (TWO "blocks: [{material: rock, where: x}]\n", "blocks[0].where");
     check_refused (TWO "blocks: [{material: rock, where: x < t * 1 m}]\n", "a block does not change with t");
-    check_refused (TWO "blocks: [{material: rock, block: 0}]\n", "only points from a file have block numbers: use where");
+    check_refused (TWO "blocks: [{material: rock, block: 0}]\n", "only points and meshes from a file have blocks: use where");
 }
 
 static void what_never_breaks_is_exempt (void **state)

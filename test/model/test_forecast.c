@@ -9,8 +9,10 @@
 
 #define ROCK "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}}\n"
 #define CUBE "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\n" ROCK
-#define DISK "dimension: 2\nbody: [{add: {disk: {center: [0, 0], diameter: 1}}}, {subtract: {disk: {center: [0.1, 0], diameter: 0.2}}}]\n" ROCK
-#define SLAB "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], diameter: 1, length: 0.1}}}]\n" ROCK
+#define ROUND "dimension: 2\nbody: [{add: {disk: {center: [0, 0], diameter: 1}}}, {subtract: {disk: {center: [0.1, 0], diameter: 0.2}}}]\n" ROCK
+#define PUCK "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], diameter: 1, length: 0.1}}}]\n" ROCK
+#define DISK ROUND "cells: staircase\n"
+#define SLAB PUCK "cells: staircase\n"
 #define HELD "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 1 mm}}]\n"
 
 static pg_forecast forecast (const char *text)
@@ -55,7 +57,28 @@ static void test_quadratic (void **state) { (void) state; counts_as_built (DISK 
 static void test_oblong (void **state)
 {
     (void) state;
-    counts_as_built ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.33]}}}]\nspacing: 0.06\nlattice_offset: [0.3, -0.2]\n" ROCK);
+    counts_as_built ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.33]}}}]\nspacing: 0.06\nlattice_offset: [0.3, -0.2]\ncells: staircase\n" ROCK);
+}
+
+/* Cut cells are estimated: points of evaluation, their bonds and the pairs. */
+static void test_cut (void **state)
+{
+    static const char *const text[] = { ROUND "spacing: 0.05\n", ROUND "spacing: 0.02\n", ROUND "spacing: 0.03\nmethod: {basis: quadratic, horizon: 3 spacing}\n",
+                                        PUCK "spacing: 0.06\n", PUCK "spacing: 0.04\n" };
+    (void) state;
+    for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
+        pg_forecast f = forecast (text[i]);
+        built b = build (text[i]);
+        const pg_problem *p = b.problem;
+        assert_false (f.counted);
+        assert_true (f.points == (double) p->cloud.n);
+        check_relative (f.cells, (double) p->cells.n, 0.05);
+        check_relative (f.evaluation, (double) p->rows[PG_POINTS].n, 0.1);
+        check_relative (f.bonds[PG_POINTS], (double) (p->first_bond[2] - p->first_bond[1]), 0.06);
+        check_ok (pg_forecast_problem (&f, p));
+        assert_true (f.counted && f.cells == (double) p->cells.n);
+        unbuild (&b);
+    }
 }
 
 static void test_a_sample_is_near_the_count (void **state)
@@ -325,7 +348,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (test_bar), cmocka_unit_test (test_plane), cmocka_unit_test (test_solid), cmocka_unit_test (test_nodal),
         cmocka_unit_test (test_centres), cmocka_unit_test (test_tensor), cmocka_unit_test (test_closed), cmocka_unit_test (test_metres),
-        cmocka_unit_test (test_quadratic), cmocka_unit_test (test_oblong), cmocka_unit_test (test_a_sample_is_near_the_count),
+        cmocka_unit_test (test_quadratic), cmocka_unit_test (test_oblong), cmocka_unit_test (test_cut), cmocka_unit_test (test_a_sample_is_near_the_count),
         cmocka_unit_test (test_a_coarser_lattice_is_near_the_count), cmocka_unit_test (test_wide_horizons_need_no_stencil),
         cmocka_unit_test (test_law_of_a_disk), cmocka_unit_test (test_law_of_a_cube), cmocka_unit_test (test_law_of_a_slab),
         cmocka_unit_test (test_law_of_wide_bonds), cmocka_unit_test (test_analysis_is_that_of_a_run),

@@ -192,6 +192,21 @@ static void patches_on_every_element (void **state)
     }
 }
 
+static void consistent_patches_on_every_element (void **state)
+{
+    (void) state;
+    for (int kind = PG_BAR2; kind < PG_ELEMENTS; kind++) {
+        const pg_element_type *t = &pg_element_types[kind];
+        double e[4];
+        for (int k = 0; k < 4; k++) {
+            grid g = { (pg_element) kind, t->dim == 3 ? 2 : side_of (t->dim), k % 2 ? 0.03 : 0, 1, 1 };
+            e[k] = patch_error (&g, 1, "", k < 2 ? "integration: consistent" : "integration: consistent, basis: quadratic, horizon: 3.1 spacing", NULL);
+        }
+        for (int k = 0; k < 4; k++) check_below (e[k], k == 1 ? 5e-7 : 1e-11);     /* hex8, tet10 bent: 2e-7, 1e-8     */
+        print_message ("%-8s consistent, straight and bent: linear %.2g %.2g, quadratic %.2g %.2g\n", t->name, e[0], e[1], e[2], e[3]);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -199,6 +214,7 @@ int main (void)
         cmocka_unit_test (spacings_follow_the_edges),
         cmocka_unit_test (a_perturbed_mesh_keeps_its_cells_and_surface),
         cmocka_unit_test (patches_on_every_element),
+        cmocka_unit_test (consistent_patches_on_every_element),
     };
     (void) faulty, (void) both;
     return cmocka_run_group_tests_name ("scene_runs/mesh", tests, make_folder, drop_folder);

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What a body from a mesh amounts to: file, elements, blocks, sets, sizes. */
+#include "cli.h"
+#include <string.h>
+
+enum { MOST = 12 };                                    /* blocks and sets listed                                         */
+
+static size_t of_kind (const pg_mesh *m, int kind)
+{
+    size_t n = 0;
+    for (size_t e = 0; e < m->n; e++) n += m->kind[e] == kind;
+    return n;
+}
+
+static size_t of_block (const pg_mesh *m, size_t block)
+{
+    size_t n = 0;
+    for (size_t e = 0; e < m->n; e++) n += (size_t) m->block[e] == block;
+    return n;
+}
+
+static void print_elements (const pg_mesh_body *b)
+{
+    const pg_mesh *m = &b->mesh;
+    const char *joint = ", ";
+    printf ("  %-18s  %s, %.6g m a unit, %zu nodes", "mesh", b->file, b->unit, m->nnode);
+    for (int k = 0; k < PG_ELEMENTS; k++) {
+        size_t n = of_kind (m, k);
+        if (n) printf ("%s%zu %s", joint, n, pg_element_types[k].name);
+    }
+    printf ("\n");
+    for (size_t k = 0; k < m->nblock && k < MOST; k++) printf ("  block %-12s  %zu elements\n", m->blocks[k].name, of_block (m, k));
+    if (m->nblock > MOST) printf ("  %-18s  and %zu more\n", "blocks", m->nblock - MOST);
+}
+
+/* Names that had to change */
+static void print_renamed (const pg_mesh *m)
+{
+    char clean[57];
+    for (size_t i = 0; i < m->nsides + m->nnodes; i++) {
+        const char *name = i < m->nsides ? m->sides[i].name : m->nodes[i - m->nsides].name;
+        int twice = 0;
+        pg_set_name (clean, name);
+        for (size_t k = 0; i >= m->nsides && k < m->nsides; k++) twice |= !strcmp (m->sides[k].name, name);
+        if (strcmp (clean, name) && !twice) printf ("  %-18s  '%s' of the mesh is called %s here\n", "set", name, clean);
+    }
+}
+
+void plan_mesh (const pg_problem *p)
+{
+    const pg_mesh_body *b = &p->part;
+    const pg_cells *c = &p->cells;
+    double volume = 0, area = 0;
+    if (b->mesh.n == 0) return;
+    print_elements (b);
+    for (size_t k = 0; k < c->ngiven && k < MOST; k++)
+        printf ("  set %-14s  %zu points, %zu facets\n", c->given[k].name, c->given[k].npoint, c->given[k].nfacet);
+    if (c->ngiven > MOST) printf ("  %-18s  and %zu more\n", "sets", c->ngiven - MOST);
+    print_renamed (&b->mesh);
+    for (size_t e = 0; e < c->n; e++) volume += c->volume[e];
+    for (size_t f = 0; f < c->nfacet; f++) area += c->area[f];
+    printf ("  %-18s  %.8g m3, surface %.8g m2\n", "volume", volume, area);
+    printf ("  %-18s  %.4g to %.4g m, worst quality %.3g (scaled Jacobian, element %ld)\n", "elements", b->smallest, b->largest, b->quality,
+            b->mesh.element_id[b->worst]);
+}
+
+void plan_mesh_json (pg_json *j, const pg_problem *p)
+{
+    const pg_mesh_body *b = &p->part;
+    const pg_mesh *m = &b->mesh;
+    double volume = 0, area = 0;
+    if (m->n == 0) return;
+    for (size_t e = 0; e < p->cells.n; e++) volume += p->cells.volume[e];
+    for (size_t f = 0; f < p->cells.nfacet; f++) area += p->cells.area[f];
+    pg_json_open (j, "mesh", '{');
+    pg_json_text (j, "file", b->file);
+    pg_json_number (j, "unit", b->unit);
+    pg_json_count (j, "nodes", m->nnode);
+    pg_json_open (j, "elements", '{');
+    for (int k = 0; k < PG_ELEMENTS; k++) if (of_kind (m, k)) pg_json_count (j, pg_element_types[k].name, of_kind (m, k));
+    pg_json_shut (j);
+    pg_json_open (j, "blocks", '{');
+    for (size_t k = 0; k < m->nblock; k++) pg_json_count (j, m->blocks[k].name, of_block (m, k));
+    pg_json_shut (j);
+    pg_json_open (j, "sets", '{');
+    for (size_t k = 0; k < p->cells.ngiven; k++) pg_json_count (j, p->cells.given[k].name, p->cells.given[k].npoint);
+    pg_json_shut (j);
+    pg_json_number (j, "volume", volume);
+    pg_json_number (j, "surface", area);
+    pg_json_number (j, "smallest", b->smallest);
+    pg_json_number (j, "largest", b->largest);
+    pg_json_number (j, "worst_quality", b->quality);
+    pg_json_count (j, "worst_element", (size_t) m->element_id[b->worst]);
+    pg_json_shut (j);
+}

@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * perigal-mesh: anything that Gmsh opens (.geo, .step, .iges, .brep, .stl, .msh, .unv, .med ...) to a .msh file that Perigal reads. A program of
+ * its own, built where Gmsh's library is installed (Debian: libgmsh-dev), because loading that library takes longer than many a run. */
+#include "perigal/mesh.h"
+#include <gmshc.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct { const char *input, *output; double size; int order, dim; } wishes;
+typedef struct { int *pair; size_t n; } entities;                /* n numbers: dimension, tag, dimension, tag ...            */
+
+static const char usage[] =
+    "usage: perigal-mesh INPUT OUTPUT.msh [--size H] [--order 1|2] [--dim 2|3]\n"
+    "Meshes a geometry (.geo, .step, .iges, .brep, .stl), or takes the elements of a mesh file, and writes Gmsh .msh 4.1.\n"
+    "  --size H    length of the edges of elements, in the unit of the file (default: what the file says, else a tenth of the body)\n"
+    "  --order N   1: straight elements, 2: with nodes on the middle of edges (default: as the file has them; 1 for a geometry)\n"
+    "  --dim N     dimension of the mesh (default: that of the body; 3 for a closed surface .stl)\n"
+    "Physical groups become blocks and sets; a body without any gets part_N (blocks) and side_N (sets).\n";
+
+/* Says what Gmsh said; 1. */
+static int failed (const char *what, const char *path)
+{
+    char *text = NULL;
+    int e;
+    gmshLoggerGetLastError (&text, &e);
+    fprintf (stderr, "perigal-mesh: %s: %s%s%s\n", path, what, text && *text ? ": Gmsh says: " : "", text && *text ? text : "");
+    gmshFree (text);
+    return 1;
+}
+
+/* ---- arguments -------------------------------------------------------------------------------------------------------- */
+static int number_of (const char *text, double low, double high, double *value)
+{
+    char *end;
+    *value = strtod (text, &end);
+    return end != text && !*end && *value >= low && *value <= high;
+}
+
+/* 0: good; else the exit code (help: -1). */
+static int read_arguments (wishes *w, int argc, char **argv)
+{
+    for (int k = 1; k < argc; k++) {
+        double v;
+        int size = !strcmp (argv[k], "--size"), order = !strcmp (argv[k], "--order"), dim = !strcmp (argv[k], "--dim");
+        if (!strcmp (argv[k], "--help") || !strcmp (argv[k], "-h")) return -1;
+        if (size || order || dim) {
+            if (k + 1 == argc || !number_of (argv[k + 1], size ? 1e-300 : order ? 1 : 2, size ? 1e300 : order ? 2 : 3, &v) || (!size && v != (int) v)) {
+                fprintf (stderr, "perigal-mesh: %s needs %s\n", argv[k], size ? "a positive length" : order ? "1 or 2" : "2 or 3");
+                return 2;
+            }
+            if (size) w->size = v;
+            else *(order ? &w->order : &w->dim) = (int) v;
+            k++;
+        } else if (argv[k][0] == '-' || w->output) {
+            fprintf (stderr, "perigal-mesh: what is '%s'?\n%s", argv[k], usage);
+            return 2;
+        } else *(w->input ? &w->output : &w->input) = argv[k];
+    }
+    if (!w->output) fprintf (stderr, "perigal-mesh: give a file to read and one to write\n%s", usage);
+    size_t n = w->output ? strlen (w->output) : 0;
+    if (n && (n < 5 || strcmp (w->output + n - 4, ".msh"))) {
+        fprintf (stderr, "perigal-mesh: %s: the name of the file to write must end in .msh\n", w->output);
+        return 2;
+    }
+    return n ? 0 : 2;
+}
+
+/* ---- meshing ---------------------------------------------------------------------------------------------------------- */
+static int elements_of (int dim)
+{
+    int *type = NULL, e;
+    size_t n = 0;
+    gmshModelMeshGetElementTypes (&type, &n, dim, -1, &e);
+    gmshFree (type);
+    return n > 0;
+}
+
+static entities entities_of (int dim)
+{
+    entities list = { NULL, 0 };
+    int e;
+    gmshModelGetEntities (&list.pair, &list.n, dim, &e);
+    return list;
+}
+
+/* A closed surface of triangles (.stl) becomes a body: corners sharper than 40 degrees are edges. */
+static int fill_surface (const wishes *w)
+{
+    int e, bad = 0;
+    gmshModelMeshClassifySurfaces (0.6981317, 1, 1, 3.1415926, 0, &e);
+    bad |= e;
+    if (!bad) gmshModelMeshCreateGeometry (NULL, 0, &e), bad |= e;
+    if (bad) return failed ("its surface cannot be divided into faces", w->input);
+    entities faces = entities_of (2);
+    int *tag = malloc ((faces.n / 2 + 1) * sizeof *tag);
+    for (size_t k = 0; tag && k < faces.n / 2; k++) tag[k] = faces.pair[2 * k + 1];
+    int loop = gmshModelGeoAddSurfaceLoop (tag, faces.n / 2, -1, &e);
+    bad |= e;
+    if (!bad) gmshModelGeoAddVolume (&loop, 1, -1, &e), bad |= e;
+    if (!bad) gmshModelGeoSynchronize (&e), bad |= e;
+    gmshFree (faces.pair), free (tag);
+    return bad ? failed ("its surface does not enclose a body", w->input) : 0;
+}
+
+static int is_stl (const char *path)
+{
+    size_t n = strlen (path);
+    return n > 4 && (!strcmp (path + n - 4, ".stl") || !strcmp (path + n - 4, ".STL"));
+}
+
+static int make_mesh (const wishes *w)
+{
+    int e, dim = gmshModelGetDimension (&e), stl = dim == 2 && elements_of (2) && is_stl (w->input);
+    int has_mesh = dim > 0 && elements_of (dim), want = w->dim ? w->dim : stl ? 3 : dim;
+    if (dim < 1) return failed ("there is no body and no mesh in it", w->input);
+    if (want > dim && !stl) {
+        fprintf (stderr, "perigal-mesh: %s: the body has dimension %d; a mesh of dimension %d cannot be made\n", w->input, dim, want);
+        return 1;
+    }
+    if (stl && want == 3 && fill_surface (w)) return 1;
+    if (w->size > 0) {
+        gmshOptionSetNumber ("Mesh.MeshSizeMin", 0.5 * w->size, &e), gmshOptionSetNumber ("Mesh.MeshSizeMax", w->size, &e);
+        if (has_mesh && !stl) fprintf (stderr, "perigal-mesh: %s: has elements already; --size is not used\n", w->input);
+    }
+    if (!has_mesh || (stl && want == 3)) {
+        gmshModelMeshGenerate (want, &e);
+        if (e || !elements_of (want)) return failed ("could not be meshed", w->input);
+    }
+    if (w->order) gmshModelMeshSetOrder (w->order, &e);
+    return w->order && e ? failed ("the order of the elements could not be changed", w->input) : 0;
+}
+
+/* ---- groups ----------------------------------------------------------------------------------------------------------- */
+static void name_entities (int dim, const char *stem)
+{
+    entities list = entities_of (dim);
+    for (size_t k = 0; k < list.n; k += 2) {
+        char name[64], *given = NULL;
+        int e, tag = list.pair[k + 1], group = gmshModelAddPhysicalGroup (dim, &tag, 1, -1, &e);
+        if (e) continue;
+        gmshModelGetEntityName (dim, tag, &given, &e);
+        const char *last = given && strrchr (given, '/') ? strrchr (given, '/') + 1 : given;
+        if (last && *last && strncmp (last, "Open CASCADE", 12)) snprintf (name, sizeof name, "%.63s", last);
+        else snprintf (name, sizeof name, "%s_%d", stem, tag);
+        gmshModelSetPhysicalName (dim, group, name, &e);
+        gmshFree (given);
+    }
+    gmshFree (list.pair);
+}
+
+static int write_mesh (const wishes *w)
+{
+    entities groups = { NULL, 0 }, top = { NULL, 0 };
+    int e, dim = 3;
+    while (dim > 1 && !elements_of (dim)) dim--;
+    gmshModelGetPhysicalGroups (&groups.pair, &groups.n, -1, &e);
+    gmshModelGetPhysicalGroups (&top.pair, &top.n, dim, &e);
+    if (groups.n == 0) name_entities (dim, "part"), name_entities (dim - 1, "side");
+    else if (top.n == 0) name_entities (dim, "part");
+    gmshFree (groups.pair), gmshFree (top.pair);
+    gmshOptionSetNumber ("Mesh.MshFileVersion", 4.1, &e), gmshOptionSetNumber ("Mesh.Binary", 1, &e);
+    gmshWrite (w->output, &e);
+    return e ? failed ("cannot be written", w->output) : 0;
+}
+
+/* Reads the file as Perigal will, and says what is in it. */
+static int look_at (const wishes *w)
+{
+    pg_mesh mesh;
+    size_t count[PG_ELEMENTS] = { 0 };
+    if (pg_mesh_read (&mesh, w->output) != PG_OK) {
+        fprintf (stderr, "perigal-mesh: was written, but cannot be used: %s\n", pg_last_error ());
+        return 1;
+    }
+    for (size_t k = 0; k < mesh.n; k++) count[mesh.kind[k]]++;
+    printf ("%s: %dD, %zu nodes", w->output, mesh.dim, mesh.nnode);
+    for (int k = 0; k < PG_ELEMENTS; k++) if (count[k]) printf (", %zu %s", count[k], pg_element_types[k].name);
+    printf ("\nblocks:");
+    for (size_t k = 0; k < mesh.nblock; k++) printf (" %s", mesh.blocks[k].name);
+    printf ("\nsets:");
+    for (size_t k = 0; k < mesh.nnodes; k++) printf (" %s", mesh.nodes[k].name);
+    printf ("\n");
+    pg_mesh_clear (&mesh);
+    return 0;
+}
+
+static void start (void)
+{
+    int e;
+#ifdef GMSH_RUN
+    gmshInitialize (0, NULL, 0, 0, &e);
+#else
+    gmshInitialize (0, NULL, 0, &e);
+#endif
+    gmshOptionSetNumber ("General.Terminal", 0, &e);
+    gmshOptionSetNumber ("General.AbortOnError", 0, &e);
+    gmshLoggerStart (&e);
+}
+
+int main (int argc, char **argv)
+{
+    wishes w = { .size = 0 };
+    int code = read_arguments (&w, argc, argv), e;
+    if (code < 0) return fputs (usage, stdout) < 0;
+    if (code) return code;
+    FILE *f = fopen (w.input, "rb");
+    if (!f) {
+        fprintf (stderr, "perigal-mesh: %s: cannot be read\n", w.input);
+        return 1;
+    }
+    fclose (f);
+    f = fopen (w.output, "rb");
+    int there = f != NULL;
+    if (f) fclose (f);
+    f = fopen (w.output, "ab");
+    if (!f) {
+        fprintf (stderr, "perigal-mesh: %s: cannot be written\n", w.output);
+        return 1;
+    }
+    fclose (f);
+    start ();
+    gmshOpen (w.input, &e);
+    code = e ? failed ("cannot be opened", w.input) : make_mesh (&w) || write_mesh (&w);
+    gmshFinalize (&e);
+    if (code && !there) remove (w.output);
+    return code || look_at (&w);
+}
