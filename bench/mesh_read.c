@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Seconds of processor time to read a mesh: mesh_read [FILE...]; without files a cube of 100^3 hexahedra and a square of 10^6 triangles are
- * written and read in every variant of Gmsh's formats. CSV: file, bytes, dimension, nodes, elements, blocks, sets, volume, seconds of reading
+ * written and read in every format. CSV: file, bytes, dimension, nodes, elements, blocks, sets, volume, seconds of reading
  * (least of three), of the surface, its faces. */
 #include "perigal/mesh.h"
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -96,6 +98,87 @@ static void write_4 (FILE *f, const lattice *l, int binary)
     fprintf (f, "$EndElements\n");
 }
 
+static void write_inp (FILE *f, const lattice *l, int unused)
+{
+    double x[3];
+    long node[8];
+    (void) unused;
+    fprintf (f, "*NODE, NSET=ALL\n");
+    for (long k = 0; k < l->nodes; k++) node_of (l, k, x), fprintf (f, "%ld, %.16g, %.16g, %.16g\n", k + 1, x[0], x[1], x[2]);
+    fprintf (f, "*ELEMENT, TYPE=%s, ELSET=BODY\n", l->dim == 3 ? "C3D8" : "CPS3");
+    for (long e = 0; e < l->elements; e++) {
+        int n = element_of (l, e, node);
+        fprintf (f, "%ld", e + 1);
+        for (int k = 0; k < n; k++) fprintf (f, ", %ld%s", node[k], k + 1 < n ? "" : "\n");
+    }
+}
+
+static void write_frd (FILE *f, const lattice *l, int binary)
+{
+    double x[3];
+    long node[8], kind = l->dim == 3 ? 1 : 7;
+    fprintf (f, "    1C\n    2C%18s%12ld%37s%d\n", "", l->nodes, "", binary ? 3 : 1);
+    for (long k = 0; k < l->nodes; k++) {
+        node_of (l, k, x);
+        if (binary) put_ints (f, 1, (long[1]) { k + 1 }), fwrite (x, 8, 3, f);
+        else fprintf (f, " -1%10ld%12.5E%12.5E%12.5E\n", k + 1, x[0], x[1], x[2]);
+    }
+    if (!binary) fprintf (f, " -3\n");
+    fprintf (f, "    3C%18s%12ld%37s%d\n", "", l->elements, "", binary ? 2 : 1);
+    for (long e = 0; e < l->elements; e++) {
+        int n = element_of (l, e, node);
+        if (binary) put_ints (f, 4, (long[4]) { e + 1, kind, 0, 1 }), put_ints (f, (size_t) n, node);
+        else fprintf (f, " -1%10ld%5ld%5d%5d\n -2", e + 1, kind, 0, 1);
+        for (int k = 0; !binary && k < n; k++) fprintf (f, "%10ld%s", node[k], k + 1 < n ? "" : "\n");
+    }
+    if (!binary) fprintf (f, " -3\n");
+    fprintf (f, " 9999\n");
+}
+
+/* The bytes of a classic netCDF file (64-bit offsets) by its published layout, most significant byte first. */
+static void big (FILE *f, int bytes, uint64_t v) { for (int k = bytes - 1; k >= 0; k--) fputc ((int) (v >> (8 * k) & 255), f); }
+
+static void name (FILE *f, const char *text)
+{
+    big (f, 4, strlen (text)), fputs (text, f);
+    for (size_t k = strlen (text); k % 4; k++) fputc (0, f);
+}
+
+static void variable (FILE *f, const char *text, const char *type, int dims, const int *dim, int kind, uint64_t bytes, uint64_t begin)
+{
+    name (f, text), big (f, 4, (uint64_t) dims);
+    for (int k = 0; k < dims; k++) big (f, 4, (uint64_t) dim[k]);
+    if (type) big (f, 4, 12), big (f, 4, 1), name (f, "elem_type"), big (f, 4, 2), name (f, type);
+    else big (f, 8, 0);
+    big (f, 4, (uint64_t) kind), big (f, 4, bytes), big (f, 8, begin);
+}
+
+static void write_exodus (FILE *f, const lattice *l, int unused)
+{
+    const char *dimension[6] = { "num_nodes", "num_elem", "num_el_blk", "num_el_in_blk1", "num_nod_per_el1", "num_dim" };
+    int corners = l->dim == 3 ? 8 : 3;
+    uint64_t length[6] = { (uint64_t) l->nodes, (uint64_t) l->elements, 1, (uint64_t) l->elements, (uint64_t) corners, (uint64_t) l->dim };
+    uint64_t places = 8 * length[0], begin = 1024;         /* the header is shorter                                          */
+    double x[3];
+    long node[8];
+    (void) unused;
+    fputs ("CDF\2", f), big (f, 4, 0), big (f, 4, 10), big (f, 4, 6);
+    for (int k = 0; k < 6; k++) name (f, dimension[k]), big (f, 4, length[k]);
+    big (f, 8, 0), big (f, 4, 11), big (f, 4, (uint64_t) l->dim + 1);
+    for (int a = 0; a < l->dim; a++) variable (f, a == 0 ? "coordx" : a == 1 ? "coordy" : "coordz", NULL, 1, (int[1]) { 0 }, 6, places, begin + (uint64_t) a * places);
+    variable (f, "connect1", l->dim == 3 ? "HEX8" : "TRI3", 2, (int[2]) { 3, 4 }, 4, 4 * length[1] * length[4], begin + length[5] * places);
+    while (ftell (f) < (long) begin) fputc (0, f);
+    for (int a = 0; a < l->dim; a++)
+        for (long k = 0; k < l->nodes; k++) {
+            uint64_t bits;
+            node_of (l, k, x), memcpy (&bits, &x[a], 8), big (f, 8, bits);
+        }
+    for (long e = 0; e < l->elements; e++) {
+        element_of (l, e, node);
+        for (int k = 0; k < corners; k++) big (f, 4, (uint64_t) node[k]);
+    }
+}
+
 /* ---- reading ---------------------------------------------------------------------------------------------------------- */
 static double volume_of (const pg_mesh *m)
 {
@@ -141,7 +224,8 @@ typedef void (*writer) (FILE *f, const lattice *l, int binary);
 static pg_status time_lattice (const lattice *l, const char *what)
 {
     static const struct { const char *name; writer write; int binary; } variant[] = {
-        { "msh 2.2 text", write_2, 0 }, { "msh 2.2 binary", write_2, 1 }, { "msh 4.1 text", write_4, 0 }, { "msh 4.1 binary", write_4, 1 } };
+        { "msh 2.2 text", write_2, 0 }, { "msh 2.2 binary", write_2, 1 }, { "msh 4.1 text", write_4, 0 }, { "msh 4.1 binary", write_4, 1 },
+        { "inp", write_inp, 0 }, { "frd text", write_frd, 0 }, { "frd binary", write_frd, 1 }, { "exodus", write_exodus, 0 } };
     pg_status status = PG_OK;
     for (size_t k = 0; status == PG_OK && k < sizeof variant / sizeof *variant; k++) {
         char path[] = "/tmp/perigal_mesh_XXXXXX", name[80];

@@ -185,6 +185,35 @@ void pg_finder_free (pg_mesh_finder **finder)
     *finder = NULL;
 }
 
+/* Triangles and tetrahedra with straight sides, without Newton's method; 0: flat. */
+static int invert_simplex (int dim, const double *x, const double *p, double *xi)
+{
+    double e[3][3], r[3];
+    for (int a = 0; a < dim; a++) {
+        r[a] = p[a] - x[a];
+        for (int k = 0; k < dim; k++) e[k][a] = x[(k + 1) * dim + a] - x[a];
+    }
+    if (dim == 2) {
+        double det = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+        xi[0] = (r[0] * e[1][1] - r[1] * e[1][0]) / det, xi[1] = (e[0][0] * r[1] - e[0][1] * r[0]) / det;
+        return det != 0;
+    }
+    double n[3][3], det = 0;                               /* n[k]: product of the other two edges                           */
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 3; a++) {
+            const double *u = e[(k + 1) % 3], *v = e[(k + 2) % 3];
+            n[k][a] = u[(a + 1) % 3] * v[(a + 2) % 3] - u[(a + 2) % 3] * v[(a + 1) % 3];
+        }
+    for (int a = 0; a < 3; a++) det += e[0][a] * n[0][a];
+    for (int k = 0; k < 3; k++) xi[k] = (r[0] * n[k][0] + r[1] * n[k][1] + r[2] * n[k][2]) / det;
+    return det != 0;
+}
+
+static int invert (pg_element kind, int dim, const double *x, const double *place, double *xi)
+{
+    return kind == PG_TRI3 || kind == PG_TET4 ? invert_simplex (dim, x, place, xi) : pg_element_invert (kind, x, place, xi);
+}
+
 /* ---- questions -------------------------------------------------------------------------------------------------------- */
 static long find_inside (const pg_mesh_finder *f, const double *place, double *xi)
 {
@@ -202,7 +231,7 @@ static long find_inside (const pg_mesh_finder *f, const double *place, double *x
             double x[3 * PG_ELEMENT_NODES], at[3];
             if (f->item[k] >= best || !holds (&f->box[k], place, dim)) continue;
             pg_element kind = nodes_of (f, (size_t) f->item[k], x);
-            if (!pg_element_invert (kind, x, place, at) || pg_element_outside (kind, at) > inside) continue;
+            if (!invert (kind, dim, x, place, at) || pg_element_outside (kind, at) > inside) continue;
             best = f->item[k];
             memcpy (xi, at, (size_t) dim * sizeof *xi);
         }

@@ -37,6 +37,35 @@ static void check_mesh (const pg_mesh *m)
     pg_free (element), pg_free (side);
 }
 
+static void check_search (const pg_mesh *m)
+{
+    pg_mesh_finder *f = NULL;
+    double xi[3], away;
+    FUZZ_EXPECT (pg_finder_create (&f, m) == PG_OK);
+    for (size_t i = 0; i < m->nnode && i < 20; i++) {
+        long e = pg_finder_find (f, m->x + 3 * i, xi, &away);
+        FUZZ_EXPECT (e >= -1 && e < (long) m->n);
+    }
+    pg_finder_free (&f);
+}
+
+static void check_result (const mesh_bytes *file)
+{
+    pg_mesh m;
+    pg_mesh_field *fields = NULL;
+    size_t n = 0;
+    double time;
+    pg_status status = mesh_parse_result (&m, file, -1, &n, &fields, &time);
+    FUZZ_EXPECT (status == PG_OK || status == PG_E_FILE);
+    if (status != PG_OK) return;
+    for (size_t k = 0; k < n; k++)
+        for (size_t i = 0; i < m.nnode * (size_t) fields[k].components; i++) FUZZ_EXPECT (isfinite (fields[k].value[i]));
+    status = pg_mesh_flatten (&m, n, fields);
+    FUZZ_EXPECT (status == PG_OK || status == PG_E_USAGE || status == PG_E_FILE);
+    pg_mesh_fields_clear (n, &fields);
+    pg_mesh_clear (&m);
+}
+
 int LLVMFuzzerTestOneInput (const uint8_t *data, size_t size)
 {
     size_t used = pg_memory_used ();
@@ -47,9 +76,10 @@ int LLVMFuzzerTestOneInput (const uint8_t *data, size_t size)
     memcpy (text, data, size);
     pg_status status = mesh_parse (&mesh, &(mesh_bytes) { "part.msh", text, size });
     FUZZ_EXPECT (status == PG_OK || status == PG_E_FILE);
-    if (status == PG_OK) check_mesh (&mesh);
+    if (status == PG_OK) check_mesh (&mesh), check_search (&mesh);
     else FUZZ_EXPECT (strstr (pg_last_error (), "part.msh"));
     pg_mesh_clear (&mesh);
+    if (status == PG_OK) check_result (&(mesh_bytes) { "part.msh", text, size });
     pg_free (text);
     FUZZ_EXPECT (pg_memory_used () == used);
 #ifndef FUZZ_REPLAY
