@@ -41,8 +41,11 @@ pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, 
 /* The kept cells of a lattice: bars, quads, hexes. */
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness);
 /* The same lattice over the exact body: cells that its surface crosses are cut (kind PG_CUT) and kept while their share of volume is above
- * 1e-13, wherever their centre lies; facets are pieces of the surface, one for each cell and surface. The shapes of the body must outlive the cells. */
-pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness);
+ * 1e-13, wherever their centre lies; facets are pieces of the surface, one for each cell and surface, parted by the rays given. The shapes of the body must outlive the cells. */
+typedef struct { double centre[2], direction[2]; } pg_ray;             /* in the xy plane; direction of unit length       */
+pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness, size_t nray, const pg_ray *ray);
+/* The ends of the angle ranges of all sets of the scene (pg_free): facets are parted there. */
+pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg_body *body);
 /* Volumes of the points become those of the cells: each cell is shared equally by its points (vertices, or its centre); one without
  * any goes to the nearest point. */
 pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_lattice *lattice);

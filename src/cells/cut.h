@@ -13,13 +13,14 @@ typedef struct { double A[3][3], b[3], c; } cut_quadric;           /* A symmetri
 typedef struct {
     cut_quadric psi;                                   /* about `origin`; |grad psi| = 1 on the surface                  */
     double origin[3], low[3], high[3];                 /* m; box of the part that may bound the body                     */
-    int    shape, flat, end, axis;                     /* of the body; a plane; end of a cylinder; normal axis or -1     */
+    int    shape, flat, end, axis;                     /* of the body, -1 a knife; a plane; end of a cylinder; normal axis or -1 */
 } cut_surface;
 struct pg_cut {
     int dim;
     pg_body body;                                      /* its shapes are borrowed                                        */
     cut_surface *surface;  size_t n;
     size_t *start;  int *near;                         /* surfaces near each cell of pg_cells (n + 1)                    */
+    int *part;                                         /* of each facet: on which sides of the knives                    */
     cut_work *work;
 };
 void cut_free (struct pg_cut *cut);
@@ -30,9 +31,12 @@ void cells_put_face (pg_cells *out, size_t at, int face, const double *step);
 enum { CUT_DEGREE = 4 };
 /* Real roots of sum c[k] x^k within [low, high], ascending; those that only touch zero (to rounding) too. */
 int  cut_roots (int degree, const double *c, double low, double high, double *root);
+void cut_gauss (int n, double *x, double *w);          /* Gauss-Legendre on [0, 1]                                       */
 
 /* ---- surfaces -------------------------------------------------------------------------------------------------------- */
-pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body);
+/* Of the body, then the knives: half-planes along z that part facets and bound nothing. */
+enum { CUT_KNIVES = 4 };                               /* in one cell at most                                            */
+pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, size_t nray, const pg_ray *ray);
 /* In the coordinates of the cell with this centre and these half edges, scaled to coefficients of size 1. */
 cut_quadric cut_local (const cut_surface *s, int dim, const double *centre, const double *half);
 double cut_value (const cut_quadric *q, const double *x);
@@ -68,11 +72,12 @@ pg_status cut_work_create (cut_work **out, const struct pg_cut *cut, double thic
 void      cut_work_free   (cut_work **work);
 /* The cell low..high (m) and the surfaces near it. */
 pg_status cut_work_cell   (cut_work *w, const double *low, const double *high, size_t n, const int *near);
-/* Points within the body (surface < 0), or on that surface where it bounds the body; appended. */
-pg_status cut_work_points (cut_work *w, int surface, int order, pg_cut_points *out);
+/* Points within the body (surface < 0), or on that surface where it bounds the body, of one part between knives; appended. */
+pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut_points *out);
+size_t    cut_work_knives (const cut_work *w);         /* in the cell: 2^knives parts                                    */
 /* Points of the face (-x +x -y +y -z +z) of the cell that lie in the body on both of its sides; weights without normals. dim > 1. */
 pg_status cut_work_face   (cut_work *w, int face, int order, pg_cut_points *out);
 /* Size (thickness included), centroid and integral of the normal, to rounding. */
 typedef struct { double size, centre[3], normal[3]; } cut_piece;
-pg_status cut_work_piece  (cut_work *w, int surface, cut_piece *piece);
+pg_status cut_work_piece  (cut_work *w, int surface, int part, cut_piece *piece);
 #endif

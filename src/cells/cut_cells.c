@@ -6,7 +6,7 @@
 
 static const double least_share = 1e-13;               /* of a cell's volume; less is no cell                            */
 enum { NONE, WHOLE, CUT };
-typedef struct { int cell, surface, face; cut_piece piece; } one_facet;       /* face: of the lattice cell, -1: a piece      */
+typedef struct { int cell, surface, face, part; cut_piece piece; } one_facet;       /* face: of the lattice cell, -1: a piece      */
 typedef struct {
     const pg_lattice *l;
     struct pg_cut *cut;
@@ -34,6 +34,8 @@ static void box_of (const pg_lattice *l, const int *i, double *low, double *high
 {
     for (int k = 0; k < l->dim; k++) low[k] = pg_lattice_at (l, k, i[k]), high[k] = pg_lattice_at (l, k, i[k] + 1);
 }
+
+static int is_knife (const maker *m, size_t k) { return m->cut->surface[m->near[k]].shape < 0; }
 
 /* The face of the cell on which a plane lies, -1: none. */
 static int face_of (const maker *m, const int *i, int surface)
@@ -109,12 +111,12 @@ static pg_status classify (maker *m, size_t c)
     cut_piece piece;
     int i[3], aligned = 1;
     index_of (m->l, c, i);
-    for (size_t k = m->start[c]; k < m->start[c + 1]; k++) aligned &= face_of (m, i, m->near[k]) >= 0;
+    for (size_t k = m->start[c]; k < m->start[c + 1]; k++) aligned &= is_knife (m, k) || face_of (m, i, m->near[k]) >= 0;
     m->aligned[c] = (unsigned char) aligned;
     if (aligned) m->state[c] = m->l->in[c] ? WHOLE : NONE;
     else {
         PG_TRY (into_cell (m, c));
-        PG_TRY (cut_work_piece (m->cut->work, -1, &piece));
+        PG_TRY (cut_work_piece (m->cut->work, -1, 0, &piece));
         double share = piece.size / m->whole;
         m->state[c] = share > 1 - least_share ? WHOLE : share > least_share ? CUT : NONE;
         m->volume[c] = piece.size;
@@ -148,26 +150,36 @@ done:
     return status;
 }
 
+/* The parts of one surface in a cell that has been entered; one that covers a face is that face. */
+static pg_status find_parts (maker *m, one_facet f)
+{
+    pg_status status = PG_OK;
+    int face = f.face, parts = 1 << cut_work_knives (m->cut->work);
+    double full = m->whole / m->l->step[face >= 0 ? face / 2 : 0];
+    for (f.part = 0; f.part < parts; f.part++) {
+        PG_TRY (cut_work_piece (m->cut->work, f.surface, f.part, &f.piece));
+        if (!(f.piece.size > 1e-13 * full)) continue;
+        f.face = face >= 0 && f.piece.size >= (1 - 1e-12) * full ? face : -1;
+        PG_TRY (put (m, &f));
+    }
+done:
+    return status;
+}
+
 static pg_status find_facets (maker *m, size_t c, int cell)
 {
     pg_status status = PG_OK;
-    int i[3], entered = 0;
+    int i[3], entered = 0, parted = m->start[c + 1] > m->start[c] && is_knife (m, m->start[c + 1] - 1);
     index_of (m->l, c, i);
-    for (size_t k = m->start[c]; k < m->start[c + 1]; k++) {
+    for (size_t k = m->start[c]; k < m->start[c + 1] && !is_knife (m, k); k++) {
         one_facet f = {.cell = cell, .surface = m->near[k], .face = face_of (m, i, m->near[k])};
-        double full = m->whole;
         if (f.face >= 0 && m->state[c] == WHOLE && m->aligned[c]) {
             int behind = beyond (m, i, f.face);
-            if (behind == NONE) PG_TRY (put (m, &f));
-            if (behind != CUT) continue;
+            if (behind == NONE && !parted) PG_TRY (put (m, &f));
+            if (behind == WHOLE || (behind == NONE && !parted)) continue;
         }
         if (!entered++) PG_TRY (into_cell (m, c));
-        PG_TRY (cut_work_piece (m->cut->work, f.surface, &f.piece));
-        full /= m->l->step[f.face >= 0 ? f.face / 2 : 0];
-        if (f.face >= 0 && f.piece.size >= (1 - 1e-12) * full) f.piece.size = 0;
-        else if (f.piece.size > 1e-13 * full) f.face = -1;
-        else continue;
-        PG_TRY (put (m, &f));
+        PG_TRY (find_parts (m, f));
     }
 done:
     return status;
@@ -218,23 +230,24 @@ static pg_status fill (pg_cells *out, maker *m, double thickness)
     for (size_t f = 0; f < m->nfacet; f++) whole += m->facet[f].face >= 0;
     PG_ALLOC (m->cut->start, m->ncell + 1);
     PG_ALLOC (m->cut->near, m->nnear);
+    PG_ALLOC (m->cut->part, m->nfacet);
     PG_TRY (pg_cells_reserve (out, m->l->dim, thickness, m->ncell, m->ncell * corners, m->nfacet, whole * corners / 2));
     for (size_t c = 0; c < m->n; c++) if (m->state[c] != NONE) fill_cell (out, m, c, at++);
-    for (size_t f = 0; f < m->nfacet; f++) fill_facet (out, m, &m->facet[f], f);
+    for (size_t f = 0; f < m->nfacet; f++) fill_facet (out, m, &m->facet[f], f), m->cut->part[f] = m->facet[f].part;
     out->cut = m->cut;
     m->cut = NULL;
 done:
     return status;
 }
 
-static pg_status prepare (maker *m, const pg_body *body, double thickness)
+static pg_status prepare (maker *m, const pg_body *body, double thickness, size_t nray, const pg_ray *ray)
 {
     pg_status status = PG_OK;
     m->n = (size_t) m->l->count[0] * (size_t) m->l->count[1] * (size_t) m->l->count[2];
     m->whole = m->l->dim == 3 ? 1 : thickness;
     for (int k = 0; k < m->l->dim; k++) m->whole *= m->l->step[k];
     PG_ALLOC (m->cut, 1);
-    PG_TRY (cut_surfaces (m->cut, body));
+    PG_TRY (cut_surfaces (m->cut, body, nray, ray));
     PG_TRY (cut_work_create (&m->cut->work, m->cut, m->l->dim == 3 ? 1 : thickness));
     PG_TRY (find_near (m));
     PG_ALLOC (m->state, m->n);
@@ -244,17 +257,18 @@ done:
     return status;
 }
 
-pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness)
+pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness, size_t nray, const pg_ray *ray)
 {
     pg_status status = PG_OK;
     maker m = {.l = lattice};
     int cell = 0, other = 0;
     memset (out, 0, sizeof *out);
     if (lattice->dim == 0) return PG_OK;
-    PG_TRY (prepare (&m, body, thickness));
+    PG_TRY (prepare (&m, body, thickness, nray, ray));
     for (size_t c = 0; c < m.n; c++) PG_TRY (classify (&m, c));
     for (size_t c = 0; c < m.n; c++) other |= (m.state[c] != NONE) != (m.l->in[c] != 0);
     for (size_t c = 0; c < m.n; c++) if (m.state[c] != NONE) PG_TRY (find_facets (&m, c, cell++));
+    for (size_t f = 0; f < m.nfacet; f++) other |= m.facet[f].face < 0;
     if (m.ncut == 0 && !other) status = pg_cells_from_lattice (out, lattice, thickness);
     else status = fill (out, &m, thickness);
 done:
@@ -267,7 +281,7 @@ void cut_free (struct pg_cut *cut)
 {
     if (!cut) return;
     cut_work_free (&cut->work);
-    pg_free (cut->surface), pg_free (cut->start), pg_free (cut->near);
+    pg_free (cut->surface), pg_free (cut->start), pg_free (cut->near), pg_free (cut->part);
     pg_free (cut);
 }
 
@@ -285,13 +299,13 @@ static int finer (const pg_cells *cells, int order) { return order > cells->cut_
 pg_status pg_cut_cell (pg_cut_points *out, const pg_cells *cells, size_t cell, int order)
 {
     pg_status status = enter (cells, cell);
-    return status == PG_OK ? cut_work_points (cells->cut->work, -1, finer (cells, order), out) : status;
+    return status == PG_OK ? cut_work_points (cells->cut->work, -1, 0, finer (cells, order), out) : status;
 }
 
 pg_status pg_cut_facet (pg_cut_points *out, const pg_cells *cells, size_t facet, int order)
 {
     pg_status status = enter (cells, (size_t) cells->facet_cell[facet]);
-    return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet], finer (cells, order), out) : status;
+    return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet], cells->cut->part[facet], finer (cells, order), out) : status;
 }
 
 pg_status pg_cut_face (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order)

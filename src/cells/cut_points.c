@@ -13,7 +13,8 @@ struct cut_work {
     double thickness, centre[3], half[3];
     cut_slices slices;
     double *node;  int *owner;                         /* roots along a line (2 n + 2), and whose                        */
-    int    surface, order, face;                       /* of this walk; index into slices.number, or -1; a face, or -1   */
+    int    surface, order, face, part;                 /* of this walk; index into slices.number, or -1; a face, or -1   */
+    size_t real, all;                                  /* surfaces of the cell without and with knives                   */
     pg_cut_points *out;
     double *x, *w;                                     /* Gauss rules of RULE points at most, by order                   */
 };
@@ -25,25 +26,6 @@ void pg_cut_points_clear (pg_cut_points *p)
 }
 
 /* ---- rules ------------------------------------------------------------------------------------------------------------ */
-/* Gauss-Legendre on [0, 1]: Newton on the Legendre polynomial. */
-static void make_rule (int n, double *x, double *w)
-{
-    for (int i = 0; i < n; i++) {
-        double t = cos (acos (-1) * (i + 0.75) / (n + 0.5)), slope = 1;
-        for (int k = 0; k < 100; k++) {
-            double p = 1, before = 0;
-            for (int j = 0; j < n; j++) {
-                double next = ((2*j + 1) * t * p - j * before) / (j + 1);
-                before = p, p = next;
-            }
-            slope = n * (t * p - before) / (t * t - 1);
-            if (fabs (p / slope) < 1e-16) break;
-            t -= p / slope;
-        }
-        x[n - 1 - i] = 0.5 * (1 + t), w[n - 1 - i] = 1 / ((1 - t * t) * slope * slope);
-    }
-}
-
 static const double *rule_x (const cut_work *w, int n) { return w->x + n * (n - 1) / 2; }
 static const double *rule_w (const cut_work *w, int n) { return w->w + n * (n - 1) / 2; }
 
@@ -56,7 +38,7 @@ pg_status cut_work_create (cut_work **out, const struct pg_cut *cut, double thic
     w->cut = cut, w->thickness = thickness, w->face = -1;
     PG_ALLOC (w->x, RULE * (RULE + 1) / 2);
     PG_ALLOC (w->w, RULE * (RULE + 1) / 2);
-    for (int n = 1; n <= RULE; n++) make_rule (n, w->x + n * (n - 1) / 2, w->w + n * (n - 1) / 2);
+    for (int n = 1; n <= RULE; n++) cut_gauss (n, w->x + n * (n - 1) / 2, w->w + n * (n - 1) / 2);
     *out = w;
     w = NULL;
 done:
@@ -99,6 +81,8 @@ pg_status cut_work_cell (cut_work *w, const double *low, const double *high, siz
     pg_status status = widen (w, n);
     if (status != PG_OK) return status;
     s->dim = w->cut->dim, s->n = n, s->status = PG_OK;
+    w->all = w->real = n;
+    while (w->real > 0 && w->cut->surface[near[w->real - 1]].shape < 0) w->real--;         /* knives come last           */
     for (int k = 0; k < s->dim; k++) w->centre[k] = 0.5 * (low[k] + high[k]), w->half[k] = 0.5 * (high[k] - low[k]);
     for (size_t i = 0; i < n; i++) {
         const cut_surface *f = &w->cut->surface[near[i]];
@@ -125,6 +109,14 @@ static int inside (const cut_work *w, double z)
     if (!pg_body_inside (&w->cut->body, x, 0)) return 0;
     *across = at + step;
     return pg_body_inside (&w->cut->body, x, 0);
+}
+
+/* On which sides of the knives: bit i for the i-th. */
+static int side_of_knives (const cut_work *w, const double *at)
+{
+    int part = 0;
+    for (size_t i = w->real; i < w->all && i < w->real + CUT_KNIVES; i++) part |= (cut_value (&w->slices.level[0].q[i], at) > 1e-9) << (i - w->real);
+    return part;
 }
 
 static void emit (cut_work *w, double z, double weight, const double *normal)
@@ -220,6 +212,7 @@ static void line_surface (cut_work *w, const cut_quadric *q, double weight)
         int over = inside (w, 0.5 * (t[k] + (t[b] - t[k] < 1e-13 ? 1 + beyond : t[b])));
         if (under == over || (t[k] == -1 && under) || (t[k] == 1 && over)) continue;
         at[z] = t[k];
+        if (side_of_knives (w, at) != w->part) continue;
         cut_gradient (&s->level[0].q[w->surface], at, n);
         double steep = fabs (n[z]) / w->half[z], sign = (n[z] > 0) == under ? 1 : -1, scale = weight * w->thickness;
         for (int i = 0; i < s->dim; i++) {
@@ -329,9 +322,12 @@ static void choose_axes (cut_work *w)
         }
 }
 
-pg_status cut_work_points (cut_work *w, int surface, int order, pg_cut_points *out)
+size_t cut_work_knives (const cut_work *w) { return w->all - w->real < CUT_KNIVES ? w->all - w->real : CUT_KNIVES; }
+
+pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut_points *out)
 {
     cut_slices *s = &w->slices;
+    w->part = part, s->n = surface < 0 ? w->real : w->all;
     w->surface = -1, w->out = out, w->order = order < 1 ? 1 : order > RULE ? RULE : order;
     for (size_t i = 0; i < s->n && surface >= 0; i++) if (s->number[i] == surface) w->surface = (int) i;
     if (surface >= 0 && w->surface < 0) return PG_OK;
@@ -345,6 +341,7 @@ pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
 {
     cut_slices *s = &w->slices;
     int axis = face / 2, side = face % 2 ? 1 : -1, k = 0;
+    s->n = w->real;
     w->surface = -1, w->out = out, w->order = order < 1 ? 1 : order > RULE ? RULE : order;
     choose_axes (w);
     while (s->axis[k] != axis) k++;
@@ -371,7 +368,7 @@ static cut_piece sum_up (const pg_cut_points *p, size_t dim)
     return s;
 }
 
-pg_status cut_work_piece (cut_work *w, int surface, cut_piece *piece)
+pg_status cut_work_piece (cut_work *w, int surface, int part, cut_piece *piece)
 {
     static const int orders[] = {3, 5, 8, 12, 18, 27, 40};
     pg_status status = PG_OK;
@@ -381,7 +378,7 @@ pg_status cut_work_piece (cut_work *w, int surface, cut_piece *piece)
     if (surface >= 0) whole /= 2 * fmin (w->half[0], fmin (w->cut->dim > 1 ? w->half[1] : INFINITY, w->cut->dim > 2 ? w->half[2] : INFINITY));
     for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
         p.n = 0;
-        PG_TRY (cut_work_points (w, surface, orders[i], &p));
+        PG_TRY (cut_work_points (w, surface, part, orders[i], &p));
         *piece = sum_up (&p, (size_t) w->cut->dim);
         if (fabs (piece->size - before) <= 1e-13 * whole) break;
         before = piece->size;

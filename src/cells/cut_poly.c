@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Real roots of polynomials of low degree: between the roots of the derivative the polynomial is monotone. */
+ * Real roots of polynomials of low degree: between the roots of the derivative the polynomial is monotone. Gauss rules. */
 #include "cut.h"
 #include <math.h>
 
@@ -77,4 +77,23 @@ int cut_roots (int degree, const double *c, double low, double high, double *roo
     else n = quadratic (c, found);
     for (int i = 0; i < n; i++) if (found[i] >= low && found[i] <= high) root[kept++] = found[i];
     return kept;
+}
+
+/* Gauss-Legendre on [0, 1]: Newton on the Legendre polynomial. */
+void cut_gauss (int n, double *x, double *w)
+{
+    for (int i = 0; i < n; i++) {
+        double t = cos (acos (-1) * (i + 0.75) / (n + 0.5)), slope = 1;
+        for (int k = 0; k < 100; k++) {
+            double p = 1, before = 0;
+            for (int j = 0; j < n; j++) {
+                double next = ((2*j + 1) * t * p - j * before) / (j + 1);
+                before = p, p = next;
+            }
+            slope = n * (t * p - before) / (t * t - 1);
+            if (fabs (p / slope) < 1e-16) break;
+            t -= p / slope;
+        }
+        x[n - 1 - i] = 0.5 * (1 + t), w[n - 1 - i] = 1 / ((1 - t * t) * slope * slope);
+    }
 }

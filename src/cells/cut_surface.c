@@ -186,7 +186,22 @@ static void bound (cut_surface *s, const pg_shape *shape, int dim)
     }
 }
 
-pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body)
+/* From the centre on in one direction. */
+static pg_status add_knife (maker *m, const pg_ray *ray)
+{
+    const pg_body *body = &m->cut->body;
+    cut_surface s = {.shape = -1, .axis = -1};
+    double point[3] = {ray->centre[0], ray->centre[1], 0}, n[3] = {-ray->direction[1], ray->direction[0], 0};
+    for (int k = 0; k < body->dim; k++) {
+        double far = 2 * (body->high[k] - body->low[k]);
+        s.low[k] = body->low[k] - far, s.high[k] = body->high[k] + far;
+        if (k < 2 && ray->direction[k] > -1e-9) s.low[k] = ray->centre[k];
+        if (k < 2 && ray->direction[k] < 1e-9) s.high[k] = ray->centre[k];
+    }
+    return add_plane (m, s, point, n);
+}
+
+pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, size_t nray, const pg_ray *ray)
 {
     pg_status status = PG_OK;
     maker m = {cut, 0};
@@ -200,6 +215,7 @@ pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body)
         else if (shape->kind == PG_DISK || shape->kind == PG_SPHERE) PG_TRY (add_round (&m, s, shape));
         else PG_TRY (add_polygon (&m, s, shape));
     }
+    for (size_t i = 0; i < nray; i++) PG_TRY (add_knife (&m, &ray[i]));
 done:
     return status;
 }

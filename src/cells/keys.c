@@ -15,7 +15,8 @@ static const pg_key keys[] = {
       .doc = "On the boundary: left, right, bottom, top, back, front, all (the whole boundary), "
              "or the surface of a shape: rim, side (of a cylinder: its flat ends), hole, or its name." },
     { .path = "sets.{}.angle", .kind = PG_LIST, .fallback = "",
-      .doc = "Within one of these ranges of the angle in the xy plane about the centre of the body." },
+      .doc = "Within one of these ranges of the angle in the xy plane about the centre of the body; "
+             "with cells: cut the boundary is parted at their ends." },
     { .path = "sets.{}.angle[]", .kind = PG_NUMBERS, .unit = "rad", .fallback = "",
       .doc = "One range [from, to], counted counter-clockwise from the x axis." },
     { .path = "sets.{}.where", .kind = PG_EXPRESSION, .unit = "bool", .fallback = "",

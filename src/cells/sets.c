@@ -100,6 +100,28 @@ static int in_ranges (const pg_marks *m, const double *x, const void *context)
     return 0;
 }
 
+pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg_body *body)
+{
+    pg_status status = PG_OK;
+    const char *name;
+    size_t capacity = 0;
+    *out = NULL, *n = 0;
+    for (size_t i = 0; body->dim > 1 && (name = pg_scene_name (scene, i, "sets")); i++)
+        for (size_t k = 0; k < pg_scene_count (scene, "sets.%s.angle", name); k++) {
+            double v[2] = {0, 0};
+            if (pg_scene_count (scene, "sets.%s.angle[%zu]", name, k) != 2) continue;      /* a fault, found later       */
+            pg_scene_vector (scene, 2, v, "sets.%s.angle[%zu]", name, k);
+            PG_GROW (*out, capacity, *n + 2);
+            for (int e = 0; e < 2; e++) {
+                pg_ray *ray = *out + (*n)++;
+                for (int a = 0; a < 2; a++) ray->centre[a] = 0.5 * (body->low[a] + body->high[a]);
+                ray->direction[0] = cos (v[e]), ray->direction[1] = sin (v[e]);
+            }
+        }
+done:
+    return status;
+}
+
 static pg_status keep_angles (builder *b, const char *name)
 {
     pg_status status = PG_OK;

@@ -28,6 +28,19 @@ static void name_of (char *out, size_t size, const char *file)
     snprintf (out, size, "%.*s", (int) n, n ? base : "scene");
 }
 
+static pg_status cut_cells (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_ray *ray = NULL;
+    size_t n = 0;
+    PG_TRY (pg_sets_rays (&ray, &n, scene, &p->body));
+    PG_TRY (pg_cells_cut (&p->cells, &p->body, &p->lattice, p->cloud.thickness, n, ray));
+    PG_TRY (pg_cells_share (&p->cloud, &p->cells, &p->lattice));
+done:
+    pg_free (ray);
+    return status;
+}
+
 static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -42,9 +55,8 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
     p->cells.dim = p->dim;
     int cut = strcmp (pg_scene_text (scene, "cells"), "cut") == 0;
     if (p->part.mesh.n) PG_TRY (pg_cells_from_mesh (&p->cells, &p->part, p->cloud.thickness));
-    else if (p->lattice.dim && cut) PG_TRY (pg_cells_cut (&p->cells, &p->body, &p->lattice, p->cloud.thickness));
+    else if (p->lattice.dim && cut) PG_TRY (cut_cells (p, scene));
     else if (p->lattice.dim) PG_TRY (pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness));
-    if (p->cells.cut) PG_TRY (pg_cells_share (&p->cloud, &p->cells, &p->lattice));
     PG_TRY (pg_sets_build (&p->sets, scene, &p->body, &p->lattice, &p->cloud, &p->cells));
 done:
     return status;

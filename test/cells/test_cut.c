@@ -14,7 +14,7 @@ static meshed mesh (const char *text, double spacing)
     check_ok (pg_scene_parse (&m.scene, text, "test.yaml"));
     check_ok (pg_body_read (&m.body, m.scene));
     check_ok (pg_lattice_fit (&m.lattice, &m.body, spacing, NULL));
-    check_ok (pg_cells_cut (&m.cells, &m.body, &m.lattice, 1));
+    check_ok (pg_cells_cut (&m.cells, &m.body, &m.lattice, 1, 0, NULL));
     return m;
 }
 
@@ -232,6 +232,36 @@ static void facets_know_their_shape (void **state)
     drop (&m);
 }
 
+/* Rays part facets exactly: arcs of 4 and 90 degrees of a rim and a bore, in 2D and 3D, whatever the lattice. */
+static void rays_part_facets (void **state)
+{
+    static const char *const text[2] = {
+        "dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}, {subtract: {disk: {center: [0, 0], radius: 0.37}}}]",
+        "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], radius: 1, length: 1}}}, {subtract: {cylinder: {center: [0, 0, 0], radius: 0.37, length: 1}}}]" };
+    const double from[2] = {88 * pi / 180, 0.3}, to[2] = {92 * pi / 180, 0.3 + pi / 2};
+    pg_ray ray[4];
+    (void) state;
+    for (int i = 0; i < 4; i++) ray[i] = (pg_ray) {{0, 0}, {cos (i % 2 ? to[i / 2] : from[i / 2]), sin (i % 2 ? to[i / 2] : from[i / 2])}};
+    for (int k = 0; k < 2; k++)
+        for (int range = 0; range < 2; range++) {
+            meshed m = mesh (text[k], 0.13);
+            double area[2] = {0, 0}, all = 0;
+            pg_cells_clear (&m.cells);
+            check_ok (pg_cells_cut (&m.cells, &m.body, &m.lattice, 1, 4, ray));
+            for (size_t f = 0; f < m.cells.nfacet; f++) {
+                const double *x = m.cells.facet_centre + (size_t) m.cells.dim * f;
+                double angle = atan2 (x[1], x[0]);
+                all += m.cells.area[f];
+                if (pg_cut_is_end (m.cells.cut, m.cells.facet_surface[f]) || angle < from[range] || angle > to[range]) continue;
+                area[pg_cut_shape (m.cells.cut, m.cells.facet_surface[f])] += m.cells.area[f];
+            }
+            check_relative (area[0], to[range] - from[range], 1e-11);
+            check_relative (area[1], 0.37 * (to[range] - from[range]), 1e-11);
+            check_relative (all, 2 * pi * 1.37 + k * 2 * pi * (1 - 0.37 * 0.37), 1e-11);
+            drop (&m);
+        }
+}
+
 static void volumes_of_points_sum_to_the_body (void **state)
 {
     static const char *const lattice[] = {"nodes", "cells"};
@@ -250,7 +280,7 @@ static void volumes_of_points_sum_to_the_body (void **state)
         check_ok (pg_scene_parse (&scene, text, "test.yaml"));
         check_ok (pg_body_read (&body, scene));
         check_ok (pg_cloud_build (&cloud, &l, &body, scene));
-        check_ok (pg_cells_cut (&cells, &body, &l, cloud.thickness));
+        check_ok (pg_cells_cut (&cells, &body, &l, cloud.thickness, 0, NULL));
         check_ok (pg_cells_share (&cloud, &cells, &l));
         for (size_t i = 0; i < cloud.n; i++) sum += cloud.volume[i], assert_true (cloud.volume[i] > 0);
         check_relative (sum, three ? 4 * pi / 3 : pi, 1e-12);
@@ -267,7 +297,7 @@ static void any_allocation_may_fail (void **state)
     for (; status == PG_E_MEMORY; k++) {
         pg_cells c;
         pg_memory_fail_at (k);
-        status = pg_cells_cut (&c, &m.body, &m.lattice, 1);
+        status = pg_cells_cut (&c, &m.body, &m.lattice, 1, 0, NULL);
         pg_memory_fail_at (0);
         if (status == PG_OK) pg_cells_clear (&c);
         assert_int_equal (pg_memory_used (), before);
@@ -283,7 +313,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (disks_and_holes), cmocka_unit_test (polygons), cmocka_unit_test (cylinders_and_balls), cmocka_unit_test (segments),
         cmocka_unit_test (moments), cmocka_unit_test (moved_bodies_agree), cmocka_unit_test (bodies_along_the_lattice_are_not_cut),
-        cmocka_unit_test (facets_know_their_shape), cmocka_unit_test (volumes_of_points_sum_to_the_body), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (facets_know_their_shape), cmocka_unit_test (rays_part_facets), cmocka_unit_test (volumes_of_points_sum_to_the_body), cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("cells/cut", tests, NULL, NULL);
 }
