@@ -286,6 +286,16 @@ static void patches_on_every_element (void **state)
     }
 }
 
+static void the_number_of_threads_changes_no_bit (void **state)
+{
+    (void) state;
+    grid g = { PG_TRI6, 8, 0.03, 1, 1 };
+    double u[2][600] = { { 0 } };
+    for (int k = 0; k < 2; k++) patch_error (&g, k ? 3 : 1, ", unit: mm", "horizon: 2 spacing", u[k]);
+    assert_true (u[0][100] != 0);
+    assert_memory_equal (u[0], u[1], sizeof u[0]);
+}
+
 static void consistent_patches_on_every_element (void **state)
 {
     (void) state;
@@ -313,6 +323,7 @@ int main (void)
         cmocka_unit_test (names_of_sets_are_cleaned),
         cmocka_unit_test (each_failed_allocation_is_reported),
         cmocka_unit_test (patches_on_every_element),
+        cmocka_unit_test (the_number_of_threads_changes_no_bit),
         cmocka_unit_test (consistent_patches_on_every_element),
     };
     return cmocka_run_group_tests_name ("scene_runs/mesh", tests, make_folder, drop_folder);
