@@ -74,6 +74,9 @@ grep -q 'end.force_x' "$table"; [ $? -ne 0 ]; verdict "a reaction that is roundi
 picture "$work/nodal/convergence.png"; verdict "convergence.png" $?
 expect "converge: Gauss quadrature, two horizons" 0 'horizon 2.5 spacings' '' converge $beam --set spacing=3 --spacing 3 --horizon 2,2.5 -o "$work/gauss"
 between "$(column "$work/gauss/convergence.csv" order '^2,L2 error' | tail -1)" 2.4 3.2; verdict "Gauss quadrature on a lattice: better than order 2" $?
+expect "converge: Kirsch's plate, moved points" 0 'L2 error' '' converge data/kirsch/scene.yaml --spacing 3 --set method.integration=consistent --set perturb.amount=0.2 -o "$work/kirsch"
+between "$(column "$work/kirsch/convergence.csv" order 'L2 error' | tail -1)" 1.8 2.4; verdict "consistent integration on cut cells: order 2" $?
+between "$(column "$work/kirsch/convergence.csv" value 'L2 error' | tail -1)" 2e-5 5e-5; verdict "and the error of doc/accuracy.md" $?
 expect "converge --m keeps the horizon" 0 'm-convergence' '' converge $beam --set spacing=3 --m --ratio 1.5 --spacing 2 -o "$work/m"
 expect "converge: points of a file cannot be refined"   65 '' 'needs a body and spacing' converge test/fuzz/seed_scene/points.yaml -o "$work/points"
 expect "converge: --delta and --m"                     64 '' 'exclude each other' converge $beam --delta --m
