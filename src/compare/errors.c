@@ -169,7 +169,6 @@ void pg_errors_json (pg_json *j, const pg_errors *e)
     pg_json_open (j, "lines", '[');
     for (size_t i = 0; i < e->nline; i++) json_line (j, &e->line[i]);
     pg_json_shut (j);
-    pg_json_number (j, "seconds", e->seconds);
 }
 
 int pg_errors_row (const pg_errors *e, size_t i, char *text, size_t size)

@@ -4,8 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static void seconds_block (pg_json *j, const pg_report *r, double search, double write, double total)
+static void seconds_block (pg_json *j, const pg_result *res, const pg_report *r, double search, double total)
 {
+    const pg_estimate *e = pg_result_estimate (res);
     pg_json_open (j, "seconds", '{');
     pg_json_number (j, "search", search);
     pg_json_number (j, "shape", r->seconds[PG_SECONDS_SHAPE]);
@@ -16,7 +17,9 @@ static void seconds_block (pg_json *j, const pg_report *r, double search, double
     pg_json_number (j, "solve", r->seconds[PG_SECONDS_SOLVE]);
     pg_json_number (j, "force", r->seconds[PG_SECONDS_FORCE]);
     pg_json_number (j, "break", r->seconds[PG_SECONDS_BREAK]);
-    pg_json_number (j, "write", write);
+    pg_json_number (j, "write", res->seconds);
+    if (e) pg_json_number (j, "estimate", e->seconds);
+    if (res->measured) pg_json_number (j, "error", res->errors.seconds);
     pg_json_number (j, "total", total);
     pg_json_shut (j);
 }
@@ -67,7 +70,6 @@ static void estimate_block (pg_json *j, const pg_result *res)
     pg_json_text (j, "kind", res->problem->integration->at_nodes ? "lower bound" : "estimate");
     pg_json_count (j, "points", e->points);
     pg_json_count (j, "left_out", e->left_out);
-    pg_json_number (j, "seconds", e->seconds);
     pg_json_shut (j);
 }
 
@@ -99,7 +101,7 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
     pg_json_text (j, "outcome", failure ? failure : "done");
     run_block (j, res, r, state);
     estimate_block (j, res);
-    seconds_block (j, r, search, res->seconds, total);
+    seconds_block (j, res, r, search, total);
     if (res->measured) {
         pg_json_open (j, "error", '{');
         pg_errors_json (j, &res->errors);
