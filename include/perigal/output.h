@@ -31,6 +31,8 @@ pg_status pg_exodus_points (const char *path, pg_cloud *cloud /* x, n, dim, volu
 pg_status pg_exodus_fields (const char *path, char (**names)[32], size_t *n);    /* base names as written                 */
 pg_status pg_exodus_unit   (const char *path, const char *field, char unit[16]);          /* "" when there is none        */
 
+pg_status pg_folder_make (const char *path);           /* and those above it; one that is there is no error; PG_E_FILE */
+
 /* ---- tables --------------------------------------------------------------------------------------------------------- */
 /* CSV: header "name [unit]" per column, one row a call, at once in the file or not at all; numbers with 17 digits. */
 typedef struct pg_table pg_table;

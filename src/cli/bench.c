@@ -3,11 +3,9 @@
 #include "cli.h"
 #include "spawn.h"
 #include "bench.h"
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 int bench_split (bench_words *out, const char *text)
 {
@@ -115,19 +113,9 @@ done:
 /* ---- runs ------------------------------------------------------------------------------------------------------------------- */
 static pg_status make_folders (const bench_request *q)
 {
-    pg_status status = PG_OK;
     char path[4096];
     snprintf (path, sizeof path, "%s/run", q->folder);
-    for (char *p = path + 1;; p++) {
-        if (*p && *p != '/') continue;
-        char keep = *p;
-        *p = 0;
-        if (mkdir (path, 0777) != 0 && errno != EEXIST) PG_FAIL (PG_E_FILE, "cannot make the folder %s: %s", path, strerror (errno));
-        *p = keep;
-        if (!keep) break;
-    }
-done:
-    return status;
+    return pg_folder_make (path);
 }
 
 static pg_status run_once (bench_case *c, const bench_request *q, trial *t)

@@ -3,11 +3,9 @@
 #include "cli.h"
 #include "bench.h"
 #include "converge.h"
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct {
     const char *scene, *folder, *set[TRIAL_SETS / 2];
@@ -93,23 +91,6 @@ done:
 }
 
 /* ---- runs ------------------------------------------------------------------------------------------------------------------- */
-static pg_status make_folder (const char *path)
-{
-    pg_status status = PG_OK;
-    char part[4096];
-    snprintf (part, sizeof part, "%s", path);
-    for (char *p = part + 1;; p++) {
-        if (*p && *p != '/') continue;
-        char keep = *p;
-        *p = 0;
-        if (mkdir (part, 0777) != 0 && errno != EEXIST) PG_FAIL (PG_E_FILE, "cannot make the folder %s: %s", part, strerror (errno));
-        *p = keep;
-        if (!keep) break;
-    }
-done:
-    return status;
-}
-
 static pg_status take_errors (study *s, size_t k, const trial *t)
 {
     pg_status status = PG_OK;
@@ -158,7 +139,7 @@ static pg_status study_all (study *list, request *q)
     PG_TRY (bench_look (&b, q->scene, q->nset, q->set));
     if (!(b.spacing > 0)) PG_FAIL (PG_E_SCENE, "%s: converge changes the spacing, and this scene has none: it needs a body and spacing", q->scene);
     if (!q->nhorizon) q->horizon[q->nhorizon++] = b.horizon;
-    PG_TRY (make_folder (q->folder));
+    PG_TRY (pg_folder_make (q->folder));
     for (size_t k = 0; k < q->nhorizon; k++) {
         list[k].horizon = q->horizon[k];
         PG_TRY (run_study (&list[k], q, &b));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Gauss-Legendre points in background cells (multilinear map of the corners) and on boundary facets, with their normals. */
+ * Gauss points in background cells and on boundary facets, with their normals. */
 #include "perigal/integration.h"
 #include <math.h>
 #include <string.h>
@@ -24,93 +24,6 @@ void pg_quadrature_clear (pg_quadrature *q)
 {
     pg_free (q->x), pg_free (q->weight), pg_free (q->normal), pg_free (q->cell);
     memset (q, 0, sizeof *q);
-}
-
-/* Signs of corner c (Exodus order) along axis k of the reference cube. */
-static double sign (int c, int k)
-{
-    static const int corner[8][3] = { { -1, -1, -1 }, { 1, -1, -1 }, { 1, 1, -1 }, { -1, 1, -1 },
-                                      { -1, -1, 1 }, { 1, -1, 1 }, { 1, 1, 1 }, { -1, 1, 1 } };
-    return corner[c][k];
-}
-
-/* x and the Jacobian J[axis][reference axis] of the multilinear map with 2^nref corners in dim-space. */
-static void map_point (int dim, int nref, const double *corner, const double *xi, double *x, double J[3][3])
-{
-    int nc = 1 << nref;
-    for (int a = 0; a < dim; a++) {
-        x[a] = 0;
-        for (int r = 0; r < 3; r++) J[a][r] = 0;
-    }
-    for (int c = 0; c < nc; c++) {
-        double N = 1;
-        for (int r = 0; r < nref; r++) N *= (1 + sign (c, r) * xi[r]) / 2;
-        for (int a = 0; a < dim; a++) x[a] += N * corner[c * dim + a];
-        for (int r = 0; r < nref; r++) {
-            double D = sign (c, r) / 2;
-            for (int o = 0; o < nref; o++) if (o != r) D *= (1 + sign (c, o) * xi[o]) / 2;
-            for (int a = 0; a < dim; a++) J[a][r] += D * corner[c * dim + a];
-        }
-    }
-}
-
-/* Size of the image of the reference element: length, area or volume factor. */
-static double measure (int dim, int nref, double J[3][3])
-{
-    if (nref == 0) return 1;
-    if (nref == 1) {
-        double s = 0;
-        for (int a = 0; a < dim; a++) s += J[a][0] * J[a][0];
-        return sqrt (s);
-    }
-    if (nref == 2 && dim == 2) return fabs (J[0][0] * J[1][1] - J[0][1] * J[1][0]);
-    double n[3] = { J[1][0] * J[2][1] - J[2][0] * J[1][1], J[2][0] * J[0][1] - J[0][0] * J[2][1], J[0][0] * J[1][1] - J[1][0] * J[0][1] };
-    if (nref == 2) return sqrt (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    return fabs (n[0] * J[0][2] + n[1] * J[1][2] + n[2] * J[2][2]);
-}
-
-/* ---- elements --------------------------------------------------------------------------------------------------------- */
-static int own_dim (int kind) { return pg_element_types[kind].dim; }
-static int multilinear (int kind) { return kind == PG_POINT1 || kind == PG_BAR2 || kind == PG_QUAD4 || kind == PG_HEX8; }
-
-/* As pg_element_rule. */
-static int rule (int kind, int order, double *xi, double *weight)
-{
-    double gx[5], gw[5];
-    int d = own_dim (kind), n = 1;
-    if (!multilinear (kind)) return pg_element_rule ((pg_element) kind, order, xi, weight);
-    for (int r = 0; r < d; r++) n *= order;
-    pg_gauss_rule (order, gx, gw);
-    for (int k = 0; k < n; k++) {
-        weight[k] = 1;
-        for (int r = 0, rest = k; r < d; r++, rest /= order) xi[k * d + r] = gx[rest % order], weight[k] *= gw[rest % order];
-    }
-    return n;
-}
-
-static void normal_of (int dim, double J[3][3], double *n)
-{
-    double size = 0;
-    if (dim == 1) n[0] = 0;                            /* a point has none of its own                                    */
-    if (dim == 2) n[0] = J[1][0], n[1] = -J[0][0];
-    for (int k = 0; k < 3 && dim == 3; k++) {
-        int a = (k + 1) % 3, b = (k + 2) % 3;
-        n[k] = J[a][0] * J[b][1] - J[b][0] * J[a][1];
-    }
-    for (int k = 0; k < dim; k++) size += n[k] * n[k];
-    for (int k = 0; k < dim && size > 0; k++) n[k] /= sqrt (size);
-}
-
-/* As pg_element_map. */
-static double map (int kind, int dim, const double *corner, const double *xi, double *x, double *normal)
-{
-    double J[3][3], all[3] = { 0, 0, 0 };
-    int d = own_dim (kind);
-    if (!multilinear (kind)) return pg_element_map ((pg_element) kind, dim, corner, xi, x, normal);
-    for (int r = 0; r < d; r++) all[r] = xi[r];
-    map_point (dim, d, corner, all, x, J);
-    if (normal) normal_of (dim, J, normal);
-    return measure (dim, d, J);
 }
 
 /* ---- cells and facets -------------------------------------------------------------------------------------------------- */
@@ -147,7 +60,7 @@ static pg_status reserve (pg_quadrature *out, const mesh *m)
     for (size_t e = 0; e < m->n; e++) {
         int kind = m->kind[e];
         if (kind == PG_CUT) continue;
-        if (!points[kind]) points[kind] = rule (kind, m->order, xi, w);
+        if (!points[kind]) points[kind] = pg_element_rule ((pg_element) kind, m->order, xi, w);
         n += (size_t) points[kind];
     }
     PG_ALLOC (out->x, n * dim);
@@ -162,11 +75,12 @@ done:
 static void add (pg_quadrature *out, const mesh *m, size_t e, int n, const double *xi, const double *w, double factor)
 {
     size_t dim = (size_t) m->dim;
-    int kind = m->kind[e], d = own_dim (kind);
+    pg_element kind = (pg_element) m->kind[e];
+    int d = pg_element_types[kind].dim;
     const double *corner = m->x + m->start[e] * dim;
     for (int k = 0; k < n; k++, out->n++) {
         double *normal = m->facets ? out->normal + out->n * dim : NULL;
-        out->weight[out->n] = w[k] * map (kind, m->dim, corner, xi + k * d, out->x + out->n * dim, normal) * factor;
+        out->weight[out->n] = w[k] * fabs (pg_element_map (kind, m->dim, corner, xi + k * d, out->x + out->n * dim, normal)) * factor;
         out->cell[out->n] = (int) e;
     }
 }
@@ -198,7 +112,7 @@ static pg_status fill (pg_quadrature *out, mesh *m, double factor)
     for (size_t e = 0; e < m->n; e++) {
         if (m->kind[e] == PG_CUT) add_cut (out, m, e);
         else {
-            if (m->kind[e] != last) n = rule (m->kind[e], m->order, xi, w), last = m->kind[e];
+            if (m->kind[e] != last) n = pg_element_rule ((pg_element) m->kind[e], m->order, xi, w), last = m->kind[e];
             add (out, m, e, n, xi, w, factor);
         }
     }
@@ -220,7 +134,7 @@ static void flatten (double *normal, const double *mean, size_t dim)
 {
     double cosine = 0, size = 0;
     for (size_t k = 0; k < dim; k++) cosine += normal[k] * mean[k], size += normal[k] * normal[k];
-    if (!(size > 0) || fabs (cosine - 1) < 1e-14) memcpy (normal, mean, dim * sizeof *normal);
+    if (dim == 1 || !(size > 0) || fabs (cosine - 1) < 1e-14) memcpy (normal, mean, dim * sizeof *normal);
 }
 
 pg_status pg_facet_points (pg_quadrature *out, const pg_cells *c, int order)

@@ -3,7 +3,9 @@
 #include "disk.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 pg_status disk_write (const char *path, int file, const void *data, size_t bytes, long offset)
@@ -32,4 +34,21 @@ pg_status disk_sync (const char *path)
     int bad = fsync (file) != 0 && errno != EINVAL && errno != ENOTSUP, reason = errno;     /* not every system syncs folders */
     close (file);
     return bad ? pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (reason)) : PG_OK;
+}
+
+pg_status pg_folder_make (const char *path)
+{
+    pg_status status = PG_OK;
+    char part[4096];
+    snprintf (part, sizeof part, "%s", path);
+    for (char *p = part + 1;; p++) {
+        if (*p && *p != '/') continue;
+        char keep = *p;
+        *p = 0;
+        if (mkdir (part, 0777) != 0 && errno != EEXIST) PG_FAIL (PG_E_FILE, "cannot make the folder %s: %s", part, strerror (errno));
+        *p = keep;
+        if (!keep) break;
+    }
+done:
+    return status;
 }

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Pictures of the last state or of a stage, and the load-displacement curve. */
 #include "result.h"
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 const char *result_voigt (int dim, int k)
 {
@@ -107,7 +105,7 @@ pg_status result_stage (pg_result *r, const pg_state *state)
     pg_status status = PG_OK;
     char path[4096], suffix[32];
     snprintf (path, sizeof path, "%s/stages", r->folder);
-    if (mkdir (path, 0777) != 0 && errno != EEXIST) PG_FAIL (PG_E_FILE, "cannot make the folder %s: %s", path, strerror (errno));
+    PG_TRY (pg_folder_make (path));
     snprintf (suffix, sizeof suffix, "_%04ld", r->exodus_steps - 1);
     PG_TRY (draw_all (r, state, "stages/", suffix, 0));
 done:

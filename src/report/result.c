@@ -5,24 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <math.h>
-#include <sys/stat.h>
-
-static pg_status make_folder (const char *path)
-{
-    pg_status status = PG_OK;
-    char part[3072];
-    snprintf (part, sizeof part, "%s", path);
-    for (char *p = part + 1;; p++) {
-        if (*p && *p != '/') continue;
-        char keep = *p;
-        *p = 0;
-        if (mkdir (part, 0777) != 0 && errno != EEXIST) PG_FAIL (PG_E_FILE, "cannot make the folder %s: %s", part, strerror (errno));
-        *p = keep;
-        if (!keep) break;
-    }
-done:
-    return status;
-}
 
 /* What --set changed, as comments at the end of the copy. */
 static void write_settings (FILE *f, const pg_scene *scene)
@@ -154,7 +136,7 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     PG_TRY (pg_result_check (scene, problem));
     PG_ALLOC (r, 1);
     PG_TRY (result_prepare (r, folder, scene, problem, solver));
-    PG_TRY (make_folder (folder));
+    PG_TRY (pg_folder_make (folder));
     PG_TRY (result_remove (r, "checkpoint.nc"));
     PG_TRY (result_remove (r, "report.json"));
     PG_TRY (copy_scene (r, scene));
