@@ -65,7 +65,8 @@ static pg_status read_option (bench_request *q, const char *name, const char *va
     const list_option lists[] = {
         { "--force", &q->force, pg_force_names }, { "--approximation", &q->approximation, pg_approx_names }, { "--basis", &q->basis, bases },
         { "--integration", &q->integration, pg_integration_names }, { "--cells", &q->cells, cell_kinds }, { "--spacing", &q->spacing, NULL },
-        { "--perturb", &q->perturb, NULL }, { "--horizon", &q->horizon, NULL }, { "--fem-element", &q->element, NULL }, { "--fem-size", &q->size, NULL } };
+        { "--perturb", &q->perturb, NULL }, { "--horizon", &q->horizon, NULL }, { "--fem-element", &q->element, NULL }, { "--fem-size", &q->size, NULL },
+        { "--mesh-size", &q->mesh, NULL } };
     char all[512] = "--set|--repeat|--out|--threads|--fem|--quiet";
     for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) {
         size_t n = strlen (all);
@@ -120,12 +121,17 @@ static pg_status make_folders (const bench_request *q)
 
 static pg_status run_once (bench_case *c, const bench_request *q, trial *t)
 {
+    pg_status status = PG_OK;
     char folder[4096];
     trial_request run = { .scene = q->scene[c->scene], .folder = folder, .threads = q->threads };
     snprintf (folder, sizeof folder, "%s/run", q->folder);
     for (size_t k = 0; k < q->nset; k++) run.set[run.nset++] = q->set[k];
     for (size_t k = 0; k < c->nset; k++) run.set[run.nset++] = c->set[k];
-    return trial_run (t, &run);
+    if (c->element[0] && !c->mesh[0]) PG_TRY (bench_mesh_set (c, q));
+    if (c->mesh[0]) run.set[run.nset++] = c->mesh;
+    PG_TRY (trial_run (t, &run));
+done:
+    return status;
 }
 
 static void tell_error (const char *name, double error)

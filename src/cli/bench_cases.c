@@ -24,6 +24,7 @@ pg_status bench_look (bench_base *b, const char *path, size_t nset, const char *
     b->spacing = pg_scene_given (scene, "spacing") ? pg_scene_number (scene, "spacing") : 0;
     b->horizon = b->spacing > 0 ? pg_scene_length (scene, b->spacing, "method.horizon") / b->spacing : 0;
     b->has_horizon = pg_scene_given (scene, "method.horizon");
+    b->mesh = pg_scene_given (scene, "mesh.file");
     b->quadratic = strcmp (pg_scene_text (scene, "method.basis"), "quadratic") == 0;
     name_of (path, b->name, sizeof b->name);
 done:
@@ -69,7 +70,9 @@ static pg_status add_curve (bench_cases *out, const bench_request *q, size_t s, 
 {
     pg_status status = PG_OK;
     static const double factor[3] = { 2, 1, 0.5 };
-    size_t sizes = q->spacing.n ? q->spacing.n : b->spacing > 0 ? 3 : 1;
+    const bench_body *body = bench_body_find (b->name);
+    int meshed = b->mesh && body && body->own && !bench_mesh_missing (q->scene[s], b->name);
+    size_t sizes = meshed ? q->mesh.n : b->mesh ? 1 : q->spacing.n ? q->spacing.n : b->spacing > 0 ? 3 : 1;
     char number[32];
     for (size_t k = 0; k < sizes; k++) {
         PG_GROW (out->at, out->cap, out->n + 1);
@@ -78,15 +81,18 @@ static pg_status add_curve (bench_cases *out, const bench_request *q, size_t s, 
         c->scene = s, c->curve = out->ncurve;
         trial_read (&c->best, "");
         snprintf (c->name, sizeof c->name, "%s", b->name);
+        snprintf (c->group, sizeof c->group, "%s", body ? body->group : b->name);
         snprintf (c->perturb, sizeof c->perturb, "%s", m->perturb ? m->perturb : "");
         snprintf (c->cells, sizeof c->cells, "%s", m->cells ? m->cells : "");
-        snprintf (c->method, sizeof c->method, "%s%s%s %s %s%s%s%s%s%s%s", q->force.n > 1 ? m->force : "", q->force.n > 1 ? " " : "", m->approximation,
+        snprintf (c->method, sizeof c->method, "%s%s%s %s %s%s%s%s%s%s%s%s", q->force.n > 1 ? m->force : "", q->force.n > 1 ? " " : "", m->approximation,
                   m->integration, m->basis, m->horizon ? " " : "", m->horizon ? m->horizon : "", m->perturb && strcmp (m->perturb, "0") != 0 ? " perturbed " : "",
-                  m->perturb && strcmp (m->perturb, "0") != 0 ? m->perturb : "", m->cells ? " " : "", m->cells ? m->cells : "");
+                  m->perturb && strcmp (m->perturb, "0") != 0 ? m->perturb : "", m->cells ? " " : "", m->cells ? m->cells : "", b->mesh ? " mesh" : "");
         put (c, "method.force", m->force), put (c, "method.approximation", m->approximation), put (c, "method.integration", m->integration);
         put (c, "method.basis", m->basis), put (c, "cells", m->cells), put (c, "perturb.amount", m->perturb);
         put (c, "method.horizon", m->horizon ? m->horizon : horizon_for (b, q, m->basis));
         snprintf (number, sizeof number, "%.15g", b->spacing * factor[k < 3 ? k : 2]);
+        if (meshed) snprintf (c->element, sizeof c->element, "CPS8"), c->size = strtol (q->mesh.word[k], NULL, 10);
+        if (b->mesh) continue;
         if (q->spacing.n) put (c, "spacing", q->spacing.word[k]);
         else if (b->spacing > 0) put (c, "spacing", number);
     }
@@ -97,6 +103,14 @@ done:
 
 static const char *word_of (const bench_words *w, size_t k, size_t of) { return w->n ? w->word[k / of % w->n] : NULL; }
 
+/* Scenes of one group share the runs of CalculiX. */
+static int has_fem (const bench_cases *cases, const char *name)
+{
+    const bench_body *body = bench_body_find (name);
+    for (size_t i = 0; body && i < cases->n; i++) if (cases->at[i].fem && strcmp (cases->at[i].group, body->group) == 0) return 1;
+    return 0;
+}
+
 pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
 {
     pg_status status = PG_OK;
@@ -105,6 +119,9 @@ pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
     *q = *asked;
     fill (&q->force, pg_force_names ()), fill (&q->approximation, pg_approx_names ()), fill (&q->integration, pg_integration_names ());
     fill (&q->basis, "linear|quadratic");
+    if (!q->mesh.n) q->mesh = q->size;
+    else if (!q->size.n) q->size = q->mesh;
+    if (!q->mesh.n) fill (&q->mesh, "8|16|32");
     count_spacings (&q->horizon);
     for (size_t s = 0; s < q->nscene; s++) {
         bench_base b;
@@ -117,7 +134,7 @@ pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
                       word_of (list[4], k, of[4]), word_of (list[5], k, of[5]), word_of (list[6], k, of[6]) };
             PG_TRY (add_curve (out, q, s, &b, &m));
         }
-        if (q->fem) PG_TRY (bench_fem_add (out, q, s, b.name));
+        if (q->fem && !has_fem (out, b.name)) PG_TRY (bench_fem_add (out, q, s, b.name));
     }
 done:
     pg_free (q);

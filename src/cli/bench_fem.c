@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * CalculiX beside Perigal: meshes by data/calculix/make_mesh.py, ccx as a process on one thread, its .frd measured in another. */
+ * CalculiX beside Perigal: ccx as a process on one thread, its .frd measured in another. */
 #include "cli.h"
 #include "spawn.h"
 #include "bench.h"
@@ -7,38 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-/* Scene (name of its folder), case of make_mesh.py, dimension, length unit of its meshes. */
-static const struct { const char *scene, *mesh; int dim; const char *unit; } known[] = {
-    { "textbook_cantilever", "cantilever", 2, "m" }, { "kirsch", "kirsch", 2, "m" }, { "lame_cylinder", "lame", 2, "m" },
-    { "lame_cylinder_strain", "lame_strain", 2, "m" }, { "plate_hole", "plate_clamped", 2, "mm" }, { "plate_hole_sliding", "plate_sliding", 2, "mm" },
-    { "bending_3d", "bending_3d", 3, "m" }, { "cantilever_3d", "cantilever_3d", 3, "m" },
-};
-enum { KNOWN = sizeof known / sizeof *known };
-
-static int which (const char *name)
+static const char *missing (const char *path, const char *scene)
 {
-    for (int k = 0; k < KNOWN; k++) if (strcmp (known[k].scene, name) == 0) return k;
-    return -1;
-}
-
-/* Beside the scenes, else below the folder one is in. */
-static const char *script_of (const char *scene, char *path, size_t size)
-{
-    const char *slash = strrchr (scene, '/');
-    snprintf (path, size, "%.*s../calculix/make_mesh.py", slash ? (int) (slash - scene + 1) : 0, scene);
-    if (access (path, R_OK) != 0) snprintf (path, size, "data/calculix/make_mesh.py");
-    return access (path, R_OK) == 0 ? path : NULL;
-}
-
-static const char *missing (const char *scene, const char *name)
-{
-    char path[4096];
-    if (which (name) < 0) return "no mesh of this scene is known to data/calculix/make_mesh.py";
-    if (!spawn_finds ("ccx")) return "ccx is not installed (Debian package calculix-ccx)";
-    if (!spawn_finds ("python3")) return "python3 is not installed";
-    return script_of (scene, path, sizeof path) ? NULL : "data/calculix/make_mesh.py is not there";
+    return bench_body_find (scene) && !spawn_finds ("ccx") ? "ccx is not installed (Debian package calculix-ccx)" : bench_mesh_missing (path, scene);
 }
 
 pg_status bench_fem_add (bench_cases *out, const bench_request *q, size_t s, const char *name)
@@ -47,7 +19,8 @@ pg_status bench_fem_add (bench_cases *out, const bench_request *q, size_t s, con
     static const char *const usual[2][2] = { { "CPS4", "CPS8" }, { "C3D8I", "C3D20" } };
     static const char *const sizes[2][4] = { { "8", "16", "32", "64" }, { "2", "4", "8", NULL } };
     const char *why = missing (q->scene[s], name);
-    int solid = which (name) >= 0 && known[which (name)].dim == 3;
+    const bench_body *body = bench_body_find (name);
+    int solid = body && body->dim == 3;
     size_t nelement = q->element.n ? q->element.n : 2, nsize = q->size.n ? q->size.n : solid ? 3 : 4;
     for (size_t e = 0; e < (why ? 1 : nelement); e++, out->ncurve++)
         for (size_t k = 0; k < (why ? 1 : nsize); k++) {
@@ -57,6 +30,7 @@ pg_status bench_fem_add (bench_cases *out, const bench_request *q, size_t s, con
             c->scene = s, c->curve = out->ncurve, c->fem = 1;
             trial_read (&c->best, "");
             snprintf (c->name, sizeof c->name, "%s", name);
+            snprintf (c->group, sizeof c->group, "%s", body ? body->group : name);
             snprintf (c->element, sizeof c->element, "%.15s", q->element.n ? q->element.word[e] : usual[solid][e]);
             snprintf (c->method, sizeof c->method, "ccx %s", why ? "" : c->element);
             c->size = strtol (q->size.n ? q->size.word[k] : sizes[solid][k], NULL, 10);
@@ -66,35 +40,13 @@ done:
     return status;
 }
 
-/* Made once: the mesh and its input are not part of the seconds. */
-static pg_status make_mesh (const bench_case *c, const bench_request *q, const char *job)
-{
-    pg_status status = PG_OK;
-    spawned *child = NULL;
-    char script[4096], number[16], input[4200], log[4200], text[512];
-    char *argv[] = { "python3", script, (char *) known[which (c->name)].mesh, (char *) c->element, number, input, NULL };
-    PG_ALLOC (child, 1);
-    snprintf (number, sizeof number, "%ld", c->size);
-    snprintf (input, sizeof input, "%s.inp", job);
-    snprintf (log, sizeof log, "%s.log", job);
-    if (access (input, R_OK) == 0 && c->runs) goto done;
-    script_of (q->scene[c->scene], script, sizeof script);
-    PG_TRY (spawn_run (child, "python3", argv, NULL, log, 1));
-    if (child->code == 0) goto done;
-    spawn_complaint (log, text, sizeof text);
-    PG_FAIL (PG_E_SCENE, "make_mesh.py %s %s %ld: %s", argv[2], c->element, c->size, text);
-done:
-    pg_free (child);
-    return status;
-}
-
 /* l2, energy, maximum, points, dofs, spacing of a result. */
 static pg_status measure (trial *t, const bench_case *c, const bench_request *q, const char *job)
 {
     pg_status status = PG_OK;
     spawned *child = NULL;
     char result[4200], log[4200], text[512];
-    char *argv[2 * TRIAL_SETS + 16] = { "perigal", "bench", "--fem-row", (char *) q->scene[c->scene], result, (char *) known[which (c->name)].unit };
+    char *argv[2 * TRIAL_SETS + 16] = { "perigal", "bench", "--fem-row", (char *) q->scene[c->scene], result, (char *) bench_body_find (c->name)->unit };
     size_t n = 6;
     PG_ALLOC (child, 1);
     snprintf (result, sizeof result, "%s.frd", job);
@@ -120,10 +72,9 @@ pg_status bench_fem_run (bench_case *c, const bench_request *q)
     struct stat made;
     PG_ALLOC (child, 1);
     snprintf (folder, sizeof folder, "%s/fem", q->folder);
-    snprintf (name, sizeof name, "%.24s_%s_%ld", known[which (c->name)].mesh, c->element, c->size);
+    bench_mesh_name (c, name, sizeof name);
     snprintf (job, sizeof job, "%s/%s", folder, name);
-    if (mkdir (folder, 0777) != 0 && access (folder, W_OK) != 0) PG_FAIL (PG_E_FILE, "cannot make the folder %s", folder);
-    PG_TRY (make_mesh (c, q, job));
+    PG_TRY (bench_mesh_make (c, q));
     PG_TRY (spawn_run (child, "ccx", argv, folder, NULL, 1));
     snprintf (log, sizeof log, "%s.frd", job);
     if (child->code != 0 || stat (log, &made) != 0 || made.st_size == 0) PG_FAIL (PG_E_EQUILIBRIUM, "ccx %s ended with code %d and without a result", name, child->code);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { FIRST = 8, COLUMNS = FIRST + TRIAL_COUNT + 2 };
+enum { FIRST = 8, COLUMNS = FIRST + TRIAL_COUNT + 2, CURVES = 10 };
 
 /* The error a case is judged by: over the body, else on the lines of its reference. */
 static double error_of (const bench_case *c)
@@ -30,7 +30,7 @@ static pg_status write_table (const bench_cases *cases, const bench_request *q)
     PG_TRY (pg_table_create (&table, path, COLUMNS, column));
     for (size_t i = 0; i < cases->n; i++) {
         const bench_case *c = &cases->at[i];
-        const char *text[FIRST] = { c->name, c->method, "", "", "", c->perturb, c->cells, c->element };
+        const char *text[FIRST] = { c->name, c->method, "", "", "", c->perturb, c->cells, c->fem ? c->element : "" };
         for (int k = 0; k < FIRST; k++)
             for (size_t s = 0; key[k] && s < c->nset; s++) if (strncmp (c->set[s], key[k], strlen (key[k])) == 0) text[k] = c->set[s] + strlen (key[k]);
         for (int k = 0; k < FIRST; k++) cell[k] = text[k];
@@ -51,14 +51,14 @@ done:
 typedef struct { size_t n, cap; double *x, *y; const char *name; int fem; } curve;
 
 /* Cases of a curve that came to an end with an error > 0, over what; in their order. */
-static pg_status curve_of (curve *out, const bench_cases *cases, size_t scene, size_t id, int over)
+static pg_status curve_of (curve *out, const bench_cases *cases, const char *group, size_t id, int over)
 {
     pg_status status = PG_OK;
     size_t cap = 0;
     memset (out, 0, sizeof *out);
     for (size_t i = 0; i < cases->n; i++) {
         const bench_case *c = &cases->at[i];
-        if (c->scene != scene || c->curve != id || !c->runs || !(error_of (c) > 0) || !(c->best.value[over] > 0)) continue;
+        if (strcmp (c->group, group) != 0 || c->curve != id || !c->runs || !(error_of (c) > 0) || !(c->best.value[over] > 0)) continue;
         PG_GROW (out->x, out->cap, out->n + 1);
         PG_GROW (out->y, cap, out->n + 1);
         out->x[out->n] = c->best.value[over], out->y[out->n++] = error_of (c);
@@ -74,33 +74,54 @@ static void curves_free (curve **list, size_t n)
     pg_free (*list), *list = NULL;
 }
 
-static pg_status curves_of (curve **out, size_t *n, const bench_cases *cases, size_t scene, int over)
+static pg_status curves_of (curve **out, size_t *n, const bench_cases *cases, const char *group, int over)
 {
     pg_status status = PG_OK;
     *n = 0;
     PG_ALLOC (*out, cases->ncurve + 1);
     for (size_t id = 0; id < cases->ncurve; id++) {
-        PG_TRY (curve_of (&(*out)[*n], cases, scene, id, over));
+        PG_TRY (curve_of (&(*out)[*n], cases, group, id, over));
         if ((*out)[*n].n) ++*n;
     }
 done:
     return status;
 }
 
-static pg_status draw (const bench_cases *cases, const bench_request *q, size_t scene, const char *name, int over)
+/* Leaves the curves of CalculiX and those of the least error times seconds (or unknowns), so many as can be told apart. */
+static void thin_out (curve *list, size_t *n, size_t most)
+{
+    while (*n > most) {
+        size_t worst = 0;
+        double highest = 0;
+        for (size_t k = 0; k < *n; k++) {
+            double least = list[k].fem ? 0 : INFINITY;
+            for (size_t i = 0; i < list[k].n; i++) least = fmin (least, list[k].x[i] * list[k].y[i]);
+            if (least >= highest) highest = least, worst = k;
+        }
+        pg_free (list[worst].x), pg_free (list[worst].y);
+        --*n;
+        memmove (list + worst, list + worst + 1, (*n - worst) * sizeof *list);
+    }
+}
+
+static pg_status draw (const bench_cases *cases, const bench_request *q, const char *name, int alone, int over)
 {
     pg_status status = PG_OK;
     curve *list = NULL;
     pg_curve *lines = NULL;
-    size_t n = 0;
-    char path[4096], suffix[80] = "";
-    pg_chart_style style = { .title = name, .xlabel = over == TRIAL_CPU ? "CPU seconds" : "unknowns", .logx = 1, .logy = 1 };
+    size_t n = 0, all;
+    char path[4096], suffix[80] = "", title[128];
+    pg_chart_style style = { .title = title, .xlabel = over == TRIAL_CPU ? "CPU seconds" : "unknowns", .logx = 1, .logy = 1 };
     style.ylabel = "relative L^{2} error of the displacement";
     for (size_t i = 0; i < cases->n; i++)
-        if (cases->at[i].scene == scene && cases->at[i].runs && isnan (cases->at[i].best.value[TRIAL_L2])) style.ylabel = "relative error of the displacement on the lines";
-    if (q->nscene > 1) snprintf (suffix, sizeof suffix, "_%s", name);
-    PG_TRY (curves_of (&list, &n, cases, scene, over));
+        if (strcmp (cases->at[i].group, name) == 0 && cases->at[i].runs && isnan (cases->at[i].best.value[TRIAL_L2])) style.ylabel = "relative error of the displacement on the lines";
+    if (!alone) snprintf (suffix, sizeof suffix, "_%s", name);
+    PG_TRY (curves_of (&list, &n, cases, name, over));
     if (!n) goto done;
+    all = n;
+    thin_out (list, &n, CURVES);
+    snprintf (title, sizeof title, "%s", name);
+    if (n < all) snprintf (title, sizeof title, "%s, the best %zu of %zu curves", name, n, all);
     PG_ALLOC (lines, n);
     for (size_t k = 0; k < n; k++) lines[k] = (pg_curve) { .name = list[k].name, .n = list[k].n, .x = list[k].x, .y = list[k].y, .points = PG_CURVE_BOTH };
     snprintf (path, sizeof path, "%s/%s%s.png", q->folder, over == TRIAL_CPU ? "time_error" : "dofs_error", suffix);
@@ -125,13 +146,13 @@ static double cheapest (const curve *list, size_t n, int fem, double error, cons
     return least;
 }
 
-static pg_status print_ratios (const bench_cases *cases, size_t scene, const char *name)
+static pg_status print_ratios (const bench_cases *cases, const char *name)
 {
     pg_status status = PG_OK;
     static const double level[] = { 1e-3, 1e-4, 1e-5 };
     curve *list = NULL;
     size_t n = 0;
-    PG_TRY (curves_of (&list, &n, cases, scene, TRIAL_CPU));
+    PG_TRY (curves_of (&list, &n, cases, name, TRIAL_CPU));
     printf ("%s: least CPU seconds that reach an error (between sizes log-log)\n", name);
     for (size_t k = 0; k < sizeof level / sizeof *level; k++) {
         const char *ours = "", *theirs = "";
@@ -148,17 +169,28 @@ done:
     return status;
 }
 
+/* The group of a scene if it is the first of the group, else NULL. */
+static const char *group_of (const bench_cases *cases, size_t scene)
+{
+    const char *name = NULL;
+    for (size_t i = 0; i < cases->n && !name; i++) if (cases->at[i].scene == scene) name = cases->at[i].group;
+    for (size_t i = 0; i < cases->n && name; i++) if (cases->at[i].scene < scene && strcmp (cases->at[i].group, name) == 0) name = NULL;
+    return name;
+}
+
 pg_status bench_report (const bench_cases *cases, const bench_request *q)
 {
     pg_status status = PG_OK;
     PG_TRY (write_table (cases, q));
     if (!q->quiet) printf ("  table %s/bench.csv\n", q->folder);
+    int groups = 0;
+    for (size_t s = 0; s < q->nscene; s++) groups += group_of (cases, s) != NULL;
     for (size_t s = 0; s < q->nscene; s++) {
-        const char *name = "";
-        for (size_t i = 0; i < cases->n; i++) if (cases->at[i].scene == s) name = cases->at[i].name;
-        PG_TRY (draw (cases, q, s, name, TRIAL_CPU));
-        PG_TRY (draw (cases, q, s, name, TRIAL_DOFS));
-        if (!q->quiet) PG_TRY (print_ratios (cases, s, name));
+        const char *name = group_of (cases, s);
+        if (!name) continue;
+        PG_TRY (draw (cases, q, name, groups == 1, TRIAL_CPU));
+        PG_TRY (draw (cases, q, name, groups == 1, TRIAL_DOFS));
+        if (!q->quiet) PG_TRY (print_ratios (cases, name));
     }
 done:
     return status;

@@ -38,6 +38,7 @@ static const struct { const char *name, *text; } usages[] = {
                "      --force, --approximation, --integration, --basis LIST   of the catalogues (perigal list)\n"
                "      --spacing, --horizon, --perturb, --cells LIST           such as --spacing '1 mm,0.5 mm' --horizon 2,2.5 (spacings)\n"
                "      --fem            the same bodies by CalculiX (ccx, one thread); also --fem-element CPS4,CPS8 --fem-size 8,16,32\n"
+               "      --mesh-size LIST sizes of scenes on a mesh of data/calculix/make_mesh.py, such as data/kirsch_mesh; 8,16,32 unless --fem-size is given\n"
                "      --repeat N       every run N times, one after the other; the least CPU seconds count\n"
                "      --threads N      of each run, 1 unless given\n"
                "  -o, --out DIR        default out/bench\n"

@@ -45,7 +45,23 @@ expect "bench: impossible combinations are named and skipped" 0 'skipped: .*hori
 grep -q 'skipped' "$work/skip/bench.csv"; verdict "the table says so too" $?
 expect "bench: --fem of a scene without a mesh" 0 'ccx .*skipped: no mesh of this scene' '' bench test/cli/plate.yaml --approximation rkpm --basis linear --integration nodal \
        --spacing '4 mm' --fem --set solver.max_events=1 -o "$work/fem"
+if command -v python3 > /dev/null; then
+    kirsch="data/kirsch/scene.yaml data/kirsch_mesh/scene.yaml --approximation rkpm --integration consistent --basis quadratic"
+    expect "bench: a scene and the same on a mesh" 0 'kirsch_mesh .*rkpm consistent quadratic mesh .* 162 dofs' '' bench $kirsch --spacing 0.5 --mesh-size 4,8 -o "$work/mesh"
+    table=$work/mesh/bench.csv
+    [ "$(column "$table" dofs ' mesh,' | tr '\n' ' ')" = "50 162 " ]; verdict "the meshes asked for" $?
+    # errors of these meshes at horizon 2.6: a reference or a mesh that is another gives others
+    between "$(column "$table" l2 ' mesh,' | tail -1)" 4.6e-4 4.8e-4; verdict "the error on the mesh" $?
+    picture "$work/mesh/time_error.png" && [ ! -e "$work/mesh/time_error_kirsch.png" ]; verdict "one picture of both" $?
+    [ "$(grep -c 'least CPU seconds' "$work/out")" -eq 1 ] && grep -q 'L2 1e-03: perigal [0-9.]* s (rkpm consistent quadratic mesh)' "$work/out"; verdict "the best curve of both scenes" $?
+    expect "bench: a size without elements" 0 'skipped: make_mesh.py' '' bench $kirsch --spacing 1 --mesh-size 0,4 -o "$work/mesh0"
+    expect "bench: the plate with a hole on a mesh" 0 ' 1152 dofs' '' bench data/plate_hole_mesh/scene_sliding.yaml --approximation rkpm --integration consistent --basis quadratic \
+           --mesh-size 8 -o "$work/hole"
+    between "$(column "$work/hole/bench.csv" lines)" 3e-4 7e-4; verdict "its error on the lines" $?
+fi
 if command -v ccx > /dev/null && command -v python3 > /dev/null; then
+    expect "bench: the same sizes for CalculiX, once for both scenes" 0 'ccx [0-9.]* s (ccx CPS8)' '' bench $kirsch --spacing 1 --mesh-size 4,8 --fem -o "$work/both"
+    [ "$(column "$work/both/bench.csv" dofs CPS8 | tr '\n' ' ')" = "130 450 " ]; verdict "their unknowns" $?
     expect "bench: CalculiX beside" 0 'ccx CPS4 .* 170 dofs' '' bench $beam --approximation rkpm --basis linear --integration gauss --spacing 1.5 --fem-element CPS4,CPS8 \
            --fem-size 4 --repeat 2 -o "$work/ccx"
     # the errors that data/calculix/make_mesh.py --measure gives, in code of its own
