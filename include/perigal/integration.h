@@ -24,8 +24,6 @@ typedef struct {
 const pg_integration_type *pg_integration_find (const char *name);
 const char *pg_integration_names (void);
 
-/* Gauss-Legendre nodes and weights on [-1, 1], order 1..5. */
-void pg_gauss_rule (int order, double *x, double *w);
 /* Points on each facet (order^(dim-1) on bars and quads); cell holds the facet's number; the weights of a facet sum to its area. */
 pg_status pg_facet_points (pg_quadrature *out, const pg_cells *cells, int order);
 

@@ -30,6 +30,8 @@ void       pg_element_shape (pg_element kind, const double *xi, double *N, doubl
  * order^d Gauss points (the first axis runs fastest, degree 2 order - 1); triangles 1, 3, 7, 12, 16 and tetrahedra 1, 4, 14, 24, 46 points,
  * exact to degree 1, 2, 5, 6, 8; wedges the product of both. order 1..5. Room for PG_ELEMENT_POINTS. Returns n. */
 int        pg_element_rule  (pg_element kind, int order, double *xi /* n x dim */, double *weight);
+/* Gauss-Legendre nodes and weights on [-1, 1], order 1..5. */
+void       pg_gauss_rule    (int order, double *x, double *w);
 /* Place, and size factor of the map of an element of dimension d into space of `dim` (length, area, volume; signed where d = dim);
  * normal (NULL, or dim): of an element with d = dim - 1, by the order of its nodes outward as pg_element_face, unit length (a point in 1D: +1;
  * other elements: 0). place, normal: NULL or dim numbers.

@@ -2,16 +2,23 @@
  * Quadrature on the reference elements. Triangles and tetrahedra: orbits of points under the symmetries of the simplex; weights and places
  * were found by solving the moment equations of the invariant polynomials (Newton from random starts, polished with 70 digits). */
 #include "element.h"
+#include <string.h>
 
-static const double gauss_place[5][5] = {
-    { 0 }, { -0.57735026918962576451, 0.57735026918962576451 },
-    { -0.77459666924148337704, 0, 0.77459666924148337704 },
-    { -0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480, 0.86113631159405257522 },
-    { -0.90617984593866399280, -0.53846931010568309104, 0, 0.53846931010568309104, 0.90617984593866399280 } };
-static const double gauss_weight[5][5] = {
-    { 2 }, { 1, 1 }, { 5.0 / 9, 8.0 / 9, 5.0 / 9 },
-    { 0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263, 0.34785484513745385737 },
-    { 0.23692688505618908751, 0.47862867049936646804, 128.0 / 225, 0.47862867049936646804, 0.23692688505618908751 } };
+void pg_gauss_rule (int order, double *x, double *w)
+{
+    static const double X[5][5] = {
+        { 0 }, { -0.57735026918962576451, 0.57735026918962576451 },
+        { -0.77459666924148337704, 0, 0.77459666924148337704 },
+        { -0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480, 0.86113631159405257522 },
+        { -0.90617984593866399280, -0.53846931010568309104, 0, 0.53846931010568309104, 0.90617984593866399280 } };
+    static const double W[5][5] = {
+        { 2 }, { 1, 1 }, { 5.0 / 9, 8.0 / 9, 5.0 / 9 },
+        { 0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263, 0.34785484513745385737 },
+        { 0.23692688505618908751, 0.47862867049936646804, 128.0 / 225, 0.47862867049936646804, 0.23692688505618908751 } };
+    order = order < 1 ? 1 : order > 5 ? 5 : order;
+    memcpy (x, X[order - 1], (size_t) order * sizeof *x);
+    memcpy (w, W[order - 1], (size_t) order * sizeof *w);
+}
 
 /* All arrangements of barycentric coordinates; equal ones have equal places in `same`. Weight: share of the simplex, each point. */
 typedef struct { signed char same[4]; double weight, value[3]; } orbit;
@@ -78,11 +85,13 @@ static int simplex_rule (int dim, int order, double *xi, double *weight)
 static int brick_rule (int dim, int order, double *xi, double *weight)
 {
     int n = 1;
+    double x[5], w[5];
+    pg_gauss_rule (order, x, w);
     for (int a = 0; a < dim; a++) n *= order;
     for (int k = 0; k < n; k++) {
         weight[k] = 1;
         for (int a = 0, rest = k; a < dim; a++, rest /= order)
-            xi[k * dim + a] = gauss_place[order - 1][rest % order], weight[k] *= gauss_weight[order - 1][rest % order];
+            xi[k * dim + a] = x[rest % order], weight[k] *= w[rest % order];
     }
     return n;
 }
@@ -91,9 +100,11 @@ static int wedge_rule (int order, double *xi, double *weight)
 {
     double place[2 * PG_ELEMENT_POINTS], share[PG_ELEMENT_POINTS];
     int m = simplex_rule (2, order, place, share);
+    double x[5], w[5];
+    pg_gauss_rule (order, x, w);
     for (int k = 0; k < m * order; k++) {
-        xi[3 * k] = place[2 * (k % m)], xi[3 * k + 1] = place[2 * (k % m) + 1], xi[3 * k + 2] = gauss_place[order - 1][k / m];
-        weight[k] = share[k % m] * gauss_weight[order - 1][k / m];
+        xi[3 * k] = place[2 * (k % m)], xi[3 * k + 1] = place[2 * (k % m) + 1], xi[3 * k + 2] = x[k / m];
+        weight[k] = share[k % m] * w[k / m];
     }
     return m * order;
 }
