@@ -297,6 +297,34 @@ static void cut_files_are_faults (void **state)
     }
 }
 
+/* Any byte of the header changed: an answer, and no more memory than the file justifies. */
+static void changed_headers_are_answered (void **state)
+{
+    (void) state;
+    for (int f = 0; f < 3; f++) {
+        pg_mesh a = block_mesh (PG_TRI3, 1, NULL), b;
+        mesh_bytes file;
+        write_exodus (&a, format[f], (options) { .sets = 1, .maps = 1 });
+        check_ok (mesh_load (&file, path));
+        char *text = (char *) file.text;
+        int broken = 0;
+        for (size_t n = 0; n < file.size; n++) {
+            char was = text[n];
+            for (int k = 0; k < 3; k++) {
+                text[n] = (char) (k == 0 ? was ^ 1 : k == 1 ? 0x7f : 0xff);
+                pg_status status = mesh_parse (&b, &file);
+                if (status == PG_OK) pg_mesh_clear (&b);
+                else assert_int_equal (status, PG_E_FILE);
+                if (status != PG_OK && strstr (pg_last_error (), "the header of this netCDF file is broken near byte")) broken++;
+            }
+            text[n] = was;
+        }
+        assert_true (broken > 500);
+        pg_free ((void *) file.text);
+        pg_mesh_clear (&a);
+    }
+}
+
 static void no_memory_is_a_fault_everywhere (void **state)
 {
     (void) state;
@@ -326,6 +354,7 @@ int main (void)
         cmocka_unit_test (faults_say_what_is_wrong),
         cmocka_unit_test (results_of_points_are_no_mesh),
         cmocka_unit_test (cut_files_are_faults),
+        cmocka_unit_test (changed_headers_are_answered),
         cmocka_unit_test (no_memory_is_a_fault_everywhere),
     };
     return cmocka_run_group_tests (tests, make_path, drop_path);
