@@ -72,8 +72,8 @@ pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, co
     for (size_t cell = 0; cell < cells->n; cell++) c->first[cell + 1] += c->first[cell];
     PG_TRY (pg_faces_build (&c->faces, cells, face_order));
     PG_TRY (pg_rows_create (&c->face, approx, cloud, c->faces.npoint, c->faces.x, NULL, NULL, NULL));
+    pg_free (c->face.dN), c->face.dN = NULL;           /* values only                                                    */
     PG_TRY (approx->type->evaluate (approx, cloud, &c->face, NULL, c->face.n, NULL, threads));
-    pg_free (c->face.dN), c->face.dN = NULL;
     PG_TRY (unite (c, points, cloud->n));
     *out = c, c = NULL;
 done:
