@@ -46,7 +46,8 @@ typedef struct {
 struct pg_approx_type {
     const char *name, *summary;
     int use_volume;                                    /* the default                                                    */
-    /* Re-evaluates rows list[0..count) (list NULL: rows 0..count) from `alive` (nnz, 0/1; NULL: all alive), on `threads`. */
+    /* Re-evaluates rows list[0..count) (list NULL: rows 0..count) from `alive` (nnz, 0/1; NULL: all alive), on `threads`. Of N, dN and w,
+     * those that are NULL are left out, the others and the grades are the same bits. */
     pg_status (*evaluate) (const pg_approx *a, const pg_cloud *cloud, pg_rows *rows, const unsigned char *alive,
                            size_t count, const size_t *list, int threads);
 };

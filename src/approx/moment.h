@@ -33,11 +33,12 @@ typedef struct {
     double  centre[3];                                 /* sum w z                                        (dim)           */
 } pg_star;
 
-/* What an approximation adds to the common loop: N (row) and dN (row x dim, 1/m), zero on entry, of a point with a full,
+/* values (NULL: it has none): N alone, the same bits. What an approximation adds to the common loop: N (row) and dN (row x dim, 1/m), zero on entry, of a point with a full,
  * lowered or projected basis. about_node: a point that is a node expands about its own value (basis without 1, own node no neighbour). */
 typedef struct {
     int about_node;
     void (*fill) (const pg_star *star, double *N, double *dN);
+    void (*values) (const pg_star *star, double *N);
 } pg_formula;
 
 /* The loop over points: live bonds, degenerate rule, formula. */

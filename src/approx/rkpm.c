@@ -45,7 +45,14 @@ static void fill (const pg_star *s, double *N, double *dN)
     }
 }
 
-static const pg_formula formula = { .about_node = 0, .fill = fill };
+static void values (const pg_star *s, double *N)
+{
+    double b[PG_BASIS_MAX];
+    pg_star_solve (s, 0, b);
+    pg_star_shape (s, b, N);
+}
+
+static const pg_formula formula = { .about_node = 0, .fill = fill, .values = values };
 
 static pg_status evaluate (const pg_approx *a, const pg_cloud *cloud, pg_rows *rows, const unsigned char *alive,
                            size_t count, const size_t *list, int threads)

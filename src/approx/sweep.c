@@ -116,7 +116,7 @@ static void weigh (const sweep *g, size_t i, pg_star *s)
     for (size_t j = 0; j < s->n; j++) {
         size_t e = first + s->entry[j];
         double V = g->cloud->volume[g->rows->family.node[e]], scale = g->a->use_volume ? V : 1, w = s->w[j] * scale;
-        g->rows->w[e] = s->w[j] * V;
+        if (g->rows->w) g->rows->w[e] = s->w[j] * V;
         if (!(w > 0)) continue;
         s->entry[kept] = s->entry[j];
         s->w[kept] = w;
@@ -150,18 +150,21 @@ static int wild (const pg_star *s, const double *dN)
 static void clear (pg_rows *rows, size_t first, size_t last)
 {
     size_t dim = (size_t) rows->dim;
-    for (size_t e = first; e < last; e++) rows->N[e] = 0;
-    for (size_t e = first * dim; e < last * dim; e++) rows->dN[e] = 0;
+    for (size_t e = first; rows->N && e < last; e++) rows->N[e] = 0;
+    for (size_t e = first * dim; rows->dN && e < last * dim; e++) rows->dN[e] = 0;
 }
 
-/* Shape functions by the richest basis that the live bonds bear; returns its grade. */
+/* Shape functions by the richest basis that the live bonds bear; returns its grade. What the rows have no room for is left out: derivatives
+ * then only go to scratch where the rule for steep ones or the formula needs them. */
 static int fill (const sweep *g, pg_star *s, pg_rows *rows, size_t first, size_t last)
 {
     for (int order = g->a->order; order >= 1; order--) {
         int grade = pg_star_grade (s, order, s->h);
+        double *dN = rows->dN ? rows->dN + first * (size_t) s->dim : s->q, *N = rows->N ? rows->N + first : s->k;
         if (grade > PG_GRADE_PROJECTED) return grade;
-        g->formula->fill (s, rows->N + first, rows->dN + first * (size_t) s->dim);
-        if (!wild (s, rows->dN + first * (size_t) s->dim)) return order < g->a->order && grade == PG_GRADE_FULL ? PG_GRADE_LOWERED : grade;
+        if (rows->dN || s->lost || (rows->N && !g->formula->values)) g->formula->fill (s, N, dN);
+        else if (rows->N) g->formula->values (s, N);
+        if (!wild (s, dN)) return order < g->a->order && grade == PG_GRADE_FULL ? PG_GRADE_LOWERED : grade;
         clear (rows, first, last);
     }
     return PG_GRADE_SHEPARD;
@@ -171,12 +174,12 @@ static void row (const sweep *g, size_t i, pg_star *s)
 {
     pg_rows *rows = g->rows;
     size_t first = rows->family.start[i], last = rows->family.start[i + 1];
-    for (size_t e = first; e < last; e++) rows->w[e] = 0;
+    for (size_t e = first; rows->w && e < last; e++) rows->w[e] = 0;
     clear (rows, first, last);
     gather (g, i, s);
     weigh (g, i, s);
     if (s->stray) return;
-    double *N = rows->N + first;
+    double *N = rows->N ? rows->N + first : s->k;
     int grade = fill (g, s, rows, first, last);
     if (grade > PG_GRADE_PROJECTED && s->constant) for (size_t j = 0; j < s->n; j++) N[s->entry[j]] = s->w[j];
     if (grade > PG_GRADE_PROJECTED && !s->constant) {  /* a node keeps its own displacement, whatever it lost */

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* "8GB", "500 MB", "1.5 GiB", "1e9": bytes; NAN: none. */
 double afford_size (const char *text)
@@ -23,6 +24,18 @@ double afford_size (const char *text)
 
 double afford_available (const command *c) { return c->memory > 0 ? c->memory : pg_available_memory (""); }
 
+/* A mesh file this small needs less than any machine has: not read twice. */
+static int is_tiny (const pg_scene *scene)
+{
+    char path[4096];
+    const char *file, *slash;
+    struct stat s;
+    if (!pg_scene_given (scene, "mesh.file")) return 0;
+    file = pg_scene_text (scene, "mesh.file"), slash = strrchr (pg_scene_file (scene), '/');
+    snprintf (path, sizeof path, "%.*s%s", slash && file[0] != '/' ? (int) (slash + 1 - pg_scene_file (scene)) : 0, pg_scene_file (scene), file);
+    return stat (path, &s) == 0 && s.st_size < 300000;
+}
+
 /* A scene of its own: faults are told when the problem is built, once. */
 pg_status afford_scene (const command *c, pg_forecast *f)
 {
@@ -30,6 +43,7 @@ pg_status afford_scene (const command *c, pg_forecast *f)
     pg_scene *scene = NULL;
     memset (f, 0, sizeof *f);
     PG_TRY (command_scene (c, &scene));
+    if (!(c->memory > 0) && is_tiny (scene)) goto done;
     status = pg_forecast_scene (f, scene);
     if (status == PG_E_SCENE || status == PG_E_FILE) {
         memset (f, 0, sizeof *f);

@@ -72,8 +72,8 @@ pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, co
     for (size_t cell = 0; cell < cells->n; cell++) c->first[cell + 1] += c->first[cell];
     PG_TRY (pg_faces_build (&c->faces, cells, face_order));
     PG_TRY (pg_rows_create (&c->face, approx, cloud, c->faces.npoint, c->faces.x, NULL, NULL, NULL));
+    pg_free (c->face.dN), c->face.dN = NULL;           /* values only                                                    */
     PG_TRY (approx->type->evaluate (approx, cloud, &c->face, NULL, c->face.n, NULL, threads));
-    pg_free (c->face.dN), c->face.dN = NULL;
     PG_TRY (unite (c, points, cloud->n));
     *out = c, c = NULL;
 done:
@@ -170,7 +170,26 @@ typedef struct {
     double **room;                                     /* per thread: residual of the identity, POLYNOMIALS x dim per node, and N */
 } job;
 
-/* rest (nodes x n x dim) = oint p N n dS - sum w (p,k N + p dN,k) */
+/* rest (m x dim) += rate_k N */
+static inline void add_slope (size_t m, size_t dim, const double *rate, const double *N, double *rest)
+{
+    for (size_t i = 0; i < m; i++)
+        for (size_t k = 0; k < dim; k++) rest[i * dim + k] += rate[k] * N[i];
+}
+
+static void add_value (size_t n, double p, const double *dN, double *rest)
+{
+    for (size_t i = 0; i < n; i++) rest[i] += p * dN[i];
+}
+
+static void add_rate (size_t m, size_t dim, const double *rate, const double *N, double *rest)
+{
+    if (dim == 2) add_slope (m, 2, rate, N, rest);
+    else if (dim == 3) add_slope (m, 3, rate, N, rest);
+    else add_slope (m, 1, rate, N, rest);
+}
+
+/* rest (n x nodes x dim) = oint p N n dS - sum w (p,k N + p dN,k) */
 static void add_points (const job *j, const space *s, size_t cell, size_t m, double *rest)
 {
     const pg_rows *w = j->wide;
@@ -180,9 +199,11 @@ static void add_points (const job *j, const space *s, size_t cell, size_t m, dou
         const double *N = w->N + j->c->family.start[q], *dN = w->dN + j->c->family.start[q] * dim;
         double weight = j->points->weight[q];
         polynomials (s, j->points->x + q * dim, p, slope);
-        for (size_t i = 0; i < m; i++)
-            for (size_t a = 0; a < n; a++)
-                for (size_t k = 0; k < dim; k++) rest[(i * n + a) * dim + k] -= weight * (slope[a * dim + k] * N[i] + p[a] * dN[i * dim + k]);
+        for (size_t k = 0; k < n * dim; k++) slope[k] *= -weight;
+        for (size_t a = 0; a < n; a++) {
+            if (a > 0) add_rate (m, dim, slope + a * dim, N, rest + a * m * dim);
+            add_value (m * dim, -weight * p[a], dN, rest + a * m * dim);
+        }
     }
 }
 
@@ -191,7 +212,7 @@ static void add_faces (const job *j, const space *s, size_t cell, size_t m, cons
     const pg_consistency *c = j->c;
     const pg_faces *f = &c->faces;
     size_t dim = (size_t) s->dim, n = (size_t) s->n;
-    double p[POLYNOMIALS], slope[3 * POLYNOMIALS];
+    double p[POLYNOMIALS], slope[3 * POLYNOMIALS], rate[3];
     for (size_t e = f->of[cell]; e < f->of[cell + 1]; e++) {
         size_t face = (size_t) f->face[e];
         double sign = f->cell[2 * face] == (int) cell ? 1 : -1;
@@ -200,29 +221,24 @@ static void add_faces (const job *j, const space *s, size_t cell, size_t m, cons
             memset (N, 0, m * sizeof *N);
             spread (c->face.family.start[q + 1] - start, c->face.family.node + start, 1, c->face.N + start, node, N);
             polynomials (s, f->x + q * dim, p, slope);
-            for (size_t i = 0; i < m; i++)
-                for (size_t a = 0; a < n; a++)
-                    for (size_t k = 0; k < dim; k++) rest[(i * n + a) * dim + k] += sign * p[a] * N[i] * f->flux[q * dim + k];
+            for (size_t a = 0; a < n; a++) {
+                for (size_t k = 0; k < dim; k++) rate[k] = sign * p[a] * f->flux[q * dim + k];
+                add_rate (m, dim, rate, N, rest + a * m * dim);
+            }
         }
     }
 }
 
-static void correct (const job *j, const space *s, size_t cell, size_t m, double *rest)
+/* dN += sum_a c_a rest_a, c = (L L')^-1 p at each point: one solution a point, none for each node. */
+static void correct (const job *j, const space *s, size_t cell, size_t m, const double *rest)
 {
     size_t dim = (size_t) s->dim, n = (size_t) s->n;
-    double p[POLYNOMIALS], slope[3 * POLYNOMIALS], b[POLYNOMIALS];
-    for (size_t i = 0; i < m; i++)
-        for (size_t k = 0; k < dim; k++) {
-            for (size_t a = 0; a < n; a++) b[a] = rest[(i * n + a) * dim + k];
-            pg_dense_solve (s->n, s->L, b);
-            for (size_t a = 0; a < n; a++) rest[(i * n + a) * dim + k] = b[a];
-        }
+    double p[POLYNOMIALS], slope[3 * POLYNOMIALS];
     for (size_t q = j->c->first[cell]; q < j->c->first[cell + 1]; q++) {
         double *dN = j->wide->dN + j->c->family.start[q] * dim;
         polynomials (s, j->points->x + q * dim, p, slope);
-        for (size_t i = 0; i < m; i++)
-            for (size_t a = 0; a < n; a++)
-                for (size_t k = 0; k < dim; k++) dN[i * dim + k] += p[a] * rest[(i * n + a) * dim + k];
+        pg_dense_solve (s->n, s->L, p);
+        for (size_t a = 0; a < n; a++) add_value (m * dim, p[a], rest + a * m * dim, dN);
     }
 }
 

@@ -6,10 +6,16 @@
 #include <string.h>
 
 /* Geometry only: the values belong to the force. */
+static void strip_values (pg_rows *rows)
+{
+    pg_free (rows->N), pg_free (rows->dN), pg_free (rows->w);
+    rows->N = rows->dN = rows->w = NULL;
+}
+
 static void strip (pg_rows *rows)
 {
-    pg_free (rows->N), pg_free (rows->dN), pg_free (rows->w), pg_free (rows->grade);
-    rows->N = rows->dN = rows->w = NULL;
+    strip_values (rows);
+    pg_free (rows->grade);
     rows->grade = NULL;
 }
 
@@ -21,6 +27,7 @@ static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
     pg_rows *r = &p->rows[set];
     char at[100];
     if ((!p->cloud.size && !p->part.mesh.n) || r->n == 0) goto done;
+    strip_values (r);                                  /* grades only                                                    */
     PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, NULL, r->n, NULL, p->threads));
     for (size_t q = 0; q < r->n; q++) {
         int used = 0;

@@ -82,6 +82,35 @@ static void a_list_gives_the_bits_of_the_whole (void **state)
     }
 }
 
+static void what_is_left_out_changes_no_bit (void **state)
+{
+    (void) state;
+    for (int t = 0; t < 3 * 2; t++) {
+        pg_cloud c = lattice (2, 9, 1e-3, 0.2);
+        pg_approx a = make (type[t / 2], "cubic_spline", 2, PG_RADIAL, 3.1e-3);
+        pg_rows all = rows_at_nodes (&a, &c), values = rows_at_nodes (&a, &c), grades = rows_at_nodes (&a, &c);
+        unsigned char *alive = t % 2 ? random_alive (&all) : NULL;     /* dead bonds: steep derivatives lower the grade */
+        pg_free (values.dN), values.dN = NULL;
+        pg_free (grades.dN), pg_free (grades.N), pg_free (grades.w);
+        grades.dN = grades.N = grades.w = NULL;
+        memset (values.grade, 99, c.n);
+        memset (grades.grade, 99, c.n);
+        check_ok (a.type->evaluate (&a, &c, &all, alive, c.n, NULL, 1));
+        check_ok (a.type->evaluate (&a, &c, &values, alive, c.n, NULL, 1));
+        check_ok (a.type->evaluate (&a, &c, &grades, alive, c.n, NULL, 1));
+        size_t nnz = all.family.start[c.n];
+        assert_memory_equal (values.N, all.N, nnz * sizeof *all.N);
+        assert_memory_equal (values.w, all.w, nnz * sizeof *all.w);
+        assert_memory_equal (values.grade, all.grade, c.n);
+        assert_memory_equal (grades.grade, all.grade, c.n);
+        pg_free (alive);
+        pg_rows_clear (&all);
+        pg_rows_clear (&values);
+        pg_rows_clear (&grades);
+        lattice_clear (&c);
+    }
+}
+
 static void threads_do_not_change_a_bit (void **state)
 {
     (void) state;
@@ -407,6 +436,7 @@ int main (void)
         cmocka_unit_test (the_catalogue_lists_three),
         cmocka_unit_test (creation_copies_points_and_leaves_them_dead),
         cmocka_unit_test (a_list_gives_the_bits_of_the_whole),
+        cmocka_unit_test (what_is_left_out_changes_no_bit),
         cmocka_unit_test (threads_do_not_change_a_bit),
         cmocka_unit_test (dead_bonds_equal_missing_nodes),
         cmocka_unit_test (the_rows_hold_influence_times_volume),
