@@ -127,6 +127,24 @@ static size_t place_of (const char *text)
     return h % REMEMBERED;
 }
 
+/* What most scenes make do with: reading the database takes longer than a small run. The same bits as udunits gives. */
+static const struct { const char *text; double factor, m, kg, s; } common[] = {
+    { "m",   1, 1, 0, 0 }, { "mm", 1e-3, 1, 0, 0 },  { "m2",  1, 2, 0, 0 },    { "m3", 1, 3, 0, 0 },     { "kg",   1, 0, 1, 0 },   { "s",  1, 0, 0, 1 },
+    { "1/s", 1, 0, 0, -1 }, { "m/s", 1, 1, 0, -1 },  { "m/s2", 1, 1, 0, -2 },  { "N",  1, 1, 1, -2 },    { "kN", 1e3, 1, 1, -2 },  { "J",  1, 2, 1, -2 },
+    { "Pa",  1, -1, 1, -2 }, { "MPa", 1e6, -1, 1, -2 }, { "GPa", 1e9, -1, 1, -2 }, { "N/m", 1, 0, 1, -2 }, { "J/m2", 1, 0, 1, -2 }, { "N/m3", 1, -2, 1, -2 },
+    { "kg/m3", 1, -3, 1, 0 }, { "%", 0.01, 0, 0, 0 }, { "min", 60, 0, 0, 1 },
+};
+
+static int is_common (pg_measure *m, const char *text, size_t n)
+{
+    for (size_t k = 0; k < sizeof common / sizeof *common; k++) {
+        if (strncmp (common[k].text, text, n) != 0 || common[k].text[n] != '\0') continue;
+        *m = (pg_measure) { .factor = common[k].factor, .power = { common[k].m, common[k].kg, common[k].s } };
+        return 1;
+    }
+    return 0;
+}
+
 pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
 {
     static const char usual[] = "m|mm|um|km|cm|Pa|kPa|MPa|GPa|N|kN|MN|J|kJ|s|ms|us|h|kg|g|t|deg|rad|Hz|kg/m3|N/m|m/s|J/m2|N/m2|1/s";
@@ -137,6 +155,7 @@ pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
     }
     snprintf (word, sizeof word, "%.*s", (int) (n < WORD ? n : WORD - 1), text);
     if (n >= WORD) return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s...'", word);
+    if (is_common (m, word, n)) return PG_OK;
     pthread_once (&once, load);
     if (!units)
         return pg_error (PG_E_FILE, PG_HERE, "the unit database of udunits2 cannot be read (see UDUNITS2_XML_PATH)");

@@ -30,6 +30,22 @@ static void usual_units_become_si (void **state)
     }
 }
 
+/* The second spelling is one that only the database knows. */
+static void common_units_are_those_of_the_database (void **state)
+{
+    (void) state;
+    static const char *const pair[][2] = {
+        { "m", "meter" }, { "mm", "mm^1" }, { "m2", "meter2" }, { "m3", "meter3" }, { "kg", "kilogram" }, { "s", "second" }, { "1/s", "s-1" }, { "m/s", "m s-1" },
+        { "m/s2", "m s-2" }, { "N", "N^1" }, { "kN", "kN^1" }, { "J", "J^1" }, { "Pa", "Pa^1" }, { "MPa", "MPa^1" }, { "GPa", "GPa^1" }, { "N/m", "N m-1" },
+        { "J/m2", "J m-2" }, { "N/m3", "N m-3" }, { "kg/m3", "kg m-3" }, { "%", "percent" }, { "min", "minute" } };
+    for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) {
+        pg_measure a, b;
+        check_ok (pg_measure_read (&a, pair[k][0], strlen (pair[k][0])));
+        check_ok (pg_measure_read (&b, pair[k][1], strlen (pair[k][1])));
+        if (a.factor != b.factor || a.angle != b.angle || memcmp (a.power, b.power, sizeof a.power) != 0) fail_msg ("%s is not %s", pair[k][0], pair[k][1]);
+    }
+}
+
 static void degrees_are_angles (void **state)
 {
     (void) state;
@@ -123,7 +139,8 @@ static void threads_may_parse_together (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (threads_may_parse_together), cmocka_unit_test (usual_units_become_si), cmocka_unit_test (degrees_are_angles),
+        cmocka_unit_test (threads_may_parse_together), cmocka_unit_test (usual_units_become_si), cmocka_unit_test (common_units_are_those_of_the_database),
+        cmocka_unit_test (degrees_are_angles),
         cmocka_unit_test (wrong_dimension_names_unit_and_example), cmocka_unit_test (nonsense_is_refused),
         cmocka_unit_test (spacing_is_kept_as_a_multiple), cmocka_unit_test (ranges_hold_their_ends_as_written),
     };
