@@ -29,6 +29,15 @@ void pg_basis_slope (const pg_star *s, const double *z, const double *b, double 
         }
 }
 
+/* A (size x size, all of it: whole rows make even steps) += w p p' */
+static inline void add_moment (int size, double w, const double *p, double *A)
+{
+    for (int r = 0; r < size; r++) {
+        double c = w * p[r];
+        for (int k = 0; k < size; k++) A[r*size + k] += c * p[k];
+    }
+}
+
 /* Fills p and L; 0 where A is singular to working accuracy. */
 static int factor (pg_star *s, double tiny)
 {
@@ -37,8 +46,10 @@ static int factor (pg_star *s, double tiny)
     for (size_t j = 0; j < s->n; j++) {
         double *p = s->p + j * (size_t) size, w = s->w[j];
         basis (s, s->z + j * (size_t) s->dim, p);
-        for (int r = 0; r < size; r++)
-            for (int c = 0; c <= r; c++) A[r*size + c] += w * p[r] * p[c];
+        if (size == 6) add_moment (6, w, p, A);        /* the usual ones, their loops known                              */
+        else if (size == 10) add_moment (10, w, p, A);
+        else if (size == 4) add_moment (4, w, p, A);
+        else add_moment (size, w, p, A);
     }
     memcpy (s->L, A, sizeof A);
     return pg_dense_cholesky (size, s->L, tiny) == 0;

@@ -35,13 +35,15 @@ static double stabilisation (const galerkin *g, size_t p)
     return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->problem->silling * mu;
 }
 
+typedef double four __attribute__ ((vector_size (32), aligned (8)));
+
 /* Blocks (dim x dim) += w (D B_a)' B_b for b = 0..m-1; DB: (D B_a)' as dim x nv */
 static void add_blocks (int dim, const double *DB, size_t m, const double *q, double *k)
 {
     if (dim == 2) {
-        const double a = DB[0], b = DB[1], c = DB[2], d = DB[3], e = DB[4], f = DB[5];
-        for (size_t n = 0; n < m; n++, q += 2, k += 4)
-            k[0] += q[0] * a + q[1] * c, k[1] += q[1] * b + q[0] * c, k[2] += q[0] * d + q[1] * f, k[3] += q[1] * e + q[0] * f;
+        const four x = { DB[0], DB[2], DB[3], DB[5] }, y = { DB[2], DB[1], DB[5], DB[4] };
+        four *block = (four *) (void *) k;
+        for (size_t n = 0; n < m; n++, q += 2) block[n] += q[0] * x + q[1] * y;
         return;
     }
     size_t nv = dim == 1 ? 1 : 6, d = (size_t) dim;
