@@ -116,4 +116,12 @@ pg_status galerkin_field (void *self, const pg_state *state, const double *d, co
 pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, double *value);
 pg_status galerkin_probe (void *self, const double *d, const double *x, double *u);
 pg_status galerkin_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress);
+
+/* Four numbers at a time; the same operations in the same order with and without AVX. */
+typedef double four __attribute__ ((vector_size (32), aligned (8)));
+#if defined (__x86_64__) && defined (__GNUC__) && !defined (__clang__) && !defined (PG_DEBUG)
+#define WIDE __attribute__ ((target_clones ("avx2", "default")))
+#else
+#define WIDE
+#endif
 #endif

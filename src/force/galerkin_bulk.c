@@ -35,15 +35,18 @@ static double stabilisation (const galerkin *g, size_t p)
     return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->problem->silling * mu;
 }
 
-typedef double four __attribute__ ((vector_size (32), aligned (8)));
+WIDE static void add_plane_blocks (const double *DB, size_t m, const double *q, double *k)
+{
+    const four x = { DB[0], DB[2], DB[3], DB[5] }, y = { DB[2], DB[1], DB[5], DB[4] };
+    four *block = (four *) (void *) k;
+    for (size_t n = 0; n < m; n++, q += 2) block[n] += q[0] * x + q[1] * y;
+}
 
 /* Blocks (dim x dim) += w (D B_a)' B_b for b = 0..m-1; DB: (D B_a)' as dim x nv */
 static void add_blocks (int dim, const double *DB, size_t m, const double *q, double *k)
 {
     if (dim == 2) {
-        const four x = { DB[0], DB[2], DB[3], DB[5] }, y = { DB[2], DB[1], DB[5], DB[4] };
-        four *block = (four *) (void *) k;
-        for (size_t n = 0; n < m; n++, q += 2) block[n] += q[0] * x + q[1] * y;
+        add_plane_blocks (DB, m, q, k);
         return;
     }
     size_t nv = dim == 1 ? 1 : 6, d = (size_t) dim;

@@ -8,13 +8,6 @@
 
 enum { SLICES = 16 };
 
-/* Four numbers at a time; the same operations in the same order with and without AVX. */
-typedef double four __attribute__ ((vector_size (32), aligned (8)));
-#if defined (__x86_64__) && defined (__GNUC__) && !defined (__clang__) && !defined (PG_DEBUG)
-#define WIDE __attribute__ ((target_clones ("avx2", "default")))
-#else
-#define WIDE
-#endif
 #define INLINE static inline __attribute__ ((always_inline))
 
 struct galerkin_slices {
