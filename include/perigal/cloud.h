@@ -6,7 +6,7 @@
 #include "perigal/mesh.h"
 
 /* ---- shapes --------------------------------------------------------------------------------------------------------- */
-enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM };
+enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM, PG_MESH, PG_STAIRS };
 typedef struct {
     int    kind, add;                                  /* add: 1 adds, 0 subtracts                                       */
     char   boundary[32];                               /* name of its surface for `sets: {boundary: NAME}`: as given by
@@ -14,6 +14,7 @@ typedef struct {
     double low[3], high[3];                            /* box, prism (along z): m                                        */
     double centre[3], axis[3], radius, length;         /* disk, sphere; cylinder: axis from centre, length, m            */
     double *vertex; size_t nvertex;                    /* polygon, prism: nvertex x 2, m                                 */
+    struct pg_solid *solid;                            /* mesh: its elements and their surface; stairs: cells of a lattice */
 } pg_shape;
 typedef struct {
     int dim;
@@ -27,6 +28,11 @@ int       pg_body_inside (const pg_body *body, const double *x, double tolerance
 size_t    pg_body_nearest (const pg_body *body, const double *x, double *distance);
 /* Volume (2D: area, m^2) and surface (2D: length, m) in closed form; 0: known for one shape alone. */
 int       pg_body_measure (const pg_body *body, double *volume, double *surface);
+/* Shapes of kind PG_MESH: how many the body has. The side sets of their files are names of their parts: does the surface nearest to x belong to
+ * that one? Name k of them, NULL: there are no more. */
+size_t      pg_body_meshes   (const pg_body *body);
+int         pg_shape_on_side (const pg_shape *shape, const double *x, const char *side);
+const char *pg_shape_side    (const pg_shape *shape, size_t k);
 
 /* ---- background lattice --------------------------------------------------------------------------------------------- */
 typedef struct {
@@ -38,6 +44,12 @@ pg_status pg_lattice_fit   (pg_lattice *out, const pg_body *body, double spacing
 void      pg_lattice_clear (pg_lattice *lattice);
 /* Coordinate (m) of vertex i along an axis, i + 0.5: of a cell centre. Corners exact, mirror symmetric about the middle. */
 double    pg_lattice_at    (const pg_lattice *lattice, int axis, double i);
+double    pg_lattice_tolerance (const pg_lattice *lattice);           /* m: a centre so near to the surface lies on it          */
+/* A mesh as a lattice sees it (kind PG_STAIRS, made from one of kind PG_MESH): every place of a cell is inside or outside as its centre is. */
+pg_status pg_stairs_create (pg_shape *out, const pg_shape *mesh, const pg_lattice *lattice);
+void      pg_stairs_clear  (pg_shape *stairs);
+/* 1: cell i of the lattice and the one beyond its face (-x +x -y +y -z +z) are not both inside, not both outside. */
+int       pg_stairs_step   (const pg_shape *stairs, const int *i, int face);
 
 /* ---- points --------------------------------------------------------------------------------------------------------- */
 typedef struct {

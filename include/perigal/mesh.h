@@ -112,4 +112,20 @@ void      pg_finder_free   (pg_mesh_finder **finder);
  * sizes of that element (longest side of the box of its corners; 0 inside). -1: none is as near as its own size. away NULL: -1 for
  * every place outside, which is quicker. Thread-safe. */
 long      pg_finder_find   (const pg_mesh_finder *finder, const double *place, double *xi, double *away);
+/* How deep a place lies in an element, in units of its reference element: the largest of all elements whose boxes hold it, or the first that is
+ * `enough`; negative: outside of them, -HUGE_VAL: far from all. Quick: no search for the nearest. */
+double    pg_finder_depth  (const pg_mesh_finder *finder, const double *place, double enough);
+
+/* ---- distance to the surface -------------------------------------------------------------------------------------------- */
+typedef struct pg_mesh_skin pg_mesh_skin;              /* the faces of pg_mesh_surface in a tree; borrows the mesh        */
+pg_status pg_skin_create (pg_mesh_skin **out, const pg_mesh *mesh);
+void      pg_skin_free   (pg_mesh_skin **skin);
+/* Distance (no sign) to the surface where that is at most `reach`, else HUGE_VAL; *face: the number of the nearest face (NULL, or -1 where
+ * there is none; of equals the lowest). Straight and plane faces to rounding, curved ones by Newton's method from their middle. Thread-safe. */
+double    pg_skin_distance (const pg_mesh_skin *skin, const double *place, double reach, long *face);
+/* Faces; element and side of one. low, high (dim): box of the surface, curved faces to 1/1000 of their height. Its size (length, area). */
+size_t    pg_skin_faces  (const pg_mesh_skin *skin);
+void      pg_skin_face   (const pg_mesh_skin *skin, size_t face, int *element, int *side);
+void      pg_skin_box    (const pg_mesh_skin *skin, double *low, double *high);
+double    pg_skin_size   (const pg_mesh_skin *skin);
 #endif

@@ -17,7 +17,8 @@ typedef struct {
 } cut_surface;
 struct pg_cut {
     int dim;
-    pg_body body;                                      /* its shapes are borrowed                                        */
+    pg_body body;                                      /* its shapes are borrowed; of a mesh: as the lattice sees it     */
+    pg_shape *own;                                     /* then these are the shapes (body.n), NULL: there is no mesh     */
     cut_surface *surface;  size_t n;
     size_t *start;  int *near;                         /* surfaces near each cell of pg_cells (n + 1)                    */
     int *part;                                         /* of each facet: on which sides of the knives                    */
@@ -36,7 +37,7 @@ void cut_gauss (int n, double *x, double *w);          /* Gauss-Legendre on [0, 
 /* ---- surfaces -------------------------------------------------------------------------------------------------------- */
 /* Of the body, then the knives: half-planes along z that part facets and bound nothing. */
 enum { CUT_KNIVES = 4 };                               /* in one cell at most                                            */
-pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, size_t nray, const pg_ray *ray);
+pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattice *lattice, size_t nray, const pg_ray *ray);
 /* In the coordinates of the cell with this centre and these half edges, scaled to coefficients of size 1. */
 cut_quadric cut_local (const cut_surface *s, int dim, const double *centre, const double *half);
 double cut_value (const cut_quadric *q, const double *x);

@@ -61,12 +61,19 @@ static int is_near (const maker *m, const cut_surface *s, const int *i)
     return cut_meets (&q, origin, all, 2 * cut_snap);
 }
 
+/* Does the mesh end at the face of the cell on which this plane lies? */
+static int is_step (const maker *m, size_t number, const int *i)
+{
+    int face = face_of (m, i, (int) number);
+    return face >= 0 && pg_stairs_step (&m->cut->body.shape[m->cut->surface[number].shape], i, face);
+}
+
 /* Counts (near NULL), or writes from the end of each list on. */
 static void visit_near (maker *m, size_t number, int *near)
 {
     const cut_surface *s = &m->cut->surface[number];
     const pg_lattice *l = m->l;
-    int first[3] = {0, 0, 0}, last[3] = {0, 0, 0}, i[3];
+    int first[3] = {0, 0, 0}, last[3] = {0, 0, 0}, i[3], stairs = s->shape >= 0 && m->cut->body.shape[s->shape].kind == PG_STAIRS;
     for (int k = 0; k < l->dim; k++) {
         double a = floor ((s->low[k] - l->origin[k]) / l->step[k]) - 1, b = floor ((s->high[k] - l->origin[k]) / l->step[k]) + 1;
         first[k] = a > 0 ? (int) fmin (a, l->count[k]) : 0, last[k] = b < l->count[k] - 1 ? (int) fmax (b, -1) : l->count[k] - 1;
@@ -74,7 +81,7 @@ static void visit_near (maker *m, size_t number, int *near)
     for (i[2] = first[2]; i[2] <= last[2]; i[2]++)
         for (i[1] = first[1]; i[1] <= last[1]; i[1]++)
             for (i[0] = first[0]; i[0] <= last[0]; i[0]++) {
-                if (!is_near (m, s, i)) continue;
+                if (!is_near (m, s, i) || (stairs && !is_step (m, number, i))) continue;
                 size_t c = number_of (l, i);
                 if (near) near[m->start[c]++] = (int) number;
                 else m->start[c + 1]++;
@@ -247,7 +254,7 @@ static pg_status prepare (maker *m, const pg_body *body, double thickness, size_
     m->whole = m->l->dim == 3 ? 1 : thickness;
     for (int k = 0; k < m->l->dim; k++) m->whole *= m->l->step[k];
     PG_ALLOC (m->cut, 1);
-    PG_TRY (cut_surfaces (m->cut, body, nray, ray));
+    PG_TRY (cut_surfaces (m->cut, body, m->l, nray, ray));
     PG_TRY (cut_work_create (&m->cut->work, m->cut, m->l->dim == 3 ? 1 : thickness));
     PG_TRY (find_near (m));
     PG_ALLOC (m->state, m->n);
@@ -281,6 +288,8 @@ void cut_free (struct pg_cut *cut)
 {
     if (!cut) return;
     cut_work_free (&cut->work);
+    for (size_t i = 0; cut->own && i < cut->body.n; i++) if (cut->own[i].kind == PG_STAIRS) pg_stairs_clear (&cut->own[i]);
+    pg_free (cut->own);
     pg_free (cut->surface), pg_free (cut->start), pg_free (cut->near), pg_free (cut->part);
     pg_free (cut);
 }

@@ -201,16 +201,53 @@ static pg_status add_knife (maker *m, const pg_ray *ray)
     return add_plane (m, s, point, n);
 }
 
-pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, size_t nray, const pg_ray *ray)
+/* Planes of the lattice, of which cells see those at their steps (cut_cells.c). */
+static pg_status add_stairs (maker *m, cut_surface s, const pg_lattice *l)
+{
+    pg_status status = PG_OK;
+    for (int k = 0; k < l->dim; k++)
+        for (int i = 0; i <= l->count[k]; i++) {
+            cut_surface plane = s;
+            memset (&plane.psi, 0, sizeof plane.psi);
+            memcpy (plane.low, l->origin, sizeof plane.low), memcpy (plane.high, l->high, sizeof plane.high);
+            memcpy (plane.origin, l->origin, sizeof plane.origin);
+            plane.flat = 1, plane.axis = k, plane.psi.b[k] = 1;
+            plane.low[k] = plane.high[k] = plane.origin[k] = pg_lattice_at (l, k, i);
+            PG_GROW (m->cut->surface, m->capacity, m->cut->n + 1);
+            m->cut->surface[m->cut->n++] = plane;
+        }
+done:
+    return status;
+}
+
+/* Meshes become stairs. */
+static pg_status own_shapes (struct pg_cut *cut, const pg_lattice *lattice)
+{
+    pg_status status = PG_OK;
+    if (pg_body_meshes (&cut->body) == 0) return PG_OK;
+    PG_ALLOC (cut->own, cut->body.n);
+    for (size_t i = 0; i < cut->body.n; i++) {
+        const pg_shape *shape = &cut->body.shape[i];
+        if (shape->kind == PG_MESH) PG_TRY (pg_stairs_create (&cut->own[i], shape, lattice));
+        else cut->own[i] = *shape;
+    }
+    cut->body.shape = cut->own;
+done:
+    return status;
+}
+
+pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattice *lattice, size_t nray, const pg_ray *ray)
 {
     pg_status status = PG_OK;
     maker m = {cut, 0};
     cut->dim = body->dim, cut->body = *body;
+    PG_TRY (own_shapes (cut, lattice));
     for (size_t i = 0; i < body->n; i++) {
-        const pg_shape *shape = &body->shape[i];
+        const pg_shape *shape = &cut->body.shape[i];
         cut_surface s = {.shape = (int) i, .axis = -1};
         bound (&s, shape, body->dim);
-        if (shape->kind == PG_BOX) PG_TRY (add_box (&m, s, shape));
+        if (shape->kind == PG_STAIRS) PG_TRY (add_stairs (&m, s, lattice));
+        else if (shape->kind == PG_BOX) PG_TRY (add_box (&m, s, shape));
         else if (shape->kind == PG_CYLINDER) PG_TRY (add_cylinder (&m, s, shape));
         else if (shape->kind == PG_DISK || shape->kind == PG_SPHERE) PG_TRY (add_round (&m, s, shape));
         else PG_TRY (add_polygon (&m, s, shape));

@@ -146,15 +146,23 @@ static int is_end (const pg_marks *m, size_t f)
     return turn * turn > 0.5 && fmin (fabs (along), fabs (along - s->length)) <= 0.75 * step;
 }
 
+/* By the name of the surface, or of a side set of a mesh. */
+static int is_of_shape (const pg_marks *m, size_t f, const char *name)
+{
+    const pg_shape *s = &m->body->shape[m->facet_shape[f]];
+    return !strcmp (s->boundary, name) || (s->kind == PG_MESH && pg_shape_on_side (s, m->cells->facet_centre + f * (size_t) m->cells->dim, name));
+}
+
 static int mark_shape (pg_marks *m, const char *name)
 {
     int known = 0, side = !strcmp (name, "side");
     for (size_t i = 0; i < m->body->n && m->cells->nfacet > 0; i++) {
         const pg_shape *s = &m->body->shape[i];
+        for (size_t k = 0; s->kind == PG_MESH && pg_shape_side (s, k); k++) known |= !strcmp (pg_shape_side (s, k), name);
         known |= !strcmp (s->boundary, name) || (side && s->kind == PG_CYLINDER && !strcmp (s->boundary, "rim"));
     }
     for (size_t f = 0; known && f < m->cells->nfacet; f++)
-        if (is_end (m, f) ? side : !strcmp (m->body->shape[m->facet_shape[f]].boundary, name)) mark_facet (m, f);
+        if (is_end (m, f) ? side : is_of_shape (m, f, name)) mark_facet (m, f);
     return known;
 }
 

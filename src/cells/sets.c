@@ -173,6 +173,10 @@ static void unknown_boundary (const builder *b, const char *at, const char *name
     used += (size_t) snprintf (names + used, sizeof names - used, "all");
     for (size_t i = 0; b->marks.cells->nfacet > 0 && i < body->n && used + 34 < sizeof names; i++) {
         size_t k = 0;
+        const char *side;
+        while (body->shape[i].kind == PG_MESH && (side = pg_shape_side (&body->shape[i], k)) && used + 100 < sizeof names)
+            used += (size_t) snprintf (names + used, sizeof names - used, "|%s", side), k++;
+        k = 0;
         while (k < i && strcmp (body->shape[k].boundary, body->shape[i].boundary)) k++;
         if (k == i) used += (size_t) snprintf (names + used, sizeof names - used, "|%s", body->shape[i].boundary);
     }

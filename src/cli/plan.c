@@ -148,6 +148,7 @@ static void print_counts (const plan *p)
     if (cut) printf (", of which %zu are cut by the surface", cut);
     printf (", boundary facets %zu\n", q->cells.nfacet);
     if (q->cells.cut) print_cut (q);
+    if (pg_body_meshes (&q->body)) printf ("  %-18s  the surface of %s is a staircase of cells\n", "", pg_body_meshes (&q->body) > 1 ? "the meshes" : "the mesh");
     printf ("  %-18s  %zu, on the boundary %zu\n", "evaluation points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n,
             q->rows[PG_FACETS].n);
     printf ("  %-18s  node-node %zu, point-node %zu, facet-node %zu\n", "bonds", first[1], first[2] - first[1], first[3] - first[2]);

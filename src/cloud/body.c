@@ -85,7 +85,7 @@ done:
 
 void pg_body_clear (pg_body *body)
 {
-    for (size_t i = 0; body->shape && i < body->n; i++) pg_free (body->shape[i].vertex);
+    for (size_t i = 0; body->shape && i < body->n; i++) pg_free (body->shape[i].vertex), shape_mesh_clear (&body->shape[i]);
     pg_free (body->shape);
     memset (body, 0, sizeof *body);
 }
@@ -96,7 +96,7 @@ int pg_body_inside (const pg_body *body, const double *x, double tolerance)
     for (size_t i = 0; i < body->n; i++) {
         const pg_shape *s = &body->shape[i];
         if (in == s->add) continue;                        /* would change nothing */
-        double d = pg_shape_types[s->kind].distance (s, body->dim, x);
+        double d = pg_shape_types[s->kind].distance (s, body->dim, x, tolerance);
         in = s->add ? d <= tolerance : !(d < -tolerance);
     }
     return in;
@@ -107,7 +107,7 @@ size_t pg_body_nearest (const pg_body *body, const double *x, double *distance)
     size_t nearest = 0;
     double least = INFINITY;
     for (size_t i = 0; i < body->n; i++) {
-        double d = fabs (pg_shape_types[body->shape[i].kind].distance (&body->shape[i], body->dim, x));
+        double d = fabs (pg_shape_types[body->shape[i].kind].distance (&body->shape[i], body->dim, x, least));
         if (d < least) least = d, nearest = i;
     }
     if (distance) *distance = least;

@@ -31,7 +31,11 @@
     { .path = op ".prism.vertices",   .kind = PG_LIST, .doc = "Vertices of the base in order; the last is joined to the first." }, \
     { .path = op ".prism.vertices[]", .kind = PG_NUMBERS, .unit = "m", .fallback = "", .doc = "One vertex [x, y] of the base." }, \
     { .path = op ".prism.low",  .kind = PG_NUMBER, .unit = "m", .doc = "Smallest z." }, \
-    { .path = op ".prism.high", .kind = PG_NUMBER, .unit = "m", .doc = "Largest z." }
+    { .path = op ".prism.high", .kind = PG_NUMBER, .unit = "m", .doc = "Largest z." }, \
+    SHAPE (op ".mesh", "What the elements of a mesh fill, in two and three dimensions; its surface is that of the cells it leaves (a staircase, also with cells: cut)."), \
+    { .path = op ".mesh.file", .kind = PG_TEXT, .doc = "Mesh file, next to the scene file: formats as under mesh.file. Its side sets are names for sets: {NAME: {boundary: ...}}." }, \
+    { .path = op ".mesh.unit", .kind = PG_TEXT, .fallback = "m", .doc = "Unit of length in the file: m, mm, inch, or a length such as 25.4 mm." }, \
+    { .path = op ".mesh.blocks", .kind = PG_NAMES, .fallback = "", .doc = "Only these blocks of the mesh, by name or number; default all." }
 
 static const pg_key keys[] = {
     { .path = "body", .kind = PG_LIST, .fallback = "", .group = "origin:most",

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static double tolerance_of (const pg_lattice *l)
+double pg_lattice_tolerance (const pg_lattice *l)
 {
     double step = INFINITY, size = 0;
     for (int k = 0; k < l->dim; k++) {
@@ -46,7 +46,7 @@ pg_status pg_lattice_fit (pg_lattice *out, const pg_body *body, double spacing, 
         if (!(body->high[k] > body->low[k]) || !isfinite (body->high[k] - body->low[k])) PG_FAIL (PG_E_USAGE, "the body has no size");
     PG_TRY (fit_axes (out, body, spacing, offset));
     PG_ALLOC (out->in, (size_t) out->count[0] * (size_t) out->count[1] * (size_t) out->count[2]);
-    double tolerance = tolerance_of (out);
+    double tolerance = pg_lattice_tolerance (out);
     unsigned char *in = out->in;
     for (int c = 0; c < out->count[2]; c++)
         for (int b = 0; b < out->count[1]; b++)

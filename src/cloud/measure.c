@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Volume and surface of a body of one shape, in closed form. */
-#include "perigal/cloud.h"
+ * Volume and surface of a body of one shape, in closed form (of a mesh: by quadrature over its elements). */
+#include "shape.h"
 #include "polygon.h"
 #include <math.h>
 
@@ -22,6 +22,7 @@ int pg_body_measure (const pg_body *body, double *volume, double *surface)
     case PG_SPHERE:   *volume = 4 * pi * pow (s->radius, 3) / 3, *surface = 4 * pi * s->radius * s->radius; return 1;
     case PG_CYLINDER: *volume = pi * s->radius * s->radius * s->length, *surface = 2 * pi * s->radius * (s->radius + s->length); return 1;
     case PG_POLYGON:  of_polygon (s, volume, surface); return 1;
+    case PG_MESH:     *volume = shape_mesh_volume (s, surface); return 1;
     case PG_PRISM:
         of_polygon (s, &area, &outline);
         height = s->high[2] - s->low[2], *volume = area * height, *surface = 2 * area + outline * height;

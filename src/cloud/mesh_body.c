@@ -7,22 +7,23 @@
 #include <string.h>
 
 /* ---- file and unit ---------------------------------------------------------------------------------------------------- */
-static pg_status read_file (pg_mesh_body *b, const pg_scene *scene)
+static pg_status read_file (pg_mesh_body *b, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
-    char *path = NULL, why[900];
-    snprintf (b->file, sizeof b->file, "%s", pg_scene_text (scene, "mesh.file"));
-    PG_TRY (pg_place_beside (&path, scene, pg_scene_text (scene, "mesh.file")));
+    char *path = NULL, why[900], key[128];
+    snprintf (key, sizeof key, "%.100s.file", at);
+    snprintf (b->file, sizeof b->file, "%s", pg_scene_text (scene, "%s", key));
+    PG_TRY (pg_place_beside (&path, scene, pg_scene_text (scene, "%s", key)));
     status = pg_mesh_read (&b->mesh, path);
     if (status == PG_E_MEMORY) goto done;
     if (status != PG_OK) {
         snprintf (why, sizeof why, "%s", pg_last_error ());
-        pg_scene_fault (scene, "mesh.file", "%s", why);
+        pg_scene_fault (scene, key, "%s", why);
         PG_TRY (pg_scene_verdict (scene));
     }
     int dim = (int) pg_scene_integer (scene, "dimension");
     if (b->mesh.dim != dim) {
-        pg_scene_fault (scene, "mesh.file", "its elements are of dimension %d, and dimension is %d", b->mesh.dim, dim);
+        pg_scene_fault (scene, key, "its elements are of dimension %d, and dimension is %d", b->mesh.dim, dim);
         PG_TRY (pg_scene_verdict (scene));
     }
 done:
@@ -31,15 +32,16 @@ done:
 }
 
 /* "mm", "25.4 mm" */
-static pg_status scale (pg_mesh_body *b, const pg_scene *scene)
+static pg_status scale (pg_mesh_body *b, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
-    const char *text = pg_scene_text (scene, "mesh.unit");
-    char one[64];
+    const char *text = pg_scene_text (scene, "%s.unit", at);
+    char one[64], key[128];
+    snprintf (key, sizeof key, "%.100s.unit", at);
     int number = strchr ("+-.0123456789", text[0]) != NULL;
     snprintf (one, sizeof one, "%s%.50s", number ? "" : "1 ", text);
     if (pg_unit_parse (&b->unit, one, "m") != PG_OK || !(b->unit > 0) || !isfinite (b->unit)) {
-        pg_scene_fault (scene, "mesh.unit", "is no unit of length: write m, mm, um, inch, or a length such as 25.4 mm");
+        pg_scene_fault (scene, key, "is no unit of length: write m, mm, um, inch, or a length such as 25.4 mm");
         PG_TRY (pg_scene_verdict (scene));
     }
     for (size_t k = 0; k < 3 * b->mesh.nnode; k++) b->mesh.x[k] *= b->unit;
@@ -112,24 +114,26 @@ done:
     return status;
 }
 
-static pg_status keep_blocks (pg_mesh *m, const pg_scene *scene)
+static pg_status keep_blocks (pg_mesh *m, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
+    char key[128];
     unsigned char *keep = NULL;
     const char *name;
     size_t n = 0;
     int *number = NULL;
-    if (!pg_scene_given (scene, "mesh.blocks")) return PG_OK;
+    snprintf (key, sizeof key, "%.100s.blocks", at);
+    if (!pg_scene_given (scene, "%s", key)) return PG_OK;
     PG_ALLOC (keep, m->nblock);
     PG_ALLOC (number, m->nblock);
-    for (size_t i = 0; (name = pg_scene_name (scene, i, "mesh.blocks")); i++) {
-        char path[40], names[2000];
+    for (size_t i = 0; (name = pg_scene_name (scene, i, "%s", key)); i++) {
+        char path[160], names[2000];
         int k = pg_mesh_body_block (m, name);
         if (k >= 0) {
             keep[k] = 1;
             continue;
         }
-        snprintf (path, sizeof path, "mesh.blocks[%zu]", i);
+        snprintf (path, sizeof path, "%s[%zu]", key, i);
         pg_mesh_body_blocks (m, names, sizeof names);
         pg_scene_fault (scene, path, "the mesh has no block of this name; there are %s", names);
     }
@@ -141,7 +145,7 @@ static pg_status keep_blocks (pg_mesh *m, const pg_scene *scene)
     }
     m->nblock = n;
     for (size_t e = 0; e < m->n; e++) m->block[e] = number[m->block[e]];
-    if (m->n == 0) pg_scene_fault (scene, "mesh.blocks", "the blocks hold no element");
+    if (m->n == 0) pg_scene_fault (scene, key, "the blocks hold no element");
     PG_TRY (pg_scene_verdict (scene));
 done:
     pg_free (keep), pg_free (number);
@@ -205,7 +209,7 @@ static double measure (const pg_mesh *m, size_t e, double *least)
     return volume;
 }
 
-static pg_status check_elements (pg_mesh_body *b, const pg_scene *scene)
+static pg_status check_elements (pg_mesh_body *b, const pg_scene *scene, const char *key)
 {
     pg_status status = PG_OK;
     const pg_mesh *m = &b->mesh;
@@ -215,7 +219,7 @@ static pg_status check_elements (pg_mesh_body *b, const pg_scene *scene)
         double x[3 * PG_ELEMENT_NODES], least;
         b->volume[e] = measure (m, e, &least);
         if (!(least > 0)) {
-            pg_scene_fault (scene, "mesh.file", "element %ld (%s) turns inside out: its Jacobian falls to %.2g of the mean; move its nodes, "
+            pg_scene_fault (scene, key, "element %ld (%s) turns inside out: its Jacobian falls to %.2g of the mean; move its nodes, "
                             "or mesh with straight edges", m->element_id[e], pg_element_types[m->kind[e]].name, least);
             PG_TRY (pg_scene_verdict (scene));
         }
@@ -229,33 +233,37 @@ done:
 }
 
 /* As pg_body_read: places whose differences are lost in rounding. */
-static pg_status check_place (const pg_mesh *m, const pg_scene *scene)
+static pg_status check_place (const pg_mesh *m, const pg_scene *scene, const char *key)
 {
     for (int k = 0; k < m->dim; k++) {
         double low = INFINITY, high = -INFINITY;
         for (size_t i = 0; i < m->nnode; i++) low = fmin (low, m->x[3 * i + (size_t) k]), high = fmax (high, m->x[3 * i + (size_t) k]);
         double far = fmax (fabs (low), fabs (high));
         if (high - low > 1e-9 * far) continue;
-        pg_scene_fault (scene, "mesh.file", "lies %.3g m away from the origin along %c and is %.3g m wide: its size is lost in rounding; move it nearer",
+        pg_scene_fault (scene, key, "lies %.3g m away from the origin along %c and is %.3g m wide: its size is lost in rounding; move it nearer",
                         far, "xyz"[k], high - low);
         break;
     }
     return pg_scene_verdict (scene);
 }
 
-pg_status pg_mesh_body_read (pg_mesh_body *out, const pg_scene *scene)
+pg_status mesh_body_at (pg_mesh_body *out, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
+    char key[128];
     memset (out, 0, sizeof *out);
-    PG_TRY (read_file (out, scene));
-    PG_TRY (scale (out, scene));
-    PG_TRY (keep_blocks (&out->mesh, scene));
-    PG_TRY (check_place (&out->mesh, scene));
-    PG_TRY (check_elements (out, scene));
+    snprintf (key, sizeof key, "%.100s.file", at);
+    PG_TRY (read_file (out, scene, at));
+    PG_TRY (scale (out, scene, at));
+    PG_TRY (keep_blocks (&out->mesh, scene, at));
+    PG_TRY (check_place (&out->mesh, scene, key));
+    PG_TRY (check_elements (out, scene, key));
 done:
     if (status != PG_OK) pg_mesh_body_clear (out);
     return status;
 }
+
+pg_status pg_mesh_body_read (pg_mesh_body *out, const pg_scene *scene) { return mesh_body_at (out, scene, "mesh"); }
 
 void pg_mesh_body_clear (pg_mesh_body *body)
 {

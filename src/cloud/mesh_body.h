@@ -7,4 +7,6 @@
 enum { PG_MESH_BODY_ORDER = 4 };                       /* of the rule for volumes: curved elements too                   */
 /* Places of the nodes of element e (nodes x dim). */
 void pg_mesh_body_nodes (const pg_mesh *mesh, size_t e, double *x);
+/* pg_mesh_body_read for the map at this path: "mesh", "body[0].add.mesh". */
+pg_status mesh_body_at (pg_mesh_body *out, const pg_scene *scene, const char *at);
 #endif

@@ -31,8 +31,9 @@ static pg_status read_box (pg_shape *s, int dim, const pg_scene *scene, const ch
     return PG_OK;
 }
 
-static double distance_box (const pg_shape *s, int dim, const double *x)
+static double distance_box (const pg_shape *s, int dim, const double *x, double reach)
 {
+    (void) reach;
     double out = 0, in = -INFINITY;
     for (int k = 0; k < dim; k++) {
         double q = fmax (s->low[k] - x[k], x[k] - s->high[k]);
@@ -62,8 +63,9 @@ static pg_status read_ball (pg_shape *s, int dim, const pg_scene *scene, const c
     return PG_OK;
 }
 
-static double distance_ball (const pg_shape *s, int dim, const double *x)
+static double distance_ball (const pg_shape *s, int dim, const double *x, double reach)
 {
+    (void) reach;
     double r[3];
     for (int k = 0; k < dim; k++) r[k] = x[k] - s->centre[k];
     return norm (dim, r) - s->radius;
@@ -86,8 +88,9 @@ static pg_status read_cylinder (pg_shape *s, int dim, const pg_scene *scene, con
     return PG_OK;
 }
 
-static double distance_cylinder (const pg_shape *s, int dim, const double *x)
+static double distance_cylinder (const pg_shape *s, int dim, const double *x, double reach)
 {
+    (void) reach;
     double r[3], along = 0;
     for (int k = 0; k < dim; k++) r[k] = x[k] - s->centre[k], along += r[k] * s->axis[k];
     for (int k = 0; k < dim; k++) r[k] -= along * s->axis[k];
@@ -132,15 +135,16 @@ static pg_status read_prism (pg_shape *s, int dim, const pg_scene *scene, const 
     return read_polygon (s, dim, scene, at);
 }
 
-static double distance_polygon (const pg_shape *s, int dim, const double *x)
+static double distance_polygon (const pg_shape *s, int dim, const double *x, double reach)
 {
+    (void) reach;
     (void) dim;
     return pg_polygon_distance (s->nvertex, s->vertex, x);
 }
 
-static double distance_prism (const pg_shape *s, int dim, const double *x)
+static double distance_prism (const pg_shape *s, int dim, const double *x, double reach)
 {
-    return both (distance_polygon (s, dim, x), fmax (s->low[2] - x[2], x[2] - s->high[2]));
+    return both (distance_polygon (s, dim, x, reach), fmax (s->low[2] - x[2], x[2] - s->high[2]));
 }
 
 static void box_polygon (const pg_shape *s, int dim, double *low, double *high)
@@ -158,11 +162,13 @@ static void box_prism (const pg_shape *s, int dim, double *low, double *high)
     low[2] = s->low[2], high[2] = s->high[2];
 }
 
-const pg_shape_type pg_shape_types[PG_SHAPES] = {
+const pg_shape_type pg_shape_types[PG_SHAPES + 1] = {
     [PG_BOX]      = {"box",      1, 3, 0, read_box,      distance_box,      box_box},
     [PG_DISK]     = {"disk",     2, 2, 1, read_ball,     distance_ball,     box_ball},
     [PG_CYLINDER] = {"cylinder", 3, 3, 1, read_cylinder, distance_cylinder, box_cylinder},
     [PG_SPHERE]   = {"sphere",   3, 3, 1, read_ball,     distance_ball,     box_ball},
     [PG_POLYGON]  = {"polygon",  2, 2, 0, read_polygon,  distance_polygon,  box_polygon},
     [PG_PRISM]    = {"prism",    3, 3, 0, read_prism,    distance_prism,    box_prism},
+    [PG_MESH]     = {"mesh",     2, 3, 0, shape_mesh_read, shape_mesh_distance, shape_mesh_box},
+    [PG_STAIRS]   = {"stairs",   2, 3, 0, NULL, shape_stairs_distance, shape_mesh_box},
 };

@@ -9,10 +9,16 @@ typedef struct {
     int lowest, highest;                               /* dimensions in which it may be used                             */
     int round;                                         /* its surface is called rim                                      */
     pg_status (*read)     (pg_shape *shape, int dim, const pg_scene *scene, const char *at);   /* at: "body[2].add.disk" */
-    double    (*distance) (const pg_shape *shape, int dim, const double *x);
+    double    (*distance) (const pg_shape *shape, int dim, const double *x, double reach);   /* farther than reach: any such */
     void      (*box)      (const pg_shape *shape, int dim, double *low, double *high);
 } pg_shape_type;
 
-enum { PG_SHAPES = PG_PRISM + 1 };
-extern const pg_shape_type pg_shape_types[PG_SHAPES];  /* indexed by pg_shape.kind                                       */
+enum { PG_SHAPES = PG_MESH + 1 };                      /* those of a scene; then PG_STAIRS                               */
+extern const pg_shape_type pg_shape_types[PG_SHAPES + 1];/* indexed by pg_shape.kind                                       */
+pg_status shape_mesh_read     (pg_shape *shape, int dim, const pg_scene *scene, const char *at);
+double    shape_mesh_distance (const pg_shape *shape, int dim, const double *x, double reach);
+void      shape_mesh_box      (const pg_shape *shape, int dim, double *low, double *high);
+double    shape_mesh_volume   (const pg_shape *shape, double *surface);
+void      shape_mesh_clear    (pg_shape *shape);
+double    shape_stairs_distance (const pg_shape *shape, int dim, const double *x, double reach);
 #endif

@@ -78,50 +78,50 @@ static int next_point (const bounds *s, double H[3][3], const double c[3], const
 }
 
 /* r = place - x (xi), H = J'J / size^2, c = J'r / size^2 with size^2 = trace J'J; returns |r|^2. */
-static double normal_equations (pg_element kind, const double *x, const double *place, const double *xi, double H[3][3], double c[3])
+static double normal_equations (pg_element kind, int dim, const double *x, const double *place, const double *xi, double H[3][3], double c[3])
 {
     int d = pg_element_types[kind].dim, nodes = pg_element_types[kind].nodes;
-    double N[PG_ELEMENT_NODES], dN[3 * PG_ELEMENT_NODES], J[3][3] = { { 0 } }, r[3], square = 0, trace = 0;
+    double N[PG_ELEMENT_NODES], dN[3 * PG_ELEMENT_NODES], J[3][3] = { { 0 } }, r[3], square = 0, trace = d == 0;
     pg_element_shape (kind, xi, N, dN);
-    for (int a = 0; a < d; a++) {
+    for (int a = 0; a < dim; a++) {
         r[a] = place[a];
         for (int i = 0; i < nodes; i++) {
-            r[a] -= N[i] * x[i * d + a];
-            for (int b = 0; b < d; b++) J[a][b] += dN[i * d + b] * x[i * d + a];
+            r[a] -= N[i] * x[i * dim + a];
+            for (int b = 0; b < d; b++) J[a][b] += dN[i * d + b] * x[i * dim + a];
         }
         square += r[a] * r[a];
         for (int b = 0; b < d; b++) trace += J[a][b] * J[a][b];
     }
     for (int a = 0; a < d; a++) {
         c[a] = 0;
-        for (int k = 0; k < d; k++) c[a] += J[k][a] * r[k] / trace;
+        for (int k = 0; k < dim; k++) c[a] += J[k][a] * r[k] / trace;
         for (int b = 0; b < d; b++) {
             H[a][b] = 0;
-            for (int k = 0; k < d; k++) H[a][b] += J[k][a] * J[k][b] / trace;
+            for (int k = 0; k < dim; k++) H[a][b] += J[k][a] * J[k][b] / trace;
         }
     }
     return square;
 }
 
-double closest_in_element (pg_element kind, const double *x, const double *place, double *xi)
+double closest_in_element (pg_element kind, int dim, const double *x, const double *place, double *xi)
 {
     enum { STEPS = 30, HALVINGS = 6 };
     const bounds s = bounds_of (kind);
     double H[3][3], c[3], to[3], trial[3], unused[3][3], v[3];
     element_centre (kind, xi);
-    double best = normal_equations (kind, x, place, xi, H, c);
+    double best = normal_equations (kind, dim, x, place, xi, H, c);
     for (int k = 0; k < STEPS; k++) {
         double moved = 0, share = 1, now = best;
         if (!next_point (&s, H, c, xi, to)) break;
         for (int half = 0; half < HALVINGS; half++, share /= 2) {
             for (int a = 0; a < s.dim; a++) trial[a] = xi[a] + share * (to[a] - xi[a]);
-            now = normal_equations (kind, x, place, trial, unused, v);
+            now = normal_equations (kind, dim, x, place, trial, unused, v);
             if (now < best) break;
         }
         if (!(now < best)) break;
         for (int a = 0; a < s.dim; a++) moved = fmax (moved, fabs (trial[a] - xi[a]));
         memcpy (xi, trial, (size_t) s.dim * sizeof *xi);
-        best = normal_equations (kind, x, place, xi, H, c);
+        best = normal_equations (kind, dim, x, place, xi, H, c);
         if (moved < 1e-12) break;
     }
     return sqrt (best);

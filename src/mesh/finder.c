@@ -2,6 +2,7 @@
  * Search for the element that holds a place: a tree of boxes, halved by the middle of the centres. A mesh may be as graded as it likes.
  * Of several elements that hold a place (on a face between them) the lowest is taken, so that the shape of the tree does not matter. */
 #include "closest.h"
+#include "finder.h"
 #include "element.h"
 #include <float.h>
 #include <limits.h>
@@ -239,30 +240,51 @@ static long find_inside (const pg_mesh_finder *f, const double *place, double *x
     return best == LONG_MAX ? -1 : best;
 }
 
+double pg_finder_depth (const pg_mesh_finder *f, const double *place, double enough)
+{
+    int todo[DEPTH], n = 0, dim = f->dim;
+    double depth = -HUGE_VAL;
+    todo[n++] = 0;
+    while (n > 0 && depth < enough) {
+        const tree_node *t = &f->tree[todo[--n]];
+        if (!holds (&t->box, place, dim)) continue;
+        if (t->n == 0) {
+            todo[n++] = t->right;
+            todo[n++] = (int) (t - f->tree) + 1;
+        }
+        for (int k = t->first; k < t->first + t->n && depth < enough; k++) {
+            double x[3 * PG_ELEMENT_NODES], at[3];
+            if (!holds (&f->box[k], place, dim)) continue;
+            pg_element kind = nodes_of (f, (size_t) f->item[k], x);
+            if (invert (kind, dim, x, place, at)) depth = fmax (depth, -pg_element_outside (kind, at));
+        }
+    }
+    return depth;
+}
+
 /* The nearest so far; d: its distance. Elements as near as that to nine digits: the lowest. */
-typedef struct { long element; double d, away, xi[3]; } nearest;
+typedef struct { long element; double d, away, xi[3]; int far; } nearest;      /* far: more than its own size away counts too  */
 
 static void consider (const pg_mesh_finder *f, const double *place, int k, nearest *best)
 {
     double x[3 * PG_ELEMENT_NODES], xi[3], size;
     size_t e = (size_t) f->item[k];
     pg_element kind = nodes_of (f, e, x);
-    double d = closest_in_element (kind, x, place, xi);
+    double d = closest_in_element (kind, f->dim, x, place, xi);
     box_of (f, e, &size);
-    if (d > size || d > best->d * (1 + 1e-9)) return;
+    if ((d > size && !best->far) || d > best->d * (1 + 1e-9)) return;
     if (best->element >= 0 && d >= best->d * (1 - 1e-9) && (long) e > best->element) return;
-    *best = (nearest) { .element = (long) e, .d = d, .away = d / size };
+    best->element = (long) e, best->d = d, best->away = d / size;
     memcpy (best->xi, xi, (size_t) f->dim * sizeof *xi);
 }
 
-static long find_nearest (const pg_mesh_finder *f, const double *place, double *xi, double *away)
+static void find_nearest (const pg_mesh_finder *f, const double *place, nearest *best)
 {
     int todo[DEPTH], n = 0;
-    nearest best = { .element = -1, .d = f->largest };
     todo[n++] = 0;
     while (n > 0) {
         const tree_node *t = &f->tree[todo[--n]];
-        if (!(distance (&t->box, place, f->dim) <= best.d * (1 + 1e-9))) continue;
+        if (!(distance (&t->box, place, f->dim) <= best->d * (1 + 1e-9))) continue;
         if (t->n == 0) {
             int left = (int) (t - f->tree) + 1, right = t->right;
             int near_left = distance (&f->tree[left].box, place, f->dim) <= distance (&f->tree[right].box, place, f->dim);
@@ -270,12 +292,15 @@ static long find_nearest (const pg_mesh_finder *f, const double *place, double *
             todo[n++] = near_left ? left : right;
         }
         for (int k = t->first; k < t->first + t->n; k++)
-            if (distance (&f->box[k], place, f->dim) <= best.d * (1 + 1e-9)) consider (f, place, k, &best);
+            if (distance (&f->box[k], place, f->dim) <= best->d * (1 + 1e-9)) consider (f, place, k, best);
     }
-    if (best.element >= 0) {
-        memcpy (xi, best.xi, (size_t) f->dim * sizeof *xi);
-        *away = best.away;
-    }
+}
+
+long finder_nearest (const pg_mesh_finder *f, const double *place, double reach, double *d)
+{
+    nearest best = { .element = -1, .d = reach, .far = 1 };
+    find_nearest (f, place, &best);
+    *d = best.element < 0 ? HUGE_VAL : best.d;
     return best.element;
 }
 
@@ -287,5 +312,8 @@ long pg_finder_find (const pg_mesh_finder *f, const double *place, double *xi, d
         if (away) *away = 0;
         return e;
     }
-    return find_nearest (f, place, xi, away);
+    nearest best = { .element = -1, .d = f->largest };
+    find_nearest (f, place, &best);
+    if (best.element >= 0) memcpy (xi, best.xi, (size_t) f->dim * sizeof *xi), *away = best.away;
+    return best.element;
 }

@@ -53,8 +53,8 @@ static int off_surface (const counter *c, int x, int y, int z, int f)
     double at[3] = { x + 0.5, y + 0.5, z + 0.5 }, place[3] = { 0, 0, 0 }, away;
     at[f / 2] += f % 2 ? 0.5 : -0.5;
     for (int k = 0; k < l->dim; k++) place[k] = pg_lattice_at (l, k, at[k]);
-    pg_body_nearest (c->how->body, place, &away);
-    return away > 1e-6 * l->step[f / 2];
+    size_t shape = pg_body_nearest (c->how->body, place, &away);
+    return c->how->body->shape[shape].kind != PG_MESH && away > 1e-6 * l->step[f / 2];
 }
 
 static void count_faces (const counter *c, pg_tally *t, int x, int y, int z)

@@ -1,0 +1,60 @@
+#!/bin/bash
+# test_mesh.sh BUILD: every sample of a mesh file is the body of a scene (its own cells; a shape that a lattice fills) and a picture that shows something.
+perigal=$(realpath "$1/perigal"); n=0; bad=0
+cd "$(dirname "$0")/../.." || exit 1
+work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
+verdict() {   # name, 0 for good
+    n=$((n + 1))
+    if [ "$2" -eq 0 ]; then echo "ok $n - $1"; return; fi
+    bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" "$work/err" | head -20
+}
+# shows FOLDER LEAST: PNGs of so many different rows at least
+shows() {
+    python3 - "$@" > "$work/out" 2> "$work/err" << 'END'
+import glob, struct, sys, zlib
+few = 0
+for path in sorted(glob.glob(sys.argv[1] + '/*.png')):
+    png = open(path, 'rb').read()
+    at, data, tall = 8, b'', 0
+    while at < len(png):
+        size, name = struct.unpack('>I4s', png[at:at + 8])
+        body = png[at + 8:at + 8 + size]
+        if name == b'IHDR': tall = struct.unpack('>II', body[:8])[1]
+        if name == b'IDAT': data += body
+        at += 12 + size
+    data = zlib.decompress(data)
+    step = len(data) // tall
+    rows = len({data[k:k + step] for k in range(0, len(data), step)})
+    if rows < int(sys.argv[2]): few += 1; print(path, rows, 'different rows')
+sys.exit(few > 0)
+END
+}
+points() { sed -n 's/^  points *\([0-9]*\),.*/\1/p' "$work/out"; }
+# scene FILE DIMENSION UNIT: a run on the mesh, then a lattice in it
+scene() {
+    local name; name=$(basename "$1")
+    local rest="materials: {steel: {youngs_modulus: 200 GPa, poissons_ratio: 0.3}}
+boundary: [{set: all, displacement: {x: 0, y: 0}}]
+solver: {steps: 1, stepping: fixed}
+output: {at: {levels: 1}, pictures: []}"
+    printf 'dimension: %d\nmesh: {file: %s, unit: %s}\n%s\n' "$2" "$PWD/$1" "$3" "$rest" > "$work/own.yaml"
+    printf 'dimension: %d\nbody: [{add: {mesh: {file: %s, unit: %s}}}]\nspacing: %s\n%s\n' "$2" "$PWD/$1" "$3" "$4" "$rest" > "$work/shape.yaml"
+    "$perigal" check "$work/own.yaml" > "$work/out" 2> "$work/err" && [ "$(points)" -ge 4 ]; verdict "$name: a scene's cells" $?
+    "$perigal" check "$work/shape.yaml" > "$work/out" 2> "$work/err" && [ "$(points)" -ge 20 ] && grep -q 'is a staircase of cells' "$work/out"
+    verdict "$name: a shape of a scene" $?
+    "$perigal" plot "$1" --out "$work/pictures/$name.png" > "$work/out" 2> "$work/err"; verdict "$name: a picture" $?
+}
+mkdir "$work/pictures"
+pictures=$(ls data/mesh/*.msh data/mesh/ccx/*.frd | wc -l); pictures=$((pictures + 3))
+for file in data/mesh/*.msh; do
+    case $file in */disk_*) scene "$file" 2 mm '0.2 mm' ;; *) scene "$file" 3 mm '0.25 mm' ;; esac
+done
+scene test/fuzz/seed_mesh/tri.e 2 mm '0.1 mm'
+scene test/fuzz/seed_mesh/plane.inp 2 mm '0.1 mm'
+scene data/bracket/bracket.inp 3 mm '6 mm'
+for file in data/mesh/ccx/*.frd; do
+    "$perigal" plot "$file" --field stress --out "$work/pictures/$(basename "$file").png" > "$work/out" 2> "$work/err"; verdict "$(basename "$file"): a picture of its stress" $?
+done
+[ "$(ls "$work/pictures" | wc -l)" -eq $pictures ] && shows "$work/pictures" 100; verdict "$pictures pictures show something" $?
+echo "1..$n"
+exit $bad
