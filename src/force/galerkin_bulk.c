@@ -65,7 +65,11 @@ static void add_point (galerkin *g, size_t p, size_t a, size_t m, double *out)
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv, first = r->family.start[p];
     const double *D = galerkin_material (g, g->bulk, p)->D, *qa = r->dN + (first + a) * dim;
     double DB[18], unit[3];
-    for (size_t c = 0; c < dim; c++)                   /* row c of (D B_a)': D applied to the strain of a unit dof        */
+    for (size_t v = 0; v < 3 && dim == 2; v++) {         /* the same, written out                                          */
+        DB[v] = (D[3 * v] * qa[0] + D[3 * v + 2] * qa[1]) * r->weight[p];
+        DB[3 + v] = (D[3 * v + 1] * qa[1] + D[3 * v + 2] * qa[0]) * r->weight[p];
+    }
+    for (size_t c = 0; c < dim && dim != 2; c++)       /* row c of (D B_a)': D applied to the strain of a unit dof        */
         for (size_t v = 0; v < nv; v++) {
             double row[6] = { 0 };
             memset (unit, 0, sizeof unit);
