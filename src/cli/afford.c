@@ -24,8 +24,7 @@ double afford_size (const char *text)
 
 double afford_available (const command *c) { return c->memory > 0 ? c->memory : pg_available_memory (""); }
 
-/* A mesh file this small needs less than any machine has: not read twice. */
-static int is_tiny (const pg_scene *scene)
+int afford_tiny (const pg_scene *scene)
 {
     char path[4096];
     const char *file, *slash;
@@ -43,7 +42,6 @@ pg_status afford_scene (const command *c, pg_forecast *f)
     pg_scene *scene = NULL;
     memset (f, 0, sizeof *f);
     PG_TRY (command_scene (c, &scene));
-    if (!(c->memory > 0) && is_tiny (scene)) goto done;
     status = pg_forecast_scene (f, scene);
     if (status == PG_E_SCENE || status == PG_E_FILE) {
         memset (f, 0, sizeof *f);

@@ -31,6 +31,7 @@ int       exit_code     (pg_status status);
 /* afford.c: PG_E_LIMIT where the run would need more than is available (--memory, else what the machine grants). */
 double    afford_size      (const char *text);                 /* "8GB" in bytes; NAN: no size                           */
 double    afford_available (const command *c);
+int       afford_tiny      (const pg_scene *scene);            /* a mesh file so small that the run fits any machine: not worth reading twice */
 pg_status afford_scene     (const command *c, pg_forecast *f); /* a wrong scene gives an empty forecast                  */
 pg_status afford_problem   (const command *c, pg_forecast *f, const pg_problem *p, int thorough /* analyse whatever is free */);
 

@@ -126,7 +126,7 @@ int trial_main (int argc, char **argv)
     trial_read (&t, "");
     if (!c.folder) PG_FAIL (PG_E_USAGE, "--row needs -o DIR");
     PG_TRY (command_scene (&c, &scene));
-    PG_TRY (afford_scene (&c, &forecast));
+    if (c.memory > 0 || !afford_tiny (scene)) PG_TRY (afford_scene (&c, &forecast));
     PG_TRY (pg_problem_build (&problem, scene, c.threads));
     PG_TRY (pg_result_check (scene, problem));
     PG_TRY (solve_and_measure (&c, scene, problem, &t, start));
