@@ -108,6 +108,11 @@ pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, 
  * mesh), cracks and select unused. 2D: its elements, curved edges as they are; 3D: the surface from a view (PG_SECTION: iso).
  * PG_E_USAGE: 1D meshes and sections. */
 pg_status pg_picture_mesh (const char *path, const pg_mesh *mesh, const double *value, const pg_picture_style *style);
+/* A field at the points of a body that is a mesh, in m (style's u: of the points): on its elements as pg_picture_mesh; nodes that are no points
+ * take the value between the corners. As points (pg_picture_field) where elements would not do: body NULL or no mesh, pre-cracks, sections,
+ * selections, view crack. Elements hide a crack: with broken bonds give NULL. */
+pg_status pg_picture_body (const char *path, const pg_mesh_body *body, const pg_cloud *cloud, const double *value /* n */, const pg_picture_style *style);
+int       pg_picture_on_elements (const pg_mesh_body *body, const pg_picture_style *style);
 
 enum { PG_CURVE_LINE, PG_CURVE_MARKERS, PG_CURVE_BOTH };
 typedef struct { const char *name; size_t n; const double *x, *y; int points; /* PG_CURVE_... */ } pg_curve;

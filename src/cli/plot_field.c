@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Fields of a result as pictures: reads steps of DIR/result.e, chooses component and points, names files, titles panels. */
 #include "plot.h"
+#include "perigal/compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +12,7 @@ typedef struct {
     pg_cloud cloud;
     pg_scene *scene;                                   /* the copy the run left, NULL when there is none                 */
     pg_cracks cracks;
+    pg_mesh_body part;                                 /* the mesh whose nodes the points are, if it is still there      */
     size_t   nstep;
     double  *time;
     int      component, components, norm;              /* of the field; norm: its size                                   */
@@ -87,6 +89,34 @@ static void read_scene (const plot_request *q, source *s)
     if (pg_cracks_read (&s->cracks, s->scene) != PG_OK) s->cracks = (pg_cracks) { 0 };
 }
 
+/* The mesh of the run, unless it is gone or no longer that of the points, or something broke: elements would hide the crack. */
+static pg_status read_part (const plot_request *q, source *s)
+{
+    pg_status status = PG_OK;
+    pg_scene *scene = NULL;
+    pg_cloud cloud = { 0 };
+    double *damage = NULL;
+    size_t n, known = s->cloud.n * (size_t) s->cloud.dim;
+    int m, same = 0, whole = 1;
+    if (q->panels || strcmp (q->field, "damage") == 0 || !s->scene || !pg_scene_given (s->scene, "mesh")) return PG_OK;
+    if (pg_stored_scene (&scene, q->directory) == PG_OK && pg_mesh_body_read (&s->part, scene) == PG_OK && pg_mesh_body_cloud (&cloud, &s->part, scene) == PG_OK)
+        same = cloud.n == s->cloud.n && cloud.dim == s->cloud.dim;
+    for (size_t i = 0; same && i < known; i++) same = fabs (cloud.x[i] - s->cloud.x[i]) <= 1e-6 * cloud.h;
+    for (int k = 0; same && whole && k < (int) s->nstep; k++) {
+        int step = q->all ? k : q->step[0] < 0 ? (int) s->nstep - 1 : q->step[0];
+        PG_TRY (pg_exodus_read (q->result, "damage", step, &n, &m, &damage));
+        for (size_t i = 0; i < n; i++) whole &= !(damage[i] > 0);
+        pg_free (damage), damage = NULL;
+        if (!q->all) break;
+    }
+done:
+    if (status != PG_OK || !same || !whole) pg_mesh_body_clear (&s->part);
+    pg_free (damage);
+    pg_cloud_clear (&cloud);
+    pg_scene_free (&scene);
+    return status;
+}
+
 static pg_status open_source (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -99,6 +129,7 @@ static pg_status open_source (const plot_request *q, source *s)
         PG_FAIL (PG_E_USAGE, "--section, --view, --direction and --above are for 3D results; %s is %dD", q->result, s->cloud.dim);
     PG_TRY (choose_component (q, s));
     read_scene (q, s);
+    PG_TRY (read_part (q, s));
 done:
     pg_free (field);
     return status;
@@ -107,6 +138,7 @@ done:
 static void close_source (source *s)
 {
     pg_cracks_clear (&s->cracks);
+    pg_mesh_body_clear (&s->part);
     pg_scene_free (&s->scene);
     pg_free (s->time);
     pg_cloud_clear (&s->cloud);
@@ -227,7 +259,9 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
     snprintf (label, sizeof label, "%s%s%s%s%s%s", bar, s->name, bar, s->unit[0] ? " (" : "", s->unit, s->unit[0] ? ")" : "");
     style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL;
     name_picture (q, number, path, sizeof path);
-    PG_TRY (pg_picture_panels (path, &s->cloud, n, panel, q->columns, &style));
+    style.u = panel->u, style.select = panel->select;
+    if (n == 1 && s->part.mesh.n && pg_picture_on_elements (&s->part, &style)) PG_TRY (pg_picture_body (path, &s->part, &s->cloud, panel->value, &style));
+    else PG_TRY (pg_picture_panels (path, &s->cloud, n, panel, q->columns, &style));
     puts (path);
 done:
     pg_free (panel);

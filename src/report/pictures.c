@@ -67,7 +67,7 @@ static pg_status one_picture (pg_result *r, const pg_state *state, const result_
     int components;
     double *one = NULL, *damage = NULL;
     PG_TRY (read_part (r, state, v->field, work, &one, &unit));
-    if (v->by_damage) PG_TRY (read_part (r, state, "damage", work, &damage, &none));
+    if (v->by_damage || p->part.mesh.n) PG_TRY (read_part (r, state, "damage", work, &damage, &none));
     PG_TRY (force->field (self, state, state->d, "displacement", &components, &none, u));
     snprintf (label, sizeof label, "%s%s%s%s", v->field, *unit ? " (" : "", unit, *unit ? ")" : "");
     write_title (r, state, v, unit, title, sizeof title);
@@ -76,7 +76,9 @@ static pg_status one_picture (pg_result *r, const pg_state *state, const result_
     style.diverging = style.low < style.high ? style.low == -style.high : strncmp (v->field, "stress", 6) == 0;
     style.clip = strncmp (v->field, "displacement", 12) == 0 || strncmp (v->field, "velocity", 8) == 0;
     style.select = v->by_damage ? damage : v->limited ? one : NULL;
-    PG_TRY (pg_picture_field (path, &p->cloud, one, &style));
+    int whole = p->part.mesh.n > 0;                        /* elements would hide a crack                                    */
+    for (size_t i = 0; whole && i < p->cloud.n; i++) whole = !(damage[i] > 0);
+    PG_TRY (pg_picture_body (path, whole ? &p->part : NULL, &p->cloud, one, &style));
 done:
     pg_free (one), pg_free (damage);
     return status;

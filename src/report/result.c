@@ -3,6 +3,8 @@
 #include "result.h"
 #include <errno.h>
 #include <stdio.h>
+#include <limits.h>
+#include <stdlib.h>
 #include <string.h>
 #include <math.h>
 
@@ -105,6 +107,15 @@ done:
     return status;
 }
 
+/* As it was given; with a mesh from the root, for pictures look for the mesh beside it from wherever they are drawn. */
+static void name_scene (pg_result *r, const pg_scene *scene)
+{
+    char whole[PATH_MAX];
+    const char *file = pg_scene_file (scene);
+    if (pg_scene_given (scene, "mesh") && file && realpath (file, whole)) file = whole;
+    snprintf (r->scene, sizeof r->scene, "%.3000s", file);
+}
+
 /* What new and resumed results have in common; leaves the folder as it is. */
 pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver)
 {
@@ -114,7 +125,7 @@ pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scen
     r->opened = r->checkpoint_at = pg_seconds ();
     snprintf (r->folder, sizeof r->folder, "%s", folder);
     snprintf (r->hash, sizeof r->hash, "%s", pg_scene_hash (scene));
-    snprintf (r->scene, sizeof r->scene, "%s", pg_scene_file (scene));
+    name_scene (r, scene);
     PG_TRY (pg_solver_options_read (&o, problem, scene));
     r->length = (strcmp (o.kind, "static") == 0 ? 1 : o.end) / (double) o.steps;
     PG_TRY (read_wishes (r, scene));

@@ -55,6 +55,33 @@ scene data/bracket/bracket.inp 3 mm '6 mm'
 for file in data/mesh/ccx/*.frd; do
     "$perigal" plot "$file" --field stress --out "$work/pictures/$(basename "$file").png" > "$work/out" 2> "$work/err"; verdict "$(basename "$file"): a picture of its stress" $?
 done
+
+# ---- fields of a run on a mesh: on its elements while it is whole and its file is there -----------------------------------------------
+mkdir "$work/here" "$work/elsewhere"
+cp data/mesh/disk_tri6_41.msh "$work/here/disk.msh"
+cat > "$work/here/disk.yaml" << 'END'
+dimension: 2
+mesh: {file: disk.msh, unit: mm, points: corners}
+materials: {steel: {youngs_modulus: 200 GPa, poissons_ratio: 0.3}}
+failure: {criterion: principal_stress, tensile_strength: 300 MPa}
+boundary: [{set: low, displacement: {x: 0, y: 0}}, {set: high, displacement: {y: 2 um}}]
+sets: {low: {where: 'y < -0.7 mm'}, high: {where: 'y > 0.7 mm'}}
+solver: {steps: 2, stepping: fixed}
+output: {at: {levels: 2}, pictures: [displacement]}
+END
+draw() { (cd "$work/elsewhere" && "$perigal" plot "$work/$1" --field displacement "${@:3}" --out "$work/$2.png") > "$work/out" 2> "$work/err"; }
+differ() { [ -s "$work/$1.png" ] && [ -s "$work/$2.png" ] && ! cmp -s "$work/$1.png" "$work/$2.png"; }
+(cd "$work/here" && "$perigal" run disk.yaml --quiet -o ../whole --set 'failure={criterion: none}' && "$perigal" run disk.yaml --quiet -o ../broken) > "$work/out" 2> "$work/err"
+verdict "runs on a mesh" $?
+draw whole whole_there && draw whole whole_large --magnify 100 && draw broken broken_there; verdict "drawn from another folder" $?
+mv "$work/here/disk.msh" "$work/here/away.msh"
+draw whole whole_gone && draw broken broken_gone; verdict "drawn without the mesh" $?
+differ whole_there whole_gone; verdict "elements where the mesh is there, points where it is gone" $?
+differ whole_there whole_large; verdict "elements move with their nodes" $?
+cmp "$work/broken_there.png" "$work/broken_gone.png" > "$work/out" 2>&1; verdict "points where bonds are broken" $?
+cp data/mesh/disk_quad4.msh "$work/here/disk.msh"; draw whole whole_other && cmp "$work/whole_gone.png" "$work/whole_other.png" > "$work/out" 2>&1
+verdict "points where the mesh is another now" $?
+
 [ "$(ls "$work/pictures" | wc -l)" -eq $pictures ] && shows "$work/pictures" 100; verdict "$pictures pictures show something" $?
 echo "1..$n"
 exit $bad
