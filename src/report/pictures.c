@@ -144,7 +144,7 @@ done:
     return status;
 }
 
-static pg_status error_picture (pg_result *r)
+static pg_status error_picture (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
     const pg_norms *n = &r->errors.norms;
@@ -152,7 +152,7 @@ static pg_status error_picture (pg_result *r)
     pg_picture_style style = { .label = "|u - u_{ref}| (m)", .cracks = &r->problem->cracks, .title = title };
     snprintf (title, sizeof title, "%s: difference from the reference, L2 %.2e, largest %.2e", r->problem->title, n->l2.relative, n->maximum.relative);
     snprintf (path, sizeof path, "%s/error.png", r->folder);
-    PG_TRY (pg_picture_field (path, &r->problem->cloud, r->errors.difference, &style));
+    PG_TRY (pg_picture_body (path, state->broken ? NULL : &r->problem->part, &r->problem->cloud, r->errors.difference, &style));
     memcpy (r->written[r->nwritten++], path, sizeof path);
 done:
     return status;
@@ -168,7 +168,7 @@ pg_status result_errors (pg_result *r, const pg_state *state)
     PG_TRY (pg_sampler_solution (&solution, r->problem, force, self, state));
     PG_TRY (pg_errors_measure (&r->errors, r->reference, r->problem, &solution, r->dynamic ? state->time : state->factor));
     r->measured = 1;
-    if (r->errors.difference && r->errors.norms.displacement) PG_TRY (error_picture (r));
+    if (r->errors.difference && r->errors.norms.displacement) PG_TRY (error_picture (r, state));
 done:
     pg_sampler_clear (&solution);
     return status;
