@@ -13,6 +13,10 @@ int pg_cli_help  (int argc, char **argv);
 int pg_cli_bench (int argc, char **argv);
 int pg_cli_converge (int argc, char **argv);
 
+/* memory.c: for the whole process; for the programs started from here on */
+void memory_keep (void);
+void memory_large_pages (void);
+
 /* progress.c: a line that rewrites itself on a terminal, every tenth elsewhere. */
 typedef struct { double start, last; int tenth, tty, quiet; } progress;
 void progress_start (progress *p, int quiet);

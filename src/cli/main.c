@@ -35,6 +35,7 @@ static void settle_threads (int argc, char **argv)
     setenv ("OMP_THREAD_LIMIT", "1", 1);
     setenv ("OMP_WAIT_POLICY", "passive", 1);
     setenv ("OPENBLAS_NUM_THREADS", count, 0);
+    memory_large_pages ();
     execv ("/proc/self/exe", argv);                    /* goes on below where this fails                                 */
 }
 
@@ -55,6 +56,7 @@ int main (int argc, char **argv)
     for (size_t k = 0; k < sizeof commands / sizeof *commands; k++)
         if (strcmp (argv[1], commands[k].name) == 0) {
             if (k <= 1) settle_threads (argc, argv);
+            memory_keep ();
             return commands[k].run (argc - 1, argv + 1);
         }
     const char *near = pg_nearest_name (argv[1], "run|check|plot|compare|bench|converge|list|help");

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Processes with their own seconds and memory. */
 #define _DEFAULT_SOURCE                                /* wait4                                                          */
+#include "cli.h"
 #include "spawn.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -28,6 +29,7 @@ static void become (const char *program, char *const argv[], const char *folder,
     int errors = open (log ? log : "/dev/null", O_WRONLY | O_CREAT | O_TRUNC, 0666), nothing = open ("/dev/null", O_RDONLY);
     settle_environment (threads);
     if (dup2 (nothing, 0) < 0 || dup2 (to, 1) < 0 || dup2 (errors, 2) < 0 || (folder && chdir (folder) != 0)) _exit (127);
+    if (!program) memory_large_pages ();
     if (program) execvp (program, argv);
     else execv ("/proc/self/exe", argv);
     _exit (127);

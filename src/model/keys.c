@@ -38,6 +38,8 @@ static const pg_key keys[] = {
     LOAD ("force", "N", "Total force, shared equally by the points of the set."),
     LOAD ("body_force", "N/m3", "Force per volume; set all: everywhere, else on the points of the set."),
     { "boundary[].pressure", PG_EXPRESSION, "Pa", NULL, "", NULL, NULL, "load:one", "Pressure against the boundary facets (positive pushes inwards)." },
+    { "boundary[].essential", PG_NAME, NULL, NULL, "", "auto|nitsche|transformation|penalty", NULL, NULL,
+      "How this displacement or velocity is prescribed; method.essential unless given. penalty: cheapest for a point that only keeps the body from moving." },
     { "boundary[].ramp", PG_TEXT, NULL, NULL, "", NULL, NULL, "ramp:most",
       "Factor over time: linear (0 to 1 over the run), constant, or an expression in t; default linear, for velocity constant." },
     { "boundary[].table", PG_LIST, NULL, NULL, "", NULL, NULL, "ramp:most", "Factor over time as pairs [t, factor], linear between, constant beyond." },

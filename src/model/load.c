@@ -157,7 +157,7 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     load->set = pg_sets_named (&problem->sets, scene, path, set);
     if (!load->set) goto done;
     if (is_static && load->kind == PG_VELOCITY) pg_scene_fault (scene, path, "a static run has no velocity: prescribe a displacement");
-    const char *how = pg_scene_text (scene, "method.essential");
+    const char *how = pg_scene_text (scene, pg_scene_given (scene, "boundary[%zu].essential", i) ? "boundary[%zu].essential" : "method.essential", i);
     int nosb = strcmp (pg_scene_text (scene, "method.approximation"), "nosb") == 0;
     load->essential = strcmp (how, "transformation") == 0 ? PG_ESSENTIAL_TRANSFORMATION : strcmp (how, "penalty") == 0 ? PG_ESSENTIAL_PENALTY
                     : strcmp (how, "nitsche") == 0 ? PG_ESSENTIAL_NITSCHE
