@@ -122,6 +122,16 @@ static void the_way_of_prescribing_follows_the_method (void **state)
     unbuild (&b);
 }
 
+static void an_entry_may_choose_its_own_way (void **state)
+{
+    (void) state;
+    built b = build (PLATE "method: {essential: nitsche}\nboundary: [{set: right, displacement: {x: 1}, essential: penalty}, {set: left, displacement: {x: 0}}]\n");
+    assert_int_equal (b.problem->load[0].essential, PG_ESSENTIAL_PENALTY);
+    assert_int_equal (b.problem->load[1].essential, PG_ESSENTIAL_NITSCHE);
+    unbuild (&b);
+    check_refused (LOAD ("set: right, displacement: {x: 1}, essential: penalti"), "boundary[0].essential");
+}
+
 static void faults_name_key_and_reason (void **state)
 {
     (void) state;
@@ -154,6 +164,7 @@ int main (void)
         cmocka_unit_test (a_velocity_table_is_integrated),
         cmocka_unit_test (proportional_loads_are_recognised),
         cmocka_unit_test (the_way_of_prescribing_follows_the_method),
+        cmocka_unit_test (an_entry_may_choose_its_own_way),
         cmocka_unit_test (faults_name_key_and_reason),
     };
     return cmocka_run_group_tests_name ("model/load", tests, NULL, NULL);
