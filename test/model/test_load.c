@@ -129,7 +129,7 @@ static void an_entry_may_choose_its_own_way (void **state)
     assert_int_equal (b.problem->load[0].essential, PG_ESSENTIAL_PENALTY);
     assert_int_equal (b.problem->load[1].essential, PG_ESSENTIAL_NITSCHE);
     unbuild (&b);
-    check_refused (LOAD ("set: right, displacement: {x: 1}, essential: penalti"), "boundary[0].essential");
+    check_refused (PLATE "boundary: [{set: right, displacement: {x: 1}, essential: penalti}]\n", "boundary[0].essential");
 }
 
 static void faults_name_key_and_reason (void **state)
