@@ -141,7 +141,9 @@ static void find_space (space *s, const pg_rows *points, size_t first, size_t la
     for (size_t q = first; q < last; q++)
         for (size_t k = 0; k < dim; k++) s->size = fmax (s->size, fabs (points->x[q * dim + k] - s->centre[k]));
     if (!(s->size > 0)) s->size = 1;                   /* one point */
-    for (s->n = n >= (size_t) 1 << dim ? 1 << dim : n > dim ? (int) dim + 1 : 1; s->n > 0; s->n = s->n > (int) dim + 1 ? (int) dim + 1 : s->n > 1 ? 1 : 0) {
+    const int sizes[] = { 1 << dim, (int) dim + 1, 1, 0 };             /* with the products, linear, constant, none      */
+    for (const int *size = sizes; (s->n = *size) > 0; size++) {
+        if ((size_t) s->n > n) continue;
         memset (s->L, 0, sizeof s->L);
         for (size_t q = first; q < last; q++) {
             polynomials (s, points->x + q * dim, p, slope);
@@ -152,7 +154,7 @@ static void find_space (space *s, const pg_rows *points, size_t first, size_t la
     for (int k = 0; k < s->n * s->n; k++) s->L[k] *= sqrt (volume);
 }
 
-/* Calls of `entry` places: values of an ascending list of nodes put at their places in a wider one. */
+/* Values of an ascending list of nodes, put at their places in a wider one. */
 static void spread (size_t n, const int *node, size_t stride, const double *value, const int *wide_node, double *wide)
 {
     for (size_t i = 0, at = 0; i < n; i++, at++) {
