@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { EXIT_USAGE = 64, EXIT_FAILED = 70 };
 
@@ -207,6 +208,7 @@ static pg_status read_arguments (plot_request *q, int argc, char **argv)
     if (strlen (q->directory) > PLOT_PATH / 2) PG_FAIL (PG_E_USAGE, "the path is too long");
     if (q->all && q->panels) PG_FAIL (PG_E_USAGE, "--step all and --steps exclude each other");
     cut_result (q->directory);
+    if (access (q->directory, F_OK) != 0) PG_FAIL (PG_E_FILE, "%s: No such file or folder", q->directory);
     snprintf (q->result, sizeof q->result, "%s/result.e", q->directory);
 done:
     return status;
