@@ -25,6 +25,7 @@
 #include "perigal/cells.h"
 #include "perigal/approx.h"
 #include "perigal/integration.h"
+#include "perigal/sums.h"
 #include "perigal/model.h"
 #include "perigal/stiffness.h"
 #include "perigal/force.h"

@@ -8,9 +8,6 @@
 
 typedef struct { const char *name, *unit; int components; } pg_field;
 
-/* Bonds that died since the last refresh: indices into state->alive. */
-typedef struct { size_t n, cap; size_t *bond; } pg_changes;
-
 /* What the boundary does: pairs of generalised force and displacement whose product is work, and sums per load. */
 typedef struct {
     size_t  npair;
@@ -68,6 +65,20 @@ typedef struct {
     pg_status (*sample)  (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress);
     /* NULL: none. value: NULL, or the root of E times the mean of (s* - s) C (s* - s) around each node, Pa (n). */
     pg_status (*estimate) (void *self, const double *d, pg_estimate *out, double *value);
+    /* Explicit methods: as balance at (t, d), but bonds at or over their limit at d are dead in it and in the caches from now on; they are appended
+     * to `broken`, ascending; the caller clears their alive bits and does not refresh. reference may be NULL. NULL entry: utilisation, refresh,
+     * balance do. */
+    pg_status (*march)   (void *self, double t, const double *d, double *residual, double *reference, pg_changes *broken);
+    /* Loads at t as nodal forces, N (ndof); supports are not among them. NULL: balance at d = 0 tells. */
+    pg_status (*external) (void *self, double t, double *P);
+    /* An upper bound, in closed form, of the largest eigenfrequency of K x = omega^2 M x, rad/s, intact bonds. NULL: from row_sums. */
+    pg_status (*bound)   (void *self, double *omega);
+    /* sum_j |K_ij| of every dof, N/m (Gershgorin; adaptive dynamic relaxation). NULL: from the matrix. */
+    pg_status (*row_sums) (void *self, double *sum);
+    /* Constants and choices in words, one line each, for plans and reports; returns 0 past the last line. NULL: nothing to say. */
+    int       (*describe) (const void *self, size_t line, char *text, size_t size);
+    /* NULL, or why this force does not go with that solver kind (a sentence for the user; static text). NULL entry: goes with all. */
+    const char *(*refuses) (const pg_problem *problem, const char *solver_kind);
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

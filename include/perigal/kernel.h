@@ -12,6 +12,8 @@ typedef struct {
     void (*value) (size_t n, const double *q, double *w, double *dw);
 } pg_kernel;
 
+/* int_0^1 w(q) q^n dq; the moment m_n of a horizon d (theory section 0) is d^(n+1) times this. */
+double           pg_kernel_moment (const pg_kernel *kernel, int n);
 const pg_kernel *pg_kernel_find  (const char *name);   /* NULL: unknown                                                  */
 const pg_kernel *pg_kernel_entry (size_t i);           /* NULL past the end                                              */
 const char      *pg_kernel_names (void);               /* "constant|quadratic|..."                                       */

@@ -7,6 +7,7 @@
 #include "perigal/cells.h"
 #include "perigal/approx.h"
 #include "perigal/integration.h"
+#include "perigal/sums.h"
 
 /* ---- loads and supports ------------------------------------------------------------------------------------------------ */
 typedef enum { PG_DISPLACEMENT, PG_VELOCITY, PG_TRACTION, PG_PRESSURE, PG_POINT_FORCE, PG_BODY_FORCE } pg_load_kind;
@@ -43,6 +44,9 @@ typedef struct {
     const pg_integration_type *integration;
     pg_consistency *consistency;                       /* integration: consistent; else NULL                             */
     char     force[32];
+    int      direct;                                   /* 1: bonds between points carry the force themselves (bond, later fcbm, gmpd, lps):
+                                                          rows[PG_NODES] come from `sums` without the own point, PG_POINTS and PG_FACETS are empty */
+    pg_sums *sums;                                     /* direct; else NULL                                              */
     double   silling;                                  /* Gs; 0: no stabilisation                                        */
     double   nitsche, penalty;                         /* factors of E / h, h the local spacing                          */
     pg_load *load;   size_t nload;
@@ -59,6 +63,8 @@ void      pg_problem_free  (pg_problem **problem);
 /* The bond set and the point of that set that own a bond (an index into state->alive). */
 void      pg_problem_locate (const pg_problem *problem, size_t bond, int *set, size_t *point);
 double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);   /* local, m                            */
+/* solver.kind: 1: the t of loads is the load factor, 0 to 1 (static, adr, relax); 0: seconds. */
+int       pg_kind_quasi_static (const char *kind);
 int       pg_problem_proportional (const pg_problem *problem);   /* every load is a constant pattern times t               */
 
 /* ---- state: one block, copyable, comparable, savable ---------------------------------------------------------------------- */

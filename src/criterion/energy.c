@@ -5,25 +5,6 @@
 #include "perigal/kernel.h"
 #include <math.h>
 
-enum { PANELS = 32, POINTS = 5 };
-
-/* int_0^1 w(q) q^n dq by five Gauss points on each of 32 panels (a spline's knot at 1/2 lies between panels) */
-static double moment (const pg_kernel *kernel, int n)
-{
-    static const double place[POINTS] = { -0.906179845938663992797627, -0.538469310105683091036314, 0,
-                                          0.538469310105683091036314, 0.906179845938663992797627 };
-    static const double weight[POINTS] = { 0.236926885056189087514264, 0.478628670499366468041292, 0.568888888888888888888889,
-                                           0.478628670499366468041292, 0.236926885056189087514264 };
-    double sum = 0;
-    for (int k = 0; k < PANELS; k++) {
-        double q[POINTS], w[POINTS];
-        for (int g = 0; g < POINTS; g++) q[g] = (k + (1 + place[g]) / 2) / PANELS;
-        kernel->value (POINTS, q, w, NULL);
-        for (int g = 0; g < POINTS; g++) sum += weight[g] / (2 * PANELS) * w[g] * pow (q[g], n);
-    }
-    return sum;
-}
-
 /* s0^2 = ratio * G0 */
 static double ratio (const pg_criterion_setting *s)
 {
@@ -33,7 +14,7 @@ static double ratio (const pg_criterion_setting *s)
     const pg_kernel *kernel = pg_kernel_find (s->kernel);
     if (!kernel) return 0;
     int n = order[s->mode];
-    return a[s->mode] * moment (kernel, n) / (moment (kernel, n + 1) * s->horizon * s->modulus);
+    return a[s->mode] * pg_kernel_moment (kernel, n) / (pg_kernel_moment (kernel, n + 1) * s->horizon * s->modulus);
 }
 
 double pg_stretch_from_energy (const pg_criterion_setting *setting, double G0)

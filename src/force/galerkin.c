@@ -175,8 +175,10 @@ done:
 }
 
 const pg_force_type pg_force_galerkin = {
-    "galerkin", "global stiffness from NOSB, PDDO or RKPM bonds (Cui 2022)",
-    galerkin_create, galerkin_free, galerkin_fields, galerkin_refresh, galerkin_balance, galerkin_mass, galerkin_operator, galerkin_matrix,
-    galerkin_basis, galerkin_impose, galerkin_utilisation, galerkin_ledger, galerkin_field, galerkin_probe, galerkin_overlap, galerkin_census,
-    galerkin_revision, galerkin_assemble, galerkin_mass_matrix, galerkin_sample, galerkin_estimate
+    .name = "galerkin", .summary = "global stiffness from NOSB, PDDO or RKPM bonds (Cui 2022)",
+    .create = galerkin_create, .free = galerkin_free, .fields = galerkin_fields, .refresh = galerkin_refresh, .balance = galerkin_balance,
+    .mass = galerkin_mass, .operator_ = galerkin_operator, .matrix = galerkin_matrix, .basis = galerkin_basis, .impose = galerkin_impose,
+    .utilisation = galerkin_utilisation, .ledger = galerkin_ledger, .field = galerkin_field, .probe = galerkin_probe,
+    .overlap = galerkin_overlap, .census = galerkin_census, .revision = galerkin_revision, .assemble = galerkin_assemble,
+    .mass_matrix = galerkin_mass_matrix, .sample = galerkin_sample, .estimate = galerkin_estimate
 };

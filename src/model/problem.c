@@ -181,6 +181,11 @@ void pg_problem_free (pg_problem **problem)
     *problem = NULL;
 }
 
+int pg_kind_quasi_static (const char *kind)
+{
+    return !kind || strcmp (kind, "static") == 0 || strcmp (kind, "adr") == 0 || strcmp (kind, "relax") == 0;
+}
+
 int pg_problem_proportional (const pg_problem *p)
 {
     for (size_t i = 0; i < p->nload; i++) {

@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * sums.h: direct sums over the bonds between points: constants of bond-based theory, partial volumes, calibration on a lattice, surface
+ * factors, and the loops that sum forces. Sources: Silling 2000; Silling and Askari 2005; Shen 2016; theory sections A1 to A4.
+ * Convention: pair force density f = c k(r) s e (N/m^6), C(xi) = (c k / r) e x e; k = kernel value, 1 at r = 0 for `constant`. */
+#ifndef PERIGAL_SUMS_H
+#define PERIGAL_SUMS_H
+#include "perigal/cloud.h"
+#include "perigal/kernel.h"
+#include "perigal/material.h"
+
+/* ---- constants (theory A1) ------------------------------------------------------------------------------------------------ */
+double pg_bond_poisson (pg_mode mode);                 /* the only Poisson ratio: 1/3 plane stress, 1/4 plane strain and solid, 0 line */
+/* c (N/m^6, with kernels of k(0) = 1) from Young's modulus E (Pa); thickness: 2D m, 1D cross-section m^2, 3D 1. */
+double pg_bond_modulus (pg_mode mode, const pg_kernel *kernel, double horizon, double E, double thickness);
+/* Fracture energy (J/m^2) when every bond across a plane has stretch s0. */
+double pg_bond_fracture_energy (pg_mode mode, const pg_kernel *kernel, double horizon, double thickness, double c, double s0);
+
+/* ---- how bonds are weighed (scene: method.*) -------------------------------------------------------------------------------- */
+typedef enum { PG_PARTIAL_NONE, PG_PARTIAL_LINEAR, PG_PARTIAL_OVERLAP } pg_partial;
+typedef enum { PG_SURFACE_NONE, PG_SURFACE_PRODUCT, PG_SURFACE_VOLUME } pg_surface;
+typedef enum { PG_EVALUATE_AUTO, PG_EVALUATE_STENCIL, PG_EVALUATE_LIST } pg_evaluation;
+typedef struct {
+    pg_mode    mode;
+    const pg_kernel *kernel;
+    double     horizon;                                /* m                                                              */
+    pg_partial partial;                                /* share beta of a neighbour's volume that counts                 */
+    pg_surface surface;                                /* g_ij: 1 | 1 / sqrt (v_i v_j) | 2 / (v_i + v_j), v = family volume / full one */
+    int        calibrate;                              /* 1: c_h = c S_d m_d / sum k r beta V, hydrostatic energy exact  */
+    int        finite;                                 /* 0: s = e.eta / r; 1: s = (|xi + eta| - r) / r, force along xi + eta */
+    pg_evaluation evaluation;                          /* never changes the physics                                      */
+} pg_sum_rule;
+
+/* ---- sites: a cloud as part of a lattice ------------------------------------------------------------------------------------ */
+typedef struct {
+    int    dim, count[3];                              /* sites per axis (1 beyond dim); count[0] = 0: not a lattice      */
+    double step[3];                                    /* m                                                              */
+    int   *site;                                       /* of each point, x fastest (n)                                   */
+    int   *point;                                      /* of each site, -1: none                                         */
+} pg_sites;
+/* Points that all lie on one lattice (to 1e-6 of a step) with equal steps; else count[0] = 0 and PG_OK. */
+pg_status pg_sites_build (pg_sites *out, const pg_cloud *cloud, const pg_lattice *lattice);
+void      pg_sites_clear (pg_sites *sites);
+
+/* ---- stencil: the bonds of a point inside a lattice --------------------------------------------------------------------------- */
+typedef struct {
+    int     dim;
+    size_t  n;                                         /* bonds, own point excluded                                      */
+    int    *offset;                                    /* in sites (n x 3), ordered as sites are (z, then y, then x): neighbours ascend */
+    double *xi;                                        /* m                                  (n x dim)                   */
+    double *r;                                         /* m                                  (n)                         */
+    double *beta;                                      /* partial volume, 1 inside           (n)                         */
+    double *weight;                                    /* k beta; of a kernel that vanishes at the horizon its mean over the cell's part in the ball times beta (n) */
+    double  cell;                                      /* product of the steps, m^dim                                    */
+} pg_stencil;
+/* none: r <= horizon (to 1e-9); linear: r < horizon + step / 2; overlap: cells that the ball meets. Exactly symmetric under offset -> -offset. */
+pg_status pg_stencil_build (pg_stencil *out, const pg_sum_rule *rule, int dim, const double *step);
+void      pg_stencil_clear (pg_stencil *stencil);
+double    pg_stencil_calibration (const pg_stencil *stencil, const pg_sum_rule *rule);          /* c_h / c                */
+/* Tangent (Voigt, nv x nv, Pa) of the infinite lattice with modulus c (N/m^6) and thickness as above. */
+void      pg_stencil_tangent (const pg_stencil *stencil, double c, double thickness, double *D);
+/* Energy per area (J/m^2) of all bonds across a lattice plane normal to `axis`, half way between points, each at stretch s0. */
+double    pg_stencil_fracture_energy (const pg_stencil *stencil, double c, double thickness, double s0, int axis);
+
+/* ---- sums: rule and cloud together -------------------------------------------------------------------------------------------- */
+typedef struct {
+    pg_sum_rule rule;
+    const pg_cloud *cloud;                             /* borrowed                                                       */
+    pg_sites   sites;
+    pg_stencil stencil;                                /* n = 0: not a lattice                                           */
+    double     calibration;                            /* c_h / c; without a lattice from the middle one of all points' sums */
+    double     toughness;                              /* lattice fracture energy over that asked for, mean of the axes, with c_h and s0 of theory; 1 without a lattice */
+    double     full;                                   /* sum of beta V of a whole family, m^3                           */
+    double    *share;                                  /* volume of a point over that of a lattice cell; NULL: all 1     (n) */
+    double    *family_volume;                          /* v: sum of beta V of the family as built over `full`; NULL: surface none (n) */
+} pg_sums;
+pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud, const pg_lattice *lattice /* or NULL */);
+void      pg_sums_free   (pg_sums **sums);
+/* Neighbours of every point, ascending, itself excluded; i sees j if and only if j sees i. */
+pg_status pg_sums_family (pg_family *out, const pg_sums *sums);
+/* Of the bonds of point i in `family`: xi (m x dim, m; on a lattice the stencil's own), weight k beta g_ij (m), beta (m); NULL: not wanted.
+ * The weight of i -> j and of j -> i are the same bits. */
+void      pg_sums_bonds  (const pg_sums *sums, const pg_family *family, size_t i, double *xi, double *weight, double *beta);
+
+/* ---- the loops ------------------------------------------------------------------------------------------------------------------ */
+typedef struct { size_t n, cap; size_t *bond; } pg_changes;            /* bonds that died: indices of alive bits, ascending */
+typedef struct {
+    const pg_sums   *sums;
+    const pg_family *family;                           /* from pg_sums_family; alive bits are counted by its entries      */
+    const double    *modulus;                          /* c_h of each point, N/m^6; between two of them 2 a b / (a + b)   */
+    const double    *limit;                            /* critical stretch of each point, the smaller one rules; NULL: nothing breaks */
+    const unsigned char *exempt;                       /* per point: bonds with such an end never break; NULL: none      */
+    int              threads;
+    const char      *instructions;                     /* "avx512", "avx2", "scalar"; NULL: the best that this machine has */
+} pg_sweep_setting;
+typedef struct pg_sweep pg_sweep;
+/* By stencil where the rule allows it (a lattice, one modulus, one limit, surface none or product), else by list. PG_E_USAGE: the rule asks for
+ * what cannot be, or the instructions are not there. What the setting points to is borrowed. */
+pg_status   pg_sweep_create (pg_sweep **out, const pg_sweep_setting *setting);
+void        pg_sweep_free   (pg_sweep **sweep);
+const char *pg_sweep_name   (const pg_sweep *sweep);   /* "stencil avx512", "list scalar", ...                           */
+void        pg_sweep_bytes  (const pg_sweep *sweep, double *per_bond, double *per_point);        /* of memory that a force sweep reads and writes */
+/* Brings the sweep's own bits in line with alive (entries of the family): all (changes NULL), or those that died. */
+void        pg_sweep_update (pg_sweep *sweep, const unsigned char *alive, const pg_changes *changes);
+/* f (n x dim, N) = force of the live bonds on every point at displacement u (n x dim, m): V_i L_i. Unless `broken` is NULL, bonds at or over their
+ * limit are dead before they are summed and stay so; they are appended ascending, both directions. The same bits for any number of threads. */
+pg_status   pg_sweep_force  (pg_sweep *sweep, const double *u, double *f, pg_changes *broken);
+/* Stored energy of the live bonds, J. */
+double      pg_sweep_energy (pg_sweep *sweep, const double *u);
+#endif
