@@ -42,7 +42,7 @@ typedef struct {
 } pg_formula;
 
 /* The loop over points: live bonds, degenerate rule, formula. */
-pg_status pg_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
+pg_status pg_moment_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
                     const unsigned char *alive, size_t count, const size_t *list, int threads);
 
 /* Chooses the basis (`order` or less), fills p and L or G; spacing h in m. Returns a PG_GRADE_... */

@@ -214,7 +214,7 @@ done:
     return status;
 }
 
-pg_status pg_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
+pg_status pg_moment_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
                     const unsigned char *alive, size_t count, const size_t *list, int threads)
 {
     pg_status status = PG_OK;
