@@ -134,6 +134,17 @@ static void print_cut (const pg_problem *q)
     printf ("\n");
 }
 
+static void print_layers (const pg_problem *q)
+{
+    static const char *const sides[] = {"left", "right", "bottom", "top", "back", "front"};
+    for (size_t i = 0; i < q->body.nlayer; i++) {
+        const pg_layer *l = &q->body.layer[i];
+        const pg_set *set = pg_sets_find (&q->sets, l->name);
+        printf ("  layer %-12s  %s, %d row%s of cells, %.6g m beyond %c = %.6g m, %zu points\n", l->name, sides[l->side], l->rows, l->rows > 1 ? "s" : "",
+                l->rows * q->cloud.step[l->side / 2], "xyz"[l->side / 2], l->face, set ? set->npoint : 0);
+    }
+}
+
 static void print_counts (const plan *p)
 {
     const pg_problem *q = p->problem;
@@ -144,7 +155,9 @@ static void print_counts (const plan *p)
     if (q->cloud.size) printf (" (locally from %.6g)", pg_cloud_finest (&q->cloud));
     size_t cut = 0;
     for (size_t c = 0; c < q->cells.n; c++) cut += q->cells.kind[c] == PG_CUT;
-    printf (" m\n  %-18s  %zu", "background cells", q->cells.n);
+    printf (" m\n");
+    print_layers (q);
+    printf ("  %-18s  %zu", "background cells", q->cells.n);
     if (cut) printf (", of which %zu are cut by the surface", cut);
     printf (", boundary facets %zu\n", q->cells.nfacet);
     if (q->cells.cut) print_cut (q);
