@@ -33,6 +33,7 @@ int sums_neighbour (const pg_sites *s, int site, const int *offset)
 
 typedef struct {
     const pg_sums *sums;
+    int   packed;                                      /* every site has a point                                         */
     int   reach[3];                                    /* largest offsets                                                */
     long *jump;                                        /* of each bond, in sites                                         */
     size_t *start;
@@ -55,6 +56,7 @@ static size_t visit (const walk *w, size_t i, int *node)
     const int *from = s->point + s->site[i];
     size_t n = 0;
     int in = inside (w, s->site[i]);
+    if (in && w->packed && !node) return t->n;
     for (size_t b = 0; b < t->n; b++) {
         int j = in ? from[w->jump[b]] : sums_neighbour (s, s->site[i], t->offset + 3*b);
         if (j < 0) continue;
@@ -70,8 +72,8 @@ static pg_status by_stencil (pg_family *out, const pg_sums *sums)
     pg_status status = PG_OK;
     const pg_stencil *t = &sums->stencil;
     const int *count = sums->sites.count;
-    walk w = {.sums = sums};
     size_t n = sums->cloud->n;
+    walk w = {.sums = sums, .packed = n == (size_t) count[0] * (size_t) count[1] * (size_t) count[2]};
     PG_ALLOC (w.jump, t->n);
     for (size_t b = 0; b < t->n; b++) {
         const int *o = t->offset + 3*b;
