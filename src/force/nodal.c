@@ -45,7 +45,8 @@ static pg_status make_supports (nodal *s)
     for (size_t i = 0; i < ndof; i++) {
         if (by[i] >= 0) continue;
         s->T.row[column] = (long) i, s->T.value[column] = 1;
-        s->T.start[++column] = column;
+        column++;
+        s->T.start[column] = column;
     }
 done:
     pg_free (by);
