@@ -37,7 +37,8 @@ typedef struct {
     int   *site;                                       /* of each point, x fastest (n)                                   */
     int   *point;                                      /* of each site, -1: none                                         */
 } pg_sites;
-/* Points that all lie on one lattice (to 1e-6 of a step) with equal steps; else count[0] = 0 and PG_OK. */
+/* Points that all lie on one lattice (to 1e-6 of a step) with equal steps; else count[0] = 0 and PG_OK. lattice NULL or of dim 0: the steps are
+ * found from the points (two coordinates at least along each axis, 8 sites a point at most). Spacings of their own must be equal. */
 pg_status pg_sites_build (pg_sites *out, const pg_cloud *cloud, const pg_lattice *lattice);
 void      pg_sites_clear (pg_sites *sites);
 
@@ -80,7 +81,7 @@ typedef struct {
 /* A cloud that is no lattice: horizon and spacing of a bond are the means of those of its ends (pg_cloud_ratio times the nominal ones), and its
  * weight carries the factor (horizon / mean horizon)^(dim + 1), so that one modulus serves all spacings. PG_E_USAGE: mode and dimension differ, no
  * horizon, overlap without a lattice, points that coincide, no bond at all. */
-pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud, const pg_lattice *lattice /* or NULL */);
+pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud, const pg_lattice *lattice /* or NULL, as above */);
 void      pg_sums_free   (pg_sums **sums);
 /* Neighbours of every point, ascending, itself excluded; i sees j if and only if j sees i. */
 pg_status pg_sums_family (pg_family *out, const pg_sums *sums);

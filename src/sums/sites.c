@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points of a cloud are sites of one lattice. */
+ * Which points of a cloud are sites of one lattice. Where no lattice is given (points of a file, nodes of a mesh) its steps are the smallest gaps
+ * between coordinates. */
 #include "sums_private.h"
 #include <limits.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double off_site = 1e-6;                   /* of a step                                                      */
+static const double sparse   = 8;                      /* sites per point beyond which a found lattice is none           */
 
 static void bounds (const pg_cloud *cloud, double *low, double *high)
 {
@@ -23,6 +26,35 @@ static int alike (const pg_cloud *cloud)
     for (size_t i = 0; cloud->size && i < cloud->n; i++)
         if (!(fabs (cloud->size[i] - cloud->h) <= off_site * cloud->h)) return 0;
     return 1;
+}
+
+static int ascending (const void *a, const void *b)
+{
+    double x = *(const double *) a, y = *(const double *) b;
+    return (x > y) - (x < y);
+}
+
+/* Steps from the points alone; found = 0: there is an axis without any, or the box has too many sites. */
+static pg_status find_steps (const pg_cloud *cloud, double *step, int *found)
+{
+    pg_status status = PG_OK;
+    double *x = NULL, all = 1;
+    *found = 0;
+    PG_ALLOC (x, cloud->n);
+    for (int k = 0; k < cloud->dim; k++) {
+        double gap = INFINITY;
+        for (size_t i = 0; i < cloud->n; i++) x[i] = cloud->x[i * (size_t) cloud->dim + (size_t) k];
+        qsort (x, cloud->n, sizeof *x, ascending);
+        double length = x[cloud->n - 1] - x[0];
+        for (size_t i = 1; i < cloud->n; i++) if (x[i] - x[i - 1] > 1e-3 * cloud->h) gap = fmin (gap, x[i] - x[i - 1]);
+        if (!isfinite (gap) || !isfinite (length)) goto done;
+        step[k] = length / floor (length / gap + 0.5);                 /* gaps are rounded, their sum is less so          */
+        all *= length / step[k] + 1;
+    }
+    *found = all < sparse * (double) cloud->n + 64;
+done:
+    pg_free (x);
+    return status;
 }
 
 /* Sites of the box about all points; 0: too many for this cloud, or no box. */
@@ -54,13 +86,16 @@ static int site_of (const pg_sites *s, const double *x, const double *low)
 pg_status pg_sites_build (pg_sites *out, const pg_cloud *cloud, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;
-    double low[3];
+    double low[3], step[3];
     size_t all = 0;
-    int fits = 0;
+    int fits = 0, found = 1, given = lattice && lattice->dim > 0;
     memset (out, 0, sizeof *out);
     out->dim = cloud->dim;
-    if (!lattice || lattice->dim != cloud->dim || cloud->n == 0 || cloud->n > INT_MAX || !alike (cloud)) goto done;
-    all = count_sites (out, cloud, lattice->step, low);
+    if ((given && lattice->dim != cloud->dim) || cloud->n == 0 || cloud->n > INT_MAX || !alike (cloud)) goto done;
+    if (given) memcpy (step, lattice->step, sizeof step);
+    else PG_TRY (find_steps (cloud, step, &found));
+    if (!found) goto done;
+    all = count_sites (out, cloud, step, low);
     if (all < cloud->n) goto done;
     PG_ALLOC (out->site, cloud->n);
     PG_ALLOC (out->point, all);

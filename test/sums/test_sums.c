@@ -50,6 +50,9 @@ static pg_sum_rule rule_of (int dim, const char *kernel, double horizon, pg_part
                           .partial = partial, .surface = surface, .calibrate = 1};
 }
 
+/* Of which no cloud here is made: for points that shall not be found on one */
+static pg_lattice no_lattice (int dim) { return (pg_lattice) {.dim = dim, .count = {9, 9, 9}, .step = {0.377, 0.377, 0.377}}; }
+
 /* ---- sites ------------------------------------------------------------------------------------------------------------------- */
 static void points_find_their_sites (void **state)
 {
@@ -82,7 +85,7 @@ static void points_off_a_lattice_are_none (void **state)
 {
     (void) state;
     const double step[3] = {1, 1, 1};
-    for (int k = 0; k < 5; k++) {
+    for (int k = 0; k < 4; k++) {
         body *b = lattice_body (2, 8, 6, 1, step, NULL);
         pg_sites s;
         if (k == 0) b->x[21] += 1e-5;                              /* moved                                              */
@@ -92,7 +95,7 @@ static void points_off_a_lattice_are_none (void **state)
             b->cloud.size = b->size;
         }
         if (k == 3) b->lattice.step[1] = 1.001;
-        check_ok (pg_sites_build (&s, &b->cloud, k == 4 ? NULL : &b->lattice));
+        check_ok (pg_sites_build (&s, &b->cloud, &b->lattice));
         assert_int_equal (s.count[0], 0);
         assert_null (s.site);
         free (b);
@@ -106,6 +109,39 @@ static void points_off_a_lattice_are_none (void **state)
     assert_int_equal (s.count[0], 8);
     pg_sites_clear (&s);
     free (b);
+}
+
+/* No lattice given: the same sites from the points alone; no lattice, no sites */
+static void lattices_are_found (void **state)
+{
+    (void) state;
+    static const int size[][4] = {{1, 9, 1, 1}, {2, 20, 20, 1}, {2, 30, 2, 1}, {3, 10, 7, 5}, {3, 12, 3, 2}};
+    const double step[3] = {0.1 / 3, 0.02, 0.05};
+    for (int k = 0; k < 5; k++) {
+        body *b = lattice_body (size[k][0], size[k][1], size[k][2], size[k][3], step, k == 1 ? ring : k == 3 ? holes : NULL);
+        pg_sites s, t;
+        for (size_t i = 0; i < b->cloud.n * (size_t) b->cloud.dim; i++) b->x[i] *= 1 + 3e-10 * (double) (i % 3);      /* as if read from a file */
+        check_ok (pg_sites_build (&s, &b->cloud, &b->lattice));
+        check_ok (pg_sites_build (&t, &b->cloud, NULL));
+        assert_memory_equal (s.count, t.count, sizeof s.count);
+        assert_memory_equal (s.site, t.site, b->cloud.n * sizeof *s.site);
+        for (int d = 0; d < b->cloud.dim; d++) check_relative (t.step[d], step[d], 1e-6);
+        pg_sites_clear (&s), pg_sites_clear (&t);
+        b->x[4] += 1e-3 * b->cloud.h;
+        check_ok (pg_sites_build (&t, &b->cloud, NULL));
+        assert_int_equal (t.count[0], 0);
+        free (b);
+    }
+    for (int dim = 1; dim <= 3; dim++) {                           /* scattered; in one row; few and far between          */
+        body *b = random_body (dim, 100, 0.1, 0);
+        pg_sites s;
+        check_ok (pg_sites_build (&s, &b->cloud, NULL));
+        assert_int_equal (s.count[0], 0);
+        for (size_t i = 0; i < b->cloud.n * (size_t) dim; i++) b->x[i] = dim == 1 ? 1000.0 * (double) i * (double) i : i % (size_t) dim ? 5 : (double) i;
+        check_ok (pg_sites_build (&s, &b->cloud, NULL));
+        assert_int_equal (s.count[0], 0);
+        free (b);
+    }
 }
 
 /* ---- families and weights ------------------------------------------------------------------------------------------------------ */
@@ -257,7 +293,8 @@ static void a_lattice_is_a_cloud (void **state)
                 body *b = lattice_body (dim, n, dim > 1 ? n : 1, dim > 2 ? n : 1, step, NULL);
                 pg_sums *s, *t;
                 check_ok (pg_sums_create (&s, &rule, &b->cloud, &b->lattice));
-                check_ok (pg_sums_create (&t, &rule, &b->cloud, NULL));
+                pg_lattice none = no_lattice (dim);
+                check_ok (pg_sums_create (&t, &rule, &b->cloud, &none));
                 assert_true (s->stencil.n > 0 && t->stencil.n == 0);
                 check_relative (t->calibration, s->calibration, dim == 3 ? 0.05 : 1e-9);
                 check_relative (t->full, s->full, dim == 3 ? 0.05 : 1e-9);
@@ -385,19 +422,20 @@ static void wrong_input_is_refused (void **state)
     (void) state;
     const double step[3] = {1, 1, 1};
     body *b = lattice_body (2, 8, 8, 1, step, NULL);
+    pg_lattice none = no_lattice (2);
     pg_sum_rule good = rule_of (2, "constant", 3, PG_PARTIAL_LINEAR, PG_SURFACE_PRODUCT), bad = good;
     pg_sums *s;
     bad.partial = PG_PARTIAL_OVERLAP;
-    check_fails (pg_sums_create (&s, &bad, &b->cloud, NULL), PG_E_USAGE);
+    check_fails (pg_sums_create (&s, &bad, &b->cloud, &none), PG_E_USAGE);
     check_contains (pg_last_error (), "linear");
     assert_null (s);
     bad = good, bad.mode = PG_SOLID;
     check_fails (pg_sums_create (&s, &bad, &b->cloud, &b->lattice), PG_E_USAGE);
     bad = good, bad.horizon = 0.4;
     check_fails (pg_sums_create (&s, &bad, &b->cloud, &b->lattice), PG_E_USAGE);
-    check_fails (pg_sums_create (&s, &bad, &b->cloud, NULL), PG_E_USAGE);
+    check_fails (pg_sums_create (&s, &bad, &b->cloud, &none), PG_E_USAGE);
     bad.horizon = -1;
-    check_fails (pg_sums_create (&s, &bad, &b->cloud, NULL), PG_E_USAGE);
+    check_fails (pg_sums_create (&s, &bad, &b->cloud, &none), PG_E_USAGE);
     b->x[31] = NAN;
     check_fails (pg_sums_create (&s, &good, &b->cloud, &b->lattice), PG_E_USAGE);
     memcpy (b->x + 30, b->x + 34, 2 * sizeof (double));
@@ -414,6 +452,7 @@ static void running_out_of_memory_leaves_nothing (void **state)
     (void) state;
     const double step[3] = {1, 1, 1};
     body *b = lattice_body (2, 8, 8, 1, step, NULL);
+    pg_lattice none = no_lattice (2);
     b->volume[3] *= 0.5;
     for (int how = 0; how < 2; how++) {
         pg_sum_rule rule = rule_of (2, "constant", 3, PG_PARTIAL_LINEAR, PG_SURFACE_PRODUCT);
@@ -422,7 +461,7 @@ static void running_out_of_memory_leaves_nothing (void **state)
             pg_sums *s = NULL;
             pg_family f = {0};
             pg_memory_fail_at (k);
-            pg_status status = pg_sums_create (&s, &rule, &b->cloud, how ? &b->lattice : NULL);
+            pg_status status = pg_sums_create (&s, &rule, &b->cloud, how ? &b->lattice : &none);
             if (status == PG_OK) status = pg_sums_family (&f, s);
             pg_memory_fail_at (0);
             pg_family_clear (&f);
@@ -442,6 +481,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (points_find_their_sites),
         cmocka_unit_test (points_off_a_lattice_are_none),
+        cmocka_unit_test (lattices_are_found),
         cmocka_unit_test (families_of_lattices_match_brute_force),
         cmocka_unit_test (the_numbering_of_points_changes_nothing),
         cmocka_unit_test (families_of_irregular_clouds_match_brute_force),
