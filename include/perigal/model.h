@@ -92,6 +92,7 @@ enum { PG_BYTES_PROGRAM, PG_BYTES_POINTS, PG_BYTES_BONDS, PG_BYTES_SHAPES, PG_BY
        PG_BYTES_VECTORS, PG_BYTES_RESULTS, PG_BYTES_COUNT };
 typedef struct {
     int    dim, nodal, breaks, pictures;               /* nodal: the points of evaluation are the nodes; breaks: with a criterion */
+    int    direct, listed, explicit_;                  /* pg_problem.direct; its points are no lattice; no linear systems at all */
     int    counted, analysed;                          /* 1: the counts, the factor are exact, not estimates             */
     char   linear[16];                                 /* what will solve: "cholmod", "umfpack", "cg" (no matrix at all)  */
     int    automatic, dynamic;                         /* solver.linear: auto; newmark                                   */
@@ -108,6 +109,9 @@ typedef struct {
     double matrix_entries, factor_entries, factor_flops;                              /* upper triangle; of L            */
     double bytes[PG_BYTES_COUNT], peak;
 } pg_forecast;
+/* 1: systems of so many unknowns on a lattice are cheaper by conjugate gradients with the sweep than by a factor: by stored rates, bonds of
+ * direct forces summed by a stencil. */
+int         pg_direct_large (int dim, double dofs);
 /* From the scene alone: points and bonds by counting on its lattice (a coarser one when it has more than 4e6 cells), the factor by the
  * law of nested dissection. PG_E_SCENE: the scene has faults, which were added to it. */
 pg_status pg_forecast_scene   (pg_forecast *out, const pg_scene *scene);

@@ -35,6 +35,18 @@ static int acts (const pg_problem *p, const pg_load *load, int k, double end)
     return 0;
 }
 
+/* What the force itself says of its constants. */
+static void print_direct (const pg_problem *p)
+{
+    const pg_force_type *force = pg_force_find (p->force);
+    void *self = NULL;
+    char text[400];
+    printf ("  %-18s  force %s, %s kernel\n", "method", p->force, p->approx.kernel->name);
+    if (!force || !force->describe || force->create (&self, p) != PG_OK) return;
+    for (size_t line = 0; force->describe (self, line, text, sizeof text); line++) printf ("  %-18s  %s\n", line ? "" : "bonds", text);
+    force->free (&self);
+}
+
 /* What is legal, yet hardly meant. */
 void plan_doubts (const pg_problem *p, const pg_solver_options *o, FILE *to)
 {
@@ -47,6 +59,7 @@ void plan_doubts (const pg_problem *p, const pg_solver_options *o, FILE *to)
         }
         if (!held) fprintf (to, "  warning: nothing holds the body along %c: no displacement along %c is prescribed anywhere\n", "xyz"[k], "xyz"[k]);
     }
+    for (size_t k = 0; k < p->nnote; k++) fprintf (to, "  %s\n", p->note[k]);
     if (!moving) fprintf (to, "  warning: nothing loads the body: every prescribed displacement is zero, and there is no force\n");
     if (p->part.mesh.n && p->part.quality < 0.1)
         fprintf (to, "  warning: element %ld of the mesh is nearly flat: quality %.2g (scaled Jacobian; better than 0.1 is wanted)\n",
@@ -58,8 +71,9 @@ void plan_print (const pg_problem *p, const pg_solver_options *o)
     printf ("%s\n", p->title);
     printf ("  %zu points, spacing %.6g m, %zu evaluation points, %zu bonds, %zu unknowns\n", p->cloud.n, p->cloud.h,
             p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n, p->first_bond[PG_BOND_SETS], p->cloud.n * (size_t) p->dim);
-    printf ("  %s (%s basis, %s kernel, horizon %.6g m), %s integration\n", p->approx.type->name, p->approx.order == 2 ? "quadratic" : "linear",
-            p->approx.kernel->name, p->approx.horizon, p->integration->name);
+    if (p->direct) printf ("  force %s (%s kernel, horizon %.6g m)\n", p->force, p->approx.kernel->name, p->approx.horizon);
+    else printf ("  %s (%s basis, %s kernel, horizon %.6g m), %s integration\n", p->approx.type->name, p->approx.order == 2 ? "quadratic" : "linear",
+                 p->approx.kernel->name, p->approx.horizon, p->integration->name);
     describe (p, 9);
     if (p->eroded) printf ("  %zu points lie on a pre-crack and lose their bonds to both sides\n", p->eroded);
     printf ("  solver %s%s\n", o->kind, stepping (o));
@@ -209,7 +223,7 @@ static void print_times (const plan *p)
         if (t.courant > 0) printf (", c_p dt / h = %.4g", t.courant);
         printf ("\n");
     }
-    if (t.omega > 0) printf ("  %-18s  stable up to %.3g s (%s)\n", "explicit steps", t.dt,
+    if (t.omega > 0 && (!p->problem->direct || t.measured)) printf ("  %-18s  stable up to %.3g s (%s)\n", "explicit steps", t.dt,
                              t.measured == 2 ? p->from : t.measured ? "2 / largest frequency" : "estimate; measured by --solve");
 }
 
@@ -273,8 +287,9 @@ void plan_print_long (const plan *p)
     size_t nskip = plan_skips (p, skip, 8);
     print_counts (p);
     plan_mesh (q);
-    printf ("  %-18s  %s, %s basis, %s kernel, %s integration\n", "method", q->approx.type->name, q->approx.order == 2 ? "quadratic" : "linear",
-            q->approx.kernel->name, q->integration->name);
+    if (q->direct) print_direct (q);
+    else printf ("  %-18s  %s, %s basis, %s kernel, %s integration\n", "method", q->approx.type->name, q->approx.order == 2 ? "quadratic" : "linear",
+                 q->approx.kernel->name, q->integration->name);
     describe (q, 19);
     print_materials (q);
     printf ("  %-18s  %s%s\n", "solver", p->options->kind, stepping (p->options));

@@ -28,8 +28,8 @@ static void say_toughness (const bond *b, char *text, size_t size)
 {
     const pg_sums *s = b->problem->sums;
     if (s->stencil.n) snprintf (text, size, "a straight crack along the lattice consumes %.5g of theory's energy at the same stretch%s", s->toughness,
-                                s->rule.calibrate ? "; critical stretch and fracture energy belong together with that" : "");
-    else snprintf (text, size, "critical stretch and fracture energy belong together as in theory: not measured on points without a lattice");
+                                s->rule.calibrate ? ": allowed for where one follows from the other" : "");
+    else snprintf (text, size, "critical stretch and fracture energy are those of theory: points without a lattice are not calibrated for them");
 }
 
 static int say_step (const bond *b, char *text, size_t size)

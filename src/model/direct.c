@@ -11,6 +11,9 @@ int pg_direct_force (const pg_scene *scene)
     return force && strcmp (force, "galerkin") != 0;
 }
 
+/* Sweeps of a stencil run at 2e9 bonds a second, factors at 2e10 operations: the two cross at about these sizes (design section 4). */
+int pg_direct_large (int dim, double dofs) { return dofs > (dim == 3 ? 3e4 : dim == 2 ? 4e5 : INFINITY); }
+
 static int is (const pg_scene *scene, const char *key, const char *word)
 {
     const char *text = pg_scene_text (scene, "%s", key);

@@ -54,7 +54,8 @@ static void dissect (const pg_forecast *f, double *entries, double *flops)
 static void choose_linear (pg_forecast *f)
 {
     if (!f->automatic) return;
-    int none = f->dynamic ? f->weight <= 9 * f->spacing * f->spacing : f->dim == 3 && f->points * 3 > 200000;
+    int none = f->explicit_ ? 1 : f->dynamic ? f->weight <= 9 * f->spacing * f->spacing : f->direct && !f->listed ? pg_direct_large (f->dim, f->points * f->dim)
+             : f->dim == 3 && f->points * 3 > 200000;
     strcpy (f->linear, none ? "cg" : "cholmod");
 }
 
@@ -80,12 +81,13 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows                        */
     b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;                  /* galerkin      */
     b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;                                        /* pg_consistency                 */
+    if (f->direct) b[PG_BYTES_SHAPES] = (f->listed ? 12 : 0.25) * all + 100 * n + (factors ? 0 : 8 * f->dofs);       /* pg_sweep, bond */
     b[PG_BYTES_BREAKING] = (2 + 17 + factors) * all;                                       /* states; breaker; factored      */
     b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
     b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
     b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
     if (factors)
-        b[PG_BYTES_MATRIX] = 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
+        b[PG_BYTES_MATRIX] = f->direct ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0) : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
     if (factors) {
         double entries = lu ? 2 * f->factor_entries : f->factor_entries;
         b[PG_BYTES_FACTOR] = 8 * 1.45 * entries + 16 * f->matrix_entries + (lu ? 48 * f->matrix_entries : 0);
@@ -133,7 +135,8 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
     f->points = (double) p->cloud.n, f->cells = (double) p->cells.n;
     f->evaluation = (double) p->rows[PG_POINTS].n, f->facets = (double) p->rows[PG_FACETS].n;
     for (int s = 0; s < PG_BOND_SETS; s++) f->bonds[s] = (double) (p->first_bond[s + 1] - p->first_bond[s]);
-    f->pairs = shared * f->points;
+    f->pairs = p->direct ? 0.5 * f->bonds[PG_NODES] + f->points : shared * f->points;
+    f->direct = p->direct, f->listed = p->sums && p->sums->stencil.n == 0;
     f->summed = p->consistency ? (double) (p->consistency->family.start[p->consistency->family.n] + p->consistency->face.family.start[p->consistency->face.n]) : 0;
     f->horizon = p->approx.horizon, f->spacing = p->cloud.h;
     f->counted = 1;
@@ -211,7 +214,7 @@ pg_status pg_forecast_afford (const pg_forecast *f, double available)
                                        in_words (word, sizeof word, f->bytes[i]));
     double fit = pg_forecast_fitting (f, available);
     if (isfinite (fit)) snprintf (text, sizeof text, "; a spacing of %.3g m or more fits", fit);
-    if (!f->nodal) {
+    if (!f->nodal && !f->direct) {
         pg_forecast g = *f;
         double share = f->bonds[PG_POINTS] > 0 ? f->bonds[PG_NODES] / f->points * f->evaluation / f->bonds[PG_POINTS] : 1;
         g.nodal = 1, g.evaluation = 0, g.bonds[PG_POINTS] = 0, g.pairs *= fmin (1, 0.55 * share), g.factor_entries *= 0.55, g.analysed = 1;

@@ -2,13 +2,14 @@
  * Private to the forecast: counting on a lattice (tally.c), the factor by nested dissection (forecast.c). */
 #ifndef PG_FORECAST_PRIVATE_H
 #define PG_FORECAST_PRIVATE_H
-#include "perigal/model.h"
+#include "model.h"
 
 typedef struct {
     const pg_lattice *lattice;
     const pg_approx  *approx;
     int centred, nodal, order;                         /* points at cell centres; Gauss points per direction             */
     const pg_body *body;                               /* cells are cut by its surface; NULL: staircase                  */
+    const pg_stencil *direct;                          /* forces straight between points: the bonds of one; NULL: not so */
 } pg_counting;
 typedef struct {                                       /* of the lattice given                                           */
     double cells, points, open[6];                     /* open faces -x +x -y +y -z +z                                   */

@@ -56,6 +56,7 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
     double alpha = pg_scene_number (scene, "solver.alpha"), beta = pg_scene_number (scene, "solver.beta"), dt = pg_scene_number (scene, "solver.dt");
     f->automatic = !linear || is (linear, "auto");
     f->dynamic = kind && !is (kind, "static");
+    f->explicit_ = is (kind, "verlet") || is (kind, "central") || is (kind, "adr") || is (kind, "relax");
     snprintf (f->linear, sizeof f->linear, "%s", f->automatic ? "cholmod" : is (linear, "pcg") ? "cg" : linear);
     if (!(beta > 0)) beta = (1 - alpha) * (1 - alpha) / 4;
     f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
@@ -64,8 +65,9 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
 static void read_method (pg_forecast *f, const pg_scene *scene)
 {
     const pg_integration_type *integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
-    f->nodal = integration && integration->at_nodes;
-    f->summed = integration && integration->consistent;  /* until bonds are counted                                        */
+    f->direct = pg_direct_force (scene);
+    f->nodal = f->direct || (integration && integration->at_nodes);
+    f->summed = !f->direct && integration && integration->consistent;  /* until bonds are counted                          */
     f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
     f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients                                   */
     f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
@@ -107,7 +109,7 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
     f->points = t->points * more, f->cells = t->cells * more, f->evaluation = t->evaluation * more, f->pairs = t->pairs * more;
     f->bonds[PG_NODES] = t->node_bonds * more, f->bonds[PG_POINTS] = t->point_bonds * more;
     add_cut (f, t, finer);
-    f->facets = facets * per;
+    f->facets = f->direct ? 0 : facets * per;
     widen (f, how->approx->horizon / lattice_step (l));
     f->bonds[PG_FACETS] = f->facets * 0.6 * t->node_bonds / t->points;
     f->width = 0.93 * radius_of (f->dim, t->coupled);
@@ -117,12 +119,22 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
     for (int k = 0; k < f->dim; k++) f->edge[k] *= fill * finer;
 }
 
+/* The bonds of one point of forces straight between points; moved points have those of whole volumes and a falling rim. */
+static pg_status make_direct (pg_stencil *out, const pg_scene *scene, const pg_lattice *l, const pg_approx *a)
+{
+    pg_mode mode = l->dim == 1 ? PG_LINE : l->dim == 3 ? PG_SOLID : is (pg_scene_text (scene, "plane"), "strain") ? PG_PLANE_STRAIN : PG_PLANE_STRESS;
+    pg_sum_rule rule;
+    pg_direct_rule (&rule, scene, mode, a, lattice_step (l), !(pg_scene_number (scene, "perturb.amount") > 0));
+    return pg_stencil_build (out, &rule, l->dim, l->step);
+}
+
 static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_body *body)
 {
     pg_status status = PG_OK;
     pg_lattice l = { 0 };
     pg_approx a;
     pg_tally t;
+    pg_stencil direct = { 0 };
     double spacing = pg_scene_number (scene, "spacing"), cells = 1, offset[3] = { 0 }, finer = 1;
     int shifted = pg_scene_vector (scene, 3, offset, "lattice_offset") > 0;
     if (!(spacing > 0)) PG_FAIL (PG_E_SCENE, "there is no spacing");
@@ -135,12 +147,14 @@ static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_
     f->horizon = a.horizon, a.horizon *= finer;            /* as many spacings on the coarser lattice                      */
     for (int k = 0; k < 3; k++) f->step[k] = l.step[k] / finer;
     int order = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : a.order + 1;
+    if (f->direct) PG_TRY (make_direct (&direct, scene, &l, &a));
     pg_counting how = { &l, &a, is (pg_scene_text (scene, "lattice"), "cells"), f->nodal, order,
-                        is (pg_scene_text (scene, "cells"), "cut") ? body : NULL };
+                        is (pg_scene_text (scene, "cells"), "cut") ? body : NULL, f->direct ? &direct : NULL };
     PG_TRY (pg_tally_count (&t, &how));
     if (!(t.points > 0)) PG_FAIL (PG_E_SCENE, "no point lies in the body");
     take_tally (f, scene, &t, &how, &l, finer);
 done:
+    pg_stencil_clear (&direct);
     pg_lattice_clear (&l);
     return status;
 }
@@ -163,7 +177,7 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
     for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, usual, xi, w);
     for (size_t k = 0; k < n; k++) all += count[pg_element_face ((pg_element) m->kind[element[k]], side[k], node)];
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);      /* a side each      */
-    f->facets = fmin (facets, all), f->bonds[PG_FACETS] = f->facets * 0.6 * each;
+    f->facets = f->direct ? 0 : fmin (facets, all), f->bonds[PG_FACETS] = f->facets * 0.6 * each;
 done:
     pg_free (element), pg_free (side);
     return status;
@@ -187,12 +201,14 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
     size_t stride = c.n / 20000 + 1, n = 0, dim = (size_t) c.dim;
     PG_ALLOC (centre, (c.n / stride + 1) * dim);
     for (size_t i = 0; i < c.n; i += stride) memcpy (centre + n++ * dim, c.x + i * dim, dim * sizeof *centre);
+    if (f->direct && !is (pg_scene_text (scene, "method.partial_volume"), "none")) a.horizon += 0.5 * c.h;      /* volumes fall over one spacing */
     PG_TRY (pg_family_build (&near, &c, n, centre, a.horizon, a.shape, a.kernel->closed));
     PG_TRY (pg_family_build (&far, &c, n / 8 + 1, centre, 1.6 * a.horizon, a.shape, a.kernel->closed));
     f->spacing = c.h, f->horizon = a.horizon, f->points = (double) c.n;
     if (!part.mesh.n) f->nodal = 1;
     f->bonds[PG_NODES] = (double) near.start[n] / (double) n * f->points;
     double coupled = (double) far.start[far.n] / (double) far.n, side = 1;
+    if (f->direct) coupled = f->bonds[PG_NODES] / f->points, f->bonds[PG_NODES] -= f->points;
     f->pairs = 0.5 * f->points * (coupled + 1);
     f->width = 0.93 * radius_of (f->dim, coupled);
     for (int k = 0; k < 3; k++) f->step[k] = c.h, f->edge[k] = k < f->dim ? (c.high[k] - c.low[k]) / c.h + 1 : 1, side *= f->edge[k];

@@ -119,12 +119,23 @@ done:
     return status;
 }
 
+static pg_status copy_stencil (stencil *out, const pg_stencil *from)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (out->step, from->n);
+    for (size_t b = 0; b < from->n; b++) memcpy (out->step[b], from->offset + 3 * b, sizeof out->step[b]);
+    out->n = from->n;
+done:
+    return status;
+}
+
 static pg_status make_stencils (counter *c)
 {
     pg_status status = PG_OK;
     double x[5], w[5], at[3] = { 0, 0, 0 };
     int order = c->how->order;
-    PG_TRY (make_stencil (&c->node, c, at));
+    if (c->how->direct) PG_TRY (copy_stencil (&c->node, c->how->direct));
+    else PG_TRY (make_stencil (&c->node, c, at));
     c->ngauss = c->how->nodal ? 0 : 1;
     for (int k = 0; k < c->l->dim; k++) c->ngauss *= (size_t) order;
     PG_ALLOC (c->gauss, c->ngauss);
@@ -164,6 +175,7 @@ static size_t mark_seen (counter *c, const int *node, const int *from, const ste
 static size_t coupled (counter *c, const int *node)
 {
     size_t n = 0;
+    if (c->how->direct) return seen (c, node, &c->node) + 1;
     c->epoch++;
     for (size_t g = 0; g < c->ngauss; g++)
         for (size_t k = 0; k < c->gauss[g].n; k++) {
@@ -203,7 +215,7 @@ static size_t stride_for (double items, double visits_each)
 
 static void count_nodes (counter *c, pg_tally *t)
 {
-    double work = c->how->nodal ? (double) c->node.n * (double) c->node.n : 0, bonds = 0, pairs = 0;
+    double work = c->how->direct ? (double) c->node.n : c->how->nodal ? (double) c->node.n * (double) c->node.n : 0, bonds = 0, pairs = 0;
     for (size_t g = 0; g < c->ngauss; g++) work += (double) c->gauss[g].n * (double) c->gauss[g].n;
     size_t stride = stride_for (t->points, (double) c->node.n), pair_stride = stride_for (t->points, work), i = 0, nbond = 0, npair = 0;
     int at[3];
@@ -253,7 +265,7 @@ static int wide_open (const counter *c, pg_tally *t)
     double each = fmin (t->points, ball * box);
     t->evaluation = c->how->nodal ? 0 : points * t->cells;
     t->node_bonds = t->points * each, t->point_bonds = t->evaluation * each;
-    t->coupled = fmin (t->points, ball * box * (1 << c->l->dim));
+    t->coupled = fmin (t->points, ball * box * (c->how->direct ? 1 : 1 << c->l->dim));
     t->pairs = 0.5 * t->points * (t->coupled + 1);
     t->sampled = 1;
     return 1;
