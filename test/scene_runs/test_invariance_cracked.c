@@ -70,6 +70,7 @@ static const kind kinds[] = {
     { "rkpm consistent, stress", "approximation: rkpm, integration: consistent", "criterion: principal_stress, tensile_strength", 1 },
     { "nosb nodal, stretch", "approximation: nosb, integration: nodal, essential: transformation",
         "criterion: stretch, critical_stretch", 0 },
+    { "bond", "force: bond", "criterion: stretch, critical_stretch", 0 },
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
