@@ -52,6 +52,8 @@ static void advance (const pg_scene *scene, const pg_problem *problem)
     pg_status status = pg_solver_options_read (&options, problem, scene);
     FUZZ_EXPECT (answered (status));
     options.max_iterations = options.max_iterations < 20 ? options.max_iterations : 20;      /* break rounds take their time */
+    if (options.marching) options.end = 0, options.time_steps = 50;
+    if (options.staged && !options.hold && options.stages > 50) options.stages = 50;
     if (status == PG_OK) {
         FUZZ_EXPECT (honest (status = pg_solver_create (&solver, problem, &options)) || answered (status));
         if (status == PG_OK) status = pg_state_create (&state, problem, pg_solver_components (solver));
