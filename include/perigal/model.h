@@ -20,6 +20,7 @@ typedef struct {
     pg_expression *ramp;                               /* factor of t; NULL: from the table                              */
     double        *table; size_t ntable;               /* ntable x 2: t (s), factor                                      */
     int            proportional;                       /* factor is t itself                                             */
+    double         depth;                              /* m: tractions, pressure of direct forces act on points so far below the surface; 0: the outermost */
     pg_essential   essential;                          /* how PG_DISPLACEMENT and PG_VELOCITY are imposed                */
 } pg_load;
 /* Component k of the load at place x and time t (s; static: load factor). */

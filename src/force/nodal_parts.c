@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points carry a load: the force on a facet goes to the points nearest to its centre, in equal parts to those equally near; a total force to
- * all points of its set alike; a force per volume to every point by its volume. */
+ * Which points carry a load: the force on a facet goes to the points nearest to its centre, in equal parts to those equally near, or to those of
+ * the column below it, by their volumes; a total force to all points of its set alike; a force per volume to every point by its volume. */
 #include "nodal.h"
 #include <math.h>
 #include <stdlib.h>
@@ -68,26 +68,110 @@ static int member (const int *list, size_t n, int value)
     return n && bsearch (&value, list, n, sizeof *list, ascending) != NULL;
 }
 
+/* ---- columns below facets -------------------------------------------------------------------------------------------------------- */
+typedef struct {
+    const pg_load *load;
+    pg_family near;                                    /* points around the middle of the column below each facet of its set */
+    unsigned char *below;                              /* of them: in the column                                         */
+    int *columns;                                      /* that hold each point  (n)                                      */
+} columns;
+
+/* Is point j below the facet, not deeper than `depth`, and within half a step of its middle along every axis? */
+static int is_below (const nodal *s, size_t facet, int j, double depth)
+{
+    const pg_cloud *c = &s->problem->cloud;
+    size_t dim = (size_t) s->dim;
+    const double *normal = s->problem->cells.normal + facet * dim, *centre = s->problem->cells.facet_centre + facet * dim, *x = c->x + (size_t) j * dim;
+    double down = 0;
+    for (size_t k = 0; k < dim; k++) down -= (x[k] - centre[k]) * normal[k];
+    if (down > depth + 1e-6 * c->h || down < -0.5 * c->h) return 0;        /* perturbed points may lie above                     */
+    for (size_t k = 0; k < dim; k++)
+        if (fabs (x[k] - centre[k] + down * normal[k]) > (0.5 + 1e-6) * c->step[k]) return 0;
+    return 1;
+}
+
+/* The force at one quadrature point of a facet, to its column; *found 0: nothing is there. A point between columns belongs to each by a part. */
+static pg_status column_parts (gathering *g, const nodal *s, const columns *c, int facet, nodal_part part, int *found)
+{
+    pg_status status = PG_OK;
+    const double *volume = s->problem->cloud.volume;
+    const int *at = bsearch (&facet, c->load->set->facet, c->load->set->nfacet, sizeof facet, ascending);
+    double sum = 0, weight = part.weight;
+    size_t first = c->near.start[at - c->load->set->facet], last = c->near.start[at - c->load->set->facet + 1];
+    for (size_t k = first; k < last; k++) if (c->below[k]) sum += volume[c->near.node[k]] / c->columns[c->near.node[k]];
+    *found = sum > 0;
+    for (size_t k = first; k < last && sum > 0; k++) {
+        int j = c->near.node[k];
+        if (!c->below[k]) continue;
+        part.weight = weight * (volume[j] / c->columns[j] / sum);
+        PG_TRY (add_part (g, j, part));
+    }
+done:
+    return status;
+}
+
+static void clear_columns (columns *c)
+{
+    pg_family_clear (&c->near);
+    pg_free (c->below), pg_free (c->columns);
+}
+
+static pg_status find_columns (columns *out, const nodal *s, const pg_load *load)
+{
+    pg_status status = PG_OK;
+    const pg_cells *cells = &s->problem->cells;
+    const pg_cloud *c = &s->problem->cloud;
+    size_t dim = (size_t) s->dim;
+    double *middle = NULL, wide = 0;
+    PG_ALLOC (middle, load->set->nfacet * dim);
+    for (size_t i = 0; i < load->set->nfacet * dim; i++) {
+        size_t facet = (size_t) load->set->facet[i / dim] * dim + i % dim;
+        middle[i] = cells->facet_centre[facet] - 0.5 * load->depth * cells->normal[facet];
+    }
+    for (size_t k = 0; k < dim; k++) wide += c->step[k] * c->step[k];
+    double reach = (0.5 * load->depth + c->h + sqrt (wide)) * c->h / pg_cloud_finest (c);
+    PG_TRY (pg_family_build (&out->near, c, load->set->nfacet, middle, reach, PG_RADIAL, 1));
+    out->load = load;
+    PG_ALLOC (out->below, out->near.start[out->near.n]);
+    PG_ALLOC (out->columns, c->n);
+    for (size_t i = 0; i < out->near.n; i++)
+        for (size_t k = out->near.start[i]; k < out->near.start[i + 1]; k++) {
+            out->below[k] = (unsigned char) is_below (s, (size_t) load->set->facet[i], out->near.node[k], load->depth);
+            out->columns[out->near.node[k]] += out->below[k];
+        }
+done:
+    pg_free (middle);
+    return status;
+}
+
 static pg_status facet_parts (gathering *g, const nodal *s, const pg_load *load)
 {
     pg_status status = PG_OK;
     const pg_cells *cells = &s->problem->cells;
     pg_quadrature q = { 0 };
     pg_nearest *grid = NULL;
+    columns below = { 0 };
     size_t dim = (size_t) s->dim, count = 0;
-    int found[MOST_TIES], of = -1;
+    int found[MOST_TIES], of = -1, shared;
     PG_TRY (pg_nearest_create (&grid, s->dim, s->n, s->problem->cloud.x));
     PG_TRY (pg_facet_points (&q, cells, 2));
+    if (load->depth > 0) PG_TRY (find_columns (&below, s, load));
     for (size_t i = 0; i < q.n; i++) {
         if (!member (load->set->facet, load->set->nfacet, q.cell[i])) continue;
-        if (of != q.cell[i]) count = nearest_points (s, grid, cells->facet_centre + (size_t) q.cell[i] * dim, found), of = q.cell[i];
-        nodal_part part = { .weight = q.weight[i] / (double) count };
+        nodal_part part = { .weight = q.weight[i] };
         memcpy (part.x, q.x + i * dim, dim * sizeof *part.x);
         memcpy (part.normal, q.normal + i * dim, dim * sizeof *part.normal);
+        if (load->depth > 0) {
+            PG_TRY (column_parts (g, s, &below, q.cell[i], part, &shared));
+            if (shared) continue;
+        }
+        if (of != q.cell[i]) count = nearest_points (s, grid, cells->facet_centre + (size_t) q.cell[i] * dim, found), of = q.cell[i];
+        part.weight /= (double) count;
         for (size_t k = 0; k < count; k++) PG_TRY (add_part (g, found[k], part));
     }
 done:
     pg_nearest_free (&grid);
+    clear_columns (&below);
     pg_quadrature_clear (&q);
     return status;
 }

@@ -168,6 +168,17 @@ static void check_place (const pg_problem *problem, const pg_load *load, const p
     else if (!on_facets && set->npoint == 0) pg_scene_fault (scene, path, "the set %s holds no point", set->name);
 }
 
+/* Shape functions carry a traction on the surface itself. */
+static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i)
+{
+    char path[64];
+    snprintf (path, sizeof path, "boundary[%zu].depth", i);
+    if (!pg_scene_given (scene, "%s", path)) return;
+    load->depth = pg_scene_length (scene, problem->cloud.h, "%s", path);
+    if (load->kind != PG_TRACTION && load->kind != PG_PRESSURE) pg_scene_fault (scene, path, "is for a traction or a pressure: others act on the points of their set");
+    else if (!problem->direct) pg_scene_fault (scene, path, "is for force: bond; shape functions carry a traction on the surface itself");
+}
+
 static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i, int is_static, double duration)
 {
     pg_status status = PG_OK;
@@ -188,6 +199,7 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
                     : load->set->nfacet > 0 && !nosb ? PG_ESSENTIAL_NITSCHE : PG_ESSENTIAL_TRANSFORMATION;
     if (problem->direct) load->essential = PG_ESSENTIAL_TRANSFORMATION;
     check_place (problem, load, scene, i);
+    read_depth (problem, load, scene, i);
     if (pg_scene_given (scene, "boundary[%zu].table", i)) PG_TRY (read_table (load, scene, i));
     else PG_TRY (read_ramp (load, scene, i, is_static, duration));
     PG_TRY (read_values (load, scene, i, kinds[k].key, kinds[k].unit));
