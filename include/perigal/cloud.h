@@ -16,12 +16,24 @@ typedef struct {
     double *vertex; size_t nvertex;                    /* polygon, prism: nvertex x 2, m                                 */
     struct pg_solid *solid;                            /* mesh: its elements and their surface; stairs: cells of a lattice */
 } pg_shape;
+/* A fictitious boundary layer: a box over the whole width of one face of the bounding box of the shapes, outside of it. */
+typedef struct {
+    char   name[32];                                   /* of the layer, of its set and of its surface                    */
+    int    side;                                       /* left right bottom top back front: 2 axis + (high side)         */
+    int    rows;                                       /* lattice cells across it                                        */
+    double face;                                       /* coordinate of that face, m                                     */
+} pg_layer;
 typedef struct {
     int dim;
-    pg_shape *shape; size_t n;
-    double low[3], high[3];                            /* bounding box of the added shapes, m                            */
+    pg_shape *shape; size_t n;                         /* those of `body`, then a box for each layer                     */
+    double low[3], high[3];                            /* bounding box of the added shapes and layers, m                 */
+    pg_layer *layer; size_t nlayer;
 } pg_body;
-pg_status pg_body_read  (pg_body *out, const pg_scene *scene);      /* body: list of {add|subtract: {...}}               */
+/* body: list of {add|subtract: {...}}; layers: list of {name, side, thickness}, which become whole cells of the lattice that pg_lattice_fit
+ * lays over the body without them at the scene's spacing: round (thickness / step) of them. */
+pg_status pg_body_read  (pg_body *out, const pg_scene *scene);
+/* The layer that x lies in, beyond the face by more than `margin` (m); -1: none. */
+long      pg_body_layer (const pg_body *body, const double *x, double margin);
 void      pg_body_clear (pg_body *body);
 int       pg_body_inside (const pg_body *body, const double *x, double tolerance);   /* shapes in order, tolerance in m  */
 /* Index of the shape whose surface is nearest to x, and its distance (m). */
@@ -37,7 +49,7 @@ const char *pg_shape_side    (const pg_shape *shape, size_t k);
 /* ---- background lattice --------------------------------------------------------------------------------------------- */
 typedef struct {
     int    dim, count[3];                              /* cells per axis (1 beyond dim)                                  */
-    double origin[3], high[3], step[3];                /* m: corners of the lattice; step = L / round (L / spacing)      */
+    double origin[3], high[3], step[3];                /* m: corners of the lattice; step = L / round (L / spacing), L without layers */
     unsigned char *in;                                 /* count[0]*count[1]*count[2], x fastest: cell centre in the body  */
 } pg_lattice;
 pg_status pg_lattice_fit   (pg_lattice *out, const pg_body *body, double spacing, const double *offset /* fraction of a step or NULL */);

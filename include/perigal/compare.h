@@ -62,10 +62,14 @@ typedef struct {
     int     column[9];
     double *x;                                         /* m                                      (n x dim)               */
     double *value;                                     /* m, Pa; NAN: missing                    (n x ncolumn)           */
+    int     relative;                                  /* 1: displacements are relative to that of `datum`               */
+    double  datum[3];                                  /* m                                                              */
 } pg_line;
 /* unit: length of columns that name none, m; factor: of the values; along: coordinates that are no column, m. Faults: PG_E_FILE with line. */
 pg_status pg_line_read  (pg_line *out, const char *path, int dim, double unit, double factor, const double *along /* 3 */);
 void      pg_line_clear (pg_line *line);
+/* What a result has in its rows: u (n x 3, m), stress (n x 6, Pa); the displacement of a table's datum is taken off. */
+pg_status pg_line_sample (const pg_line *line, const pg_sampler *value, double *u, double *stress);
 const char *pg_column_name (int column);               /* "u_x" ... "s_zx"                                               */
 const char *pg_column_unit (int column);               /* "m", "Pa"                                                      */
 

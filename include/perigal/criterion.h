@@ -32,6 +32,8 @@ typedef struct {                                       /* what the criterion may
     const char *kernel;
     const char *material;                              /* its name in the scene; NULL: limits of `failure` only          */
     int     graded;                                    /* 1: spacings differ, the horizon is that of the nominal one     */
+    double  toughness;                                 /* energy of a unit of crack over that of theory at the same stretch; 0: not known, 1 */
+    const char *stretch;                               /* "linear", "finite": as the force measures it; NULL: as failure.stretch says */
 } pg_criterion_setting;
 
 struct pg_criterion_type {

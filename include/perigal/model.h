@@ -24,6 +24,10 @@ typedef struct {
 } pg_load;
 /* Component k of the load at place x and time t (s; static: load factor). */
 double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t);
+/* 1: the load is one pattern in space times a factor of t alone; pg_load_value is then the product of these two, bit by bit. */
+int    pg_load_separates (const pg_load *load);
+double pg_load_factor  (const pg_load *load, double t);
+double pg_load_pattern (const pg_load *load, int k, int dim, const double *x);
 pg_place pg_place_of (int dim, const double *x, double t);             /* what expressions see at x                      */
 int    pg_load_prescribes (const pg_load *load);       /* displacement or velocity                                       */
 
@@ -57,7 +61,9 @@ typedef struct {
     double  *spacing[PG_BOND_SETS];                    /* local spacing of every point (its nearest node's), m; NULL: h  */
     unsigned char *exempt[PG_BOND_SETS];               /* per point: its bonds never break (failure: exclude, never)     */
     size_t   eroded;                                   /* points that lie on a pre-crack                                 */
+    char     note[16][224];  size_t nnote;             /* what the plan says: keys without meaning, constants taken otherwise */
 } pg_problem;
+void      pg_problem_note  (pg_problem *problem, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
 pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads);
 void      pg_problem_free  (pg_problem **problem);
 /* The bond set and the point of that set that own a bond (an index into state->alive). */

@@ -5,16 +5,24 @@
 #define PERIGAL_SOLVE_H
 #include "perigal/force.h"
 
-typedef enum { PG_BREAK_WORST, PG_BREAK_FRACTION, PG_BREAK_ALL } pg_break;
+/* PASSING (adr, relax): at any iteration once the stage's load has come to act, not only in balance. */
+typedef enum { PG_BREAK_WORST, PG_BREAK_FRACTION, PG_BREAK_ALL, PG_BREAK_PASSING } pg_break;
 typedef struct {
-    char     kind[16], linear[16];                     /* static | newmark; auto | cholmod | umfpack | pcg               */
+    char     kind[16], linear[16];                     /* an entry of src/solve; auto | cholmod | umfpack | pcg          */
+    int      quasi_static;                             /* static, adr, relax: t of loads is the load factor              */
+    int      marching;                                 /* verlet, central: explicit time steps                           */
+    int      staged;                                   /* adr, relax: stages of the load, each relaxed                   */
     int      event;                                    /* static: event stepping                                         */
     int      consistent;                               /* newmark: consistent mass, not lumped                           */
     pg_break break_mode;
     double   break_fraction, tie;                      /* bonds within this share of the worst break with it             */
     double   tolerance;                                /* of the residual, relative to the reference force               */
-    long     steps, max_iterations, max_events;
-    double   dt, end, alpha, beta, gamma, rayleigh_mass, rayleigh_stiffness;      /* newmark: s, s, 1, 1, 1, 1/s, s          */
+    long     steps, max_iterations, max_events;        /* steps: calls of pg_solver_step up to the end; marching: 0 until the solver is made */
+    long     time_steps, rows;                         /* marching: 0: by dt and end; most rows of history.csv, 0: by the number of time steps */
+    long     stages;                                   /* staged                                                         */
+    int      hold;                                     /* staged: 1: each stage until balanced, 0: one iteration a stage  */
+    double   imbalance, damping;                       /* staged: accepted residual over reference; relax: kg/(m^3 s), 0: by Rayleigh's quotient */
+    double   dt, end, alpha, beta, gamma, rayleigh_mass, rayleigh_stiffness;      /* s (marching, relax: 0: from the largest frequency), s, 1, 1, 1, 1/s, s */
     double   stop_stiffness;                           /* event stepping: stop when the secant stiffness fell below it   */
     const pg_set *stop_set; double stop_damage;        /* stop when a point of the set is damaged so far; NULL: never    */
     long     levels;                                   /* reports at k / levels of the load (or of the end time)         */
@@ -22,7 +30,7 @@ typedef struct {
 pg_status pg_solver_options_read (pg_solver_options *out, const pg_problem *problem, const pg_scene *scene);
 
 /* ---- what happened ---------------------------------------------------------------------------------------------------- */
-typedef struct { size_t bond; int set; char kind; double utilisation, place[3]; } pg_broken;
+typedef struct { size_t bond; int set; char kind; double utilisation, place[3], time; } pg_broken;     /* time: s; quasi-static: load factor; utilisation NAN: not known */
 
 enum { PG_SECONDS_SHAPE, PG_SECONDS_ANALYSE, PG_SECONDS_FACTOR, PG_SECONDS_SOLVE, PG_SECONDS_FORCE, PG_SECONDS_BREAK,
        PG_SECONDS_ASSEMBLE, PG_SECONDS_UPDATE, PG_SECONDS_COUNT };    /* update: shapes and rows that breaks have touched */
@@ -31,7 +39,7 @@ typedef struct {                                       /* of the run so far     
     long   steps, events, iterations, broken, bonds_over_limit, factorizations, updates, solves;
     size_t cg_iterations, degenerate_points, isolated_nodes, fragments;
     double utilisation_max, residual_max, overlap_max; /* over accepted steps; m                                         */
-    double energy_strain, energy_kinetic, energy_external, energy_dissipated;     /* J                                    */
+    double energy_strain, energy_kinetic, energy_external, energy_damping, energy_dissipated;      /* J; dissipated: by breaking, the rest */
     double seconds[PG_SECONDS_COUNT];
     double factor_entries, factor_flops;
     char   ordering[16], solver[16];
@@ -42,7 +50,7 @@ void pg_report_warn (pg_report *report, const char *format, ...) __attribute__ (
 void pg_report_skip (pg_report *report, double seconds, const char *what, const char *why);
 
 typedef struct {                                       /* of one step: a user level, a time step or an event             */
-    long   number, iterations;                         /* break-and-solve rounds                                         */
+    long   number, iterations;                         /* break-and-solve rounds; time steps; iterations of relaxation   */
     int    level;                                      /* 1: a level at which the user wants fields                      */
     int    event;                                      /* 1: bonds broke at this load (event stepping)                   */
     double stamp;                                      /* never falls: the time; the step number under event stepping    */
@@ -68,6 +76,10 @@ void      pg_solver_watch  (pg_solver *solver, pg_watch watch, void *context);
 /* Writes or reads back all that later steps depend on, state included, also in the middle of a step. A solver read back goes on bit
  * by bit as the written one would have (same machine, threads and libraries). */
 pg_status pg_solver_keep   (pg_solver *solver, pg_state *state, const pg_keeper *keeper);
+/* The options as the solver goes by them: what was left to it (dt, end, steps, stages) is filled in. */
+const pg_solver_options *pg_solver_settled (const pg_solver *solver);
+/* Marching and relax: the largest stable time step by the force's bound, s, and what it comes from; else NAN. */
+double    pg_solver_stable (const pg_solver *solver, const char **from);
 /* Largest eigenfrequency sqrt (K x / M x), rad/s, from below within about 1 %: explicit steps are stable up to 2 / omega. */
 pg_status pg_solver_fastest (pg_solver *solver, const pg_state *state, double *omega);
 int       pg_solver_done   (const pg_solver *solver, const pg_state *state);

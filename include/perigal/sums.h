@@ -37,7 +37,8 @@ typedef struct {
     int   *site;                                       /* of each point, x fastest (n)                                   */
     int   *point;                                      /* of each site, -1: none                                         */
 } pg_sites;
-/* Points that all lie on one lattice (to 1e-6 of a step) with equal steps; else count[0] = 0 and PG_OK. */
+/* Points that all lie on one lattice (to 1e-6 of a step) with equal steps; else count[0] = 0 and PG_OK. lattice NULL or of dim 0: the steps are
+ * found from the points (two coordinates at least along each axis, 8 sites a point at most). Spacings of their own must be equal. */
 pg_status pg_sites_build (pg_sites *out, const pg_cloud *cloud, const pg_lattice *lattice);
 void      pg_sites_clear (pg_sites *sites);
 
@@ -52,7 +53,9 @@ typedef struct {
     double *weight;                                    /* k beta; of a kernel that vanishes at the horizon its mean over the cell's part in the ball times beta (n) */
     double  cell;                                      /* product of the steps, m^dim                                    */
 } pg_stencil;
-/* none: r <= horizon (to 1e-9); linear: r < horizon + step / 2; overlap: cells that the ball meets. Exactly symmetric under offset -> -offset. */
+/* none: r <= horizon (to 1e-9); linear: r < horizon + step / 2 (rectangular cells: root mean square of the steps, weighed by the bond's direction);
+ * overlap: cells that the ball meets. Beyond the horizon the kernel's formula goes on; bonds of no weight are left out (a kernel that vanishes at the
+ * horizon has none there). Exactly symmetric under offset -> -offset and, for equal steps, permuted axes. PG_E_USAGE: no neighbour, mode, horizon. */
 pg_status pg_stencil_build (pg_stencil *out, const pg_sum_rule *rule, int dim, const double *step);
 void      pg_stencil_clear (pg_stencil *stencil);
 double    pg_stencil_calibration (const pg_stencil *stencil, const pg_sum_rule *rule);          /* c_h / c                */
@@ -66,14 +69,19 @@ typedef struct {
     pg_sum_rule rule;
     const pg_cloud *cloud;                             /* borrowed                                                       */
     pg_sites   sites;
+    int        ordered;                                /* points are numbered as their sites are                         */
     pg_stencil stencil;                                /* n = 0: not a lattice                                           */
-    double     calibration;                            /* c_h / c; without a lattice from the middle one of all points' sums */
+    double     calibration;                            /* c_h / c (1 where the rule says no); without a lattice from the median over the points
+                                                          whose family is whole: family volume at least 0.8 of the largest */
     double     toughness;                              /* lattice fracture energy over that asked for, mean of the axes, with c_h and s0 of theory; 1 without a lattice */
-    double     full;                                   /* sum of beta V of a whole family, m^3                           */
+    double     full;                                   /* sum of beta V of a whole family, m^3; without a lattice that median */
     double    *share;                                  /* volume of a point over that of a lattice cell; NULL: all 1     (n) */
     double    *family_volume;                          /* v: sum of beta V of the family as built over `full`; NULL: surface none (n) */
 } pg_sums;
-pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud, const pg_lattice *lattice /* or NULL */);
+/* A cloud that is no lattice: horizon and spacing of a bond are the means of those of its ends (pg_cloud_ratio times the nominal ones), and its
+ * weight carries the factor (horizon / mean horizon)^(dim + 1), so that one modulus serves all spacings. PG_E_USAGE: mode and dimension differ, no
+ * horizon, overlap without a lattice, points that coincide, no bond at all. */
+pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud, const pg_lattice *lattice /* or NULL, as above */);
 void      pg_sums_free   (pg_sums **sums);
 /* Neighbours of every point, ascending, itself excluded; i sees j if and only if j sees i. */
 pg_status pg_sums_family (pg_family *out, const pg_sums *sums);

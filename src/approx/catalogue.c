@@ -30,6 +30,14 @@ static int is (const pg_scene *scene, const char *key, const char *value)
     return text && strcmp (text, value) == 0;
 }
 
+/* Forces straight between points: the values at points are the unknowns, no shape functions; other defaults. */
+static void use_direct (pg_approx *a, const pg_scene *scene, double spacing)
+{
+    a->type = pg_approx_find ("nosb"), a->use_volume = 1, a->order = 1, a->shape = PG_RADIAL, a->projected = 0;
+    if (!pg_scene_given (scene, "method.kernel")) a->kernel = pg_kernel_find ("constant");
+    if (!pg_scene_given (scene, "method.horizon")) a->horizon = 3.015 * spacing;
+}
+
 pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing)
 {
     pg_status status = PG_OK;
@@ -44,6 +52,7 @@ pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing)
     if (is (scene, "method.weights", "volume")) a.use_volume = 1;
     a.projected = is (scene, "method.degenerate", "projected");
     a.horizon = pg_scene_length (scene, spacing, "method.horizon");
+    if (!is (scene, "method.force", "galerkin")) use_direct (&a, scene, spacing);
     if (!(a.horizon >= spacing * (1 - 1e-9))) {
         pg_scene_fault (scene, "method.horizon", "is %.4g spacings: a point would see no neighbour (use 1.5 or more)",
                         a.horizon / spacing);

@@ -1,12 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A clock and a parallel loop over disjoint ranges (plain threads: the OpenMP limit that CHOLMOD needs does not bind them). */
+ * A clock and a parallel loop over disjoint ranges (plain threads: the OpenMP limit that CHOLMOD needs does not bind them). The threads are
+ * started once and wait, awake for some microseconds, then asleep. Loops inside loops stay on their thread; a loop that finds the threads
+ * busy with another's starts some of its own. */
 #include "perigal/base.h"
 #include <pthread.h>
+#include <stdatomic.h>
 #include <time.h>
+#include <unistd.h>
 
-enum { MAX_THREADS = 64 };
+enum { MAX_THREADS = 64, LOOKS = 1000 };               /* LOOKS at a word, some ten ns each, before going to sleep       */
 
 typedef struct { pg_work work; void *context; size_t first, last; int thread; } job;
+typedef struct {
+    _Alignas (64) atomic_uint turn;                    /* goes up: there is a job                                        */
+    job       job;
+    int       quit;
+    pthread_t id;
+    pthread_mutex_t lock;
+    pthread_cond_t  wake;
+} helper;
+
+static helper helpers[MAX_THREADS];                    /* 1 .. started - 1                                               */
+static int started = 1, looks = -1;
+static pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER, end_lock = PTHREAD_MUTEX_INITIALIZER;      /* gate: held during a loop */
+static pthread_cond_t end = PTHREAD_COND_INITIALIZER;
+static atomic_int unfinished;
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static _Thread_local int inside;                       /* this thread runs a part of a loop                              */
 
 double pg_seconds (void)
 {
@@ -18,8 +38,112 @@ double pg_seconds (void)
 static void *run (void *p)
 {
     job *j = p;
+    int outer = inside;
+    inside = 1;
     j->work (j->context, j->first, j->last, j->thread);
+    inside = outer;
     return NULL;
+}
+
+static void pause_briefly (void)
+{
+#ifdef __x86_64__
+    __builtin_ia32_pause ();
+#endif
+}
+
+/* ---- threads that wait --------------------------------------------------------------------------------------------------- */
+static void *serve (void *p)
+{
+    helper *h = p;
+    unsigned seen = 0;
+    for (;;) {
+        for (int k = 0; k < looks && atomic_load_explicit (&h->turn, memory_order_acquire) == seen; k++) pause_briefly ();
+        pthread_mutex_lock (&h->lock);
+        while (atomic_load (&h->turn) == seen) pthread_cond_wait (&h->wake, &h->lock);
+        pthread_mutex_unlock (&h->lock);
+        if (h->quit) return NULL;
+        seen++;
+        run (&h->job);
+        if (atomic_fetch_sub (&unfinished, 1) > 1) continue;
+        pthread_mutex_lock (&end_lock);
+        pthread_cond_signal (&end);
+        pthread_mutex_unlock (&end_lock);
+    }
+}
+
+static void give_turn (helper *h)
+{
+    pthread_mutex_lock (&h->lock);
+    atomic_fetch_add (&h->turn, 1);
+    pthread_mutex_unlock (&h->lock);
+    pthread_cond_signal (&h->wake);
+}
+
+static void forget (void)                              /* a child of fork has none of these threads                      */
+{
+    started = 1;
+    inside = 0;
+    pthread_mutex_init (&gate, NULL);
+    pthread_mutex_init (&end_lock, NULL);
+    pthread_cond_init (&end, NULL);
+}
+
+static void prepare (void)
+{
+    pthread_atfork (NULL, NULL, forget);
+    looks = sysconf (_SC_NPROCESSORS_ONLN) > 1 ? LOOKS : 0;
+}
+
+/* At exit and where the library is unloaded: no thread may be left in its code. */
+__attribute__ ((destructor)) static void dismiss (void)
+{
+    if (pthread_mutex_trylock (&gate) != 0) return;    /* exit from within a loop                                        */
+    for (int k = 1; k < started; k++) helpers[k].quit = 1, give_turn (&helpers[k]);
+    for (int k = 1; k < started; k++) pthread_join (helpers[k].id, NULL);
+    started = 1;
+    pthread_mutex_unlock (&gate);
+}
+
+static void hire (int threads)
+{
+    pthread_once (&once, prepare);
+    for (; started < threads; started++) {
+        helper *h = &helpers[started];
+        atomic_store (&h->turn, 0);
+        h->quit = 0;
+        pthread_mutex_init (&h->lock, NULL);
+        pthread_cond_init (&h->wake, NULL);
+        if (pthread_create (&h->id, NULL, serve, h) != 0) return;
+    }
+}
+
+static void run_with_helpers (int threads, job *jobs)
+{
+    hire (threads);
+    int given = threads < started ? threads : started;
+    atomic_store (&unfinished, given - 1);
+    for (int k = 1; k < given; k++) helpers[k].job = jobs[k], give_turn (&helpers[k]);
+    run (&jobs[0]);
+    for (int k = given; k < threads; k++) run (&jobs[k]);
+    for (int k = 0; k < looks && atomic_load_explicit (&unfinished, memory_order_acquire) > 0; k++) pause_briefly ();
+    if (atomic_load (&unfinished) == 0) return;
+    pthread_mutex_lock (&end_lock);
+    while (atomic_load (&unfinished) > 0) pthread_cond_wait (&end, &end_lock);
+    pthread_mutex_unlock (&end_lock);
+}
+
+/* ---- loops ------------------------------------------------------------------------------------------------------------------ */
+static void run_with_own (int threads, job *jobs)
+{
+    pthread_t id[MAX_THREADS];
+    int running[MAX_THREADS] = { 0 };
+    for (int k = 1; k < threads; k++) running[k] = pthread_create (&id[k], NULL, run, &jobs[k]) == 0;
+    run (&jobs[0]);
+    for (int k = 1; k < threads; k++) {
+        if (running[k]) pthread_join (id[k], NULL);
+        else run (&jobs[k]);
+    }
 }
 
 void pg_parallel (int threads, size_t n, pg_work work, void *context) { pg_parallel_heavy (n < 64 ? 1 : threads, n, work, context); }
@@ -30,14 +154,13 @@ void pg_parallel_heavy (int threads, size_t n, pg_work work, void *context)
     if (threads < 1) threads = 1;
     if ((size_t) threads > n) threads = n > 0 ? (int) n : 1;
     job jobs[MAX_THREADS];
-    pthread_t id[MAX_THREADS];
-    int started[MAX_THREADS] = { 0 };
     for (int k = 0; k < threads; k++)
         jobs[k] = (job) { work, context, n * (size_t) k / (size_t) threads, n * (size_t) (k + 1) / (size_t) threads, k };
-    for (int k = 1; k < threads; k++) started[k] = pthread_create (&id[k], NULL, run, &jobs[k]) == 0;
-    run (&jobs[0]);
-    for (int k = 1; k < threads; k++) {
-        if (started[k]) pthread_join (id[k], NULL);
-        else run (&jobs[k]);
-    }
+    if (threads == 1) work (context, 0, n, 0);         /* loops within may use threads                                   */
+    else if (inside) {
+        for (int k = 0; k < threads; k++) run (&jobs[k]);
+    } else if (pthread_mutex_trylock (&gate) == 0) {
+        run_with_helpers (threads, jobs);
+        pthread_mutex_unlock (&gate);
+    } else run_with_own (threads, jobs);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Named sets: the sides of the bounding box and all, then those of the scene; each with its parts NAME.left, NAME.top, ... */
+ * Named sets: the sides of the bounding box and all, layers, then those of the scene; each with its parts NAME.left, NAME.top, ... */
 #include "mark.h"
 #include <math.h>
 #include <stdio.h>
@@ -61,6 +61,32 @@ static pg_status add_predefined (builder *b)
         pg_marks_fill (&b->marks, 0);
         pg_marks_boundary (&b->marks, name);
         PG_TRY (add_set (b, name));
+    }
+done:
+    return status;
+}
+
+/* Points of a layer: of nodes those beyond the body's face (half a step tells them from its own, also where they are moved). */
+static pg_status add_layers (builder *b)
+{
+    pg_status status = PG_OK;
+    const pg_cells *c = b->marks.cells;
+    const pg_body *body = b->marks.body;
+    const char *kind = pg_scene_text (b->scene, "lattice");
+    size_t dim = (size_t) c->dim;
+    for (size_t i = 0; i < body->nlayer; i++) {
+        double step = b->marks.cloud->step[body->layer[i].side / 2], margin = kind && !strcmp (kind, "cells") ? 0 : 0.5 * step;
+        pg_marks_fill (&b->marks, 0);
+        for (size_t p = 0; p < b->marks.cloud->n; p++)
+            b->marks.point[p] = pg_body_layer (body, b->marks.cloud->x + p * dim, margin) == (long) i;
+        for (size_t f = 0; f < c->nfacet; f++) {
+            double middle[3] = {0};
+            size_t first = c->start[c->facet_cell[f]], last = c->start[c->facet_cell[f] + 1];
+            for (size_t k = first; k < last; k++)
+                for (size_t a = 0; a < dim; a++) middle[a] += c->x[k * dim + a] / (double) (last - first);
+            b->marks.facet[f] = pg_body_layer (body, middle, 0) == (long) i;
+        }
+        PG_TRY (add_set (b, body->layer[i].name));
     }
 done:
     return status;
@@ -216,6 +242,7 @@ static pg_status add_named (builder *b, const char *name)
     int where = pg_scene_given (s, "sets.%s.where", name), known = 1;
     const char *why = strlen (name) > 56 ? "at most 56 letters in the name of a set" : !boundary && !angle && !where ? "give boundary, angle or where"
                     : pg_sets_find (b->out, name) ? b->marks.cells->ngiven ? "this set is always there or comes with the mesh, choose another name"
+                    : b->marks.body->nlayer ? "this set is always there or is a layer, choose another name"
                     : "this set is always there, choose another name" : NULL;
     snprintf (at, sizeof at, "sets.%.80s", name);
     if (why) {
@@ -241,6 +268,7 @@ pg_status pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *bod
     memset (out, 0, sizeof *out);
     PG_TRY (pg_marks_create (&b.marks, body, lattice, cloud, cells));
     PG_TRY (add_predefined (&b));
+    PG_TRY (add_layers (&b));
     for (size_t i = 0; (name = pg_scene_name (scene, i, "sets")); i++) PG_TRY (add_named (&b, name));
     PG_TRY (pg_scene_verdict (scene));
 done:

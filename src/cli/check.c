@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal check: everything a run checks before its first step, and what the scene amounts to. */
 #include "cli.h"
+#include <math.h>
 
 int pg_cli_check (int argc, char **argv)
 {
@@ -11,6 +12,9 @@ int pg_cli_check (int argc, char **argv)
     pg_solver_options o;
     pg_forecast f;
     first_break first = { 0 };
+    pg_solver *solver = NULL;
+    const char *from = "";
+    double stable = NAN;
     int wrong = command_parse (&c, argc, argv);
     if (wrong >= 0) return wrong;
     PG_TRY (command_scene (&c, &scene));
@@ -19,13 +23,19 @@ int pg_cli_check (int argc, char **argv)
     PG_TRY (pg_solver_options_read (&o, p, scene));
     PG_TRY (pg_result_check (scene, p));
     PG_TRY (afford_problem (&c, &f, p, 1));
+    if (o.marching || (o.staged && o.dt > 0)) {
+        PG_TRY (pg_solver_create (&solver, p, &o));
+        o = *pg_solver_settled (solver);
+        stable = pg_solver_stable (solver, &from);
+    }
     if (c.solve) PG_TRY (first_break_find (&first, p, &o));
-    plan all = { p, &o, &f, afford_available (&c), &first };
+    plan all = { p, &o, &f, afford_available (&c), &first, stable, from };
     if (c.json) PG_TRY (plan_print_json (&all));
     else printf ("%s: the scene is right\n", c.scene);
     if (!c.quiet && !c.json) plan_print_long (&all);
 done:
     if (status != PG_OK) command_complain (status, pg_last_error ());
+    pg_solver_free (&solver);
     pg_problem_free (&p);
     pg_scene_free (&scene);
     return exit_code (status);

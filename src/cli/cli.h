@@ -51,7 +51,7 @@ pg_status first_break_find (first_break *out, const pg_problem *p, const pg_solv
 
 /* plan.c */
 void plan_print      (const pg_problem *p, const pg_solver_options *o);
-typedef struct { const pg_problem *problem; const pg_solver_options *options; const pg_forecast *forecast; double available; const first_break *first; } plan;
+typedef struct { const pg_problem *problem; const pg_solver_options *options; const pg_forecast *forecast; double available; const first_break *first; double stable; const char *from; } plan;   /* stable: of an explicit method, s; else NAN */
 typedef struct { double lambda, mu, pressure, shear; } plan_waves;       /* Pa, m/s; 0: none                              */
 plan_waves plan_waves_of (const pg_material *m, int dim);
 typedef struct { double omega, dt, courant; int measured; } plan_times;  /* rad/s, s stable, c_p dt / h of newmark        */
@@ -61,5 +61,6 @@ void plan_print_long (const plan *p);
 pg_status plan_print_json (const plan *p);
 void plan_mesh       (const pg_problem *p);                               /* plan_mesh.c: nothing without a mesh           */
 void plan_mesh_json  (pg_json *j, const pg_problem *p);
+void plan_settled     (const pg_solver *solver);                          /* what the solver has settled: time steps, stages */
 void plan_doubts     (const pg_problem *p, const pg_solver_options *o, FILE *to);
 #endif

@@ -89,7 +89,7 @@ static pg_status line_picture (const comparison *c, const compare_request *q, co
     PG_ALLOC (x, l->n);
     PG_ALLOC (u, 9 * l->n);
     PG_ALLOC (y, 18 * l->n);
-    PG_TRY (c->own->sampler.sample (c->own->sampler.context, l->n, l->x, u, u + 3 * l->n));
+    PG_TRY (pg_line_sample (l, &c->own->sampler, u, u + 3 * l->n));
     for (size_t i = 0; i < l->n; i++) x[i] = l->x[i * (size_t) l->dim + (size_t) axis];
     for (size_t k = 0; k < l->ncolumn; k++) {
         int column = l->column[k], wanted = q->column >= 0 && q->column < 9 ? column == q->column : (column >= 3) == stresses;

@@ -59,7 +59,7 @@ pg_status first_break_find (first_break *b, const pg_problem *p, const pg_solver
     pg_solver *solver = NULL;
     pg_state *state = NULL;
     pg_step step;
-    b->asked = 1, b->is_static = strcmp (o->kind, "static") == 0, b->proportional = pg_problem_proportional (p);
+    b->asked = 1, b->is_static = o->quasi_static && !o->staged, b->proportional = pg_problem_proportional (p);
     once.event = 0, once.steps = once.levels = 1, once.stop_set = NULL;
     PG_ALLOC (none, p->nmaterial);
     bare.criterion = none;

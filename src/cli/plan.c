@@ -6,7 +6,8 @@
 
 static const char *stepping (const pg_solver_options *o)
 {
-    return strcmp (o->kind, "static") ? "" : o->event ? ", event stepping" : ", fixed load steps";
+    if (o->staged) return o->hold ? ", each stage held until balanced" : ", one iteration a stage";
+    return !o->quasi_static ? "" : o->event ? ", event stepping" : ", fixed load steps";
 }
 
 /* The criterion; of several materials one line each, with their points. */
@@ -37,7 +38,7 @@ static int acts (const pg_problem *p, const pg_load *load, int k, double end)
 /* What is legal, yet hardly meant. */
 void plan_doubts (const pg_problem *p, const pg_solver_options *o, FILE *to)
 {
-    int is_static = strcmp (o->kind, "static") == 0, moving = 0;
+    int is_static = o->quasi_static, moving = 0;
     for (int k = 0; k < p->dim; k++) {
         int held = !is_static;
         for (size_t l = 0; l < p->nload; l++) {
@@ -66,6 +67,19 @@ void plan_print (const pg_problem *p, const pg_solver_options *o)
     fflush (stdout);                                   /* progress goes to the other stream */
 }
 
+void plan_settled (const pg_solver *solver)
+{
+    const pg_solver_options *o = pg_solver_settled (solver);
+    const char *from;
+    double stable = pg_solver_stable (solver, &from);
+    if (o->marching) printf ("  %ld time steps of %.6g s", o->time_steps, o->dt);
+    else if (o->staged) printf ("  %ld stages", o->stages);
+    else return;
+    if (isfinite (stable)) printf (", stable up to %.4g s (%s)", stable, from);
+    printf ("\n");
+    fflush (stdout);
+}
+
 /* ---- at length -------------------------------------------------------------------------------------------------------------- */
 plan_waves plan_waves_of (const pg_material *m, int dim)
 {
@@ -89,9 +103,14 @@ plan_times plan_times_of (const plan *p)
         stiff = fmax (stiff, q->material[m].modulus / q->material[m].density);
     }
     t.omega = fmax (2 * speed, nitsche ? sqrt (2 * q->nitsche * stiff) : 0) / pg_cloud_finest (&q->cloud);
+    if (isfinite (p->stable)) {
+        t.omega = 2 / p->stable, t.dt = p->stable, t.measured = 2;
+        t.courant = !p->options->quasi_static ? speed * p->options->dt / pg_cloud_finest (&q->cloud) : 0;
+        return t;
+    }
     if (p->first->omega > 0) t.omega = p->first->omega, t.measured = 1;
     t.dt = 2 / t.omega;
-    t.courant = strcmp (p->options->kind, "static") ? speed * p->options->dt / pg_cloud_finest (&q->cloud) : 0;
+    t.courant = !p->options->quasi_static && p->options->dt > 0 ? speed * p->options->dt / pg_cloud_finest (&q->cloud) : 0;
     return t;
 }
 
@@ -106,8 +125,13 @@ static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, c
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
 {
     const pg_solver_options *o = p->options;
-    int is_static = strcmp (o->kind, "static") == 0, breaks = p->problem->criterion->type != NULL, none = strcmp (p->forecast->linear, "cg") == 0;
+    int is_static = o->quasi_static, breaks = p->problem->criterion->type != NULL, none = strcmp (p->forecast->linear, "cg") == 0;
     size_t n = 0;
+    if (o->marching || o->staged) {
+        if (!breaks) add_skip (skip, &n, most, "bond sweeps", "there is no failure criterion");
+        add_skip (skip, &n, most, "stiffness matrix and factorization", o->marching ? "explicit time steps need neither" : "relaxation needs neither");
+        return n;
+    }
     if (!breaks) add_skip (skip, &n, most, "bond sweeps", "there is no failure criterion");
     if (!breaks && o->event)
         add_skip (skip, &n, most, "all solves but one", "nothing can break: the answer is linear in the load factor");
@@ -134,6 +158,17 @@ static void print_cut (const pg_problem *q)
     printf ("\n");
 }
 
+static void print_layers (const pg_problem *q)
+{
+    static const char *const sides[] = {"left", "right", "bottom", "top", "back", "front"};
+    for (size_t i = 0; i < q->body.nlayer; i++) {
+        const pg_layer *l = &q->body.layer[i];
+        const pg_set *set = pg_sets_find (&q->sets, l->name);
+        printf ("  layer %-12s  %s, %d row%s of cells, %.6g m beyond %c = %.6g m, %zu points\n", l->name, sides[l->side], l->rows, l->rows > 1 ? "s" : "",
+                l->rows * q->cloud.step[l->side / 2], "xyz"[l->side / 2], l->face, set ? set->npoint : 0);
+    }
+}
+
 static void print_counts (const plan *p)
 {
     const pg_problem *q = p->problem;
@@ -144,7 +179,9 @@ static void print_counts (const plan *p)
     if (q->cloud.size) printf (" (locally from %.6g)", pg_cloud_finest (&q->cloud));
     size_t cut = 0;
     for (size_t c = 0; c < q->cells.n; c++) cut += q->cells.kind[c] == PG_CUT;
-    printf (" m\n  %-18s  %zu", "background cells", q->cells.n);
+    printf (" m\n");
+    print_layers (q);
+    printf ("  %-18s  %zu", "background cells", q->cells.n);
     if (cut) printf (", of which %zu are cut by the surface", cut);
     printf (", boundary facets %zu\n", q->cells.nfacet);
     if (q->cells.cut) print_cut (q);
@@ -173,13 +210,15 @@ static void print_times (const plan *p)
 {
     plan_times t = plan_times_of (p);
     const pg_solver_options *o = p->options;
-    if (strcmp (o->kind, "static")) {
-        printf ("  %-18s  %ld of %.6g s", "time steps", o->steps, o->dt);
+    if (o->staged) printf ("  %-18s  %ld\n", "stages", o->stages);
+    else if (!o->quasi_static && !(o->time_steps && o->dt > 0)) printf ("  %-18s  0.9 of the stable one\n", "time steps");
+    else if (!o->quasi_static) {
+        printf ("  %-18s  %ld of %.6g s", "time steps", o->time_steps ? o->time_steps : o->steps, o->dt);
         if (t.courant > 0) printf (", c_p dt / h = %.4g", t.courant);
         printf ("\n");
     }
     if (t.omega > 0) printf ("  %-18s  stable up to %.3g s (%s)\n", "explicit steps", t.dt,
-                             t.measured ? "2 / largest frequency" : "estimate; measured by --solve");
+                             t.measured == 2 ? p->from : t.measured ? "2 / largest frequency" : "estimate; measured by --solve");
 }
 
 static void print_factor (const pg_forecast *f)
@@ -248,7 +287,7 @@ void plan_print_long (const plan *p)
     print_materials (q);
     printf ("  %-18s  %s%s\n", "solver", p->options->kind, stepping (p->options));
     print_times (p);
-    print_factor (p->forecast);
+    if (!p->options->marching && !p->options->staged) print_factor (p->forecast);
     for (size_t s = 0; s < q->nload; s++)
         printf ("  boundary %-9s  %zu points, %zu facets\n", q->load[s].name, q->load[s].set->npoint, q->load[s].set->nfacet);
     if (q->eroded) printf ("  %-18s  %zu points lie on a pre-crack and lose their bonds to both sides\n", "eroded", q->eroded);

@@ -63,14 +63,15 @@ static void steps (pg_json *j, const plan *p)
 {
     plan_times t = plan_times_of (p);
     pg_json_text (j, "solver", p->options->kind);
-    if (strcmp (p->options->kind, "static") == 0) pg_json_text (j, "stepping", p->options->event ? "event" : "fixed");
+    if (p->options->staged) pg_json_count (j, "stages", (size_t) p->options->stages);
+    else if (p->options->quasi_static) pg_json_text (j, "stepping", p->options->event ? "event" : "fixed");
     else {
         pg_json_number (j, "dt", p->options->dt);
-        pg_json_count (j, "steps", (size_t) p->options->steps);
+        pg_json_count (j, "steps", (size_t) (p->options->marching ? p->options->time_steps : p->options->steps));
         pg_json_number (j, "courant", t.courant);
     }
     pg_json_number (j, "explicit_dt", t.omega > 0 ? t.dt : NAN);
-    pg_json_text (j, "explicit_dt_from", t.omega > 0 ? t.measured ? "measured" : "estimate" : "no density");
+    pg_json_text (j, "explicit_dt_from", t.omega > 0 ? t.measured == 2 ? p->from : t.measured ? "measured" : "estimate" : "no density");
 }
 
 static void memory (pg_json *j, const plan *p)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs as a chart. */
+ * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs, or of other tables, as a chart. */
 #include "plot.h"
 #include <errno.h>
 #include <math.h>
@@ -25,9 +25,14 @@ typedef struct {
 static const char usage[] =
     "usage: perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--log x|y|xy] [--markers]\n"
     "                    [--out FILE.png|FILE.svg]\n"
-    "Draws columns X and Y of every DIR/history.csv in one picture; --negate turns the signs of both (not of step,\n"
+    "Draws columns X and Y of every DIR/history.csv (of DIR itself if it is a .csv file) in one picture; --negate turns the signs of both (not of step,\n"
     "time, load_factor), --abs drops them. The legend shows --labels, else the names of the folders. --markers: a marker on every row.\n";
 
+static int is_table (const char *path)                 /* a file of its own, not a folder with history.csv               */
+{
+    size_t n = strlen (path);
+    return n > 4 && strcmp (path + n - 4, ".csv") == 0;
+}
 
 /* Reads one cell of a CSV row at *s (RFC 4180, cut to size) and steps over the comma; 0 at the end of the row. */
 static int next_cell (const char **s, char *cell, size_t size)
@@ -100,7 +105,7 @@ static pg_status read_rows (run_curve *c, const char *directory, const char *con
     char table[LIST], *row = NULL;
     size_t room[2] = { 0, 0 }, width = 0;
     int column[2];
-    snprintf (table, sizeof table, "%s/history.csv", directory);
+    snprintf (table, sizeof table, "%s%s", directory, is_table (directory) ? "" : "/history.csv");
     FILE *file = fopen (table, "r");
     if (!file) PG_FAIL (PG_E_FILE, "%s: %s", table, strerror (errno));
     if (getline (&row, &width, file) < 0) PG_FAIL (PG_E_FILE, "%s is empty", table);
@@ -173,6 +178,7 @@ static void name_picture (const request *q, char *path, size_t size)
     for (char *s = name; *s; s++)
         if (!strchr ("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_", *s)) *s = '_';
     if (q->out) snprintf (path, size, "%s", q->out);
+    else if (is_table (q->directory[0])) snprintf (path, size, "%s.png", name);
     else snprintf (path, size, "%s/%s.png", q->directory[0], name);
 }
 

@@ -163,6 +163,7 @@ int pg_cli_run (int argc, char **argv)
     if (!c.quiet) plan_print (problem, &options);
     settle_blas (problem);
     PG_TRY (pg_solver_create (&solver, problem, &options));
+    if (!c.quiet) plan_settled (solver);
     PG_TRY (pg_state_create (&w.state, problem, pg_solver_components (solver)));
     PG_TRY (open_result (&c, c.folder ? c.folder : folder, scene, problem, solver, &w));
     told = 1, w.nodal = problem->integration->at_nodes;

@@ -103,7 +103,7 @@ static pg_status solve_and_measure (const command *c, const pg_scene *scene, con
     }
     count (t, problem, state, pg_solver_report_now (solver));
     t->value[TRIAL_WALL] = pg_seconds () - start, t->value[TRIAL_CPU] = cpu_now (), t->value[TRIAL_PEAK] = peak_now ();
-    PG_TRY (trial_errors (t, scene, problem, solver, state, strcmp (options.kind, "static") != 0));
+    PG_TRY (trial_errors (t, scene, problem, solver, state, !options.quasi_static));
 done:
     pg_result_free (&result);
     pg_state_free (&state);

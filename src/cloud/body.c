@@ -7,13 +7,11 @@
 
 static void name_boundary (pg_shape *s, const pg_scene *scene, size_t i)
 {
-    static const char *const taken[] = {"left", "right", "bottom", "top", "back", "front", "all"};
     const char *name = !s->add ? "hole" : pg_shape_types[s->kind].round ? "rim" : "side";
     char at[64];
     snprintf (at, sizeof at, "body[%zu].name", i);
     if (pg_scene_given (scene, "%s", at)) name = pg_scene_text (scene, "%s", at);
-    for (size_t k = 0; k < sizeof taken / sizeof *taken; k++)
-        if (!strcmp (name, taken[k])) pg_scene_fault (scene, at, "'%s' already names a side of the body", name);
+    if (pg_layers_taken (name)) pg_scene_fault (scene, at, "'%s' already names a side of the body", name);
     if (strlen (name) >= sizeof s->boundary) pg_scene_fault (scene, at, "at most %zu letters", sizeof s->boundary - 1);
     snprintf (s->boundary, sizeof s->boundary, "%.31s", name);
 }
@@ -61,7 +59,7 @@ pg_status pg_body_read (pg_body *out, const pg_scene *scene)
     out->dim = (int) pg_scene_integer (scene, "dimension");
     if (n == 0 && !pg_scene_given (scene, "points") && !pg_scene_given (scene, "mesh"))
         pg_scene_fault (scene, "body", "is missing: give body (a list of shapes), points (a file) or mesh (a file)");
-    PG_ALLOC (out->shape, n);
+    PG_ALLOC (out->shape, n + pg_scene_count (scene, "layers"));
     out->n = n;
     for (size_t i = 0; i < n; i++) {
         PG_TRY (read_shape (&out->shape[i], out->dim, scene, i));
@@ -77,6 +75,7 @@ pg_status pg_body_read (pg_body *out, const pg_scene *scene)
             break;
         }
     }
+    PG_TRY (pg_layers_read (out, scene));
     PG_TRY (pg_scene_verdict (scene));
 done:
     if (status != PG_OK) pg_body_clear (out);
@@ -86,7 +85,7 @@ done:
 void pg_body_clear (pg_body *body)
 {
     for (size_t i = 0; body->shape && i < body->n; i++) pg_free (body->shape[i].vertex), shape_mesh_clear (&body->shape[i]);
-    pg_free (body->shape);
+    pg_free (body->shape), pg_free (body->layer);
     memset (body, 0, sizeof *body);
 }
 

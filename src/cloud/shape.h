@@ -20,5 +20,8 @@ double    shape_mesh_distance (const pg_shape *shape, int dim, const double *x, 
 void      shape_mesh_box      (const pg_shape *shape, int dim, double *low, double *high);
 double    shape_mesh_volume   (const pg_shape *shape, double *surface);
 void      shape_mesh_clear    (pg_shape *shape);
+/* Reads `layers`: each becomes a box behind the shapes, and the bounding box grows. */
+pg_status pg_layers_read      (pg_body *body, const pg_scene *scene);
+int       pg_layers_taken     (const char *name);      /* a side of the body, or all                                     */
 double    shape_stairs_distance (const pg_shape *shape, int dim, const double *x, double reach);
 #endif

@@ -25,6 +25,7 @@ static const pg_key keys[] = {
     ROW ("reference.lines[].along.x", PG_NUMBER, "m", "", "x of all rows."),
     ROW ("reference.lines[].along.y", PG_NUMBER, "m", "", "y of all rows."),
     ROW ("reference.lines[].along.z", PG_NUMBER, "m", "", "z of all rows."),
+    ROW ("reference.lines[].datum", PG_VECTOR, "m", "", "The table's displacements are relative to that of this place, which is taken off the result's."),
     ROW ("reference.mesh", PG_MAP, NULL, "", "A finite element result of the same body: displacements, and stresses from their gradients and the scene's materials."),
     ROW ("reference.mesh.file", PG_TEXT, NULL, NULL, "CalculiX .frd, or Exodus with elements, beside the scene."),
     ROW ("reference.mesh.unit", PG_TEXT, NULL, "", "Length unit of the file; m if not given."),

@@ -161,6 +161,18 @@ done:
     return status;
 }
 
+pg_status pg_line_sample (const pg_line *line, const pg_sampler *value, double *u, double *stress)
+{
+    pg_status status = PG_OK;
+    double at[3], unused[6];
+    PG_TRY (value->sample (value->context, line->n, line->x, u, stress));
+    if (!line->relative) return PG_OK;
+    PG_TRY (value->sample (value->context, 1, line->datum, at, unused));
+    for (size_t i = 0; i < 3 * line->n; i++) u[i] -= at[i % 3];
+done:
+    return status;
+}
+
 void pg_line_clear (pg_line *line)
 {
     pg_free (line->x), pg_free (line->value);

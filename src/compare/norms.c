@@ -187,7 +187,7 @@ pg_status pg_line_measure (pg_line_norms *out, const pg_line *line, const pg_sam
     if (value->dim != line->dim) PG_FAIL (PG_E_USAGE, "%s: a table of a %dD body is compared with a %dD result", line->name, line->dim, value->dim);
     PG_ALLOC (u, 3 * line->n);
     PG_ALLOC (s, 6 * line->n);
-    PG_TRY (value->sample (value->context, line->n, line->x, u, s));
+    PG_TRY (pg_line_sample (line, value, u, s));
     for (size_t k = 0; k < line->ncolumn; k++) measure_column (&out[k], line, k, u, s);
 done:
     pg_free (u), pg_free (s);

@@ -85,6 +85,9 @@ static pg_status read_line (pg_reference *r, const pg_scene *scene, size_t i)
         pg_scene_fault (scene, key, "%s", pg_last_error ());
         status = pg_scene_verdict (scene);
     }
+    PG_TRY (status);
+    r->line[i].relative = pg_scene_given (scene, "reference.lines[%zu].datum", i);
+    if (r->line[i].relative) pg_scene_vector (scene, r->dim, r->line[i].datum, "reference.lines[%zu].datum", i);
 done:
     return status;
 }

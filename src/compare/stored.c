@@ -158,7 +158,7 @@ static pg_status find_step (pg_stored *s, const char *folder, const char *path, 
     if (step < -1 || step >= (int) nstep) PG_FAIL (PG_E_USAGE, "%s has no step %d; its steps are 0 to %zu", path, step, nstep - 1);
     s->step = step < 0 ? (int) nstep - 1 : step;
     s->stamp = time[s->step];
-    int dynamic = strcmp (o.kind, "static") != 0;
+    int dynamic = !o.quasi_static;
     PG_TRY (compare_history (folder, dynamic ? "time" : o.event ? "step" : "load_factor", s->stamp, &factor, &second, broken));
     s->t = dynamic ? s->stamp : o.event ? factor : s->stamp;
     s->state->time = s->t, s->state->factor = factor;

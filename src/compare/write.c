@@ -73,7 +73,7 @@ pg_status pg_compare_line (const char *path, const pg_line *line, const pg_sampl
     for (size_t c = 0; c < line->ncolumn; c++) p.column[c] = line->column[c];
     PG_ALLOC (p.u, 9 * p.n);
     p.s = p.u + 3 * p.n;
-    PG_TRY (value->sample (value->context, p.n, p.x, p.u, p.s));
+    PG_TRY (pg_line_sample (line, value, p.u, p.s));
     PG_TRY (create (&table, path, &p));
     for (size_t i = 0; i < p.n; i++) {
         size_t n = 0;

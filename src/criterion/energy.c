@@ -14,7 +14,8 @@ static double ratio (const pg_criterion_setting *s)
     const pg_kernel *kernel = pg_kernel_find (s->kernel);
     if (!kernel) return 0;
     int n = order[s->mode];
-    return a[s->mode] * pg_kernel_moment (kernel, n) / (pg_kernel_moment (kernel, n + 1) * s->horizon * s->modulus);
+    double tough = s->toughness > 0 ? s->toughness : 1;        /* of a lattice (theory A2)                                */
+    return a[s->mode] * pg_kernel_moment (kernel, n) / (pg_kernel_moment (kernel, n + 1) * s->horizon * s->modulus * tough);
 }
 
 double pg_stretch_from_energy (const pg_criterion_setting *setting, double G0)

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LIMIT, FINITE, ENERGY, FROM_ENERGY, GRADED };
+enum { LIMIT, FINITE, ENERGY, FROM_ENERGY, GRADED, EXACT };
 
 #define EITHER "critical_stretch or fracture_energy"
 
@@ -16,9 +16,13 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     char map[PG_LIMITS], path[PG_LIMITS + 32];
     if (!pg_criterion_holder (map, scene, setting, EITHER)) return PG_OK;
     int energy = pg_scene_given (scene, "%s.fracture_energy", map);
-    c->parameter[FINITE] = strcmp (pg_scene_text (scene, "failure.stretch"), "finite") == 0;
+    const char *measure = pg_scene_text (scene, "failure.stretch");
+    if (setting->stretch && pg_scene_given (scene, "failure.stretch") && strcmp (measure, setting->stretch) != 0)
+        pg_scene_fault (scene, "failure.stretch", "must be that of the forces: method.stretch is %s", setting->stretch);
+    c->parameter[FINITE] = strcmp (setting->stretch ? setting->stretch : measure, "finite") == 0;
     c->parameter[FROM_ENERGY] = energy;
     c->parameter[GRADED] = setting->graded;
+    c->parameter[EXACT] = setting->stretch != NULL;
     c->parameter[LIMIT] = pg_scene_number (scene, "%s.critical_stretch", map);
     c->parameter[ENERGY] = pg_scene_number (scene, "%s.fracture_energy", map);
     if (energy) c->parameter[LIMIT] = pg_stretch_from_energy (setting, c->parameter[ENERGY]);
@@ -88,7 +92,7 @@ static void describe (const pg_criterion *c, char *text, size_t size)
     snprintf (text, size, "%s stretch >= %.6g (%s%s), fracture energy %.6g J/m2 (%s)",
               c->parameter[FINITE] > 0 ? "finite" : "linear", c->parameter[LIMIT], energy ? "derived" : "given",
               c->parameter[GRADED] > 0 && energy ? " at the mean spacing h; elsewhere times sqrt (h / local spacing)" : "",
-              c->parameter[ENERGY], energy ? "given" : "derived: estimate of bond-based theory");
+              c->parameter[ENERGY], energy ? "given" : c->parameter[EXACT] > 0 ? "derived" : "derived: estimate of bond-based theory");
 }
 
 const pg_criterion_type pg_criterion_stretch = {

@@ -1,3 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * One line per force. */
 PG_FORCE (galerkin)
+PG_FORCE (bond)

@@ -186,9 +186,12 @@ done:
 pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    PG_TRY (make_nodes (p, scene));
-    PG_TRY (make_points (p, scene));
-    PG_TRY (make_facets (p, scene));
+    if (p->direct) PG_TRY (pg_direct_bonds (p));
+    else {
+        PG_TRY (make_nodes (p, scene));
+        PG_TRY (make_points (p, scene));
+        PG_TRY (make_facets (p, scene));
+    }
     for (int s = 0; s < PG_BOND_SETS; s++) p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
     PG_TRY (measure_spacing (p));
     PG_TRY (pg_blocks_build (p, scene));

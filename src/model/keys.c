@@ -11,7 +11,22 @@ static const char *const no_choice = NULL;
     { "boundary[]." name ".z", PG_EXPRESSION, unit, NULL, "", no_choice, NULL, NULL, "Component along z." }
 
 static const pg_key keys[] = {
-    { "method.force", PG_NAME, NULL, NULL, "galerkin", "galerkin", NULL, NULL, "How bonds make forces: galerkin assembles a global stiffness matrix." },
+    { "method.force", PG_NAME, NULL, NULL, "galerkin", "galerkin|bond", NULL, NULL,
+      "How bonds make forces: galerkin: weak form with the shape functions of method.approximation; bond: pair forces between points (bond-based "
+      "peridynamics; Poisson's ratio is 1/3 in plane stress, 1/4 in plane strain and 3D)." },
+    { "method.evaluation", PG_NAME, NULL, NULL, "auto", "auto|stencil|list", NULL, NULL,
+      "bond: by the stencil of a lattice or by lists of neighbours; the answer is the same, auto is the faster." },
+    { "method.partial_volume", PG_NAME, NULL, NULL, "auto", "auto|none|linear|overlap", NULL, NULL,
+      "bond: share of a neighbour's volume that counts: none: all or nothing; linear: falls over one spacing at the horizon; overlap: of its cell and the "
+      "ball; auto: overlap on a lattice, else linear." },
+    { "method.calibrate", PG_BOOL, NULL, NULL, "on", no_choice, NULL, NULL,
+      "bond: the force constant is scaled so that the energy of hydrostatic strain is exact on this lattice, and a critical stretch that comes from "
+      "fracture_energy so that a straight crack along the lattice consumes it." },
+    { "method.surface_correction", PG_NAME, NULL, NULL, "auto", "auto|none|product|volume", NULL, NULL,
+      "bond: stiffens bonds of points near the surface, whose families are not whole; auto: none below a horizon of 4 spacings (there it does harm), else product." },
+    { "method.stretch", PG_NAME, NULL, NULL, "linear", "linear|finite", NULL, NULL,
+      "bond: force from the stretch along the undeformed bond (small displacements), or from the deformed length along the deformed bond (verlet, central, "
+      "adr, relax only)." },
     { "method.integration", PG_NAME, NULL, NULL, "gauss", NULL, pg_integration_names, NULL, "Where the weak form is evaluated." },
     { "method.gauss_points", PG_INTEGER, NULL, "[1, 5]", "", NULL, NULL, NULL,
       "Gauss points per direction of a background cell; default 2 for the linear basis, 3 for the quadratic one (with 2 it converges slowly); "

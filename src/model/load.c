@@ -60,6 +60,30 @@ double pg_load_value (const pg_load *load, int k, int dim, const double *x, doub
     return pg_expression_value (load->value[k], &at) * factor_at (load, &at);
 }
 
+static int depends_on_place (const pg_expression *e)
+{
+    return e && (pg_expression_uses (e, 'x') || pg_expression_uses (e, 'y') || pg_expression_uses (e, 'z') || pg_expression_uses (e, 'r') || pg_expression_uses (e, 'a'));
+}
+
+int pg_load_separates (const pg_load *load)
+{
+    for (int k = 0; k < 3; k++) if (load->value[k] && pg_expression_uses (load->value[k], 't')) return 0;
+    return load->table != NULL || !depends_on_place (load->ramp);
+}
+
+double pg_load_factor (const pg_load *load, double t)
+{
+    pg_place at = { .t = t };
+    return factor_at (load, &at);
+}
+
+double pg_load_pattern (const pg_load *load, int k, int dim, const double *x)
+{
+    if (!load->value[k]) return 0;
+    pg_place at = pg_place_of (dim, x, 0);
+    return pg_expression_value (load->value[k], &at);
+}
+
 /* The ramp as an expression in t; a velocity's ramp is integrated to one for the displacement. */
 static pg_status read_ramp (pg_load *load, const pg_scene *scene, size_t i, int is_static, double duration)
 {
@@ -162,6 +186,7 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     load->essential = strcmp (how, "transformation") == 0 ? PG_ESSENTIAL_TRANSFORMATION : strcmp (how, "penalty") == 0 ? PG_ESSENTIAL_PENALTY
                     : strcmp (how, "nitsche") == 0 ? PG_ESSENTIAL_NITSCHE
                     : load->set->nfacet > 0 && !nosb ? PG_ESSENTIAL_NITSCHE : PG_ESSENTIAL_TRANSFORMATION;
+    if (problem->direct) load->essential = PG_ESSENTIAL_TRANSFORMATION;
     check_place (problem, load, scene, i);
     if (pg_scene_given (scene, "boundary[%zu].table", i)) PG_TRY (read_table (load, scene, i));
     else PG_TRY (read_ramp (load, scene, i, is_static, duration));
@@ -191,8 +216,10 @@ pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     const char *kind = pg_scene_text (scene, "solver.kind");
-    int is_static = !kind || strcmp (kind, "static") == 0;
+    int is_static = pg_kind_quasi_static (kind);
     double duration = is_static ? 1 : pg_scene_number (scene, "solver.end");
+    if (!is_static && !(duration > 0) && pg_scene_has (scene, "solver.time_steps"))
+        duration = (double) pg_scene_integer (scene, "solver.time_steps") * pg_scene_number (scene, "solver.dt");
     if (!(duration > 0)) duration = 1;
     problem->nload = pg_scene_count (scene, "boundary");
     PG_ALLOC (problem->load, problem->nload);

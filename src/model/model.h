@@ -6,6 +6,12 @@
 pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
+/* Forces straight between points: their rule, their sums, the only Poisson's ratio they know; and their bonds. */
+pg_status pg_direct_build (pg_problem *problem, const pg_scene *scene);
+pg_status pg_direct_bonds (pg_problem *problem);
+int       pg_direct_force (const pg_scene *scene);
+/* Its rule, on a lattice or not; mode and kernel as given. */
+void      pg_direct_rule  (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx, double spacing, int lattice);
 /* The node nearest to a point of a bond set among those it sees; -1: it sees none. */
 int       pg_bonds_nearest (const pg_problem *problem, int set, size_t point);
 /* block of every point, once the rows are there. */

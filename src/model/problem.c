@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * From the scene to a problem: body, points, cells, sets, cracks, laws, loads, bonds. Faults of all stages are collected. */
 #include "model.h"
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -69,28 +70,24 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
     PG_ALLOC (setting, p->nmaterial);
     PG_ALLOC (p->criterion, p->nmaterial);
     for (size_t i = 0; i < p->nmaterial; i++)
-        setting[i] = (pg_criterion_setting) { p->mode, p->approx.horizon, p->material[i].modulus, p->material[i].parameter[1],
-                                              p->cloud.thickness, p->approx.kernel->name, p->material[i].name, p->cloud.size != NULL };
+        setting[i] = (pg_criterion_setting) {
+            .mode = p->mode, .horizon = p->approx.horizon, .modulus = p->material[i].modulus, .poisson = p->material[i].parameter[1],
+            .thickness = p->cloud.thickness, .kernel = p->approx.kernel->name, .material = p->material[i].name,
+            .graded = p->cloud.size != NULL && !p->direct, .toughness = p->direct && p->sums->rule.calibrate ? p->sums->toughness : 0,
+            .stretch = !p->direct ? NULL : p->sums->rule.finite ? "finite" : "linear" };
     PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));
+    if (p->direct && p->criterion->type && p->criterion->type->needs != PG_NEEDS_STRETCH)
+        pg_scene_fault (scene, "failure.criterion", "%s needs stresses, and force: %s knows only the stretch of its bonds: use stretch, or force: galerkin",
+                        p->criterion->type->name, p->force);
 done:
     pg_free (setting);
     return status;
 }
 
-static pg_status build_laws (pg_problem *p, const pg_scene *scene)
+static void read_galerkin (pg_problem *p, const pg_scene *scene)
 {
-    pg_status status = PG_OK;
-    const char *name, *stab = pg_scene_text (scene, "method.stabilization");
-    p->nmaterial = pg_scene_count (scene, "materials");
-    PG_ALLOC (p->material, p->nmaterial);
-    for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++) PG_TRY (pg_material_read (&p->material[i], scene, name, p->mode));
-    if (p->nmaterial == 0) {
-        pg_scene_fault (scene, "materials", "at least one material is needed");
-        PG_TRY (pg_scene_verdict (scene));
-    }
-    PG_TRY (pg_approx_read (&p->approx, scene, p->cloud.h));
+    const char *stab = pg_scene_text (scene, "method.stabilization");
     p->integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
-    snprintf (p->force, sizeof p->force, "%s", pg_scene_text (scene, "method.force"));
     if (!p->integration->at_nodes && p->cells.n == 0)
         pg_scene_fault (scene, "method.integration", "a body of explicit points has no background cells: use nodal");
     int nosb = strcmp (p->approx.type->name, "nosb") == 0;
@@ -100,6 +97,24 @@ static pg_status build_laws (pg_problem *p, const pg_scene *scene)
     p->silling = silling ? pg_scene_number (scene, "method.stabilization_factor") : 0;
     p->nitsche = pg_scene_number (scene, "method.nitsche_factor");
     p->penalty = pg_scene_number (scene, "method.penalty_factor");
+}
+
+static pg_status build_laws (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const char *name;
+    p->nmaterial = pg_scene_count (scene, "materials");
+    PG_ALLOC (p->material, p->nmaterial);
+    for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++) PG_TRY (pg_material_read (&p->material[i], scene, name, p->mode));
+    if (p->nmaterial == 0) {
+        pg_scene_fault (scene, "materials", "at least one material is needed");
+        PG_TRY (pg_scene_verdict (scene));
+    }
+    PG_TRY (pg_approx_read (&p->approx, scene, p->cloud.h));
+    snprintf (p->force, sizeof p->force, "%s", pg_scene_text (scene, "method.force"));
+    p->direct = pg_direct_force (scene);
+    if (p->direct) PG_TRY (pg_direct_build (p, scene));
+    else read_galerkin (p, scene);
     PG_TRY (read_criteria (p, scene));
 done:
     return status;
@@ -168,6 +183,7 @@ void pg_problem_free (pg_problem **problem)
     if (!p) return;
     for (int s = 0; s < PG_BOND_SETS; s++) pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]);
     pg_consistency_free (&p->consistency);
+    pg_sums_free (&p->sums);
     pg_loads_clear (p);
     pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->material), pg_free (p->criterion);
     pg_sets_clear (&p->sets);
@@ -179,6 +195,15 @@ void pg_problem_free (pg_problem **problem)
     pg_body_clear (&p->body);
     pg_free (p);
     *problem = NULL;
+}
+
+void pg_problem_note (pg_problem *p, const char *format, ...)
+{
+    va_list args;
+    if (p->nnote == sizeof p->note / sizeof *p->note) return;
+    va_start (args, format);
+    vsnprintf (p->note[p->nnote++], sizeof *p->note, format, args);
+    va_end (args);
 }
 
 int pg_kind_quasi_static (const char *kind)

@@ -54,6 +54,7 @@ static void run_block (pg_json *j, const pg_result *res, const pg_report *r, con
     pg_json_number (j, "strain", r->energy_strain);
     pg_json_number (j, "kinetic", r->energy_kinetic);
     pg_json_number (j, "external", r->energy_external);
+    pg_json_number (j, "damping", r->energy_damping);
     pg_json_number (j, "dissipated", r->energy_dissipated);
     pg_json_shut (j);
 }

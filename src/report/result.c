@@ -120,14 +120,13 @@ static void name_scene (pg_result *r, const pg_scene *scene)
 pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver)
 {
     pg_status status = PG_OK;
-    pg_solver_options o;
     r->problem = problem, r->solver = solver;
     r->opened = r->checkpoint_at = pg_seconds ();
     snprintf (r->folder, sizeof r->folder, "%s", folder);
     snprintf (r->hash, sizeof r->hash, "%s", pg_scene_hash (scene));
     name_scene (r, scene);
-    PG_TRY (pg_solver_options_read (&o, problem, scene));
-    r->length = (strcmp (o.kind, "static") == 0 ? 1 : o.end) / (double) o.steps;
+    const pg_solver_options *settled = pg_solver_settled (solver);
+    r->length = (settled->quasi_static ? 1 : settled->end) / (double) settled->steps;
     PG_TRY (read_wishes (r, scene));
     PG_TRY (result_averages_read (r, scene));
     PG_TRY (pg_reference_read (&r->reference, scene, problem));

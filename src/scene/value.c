@@ -70,6 +70,16 @@ static int is_choice (const char *text, const char *choices)
     }
 }
 
+/* Layers of the body are sets too. */
+static void add_layers (const pg_scene *s, char *names, size_t at, size_t size)
+{
+    const pg_node *list = pg_node_child (&s->root, "layers", 6);
+    for (size_t k = 0; list && k < list->n && at < size - 70; k++) {
+        const pg_node *name = pg_node_child (&list->child[k], "name", 4);
+        if (name && name->text) at += (size_t) snprintf (names + at, size - at, "|%.60s", name->text);
+    }
+}
+
 /* Choices "sets.{}|left|...": a name of that map of the scene, one of the others, or a part of either (name.top). */
 static void check_reference (pg_scene *s, const pg_node *node, const char *choices, const char *path)
 {
@@ -81,6 +91,7 @@ static void check_reference (pg_scene *s, const pg_node *node, const char *choic
     const pg_node *known = pg_node_child (&s->root, map, m);
     for (size_t k = 0; known && k < known->n && at < sizeof names - 70; k++)
         if (known->child[k].name) at += (size_t) snprintf (names + at, sizeof names - at, "|%s", known->child[k].name);
+    if (m == 4 && strncmp (map, "sets", 4) == 0) add_layers (s, names, at, sizeof names);
     if (is_choice (base, names)) return;
     if (m == 4 && strncmp (map, "sets", 4) == 0 && pg_node_child (&s->root, "mesh", 4)) return;      /* its own sets: looked up once it is read */
     const char *near = pg_nearest_name (node->text, names);

@@ -8,10 +8,18 @@
 pg_status breaker_create (breaker *b)
 {
     pg_status status = PG_OK;
-    size_t nbond = b->system.problem->first_bond[PG_BOND_SETS];
     PG_TRY (system_create (&b->system));
-    PG_ALLOC (b->utilisation, nbond);
-    PG_ALLOC (b->factor, nbond);
+done:
+    return status;
+}
+
+pg_status breaker_ready (breaker *b)
+{
+    pg_status status = PG_OK;
+    size_t nbond = b->system.problem->first_bond[PG_BOND_SETS];
+    if (b->kind) return PG_OK;
+    if (!b->utilisation) PG_ALLOC (b->utilisation, nbond);
+    if (!b->factor) PG_ALLOC (b->factor, nbond);
     PG_ALLOC (b->kind, nbond);
 done:
     return status;
@@ -36,19 +44,27 @@ static void locate (const pg_problem *p, pg_broken *out)
     for (size_t k = 0; k < dim; k++) out->place[k] = 0.5 * (r->x[point * dim + k] + end[k]);
 }
 
-pg_status breaker_kill (breaker *b, pg_state *state, const double *measure, double cut, double scale)
+pg_status breaker_log (breaker *b, size_t bond, char kind, double utilisation, double t)
+{
+    pg_status status = PG_OK;
+    PG_GROW (b->broken, b->cap_broken, b->nbroken + 1);
+    pg_broken *k = &b->broken[b->nbroken++];
+    *k = (pg_broken) { bond, 0, kind, utilisation, { 0 }, t };
+    locate (b->system.problem, k);
+done:
+    return status;
+}
+
+pg_status breaker_kill (breaker *b, pg_state *state, const double *measure, double cut, double scale, double t)
 {
     pg_status status = PG_OK;
     b->changes.n = 0;
     for (size_t i = 0; i < state->nbond; i++) {
         if (!state->alive[i] || !(measure[i] >= cut)) continue;
         PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
-        PG_GROW (b->broken, b->cap_broken, b->nbroken + 1);
+        PG_TRY (breaker_log (b, i, b->kind[i], b->utilisation[i] * scale, t));
         state->alive[i] = 0;
         b->changes.bond[b->changes.n++] = i;
-        pg_broken *k = &b->broken[b->nbroken++];
-        *k = (pg_broken) { i, 0, b->kind[i], b->utilisation[i] * scale, { 0 } };
-        locate (b->system.problem, k);
     }
     state->broken += (long) b->changes.n;
 done:
@@ -93,6 +109,7 @@ pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const d
         if (step->iterations == 0) PG_TRY (breaker_account (b, t, d, dyn, 1));     /* later rounds: loads and goals stay      */
         if (!s->force->utilisation || !s->problem->criterion->type) break;
         double t0 = pg_seconds ();
+        PG_TRY (breaker_ready (b));
         PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
         double top = step->utilisation = largest (b->utilisation, state->nbond);
         s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
@@ -105,7 +122,7 @@ pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const d
                      "or take smaller steps", step->iterations, b->nbroken, top);
         double cut = o->break_mode == PG_BREAK_ALL ? 1 : top * (1 - (o->break_mode == PG_BREAK_WORST ? o->tie : fmax (o->break_fraction, o->tie)));
         if (o->break_mode != PG_BREAK_WORST) cut = fmax (cut, 1);
-        PG_TRY (breaker_kill (b, state, b->utilisation, cut, 1));
+        PG_TRY (breaker_kill (b, state, b->utilisation, cut, 1, t));
         PG_TRY (system_refresh (s, state, &b->changes));
     }
     if (step->iterations > 0) PG_TRY (breaker_account (b, t, d, dyn, 1));

@@ -152,6 +152,7 @@ pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
     PG_TRY (keep_state (s->backup, "backup", k));
     PG_TRY (keep_solver (s, k));
     PG_TRY (keep_system (&s->breaker.system, k));
+    if (s->type->keep) PG_TRY (s->type->keep (s, k));
     if (k->reading) PG_TRY (rebuild (s, state));
 done:
     return status;

@@ -2,3 +2,5 @@
  * One line per method. `static` is a word of C: its entry is named static_. */
 PG_SOLVER (static_)
 PG_SOLVER (newmark)
+PG_SOLVER (verlet)
+PG_SOLVER (central)

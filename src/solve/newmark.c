@@ -25,10 +25,10 @@ void pg_newmark_coefficients (const pg_solver_options *o, double *b)
     memcpy (b, c.b, sizeof c.b);
 }
 
-typedef struct { pg_solver *s; const pg_state *from; coefficients c; double t; } motion;
+typedef struct { pg_solver *s; const pg_state *from; coefficients c; double t; } course;
 
 /* V and A that belong to displacements d at the new time */
-static void rates (const motion *m, const double *d, double *v, double *a)
+static void rates (const course *m, const double *d, double *v, double *a)
 {
     const pg_state *f = m->from;
     const double *b = m->c.b;
@@ -41,7 +41,7 @@ static void rates (const motion *m, const double *d, double *v, double *a)
 }
 
 /* The first guess: acceleration goes on as it was. */
-static void predict (const motion *m, double *d)
+static void predict (const course *m, double *d)
 {
     const pg_state *f = m->from;
     double dt = m->s->options.dt;
@@ -53,7 +53,7 @@ static void predict (const motion *m, double *d)
  * force, and its M A is their rounding. */
 static void add_inertia (void *context, const double *d, double *residual, double *reference)
 {
-    const motion *m = context;
+    const course *m = context;
     pg_system *sys = &m->s->breaker.system;
     const pg_state *f = m->from;
     double *v = m->s->work1, *a = m->s->work3, size = 0, parts = 0, alpha = m->s->options.alpha;
@@ -83,7 +83,7 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     pg_status status = PG_OK;
     breaker *b = &s->breaker;
     int last = state->step + 1 >= s->options.steps;
-    motion m = { s, s->backup, coefficients_of (&s->options), last ? s->options.end : (double) (state->step + 1) * s->options.dt };
+    course m = { s, s->backup, coefficients_of (&s->options), last ? s->options.end : (double) (state->step + 1) * s->options.dt };
     dynamics dyn = *newmark_dynamics (s);
     dyn.add = add_inertia, dyn.context = &m;
     double t = m.t;
@@ -107,4 +107,4 @@ done:
     return status;
 }
 
-const pg_solver_type pg_solver_newmark = { "newmark", "implicit dynamics, Newmark's method", newmark_start, newmark_step, NULL, NULL, newmark_dynamics };
+const pg_solver_type pg_solver_newmark = { "newmark", "implicit dynamics, Newmark's method", newmark_start, newmark_step, .dynamics = newmark_dynamics };

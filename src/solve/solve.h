@@ -74,8 +74,12 @@ typedef struct {
 } breaker;
 pg_status breaker_create (breaker *b);
 void      breaker_free   (breaker *b);
+/* The arrays of a sweep of utilisation, when they are first needed. */
+pg_status breaker_ready  (breaker *b);
+/* Notes a bond that died at time (or load factor) t. */
+pg_status breaker_log    (breaker *b, size_t bond, char kind, double utilisation, double t);
 /* Kills the bonds with measure[i] >= cut, logs them with the given utilisation scale. */
-pg_status breaker_kill   (breaker *b, pg_state *state, const double *measure, double cut, double scale);
+pg_status breaker_kill   (breaker *b, pg_state *state, const double *measure, double cut, double scale, double t);
 /* Solve, break, update, solve ... at time t until no bond is over its limit; d is left in equilibrium. */
 pg_status equilibrate    (breaker *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step);
 /* Live bonds over their limit (and its ties) in the last sweep, measured utilisation times scale; *top: the largest. */
@@ -95,7 +99,14 @@ typedef struct {
     int       (*done)  (const pg_solver *s, const pg_state *state);
     void      (*free)  (pg_solver *s);
     const dynamics *(*dynamics) (pg_solver *s);        /* what the matrix holds besides K (NULL: nothing)                */
+    enum { SOLVES, MARCHES, RELAXES } way;             /* by linear systems; explicit time steps; stages of relaxation   */
+    pg_status (*prepare) (pg_solver *s);               /* when the solver is made: settles s->options; NULL: nothing      */
+    void      (*refused) (pg_solver *s);               /* the state goes back to s->backup; NULL: nothing                */
+    pg_status (*keep)    (pg_solver *s, const pg_keeper *keeper);      /* what it carries from step to step; NULL: nothing */
+    double    (*progress) (const pg_solver *s, const pg_state *state); /* NULL: steps done of options.steps              */
 } pg_solver_type;
+const pg_solver_type *solver_type_find (const char *name);             /* NULL: unknown                                  */
+typedef struct motion motion;                          /* explicit.h                                                     */
 
 struct pg_solver {
     const pg_solver_type *type;
@@ -116,6 +127,7 @@ struct pg_solver {
     double   *force0;                                  /* newmark with alpha: loads less resistance at the last step's end, N */
     dynamics  dyn;                                     /* newmark: coefficients of its matrix                            */
     double   *support;                                 /* newmark: motion z, z', z'' of prescribed nodes (3 x ndof)      */
+    motion   *motion;                                  /* explicit and relaxed methods                                   */
     long      support_updates;                         /* report.updates when it was found: breaking changes z           */
 };
 

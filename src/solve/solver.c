@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The solver object: options, the list of methods, steps with refusal, the report of the run. */
+ * The solver object: the list of methods, steps with refusal, the report of the run. */
 #include "solve.h"
 #include <math.h>
 #include <stdio.h>
@@ -27,56 +27,16 @@ const char *pg_solver_names (void)
     return names;
 }
 
-const char *pg_solver_summary (const char *name)
+const pg_solver_type *solver_type_find (const char *name)
 {
-    for (size_t i = 0; i < COUNT; i++) if (strcmp (entries[i]->name, name) == 0) return entries[i]->summary;
+    for (size_t i = 0; i < COUNT; i++) if (strcmp (entries[i]->name, name) == 0) return entries[i];
     return NULL;
 }
 
-pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+const char *pg_solver_summary (const char *name)
 {
-    const char *stepping = pg_scene_text (scene, "solver.stepping"), *mode = pg_scene_text (scene, "solver.break");
-    memset (o, 0, sizeof *o);
-    snprintf (o->kind, sizeof o->kind, "%s", pg_scene_text (scene, "solver.kind"));
-    snprintf (o->linear, sizeof o->linear, "%s", pg_scene_text (scene, "solver.linear"));
-    o->break_mode = strcmp (mode, "all") == 0 ? PG_BREAK_ALL : strcmp (mode, "fraction") == 0 ? PG_BREAK_FRACTION : PG_BREAK_WORST;
-    o->break_fraction = pg_scene_number (scene, "solver.break_fraction");
-    o->tie = pg_scene_number (scene, "solver.tie");
-    o->tolerance = pg_scene_number (scene, "solver.tolerance");
-    o->steps = pg_scene_integer (scene, "solver.steps");
-    o->max_iterations = pg_scene_integer (scene, "solver.max_iterations");
-    o->max_events = pg_scene_integer (scene, "solver.max_events");
-    o->dt = pg_scene_number (scene, "solver.dt"), o->end = pg_scene_number (scene, "solver.end");
-    o->consistent = strcmp (pg_scene_text (scene, "solver.mass"), "consistent") == 0;
-    o->alpha = pg_scene_number (scene, "solver.alpha");
-    o->beta = pg_scene_given (scene, "solver.beta") ? pg_scene_number (scene, "solver.beta") : (1 - o->alpha) * (1 - o->alpha) / 4;
-    o->gamma = pg_scene_given (scene, "solver.gamma") ? pg_scene_number (scene, "solver.gamma") : 0.5 - o->alpha;
-    o->rayleigh_mass = pg_scene_number (scene, "solver.rayleigh.mass");
-    o->rayleigh_stiffness = pg_scene_number (scene, "solver.rayleigh.stiffness");
-    o->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
-    o->stop_damage = pg_scene_number (scene, "solver.stop.damage");
-    const char *stop = pg_scene_text (scene, "solver.stop.set");
-    if (stop && *stop) o->stop_set = pg_sets_named (&problem->sets, scene, "solver.stop.set", stop);
-    o->levels = pg_scene_integer (scene, "output.at.levels");
-    int proportional = pg_problem_proportional (problem), is_static = strcmp (o->kind, "static") == 0;
-    o->event = is_static && (strcmp (stepping, "event") == 0 || (strcmp (stepping, "auto") == 0 && proportional && o->break_mode != PG_BREAK_ALL));
-    if (o->event && !proportional) pg_scene_fault (scene, "solver.stepping", "event stepping needs proportional loads (ramp: linear on every load): use fixed");
-    if (o->event && o->break_mode == PG_BREAK_ALL) pg_scene_fault (scene, "solver.break", "all goes with stepping: fixed");
-    if (is_static && !pg_scene_given (scene, "solver.steps") && o->levels > o->steps) o->steps = o->levels;
-    if (!is_static) {
-        if (!pg_scene_given (scene, "solver.dt")) pg_scene_fault (scene, "solver.dt", "newmark needs a time step");
-        if (!pg_scene_given (scene, "solver.end")) pg_scene_fault (scene, "solver.end", "newmark needs an end time");
-        if (o->dt > 0 && o->end > 0) {
-            double steps = ceil (o->end / o->dt * (1 - 1e-12));
-            if (steps > 1e9) pg_scene_fault (scene, "solver.dt", "%g time steps are too many", steps);
-            o->steps = (long) fmin (steps, 1e9);
-            if (fabs (steps * o->dt - o->end) > 1e-9 * o->end) o->dt = o->end / steps;      /* equal steps, none longer than asked */
-        }
-        if (o->gamma > 2 * o->beta) pg_scene_fault (scene, "solver.beta", "newmark is unconditionally stable only for 2 beta >= gamma");
-        for (size_t i = 0; i < problem->nmaterial; i++)
-            if (!(problem->material[i].density > 0)) pg_scene_fault (scene, "solver.kind", "newmark needs the density of material %s", problem->material[i].name);
-    }
-    return pg_scene_verdict (scene);
+    const pg_solver_type *type = solver_type_find (name);
+    return type ? type->summary : NULL;
 }
 
 pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg_solver_options *options)
@@ -92,8 +52,12 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     pg_solver *s = NULL;
     PG_ALLOC (s, 1);
     s->problem = problem, s->options = *options;
-    for (size_t i = 0; i < COUNT; i++) if (strcmp (entries[i]->name, options->kind) == 0) s->type = entries[i];
+    s->type = solver_type_find (options->kind);
     if (!s->type) PG_FAIL (PG_E_USAGE, "there is no solver %s", options->kind);
+    const char *why = force->refuses ? force->refuses (problem, options->kind) : NULL;
+    if (why) PG_FAIL (PG_E_USAGE, "%s", why);
+    s->options.quasi_static = pg_kind_quasi_static (options->kind);
+    s->options.marching = s->type->way == MARCHES, s->options.staged = s->type->way == RELAXES;
     pg_system *sys = &s->breaker.system;
     sys->problem = problem, sys->force = force, sys->options = &s->options, sys->report = &s->report;
     PG_TRY (breaker_create (&s->breaker));
@@ -101,6 +65,7 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     PG_ALLOC (s->work1, sys->ndof);
     PG_ALLOC (s->work2, sys->ndof);
     PG_TRY (pg_state_create (&s->backup, problem, sys->components));
+    if (s->type->prepare) PG_TRY (s->type->prepare (s));
     if (options->break_mode == PG_BREAK_ALL && problem->criterion->type)
         pg_report_warn (&s->report, "break: all breaks every bond over its limit at once: the peak load depends on the increment");
     *out = s;
@@ -114,6 +79,7 @@ void pg_solver_free (pg_solver **solver)
 {
     pg_solver *s = *solver;
     if (!s) return;
+    if (s->type && s->type->free) s->type->free (s);
     breaker_free (&s->breaker);
     pg_free (s->unit), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2), pg_free (s->work3), pg_free (s->work4), pg_free (s->support), pg_free (s->force0);
     pg_state_free (&s->backup);
@@ -155,13 +121,14 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     if (step->level && s->breaker.system.force->overlap)
         r->overlap_max = fmax (r->overlap_max, s->breaker.system.force->overlap (s->breaker.system.self, state, state->d));
     r->energy_external = s->breaker.work;
-    r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic;
+    r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping;
 done:
     if (status != PG_OK && s->started && !s->breaker.stopped) {
         char text[2048];
         snprintf (text, sizeof text, "%s", pg_last_error ());
         system_refresh (&s->breaker.system, s->backup, NULL);      /* fields asked for now are those of the accepted state       */
         s->breaker.work = s->backup->work, s->breaker.round = 0;
+        if (s->type->refused) s->type->refused (s);
         if (status != PG_E_MEMORY) pg_error (status, PG_HERE, "step %ld at load factor %.6g is refused: %s", state->step + 1, state->factor, text);
         pg_state_copy (state, s->backup);
     }
@@ -174,7 +141,7 @@ int pg_solver_done (const pg_solver *s, const pg_state *state) { return s->finis
 
 double pg_solver_progress (const pg_solver *s, const pg_state *state)
 {
-    double p = s->options.event ? (double) (s->next_level - 1) / (double) s->options.levels : (double) state->step / (double) s->options.steps;
+    double p = s->type->progress ? s->type->progress (s, state) : s->options.event ? (double) (s->next_level - 1) / (double) s->options.levels : (double) state->step / (double) s->options.steps;
     return fmin (1, fmax (0, p));
 }
 
@@ -215,5 +182,7 @@ const pg_report *pg_solver_report (pg_solver *s, const pg_state *state)
     }
     return &s->report;
 }
+
+const pg_solver_options *pg_solver_settled (const pg_solver *s) { return &s->options; }
 
 const pg_report *pg_solver_report_now (const pg_solver *s) { return &s->report; }

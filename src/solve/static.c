@@ -83,7 +83,7 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     const pg_solver_options *o = &s->options;
     double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, residual;
     for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;   /* utilisation here */
-    PG_TRY (breaker_kill (b, state, b->factor, 1 - width, scale));
+    PG_TRY (breaker_kill (b, state, b->factor, 1 - width, scale, factor));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
     state->events++, s->report.events++;
     double strain = s->report.energy_strain, work = b->work;
@@ -142,6 +142,7 @@ static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
     b->nbroken = 0;
     step->iterations = 1;
     if (s->problem->criterion->type && b->system.force->utilisation) {
+        PG_TRY (breaker_ready (b));
         PG_TRY (b->system.force->utilisation (b->system.self, state, s->unit, b->utilisation, b->kind, b->factor));
         next = smallest (b->factor, state->nbond);
     }
@@ -180,4 +181,4 @@ static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
     return status;
 }
 
-const pg_solver_type pg_solver_static_ = { "static", "quasi-static equilibrium, event by event or in fixed load steps", static_start, static_step, NULL, NULL, NULL };
+const pg_solver_type pg_solver_static_ = { "static", "quasi-static equilibrium, event by event or in fixed load steps", static_start, static_step, .way = SOLVES };

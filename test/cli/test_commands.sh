@@ -75,6 +75,7 @@ expect "plot: one step or several"            64 '' 'exclude each other' plot "$
 expect "plot draws a curve"                    0 '.png' '' plot "$out" --curve pull.displacement_y pull.force_y
 expect "plot draws curves of several runs"     0 'ab.svg' '' plot "$out" "$work/quiet" --curve step pull.force_y --labels 'a run,another' --abs --out "$work/ab.svg"
 grep -q '<svg' "$work/ab.svg"; verdict "curves as SVG" $?
+expect "plot draws a curve of a table"         0 'table.png' '' plot "$out/history.csv" --curve step pull.force_y --out "$work/table.png"
 expect "plot counts the labels"               64 '' '1 names for 2 folders' plot "$out" "$work/quiet" --curve step pull.force_y --labels one
 expect "plot: a column that one run lacks"    64 '' "quiet/history.csv has no column 'pull'" plot "$work/quiet" --curve step pull
 expect "plot --negate or --abs"               64 '' 'exclude each other' plot "$out" --curve step pull.force_y --abs --negate

@@ -103,6 +103,27 @@ static void norms_of_a_column (void **state)
     pg_line_clear (&l);
 }
 
+/* A table relative to the displacement at x = 3: u - 3 is exact, u is not. */
+static void relative_to_a_datum (void **state)
+{
+    (void) state;
+    pg_line l;
+    pg_line_norms n;
+    write_file ("x,u_x\n1,-2\n2,-1\n0.5,-2.5\n");
+    check_ok (pg_line_read (&l, path, 2, 1, 1, origin));
+    pg_sampler s = { NULL, 2, 3, 0, linear, NULL };
+    check_ok (pg_line_measure (&n, &l, &s));
+    check_relative (n.maximum.difference, 3, 1e-14);
+    l.relative = 1, l.datum[0] = 3;
+    check_ok (pg_line_measure (&n, &l, &s));
+    check_absolute (n.maximum.difference, 0, 1e-14);
+    assert_int_equal (n.rows, 3);
+    l.datum[0] = 4;                                                    /* unknown there: so is the rest                 */
+    check_ok (pg_line_measure (&n, &l, &s));
+    assert_int_equal (n.missed, 3);
+    pg_line_clear (&l);
+}
+
 static int make (void **state)
 {
     (void) state;
@@ -114,6 +135,6 @@ static int drop (void **state) { (void) state; return unlink (path); }
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (columns_and_units), cmocka_unit_test (faults), cmocka_unit_test (norms_of_a_column) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (columns_and_units), cmocka_unit_test (faults), cmocka_unit_test (norms_of_a_column), cmocka_unit_test (relative_to_a_datum) };
     return cmocka_run_group_tests (tests, make, drop);
 }

@@ -3,7 +3,7 @@
 #include "check.h"
 #include "perigal/criterion.h"
 
-static const pg_criterion_setting setting[2] = { { PG_SOLID, 0.06, 30e9, 0.2, 1, "constant", "rock", 0 },
+static const pg_criterion_setting setting[2] = { { PG_SOLID, 0.06, 30e9, 0.2, 1, "constant", "rock", 0, 0, NULL },
                                                  { PG_SOLID, 0.06, 120e9, 0.3, 1, "constant", "iron", 0 } };
 
 /* Reads both materials; rock and iron: their maps `failure`, or "". */

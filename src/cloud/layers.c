@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Fictitious boundary layers: boxes of whole lattice cells outside the bounding box of the shapes. */
+#include "shape.h"
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const sides[] = {"left", "right", "bottom", "top", "back", "front"};
+
+int pg_layers_taken (const char *name)
+{
+    for (size_t k = 0; k < sizeof sides / sizeof *sides; k++) if (!strcmp (name, sides[k])) return 1;
+    return !strcmp (name, "all");
+}
+
+/* A scene's set of this name is found when the sets are made. */
+static void read_name (pg_layer *layer, const pg_body *body, const pg_scene *scene, size_t i)
+{
+    const char *name = pg_scene_text (scene, "layers[%zu].name", i);
+    char at[64];
+    snprintf (at, sizeof at, "layers[%zu].name", i);
+    if (strlen (name) >= sizeof layer->name) pg_scene_fault (scene, at, "at most %zu letters", sizeof layer->name - 1);
+    else if (!*name || strpbrk (name, ".[]{}= ")) pg_scene_fault (scene, at, "a name has at least one letter and no space . [ ] { } =");
+    else if (pg_layers_taken (name)) pg_scene_fault (scene, at, "'%s' already names a side of the body", name);
+    for (size_t k = 0; k < body->n; k++)                   /* those of the layers before it among them                    */
+        if (!strcmp (name, body->shape[k].boundary)) {
+            pg_scene_fault (scene, at, "'%s' already names the surface of a shape, or another layer", name);
+            break;
+        }
+    snprintf (layer->name, sizeof layer->name, "%.31s", name);
+}
+
+static int read_side (const pg_body *body, const pg_scene *scene, size_t i)
+{
+    const char *side = pg_scene_text (scene, "layers[%zu].side", i);
+    char at[64];
+    int number = 0;
+    snprintf (at, sizeof at, "layers[%zu].side", i);
+    while (number < 5 && strcmp (side, sides[number])) number++;
+    if (number >= 2 * body->dim) pg_scene_fault (scene, at, "a %dD body has no such side", body->dim);
+    for (size_t k = 0; k < i; k++)
+        if (body->layer[k].side == number) pg_scene_fault (scene, at, "layer %s is on this side already", body->layer[k].name);
+    return number;
+}
+
+/* Whole cells of the lattice over low..high, the box of the body without layers. */
+static void read_thickness (pg_layer *layer, const double *low, const double *high, const pg_scene *scene, size_t i, double *reach)
+{
+    int k = layer->side / 2;
+    double length = high[k] - low[k], step = length / fmax (1, floor (length / pg_scene_number (scene, "spacing") + 0.5));
+    double thickness = pg_scene_length (scene, step, "layers[%zu].thickness", i), rows = floor (thickness / step + 0.5);
+    char at[64];
+    snprintf (at, sizeof at, "layers[%zu].thickness", i);
+    if (!(rows >= 1)) pg_scene_fault (scene, at, "less than half a cell (%.6g m): no row of points", step);
+    else if (!(rows < INT_MAX / 4)) pg_scene_fault (scene, at, "%.3g rows of cells are too many", rows);
+    else layer->rows = (int) rows;
+    *reach = layer->rows * step;
+}
+
+static void lay (pg_shape *box, pg_layer *layer, int dim, const double *low, const double *high, double reach)
+{
+    int k = layer->side / 2, far = layer->side % 2;
+    memcpy (box->low, low, (size_t) dim * sizeof *low);
+    memcpy (box->high, high, (size_t) dim * sizeof *high);
+    layer->face = far ? high[k] : low[k];
+    if (far) box->low[k] = high[k], box->high[k] = high[k] + reach;
+    else box->high[k] = low[k], box->low[k] = low[k] - reach;
+    box->kind = PG_BOX, box->add = 1;
+    memcpy (box->boundary, layer->name, sizeof box->boundary);
+}
+
+static void refuse (const pg_scene *scene)
+{
+    const char *origin = pg_scene_given (scene, "mesh") ? "a mesh" : pg_scene_given (scene, "points") ? "a file of points" : NULL;
+    if (origin) pg_scene_fault (scene, "layers", "are cells of a lattice, and %s has none: give the layer's own points in the file, and a set for them", origin);
+    if (pg_scene_given (scene, "lattice_offset")) pg_scene_fault (scene, "layers", "are whole cells outside the body, which lattice_offset would cut: leave one of the two out");
+}
+
+pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    size_t n = pg_scene_count (scene, "layers");
+    double low[3], high[3];
+    if (n == 0) return PG_OK;
+    refuse (scene);
+    PG_TRY (pg_scene_verdict (scene));
+    if (body->n == 0 || !(pg_scene_number (scene, "spacing") > 0)) return PG_OK;           /* a fault, found later           */
+    memcpy (low, body->low, sizeof low), memcpy (high, body->high, sizeof high);
+    PG_ALLOC (body->layer, n);
+    for (size_t i = 0; i < n; i++) {
+        pg_layer *layer = &body->layer[i];
+        double reach;
+        read_name (layer, body, scene, i);
+        layer->side = read_side (body, scene, i);
+        body->nlayer = i + 1;
+        if (layer->side >= 2 * body->dim) continue;
+        read_thickness (layer, low, high, scene, i, &reach);
+        lay (&body->shape[body->n], layer, body->dim, low, high, reach);
+        if (layer->side % 2) body->high[layer->side / 2] = body->shape[body->n].high[layer->side / 2];
+        else body->low[layer->side / 2] = body->shape[body->n].low[layer->side / 2];
+        body->n++;
+    }
+done:
+    return status;
+}
+
+long pg_body_layer (const pg_body *body, const double *x, double margin)
+{
+    for (size_t i = 0; i < body->nlayer; i++) {
+        const pg_layer *l = &body->layer[i];
+        double beyond = x[l->side / 2] - l->face;
+        if ((l->side % 2 ? beyond : -beyond) > margin) return (long) i;
+    }
+    return -1;
+}

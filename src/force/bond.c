@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Bond-based peridynamics: forces straight between points, by the sweeps of direct sums (Silling 2000; Silling and Askari 2005; theory A). */
+#include "bond.h"
+#include <math.h>
+#include <string.h>
+
+static size_t ndof (const bond *b) { return b->n * (size_t) b->dim; }
+
+/* ---- one point ----------------------------------------------------------------------------------------------------------------- */
+void bond_star_at (const bond *b, size_t i, int thread, bond_star *s)
+{
+    double *room = b->room + (size_t) thread * b->widest * (size_t) (b->dim + 2);
+    s->first = b->family->start[i], s->m = b->family->start[i + 1] - s->first;
+    s->node = b->family->node + s->first;
+    s->xi = room, s->weight = room + b->widest * (size_t) b->dim, s->beta = s->weight + b->widest;
+    pg_sums_bonds (b->problem->sums, b->family, i, s->xi, s->weight, s->beta);
+}
+
+double bond_kappa (const bond *b, size_t i, const bond_star *s, size_t e, double *r)
+{
+    size_t j = (size_t) s->node[e];
+    const double *V = b->problem->cloud.volume, *c = b->modulus, *xi = s->xi + e * (size_t) b->dim;
+    double both = c[i] == c[j] ? c[i] : 2 * c[i] * c[j] / (c[i] + c[j]), rr = 0;
+    for (int k = 0; k < b->dim; k++) rr += xi[k] * xi[k];
+    if (r) *r = sqrt (rr);
+    return both * s->weight[e] * (V[i] * V[j]) / (rr * sqrt (rr));
+}
+
+/* ---- life ---------------------------------------------------------------------------------------------------------------------- */
+static void bond_free (void **self)
+{
+    bond *b = *self;
+    if (!b) return;
+    pg_sweep_free (&b->sweep), pg_sweep_free (&b->tangent);
+    nodal_free (&b->nodal);
+    pg_sparse_clear (&b->K);
+    pg_nearest_free (&b->near);
+    pg_free (b->modulus), pg_free (b->limit), pg_free (b->room), pg_free (b->work), pg_free (b->stale), pg_free (b->diagonal);
+    pg_free (b);
+    *self = NULL;
+}
+
+/* The stretch at which a bond of two points like this one breaks: the criterion's own answer for a bond of unit stretch. */
+static double limit_at (const pg_criterion *c, double ratio)
+{
+    double one = 1, factor = 0;
+    pg_bond_measures m = { 1, 1, &one, &one, &ratio, NULL, NULL };
+    c->type->factor (c, &m, &factor);
+    return factor;
+}
+
+static pg_status make_constants (bond *b)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = b->problem;
+    const pg_sum_rule *rule = &p->sums->rule;
+    PG_ALLOC (b->modulus, b->n);
+    for (size_t i = 0; i < b->n; i++) {
+        double E = p->material[p->block[PG_NODES][i]].modulus;
+        b->modulus[i] = p->sums->calibration * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);
+    }
+    if (!p->criterion->type) goto done;
+    PG_ALLOC (b->limit, b->n);
+    for (size_t i = 0; i < b->n; i++) {
+        const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];
+        b->limit[i] = c->never ? INFINITY : limit_at (c, pg_cloud_ratio (&p->cloud, i));
+    }
+done:
+    return status;
+}
+
+static pg_status make_sweep (bond *b, pg_sweep **out, const pg_sums *sums, const double *limit)
+{
+    pg_sweep_setting s = { .sums = sums, .family = b->family, .modulus = b->modulus, .limit = limit, .exempt = b->problem->exempt[PG_NODES],
+                           .threads = b->threads };
+    return pg_sweep_create (out, &s);
+}
+
+static pg_status bond_create (void **self, const pg_problem *problem)
+{
+    pg_status status = PG_OK;
+    bond *b = NULL;
+    *self = NULL;
+    if (!problem->sums) PG_FAIL (PG_E_USAGE, "force: bond needs a problem built for it");
+    PG_ALLOC (b, 1);
+    *self = b;
+    b->problem = problem, b->dim = problem->dim, b->threads = problem->threads, b->n = problem->cloud.n;
+    b->family = &problem->rows[PG_NODES].family;
+    b->all_stale = 1, b->revision = 1;
+    b->op = (pg_operator) { ndof (b), b, bond_apply, bond_diagonal };
+    for (size_t i = 0; i < b->n; i++) {
+        size_t m = b->family->start[i + 1] - b->family->start[i];
+        b->widest = m > b->widest ? m : b->widest;
+    }
+    PG_ALLOC (b->room, (size_t) b->threads * b->widest * (size_t) (b->dim + 2));
+    PG_ALLOC (b->work, ndof (b));
+    PG_ALLOC (b->stale, b->n);
+    PG_TRY (make_constants (b));
+    PG_TRY (make_sweep (b, &b->sweep, problem->sums, b->limit));
+    PG_TRY (nodal_create (&b->nodal, problem, b->dim));
+done:
+    if (status != PG_OK) bond_free (self);
+    return status;
+}
+
+pg_status bond_tangent_sweep (bond *b, pg_sweep **out)
+{
+    pg_status status = PG_OK;
+    *out = b->sweep;
+    if (!b->problem->sums->rule.finite) return PG_OK;
+    if (!b->tangent) {
+        b->small = *b->problem->sums;
+        b->small.rule.finite = 0;
+        PG_TRY (make_sweep (b, &b->tangent, &b->small, NULL));
+        if (b->alive) pg_sweep_update (b->tangent, b->alive, NULL);
+    }
+    *out = b->tangent;
+done:
+    return status;
+}
+
+static size_t bond_fields (const void *self, size_t max, pg_field *out)
+{
+    if (max > 0) out[0] = (pg_field) { "displacement", "m", ((const bond *) self)->dim };
+    return 1;
+}
+
+/* ---- breaking ------------------------------------------------------------------------------------------------------------------ */
+static void mark_stale (bond *b, const pg_changes *changes)
+{
+    for (size_t c = 0; c < changes->n; c++) {
+        int set;
+        size_t point;
+        pg_problem_locate (b->problem, changes->bond[c], &set, &point);
+        b->stale[point] = b->stale[b->family->node[changes->bond[c]]] = 1;
+    }
+    b->revision += changes->n > 0;
+}
+
+static pg_status bond_refresh (void *self, const pg_state *state, const pg_changes *changes)
+{
+    bond *b = self;
+    b->alive = state->alive;
+    pg_sweep_update (b->sweep, state->alive, changes);
+    if (b->tangent) pg_sweep_update (b->tangent, state->alive, changes);
+    if (changes) mark_stale (b, changes);
+    else b->all_stale = 1, b->revision++;
+    return PG_OK;
+}
+
+/* residual = f + P (t); f already there */
+static void finish (bond *b, double t, double *residual, double *reference)
+{
+    double inside = 0;
+    for (size_t i = 0; reference && i < ndof (b); i++) inside += residual[i] * residual[i];
+    if (reference) *reference = fmax (sqrt (inside), nodal_size (&b->nodal, t));
+    nodal_add (&b->nodal, t, residual);
+}
+
+static pg_status bond_balance (void *self, double t, const double *d, double *residual, double *reference)
+{
+    pg_status status = PG_OK;
+    bond *b = self;
+    PG_TRY (pg_sweep_force (b->sweep, d, residual, NULL));
+    finish (b, t, residual, reference);
+done:
+    return status;
+}
+
+static pg_status bond_march (void *self, double t, const double *d, double *residual, double *reference, pg_changes *broken)
+{
+    pg_status status = PG_OK;
+    bond *b = self;
+    size_t before = broken->n;
+    PG_TRY (pg_sweep_force (b->sweep, d, residual, b->limit ? broken : NULL));
+    if (broken->n > before) {
+        pg_changes fresh = { broken->n - before, 0, broken->bond + before };
+        if (b->tangent) pg_sweep_update (b->tangent, b->alive, &fresh);
+        mark_stale (b, &fresh);
+    }
+    finish (b, t, residual, reference);
+done:
+    return status;
+}
+
+static pg_status bond_external (void *self, double t, double *P)
+{
+    bond *b = self;
+    memset (P, 0, ndof (b) * sizeof *P);
+    nodal_add (&b->nodal, t, P);
+    return PG_OK;
+}
+
+/* ---- the rest ------------------------------------------------------------------------------------------------------------------ */
+static pg_status bond_mass (void *self, double *mass)
+{
+    const bond *b = self;
+    const pg_problem *p = b->problem;
+    for (size_t i = 0; i < b->n; i++)
+        for (size_t k = 0; k < (size_t) b->dim; k++) mass[i * (size_t) b->dim + k] = p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i];
+    return PG_OK;
+}
+
+static pg_status bond_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out)
+{
+    pg_status status = PG_OK;
+    bond *b = self;
+    PG_TRY (bond_balance (b, t, d, b->work, NULL));
+    for (size_t i = 0; inertia && i < ndof (b); i++) b->work[i] += inertia[i];
+    PG_TRY (nodal_ledger (&b->nodal, t, d, b->work, out));
+    out->strain = pg_sweep_energy (b->sweep, d);
+done:
+    return status;
+}
+
+static unsigned long bond_revision (const void *self) { return ((const bond *) self)->revision; }
+static const pg_operator *bond_operator (void *self) { return &((bond *) self)->op; }
+static const pg_sparse *bond_basis (void *self) { return nodal_basis (&((bond *) self)->nodal); }
+
+static pg_status bond_impose (void *self, double t, double *d)
+{
+    nodal_impose (&((bond *) self)->nodal, t, d);
+    return PG_OK;
+}
+
+const pg_force_type pg_force_bond = {
+    .name = "bond", .summary = "bond-based peridynamics: pair forces between points (Silling 2000)",
+    .create = bond_create, .free = bond_free, .fields = bond_fields, .refresh = bond_refresh, .balance = bond_balance, .mass = bond_mass,
+    .operator_ = bond_operator, .matrix = bond_matrix, .basis = bond_basis, .impose = bond_impose, .utilisation = bond_utilisation,
+    .ledger = bond_ledger, .field = bond_field, .probe = bond_probe, .overlap = bond_overlap, .census = bond_census, .revision = bond_revision,
+    .assemble = bond_assemble, .sample = bond_sample, .march = bond_march, .external = bond_external, .bound = bond_bound,
+    .row_sums = bond_row_sums, .describe = bond_describe, .refuses = bond_refuses
+};

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: bond-based peridynamics. Files: bond.c (life cycle, forces, breaking), bond_matrix.c (K, its diagonal and row sums, the bound of the
+ * largest frequency), bond_field.c (utilisation, fields, places, census), bond_words.c (what the plan says).
+ * Pair force on i from j: V_i V_j c k beta g s e, s = e . eta / r; linear in the displacement: kappa (xi . eta) xi,
+ * kappa = V_i V_j c k beta g / r^3 (N/m^3), the same bits from either end. */
+#ifndef PG_BOND_H
+#define PG_BOND_H
+#include "nodal.h"
+
+typedef struct {
+    const pg_problem *problem;
+    int       dim, threads;
+    size_t    n, widest;                               /* points; most bonds of one                                      */
+    const pg_family *family;
+    nodal     nodal;
+    double   *modulus;                                 /* c_h of each point, N/m^6           (n)                         */
+    double   *limit;                                   /* critical stretch of each point; NULL: nothing breaks (n)       */
+    pg_sweep *sweep;                                   /* forces, by the stretch of the rule                             */
+    pg_sums   small;  pg_sweep *tangent;               /* finite stretch: sums and sweep of the linear one, for K x; made when asked for */
+    const unsigned char *alive;                        /* of the state of the last refresh, borrowed; NULL: all live     */
+    double   *room;                                    /* bonds of one point: threads x widest x (dim + 2)               */
+    double   *work;                                    /* ndof                                                           */
+    pg_operator op;
+    pg_sparse K;                                       /* row NULL until asked for                                       */
+    int       all_stale;                               /* columns of K to be made again: all, or those marked            */
+    unsigned char *stale;
+    double   *diagonal;  unsigned long diagonal_of;    /* of K at that revision                                          */
+    unsigned long revision;
+    pg_nearest *near;                                  /* points; NULL until a place is asked for                        */
+} bond;
+
+typedef struct {                                       /* the bonds of one point                                         */
+    size_t  first, m;                                  /* their entries of the family                                    */
+    const int *node;
+    double *xi, *weight, *beta;                        /* m; k beta g; beta                                              */
+} bond_star;
+void   bond_star_at (const bond *b, size_t i, int thread, bond_star *out);
+double bond_kappa   (const bond *b, size_t i, const bond_star *s, size_t e, double *r);      /* N/m^3; r (m) or NULL      */
+static inline int bond_lives (const bond *b, size_t entry) { return !b->alive || b->alive[entry]; }
+
+/* matrix */
+void bond_apply    (void *context, const double *x, double *y);
+void bond_diagonal (void *context, double *d);
+pg_status bond_tangent_sweep (bond *b, pg_sweep **out);                /* forces by the linear stretch                   */
+pg_status bond_assemble (void *self);
+const pg_sparse *bond_matrix (void *self);
+pg_status bond_row_sums (void *self, double *sum);
+pg_status bond_bound (void *self, double *omega);
+/* fields */
+pg_status bond_utilisation (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
+pg_status bond_field  (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
+pg_status bond_probe  (void *self, const double *d, const double *x, double *u);
+pg_status bond_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress);
+double    bond_overlap (void *self, const pg_state *state, const double *d);
+void      bond_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+/* words */
+int         bond_describe (const void *self, size_t line, char *text, size_t size);
+const char *bond_refuses  (const pg_problem *problem, const char *kind);
+#endif

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What a plan says about bonds: constants, how they are summed, the largest explicit time step; which solvers they do not go with. */
+#include "bond.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void say_constant (const bond *b, size_t m, char *text, size_t size)
+{
+    const pg_problem *p = b->problem;
+    const pg_sum_rule *rule = &p->sums->rule;
+    double c = pg_bond_modulus (p->mode, rule->kernel, rule->horizon, p->material[m].modulus, p->cloud.thickness);
+    int used = snprintf (text, size, "%s%s%sconstant %.6g N/m^6, Poisson's ratio %.4g", p->nmaterial > 1 ? "material " : "",
+                         p->nmaterial > 1 ? p->material[m].name : "", p->nmaterial > 1 ? ": " : "", c, pg_bond_poisson (p->mode));
+    if (rule->calibrate && used > 0 && (size_t) used < size)
+        snprintf (text + used, size - (size_t) used, ", times %.6g for these points (calibrated: energy of hydrostatic strain)", p->sums->calibration);
+}
+
+static void say_sums (const bond *b, char *text, size_t size)
+{
+    static const char *const partial[] = { "none", "linear", "overlap" }, *const surface[] = { "none", "product", "volume" };
+    const pg_sum_rule *rule = &b->problem->sums->rule;
+    snprintf (text, size, "up to %zu a point, %s stretch; partial volumes: %s, surface correction: %s; summed by %s", b->widest,
+              rule->finite ? "finite" : "linear", partial[rule->partial], surface[rule->surface], pg_sweep_name (b->sweep));
+}
+
+static void say_toughness (const bond *b, char *text, size_t size)
+{
+    const pg_sums *s = b->problem->sums;
+    if (s->stencil.n) snprintf (text, size, "a straight crack along the lattice consumes %.5g of theory's energy at the same stretch%s", s->toughness,
+                                s->rule.calibrate ? "; critical stretch and fracture energy belong together with that" : "");
+    else snprintf (text, size, "critical stretch and fracture energy belong together as in theory: not measured on points without a lattice");
+}
+
+static int say_step (const bond *b, char *text, size_t size)
+{
+    double omega;
+    for (size_t m = 0; m < b->problem->nmaterial; m++) if (!(b->problem->material[m].density > 0)) return 0;
+    if (bond_bound ((void *) b, &omega) != PG_OK) return 0;
+    snprintf (text, size, "explicit steps stable up to %.6g s at least (closed form)", 2 / omega);
+    return 1;
+}
+
+int bond_describe (const void *self, size_t line, char *text, size_t size)
+{
+    const bond *b = self;
+    size_t n = b->problem->nmaterial;
+    if (line < n) say_constant (b, line, text, size);
+    else if (line == n) say_sums (b, text, size);
+    else if (line == n + 1 && b->limit) say_toughness (b, text, size);
+    else return line == n + 1 + (b->limit != NULL) && say_step (b, text, size);
+    return 1;
+}
+
+const char *bond_refuses (const pg_problem *problem, const char *kind)
+{
+    int implicit = strcmp (kind, "static") == 0 || strcmp (kind, "newmark") == 0;
+    if (implicit && problem->sums && problem->sums->rule.finite)
+        return "method.stretch: finite makes forces that are not linear in the displacement; static and newmark need linear ones: use stretch: linear, or verlet, "
+               "central, adr or relax";
+    return NULL;
+}

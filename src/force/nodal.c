@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Supports, loads and ledger of forces whose unknowns are the values of the points. Prescribed unknowns are left out, d = T q + g with T the
+ * selection of the others; loads are sums of forces on points, computed once where they are a pattern times a factor of t. */
+#include "nodal.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- supports ------------------------------------------------------------------------------------------------------------------ */
+static int prescribes (const pg_load *load, int k) { return pg_load_prescribes (load) && load->value[k]; }
+
+/* The entry that prescribes each unknown, -1: none. */
+static void claim (const nodal *s, int *by)
+{
+    const pg_problem *p = s->problem;
+    size_t stride = (size_t) s->stride;
+    for (size_t i = 0; i < s->n * stride; i++) by[i] = -1;
+    for (size_t l = p->nload; l-- > 0;)                /* the first entry wins                                           */
+        for (int k = 0; k < s->dim; k++)
+            for (size_t i = 0; prescribes (&p->load[l], k) && i < p->load[l].set->npoint; i++)
+                by[(size_t) p->load[l].set->point[i] * stride + (size_t) k] = (int) l;
+}
+
+static pg_status make_supports (nodal *s)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = s->problem;
+    size_t ndof = s->n * (size_t) s->stride;
+    int *by = NULL;
+    PG_ALLOC (by, ndof);
+    claim (s, by);
+    for (size_t i = 0; i < ndof; i++) s->nsupport += by[i] >= 0;
+    PG_ALLOC (s->support, s->nsupport);
+    PG_ALLOC (s->goal, s->nsupport);
+    size_t at = 0;
+    for (size_t i = 0; i < ndof; i++) {
+        if (by[i] < 0) continue;
+        size_t point = i / (size_t) s->stride;
+        int k = (int) (i % (size_t) s->stride);
+        s->support[at] = (nodal_support) { i, point, by[i], k };
+        s->goal[at++] = pg_load_pattern (&p->load[by[i]], k, s->dim, p->cloud.x + point * (size_t) s->dim);
+    }
+    if (s->nsupport == 0) goto done;
+    PG_TRY (pg_sparse_create (&s->T, ndof, ndof - s->nsupport, ndof - s->nsupport, 0));
+    long column = 0;
+    for (size_t i = 0; i < ndof; i++) {
+        if (by[i] >= 0) continue;
+        s->T.row[column] = (long) i, s->T.value[column] = 1;
+        column++;
+        s->T.start[column] = column;
+    }
+done:
+    pg_free (by);
+    return status;
+}
+
+static double goal_of (const nodal *s, size_t k, double t)
+{
+    const pg_load *load = &s->problem->load[s->support[k].load];
+    if (pg_load_separates (load)) return s->goal[k] * pg_load_factor (load, t);
+    return pg_load_value (load, s->support[k].component, s->dim, s->problem->cloud.x + s->support[k].point * (size_t) s->dim, t);
+}
+
+const pg_sparse *nodal_basis (const nodal *s) { return s->nsupport ? &s->T : NULL; }
+
+void nodal_impose (const nodal *s, double t, double *d)
+{
+    for (size_t k = 0; k < s->nsupport; k++) d[s->support[k].dof] = goal_of (s, k, t);
+}
+
+/* ---- loads --------------------------------------------------------------------------------------------------------------------- */
+/* The pattern at t, or at factor 1. */
+static void evaluate (const nodal *s, nodal_load *l, double t)
+{
+    const pg_load *load = &s->problem->load[l->load];
+    int pressure = load->kind == PG_PRESSURE;
+    size_t dim = (size_t) s->dim;
+    memset (l->pattern, 0, l->npoint * dim * sizeof *l->pattern);
+    for (size_t i = 0; i < l->npart; i++) {
+        const nodal_part *q = &l->part[i];
+        for (size_t k = 0; k < dim; k++) {
+            int c = pressure ? 0 : (int) k;
+            double f = l->separates ? pg_load_pattern (load, c, s->dim, q->x) : pg_load_value (load, c, s->dim, q->x, t);
+            l->pattern[q->at * dim + k] += q->weight * (pressure ? -f * q->normal[k] : f);
+        }
+    }
+    l->time = t;
+}
+
+static pg_status make_load (nodal *s, nodal_load *l, int load)
+{
+    pg_status status = PG_OK;
+    l->load = load, l->separates = pg_load_separates (&s->problem->load[load]), l->time = NAN;
+    PG_TRY (nodal_parts (l, s, load));
+    PG_ALLOC (l->pattern, l->npoint * (size_t) s->dim);
+    if (!l->separates) goto done;
+    evaluate (s, l, 0);
+    pg_free (l->part);
+    l->part = NULL, l->npart = 0;
+done:
+    return status;
+}
+
+/* Factor of the pattern as it is now. */
+static double bring_to (const nodal *s, nodal_load *l, double t)
+{
+    if (l->separates) return pg_load_factor (&s->problem->load[l->load], t);
+    if (!(l->time == t)) evaluate (s, l, t);
+    return 1;
+}
+
+void nodal_add (nodal *s, double t, double *P)
+{
+    size_t dim = (size_t) s->dim, stride = (size_t) s->stride;
+    for (size_t k = 0; k < s->nload; k++) {
+        nodal_load *l = &s->load[k];
+        double factor = bring_to (s, l, t);
+        for (size_t i = 0; i < l->npoint; i++)
+            for (size_t c = 0; c < dim; c++) P[(size_t) l->point[i] * stride + c] += factor * l->pattern[i * dim + c];
+    }
+}
+
+/* A point under several loads counts once for each: a size, no more. */
+double nodal_size (nodal *s, double t)
+{
+    double sum = 0;
+    for (size_t k = 0; k < s->nload; k++) {
+        double factor = bring_to (s, &s->load[k], t), square = 0;
+        for (size_t i = 0; i < s->load[k].npoint * (size_t) s->dim; i++) square += s->load[k].pattern[i] * s->load[k].pattern[i];
+        sum += factor * factor * square;
+    }
+    return sqrt (sum);
+}
+
+/* ---- ledger -------------------------------------------------------------------------------------------------------------------- */
+pg_status nodal_ledger (nodal *s, double t, const double *d, const double *residual, pg_ledger *out)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) s->dim, at = s->nsupport, count = s->nsupport;
+    for (size_t k = 0; k < s->nload; k++) count += s->load[k].npoint * dim;
+    if (!out->force) {
+        out->npair = count;
+        PG_ALLOC (out->force, count);
+        PG_ALLOC (out->displacement, count);
+        PG_ALLOC (out->reaction, 3 * s->problem->nload);
+    }
+    memset (out->reaction, 0, 3 * s->problem->nload * sizeof *out->reaction);
+    for (size_t k = 0; k < s->nsupport; k++) {
+        const nodal_support *q = &s->support[k];
+        out->force[k] = -residual[q->dof], out->displacement[k] = goal_of (s, k, t);
+        out->reaction[q->load * 3 + q->component] -= residual[q->dof];
+    }
+    for (size_t k = 0; k < s->nload; k++) {
+        nodal_load *l = &s->load[k];
+        double factor = bring_to (s, l, t);
+        for (size_t i = 0; i < l->npoint; i++)
+            for (size_t c = 0; c < dim; c++, at++) {
+                out->force[at] = factor * l->pattern[i * dim + c], out->displacement[at] = d[(size_t) l->point[i] * (size_t) s->stride + c];
+                out->reaction[(size_t) l->load * 3 + c] += out->force[at];
+            }
+    }
+done:
+    return status;
+}
+
+/* ---- life ---------------------------------------------------------------------------------------------------------------------- */
+pg_status nodal_create (nodal *s, const pg_problem *problem, int stride)
+{
+    pg_status status = PG_OK;
+    *s = (nodal) { .problem = problem, .dim = problem->dim, .stride = stride, .n = problem->cloud.n };
+    PG_TRY (make_supports (s));
+    PG_ALLOC (s->load, problem->nload);
+    for (size_t l = 0; l < problem->nload; l++)
+        if (!pg_load_prescribes (&problem->load[l])) PG_TRY (make_load (s, &s->load[s->nload++], (int) l));
+done:
+    return status;
+}
+
+void nodal_free (nodal *s)
+{
+    for (size_t k = 0; k < s->nload; k++) pg_free (s->load[k].point), pg_free (s->load[k].part), pg_free (s->load[k].pattern);
+    pg_free (s->load), pg_free (s->support), pg_free (s->goal);
+    pg_sparse_clear (&s->T);
+    *s = (nodal) { 0 };
+}

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Forces straight between points (method.force: bond): the rule of their sums, their bonds, and which keys of the scene mean nothing to them.
+ * Theory A1 to A3. */
+#include "model.h"
+#include <math.h>
+#include <string.h>
+
+int pg_direct_force (const pg_scene *scene)
+{
+    const char *force = pg_scene_text (scene, "method.force");
+    return force && strcmp (force, "galerkin") != 0;
+}
+
+static int is (const pg_scene *scene, const char *key, const char *word)
+{
+    const char *text = pg_scene_text (scene, "%s", key);
+    return text && strcmp (text, word) == 0;
+}
+
+void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, const pg_approx *approx, double spacing, int lattice)
+{
+    static const char partial[] = "method.partial_volume", surface[] = "method.surface_correction", evaluation[] = "method.evaluation";
+    *rule = (pg_sum_rule) { .mode = mode, .kernel = approx->kernel, .horizon = approx->horizon };
+    rule->partial = is (scene, partial, "none") ? PG_PARTIAL_NONE : is (scene, partial, "linear") ? PG_PARTIAL_LINEAR
+                  : is (scene, partial, "overlap") || lattice ? PG_PARTIAL_OVERLAP : PG_PARTIAL_LINEAR;
+    rule->surface = is (scene, surface, "product") ? PG_SURFACE_PRODUCT : is (scene, surface, "volume") ? PG_SURFACE_VOLUME
+                  : is (scene, surface, "none") || approx->horizon < 4 * spacing * (1 - 1e-9) ? PG_SURFACE_NONE : PG_SURFACE_PRODUCT;
+    rule->calibrate = pg_scene_bool (scene, "method.calibrate");
+    rule->finite = is (scene, "method.stretch", "finite");
+    rule->evaluation = is (scene, evaluation, "stencil") ? PG_EVALUATE_STENCIL : is (scene, evaluation, "list") ? PG_EVALUATE_LIST : PG_EVALUATE_AUTO;
+}
+
+/* ---- what the scene says in vain ----------------------------------------------------------------------------------------------- */
+static void note_unused (pg_problem *p, const pg_scene *scene)
+{
+    static const char *const keys[] = { "approximation", "basis", "support", "weights", "degenerate", "integration", "gauss_points", "stabilization",
+                                        "stabilization_factor", "essential", "nitsche_factor", "penalty_factor" };
+    char text[200] = "";
+    size_t used = 0;
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
+        if (pg_scene_given (scene, "method.%s", keys[k]) && used + 40 < sizeof text)
+            used += (size_t) snprintf (text + used, sizeof text - used, "%s%s", used ? ", " : "", keys[k]);
+    if (used) pg_problem_note (p, "without meaning for force: %s, in method: %s", p->force, text);
+    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
+        char path[64];
+        snprintf (path, sizeof path, "boundary[%zu].essential", i);
+        if (pg_scene_given (scene, "%s", path) && !is (scene, path, "auto") && !is (scene, path, "transformation"))
+            pg_problem_note (p, "without meaning for force: %s: %s (the displacements of points are prescribed as they are)", p->force, path);
+    }
+}
+
+/* E is kept; the tangent, wave speeds and the stress of a gradient are those of the material that the bonds make. */
+static void take_poisson (pg_problem *p)
+{
+    double nu = pg_bond_poisson (p->mode);
+    for (size_t m = 0; m < p->nmaterial && p->mode != PG_LINE; m++) {
+        pg_material *a = &p->material[m];
+        double E = a->modulus, asked = a->parameter[1];
+        if (fabs (asked - nu) > 0.005)
+            pg_problem_note (p, "warning: material %.40s: Poisson's ratio is %.4g, not %.4g: bonds alone leave no choice (Young's modulus is kept)", a->name, nu, asked);
+        a->parameter[1] = nu;
+        pg_elastic_tangent (a->mode, E, nu, a->D);
+        if (a->mode == PG_PLANE_STRAIN) a->out_of_plane[0] = a->out_of_plane[1] = E * nu / ((1 + nu) * (1 - 2 * nu));
+    }
+}
+
+/* ---- sums -------------------------------------------------------------------------------------------------------------------- */
+static pg_status on_lattice (const pg_problem *p, int *yes)
+{
+    pg_sites sites = { 0 };
+    pg_status status = pg_sites_build (&sites, &p->cloud, p->lattice.dim ? &p->lattice : NULL);
+    *yes = status == PG_OK && sites.count[0] > 0;
+    pg_sites_clear (&sites);
+    return status;
+}
+
+pg_status pg_direct_build (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_sum_rule rule;
+    int lattice;
+    p->integration = pg_integration_find ("nodal");
+    note_unused (p, scene);
+    take_poisson (p);
+    PG_TRY (on_lattice (p, &lattice));
+    pg_direct_rule (&rule, scene, p->mode, &p->approx, p->cloud.h, lattice);
+    if (!lattice && rule.partial == PG_PARTIAL_OVERLAP)
+        pg_scene_fault (scene, "method.partial_volume", "overlap needs the cells of a lattice, and these points lie on none: use linear or none");
+    if (!lattice && rule.evaluation == PG_EVALUATE_STENCIL)
+        pg_scene_fault (scene, "method.evaluation", "a stencil needs a lattice, and these points lie on none: use list or auto");
+    if (rule.surface == PG_SURFACE_VOLUME && rule.evaluation == PG_EVALUATE_STENCIL)
+        pg_scene_fault (scene, "method.evaluation", "with surface_correction: volume every bond has a weight of its own: use list or auto");
+    PG_TRY (pg_scene_verdict (scene));
+    PG_TRY (pg_sums_create (&p->sums, &rule, &p->cloud, p->lattice.dim ? &p->lattice : NULL));
+done:
+    return status;
+}
+
+pg_status pg_direct_bonds (pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_rows *r = &p->rows[PG_NODES];
+    size_t n = p->cloud.n, dim = (size_t) p->dim;
+    *r = (pg_rows) { .dim = p->dim, .n = n };
+    PG_ALLOC (r->x, n * dim);
+    PG_ALLOC (r->weight, n);
+    PG_ALLOC (r->own, n);
+    PG_ALLOC (r->cell, n);
+    memcpy (r->x, p->cloud.x, n * dim * sizeof *r->x);
+    memcpy (r->weight, p->cloud.volume, n * sizeof *r->weight);
+    for (size_t i = 0; i < n; i++) r->own[i] = (int) i, r->cell[i] = -1;
+    PG_TRY (pg_sums_family (&r->family, p->sums));
+    for (int s = PG_POINTS; s < PG_BOND_SETS; s++) PG_TRY (pg_rows_create (&p->rows[s], &p->approx, &p->cloud, 0, NULL, NULL, NULL, NULL));
+    PG_ALLOC (p->facet_normal, 0);
+done:
+    return status;
+}

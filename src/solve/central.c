@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Central differences as leapfrog (theory G4) with damping C = c M:
+ *   v(n+1/2) = ((1 - c dt / 2) v(n-1/2) + dt f_n / m) / (1 + c dt / 2),  u_n+1 = u_n + dt v(n+1/2),  v(1/2) = v_0 + dt a_0 / 2.
+ * v of the state is half a step ahead of its displacement, a = (v(n+1/2) - v(n-1/2)) / dt. */
+#include "explicit.h"
+
+static void range (const sweep *w, size_t first, size_t last, double *sum)
+{
+    double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), keep = (1 - h * c) * less, push = dt * less, rate = 1 / dt;
+    double *d = w->d, *v = w->v, *a = w->a, before[8] = { 0 }, after[8] = { 0 }, kinetic[8] = { 0 };
+    const double *f = w->f, *inverse = w->inverse;
+    if (w->settle) {
+        if (w->P) sum[SUM_A] = sweep_dot (w->P, v, first, last);
+        for (size_t i = first; c > 0 && i < last; i++) {
+            double vn = 0.5 * (v[i] + (keep * v[i] + push * (f[i] * inverse[i])));
+            before[i & 7] += w->mass[i] * vn * v[i];
+            after[i & 7] += w->mass[i] * vn * (2 * vn - v[i]);
+        }
+        sum[SUM_C] = sweep_sum (before), sum[SUM_D] = sweep_sum (after);
+    }
+    if (w->settle && w->launch)
+        for (size_t i = first; i < last; i++) {
+            v[i] = keep * v[i] + push * (f[i] * inverse[i]);
+            d[i] += dt * v[i];
+        }
+    else if (w->launch) for (size_t i = first; i < last; i++) d[i] += dt * v[i];
+    else {
+        for (size_t i = first; i < last; i++) {
+            double now = keep * v[i] + push * (f[i] * inverse[i]);
+            kinetic[i & 7] += w->mass[i] * v[i] * now;
+            a[i] = (now - v[i]) * rate;
+            v[i] = now;
+        }
+        sum[SUM_K] = sweep_sum (kinetic);
+    }
+    if (w->launch && w->P) sum[SUM_B] = sweep_dot (w->P, v, first, last);
+    if (w->launch) sum[SUM_BAD] = sweep_bad (d, first, last);
+}
+
+static pg_status step (pg_solver *s, pg_state *state, pg_step *out) { return march_step (s, state, out, range, 1); }
+
+const pg_solver_type pg_solver_central = {
+    "central", "explicit dynamics, central differences", march_start, step, march_done, explicit_free, .way = MARCHES, .prepare = march_prepare,
+    .refused = march_refused, .keep = explicit_keep, .progress = march_progress };

@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What explicit and relaxed methods have in common: supports, loads, the stable time step, forces with breaking, rows and levels. */
+#include "explicit.h"
+#include <math.h>
+#include <string.h>
+
+enum { BLOCK = 2048 };
+
+/* ---- supports ------------------------------------------------------------------------------------------------------------------ */
+/* The rows of T without an entry; T must select: one entry a column, which is 1. */
+static pg_status find_held (motion *m, const pg_sparse *T, size_t ndof, const char *kind)
+{
+    pg_status status = PG_OK;
+    unsigned char *is_free = NULL;
+    PG_ALLOC (is_free, ndof);
+    for (size_t j = 0; j < T->ncol; j++) {
+        if (T->start[j + 1] != T->start[j] + 1)
+            PG_FAIL (PG_E_USAGE, "%s needs supports that prescribe single unknowns, and with these shape functions essential: transformation ties several "
+                     "together: use essential: nitsche", kind);
+        is_free[T->row[T->start[j]]] = 1;
+    }
+    for (size_t i = 0; i < ndof; i++) m->nheld += !is_free[i];
+    PG_ALLOC (m->held, m->nheld);
+    size_t n = 0;
+    for (size_t i = 0; i < ndof; i++) if (!is_free[i]) m->held[n++] = i;
+done:
+    pg_free (is_free);
+    return status;
+}
+
+static int has_forces (const pg_problem *p)
+{
+    for (size_t l = 0; l < p->nload; l++) if (!pg_load_prescribes (&p->load[l])) return 1;
+    return 0;
+}
+
+/* Supports that act like springs: their work is known to the force alone. */
+static int has_springs (const pg_problem *p)
+{
+    for (size_t l = 0; l < p->nload; l++) if (pg_load_prescribes (&p->load[l]) && p->load[l].essential != PG_ESSENTIAL_TRANSFORMATION) return 1;
+    return 0;
+}
+
+pg_status explicit_create (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->breaker.system;
+    const pg_force_type *force = sys->force;
+    const pg_sparse *T = force->basis ? force->basis (sys->self) : NULL;
+    motion *m = NULL;
+    PG_ALLOC (s->motion, 1);
+    m = s->motion;
+    if (T && force->impose) PG_TRY (find_held (m, T, sys->ndof, s->type->name));
+    PG_ALLOC (m->lists, 3 * m->nheld);
+    m->before = m->lists, m->goal = m->before + m->nheld, m->next = m->goal + m->nheld;
+    PG_ALLOC (m->push, 2 * m->nheld);
+    m->push0 = m->push + m->nheld;
+    if (force->external && has_forces (s->problem)) PG_ALLOC (m->P, sys->ndof);
+    m->by_ledger = !force->external && force->ledger && (has_forces (s->problem) || has_springs (s->problem));
+    m->nblock = (sys->ndof + BLOCK - 1) / BLOCK;
+    PG_ALLOC (m->sum, m->nblock * SUMS);
+    PG_ALLOC (m->inverse, sys->ndof);
+    double bonds = (double) s->problem->first_bond[PG_BOND_SETS];
+    m->between = (long) fmin (1000, fmax (1, 4e7 / fmax (bonds, 1)));
+done:
+    return status;
+}
+
+void explicit_free (pg_solver *s)
+{
+    motion *m = s->motion;
+    if (!m) return;
+    pg_free (m->held), pg_free (m->lists), pg_free (m->push), pg_free (m->P), pg_free (m->inverse), pg_free (m->sum);
+    pg_free (m);
+    s->motion = NULL;
+}
+
+void explicit_release (pg_solver *s, pg_state *state)
+{
+    const motion *m = s->motion;
+    for (size_t k = 0; k < m->nheld; k++) state->v[m->held[k]] = state->a[m->held[k]] = 0;
+}
+
+static pg_status gather (pg_solver *s, double t, double *out)
+{
+    pg_status status = PG_OK;
+    const motion *m = s->motion;
+    const pg_system *sys = &s->breaker.system;
+    if (m->nheld == 0) return PG_OK;
+    PG_TRY (sys->force->impose (sys->self, t, sys->full));
+    for (size_t k = 0; k < m->nheld; k++) out[k] = sys->full[m->held[k]];
+done:
+    return status;
+}
+
+pg_status explicit_follow (pg_solver *s, double before, double now, double next)
+{
+    pg_status status = PG_OK;
+    motion *m = s->motion;
+    const pg_system *sys = &s->breaker.system;
+    if (m->fresh) {                                    /* they come from the step before: one evaluation is enough       */
+        double *first = m->before;
+        m->before = m->goal, m->goal = m->next, m->next = first;
+    } else {
+        PG_TRY (gather (s, before, m->before));
+        PG_TRY (gather (s, now, m->goal));
+    }
+    PG_TRY (gather (s, next, m->next));
+    if (m->P) PG_TRY (sys->force->external (sys->self, now, m->P));
+    m->fresh = 1;
+done:
+    return status;
+}
+
+/* ---- the stable time step -------------------------------------------------------------------------------------------------------- */
+static pg_status by_row_sums (pg_solver *s, double *omega)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->breaker.system;
+    double top = 0;
+    PG_TRY (sys->force->row_sums (sys->self, sys->full));
+    for (size_t i = 0; i < sys->ndof; i++) top = fmax (top, sys->full[i] / sys->mass[i]);
+    *omega = sqrt (top);
+done:
+    return status;
+}
+
+/* A bound from above where the force has one; else the largest frequency itself, from below within 1 %. */
+static pg_status find_bound (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    motion *m = s->motion;
+    pg_system *sys = &s->breaker.system;
+    if (sys->force->bound) {
+        m->from = "bound of the largest frequency";
+        PG_TRY (sys->force->bound (sys->self, &m->omega));
+    } else {
+        PG_TRY (system_refresh (sys, s->backup, NULL));
+        m->from = sys->force->row_sums ? "bound by row sums" : "largest frequency";
+        if (sys->force->row_sums) PG_TRY (by_row_sums (s, &m->omega));
+        else PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
+    }
+    if (!isfinite (m->omega)) PG_FAIL (PG_E_USAGE, "the largest frequency of the body is not finite: check stiffness and density");
+    int exact = !sys->force->bound && !sys->force->row_sums;
+    m->stable = m->omega > 0 ? (exact ? 0.99 : 1) * 2 / m->omega : INFINITY;
+done:
+    return status;
+}
+
+/* Beyond the bound the frequency itself decides. */
+static pg_status check_dt (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    motion *m = s->motion;
+    double omega;
+    if (s->options.dt <= m->stable) goto done;
+    PG_TRY (pg_solver_fastest (s, s->backup, &omega));
+    double limit = omega > 0 ? 0.99 * 2 / omega : INFINITY;
+    if (!(s->options.dt <= limit))
+        PG_FAIL (PG_E_USAGE, "solver.dt = %.6g s is too large: explicit steps are stable up to %.4g s (2 / largest frequency); take at most that, or leave "
+                 "solver.dt out", s->options.dt, limit);
+done:
+    return status;
+}
+
+pg_status explicit_stable (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->breaker.system;
+    motion *m = s->motion;
+    for (size_t i = 0; i < sys->ndof; i++) {
+        if (!(sys->mass[i] > 0)) PG_FAIL (PG_E_USAGE, "%s needs mass at every point: give the material a density", s->type->name);
+        m->inverse[i] = 1 / sys->mass[i];
+    }
+    PG_TRY (find_bound (s));
+    if (s->options.dt > 0) PG_TRY (check_dt (s));
+    else if (isfinite (m->stable)) s->options.dt = 0.9 * m->stable;
+    else PG_FAIL (PG_E_USAGE, "nothing resists, so that any time step is stable: give solver.dt");
+done:
+    return status;
+}
+
+double pg_solver_stable (const pg_solver *s, const char **from)
+{
+    if (from) *from = s->motion && s->motion->from ? s->motion->from : "";
+    return s->motion && s->motion->from ? s->motion->stable : NAN;
+}
+
+/* ---- forces ----------------------------------------------------------------------------------------------------------------------- */
+static pg_status bury (pg_solver *s, pg_state *state, double t)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    for (size_t k = 0; k < b->changes.n; k++) {
+        state->alive[b->changes.bond[k]] = 0;
+        PG_TRY (breaker_log (b, b->changes.bond[k], 't', NAN, t));
+    }
+    state->broken += (long) b->changes.n;
+done:
+    return status;
+}
+
+/* By a sweep of utilisation: 1: bonds died, the caches are in line. */
+static pg_status break_by_sweep (pg_solver *s, pg_state *state, double t)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    pg_system *sys = &b->system;
+    double t0 = pg_seconds ();
+    PG_TRY (breaker_ready (b));
+    PG_TRY (sys->force->utilisation (sys->self, state, state->d, b->utilisation, b->kind, NULL));
+    PG_TRY (breaker_kill (b, state, b->utilisation, 1, 1, t));
+    s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
+    if (b->changes.n) PG_TRY (system_refresh (sys, state, &b->changes));
+done:
+    return status;
+}
+
+pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking, double *reference)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    pg_system *sys = &b->system;
+    const pg_force_type *force = sys->force;
+    double t0 = pg_seconds (), unused;
+    breaking = breaking && (force->march || force->utilisation) && s->problem->criterion->type;
+    b->changes.n = 0;
+    if (!reference) reference = &unused;
+    if (breaking && force->march) PG_TRY (force->march (sys->self, t, state->d, sys->residual, reference, &b->changes));
+    else PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference));
+    s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
+    if (!breaking) goto done;
+    if (force->march) PG_TRY (bury (s, state, t));
+    else {
+        PG_TRY (break_by_sweep (s, state, t));
+        if (b->changes.n) PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference));
+    }
+    if (b->changes.n) state->events++, s->report.events++;
+done:
+    return status;
+}
+
+void explicit_total (const pg_solver *s, double *sum)
+{
+    const motion *m = s->motion;
+    for (int k = 0; k < SUMS; k++) {
+        sum[k] = 0;
+        for (size_t b = 0; b < m->nblock; b++) sum[k] += m->sum[b * SUMS + (size_t) k];
+    }
+}
+
+pg_status explicit_lost (const pg_solver *s, const pg_state *state, double t)
+{
+    const pg_problem *p = s->problem;
+    size_t i = 0, dim = (size_t) p->dim, components = (size_t) s->breaker.system.components;
+    while (i + 1 < state->ndof && isfinite (state->d[i])) i++;
+    const double *x = p->cloud.x + i / components * dim;
+    return pg_error (PG_E_EQUILIBRIUM, PG_HERE, "the displacement of point %zu (%g, %g, %g) m is no longer finite at t = %.6g%s: loads or prescribed motions are too "
+                     "large for it", i / components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0, t, s->options.quasi_static ? "" : " s");
+}
+
+/* ---- rows and levels ------------------------------------------------------------------------------------------------------------- */
+static long rows_of (const pg_solver_options *o, long total)
+{
+    long rows = o->rows > 0 ? o->rows : total / 10 < 100 ? 100 : total / 10 > 1000 ? 1000 : total / 10, levels = o->levels > 0 ? o->levels : 1;
+    return levels * (rows > levels ? rows / levels : 1);
+}
+
+/* Step at which row j of n ends. */
+static long row_end (long j, long n, long total) { return (j * total + n - 1) / n; }
+
+long explicit_row (const pg_solver *s, long total, long now)
+{
+    long n = rows_of (&s->options, total), j = now * n / total;
+    long end;
+    do end = row_end (++j, n, total);
+    while (end <= now);
+    return end;
+}
+
+int explicit_level (pg_solver *s, long total, long now)
+{
+    int reached = 0;
+    while (s->next_level <= s->options.levels && row_end (s->next_level, s->options.levels, total) <= now) s->next_level++, reached = 1;
+    return reached;
+}
+
+/* Has the run come to its end? */
+pg_status explicit_end (pg_solver *s, const pg_state *state, int last, const char *what, double t)
+{
+    pg_status status = PG_OK;
+    int arrived;
+    PG_TRY (breaker_arrived (&s->breaker, state, state->d, &arrived));
+    const char *unit = s->options.quasi_static ? "" : " s";
+    if (arrived) pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at %s %.6g%s", s->options.stop_set->name, what, t, unit);
+    int many = state->events >= s->options.max_events && !last && s->options.max_events > 0;
+    if (many) pg_report_warn (&s->report, "stopped after solver.max_events = %ld events at %s %.6g%s", s->options.max_events, what, t, unit);
+    if (arrived || many || last) s->finished = 1;
+done:
+    return status;
+}
+
+pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    motion *m = s->motion;
+    double number[5] = { m->damped, m->damped0, m->resist, m->resist0, m->most };
+    PG_TRY (k->numbers (k->context, "motion.numbers", 5, number));
+    m->damped = number[0], m->damped0 = number[1], m->resist = number[2], m->resist0 = number[3], m->most = number[4];
+    if (m->nheld) PG_TRY (k->numbers (k->context, "motion.push", 2 * m->nheld, m->push));
+    if (k->reading) m->fresh = 0;
+done:
+    return status;
+}

@@ -1,0 +1,303 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Explicit time steps (theory B4, G4): leapfrog of half-step velocities, in the writing of velocity Verlet or of central differences.
+ * The energies are those that the method keeps: kinetic m v(n-1/2) v(n+1/2) / 2, work by trapezoids, damping dt c m v_n^2; they add up to
+ * rounding while nothing breaks, so that the rest is what breaking takes. */
+#include "explicit.h"
+#include <math.h>
+#include <string.h>
+
+enum { BLOCK = 2048 };
+
+double sweep_sum (const double *s) { return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7])); }
+
+double sweep_dot (const double *a, const double *b, size_t first, size_t last)
+{
+    double s[8] = { 0 };
+    size_t i = first;
+    for (; i + 8 <= last; i += 8) for (size_t k = 0; k < 8; k++) s[k] += a[i + k] * b[i + k];
+    for (; i < last; i++) s[0] += a[i] * b[i];
+    return sweep_sum (s);
+}
+
+double sweep_bad (const double *d, size_t first, size_t last)
+{
+    double s[8] = { 0 };
+    size_t i = first;
+    for (; i + 8 <= last; i += 8) for (size_t k = 0; k < 8; k++) s[k] += 0 * d[i + k];
+    for (; i < last; i++) s[0] += 0 * d[i];
+    return sweep_sum (s);
+}
+
+/* ---- how many steps ------------------------------------------------------------------------------------------------------------- */
+static pg_status count_steps (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    pg_solver_options *o = &s->options;
+    if (o->end > 0) {
+        double steps = o->time_steps > 0 ? (double) o->time_steps : ceil (o->end / o->dt * (1 - 1e-12));
+        if (steps > 1e9) PG_FAIL (PG_E_USAGE, "%g time steps of %.4g s are too many", steps, o->dt);
+        o->time_steps = (long) steps;
+        o->dt = o->end / steps;
+    } else o->end = o->dt * (double) o->time_steps;
+    if (o->time_steps < 1) PG_FAIL (PG_E_USAGE, "%s needs solver.end or solver.time_steps", o->kind);
+    o->steps = 0;
+    for (long n = 0; n < o->time_steps; n = explicit_row (s, o->time_steps, n)) o->steps++;
+done:
+    return status;
+}
+
+pg_status march_prepare (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    PG_TRY (explicit_create (s));
+    PG_TRY (explicit_stable (s));
+    PG_TRY (count_steps (s));
+done:
+    return status;
+}
+
+pg_status march_start (pg_solver *s, pg_state *state)
+{
+    s->next_level = 1;
+    return system_refresh (&s->breaker.system, state, NULL);
+}
+
+static double time_at (const pg_solver *s, long n) { return n == s->options.time_steps ? s->options.end : (double) n * s->options.dt; }
+
+/* ---- one sweep over all unknowns ------------------------------------------------------------------------------------------------- */
+typedef struct { sweep w; sweep_range range; size_t ndof; double *sum; } sweeping;
+
+static void work_on_blocks (void *context, size_t first, size_t last, int thread)
+{
+    const sweeping *c = context;
+    (void) thread;
+    for (size_t b = first; b < last; b++) {
+        size_t i = b * BLOCK, end = i + BLOCK < c->ndof ? i + BLOCK : c->ndof;
+        c->range (&c->w, i, end, c->sum + b * SUMS);
+    }
+}
+
+/* Work of loads and supports over one half of a step, whose velocity is v (held: that of the list). */
+static double push_work (const pg_solver *s, double loads, const double *from, const double *to)
+{
+    const motion *m = s->motion;
+    double sum = s->options.dt * loads;
+    for (size_t k = 0; k < m->nheld; k++) sum += m->push[k] * (to[k] - from[k]);
+    return 0.5 * sum;
+}
+
+static pg_status move (pg_solver *s, pg_state *state, sweep_range range, int settle, int launch)
+{
+    pg_status status = PG_OK;
+    motion *m = s->motion;
+    const pg_system *sys = &s->breaker.system;
+    double t0 = pg_seconds (), total[SUMS], c = s->options.rayleigh_mass, dt = s->options.dt;
+    sweeping all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, dt, c, settle, launch }, range, sys->ndof, m->sum };
+    if (launch && !settle) explicit_release (s, state);
+    pg_parallel (s->problem->threads, m->nblock, work_on_blocks, &all);
+    explicit_total (s, total);
+    if (settle) {
+        if (!m->by_ledger) s->breaker.work += push_work (s, total[SUM_A], m->before, m->goal);
+        m->resist = total[SUM_D];
+        m->damped += 0.5 * dt * c * total[SUM_C];
+        s->report.energy_kinetic = 0.5 * total[SUM_K];
+        for (size_t k = 0; k < m->nheld; k++)
+            s->report.energy_kinetic += 0.5 * sys->mass[m->held[k]] * (m->goal[k] - m->before[k]) * (m->next[k] - m->goal[k]) / (dt * dt);
+    }
+    if (launch) {
+        if (!m->by_ledger) s->breaker.work += push_work (s, total[SUM_B], m->goal, m->next);
+        m->damped += 0.5 * dt * c * m->resist;
+        for (size_t k = 0; k < m->nheld; k++) state->d[m->held[k]] = m->next[k];
+        total[SUM_BAD] += sweep_bad (m->next, 0, m->nheld);
+        if (total[SUM_BAD] != 0) PG_FAIL (PG_E_EQUILIBRIUM, "not finite");
+    }
+done:
+    s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
+    return status;
+}
+
+/* What the held unknowns show of v and a at t_n. */
+static void show_held (const pg_solver *s, pg_state *state, int staggered)
+{
+    const motion *m = s->motion;
+    double dt = s->options.dt;
+    for (size_t k = 0; k < m->nheld; k++) {
+        size_t i = m->held[k];
+        state->v[i] = staggered ? (m->next[k] - m->goal[k]) / dt : (m->next[k] - m->before[k]) / (2 * dt);
+        state->a[i] = ((m->next[k] - m->goal[k]) - (m->goal[k] - m->before[k])) / (dt * dt);
+    }
+}
+
+/* The force on held unknowns from outside; their out-of-balance force is none. */
+static void take_reactions (pg_solver *s)
+{
+    motion *m = s->motion;
+    const pg_system *sys = &s->breaker.system;
+    double dt = s->options.dt;
+    for (size_t k = 0; k < m->nheld; k++) {
+        size_t i = m->held[k];
+        m->push[k] = sys->mass[i] * (((m->next[k] - m->goal[k]) - (m->goal[k] - m->before[k])) / (dt * dt)) - sys->residual[i] + (m->P ? m->P[i] : 0);
+        sys->residual[i] = 0;
+    }
+}
+
+/* Forces at t_n, which d has reached. */
+static pg_status arrive (pg_solver *s, pg_state *state, long n)
+{
+    pg_status status = PG_OK;
+    double t = time_at (s, n);
+    PG_TRY (explicit_force (s, state, t, 1, NULL));
+    if (n > 0) PG_TRY (explicit_follow (s, time_at (s, n - 1), t, (double) (n + 1) * s->options.dt));
+    take_reactions (s);
+done:
+    return status;
+}
+
+/* ---- ledger ---------------------------------------------------------------------------------------------------------------------- */
+/* What motion adds to the residual, for reactions. */
+static void inertia (pg_solver *s, const pg_state *state, int staggered, double *out)
+{
+    const pg_system *sys = &s->breaker.system;
+    double c = s->options.rayleigh_mass, half = staggered ? 0.5 * s->options.dt : 0;
+    for (size_t i = 0; i < sys->ndof; i++) out[i] = -sys->mass[i] * (state->a[i] + c * (state->v[i] - half * state->a[i]));
+    for (size_t k = 0; c > 0 && k < s->motion->nheld; k++) out[s->motion->held[k]] = -sys->mass[s->motion->held[k]] * state->a[s->motion->held[k]];
+}
+
+static pg_status account (pg_solver *s, pg_state *state, double t, int staggered, int book)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    pg_system *sys = &b->system;
+    double t0 = pg_seconds ();
+    if (!sys->force->ledger) return PG_OK;
+    inertia (s, state, staggered, sys->full);
+    PG_TRY (sys->force->ledger (sys->self, t, state->d, sys->full, &b->ledger));
+    if (book) PG_TRY (breaker_book (b, 1));
+    s->report.energy_strain = b->ledger.strain;
+done:
+    s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
+    return status;
+}
+
+/* ---- a run ----------------------------------------------------------------------------------------------------------------------- */
+/* d and v as given but for the supports; held unknowns that do not move on as they did are pushed. Energy at hand counts as work done. */
+static pg_status begin (pg_solver *s, pg_state *state, int staggered)
+{
+    pg_status status = PG_OK;
+    motion *m = s->motion;
+    pg_system *sys = &s->breaker.system;
+    double dt = s->options.dt, c = s->options.rayleigh_mass, kinetic = 0;
+    PG_TRY (explicit_follow (s, 0, 0, dt));
+    for (size_t k = 0; k < m->nheld; k++) {
+        size_t i = m->held[k];
+        state->d[i] = m->goal[k];
+        m->before[k] = m->goal[k] - dt * state->v[i];
+        state->v[i] = 0;
+    }
+    PG_TRY (arrive (s, state, 0));
+    m->resist = 0;
+    for (size_t i = 0; i < sys->ndof; i++) {
+        double v = state->v[i], a = state->a[i] = sys->residual[i] * m->inverse[i] - c * v;
+        if (staggered) state->v[i] = v + 0.5 * dt * a;
+        m->resist += sys->mass[i] * v * (v + 0.5 * dt * a);
+        kinetic += 0.5 * sys->mass[i] * (v - 0.5 * dt * a) * (v + 0.5 * dt * a);
+    }
+    for (size_t k = 0; k < m->nheld; k++) kinetic += 0.5 * sys->mass[m->held[k]] * (m->goal[k] - m->before[k]) * (m->next[k] - m->goal[k]) / (dt * dt);
+    show_held (s, state, staggered);
+    s->report.energy_kinetic = kinetic;
+    PG_TRY (account (s, state, 0, staggered, 1));
+    s->breaker.work = s->report.energy_strain + kinetic;
+done:
+    return status;
+}
+
+static pg_status look (pg_solver *s, pg_state *state, pg_step *step, long n)
+{
+    breaker *b = &s->breaker;
+    step->nbroken = b->nbroken, step->broken = b->broken;
+    step->time = time_at (s, n), step->iterations = b->round;
+    b->stopped = 1;
+    pg_status status = b->watch (b->watching, state, step);
+    if (status == PG_OK) b->stopped = 0;
+    return status;
+}
+
+/* Bonds that die may stiffen what is left of a body (non-ordinary theories with few neighbours), so that a stable step no longer is. */
+static pg_status check_growth (pg_solver *s, double t)
+{
+    pg_status status = PG_OK;
+    motion *m = s->motion;
+    double stored = s->report.energy_strain + s->report.energy_kinetic;
+    m->most = fmax (m->most, fabs (s->breaker.work));
+    if ((s->problem->nload == 0 || s->breaker.system.force->ledger) && stored > 10 * m->most)
+        PG_FAIL (PG_E_EQUILIBRIUM, "the energy of the body has grown to %.3g J at t = %.6g s, while %.3g J of work were done: the time step has become unstable, "
+                 "for breaking has made the body stiffer; take a smaller solver.dt", stored, t, m->most);
+done:
+    return status;
+}
+
+static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long n, int staggered)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    const pg_report *r = &s->report;
+    double t = time_at (s, n);
+    if (!s->motion->by_ledger) PG_TRY (account (s, state, t, staggered, 0));
+    s->report.energy_damping = s->motion->damped;
+    PG_TRY (check_growth (s, t));
+    step->dissipated = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0) - (s->motion->damped - s->motion->damped0);
+    if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    state->time = step->time = t;
+    state->factor = step->factor = t / s->options.end;
+    step->level = explicit_level (s, s->options.time_steps, n);
+    step->nbroken = b->nbroken, step->broken = b->broken;
+    PG_TRY (explicit_end (s, state, n == s->options.time_steps, "t =", t));
+done:
+    return status;
+}
+
+pg_status march_step (pg_solver *s, pg_state *state, pg_step *step, sweep_range range, int staggered)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    motion *m = s->motion;
+    long n = state->iterations + b->round, last = explicit_row (s, s->options.time_steps, state->iterations);
+    int settled = 1;
+    if (b->round == 0) {
+        b->nbroken = 0;
+        m->damped0 = m->damped, m->resist0 = m->resist;
+        if (n == 0) PG_TRY (begin (s, state, staggered));
+        if (m->nheld) memcpy (m->push0, m->push, m->nheld * sizeof *m->push);
+    }
+    if (!m->fresh) PG_TRY (explicit_follow (s, time_at (s, n - 1), time_at (s, n), (double) (n + 1) * s->options.dt));
+    while (n < last) {
+        pg_status now = move (s, state, range, !settled, 1);
+        if (now != PG_OK) PG_TRY (explicit_lost (s, state, time_at (s, n + 1)));
+        b->round = ++n - state->iterations;
+        PG_TRY (arrive (s, state, n));
+        int due = b->watch && n % m->between == 0 && n < last;
+        settled = n == last || due || m->by_ledger;
+        if (!settled) continue;
+        PG_TRY (move (s, state, range, 1, 0));
+        show_held (s, state, staggered);
+        if (m->by_ledger) PG_TRY (account (s, state, time_at (s, n), staggered, 1));
+        if (due) PG_TRY (look (s, state, step, n));
+    }
+    step->iterations = b->round;
+    PG_TRY (close_step (s, state, step, n, staggered));
+    b->round = 0;
+done:
+    return status;
+}
+
+void march_refused (pg_solver *s)
+{
+    motion *m = s->motion;
+    m->damped = m->damped0, m->resist = m->resist0;
+    if (m->nheld) memcpy (m->push, m->push0, m->nheld * sizeof *m->push);
+    m->fresh = 0;
+}
+
+int march_done (const pg_solver *s, const pg_state *state) { return state->iterations + s->breaker.round >= s->options.time_steps; }
+
+double march_progress (const pg_solver *s, const pg_state *state) { return (double) (state->iterations + s->breaker.round) / (double) s->options.time_steps; }

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Velocity Verlet (theory B4) with damping C = c M:
+ *   v_n = (v(n-1/2) + dt f_n / (2 m)) / (1 + c dt / 2),  a_n = f_n / m - c v_n,  v(n+1/2) = v_n + dt a_n / 2,  u_n+1 = u_n + dt v(n+1/2).
+ * v and a of the state are those of its displacement. */
+#include "explicit.h"
+
+/* The two halves of a step round alike, whether they come at once or one by one. */
+static void range (const sweep *w, size_t first, size_t last, double *sum)
+{
+    double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), before[8] = { 0 }, after[8] = { 0 }, kinetic[8] = { 0 };
+    double *d = w->d, *v = w->v, *a = w->a;
+    const double *f = w->f, *inverse = w->inverse;
+    if (w->settle) {
+        if (w->P) sum[SUM_A] = sweep_dot (w->P, v, first, last);
+        for (size_t i = first; c > 0 && i < last; i++) {
+            double vn = (v[i] + h * (f[i] * inverse[i])) * less;
+            before[i & 7] += w->mass[i] * vn * v[i];
+            after[i & 7] += w->mass[i] * vn * (2 * vn - v[i]);
+        }
+        sum[SUM_C] = sweep_sum (before), sum[SUM_D] = sweep_sum (after);
+    }
+    if (w->settle && w->launch)
+        for (size_t i = first; i < last; i++) {
+            double acc = f[i] * inverse[i], vn = (v[i] + h * acc) * less;
+            v[i] = vn + h * (acc - c * vn);
+            d[i] += dt * v[i];
+        }
+    else if (w->launch)
+        for (size_t i = first; i < last; i++) {
+            v[i] = v[i] + h * a[i];
+            d[i] += dt * v[i];
+        }
+    else {
+        for (size_t i = first; i < last; i++) {
+            double acc = f[i] * inverse[i], vn = (v[i] + h * acc) * less, old = v[i];
+            v[i] = vn, a[i] = acc - c * vn;
+            kinetic[i & 7] += w->mass[i] * old * (vn + h * a[i]);
+        }
+        sum[SUM_K] = sweep_sum (kinetic);
+    }
+    if (w->launch && w->P) sum[SUM_B] = sweep_dot (w->P, v, first, last);
+    if (w->launch) sum[SUM_BAD] = sweep_bad (d, first, last);
+}
+
+static pg_status step (pg_solver *s, pg_state *state, pg_step *out) { return march_step (s, state, out, range, 0); }
+
+const pg_solver_type pg_solver_verlet = {
+    "verlet", "explicit dynamics, velocity Verlet", march_start, step, march_done, explicit_free, .way = MARCHES, .prepare = march_prepare,
+    .refused = march_refused, .keep = explicit_keep, .progress = march_progress };

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Neighbours of every point: on a lattice by the stencil, else by a search made symmetric; and what the bonds of a point are. */
+#include "sums_private.h"
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int ascending (const void *a, const void *b)
+{
+    int x = *(const int *) a, y = *(const int *) b;
+    return (x > y) - (x < y);
+}
+
+static size_t find (const int *list, size_t n, int item)
+{
+    size_t a = 0, b = n;
+    while (a < b) {
+        size_t m = (a + b) / 2;
+        if (list[m] < item) a = m + 1;
+        else b = m;
+    }
+    return a < n && list[a] == item ? a : n;
+}
+
+/* ---- on a lattice ------------------------------------------------------------------------------------------------------- */
+int sums_neighbour (const pg_sites *s, int site, const int *offset)
+{
+    int x = site % s->count[0] + offset[0], rest = site / s->count[0], y = rest % s->count[1] + offset[1], z = rest / s->count[1] + offset[2];
+    if (x < 0 || x >= s->count[0] || y < 0 || y >= s->count[1] || z < 0 || z >= s->count[2]) return -1;
+    return s->point[((size_t) z * (size_t) s->count[1] + (size_t) y) * (size_t) s->count[0] + (size_t) x];
+}
+
+typedef struct {
+    const pg_sums *sums;
+    int   packed;                                      /* every site has a point                                         */
+    int   reach[3];                                    /* largest offsets                                                */
+    long *jump;                                        /* of each bond, in sites                                         */
+    size_t *start;
+    int  *node;                                        /* NULL: count                                                    */
+} walk;
+
+/* Is every offset of the stencil from this site inside the box of sites? */
+static int inside (const walk *w, int site)
+{
+    const pg_sites *s = &w->sums->sites;
+    int at[3] = {site % s->count[0], site / s->count[0] % s->count[1], site / s->count[0] / s->count[1]}, all = 1;
+    for (int k = 0; k < 3; k++) all &= at[k] >= w->reach[k] && at[k] + w->reach[k] < s->count[k];
+    return all;
+}
+
+static size_t visit (const walk *w, size_t i, int *node)
+{
+    const pg_sites *s = &w->sums->sites;
+    const pg_stencil *t = &w->sums->stencil;
+    const int *from = s->point + s->site[i];
+    size_t n = 0;
+    int in = inside (w, s->site[i]);
+    if (in && w->packed && !node) return t->n;
+    for (size_t b = 0; b < t->n; b++) {
+        int j = in ? from[w->jump[b]] : sums_neighbour (s, s->site[i], t->offset + 3*b);
+        if (j < 0) continue;
+        if (node) node[n] = j;
+        n++;
+    }
+    if (node && !w->sums->ordered) qsort (node, n, sizeof *node, ascending);
+    return n;
+}
+
+static pg_status by_stencil (pg_family *out, const pg_sums *sums)
+{
+    pg_status status = PG_OK;
+    const pg_stencil *t = &sums->stencil;
+    const int *count = sums->sites.count;
+    size_t n = sums->cloud->n;
+    walk w = {.sums = sums, .packed = n == (size_t) count[0] * (size_t) count[1] * (size_t) count[2]};
+    PG_ALLOC (w.jump, t->n);
+    for (size_t b = 0; b < t->n; b++) {
+        const int *o = t->offset + 3*b;
+        w.jump[b] = o[0] + count[0] * ((long) o[1] + count[1] * (long) o[2]);
+        for (int k = 0; k < 3; k++) if (o[k] > w.reach[k]) w.reach[k] = o[k];
+    }
+    PG_ALLOC (out->start, n + 1);
+    out->n = n;
+    for (size_t i = 0; i < n; i++) out->start[i + 1] = out->start[i] + visit (&w, i, NULL);
+    PG_ALLOC (out->node, out->start[n]);
+    for (size_t i = 0; i < n; i++) visit (&w, i, out->node + out->start[i]);
+done:
+    pg_free (w.jump);
+    return status;
+}
+
+/* ---- without a lattice -------------------------------------------------------------------------------------------------- */
+static double distance (const pg_cloud *cloud, size_t i, size_t j)
+{
+    double r2 = 0;
+    for (size_t k = 0, dim = (size_t) cloud->dim; k < dim; k++) {
+        double x = cloud->x[j*dim + k] - cloud->x[i*dim + k];
+        r2 += x * x;
+    }
+    return sqrt (r2);
+}
+
+sums_bond sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, size_t i, size_t j)
+{
+    sums_bond b = {.r = distance (cloud, i, j)};
+    double ratio = 0.5 * (pg_cloud_ratio (cloud, i) + pg_cloud_ratio (cloud, j)), horizon = rule->horizon * ratio;
+    b.beta = sums_partial (rule->partial, b.r, horizon, cloud->h * ratio);
+    if (!(b.beta > 0)) return b;
+    b.weight = b.beta * sums_kernel (rule, b.r, horizon);
+    if (ratio != 1) b.weight /= pow (ratio, cloud->dim + 1);
+    if (!(b.weight > 0)) b.beta = 0;
+    return b;
+}
+
+/* Pairs (i, j) with j within its own reach of i, both ways round; node NULL: counted into next[i + 1], else written at next[i]. */
+static pg_status spread (const pg_sums *sums, const pg_family *near, size_t *next, int *node)
+{
+    pg_status status = PG_OK;
+    for (size_t i = 0; i < near->n; i++)
+        for (size_t e = near->start[i]; e < near->start[i + 1]; e++) {
+            size_t j = (size_t) near->node[e], first = near->start[j], m = near->start[j + 1] - first;
+            if (i == j) continue;
+            sums_bond b = sums_bond_between (&sums->rule, sums->cloud, i, j);
+            if (!(b.r > 0)) PG_FAIL (PG_E_USAGE, "points %zu and %zu coincide: a bond needs a length", i < j ? i : j, i < j ? j : i);
+            if (!(b.beta > 0)) continue;
+            int alone = sums->cloud->size && find (near->node + first, m, (int) i) == m;
+            if (node) node[next[i]] = (int) j;
+            next[i + (node ? 0 : 1)]++;
+            if (!alone) continue;
+            if (node) node[next[j]] = (int) i;
+            next[j + (node ? 0 : 1)]++;
+        }
+done:
+    return status;
+}
+
+static pg_status by_search (pg_family *out, const pg_sums *sums)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *cloud = sums->cloud;
+    pg_family near = {0};
+    size_t *next = NULL, n = cloud->n;
+    double reach = sums->rule.horizon + (sums->rule.partial == PG_PARTIAL_NONE ? 0 : 0.5 * cloud->h);
+    PG_TRY (pg_family_build (&near, cloud, n, cloud->x, reach, PG_RADIAL, 1));
+    PG_ALLOC (out->start, n + 1);
+    PG_ALLOC (next, n);
+    out->n = n;
+    PG_TRY (spread (sums, &near, out->start, NULL));
+    for (size_t i = 0; i < n; i++) out->start[i + 1] += out->start[i], next[i] = out->start[i];
+    PG_ALLOC (out->node, out->start[n]);
+    PG_TRY (spread (sums, &near, next, out->node));
+    for (size_t i = 0; cloud->size && i < n; i++)
+        qsort (out->node + out->start[i], out->start[i + 1] - out->start[i], sizeof *out->node, ascending);
+done:
+    pg_free (next);
+    pg_family_clear (&near);
+    return status;
+}
+
+pg_status pg_sums_family (pg_family *out, const pg_sums *sums)
+{
+    memset (out, 0, sizeof *out);
+    pg_status status = sums->stencil.n ? by_stencil (out, sums) : by_search (out, sums);
+    if (status != PG_OK) pg_family_clear (out);
+    return status;
+}
+
+/* ---- the bonds of a point ------------------------------------------------------------------------------------------------ */
+/* Bond b of the stencil as entry e of point i's. */
+static void take (const pg_sums *sums, size_t i, size_t j, size_t b, size_t e, double *xi, double *weight, double *beta)
+{
+    const pg_stencil *t = &sums->stencil;
+    size_t dim = (size_t) t->dim;
+    if (xi) memcpy (xi + e*dim, t->xi + b*dim, dim * sizeof *xi);
+    if (weight) weight[e] = sums->family_volume ? t->weight[b] * sums_surface (sums, i, j) : t->weight[b];
+    if (beta) beta[e] = t->beta[b];
+}
+
+static void lattice_bonds (const pg_sums *sums, const int *node, size_t n, size_t i, double *xi, double *weight, double *beta)
+{
+    const pg_stencil *t = &sums->stencil;
+    size_t next = 0;
+    for (size_t b = 0; b < t->n; b++) {
+        int whole = sums->ordered && n == t->n;
+        int j = whole ? node[b] : sums_neighbour (&sums->sites, sums->sites.site[i], t->offset + 3*b);
+        if (j < 0) continue;
+        size_t e = whole ? b : sums->ordered && next < n && node[next] == j ? next : find (node, n, j);
+        if (e == n) continue;
+        take (sums, i, (size_t) j, b, e, xi, weight, beta);
+        next = e + 1;
+    }
+}
+
+void pg_sums_bonds (const pg_sums *sums, const pg_family *family, size_t i, double *xi, double *weight, double *beta)
+{
+    const pg_cloud *cloud = sums->cloud;
+    size_t dim = (size_t) cloud->dim, first = family->start[i], n = family->start[i + 1] - first;
+    const int *node = family->node + first;
+    if (sums->stencil.n) {
+        lattice_bonds (sums, node, n, i, xi, weight, beta);
+        return;
+    }
+    for (size_t e = 0; e < n; e++) {
+        size_t j = (size_t) node[e];
+        sums_bond b = sums_bond_between (&sums->rule, cloud, i, j);
+        for (size_t k = 0; xi && k < dim; k++) xi[e*dim + k] = cloud->x[j*dim + k] - cloud->x[i*dim + k];
+        if (weight) weight[e] = sums->family_volume ? b.weight * sums_surface (sums, i, j) : b.weight;
+        if (beta) beta[e] = b.beta;
+    }
+}

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Order of the points of a list of bonds: slabs of equal numbers along one axis, cut along the next ones into compact chunks; in a chunk points with many
+ * bonds out of it, then with many bonds in it first, so that the slots of a slice are full. */
+#include "list.h"
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct { double key; int point; } item;
+typedef struct { int out, in, point, rank; } load;     /* bonds of a point to other chunks and to later points of its own one */
+
+static int by_key (const void *a, const void *b)
+{
+    const item *p = a, *q = b;
+    return p->key < q->key ? -1 : p->key > q->key ? 1 : (p->point > q->point) - (p->point < q->point);
+}
+
+static int by_load (const void *a, const void *b)
+{
+    const load *p = a, *q = b;
+    return p->out != q->out ? q->out - p->out : p->in != q->in ? q->in - p->in : (p->rank > q->rank) - (p->rank < q->rank);
+}
+
+/* Sorts n items along `axis`, cuts them into slabs of whole chunks about as thick as a chunk is wide, goes on along the axes below. */
+static void cut (item *items, size_t n, const pg_cloud *cloud, size_t chunk, int axis)
+{
+    size_t dim = (size_t) cloud->dim, pieces = (n + chunk - 1) / chunk;
+    for (size_t k = 0; k < n; k++) items[k].key = cloud->x[(size_t) items[k].point * dim + (size_t) axis];
+    qsort (items, n, sizeof *items, by_key);
+    if (axis == 0 || pieces <= 1) return;
+    double length = items[n - 1].key - items[0].key, space = (double) pieces;
+    for (int k = 0; k < axis; k++) {
+        double other = cloud->high[k] - cloud->low[k];
+        space *= other > 0 ? length / other : 1;
+    }
+    double slabs = fmin (fmax (1, round (pow (space, 1.0 / (axis + 1)))), (double) pieces);
+    size_t step = (pieces + (size_t) slabs - 1) / (size_t) slabs * chunk;
+    for (size_t k = 0; k < n; k += step) cut (items + k, n - k < step ? n - k : step, cloud, chunk, axis - 1);
+}
+
+static void count_bonds (load *loads, const bond_list *list, size_t first, size_t last)
+{
+    const pg_family *family = list->family;
+    for (size_t p = first; p < last; p++) {
+        size_t i = (size_t) list->point[p];
+        load *l = &loads[p - first];
+        *l = (load) { 0, 0, (int) i, (int) p };
+        for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
+            size_t q = (size_t) list->rank[family->node[e]];
+            if (q < first || q >= last) l->out++;
+            else l->in += q > p;
+        }
+    }
+}
+
+pg_status bond_list_order (bond_list *list)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *cloud = list->sums->cloud;
+    item *items = NULL;
+    load *loads = NULL;
+    PG_ALLOC (items, list->n);
+    PG_ALLOC (loads, list->chunk);
+    for (size_t i = 0; i < list->n; i++) items[i].point = (int) i;
+    if (list->n > 0) cut (items, list->n, cloud, list->chunk, cloud->dim - 1);
+    for (size_t p = 0; p < list->n; p++) list->point[p] = items[p].point, list->rank[items[p].point] = (int) p;
+    for (size_t first = 0; first < list->n; first += list->chunk) {
+        size_t last = list->n - first < list->chunk ? list->n : first + list->chunk;
+        count_bonds (loads, list, first, last);
+        qsort (loads, last - first, sizeof *loads, by_load);
+        for (size_t p = first; p < last; p++) list->point[p] = loads[p - first].point;
+    }
+    for (size_t p = 0; p < list->n; p++) list->before[list->point[p]] = list->rank[list->point[p]];
+    for (size_t p = 0; p < list->n; p++) list->rank[list->point[p]] = (int) p;
+done:
+    pg_free (items);
+    pg_free (loads);
+    return status;
+}

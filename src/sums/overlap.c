@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What a box and a ball about the origin have in common: length and area in closed form, volume by Gauss points over slices between the places
+ * where a corner enters. A box that the axes cut through is folded into the first octant before, so that corners are its nearest and its farthest
+ * points. Means of a kernel over the common part follow from the volumes V (rho) of all smaller balls: int k dV = -int k' V d rho for k (1) = 0. */
+#include "overlap.h"
+#include <math.h>
+#include <string.h>
+
+enum { POINTS = 16 };
+static const double place[POINTS / 2]  = { 0.0950125098376374, 0.2816035507792589, 0.4580167776572274, 0.6178762444026438,
+                                           0.7554044083550030, 0.8656312023878318, 0.9445750230732326, 0.9894009349916499 };
+static const double weight[POINTS / 2] = { 0.1894506104550685, 0.1826034150449236, 0.1691565193950025, 0.1495959888165767,
+                                           0.1246289712555339, 0.0951585116824928, 0.0622535239386479, 0.0271524594117541 };
+
+typedef struct { int dim; double low[3], high[3]; } box;          /* 0 <= low < high                                      */
+
+/* Point g of a rule on [a, b] whose points crowd at both ends, where integrands may go as a power of 3/2. Returns the weight. */
+static double rule_at (int g, double a, double b, double *x)
+{
+    int k = g < POINTS / 2 ? g : g - POINTS / 2;
+    double t = 0.5 * (1 + (g < POINTS / 2 ? -place[k] : place[k]));
+    *x = a + (b - a) * t * t * (3 - 2 * t);
+    return 0.5 * weight[k] * 6 * t * (1 - t) * (b - a);
+}
+
+static double square (double x) { return x * x; }
+
+/* Antiderivative of sqrt (R^2 - x^2) */
+static double arc (double R, double x)
+{
+    double c = R * R - x * x;
+    return 0.5 * (x * sqrt (c > 0 ? c : 0) + R * R * asin (fmin (1, x / R)));
+}
+
+static double area (const double *low, const double *high, double R)
+{
+    if (square (low[0]) + square (low[1]) >= R * R) return 0;
+    if (square (high[0]) + square (high[1]) <= R * R) return (high[0] - low[0]) * (high[1] - low[1]);
+    double full = high[1] < R ? sqrt ((R - high[1]) * (R + high[1])) : 0;           /* up to here the top edge is inside    */
+    double last = fmin (high[0], sqrt ((R - low[1]) * (R + low[1])));               /* from here on all is outside          */
+    double a = fmin (fmax (low[0], full), last), sum = (a - low[0]) * (high[1] - low[1]);
+    return sum + arc (R, last) - arc (R, a) - (last - a) * low[1];
+}
+
+/* Ascending insertion of x into n numbers */
+static int insert (double *list, int n, double x)
+{
+    int k = n;
+    for (; k > 0 && list[k - 1] > x; k--) list[k] = list[k - 1];
+    list[k] = x;
+    return n + 1;
+}
+
+/* Slices along the first axis; kinks where a corner of the other two coordinates enters. */
+static double volume (const box *b, double R)
+{
+    double low2 = 0, kink[6], sum = 0;
+    int n = 0;
+    for (int k = 0; k < 3; k++) low2 += square (b->low[k]);
+    if (low2 >= R * R) return 0;
+    double first = b->low[0], last = fmin (b->high[0], sqrt (R * R - low2 + square (b->low[0])));
+    n = insert (kink, n, first);
+    n = insert (kink, n, last);
+    for (int c = 0; c < 4; c++) {
+        double d = R * R - square (c & 1 ? b->high[1] : b->low[1]) - square (c & 2 ? b->high[2] : b->low[2]);
+        double x = d > 0 ? sqrt (d) : 0;
+        if (x > first && x < last) n = insert (kink, n, x);
+    }
+    for (int k = 0; k + 1 < n; k++)
+        for (int g = 0; g < POINTS; g++) {
+            double x, w = rule_at (g, kink[k], kink[k + 1], &x);
+            sum += w * area (b->low + 1, b->high + 1, sqrt ((R - x) * (R + x)));
+        }
+    return sum;
+}
+
+static double common (const box *b, double R)
+{
+    if (b->dim == 1) return fmax (0, fmin (b->high[0], R) - b->low[0]);
+    return b->dim == 2 ? area (b->low, b->high, R) : volume (b, R);
+}
+
+/* The cell folded into the first octant; returns the volume of that part. */
+static double fold (box *b, int dim, const int *n, const double *step, double *nearest, double *farthest)
+{
+    double size = 1, least = 0, most = 0;
+    b->dim = dim;
+    for (int k = 0; k < dim; k++) {
+        b->low[k]  = n[k] ? (n[k] - 0.5) * step[k] : 0;
+        b->high[k] = (n[k] + 0.5) * step[k];
+        size *= b->high[k] - b->low[k];
+        least += square (b->low[k]), most += square (b->high[k]);
+    }
+    *nearest = sqrt (least), *farthest = sqrt (most);
+    return size;
+}
+
+double sums_overlap (int dim, const int *n, const double *step, double radius)
+{
+    box b;
+    double nearest, farthest, size = fold (&b, dim, n, step, &nearest, &farthest);
+    if (nearest >= radius) return 0;
+    if (farthest <= radius) return 1;
+    return fmin (1, common (&b, radius) / size);
+}
+
+double sums_overlap_mean (int dim, const int *n, const double *step, double radius, const pg_kernel *kernel)
+{
+    box b;
+    double nearest, farthest, size = fold (&b, dim, n, step, &nearest, &farthest), kink[11], sum = 0;
+    int count = 0;
+    if (nearest >= radius) return 0;
+    count = insert (kink, count, nearest);
+    count = insert (kink, count, radius);
+    if (radius / 2 > nearest) count = insert (kink, count, radius / 2);              /* the knot of splines                  */
+    for (int c = 1; c < 1 << dim; c++) {
+        double d = 0;
+        for (int k = 0; k < dim; k++) d += square (c >> k & 1 ? b.high[k] : b.low[k]);
+        if (d < radius * radius) count = insert (kink, count, sqrt (d));
+    }
+    for (int i = 0; i + 1 < count; i++)
+        for (int g = 0; g < POINTS; g++) {
+            double rho, w = rule_at (g, kink[i], kink[i + 1], &rho), q = rho / radius, k, slope;
+            if (!(w > 0)) continue;
+            kernel->value (1, &q, &k, &slope);
+            sum -= w * slope / radius * (rho >= farthest ? size : common (&b, rho));
+        }
+    return sum / size;
+}

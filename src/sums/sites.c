@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Which points of a cloud are sites of one lattice. Where no lattice is given (points of a file, nodes of a mesh) its steps are the smallest gaps
+ * between coordinates. */
+#include "sums_private.h"
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double off_site = 1e-6;                   /* of a step                                                      */
+static const double sparse   = 8;                      /* sites per point beyond which a found lattice is none           */
+
+static void bounds (const pg_cloud *cloud, double *low, double *high)
+{
+    for (int k = 0; k < cloud->dim; k++) {
+        low[k] = INFINITY, high[k] = -INFINITY;
+        for (size_t i = 0; i < cloud->n; i++) {
+            double x = cloud->x[i * (size_t) cloud->dim + (size_t) k];
+            low[k] = fmin (low[k], x), high[k] = fmax (high[k], x);
+        }
+    }
+}
+
+static int alike (const pg_cloud *cloud)
+{
+    for (size_t i = 0; cloud->size && i < cloud->n; i++)
+        if (!(fabs (cloud->size[i] - cloud->h) <= off_site * cloud->h)) return 0;
+    return 1;
+}
+
+static int ascending (const void *a, const void *b)
+{
+    double x = *(const double *) a, y = *(const double *) b;
+    return (x > y) - (x < y);
+}
+
+/* Steps from the points alone; found = 0: there is an axis without any, or the box has too many sites. */
+static pg_status find_steps (const pg_cloud *cloud, double *step, int *found)
+{
+    pg_status status = PG_OK;
+    double *x = NULL, all = 1;
+    *found = 0;
+    PG_ALLOC (x, cloud->n);
+    for (int k = 0; k < cloud->dim; k++) {
+        double gap = INFINITY;
+        for (size_t i = 0; i < cloud->n; i++) x[i] = cloud->x[i * (size_t) cloud->dim + (size_t) k];
+        qsort (x, cloud->n, sizeof *x, ascending);
+        double length = x[cloud->n - 1] - x[0];
+        for (size_t i = 1; i < cloud->n; i++) if (x[i] - x[i - 1] > 1e-3 * cloud->h) gap = fmin (gap, x[i] - x[i - 1]);
+        if (!isfinite (gap) || !isfinite (length)) goto done;
+        step[k] = length / floor (length / gap + 0.5);                 /* gaps are rounded, their sum is less so          */
+        all *= length / step[k] + 1;
+    }
+    *found = all < sparse * (double) cloud->n + 64;
+done:
+    pg_free (x);
+    return status;
+}
+
+/* Sites of the box about all points; 0: too many for this cloud, or no box. */
+static size_t count_sites (pg_sites *s, const pg_cloud *cloud, const double *step, double *low)
+{
+    double high[3], all = 1;
+    bounds (cloud, low, high);
+    for (int k = 0; k < 3; k++) s->count[k] = 1, s->step[k] = k < cloud->dim ? step[k] : 1;
+    for (int k = 0; k < cloud->dim; k++) {
+        double n = floor ((high[k] - low[k]) / step[k] + 0.5) + 1;
+        if (!(step[k] > 0) || !isfinite (step[k]) || !(n >= 1) || !((all *= n) < INT_MAX)) return 0;
+        s->count[k] = (int) n;
+    }
+    return (size_t) all;
+}
+
+/* The site of point i; -1: it is on none. */
+static int site_of (const pg_sites *s, const double *x, const double *low)
+{
+    int site = 0;
+    for (int k = s->dim; k-- > 0; ) {
+        double at = (x[k] - low[k]) / s->step[k], n = floor (at + 0.5);
+        if (!(fabs (at - n) <= off_site) || n < 0 || n >= s->count[k]) return -1;
+        site = site * s->count[k] + (int) n;
+    }
+    return site;
+}
+
+pg_status pg_sites_build (pg_sites *out, const pg_cloud *cloud, const pg_lattice *lattice)
+{
+    pg_status status = PG_OK;
+    double low[3], step[3];
+    size_t all = 0;
+    int fits = 0, found = 1, given = lattice && lattice->dim > 0;
+    memset (out, 0, sizeof *out);
+    out->dim = cloud->dim;
+    if ((given && lattice->dim != cloud->dim) || cloud->n == 0 || cloud->n > INT_MAX || !alike (cloud)) goto done;
+    if (given) memcpy (step, lattice->step, sizeof step);
+    else PG_TRY (find_steps (cloud, step, &found));
+    if (!found) goto done;
+    all = count_sites (out, cloud, step, low);
+    if (all < cloud->n) goto done;
+    PG_ALLOC (out->site, cloud->n);
+    PG_ALLOC (out->point, all);
+    for (size_t s = 0; s < all; s++) out->point[s] = -1;
+    for (size_t i = 0; i < cloud->n; i++) {
+        out->site[i] = site_of (out, cloud->x + i * (size_t) cloud->dim, low);
+        if (out->site[i] < 0 || out->point[out->site[i]] >= 0) goto done;
+        out->point[out->site[i]] = (int) i;
+    }
+    fits = 1;
+done:
+    if (!fits || status != PG_OK) pg_sites_clear (out);
+    return status;
+}
+
+void pg_sites_clear (pg_sites *sites)
+{
+    pg_free (sites->site);
+    pg_free (sites->point);
+    memset (sites, 0, sizeof *sites);
+}

@@ -1,0 +1,401 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The bonds of points on a lattice: sites in blocks of 32 of a row, one bit per bond and site, displacements in padded arrays. */
+#include "block.h"
+#include "sweep.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_THREADS = 64, FEW = 1 << 15 };              /* FEW directed bonds are not worth a second thread               */
+typedef struct {
+    pg_sweep_setting setting;
+    const pg_block_kernels *kernels;
+    pg_block_job job;                                  /* points into what follows                                       */
+    int        reach[3], left;                         /* halo in sites; padded places before a row                      */
+    size_t     pitch, rows, planes, row_blocks;        /* padded places of a row, rows of a plane, planes, blocks of a row */
+    size_t     nblock, nbond;                          /* blocks with points; bonds of the family                        */
+    pg_block  *block;
+    int       *block_at;                               /* of each block of each padded row, -1: without points           */
+    unsigned  *place;                                  /* padded place of each point                                     */
+    ptrdiff_t *jump;
+    double    *term, *field, *p, *energy;
+    uint32_t  *alive, *may;
+    unsigned char *hit;
+    pg_changes found[MAX_THREADS];                     /* of each thread                                                 */
+    pg_status  failed[MAX_THREADS];
+} stencil;
+
+static const char *refusal (const pg_sweep_setting *setting)
+{
+    const pg_sums *sums = setting->sums;
+    size_t n = sums->cloud->n;
+    if (sums->stencil.n == 0 || sums->sites.count[0] == 0) return "the points are no lattice";
+    if (sums->rule.surface == PG_SURFACE_VOLUME) return "surface_correction: volume differs from bond to bond";
+    for (size_t i = 1; i < n; i++) if (setting->modulus[i] != setting->modulus[0]) return "there are several moduli";
+    for (size_t i = 1; setting->limit && i < n; i++) if (setting->limit[i] != setting->limit[0]) return "there are several critical stretches";
+    if (setting->limit && n && !(setting->limit[0] > 0)) return "the critical stretch is not positive";
+    return NULL;
+}
+
+static void release (void *self)
+{
+    stencil *s = self;
+    if (!s) return;
+    for (int t = 0; t < MAX_THREADS; t++) pg_free (s->found[t].bond);
+    void *blocks[] = { s->block, s->block_at, s->place, s->jump, s->term, s->field, s->p, s->energy, s->alive, s->may, s->hit };
+    for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) pg_free (blocks[k]);
+    pg_free (s);
+}
+
+/* ---- places ------------------------------------------------------------------------------------------------------------------- */
+static size_t place_of (const stencil *s, const size_t *at)
+{
+    return ((at[2] + (size_t) s->reach[2]) * s->rows + at[1] + (size_t) s->reach[1]) * s->pitch + (size_t) s->left + at[0];
+}
+
+/* Block and bit of a padded place */
+static size_t block_of (const stencil *s, size_t place, unsigned *bit)
+{
+    size_t row = place / s->pitch, x = place % s->pitch - (size_t) s->left;
+    *bit = (unsigned) (x % PG_BLOCK);
+    return (size_t) s->block_at[row * s->row_blocks + x / PG_BLOCK];
+}
+
+static pg_status lay_out (stencil *s)
+{
+    pg_status status = PG_OK;
+    const pg_sums *sums = s->setting.sums;
+    const pg_stencil *st = &sums->stencil;
+    for (size_t j = 0; j < st->n; j++)
+        for (int d = 0; d < st->dim; d++)
+            if (abs (st->offset[3*j + (size_t) d]) > s->reach[d]) s->reach[d] = abs (st->offset[3*j + (size_t) d]);
+    s->left = (s->reach[0] + 7) / 8 * 8;
+    s->row_blocks = ((size_t) sums->sites.count[0] + PG_BLOCK - 1) / PG_BLOCK;
+    s->pitch = (size_t) s->left + s->row_blocks * PG_BLOCK;
+    s->rows = (size_t) (sums->sites.count[1] + 2 * s->reach[1]), s->planes = (size_t) (sums->sites.count[2] + 2 * s->reach[2]);
+    size_t places = s->pitch * s->rows * s->planes + (size_t) s->left;
+    if (places > UINT32_MAX) PG_FAIL (PG_E_LIMIT, "a lattice of %zu padded sites: at most %lu; try evaluation: list", places, (unsigned long) UINT32_MAX);
+    PG_ALLOC (s->jump, st->n);
+    for (size_t j = 0; j < st->n; j++) {
+        const int *o = st->offset + 3*j;
+        s->jump[j] = ((ptrdiff_t) (st->dim > 2 ? o[2] : 0) * (ptrdiff_t) s->rows + (st->dim > 1 ? o[1] : 0)) * (ptrdiff_t) s->pitch + o[0];
+    }
+    PG_ALLOC (s->field, places * (size_t) st->dim);
+    for (int d = 0; d < 3; d++) s->job.u[d] = s->field + places * (size_t) (d < st->dim ? d : 0);
+    PG_ALLOC (s->block_at, s->rows * s->planes * s->row_blocks);
+    PG_ALLOC (s->place, sums->cloud->n);
+done:
+    return status;
+}
+
+/* Blocks that have points, in the order of sites */
+static pg_status find_blocks (stencil *s)
+{
+    pg_status status = PG_OK;
+    const pg_sites *sites = &s->setting.sums->sites;
+    size_t lines = (size_t) sites->count[1] * (size_t) sites->count[2], nx = (size_t) sites->count[0], cap = 0;
+    memset (s->block_at, -1, s->rows * s->planes * s->row_blocks * sizeof *s->block_at);
+    for (size_t line = 0; line < lines; line++)
+        for (size_t x = 0; x < nx; x += PG_BLOCK) {
+            pg_block b = { .site = line * nx + x, .first = -1 };
+            size_t at[3] = { x, line % (size_t) sites->count[1], line / (size_t) sites->count[1] };
+            int runs = 1;
+            b.base = place_of (s, at);
+            for (unsigned k = 0; k < PG_BLOCK && x + k < nx; k++) {
+                int point = sites->point[b.site + k];
+                if (point < 0) continue;
+                if (!b.present) b.first = point;
+                runs = runs && point == b.first + __builtin_popcount (b.present);
+                b.present |= 1u << k;
+                s->place[point] = (unsigned) (b.base + k);
+            }
+            if (!b.present) continue;
+            if (!runs) b.first = -1;
+            PG_GROW (s->block, cap, s->nblock + 1);
+            s->block_at[b.base / s->pitch * s->row_blocks + x / PG_BLOCK] = (int) s->nblock;
+            s->block[s->nblock++] = b;
+        }
+done:
+    return status;
+}
+
+/* ---- bonds ------------------------------------------------------------------------------------------------------------------------ */
+/* Bond of the stencil that jumps so far, looked for from `from` on, then everywhere; n: none */
+static size_t bond_of (const stencil *s, ptrdiff_t jump, size_t from)
+{
+    size_t n = s->job.n, low = 0, high = n;
+    for (size_t j = from; j < n && s->jump[j] <= jump; j++) if (s->jump[j] == jump) return j;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (s->jump[middle] < jump) low = middle + 1;
+        else high = middle;
+    }
+    return low < n && s->jump[low] == jump ? low : n;
+}
+
+static ptrdiff_t jump_of (const stencil *s, size_t i, size_t entry)
+{
+    return (ptrdiff_t) s->place[s->setting.family->node[entry]] - (ptrdiff_t) s->place[i];
+}
+
+/* Sets the bits of live bonds of point i; NULL: all live. PG_E_USAGE: a bond that the stencil has not. */
+static pg_status set_bits (stencil *s, size_t i, const unsigned char *live, const unsigned char *exempt)
+{
+    pg_status status = PG_OK;
+    const pg_family *family = s->setting.family;
+    unsigned bit;
+    size_t k = block_of (s, s->place[i], &bit), b = 0;
+    for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
+        if (live && !live[e]) continue;
+        b = bond_of (s, jump_of (s, i, e), b);
+        if (b == s->job.n) PG_FAIL (PG_E_USAGE, "points %zu and %d: their bond is not one of the lattice's stencil; try evaluation: list", i, family->node[e]);
+        s->alive[k * s->job.n + b] |= 1u << bit;
+        if (exempt && !exempt[i] && !exempt[family->node[e]]) s->may[k * s->job.n + b] |= 1u << bit;
+    }
+done:
+    return status;
+}
+
+typedef struct { stencil *s; const unsigned char *live; pg_status *status; } renewal;
+
+static void renew_blocks (void *context, size_t first, size_t last, int thread)
+{
+    renewal *r = context;
+    stencil *s = r->s;
+    memset (s->alive + first * s->job.n, 0, (last - first) * s->job.n * sizeof *s->alive);
+    for (size_t k = first; k < last; k++)
+        for (uint32_t left = s->block[k].present; left; left &= left - 1) {
+            int i = s->job.point[s->block[k].site + (size_t) __builtin_ctz (left)];
+            pg_status now = set_bits (s, (size_t) i, r->live, NULL);
+            if (now != PG_OK) r->status[thread] = now;
+        }
+}
+
+static int threads_for (const stencil *s)
+{
+    int t = s->setting.threads;
+    if (s->nblock * s->job.n * PG_BLOCK < FEW || t < 1) return 1;
+    return t < MAX_THREADS ? t : MAX_THREADS;
+}
+
+static void update (void *self, const unsigned char *alive, const pg_changes *changes)
+{
+    stencil *s = self;
+    if (!changes) {
+        pg_status status[MAX_THREADS] = { PG_OK };     /* every bond was found when this was created                     */
+        pg_parallel_heavy (threads_for (s), s->nblock, renew_blocks, &(renewal) { s, alive, status });
+        return;
+    }
+    const size_t *start = s->setting.family->start;
+    size_t n = s->setting.sums->cloud->n;
+    for (size_t c = 0; c < changes->n; c++) {
+        size_t e = changes->bond[c], low = 0, high = n;
+        while (high - low > 1) {                       /* the last point whose bonds start at or before e                */
+            size_t middle = (low + high) / 2;
+            if (start[middle] <= e) low = middle;
+            else high = middle;
+        }
+        unsigned bit;
+        size_t k = block_of (s, s->place[low], &bit), b = bond_of (s, jump_of (s, low, e), 0);
+        if (b < s->job.n) s->alive[k * s->job.n + b] &= ~(1u << bit);
+    }
+}
+
+static pg_status set_terms (stencil *s)
+{
+    pg_status status = PG_OK;
+    const pg_sums *sums = s->setting.sums;
+    const pg_stencil *st = &sums->stencil;
+    double volume = st->cell * sums->cloud->thickness, c = sums->cloud->n ? s->setting.modulus[0] : 0;
+    double s0 = s->setting.limit && sums->cloud->n ? s->setting.limit[0] : 0;
+    PG_ALLOC (s->term, st->n * PG_TERMS);
+    for (size_t j = 0; j < st->n; j++) {
+        double *t = s->term + j * PG_TERMS, r = st->r[j], a = c * (volume * volume) * st->weight[j] / (r * r * r);
+        for (int d = 0; d < st->dim; d++) {
+            t[PG_AT_XI + d] = st->xi[j * (size_t) st->dim + (size_t) d];
+            t[PG_AT_PULL + d] = sums->rule.finite ? a * (r * r) : a * t[PG_AT_XI + d];
+        }
+        t[PG_AT_LIMIT] = sums->rule.finite ? s0 * (2 + s0) * (r * r) : s0 * (r * r);
+        t[PG_AT_R2] = r * r, t[PG_AT_R] = r;
+        t[PG_AT_STORED] = sums->rule.finite ? a * (r * r) : a;
+    }
+done:
+    return status;
+}
+
+/* Weights of points, where not all are 1: share of a cell's volume over the root of how full the family is */
+static pg_status set_weights (stencil *s)
+{
+    pg_status status = PG_OK;
+    const pg_sums *sums = s->setting.sums;
+    int product = sums->rule.surface == PG_SURFACE_PRODUCT && sums->family_volume, one = 1;
+    if (!sums->share && !product) return PG_OK;
+    PG_ALLOC (s->p, s->pitch * s->rows * s->planes + (size_t) s->left);
+    for (size_t i = 0; i < sums->cloud->n; i++) {
+        double p = (sums->share ? sums->share[i] : 1) / (product ? sqrt (sums->family_volume[i]) : 1);
+        s->p[s->place[i]] = p;
+        one = one && p == 1;
+    }
+    if (one) pg_free (s->p), s->p = NULL;
+done:
+    return status;
+}
+
+static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+{
+    static const pg_block_kernels *const kernels[] = { &pg_block_scalar, &pg_block_avx2, &pg_block_avx512 };
+    pg_status status = PG_OK;
+    stencil *s = NULL;
+    const unsigned char *exempt = setting->limit ? setting->exempt : NULL;
+    PG_ALLOC (s, 1);
+    *self = s;
+    s->setting = *setting, s->kernels = kernels[set];
+    size_t n = setting->sums->cloud->n;
+    s->nbond = n ? setting->family->start[n] : 0;
+    PG_TRY (lay_out (s));
+    PG_TRY (find_blocks (s));
+    PG_TRY (set_terms (s));
+    PG_TRY (set_weights (s));
+    size_t words = s->nblock * setting->sums->stencil.n;
+    PG_ALLOC (s->alive, words);
+    if (exempt) PG_ALLOC (s->may, words);
+    PG_ALLOC (s->hit, s->nblock);
+    PG_ALLOC (s->energy, s->nblock);
+    s->job.dim = setting->sums->stencil.dim, s->job.n = setting->sums->stencil.n, s->job.jump = s->jump, s->job.term = s->term;
+    s->job.block = s->block, s->job.point = setting->sums->sites.point, s->job.alive = s->alive, s->job.may = s->may, s->job.p = s->p;
+    s->job.hit = s->hit, s->job.energy = s->energy;
+    for (size_t i = 0; i < n; i++) PG_TRY (set_bits (s, i, NULL, exempt));
+done:
+    return status;
+}
+
+static void bytes (const void *self, double *per_bond, double *per_point)
+{
+    const stencil *s = self;
+    size_t n = s->setting.sums->cloud->n, dim = (size_t) s->job.dim;
+    double words = (double) (s->nblock * s->job.n) * (s->may ? 2 : 1), places = (double) (s->nblock * PG_BLOCK);
+    *per_bond = s->nbond ? sizeof (uint32_t) * words / (double) s->nbond : 0;
+    *per_point = n ? sizeof (double) * ((double) (2 * dim * n) + places * (double) (2 * dim + (s->p != NULL))) / (double) n : 0;
+}
+
+/* ---- sums ------------------------------------------------------------------------------------------------------------------------- */
+/* Position in the family of the bond b of the site at `place`, whose point is i */
+static size_t entry_of (const stencil *s, int i, size_t place, size_t b)
+{
+    const pg_family *family = s->setting.family;
+    size_t low = family->start[i], high = family->start[i + 1];
+    unsigned bit;
+    size_t k = block_of (s, (size_t) ((ptrdiff_t) place + s->jump[b]), &bit);
+    int j = s->job.point[s->block[k].site + bit];
+    while (high - low > 1) {
+        size_t middle = (low + high) / 2;
+        if (family->node[middle] <= j) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+/* What the loops compare with the limit, operation by operation */
+static double measure (const stencil *s, size_t place, size_t b)
+{
+    const double *t = s->term + b * PG_TERMS;
+    double sum = 0;
+    for (int d = 0; d < s->job.dim; d++) {
+        const double *u = s->job.u[d] + place, xi = t[PG_AT_XI + d];
+        double eta = u[s->jump[b]] - u[0], part = s->setting.sums->rule.finite ? eta * (xi + (xi + eta)) : xi * eta;
+        sum = d ? sum + part : part;
+    }
+    return sum;
+}
+
+/* Kills the bonds of a block that are over their limit, and notes them. */
+static pg_status kill_bonds (stencil *s, size_t k, pg_changes *found)
+{
+    pg_status status = PG_OK;
+    const pg_block *block = s->block + k;
+    for (size_t b = 0; b < s->job.n; b++) {
+        uint32_t *word = s->alive + k * s->job.n + b, live = s->may ? *word & s->may[k * s->job.n + b] : *word;
+        for (; live; live &= live - 1) {
+            unsigned bit = (unsigned) __builtin_ctz (live);
+            if (!(measure (s, block->base + bit, b) >= s->term[b * PG_TERMS + PG_AT_LIMIT])) continue;
+            *word &= ~(1u << bit);
+            PG_GROW (found->bond, found->cap, found->n + 1);
+            found->bond[found->n++] = entry_of (s, s->job.point[block->site + bit], block->base + bit, b);
+        }
+    }
+done:
+    return status;
+}
+
+typedef struct { stencil *s; const double *u; pg_block_loop loop, again; } pass;
+
+static void spread_blocks (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    pass *p = context;
+    p->s->kernels->spread (&p->s->job, p->u, first, last);
+}
+
+static void force_blocks (void *context, size_t first, size_t last, int thread)
+{
+    pass *p = context;
+    stencil *s = p->s;
+    p->loop (&s->job, first, last);
+    for (size_t k = first; p->again && k < last; k++) {
+        if (!s->hit[k]) continue;
+        s->hit[k] = 0;
+        pg_status now = kill_bonds (s, k, &s->found[thread]);
+        if (now != PG_OK) s->failed[thread] = now;
+        p->again (&s->job, k, k + 1);
+    }
+}
+
+static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
+{
+    pg_status status = PG_OK;
+    stencil *s = self;
+    int finite = s->setting.sums->rule.finite != 0, weighted = s->p != NULL, threads = threads_for (s);
+    int check = !broken || !s->setting.limit ? PG_CHECK_NONE : s->may ? PG_CHECK_SOME : PG_CHECK_ALL;
+    pass p = { s, u, s->kernels->force[s->job.dim - 1][finite][check][weighted], NULL };
+    if (check) p.again = s->kernels->force[s->job.dim - 1][finite][PG_CHECK_NONE][weighted];
+    s->job.f = f;
+    pg_parallel_heavy (threads, s->nblock, spread_blocks, &p);
+    pg_parallel_heavy (threads, s->nblock, force_blocks, &p);
+    if (!check) return PG_OK;
+    pg_changes *all = &s->found[0];
+    for (int t = 0; t < threads; t++) {
+        pg_changes *some = &s->found[t];
+        if (s->failed[t] != PG_OK) status = s->failed[t], s->failed[t] = PG_OK;
+        if (t == 0 || some->n == 0) continue;
+        PG_GROW (all->bond, all->cap, all->n + some->n);
+        memcpy (all->bond + all->n, some->bond, some->n * sizeof *some->bond);
+        all->n += some->n;
+    }
+    if (status != PG_OK) PG_FAIL (status, "no memory to note the bonds that broke");
+    PG_TRY (pg_changes_append (broken, all->n, all->bond));
+done:
+    for (int t = 0; t < threads; t++) s->found[t].n = 0;
+    return status;
+}
+
+static void energy_blocks (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    pass *p = context;
+    p->loop (&p->s->job, first, last);
+}
+
+static double energy (void *self, const double *u)
+{
+    stencil *s = self;
+    pass p = { s, u, s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL], NULL };
+    pg_parallel_heavy (threads_for (s), s->nblock, spread_blocks, &p);
+    pg_parallel_heavy (threads_for (s), s->nblock, energy_blocks, &p);
+    double sum = 0;
+    for (size_t k = 0; k < s->nblock; k++) sum += s->energy[k];
+    return sum / 4;                                    /* w / 2 of each bond, seen from both its ends                    */
+}
+
+const pg_sweep_kind pg_sweep_stencil = {
+    .name = "stencil", .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = update, .force = force, .energy = energy,
+};

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * A rule and a cloud brought together: sites and stencil of a lattice, calibration, volumes of families for the surface. */
+#include "sums_private.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double whole_family = 0.8;                /* of the largest family's volume                                 */
+
+pg_status sums_check_rule (const pg_sum_rule *rule, int dim)
+{
+    pg_status status = PG_OK;
+    int wanted = rule->mode == PG_LINE ? 1 : rule->mode == PG_SOLID ? 3 : 2;
+    if (wanted != dim) PG_FAIL (PG_E_USAGE, "bonds of a body of %d dimensions cannot have a mode of %d", dim, wanted);
+    if (!(rule->horizon > 0) || !isfinite (rule->horizon)) PG_FAIL (PG_E_USAGE, "horizon %g m of bonds must be positive", rule->horizon);
+done:
+    return status;
+}
+
+double sums_surface (const pg_sums *sums, size_t i, size_t j)
+{
+    const double *v = sums->family_volume;
+    if (!v) return 1;
+    return sums->rule.surface == PG_SURFACE_VOLUME ? 2 / (v[i] + v[j]) : 1 / sqrt (v[i] * v[j]);
+}
+
+/* ---- on a lattice ------------------------------------------------------------------------------------------------------- */
+static pg_status find_shares (pg_sums *s, double cell)
+{
+    pg_status status = PG_OK;
+    int equal = 1;
+    for (size_t i = 0; i < s->cloud->n; i++) equal &= fabs (s->cloud->volume[i] - cell) <= 1e-12 * cell;
+    if (equal) goto done;
+    PG_ALLOC (s->share, s->cloud->n);
+    for (size_t i = 0; i < s->cloud->n; i++) s->share[i] = s->cloud->volume[i] / cell;
+done:
+    return status;
+}
+
+static void check_order (pg_sums *s)
+{
+    s->ordered = 1;
+    for (size_t i = 1; i < s->cloud->n; i++) s->ordered &= s->sites.site[i - 1] < s->sites.site[i];
+}
+
+static pg_status lattice_volumes (pg_sums *s)
+{
+    pg_status status = PG_OK;
+    const pg_stencil *t = &s->stencil;
+    double whole = 0;
+    for (size_t b = 0; b < t->n; b++) whole += t->beta[b];
+    PG_ALLOC (s->family_volume, s->cloud->n);
+    for (size_t i = 0; i < s->cloud->n; i++) {
+        double sum = 0;
+        for (size_t b = 0; b < t->n; b++) {
+            int j = sums_neighbour (&s->sites, s->sites.site[i], t->offset + 3*b);
+            if (j >= 0) sum += t->beta[b] * (s->share ? s->share[j] : 1);
+        }
+        s->family_volume[i] = sum / whole;
+    }
+done:
+    return status;
+}
+
+static pg_status from_lattice (pg_sums *s)
+{
+    pg_status status = PG_OK;
+    const pg_sum_rule *rule = &s->rule;
+    double c = 1, G = 0, G0 = pg_bond_fracture_energy (rule->mode, rule->kernel, rule->horizon, s->cloud->thickness, c, 1);
+    int dim = s->sites.dim;
+    PG_TRY (pg_stencil_build (&s->stencil, rule, dim, s->sites.step));
+    double cell = s->stencil.cell * s->cloud->thickness;
+    if (rule->calibrate) s->calibration = pg_stencil_calibration (&s->stencil, rule);
+    for (int k = 0; k < dim; k++) G += pg_stencil_fracture_energy (&s->stencil, s->calibration * c, s->cloud->thickness, 1, k) / dim;
+    s->toughness = G / G0;
+    for (size_t b = 0; b < s->stencil.n; b++) s->full += s->stencil.beta[b] * cell;
+    PG_TRY (find_shares (s, cell));
+    check_order (s);
+    if (rule->surface != PG_SURFACE_NONE) PG_TRY (lattice_volumes (s));
+done:
+    return status;
+}
+
+/* ---- without a lattice -------------------------------------------------------------------------------------------------- */
+static int ascending (const void *a, const void *b)
+{
+    double x = *(const double *) a, y = *(const double *) b;
+    return (x > y) - (x < y);
+}
+
+/* Of the values whose volume is nearly the largest; values are sorted in place. */
+static double median_of_whole (size_t n, const double *volume, const double *value, double *work)
+{
+    double most = 0;
+    size_t m = 0;
+    for (size_t i = 0; i < n; i++) most = fmax (most, volume[i]);
+    for (size_t i = 0; i < n; i++) if (volume[i] >= whole_family * most) work[m++] = value[i];
+    qsort (work, m, sizeof *work, ascending);
+    return m == 0 ? 0 : m % 2 ? work[m / 2] : 0.5 * (work[m / 2 - 1] + work[m / 2]);
+}
+
+static pg_status from_cloud (pg_sums *s)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *cloud = s->cloud;
+    pg_family family = {0};
+    double *volume = NULL, *moment = NULL, *work = NULL;
+    size_t n = cloud->n;
+    if (s->rule.partial == PG_PARTIAL_OVERLAP)
+        PG_FAIL (PG_E_USAGE, "partial volume `overlap` needs points on a lattice: choose `linear` or `none`");
+    PG_TRY (pg_sums_family (&family, s));
+    if (family.start[n] == 0) PG_FAIL (PG_E_USAGE, "a horizon of %g m reaches no neighbour", s->rule.horizon);
+    PG_ALLOC (volume, n);
+    PG_ALLOC (moment, n);
+    PG_ALLOC (work, n);
+    for (size_t i = 0; i < n; i++)
+        for (size_t e = family.start[i]; e < family.start[i + 1]; e++) {
+            size_t j = (size_t) family.node[e];
+            sums_bond b = sums_bond_between (&s->rule, cloud, i, j);
+            volume[i] += b.beta * cloud->volume[j] / pow (pg_cloud_ratio (cloud, i), cloud->dim);
+            moment[i] += b.weight * b.r * cloud->volume[j] / cloud->thickness;
+        }
+    s->full = median_of_whole (n, volume, volume, work);
+    double middle = median_of_whole (n, volume, moment, work);
+    if (s->rule.calibrate) s->calibration = sums_whole (&s->rule, cloud->dim) / middle;
+    if (s->rule.surface != PG_SURFACE_NONE) {
+        for (size_t i = 0; i < n; i++) volume[i] /= s->full;
+        s->family_volume = volume;
+        volume = NULL;
+    }
+done:
+    pg_free (work);
+    pg_free (moment);
+    pg_free (volume);
+    pg_family_clear (&family);
+    return status;
+}
+
+pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud, const pg_lattice *lattice)
+{
+    pg_status status = PG_OK;
+    pg_sums *s = NULL;
+    *out = NULL;
+    PG_TRY (sums_check_rule (rule, cloud->dim));
+    if (cloud->n == 0) PG_FAIL (PG_E_USAGE, "bonds need points, and there are none");
+    PG_ALLOC (s, 1);
+    s->rule = *rule;
+    s->cloud = cloud;
+    s->calibration = s->toughness = 1;
+    PG_TRY (pg_sites_build (&s->sites, cloud, lattice));
+    if (s->sites.count[0]) PG_TRY (from_lattice (s));
+    else PG_TRY (from_cloud (s));
+    *out = s;
+done:
+    if (status != PG_OK) pg_sums_free (&s);
+    return status;
+}
+
+void pg_sums_free (pg_sums **sums)
+{
+    pg_sums *s = *sums;
+    if (!s) return;
+    pg_sites_clear (&s->sites);
+    pg_stencil_clear (&s->stencil);
+    pg_free (s->share);
+    pg_free (s->family_volume);
+    pg_free (s);
+    *sums = NULL;
+}

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Which loop sums the bonds: the first kind that can, with the best instructions that this machine has. */
+#include "sweep.h"
+#include <stdlib.h>
+#include <string.h>
+
+struct pg_sweep {
+    const pg_sweep_kind *kind;
+    void *self;
+    char  name[32];
+};
+
+static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list };
+enum { KINDS = sizeof kinds / sizeof *kinds };
+static const char *const set_name[PG_INSTRUCTION_SETS] = { "scalar", "avx2", "avx512" };
+
+const char *pg_instructions_name (pg_instructions set) { return set_name[set]; }
+
+int pg_instructions_here (pg_instructions set)
+{
+    if (set == PG_SCALAR) return 1;
+#ifdef __x86_64__
+    int avx2 = __builtin_cpu_supports ("avx2") && __builtin_cpu_supports ("fma");
+    if (set == PG_AVX2) return avx2;
+    return avx2 && __builtin_cpu_supports ("avx512f") && __builtin_cpu_supports ("avx512bw") && __builtin_cpu_supports ("avx512dq")
+        && __builtin_cpu_supports ("avx512vl");
+#else
+    return 0;
+#endif
+}
+
+static pg_status choose_instructions (pg_instructions *out, const char *name)
+{
+    pg_status status = PG_OK;
+    int set = PG_INSTRUCTION_SETS - 1;
+    if (!name) {
+        while (!pg_instructions_here (set)) set--;
+    } else {
+        while (set >= 0 && strcmp (name, set_name[set]) != 0) set--;
+        if (set < 0) PG_FAIL (PG_E_USAGE, "instructions %s: unknown; there are scalar, avx2, avx512", name);
+        if (!pg_instructions_here (set)) PG_FAIL (PG_E_USAGE, "instructions %s: this machine has none; leave the choice to the program", name);
+    }
+    *out = (pg_instructions) set;
+done:
+    return status;
+}
+
+static pg_status choose_kind (const pg_sweep_kind **out, const pg_sweep_setting *setting)
+{
+    static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL, [PG_EVALUATE_STENCIL] = "stencil", [PG_EVALUATE_LIST] = "list" };
+    pg_status status = PG_OK;
+    const char *only = asked[setting->sums->rule.evaluation], *why = "there is no such loop";
+    *out = NULL;
+    for (size_t k = 0; k < KINDS && !*out; k++) {
+        if (only && strcmp (only, kinds[k]->name) != 0) continue;
+        why = kinds[k]->refusal (setting);
+        if (!why) *out = kinds[k];
+    }
+    if (!*out) PG_FAIL (PG_E_USAGE, "evaluation %s cannot sum these bonds: %s; try evaluation: auto", only ? only : "auto", why);
+done:
+    return status;
+}
+
+pg_status pg_sweep_create (pg_sweep **out, const pg_sweep_setting *setting)
+{
+    pg_status status = PG_OK;
+    pg_sweep *s = NULL;
+    pg_instructions set = PG_SCALAR;
+    *out = NULL;
+    PG_ALLOC (s, 1);
+    PG_TRY (choose_instructions (&set, setting->instructions));
+    PG_TRY (choose_kind (&s->kind, setting));
+    strcpy (s->name, s->kind->name);
+    strcat (strcat (s->name, " "), set_name[set]);
+    PG_TRY (s->kind->create (&s->self, setting, set));
+    *out = s, s = NULL;
+done:
+    pg_sweep_free (&s);
+    return status;
+}
+
+void pg_sweep_free (pg_sweep **sweep)
+{
+    if (!sweep || !*sweep) return;
+    if ((*sweep)->kind) (*sweep)->kind->free ((*sweep)->self);
+    pg_free (*sweep);
+    *sweep = NULL;
+}
+
+const char *pg_sweep_name (const pg_sweep *sweep) { return sweep->name; }
+
+void pg_sweep_bytes (const pg_sweep *sweep, double *per_bond, double *per_point) { sweep->kind->bytes (sweep->self, per_bond, per_point); }
+
+void pg_sweep_update (pg_sweep *sweep, const unsigned char *alive, const pg_changes *changes)
+{
+    sweep->kind->update (sweep->self, alive, changes);
+}
+
+pg_status pg_sweep_force (pg_sweep *sweep, const double *u, double *f, pg_changes *broken)
+{
+    return sweep->kind->force (sweep->self, u, f, broken);
+}
+
+double pg_sweep_energy (pg_sweep *sweep, const double *u) { return sweep->kind->energy (sweep->self, u); }
+
+static int ascending (const void *a, const void *b)
+{
+    size_t x = *(const size_t *) a, y = *(const size_t *) b;
+    return x < y ? -1 : x > y;
+}
+
+pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond)
+{
+    pg_status status = PG_OK;
+    if (n == 0) return PG_OK;
+    qsort (bond, n, sizeof *bond, ascending);
+    PG_GROW (to->bond, to->cap, to->n + n);
+    memcpy (to->bond + to->n, bond, n * sizeof *bond);
+    to->n += n;
+done:
+    return status;
+}

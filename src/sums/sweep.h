@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * sweep.h: how the loops over bonds hang together (private): a kind of loop fills one pg_sweep_kind, sweep.c chooses among them. */
+#ifndef PERIGAL_SUMS_SWEEP_H
+#define PERIGAL_SUMS_SWEEP_H
+#include "perigal/sums.h"
+
+/* Instruction sets, worst first. PG_AVX2 means avx2 and fma, PG_AVX512 means avx512 f, bw, dq, vl on top of these. */
+typedef enum { PG_SCALAR, PG_AVX2, PG_AVX512, PG_INSTRUCTION_SETS } pg_instructions;
+const char *pg_instructions_name (pg_instructions set);
+int         pg_instructions_here (pg_instructions set);               /* 1: this machine has them and this compiler knew them */
+
+typedef struct {
+    const char *name;                                  /* "stencil", "list"                                              */
+    /* NULL: this kind can sum what the setting asks for; else why not ("surface factor of volumes"). */
+    const char *(*refusal) (const pg_sweep_setting *setting);
+    /* `set` is there on this machine. The setting has been copied: what it points to lives as long as self, the struct itself may not.
+     * Starts with all bonds of the family alive. */
+    pg_status (*create) (void **self, const pg_sweep_setting *setting, pg_instructions set);
+    void      (*free)   (void *self);                  /* NULL-safe, frees half-built ones                               */
+    void      (*bytes)  (const void *self, double *per_bond, double *per_point);
+    void      (*update) (void *self, const unsigned char *alive, const pg_changes *changes);
+    pg_status (*force)  (void *self, const double *u, double *f, pg_changes *broken);
+    double    (*energy) (void *self, const double *u);
+} pg_sweep_kind;
+extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list;
+
+/* Adds n bonds (any order, none twice) to the end of `to`, ascending among themselves; sorts `bond`. */
+pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond);
+#endif
