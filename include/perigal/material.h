@@ -34,6 +34,15 @@ const char *pg_material_names (void);
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode);
 /* Isotropic tangent for a mode (theory section 0). D is nv x nv. */
 void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D);
+/* Of the mode (plane stress: waves in a thin plate). */
+typedef struct {
+    double lambda, mu;                                 /* Pa                                                             */
+    double pressure, shear, rayleigh;                  /* speeds, m/s; 0: no density, or no such wave                    */
+} pg_waves;
+pg_waves pg_material_waves (const pg_material *material);
+/* Speed of the surface wave, the root of (2 - x^2)^2 = 4 sqrt ((1 - x^2) (1 - x^2 shear^2 / pressure^2)), x = c / shear (Rayleigh 1885),
+ * to rounding; 0 unless 0 < shear < pressure. */
+double pg_rayleigh_speed (double pressure, double shear);
 /* sigma_1 >= sigma_2 >= sigma_3 of n stresses (n x nv) with out-of-plane zz (n or NULL = 0). principal is n x 3. */
 void pg_principal (int dim, size_t n, const double *stress, const double *zz, double *principal);
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A clock and a parallel loop over disjoint ranges (plain threads: the OpenMP limit that CHOLMOD needs does not bind them). The threads are
- * started once and wait, awake for some microseconds, then asleep. Loops inside loops stay on their thread; a loop that finds the threads
- * busy with another's starts some of its own. */
+ * started once and wait, awake for some microseconds, then asleep. What a thread has not begun when the caller is done with its own part,
+ * the caller does itself: on a busy machine nobody waits for a thread that gets no processor. Loops inside loops stay on their thread; a loop
+ * that finds the threads busy with another's starts some of its own. */
 #include "perigal/base.h"
 #include <pthread.h>
 #include <stdatomic.h>
@@ -13,6 +14,7 @@ enum { MAX_THREADS = 64, LOOKS = 1000 };               /* LOOKS at a word, some 
 typedef struct { pg_work work; void *context; size_t first, last; int thread; } job;
 typedef struct {
     _Alignas (64) atomic_uint turn;                    /* goes up: there is a job                                        */
+    atomic_uint claimed;                               /* turn whose job somebody has begun                              */
     job       job;
     int       quit;
     pthread_t id;
@@ -52,6 +54,12 @@ static void pause_briefly (void)
 #endif
 }
 
+static int claim (helper *h, unsigned turn)            /* 1: the job of this turn is the caller's                        */
+{
+    unsigned before = turn - 1;
+    return atomic_compare_exchange_strong (&h->claimed, &before, turn);
+}
+
 /* ---- threads that wait --------------------------------------------------------------------------------------------------- */
 static void *serve (void *p)
 {
@@ -61,9 +69,11 @@ static void *serve (void *p)
         for (int k = 0; k < looks && atomic_load_explicit (&h->turn, memory_order_acquire) == seen; k++) pause_briefly ();
         pthread_mutex_lock (&h->lock);
         while (atomic_load (&h->turn) == seen) pthread_cond_wait (&h->wake, &h->lock);
+        seen = atomic_load (&h->turn);
+        int quit = h->quit;
         pthread_mutex_unlock (&h->lock);
-        if (h->quit) return NULL;
-        seen++;
+        if (quit) return NULL;
+        if (!claim (h, seen)) continue;
         run (&h->job);
         if (atomic_fetch_sub (&unfinished, 1) > 1) continue;
         pthread_mutex_lock (&end_lock);
@@ -72,9 +82,10 @@ static void *serve (void *p)
     }
 }
 
-static void give_turn (helper *h)
+static void give_turn (helper *h, int quit)
 {
     pthread_mutex_lock (&h->lock);
+    h->quit = quit;
     atomic_fetch_add (&h->turn, 1);
     pthread_mutex_unlock (&h->lock);
     pthread_cond_signal (&h->wake);
@@ -99,7 +110,7 @@ static void prepare (void)
 __attribute__ ((destructor)) static void dismiss (void)
 {
     if (pthread_mutex_trylock (&gate) != 0) return;    /* exit from within a loop                                        */
-    for (int k = 1; k < started; k++) helpers[k].quit = 1, give_turn (&helpers[k]);
+    for (int k = 1; k < started; k++) give_turn (&helpers[k], 1);
     for (int k = 1; k < started; k++) pthread_join (helpers[k].id, NULL);
     started = 1;
     pthread_mutex_unlock (&gate);
@@ -111,6 +122,7 @@ static void hire (int threads)
     for (; started < threads; started++) {
         helper *h = &helpers[started];
         atomic_store (&h->turn, 0);
+        atomic_store (&h->claimed, 0);
         h->quit = 0;
         pthread_mutex_init (&h->lock, NULL);
         pthread_cond_init (&h->wake, NULL);
@@ -123,9 +135,14 @@ static void run_with_helpers (int threads, job *jobs)
     hire (threads);
     int given = threads < started ? threads : started;
     atomic_store (&unfinished, given - 1);
-    for (int k = 1; k < given; k++) helpers[k].job = jobs[k], give_turn (&helpers[k]);
+    for (int k = 1; k < given; k++) helpers[k].job = jobs[k], give_turn (&helpers[k], 0);
     run (&jobs[0]);
     for (int k = given; k < threads; k++) run (&jobs[k]);
+    for (int k = 1; k < given; k++) {
+        if (!claim (&helpers[k], atomic_load (&helpers[k].turn))) continue;
+        run (&jobs[k]);
+        atomic_fetch_sub (&unfinished, 1);
+    }
     for (int k = 0; k < looks && atomic_load_explicit (&unfinished, memory_order_acquire) > 0; k++) pause_briefly ();
     if (atomic_load (&unfinished) == 0) return;
     pthread_mutex_lock (&end_lock);

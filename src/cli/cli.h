@@ -52,8 +52,6 @@ pg_status first_break_find (first_break *out, const pg_problem *p, const pg_solv
 /* plan.c */
 void plan_print      (const pg_problem *p, const pg_solver_options *o);
 typedef struct { const pg_problem *problem; const pg_solver_options *options; const pg_forecast *forecast; double available; const first_break *first; double stable; const char *from; } plan;   /* stable: of an explicit method, s; else NAN */
-typedef struct { double lambda, mu, pressure, shear; } plan_waves;       /* Pa, m/s; 0: none                              */
-plan_waves plan_waves_of (const pg_material *m, int dim);
 typedef struct { double omega, dt, courant; int measured; } plan_times;  /* rad/s, s stable, c_p dt / h of newmark        */
 plan_times plan_times_of (const plan *p);
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most);           /* what the run will not do, as far as known     */

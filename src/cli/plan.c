@@ -81,14 +81,6 @@ void plan_settled (const pg_solver *solver)
 }
 
 /* ---- at length -------------------------------------------------------------------------------------------------------------- */
-plan_waves plan_waves_of (const pg_material *m, int dim)
-{
-    plan_waves w = { 0, 0, 0, 0 };
-    if (dim > 1) w.lambda = m->D[1], w.mu = m->D[dim == 3 ? 21 : 8];
-    if (m->density > 0) w.pressure = sqrt (m->D[0] / m->density), w.shear = sqrt (w.mu / m->density);
-    return w;
-}
-
 /* Unless measured: 2 c_p / h inside, and where Nitsche's terms (beta = nitsche E / h) stiffen boundary points omega^2 = 2 nitsche E / (rho h^2). */
 plan_times plan_times_of (const plan *p)
 {
@@ -99,7 +91,7 @@ plan_times plan_times_of (const plan *p)
     for (size_t l = 0; l < q->nload; l++) nitsche |= pg_load_prescribes (&q->load[l]) && q->load[l].essential == PG_ESSENTIAL_NITSCHE;
     for (size_t m = 0; m < q->nmaterial; m++) {
         if (!(q->material[m].density > 0)) return t;
-        speed = fmax (speed, plan_waves_of (&q->material[m], q->dim).pressure);
+        speed = fmax (speed, pg_material_waves (&q->material[m]).pressure);
         stiff = fmax (stiff, q->material[m].modulus / q->material[m].density);
     }
     t.omega = fmax (2 * speed, nitsche ? sqrt (2 * q->nitsche * stiff) : 0) / pg_cloud_finest (&q->cloud);
@@ -197,11 +189,11 @@ static void print_materials (const pg_problem *p)
 {
     for (size_t k = 0; k < p->nmaterial; k++) {
         const pg_material *m = &p->material[k];
-        plan_waves w = plan_waves_of (m, p->dim);
+        pg_waves w = pg_material_waves (m);
         printf ("  constants %-9s E %.6g Pa, nu %.6g", m->name, m->modulus, m->parameter[1]);
         if (p->dim > 1) printf (", lambda %.6g Pa, mu %.6g Pa%s", w.lambda, w.mu, p->mode == PG_PLANE_STRESS ? " (plane stress)" : "");
         if (m->density > 0) printf (", density %.6g kg/m3, c_p %.5g m/s", m->density, w.pressure);
-        if (m->density > 0 && p->dim > 1) printf (", c_s %.5g m/s", w.shear);
+        if (m->density > 0 && p->dim > 1) printf (", c_s %.5g m/s, c_R %.5g m/s", w.shear, w.rayleigh);
         printf ("\n");
     }
 }

@@ -42,7 +42,7 @@ static void constants (pg_json *j, const pg_problem *p)
     pg_json_open (j, "materials", '[');
     for (size_t k = 0; k < p->nmaterial; k++) {
         const pg_material *m = &p->material[k];
-        plan_waves w = plan_waves_of (m, p->dim);
+        pg_waves w = pg_material_waves (m);
         pg_json_open (j, NULL, '{');
         pg_json_text (j, "name", m->name);
         pg_json_number (j, "youngs_modulus", m->modulus);
@@ -52,6 +52,7 @@ static void constants (pg_json *j, const pg_problem *p)
         pg_json_number (j, "mu", w.mu);
         pg_json_number (j, "pressure_wave", w.pressure);
         pg_json_number (j, "shear_wave", w.shear);
+        pg_json_number (j, "rayleigh_wave", w.rayleigh);
         pg_criterion_describe (&p->criterion[k], text, sizeof text);
         pg_json_text (j, "criterion", text);
         pg_json_shut (j);

@@ -48,12 +48,12 @@ static void check_field (const pg_scene *scene, const char *path, const char *fi
     else pg_scene_fault (scene, path, "must be one component of a field in %dD: %s", dim, listed);
 }
 
-/* Columns the user names, averages and gauges, must differ from each other and from those that are always there. */
+/* Columns the user names, averages, gauges and tips, must differ from each other and from those that are always there. */
 static void check_names (const pg_scene *scene)
 {
-    static const char *const list[] = { "output.gauges", "output.averages" };
+    static const char *const list[] = { "output.gauges", "output.averages", "output.tips" };
     char path[64];
-    for (size_t a = 0; a < 2; a++)
+    for (size_t a = 0; a < 3; a++)
         for (size_t i = 0; i < pg_scene_count (scene, "%s", list[a]); i++) {
             const char *name = pg_scene_text (scene, "%s[%zu].name", list[a], i);
             snprintf (path, sizeof path, "%s[%zu].name", list[a], i);

@@ -110,7 +110,8 @@ static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
     if (result_view_read (&mine, scene, i, p->dim) != PG_OK) return;
     for (size_t k = 0; (word = pg_scene_name (scene, k, "output.pictures")); k++) twice |= strcmp (word, mine.name) == 0;
     for (size_t k = 0; k < i; k++) twice |= result_view_read (&other, scene, k, p->dim) == PG_OK && strcmp (other.name, mine.name) == 0;
-    if (twice || strcmp (mine.name, "load_displacement") == 0 || strcmp (mine.name, "error") == 0)
+    if (twice || strcmp (mine.name, "load_displacement") == 0 || strcmp (mine.name, "error") == 0
+        || strcmp (mine.name, "tip") == 0 || strcmp (mine.name, "tip_speed") == 0)
         pg_scene_fault (scene, path, "another picture is called %s.png; give another name", mine.name);
 }
 
@@ -143,6 +144,7 @@ pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
     for (size_t i = 0; i < pg_scene_count (scene, "output.views"); i++, count++) check_view (scene, problem, i, names);
     if (count >= MOST_PICTURES) pg_scene_fault (scene, "output.pictures", "at most %d pictures", MOST_PICTURES - 1);
     result_averages_check (scene, problem);
+    if (result_tips_check (scene, problem) != PG_OK) return PG_E_MEMORY;
     if (pg_reference_read (&reference, scene, problem) == PG_E_MEMORY) return PG_E_MEMORY;
     pg_reference_free (&reference);
     given_once (scene, "output.pictures");

@@ -16,7 +16,7 @@ pg_status result_history_create (pg_result *r, const result_marks *from)
     const pg_problem *p = r->problem;
     char path[4096], (*name)[128] = NULL;
     const char **column = NULL;
-    size_t n = 0, most = 13 + 6 * p->nload + p->ngauge + r->naverage + 1;
+    size_t n = 0, most = 13 + 6 * p->nload + p->ngauge + r->naverage + r->ntip + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
@@ -27,6 +27,7 @@ pg_status result_history_create (pg_result *r, const result_marks *from)
         }
     for (size_t g = 0; g < p->ngauge; g++) snprintf (name[n++], sizeof *name, "%s [m]", p->gauge[g].name);
     for (size_t a = 0; a < r->naverage; a++) result_average_column (r, a, name[n++], sizeof *name);
+    for (size_t t = 0; t < r->ntip; t++) snprintf (name[n++], sizeof *name, "%s [m]", r->tip[t].name);
     for (size_t k = 0; k < sizeof last_columns / sizeof *last_columns; k++) snprintf (name[n++], sizeof *name, "%s", last_columns[k]);
     for (size_t k = 0; k < n; k++) column[k] = name[k];
     r->ncolumn = n;
@@ -116,6 +117,8 @@ pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step
     }
     PG_TRY (result_averages_row (r, state, r->row + n, r->u));
     n += r->naverage;
+    PG_TRY (result_tips_row (r, state, step, r->row + n, r->u));
+    n += r->ntip;
     r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic, r->row[n++] = report->energy_external;
     r->row[n++] = report->energy_dissipated, r->row[n++] = (double) report->broken, r->row[n++] = (double) step->iterations;
     r->row[n++] = step->residual, r->row[n++] = step->utilisation, r->row[n++] = step->event, r->row[n++] = step->level;

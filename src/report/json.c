@@ -108,6 +108,7 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
         pg_errors_json (j, &res->errors);
         pg_json_shut (j);
     }
+    result_tips_json (j, res);
     pg_json_count (j, "peak_bytes", pg_memory_process_peak ());
     pg_json_count (j, "threads", (size_t) res->problem->threads);
     criteria (j, res->problem);

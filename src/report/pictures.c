@@ -179,6 +179,7 @@ pg_status result_pictures (pg_result *r, const pg_state *state)
     pg_status status = PG_OK;
     PG_TRY (draw_all (r, state, "", "", 1));
     if (r->curve_load >= 0 && r->npoint > 1) PG_TRY (load_displacement (r));
+    PG_TRY (result_tips_pictures (r));
 done:
     return status;
 }

@@ -129,6 +129,7 @@ pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scen
     r->length = (settled->quasi_static ? 1 : settled->end) / (double) settled->steps;
     PG_TRY (read_wishes (r, scene));
     PG_TRY (result_averages_read (r, scene));
+    PG_TRY (result_tips_read (r, scene));
     PG_TRY (pg_reference_read (&r->reference, scene, problem));
     choose_curve (r);
     r->next_broken = r->broken_share > 0 ? 1 : 0;
@@ -282,6 +283,7 @@ void pg_result_free (pg_result **result)
     for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);
     pg_reference_free (&r->reference);
     pg_errors_clear (&r->errors);
+    result_tips_free (r);
     pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve_x), pg_free (r->curve_y);
     pg_free (r);
     *result = NULL;

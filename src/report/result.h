@@ -13,6 +13,10 @@ typedef struct {
     double   stamp, time;                              /* of the last step; of the last fields in result.e               */
 } result_marks;
 typedef struct { char name[32], field[32]; const char *unit; const pg_set *set; int component; } result_average;
+/* along: of every point from `from`, m; 0: does not count (n). length: of the crack at each row, m; 0: no point is damaged so far. */
+typedef struct { char name[32]; double from[3], direction[3], damage, *along, *length; size_t capacity; } result_tip;
+/* Rows: first with a length, first and last that grew; mean speed between these two, largest, m/s (0 unless dynamic). */
+typedef struct { double mean; size_t first, start, stop; double largest; int moved; } result_tip_run;
 /* A picture: NAME.png of field. limited: only points of the field above style.above; by_damage: of damage. */
 typedef struct { char name[64], field[64], look[64]; pg_picture_style style; int limited, by_damage; } result_view;
 struct pg_result {
@@ -26,12 +30,15 @@ struct pg_result {
     pg_field_view field[MOST_FIELDS];
     double   *value[MOST_FIELDS];
     result_view picture[MOST_PICTURES];
-    char      written[MOST_PICTURES + 1][4096];
+    char      written[MOST_PICTURES + 3][4096];
     int       stages, dynamic;                         /* pictures at every written stage; time instead of load factor   */
     double    magnify, broken_share;
     long      every, next_broken;
     double   *row, *u;
     result_average *average;  size_t naverage;
+    result_tip *tip;  size_t ntip, tips, tip_capacity;         /* tips: rows                                             */
+    double   *tip_time;                                /* s, or load factor (tips)                                       */
+    long      tip_broken;                              /* bonds at the last row; -1: lengths are not those of it         */
     long      exodus_steps;
     int       last_written;                            /* the state of the last step is in result.e                      */
     /* load-displacement curve */
@@ -64,6 +71,16 @@ void      result_averages_check (const pg_scene *scene, const pg_problem *proble
 pg_status result_averages_read  (pg_result *r, const pg_scene *scene);
 void      result_average_column (const pg_result *r, size_t i, char *out, size_t size);
 pg_status result_averages_row   (pg_result *r, const pg_state *state, double *row, double *work /* 6 a point */);
+pg_status result_tips_check     (const pg_scene *scene, const pg_problem *problem);
+pg_status result_tips_read      (pg_result *r, const pg_scene *scene);
+void      result_tips_free      (pg_result *r);
+pg_status result_tips_row       (pg_result *r, const pg_state *state, const pg_step *step, double *row, double *work /* 6 a point */);
+pg_status result_tips_keep      (pg_result *r, size_t rows, const pg_keeper *keeper);
+double    result_tips_rayleigh  (const pg_result *r);  /* of the fastest material, m/s; 0: none                           */
+/* speed: m/s at every row (tips), or NULL. */
+void      result_tips_run       (const pg_result *r, size_t i, result_tip_run *out, double *speed);
+pg_status result_tips_pictures  (pg_result *r);        /* tip.png, tip_speed.png                                         */
+void      result_tips_json      (pg_json *j, const pg_result *r);
 const char *result_voigt        (int dim, int k);       /* "xx", "yy", ... of component k                                 */
 pg_status result_pictures       (pg_result *r, const pg_state *state);
 pg_status result_stage          (pg_result *r, const pg_state *state);         /* stages/NAME_0007.png of step 7 of result.e */

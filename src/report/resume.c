@@ -121,6 +121,7 @@ static pg_status keep_all (void *context, const pg_keeper *k)
     PG_TRY (keep_marks (&m->now, "now", k));
     PG_TRY (keep_marks (&r->done, "done", k));
     PG_TRY (keep_curve (r, (size_t) m->now.points, k));
+    PG_TRY (result_tips_keep (r, (size_t) m->now.history, k));
     PG_TRY (keep_pending (m, k));
     PG_TRY (pg_solver_keep (r->solver, m->state, k));
 done:

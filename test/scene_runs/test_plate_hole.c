@@ -2,7 +2,7 @@
  * The shipped plate with a hole, clamped and sliding, against the tables along its axes and first rows of points: every column within a
  * thousandth of its largest value. But u across an axis, on the row beside it, is 15 to 150 times smaller than u along: of that,
  * within 1e-4 of the largest displacement of the row. */
-#include "run.h"
+#include "measured.h"
 
 static int across (const pg_line_norms *l)
 {
@@ -17,32 +17,11 @@ static double largest_on (const pg_errors *e, const pg_line_norms *l)
     return top;
 }
 
-static run solved (const char *path, size_t nset, const char *const *set, pg_errors *e)
-{
-    run r = { 0 };
-    pg_reference *reference;
-    pg_sampler sampler;
-    void *self;
-    check_ok (pg_scene_load_with (&r.scene, path, nset, set));
-    check_ok (pg_problem_build (&r.problem, r.scene, 1));
-    check_ok (pg_reference_read (&reference, r.scene, r.problem));
-    check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
-    check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
-    check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
-    to_the_end (&r);
-    const pg_force_type *force = pg_solver_force (r.solver, &self);
-    check_ok (pg_sampler_solution (&sampler, r.problem, force, self, r.state));
-    check_ok (pg_errors_measure (e, reference, r.problem, &sampler, 1));
-    pg_sampler_clear (&sampler);
-    pg_reference_free (&reference);
-    return r;
-}
-
 /* force: on a grip, N, of the reference. */
 static void within_a_thousandth (const char *path, double force)
 {
     pg_errors e;
-    run r = solved (path, 0, NULL, &e);
+    run r = measured (path, 0, NULL, &e);
     if (r.problem->nload > 2) assert_int_equal (r.problem->load[2].set->nfacet, 0);        /* the pin is one point inside */
     assert_int_equal (e.nline, 6);
     for (size_t i = 0; i < e.nline; i++) {
@@ -78,9 +57,9 @@ static void the_pin_carries_nothing (void **state)
                                          "boundary[2].displacement.x=0.1 mm" };
     pg_errors e;
     (void) state;
-    run a = solved ("data/plate_hole/scene_sliding.yaml", 2, coarse, &e);
+    run a = measured ("data/plate_hole/scene_sliding.yaml", 2, coarse, &e);
     pg_errors_clear (&e);
-    run b = solved ("data/plate_hole/scene_sliding.yaml", 3, other, &e);
+    run b = measured ("data/plate_hole/scene_sliding.yaml", 3, other, &e);
     pg_errors_clear (&e);
     check_below (fabs (a.step.reaction[6]), 1e-9 * fabs (a.step.reaction[1]));
     check_below (fabs (b.step.reaction[6]), 1e-9 * fabs (b.step.reaction[1]));

@@ -112,7 +112,7 @@ static void unknown_solvers_are_refused (void **state)
     check_fails (pg_solver_create (&solver, b.problem, &o), PG_E_USAGE);
     assert_null (solver);
     assert_int_equal (pg_memory_used (), used);
-    assert_string_equal (pg_solver_names (), "static|newmark|verlet|central");
+    assert_string_equal (pg_solver_names (), "static|newmark|verlet|central|adr|relax");
     unbuild (&b);
 }
 

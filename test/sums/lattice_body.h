@@ -35,7 +35,9 @@ static inline double body_random (body *b)             /* in [0, 1) */
     return (double) (b->seed >> 11) / 9007199254740992.0;
 }
 
-static inline void body_create (body *b, const body_wish *w, uint64_t seed)
+/* scatter > 0: no lattice, points moved by up to this share of a step; mixed: points in random order, two materials side by side, some points
+ * tougher than others. */
+static inline void body_create_as (body *b, const body_wish *w, double scatter, int mixed, uint64_t seed)
 {
     static const pg_mode modes[] = { PG_LINE, PG_PLANE_STRESS, PG_SOLID };
     memset (b, 0, sizeof *b);
@@ -51,14 +53,28 @@ static inline void body_create (body *b, const body_wish *w, uint64_t seed)
         c->volume[c->n] = pow (cell_side, w->dim) * c->thickness;
         for (size_t d = 0; d < dim; d++) {
             c->x[c->n * dim + d] = ((double) at[d] + 0.5) * cell_side;
+            c->x[c->n * dim + d] += scatter > 0 ? scatter * cell_side * (2 * body_random (b) - 1) : 0;
             if (w->shares && (at[d] == 0 || at[d] + 1 == (size_t) w->count[d])) c->volume[c->n] *= 0.5;
         }
         c->n++;
     }
+    for (size_t i = c->n; mixed && i > 1; i--) {
+        size_t j = (size_t) (body_random (b) * (double) i);
+        for (size_t d = 0; d < dim; d++) {
+            double x = c->x[(i - 1) * dim + d];
+            c->x[(i - 1) * dim + d] = c->x[j*dim + d], c->x[j*dim + d] = x;
+        }
+        double V = c->volume[i - 1];
+        c->volume[i - 1] = c->volume[j], c->volume[j] = V;
+    }
+    for (size_t d = 0; d < dim; d++) {
+        c->low[d] = INFINITY, c->high[d] = -INFINITY;
+        for (size_t i = 0; i < c->n; i++) c->low[d] = fmin (c->low[d], c->x[i*dim + d]), c->high[d] = fmax (c->high[d], c->x[i*dim + d]);
+    }
     pg_lattice lattice = { .dim = w->dim, .step = { cell_side, cell_side, cell_side } };
     pg_sum_rule rule = { .mode = modes[w->dim - 1], .kernel = pg_kernel_find ("constant"), .horizon = w->m * cell_side, .partial = w->partial,
                          .surface = w->surface, .calibrate = 1, .finite = w->finite, .evaluation = w->evaluation };
-    check_ok (pg_sums_create (&b->sums, &rule, c, &lattice));
+    check_ok (pg_sums_create (&b->sums, &rule, c, scatter > 0 ? NULL : &lattice));
     check_ok (pg_sums_family (&b->family, b->sums));
     b->nbond = b->family.start[c->n];
     b->alive = pg_calloc (b->nbond, 1), b->exempt = pg_calloc (c->n, 1);
@@ -66,8 +82,14 @@ static inline void body_create (body *b, const body_wish *w, uint64_t seed)
     double modulus = b->sums->calibration * pg_bond_modulus (rule.mode, rule.kernel, rule.horizon, 72e9, c->thickness);
     memset (b->alive, 1, b->nbond);
     for (size_t i = 0; i < c->n; i++) b->modulus[i] = modulus, b->limit[i] = 1e-3;
+    for (size_t i = 0; mixed && i < c->n; i++) {
+        if (c->x[i*dim] > 0.5 * (c->low[0] + c->high[0])) b->modulus[i] *= 3;
+        if (body_random (b) < 0.1) b->limit[i] *= 1 + body_random (b);
+    }
     for (size_t i = 0; i < c->n * dim; i++) b->u[i] = 1e-6 * (body_random (b) - 0.5);
 }
+
+static inline void body_create (body *b, const body_wish *w, uint64_t seed) { body_create_as (b, w, 0, 0, seed); }
 
 static inline size_t body_reverse (const body *b, size_t i, size_t e)        /* the entry of j -> i                          */
 {

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Adaptive dynamic relaxation (Kilic and Madenci 2010; theory B4): dt = 1 and masses D_ii = 1/4 sum_j |K_ij| of the first K, with which
+ * the largest frequency is at most 2; damping from Rayleigh's quotient at every iteration. */
+#include "relaxing.h"
+#include <math.h>
+
+/* At the bound itself a motion would never die. */
+static const double margin = 1.02;
+
+/* sum_j |K_ij| from the upper triangle */
+static pg_status sum_rows (pg_system *sys, double *sum)
+{
+    pg_status status = PG_OK;
+    if (!sys->force->matrix) PG_FAIL (PG_E_USAGE, "adr needs the rows of the stiffness, and the force %s tells neither them nor their sums: use relax", sys->force->name);
+    if (sys->force->assemble) PG_TRY (sys->force->assemble (sys->self));
+    const pg_sparse *K = sys->force->matrix (sys->self);
+    for (size_t j = 0; j < K->ncol; j++)
+        for (long q = K->start[j]; q < K->start[j + 1]; q++) {
+            size_t i = (size_t) K->row[q];
+            sum[i] += fabs (K->value[q]);
+            if (i != j) sum[j] += fabs (K->value[q]);
+        }
+done:
+    return status;
+}
+
+static pg_status prepare (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->breaker.system;
+    PG_TRY (relaxing_create (s));
+    struct relaxing *x = s->motion->relaxing;
+    PG_TRY (system_refresh (sys, s->backup, NULL));
+    PG_TRY (sys->force->row_sums ? sys->force->row_sums (sys->self, x->mass) : sum_rows (sys, x->mass));
+    x->dt = 1;
+    for (size_t i = 0; i < sys->ndof; i++) {
+        x->mass[i] *= 0.25 * margin;
+        s->motion->inverse[i] = x->mass[i] > 0 ? 1 / x->mass[i] : 0;
+    }
+    PG_TRY (relaxing_stages (s));
+done:
+    return status;
+}
+
+const pg_solver_type pg_solver_adr = {
+    "adr", "quasi-static stages by adaptive dynamic relaxation", relaxing_start, relaxing_step, relaxing_done, relaxing_free, .way = RELAXES,
+    .prepare = prepare, .refused = relaxing_refused, .keep = relaxing_keep, .progress = relaxing_progress };

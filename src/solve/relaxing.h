@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: equilibrium by damped motion (theory B4 as corrected, C), for adr and relax. One iteration, with masses m, a time step dt and damping c:
+ *   v(n+1/2) = ((2 - c dt) v(n-1/2) + 2 dt r_n / m) / (2 + c dt),  u_n+1 = u_n + dt v(n+1/2);  from rest v(1/2) = dt r_0 / (2 m).
+ * Between iterations state->v is v(n-1/2), state->a the last residual (N); a balanced state shows both as 0. */
+#ifndef PG_RELAXING_H
+#define PG_RELAXING_H
+#include "explicit.h"
+
+struct relaxing {
+    double *mass;                                      /* of every unknown                      (ndof)                   */
+    double *rate;                                      /* given damping, 1/s; NULL: c           (ndof)                   */
+    double dt, c;                                      /* 1/s, by Rayleigh's quotient of the last iteration              */
+    double imbalance, worst;                           /* of the last residual; hold: off: the largest                   */
+    int    armed, resting, pending, broke;             /* bonds may break; the next iteration starts from rest; the ledger at hand is that
+                                                          before the first break of the stage and not booked; bonds broke at the last residual */
+};
+pg_status relaxing_create  (pg_solver *s);             /* s->motion with it; masses and dt are the caller's              */
+pg_status relaxing_stages  (pg_solver *s);             /* limit (22), number of steps; after masses and dt               */
+void      relaxing_free    (pg_solver *s);
+pg_status relaxing_start   (pg_solver *s, pg_state *state);
+pg_status relaxing_step    (pg_solver *s, pg_state *state, pg_step *step);
+int       relaxing_done    (const pg_solver *s, const pg_state *state);
+double    relaxing_progress (const pg_solver *s, const pg_state *state);
+void      relaxing_refused (pg_solver *s);
+pg_status relaxing_keep    (pg_solver *s, const pg_keeper *keeper);
+#endif
