@@ -19,12 +19,21 @@ static void settle_signals (void)
     signal (SIGXFSZ, SIG_IGN);
 }
 
-static void print_summary (const pg_result *result, const pg_report *r, int nodal, double total)
+static void print_counts (const pg_report *r, const pg_solver_options *o)
 {
-    printf ("  %ld steps, %ld events, %ld break rounds, %ld bonds broken, %ld factorizations, %ld solves\n", r->steps, r->events, r->iterations, r->broken,
-            r->factorizations, r->solves);
-    printf ("  largest residual %.2e, largest utilisation of an accepted state %.6f, %zu degenerate points, %zu fragments\n", r->residual_max,
-            r->utilisation_max, r->degenerate_points, r->fragments);
+    if (o->marching) printf ("  %ld time steps in %ld rows of history.csv, %ld of them broke bonds, %ld bonds broken", r->iterations, r->steps, r->events, r->broken);
+    else if (o->staged) printf ("  %ld %s, %ld iterations, %ld of them broke bonds, %ld bonds broken, largest imbalance %.2e", o->hold ? r->steps : r->iterations,
+                                "stages", r->iterations, r->events, r->broken, r->residual_max);
+    else printf ("  %ld steps, %ld events, %ld break rounds, %ld bonds broken, %ld factorizations, %ld solves\n  largest residual %.2e, largest utilisation "
+                 "of an accepted state %.6f", r->steps, r->events, r->iterations, r->broken, r->factorizations, r->solves, r->residual_max, r->utilisation_max);
+    printf (", %zu degenerate points, %zu fragments\n", r->degenerate_points, r->fragments);
+    if (o->marching) printf ("  energy: external work %.4g J = strain %.4g + kinetic %.4g + damping %.4g + breaking %.4g J\n", r->energy_external, r->energy_strain,
+                             r->energy_kinetic, r->energy_damping, r->energy_dissipated);
+}
+
+static void print_summary (const pg_result *result, const pg_report *r, const pg_solver_options *o, int nodal, double total)
+{
+    print_counts (r, o);
     const pg_estimate *e = pg_result_estimate (result);
     if (e) printf ("  estimated error of the stress: %s%.2g %% in the energy norm, %zu of %zu points left out (%.2g s)\n", nodal ? "more than " : "",
                    100 * e->relative, e->left_out, e->points + e->left_out, e->seconds);
@@ -127,7 +136,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     status = pg_result_finish (w->result, w->state, outcome == PG_OK ? NULL : failure, search, pg_seconds () - start);
     snprintf (last, sizeof last, "%s", pg_last_error ());
     if (status != PG_OK && outcome == PG_OK) kept = keep_for_later (w);
-    if (status == PG_OK && !c->quiet) print_summary (w->result, pg_solver_report_now (solver), w->nodal, pg_seconds () - start);
+    if (status == PG_OK && !c->quiet) print_summary (w->result, pg_solver_report_now (solver), pg_solver_settled (solver), w->nodal, pg_seconds () - start);
     if (outcome != PG_OK) command_complain (outcome, failure);
     if (status != PG_OK && (outcome == PG_OK || strcmp (failure, last) != 0)) command_complain (status, last);
     if (kept && (outcome == PG_OK || outcome == PG_E_INTERRUPTED || outcome == PG_E_FILE || outcome == PG_E_MEMORY)) command_again (c);

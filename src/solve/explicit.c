@@ -225,15 +225,14 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
     double t0 = pg_seconds (), unused;
     breaking = breaking && (force->march || force->utilisation) && s->problem->criterion->type;
     b->changes.n = 0;
-    if (!reference) reference = &unused;
     if (breaking && force->march) PG_TRY (force->march (sys->self, t, state->d, sys->residual, reference, &b->changes));
-    else PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference));
+    else PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     if (!breaking) goto done;
     if (force->march) PG_TRY (bury (s, state, t));
     else {
         PG_TRY (break_by_sweep (s, state, t));
-        if (b->changes.n) PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference));
+        if (b->changes.n) PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     }
     if (b->changes.n) state->events++, s->report.events++;
 done:
@@ -255,8 +254,9 @@ pg_status explicit_lost (const pg_solver *s, const pg_state *state, double t)
     size_t i = 0, dim = (size_t) p->dim, components = (size_t) s->breaker.system.components;
     while (i + 1 < state->ndof && isfinite (state->d[i])) i++;
     const double *x = p->cloud.x + i / components * dim;
-    return pg_error (PG_E_EQUILIBRIUM, PG_HERE, "the displacement of point %zu (%g, %g, %g) m is no longer finite at t = %.6g%s: loads or prescribed motions are too "
-                     "large for it", i / components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0, t, s->options.quasi_static ? "" : " s");
+    return pg_error (PG_E_EQUILIBRIUM, PG_HERE, "the displacement of point %zu (%g, %g, %g) m is no longer finite at %s %.6g%s: loads or prescribed motions are too "
+                     "large for it, or breaking has made the body stiffer", i / components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0,
+                     s->options.quasi_static ? "load factor" : "t =", t, s->options.quasi_static ? "" : " s");
 }
 
 /* ---- rows and levels ------------------------------------------------------------------------------------------------------------- */

@@ -242,6 +242,7 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
     breaker *b = &s->breaker;
     const pg_report *r = &s->report;
     double t = time_at (s, n);
+    int breaks = (b->system.force->march || b->system.force->utilisation) && s->problem->criterion->type;
     if (!s->motion->by_ledger) PG_TRY (account (s, state, t, staggered, 0));
     s->report.energy_damping = s->motion->damped;
     PG_TRY (check_growth (s, t));
@@ -251,6 +252,7 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
     state->factor = step->factor = t / s->options.end;
     step->level = explicit_level (s, s->options.time_steps, n);
     step->nbroken = b->nbroken, step->broken = b->broken;
+    step->utilisation = breaks ? NAN : 0;
     PG_TRY (explicit_end (s, state, n == s->options.time_steps, "t =", t));
 done:
     return status;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 enum { BLOCK = 2048, SUM_R = 0, SUM_STIFF = 1, SUM_MASS = 2 };
+static const double least = 1e-2;                      /* of the largest reference so far: a body apart bears nothing   */
 static const double arrival = 1e-2;                    /* imbalance at which the load of a stage has come to act         */
 
 pg_status relaxing_create (pg_solver *s)
@@ -97,7 +98,7 @@ static double factor_at (const pg_solver *s, long stage) { return stage == s->op
 /* ---- one iteration ----------------------------------------------------------------------------------------------------------------- */
 typedef struct { const struct relaxing *x; double *d, *v, *a; const double *r, *inverse; double *sum, c; size_t ndof; int resting; } iterating;
 
-/* r^2; u^2 m k with k = - (r - r') / (m v dt), the stiffness over mass that this unknown feels; u^2 m */
+/* r r; v K v dt = v (r' - r), r' the last residual; v M v */
 static void measure (void *context, size_t first, size_t last, int thread)
 {
     const iterating *w = context;
@@ -105,15 +106,15 @@ static void measure (void *context, size_t first, size_t last, int thread)
     (void) thread;
     for (size_t b = first; b < last; b++) {
         size_t i = b * BLOCK, end = i + BLOCK < w->ndof ? i + BLOCK : w->ndof;
-        double stiff = 0, heavy = 0, *sum = w->sum + b * SUMS;
+        double stiff[8] = { 0 }, heavy[8] = { 0 }, *sum = w->sum + b * SUMS;
         sum[SUM_R] = sweep_dot (r, r, i, end);
         sum[SUM_BAD] = sweep_bad (d, i, end);
         for (; i < end; i++) {
-            if (v[i] == 0) continue;
-            stiff += d[i] * d[i] * (a[i] - r[i]) / v[i];
-            heavy += d[i] * d[i] * mass[i];
+            size_t k = i & 7;
+            stiff[k] += v[i] * (a[i] - r[i]);
+            heavy[k] += v[i] * (v[i] * mass[i]);
         }
-        sum[SUM_STIFF] = stiff, sum[SUM_MASS] = heavy;
+        sum[SUM_STIFF] = sweep_sum (stiff), sum[SUM_MASS] = sweep_sum (heavy);
     }
 }
 
@@ -144,6 +145,7 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     motion *m = s->motion;
     struct relaxing *x = m->relaxing;
     pg_system *sys = &s->breaker.system;
+    const pg_solver_options *o = &s->options;
     double reference = 0, total[SUMS];
     PG_TRY (explicit_force (s, state, t, breaking, &reference));
     x->broke = breaking && s->breaker.changes.n > 0;
@@ -151,6 +153,8 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     for (size_t k = 0; k < m->nheld; k++) m->push[k] = -sys->residual[m->held[k]], sys->residual[m->held[k]] = 0;
     if (m->P) reference = 0;
     reference = fmax (reference, fmax (m->P ? norm (m->P, sys->ndof) : 0, norm (m->push, m->nheld)));
+    if (x->armed || !o->hold) x->most = fmax (x->most, reference);
+    reference = fmax (reference, least * x->most);
     iterating all = { x, state->d, state->v, state->a, sys->residual, m->inverse, m->sum, 0, sys->ndof, 0 };
     pg_parallel (s->problem->threads, m->nblock, measure, &all);
     explicit_total (s, total);
@@ -195,13 +199,13 @@ static void open_stage (pg_solver *s, pg_state *state)
 }
 
 /* The work up to the state before the first break, as far as the load has come to act. */
-static pg_status arm (pg_solver *s, const pg_state *state, double t)
+static pg_status arm (pg_solver *s, const pg_state *state, double t, int breaking)
 {
     pg_status status = PG_OK;
     struct relaxing *x = s->motion->relaxing;
     pg_system *sys = &s->breaker.system;
     x->armed = 1;
-    if (!sys->force->ledger) return PG_OK;
+    if (!sys->force->ledger || !breaking) return PG_OK;
     PG_TRY (sys->force->ledger (sys->self, t, state->d, NULL, &s->breaker.ledger));
     x->pending = 1;
 done:
@@ -284,7 +288,7 @@ static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
         if (x->imbalance <= o->imbalance) {
             size_t died = x->broke;
             if (can && !tested) {
-                if (!x->armed) PG_TRY (arm (s, state, t));
+                if (!x->armed) PG_TRY (arm (s, state, t, 1));
                 PG_TRY (break_in_balance (s, state, t, step, &died));
                 if (died) PG_TRY (book_pending (s));
                 if (died && o->break_mode != PG_BREAK_PASSING) PG_TRY (examine (s, state, t, 0));
@@ -292,7 +296,7 @@ static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
             }
             if (!died) break;
         }
-        if (passing && !x->armed && x->imbalance <= arrival) PG_TRY (arm (s, state, t));
+        if (!x->armed && x->imbalance <= arrival) PG_TRY (arm (s, state, t, passing));
         if (b->round >= o->max_iterations) PG_TRY (too_long (s, state, b->round));
         iterate (s, state);
     }
@@ -392,11 +396,11 @@ pg_status relaxing_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     struct relaxing *x = s->motion->relaxing;
-    double number[3] = { x->c, x->imbalance, x->worst };
+    double number[4] = { x->c, x->imbalance, x->worst, x->most };
     long count[4] = { x->armed, x->resting, x->pending, x->broke };
-    PG_TRY (k->numbers (k->context, "relaxing.numbers", 3, number));
+    PG_TRY (k->numbers (k->context, "relaxing.numbers", 4, number));
     PG_TRY (k->counts (k->context, "relaxing.counts", 4, count));
-    x->c = number[0], x->imbalance = number[1], x->worst = number[2];
+    x->c = number[0], x->imbalance = number[1], x->worst = number[2], x->most = number[3];
     x->armed = (int) count[0], x->resting = (int) count[1], x->pending = (int) count[2], x->broke = (int) count[3];
 done:
     return status;

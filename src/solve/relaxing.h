@@ -11,6 +11,7 @@ struct relaxing {
     double *rate;                                      /* given damping, 1/s; NULL: c           (ndof)                   */
     double dt, c;                                      /* 1/s, by Rayleigh's quotient of the last iteration              */
     double imbalance, worst;                           /* of the last residual; hold: off: the largest                   */
+    double most;                                       /* largest reference of a state that the load has come to, N       */
     int    armed, resting, pending, broke;             /* bonds may break; the next iteration starts from rest; the ledger at hand is that
                                                           before the first break of the stage and not booked; bonds broke at the last residual */
 };

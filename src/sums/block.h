@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * block.h: force of the live bonds of 32 sites of a row at once (private). One source, block_kernel.h, is compiled for each instruction set;
- * there is no fused multiply-add in it, and roots and quotients are those of IEEE 754: all of them give the same bits. */
+ * block.h: force of the live bonds of 32 sites of a row at once (private). One source, block_kernel.h, is compiled for each instruction set.
+ * Products are added with one rounding where the machine can; roots and quotients are those of IEEE 754: sets that fuse give the same bits. */
 #ifndef PERIGAL_SUMS_BLOCK_H
 #define PERIGAL_SUMS_BLOCK_H
 #include "perigal/sums.h"
@@ -37,6 +37,7 @@ enum { PG_CHECK_NONE, PG_CHECK_ALL, PG_CHECK_SOME };
 typedef struct {
     pg_block_loop force[3][2][3][2];                   /* [dim - 1][finite][check][weighted]: job->f, job->hit           */
     pg_block_loop energy[3][2][2];                     /* [dim - 1][finite][weighted]: job->energy                       */
+    int fused;                                         /* a b + c is rounded once                                        */
     void (*spread) (const pg_block_job *job, const double *u, size_t first, size_t last);      /* u (n x dim) to job->u  */
 } pg_block_kernels;
 extern const pg_block_kernels pg_block_scalar, pg_block_avx2, pg_block_avx512;     /* empty where the compiler lacks them */

@@ -19,6 +19,8 @@ static const long long lanes[16][4] __attribute__ ((aligned (32))) = {
 #define OF(bits) _mm256_castsi256_pd (_mm256_load_si256 ((const __m256i *) lanes[(bits) & 15]))
 #define OVER(v, limit) _mm256_cmp_pd ((__m256d) (v), (__m256d) (limit), _CMP_GE_OQ)
 
+#define FUSED 1
+#define vec_fuse(a, b, c) ((vec) _mm256_fmadd_pd ((__m256d) (a), (__m256d) (b), (__m256d) (c)))
 #define vec_root(v) ((vec) _mm256_sqrt_pd ((__m256d) (v)))
 #define vec_keep(v, bits) ((v) = (vec) _mm256_and_pd ((__m256d) (v), OF (bits)))
 #define HITS_OVER(hits, v, limit) ((hits) = (vec) _mm256_or_pd ((__m256d) (hits), OVER (v, limit)))

@@ -11,6 +11,8 @@ enum { LANES = 8 };
 typedef double vec __attribute__ ((vector_size (64)));
 typedef unsigned hits;
 
+#define FUSED 1
+#define vec_fuse(a, b, c) ((vec) _mm512_fmadd_pd ((__m512d) (a), (__m512d) (b), (__m512d) (c)))
 #define vec_root(v) ((vec) _mm512_sqrt_pd ((__m512d) (v)))
 #define vec_keep(v, bits) ((v) = (vec) _mm512_maskz_mov_pd ((__mmask8) (bits), (__m512d) (v)))
 #define HITS_OVER(hits, v, limit) ((hits) |= _mm512_cmp_pd_mask ((__m512d) (v), (__m512d) (limit), _CMP_GE_OQ))

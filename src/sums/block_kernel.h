@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * block_kernel.h: the loops of block.h in terms of vectors (private, no include guard: one file per instruction set includes it after defining
  *   TARGET        attribute of every function, LANES doubles of a vector, VECS(dim) vectors of a stride, NAME of the table,
- *   vec           typedef, and vec_root (vec), vec_keep (v, bits): 0 in lanes whose bit is not set,
+ *   vec           typedef, and vec_root (vec), vec_fuse (a, b, c): a b + c, FUSED: 1 if rounded once,
+ *   vec_keep (v, bits): 0 in lanes whose bit is not set,
  *   hits, HITS_OVER (hits, v, limit), HITS_OVER_OF (hits, v, limit, bits), HITS_ANY (hits): lanes with v >= limit (of those in bits),
  *   zip (out, a, b), unzip (in, &a, &b): pairs in memory from and to two vectors. */
 #include "block.h"
@@ -43,10 +44,10 @@ INLINE void sum_stride (const pg_block_job *job, size_t k, int stride, int dim, 
             if (finite) {
                 UNROLL for (int d = 0; d < dim; d++) y[d] = xi[d] + eta[d];
                 s = eta[0] * (xi[0] + y[0]);
-                UNROLL for (int d = 1; d < dim; d++) s = s + eta[d] * (xi[d] + y[d]);
+                UNROLL for (int d = 1; d < dim; d++) s = vec_fuse (eta[d], xi[d] + y[d], s);
             } else {
                 s = xi[0] * eta[0];
-                UNROLL for (int d = 1; d < dim; d++) s = s + xi[d] * eta[d];
+                UNROLL for (int d = 1; d < dim; d++) s = vec_fuse (xi[d], eta[d], s);
             }
             vec_keep (s, live >> (v * LANES));
             if (check == PG_CHECK_ALL) HITS_OVER (*over, s, limit);
@@ -56,7 +57,7 @@ INLINE void sum_stride (const pg_block_job *job, size_t k, int stride, int dim, 
                 s = s * pull[0] / (root * (root + r));
             }
             if (weighted) s = s * LOAD (p + jump + v * LANES);
-            UNROLL for (int d = 0; d < dim; d++) sum[d][v] = sum[d][v] + s * (finite ? y[d] : pull[d]);
+            UNROLL for (int d = 0; d < dim; d++) sum[d][v] = vec_fuse (s, finite ? y[d] : pull[d], sum[d][v]);
         }
     }
     UNROLL for (int d = 0; d < dim; d++) {
@@ -115,13 +116,14 @@ INLINE void energy_loop (const pg_block_job *job, size_t first, size_t last, int
                 UNROLL for (int d = 0; d < dim; d++) {
                     const double *u = job->u[d] + b->base + at;
                     vec eta = LOAD (u + job->jump[j]) - LOAD (u);
-                    s = s + (finite ? eta * (ALL (t[PG_AT_XI + d]) + (ALL (t[PG_AT_XI + d]) + eta)) : ALL (t[PG_AT_XI + d]) * eta);
+                    const vec xi = ALL (t[PG_AT_XI + d]);
+                    s = vec_fuse (eta, finite ? xi + (xi + eta) : xi, s);
                 }
                 vec_keep (s, job->alive[k * job->n + j] >> at);
                 if (finite) s = s / (vec_root (s + ALL (t[PG_AT_R2])) + ALL (t[PG_AT_R]));
-                s = s * s * ALL (t[PG_AT_STORED]);
-                if (weighted) s = s * LOAD (job->p + b->base + at + job->jump[j]);
-                sum = sum + s;
+                vec w = s * ALL (t[PG_AT_STORED]);
+                if (weighted) w = w * LOAD (job->p + b->base + at + job->jump[j]);
+                sum = vec_fuse (s, w, sum);
             }
             if (weighted) sum = sum * LOAD (job->p + b->base + at);
             STORE (lane, sum);
@@ -170,5 +172,5 @@ FORCES (1, 0) FORCES (1, 1) FORCES (2, 0) FORCES (2, 1) FORCES (3, 0) FORCES (3,
 const pg_block_kernels NAME = {
     .force  = { { ROW (1, 0), ROW (1, 1) }, { ROW (2, 0), ROW (2, 1) }, { ROW (3, 0), ROW (3, 1) } },
     .energy = { { SUM (1, 0), SUM (1, 1) }, { SUM (2, 0), SUM (2, 1) }, { SUM (3, 0), SUM (3, 1) } },
-    .spread = spread,
+    .spread = spread, .fused = FUSED,
 };

@@ -13,6 +13,13 @@ typedef lane_bits hits;
 
 static const lane_bits lanes[4] = { { 0, 0 }, { -1, 0 }, { 0, -1 }, { -1, -1 } };
 
+#ifdef __FP_FAST_FMA
+#define FUSED 1
+#define vec_fuse(a, b, c) ((vec) { fma ((a)[0], (b)[0], (c)[0]), fma ((a)[1], (b)[1], (c)[1]) })
+#else
+#define FUSED 0
+#define vec_fuse(a, b, c) ((a) * (b) + (c))
+#endif
 #define vec_root(v) ((vec) { sqrt ((v)[0]), sqrt ((v)[1]) })
 #define vec_keep(v, bits) ((v) = (vec) ((lane_bits) (v) & lanes[(bits) & 3]))
 #define HITS_OVER(hits, v, limit) ((hits) |= (lane_bits) ((v) >= (limit)))

@@ -138,7 +138,7 @@ static ptrdiff_t jump_of (const stencil *s, size_t i, size_t entry)
     return (ptrdiff_t) s->place[s->setting.family->node[entry]] - (ptrdiff_t) s->place[i];
 }
 
-/* Sets the bits of live bonds of point i; NULL: all live. PG_E_USAGE: a bond that the stencil has not. */
+/* Sets the bits of live bonds of point i; NULL: all live. exempt: those that may break as well. PG_E_USAGE: a bond that the stencil has not. */
 static pg_status set_bits (stencil *s, size_t i, const unsigned char *live, const unsigned char *exempt)
 {
     pg_status status = PG_OK;
@@ -156,7 +156,7 @@ done:
     return status;
 }
 
-typedef struct { stencil *s; const unsigned char *live; pg_status *status; } renewal;
+typedef struct { stencil *s; const unsigned char *live, *exempt; pg_status status[MAX_THREADS]; size_t lost[MAX_THREADS]; } renewal;
 
 static void renew_blocks (void *context, size_t first, size_t last, int thread)
 {
@@ -166,8 +166,8 @@ static void renew_blocks (void *context, size_t first, size_t last, int thread)
     for (size_t k = first; k < last; k++)
         for (uint32_t left = s->block[k].present; left; left &= left - 1) {
             int i = s->job.point[s->block[k].site + (size_t) __builtin_ctz (left)];
-            pg_status now = set_bits (s, (size_t) i, r->live, NULL);
-            if (now != PG_OK) r->status[thread] = now;
+            pg_status now = set_bits (s, (size_t) i, r->live, r->exempt);
+            if (now != PG_OK) r->status[thread] = now, r->lost[thread] = (size_t) i;
         }
 }
 
@@ -182,8 +182,8 @@ static void update (void *self, const unsigned char *alive, const pg_changes *ch
 {
     stencil *s = self;
     if (!changes) {
-        pg_status status[MAX_THREADS] = { PG_OK };     /* every bond was found when this was created                     */
-        pg_parallel_heavy (threads_for (s), s->nblock, renew_blocks, &(renewal) { s, alive, status });
+        renewal r = { .s = s, .live = alive };         /* every bond was found when this was created                     */
+        pg_parallel_heavy (threads_for (s), s->nblock, renew_blocks, &r);
         return;
     }
     const size_t *start = s->setting.family->start;
@@ -264,7 +264,9 @@ static pg_status create (void **self, const pg_sweep_setting *setting, pg_instru
     s->job.dim = setting->sums->stencil.dim, s->job.n = setting->sums->stencil.n, s->job.jump = s->jump, s->job.term = s->term;
     s->job.block = s->block, s->job.point = setting->sums->sites.point, s->job.alive = s->alive, s->job.may = s->may, s->job.p = s->p;
     s->job.hit = s->hit, s->job.energy = s->energy;
-    for (size_t i = 0; i < n; i++) PG_TRY (set_bits (s, i, NULL, exempt));
+    renewal r = { .s = s, .exempt = exempt };
+    pg_parallel_heavy (threads_for (s), s->nblock, renew_blocks, &r);
+    for (int t = 0; t < MAX_THREADS; t++) if (r.status[t] != PG_OK) PG_TRY (set_bits (s, r.lost[t], NULL, exempt));    /* says it on this thread */
 done:
     return status;
 }
@@ -301,9 +303,9 @@ static double measure (const stencil *s, size_t place, size_t b)
     const double *t = s->term + b * PG_TERMS;
     double sum = 0;
     for (int d = 0; d < s->job.dim; d++) {
-        const double *u = s->job.u[d] + place, xi = t[PG_AT_XI + d];
-        double eta = u[s->jump[b]] - u[0], part = s->setting.sums->rule.finite ? eta * (xi + (xi + eta)) : xi * eta;
-        sum = d ? sum + part : part;
+        const double *u = s->job.u[d] + place, xi = t[PG_AT_XI + d], eta = u[s->jump[b]] - u[0];
+        double with = s->setting.sums->rule.finite ? xi + (xi + eta) : xi;
+        sum = d == 0 ? eta * with : s->kernels->fused ? fma (eta, with, sum) : eta * with + sum;
     }
     return sum;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Loops over the bonds of a lattice against the plain double loop: forces, energy, broken bonds; all instruction sets and numbers of threads
- * give the same bits. */
+ * Loops over the bonds of a lattice against the plain double loop: forces, energy, broken bonds; any number of threads gives the same bits,
+ * and so do the instruction sets that fuse products and sums. */
 #include "lattice_body.h"
 
 static const char *const sets[] = { "scalar", "avx2", "avx512" };
@@ -57,7 +57,7 @@ static void forces_and_energy_equal_the_plain_loop (void **state)
         body_create (&b, &wishes[w], 11 + w);
         body_wound (&b, 0.2);
         size_t values = b.cloud.n * (size_t) b.cloud.dim;
-        double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g), *first = NULL, energy = body_plain (&b, 0, g, NULL), stored = 0;
+        double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g), *first = pg_calloc (values, sizeof *first), energy = body_plain (&b, 0, g, NULL), stored = 0;
         for (int k = 0; k < SETS; k++)
             for (int threads = 1; threads <= 3; threads++) {
                 pg_sweep *s = NULL;
@@ -70,9 +70,9 @@ static void forces_and_energy_equal_the_plain_loop (void **state)
                 close_to (f, g, values, 1e-13);
                 double now = pg_sweep_energy (s, b.u);
                 check_relative (now, energy, 1e-12);
-                if (!first) {
-                    first = pg_calloc (values, sizeof *first), stored = now;
+                if (threads == 1 && k < 2) {
                     memcpy (first, f, values * sizeof *f);
+                    stored = now;
                 }
                 assert_memory_equal (f, first, values * sizeof *f);
                 assert_true (now == stored);

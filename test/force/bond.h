@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * bond.h: a problem of bonds from text with its force and state; random displacements. */
+#ifndef PERIGAL_TEST_BOND_H
+#define PERIGAL_TEST_BOND_H
+#include "check.h"
+#include "perigal/force.h"
+
+#define BODY2 "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [1, 0.7]}}}]\nspacing: 0.1\nthickness: 0.2\n" \
+    "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.3333333333, density: 3}}\n"
+#define BODY3 "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.6, 0.5, 0.4]}}}]\nspacing: 0.1\n" \
+    "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.25, density: 3}}\n"
+#define BODY1 "dimension: 1\ncross_section: 0.3\nbody: [{add: {box: {low: [0], high: [2]}}}]\nspacing: 0.1\n" \
+    "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0, density: 3}}\n"
+
+typedef struct {
+    pg_scene *scene; pg_problem *problem; pg_state *state;
+    const pg_force_type *force; void *self;
+    size_t n, ndof, dim;
+} bonded;
+
+static inline bonded bonded_with (const char *text, int threads, size_t nset, const char *const *set)
+{
+    bonded b = { .force = pg_force_find ("bond") };
+    check_ok (pg_scene_parse_with (&b.scene, text, "test.yaml", nset, set));
+    check_ok (pg_problem_build (&b.problem, b.scene, threads));
+    check_ok (pg_state_create (&b.state, b.problem, b.problem->dim));
+    check_ok (b.force->create (&b.self, b.problem));
+    check_ok (b.force->refresh (b.self, b.state, NULL));
+    b.n = b.problem->cloud.n, b.dim = (size_t) b.problem->dim, b.ndof = b.n * b.dim;
+    return b;
+}
+static inline bonded bonded_of (const char *text) { return bonded_with (text, 1, 0, NULL); }
+
+static inline void unbonded (bonded *b)
+{
+    b->force->free (&b->self);
+    pg_state_free (&b->state);
+    pg_problem_free (&b->problem);
+    pg_scene_free (&b->scene);
+}
+
+static inline double any (unsigned *seed) { return (double) ((*seed = *seed * 1664525u + 1013904223u) >> 8) / 8388608.0 - 1; }
+static inline double *random_vector (size_t n, unsigned seed)
+{
+    double *x = pg_calloc (n, sizeof *x);
+    for (size_t i = 0; i < n; i++) x[i] = any (&seed);
+    return x;
+}
+static inline double size_of (size_t n, const double *x)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += x[i] * x[i];
+    return sqrt (sum);
+}
+/* u = H x */
+static inline double *linear_field (const bonded *b, const double *H)
+{
+    double *u = pg_calloc (b->ndof, sizeof *u);
+    for (size_t i = 0; i < b->n; i++)
+        for (size_t a = 0; a < b->dim; a++)
+            for (size_t c = 0; c < b->dim; c++) u[i * b->dim + a] += H[a * b->dim + c] * b->problem->cloud.x[i * b->dim + c];
+    return u;
+}
+/* Kills every `nth` bond and its partner; refreshes by the changes. */
+static inline pg_changes kill_some (bonded *b, size_t nth)
+{
+    pg_changes c = { 0 };
+    const pg_family *f = &b->problem->rows[PG_NODES].family;
+    c.bond = pg_calloc (b->state->nbond, sizeof *c.bond);
+    for (size_t i = 0; i < b->n; i++)
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
+            size_t j = (size_t) f->node[e], low = i < j ? i : j, high = i < j ? j : i;
+            if ((low * 31 + high * 17) % nth) continue;
+            if (b->state->alive[e]) c.bond[c.n++] = e;
+            b->state->alive[e] = 0;
+        }
+    check_ok (b->force->refresh (b->self, b->state, &c));
+    return c;
+}
+#endif
