@@ -1,0 +1,39 @@
+#!/bin/bash
+# test_methods.sh BUILD: one scene by every force and every solver, one key changed at a time. Each pair either runs to its end, in equilibrium
+# where it says so, or is refused with the reason before anything is computed.
+perigal=$(realpath "$1/perigal"); n=0; bad=0
+cd "$(dirname "$0")" || exit 1
+work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
+verdict() {   # name, 0 for good
+    n=$((n + 1))
+    if [ "$2" -eq 0 ]; then echo "ok $n - $1"; return; fi
+    bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" "$work/err"
+}
+number() { sed -n "s/^ *\"$2\": \([-+0-9.e]*\),*$/\1/p" "$1/report.json" | head -n 1; }
+at_most() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && a + 0 <= b + 0) }'; }
+
+names_of() { "$perigal" list | awk -v key="$1" '/^[^ ]/ { on = $1 == key; next } on { print $1 }'; }
+forces=$(names_of method.force) solvers=$(names_of solver.kind)
+[ -n "$forces" ] && [ -n "$solvers" ]; verdict "the program lists its forces and solvers" $?
+
+# pair NAME FORCE SOLVER SETTINGS...
+pair() {
+    local name=$1 force=$2 solver=$3 folder=$work/$2_$3_$n code good=0 set=(); shift 3
+    for s in "$@"; do set+=(--set "$s"); done
+    "$perigal" run methods.yaml -o "$folder" --quiet --threads 1 --set method.force="$force" --set solver.kind="$solver" "${set[@]}" > "$work/out" 2> "$work/err"
+    code=$?
+    case $code in
+    0)  broken=$(number "$folder" broken) dof=$(number "$folder" dofs)
+        [ -s "$folder/result.e" ] && [ -s "$folder/history.csv" ] || good=1
+        ! grep -qiw 'nan\|inf' "$folder/history.csv" || good=1
+        [ "${dof:-0}" -gt 0 ] && [ "${broken:-0}" -gt 0 ] || good=1
+        case $solver in static|newmark) at_most "$(number "$folder" residual_max)" 1e-8 && [ "$(number "$folder" bonds_over_limit)" = 0 ] || good=1 ;; esac
+        verdict "$name: runs, $broken bonds broken" $good ;;
+    65) grep -q '^\(methods.yaml:\|--set\)' "$work/err" && [ "$(wc -c < "$work/err")" -gt 60 ] && [ ! -e "$folder/result.e" ] || good=1
+        verdict "$name: refused: $(sed 's/^[^ ]* *//' "$work/err" | head -n 1 | cut -c1-150)" $good ;;
+    *)  verdict "$name: exit code $code" 1 ;;
+    esac
+}
+for force in $forces; do for solver in $solvers; do pair "$force x $solver" "$force" "$solver"; done; done
+echo "1..$n"
+exit $bad
