@@ -41,9 +41,9 @@ static void list_free (void *self)
     pg_free (list);
 }
 
-static size_t chunk_size (size_t n, int dim)
+static size_t chunk_size (size_t n)
 {
-    size_t most = dim < 3 ? 2048 : 4096, c = n / 32;
+    size_t most = 8192, c = n / 32;                    /* 65536 / pitch fit; larger chunks share more bonds, smaller ones feed more threads */
     if (c < 256) c = 256;
     if (c > most) c = most;
     return (c + LIST_LANES - 1) / LIST_LANES * LIST_LANES;
@@ -60,7 +60,7 @@ static pg_status list_create (void **self, const pg_sweep_setting *setting, pg_i
     list->kernel = kernels[set][list->dim - 1][list->finite];
     list->threads = setting->threads < 1 ? 1 : setting->threads > MOST_THREADS ? MOST_THREADS : setting->threads;
     list->pitch = 1 << list->dim;
-    list->chunk = chunk_size (list->n, list->dim);
+    list->chunk = chunk_size (list->n);
     list->chunks = (list->n + list->chunk - 1) / list->chunk, list->slices = (list->n + LIST_LANES - 1) / LIST_LANES;
     list->slots[0].shared = 1;
     if (list->n > UINT32_MAX / (unsigned) list->pitch) PG_FAIL (PG_E_LIMIT, "%zu points are too many for a list of bonds; try fewer", list->n);
