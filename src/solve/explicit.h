@@ -23,6 +23,7 @@ struct motion {
     struct relaxing *relaxing;                         /* relax.h                                                        */
 };
 /* Work of loads over the half step before t_n and after; m v_n v before and after; m v v; not finite. */
+enum { LANES = 8 };                                   /* unknowns at once, a number the compiler knows              */
 enum { SUM_A, SUM_B, SUM_C, SUM_D, SUM_K, SUM_BAD, SUMS };
 
 /* ---- explicit.c ---------------------------------------------------------------------------------------------------------------- */

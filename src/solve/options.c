@@ -36,8 +36,28 @@ static void read_static (pg_solver_options *o, const pg_problem *problem, const 
     if (!given (scene, "solver.steps") && o->levels > o->steps) o->steps = o->levels;
 }
 
+/* Nothing prescribed but zero needs no ramp. */
+static int stands_still (const pg_problem *p, const pg_load *load)
+{
+    for (size_t i = 0; i < load->set->npoint; i++)
+        for (int k = 0; k < p->dim; k++)
+            if (load->value[k] && pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, 1) != 0) return 0;
+    return pg_load_prescribes (load);
+}
+
+static void need_end (const pg_problem *problem, const pg_scene *scene)
+{
+    char path[64];
+    for (size_t i = 0; i < problem->nload; i++) {
+        snprintf (path, sizeof path, "boundary[%zu].ramp", i);
+        int linear = given (scene, path) ? is (pg_scene_text (scene, "%s", path), "linear") : problem->load[i].kind != PG_VELOCITY && !problem->load[i].ntable;
+        if (linear && !stands_still (problem, &problem->load[i]))
+            pg_scene_fault (scene, path, "linear rises up to the end of the run: give solver.end, or solver.dt beside solver.time_steps");
+    }
+}
+
 /* dt, end and time_steps: newmark needs two of them, explicit methods one of the last two. Equal steps fill the run, none longer than asked. */
-static void read_times (pg_solver_options *o, const pg_scene *scene)
+static void read_times (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     const char *kind = o->kind;
     o->end = number_if (scene, "solver.end");
@@ -55,14 +75,7 @@ static void read_times (pg_solver_options *o, const pg_scene *scene)
         if (fabs (steps * o->dt - o->end) > 1e-9 * o->end) o->dt = o->end / steps;
     }
     if (!o->marching) o->steps = o->time_steps;
-    if (o->marching && o->time_steps && !(o->end > 0))
-        for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
-            char path[64];
-            snprintf (path, sizeof path, "boundary[%zu].ramp", i);
-            if (!given (scene, path) ? !pg_scene_given (scene, "boundary[%zu].velocity", i) && !pg_scene_given (scene, "boundary[%zu].table", i)
-                                     : is (pg_scene_text (scene, "%s", path), "linear"))
-                pg_scene_fault (scene, path, "linear rises up to the end of the run: give solver.end, or solver.dt beside solver.time_steps");
-        }
+    if (o->marching && o->time_steps && !(o->end > 0)) need_end (problem, scene);
 }
 
 static void need_density (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
@@ -120,7 +133,7 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     if (o->marching || o->staged) read_explicit (o, scene);
     if (o->staged) read_stages (o, scene);
     else if (o->quasi_static) read_static (o, problem, scene);
-    if (!o->quasi_static) read_times (o, scene);
+    if (!o->quasi_static) read_times (o, problem, scene);
     if (!o->quasi_static && !o->marching) read_newmark (o, scene);
     if (!o->quasi_static || is (o->kind, "relax")) need_density (o, problem, scene);
     const pg_force_type *force = pg_force_find (problem->force);

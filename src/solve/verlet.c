@@ -8,8 +8,8 @@
 static void range (const sweep *w, size_t first, size_t last, double *sum)
 {
     double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), before[8] = { 0 }, after[8] = { 0 }, kinetic[8] = { 0 };
-    double *d = w->d, *v = w->v, *a = w->a;
-    const double *f = w->f, *inverse = w->inverse;
+    double *restrict d = w->d, *restrict v = w->v, *restrict a = w->a;
+    const double *restrict f = w->f, *restrict inverse = w->inverse;
     if (w->settle) {
         if (w->P) sum[SUM_A] = sweep_dot (w->P, v, first, last);
         for (size_t i = first; c > 0 && i < last; i++) {
@@ -19,12 +19,12 @@ static void range (const sweep *w, size_t first, size_t last, double *sum)
         }
         sum[SUM_C] = sweep_sum (before), sum[SUM_D] = sweep_sum (after);
     }
-    if (w->settle && w->launch)
-        for (size_t i = first; i < last; i++) {
-            double acc = f[i] * inverse[i], vn = (v[i] + h * acc) * less;
-            v[i] = vn + h * (acc - c * vn);
-            d[i] += dt * v[i];
-        }
+#define BOTH(i) do { double acc = f[i] * inverse[i], vn = (v[i] + h * acc) * less; v[i] = vn + h * (acc - c * vn); d[i] += dt * v[i]; } while (0)
+    size_t at = first;
+    if (w->settle && w->launch) {
+        for (; at + LANES <= last; at += LANES) for (size_t k = at; k < at + LANES; k++) BOTH (k);
+        for (; at < last; at++) BOTH (at);
+    }
     else if (w->launch)
         for (size_t i = first; i < last; i++) {
             v[i] = v[i] + h * a[i];
