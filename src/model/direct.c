@@ -24,8 +24,9 @@ void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, con
 {
     static const char partial[] = "method.partial_volume", surface[] = "method.surface_correction", evaluation[] = "method.evaluation";
     *rule = (pg_sum_rule) { .mode = mode, .kernel = approx->kernel, .horizon = approx->horizon };
+    int fading = !approx->kernel->closed && mode != PG_SOLID;  /* whole cells are the more isotropic then (theory A2: quadratic, m = 3) */
     rule->partial = is (scene, partial, "none") ? PG_PARTIAL_NONE : is (scene, partial, "linear") ? PG_PARTIAL_LINEAR
-                  : is (scene, partial, "overlap") || lattice ? PG_PARTIAL_OVERLAP : PG_PARTIAL_LINEAR;
+                  : is (scene, partial, "overlap") ? PG_PARTIAL_OVERLAP : !lattice ? PG_PARTIAL_LINEAR : fading ? PG_PARTIAL_NONE : PG_PARTIAL_OVERLAP;
     rule->surface = is (scene, surface, "product") ? PG_SURFACE_PRODUCT : is (scene, surface, "volume") ? PG_SURFACE_VOLUME
                   : is (scene, surface, "none") || approx->horizon < 4 * spacing * (1 - 1e-9) ? PG_SURFACE_NONE : PG_SURFACE_PRODUCT;
     rule->calibrate = pg_scene_bool (scene, "method.calibrate");

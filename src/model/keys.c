@@ -18,7 +18,7 @@ static const pg_key keys[] = {
       "bond: by the stencil of a lattice or by lists of neighbours; the answer is the same, auto is the faster." },
     { "method.partial_volume", PG_NAME, NULL, NULL, "auto", "auto|none|linear|overlap", NULL, NULL,
       "bond: share of a neighbour's volume that counts: none: all or nothing; linear: falls over one spacing at the horizon; overlap: of its cell and the "
-      "ball; auto: overlap on a lattice, else linear." },
+      "ball; auto: overlap on a lattice (none for a kernel that is zero at the horizon, except in 3D), else linear." },
     { "method.calibrate", PG_BOOL, NULL, NULL, "on", no_choice, NULL, NULL,
       "bond: the force constant is scaled so that the energy of hydrostatic strain is exact on this lattice, and a critical stretch that comes from "
       "fracture_energy so that a straight crack along the lattice consumes it." },
