@@ -18,6 +18,8 @@ typedef struct pg_stiffness pg_stiffness;
 pg_status pg_stiffness_create (pg_stiffness **out, size_t n, int block, size_t nsource, const pg_source *sources);
 /* The pattern alone, of the nodes: entry (J, I), J <= I, where a point of some family sees both (values NULL). */
 pg_status pg_stiffness_graph  (pg_sparse *out, size_t n, size_t nfamily, const pg_family *const *families);
+/* The same of forces straight between points: a node, and the nodes that it sees itself (symmetric; its own number not among them). */
+pg_status pg_stiffness_graph_direct (pg_sparse *out, const pg_family *family);
 void      pg_stiffness_free   (pg_stiffness **K);
 /* Gathers node rows list[0..count) (NULL: all n). */
 pg_status pg_stiffness_gather (pg_stiffness *K, size_t count, const int *list, int threads);

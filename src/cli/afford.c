@@ -64,7 +64,8 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
     const pg_family *seen[2] = { p->consistency ? &p->consistency->cell_family : &p->rows[f->nodal ? PG_NODES : PG_POINTS].family, &p->rows[PG_FACETS].family };
     size_t pinned = 0;
     for (size_t l = 0; l < p->nload; l++) pinned += pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
-    PG_TRY (pg_stiffness_graph (&G, p->cloud.n, pinned ? 2 : 1, seen));
+    if (p->direct) PG_TRY (pg_stiffness_graph_direct (&G, &p->rows[PG_NODES].family));
+    else PG_TRY (pg_stiffness_graph (&G, p->cloud.n, pinned ? 2 : 1, seen));
     PG_TRY (pg_linear_forecast (&G, p->dim, &info));
     pg_forecast_analysed (f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
     if (f->slaves > 0) f->analysed = 0;                /* elimination joins the masters: a little more                   */

@@ -82,7 +82,7 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;                  /* galerkin      */
     b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;                                        /* pg_consistency                 */
     if (f->direct) b[PG_BYTES_SHAPES] = (f->listed ? 12 : 0.25) * all + 100 * n + (factors ? 0 : 8 * f->dofs);       /* pg_sweep, bond */
-    b[PG_BYTES_BREAKING] = (2 + 17 + factors) * all;                                       /* states; breaker; factored      */
+    b[PG_BYTES_BREAKING] = (2 + (f->explicit_ ? 0 : 17) + factors) * all;                   /* states; breaker; factored      */
     b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
     b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
     b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;

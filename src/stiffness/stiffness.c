@@ -165,6 +165,26 @@ done:
     return status;
 }
 
+pg_status pg_stiffness_graph_direct (pg_sparse *out, const pg_family *f)
+{
+    pg_status status = PG_OK;
+    size_t count = f->n;
+    for (size_t i = 0; i < f->n; i++)
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) count += (size_t) f->node[e] < i;
+    *out = (pg_sparse) { .nrow = f->n, .ncol = f->n, .symmetric = 1 };
+    PG_ALLOC (out->start, f->n + 1);
+    PG_ALLOC (out->row, count);
+    count = 0;
+    for (size_t i = 0; i < f->n; i++) {
+        for (size_t e = f->start[i]; e < f->start[i + 1] && (size_t) f->node[e] < i; e++) out->row[count++] = f->node[e];
+        out->row[count++] = (long) i;
+        out->start[i + 1] = (long) count;
+    }
+done:
+    if (status != PG_OK) pg_sparse_clear (out);
+    return status;
+}
+
 void pg_stiffness_free (pg_stiffness **K)
 {
     if (!*K) return;

@@ -39,7 +39,7 @@ static void counts_as_built (const char *text)
     assert_true (f.bonds[PG_POINTS] == (double) (p->first_bond[2] - p->first_bond[1]));
     const pg_family *bulk = &p->rows[f.nodal ? PG_NODES : PG_POINTS].family;
     pg_sparse G;
-    check_ok (pg_stiffness_graph (&G, p->cloud.n, 1, &bulk));
+    check_ok (p->direct ? pg_stiffness_graph_direct (&G, bulk) : pg_stiffness_graph (&G, p->cloud.n, 1, &bulk));
     assert_true (f.pairs == (double) G.start[G.ncol]);
     pg_sparse_clear (&G);
     unbuild (&b);
@@ -52,6 +52,16 @@ static void test_nodal (void **state)    { (void) state; counts_as_built (DISK "
 static void test_centres (void **state)  { (void) state; counts_as_built (DISK "spacing: 0.04\nlattice: cells\n"); }
 static void test_tensor (void **state)   { (void) state; counts_as_built (DISK "spacing: 0.05\nmethod: {support: tensor}\n"); }
 static void test_closed (void **state)   { (void) state; counts_as_built (DISK "spacing: 0.05\nmethod: {kernel: constant, approximation: pddo}\n"); }
+static void test_bond (void **state)
+{
+    (void) state;
+    static const char *const more[] = { "", ", partial_volume: none", ", partial_volume: linear", ", horizon: 4.3 spacing, kernel: quadratic" };
+    char text[500];
+    for (int k = 0; k < 4; k++) {
+        snprintf (text, sizeof text, DISK "spacing: 0.05\nmethod: {force: bond%s}\n", more[k]), counts_as_built (text);
+        snprintf (text, sizeof text, SLAB "spacing: 0.06\nlattice: cells\nmethod: {force: bond%s}\n", more[k]), counts_as_built (text);
+    }
+}
 static void test_metres (void **state)   { (void) state; counts_as_built (DISK "spacing: 0.05\nmethod: {horizon: 0.12 m}\n"); }
 static void test_quadratic (void **state) { (void) state; counts_as_built (DISK "spacing: 0.06\nmethod: {basis: quadratic, horizon: 3 spacing}\n"); }
 static void test_oblong (void **state)
@@ -348,7 +358,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (test_bar), cmocka_unit_test (test_plane), cmocka_unit_test (test_solid), cmocka_unit_test (test_nodal),
         cmocka_unit_test (test_centres), cmocka_unit_test (test_tensor), cmocka_unit_test (test_closed), cmocka_unit_test (test_metres),
-        cmocka_unit_test (test_quadratic), cmocka_unit_test (test_oblong), cmocka_unit_test (test_cut), cmocka_unit_test (test_a_sample_is_near_the_count),
+        cmocka_unit_test (test_quadratic), cmocka_unit_test (test_bond), cmocka_unit_test (test_oblong), cmocka_unit_test (test_cut), cmocka_unit_test (test_a_sample_is_near_the_count),
         cmocka_unit_test (test_a_coarser_lattice_is_near_the_count), cmocka_unit_test (test_wide_horizons_need_no_stencil),
         cmocka_unit_test (test_law_of_a_disk), cmocka_unit_test (test_law_of_a_cube), cmocka_unit_test (test_law_of_a_slab),
         cmocka_unit_test (test_law_of_wide_bonds), cmocka_unit_test (test_analysis_is_that_of_a_run),
