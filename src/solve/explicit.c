@@ -15,7 +15,7 @@ static pg_status find_held (motion *m, const pg_sparse *T, size_t ndof, const ch
     PG_ALLOC (is_free, ndof);
     for (size_t j = 0; j < T->ncol; j++) {
         if (T->start[j + 1] != T->start[j] + 1)
-            PG_FAIL (PG_E_USAGE, "%s needs supports that prescribe single unknowns, and with these shape functions essential: transformation ties several "
+            PG_FAIL (PG_E_SCENE, "%s needs supports that prescribe single unknowns, and with these shape functions essential: transformation ties several "
                      "together: use essential: nitsche", kind);
         is_free[T->row[T->start[j]]] = 1;
     }
@@ -157,7 +157,7 @@ static pg_status check_dt (pg_solver *s)
     PG_TRY (pg_solver_fastest (s, s->backup, &omega));
     double limit = omega > 0 ? 0.99 * 2 / omega : INFINITY;
     if (!(s->options.dt <= limit))
-        PG_FAIL (PG_E_USAGE, "solver.dt = %.6g s is too large: explicit steps are stable up to %.4g s (2 / largest frequency); take at most that, or leave "
+        PG_FAIL (PG_E_SCENE, "solver.dt = %.6g s is too large: explicit steps are stable up to %.4g s (2 / largest frequency); take at most that, or leave "
                  "solver.dt out", s->options.dt, limit);
 done:
     return status;

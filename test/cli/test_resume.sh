@@ -16,6 +16,8 @@ event=(plate.yaml --set spacing='0.5 mm' --set solver.max_events=60 --set output
 fixed=(plate.yaml --set spacing='1.25 mm' --set 'solver={stepping: fixed, steps: 8, break: fraction, break_fraction: 2 %}'
        --set 'output={at: {broken: 2 %, levels: 4}}')
 newmark=(moving.yaml)
+explicit=(bonds.yaml)
+relaxed=(bonds.yaml --set 'solver={kind: adr, stages: 6}' --set 'boundary[1]={name: pull, set: right, displacement: {x: 60 um}}')
 
 # same DIR1 DIR2: tables, fields and pictures byte by byte, report.json without times and memory
 same() {
@@ -26,7 +28,7 @@ same() {
 plain() { sed -e '/"seconds": {/,/}/d' -e '/"peak_bytes"/d' -e '/"seconds_saved"/d' "$1"; }
 
 declare -A took
-for kind in event fixed newmark; do
+for kind in event fixed newmark explicit relaxed; do
     declare -n scene=$kind; t0=$(now)
     run "${scene[@]}" -o "$work/$kind"; code=$?
     took[$kind]=$((($(now) - t0) / 1000000))
@@ -49,9 +51,9 @@ resumed() {
     if [ -e "$out/checkpoint.nc" ]; then run "$@" --resume; else run "$@"; fi
 }
 RANDOM=20220
-kinds=(event fixed newmark)
+kinds=(event fixed newmark explicit relaxed)
 for k in $(seq 20); do
-    kind=${kinds[$((k % 3))]}; declare -n scene=$kind; out=$work/run$k; times=1
+    kind=${kinds[$((k % 5))]}; declare -n scene=$kind; out=$work/run$k; times=1
     [ $((k % 2)) -eq 0 ] && signal=TERM || signal=KILL
     limit=${took[$kind]}
     until disturb $signal $((limit * (RANDOM % 900 + 80) / 1000)) "${scene[@]}" -o "$out"; do limit=$((limit * 3 / 4 + 1)); done

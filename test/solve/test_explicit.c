@@ -220,7 +220,7 @@ static void time_steps_beyond_the_stable_one_are_refused (void **state)
         double limit = 2 / (200 * sin (pi * 299 / 600)), bound = 2 / 200.0;      /* free-free chain; row sums */
         pg_solver_options o = options_of (kinds[kind], 1.2 * limit, 10000);
         size_t used = pg_memory_used ();
-        check_fails (try_link (&l, &o, &chain_type), PG_E_USAGE);
+        check_fails (try_link (&l, &o, &chain_type), PG_E_SCENE);
         check_contains (pg_last_error (), "solver.dt = 0.012");
         check_contains (pg_last_error (), "stable up to 0.0099");
         unlink_all (&l);
@@ -265,7 +265,7 @@ static void the_frequency_itself_decides_beyond_the_bound (void **state)
     for (size_t i = 0; i < the.n; i++) assert_true (fabs (l.state->d[i]) < 1);
     unlink_all (&l);
     o = options_of ("verlet", 1.02 * limit, 10);
-    check_fails (try_link (&l, &o, &type), PG_E_USAGE);
+    check_fails (try_link (&l, &o, &type), PG_E_SCENE);
     unlink_all (&l);
 }
 
@@ -353,7 +353,7 @@ static void refusals_say_what_to_do (void **state)
     pg_step step;
     pg_solver_options o = options_of ("verlet", 1e-3, 100);
     the = (chain) { .n = 5, .k = 1e4, .m = 1, .lead = speed, .tied = 1 };
-    check_fails (try_link (&l, &o, &chain_type), PG_E_USAGE);
+    check_fails (try_link (&l, &o, &chain_type), PG_E_SCENE);
     check_contains (pg_last_error (), "essential: nitsche");
     unlink_all (&l);
     the = (chain) { .n = 5, .k = 1e4, .ground = 1, .m = 0 };

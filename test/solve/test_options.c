@@ -56,6 +56,45 @@ static void time_steps_fill_the_run (void **state)
     assert_int_equal (options_of (HELD "solver: {kind: newmark, dt: 1 us, end: 1 ms}\n").steps, 1000);
 }
 
+#define BONDS  PLATE "method: {force: bond}\n"
+#define MOVED  BONDS "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, velocity: {x: 1}}]\n"
+
+static void kinds_tell_what_they_do (void **state)
+{
+    (void) state;
+    pg_solver_options o = options_of (PULLED);
+    assert_true (o.quasi_static && !o.marching && !o.staged);
+    o = options_of (HELD "solver: {kind: newmark, dt: 1, end: 10}\n");
+    assert_true (!o.quasi_static && !o.marching && !o.staged);
+    o = options_of (MOVED "solver: {kind: verlet, end: 10}\n");
+    assert_true (!o.quasi_static && o.marching && !o.staged);
+    o = options_of (MOVED "solver: {kind: central, end: 10}\n");
+    assert_true (!o.quasi_static && o.marching && !o.staged);
+    o = options_of (BONDS "solver: {kind: adr}\n");
+    assert_true (o.quasi_static && !o.marching && o.staged && o.hold && o.stages == 10 && o.break_mode == PG_BREAK_PASSING);
+    check_relative (o.imbalance, 1e-5, 1e-15);
+    o = options_of (BONDS "solver: {kind: relax, hold: off, stages: 7, damping: 5e6, dt: 1 us}\n");
+    assert_true (o.quasi_static && !o.marching && o.staged && !o.hold && o.stages == 7);
+    check_relative (o.damping, 5e6, 1e-15);
+    check_relative (o.dt, 1e-6, 1e-15);
+}
+
+static void explicit_times_from_two_of_three (void **state)
+{
+    (void) state;
+    pg_solver_options o = options_of (MOVED "solver: {kind: verlet, dt: 0.3, end: 1}\n");
+    assert_int_equal (o.time_steps, 4);
+    check_relative (o.dt, 0.25, 1e-15);
+    o = options_of (MOVED "solver: {kind: verlet, dt: 0.5, time_steps: 7}\n");
+    check_relative (o.end, 3.5, 1e-15);
+    o = options_of (MOVED "solver: {kind: verlet, end: 7, time_steps: 14}\n");
+    check_relative (o.dt, 0.5, 1e-15);
+    o = options_of (MOVED "solver: {kind: verlet, time_steps: 14}\noutput: {at: {rows: 3}}\n");
+    assert_true (o.dt == 0 && o.end == 0 && o.time_steps == 14 && o.rows == 3);
+    assert_int_equal (options_of (HELD "solver: {kind: newmark, end: 1, time_steps: 25}\n").steps, 25);
+    assert_int_equal (options_of (HELD "solver: {kind: newmark, dt: 0.1, time_steps: 25}\n").steps, 25);
+}
+
 static void newmark_coefficients_are_those_of_the_method (void **state)
 {
     (void) state;
@@ -123,6 +162,8 @@ int main (void)
         cmocka_unit_test (stepping_follows_the_loads),
         cmocka_unit_test (steps_follow_levels_unless_given),
         cmocka_unit_test (time_steps_fill_the_run),
+        cmocka_unit_test (kinds_tell_what_they_do),
+        cmocka_unit_test (explicit_times_from_two_of_three),
         cmocka_unit_test (newmark_coefficients_are_those_of_the_method),
         cmocka_unit_test (break_modes_are_read),
         cmocka_unit_test (faults_name_key_and_reason),

@@ -227,7 +227,7 @@ static void options_that_cannot_be_are_refused (void **state)
         unlink_all (&l);
     }
     o = options_of ("relax", 3, 1e-9), o.dt = 1;
-    check_fails (try_link (&l, &o, &chain_type), PG_E_USAGE);
+    check_fails (try_link (&l, &o, &chain_type), PG_E_SCENE);
     check_contains (pg_last_error (), "too large");
     unlink_all (&l);
 }
