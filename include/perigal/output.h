@@ -40,7 +40,7 @@ pg_status pg_table_create (pg_table **out, const char *path, size_t n, const cha
 pg_status pg_table_open   (pg_table **out, const char *path, size_t n, long rows);     /* to go on: later rows are cut off */
 long      pg_table_rows   (const pg_table *table);     /* without the header                                             */
 pg_status pg_table_sync   (const pg_table *table);     /* to the disk itself                                             */
-pg_status pg_table_row    (pg_table *table, const double *values);
+pg_status pg_table_row    (pg_table *table, const double *values);      /* NaN: the cell stays empty, it was not measured         */
 pg_status pg_table_line   (pg_table *table, const char *const *values);
 void      pg_table_close  (pg_table **table);
 

@@ -84,9 +84,10 @@ pg_status converge_history (study *s, size_t k, const char *folder)
     for (at = header; n < COLUMNS && cut_cell (&at, &cell); n++) name[n] = cell, last[n] = NAN, peak[n] = 0;
     for (; getline (&row, &width[1], f) > 0; rows++) {
         at = row;
-        for (size_t c = 0; c < n && cut_cell (&at, &cell); c++) last[c] = strtod (cell, NULL), peak[c] = fmax (peak[c], fabs (last[c]));
+        for (size_t c = 0; c < n && cut_cell (&at, &cell); c++) last[c] = *cell ? strtod (cell, NULL) : NAN, peak[c] = fmax (peak[c], fabs (last[c]));
     }
     for (size_t c = 0; rows && c < n; c++) {
+        if (isnan (last[c])) continue;                 /* empty: not measured                                            */
         PG_TRY (put (s, k, "", name[c], last[c]));
         if (rows > 1 && strstr (name[c], ".force_")) PG_TRY (put (s, k, "peak ", name[c], peak[c]));
     }

@@ -131,7 +131,10 @@ pg_status pg_table_row (pg_table *t, const double *values)
 {
     pg_status status = PG_OK;
     char cell[40];
-    for (size_t k = 0; k < t->n; k++) PG_TRY (append (t, cell, (size_t) snprintf (cell, sizeof cell, "%s%.17g", k ? "," : "", values[k])));
+    for (size_t k = 0; k < t->n; k++) {
+        if (k) PG_TRY (append (t, ",", 1));
+        if (values[k] == values[k]) PG_TRY (append (t, cell, (size_t) snprintf (cell, sizeof cell, "%.17g", values[k])));
+    }
     PG_TRY (end_row (t));
     t->rows++;
 done:
