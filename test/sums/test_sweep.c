@@ -180,6 +180,47 @@ static void ties_break_together (void **state)
         }
 }
 
+/* All bonds stretched to within rounding of the limit: those die whose measure, as the loops round it, is not below it, from both ends. */
+static void rounding_decides_alike_everywhere (void **state)
+{
+    (void) state;
+    for (int k = 0; k < SETS; k++) {
+        body_wish wish = { { 64, 20, 1 }, 0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_NONE, 0, PG_EVALUATE_STENCIL };
+        body b;
+        body_create (&b, &wish, 1);
+        for (size_t i = 0; i < b.cloud.n * 2; i++) b.u[i] = 1e-3 * b.cloud.x[i];
+        double *f = pg_calloc (b.cloud.n * 2, sizeof *f), *xi = pg_calloc (b.cloud.n, sizeof *xi);
+        pg_changes broken = { 0 };
+        pg_sweep *s = NULL;
+        size_t at = 0, live = 0, differ = 0;
+        if (make_sweep (&s, &b, sets[k], 1, 1, 0)) {
+            check_ok (pg_sweep_force (s, b.u, f, &broken));
+            for (size_t i = 0; i < b.cloud.n; i++) {
+                pg_sums_bonds (b.sums, &b.family, i, xi, NULL, NULL);
+                for (size_t e = b.family.start[i]; e < b.family.start[i + 1]; e++) {
+                    const double *x = xi + 2 * (e - b.family.start[i]), *v = b.u + 2 * (size_t) b.family.node[e], *u = b.u + 2*i;
+                    double r = sqrt (x[0] * x[0] + x[1] * x[1]), plain = x[0] * (v[0] - u[0]) + x[1] * (v[1] - u[1]);
+                    double fused = fma (x[1], v[1] - u[1], x[0] * (v[0] - u[0])), limit = 1e-3 * (r * r);
+                    int dead = at < broken.n && broken.bond[at] == e;
+                    at += (size_t) dead, live += (size_t) !dead, differ += (plain >= limit) != (fused >= limit);
+#ifndef __FP_FAST_FMA
+                    if (k == 0) fused = plain;
+#endif
+                    assert_int_equal (dead, fused >= limit);
+                    b.alive[e] = !dead;
+                }
+            }
+            assert_int_equal (at, broken.n);
+            assert_true (at > 0 && live > 0 && differ > 0);
+            for (size_t i = 0; i < b.cloud.n; i++)
+                for (size_t e = b.family.start[i]; e < b.family.start[i + 1]; e++) assert_int_equal (b.alive[e], b.alive[body_reverse (&b, i, e)]);
+        }
+        pg_sweep_free (&s);
+        pg_free (broken.bond), pg_free (f), pg_free (xi);
+        body_free (&b);
+    }
+}
+
 /* Updating by changes is updating all. */
 static void changes_equal_a_whole_update (void **state)
 {
@@ -329,6 +370,7 @@ int main (void)
         cmocka_unit_test (bonds_break_as_in_the_plain_loop),
         cmocka_unit_test (nothing_breaks_unasked),
         cmocka_unit_test (ties_break_together),
+        cmocka_unit_test (rounding_decides_alike_everywhere),
         cmocka_unit_test (changes_equal_a_whole_update),
         cmocka_unit_test (rigid_motions_pull_at_nothing),
         cmocka_unit_test (wrong_wishes_are_refused),
