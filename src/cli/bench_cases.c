@@ -84,12 +84,14 @@ static pg_status add_curve (bench_cases *out, const bench_request *q, size_t s, 
         snprintf (c->group, sizeof c->group, "%s", body ? body->group : b->name);
         snprintf (c->perturb, sizeof c->perturb, "%s", m->perturb ? m->perturb : "");
         snprintf (c->cells, sizeof c->cells, "%s", m->cells ? m->cells : "");
-        snprintf (c->method, sizeof c->method, "%s%s%s %s %s%s%s%s%s%s%s%s", q->force.n > 1 ? m->force : "", q->force.n > 1 ? " " : "", m->approximation,
-                  m->integration, m->basis, m->horizon ? " " : "", m->horizon ? m->horizon : "", m->perturb && strcmp (m->perturb, "0") != 0 ? " perturbed " : "",
+        const char *shape = m->approximation ? m->approximation : "", *where = m->integration ? m->integration : "", *basis = m->basis ? m->basis : "";
+        int named = q->force.n > 1 || !m->basis, shaped = m->basis != NULL;
+        snprintf (c->method, sizeof c->method, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s", named ? m->force : "", named && shaped ? " " : "", shape, shaped ? " " : "",
+                  where, shaped ? " " : "", basis, m->horizon ? " " : "", m->horizon ? m->horizon : "", m->perturb && strcmp (m->perturb, "0") != 0 ? " perturbed " : "",
                   m->perturb && strcmp (m->perturb, "0") != 0 ? m->perturb : "", m->cells ? " " : "", m->cells ? m->cells : "", b->mesh ? " mesh" : "");
         put (c, "method.force", m->force), put (c, "method.approximation", m->approximation), put (c, "method.integration", m->integration);
         put (c, "method.basis", m->basis), put (c, "cells", m->cells), put (c, "perturb.amount", m->perturb);
-        put (c, "method.horizon", m->horizon ? m->horizon : horizon_for (b, q, m->basis));
+        put (c, "method.horizon", m->horizon || !m->basis ? m->horizon : horizon_for (b, q, m->basis));
         snprintf (number, sizeof number, "%.15g", b->spacing * factor[k < 3 ? k : 2]);
         if (meshed) snprintf (c->element, sizeof c->element, "CPS8"), c->size = strtol (q->mesh.word[k], NULL, 10);
         if (b->mesh) continue;
@@ -117,7 +119,7 @@ pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
     bench_request *q = NULL;
     PG_ALLOC (q, 1);
     *q = *asked;
-    fill (&q->force, pg_force_names ()), fill (&q->approximation, pg_approx_names ()), fill (&q->integration, pg_integration_names ());
+    fill (&q->force, "galerkin"), fill (&q->approximation, pg_approx_names ()), fill (&q->integration, pg_integration_names ());
     fill (&q->basis, "linear|quadratic");
     if (!q->mesh.n) q->mesh = q->size;
     else if (!q->size.n) q->size = q->mesh;
@@ -132,6 +134,10 @@ pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
         for (size_t k = 0; k < all; k++) {
             mix m = { word_of (list[0], k, of[0]), word_of (list[1], k, of[1]), word_of (list[2], k, of[2]), word_of (list[3], k, of[3]),
                       word_of (list[4], k, of[4]), word_of (list[5], k, of[5]), word_of (list[6], k, of[6]) };
+            if (strcmp (m.force, "galerkin") != 0) {       /* once: it has no shape functions to choose among              */
+                if (k / of[1] % list[1]->n || k / of[2] % list[2]->n || k / of[3] % list[3]->n) continue;
+                m.approximation = m.integration = m.basis = NULL;
+            }
             PG_TRY (add_curve (out, q, s, &b, &m));
         }
         if (q->fem && !has_fem (out, b.name)) PG_TRY (bench_fem_add (out, q, s, b.name));
