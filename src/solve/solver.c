@@ -125,11 +125,13 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
 done:
     if (status != PG_OK && s->started && !s->breaker.stopped) {
         char text[2048];
+        int quasi = s->options.quasi_static;
         snprintf (text, sizeof text, "%s", pg_last_error ());
         system_refresh (&s->breaker.system, s->backup, NULL);      /* fields asked for now are those of the accepted state       */
         s->breaker.work = s->backup->work, s->breaker.round = 0;
         if (s->type->refused) s->type->refused (s);
-        if (status != PG_E_MEMORY) pg_error (status, PG_HERE, "step %ld at load factor %.6g is refused: %s", state->step + 1, state->factor, text);
+        if (status != PG_E_MEMORY) pg_error (status, PG_HERE, "step %ld after %s %.6g%s is refused: %s", s->backup->step + 1, quasi ? "load factor" : "t =",
+                                            quasi ? s->backup->factor : s->backup->time, quasi ? "" : " s", text);
         pg_state_copy (state, s->backup);
     }
     return status;
