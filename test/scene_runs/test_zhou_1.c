@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Zhou's plate with a hole by direct sums. Elastic: all columns of the tables together, and each, at 100 points a side. */
+ * Zhou's plate with a hole by direct sums. Elastic: all columns of the tables together, and some alone, at 100 points a side.
+ * Drawn until it breaks: the crack starts at both sides of the hole at once, close to the load of the closed form, and goes through both
+ * ligaments, at 50 and at 100 points a side. */
 #include "measured.h"
 
 /* Root of the sum of squares over all tables, of that of the reference. */
@@ -38,8 +40,69 @@ static void elastic (void **state)
     within ("quadratic", 3, quadratic, 0.0083, 0.0104, 0.0082, 0.022);
 }
 
+/* Of the points within `near` of y = 0 (m), the least damage; of those farther than `far`, the most. */
+static void look_at (const run *r, double near, double far, double *least, double *most)
+{
+    double *damage = field_of (r, NULL, "damage", NULL);
+    *least = 1, *most = 0;
+    for (size_t i = 0; i < r->problem->cloud.n; i++) {
+        double y = fabs (r->problem->cloud.x[2*i + 1]);
+        if (y < near) *least = fmin (*least, damage[i]);
+        if (y > far) *most = fmax (*most, damage[i]);
+    }
+    pg_free (damage);
+}
+
+/* Displacement of the grips (mm) at which the first bond breaks; bonds of that step left and right. */
+typedef struct { double start; size_t first[2]; } path;
+static run drawn (const char *solver, const char *spacing, int to_first, path *p)
+{
+    const char *const set[] = { solver, spacing, "output.at.rows=1000" };
+    run r = { 0 };
+    *p = (path) { .start = NAN };
+    check_ok (pg_scene_load_with (&r.scene, "data/zhou_1/scene.yaml", strstr (solver, "static") ? 2 : 3, set));
+    check_ok (pg_problem_build (&r.problem, r.scene, 1));
+    check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
+    check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
+    check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
+    while (!pg_solver_done (r.solver, r.state) && !(to_first && !isnan (p->start))) {
+        advance (&r);
+        if (!r.step.nbroken || !isnan (p->start)) continue;
+        p->start = 0.27541 * r.step.factor;
+        for (size_t i = 0; i < r.step.nbroken; i++) p->first[r.step.broken[i].place[0] > 0]++;
+    }
+    return r;
+}
+
+/* late: of the first break behind the static one, at most, in parts of the whole way. */
+static void broken_through (const char *solver, const char *spacing, double late)
+{
+    path p, exact;
+    double least, most;
+    run r = drawn ("solver={kind: static}", spacing, 1, &exact);
+    clear (&r);
+    r = drawn (solver, spacing, 0, &p);
+    look_at (&r, 0.55 * r.problem->cloud.h, 5 * r.problem->cloud.h, &least, &most);
+    print_message ("%s, %s: first bond at %.4f mm (static: %.4f), damage on the ligaments %.2f and more, elsewhere up to %.2f, %ld broken\n", spacing,
+                   solver, p.start, exact.start, least, most, r.state->broken);
+    check_below (exact.start, p.start);
+    check_below (p.start, exact.start + late * 0.27541);
+    assert_int_equal (p.first[0], p.first[1]);
+    assert_true (least > 0.25);
+    check_below (most, 0.1);
+    clear (&r);
+}
+
+static void breaks (void **state)
+{
+    (void) state;
+    broken_through ("solver={kind: adr, stages: 1000, hold: off}", "spacing=0.5 mm", 0.015);          /* the scene itself      */
+    broken_through ("solver={kind: adr, stages: 1000, hold: off}", "spacing=1 mm", 0.015);
+    broken_through ("solver={kind: adr, stages: 50}", "spacing=1 mm", 0.02);                         /* one stage             */
+}
+
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (elastic) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (elastic), cmocka_unit_test (breaks) };
     return cmocka_run_group_tests_name ("scene_runs/zhou_1", tests, NULL, NULL);
 }
