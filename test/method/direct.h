@@ -20,23 +20,22 @@ typedef struct {
     pg_sparse  K;                                      /* upper triangle; held dofs: identity                            */
 } direct;
 
-/* The body of a scene's text; E (Pa); plane stress. */
-static inline direct direct_build (const char *text, const char *kernel, double horizon, double E, int calibrate, pg_partial partial)
+/* The body of a scene's text; E (Pa); plane stress. In place: the sums keep the address of the cloud. */
+static inline void direct_build (direct *b, const char *text, const char *kernel, double horizon, double E, int calibrate, pg_partial partial)
 {
-    direct b = { 0 };
-    check_ok (pg_scene_parse (&b.scene, text, "test.yaml"));
-    check_ok (pg_body_read (&b.body, b.scene));
-    check_ok (pg_cloud_build (&b.cloud, &b.lattice, &b.body, b.scene));
+    *b = (direct) { 0 };
+    check_ok (pg_scene_parse (&b->scene, text, "test.yaml"));
+    check_ok (pg_body_read (&b->body, b->scene));
+    check_ok (pg_cloud_build (&b->cloud, &b->lattice, &b->body, b->scene));
     pg_sum_rule rule = { .mode = PG_PLANE_STRESS, .kernel = pg_kernel_find (kernel), .horizon = horizon, .partial = partial,
                          .surface = PG_SURFACE_NONE, .calibrate = calibrate };
-    check_ok (pg_sums_create (&b.sums, &rule, &b.cloud, &b.lattice));
-    check_ok (pg_sums_family (&b.family, b.sums));
-    b.n = b.cloud.n;
-    b.bonds = b.sums->stencil.n;
-    b.c = b.sums->calibration * pg_bond_modulus (rule.mode, rule.kernel, horizon, E, b.cloud.thickness);
-    b.held = pg_calloc (2 * b.n, 1);
-    assert_true (b.held != NULL);
-    return b;
+    check_ok (pg_sums_create (&b->sums, &rule, &b->cloud, &b->lattice));
+    check_ok (pg_sums_family (&b->family, b->sums));
+    b->n = b->cloud.n;
+    b->bonds = b->sums->stencil.n;
+    b->c = b->sums->calibration * pg_bond_modulus (rule.mode, rule.kernel, horizon, E, b->cloud.thickness);
+    b->held = pg_calloc (2 * b->n, 1);
+    assert_true (b->held != NULL);
 }
 
 static inline void direct_clear (direct *b)

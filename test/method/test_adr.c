@@ -10,27 +10,26 @@ static const char plate[] = "dimension: 2\nbody: [{add: {box: {low: [0, 0], high
 
 typedef struct { direct b; size_t n; double *u, *P, *exact, *K_abs; } problem;      /* P: N                             */
 
-static problem make (int how)
+static void make (problem *p, int how)
 {
-    problem p = { .b = direct_build (plate, "constant", 3.015e-3, 192e9, 1, PG_PARTIAL_NONE) };
-    p.n = 2 * p.b.n;
-    p.u = pg_calloc (p.n, sizeof *p.u), p.P = pg_calloc (p.n, sizeof *p.P);
-    p.exact = pg_calloc (p.n, sizeof *p.exact), p.K_abs = pg_calloc (p.n, sizeof *p.K_abs);
-    assert_int_equal (p.b.n, 60 * 20);
-    direct_assemble (&p.b);                            /* nothing held yet: the whole matrix                              */
-    for (size_t i = 0; i < p.b.n; i++) {
-        double x = p.b.cloud.x[2*i];
-        if (how == BENT && x > 0.059) p.P[2*i + 1] = 1;
+    direct_build (&p->b, plate, "constant", 3.015e-3, 192e9, 1, PG_PARTIAL_NONE);
+    p->n = 2 * p->b.n;
+    p->u = pg_calloc (p->n, sizeof *p->u), p->P = pg_calloc (p->n, sizeof *p->P);
+    p->exact = pg_calloc (p->n, sizeof *p->exact), p->K_abs = pg_calloc (p->n, sizeof *p->K_abs);
+    assert_int_equal (p->b.n, 60 * 20);
+    direct_assemble (&p->b);                           /* nothing held yet: the whole matrix                              */
+    for (size_t i = 0; i < p->b.n; i++) {
+        double x = p->b.cloud.x[2*i];
+        if (how == BENT && x > 0.059) p->P[2*i + 1] = 1;
         if (x > GRIP * 1e-3 && (how == BENT || x < (60 - GRIP) * 1e-3)) continue;
-        p.b.held[2*i] = p.b.held[2*i + 1] = 1;
-        p.u[2*i] = x < 0.03 ? 0 : 6e-5;
+        p->b.held[2*i] = p->b.held[2*i + 1] = 1;
+        p->u[2*i] = x < 0.03 ? 0 : 6e-5;
     }
-    for (size_t j = 0; j < p.n; j++)
-        for (long k = p.b.K.start[j]; k < p.b.K.start[j + 1]; k++) {
-            p.K_abs[j] += fabs (p.b.K.value[k]);
-            if ((size_t) p.b.K.row[k] != j) p.K_abs[p.b.K.row[k]] += fabs (p.b.K.value[k]);
+    for (size_t j = 0; j < p->n; j++)
+        for (long k = p->b.K.start[j]; k < p->b.K.start[j + 1]; k++) {
+            p->K_abs[j] += fabs (p->b.K.value[k]);
+            if ((size_t) p->b.K.row[k] != j) p->K_abs[p->b.K.row[k]] += fabs (p->b.K.value[k]);
         }
-    return p;
 }
 
 static void clear (problem *p)
@@ -102,7 +101,8 @@ static void relax (problem *p, int iterations, int every, int as_printed, double
 /* Errors after 500 and 1000 iterations. */
 static void converges (int how, double *error)
 {
-    problem p = make (how);
+    problem p;
+    make (&p, how);
     solve_exactly (&p);
     relax (&p, 1000, 500, 0, error);
     print_message ("%s: error after 500 iterations %.2e, 1000: %.2e\n", how == BENT ? "bent" : "drawn", error[0], error[1]);
@@ -132,7 +132,8 @@ static void diverges_as_printed (void **state)
 {
     (void) state;
     double error[2];
-    problem p = make (DRAWN);
+    problem p;
+    make (&p, DRAWN);
     solve_exactly (&p);
     relax (&p, 200, 100, 1, error);
     print_message ("as printed: error after 100 iterations %.2e, 200: %.2e\n", error[0], error[1]);
