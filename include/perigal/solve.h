@@ -26,6 +26,7 @@ typedef struct {
     double   stop_stiffness;                           /* event stepping: stop when the secant stiffness fell below it   */
     const pg_set *stop_set; double stop_damage;        /* stop when a point of the set is damaged so far; NULL: never    */
     long     levels;                                   /* reports at k / levels of the load (or of the end time)         */
+    char     unused[256];                              /* keys of the scene's solver that this kind does not heed, "dt, end"; "": none */
 } pg_solver_options;
 pg_status pg_solver_options_read (pg_solver_options *out, const pg_problem *problem, const pg_scene *scene);
 

@@ -60,6 +60,7 @@ void plan_doubts (const pg_problem *p, const pg_solver_options *o, FILE *to)
         if (!held) fprintf (to, "  warning: nothing holds the body along %c: no displacement along %c is prescribed anywhere\n", "xyz"[k], "xyz"[k]);
     }
     for (size_t k = 0; k < p->nnote; k++) fprintf (to, "  %s\n", p->note[k]);
+    if (*o->unused) fprintf (to, "  without meaning for solver.kind: %s, in solver: %s\n", o->kind, o->unused);
     if (!moving) fprintf (to, "  warning: nothing loads the body: every prescribed displacement is zero, and there is no force\n");
     if (p->part.mesh.n && p->part.quality < 0.1)
         fprintf (to, "  warning: element %ld of the mesh is nearly flat: quality %.2g (scaled Jacobian; better than 0.1 is wanted)\n",

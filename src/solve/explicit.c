@@ -140,7 +140,7 @@ static pg_status find_bound (pg_solver *s)
         if (sys->force->row_sums) PG_TRY (by_row_sums (s, &m->omega));
         else PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
     }
-    if (!isfinite (m->omega)) PG_FAIL (PG_E_USAGE, "the largest frequency of the body is not finite: check stiffness and density");
+    if (!isfinite (m->omega)) PG_FAIL (PG_E_SCENE, "the largest frequency of the body is not finite: check stiffness and density");
     int exact = !sys->force->bound && !sys->force->row_sums;
     m->stable = m->omega > 0 ? (exact ? 0.99 : 1) * 2 / m->omega : INFINITY;
 done:
@@ -169,13 +169,13 @@ pg_status explicit_stable (pg_solver *s)
     pg_system *sys = &s->breaker.system;
     motion *m = s->motion;
     for (size_t i = 0; i < sys->ndof; i++) {
-        if (!(sys->mass[i] > 0)) PG_FAIL (PG_E_USAGE, "%s needs mass at every point: give the material a density", s->type->name);
+        if (!(sys->mass[i] > 0)) PG_FAIL (PG_E_SCENE, "%s needs mass at every point: give the material a density", s->type->name);
         m->inverse[i] = 1 / sys->mass[i];
     }
     PG_TRY (find_bound (s));
     if (s->options.dt > 0) PG_TRY (check_dt (s));
     else if (isfinite (m->stable)) s->options.dt = 0.9 * m->stable;
-    else PG_FAIL (PG_E_USAGE, "nothing resists, so that any time step is stable: give solver.dt");
+    else PG_FAIL (PG_E_SCENE, "nothing resists, so that any time step is stable: give solver.dt");
 done:
     return status;
 }

@@ -22,7 +22,7 @@ static void read_breaking (pg_solver_options *o, const pg_problem *problem, cons
     o->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
     o->stop_damage = pg_scene_number (scene, "solver.stop.damage");
     if (stop && *stop) o->stop_set = pg_sets_named (&problem->sets, scene, "solver.stop.set", stop);
-    if (o->break_mode == PG_BREAK_PASSING && !o->staged) pg_scene_fault (scene, "solver.break", "passing goes with solver.kind: adr and relax");
+    if (o->break_mode == PG_BREAK_PASSING && !o->staged && !o->marching) pg_scene_fault (scene, "solver.break", "passing goes with solver.kind: adr and relax");
 }
 
 static void read_static (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
@@ -96,7 +96,6 @@ static void read_newmark (pg_solver_options *o, const pg_scene *scene)
 /* What the explicit methods leave to newmark. */
 static void read_explicit (pg_solver_options *o, const pg_scene *scene)
 {
-    o->rows = integer_if (scene, "output.at.rows");
     if (is (pg_scene_text (scene, "solver.mass"), "consistent")) pg_scene_fault (scene, "solver.mass", "%s needs the lumped mass", o->kind);
     if (o->rayleigh_stiffness > 0)
         pg_scene_fault (scene, "solver.rayleigh.stiffness", "%s is damped by the mass alone: damping by the stiffness would shrink the stable time step", o->kind);
@@ -111,8 +110,24 @@ static void read_stages (pg_solver_options *o, const pg_scene *scene)
     if (!given (scene, "solver.break")) o->break_mode = PG_BREAK_PASSING;
     if (!o->hold && o->break_mode != PG_BREAK_PASSING)
         pg_scene_fault (scene, "solver.break", "%s goes by balanced states, which there are none with hold: off", pg_scene_text (scene, "solver.break"));
-    if (o->damping > 0 && is (o->kind, "adr")) pg_scene_fault (scene, "solver.damping", "adr finds its own damping: a given one goes with solver.kind: relax");
-    if (o->dt > 0 && is (o->kind, "adr")) pg_scene_fault (scene, "solver.dt", "adr has no time: its step is 1 and its mass comes from the stiffness");
+    if (is (o->kind, "adr")) o->damping = o->dt = 0;       /* left over from relax: its own damping, a step of 1            */
+}
+
+/* Keys of the solver that only other kinds heed: left over from one of them, they are no fault. */
+static void find_unused (pg_solver_options *o, const pg_scene *scene)
+{
+    enum { STATIC = 1, NEWMARK = 2, MARCHING = 4, ADR = 8, RELAX = 16, IMPLICIT = STATIC | NEWMARK, TIMED = NEWMARK | MARCHING, STAGED = ADR | RELAX };
+    static const struct { const char *key; int kinds; } keys[] = {
+        { "stepping", STATIC }, { "steps", STATIC }, { "stop.stiffness", STATIC }, { "break", IMPLICIT | STAGED }, { "break_fraction", IMPLICIT | STAGED },
+        { "tie", IMPLICIT | STAGED }, { "tolerance", IMPLICIT }, { "max_iterations", IMPLICIT | STAGED }, { "linear", IMPLICIT }, { "dt", TIMED | RELAX },
+        { "end", TIMED }, { "time_steps", TIMED }, { "stages", STAGED }, { "hold", STAGED }, { "imbalance", STAGED }, { "damping", RELAX }, { "mass", TIMED },
+        { "alpha", NEWMARK }, { "beta", NEWMARK }, { "gamma", NEWMARK }, { "rayleigh.mass", TIMED }, { "rayleigh.stiffness", TIMED },
+    };
+    int kind = o->marching ? MARCHING : !o->quasi_static ? NEWMARK : !o->staged ? STATIC : is (o->kind, "relax") ? RELAX : ADR;
+    size_t used = 0;
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
+        if (!(keys[k].kinds & kind) && pg_scene_given (scene, "solver.%s", keys[k].key) && used < sizeof o->unused)
+            used += (size_t) snprintf (o->unused + used, sizeof o->unused - used, "%s%s", used ? ", " : "", keys[k].key);
 }
 
 pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
@@ -130,11 +145,13 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     o->rayleigh_stiffness = pg_scene_number (scene, "solver.rayleigh.stiffness");
     o->dt = number_if (scene, "solver.dt");
     read_breaking (o, problem, scene);
-    if (o->marching || o->staged) read_explicit (o, scene);
+    o->rows = o->marching || o->staged ? integer_if (scene, "output.at.rows") : 0;
+    if (o->marching) read_explicit (o, scene);
     if (o->staged) read_stages (o, scene);
     else if (o->quasi_static) read_static (o, problem, scene);
     if (!o->quasi_static) read_times (o, problem, scene);
     if (!o->quasi_static && !o->marching) read_newmark (o, scene);
+    find_unused (o, scene);
     if (!o->quasi_static || is (o->kind, "relax")) need_density (o, problem, scene);
     const pg_force_type *force = pg_force_find (problem->force);
     const char *why = force && force->refuses ? force->refuses (problem, o->kind) : NULL;
