@@ -11,10 +11,12 @@
 #include <string.h>
 #include <time.h>
 
-typedef struct { const char *name; int dim, count[3]; double m; } shape;
+/* scatter: points moved by up to this share of a step and numbered at random: no lattice, so that only a list sums its bonds */
+typedef struct { const char *name; int dim, count[3]; double m, scatter; } shape;
 static const shape shapes[] = {
-    { "square_100", 2, { 100, 100, 1 }, 3.015 }, { "square_400", 2, { 400, 400, 1 }, 3.015 }, { "square_1000", 2, { 1000, 1000, 1 }, 3.015 },
-    { "square_400_m6", 2, { 400, 400, 1 }, 6.015 }, { "cube_64", 3, { 64, 64, 64 }, 3.015 },
+    { "square_100", 2, { 100, 100, 1 }, 3.015, 0 }, { "square_400", 2, { 400, 400, 1 }, 3.015, 0 }, { "square_1000", 2, { 1000, 1000, 1 }, 3.015, 0 },
+    { "square_400_m6", 2, { 400, 400, 1 }, 6.015, 0 }, { "cube_64", 3, { 64, 64, 64 }, 3.015, 0 },
+    { "cloud_400", 2, { 400, 400, 1 }, 3.015, 0.3 }, { "cloud_1000", 2, { 1000, 1000, 1 }, 3.015, 0.3 }, { "cloud_cube_64", 3, { 64, 64, 64 }, 3.015, 0.3 },
 };
 typedef struct { const char *name; int finite, cut, check, weighted; } kind;
 static const kind kinds[] = {
@@ -43,6 +45,26 @@ static unsigned chance (size_t i, size_t j)            /* the same for both dire
     return (unsigned) ((x >> 33) % 10);
 }
 
+static double draw (uint64_t *seed)                    /* in [0, 1) */
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double) (*seed >> 11) / 9007199254740992.0;
+}
+
+static void scatter_points (pg_cloud *c, double share)
+{
+    uint64_t seed = 1;
+    size_t dim = (size_t) c->dim;
+    for (size_t k = 0; k < c->n * dim; k++) c->x[k] += share * c->h * (2 * draw (&seed) - 1);
+    for (size_t i = c->n; i > 1; i--) {
+        size_t j = (size_t) (draw (&seed) * (double) i);
+        for (size_t d = 0; d < dim; d++) {
+            double x = c->x[(i - 1) * dim + d];
+            c->x[(i - 1) * dim + d] = c->x[j*dim + d], c->x[j*dim + d] = x;
+        }
+    }
+}
+
 static void clear (bench *b)
 {
     void *all[] = { b->cloud.x, b->cloud.volume, b->modulus, b->limit, b->u, b->f, b->plain, b->alive };
@@ -69,15 +91,19 @@ static pg_status build (bench *b, const shape *s, const kind *k, pg_evaluation e
     for (size_t i = 0; i < n; i++) {
         size_t nx = (size_t) s->count[0], ny = (size_t) s->count[1], at[3] = { i % nx, i / nx % ny, i / nx / ny };
         c->volume[i] = pow (h, s->dim);
-        for (size_t d = 0; d < dim; d++) c->x[i*dim + d] = ((double) at[d] + 0.5) * h;
-        for (size_t d = 0; d < dim; d++)
-            b->u[i*dim + d] = 1e-3 * h * sin (0.05 * (double) at[0] + 0.07 * (double) at[1] + 0.03 * (double) at[2] + (double) d);
+        for (size_t d = 0; d < dim; d++) c->x[i*dim + d] = ((double) at[d] + 0.5) * h, c->high[d] = h * s->count[d];
     }
+    if (s->scatter > 0) scatter_points (c, s->scatter);
+    for (size_t i = 0; i < n; i++)
+        for (size_t d = 0; d < dim; d++) {
+            const double *x = c->x + i * dim;
+            b->u[i*dim + d] = 1e-3 * h * sin ((0.05 * x[0] + 0.07 * x[1] + (dim == 3 ? 0.03 * x[2] : 0)) / h + (double) d);
+        }
     pg_lattice lattice = { .dim = s->dim, .step = { h, h, h } };
     pg_sum_rule rule = { .mode = s->dim == 2 ? PG_PLANE_STRESS : PG_SOLID, .kernel = pg_kernel_find ("constant"), .horizon = s->m * h,
-                         .partial = PG_PARTIAL_OVERLAP, .surface = k->weighted ? PG_SURFACE_PRODUCT : PG_SURFACE_NONE, .calibrate = 1,
+                         .partial = s->scatter > 0 ? PG_PARTIAL_LINEAR : PG_PARTIAL_OVERLAP, .surface = k->weighted ? PG_SURFACE_PRODUCT : PG_SURFACE_NONE, .calibrate = 1,
                          .finite = k->finite, .evaluation = evaluation };
-    PG_TRY (pg_sums_create (&b->sums, &rule, c, &lattice));
+    PG_TRY (pg_sums_create (&b->sums, &rule, c, s->scatter > 0 ? NULL : &lattice));
     PG_TRY (pg_sums_family (&b->family, b->sums));
     PG_ALLOC (b->alive, b->family.start[n]);
     for (size_t i = 0; i < n; i++) {
@@ -94,8 +120,9 @@ done:
 static pg_status plain_forces (bench *b)
 {
     pg_status status = PG_OK;
-    size_t dim = (size_t) b->cloud.dim, most = b->sums->stencil.n;
+    size_t dim = (size_t) b->cloud.dim, most = 1;
     double *xi = NULL, *weight = NULL;
+    for (size_t i = 0; i < b->cloud.n; i++) if (b->family.start[i + 1] - b->family.start[i] > most) most = b->family.start[i + 1] - b->family.start[i];
     PG_ALLOC (xi, most * dim);
     PG_ALLOC (weight, most);
     for (size_t i = 0; i < b->cloud.n; i++) {
@@ -180,7 +207,7 @@ int main (int argc, char **argv)
         int wanted = argc < 2;
         for (int a = 1; a < argc; a++) wanted |= strcmp (argv[a], shapes[s].name) == 0;
         for (size_t k = 0; wanted && k < sizeof kinds / sizeof *kinds; k++)
-            for (int e = 0; e < 2; e++) {
+            for (int e = shapes[s].scatter > 0; e < 2; e++) {
                 if (time_body (&shapes[s], &kinds[k], e ? PG_EVALUATE_LIST : PG_EVALUATE_STENCIL, threads) == PG_OK) continue;
                 fprintf (stderr, "bond_rate: %s\n", pg_last_error ());
                 return 1;

@@ -28,22 +28,27 @@
 typedef struct { V x[DIM], u[DIM], f[DIM]; } NAME (lanes);
 
 /* Slots of one slice and one sort. */
-#define SLOTS(index, from, gives) \
-    for (size_t k = slots->start[slice]; k < slots->start[slice + 1]; k++, limit += step) \
+#define SLOTS(type, index, from, gives) do { \
+    const bond_slots *slots = &list->slots[1 - gives]; \
+    const type *restrict to = slots->index; \
+    const double *restrict pull = slots->a, *restrict limit = check ? list->limit + LIST_LANES * slots->limit_at[slice] : NULL; \
+    unsigned char *restrict alive = slots->alive; \
+    const size_t end = slots->start[slice + 1], step = check ? slots->limit_step[slice] : 0; \
+    for (size_t k = slots->start[slice]; k < end; k++, limit = check ? limit + step : NULL) \
         for (int part = 0; part < PARTS; part++) { \
             const unsigned all = (1u << WIDTH) - 1, shift = (unsigned) (part * WIDTH); \
             NAME (lanes) *l = &lane[part]; \
-            size_t at = LIST_LANES * k + shift; \
-            unsigned live = (unsigned) slots->alive[k] >> shift & all; \
-            FETCH (from, slots->index + at); \
+            const type *o = to + LIST_LANES * k + shift; \
+            unsigned live = (unsigned) alive[k] >> shift & all; \
+            FETCH (from, o); \
             EACH (SEPARATE) \
-            V dot = DOT (d, e), value = dot, a = V_LOAD (slots->a + at), rr = V_SET (0); \
+            V dot = DOT (d, e), value = dot, a = V_LOAD (pull + LIST_LANES * k + shift), rr = V_SET (0); \
             if (finite || check) rr = DOT (d, d); \
             if (finite) value = dot + dot + DOT (e, e); \
             if (check) { \
                 unsigned over = V_LEAST (value, V_LOAD (limit + shift) * rr) & live; \
                 if (__builtin_expect (over != 0, 0)) { \
-                    slots->alive[k] ^= (unsigned char) (over << shift), slots->lost[k] |= (unsigned char) (over << shift); \
+                    alive[k] ^= (unsigned char) (over << shift), slots->lost[k] |= (unsigned char) (over << shift); \
                     live ^= over, *broke = 1; \
                 } \
             } \
@@ -54,13 +59,14 @@ typedef struct { V x[DIM], u[DIM], f[DIM]; } NAME (lanes);
             } else a = a * dot; \
             a = V_KEEP (a, live); \
             EACH (PULL) \
-            if (gives) GIVE (sum, slots->index + at); \
-        }
+            if (gives) GIVE (sum, o); \
+        } \
+    } while (0)
 #define SEPARATE(c) V d##c = x##c - l->x[c], e##c = u##c - l->u[c];
 #define DEFORM(c)   d##c = d##c + e##c;
 #define PULL(c)     V f##c = a * d##c; l->f[c] = l->f[c] + f##c;
 
-static inline __attribute__ ((always_inline)) TARGET void NAME (slice) (const bond_list *list, const size_t chunk, const size_t slice, double *sum,
+static inline __attribute__ ((always_inline)) TARGET void NAME (slice) (const bond_list *list, const size_t chunk, const size_t slice, double *restrict sum,
                                                                        const int finite, const int check, int *broke)
 {
     NAME (lanes) lane[PARTS];
@@ -72,13 +78,8 @@ static inline __attribute__ ((always_inline)) TARGET void NAME (slice) (const bo
         EACH (START)
 #undef START
     }
-    const bond_slots *slots = &list->slots[0];
-    const double *limit = check ? list->limit + LIST_LANES * slots->limit_at[slice] : NULL;
-    size_t step = check ? slots->limit_step[slice] : 0;
-    SLOTS (near, first, 1)
-    slots = &list->slots[1];
-    limit = check ? list->limit + LIST_LANES * slots->limit_at[slice] : NULL, step = check ? slots->limit_step[slice] : 0;
-    SLOTS (far, list->record, 0)
+    SLOTS (uint16_t, near, first, 1);
+    SLOTS (uint32_t, far, list->record, 0);
     double *mine = sum + (own - first) / 2;
     for (int part = 0; part < PARTS; part++) {
         V f0 = V_SET (0) - lane[part].f[0];

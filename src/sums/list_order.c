@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+enum { TILE = 256 };                                   /* points summed one after the other: their records stay in the first cache */
+
 typedef struct { double key; int point; } item;
 typedef struct { int out, in, point, rank; } load;     /* bonds of a point to other chunks and to later points of its own one */
 
@@ -21,7 +23,7 @@ static int by_load (const void *a, const void *b)
 }
 
 /* Sorts n items along `axis`, cuts them into slabs of whole chunks about as thick as a chunk is wide, goes on along the axes below. */
-static void cut (item *items, size_t n, const pg_cloud *cloud, size_t chunk, int axis)
+static void cut (item *items, size_t n, const pg_cloud *cloud, const double *wide, size_t chunk, int axis)
 {
     size_t dim = (size_t) cloud->dim, pieces = (n + chunk - 1) / chunk;
     for (size_t k = 0; k < n; k++) items[k].key = cloud->x[(size_t) items[k].point * dim + (size_t) axis];
@@ -29,12 +31,32 @@ static void cut (item *items, size_t n, const pg_cloud *cloud, size_t chunk, int
     if (axis == 0 || pieces <= 1) return;
     double length = items[n - 1].key - items[0].key, space = (double) pieces;
     for (int k = 0; k < axis; k++) {
-        double other = cloud->high[k] - cloud->low[k];
-        space *= other > 0 ? length / other : 1;
+        space *= wide[k] > 0 ? length / wide[k] : 1;
     }
     double slabs = fmin (fmax (1, round (pow (space, 1.0 / (axis + 1)))), (double) pieces);
     size_t step = (pieces + (size_t) slabs - 1) / (size_t) slabs * chunk;
-    for (size_t k = 0; k < n; k += step) cut (items + k, n - k < step ? n - k : step, cloud, chunk, axis - 1);
+    for (size_t k = 0; k < n; k += step) cut (items + k, n - k < step ? n - k : step, cloud, wide, chunk, axis - 1);
+}
+
+/* Compact tiles in every chunk: near ones are summed one after the other. */
+static void cut_all (item *items, size_t n, const pg_cloud *cloud, size_t chunk)
+{
+    int dim = cloud->dim;
+    double wide[3];
+    for (int c = 0; c < dim; c++) wide[c] = cloud->high[c] - cloud->low[c];
+    cut (items, n, cloud, wide, chunk, dim - 1);
+    for (size_t k = 0; k < n; k += chunk) {
+        size_t m = n - k < chunk ? n - k : chunk;
+        for (int c = 0; c < dim; c++) {
+            double low = INFINITY, high = -INFINITY;
+            for (size_t i = k; i < k + m; i++) {
+                double x = cloud->x[(size_t) items[i].point * (size_t) dim + (size_t) c];
+                low = fmin (low, x), high = fmax (high, x);
+            }
+            wide[c] = high - low;
+        }
+        cut (items + k, m, cloud, wide, TILE, dim - 1);
+    }
 }
 
 static void count_bonds (load *loads, const bond_list *list, size_t first, size_t last)
@@ -61,12 +83,12 @@ pg_status bond_list_order (bond_list *list)
     PG_ALLOC (items, list->n);
     PG_ALLOC (loads, list->chunk);
     for (size_t i = 0; i < list->n; i++) items[i].point = (int) i;
-    if (list->n > 0) cut (items, list->n, cloud, list->chunk, cloud->dim - 1);
+    cut_all (items, list->n, cloud, list->chunk);
     for (size_t p = 0; p < list->n; p++) list->point[p] = items[p].point, list->rank[items[p].point] = (int) p;
     for (size_t first = 0; first < list->n; first += list->chunk) {
         size_t last = list->n - first < list->chunk ? list->n : first + list->chunk;
         count_bonds (loads, list, first, last);
-        qsort (loads, last - first, sizeof *loads, by_load);
+        for (size_t k = first; k < last; k += TILE) qsort (loads + (k - first), last - k < TILE ? last - k : TILE, sizeof *loads, by_load);
         for (size_t p = first; p < last; p++) list->point[p] = loads[p - first].point;
     }
     for (size_t p = 0; p < list->n; p++) list->before[list->point[p]] = list->rank[list->point[p]];
