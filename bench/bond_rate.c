@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Directed bonds summed per second, with the error of the forces against the plain double loop in the same row. One row per body, loop,
- * instruction set, number of threads and kind of sweep. Arguments: names of bodies (none: all). PERIGAL_BENCH_THREADS: most threads (2).
+ * Directed bonds summed per second, with the error of the forces against the plain double loop in the same row; a row per body, loop, kind of
+ * sweep, and one and two threads. Arguments: names of bodies, by every loop and instruction set that can; none: three bodies by the best ones.
  * Least of several repetitions; of one thread its own time, which other programs on the machine do not lengthen.
  * Bonds carry bits whether any is broken or not; `cut`: a tenth of them is; `check`: stretches are compared with a limit that none reaches. */
 #include "perigal/sums.h"
@@ -184,15 +184,15 @@ done:
     return status;
 }
 
-static pg_status time_body (const shape *s, const kind *k, pg_evaluation evaluation, int most_threads)
+static pg_status time_body (const shape *s, const kind *k, pg_evaluation evaluation, int all)
 {
     static const char *const sets[] = { "avx512", "avx2", "scalar" };
     pg_status status = PG_OK;
     bench b;
     PG_TRY (build (&b, s, k, evaluation));
     PG_TRY (plain_forces (&b));
-    for (int set = 0; set < 3; set++)
-        for (int threads = 1; threads <= most_threads; threads++) PG_TRY (time_row (&b, s, k, sets[set], threads));
+    for (int set = 0; set < (all ? 3 : 1); set++)
+        for (int threads = 1; threads <= 2; threads++) PG_TRY (time_row (&b, s, k, all ? sets[set] : NULL, threads));
 done:
     clear (&b);
     return status;
@@ -200,15 +200,15 @@ done:
 
 int main (int argc, char **argv)
 {
-    const char *most = getenv ("PERIGAL_BENCH_THREADS");
-    int threads = most && atoi (most) > 0 ? atoi (most) : 2;
+    static const char *const usual[] = { "square_400", "cube_64", "cloud_400" };
     printf ("body,points,directed_bonds,kind,loop,threads,Gbonds_per_s,ms,error,setup_s,bytes_per_bond,bytes_per_point\n");
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
-        int wanted = argc < 2;
+        int wanted = 0, all = argc > 1;
         for (int a = 1; a < argc; a++) wanted |= strcmp (argv[a], shapes[s].name) == 0;
+        for (size_t u = 0; !all && u < sizeof usual / sizeof *usual; u++) wanted |= strcmp (usual[u], shapes[s].name) == 0;
         for (size_t k = 0; wanted && k < sizeof kinds / sizeof *kinds; k++)
-            for (int e = shapes[s].scatter > 0; e < 2; e++) {
-                if (time_body (&shapes[s], &kinds[k], e ? PG_EVALUATE_LIST : PG_EVALUATE_STENCIL, threads) == PG_OK) continue;
+            for (int e = shapes[s].scatter > 0; e < (all || shapes[s].scatter > 0 ? 2 : 1); e++) {
+                if (time_body (&shapes[s], &kinds[k], e ? PG_EVALUATE_LIST : PG_EVALUATE_STENCIL, all) == PG_OK) continue;
                 fprintf (stderr, "bond_rate: %s\n", pg_last_error ());
                 return 1;
             }
