@@ -205,6 +205,47 @@ static void galerkin_scene (void **unused)
     clear (&r);
 }
 
+/* A crack on a row of points, and one between two rows, of bodies 1, 2, 3 and 9 points high with a whole horizon: points on it are loose and stay where
+ * they are; damage and displacement are mirrored. Nothing holds a row of points across: the thinnest body is pulled along only. */
+static void cracks_on_lattice_lines (void **unused)
+{
+    (void) unused;
+    static const char *const solvers[] = { "{stepping: event, max_events: 12}", "{kind: relax, stages: 4}", "{kind: adr, stages: 40, hold: off}", "{kind: verlet, end: 8 us}" };
+    static const int rows[] = { 1, 2, 3, 9 };
+    for (size_t k = 0; k < sizeof rows / sizeof *rows * 4; k++) {
+        int high = rows[k / 4], long_ = 15, on_row = high % 2;
+        run r = scene_of (1, "dimension: 2\nthickness: 2 mm\nbody: [{add: {box: {low: [0, %g mm], high: [15 mm, %g mm]}}}]\nspacing: 1 mm\nlattice: cells\n" ROCK
+            "cracks: [{from: [6 mm, 0], to: [9.1 mm, 0]}]\nboundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 40 um, y: 0}}]\n"
+            "method: {force: bond, horizon: 3 spacing, partial_volume: none}\nfailure: {criterion: stretch, critical_stretch: 2e-3}\nsolver: %s\n",
+            -0.5 * high, 0.5 * high, solvers[k % 4]);
+        const pg_cloud *c = &r.problem->cloud;
+        const pg_family *f = &r.problem->rows[PG_NODES].family;
+        assert_int_equal (c->n, (size_t) (long_ * high));
+        while (!pg_solver_done (r.solver, r.state)) advance (&r);
+        double most = 0;
+        for (size_t i = 0; i < r.state->ndof; i++) {
+            assert_true (isfinite (r.state->d[i]));
+            most = fmax (most, fabs (r.state->d[i]));
+        }
+        assert_true (most > 0);
+        for (size_t i = 0; i < c->n; i++) {
+            size_t j = (size_t) (high - 1) * (size_t) long_ - i + 2 * (i % (size_t) long_), mine = 0, its = 0;        /* mirrored at y = 0 */
+            check_relative (c->x[2*i], c->x[2*j], 1e-12);
+            check_scaled (c->x[2*i + 1], -c->x[2*j + 1], 1e-12, 1e-3);
+            for (size_t e = f->start[i]; e < f->start[i + 1]; e++) mine += r.state->alive[e];
+            for (size_t e = f->start[j]; e < f->start[j + 1]; e++) its += r.state->alive[e];
+            assert_int_equal (mine, its);
+            check_scaled (r.state->d[2*i], r.state->d[2*j], 1e-6, most);
+            check_scaled (r.state->d[2*i + 1], -r.state->d[2*j + 1], 1e-6, most);
+            if (on_row && fabs (c->x[2*i + 1]) < 1e-6 && c->x[2*i] > 6.1e-3 && c->x[2*i] < 9e-3) {
+                assert_int_equal (mine, 0);
+                check_scaled (r.state->d[2*i], 0, 1e-12, most);
+            }
+        }
+        clear (&r);
+    }
+}
+
 /* Wherever memory ends, a message and nothing left over. */
 static void memory_ends (void **unused)
 {
@@ -250,6 +291,6 @@ int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (solvers_agree), cmocka_unit_test (loads_arrive), cmocka_unit_test (crack_by_events),
         cmocka_unit_test (march_and_refresh), cmocka_unit_test (crack_in_time), cmocka_unit_test (two_materials), cmocka_unit_test (refusals),
-        cmocka_unit_test (galerkin_scene), cmocka_unit_test (memory_ends) };
+        cmocka_unit_test (galerkin_scene), cmocka_unit_test (cracks_on_lattice_lines), cmocka_unit_test (memory_ends) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
