@@ -114,4 +114,7 @@ void        pg_sweep_update (pg_sweep *sweep, const unsigned char *alive, const 
 pg_status   pg_sweep_force  (pg_sweep *sweep, const double *u, double *f, pg_changes *broken);
 /* Stored energy of the live bonds, J. */
 double      pg_sweep_energy (pg_sweep *sweep, const double *u);
+/* W (n, J/m^3) = energy density of every point at displacement u: half the energy of each of its live bonds over its volume, W_i = 1/4 sum_j
+ * c k beta g r s^2 V_j (theory B2); sum of W_i V_i = pg_sweep_energy to rounding. 0 where a point has no live bond. The same bits for any number of threads. */
+pg_status   pg_sweep_energies (pg_sweep *sweep, const double *u, double *W);
 #endif

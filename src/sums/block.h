@@ -30,6 +30,7 @@ typedef struct {
     double         *f;                                 /* n x dim, N                                                     */
     unsigned char  *hit;                               /* set to 1: a bond of the block is over its limit (blocks)       */
     double         *energy;                            /* sum of a (xi.eta)^2 p_i p_j over directed bonds (blocks)       */
+    double         *energies;                          /* the same sum of each point (n); NULL: not wanted               */
 } pg_block_job;
 
 typedef void (*pg_block_loop) (const pg_block_job *job, size_t first, size_t last);      /* blocks                       */

@@ -128,6 +128,8 @@ INLINE void energy_loop (const pg_block_job *job, size_t first, size_t last, int
             if (weighted) sum = sum * LOAD (job->p + b->base + at);
             STORE (lane, sum);
             for (int l = 0; l < LANES; l++) whole += lane[l];
+            for (int l = 0; job->energies && l < LANES; l++)
+                if (b->present >> (at + l) & 1) job->energies[job->point[b->site + (size_t) (at + l)]] = lane[l];
         }
         job->energy[k] = whole;
     }

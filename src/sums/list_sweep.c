@@ -299,6 +299,46 @@ static double list_energy (void *self, const double *u)
     return list->finite ? sum * list->unit : sum;
 }
 
+typedef struct { bond_list *list; double *W; } portioner;
+
+/* Each end's quarter of what its directed bonds store (a bond stored once is two of them), over the point's volume */
+static void share_energies (void *context, size_t first, size_t last, int thread)
+{
+    const portioner *g = context;
+    const bond_list *list = g->list;
+    size_t pitch = (size_t) list->pitch;
+    double *sum = list->sum + (size_t) thread * list->chunk * (pitch / 2), unit = list->finite ? list->unit : 1;
+    for (size_t chunk = first; chunk < last; chunk++) {
+        size_t start = chunk * list->chunk, end = list->n - start < list->chunk ? list->n : start + list->chunk;
+        size_t from = start / LIST_LANES, to = (end + LIST_LANES - 1) / LIST_LANES;
+        memset (sum, 0, list->chunk * sizeof *sum);
+        for (int k = 0; k < 2; k++) {
+            const bond_slots *s = &list->slots[k];
+            for (size_t slice = from; slice < to; slice++)
+                for (size_t at = LIST_LANES * s->start[slice]; at < LIST_LANES * s->start[slice + 1]; at++) {
+                    if (!(s->alive[at / LIST_LANES] >> at % LIST_LANES & 1)) continue;
+                    size_t p = slice * LIST_LANES + at % LIST_LANES, q = bond_list_end (list, s, slice, at);
+                    double e = bond_energy (list, list->record + p * pitch, list->record + q * pitch, s->a[at]);
+                    sum[p - start] += e;
+                    if (s->shared) sum[q - start] += e;
+                }
+        }
+        for (size_t p = start; p < end; p++) {
+            size_t i = (size_t) list->point[p];
+            g->W[i] = sum[p - start] != 0 ? sum[p - start] * unit / (4 * list->sums->cloud->volume[i]) : 0;
+        }
+    }
+}
+
+static pg_status list_energies (void *self, const double *u, double *W)
+{
+    bond_list *list = self;
+    summer g = { list, u, NULL, 0 };
+    pg_parallel (list->threads, list->n, read_displacements, &g);
+    pg_parallel_heavy (list->threads, list->chunks, share_energies, &(portioner) { list, W });
+    return PG_OK;
+}
+
 /* ---- what it costs ------------------------------------------------------------------------------------------------------------ */
 static void list_bytes (const void *self, double *per_bond, double *per_point)
 {
@@ -316,4 +356,6 @@ static void list_bytes (const void *self, double *per_bond, double *per_point)
 
 static const char *list_refusal (const pg_sweep_setting *setting) { (void) setting; return NULL; }
 
-const pg_sweep_kind pg_sweep_list = { "list", list_refusal, list_create, list_free, list_bytes, list_update, list_force, list_energy };
+const pg_sweep_kind pg_sweep_list = {
+    "list", list_refusal, list_create, list_free, list_bytes, list_update, list_force, list_energy, list_energies
+};

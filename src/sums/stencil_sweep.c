@@ -387,17 +387,34 @@ static void energy_blocks (void *context, size_t first, size_t last, int thread)
     p->loop (&p->s->job, first, last);
 }
 
-static double energy (void *self, const double *u)
+static void sum_energies (stencil *s, const double *u)
 {
-    stencil *s = self;
     pass p = { s, u, s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL], NULL };
     pg_parallel_heavy (threads_for (s), s->nblock, spread_blocks, &p);
     pg_parallel_heavy (threads_for (s), s->nblock, energy_blocks, &p);
+}
+
+static double energy (void *self, const double *u)
+{
+    stencil *s = self;
     double sum = 0;
+    sum_energies (s, u);
     for (size_t k = 0; k < s->nblock; k++) sum += s->energy[k];
     return sum / 4;                                    /* w / 2 of each bond, seen from both its ends                    */
 }
 
+static pg_status energies (void *self, const double *u, double *W)
+{
+    stencil *s = self;
+    const pg_cloud *cloud = s->setting.sums->cloud;
+    s->job.energies = W;
+    sum_energies (s, u);
+    s->job.energies = NULL;
+    for (size_t i = 0; i < cloud->n; i++) W[i] = W[i] != 0 ? W[i] / (4 * cloud->volume[i]) : 0;
+    return PG_OK;
+}
+
 const pg_sweep_kind pg_sweep_stencil = {
     .name = "stencil", .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = update, .force = force, .energy = energy,
+    .energies = energies,
 };

@@ -103,6 +103,8 @@ pg_status pg_sweep_force (pg_sweep *sweep, const double *u, double *f, pg_change
 
 double pg_sweep_energy (pg_sweep *sweep, const double *u) { return sweep->kind->energy (sweep->self, u); }
 
+pg_status pg_sweep_energies (pg_sweep *sweep, const double *u, double *W) { return sweep->kind->energies (sweep->self, u, W); }
+
 static int ascending (const void *a, const void *b)
 {
     size_t x = *(const size_t *) a, y = *(const size_t *) b;

@@ -21,6 +21,7 @@ typedef struct {
     void      (*update) (void *self, const unsigned char *alive, const pg_changes *changes);
     pg_status (*force)  (void *self, const double *u, double *f, pg_changes *broken);
     double    (*energy) (void *self, const double *u);
+    pg_status (*energies) (void *self, const double *u, double *W);
 } pg_sweep_kind;
 extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list;
 

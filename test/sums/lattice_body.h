@@ -26,6 +26,7 @@ typedef struct {
     size_t nbond;
     unsigned char *alive, *exempt;
     double *modulus, *limit, *u;
+    double *W;                                         /* of body_plain, J/m^3                                           */
     uint64_t seed;
 } body;
 
@@ -79,6 +80,7 @@ static inline void body_create_as (body *b, const body_wish *w, double scatter, 
     b->nbond = b->family.start[c->n];
     b->alive = pg_calloc (b->nbond, 1), b->exempt = pg_calloc (c->n, 1);
     b->modulus = pg_calloc (c->n, sizeof *b->modulus), b->limit = pg_calloc (c->n, sizeof *b->limit), b->u = pg_calloc (c->n * dim, sizeof *b->u);
+    b->W = pg_calloc (c->n, sizeof *b->W);
     double modulus = b->sums->calibration * pg_bond_modulus (rule.mode, rule.kernel, rule.horizon, 72e9, c->thickness);
     memset (b->alive, 1, b->nbond);
     for (size_t i = 0; i < c->n; i++) b->modulus[i] = modulus, b->limit[i] = 1e-3;
@@ -109,7 +111,7 @@ static inline void body_wound (body *b, double chance)
 
 static inline void body_free (body *b)
 {
-    void *blocks[] = { b->cloud.x, b->cloud.volume, b->alive, b->exempt, b->modulus, b->limit, b->u };
+    void *blocks[] = { b->cloud.x, b->cloud.volume, b->alive, b->exempt, b->modulus, b->limit, b->u, b->W };
     for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) pg_free (blocks[k]);
     pg_family_clear (&b->family);
     pg_sums_free (&b->sums);
@@ -129,13 +131,16 @@ static inline double body_stretch (const body *b, const double *xi, const double
     return b->sums->rule.finite ? q / (r * (l + r)) : dot / r2;
 }
 
-/* The plain loop: bonds at or over their limit die if `breaks`, in alive and noted in dead (nbond, or NULL); then forces (n x dim) and energy. */
+/* The plain loop: bonds at or over their limit die if `breaks`, in alive and noted in dead (nbond, or NULL); then forces (n x dim), energies of
+ * points and that of all. */
 static inline double body_plain (body *b, int breaks, double *f, unsigned char *dead)
 {
     size_t dim = (size_t) b->cloud.dim, n = b->cloud.n;
     double *xi = pg_calloc (n * dim + 512 * dim, sizeof *xi), *weight = pg_calloc (n + 512, sizeof *weight), energy = 0;
     memset (f, 0, n * dim * sizeof *f);
     for (size_t i = 0; i < n; i++) {
+        double before = energy;
+        b->W[i] = 0;
         pg_sums_bonds (b->sums, &b->family, i, xi, weight, NULL);
         for (size_t e = b->family.start[i]; e < b->family.start[i + 1]; e++) {
             size_t j = (size_t) b->family.node[e], k = e - b->family.start[i];
@@ -149,8 +154,9 @@ static inline double body_plain (body *b, int breaks, double *f, unsigned char *
             if (!b->alive[e]) continue;
             double both = b->cloud.volume[i] * b->cloud.volume[j];
             for (size_t d = 0; d < dim; d++) f[i*dim + d] += both * pull * s * along[d];
-            energy += both * pull * sqrt (r) * s * s / 4;
+            b->W[i] += b->cloud.volume[j] * pull * sqrt (r) * s * s / 4;
         }
+        energy = before + b->W[i] * b->cloud.volume[i];
     }
     pg_free (xi);
     pg_free (weight);

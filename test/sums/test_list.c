@@ -76,6 +76,8 @@ static void forces_and_energy_equal_the_plain_loop (void **state)
                 }
                 assert_memory_equal (f, first, values * sizeof *f);
                 assert_true (now == stored);
+                check_ok (pg_sweep_energies (s, b.u, f));
+                close_to (f, b.W, b.cloud.n, 1e-12);
                 pg_sweep_free (&s);
                 assert_null (s);
             }

@@ -75,6 +75,8 @@ static void forces_and_energy_equal_the_plain_loop (void **state)
                     stored = now;
                 }
                 assert_memory_equal (f, first, values * sizeof *f);
+                check_ok (pg_sweep_energies (s, b.u, f));
+                close_to (f, b.W, b.cloud.n, 1e-12);
                 assert_true (now == stored);
                 pg_sweep_free (&s);
                 assert_null (s);
