@@ -93,6 +93,14 @@ static double pair_limit (const bond_list *list, const pg_sweep_setting *setting
     return list->finite ? s0 * (2 + s0) : s0 * list->unit;
 }
 
+/* Are the first eight limits all this one? */
+static int first_eight (const bond_list *list, double limit)
+{
+    int same = list->limits > 0;
+    for (int k = 0; same && k < LIST_LANES; k++) same = list->limit[k] == limit;
+    return same;
+}
+
 /* Limits of one slice: where all are the same, eight of them; most slices share those of the first one. */
 static pg_status fill_limits (bond_list *list, bond_slots *slots, const pg_sweep_setting *setting, size_t slice)
 {
@@ -109,7 +117,7 @@ static pg_status fill_limits (bond_list *list, bond_slots *slots, const pg_sweep
     if (n == 0 && list->limits > 0) return PG_OK;
     if (low < high) {
         slots->limit_at[slice] = end, slots->limit_step[slice] = LIST_LANES, list->limits += n;
-    } else if (list->limits == 0 || low != list->limit[0]) {
+    } else if (!first_eight (list, low)) {
         for (int k = 0; k < LIST_LANES; k++) limit[k] = low;
         slots->limit_at[slice] = end, list->limits++;
     }
