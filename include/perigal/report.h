@@ -36,6 +36,8 @@ int       pg_result_finished (const char *folder, const pg_scene *scene);
 const pg_errors *pg_result_errors (const pg_result *result);
 /* After pg_result_finish: the estimated error of the last stress; NULL: none was made. */
 const pg_estimate *pg_result_estimate (const pg_result *result);
+/* The k-th of output.tips in words: how far its crack has come, when and how fast. 0: there is no such. */
+int       pg_result_tip    (const pg_result *result, size_t k, char *out, size_t size /* 256 */);
 const char *pg_result_folder (const pg_result *result);
 size_t    pg_result_pictures (const pg_result *result);     /* written                                                   */
 const char *pg_result_picture (const pg_result *result, size_t i);

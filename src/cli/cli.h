@@ -18,8 +18,8 @@ void memory_keep (void);
 void memory_large_pages (void);
 
 /* progress.c: a line that rewrites itself on a terminal, every tenth elsewhere. */
-typedef struct { double start, last; int tenth, tty, quiet; } progress;
-void progress_start (progress *p, int quiet);
+typedef struct { double start, last; int tenth, tty, quiet, marching; } progress;
+void progress_start (progress *p, int quiet, int marching /* by time steps alike: the time left can be foretold */);
 void progress_show  (progress *p, double share, const pg_step *step, const pg_report *report);
 void progress_end   (progress *p);
 

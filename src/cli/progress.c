@@ -3,17 +3,20 @@
 #include "cli.h"
 #include <unistd.h>
 
-void progress_start (progress *p, int quiet)
+void progress_start (progress *p, int quiet, int marching)
 {
-    *p = (progress) { pg_seconds (), 0, 0, isatty (2), quiet };
+    *p = (progress) { pg_seconds (), 0, 0, isatty (2), quiet, marching };
 }
 
 static void write_line (const progress *p, double share, const pg_step *step, const pg_report *r, double passed)
 {
-    char left[32] = "";                                /* events come at no rate that could be foretold */
-    if (share > 0.005 && share < 1 && passed > 1 && r->events == 0) snprintf (left, sizeof left, ", about %.0f s left", passed * (1 - share) / share);
-    fprintf (stderr, "%s%5.1f %%  step %ld, load factor %.4g, %ld events, %ld bonds broken, residual %.1e, %.1f s%s%s", p->tty ? "\r" : "",
-             100 * share, step->number, step->factor, r->events, r->broken, r->residual_max, passed, left, p->tty ? "\033[K" : "\n");
+    char left[32] = "", how[96];                       /* events come at no rate that could be foretold */
+    if (share > 0.005 && share < 1 && passed > 1 && (r->events == 0 || p->marching)) snprintf (left, sizeof left, ", about %.0f s left", passed * (1 - share) / share);
+    if (p->marching) snprintf (how, sizeof how, "step %ld, %.4g s", r->iterations, step->time);
+    else snprintf (how, sizeof how, "step %ld, load factor %.4g, %ld events", step->number, step->factor, r->events);
+    fprintf (stderr, "%s%5.1f %%  %s, %ld bonds broken", p->tty ? "\r" : "", 100 * share, how, r->broken);
+    if (!p->marching) fprintf (stderr, ", residual %.1e", r->residual_max);
+    fprintf (stderr, ", %.1f s%s%s", passed, left, p->tty ? "\033[K" : "\n");
     if (p->tty) fflush (stderr);
 }
 

@@ -44,6 +44,7 @@ static void print_summary (const pg_result *result, const pg_report *r, const pg
     char row[400];
     for (size_t k = 0; pg_result_errors (result) && pg_errors_row (pg_result_errors (result), k, row, sizeof row); k++)
         printf ("  %s%s\n", k ? "" : "against the reference: ", row);
+    for (size_t k = 0; pg_result_tip (result, k, row, sizeof row); k++) printf ("  crack %s\n", row);
     for (size_t k = 0; k < r->nskipped; k++) printf ("  skipped: %s (%s)\n", r->skipped[k].what, r->skipped[k].why);
     for (size_t k = 0; k < r->nwarning; k++) printf ("  warning: %s\n", r->warning[k]);
     printf ("  results in %s: result.e history.csv events.csv report.json\n", pg_result_folder (result));
@@ -78,7 +79,7 @@ static pg_status advance (pg_solver *solver, watched *w, int quiet)
     pg_state *state = w->state;
     pg_step step;
     progress p;
-    progress_start (&p, quiet);
+    progress_start (&p, quiet, pg_solver_settled (solver)->marching);
     pg_solver_watch (solver, look, w);
     while (!pg_solver_done (solver, state)) {
         if (asked_to_stop) PG_FAIL (PG_E_INTERRUPTED, "interrupted after step %ld, load factor %.6g", state->step, state->factor);

@@ -15,8 +15,8 @@ typedef struct {
 typedef struct { char name[32], field[32]; const char *unit; const pg_set *set; int component; } result_average;
 /* along: of every point from `from`, m; 0: does not count (n). length: of the crack at each row, m; 0: no point is damaged so far. */
 typedef struct { char name[32]; double from[3], direction[3], damage, *along, *length; size_t capacity; } result_tip;
-/* Rows: first with a length, first and last that grew; mean speed between these two, largest, m/s (0 unless dynamic). */
-typedef struct { double mean; size_t first, start, stop; double largest; int moved; } result_tip_run;
+/* Rows: first with a length, first and last that grew, fastest; mean speed between start and stop, largest, m/s (0 unless dynamic). */
+typedef struct { double mean; size_t first, start, stop, fastest; double largest; int moved; } result_tip_run;
 /* A picture: NAME.png of field. limited: only points of the field above style.above; by_damage: of damage. */
 typedef struct { char name[64], field[64], look[64]; pg_picture_style style; int limited, by_damage; } result_view;
 struct pg_result {

@@ -184,7 +184,7 @@ void result_tips_run (const pg_result *r, size_t i, result_tip_run *out, double 
     double half = rayleigh > 0 ? 2 * r->problem->approx.horizon / rayleigh : 0;
     for (size_t k = out->first; k < n; k++) {
         double v = slope (tip, time, out->first, n, k, half);
-        out->largest = fmax (out->largest, v);
+        if (v > out->largest) out->largest = v, out->fastest = k;
         if (speed) speed[k] = v;
     }
     if (stop > start) out->mean = (tip->length[stop] - tip->length[start]) / (time[stop] - time[start]);
@@ -203,29 +203,72 @@ done:
     return status;
 }
 
+/* Tips that move alike to the last bit would hide each other: the first of them stands for all, under all their names. */
+static int like_an_earlier (const pg_result *r, size_t i)
+{
+    for (size_t k = 0; k < i; k++) if (memcmp (r->tip[k].length, r->tip[i].length, r->tips * sizeof *r->tip->length) == 0) return 1;
+    return 0;
+}
+
+static void write_names (const pg_result *r, size_t i, char *out, size_t size)
+{
+    int used = snprintf (out, size, "%s", r->tip[i].name);
+    for (size_t k = i + 1; k < r->ntip && used < (int) size; k++)
+        if (memcmp (r->tip[k].length, r->tip[i].length, r->tips * sizeof *r->tip->length) == 0) used += snprintf (out + used, size - (size_t) used, " = %s", r->tip[k].name);
+}
+
 pg_status result_tips_pictures (pg_result *r)
 {
+    enum { ROOM = 256 };
     pg_status status = PG_OK;
-    size_t n = r->tips, moving = 0;
-    pg_curve *curve = NULL;
+    size_t n = r->tips, alone = 0, moving = 0;
+    pg_curve *curve = NULL, *fast = NULL;
+    char *names = NULL;
     double *speed = NULL, limit[2] = { result_tips_rayleigh (r), result_tips_rayleigh (r) }, ends[2] = { 0, 0 };
     result_tip_run run;
     if (r->ntip == 0 || n < 2) return PG_OK;
-    PG_ALLOC (curve, r->ntip + 1);
+    PG_ALLOC (curve, r->ntip);
+    PG_ALLOC (fast, r->ntip + 1);
+    PG_ALLOC (names, r->ntip * ROOM);
     PG_ALLOC (speed, r->ntip * n);
-    for (size_t i = 0; i < r->ntip; i++) curve[i] = (pg_curve) { r->tip[i].name, n, r->tip_time, r->tip[i].length, 0 };
-    PG_TRY (chart (r, "tip", r->ntip, curve, "length of the crack (m)"));
     for (size_t i = 0; i < r->ntip; i++) {
-        result_tips_run (r, i, &run, speed + i * n);
-        if (run.moved && r->dynamic) curve[moving++] = (pg_curve) { r->tip[i].name, n - run.first, r->tip_time + run.first, speed + i * n + run.first, 0 };
+        double *v = speed + i * n;
+        if (like_an_earlier (r, i)) continue;
+        write_names (r, i, names + i * ROOM, ROOM);
+        curve[alone++] = (pg_curve) { names + i * ROOM, n, r->tip_time, r->tip[i].length, 0 };
+        result_tips_run (r, i, &run, v);
+        if (run.moved && r->dynamic) fast[moving++] = (pg_curve) { names + i * ROOM, n - run.first, r->tip_time + run.first, v + run.first, 0 };
     }
+    PG_TRY (chart (r, "tip", alone, curve, "length of the crack (m)"));
     ends[0] = r->tip_time[0], ends[1] = r->tip_time[n - 1];
     if (moving == 0) goto done;
-    if (limit[0] > 0) curve[moving++] = (pg_curve) { "c_{R}", 2, ends, limit, 0 };
-    PG_TRY (chart (r, "tip_speed", moving, curve, "speed of the tip (m/s)"));
+    if (limit[0] > 0) fast[moving++] = (pg_curve) { "c_{R}", 2, ends, limit, 0 };
+    PG_TRY (chart (r, "tip_speed", moving, fast, "speed of the tip (m/s)"));
 done:
-    pg_free (curve), pg_free (speed);
+    pg_free (curve), pg_free (fast), pg_free (names), pg_free (speed);
     return status;
+}
+
+/* "crack right: 4.95 to 15.95 mm long; runs from 6.20 us to the end, at 1520 m/s = 0.55 c_R on average, 1870 m/s = 0.68 c_R at most (at 9.52 us, 9.35 mm)" */
+int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
+{
+    double rayleigh = result_tips_rayleigh (r);
+    result_tip_run run;
+    char until[32] = "the end";
+    if (i >= r->ntip || r->tips == 0) return 0;
+    const result_tip *tip = &r->tip[i];
+    result_tips_run (r, i, &run, NULL);
+    int used = snprintf (out, size, "%s: ", tip->name);
+    out += used, size -= (size_t) used;
+    if (!run.moved) return snprintf (out, size, "%s", tip->length[r->tips - 1] > 0 ? "does not run" : "there is none"), 1;
+    used = snprintf (out, size, "%.4g to %.4g mm", 1e3 * tip->length[run.first], 1e3 * tip->length[r->tips - 1]);
+    out += used, size -= (size_t) used;
+    if (!r->dynamic) return snprintf (out, size, ", from load factor %.4g to %.4g", r->tip_time[run.start], r->tip_time[run.stop]), 1;
+    if (run.stop + 2 < r->tips) snprintf (until, sizeof until, "%.4g us", 1e6 * r->tip_time[run.stop]);
+    used = snprintf (out, size, ", from %.4g us to %s, %.4g m/s on average, %.4g m/s at most (at %.4g mm, %.4g us)", 1e6 * r->tip_time[run.start], until, run.mean,
+                     run.largest, 1e3 * tip->length[run.fastest], 1e6 * r->tip_time[run.fastest]);
+    if (rayleigh > 0) snprintf (out + used, size - (size_t) used, ": %.2f and %.2f of c_R", run.mean / rayleigh, run.largest / rayleigh);
+    return 1;
 }
 
 void result_tips_json (pg_json *j, const pg_result *r)
@@ -248,6 +291,7 @@ void result_tips_json (pg_json *j, const pg_result *r)
         if (r->dynamic) {
             pg_json_number (j, "mean_speed", run.mean);
             pg_json_number (j, "largest_speed", run.largest);
+            pg_json_number (j, "largest_at", run.moved ? r->tip_time[run.fastest] : NAN);
             pg_json_number (j, "rayleigh_speed", rayleigh);
             pg_json_number (j, "mean_over_rayleigh", rayleigh > 0 ? run.mean / rayleigh : NAN);
             pg_json_number (j, "largest_over_rayleigh", rayleigh > 0 ? run.largest / rayleigh : NAN);
