@@ -114,6 +114,9 @@ pg_status pg_picture_mesh (const char *path, const pg_mesh *mesh, const double *
 pg_status pg_picture_body (const char *path, const pg_mesh_body *body, const pg_cloud *cloud, const double *value /* n */, const pg_picture_style *style);
 int       pg_picture_on_elements (const pg_mesh_body *body, const pg_picture_style *style);
 
+/* A time for titles: 1.337e-5 s -> "13.37 µs" in UTF-8. */
+void      pg_picture_time (double t, char *out, size_t size);
+
 enum { PG_CURVE_LINE, PG_CURVE_MARKERS, PG_CURVE_BOTH };
 typedef struct { const char *name; size_t n; const double *x, *y; int points; /* PG_CURVE_... */ } pg_curve;
 /* A triangle of slope `order` (y ~ x^order) between x low and high, beside that curve, with the order written at it. low == high:

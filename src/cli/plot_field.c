@@ -144,13 +144,13 @@ static void close_source (source *s)
     pg_cloud_clear (&s->cloud);
 }
 
-/* "time 0.002 s", "load factor 0.5"; by event stepping the number of the event. */
+/* "time 2 ms", "load factor 0.5"; by event stepping the number of the event. */
 static void name_stage (const source *s, int step, char *text, size_t size)
 {
     const char *kind = s->scene ? pg_scene_text (s->scene, "solver.kind") : "", *stepping = s->scene ? pg_scene_text (s->scene, "solver.stepping") : "";
     double time = s->time[step], last = s->time[s->nstep - 1];
     int event = strcmp (stepping, "event") == 0 || (strcmp (stepping, "auto") == 0 && last > 1);        /* load factors end at 1 */
-    if (*kind && !pg_kind_quasi_static (kind)) snprintf (text, size, "time %.4g s", time);
+    if (*kind && !pg_kind_quasi_static (kind)) pg_picture_time (time, text + snprintf (text, size, "time "), size - 5);
     else if (*kind) snprintf (text, size, event && strcmp (kind, "static") == 0 ? "after event %.0f" : "load factor %.4g", time);
     else snprintf (text, size, "step %d, time %.6g", step, time);
 }

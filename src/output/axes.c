@@ -63,6 +63,14 @@ static const char *prefix_of (const char *label, int power, size_t *unit)
     return NULL;
 }
 
+void pg_picture_time (double t, char *out, size_t size)
+{
+    static const char *const unit[] = { "s", "ms", "\xc2\xb5s", "ns" };
+    int k = 0;
+    while (k < 3 && fabs (t) > 0 && fabs (t) * pow (1000, k) < 0.9995) k++;
+    snprintf (out, size, "%.4g %s", t * pow (1000, k), unit[k]);
+}
+
 /* Chooses the power of ten that texts are divided by and writes it into the label. */
 static int scale_label (pg_axis *a, double low, double high, const char *label, int plain)
 {

@@ -45,20 +45,11 @@ done:
     return status;
 }
 
-/* 1.337e-5 s -> "13.37 \xc2\xb5s" */
-static void write_time (double t, char *out, size_t size)
-{
-    static const char *const unit[] = { "s", "ms", "\xc2\xb5s", "ns" };
-    int k = 0;
-    while (k < 3 && t > 0 && t * pow (1000, k) < 0.9995) k++;
-    snprintf (out, size, "%.4g %s", t * pow (1000, k), unit[k]);
-}
-
 /* "Disk: damage, back, load factor 0.5" */
 static void write_title (const pg_result *r, const pg_state *state, const result_view *v, const char *unit, char *title, size_t size)
 {
     char limit[48] = "", time[32];
-    write_time (state->time, time, sizeof time);
+    pg_picture_time (state->time, time, sizeof time);
     if (v->limited || v->by_damage) snprintf (limit, sizeof limit, " (%s\xe2\x89\xa5 %.4g%s%s)", v->by_damage ? "damage " : "", v->style.above,
         v->limited && *unit ? " " : "", v->limited ? unit : "");
     int used = snprintf (title, size, "%.200s%s%s%s, ", r->problem->title, v->look[0] ? ", " : "", v->look, limit);

@@ -333,9 +333,22 @@ static void any_allocation_may_fail (void **state)
     }
 }
 
+static void a_time_is_told_in_its_own_unit (void **state)
+{
+    (void) state;
+    static const struct { double t; const char *text; } of[] = { { 0, "0 s" }, { 1.33670000001e-5, "13.37 \xc2\xb5s" }, { 5e-5, "50 \xc2\xb5s" }, { 2.5, "2.5 s" },
+        { 1e-3, "1 ms" }, { 0.99996e-3, "1 ms" }, { 4e-11, "0.04 ns" }, { 7200, "7200 s" } };
+    char text[32];
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        pg_picture_time (of[k].t, text, sizeof text);
+        assert_string_equal (text, of[k].text);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test (a_time_is_told_in_its_own_unit),
         cmocka_unit_test (a_field_shows_the_right_colour_at_the_right_place), cmocka_unit_test (nan_is_grey),
         cmocka_unit_test (equal_values_are_drawn), cmocka_unit_test (cracks_are_black_lines),
         cmocka_unit_test (a_section_shows_its_own_layer), cmocka_unit_test (points_on_a_line_make_a_chart),
