@@ -28,13 +28,14 @@ static double stress_use (const pg_criterion *c, double s1, double s3, char *kin
     return u;
 }
 
-static void the_catalogue_lists_three (void **state)
+static void the_catalogue_lists_four (void **state)
 {
     (void) state;
-    assert_string_equal (pg_criterion_names (), "stretch|principal_stress|mohr_coulomb");
+    assert_string_equal (pg_criterion_names (), "stretch|principal_stress|mohr_coulomb|node_energy");
     assert_null (pg_criterion_find ("energy"));
     assert_int_equal (pg_criterion_find ("stretch")->needs, PG_NEEDS_STRETCH);
     assert_int_equal (pg_criterion_find ("mohr_coulomb")->needs, PG_NEEDS_STRESS);
+    assert_int_equal (pg_criterion_find ("node_energy")->needs, PG_NEEDS_ENERGY);
 }
 
 static void stretch_along_the_bond_counts_and_turning_does_not (void **state)
@@ -194,7 +195,7 @@ static void description_names_the_constants (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (the_catalogue_lists_three),
+        cmocka_unit_test (the_catalogue_lists_four),
         cmocka_unit_test (stretch_along_the_bond_counts_and_turning_does_not),
         cmocka_unit_test (finite_stretch_is_the_change_of_length),
         cmocka_unit_test (finite_stretch_keeps_its_digits_for_tiny_strains),
