@@ -15,6 +15,10 @@ double pg_bond_modulus (pg_mode mode, const pg_kernel *kernel, double horizon, d
 /* Fracture energy (J/m^2) when every bond across a plane has stretch s0. */
 double pg_bond_fracture_energy (pg_mode mode, const pg_kernel *kernel, double horizon, double thickness, double c, double s0);
 
+/* State-based theory: A = d kappa - (d + 2) mu and B = d (d + 2) mu, Pa; kappa = bulk modulus in d dimensions: plane stress E / (2 (1 - nu)), plane
+ * strain lambda + mu, solid lambda + 2/3 mu. Energy density 1/2 [A theta^2 / d + B / q sum w (e.eta)^2 V]. A line: A = 0, B = E. */
+void   pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation);
+
 /* ---- how bonds are weighed (scene: method.*) -------------------------------------------------------------------------------- */
 typedef enum { PG_PARTIAL_NONE, PG_PARTIAL_LINEAR, PG_PARTIAL_OVERLAP } pg_partial;
 typedef enum { PG_SURFACE_NONE, PG_SURFACE_PRODUCT, PG_SURFACE_VOLUME } pg_surface;
@@ -97,6 +101,11 @@ typedef struct {
     const double    *modulus;                          /* c_h of each point, N/m^6; between two of them 2 a b / (a + b)   */
     const double    *limit;                            /* critical stretch of each point, the smaller one rules; NULL: nothing breaks */
     const unsigned char *exempt;                       /* per point: bonds with such an end never break; NULL: none      */
+    /* State-based (linear peridynamic solid: Silling et al. 2007; theory B6) if `dilation` is not NULL; then `modulus` is not read. Of each point A =
+     * d kappa - (d + 2) mu and B = d (d + 2) mu, Pa (pg_state_moduli); w = k beta / r, so that A = 0 gives the bonds' own sums (c = 2 B / q). */
+    const double    *dilation, *deviation;
+    const unsigned char *counted;                      /* bonds of the family that q counts, for good; NULL: all         */
+    int              follow;                           /* 1: q counts the bonds that live, and changes when one dies     */
     int              threads;
     const char      *instructions;                     /* "avx512", "avx2", "scalar"; NULL: the best that this machine has */
 } pg_sweep_setting;
@@ -117,4 +126,7 @@ double      pg_sweep_energy (pg_sweep *sweep, const double *u);
 /* W (n, J/m^3) = energy density of every point at displacement u: half the energy of each of its live bonds over its volume, W_i = 1/4 sum_j
  * c k beta g r s^2 V_j (theory B2); sum of W_i V_i = pg_sweep_energy to rounding. 0 where a point has no live bond. The same bits for any number of threads. */
 pg_status   pg_sweep_energies (pg_sweep *sweep, const double *u, double *W);
+/* State-based sums: dilatation of every point, theta_i = d / q_i sum_j w xi.eta V_j (1), and its q_i (m^2 times m^3 over the unit of w), both n or NULL;
+ * 0 where no bond counts. PG_E_USAGE: bonds alone have none. */
+pg_status   pg_sweep_dilatation (pg_sweep *sweep, const double *u, double *theta, double *q);
 #endif

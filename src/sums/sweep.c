@@ -10,7 +10,7 @@ struct pg_sweep {
     char  name[32];
 };
 
-static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list };
+static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list, &pg_sweep_state_stencil, &pg_sweep_state_list };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 static const char *const set_name[PG_INSTRUCTION_SETS] = { "scalar", "avx2", "avx512" };
 
@@ -52,7 +52,7 @@ static pg_status choose_kind (const pg_sweep_kind **out, const pg_sweep_setting 
     const char *only = asked[setting->sums->rule.evaluation], *why = "there is no such loop";
     *out = NULL;
     for (size_t k = 0; k < KINDS && !*out; k++) {
-        if (only && strcmp (only, kinds[k]->name) != 0) continue;
+        if (kinds[k]->state != (setting->dilation != NULL) || (only && strcmp (only, kinds[k]->name) != 0)) continue;
         why = kinds[k]->refusal (setting);
         if (!why) *out = kinds[k];
     }
@@ -104,6 +104,12 @@ pg_status pg_sweep_force (pg_sweep *sweep, const double *u, double *f, pg_change
 double pg_sweep_energy (pg_sweep *sweep, const double *u) { return sweep->kind->energy (sweep->self, u); }
 
 pg_status pg_sweep_energies (pg_sweep *sweep, const double *u, double *W) { return sweep->kind->energies (sweep->self, u, W); }
+
+pg_status pg_sweep_dilatation (pg_sweep *sweep, const double *u, double *theta, double *q)
+{
+    if (!sweep->kind->dilatation) return pg_error (PG_E_USAGE, PG_HERE, "a dilatation is known to state-based sums only");
+    return sweep->kind->dilatation (sweep->self, u, theta, q);
+}
 
 static int ascending (const void *a, const void *b)
 {
