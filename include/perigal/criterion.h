@@ -5,7 +5,7 @@
 #define PERIGAL_CRITERION_H
 #include "perigal/material.h"
 
-enum { PG_NEEDS_STRETCH = 1, PG_NEEDS_STRESS = 2, PG_MOST_LIMITS = 4 };
+enum { PG_NEEDS_STRETCH = 1, PG_NEEDS_STRESS = 2, PG_NEEDS_ENERGY = 4, PG_MOST_LIMITS = 4 };
 
 typedef struct pg_criterion_type pg_criterion_type;
 typedef struct {
@@ -14,14 +14,15 @@ typedef struct {
     double parameter[8];                               /* of the type                                                    */
 } pg_criterion;
 
-/* What a batch of bonds shows; arrays the criterion did not ask for are NULL. */
+/* What a batch of bonds shows, or of points with PG_NEEDS_ENERGY; arrays the criterion did not ask for are NULL. */
 typedef struct {
     size_t n;
     int    dim;
     const double *xi;                                  /* reference bond vector, m   (n x dim)                           */
     const double *eta;                                 /* relative displacement, m   (n x dim)                           */
-    const double *reach;                               /* support of the bond over the horizon of the setting; NULL: 1 (n) */
+    const double *reach;                               /* support of the bond or point over the horizon of the setting; NULL: 1 (n) */
     const double *s1, *s3;                             /* largest, smallest principal stress, mean of both ends, Pa (n)  */
+    const double *energy;                              /* stored by a point, J/m^3 (n): at its limit all its bonds break  */
 } pg_bond_measures;
 
 typedef struct {                                       /* what the criterion may need to derive its constants            */
@@ -34,6 +35,7 @@ typedef struct {                                       /* what the criterion may
     int     graded;                                    /* 1: spacings differ, the horizon is that of the nominal one     */
     double  toughness;                                 /* energy of a unit of crack over that of theory at the same stretch; 0: not known, 1 */
     const char *stretch;                               /* "linear", "finite": as the force measures it; NULL: as failure.stretch says */
+    const char *usual;                                 /* criterion where the scene has `failure` without one; NULL: it must say */
 } pg_criterion_setting;
 
 struct pg_criterion_type {

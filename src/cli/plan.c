@@ -275,7 +275,7 @@ static void print_first_break (const plan *p)
     }
     if (b->proportional) printf ("  %-18s  at load factor %.5g", "first break", b->factor);
     else printf ("  %-18s  largest utilisation %.5g at load factor 1", "first break", b->utilisation);
-    printf (", a %s bond %s at (%.4g", sets[b->set], b->kind == 's' ? "in shear" : "in tension", b->place[0]);
+    printf (", a %s bond %s at (%.4g", sets[b->set], b->kind == 's' ? "in shear" : b->kind == 'e' ? "by the energy of an end" : "in tension", b->place[0]);
     for (int k = 1; k < p->problem->dim; k++) printf (", %.4g", b->place[k]);
     printf (") m\n");
     if (b->factor > 1) printf ("  warning: nothing breaks up to load factor 1: the first bond needs %.4g times this load\n", b->factor);

@@ -11,12 +11,15 @@ static const char choices[] =
 static const char *names_or_none (void) { return choices; }
 
 static const pg_key keys[] = {
-    { .path = "failure.criterion", .kind = PG_NAME, .choices_of = names_or_none,
-      .doc = "When a bond breaks; without `failure`, and with none, nothing breaks." },
+    { .path = "failure.criterion", .kind = PG_NAME, .fallback = "", .choices_of = names_or_none,
+      .doc = "When a bond breaks; without `failure`, and with none, nothing breaks. Needed, except with force: fcbm, where it is node_energy unless given." },
     { .path = "failure.critical_stretch", .kind = PG_NUMBER, .unit = "1", .range = "(0, inf)", .fallback = "", .group = "limit:most",
       .doc = "stretch: relative elongation at which a bond breaks; either this or fracture_energy." },
     { .path = "failure.fracture_energy", .kind = PG_NUMBER, .unit = "J/m2", .range = "(0, inf)", .fallback = "", .group = "limit:most",
-      .doc = "stretch: energy per new crack area, from which the critical stretch follows (with horizon, kernel and Young's modulus)." },
+      .doc = "stretch: energy per new crack area, from which the critical stretch follows (with horizon, kernel and Young's modulus); node_energy: with the "
+             "horizon alone." },
+    { .path = "failure.wc_factor", .kind = PG_NUMBER, .unit = "1", .range = "(0, inf)", .fallback = "0.5",
+      .doc = "node_energy: a point dies at the energy density wc_factor times fracture_energy / horizon." },
     { .path = "failure.stretch", .kind = PG_NAME, .fallback = "linear", .choices = "linear|finite",
       .doc = "stretch: measured along the undeformed bond (small displacements), or from the deformed length." },
     { .path = "failure.tensile_strength", .kind = PG_NUMBER, .unit = "Pa", .range = "(0, inf)", .fallback = "",
@@ -26,7 +29,7 @@ static const pg_key keys[] = {
     { .path = "failure.friction_angle", .kind = PG_NUMBER, .unit = "rad", .range = "[0, 1.5707)", .fallback = "",
       .doc = "mohr_coulomb: angle of internal friction, below 90 deg." },
     { .path = "failure.exclude", .kind = PG_NAMES, .fallback = "", .choices = "sets.{}|left|right|bottom|top|back|front|all",
-      .doc = "Sets of nodes whose bonds never break, such as grips." },
+      .doc = "Sets of nodes whose bonds never break, such as grips; node_energy: nodes that never die (their bonds to others that do break)." },
     { .path = "materials.{}.failure", .kind = PG_MAP, .fallback = "",
       .doc = "Limits of this material in place of those of failure; one criterion serves all. The weaker end decides for a bond between two materials." },
     { .path = "materials.{}.failure.never", .kind = PG_BOOL, .fallback = "off",
@@ -35,6 +38,8 @@ static const pg_key keys[] = {
       .doc = "As failure.critical_stretch, for this material." },
     { .path = "materials.{}.failure.fracture_energy", .kind = PG_NUMBER, .unit = "J/m2", .range = "(0, inf)", .fallback = "", .group = "limit:most",
       .doc = "As failure.fracture_energy, for this material, with its own Young's modulus." },
+    { .path = "materials.{}.failure.wc_factor", .kind = PG_NUMBER, .unit = "1", .range = "(0, inf)", .fallback = "0.5",
+      .doc = "As failure.wc_factor, for this material." },
     { .path = "materials.{}.failure.tensile_strength", .kind = PG_NUMBER, .unit = "Pa", .range = "(0, inf)", .fallback = "",
       .doc = "As failure.tensile_strength, for this material." },
     { .path = "materials.{}.failure.cohesion", .kind = PG_NUMBER, .unit = "Pa", .range = "(0, inf)", .fallback = "",

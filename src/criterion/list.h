@@ -3,3 +3,4 @@
 PG_CRITERION (stretch)
 PG_CRITERION (principal_stress)
 PG_CRITERION (mohr_coulomb)
+PG_CRITERION (node_energy)

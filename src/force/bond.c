@@ -27,11 +27,12 @@ double bond_kappa (const bond *b, size_t i, const bond_star *s, size_t e, double
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------------------------------- */
-static void bond_free (void **self)
+void bond_free (void **self)
 {
     bond *b = *self;
     if (!b) return;
     pg_sweep_free (&b->sweep), pg_sweep_free (&b->tangent);
+    bond_energy_free (b);
     nodal_free (&b->nodal);
     pg_sparse_clear (&b->K);
     pg_nearest_free (&b->near);
@@ -44,7 +45,7 @@ static void bond_free (void **self)
 static double limit_at (const pg_criterion *c, double ratio)
 {
     double one = 1, factor = 0;
-    pg_bond_measures m = { 1, 1, &one, &one, &ratio, NULL, NULL };
+    pg_bond_measures m = { .n = 1, .dim = 1, .xi = &one, .eta = &one, .reach = &ratio };
     c->type->factor (c, &m, &factor);
     return factor;
 }
@@ -59,7 +60,8 @@ static pg_status make_constants (bond *b)
         double E = p->material[p->block[PG_NODES][i]].modulus;
         b->modulus[i] = p->sums->calibration * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);
     }
-    if (!p->criterion->type) goto done;
+    PG_TRY (bond_energy_create (b));
+    if (!p->criterion->type || b->critical) goto done;
     PG_ALLOC (b->limit, b->n);
     for (size_t i = 0; i < b->n; i++) {
         const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];
@@ -76,7 +78,7 @@ static pg_status make_sweep (bond *b, pg_sweep **out, const pg_sums *sums, const
     return pg_sweep_create (out, &s);
 }
 
-static pg_status bond_create (void **self, const pg_problem *problem)
+pg_status bond_create (void **self, const pg_problem *problem)
 {
     pg_status status = PG_OK;
     bond *b = NULL;
@@ -119,7 +121,7 @@ done:
     return status;
 }
 
-static size_t bond_fields (const void *self, size_t max, pg_field *out)
+size_t bond_fields (const void *self, size_t max, pg_field *out)
 {
     if (max > 0) out[0] = (pg_field) { "displacement", "m", ((const bond *) self)->dim };
     return 1;
@@ -137,7 +139,7 @@ static void mark_stale (bond *b, const pg_changes *changes)
     b->revision += changes->n > 0;
 }
 
-static pg_status bond_refresh (void *self, const pg_state *state, const pg_changes *changes)
+pg_status bond_refresh (void *self, const pg_state *state, const pg_changes *changes)
 {
     bond *b = self;
     b->alive = state->alive;
@@ -157,7 +159,7 @@ static void finish (bond *b, double t, double *residual, double *reference)
     nodal_add (&b->nodal, t, residual);
 }
 
-static pg_status bond_balance (void *self, double t, const double *d, double *residual, double *reference)
+pg_status bond_balance (void *self, double t, const double *d, double *residual, double *reference)
 {
     pg_status status = PG_OK;
     bond *b = self;
@@ -167,11 +169,12 @@ done:
     return status;
 }
 
-static pg_status bond_march (void *self, double t, const double *d, double *residual, double *reference, pg_changes *broken)
+pg_status bond_march (void *self, double t, const double *d, double *residual, double *reference, pg_changes *broken)
 {
     pg_status status = PG_OK;
     bond *b = self;
     size_t before = broken->n;
+    if (b->critical) PG_TRY (bond_energy_kill (b, d, broken));
     PG_TRY (pg_sweep_force (b->sweep, d, residual, b->limit ? broken : NULL));
     if (broken->n > before) {
         pg_changes fresh = { broken->n - before, 0, broken->bond + before };
@@ -183,7 +186,7 @@ done:
     return status;
 }
 
-static pg_status bond_external (void *self, double t, double *P)
+pg_status bond_external (void *self, double t, double *P)
 {
     bond *b = self;
     memset (P, 0, ndof (b) * sizeof *P);
@@ -192,7 +195,7 @@ static pg_status bond_external (void *self, double t, double *P)
 }
 
 /* ---- the rest ------------------------------------------------------------------------------------------------------------------ */
-static pg_status bond_mass (void *self, double *mass)
+pg_status bond_mass (void *self, double *mass)
 {
     const bond *b = self;
     const pg_problem *p = b->problem;
@@ -201,7 +204,7 @@ static pg_status bond_mass (void *self, double *mass)
     return PG_OK;
 }
 
-static pg_status bond_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out)
+pg_status bond_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out)
 {
     pg_status status = PG_OK;
     bond *b = self;
@@ -213,21 +216,14 @@ done:
     return status;
 }
 
-static unsigned long bond_revision (const void *self) { return ((const bond *) self)->revision; }
-static const pg_operator *bond_operator (void *self) { return &((bond *) self)->op; }
-static const pg_sparse *bond_basis (void *self) { return nodal_basis (&((bond *) self)->nodal); }
+unsigned long bond_revision (const void *self) { return ((const bond *) self)->revision; }
+const pg_operator *bond_operator (void *self) { return &((bond *) self)->op; }
+const pg_sparse *bond_basis (void *self) { return nodal_basis (&((bond *) self)->nodal); }
 
-static pg_status bond_impose (void *self, double t, double *d)
+pg_status bond_impose (void *self, double t, double *d)
 {
     nodal_impose (&((bond *) self)->nodal, t, d);
     return PG_OK;
 }
 
-const pg_force_type pg_force_bond = {
-    .name = "bond", .summary = "bond-based peridynamics: pair forces between points (Silling 2000)",
-    .create = bond_create, .free = bond_free, .fields = bond_fields, .refresh = bond_refresh, .balance = bond_balance, .mass = bond_mass,
-    .operator_ = bond_operator, .matrix = bond_matrix, .basis = bond_basis, .impose = bond_impose, .utilisation = bond_utilisation,
-    .ledger = bond_ledger, .field = bond_field, .probe = bond_probe, .overlap = bond_overlap, .census = bond_census, .revision = bond_revision,
-    .assemble = bond_assemble, .sample = bond_sample, .march = bond_march, .external = bond_external, .bound = bond_bound,
-    .row_sums = bond_row_sums, .describe = bond_describe, .refuses = bond_refuses
-};
+const pg_force_type pg_force_bond = { .name = "bond", .summary = "bond-based peridynamics: pair forces between points (Silling 2000)", BOND_ENTRIES };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: bond-based peridynamics. Files: bond.c (life cycle, forces, breaking), bond_matrix.c (K, its diagonal and row sums, the bound of the
- * largest frequency), bond_field.c (utilisation, fields, places, census), bond_words.c (what the plan says).
+ * largest frequency), bond_field.c (utilisation, fields, places, census), bond_energy.c (points that die by their energy), bond_words.c (what the
+ * plan says).
  * Pair force on i from j: V_i V_j c k beta g s e, s = e . eta / r; linear in the displacement: kappa (xi . eta) xi,
  * kappa = V_i V_j c k beta g / r^3 (N/m^3), the same bits from either end. */
 #ifndef PG_BOND_H
@@ -14,7 +15,10 @@ typedef struct {
     const pg_family *family;
     nodal     nodal;
     double   *modulus;                                 /* c_h of each point, N/m^6           (n)                         */
-    double   *limit;                                   /* critical stretch of each point; NULL: nothing breaks (n)       */
+    double   *limit;                                   /* critical stretch of each point; NULL: bonds do not break by theirs (n) */
+    double   *critical;                                /* energy density at which a point dies, J/m^3, INFINITY: never; NULL: none does (n) */
+    double   *density;                                 /* W of each point, J/m^3; with critical (n)                      */
+    unsigned char *dying;                              /* with critical (n)                                              */
     pg_sweep *sweep;                                   /* forces, by the stretch of the rule                             */
     pg_sums   small;  pg_sweep *tangent;               /* finite stretch: sums and sweep of the linear one, for K x; made when asked for */
     const unsigned char *alive;                        /* of the state of the last refresh, borrowed; NULL: all live     */
@@ -38,6 +42,20 @@ void   bond_star_at (const bond *b, size_t i, int thread, bond_star *out);
 double bond_kappa   (const bond *b, size_t i, const bond_star *s, size_t e, double *r);      /* N/m^3; r (m) or NULL      */
 static inline int bond_lives (const bond *b, size_t entry) { return !b->alive || b->alive[entry]; }
 
+/* forces, breaking */
+pg_status bond_create (void **self, const pg_problem *problem);
+void bond_free (void **self);
+size_t bond_fields (const void *self, size_t max, pg_field *out);
+pg_status bond_refresh (void *self, const pg_state *state, const pg_changes *changes);
+pg_status bond_balance (void *self, double t, const double *d, double *residual, double *reference);
+pg_status bond_mass (void *self, double *mass);
+const pg_operator *bond_operator (void *self);
+const pg_sparse *bond_basis (void *self);
+pg_status bond_impose (void *self, double t, double *d);
+pg_status bond_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out);
+unsigned long bond_revision (const void *self);
+pg_status bond_march (void *self, double t, const double *d, double *residual, double *reference, pg_changes *broken);
+pg_status bond_external (void *self, double t, double *P);
 /* matrix */
 void bond_apply    (void *context, const double *x, double *y);
 void bond_diagonal (void *context, double *d);
@@ -53,7 +71,22 @@ pg_status bond_probe  (void *self, const double *d, const double *x, double *u);
 pg_status bond_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress);
 double    bond_overlap (void *self, const pg_state *state, const double *d);
 void      bond_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+/* points that die by their energy */
+pg_status bond_energy_create (bond *b);                                /* NULL unless the criterion needs energies        */
+void      bond_energy_free   (bond *b);
+/* Appends the bonds of points at or over their limit at d, both directions, ascending; the sweeps know of them from now on. */
+pg_status bond_energy_kill   (bond *b, const double *d, pg_changes *broken);
+/* Of each bond that of its worse end. */
+pg_status bond_energy_utilisation (bond *b, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
 /* words */
 int         bond_describe (const void *self, size_t line, char *text, size_t size);
 const char *bond_refuses  (const pg_problem *problem, const char *kind);
+
+/* All of it, for every force whose bonds are these. */
+#define BOND_ENTRIES \
+    .create = bond_create, .free = bond_free, .fields = bond_fields, .refresh = bond_refresh, .balance = bond_balance, .mass = bond_mass, \
+    .operator_ = bond_operator, .matrix = bond_matrix, .basis = bond_basis, .impose = bond_impose, .utilisation = bond_utilisation, \
+    .ledger = bond_ledger, .field = bond_field, .probe = bond_probe, .overlap = bond_overlap, .census = bond_census, .revision = bond_revision, \
+    .assemble = bond_assemble, .sample = bond_sample, .march = bond_march, .external = bond_external, .bound = bond_bound, \
+    .row_sums = bond_row_sums, .describe = bond_describe, .refuses = bond_refuses
 #endif

@@ -26,7 +26,7 @@ static void judge_by (const sweep *s, const batch *all, int material)
         reach[n] = all->reach[k], some[n++] = all->entry[k];
     }
     if (n == 0) return;
-    pg_bond_measures m = { n, p->dim, xi, eta, p->cloud.size ? reach : NULL, NULL, NULL };
+    pg_bond_measures m = { .n = n, .dim = p->dim, .xi = xi, .eta = eta, .reach = p->cloud.size ? reach : NULL };
     if (s->utilisation) c->type->utilisation (c, &m, out, kind);
     for (size_t k = 0; s->utilisation && k < n; k++) {
         if (out[k] < s->utilisation[some[k]]) continue;
@@ -81,6 +81,7 @@ pg_status bond_utilisation (void *self, const pg_state *state, const double *d, 
     bond *b = self;
     sweep s = { b, state, d, utilisation, factor, kind };
     if (!b->problem->criterion->type) return pg_error (PG_E_USAGE, PG_HERE, "there is no failure criterion, and so no utilisation");
+    if (b->problem->criterion->type->needs & PG_NEEDS_ENERGY) return bond_energy_utilisation (b, state, d, utilisation, kind, factor);
     pg_parallel (b->threads, b->n, judge_points, &s);
     return PG_OK;
 }

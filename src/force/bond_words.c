@@ -27,7 +27,10 @@ static void say_sums (const bond *b, char *text, size_t size)
 static void say_toughness (const bond *b, char *text, size_t size)
 {
     const pg_sums *s = b->problem->sums;
-    if (s->stencil.n) snprintf (text, size, "a straight crack along the lattice consumes %.5g of theory's energy at the same stretch%s", s->toughness,
+    if (b->critical)
+        snprintf (text, size, "energy of points is looked at in every step; a crack kills points over a width of about the horizon, which costs more than G0 at "
+                  "wc_factor 1 (see doc/method.md)");
+    else if (s->stencil.n) snprintf (text, size, "a straight crack along the lattice consumes %.5g of theory's energy at the same stretch%s", s->toughness,
                                 s->rule.calibrate ? ": allowed for where one follows from the other" : "");
     else snprintf (text, size, "critical stretch and fracture energy are those of theory: points without a lattice are not calibrated for them");
 }
@@ -47,8 +50,8 @@ int bond_describe (const void *self, size_t line, char *text, size_t size)
     size_t n = b->problem->nmaterial;
     if (line < n) say_constant (b, line, text, size);
     else if (line == n) say_sums (b, text, size);
-    else if (line == n + 1 && b->limit) say_toughness (b, text, size);
-    else return line == n + 1 + (b->limit != NULL) && say_step (b, text, size);
+    else if (line == n + 1 && (b->limit || b->critical)) say_toughness (b, text, size);
+    else return line == n + 1 + (b->limit || b->critical) && say_step (b, text, size);
     return 1;
 }
 

@@ -46,7 +46,8 @@ static void judge_material (const sweep *s, int material, pg_bond_measures m, co
         if (m.s1) s1[count] = m.s1[k], s3[count] = m.s3[k];
         some[count++] = bond[k];
     }
-    m = (pg_bond_measures) { count, m.dim, m.xi ? xi : NULL, m.xi ? eta : NULL, m.reach ? reach : NULL, m.s1 ? s1 : NULL, m.s1 ? s3 : NULL };
+    m = (pg_bond_measures) { .n = count, .dim = m.dim, .xi = m.xi ? xi : NULL, .eta = m.xi ? eta : NULL, .reach = m.reach ? reach : NULL,
+                             .s1 = m.s1 ? s1 : NULL, .s3 = m.s1 ? s3 : NULL };
     if (count) judge_by (s, &g->problem->criterion[material], &m, some);
 }
 
@@ -84,7 +85,8 @@ static void judge (const sweep *s, size_t count, const size_t *bond, const size_
         s1[k] = 0.5 * (g->s1[s->set][p] + g->s1[PG_NODES][j]);
         s3[k] = 0.5 * (g->s3[s->set][p] + g->s3[PG_NODES][j]);
     }
-    pg_bond_measures m = { count, g->dim, stretch ? xi : NULL, stretch ? eta : NULL, graded ? reach : NULL, stress ? s1 : NULL, stress ? s3 : NULL };
+    pg_bond_measures m = { .n = count, .dim = g->dim, .xi = stretch ? xi : NULL, .eta = stretch ? eta : NULL, .reach = graded ? reach : NULL,
+                           .s1 = stress ? s1 : NULL, .s3 = stress ? s3 : NULL };
     if (material >= 0) judge_by (s, &g->problem->criterion[material], &m, bond);
     else for (size_t k = 0; k < g->problem->nmaterial; k++) judge_material (s, (int) k, m, bond, point);
 }

@@ -2,3 +2,4 @@
  * One line per force. */
 PG_FORCE (galerkin)
 PG_FORCE (bond)
+PG_FORCE (fcbm)

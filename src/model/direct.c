@@ -11,18 +11,37 @@ int pg_direct_force (const pg_scene *scene)
     return force && strcmp (force, "galerkin") != 0;
 }
 
-/* Sweeps of a stencil run at 2e9 bonds a second, factors at 2e10 operations: the two cross at about these sizes (design section 4). */
-int pg_direct_large (int dim, double dofs) { return dofs > (dim == 3 ? 3e4 : dim == 2 ? 4e5 : INFINITY); }
-
 static int is (const pg_scene *scene, const char *key, const char *word)
 {
     const char *text = pg_scene_text (scene, "%s", key);
     return text && strcmp (text, word) == 0;
 }
 
+/* What a force means where the scene says nothing: how it is summed, what breaks. */
+typedef struct { const char *force; pg_evaluation evaluation; const char *criterion; } custom;
+static const custom customs[] = {
+    { "fcbm", PG_EVALUATE_AUTO, "node_energy" },       /* Jafarzadeh et al. 2022                                         */
+};
+
+static const custom *custom_of (const pg_scene *scene)
+{
+    for (size_t k = 0; k < sizeof customs / sizeof *customs; k++) if (is (scene, "method.force", customs[k].force)) return &customs[k];
+    return NULL;
+}
+
+const char *pg_direct_criterion (const pg_scene *scene)
+{
+    const custom *c = custom_of (scene);
+    return c ? c->criterion : NULL;
+}
+
+/* Sweeps of a stencil run at 2e9 bonds a second, factors at 2e10 operations: the two cross at about these sizes (design section 4). */
+int pg_direct_large (int dim, double dofs) { return dofs > (dim == 3 ? 3e4 : dim == 2 ? 4e5 : INFINITY); }
+
 void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, const pg_approx *approx, double spacing, int lattice)
 {
     static const char partial[] = "method.partial_volume", surface[] = "method.surface_correction", evaluation[] = "method.evaluation";
+    const custom *own = custom_of (scene);
     *rule = (pg_sum_rule) { .mode = mode, .kernel = approx->kernel, .horizon = approx->horizon };
     int fading = !approx->kernel->closed && mode != PG_SOLID;  /* whole cells are the more isotropic then (theory A2: quadratic, m = 3) */
     rule->partial = is (scene, partial, "none") ? PG_PARTIAL_NONE : is (scene, partial, "linear") ? PG_PARTIAL_LINEAR
@@ -32,6 +51,7 @@ void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, con
     rule->calibrate = pg_scene_bool (scene, "method.calibrate");
     rule->finite = is (scene, "method.stretch", "finite");
     rule->evaluation = is (scene, evaluation, "stencil") ? PG_EVALUATE_STENCIL : is (scene, evaluation, "list") ? PG_EVALUATE_LIST : PG_EVALUATE_AUTO;
+    if (own && !pg_scene_given (scene, "method.evaluation")) rule->evaluation = own->evaluation;
 }
 
 /* ---- what the scene says in vain ----------------------------------------------------------------------------------------------- */

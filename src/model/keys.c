@@ -11,9 +11,10 @@ static const char *const no_choice = NULL;
     { "boundary[]." name ".z", PG_EXPRESSION, unit, NULL, "", no_choice, NULL, NULL, "Component along z." }
 
 static const pg_key keys[] = {
-    { "method.force", PG_NAME, NULL, NULL, "galerkin", "galerkin|bond", NULL, NULL,
+    { "method.force", PG_NAME, NULL, NULL, "galerkin", "galerkin|bond|fcbm", NULL, NULL,
       "How bonds make forces: galerkin: weak form with the shape functions of method.approximation; bond: pair forces between points (bond-based "
-      "peridynamics; Poisson's ratio is 1/3 in plane stress, 1/4 in plane strain and 3D)." },
+      "peridynamics; Poisson's ratio is 1/3 in plane stress, 1/4 in plane strain and 3D); fcbm: bond whose points die by energy unless failure.criterion says "
+      "otherwise." },
     { "method.evaluation", PG_NAME, NULL, NULL, "auto", "auto|stencil|list", NULL, NULL,
       "bond: by the stencil of a lattice or by lists of neighbours; the answer is the same, auto is the faster." },
     { "method.partial_volume", PG_NAME, NULL, NULL, "auto", "auto|none|linear|overlap", NULL, NULL,

@@ -10,6 +10,8 @@ pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
 pg_status pg_direct_build (pg_problem *problem, const pg_scene *scene);
 pg_status pg_direct_bonds (pg_problem *problem);
 int       pg_direct_force (const pg_scene *scene);
+/* Criterion of that force where the scene names none; NULL: it must.  */
+const char *pg_direct_criterion (const pg_scene *scene);
 /* Its rule, on a lattice or not; mode and kernel as given. */
 void      pg_direct_rule  (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx, double spacing, int lattice);
 /* The node nearest to a point of a bond set among those it sees; -1: it sees none. */

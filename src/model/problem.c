@@ -74,11 +74,15 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
             .mode = p->mode, .horizon = p->approx.horizon, .modulus = p->material[i].modulus, .poisson = p->material[i].parameter[1],
             .thickness = p->cloud.thickness, .kernel = p->approx.kernel->name, .material = p->material[i].name,
             .graded = p->cloud.size != NULL && !p->direct, .toughness = p->direct && p->sums->rule.calibrate ? p->sums->toughness : 0,
-            .stretch = !p->direct ? NULL : p->sums->rule.finite ? "finite" : "linear" };
+            .stretch = !p->direct ? NULL : p->sums->rule.finite ? "finite" : "linear", .usual = pg_direct_criterion (scene) };
     PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));
-    if (p->direct && p->criterion->type && p->criterion->type->needs != PG_NEEDS_STRETCH)
+    int needs = p->criterion->type ? p->criterion->type->needs : 0;
+    if (p->direct && (needs & PG_NEEDS_STRESS))
         pg_scene_fault (scene, "failure.criterion", "%s needs stresses, and force: %s knows only the stretch of its bonds: use stretch, or force: galerkin",
                         p->criterion->type->name, p->force);
+    if (!p->direct && (needs & PG_NEEDS_ENERGY))
+        pg_scene_fault (scene, "failure.criterion", "%s needs the energy that bonds store at a point, and force: %s has bonds without energy: use stretch, "
+                        "principal_stress or mohr_coulomb, or force: bond or fcbm", p->criterion->type->name, p->force);
 done:
     pg_free (setting);
     return status;

@@ -191,9 +191,10 @@ static pg_status bury (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
     breaker *b = &s->breaker;
+    char kind = s->problem->criterion->type->needs & PG_NEEDS_ENERGY ? 'e' : 't';
     for (size_t k = 0; k < b->changes.n; k++) {
         state->alive[b->changes.bond[k]] = 0;
-        PG_TRY (breaker_log (b, b->changes.bond[k], 't', NAN, t));
+        PG_TRY (breaker_log (b, b->changes.bond[k], kind, NAN, t));
     }
     state->broken += (long) b->changes.n;
 done:
