@@ -358,17 +358,9 @@ pg_status stencil_run (stencil *s, pg_block_loop loop, pg_block_loop again, sten
     pass p = { s, NULL, loop, again, lost };
     pg_parallel_heavy (threads, s->nblock, force_blocks, &p);
     if (!again) return PG_OK;
-    pg_changes *all = &s->found[0];
-    for (int t = 0; t < threads; t++) {
-        pg_changes *some = &s->found[t];
-        if (s->failed[t] != PG_OK) status = s->failed[t], s->failed[t] = PG_OK;
-        if (t == 0 || some->n == 0) continue;
-        PG_GROW (all->bond, all->cap, all->n + some->n);
-        memcpy (all->bond + all->n, some->bond, some->n * sizeof *some->bond);
-        all->n += some->n;
-    }
+    for (int t = 0; t < threads; t++) if (s->failed[t] != PG_OK) status = s->failed[t], s->failed[t] = PG_OK;
     if (status != PG_OK) PG_FAIL (status, "no memory to note the bonds that broke");
-    PG_TRY (pg_changes_append (broken, all->n, all->bond));
+    PG_TRY (sweep_collect (broken, threads, s->found));
 done:
     for (int t = 0; t < threads; t++) s->found[t].n = 0;
     return status;
