@@ -15,6 +15,10 @@ double pg_bond_modulus (pg_mode mode, const pg_kernel *kernel, double horizon, d
 /* Fracture energy (J/m^2) when every bond across a plane has stretch s0. */
 double pg_bond_fracture_energy (pg_mode mode, const pg_kernel *kernel, double horizon, double thickness, double c, double s0);
 
+/* State-based theory: A = d kappa - (d + 2) mu and B = d (d + 2) mu, Pa; kappa = bulk modulus in d dimensions: plane stress E / (2 (1 - nu)), plane
+ * strain lambda + mu, solid lambda + 2/3 mu. Energy density 1/2 [A theta^2 / d + B / q sum w (e.eta)^2 V]. A line: A = 0, B = E. */
+void   pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation);
+
 /* ---- how bonds are weighed (scene: method.*) -------------------------------------------------------------------------------- */
 typedef enum { PG_PARTIAL_NONE, PG_PARTIAL_LINEAR, PG_PARTIAL_OVERLAP } pg_partial;
 typedef enum { PG_SURFACE_NONE, PG_SURFACE_PRODUCT, PG_SURFACE_VOLUME } pg_surface;
@@ -89,17 +93,55 @@ pg_status pg_sums_family (pg_family *out, const pg_sums *sums);
  * The weight of i -> j and of j -> i are the same bits. */
 void      pg_sums_bonds  (const pg_sums *sums, const pg_family *family, size_t i, double *xi, double *weight, double *beta);
 
+/* ---- micropolar bonds (Chen 2022; theory G) --------------------------------------------------------------------------------------- */
+/* A bond is a beam: it bears elongation, shear and bending of its ends, which have rotations of their own (2D 1, 3D 3). Energy of a bond, J/m^6:
+ *   w = 1/2 k (C_N r s^2 + 12 C_t gamma^2 / r + B kappa^2 / r),  s = e . eta / r,  gamma = |w_perp| / r,  kappa = |(theta_j - theta_i)_perp|,
+ * w = eta - (theta_i + theta_j) / 2 x xi, `perp`: across the bond (in 2D theta is). */
+double pg_beam_poisson (pg_mode mode);                 /* largest Poisson's ratio: 1/3 plane stress, 1/4 plane strain and solid; there C_t = 0 */
+/* C_N (N/m^6) and C_t (N/m^4) from E (Pa), nu; thickness as above. PG_E_USAGE: a line, nu out of range, a kernel too singular for shear. */
+pg_status pg_beam_moduli (double *axial, double *shear, pg_mode mode, const pg_kernel *kernel, double horizon, double E, double nu, double thickness);
+typedef struct {
+    double calibration;                                /* C_t,h / C_t; C_N has that of pg_sums                           */
+    /* Energy of a straight cut, J/m^2, all its bonds at s, gamma, kappa: C_N / 2 long s^2 + (6 C_t gamma^2 + B / 2 kappa^2) across; m^5, m^3
+     * (2D, by thickness: the same). Of the lattice, mean of its axes, where the rule is to be calibrated; else of theory. */
+    double along, across;
+} pg_beam_sums;
+pg_status pg_beam_measure (pg_beam_sums *out, const pg_sums *sums);
+typedef struct {                                       /* what pg_sweep_setting needs for beams                          */
+    const double *shear, *bending;                     /* C_t,h and B of each point, N/m^4; between two of them 2 a b / (a + b) */
+    double length;                                     /* m: unknowns of a point are its displacement and length times its rotation */
+    const double *shear_limit, *bending_limit;         /* gamma0, kappa0 of each point, with the setting's limit; INFINITY: none */
+    int    single;                                     /* a bond breaks 0: at (s+/s0)^2 + (gamma/gamma0)^2 + (kappa/kappa0)^2 = 1, 1: at any one limit */
+} pg_beam_law;
+
+typedef struct pg_sweep_setting pg_sweep_setting;
+typedef struct { double shear, along, bending; } pg_beam;              /* of one bond: kt, kn (N/m), kb (N/m)               */
+/* Force on i, kt w + (kn - kt) e (e . w), moment over length on i, xi x force / (2 length) + kb (q_j - q_i)_perp, q = length theta. xi (m) and
+ * weight as pg_sums_bonds gives them. */
+pg_beam pg_beam_between (const pg_sweep_setting *setting, size_t i, size_t j, const double *xi, double weight);
+/* Force and moment on i = - own d_i - other d_j (m x m each, m = 3, 6); own is symmetric. */
+void    pg_beam_blocks  (int dim, const double *xi, const pg_beam *beam, double length, double *own, double *other);
+/* gamma and kappa of a bond between points with unknowns di, dj. */
+void    pg_beam_strain  (int dim, const double *xi, double length, const double *di, const double *dj, double *shear, double *bending);
+
 /* ---- the loops ------------------------------------------------------------------------------------------------------------------ */
 typedef struct { size_t n, cap; size_t *bond; } pg_changes;            /* bonds that died: indices of alive bits, ascending */
-typedef struct {
+struct pg_sweep_setting {
     const pg_sums   *sums;
     const pg_family *family;                           /* from pg_sums_family; alive bits are counted by its entries      */
     const double    *modulus;                          /* c_h of each point, N/m^6; between two of them 2 a b / (a + b)   */
     const double    *limit;                            /* critical stretch of each point, the smaller one rules; NULL: nothing breaks */
     const unsigned char *exempt;                       /* per point: bonds with such an end never break; NULL: none      */
+    /* State-based (linear peridynamic solid: Silling et al. 2007; theory B6) if `dilation` is not NULL; then `modulus` is not read. Of each point A =
+     * d kappa - (d + 2) mu and B = d (d + 2) mu, Pa (pg_state_moduli); w = k beta / r, so that A = 0 gives the bonds' own sums (c = 2 B / q). */
+    const double    *dilation, *deviation;
+    const unsigned char *counted;                      /* bonds of the family that q counts, for good; NULL: all         */
+    int              follow;                           /* 1: q counts the bonds that live, and changes when one dies     */
+    const pg_beam_law *beams;                          /* NULL: bonds pull along themselves only; else u and f below have dim + rotations
+                                                          unknowns a point, moments in f over the law's length, N; linear rule only */
     int              threads;
     const char      *instructions;                     /* "avx512", "avx2", "scalar"; NULL: the best that this machine has */
-} pg_sweep_setting;
+};
 typedef struct pg_sweep pg_sweep;
 /* By stencil where the rule allows it (a lattice, one modulus, one limit, surface none or product), else by list. PG_E_USAGE: the rule asks for
  * what cannot be, or the instructions are not there. What the setting points to is borrowed. */
@@ -117,4 +159,7 @@ double      pg_sweep_energy (pg_sweep *sweep, const double *u);
 /* W (n, J/m^3) = energy density of every point at displacement u: half the energy of each of its live bonds over its volume, W_i = 1/4 sum_j
  * c k beta g r s^2 V_j (theory B2); sum of W_i V_i = pg_sweep_energy to rounding. 0 where a point has no live bond. The same bits for any number of threads. */
 pg_status   pg_sweep_energies (pg_sweep *sweep, const double *u, double *W);
+/* State-based sums: dilatation of every point, theta_i = d / q_i sum_j w xi.eta V_j (1), and its q_i (m^2 times m^3 over the unit of w), both n or NULL;
+ * 0 where no bond counts. PG_E_USAGE: bonds alone have none. */
+pg_status   pg_sweep_dilatation (pg_sweep *sweep, const double *u, double *theta, double *q);
 #endif

@@ -8,6 +8,7 @@
 
 enum { PG_BLOCK = 32, PG_TERMS = 10 };                 /* sites of a block; doubles per bond                             */
 enum { PG_AT_XI, PG_AT_PULL = 3, PG_AT_LIMIT = 6, PG_AT_R2 = 7, PG_AT_R = 8, PG_AT_STORED = 9 };
+enum { PG_AT_WV = 3, PG_AT_WVV = 4, PG_AT_INVERSE = 5 };               /* state-based                                    */
 typedef struct {
     size_t   base;                                     /* padded place of its first site                                 */
     size_t   site;                                     /* of its first site                                              */
@@ -31,6 +32,9 @@ typedef struct {
     unsigned char  *hit;                               /* set to 1: a bond of the block is over its limit (blocks)       */
     double         *energy;                            /* sum of a (xi.eta)^2 p_i p_j over directed bonds (blocks)       */
     double         *energies;                          /* the same sum of each point (n); NULL: not wanted               */
+    /* State-based (state.h): term = xi (3), w V, w V^2, 1 / r^2, and the limit where it always is.                      */
+    double         *factor, *beta, *alpha;             /* padded, 0 where there is no point: A d / q^2, B / q, A theta / q */
+    double          volume;                            /* of a lattice cell, m^3                                         */
 } pg_block_job;
 
 typedef void (*pg_block_loop) (const pg_block_job *job, size_t first, size_t last);      /* blocks                       */
@@ -38,6 +42,8 @@ enum { PG_CHECK_NONE, PG_CHECK_ALL, PG_CHECK_SOME };
 typedef struct {
     pg_block_loop force[3][2][3][2];                   /* [dim - 1][finite][check][weighted]: job->f, job->hit           */
     pg_block_loop energy[3][2][2];                     /* [dim - 1][finite][weighted]: job->energy                       */
+    /* State-based, of 2 and 3 dimensions [dim - 2]: sums of w xi.eta V times factor to job->alpha (and job->hit); job->f; job->energy, J */
+    pg_block_loop dilate[2][3][2], pull[2][2], store[2][2];            /* [check][weighted]                              */
     int fused;                                         /* a b + c is rounded once                                        */
     void (*spread) (const pg_block_job *job, const double *u, size_t first, size_t last);      /* u (n x dim) to job->u  */
 } pg_block_kernels;

@@ -161,6 +161,8 @@ static TARGET void spread (const pg_block_job *job, const double *u, size_t firs
     }
 }
 
+#include "state_kernel.h"
+
 #define FORCE(D, F, C, W) static TARGET void force_##D##F##C##W (const pg_block_job *job, size_t first, size_t last) \
     { force_loop (job, first, last, D, F, C, W); }
 #define ENERGY(D, F, W) static TARGET void energy_##D##F##W (const pg_block_job *job, size_t first, size_t last) \
@@ -174,5 +176,6 @@ FORCES (1, 0) FORCES (1, 1) FORCES (2, 0) FORCES (2, 1) FORCES (3, 0) FORCES (3,
 const pg_block_kernels NAME = {
     .force  = { { ROW (1, 0), ROW (1, 1) }, { ROW (2, 0), ROW (2, 1) }, { ROW (3, 0), ROW (3, 1) } },
     .energy = { { SUM (1, 0), SUM (1, 1) }, { SUM (2, 0), SUM (2, 1) }, { SUM (3, 0), SUM (3, 1) } },
+    .dilate = { DILATES (2), DILATES (3) }, .pull = { PULLS (2), PULLS (3) }, .store = { STORES (2), STORES (3) },
     .spread = spread, .fused = FUSED,
 };

@@ -357,5 +357,6 @@ static void list_bytes (const void *self, double *per_bond, double *per_point)
 static const char *list_refusal (const pg_sweep_setting *setting) { (void) setting; return NULL; }
 
 const pg_sweep_kind pg_sweep_list = {
-    "list", list_refusal, list_create, list_free, list_bytes, list_update, list_force, list_energy, list_energies
+    .name = "list", .refusal = list_refusal, .create = list_create, .free = list_free, .bytes = list_bytes, .update = list_update, .force = list_force,
+    .energy = list_energy, .energies = list_energies
 };

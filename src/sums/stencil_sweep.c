@@ -1,43 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The bonds of points on a lattice: sites in blocks of 32 of a row, one bit per bond and site, displacements in padded arrays. */
-#include "block.h"
-#include "sweep.h"
+#include "stencil_sweep.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_THREADS = 64, FEW = 1 << 15 };              /* FEW directed bonds are not worth a second thread               */
-typedef struct {
-    pg_sweep_setting setting;
-    const pg_block_kernels *kernels;
-    pg_block_job job;                                  /* points into what follows                                       */
-    int        reach[3], left;                         /* halo in sites; padded places before a row                      */
-    size_t     pitch, rows, planes, row_blocks;        /* padded places of a row, rows of a plane, planes, blocks of a row */
-    size_t     nblock, nbond;                          /* blocks with points; bonds of the family                        */
-    pg_block  *block;
-    int       *block_at;                               /* of each block of each padded row, -1: without points           */
-    unsigned  *place;                                  /* padded place of each point                                     */
-    ptrdiff_t *jump;
-    double    *term, *field, *p, *energy;
-    uint32_t  *alive, *may;
-    unsigned char *hit;
-    pg_changes found[MAX_THREADS];                     /* of each thread                                                 */
-    pg_status  failed[MAX_THREADS];
-} stencil;
 
-static const char *refusal (const pg_sweep_setting *setting)
+const char *stencil_refusal (const pg_sweep_setting *setting)
 {
     const pg_sums *sums = setting->sums;
     size_t n = sums->cloud->n;
     if (sums->stencil.n == 0 || sums->sites.count[0] == 0) return "the points are no lattice";
     if (sums->rule.surface == PG_SURFACE_VOLUME) return "surface_correction: volume differs from bond to bond";
-    for (size_t i = 1; i < n; i++) if (setting->modulus[i] != setting->modulus[0]) return "there are several moduli";
+    for (size_t i = 1; setting->modulus && i < n; i++) if (setting->modulus[i] != setting->modulus[0]) return "there are several moduli";
     for (size_t i = 1; setting->limit && i < n; i++) if (setting->limit[i] != setting->limit[0]) return "there are several critical stretches";
     if (setting->limit && n && !(setting->limit[0] > 0)) return "the critical stretch is not positive";
     return NULL;
 }
 
-static void release (void *self)
+void stencil_free (void *self)
 {
     stencil *s = self;
     if (!s) return;
@@ -54,7 +35,7 @@ static size_t place_of (const stencil *s, const size_t *at)
 }
 
 /* Block and bit of a padded place */
-static size_t block_of (const stencil *s, size_t place, unsigned *bit)
+size_t stencil_block (const stencil *s, size_t place, unsigned *bit)
 {
     size_t row = place / s->pitch, x = place % s->pitch - (size_t) s->left;
     *bit = (unsigned) (x % PG_BLOCK);
@@ -73,7 +54,7 @@ static pg_status lay_out (stencil *s)
     s->row_blocks = ((size_t) sums->sites.count[0] + PG_BLOCK - 1) / PG_BLOCK;
     s->pitch = (size_t) s->left + s->row_blocks * PG_BLOCK;
     s->rows = (size_t) (sums->sites.count[1] + 2 * s->reach[1]), s->planes = (size_t) (sums->sites.count[2] + 2 * s->reach[2]);
-    size_t places = s->pitch * s->rows * s->planes + (size_t) s->left;
+    size_t places = stencil_places (s);
     if (places > UINT32_MAX) PG_FAIL (PG_E_LIMIT, "a lattice of %zu padded sites: at most %lu; try evaluation: list", places, (unsigned long) UINT32_MAX);
     PG_ALLOC (s->jump, st->n);
     for (size_t j = 0; j < st->n; j++) {
@@ -144,7 +125,7 @@ static pg_status set_bits (stencil *s, size_t i, const unsigned char *live, cons
     pg_status status = PG_OK;
     const pg_family *family = s->setting.family;
     unsigned bit;
-    size_t k = block_of (s, s->place[i], &bit), b = 0;
+    size_t k = stencil_block (s, s->place[i], &bit), b = 0;
     for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
         if (live && !live[e]) continue;
         b = bond_of (s, jump_of (s, i, e), b);
@@ -171,32 +152,37 @@ static void renew_blocks (void *context, size_t first, size_t last, int thread)
         }
 }
 
-static int threads_for (const stencil *s)
+int stencil_threads (const stencil *s)
 {
     int t = s->setting.threads;
     if (s->nblock * s->job.n * PG_BLOCK < FEW || t < 1) return 1;
     return t < MAX_THREADS ? t : MAX_THREADS;
 }
 
-static void update (void *self, const unsigned char *alive, const pg_changes *changes)
+size_t stencil_owner (const stencil *s, size_t entry)
+{
+    const size_t *start = s->setting.family->start;
+    size_t low = 0, high = s->setting.sums->cloud->n;
+    while (high - low > 1) {                           /* the last point whose bonds start at or before the entry        */
+        size_t middle = (low + high) / 2;
+        if (start[middle] <= entry) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+void stencil_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     stencil *s = self;
     if (!changes) {
         renewal r = { .s = s, .live = alive };         /* every bond was found when this was created                     */
-        pg_parallel_heavy (threads_for (s), s->nblock, renew_blocks, &r);
+        pg_parallel_heavy (stencil_threads (s), s->nblock, renew_blocks, &r);
         return;
     }
-    const size_t *start = s->setting.family->start;
-    size_t n = s->setting.sums->cloud->n;
     for (size_t c = 0; c < changes->n; c++) {
-        size_t e = changes->bond[c], low = 0, high = n;
-        while (high - low > 1) {                       /* the last point whose bonds start at or before e                */
-            size_t middle = (low + high) / 2;
-            if (start[middle] <= e) low = middle;
-            else high = middle;
-        }
+        size_t e = changes->bond[c], low = stencil_owner (s, e);
         unsigned bit;
-        size_t k = block_of (s, s->place[low], &bit), b = bond_of (s, jump_of (s, low, e), 0);
+        size_t k = stencil_block (s, s->place[low], &bit), b = bond_of (s, jump_of (s, low, e), 0);
         if (b < s->job.n) s->alive[k * s->job.n + b] &= ~(1u << bit);
     }
 }
@@ -206,7 +192,7 @@ static pg_status set_terms (stencil *s)
     pg_status status = PG_OK;
     const pg_sums *sums = s->setting.sums;
     const pg_stencil *st = &sums->stencil;
-    double volume = st->cell * sums->cloud->thickness, c = sums->cloud->n ? s->setting.modulus[0] : 0;
+    double volume = st->cell * sums->cloud->thickness, c = sums->cloud->n && s->setting.modulus ? s->setting.modulus[0] : 0;
     double s0 = s->setting.limit && sums->cloud->n ? s->setting.limit[0] : 0;
     PG_ALLOC (s->term, st->n * PG_TERMS);
     for (size_t j = 0; j < st->n; j++) {
@@ -223,6 +209,8 @@ done:
     return status;
 }
 
+size_t stencil_places (const stencil *s) { return s->pitch * s->rows * s->planes + (size_t) s->left; }
+
 /* Weights of points, where not all are 1: share of a cell's volume over the root of how full the family is */
 static pg_status set_weights (stencil *s)
 {
@@ -230,7 +218,7 @@ static pg_status set_weights (stencil *s)
     const pg_sums *sums = s->setting.sums;
     int product = sums->rule.surface == PG_SURFACE_PRODUCT && sums->family_volume, one = 1;
     if (!sums->share && !product) return PG_OK;
-    PG_ALLOC (s->p, s->pitch * s->rows * s->planes + (size_t) s->left);
+    PG_ALLOC (s->p, stencil_places (s));
     for (size_t i = 0; i < sums->cloud->n; i++) {
         double p = (sums->share ? sums->share[i] : 1) / (product ? sqrt (sums->family_volume[i]) : 1);
         s->p[s->place[i]] = p;
@@ -241,14 +229,14 @@ done:
     return status;
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+pg_status stencil_create (void **self, const pg_sweep_setting *setting, pg_instructions set, size_t bytes)
 {
     static const pg_block_kernels *const kernels[] = { &pg_block_scalar, &pg_block_avx2, &pg_block_avx512 };
     pg_status status = PG_OK;
     stencil *s = NULL;
     const unsigned char *exempt = setting->limit ? setting->exempt : NULL;
-    PG_ALLOC (s, 1);
-    *self = s;
+    *self = s = pg_calloc (1, bytes);
+    if (!s) PG_FAIL (PG_E_MEMORY, "%zu bytes for a stencil", bytes);
     s->setting = *setting, s->kernels = kernels[set];
     size_t n = setting->sums->cloud->n;
     s->nbond = n ? setting->family->start[n] : 0;
@@ -265,13 +253,18 @@ static pg_status create (void **self, const pg_sweep_setting *setting, pg_instru
     s->job.block = s->block, s->job.point = setting->sums->sites.point, s->job.alive = s->alive, s->job.may = s->may, s->job.p = s->p;
     s->job.hit = s->hit, s->job.energy = s->energy;
     renewal r = { .s = s, .exempt = exempt };
-    pg_parallel_heavy (threads_for (s), s->nblock, renew_blocks, &r);
+    pg_parallel_heavy (stencil_threads (s), s->nblock, renew_blocks, &r);
     for (int t = 0; t < MAX_THREADS; t++) if (r.status[t] != PG_OK) PG_TRY (set_bits (s, r.lost[t], NULL, exempt));    /* says it on this thread */
 done:
     return status;
 }
 
-static void bytes (const void *self, double *per_bond, double *per_point)
+static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+{
+    return stencil_create (self, setting, set, sizeof (stencil));
+}
+
+void stencil_bytes (const void *self, double *per_bond, double *per_point)
 {
     const stencil *s = self;
     size_t n = s->setting.sums->cloud->n, dim = (size_t) s->job.dim;
@@ -287,7 +280,7 @@ static size_t entry_of (const stencil *s, int i, size_t place, size_t b)
     const pg_family *family = s->setting.family;
     size_t low = family->start[i], high = family->start[i + 1];
     unsigned bit;
-    size_t k = block_of (s, (size_t) ((ptrdiff_t) place + s->jump[b]), &bit);
+    size_t k = stencil_block (s, (size_t) ((ptrdiff_t) place + s->jump[b]), &bit);
     int j = s->job.point[s->block[k].site + bit];
     while (high - low > 1) {
         size_t middle = (low + high) / 2;
@@ -329,7 +322,7 @@ done:
     return status;
 }
 
-typedef struct { stencil *s; const double *u; pg_block_loop loop, again; } pass;
+typedef struct { stencil *s; const double *u; pg_block_loop loop, again; stencil_lost lost; } pass;
 
 static void spread_blocks (void *context, size_t first, size_t last, int thread)
 {
@@ -348,36 +341,40 @@ static void force_blocks (void *context, size_t first, size_t last, int thread)
         s->hit[k] = 0;
         pg_status now = kill_bonds (s, k, &s->found[thread]);
         if (now != PG_OK) s->failed[thread] = now;
+        if (p->lost) p->lost (s, k);
         p->again (&s->job, k, k + 1);
     }
 }
 
-static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
+void stencil_spread (stencil *s, const double *u)
+{
+    pg_parallel_heavy (stencil_threads (s), s->nblock, spread_blocks, &(pass) { .s = s, .u = u });
+}
+
+pg_status stencil_run (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, pg_changes *broken)
 {
     pg_status status = PG_OK;
-    stencil *s = self;
-    int finite = s->setting.sums->rule.finite != 0, weighted = s->p != NULL, threads = threads_for (s);
-    int check = !broken || !s->setting.limit ? PG_CHECK_NONE : s->may ? PG_CHECK_SOME : PG_CHECK_ALL;
-    pass p = { s, u, s->kernels->force[s->job.dim - 1][finite][check][weighted], NULL };
-    if (check) p.again = s->kernels->force[s->job.dim - 1][finite][PG_CHECK_NONE][weighted];
-    s->job.f = f;
-    pg_parallel_heavy (threads, s->nblock, spread_blocks, &p);
+    int threads = stencil_threads (s);
+    pass p = { s, NULL, loop, again, lost };
     pg_parallel_heavy (threads, s->nblock, force_blocks, &p);
-    if (!check) return PG_OK;
-    pg_changes *all = &s->found[0];
-    for (int t = 0; t < threads; t++) {
-        pg_changes *some = &s->found[t];
-        if (s->failed[t] != PG_OK) status = s->failed[t], s->failed[t] = PG_OK;
-        if (t == 0 || some->n == 0) continue;
-        PG_GROW (all->bond, all->cap, all->n + some->n);
-        memcpy (all->bond + all->n, some->bond, some->n * sizeof *some->bond);
-        all->n += some->n;
-    }
+    if (!again) return PG_OK;
+    for (int t = 0; t < threads; t++) if (s->failed[t] != PG_OK) status = s->failed[t], s->failed[t] = PG_OK;
     if (status != PG_OK) PG_FAIL (status, "no memory to note the bonds that broke");
-    PG_TRY (pg_changes_append (broken, all->n, all->bond));
+    PG_TRY (sweep_collect (broken, threads, s->found));
 done:
     for (int t = 0; t < threads; t++) s->found[t].n = 0;
     return status;
+}
+
+static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
+{
+    stencil *s = self;
+    int finite = s->setting.sums->rule.finite != 0, weighted = s->p != NULL;
+    int check = !broken || !s->setting.limit ? PG_CHECK_NONE : s->may ? PG_CHECK_SOME : PG_CHECK_ALL;
+    s->job.f = f;
+    stencil_spread (s, u);
+    return stencil_run (s, s->kernels->force[s->job.dim - 1][finite][check][weighted],
+                        check ? s->kernels->force[s->job.dim - 1][finite][PG_CHECK_NONE][weighted] : NULL, NULL, broken);
 }
 
 static void energy_blocks (void *context, size_t first, size_t last, int thread)
@@ -389,9 +386,9 @@ static void energy_blocks (void *context, size_t first, size_t last, int thread)
 
 static void sum_energies (stencil *s, const double *u)
 {
-    pass p = { s, u, s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL], NULL };
-    pg_parallel_heavy (threads_for (s), s->nblock, spread_blocks, &p);
-    pg_parallel_heavy (threads_for (s), s->nblock, energy_blocks, &p);
+    pass p = { .s = s, .loop = s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL] };
+    stencil_spread (s, u);
+    pg_parallel_heavy (stencil_threads (s), s->nblock, energy_blocks, &p);
 }
 
 static double energy (void *self, const double *u)
@@ -415,6 +412,6 @@ static pg_status energies (void *self, const double *u, double *W)
 }
 
 const pg_sweep_kind pg_sweep_stencil = {
-    .name = "stencil", .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = update, .force = force, .energy = energy,
+    .name = "stencil", .refusal = stencil_refusal, .create = create, .free = stencil_free, .bytes = stencil_bytes, .update = stencil_update, .force = force, .energy = energy,
     .energies = energies,
 };

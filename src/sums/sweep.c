@@ -10,7 +10,7 @@ struct pg_sweep {
     char  name[32];
 };
 
-static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list };
+static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list, &pg_sweep_state_stencil, &pg_sweep_state_list, &pg_sweep_beam_list };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 static const char *const set_name[PG_INSTRUCTION_SETS] = { "scalar", "avx2", "avx512" };
 
@@ -50,9 +50,10 @@ static pg_status choose_kind (const pg_sweep_kind **out, const pg_sweep_setting 
     static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL, [PG_EVALUATE_STENCIL] = "stencil", [PG_EVALUATE_LIST] = "list" };
     pg_status status = PG_OK;
     const char *only = asked[setting->sums->rule.evaluation], *why = "there is no such loop";
+    int theory = setting->beams ? 2 : setting->dilation ? 1 : 0;
     *out = NULL;
     for (size_t k = 0; k < KINDS && !*out; k++) {
-        if (only && strcmp (only, kinds[k]->name) != 0) continue;
+        if (kinds[k]->state != theory || (only && strcmp (only, kinds[k]->name) != 0)) continue;
         why = kinds[k]->refusal (setting);
         if (!why) *out = kinds[k];
     }
@@ -105,6 +106,12 @@ double pg_sweep_energy (pg_sweep *sweep, const double *u) { return sweep->kind->
 
 pg_status pg_sweep_energies (pg_sweep *sweep, const double *u, double *W) { return sweep->kind->energies (sweep->self, u, W); }
 
+pg_status pg_sweep_dilatation (pg_sweep *sweep, const double *u, double *theta, double *q)
+{
+    if (!sweep->kind->dilatation) return pg_error (PG_E_USAGE, PG_HERE, "a dilatation is known to state-based sums only");
+    return sweep->kind->dilatation (sweep->self, u, theta, q);
+}
+
 static int ascending (const void *a, const void *b)
 {
     size_t x = *(const size_t *) a, y = *(const size_t *) b;
@@ -119,6 +126,20 @@ pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond)
     PG_GROW (to->bond, to->cap, to->n + n);
     memcpy (to->bond + to->n, bond, n * sizeof *bond);
     to->n += n;
+done:
+    return status;
+}
+
+pg_status sweep_collect (pg_changes *to, int threads, pg_changes *found)
+{
+    pg_status status = PG_OK;
+    for (int t = 1; t < threads; t++) {
+        if (found[t].n == 0) continue;
+        PG_GROW (found->bond, found->cap, found->n + found[t].n);
+        memcpy (found->bond + found->n, found[t].bond, found[t].n * sizeof *found->bond);
+        found->n += found[t].n;
+    }
+    PG_TRY (pg_changes_append (to, found->n, found->bond));
 done:
     return status;
 }

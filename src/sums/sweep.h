@@ -11,6 +11,7 @@ int         pg_instructions_here (pg_instructions set);               /* 1: this
 
 typedef struct {
     const char *name;                                  /* "stencil", "list"                                              */
+    int state;                                         /* 1: of state-based theory, for settings with a dilation; 2: of beams; 0: of bonds alone */
     /* NULL: this kind can sum what the setting asks for; else why not ("surface factor of volumes"). */
     const char *(*refusal) (const pg_sweep_setting *setting);
     /* `set` is there on this machine. The setting has been copied: what it points to lives as long as self, the struct itself may not.
@@ -22,9 +23,12 @@ typedef struct {
     pg_status (*force)  (void *self, const double *u, double *f, pg_changes *broken);
     double    (*energy) (void *self, const double *u);
     pg_status (*energies) (void *self, const double *u, double *W);
+    pg_status (*dilatation) (void *self, const double *u, double *theta, double *q);           /* state-based only         */
 } pg_sweep_kind;
-extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list;
+extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list, pg_sweep_state_stencil, pg_sweep_state_list, pg_sweep_beam_list;
 
 /* Adds n bonds (any order, none twice) to the end of `to`, ascending among themselves; sorts `bond`. */
 pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond);
+/* The same for what each thread has found; gathers it in the first. */
+pg_status sweep_collect (pg_changes *to, int threads, pg_changes *found);
 #endif

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * State-based sums (linear peridynamic solid) over the bonds of points on a lattice: a loop for the dilatation of every point, one for the forces,
+ * on the blocks and bits of stencil_sweep.c. Breaking: bonds over their limit die in the first loop. theory B6. */
+#include "state.h"
+#include "stencil_sweep.h"
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+    stencil base;                                      /* first: loops over blocks see it alone                          */
+    double *q;                                         /* m^2 times volume                   (n)                         */
+    double *factor, *beta, *alpha;                     /* padded                                                         */
+} state;
+
+const char *state_refusal (const pg_sweep_setting *setting)
+{
+    if (setting->sums->rule.finite) return "state-based sums are linear in the displacement, and the stretch is to be finite";
+    if (setting->sums->rule.surface != PG_SURFACE_NONE) return "state-based sums weigh families that are not whole by themselves: no surface correction";
+    if (setting->sums->cloud->dim == 1) return "in one dimension state-based and bond-based sums are the same";
+    return NULL;
+}
+
+static const char *refusal (const pg_sweep_setting *setting)
+{
+    const char *why = state_refusal (setting);
+    return why ? why : stencil_refusal (setting);
+}
+
+static void state_free (void *self)
+{
+    state *s = self;
+    if (!s) return;
+    pg_free (s->q), pg_free (s->factor), pg_free (s->beta), pg_free (s->alpha);
+    stencil_free (s);
+}
+
+/* ---- q -------------------------------------------------------------------------------------------------------------------------- */
+/* Of a point by the bits of its bonds */
+static void weigh (state *s, size_t i)
+{
+    const stencil *b = &s->base;
+    const pg_stencil *st = &b->setting.sums->stencil;
+    unsigned bit;
+    size_t place = b->place[i], k = stencil_block (b, place, &bit);
+    double q = 0;
+    for (size_t j = 0; j < st->n; j++)
+        if (b->alive[k * b->job.n + j] >> bit & 1) q += st->weight[j] * st->r[j] * (b->p ? b->p[(ptrdiff_t) place + b->jump[j]] : 1);
+    q *= b->job.volume;
+    s->q[i] = q;
+    s->factor[place] = state_factor (&b->setting, i, q), s->beta[place] = state_beta (&b->setting, i, q);
+}
+
+static void weigh_points (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    for (size_t i = first; i < last; i++) weigh (context, i);
+}
+
+static void weigh_all (state *s) { pg_parallel_heavy (stencil_threads (&s->base), s->base.setting.sums->cloud->n, weigh_points, s); }
+
+static void weigh_block (stencil *b, size_t k)
+{
+    for (uint32_t left = b->block[k].present; left; left &= left - 1)
+        weigh ((state *) b, (size_t) b->job.point[b->block[k].site + (size_t) __builtin_ctz (left)]);
+}
+
+static void state_update (void *self, const unsigned char *alive, const pg_changes *changes)
+{
+    state *s = self;
+    stencil_update (self, alive, changes);
+    if (!s->base.setting.follow) return;
+    if (!changes) weigh_all (s);
+    for (size_t c = 0; changes && c < changes->n; c++) weigh (s, stencil_owner (&s->base, changes->bond[c]));
+}
+
+/* ---- life ----------------------------------------------------------------------------------------------------------------------- */
+static void set_terms (state *s)
+{
+    stencil *b = &s->base;
+    const pg_stencil *st = &b->setting.sums->stencil;
+    double V = b->job.volume;
+    for (size_t j = 0; j < st->n; j++) {
+        double *t = b->term + j * PG_TERMS, w = st->weight[j] / st->r[j];
+        t[PG_AT_WV] = w * V, t[PG_AT_WVV] = w * V * V, t[PG_AT_INVERSE] = 1 / (st->r[j] * st->r[j]);
+    }
+}
+
+static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+{
+    pg_status status = PG_OK;
+    PG_TRY (stencil_create (self, setting, set, sizeof (state)));
+    state *s = *self;
+    pg_block_job *job = &s->base.job;
+    size_t places = stencil_places (&s->base);
+    job->volume = setting->sums->stencil.cell * setting->sums->cloud->thickness;
+    PG_ALLOC (s->q, setting->sums->cloud->n);
+    PG_ALLOC (s->factor, places);
+    PG_ALLOC (s->beta, places);
+    PG_ALLOC (s->alpha, places);
+    job->factor = s->factor, job->beta = s->beta, job->alpha = s->alpha;
+    set_terms (s);
+    if (setting->counted && !setting->follow) stencil_update (s, setting->counted, NULL);
+    weigh_all (s);
+    if (setting->counted && !setting->follow) stencil_update (s, NULL, NULL);
+done:
+    return status;
+}
+
+static void bytes (const void *self, double *per_bond, double *per_point)
+{
+    const stencil *s = self;
+    stencil_bytes (s, per_bond, per_point);
+    *per_bond *= 2;                                    /* two loops; the second reads alpha and beta as well             */
+    *per_point = 2 * *per_point + sizeof (double) * 4;
+}
+
+/* ---- sums ----------------------------------------------------------------------------------------------------------------------- */
+static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
+{
+    pg_status status = PG_OK;
+    state *s = self;
+    stencil *b = &s->base;
+    int at = b->job.dim - 2, weighted = b->p != NULL, check = !broken || !b->setting.limit ? PG_CHECK_NONE : b->may ? PG_CHECK_SOME : PG_CHECK_ALL;
+    b->job.f = f;
+    stencil_spread (b, u);
+    PG_TRY (stencil_run (b, b->kernels->dilate[at][check][weighted], check ? b->kernels->dilate[at][PG_CHECK_NONE][weighted] : NULL,
+                         b->setting.follow ? weigh_block : NULL, broken));
+    PG_TRY (stencil_run (b, b->kernels->pull[at][weighted], NULL, NULL, NULL));
+done:
+    return status;
+}
+
+static double sum_energies (state *s, const double *u, double *W)
+{
+    stencil *b = &s->base;
+    double sum = 0;
+    b->job.energies = W;
+    stencil_spread (b, u);
+    stencil_run (b, b->kernels->store[b->job.dim - 2][b->p != NULL], NULL, NULL, NULL);
+    b->job.energies = NULL;
+    for (size_t k = 0; k < b->nblock; k++) sum += b->energy[k];
+    return sum;
+}
+
+static double energy (void *self, const double *u) { return sum_energies (self, u, NULL); }
+
+static pg_status energies (void *self, const double *u, double *W)
+{
+    sum_energies (self, u, W);
+    return PG_OK;
+}
+
+/* theta = alpha q / A, summed with a factor of its own */
+static pg_status dilatation (void *self, const double *u, double *theta, double *q)
+{
+    pg_status status = PG_OK;
+    state *s = self;
+    stencil *b = &s->base;
+    size_t n = b->setting.sums->cloud->n;
+    double *factor = s->factor, *own = NULL;
+    PG_ALLOC (own, stencil_places (b));
+    for (size_t i = 0; i < n; i++) own[b->place[i]] = s->q[i] > 0 ? b->job.dim / s->q[i] : 0;
+    b->job.factor = own;
+    stencil_spread (b, u);
+    status = stencil_run (b, b->kernels->dilate[b->job.dim - 2][PG_CHECK_NONE][b->p != NULL], NULL, NULL, NULL);
+    b->job.factor = factor;
+    for (size_t i = 0; theta && i < n; i++) theta[i] = s->alpha[b->place[i]];
+    if (q) memcpy (q, s->q, n * sizeof *q);
+done:
+    pg_free (own);
+    return status;
+}
+
+const pg_sweep_kind pg_sweep_state_stencil = {
+    .name = "stencil", .state = 1, .refusal = refusal, .create = create, .free = state_free, .bytes = bytes, .update = state_update, .force = force,
+    .energy = energy, .energies = energies, .dilatation = dilatation,
+};
