@@ -56,6 +56,7 @@ typedef struct {
     double   nitsche, penalty;                         /* factors of E / h, h the local spacing                          */
     pg_load *load;   size_t nload;
     pg_gauge *gauge; size_t ngauge;
+    pg_expression *initial[3];                         /* velocity at the start per component, m/s; NULL: at rest        */
     pg_rows  rows[PG_BOND_SETS];                       /* geometry only: N, dN, w, grade are NULL                        */
     double  *facet_normal;                             /* outward unit normal at the points of PG_FACETS (n x dim)        */
     size_t   first_bond[PG_BOND_SETS + 1];             /* bond b of set k is alive[first_bond[k] + b]                    */
@@ -84,6 +85,7 @@ typedef struct {
     double *d, *v, *a;                                 /* coefficients, velocity, acceleration (ndof): m, m/s, m/s^2      */
     unsigned char *alive;                              /* 1: the bond lives  (nbond)                                     */
 } pg_state;
+/* At rest, or with the problem's initial velocity; pre-cracks cut. */
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components /* dofs per node */);
 pg_status pg_state_copy   (pg_state *to, const pg_state *from);
 void      pg_state_free   (pg_state **state);

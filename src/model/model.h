@@ -5,6 +5,10 @@
 #include "perigal/model.h"
 pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
+/* initial.velocity: checked and compiled; put into v (n x dim, m/s), which is left alone where nothing is given. */
+pg_status pg_initial_read  (pg_problem *problem, const pg_scene *scene);
+void      pg_initial_set   (const pg_problem *problem, double *v);
+void      pg_initial_clear (pg_problem *problem);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
 /* Forces straight between points: their rule, their sums, the only Poisson's ratio they know; and their bonds. */
 pg_status pg_direct_build (pg_problem *problem, const pg_scene *scene);

@@ -170,6 +170,7 @@ pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads
     PG_TRY (build_geometry (p, scene));
     PG_TRY (build_laws (p, scene));
     PG_TRY (pg_loads_read (p, scene));
+    PG_TRY (pg_initial_read (p, scene));
     PG_TRY (pg_scene_verdict (scene));
     PG_TRY (pg_bonds_build (p, scene));
     PG_TRY (read_gauges (p, scene));
@@ -188,7 +189,7 @@ void pg_problem_free (pg_problem **problem)
     for (int s = 0; s < PG_BOND_SETS; s++) pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]);
     pg_consistency_free (&p->consistency);
     pg_sums_free (&p->sums);
-    pg_loads_clear (p);
+    pg_loads_clear (p), pg_initial_clear (p);
     pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->material), pg_free (p->criterion);
     pg_sets_clear (&p->sets);
     pg_cells_clear (&p->cells);

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * initial.velocity: a free body flies and spins on, a stretching one has the velocity asked for, by every dynamic method; what is refused. */
+#include <string.h>
+#include "../scene_runs/run.h"
+
+#define PLATE "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [-5 mm, -4 mm], high: [5 mm, 4 mm]}}}]\nspacing: 1 mm\nlattice: cells\n" \
+    "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.3333333333333333, density: 2500 kg/m3}}\n"
+
+static void a_free_body_flies_on (void **state)
+{
+    (void) state;
+    static const char *const kinds[3] = { "verlet", "central", "newmark" };
+    for (int k = 0; k < 3; k++) {
+        run r = scene_of (1, PLATE "method: {force: bond}\ninitial: {velocity: {x: 3 m/s, y: -4 m/s}}\nsolver: {kind: %s, dt: 0.1 us, time_steps: 50}\n", kinds[k]);
+        to_the_end (&r);
+        for (size_t i = 0; i < r.problem->cloud.n; i++) {
+            check_relative (r.state->d[2*i], 15e-6, 1e-9);
+            check_relative (r.state->d[2*i + 1], -20e-6, 1e-9);
+        }
+        check_relative (pg_solver_report_now (r.solver)->energy_kinetic, 0.5 * 2500 * 80e-9 * 25, 1e-9);
+        clear (&r);
+    }
+}
+
+static void each_point_has_its_own_velocity (void **state)
+{
+    (void) state;
+    run r = scene_of (1, PLATE "method: {force: bond}\ninitial: {velocity: {y: 800 / s * y}}\nsolver: {kind: verlet, time_steps: 5}\n");
+    for (size_t i = 0; i < r.problem->cloud.n; i++) {
+        assert_true (r.state->v[2*i] == 0);
+        check_scaled (r.state->v[2*i + 1], 800 * r.problem->cloud.x[2*i + 1], 1e-14, 3.2);
+    }
+    clear (&r);
+    r = scene_of (1, PLATE "method: {force: bond}\nboundary: [{set: left, displacement: {x: 0, y: 0}}]\ninitial: {velocity: {y: 1}}\nsolver: {kind: static, steps: 2}\n");
+    int noted = 0;
+    for (size_t k = 0; k < r.problem->nnote; k++) noted |= strstr (r.problem->note[k], "without meaning for solver: static: initial") != NULL;
+    assert_true (noted);
+    assert_true (largest_of (r.state->v, r.state->ndof) == 0);
+    clear (&r);
+}
+
+static void must_refuse (const char *rest, const char *part)
+{
+    char text[2048];
+    pg_scene *scene = NULL;
+    pg_problem *problem = NULL;
+    snprintf (text, sizeof text, PLATE "solver: {kind: verlet, dt: 0.1 us, time_steps: 5}\n%s", rest);
+    check_ok (pg_scene_parse (&scene, text, "test.yaml"));
+    assert_int_equal (pg_problem_build (&problem, scene, 1), PG_E_SCENE);
+    if (!strstr (pg_last_error (), part)) fail_msg ("'%s' says nothing of '%s'", pg_last_error (), part);
+    assert_null (problem);
+    pg_scene_free (&scene);
+}
+
+static void what_cannot_be_is_refused (void **state)
+{
+    (void) state;
+    must_refuse ("method: {force: bond}\ninitial: {velocity: {z: 1 m/s}}\n", "initial.velocity.z = 1 m/s: a 2D body has no such component");
+    must_refuse ("method: {force: bond}\ninitial: {velocity: {x: 1 m/s2 * t}}\n", "does not change with t");
+    must_refuse ("initial: {velocity: {x: 1 m/s}}\n", "only with force: bond so far");
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test (a_free_body_flies_on), cmocka_unit_test (each_point_has_its_own_velocity), cmocka_unit_test (what_cannot_be_is_refused) };
+    return cmocka_run_group_tests_name ("model/initial", tests, NULL, NULL);
+}
