@@ -96,6 +96,7 @@ enum { PG_BYTES_PROGRAM, PG_BYTES_POINTS, PG_BYTES_BONDS, PG_BYTES_SHAPES, PG_BY
 typedef struct {
     int    dim, nodal, breaks, pictures;               /* nodal: the points of evaluation are the nodes; breaks: with a criterion */
     int    direct, listed, explicit_;                  /* pg_problem.direct; its points are no lattice; no linear systems at all */
+    int    by_list;                                    /* direct: bonds are summed by lists of neighbours, on a lattice or off it */
     int    counted, analysed;                          /* 1: the counts, the factor are exact, not estimates             */
     char   linear[16];                                 /* what will solve: "cholmod", "umfpack", "cg" (no matrix at all)  */
     int    automatic, dynamic;                         /* solver.linear: auto; newmark                                   */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fictitious boundary layers: boxes of whole lattice cells outside the bounding box of the shapes. */
+ * Fictitious boundary layers: boxes of whole lattice cells outside the bounding box of the shapes (theory B3). */
 #include "shape.h"
 #include <limits.h>
 #include <math.h>

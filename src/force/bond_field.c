@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What bonds show: how far each is to its limit; at points damage (share of the family's partial volume that is lost, theory B3), strain (linear
+ * What bonds show: how far each is to its limit; at points damage (share of the family's partial volume that is lost), strain (linear
  * fit of the displacements over live bonds), stress (virial of their forces, 1/2 sum f x xi V_j); displacement and stress at any place; overlap
  * of broken bonds; fragments. */
 #include "bond.h"

@@ -120,6 +120,19 @@ done:
     return status;
 }
 
+void pg_direct_check_laws (const pg_problem *p, const pg_scene *scene)
+{
+    pg_evaluation asked = p->sums->rule.evaluation;
+    for (size_t m = 1; m < p->nmaterial && asked != PG_EVALUATE_AUTO && asked != PG_EVALUATE_LIST; m++) {
+        const pg_criterion *a = &p->criterion[0], *b = &p->criterion[m];
+        int same = p->material[m].modulus == p->material[0].modulus && a->never == b->never && memcmp (a->parameter, b->parameter, sizeof a->parameter) == 0;
+        if (same) continue;
+        pg_scene_fault (scene, "method.evaluation", "materials %.40s and %.40s differ in stiffness or limit, and bonds must all be alike for this: use list or auto",
+                        p->material[0].name, p->material[m].name);
+        return;
+    }
+}
+
 pg_status pg_direct_bonds (pg_problem *p)
 {
     pg_status status = PG_OK;

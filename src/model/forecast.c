@@ -81,8 +81,8 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows                        */
     b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;                  /* galerkin      */
     b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;                                        /* pg_consistency                 */
-    if (f->direct) b[PG_BYTES_SHAPES] = (f->listed ? 12 : 0.25) * all + 100 * n + (factors ? 0 : 8 * f->dofs);       /* pg_sweep, bond */
-    b[PG_BYTES_BREAKING] = (2 + (f->explicit_ ? 0 : 17) + factors) * all;                   /* states; breaker; factored      */
+    if (f->direct) b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? 7 : 0.25) * all + 100 * n + (factors ? 0 : 8 * f->dofs);       /* pg_sweep, bond */
+    b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;    /* states; breaker; factored      */
     b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
     b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
     b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
@@ -124,6 +124,13 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
     f->eliminated += (masters > 0 ? slaves * slaves : 0) + 3 * slaves * masters;
 }
 
+/* As the sweep decides under `auto`, which takes a stencil where one law serves all points. */
+static int summed_by_list (const pg_problem *p)
+{
+    const pg_sum_rule *rule = &p->sums->rule;
+    return p->sums->stencil.n == 0 || p->nmaterial > 1 || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
+}
+
 pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -136,7 +143,7 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
     f->evaluation = (double) p->rows[PG_POINTS].n, f->facets = (double) p->rows[PG_FACETS].n;
     for (int s = 0; s < PG_BOND_SETS; s++) f->bonds[s] = (double) (p->first_bond[s + 1] - p->first_bond[s]);
     f->pairs = p->direct ? 0.5 * f->bonds[PG_NODES] + f->points : shared * f->points;
-    f->direct = p->direct, f->listed = p->sums && p->sums->stencil.n == 0;
+    f->direct = p->direct, f->listed = p->sums && p->sums->stencil.n == 0, f->by_list = p->sums && summed_by_list (p);
     f->summed = p->consistency ? (double) (p->consistency->family.start[p->consistency->family.n] + p->consistency->face.family.start[p->consistency->face.n]) : 0;
     f->horizon = p->approx.horizon, f->spacing = p->cloud.h;
     f->counted = 1;

@@ -13,6 +13,8 @@ pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
 /* Forces straight between points: their rule, their sums, the only Poisson's ratio they know; and their bonds. */
 pg_status pg_direct_build (pg_problem *problem, const pg_scene *scene);
 pg_status pg_direct_bonds (pg_problem *problem);
+/* Can all points have one law where the evaluation asked for wants that? Once criteria are read. */
+void      pg_direct_check_laws (const pg_problem *problem, const pg_scene *scene);
 int       pg_direct_force (const pg_scene *scene);
 /* Criterion of that force where the scene names none; NULL: it must.  */
 const char *pg_direct_criterion (const pg_scene *scene);

@@ -83,6 +83,7 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
     if (!p->direct && (needs & PG_NEEDS_ENERGY))
         pg_scene_fault (scene, "failure.criterion", "%s needs the energy that bonds store at a point, and force: %s has bonds without energy: use stretch, "
                         "principal_stress or mohr_coulomb, or force: bond or fcbm", p->criterion->type->name, p->force);
+    if (p->direct) pg_direct_check_laws (p, scene);
 done:
     pg_free (setting);
     return status;

@@ -129,6 +129,20 @@ static void check_view (const pg_scene *scene, const pg_problem *p, size_t i, co
     check_name (scene, p, i);
 }
 
+/* An error estimate smooths the stress of shape functions. */
+static void check_estimate (const pg_scene *scene, const pg_problem *problem)
+{
+    static const char *const keys[] = { "output.fields", "output.pictures" };
+    const char *name;
+    char path[64];
+    for (int k = 0; k < 2 && problem->direct; k++)
+        for (size_t i = 0; (name = pg_scene_name (scene, i, "%s", keys[k])); i++) {
+            if (strcmp (name, "error_estimate") != 0) continue;
+            snprintf (path, sizeof path, "%s[%zu]", keys[k], i);
+            pg_scene_fault (scene, path, "force: %s has no shape functions whose stress could be smoothed: leave it out, or use force: galerkin", problem->force);
+        }
+}
+
 pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
 {
     char names[512], path[64];
@@ -143,6 +157,7 @@ pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
         }
     for (size_t i = 0; i < pg_scene_count (scene, "output.views"); i++, count++) check_view (scene, problem, i, names);
     if (count >= MOST_PICTURES) pg_scene_fault (scene, "output.pictures", "at most %d pictures", MOST_PICTURES - 1);
+    check_estimate (scene, problem);
     result_averages_check (scene, problem);
     if (result_tips_check (scene, problem) != PG_OK) return PG_E_MEMORY;
     if (pg_reference_read (&reference, scene, problem) == PG_E_MEMORY) return PG_E_MEMORY;

@@ -61,6 +61,12 @@ if [ "$asan" -eq 0 ]; then
     compare "plane"  0.3 ../../data/cui_disk_plane/scene.yaml --set spacing='1 mm' --set solver.max_events=1
     compare "solid"  0.3 "$work/solid.yaml"
     compare "no factor" 0.3 "$work/solid.yaml" --set solver.linear=pcg
+    bond=(--set method.force=bond --set failure='{criterion: stretch, critical_stretch: 1 %}' --set spacing=0.02)
+    moving=(--set solver='{kind: verlet, time_steps: 2, dt: 1 ns}')
+    compare "bonds, no factor" 0.2 "$work/solid.yaml" "${bond[@]}" --set solver.linear=pcg
+    compare "bonds that cannot break" 0.2 "$work/solid.yaml" "${bond[@]}" --set solver.linear=pcg --set failure='{criterion: none}'
+    compare "bonds by stencil" 0.2 "$work/solid.yaml" "${bond[@]}" "${moving[@]}"
+    compare "bonds by list" 0.2 "$work/solid.yaml" "${bond[@]}" "${moving[@]}" --set method.evaluation=list
     compare "small time steps" 0.3 "$work/solid.yaml" --set solver='{kind: newmark, dt: 2 us, end: 4 us}' --set failure='{criterion: none}'
 fi
 

@@ -357,12 +357,12 @@ static void refusals_say_what_to_do (void **state)
     check_contains (pg_last_error (), "essential: nitsche");
     unlink_all (&l);
     the = (chain) { .n = 5, .k = 1e4, .ground = 1, .m = 0 };
-    check_fails (try_link (&l, &o, &chain_type), PG_E_USAGE);
+    check_fails (try_link (&l, &o, &chain_type), PG_E_SCENE);
     check_contains (pg_last_error (), "needs mass");
     unlink_all (&l);
     o.dt = 0;
     the = (chain) { .n = 5, .k = 0, .m = 1 };
-    check_fails (try_link (&l, &o, &chain_type), PG_E_USAGE);
+    check_fails (try_link (&l, &o, &chain_type), PG_E_SCENE);
     check_contains (pg_last_error (), "give solver.dt");
     unlink_all (&l);
     o.dt = 1e-3, o.time_steps = 0;
