@@ -146,7 +146,7 @@ pg_status bond_refresh (void *self, const pg_state *state, const pg_changes *cha
     pg_sweep_update (b->sweep, state->alive, changes);
     if (b->tangent) pg_sweep_update (b->tangent, state->alive, changes);
     if (changes) mark_stale (b, changes);
-    else b->all_stale = 1, b->revision++;
+    else b->all_stale = 1, b->revision++, bond_tiles_forget (b);
     return PG_OK;
 }
 

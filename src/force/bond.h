@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: bond-based peridynamics. Files: bond.c (life cycle, forces, breaking), bond_matrix.c (K, its diagonal and row sums, the bound of the
- * largest frequency), bond_field.c (utilisation, fields, places, census), bond_energy.c (points that die by their energy), bond_words.c (what the
+ * largest frequency), bond_field.c (utilisation, fields, places, census), bond_energy.c, bond_tiles.c (points that die by their energy), bond_words.c (what the
  * plan says).
  * Pair force on i from j: V_i V_j c k beta g s e, s = e . eta / r; linear in the displacement: kappa (xi . eta) xi,
  * kappa = V_i V_j c k beta g / r^3 (N/m^3), the same bits from either end. */
@@ -8,6 +8,7 @@
 #define PG_BOND_H
 #include "nodal.h"
 
+typedef struct bond_tiles bond_tiles;                  /* bond_tiles.c                                                   */
 typedef struct {
     const pg_problem *problem;
     int       dim, threads;
@@ -18,7 +19,8 @@ typedef struct {
     double   *limit;                                   /* critical stretch of each point; NULL: bonds do not break by theirs (n) */
     double   *critical;                                /* energy density at which a point dies, J/m^3, INFINITY: never; NULL: none does (n) */
     double   *density;                                 /* W of each point, J/m^3; with critical (n)                      */
-    unsigned char *dying;                              /* with critical (n)                                              */
+    unsigned char *dying;                              /* 0 but while they are looked for; with critical (n)             */
+    bond_tiles *tiles;                                 /* NULL until points are looked at in motion                      */
     pg_sweep *sweep;                                   /* forces, by the stretch of the rule                             */
     pg_sums   small;  pg_sweep *tangent;               /* finite stretch: sums and sweep of the linear one, for K x; made when asked for */
     const unsigned char *alive;                        /* of the state of the last refresh, borrowed; NULL: all live     */
@@ -74,10 +76,15 @@ void      bond_census (void *self, size_t *degenerate, size_t *isolated, size_t 
 /* points that die by their energy */
 pg_status bond_energy_create (bond *b);                                /* NULL unless the criterion needs energies        */
 void      bond_energy_free   (bond *b);
+double    bond_energy_at     (const bond *b, size_t i, int thread, const double *d);         /* J/m^3, of its live bonds    */
 /* Appends the bonds of points at or over their limit at d, both directions, ascending; the sweeps know of them from now on. */
 pg_status bond_energy_kill   (bond *b, const double *d, pg_changes *broken);
 /* Of each bond that of its worse end. */
 pg_status bond_energy_utilisation (bond *b, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
+/* Marks in b->dying the points at or over their limit at d and counts them; forget: bonds may live again. */
+pg_status bond_tiles_look    (bond *b, const double *d, size_t *dying);
+void      bond_tiles_forget  (bond *b);
+void      bond_tiles_free    (bond_tiles **tiles);
 /* words */
 int         bond_describe (const void *self, size_t line, char *text, size_t size);
 const char *bond_refuses  (const pg_problem *problem, const char *kind);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Points that die by their energy (theory B2): W of every point from the sweep; at or over its limit a point loses all its bonds, for good. Bits
- * of bonds are the only memory: a dead point stores nothing and has none left to lose. */
+ * Points that die by their energy (theory B2): at or over its limit a point loses all its bonds, for good. Bits of bonds are the only memory: a
+ * dead point stores nothing and has none left to lose. The energy that decides is always the plain sum over the point's own bonds: it does not
+ * depend on how sums are evaluated, and neither on which points are looked at (bond_tiles.c leaves out those that cannot have reached
+ * their limit). */
 #include "bond.h"
 #include <math.h>
 #include <stdlib.h>
@@ -31,7 +33,34 @@ done:
     return status;
 }
 
-void bond_energy_free (bond *b) { pg_free (b->critical), pg_free (b->density), pg_free (b->dying); }
+void bond_energy_free (bond *b)
+{
+    bond_tiles_free (&b->tiles);
+    pg_free (b->critical), pg_free (b->density), pg_free (b->dying);
+}
+
+/* ---- energy of a point --------------------------------------------------------------------------------------------------------- */
+/* Half the energy of each live bond: linear 1/4 kappa (xi . eta)^2, finite 1/4 kappa r^2 (|xi + eta| - r)^2. */
+double bond_energy_at (const bond *b, size_t i, int thread, const double *d)
+{
+    size_t dim = (size_t) b->dim;
+    int finite = b->problem->sums->rule.finite;
+    double sum = 0, r;
+    bond_star s;
+    bond_star_at (b, i, thread, &s);
+    for (size_t e = 0; e < s.m; e++) {
+        if (!bond_lives (b, s.first + e)) continue;
+        const double *xi = s.xi + e * dim, *far = d + (size_t) s.node[e] * dim;
+        double kappa = bond_kappa (b, i, &s, e, &r), along = 0, square = 0;
+        for (size_t a = 0; a < dim; a++) {
+            double eta = far[a] - d[i * dim + a];
+            along += xi[a] * eta, square += eta * eta;
+        }
+        double grown = 2 * along + square, longer = finite ? r * grown / (sqrt (fmax (0, r * r + grown)) + r) : along;
+        sum += kappa * (longer * longer);
+    }
+    return sum / (4 * b->problem->cloud.volume[i]);
+}
 
 /* ---- breaking ------------------------------------------------------------------------------------------------------------------ */
 static size_t back_of (const pg_family *f, size_t i, size_t j)
@@ -75,10 +104,11 @@ pg_status bond_energy_kill (bond *b, const double *d, pg_changes *broken)
 {
     pg_status status = PG_OK;
     size_t before = broken->n, dying = 0;
-    PG_TRY (pg_sweep_energies (b->sweep, d, b->density));
-    for (size_t i = 0; i < b->n; i++) dying += b->dying[i] = b->density[i] >= b->critical[i];
+    PG_TRY (bond_tiles_look (b, d, &dying));
     if (dying == 0) goto done;
-    PG_TRY (collect (b, broken));
+    status = collect (b, broken);
+    memset (b->dying, 0, b->n);
+    PG_TRY (status);
     pg_changes fresh = { broken->n - before, 0, broken->bond + before };
     pg_sweep_update (b->sweep, b->alive, &fresh);
 done:

@@ -172,7 +172,7 @@ static void take (const pg_sums *sums, size_t i, size_t j, size_t b, size_t e, d
 {
     const pg_stencil *t = &sums->stencil;
     size_t dim = (size_t) t->dim;
-    if (xi) memcpy (xi + e*dim, t->xi + b*dim, dim * sizeof *xi);
+    for (size_t k = 0; xi && k < dim; k++) xi[e*dim + k] = t->xi[b*dim + k];
     if (weight) weight[e] = sums->family_volume ? t->weight[b] * sums_surface (sums, i, j) : t->weight[b];
     if (beta) beta[e] = t->beta[b];
 }
