@@ -6,6 +6,16 @@
 #include <math.h>
 #include <string.h>
 
+typedef struct { double *y; int failed; } negation;
+static void negate (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const negation *w = context;
+    double *y = w->y;
+    if (w->failed) for (size_t i = first; i < last; i++) y[i] = NAN;
+    else for (size_t i = first; i < last; i++) y[i] = -y[i];
+}
+
 /* K x = - forces at displacement x. A sweep does not fail without breaking; making that of finite stretch may: then K x is not a number. */
 void bond_apply (void *context, const double *x, double *y)
 {
@@ -13,7 +23,8 @@ void bond_apply (void *context, const double *x, double *y)
     pg_sweep *sweep;
     size_t ndof = b->n * (size_t) b->dim;
     int failed = bond_tangent_sweep (b, &sweep) != PG_OK || pg_sweep_force (sweep, x, y, NULL) != PG_OK;
-    for (size_t i = 0; i < ndof; i++) y[i] = failed ? NAN : -y[i];
+    negation w = { y, failed };
+    pg_parallel (b->threads, ndof, negate, &w);
 }
 
 /* sum_j kappa xi x xi over the live (or all) bonds of a point */
@@ -89,6 +100,57 @@ pg_status bond_row_sums (void *self, double *sum)
     bond *b = self;
     job w = { b, sum };
     pg_parallel (b->threads, b->n, row_sum_points, &w);
+    return PG_OK;
+}
+
+/* Row of blocks of a point over live bonds, its own block last. */
+static size_t couplings_of (void *context, size_t i, int thread, int *node, double *value)
+{
+    const bond *b = context;
+    size_t dim = (size_t) b->dim, bb = dim * dim, m = 0;
+    if (!value) {
+        for (size_t e = b->family->start[i]; e < b->family->start[i + 1]; e++) if (bond_lives (b, e)) node[m++] = b->family->node[e];
+        node[m++] = (int) i;
+        return m;
+    }
+    bond_star s;
+    double own[9] = { 0 };
+    bond_star_at (b, i, thread, &s);
+    for (size_t e = 0; e < s.m; e++) {
+        const double *xi = s.xi + e * dim;
+        if (!bond_lives (b, s.first + e)) continue;
+        double kappa = bond_kappa (b, i, &s, e, NULL), *v = value + m * bb;
+        for (size_t a = 0; a < dim; a++)
+            for (size_t c = 0; c < dim; c++) v[a * dim + c] = -(kappa * xi[a] * xi[c]), own[a * dim + c] -= v[a * dim + c];
+        node[m++] = s.node[e];
+    }
+    memcpy (value + m * bb, own, bb * sizeof *own);
+    node[m++] = (int) i;
+    return m;
+}
+
+static void farthest_points (void *context, size_t first, size_t last, int thread)
+{
+    const job *w = context;
+    size_t dim = (size_t) w->b->dim;
+    bond_star s;
+    for (size_t i = first; i < last; i++) {
+        double far = 0;
+        bond_star_at (w->b, i, thread, &s);
+        for (size_t e = 0; e < s.m * dim; e++) far = fmax (far, fabs (s.xi[e]));
+        w->out[i] = far;
+    }
+}
+
+pg_status bond_couplings (void *self, pg_couplings *out)
+{
+    bond *b = self;
+    double far = 0;
+    job w = { b, b->work };
+    *out = (pg_couplings) { b, b->widest + 1, 0, couplings_of };
+    pg_parallel (b->threads, b->n, farthest_points, &w);
+    for (size_t i = 0; i < b->n; i++) far = fmax (far, b->work[i]);
+    out->reach = far * (1 + 1e-9);
     return PG_OK;
 }
 
