@@ -131,25 +131,33 @@ static size_t couplings_of (void *context, size_t i, int thread, int *node, doub
 
 static void farthest_points (void *context, size_t first, size_t last, int thread)
 {
+    (void) thread;
     const job *w = context;
     size_t dim = (size_t) w->b->dim;
-    bond_star s;
+    const pg_family *f = w->b->family;
+    const double *x = w->b->problem->cloud.x;
     for (size_t i = first; i < last; i++) {
-        double far = 0;
-        bond_star_at (w->b, i, thread, &s);
-        for (size_t e = 0; e < s.m * dim; e++) far = fmax (far, fabs (s.xi[e]));
-        w->out[i] = far;
+        w->out[i] = 0;
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
+            for (size_t k = 0; k < dim; k++) {
+                double far = fabs (x[(size_t) f->node[e] * dim + k] - x[i * dim + k]);
+                if (far > w->out[i]) w->out[i] = far;
+            }
     }
 }
 
 pg_status bond_couplings (void *self, pg_couplings *out)
 {
     bond *b = self;
+    const pg_stencil *t = &b->problem->sums->stencil;
     double far = 0;
-    job w = { b, b->work };
     *out = (pg_couplings) { b, b->widest + 1, 0, couplings_of };
-    pg_parallel (b->threads, b->n, farthest_points, &w);
-    for (size_t i = 0; i < b->n; i++) far = fmax (far, b->work[i]);
+    if (t->n) for (size_t e = 0; e < t->n * (size_t) t->dim; e++) far = fmax (far, fabs (t->xi[e]));
+    else {
+        job w = { b, b->work };
+        pg_parallel (b->threads, b->n, farthest_points, &w);
+        for (size_t i = 0; i < b->n; i++) far = fmax (far, b->work[i]);
+    }
     out->reach = far * (1 + 1e-9);
     return PG_OK;
 }

@@ -24,7 +24,6 @@ size_t level_row (const level *l, size_t i, int thread, int *node, double *value
 
 /* ---- diagonal --------------------------------------------------------------------------------------------------------------------- */
 typedef struct { int **node; double **value; } room;                   /* of a row, for each thread                      */
-typedef struct { level *l; const unsigned char *fixed; room room; } diagonal_job;
 
 static void room_free (room *r, int threads)
 {
@@ -48,31 +47,28 @@ done:
 
 static void diagonal_nodes (void *context, size_t first, size_t last, int thread)
 {
-    const diagonal_job *w = context;
-    level *l = w->l;
+    (void) thread;
+    const level *l = context;
     size_t block = (size_t) l->block;
-    for (size_t i = first; i < last; i++) {
-        size_t m = level_row (l, i, thread, w->room.node[thread], w->room.value[thread]), own = 0;
-        while (own < m && (size_t) w->room.node[thread][own] != i) own++;
-        for (size_t k = 0; k < block; k++) {
-            double d = own < m ? w->room.value[thread][(own * block + k) * block + k] : 0;
-            int masked = !(d > 0) || (w->fixed && w->fixed[i * block + k]);
-            l->mask[i] |= (unsigned char) (masked << k);
-            l->inverse[i * block + k] = masked ? 0 : 1 / d;
-        }
-    }
+    for (size_t i = first; i < last; i++)
+        for (size_t e = l->start[i]; e < l->start[i + 1]; e++)
+            for (size_t k = 0; k < block && (size_t) l->node[e] == i; k++) l->inverse[i * block + k] = l->value[(e * block + k) * block + k];
 }
 
 pg_status level_diagonal (level *l, const unsigned char *fixed)
 {
     pg_status status = PG_OK;
-    diagonal_job w = { l, fixed, { NULL, NULL } };
-    PG_TRY (room_make (&w.room, l));
+    size_t block = (size_t) l->block;
     PG_ALLOC (l->mask, l->n);
     PG_ALLOC (l->inverse, l->ndof);
-    pg_parallel (l->threads, l->n, diagonal_nodes, &w);
+    if (l->A) l->A->diagonal (l->A->context, l->inverse);
+    else pg_parallel (l->threads, l->n, diagonal_nodes, l);
+    for (size_t i = 0; i < l->ndof; i++) {
+        int masked = !(l->inverse[i] > 0) || (fixed && fixed[i]);
+        l->mask[i / block] |= (unsigned char) (masked << i % block);
+        l->inverse[i] = masked ? 0 : 1 / l->inverse[i];
+    }
 done:
-    room_free (&w.room, l->threads);
     return status;
 }
 

@@ -54,5 +54,6 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, doub
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     if (!by_factor) strcpy (s->report->solver, "cg");
+    if (!by_factor && !s->multilevel) strcpy (s->report->preconditioner, "jacobi");
     return status;
 }
