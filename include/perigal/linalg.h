@@ -73,6 +73,9 @@ typedef struct {                                       /* the rows of a matrix o
     /* Couplings of node i, itself among them, in any order: node (m) and, unless value is NULL, blocks (m x block x block); returns m.
      * Called by several threads, each with a number of its own. */
     size_t (*row) (void *context, size_t i, int thread, int *node, double *value);
+    /* Nodes of a lattice, its steps (0: none), m; of all nodes that are alike the rows are the same: blocks and offsets, in order. NULL: not known. */
+    double lattice[3];
+    int    (*alike) (void *context, size_t i);
 } pg_couplings;
 typedef struct {
     int     dim, block, threads;                       /* of space; unknowns of a node (numbered node by node), 1 to 6; of the loops */

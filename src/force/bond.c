@@ -36,7 +36,7 @@ void bond_free (void **self)
     nodal_free (&b->nodal);
     pg_sparse_clear (&b->K);
     pg_nearest_free (&b->near);
-    pg_free (b->modulus), pg_free (b->limit), pg_free (b->room), pg_free (b->work), pg_free (b->stale), pg_free (b->diagonal);
+    pg_free (b->modulus), pg_free (b->limit), pg_free (b->room), pg_free (b->work), pg_free (b->stale), pg_free (b->diagonal), pg_free (b->whole);
     pg_free (b);
     *self = NULL;
 }

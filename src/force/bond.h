@@ -30,6 +30,7 @@ typedef struct {
     unsigned char *stale;
     double   *diagonal;  unsigned long diagonal_of;    /* of K at that revision                                          */
     unsigned long revision;
+    double   *whole; int searched;                     /* row of blocks of a point with all its bonds, the own one last; NULL: not the same for all */
     pg_nearest *near;                                  /* points; NULL until a place is asked for                        */
 } bond;
 

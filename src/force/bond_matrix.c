@@ -4,6 +4,7 @@
  * omega^2 <= 2 lambda_max (P_i) / rho_i, P_i = sum_j kappa xi x xi / V_i (theory A4). */
 #include "bond.h"
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 typedef struct { double *y; int failed; } negation;
@@ -41,6 +42,52 @@ static void own_block (const bond *b, size_t i, const bond_star *s, int all, dou
     }
 }
 
+/* ---- rows of points that have all their bonds ----------------------------------------------------------------------------------- */
+static size_t row_of_star (const bond *b, size_t i, const bond_star *s, int all, int *node, double *value)
+{
+    size_t dim = (size_t) b->dim, bb = dim * dim, m = 0;
+    double own[9] = { 0 };
+    for (size_t e = 0; e < s->m; e++) {
+        const double *xi = s->xi + e * dim;
+        if (!all && !bond_lives (b, s->first + e)) continue;
+        double kappa = bond_kappa (b, i, s, e, NULL), *v = value + m * bb;
+        for (size_t a = 0; a < dim; a++)
+            for (size_t c = 0; c < dim; c++) v[a * dim + c] = -(kappa * xi[a] * xi[c]), own[a * dim + c] += kappa * xi[a] * xi[c];
+        if (node) node[m] = s->node[e];
+        m++;
+    }
+    memcpy (value + m * bb, own, bb * sizeof *own);
+    if (node) node[m] = (int) i;
+    return m + 1;
+}
+
+static size_t family_size (const bond *b, size_t i) { return b->family->start[i + 1] - b->family->start[i]; }
+
+/* On a lattice without shares of volume, factors of surfaces or several moduli one row serves all whole points; where there is no room for it
+ * every row is made by itself. */
+static void find_whole (bond *b)
+{
+    const pg_sums *sums = b->problem->sums;
+    size_t i = 0, n = sums->stencil.n, bb = (size_t) (b->dim * b->dim);
+    if (b->searched) return;
+    b->searched = 1;
+    if (!n || !sums->ordered || sums->share || sums->family_volume) return;
+    for (size_t k = 1; k < b->n; k++) if (b->modulus[k] != b->modulus[0]) return;
+    while (i < b->n && family_size (b, i) != n) i++;
+    if (i == b->n) return;
+    bond_star s;
+    bond_star_at (b, i, 0, &s);
+    b->whole = pg_calloc ((n + 1) * bb, sizeof *b->whole);
+    if (b->whole) row_of_star (b, i, &s, 1, NULL, b->whole);
+}
+
+static int is_whole (void *context, size_t i)
+{
+    const bond *b = context;
+    size_t first = b->family->start[i], m = family_size (b, i);
+    return b->whole && m == b->problem->sums->stencil.n && !(b->alive && memchr (b->alive + first, 0, m));
+}
+
 typedef struct { const bond *b; double *out; } job;
 
 static void diagonal_points (void *context, size_t first, size_t last, int thread)
@@ -50,9 +97,13 @@ static void diagonal_points (void *context, size_t first, size_t last, int threa
     bond_star s;
     double D[9];
     for (size_t i = first; i < last; i++) {
-        bond_star_at (w->b, i, thread, &s);
-        own_block (w->b, i, &s, 0, D);
-        for (size_t k = 0; k < dim; k++) w->out[i * dim + k] = D[k * dim + k];
+        const double *own = D;
+        if (is_whole ((void *) (uintptr_t) w->b, i)) own = w->b->whole + family_size (w->b, i) * dim * dim;
+        else {
+            bond_star_at (w->b, i, thread, &s);
+            own_block (w->b, i, &s, 0, D);
+        }
+        for (size_t k = 0; k < dim; k++) w->out[i * dim + k] = own[k * dim + k];
     }
 }
 
@@ -65,6 +116,7 @@ void bond_diagonal (void *context, double *d)
         return;
     }
     job w = { b, d };
+    find_whole (b);
     pg_parallel (b->threads, b->n, diagonal_points, &w);
     if (!b->diagonal) b->diagonal = pg_calloc (ndof, sizeof *d);       /* kept where there is room for it                */
     if (b->diagonal) memcpy (b->diagonal, d, ndof * sizeof *d), b->diagonal_of = b->revision;
@@ -113,20 +165,16 @@ static size_t couplings_of (void *context, size_t i, int thread, int *node, doub
         node[m++] = (int) i;
         return m;
     }
-    bond_star s;
-    double own[9] = { 0 };
-    bond_star_at (b, i, thread, &s);
-    for (size_t e = 0; e < s.m; e++) {
-        const double *xi = s.xi + e * dim;
-        if (!bond_lives (b, s.first + e)) continue;
-        double kappa = bond_kappa (b, i, &s, e, NULL), *v = value + m * bb;
-        for (size_t a = 0; a < dim; a++)
-            for (size_t c = 0; c < dim; c++) v[a * dim + c] = -(kappa * xi[a] * xi[c]), own[a * dim + c] -= v[a * dim + c];
-        node[m++] = s.node[e];
+    if (is_whole (context, i)) {
+        m = family_size (b, i);
+        memcpy (node, b->family->node + b->family->start[i], m * sizeof *node);
+        memcpy (value, b->whole, (m + 1) * bb * sizeof *value);
+        node[m] = (int) i;
+        return m + 1;
     }
-    memcpy (value + m * bb, own, bb * sizeof *own);
-    node[m++] = (int) i;
-    return m;
+    bond_star s;
+    bond_star_at (b, i, thread, &s);
+    return row_of_star (b, i, &s, 0, node, value);
 }
 
 static void farthest_points (void *context, size_t first, size_t last, int thread)
@@ -151,7 +199,10 @@ pg_status bond_couplings (void *self, pg_couplings *out)
     bond *b = self;
     const pg_stencil *t = &b->problem->sums->stencil;
     double far = 0;
-    *out = (pg_couplings) { b, b->widest + 1, 0, couplings_of };
+    *out = (pg_couplings) { .context = b, .widest = b->widest + 1, .row = couplings_of };
+    find_whole (b);
+    if (b->whole) out->alike = is_whole;
+    for (int k = 0; b->whole && k < b->dim; k++) out->lattice[k] = b->problem->sums->sites.step[k];
     if (t->n) for (size_t e = 0; e < t->n * (size_t) t->dim; e++) far = fmax (far, fabs (t->xi[e]));
     else {
         job w = { b, b->work };

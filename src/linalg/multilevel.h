@@ -22,7 +22,7 @@ typedef struct {
     double  top;                                       /* bound of the eigenvalues of D^-1 A, 1                          */
     /* coarse functions: multilinear hats on a grid, one for each connected part of the nodes under a hat                        */
     double  low[3], step[3];
-    int     cells[3];
+    int     cells[3], share_of[3];                     /* share_of: lattice steps in a step, nodes in the middle of theirs; 0: no lattice */
     size_t  ncell, nhat, nfunction;
     int    *cell;                                      /* of each node                       (n)                         */
     size_t *cell_start;  int *cell_node;               /* nodes of each cell, ascending      (ncell + 1), (n)            */

@@ -133,7 +133,13 @@ typedef struct {                                       /* of one thread         
     double *spread;                                    /* A P of one node: (columns x block x block)                     */
     pg_status status;
 } summer;
-typedef struct { level *c; const level *f; room room; summer *summer; const size_t *cell; } galerkin;
+typedef struct {                                       /* sums of a cell like many others                                */
+    unsigned char *like;                               /* of each cell: it is one of them; NULL: none is                 */
+    size_t nrow, ncolumn;
+    int   *row, *column;                               /* offsets of hats from the cell's first corner (x 3)             */
+    double *sum;
+} pattern;
+typedef struct { level *c; const level *f; room room; summer *summer; const size_t *cell; pattern pattern; } galerkin;
 
 static void add_scaled (size_t bb, double w, const double *a, double *out)
 {
@@ -214,7 +220,7 @@ static long find (const int *list, size_t n, int p)
     return low < n && list[low] == p ? (long) low : -1;
 }
 
-static pg_status hand_over (summer *s, level *c)
+static pg_status hand_over (const summer *s, const double *sums, level *c)
 {
     pg_status status = PG_OK;
     size_t bb = (size_t) (c->block * c->block);
@@ -222,7 +228,7 @@ static pg_status hand_over (summer *s, level *c)
         size_t first = c->start[s->row[r]], m = c->start[s->row[r] + 1] - first;
         for (size_t q = 0; q < s->ncolumn; q++) {
             long at = find (c->node + first, m, s->column[q]);
-            const double *sum = s->sum + (q * s->nrow + r) * bb;
+            const double *sum = sums + (q * s->nrow + r) * bb;
             if (at >= 0) add_scaled (bb, 1, sum, c->value + (first + (size_t) at) * bb);
             else for (size_t k = 0; k < bb; k++)
                 if (sum[k] != 0) PG_FAIL (PG_E_USAGE, "nodes are coupled that are further apart than their rows said");
@@ -232,7 +238,142 @@ done:
     return status;
 }
 
-static pg_status sum_cell (galerkin *g, size_t cell, int thread)
+/* ---- cells that are alike ----------------------------------------------------------------------------------------------------------- */
+static void cell_place (const level *f, size_t cell, int *at)
+{
+    for (int k = 0; k < f->dim; k++) at[k] = (int) (cell % (size_t) f->cells[k]), cell /= (size_t) f->cells[k];
+}
+
+/* No node of the cell has a masked unknown, no hat at its corners is split. */
+static int is_plain (const level *f, size_t cell)
+{
+    for (size_t p = f->cell_start[cell]; p < f->cell_start[cell + 1]; p++) if (f->mask[f->cell_node[p]]) return 0;
+    for (int c = 0; c < f->corners; c++) {
+        size_t hat = level_hat (f, cell, c);
+        if (f->first[hat + 1] - f->first[hat] > 1) return 0;
+    }
+    return 1;
+}
+
+enum { PLAIN = 1, ALIKE = 2 };
+
+static void classify (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    galerkin *g = context;
+    const level *f = g->f;
+    size_t full = 1;
+    for (int k = 0; k < f->dim; k++) full *= (size_t) f->share_of[k];
+    for (size_t cell = first; cell < last; cell++) {
+        const int *node = f->cell_node + f->cell_start[cell];
+        size_t m = f->cell_start[cell + 1] - f->cell_start[cell], alike = 0;
+        if (!is_plain (f, cell)) continue;
+        while (m == full && alike < m && f->rows.alike (f->rows.context, (size_t) node[alike])) alike++;
+        g->pattern.like[cell] = (unsigned char) (alike == full ? PLAIN | ALIKE : PLAIN);
+    }
+}
+
+/* All that its couplings reach is plain. */
+static int stands_free (const level *f, const unsigned char *like, size_t cell)
+{
+    int at[3] = { 0 }, far[3] = { 0 };
+    cell_place (f, cell, at);
+    for (int k = 0; k < f->dim; k++) {
+        far[k] = (int) ceil (f->reach[k] / f->step[k]);
+        if (at[k] < far[k] || at[k] + far[k] >= f->cells[k]) return 0;
+    }
+    size_t sy = (size_t) f->cells[0], sz = sy * (f->dim > 1 ? (size_t) f->cells[1] : 1);
+    for (int z = at[2] - far[2]; z <= at[2] + far[2]; z++)
+        for (int y = at[1] - far[1]; y <= at[1] + far[1]; y++)
+            for (int x = at[0] - far[0]; x <= at[0] + far[0]; x++) if (!(like[(size_t) z * sz + (size_t) y * sy + (size_t) x] & PLAIN)) return 0;
+    return 1;
+}
+
+/* The hat of a function relative to the first corner of a cell. */
+static void offset_of (const level *f, const int *cell, int function, int *out)
+{
+    size_t low = 0, high = f->nhat;
+    while (high - low > 1) {                           /* the last hat that starts at or before it                       */
+        size_t middle = (low + high) / 2;
+        if (f->first[middle] <= (size_t) function) low = middle;
+        else high = middle;
+    }
+    level_hat_place (f, low, out);
+    for (int k = 0; k < f->dim; k++) out[k] -= cell[k];
+}
+
+static int function_at (const level *f, const int *cell, const int *offset)
+{
+    size_t hat = 0, stride = 1;
+    for (int k = 0; k < f->dim; k++) hat += (size_t) (cell[k] + offset[k]) * stride, stride *= (size_t) f->cells[k] + 1;
+    return (int) f->first[hat];
+}
+
+static pg_status sum_nodes (galerkin *g, size_t cell, int thread);
+static void forget_cell (summer *s);
+
+/* Sums of the first of the cells that are alike. */
+static pg_status make_pattern_of (galerkin *g, size_t cell)
+{
+    pg_status status = PG_OK;
+    pattern *p = &g->pattern;
+    summer *s = &g->summer[0];
+    int at[3] = { 0 };
+    PG_TRY (sum_nodes (g, cell, 0));
+    size_t count = s->nrow * s->ncolumn * (size_t) (g->f->block * g->f->block);
+    p->nrow = s->nrow, p->ncolumn = s->ncolumn;
+    PG_ALLOC (p->row, 3 * s->nrow);
+    PG_ALLOC (p->column, 3 * s->ncolumn);
+    PG_ALLOC (p->sum, count);
+    memcpy (p->sum, s->sum, count * sizeof *p->sum);
+    cell_place (g->f, cell, at);
+    for (size_t r = 0; r < p->nrow; r++) offset_of (g->f, at, s->row[r], p->row + 3*r);
+    for (size_t q = 0; q < p->ncolumn; q++) offset_of (g->f, at, s->column[q], p->column + 3*q);
+done:
+    forget_cell (s);
+    return status;
+}
+
+static pg_status find_alike (galerkin *g)
+{
+    pg_status status = PG_OK;
+    const level *f = g->f;
+    unsigned char *like = NULL;
+    size_t model = f->ncell;
+    for (int k = 0; k < f->dim; k++) if (!f->share_of[k]) return PG_OK;
+    if (!f->rows.alike) return PG_OK;
+    PG_ALLOC (g->pattern.like, f->ncell);
+    PG_ALLOC (like, f->ncell);
+    pg_parallel (f->threads, f->ncell, classify, g);
+    for (size_t cell = 0; cell < f->ncell; cell++) {
+        like[cell] = (g->pattern.like[cell] & ALIKE) && stands_free (f, g->pattern.like, cell);
+        if (like[cell] && model == f->ncell) model = cell;
+    }
+    memcpy (g->pattern.like, like, f->ncell);
+    if (model < f->ncell) PG_TRY (make_pattern_of (g, model));
+done:
+    pg_free (like);
+    return status;
+}
+
+/* The summer as it would be after the cell's own sums. */
+static pg_status take_pattern (galerkin *g, size_t cell, summer *s)
+{
+    pg_status status = PG_OK;
+    const pattern *p = &g->pattern;
+    int at[3] = { 0 };
+    cell_place (g->f, cell, at);
+    s->nrow = s->ncolumn = 0;
+    PG_GROW (s->row, s->cap_row, p->nrow);
+    PG_GROW (s->column, s->cap_column, p->ncolumn);
+    for (; s->nrow < p->nrow; s->nrow++) s->row[s->nrow] = function_at (g->f, at, p->row + 3 * s->nrow);
+    for (; s->ncolumn < p->ncolumn; s->ncolumn++) s->column[s->ncolumn] = function_at (g->f, at, p->column + 3 * s->ncolumn);
+done:
+    return status;
+}
+
+/* ---- all of them --------------------------------------------------------------------------------------------------------------------- */
+static pg_status sum_nodes (galerkin *g, size_t cell, int thread)
 {
     pg_status status = PG_OK;
     const level *f = g->f;
@@ -244,10 +385,26 @@ static pg_status sum_cell (galerkin *g, size_t cell, int thread)
         size_t i = (size_t) node[e], count = level_row (f, i, thread, g->room.node[thread], g->room.value[thread]);
         PG_TRY (add_node (s, f, i, count, g->room.node[thread], g->room.value[thread]));
     }
-    PG_TRY (hand_over (s, g->c));
 done:
+    return status;
+}
+
+static void forget_cell (summer *s)
+{
     for (size_t r = 0; r < s->nrow; r++) s->row_of[s->row[r]] = -1;
     for (size_t q = 0; q < s->ncolumn; q++) s->where[s->column[q]] = -1;
+}
+
+static pg_status sum_cell (galerkin *g, size_t cell, int thread)
+{
+    pg_status status = PG_OK;
+    summer *s = &g->summer[thread];
+    int like = g->pattern.like && g->pattern.like[cell];
+    if (like) PG_TRY (take_pattern (g, cell, s));
+    else PG_TRY (sum_nodes (g, cell, thread));
+    PG_TRY (hand_over (s, like ? g->pattern.sum : s->sum, g->c));
+done:
+    forget_cell (s);
     return status;
 }
 
@@ -304,6 +461,7 @@ pg_status level_coarsen (level *c, const level *f)
         memset (g.summer[t].where, -1, c->n * sizeof (int));
         memset (g.summer[t].row_of, -1, c->n * sizeof (int));
     }
+    PG_TRY (find_alike (&g));
     PG_TRY (sum_all (&g));
     PG_TRY (level_diagonal (c, NULL));
 done:
@@ -312,6 +470,7 @@ done:
         pg_free (s->where), pg_free (s->row_of), pg_free (s->row), pg_free (s->column), pg_free (s->sum), pg_free (s->spread);
     }
     pg_free (g.summer);
+    pg_free (g.pattern.like), pg_free (g.pattern.row), pg_free (g.pattern.column), pg_free (g.pattern.sum);
     room_free (&g.room, f->threads);
     return status;
 }

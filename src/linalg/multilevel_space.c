@@ -17,9 +17,14 @@ static void make_grid (level *l, double step)
             double x = l->x[i * (size_t) l->dim + (size_t) k];
             low = fmin (low, x), high = fmax (high, x);
         }
-        double count = fmax (1, round ((high - low) / step));
-        l->cells[k] = (int) count, l->low[k] = low;
-        l->step[k] = high > low ? (high - low) / count : 1;
+        double count = fmax (1, round ((high - low) / step)), h = l->rows.lattice[k];
+        l->low[k] = low, l->step[k] = high > low ? (high - low) / count : 1;
+        if (h > 0) {                                   /* every cell holds the same nodes at the same places             */
+            l->share_of[k] = (int) fmax (1, round (step / h));
+            l->low[k] = low - h / 2, l->step[k] = l->share_of[k] * h;
+            count = ceil (round ((high - low) / h + 1) / l->share_of[k]);
+        }
+        l->cells[k] = (int) count;
         l->ncell *= (size_t) l->cells[k], l->nhat *= (size_t) l->cells[k] + 1;
     }
 }
@@ -51,6 +56,7 @@ static void place_nodes (void *context, size_t first, size_t last, int thread)
         size_t cell = 0, stride = 1;
         for (int k = 0; k < l->dim; k++) {
             double s = (l->x[i * (size_t) l->dim + (size_t) k] - l->low[k]) / l->step[k];
+            if (l->share_of[k]) s = (floor (s * l->share_of[k]) + 0.5) / l->share_of[k];
             double whole = fmin (fmax (0, floor (s)), l->cells[k] - 1);
             t[k] = fmin (fmax (0, s - whole), 1);
             cell += (size_t) whole * stride, stride *= (size_t) l->cells[k];
