@@ -79,6 +79,8 @@ typedef struct {
     int       (*describe) (const void *self, size_t line, char *text, size_t size);
     /* NULL, or why this force does not go with that solver kind (a sentence for the user; static text). NULL entry: goes with all. */
     const char *(*refuses) (const pg_problem *problem, const char *solver_kind);
+    /* Rows of K at the last refresh, by points, for preconditioners of the operator. NULL: none can be had. */
+    pg_status (*couplings) (void *self, pg_couplings *out);
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

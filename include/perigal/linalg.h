@@ -56,12 +56,51 @@ const char           *pg_linear_names (void);
  * will hold and cost, by the same ordering and a symbolic analysis of the graph alone. */
 pg_status pg_linear_forecast (const pg_sparse *graph, int block, pg_linear_info *info);
 
-/* Conjugate gradients with diagonal preconditioning on any operator; x holds the first guess and the answer. */
+/* Conjugate gradients with diagonal preconditioning on any operator; x holds the first guess and the answer. The same bits for any number of threads. */
 pg_status pg_conjugate_gradients (const pg_operator *A, const double *b, double *x, double tolerance, size_t limit, size_t *iterations);
-/* The same with a preconditioner of the caller's: z = P^-1 r, symmetric positive definite (NULL: the diagonal). */
-typedef struct { void *context; pg_status (*solve) (void *context, const double *r, double *z); } pg_preconditioner;
+/* The same with a preconditioner of the caller's: z = P^-1 r, symmetric positive definite (NULL: the diagonal); threads: of the loops beside it. */
+typedef struct { void *context; pg_status (*solve) (void *context, const double *r, double *z); int threads; } pg_preconditioner;
 pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b, double *x, double tolerance, size_t limit,
                                        size_t *iterations);
 /* Row whose pivot failed in the last factor call on this thread (-1: none). */
 long pg_linear_failed_row (void);
+
+/* ---- multilevel preconditioner ------------------------------------------------------------------------------------------ */
+typedef struct {                                       /* the rows of a matrix of nodes, for those who must see it        */
+    void  *context;
+    size_t widest;                                     /* most couplings of one node, its own block among them           */
+    double reach;                                      /* m: no two nodes further apart are coupled                      */
+    /* Couplings of node i, itself among them, in any order: node (m) and, unless value is NULL, blocks (m x block x block); returns m.
+     * Called by several threads, each with a number of its own. */
+    size_t (*row) (void *context, size_t i, int thread, int *node, double *value);
+    /* Nodes of a lattice, its steps (0: none), m; of all nodes that are alike the rows are the same: blocks and offsets, in order. NULL: not known. */
+    double lattice[3];
+    int    (*alike) (void *context, size_t i);
+} pg_couplings;
+typedef struct {
+    int     dim, block, threads;                       /* of space; unknowns of a node (numbered node by node), 1 to 6; of the loops */
+    size_t  n;                                         /* nodes                                                          */
+    const double *x;                                   /* their places, m (n x dim), borrowed                            */
+    const unsigned char *fixed;                        /* unknowns that are prescribed; NULL: none (n x block)           */
+    const pg_operator *A;                              /* y = A x, all n x block unknowns, borrowed                      */
+    pg_couplings rows;                                 /* of the same A; asked while it is created, not later            */
+    double  step;                                      /* of the first coarse grid over the reach; 0: 4/3                */
+    int     degree;                                    /* of the smoothing polynomial; 0: 2                              */
+} pg_multilevel_setting;
+typedef struct {
+    int     levels, degree;
+    size_t  unknowns[8];                               /* of the finest, the next, ...                                   */
+    double  top[8];                                    /* bounds of the spectra of D^-1 A                                */
+    size_t  split;                                     /* hats of the first coarse grid that cracks or gaps have split   */
+    size_t  applications;
+} pg_multilevel_info;
+typedef struct pg_multilevel pg_multilevel;
+/* z = M r for A symmetric positive (semi)definite: one symmetric V-cycle, Chebyshev smoothing by products with A, coarse levels of multilinear
+ * hats on grids over the nodes, split where a crack runs through (they carry the unknowns of a node each and make its rigid motions and uniform
+ * strains), their matrices P' A P, the last by Cholesky. Unknowns that are prescribed or without stiffness: z = 0. The same bits for any number of
+ * threads. It stays valid while A loses couplings, only less and less good. PG_E_USAGE, PG_E_MEMORY, PG_E_NOT_SPD. */
+pg_status pg_multilevel_create (pg_multilevel **out, const pg_multilevel_setting *setting);
+void      pg_multilevel_free   (pg_multilevel **multilevel);
+pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *multilevel);
+void      pg_multilevel_describe (const pg_multilevel *multilevel, pg_multilevel_info *info);
 #endif

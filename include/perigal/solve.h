@@ -9,6 +9,7 @@
 typedef enum { PG_BREAK_WORST, PG_BREAK_FRACTION, PG_BREAK_ALL, PG_BREAK_PASSING } pg_break;
 typedef struct {
     char     kind[16], linear[16];                     /* an entry of src/solve; auto | cholmod | umfpack | pcg          */
+    char     preconditioner[16];                       /* of linear: pcg; auto | jacobi | multilevel; "": auto           */
     int      quasi_static;                             /* static, adr, relax: t of loads is the load factor              */
     int      marching;                                 /* verlet, central: explicit time steps                           */
     int      staged;                                   /* adr, relax: stages of the load, each relaxed                   */
@@ -38,12 +39,13 @@ enum { PG_SECONDS_SHAPE, PG_SECONDS_ANALYSE, PG_SECONDS_FACTOR, PG_SECONDS_SOLVE
 typedef struct { char what[96], why[160]; double seconds_saved; } pg_skip;
 typedef struct {                                       /* of the run so far                                              */
     long   steps, events, iterations, broken, bonds_over_limit, factorizations, updates, solves;
+    long   preconditioners;                            /* made (multilevel)                                              */
     size_t cg_iterations, degenerate_points, isolated_nodes, fragments;
     double utilisation_max, residual_max, overlap_max; /* over accepted steps; m                                         */
     double energy_strain, energy_kinetic, energy_external, energy_damping, energy_dissipated;      /* J; dissipated: by breaking, the rest */
     double seconds[PG_SECONDS_COUNT];
     double factor_entries, factor_flops;
-    char   ordering[16], solver[16];
+    char   ordering[16], solver[16], preconditioner[128];
     pg_skip skipped[16];  size_t nskipped;
     char   warning[16][256]; size_t nwarning;
 } pg_report;

@@ -36,7 +36,7 @@ void bond_free (void **self)
     nodal_free (&b->nodal);
     pg_sparse_clear (&b->K);
     pg_nearest_free (&b->near);
-    pg_free (b->modulus), pg_free (b->limit), pg_free (b->room), pg_free (b->work), pg_free (b->stale), pg_free (b->diagonal);
+    pg_free (b->modulus), pg_free (b->limit), pg_free (b->room), pg_free (b->work), pg_free (b->stale), pg_free (b->diagonal), pg_free (b->whole);
     pg_free (b);
     *self = NULL;
 }
@@ -57,8 +57,10 @@ static pg_status make_constants (bond *b)
     const pg_sum_rule *rule = &p->sums->rule;
     PG_ALLOC (b->modulus, b->n);
     for (size_t i = 0; i < b->n; i++) {
-        double E = p->material[p->block[PG_NODES][i]].modulus;
-        b->modulus[i] = p->sums->calibration * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);
+        size_t block = (size_t) p->block[PG_NODES][i];
+        double E = p->material[block].modulus;
+        if (i > 0 && block == (size_t) p->block[PG_NODES][i - 1]) b->modulus[i] = b->modulus[i - 1];
+        else b->modulus[i] = p->sums->calibration * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);
     }
     PG_TRY (bond_energy_create (b));
     if (!p->criterion->type || b->critical) goto done;

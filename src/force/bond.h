@@ -32,6 +32,7 @@ typedef struct {
     unsigned char *stale;
     double   *diagonal;  unsigned long diagonal_of;    /* of K at that revision                                          */
     unsigned long revision;
+    double   *whole; int searched;                     /* row of blocks of a point with all its bonds, the own one last; NULL: not the same for all */
     pg_nearest *near;                                  /* points; NULL until a place is asked for                        */
 } bond;
 
@@ -65,6 +66,7 @@ pg_status bond_tangent_sweep (bond *b, pg_sweep **out);                /* forces
 pg_status bond_assemble (void *self);
 const pg_sparse *bond_matrix (void *self);
 pg_status bond_row_sums (void *self, double *sum);
+pg_status bond_couplings (void *self, pg_couplings *out);
 pg_status bond_bound (void *self, double *omega);
 /* fields */
 pg_status bond_utilisation (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
@@ -95,5 +97,5 @@ const char *bond_refuses  (const pg_problem *problem, const char *kind);
     .operator_ = bond_operator, .matrix = bond_matrix, .basis = bond_basis, .impose = bond_impose, .utilisation = bond_utilisation, \
     .ledger = bond_ledger, .field = bond_field, .probe = bond_probe, .overlap = bond_overlap, .census = bond_census, .revision = bond_revision, \
     .assemble = bond_assemble, .sample = bond_sample, .march = bond_march, .external = bond_external, .bound = bond_bound, \
-    .row_sums = bond_row_sums, .describe = bond_describe, .refuses = bond_refuses
+    .row_sums = bond_row_sums, .describe = bond_describe, .refuses = bond_refuses, .couplings = bond_couplings
 #endif

@@ -4,7 +4,18 @@
  * omega^2 <= 2 lambda_max (P_i) / rho_i, P_i = sum_j kappa xi x xi / V_i (theory A4). */
 #include "bond.h"
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
+
+typedef struct { double *y; int failed; } negation;
+static void negate (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const negation *w = context;
+    double *y = w->y;
+    if (w->failed) for (size_t i = first; i < last; i++) y[i] = NAN;
+    else for (size_t i = first; i < last; i++) y[i] = -y[i];
+}
 
 /* K x = - forces at displacement x. A sweep does not fail without breaking; making that of finite stretch may: then K x is not a number. */
 void bond_apply (void *context, const double *x, double *y)
@@ -13,7 +24,8 @@ void bond_apply (void *context, const double *x, double *y)
     pg_sweep *sweep;
     size_t ndof = b->n * (size_t) b->dim;
     int failed = bond_tangent_sweep (b, &sweep) != PG_OK || pg_sweep_force (sweep, x, y, NULL) != PG_OK;
-    for (size_t i = 0; i < ndof; i++) y[i] = failed ? NAN : -y[i];
+    negation w = { y, failed };
+    pg_parallel (b->threads, ndof, negate, &w);
 }
 
 /* sum_j kappa xi x xi over the live (or all) bonds of a point */
@@ -30,6 +42,52 @@ static void own_block (const bond *b, size_t i, const bond_star *s, int all, dou
     }
 }
 
+/* ---- rows of points that have all their bonds ----------------------------------------------------------------------------------- */
+static size_t row_of_star (const bond *b, size_t i, const bond_star *s, int all, int *node, double *value)
+{
+    size_t dim = (size_t) b->dim, bb = dim * dim, m = 0;
+    double own[9] = { 0 };
+    for (size_t e = 0; e < s->m; e++) {
+        const double *xi = s->xi + e * dim;
+        if (!all && !bond_lives (b, s->first + e)) continue;
+        double kappa = bond_kappa (b, i, s, e, NULL), *v = value + m * bb;
+        for (size_t a = 0; a < dim; a++)
+            for (size_t c = 0; c < dim; c++) v[a * dim + c] = -(kappa * xi[a] * xi[c]), own[a * dim + c] += kappa * xi[a] * xi[c];
+        if (node) node[m] = s->node[e];
+        m++;
+    }
+    memcpy (value + m * bb, own, bb * sizeof *own);
+    if (node) node[m] = (int) i;
+    return m + 1;
+}
+
+static size_t family_size (const bond *b, size_t i) { return b->family->start[i + 1] - b->family->start[i]; }
+
+/* On a lattice without shares of volume, factors of surfaces or several moduli one row serves all whole points; where there is no room for it
+ * every row is made by itself. */
+static void find_whole (bond *b)
+{
+    const pg_sums *sums = b->problem->sums;
+    size_t i = 0, n = sums->stencil.n, bb = (size_t) (b->dim * b->dim);
+    if (b->searched) return;
+    b->searched = 1;
+    if (!n || !sums->ordered || sums->share || sums->family_volume) return;
+    for (size_t k = 1; k < b->n; k++) if (b->modulus[k] != b->modulus[0]) return;
+    while (i < b->n && family_size (b, i) != n) i++;
+    if (i == b->n) return;
+    bond_star s;
+    bond_star_at (b, i, 0, &s);
+    b->whole = pg_calloc ((n + 1) * bb, sizeof *b->whole);
+    if (b->whole) row_of_star (b, i, &s, 1, NULL, b->whole);
+}
+
+static int is_whole (void *context, size_t i)
+{
+    const bond *b = context;
+    size_t first = b->family->start[i], m = family_size (b, i);
+    return b->whole && m == b->problem->sums->stencil.n && !(b->alive && memchr (b->alive + first, 0, m));
+}
+
 typedef struct { const bond *b; double *out; } job;
 
 static void diagonal_points (void *context, size_t first, size_t last, int thread)
@@ -39,9 +97,13 @@ static void diagonal_points (void *context, size_t first, size_t last, int threa
     bond_star s;
     double D[9];
     for (size_t i = first; i < last; i++) {
-        bond_star_at (w->b, i, thread, &s);
-        own_block (w->b, i, &s, 0, D);
-        for (size_t k = 0; k < dim; k++) w->out[i * dim + k] = D[k * dim + k];
+        const double *own = D;
+        if (is_whole ((void *) (uintptr_t) w->b, i)) own = w->b->whole + family_size (w->b, i) * dim * dim;
+        else {
+            bond_star_at (w->b, i, thread, &s);
+            own_block (w->b, i, &s, 0, D);
+        }
+        for (size_t k = 0; k < dim; k++) w->out[i * dim + k] = own[k * dim + k];
     }
 }
 
@@ -54,6 +116,7 @@ void bond_diagonal (void *context, double *d)
         return;
     }
     job w = { b, d };
+    find_whole (b);
     pg_parallel (b->threads, b->n, diagonal_points, &w);
     if (!b->diagonal) b->diagonal = pg_calloc (ndof, sizeof *d);       /* kept where there is room for it                */
     if (b->diagonal) memcpy (b->diagonal, d, ndof * sizeof *d), b->diagonal_of = b->revision;
@@ -89,6 +152,64 @@ pg_status bond_row_sums (void *self, double *sum)
     bond *b = self;
     job w = { b, sum };
     pg_parallel (b->threads, b->n, row_sum_points, &w);
+    return PG_OK;
+}
+
+/* Row of blocks of a point over live bonds, its own block last. */
+static size_t couplings_of (void *context, size_t i, int thread, int *node, double *value)
+{
+    const bond *b = context;
+    size_t dim = (size_t) b->dim, bb = dim * dim, m = 0;
+    if (!value) {
+        for (size_t e = b->family->start[i]; e < b->family->start[i + 1]; e++) if (bond_lives (b, e)) node[m++] = b->family->node[e];
+        node[m++] = (int) i;
+        return m;
+    }
+    if (is_whole (context, i)) {
+        m = family_size (b, i);
+        memcpy (node, b->family->node + b->family->start[i], m * sizeof *node);
+        memcpy (value, b->whole, (m + 1) * bb * sizeof *value);
+        node[m] = (int) i;
+        return m + 1;
+    }
+    bond_star s;
+    bond_star_at (b, i, thread, &s);
+    return row_of_star (b, i, &s, 0, node, value);
+}
+
+static void farthest_points (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const job *w = context;
+    size_t dim = (size_t) w->b->dim;
+    const pg_family *f = w->b->family;
+    const double *x = w->b->problem->cloud.x;
+    for (size_t i = first; i < last; i++) {
+        w->out[i] = 0;
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
+            for (size_t k = 0; k < dim; k++) {
+                double far = fabs (x[(size_t) f->node[e] * dim + k] - x[i * dim + k]);
+                if (far > w->out[i]) w->out[i] = far;
+            }
+    }
+}
+
+pg_status bond_couplings (void *self, pg_couplings *out)
+{
+    bond *b = self;
+    const pg_stencil *t = &b->problem->sums->stencil;
+    double far = 0;
+    *out = (pg_couplings) { .context = b, .widest = b->widest + 1, .row = couplings_of };
+    find_whole (b);
+    if (b->whole) out->alike = is_whole;
+    for (int k = 0; b->whole && k < b->dim; k++) out->lattice[k] = b->problem->sums->sites.step[k];
+    if (t->n) for (size_t e = 0; e < t->n * (size_t) t->dim; e++) far = fmax (far, fabs (t->xi[e]));
+    else {
+        job w = { b, b->work };
+        pg_parallel (b->threads, b->n, farthest_points, &w);
+        for (size_t i = 0; i < b->n; i++) far = fmax (far, b->work[i]);
+    }
+    out->reach = far * (1 + 1e-9);
     return PG_OK;
 }
 

@@ -4,29 +4,98 @@
 #include <math.h>
 #include <string.h>
 
-static double dot (size_t n, const double *a, const double *b)
+enum { CHUNK = 4096 };                                 /* of sums: their order does not depend on the threads           */
+typedef struct { size_t n, nchunk; int threads; double *r, *z, *p, *q, *d, *x, *sum, alpha, turn; const double *a, *b; } vectors;
+
+static size_t chunk_end (const vectors *v, size_t chunk) { return (chunk + 1) * CHUNK < v->n ? (chunk + 1) * CHUNK : v->n; }
+
+static double total (vectors *v, pg_work work)
 {
     double s = 0;
-    for (size_t i = 0; i < n; i++) s += a[i] * b[i];
+    pg_parallel_heavy (v->n > 16 * CHUNK ? v->threads : 1, v->nchunk, work, v);
+    for (size_t k = 0; k < v->nchunk; k++) s += v->sum[k];
     return s;
 }
 
-typedef struct { double *r, *z, *p, *q, *d; } vectors;
+static void dot_chunks (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const vectors *v = context;
+    for (size_t c = first; c < last; c++) {
+        double s[4] = { 0 };
+        size_t i = c * CHUNK, end = chunk_end (v, c);
+        for (; i + 4 <= end; i += 4) for (int k = 0; k < 4; k++) s[k] += v->a[i + (size_t) k] * v->b[i + (size_t) k];
+        for (; i < end; i++) s[0] += v->a[i] * v->b[i];
+        v->sum[c] = (s[0] + s[1]) + (s[2] + s[3]);
+    }
+}
 
-static pg_status precondition (const pg_preconditioner *P, size_t n, const vectors *v)
+static double dot (vectors *v, const double *a, const double *b)
+{
+    v->a = a, v->b = b;
+    return total (v, dot_chunks);
+}
+
+static void turn_chunks (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const vectors *v = context;
+    for (size_t i = first * CHUNK; i < chunk_end (v, last - 1); i++) v->p[i] = v->z[i] + v->turn * v->p[i];
+}
+
+/* x += alpha p, r -= alpha q; sums of r r */
+static void step_chunks (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const vectors *v = context;
+    const double *restrict p = v->p, *restrict q = v->q;
+    double *restrict x = v->x, *restrict r = v->r, alpha = v->alpha;
+    for (size_t c = first; c < last; c++) {
+        double s[4] = { 0 };
+        size_t i = c * CHUNK, end = chunk_end (v, c);
+        for (; i + 4 <= end; i += 4)
+            for (size_t k = i; k < i + 4; k++) {
+                x[k] += alpha * p[k], r[k] -= alpha * q[k];
+                s[k - i] += r[k] * r[k];
+            }
+        for (; i < end; i++) {
+            x[i] += alpha * p[i], r[i] -= alpha * q[i];
+            s[0] += r[i] * r[i];
+        }
+        v->sum[c] = (s[0] + s[1]) + (s[2] + s[3]);
+    }
+}
+
+static pg_status precondition (const pg_preconditioner *P, const vectors *v)
 {
     if (P) return P->solve (P->context, v->r, v->z);
-    for (size_t i = 0; i < n; i++) v->z[i] = v->d[i] * v->r[i];
+    for (size_t i = 0; i < v->n; i++) v->z[i] = v->d[i] * v->r[i];
     return PG_OK;
 }
 
-static void first_residual (const pg_operator *A, const double *b, const double *x, const vectors *v)
+static void first_residual (const pg_operator *A, const double *b, const vectors *v)
 {
     size_t n = A->n, zero = 1;
-    for (size_t i = 0; i < n && zero; i++) zero = x[i] == 0;
+    for (size_t i = 0; i < n && zero; i++) zero = v->x[i] == 0;
     if (zero) memcpy (v->r, b, n * sizeof *b);
-    else A->apply (A->context, x, v->q);
+    else A->apply (A->context, v->x, v->q);
     for (size_t i = 0; i < n && !zero; i++) v->r[i] = b[i] - v->q[i];
+}
+
+static pg_status make_vectors (vectors *v, const pg_operator *A, const pg_preconditioner *P, double *x)
+{
+    pg_status status = PG_OK;
+    v->n = A->n, v->nchunk = (A->n + CHUNK - 1) / CHUNK, v->threads = P ? P->threads : 1, v->x = x;
+    PG_ALLOC (v->r, v->n);
+    PG_ALLOC (v->z, v->n);
+    PG_ALLOC (v->p, v->n);
+    PG_ALLOC (v->q, v->n);
+    PG_ALLOC (v->d, P ? 0 : v->n);
+    PG_ALLOC (v->sum, v->nchunk);
+    if (!P) A->diagonal (A->context, v->d);
+    for (size_t i = 0; i < v->n && !P; i++) v->d[i] = v->d[i] > 0 ? 1 / v->d[i] : 1;
+done:
+    return status;
 }
 
 pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b, double *x, double tolerance, size_t limit,
@@ -34,32 +103,26 @@ pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditi
 {
     pg_status status = PG_OK;
     vectors v = { 0 };
-    size_t n = A->n, k = 0;
-    PG_ALLOC (v.r, n);
-    PG_ALLOC (v.z, n);
-    PG_ALLOC (v.p, n);
-    PG_ALLOC (v.q, n);
-    PG_ALLOC (v.d, P ? 0 : n);
-    if (!P) A->diagonal (A->context, v.d);
-    for (size_t i = 0; i < n && !P; i++) v.d[i] = v.d[i] > 0 ? 1 / v.d[i] : 1;
-    first_residual (A, b, x, &v);
-    double goal = tolerance * sqrt (dot (n, b, b)), rz = 0, rr = sqrt (dot (n, v.r, v.r));
+    size_t k = 0;
+    PG_TRY (make_vectors (&v, A, P, x));
+    first_residual (A, b, &v);
+    double goal = tolerance * sqrt (dot (&v, b, b)), rz = 0, rr = sqrt (dot (&v, v.r, v.r));
     for (k = 0; rr > goal && k < limit; k++) {
-        PG_TRY (precondition (P, n, &v));
-        double next = dot (n, v.r, v.z), turn = k ? next / rz : 0;
-        for (size_t i = 0; i < n; i++) v.p[i] = v.z[i] + turn * v.p[i];
+        PG_TRY (precondition (P, &v));
+        double next = dot (&v, v.r, v.z);
+        v.turn = k ? next / rz : 0;
+        pg_parallel_heavy (v.threads, v.nchunk, turn_chunks, &v);
         rz = next;
         A->apply (A->context, v.p, v.q);
-        double pq = dot (n, v.p, v.q);
+        double pq = dot (&v, v.p, v.q);
         if (!(pq > 0)) PG_FAIL (PG_E_NOT_SPD, "conjugate gradients met a direction of energy %g after %zu iterations", pq, k);
-        double alpha = rz / pq;
-        for (size_t i = 0; i < n; i++) x[i] += alpha * v.p[i], v.r[i] -= alpha * v.q[i];
-        rr = sqrt (dot (n, v.r, v.r));
+        v.alpha = rz / pq;
+        rr = sqrt (total (&v, step_chunks));
     }
     if (!(rr <= goal)) PG_FAIL (PG_E_EQUILIBRIUM, "conjugate gradients stopped after %zu iterations at residual %g of %g", k, rr, goal);
 done:
     if (iterations) *iterations = k;
-    pg_free (v.r), pg_free (v.z), pg_free (v.p), pg_free (v.q), pg_free (v.d);
+    pg_free (v.r), pg_free (v.z), pg_free (v.p), pg_free (v.q), pg_free (v.d), pg_free (v.sum);
     return status;
 }
 

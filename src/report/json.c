@@ -49,6 +49,8 @@ static void run_block (pg_json *j, const pg_result *res, const pg_report *r, con
     pg_json_number (j, "overlap_max", r->overlap_max);
     pg_json_text (j, "linear_solver", r->solver);
     pg_json_text (j, "ordering", r->ordering);
+    pg_json_text (j, "preconditioner", r->preconditioner);
+    pg_json_count (j, "preconditioners", (size_t) r->preconditioners);
     pg_json_number (j, "factor_entries", r->factor_entries);
     pg_json_open (j, "energy", '{');
     pg_json_number (j, "strain", r->energy_strain);

@@ -46,7 +46,7 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, doub
 {
     combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL };
     pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
-    pg_preconditioner P = { s, by_factor_of_before };
+    pg_preconditioner P = { s, by_factor_of_before, s->problem->threads };
     double t0 = pg_seconds ();
     system_remember_diagonal (s, NULL);
     memset (s->delta, 0, s->ndof * sizeof *s->delta);
@@ -54,5 +54,6 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, doub
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     if (!by_factor) strcpy (s->report->solver, "cg");
+    if (!by_factor && !s->multilevel) strcpy (s->report->preconditioner, "jacobi");
     return status;
 }

@@ -87,6 +87,10 @@ static pg_status keep_system (pg_system *s, const pg_keeper *k)
         s->linear = pg_linear_find ("umfpack");
         s->umfpack = 1;
     }
+    long made = s->multilevel != NULL || s->remake;
+    PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));
+    PG_TRY (k->numbers (k->context, "system.pace", 1, &s->pace));
+    if (k->reading) s->remake = made != 0;
     size_t nbond = s->problem->first_bond[PG_BOND_SETS];
     if (k->reading && count[4] && !s->factored) PG_ALLOC (s->factored, nbond);
     if (count[4]) PG_TRY (k->bytes (k->context, "system.factored", nbond, s->factored));
@@ -128,7 +132,15 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
     pg_report counts = s->report;
     int stale = sys->stale;
     unsigned char *alive = state->alive;
-    if ((sys->mode == SYSTEM_KEPT_FACTOR || !stale) && sys->factored) {
+    double rent = sys->rent, pace = sys->pace;
+    if (sys->remake && sys->factored) {
+        state->alive = sys->factored;
+        status = system_refresh (sys, state, NULL);
+        if (status == PG_OK) status = system_make_multilevel (sys);
+        state->alive = alive;
+        PG_TRY (status);
+        sys->rent = rent, sys->pace = pace, sys->remake = 0;
+    } else if ((sys->mode == SYSTEM_KEPT_FACTOR || !stale) && sys->factored) {
         state->alive = sys->factored;
         status = system_refresh (sys, state, NULL);
         if (status == PG_OK) status = system_factorize (sys, s->type->dynamics ? s->type->dynamics (s) : NULL);

@@ -22,6 +22,9 @@ static const pg_key keys[] = {
     ROW ("solver.stop.set", PG_NAME, NULL, NULL, "", "sets.{}|left|right|bottom|top|back|front|all", "The run ends when the crack arrives at a point of this set."),
     ROW ("solver.stop.damage", PG_NUMBER, "1", "(0, 1]", "50 %", NULL, "Damage of a point of stop.set that counts as arrival."),
     ROW ("solver.linear", PG_NAME, NULL, NULL, "auto", "auto|cholmod|umfpack|pcg", "Linear solver; auto: cholmod, umfpack where K is not positive definite."),
+    ROW ("solver.preconditioner", PG_NAME, NULL, NULL, "auto", "auto|jacobi|multilevel",
+         "Of conjugate gradients without a matrix: the diagonal (jacobi), or grids of hats over the points, split by cracks (multilevel: forces that tell the "
+         "rows of K, at rest); auto: multilevel where it can be."),
     ROW ("solver.dt", PG_NUMBER, "s", "(0, inf)", "", NULL, "Time step, made a little smaller where a whole number does not fill the run. verlet, central, relax: 0.9 of the stable one if not given."),
     ROW ("solver.end", PG_NUMBER, "s", "(0, inf)", "", NULL, "newmark, verlet, central: end time."),
     ROW ("solver.time_steps", PG_INTEGER, NULL, "[1, 1000000000]", "", NULL, "newmark, verlet, central: number of time steps, instead of solver.end or of solver.dt."),

@@ -119,7 +119,7 @@ static void find_unused (pg_solver_options *o, const pg_scene *scene)
     enum { STATIC = 1, NEWMARK = 2, MARCHING = 4, ADR = 8, RELAX = 16, IMPLICIT = STATIC | NEWMARK, TIMED = NEWMARK | MARCHING, STAGED = ADR | RELAX };
     static const struct { const char *key; int kinds; } keys[] = {
         { "stepping", STATIC }, { "steps", STATIC }, { "stop.stiffness", STATIC }, { "break", IMPLICIT | STAGED }, { "break_fraction", IMPLICIT | STAGED },
-        { "tie", IMPLICIT | STAGED }, { "tolerance", IMPLICIT }, { "max_iterations", IMPLICIT | STAGED }, { "linear", IMPLICIT }, { "dt", TIMED | RELAX },
+        { "tie", IMPLICIT | STAGED }, { "tolerance", IMPLICIT }, { "max_iterations", IMPLICIT | STAGED }, { "linear", IMPLICIT }, { "preconditioner", IMPLICIT }, { "dt", TIMED | RELAX },
         { "end", TIMED }, { "time_steps", TIMED }, { "stages", STAGED }, { "hold", STAGED }, { "imbalance", STAGED }, { "damping", RELAX }, { "mass", TIMED },
         { "alpha", NEWMARK }, { "beta", NEWMARK }, { "gamma", NEWMARK }, { "rayleigh.mass", TIMED }, { "rayleigh.stiffness", TIMED },
     };
@@ -136,6 +136,7 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     snprintf (o->kind, sizeof o->kind, "%s", pg_scene_text (scene, "solver.kind"));
     snprintf (o->linear, sizeof o->linear, "%s", pg_scene_text (scene, "solver.linear"));
     const pg_solver_type *type = solver_type_find (o->kind);
+    snprintf (o->preconditioner, sizeof o->preconditioner, "%s", pg_scene_text (scene, "solver.preconditioner"));
     o->quasi_static = pg_kind_quasi_static (o->kind);
     o->marching = type && type->way == MARCHES, o->staged = type && type->way == RELAXES;
     o->tolerance = pg_scene_number (scene, "solver.tolerance");

@@ -35,10 +35,14 @@ typedef struct {
     const pg_sparse *M;                                /* consistent, or NULL                                            */
     double   *residual, *reduced, *delta, *full, *best, *scratch;
     double    shift;
-    double    rent;                                    /* s spent on iterations that a new factor would have spared      */
+    double    rent;                                    /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
+    pg_multilevel *multilevel;                         /* NULL: not used, or not made yet                                */
+    unsigned char *fixed;                              /* unknowns that T leaves out (ndof); NULL: not asked for         */
+    int       remake;                                  /* read back: the preconditioner is to be made from `factored`    */
+    double    pace;                                    /* - log of the residual's fall in one iteration, preconditioner new; 0: not known */
     size_t    matrix_iterations;
     const unsigned char *alive;                        /* of the last refresh, borrowed                                  */
-    unsigned char *factored;                           /* what lived when the factor was made                            */
+    unsigned char *factored;                           /* what lived when the factor or preconditioner was made          */
 } pg_system;
 pg_status system_create  (pg_system *s);               /* fields up to report set by the caller                           */
 void      system_free    (pg_system *s);
@@ -48,6 +52,11 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
 void      system_multiply (const pg_system *s, const double *x, double *y);        /* y = K x, by operator or matrix       */
 /* delta = (k K + m M)^-1 reduced by conjugate gradients, preconditioned by the factor at hand or by the diagonal (iterate.c). */
 pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, double tolerance, size_t limit, size_t *used);
+/* The same for K alone by conjugate gradients with the multilevel preconditioner, made when needed (precondition.c). */
+pg_status system_iterate_multilevel (pg_system *s, double tolerance);
+pg_status system_make_multilevel (pg_system *s);                                     /* from the last refresh          */
+pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can);
+pg_status system_remember_alive (pg_system *s);        /* in `factored`                                                  */
 /* d becomes the equilibrium at t; *residual relative to the reference force. PG_E_EQUILIBRIUM when it stays above the tolerance. */
 pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 

@@ -166,6 +166,13 @@ const pg_report *pg_solver_report (pg_solver *s, const pg_state *state)
                         "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
         s->skips_told = 1;
     }
+    if (sys->spared && !s->spared_told && s->report.preconditioners) {
+        char what[96];
+        snprintf (what, sizeof what, "preconditioner in %ld solves after a break", sys->spared);
+        pg_report_skip (&s->report, (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR] / (double) s->report.preconditioners, what,
+                        "that of an earlier K serves until the iterations it costs would have paid for another (their time is not taken off)");
+        s->spared_told = 1;
+    }
     if (sys->spared && !s->spared_told && s->report.factorizations) {
         char what[96];
         snprintf (what, sizeof what, "factorization in %ld solves after a break", sys->spared);

@@ -14,11 +14,13 @@ static const double goal = 1e-12;                      /* refinement stops here 
 void system_free (pg_system *s)
 {
     if (s->factor) s->linear->free (&s->factor);
+    pg_multilevel_free (&s->multilevel);
     if (s->force && s->self) s->force->free (&s->self);
     if (s->copy) pg_sparse_clear (&s->A);
     else pg_free (s->A.value);
     pg_free (s->copy), pg_free (s->diagonal0), pg_free (s->mass);
     pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best), pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored);
+    pg_free (s->fixed);
 }
 
 static int has_matrix (const pg_system *s) { return s->force->matrix && (s->force->assemble || s->force->matrix (s->self)); }
@@ -85,6 +87,18 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     s->revision = now;
     s->report->updates += changes != NULL;
     s->report->seconds[changes ? PG_SECONDS_UPDATE : PG_SECONDS_SHAPE] += pg_seconds () - t0;
+    return status;
+}
+
+/* From this the factor or preconditioner can be made again. */
+pg_status system_remember_alive (pg_system *s)
+{
+    pg_status status = PG_OK;
+    size_t nbond = s->problem->first_bond[PG_BOND_SETS];
+    if (!s->alive) return PG_OK;
+    if (!s->factored) PG_ALLOC (s->factored, nbond);
+    memcpy (s->factored, s->alive, nbond);
+done:
     return status;
 }
 
@@ -187,10 +201,7 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
     }
     s->stale = 0;
     s->unshifted = s->shift < 1e-10;
-    if (s->alive) {                                    /* from which the factor can be made again                        */
-        if (!s->factored) PG_ALLOC (s->factored, s->problem->first_bond[PG_BOND_SETS]);
-        memcpy (s->factored, s->alive, s->problem->first_bond[PG_BOND_SETS]);
-    }
+    PG_TRY (system_remember_alive (s));
 done:
     return status;
 }
@@ -277,6 +288,22 @@ static void tell_small_step (pg_system *s, size_t used)
     pg_report_skip (s->report, NAN, "stiffness matrix, analysis and factorization", why);
 }
 
+/* With the diagonal where there is no better preconditioner, or where that one fails (a loaded part has come loose): its message is the plainer. */
+static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double tolerance)
+{
+    pg_status status = PG_OK;
+    size_t used = 0;
+    int can;
+    PG_TRY (system_can_precondition (s, dyn, &can));
+    if (can) {
+        pg_status now = system_iterate_multilevel (s, tolerance);
+        if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) return now;
+    }
+    PG_TRY (system_iterate (s, dyn, 0, tolerance, 20 * s->ndof + 1000, &used));
+done:
+    return status;
+}
+
 static pg_status solve_once (pg_system *s, const dynamics *dyn, double tolerance)
 {
     pg_status status = PG_OK;
@@ -292,7 +319,7 @@ static pg_status solve_once (pg_system *s, const dynamics *dyn, double tolerance
         }
         memset (s->delta, 0, s->nred * sizeof *s->delta);
     }
-    if (s->mode == SYSTEM_NO_FACTOR) PG_TRY (system_iterate (s, dyn, 0, tolerance, 20 * s->ndof + 1000, &used));
+    if (s->mode == SYSTEM_NO_FACTOR) PG_TRY (solve_without_factor (s, dyn, tolerance));
     if (s->mode == SYSTEM_KEPT_FACTOR) PG_TRY (solve_by_kept_factor (s, dyn, tolerance));
     else if (s->mode == SYSTEM_FACTOR) PG_TRY (solve_by_factor (s, dyn));
 done:

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * z = M r by a symmetric V-cycle over grids of hats: life, choice of levels, the coarsest matrix and its factor. */
+#include "multilevel.h"
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+enum { DIRECT_2D = 6000, DIRECT_3D = 3000 };           /* most unknowns of a coarsest level; 1D as 2D                    */
+
+static void level_clear (level *l, int finest)
+{
+    void *all[] = { l->start, l->node, l->value, l->mask, l->inverse, l->cell, l->cell_start, l->cell_node, l->first, l->function, l->weight, l->at,
+                    l->member, l->share, l->r, l->d, l->q, finest ? NULL : l->b, finest ? NULL : l->z, finest ? NULL : l->x };
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) pg_free (all[k]);
+}
+
+void pg_multilevel_free (pg_multilevel **multilevel)
+{
+    pg_multilevel *m = *multilevel;
+    if (!m) return;
+    if (m->factor) m->direct->free (&m->factor);
+    for (int k = 0; k < MOST_LEVELS; k++) level_clear (&m->at[k], k == 0);
+    pg_free (m);
+    *multilevel = NULL;
+}
+
+/* ---- the coarsest matrix ---------------------------------------------------------------------------------------------------------- */
+static int masked (const level *l, size_t i, size_t k) { return l->mask[i] >> k & 1; }
+
+/* Upper triangle; masked unknowns: identity. `lift` of each diagonal entry is added: the matrix may be singular (loose fragments, functions that
+ * are sums of others), and its right-hand sides have nothing there but rounding. */
+static pg_status coarsest_matrix (pg_sparse *A, const level *l, double lift)
+{
+    pg_status status = PG_OK;
+    size_t block = (size_t) l->block, nnz = 0;
+    for (size_t i = 0; i < l->n; i++)
+        for (size_t e = l->start[i]; e < l->start[i + 1] && (size_t) l->node[e] <= i; e++) nnz += block * block;
+    PG_TRY (pg_sparse_create (A, l->ndof, l->ndof, nnz, 1));
+    long at = 0;
+    for (size_t i = 0; i < l->n; i++)
+        for (size_t c = 0; c < block; c++) {
+            for (size_t e = l->start[i]; e < l->start[i + 1] && (size_t) l->node[e] <= i; e++) {
+                size_t j = (size_t) l->node[e];
+                for (size_t a = 0; a < block && j * block + a <= i * block + c; a++) {
+                    int own = j == i && a == c, out = masked (l, j, a) || masked (l, i, c);
+                    A->row[at] = (long) (j * block + a);
+                    A->value[at++] = out ? own : l->value[(e * block + c) * block + a] * (own ? 1 + lift : 1);
+                }
+            }
+            A->start[i * block + c + 1] = at;
+        }
+done:
+    return status;
+}
+
+static pg_status factor_coarsest (pg_multilevel *m, level *l)
+{
+    pg_status status = PG_OK;
+    pg_sparse A = { 0 };
+    pg_linear_options o = { l->block, l->dim, l->threads, 0 };
+    m->direct = pg_linear_find ("cholmod");
+    for (double lift = 1e-10; ; lift *= 100) {
+        pg_sparse_clear (&A);
+        PG_TRY (coarsest_matrix (&A, l, lift));
+        if (!m->factor) PG_TRY (m->direct->analyse (&m->factor, &A, &o));
+        pg_status now = m->direct->factor (m->factor, &A);
+        if (now == PG_E_NOT_SPD && lift < 1e-5) continue;
+        PG_TRY (now);
+        break;
+    }
+done:
+    pg_sparse_clear (&A);
+    return status;
+}
+
+/* ---- levels ------------------------------------------------------------------------------------------------------------------------ */
+static pg_status make_vectors (level *l, int finest)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (l->r, l->ndof);
+    PG_ALLOC (l->d, l->ndof);
+    PG_ALLOC (l->q, l->ndof);
+    if (finest) goto done;
+    PG_ALLOC (l->b, l->ndof);
+    PG_ALLOC (l->z, l->ndof);
+done:
+    return status;
+}
+
+static pg_status make_levels (pg_multilevel *m, double step)
+{
+    pg_status status = PG_OK;
+    for (;; step *= 2) {
+        level *l = &m->at[m->count++];
+        size_t direct = l->dim == 3 ? DIRECT_3D : DIRECT_2D;
+        PG_TRY (make_vectors (l, m->count == 1));
+        if (m->count > 1 && (l->ndof <= direct || m->count == MOST_LEVELS)) {
+            PG_TRY (factor_coarsest (m, l));
+            break;
+        }
+        PG_TRY (level_bound (l));
+        PG_TRY (level_space (l, step));
+        PG_TRY (level_coarsen (&m->at[m->count], l));
+    }
+done:
+    return status;
+}
+
+pg_status pg_multilevel_create (pg_multilevel **out, const pg_multilevel_setting *s)
+{
+    pg_status status = PG_OK;
+    pg_multilevel *m = NULL;
+    *out = NULL;
+    if (s->dim < 1 || s->dim > 3 || s->block < 1 || s->block > MOST_BLOCK) PG_FAIL (PG_E_USAGE, "a preconditioner of %d dimensions with %d unknowns a node: there is none", s->dim, s->block);
+    if (!(s->rows.reach > 0) || s->n == 0) PG_FAIL (PG_E_USAGE, "a preconditioner needs nodes and how far their couplings reach (%g m)", s->rows.reach);
+    PG_ALLOC (m, 1);
+    m->degree = s->degree > 0 ? s->degree : 2;
+    level *l = &m->at[0];
+    l->dim = s->dim, l->block = s->block, l->threads = s->threads > 1 ? s->threads : 1, l->n = s->n, l->ndof = s->n * (size_t) s->block;
+    l->x = (double *) (uintptr_t) s->x;
+    l->A = s->A, l->rows = s->rows;
+    for (int k = 0; k < 3; k++) l->reach[k] = s->rows.reach;
+    PG_TRY (level_diagonal (l, s->fixed));
+    PG_TRY (make_levels (m, (s->step > 0 ? s->step : 4.0 / 3) * s->rows.reach));
+    *out = m, m = NULL;
+done:
+    pg_multilevel_free (&m);
+    return status;
+}
+
+static pg_status solve (void *context, const double *r, double *z)
+{
+    pg_multilevel *m = context;
+    m->applications++;
+    return multilevel_cycle (m, 0, r, z);
+}
+
+pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *m) { return (pg_preconditioner) { m, solve, m->at[0].threads }; }
+
+void pg_multilevel_describe (const pg_multilevel *m, pg_multilevel_info *info)
+{
+    *info = (pg_multilevel_info) { .levels = m->count, .degree = m->degree, .applications = m->applications };
+    for (int k = 0; k < m->count && k < 8; k++) info->unknowns[k] = m->at[k].ndof, info->top[k] = m->at[k].top;
+    for (size_t h = 0; m->count > 1 && h < m->at[0].nhat; h++) info->split += m->at[0].first[h + 1] - m->at[0].first[h] > 1;
+}

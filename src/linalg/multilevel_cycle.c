@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The symmetric V-cycle: Chebyshev polynomials of the fourth kind in D^-1 A before and after the correction by the next level (Lottes 2023,
+ * "Optimal polynomial smoothers for multigrid V-cycles": only an upper bound of the spectrum is needed), which is found from the
+ * Lanczos matrix of a few steps of conjugate gradients. */
+#include "multilevel.h"
+#include <math.h>
+#include <string.h>
+
+enum { LANCZOS = 10 };
+static const double margin = 1.05;                     /* of the largest Ritz value after so many steps                  */
+
+/* ---- products and transfers ------------------------------------------------------------------------------------------------------- */
+typedef struct { const level *l; const double *x, *y; double *out; double c1, c2; } sweep;
+
+static void multiply_rows (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const sweep *w = context;
+    const level *l = w->l;
+    size_t block = (size_t) l->block, bb = block * block;
+    for (size_t i = first; i < last; i++) {
+        double y[MOST_BLOCK] = { 0 };
+        for (size_t e = l->start[i]; e < l->start[i + 1]; e++) {
+            const double *v = l->value + e * bb, *x = w->x + (size_t) l->node[e] * block;
+            if (block == 2) y[0] += v[0] * x[0] + v[1] * x[1], y[1] += v[2] * x[0] + v[3] * x[1];
+            else if (block == 3) {
+                y[0] += v[0] * x[0] + v[1] * x[1] + v[2] * x[2];
+                y[1] += v[3] * x[0] + v[4] * x[1] + v[5] * x[2];
+                y[2] += v[6] * x[0] + v[7] * x[1] + v[8] * x[2];
+            } else for (size_t a = 0; a < block; a++) for (size_t c = 0; c < block; c++) y[a] += v[a * block + c] * x[c];
+        }
+        memcpy (w->out + i * block, y, block * sizeof *y);
+    }
+}
+
+void level_multiply (const level *l, const double *x, double *y)
+{
+    if (l->A) {
+        l->A->apply (l->A->context, x, y);
+        return;
+    }
+    sweep w = { .l = l, .x = x, .out = y };
+    pg_parallel (l->threads, l->n, multiply_rows, &w);
+}
+
+static void restrict_functions (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const sweep *w = context;
+    const level *l = w->l;
+    size_t block = (size_t) l->block;
+    for (size_t f = first; f < last; f++) {
+        double b[MOST_BLOCK] = { 0 };
+        for (size_t p = l->at[f]; p < l->at[f + 1]; p++) {
+            size_t i = (size_t) l->member[p];
+            double share = l->share[p];
+            for (size_t k = 0; k < block; k++) b[k] += share * (l->mask[i] >> k & 1 ? 0 : w->x[i * block + k]);
+        }
+        memcpy (w->out + f * block, b, block * sizeof *b);
+    }
+}
+
+/* d = P e, z += d */
+static void correct_nodes (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const sweep *w = context;
+    const level *l = w->l;
+    size_t block = (size_t) l->block, corners = (size_t) l->corners;
+    for (size_t i = first; i < last; i++) {
+        double e[MOST_BLOCK] = { 0 };
+        for (size_t c = 0; c < corners; c++) {
+            int f = l->function[i * corners + c];
+            double weight = l->weight[i * corners + c];
+            if (f < 0) continue;
+            for (size_t k = 0; k < block; k++) e[k] += weight * w->x[(size_t) f * block + k];
+        }
+        for (size_t k = 0; k < block; k++) {
+            double v = l->mask[i] >> k & 1 ? 0 : e[k];
+            l->d[i * block + k] = v, w->out[i * block + k] += v;
+        }
+    }
+}
+
+/* ---- smoothing -------------------------------------------------------------------------------------------------------------------- */
+static void first_step (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const sweep *w = context;
+    const level *l = w->l;
+    for (size_t i = first; i < last; i++) {
+        l->r[i] = w->x[i];
+        w->out[i] = l->d[i] = w->c2 * l->inverse[i] * w->x[i];
+    }
+}
+
+static void next_step (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const sweep *w = context;
+    const level *l = w->l;
+    double *restrict r = l->r, *restrict d = l->d, *restrict z = w->out;
+    const double *restrict q = l->q, *restrict inverse = l->inverse;
+    double c1 = w->c1, c2 = w->c2;
+    for (size_t i = first; i < last; i++) {
+        double rest = r[i] - q[i], move = c1 * d[i] + c2 * inverse[i] * rest;
+        r[i] = rest, d[i] = move, z[i] += move;
+    }
+}
+
+static void take_off (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const sweep *w = context;
+    for (size_t i = first; i < last; i++) w->l->r[i] -= w->l->q[i];
+}
+
+/* Steps of the smoother; the first one with the residual at hand, or with what the last d leaves of it (z given: a second smoothing). */
+static void smooth (const level *l, int degree, const double *b, double *z)
+{
+    sweep w = { .l = l, .x = b, .out = z };
+    for (int k = 1; k <= degree; k++) {
+        w.c1 = k > 1 ? (2 * k - 3) / (2.0 * k + 1) : 0;
+        w.c2 = (8 * k - 4) / (2.0 * k + 1) / l->top;
+        if (k > 1 || !b) level_multiply (l, l->d, l->q);
+        pg_parallel (l->threads, l->ndof, k > 1 || !b ? next_step : first_step, &w);
+    }
+}
+
+pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
+{
+    pg_status status = PG_OK;
+    level *l = &m->at[k];
+    if (k + 1 == m->count && m->factor) return m->direct->solve (m->factor, 1, b, z);
+    smooth (l, m->degree, b, z);
+    if (k + 1 == m->count) return PG_OK;
+    level *c = &m->at[k + 1];
+    sweep down = { .l = l, .x = l->r, .out = c->b }, up = { .l = l, .x = c->z, .out = z };
+    level_multiply (l, l->d, l->q);
+    pg_parallel (l->threads, l->ndof, take_off, &down);
+    pg_parallel (l->threads, c->n, restrict_functions, &down);
+    PG_TRY (multilevel_cycle (m, k + 1, c->b, c->z));
+    pg_parallel (l->threads, l->n, correct_nodes, &up);
+    smooth (l, m->degree, NULL, z);
+done:
+    return status;
+}
+
+/* ---- bound ------------------------------------------------------------------------------------------------------------------------ */
+static double dot (const level *l, const double *a, const double *b)
+{
+    double s = 0;
+    for (size_t i = 0; i < l->ndof; i++) s += l->inverse[i] > 0 ? a[i] * b[i] : 0;
+    return s;
+}
+
+/* Number of eigenvalues of the tridiagonal matrix above x (Sturm). */
+static int above (int n, const double *diagonal, const double *off, double x)
+{
+    int count = 0;
+    double q = 1;
+    for (int i = 0; i < n; i++) {
+        q = diagonal[i] - x - (i ? off[i - 1] * off[i - 1] / q : 0);
+        if (q == 0) q = 1e-300;
+        count += q > 0;
+    }
+    return count;
+}
+
+static double largest (int n, const double *diagonal, const double *off)
+{
+    double low = 0, high = 0;
+    for (int i = 0; i < n; i++) high = fmax (high, fabs (diagonal[i]) + (i ? fabs (off[i - 1]) : 0) + (i + 1 < n ? fabs (off[i]) : 0));
+    for (int k = 0; k < 50; k++) {
+        double middle = 0.5 * (low + high);
+        if (above (n, diagonal, off, middle) > 0) low = middle;
+        else high = middle;
+    }
+    return high;
+}
+
+/* Conjugate gradients on A x = b, b of a fixed random draw: their coefficients are the Lanczos matrix of D^-1/2 A D^-1/2. */
+pg_status level_bound (level *l)
+{
+    pg_status status = PG_OK;
+    double diagonal[LANCZOS] = { 0 }, off[LANCZOS] = { 0 }, rz = 0, alpha = 1, *z = NULL;
+    unsigned long seed = 12345;
+    int n = 0;
+    l->top = 1;
+    PG_ALLOC (z, l->ndof);
+    for (size_t i = 0; i < l->ndof; i++) {
+        seed = seed * 6364136223846793005ul + 1442695040888963407ul;
+        l->r[i] = l->inverse[i] > 0 ? ((double) (seed >> 33) / 2147483648.0 - 0.5) / sqrt (l->inverse[i]) : 0;
+        z[i] = l->inverse[i] * l->r[i], l->d[i] = 0;
+    }
+    for (int k = 0; k < LANCZOS; k++) {
+        double next = dot (l, l->r, z), turn = k ? next / rz : 0, before = alpha;
+        if (!(next > 0)) break;
+        for (size_t i = 0; i < l->ndof; i++) l->d[i] = z[i] + turn * l->d[i];
+        level_multiply (l, l->d, l->q);
+        double dq = dot (l, l->d, l->q);
+        if (!(dq > 0)) break;
+        rz = next, alpha = next / dq;
+        diagonal[k] = 1 / alpha + (k ? turn / before : 0);
+        if (k) off[k - 1] = sqrt (turn) / before;
+        n = k + 1;
+        for (size_t i = 0; i < l->ndof; i++) {
+            l->r[i] -= l->inverse[i] > 0 ? alpha * l->q[i] : 0;
+            z[i] = l->inverse[i] * l->r[i];
+        }
+    }
+    if (n > 0) l->top = margin * largest (n, diagonal, off);
+done:
+    pg_free (z);
+    return status;
+}

@@ -1,0 +1,476 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * A_c = P' A P of the coarse functions of a level, from the rows of A, cell by cell: all nodes of a cell add into one small dense matrix, rows
+ * the functions at its corners, columns those of the nodes they are coupled with, and that goes into A_c. Cells whose corners
+ * are apart go at the same time: no row of A_c is written by two threads, and the order of additions is always the same. */
+#include "multilevel.h"
+#include <math.h>
+#include <string.h>
+
+size_t level_row (const level *l, size_t i, int thread, int *node, double *value)
+{
+    if (l->rows.row) return l->rows.row (l->rows.context, i, thread, node, value);
+    size_t bb = (size_t) (l->block * l->block), m = 0;
+    for (size_t e = l->start[i]; e < l->start[i + 1]; e++) {
+        const double *v = l->value + e * bb;
+        size_t k = 0;
+        while (k < bb && v[k] == 0) k++;               /* in the pattern, but not coupled                                */
+        if (k == bb) continue;
+        node[m] = l->node[e];
+        if (value) memcpy (value + m * bb, v, bb * sizeof *value);
+        m++;
+    }
+    return m;
+}
+
+/* ---- diagonal --------------------------------------------------------------------------------------------------------------------- */
+typedef struct { int **node; double **value; } room;                   /* of a row, for each thread                      */
+
+static void room_free (room *r, int threads)
+{
+    for (int t = 0; r->node && t < threads; t++) pg_free (r->node[t]);
+    for (int t = 0; r->value && t < threads; t++) pg_free (r->value[t]);
+    pg_free (r->node), pg_free (r->value);
+}
+
+static pg_status room_make (room *r, const level *l)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (r->node, (size_t) l->threads);
+    PG_ALLOC (r->value, (size_t) l->threads);
+    for (int t = 0; t < l->threads; t++) {
+        PG_ALLOC (r->node[t], l->rows.widest);
+        PG_ALLOC (r->value[t], l->rows.widest * (size_t) (l->block * l->block));
+    }
+done:
+    return status;
+}
+
+static void diagonal_nodes (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const level *l = context;
+    size_t block = (size_t) l->block;
+    for (size_t i = first; i < last; i++)
+        for (size_t e = l->start[i]; e < l->start[i + 1]; e++)
+            for (size_t k = 0; k < block && (size_t) l->node[e] == i; k++) l->inverse[i * block + k] = l->value[(e * block + k) * block + k];
+}
+
+pg_status level_diagonal (level *l, const unsigned char *fixed)
+{
+    pg_status status = PG_OK;
+    size_t block = (size_t) l->block;
+    PG_ALLOC (l->mask, l->n);
+    PG_ALLOC (l->inverse, l->ndof);
+    if (l->A) l->A->diagonal (l->A->context, l->inverse);
+    else pg_parallel (l->threads, l->n, diagonal_nodes, l);
+    for (size_t i = 0; i < l->ndof; i++) {
+        int masked = !(l->inverse[i] > 0) || (fixed && fixed[i]);
+        l->mask[i / block] |= (unsigned char) (masked << i % block);
+        l->inverse[i] = masked ? 0 : 1 / l->inverse[i];
+    }
+done:
+    return status;
+}
+
+/* ---- pattern ---------------------------------------------------------------------------------------------------------------------- */
+/* Calls for every hat that may be coupled with one at `at`, ascending: the number of functions so far goes in and out. */
+static size_t neighbours_of (const level *f, const int *at, const int *reach, int *out)
+{
+    size_t count = 0;
+    int low[3] = { 0 }, high[3] = { 0 };
+    for (int k = 0; k < f->dim; k++) {
+        low[k] = at[k] > reach[k] ? at[k] - reach[k] : 0;
+        high[k] = at[k] + reach[k] < f->cells[k] ? at[k] + reach[k] : f->cells[k];
+    }
+    size_t sy = (size_t) f->cells[0] + 1, sz = sy * (f->dim > 1 ? (size_t) f->cells[1] + 1 : 1);
+    for (int z = low[2]; z <= high[2]; z++)
+        for (int y = low[1]; y <= high[1]; y++) {
+            size_t row = (size_t) z * sz + (size_t) y * sy;
+            for (size_t p = f->first[row + (size_t) low[0]]; p < f->first[row + (size_t) high[0] + 1]; p++, count++)
+                if (out) out[count] = (int) p;
+        }
+    return count;
+}
+
+static pg_status make_pattern (level *c, const level *f)
+{
+    pg_status status = PG_OK;
+    int reach[3] = { 0 }, at[3] = { 0 };
+    size_t bb = (size_t) (c->block * c->block);
+    for (int k = 0; k < f->dim; k++) {                 /* hats end before two steps and the reach                        */
+        reach[k] = (int) ceil (2 + f->reach[k] / f->step[k] + 1e-6) - 1;
+        c->reach[k] = reach[k] * f->step[k];
+    }
+    PG_ALLOC (c->start, c->n + 1);
+    for (size_t h = 0; h < f->nhat; h++) {
+        if (f->first[h] == f->first[h + 1]) continue;
+        level_hat_place (f, h, at);
+        size_t count = neighbours_of (f, at, reach, NULL);
+        for (size_t p = f->first[h]; p < f->first[h + 1]; p++) c->start[p + 1] = c->start[p] + count;
+        if (count > c->rows.widest) c->rows.widest = count;
+    }
+    PG_ALLOC (c->node, c->start[c->n]);
+    PG_ALLOC (c->value, c->start[c->n] * bb);
+    PG_ALLOC (c->x, c->n * (size_t) c->dim);
+    for (size_t h = 0; h < f->nhat; h++) {
+        level_hat_place (f, h, at);
+        for (size_t p = f->first[h]; p < f->first[h + 1]; p++) {
+            neighbours_of (f, at, reach, c->node + c->start[p]);
+            for (int k = 0; k < c->dim; k++) c->x[p * (size_t) c->dim + (size_t) k] = f->low[k] + at[k] * f->step[k];
+        }
+    }
+done:
+    return status;
+}
+
+/* ---- sums by cells ---------------------------------------------------------------------------------------------------------------- */
+typedef struct {                                       /* of one thread                                                  */
+    int    *where;                                     /* column of a function, -1: none     (functions)                 */
+    int    *row_of;                                    /* row of a function, -1: none        (functions)                 */
+    int    *row, *column;                              /* functions of rows and columns                                  */
+    size_t  nrow, ncolumn, cap_row, cap_column, cap_sum, cap_spread;
+    double *sum;                                       /* (columns x rows x block x block)                               */
+    double *spread;                                    /* A P of one node: (columns x block x block)                     */
+    pg_status status;
+} summer;
+typedef struct {                                       /* sums of a cell like many others                                */
+    unsigned char *like;                               /* of each cell: it is one of them; NULL: none is                 */
+    size_t nrow, ncolumn;
+    int   *row, *column;                               /* offsets of hats from the cell's first corner (x 3)             */
+    double *sum;
+} pattern;
+typedef struct { level *c; const level *f; room room; summer *summer; const size_t *cell; pattern pattern; } galerkin;
+
+static void add_scaled (size_t bb, double w, const double *a, double *out)
+{
+    if (bb == 4) for (int k = 0; k < 4; k++) out[k] += w * a[k];
+    else if (bb == 9) for (int k = 0; k < 9; k++) out[k] += w * a[k];
+    else for (size_t k = 0; k < bb; k++) out[k] += w * a[k];
+}
+
+static void blank_masked (const level *f, int rows, int columns, double *B)
+{
+    for (int a = 0; a < f->block; a++)
+        for (int c = 0; c < f->block; c++) if ((rows >> a & 1) || (columns >> c & 1)) B[a * f->block + c] = 0;
+}
+
+static pg_status find_rows (summer *s, const level *f, const int *node, size_t m)
+{
+    pg_status status = PG_OK;
+    s->nrow = s->ncolumn = 0;
+    for (size_t e = 0; e < m; e++)
+        for (int c = 0; c < f->corners; c++) {
+            int p = f->function[(size_t) node[e] * (size_t) f->corners + (size_t) c];
+            if (p < 0 || s->row_of[p] >= 0) continue;
+            PG_GROW (s->row, s->cap_row, s->nrow + 1);
+            s->row_of[p] = (int) s->nrow, s->row[s->nrow++] = p;
+        }
+done:
+    return status;
+}
+
+static pg_status new_column (summer *s, size_t bb, int p)
+{
+    pg_status status = PG_OK;
+    PG_GROW (s->column, s->cap_column, s->ncolumn + 1);
+    PG_GROW (s->sum, s->cap_sum, (s->ncolumn + 1) * s->nrow * bb);
+    PG_GROW (s->spread, s->cap_spread, (s->ncolumn + 1) * bb);
+    memset (s->sum + s->ncolumn * s->nrow * bb, 0, s->nrow * bb * sizeof *s->sum);
+    memset (s->spread + s->ncolumn * bb, 0, bb * sizeof *s->spread);
+    s->where[p] = (int) s->ncolumn, s->column[s->ncolumn++] = p;
+done:
+    return status;
+}
+
+static pg_status add_node (summer *s, const level *f, size_t i, size_t m, const int *node, double *value)
+{
+    pg_status status = PG_OK;
+    size_t bb = (size_t) (f->block * f->block), corners = (size_t) f->corners;
+    memset (s->spread, 0, s->ncolumn * bb * sizeof *s->spread);
+    for (size_t e = 0; e < m; e++) {
+        size_t j = (size_t) node[e];
+        const int *function = f->function + j * corners;
+        const float *weight = f->weight + j * corners;
+        if (f->mask[i] | f->mask[j]) blank_masked (f, f->mask[i], f->mask[j], value + e * bb);
+        for (size_t c = 0; c < corners; c++) {
+            int p = function[c];
+            if (p < 0) continue;
+            if (s->where[p] < 0) PG_TRY (new_column (s, bb, p));
+            add_scaled (bb, weight[c], value + e * bb, s->spread + (size_t) s->where[p] * bb);
+        }
+    }
+    for (size_t c = 0; c < corners; c++) {
+        int p = f->function[i * corners + c];
+        if (p < 0) continue;
+        double w = f->weight[i * corners + c], *to = s->sum + (size_t) s->row_of[p] * bb;
+        for (size_t q = 0; q < s->ncolumn; q++) add_scaled (bb, w, s->spread + q * bb, to + q * s->nrow * bb);
+    }
+done:
+    return status;
+}
+
+static long find (const int *list, size_t n, int p)
+{
+    size_t low = 0, high = n;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (list[middle] < p) low = middle + 1;
+        else high = middle;
+    }
+    return low < n && list[low] == p ? (long) low : -1;
+}
+
+static pg_status hand_over (const summer *s, const double *sums, level *c)
+{
+    pg_status status = PG_OK;
+    size_t bb = (size_t) (c->block * c->block);
+    for (size_t r = 0; r < s->nrow; r++) {
+        size_t first = c->start[s->row[r]], m = c->start[s->row[r] + 1] - first;
+        for (size_t q = 0; q < s->ncolumn; q++) {
+            long at = find (c->node + first, m, s->column[q]);
+            const double *sum = sums + (q * s->nrow + r) * bb;
+            if (at >= 0) add_scaled (bb, 1, sum, c->value + (first + (size_t) at) * bb);
+            else for (size_t k = 0; k < bb; k++)
+                if (sum[k] != 0) PG_FAIL (PG_E_USAGE, "nodes are coupled that are further apart than their rows said");
+        }
+    }
+done:
+    return status;
+}
+
+/* ---- cells that are alike ----------------------------------------------------------------------------------------------------------- */
+static void cell_place (const level *f, size_t cell, int *at)
+{
+    for (int k = 0; k < f->dim; k++) at[k] = (int) (cell % (size_t) f->cells[k]), cell /= (size_t) f->cells[k];
+}
+
+/* No node of the cell has a masked unknown, no hat at its corners is split. */
+static int is_plain (const level *f, size_t cell)
+{
+    for (size_t p = f->cell_start[cell]; p < f->cell_start[cell + 1]; p++) if (f->mask[f->cell_node[p]]) return 0;
+    for (int c = 0; c < f->corners; c++) {
+        size_t hat = level_hat (f, cell, c);
+        if (f->first[hat + 1] - f->first[hat] > 1) return 0;
+    }
+    return 1;
+}
+
+enum { PLAIN = 1, ALIKE = 2 };
+
+static void classify (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    galerkin *g = context;
+    const level *f = g->f;
+    size_t full = 1;
+    for (int k = 0; k < f->dim; k++) full *= (size_t) f->share_of[k];
+    for (size_t cell = first; cell < last; cell++) {
+        const int *node = f->cell_node + f->cell_start[cell];
+        size_t m = f->cell_start[cell + 1] - f->cell_start[cell], alike = 0;
+        if (!is_plain (f, cell)) continue;
+        while (m == full && alike < m && f->rows.alike (f->rows.context, (size_t) node[alike])) alike++;
+        g->pattern.like[cell] = (unsigned char) (alike == full ? PLAIN | ALIKE : PLAIN);
+    }
+}
+
+/* All that its couplings reach is plain. */
+static int stands_free (const level *f, const unsigned char *like, size_t cell)
+{
+    int at[3] = { 0 }, far[3] = { 0 };
+    cell_place (f, cell, at);
+    for (int k = 0; k < f->dim; k++) {
+        far[k] = (int) ceil (f->reach[k] / f->step[k]);
+        if (at[k] < far[k] || at[k] + far[k] >= f->cells[k]) return 0;
+    }
+    size_t sy = (size_t) f->cells[0], sz = sy * (f->dim > 1 ? (size_t) f->cells[1] : 1);
+    for (int z = at[2] - far[2]; z <= at[2] + far[2]; z++)
+        for (int y = at[1] - far[1]; y <= at[1] + far[1]; y++)
+            for (int x = at[0] - far[0]; x <= at[0] + far[0]; x++) if (!(like[(size_t) z * sz + (size_t) y * sy + (size_t) x] & PLAIN)) return 0;
+    return 1;
+}
+
+/* The hat of a function relative to the first corner of a cell. */
+static void offset_of (const level *f, const int *cell, int function, int *out)
+{
+    size_t low = 0, high = f->nhat;
+    while (high - low > 1) {                           /* the last hat that starts at or before it                       */
+        size_t middle = (low + high) / 2;
+        if (f->first[middle] <= (size_t) function) low = middle;
+        else high = middle;
+    }
+    level_hat_place (f, low, out);
+    for (int k = 0; k < f->dim; k++) out[k] -= cell[k];
+}
+
+static int function_at (const level *f, const int *cell, const int *offset)
+{
+    size_t hat = 0, stride = 1;
+    for (int k = 0; k < f->dim; k++) hat += (size_t) (cell[k] + offset[k]) * stride, stride *= (size_t) f->cells[k] + 1;
+    return (int) f->first[hat];
+}
+
+static pg_status sum_nodes (galerkin *g, size_t cell, int thread);
+static void forget_cell (summer *s);
+
+/* Sums of the first of the cells that are alike. */
+static pg_status make_pattern_of (galerkin *g, size_t cell)
+{
+    pg_status status = PG_OK;
+    pattern *p = &g->pattern;
+    summer *s = &g->summer[0];
+    int at[3] = { 0 };
+    PG_TRY (sum_nodes (g, cell, 0));
+    size_t count = s->nrow * s->ncolumn * (size_t) (g->f->block * g->f->block);
+    p->nrow = s->nrow, p->ncolumn = s->ncolumn;
+    PG_ALLOC (p->row, 3 * s->nrow);
+    PG_ALLOC (p->column, 3 * s->ncolumn);
+    PG_ALLOC (p->sum, count);
+    memcpy (p->sum, s->sum, count * sizeof *p->sum);
+    cell_place (g->f, cell, at);
+    for (size_t r = 0; r < p->nrow; r++) offset_of (g->f, at, s->row[r], p->row + 3*r);
+    for (size_t q = 0; q < p->ncolumn; q++) offset_of (g->f, at, s->column[q], p->column + 3*q);
+done:
+    forget_cell (s);
+    return status;
+}
+
+static pg_status find_alike (galerkin *g)
+{
+    pg_status status = PG_OK;
+    const level *f = g->f;
+    unsigned char *like = NULL;
+    size_t model = f->ncell;
+    for (int k = 0; k < f->dim; k++) if (!f->share_of[k]) return PG_OK;
+    if (!f->rows.alike) return PG_OK;
+    PG_ALLOC (g->pattern.like, f->ncell);
+    PG_ALLOC (like, f->ncell);
+    pg_parallel (f->threads, f->ncell, classify, g);
+    for (size_t cell = 0; cell < f->ncell; cell++) {
+        like[cell] = (g->pattern.like[cell] & ALIKE) && stands_free (f, g->pattern.like, cell);
+        if (like[cell] && model == f->ncell) model = cell;
+    }
+    memcpy (g->pattern.like, like, f->ncell);
+    if (model < f->ncell) PG_TRY (make_pattern_of (g, model));
+done:
+    pg_free (like);
+    return status;
+}
+
+/* The summer as it would be after the cell's own sums. */
+static pg_status take_pattern (galerkin *g, size_t cell, summer *s)
+{
+    pg_status status = PG_OK;
+    const pattern *p = &g->pattern;
+    int at[3] = { 0 };
+    cell_place (g->f, cell, at);
+    s->nrow = s->ncolumn = 0;
+    PG_GROW (s->row, s->cap_row, p->nrow);
+    PG_GROW (s->column, s->cap_column, p->ncolumn);
+    for (; s->nrow < p->nrow; s->nrow++) s->row[s->nrow] = function_at (g->f, at, p->row + 3 * s->nrow);
+    for (; s->ncolumn < p->ncolumn; s->ncolumn++) s->column[s->ncolumn] = function_at (g->f, at, p->column + 3 * s->ncolumn);
+done:
+    return status;
+}
+
+/* ---- all of them --------------------------------------------------------------------------------------------------------------------- */
+static pg_status sum_nodes (galerkin *g, size_t cell, int thread)
+{
+    pg_status status = PG_OK;
+    const level *f = g->f;
+    summer *s = &g->summer[thread];
+    const int *node = f->cell_node + f->cell_start[cell];
+    size_t m = f->cell_start[cell + 1] - f->cell_start[cell];
+    PG_TRY (find_rows (s, f, node, m));
+    for (size_t e = 0; e < m && s->nrow; e++) {
+        size_t i = (size_t) node[e], count = level_row (f, i, thread, g->room.node[thread], g->room.value[thread]);
+        PG_TRY (add_node (s, f, i, count, g->room.node[thread], g->room.value[thread]));
+    }
+done:
+    return status;
+}
+
+static void forget_cell (summer *s)
+{
+    for (size_t r = 0; r < s->nrow; r++) s->row_of[s->row[r]] = -1;
+    for (size_t q = 0; q < s->ncolumn; q++) s->where[s->column[q]] = -1;
+}
+
+static pg_status sum_cell (galerkin *g, size_t cell, int thread)
+{
+    pg_status status = PG_OK;
+    summer *s = &g->summer[thread];
+    int like = g->pattern.like && g->pattern.like[cell];
+    if (like) PG_TRY (take_pattern (g, cell, s));
+    else PG_TRY (sum_nodes (g, cell, thread));
+    PG_TRY (hand_over (s, like ? g->pattern.sum : s->sum, g->c));
+done:
+    forget_cell (s);
+    return status;
+}
+
+static void sum_cells (void *context, size_t first, size_t last, int thread)
+{
+    galerkin *g = context;
+    for (size_t k = first; k < last; k++) {
+        pg_status now = sum_cell (g, g->cell[k], thread);
+        if (now != PG_OK) g->summer[thread].status = now;
+    }
+}
+
+/* Cells whose place is odd or even along each axis as `parity` says. */
+static size_t cells_of_parity (const level *f, int parity, size_t *out)
+{
+    size_t count = 0;
+    for (size_t cell = 0; cell < f->ncell; cell++) {
+        size_t rest = cell;
+        int same = f->cell_start[cell] < f->cell_start[cell + 1];
+        for (int k = 0; k < f->dim; k++) same = same && (int) (rest % (size_t) f->cells[k] % 2) == (parity >> k & 1), rest /= (size_t) f->cells[k];
+        if (same) out[count++] = cell;
+    }
+    return count;
+}
+
+static pg_status sum_all (galerkin *g)
+{
+    pg_status status = PG_OK;
+    size_t *cell = NULL;
+    PG_ALLOC (cell, g->f->ncell);
+    g->cell = cell;
+    for (int parity = 0; parity < g->f->corners; parity++) {
+        pg_parallel_heavy (g->f->threads, cells_of_parity (g->f, parity, cell), sum_cells, g);
+        for (int t = 0; t < g->f->threads; t++)
+            if (g->summer[t].status != PG_OK) PG_FAIL (g->summer[t].status, "the coarse matrix of %zu functions could not be made: no memory, or couplings "
+                                                       "beyond their reach", g->c->n);
+    }
+done:
+    pg_free (cell);
+    return status;
+}
+
+pg_status level_coarsen (level *c, const level *f)
+{
+    pg_status status = PG_OK;
+    galerkin g = { .c = c, .f = f };
+    c->dim = f->dim, c->block = f->block, c->threads = f->threads, c->n = f->nfunction, c->ndof = c->n * (size_t) c->block;
+    PG_TRY (make_pattern (c, f));
+    PG_TRY (room_make (&g.room, f));
+    PG_ALLOC (g.summer, (size_t) f->threads);
+    for (int t = 0; t < f->threads; t++) {
+        PG_ALLOC (g.summer[t].where, c->n);
+        PG_ALLOC (g.summer[t].row_of, c->n);
+        memset (g.summer[t].where, -1, c->n * sizeof (int));
+        memset (g.summer[t].row_of, -1, c->n * sizeof (int));
+    }
+    PG_TRY (find_alike (&g));
+    PG_TRY (sum_all (&g));
+    PG_TRY (level_diagonal (c, NULL));
+done:
+    for (int t = 0; g.summer && t < f->threads; t++) {
+        summer *s = &g.summer[t];
+        pg_free (s->where), pg_free (s->row_of), pg_free (s->row), pg_free (s->column), pg_free (s->sum), pg_free (s->spread);
+    }
+    pg_free (g.summer);
+    pg_free (g.pattern.like), pg_free (g.pattern.row), pg_free (g.pattern.column), pg_free (g.pattern.sum);
+    room_free (&g.room, f->threads);
+    return status;
+}

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Coarse functions of a level: multilinear hats on a grid over the box of its nodes. Where the couplings leave the nodes under a hat in several
+ * parts (a crack runs through, a slit, two bodies side by side) each part has a function of its own: the hat on it, 0 on the others. Together
+ * they make every linear displacement of every part that holds together. */
+#include "multilevel.h"
+#include <math.h>
+#include <string.h>
+
+static const double negligible = 1e-5;                 /* weights below it are left out                                  */
+
+static void make_grid (level *l, double step)
+{
+    l->ncell = l->nhat = 1;
+    for (int k = 0; k < l->dim; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < l->n; i++) {
+            double x = l->x[i * (size_t) l->dim + (size_t) k];
+            low = fmin (low, x), high = fmax (high, x);
+        }
+        double count = fmax (1, round ((high - low) / step)), h = l->rows.lattice[k];
+        l->low[k] = low, l->step[k] = high > low ? (high - low) / count : 1;
+        if (h > 0) {                                   /* every cell holds the same nodes at the same places             */
+            l->share_of[k] = (int) fmax (1, round (step / h));
+            l->low[k] = low - h / 2, l->step[k] = l->share_of[k] * h;
+            count = ceil (round ((high - low) / h + 1) / l->share_of[k]);
+        }
+        l->cells[k] = (int) count;
+        l->ncell *= (size_t) l->cells[k], l->nhat *= (size_t) l->cells[k] + 1;
+    }
+}
+
+size_t level_hat (const level *l, size_t cell, int corner)
+{
+    size_t hat = 0, stride = 1;
+    for (int k = 0; k < l->dim; k++) {
+        size_t a = cell % (size_t) l->cells[k] + (size_t) (corner >> k & 1);
+        cell /= (size_t) l->cells[k];
+        hat += a * stride, stride *= (size_t) l->cells[k] + 1;
+    }
+    return hat;
+}
+
+void level_hat_place (const level *l, size_t hat, int *at)
+{
+    for (int k = 0; k < l->dim; k++) at[k] = (int) (hat % ((size_t) l->cells[k] + 1)), hat /= (size_t) l->cells[k] + 1;
+}
+
+static int takes_part (const level *l, size_t i) { return l->mask[i] != (1 << l->block) - 1; }
+
+static void place_nodes (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    level *l = context;
+    for (size_t i = first; i < last; i++) {
+        double t[3];
+        size_t cell = 0, stride = 1;
+        for (int k = 0; k < l->dim; k++) {
+            double s = (l->x[i * (size_t) l->dim + (size_t) k] - l->low[k]) / l->step[k];
+            if (l->share_of[k]) s = (floor (s * l->share_of[k]) + 0.5) / l->share_of[k];
+            double whole = fmin (fmax (0, floor (s)), l->cells[k] - 1);
+            t[k] = fmin (fmax (0, s - whole), 1);
+            cell += (size_t) whole * stride, stride *= (size_t) l->cells[k];
+        }
+        l->cell[i] = (int) cell;
+        for (int c = 0; c < l->corners; c++) {
+            double w = 1;
+            for (int k = 0; k < l->dim; k++) w *= c >> k & 1 ? t[k] : 1 - t[k];
+            l->weight[i * (size_t) l->corners + (size_t) c] = w > negligible && takes_part (l, i) ? (float) w : 0;
+        }
+    }
+}
+
+static pg_status sort_by_cell (level *l)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (l->cell_start, l->ncell + 2);
+    PG_ALLOC (l->cell_node, l->n);
+    for (size_t i = 0; i < l->n; i++) l->cell_start[l->cell[i] + 2]++;
+    for (size_t c = 0; c < l->ncell; c++) l->cell_start[c + 2] += l->cell_start[c + 1];
+    for (size_t i = 0; i < l->n; i++) l->cell_node[l->cell_start[l->cell[i] + 1]++] = (int) i;
+done:
+    return status;
+}
+
+/* ---- parts of a hat --------------------------------------------------------------------------------------------------------------- */
+typedef struct { int *under, *queue, *node; size_t *seen; } walker;       /* of one thread; seen: hat + 1 that reached a node */
+typedef struct { level *l; walker *walker; size_t *parts; pg_status failed; } search;
+
+/* Corner of the node's cell at which the hat stands, -1: the node is not under it. */
+static int corner_of (const level *l, size_t i, const int *hat)
+{
+    size_t cell = (size_t) l->cell[i];
+    int corner = 0;
+    for (int k = 0; k < l->dim; k++) {
+        int a = hat[k] - (int) (cell % (size_t) l->cells[k]);
+        if (a < 0 || a > 1) return -1;
+        corner |= a << k, cell /= (size_t) l->cells[k];
+    }
+    return l->weight[i * (size_t) l->corners + (size_t) corner] > 0 ? corner : -1;
+}
+
+/* Nodes under the hat, by cells; their number. */
+static size_t gather (const level *l, const int *hat, int *under)
+{
+    size_t count = 0;
+    for (int c = 0; c < l->corners; c++) {             /* the hat is corner c of this cell                               */
+        size_t cell = 0, stride = 1;
+        int inside = 1;
+        for (int k = 0; k < l->dim; k++) {
+            int a = hat[k] - (c >> k & 1);
+            inside = inside && a >= 0 && a < l->cells[k];
+            cell += inside ? (size_t) a * stride : 0, stride *= (size_t) l->cells[k];
+        }
+        if (!inside) continue;
+        for (size_t p = l->cell_start[cell]; p < l->cell_start[cell + 1]; p++) {
+            size_t i = (size_t) l->cell_node[p];
+            if (l->weight[i * (size_t) l->corners + (size_t) c] > 0) under[count++] = (int) i;
+        }
+    }
+    return count;
+}
+
+/* Numbers the parts under the hat: function[node, corner] = part; the rest of a part is not looked at once all nodes are reached. */
+static size_t find_parts (level *l, size_t h, walker *w, int thread)
+{
+    int hat[3];
+    level_hat_place (l, h, hat);
+    size_t count = gather (l, hat, w->under), reached = 0, parts = 0;
+    for (size_t s = 0; s < count && reached < count; s++) {
+        size_t seed = (size_t) w->under[s], head = 0, tail = 0;
+        if (w->seen[seed] == h + 1) continue;
+        w->seen[seed] = h + 1, w->queue[tail++] = (int) seed;
+        while (head < tail && reached + tail < count) {
+            size_t i = (size_t) w->queue[head++], m = level_row (l, i, thread, w->node, NULL);
+            for (size_t e = 0; e < m; e++) {
+                size_t j = (size_t) w->node[e];
+                if (w->seen[j] == h + 1 || corner_of (l, j, hat) < 0) continue;
+                w->seen[j] = h + 1, w->queue[tail++] = (int) j;
+            }
+        }
+        for (size_t e = 0; e < tail; e++) {
+            size_t i = (size_t) w->queue[e];
+            l->function[i * (size_t) l->corners + (size_t) corner_of (l, i, hat)] = (int) parts;
+        }
+        reached += tail, parts++;
+    }
+    return parts;
+}
+
+static void search_hats (void *context, size_t first, size_t last, int thread)
+{
+    search *s = context;
+    for (size_t h = first; h < last; h++) s->parts[h] = find_parts (s->l, h, &s->walker[thread], thread);
+}
+
+static size_t most_under (const level *l)
+{
+    size_t most = 0;
+    for (size_t c = 0; c < l->ncell; c++) if (l->cell_start[c + 1] - l->cell_start[c] > most) most = l->cell_start[c + 1] - l->cell_start[c];
+    return most * (size_t) l->corners;
+}
+
+static pg_status split_hats (level *l)
+{
+    pg_status status = PG_OK;
+    search s = { .l = l };
+    size_t most = most_under (l);
+    PG_ALLOC (s.walker, (size_t) l->threads);
+    for (int t = 0; t < l->threads; t++) {
+        PG_ALLOC (s.walker[t].under, most);
+        PG_ALLOC (s.walker[t].queue, most);
+        PG_ALLOC (s.walker[t].node, l->rows.widest);
+        PG_ALLOC (s.walker[t].seen, l->n);
+    }
+    PG_ALLOC (l->first, l->nhat + 1);
+    s.parts = l->first + 1;
+    pg_parallel (l->threads, l->nhat, search_hats, &s);
+    for (size_t h = 0; h < l->nhat; h++) l->first[h + 1] += l->first[h];
+    l->nfunction = l->first[l->nhat];
+done:
+    for (int t = 0; s.walker && t < l->threads; t++)
+        pg_free (s.walker[t].under), pg_free (s.walker[t].queue), pg_free (s.walker[t].node), pg_free (s.walker[t].seen);
+    pg_free (s.walker);
+    return status;
+}
+
+/* From parts of hats to functions, and the members of every function. */
+static pg_status number_functions (level *l)
+{
+    pg_status status = PG_OK;
+    size_t corners = (size_t) l->corners;
+    PG_ALLOC (l->at, l->nfunction + 2);
+    for (size_t i = 0; i < l->n; i++)
+        for (size_t c = 0; c < corners; c++) {
+            int *f = &l->function[i * corners + c];
+            if (!(l->weight[i * corners + c] > 0)) *f = -1;
+            else *f += (int) l->first[level_hat (l, (size_t) l->cell[i], (int) c)], l->at[*f + 2]++;
+        }
+    for (size_t f = 0; f < l->nfunction; f++) l->at[f + 2] += l->at[f + 1];
+    PG_ALLOC (l->member, l->at[l->nfunction + 1]);
+    PG_ALLOC (l->share, l->at[l->nfunction + 1]);
+    for (size_t i = 0; i < l->n; i++)
+        for (size_t c = 0; c < corners; c++) {
+            int f = l->function[i * corners + c];
+            if (f < 0) continue;
+            l->member[l->at[f + 1]] = (int) i;
+            l->share[l->at[f + 1]++] = l->weight[i * corners + c];
+        }
+done:
+    return status;
+}
+
+pg_status level_space (level *l, double step)
+{
+    pg_status status = PG_OK;
+    l->corners = 1 << l->dim;
+    make_grid (l, step);
+    PG_ALLOC (l->cell, l->n);
+    PG_ALLOC (l->weight, l->n * (size_t) l->corners);
+    PG_ALLOC (l->function, l->n * (size_t) l->corners);
+    pg_parallel (l->threads, l->n, place_nodes, l);
+    PG_TRY (sort_by_cell (l));
+    PG_TRY (split_hats (l));
+    PG_TRY (number_functions (l));
+done:
+    return status;
+}
