@@ -49,7 +49,7 @@ static const pg_key keys[] = {
     { "boundary[].name", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL, "Name in history.csv; default: the set's name." },
     { "boundary[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all", NULL, NULL, "Where it acts: a set, a part of one (platens.top), or left, right, bottom, top, back, front, all." },
     LOAD ("displacement", "m", "Prescribed displacement."),
-    LOAD ("velocity", "m/s", "Prescribed velocity (newmark)."),
+    LOAD ("velocity", "m/s", "Prescribed velocity (newmark, verlet, central)."),
     LOAD ("traction", "Pa", "Force per area on boundary facets."),
     LOAD ("force", "N", "Total force, shared equally by the points of the set."),
     LOAD ("body_force", "N/m3", "Force per volume; set all: everywhere, else on the points of the set."),
