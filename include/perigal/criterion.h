@@ -35,6 +35,7 @@ typedef struct {                                       /* what the criterion may
     int     graded;                                    /* 1: spacings differ, the horizon is that of the nominal one     */
     double  toughness;                                 /* energy of a unit of crack over that of theory at the same stretch; 0: not known, 1 */
     const char *stretch;                               /* "linear", "finite": as the force measures it; NULL: as failure.stretch says */
+    int     state;                                     /* 1: state-based forces; 0: those of bonds alone                  */
     const char *usual;                                 /* criterion where the scene has `failure` without one; NULL: it must say */
 } pg_criterion_setting;
 
@@ -62,5 +63,8 @@ pg_status pg_criterion_read (pg_criterion *out, size_t n, const pg_scene *scene,
 void      pg_criterion_describe (const pg_criterion *c, char *text, size_t size);
 /* Critical stretch from fracture energy G0 (J/m^2) and back: theory A1, by quadrature of the kernel moments. */
 double pg_stretch_from_energy (const pg_criterion_setting *setting, double G0);
+/* Energy (J/m^2) of state-based theory when all bonds across a plane have stretch s0 and no other is stretched: with I (z) = the part of q of a point
+ * z from the plane that lies beyond it, G = s0^2 int_0^horizon [A d (I/q)^2 + B I/q] dz (pg_state_moduli). With A = 0 that of bonds alone. */
+double pg_state_fracture_energy (const pg_criterion_setting *setting, double s0);
 double pg_energy_from_stretch (const pg_criterion_setting *setting, double s0);
 #endif

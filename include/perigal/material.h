@@ -34,6 +34,10 @@ const char *pg_material_names (void);
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode);
 /* Isotropic tangent for a mode (theory section 0). D is nv x nv. */
 void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D);
+/* Of state-based peridynamics (Silling et al. 2007; theory B6), Pa: A = d kappa - (d + 2) mu and B = d (d + 2) mu, kappa the bulk modulus in d dimensions:
+ * plane stress E / (2 (1 - nu)), plane strain lambda + mu, solid lambda + 2/3 mu. Energy of a point, J/m^3, with w = k / r and q = sum w r^2 V:
+ * 1/2 [A theta^2 / d + B / q sum w (e.eta)^2 V]. A line has A = 0, B = E. */
+void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation);
 /* Of the mode (plane stress: waves in a thin plate). */
 typedef struct {
     double lambda, mu;                                 /* Pa                                                             */

@@ -15,10 +15,6 @@ double pg_bond_modulus (pg_mode mode, const pg_kernel *kernel, double horizon, d
 /* Fracture energy (J/m^2) when every bond across a plane has stretch s0. */
 double pg_bond_fracture_energy (pg_mode mode, const pg_kernel *kernel, double horizon, double thickness, double c, double s0);
 
-/* State-based theory: A = d kappa - (d + 2) mu and B = d (d + 2) mu, Pa; kappa = bulk modulus in d dimensions: plane stress E / (2 (1 - nu)), plane
- * strain lambda + mu, solid lambda + 2/3 mu. Energy density 1/2 [A theta^2 / d + B / q sum w (e.eta)^2 V]. A line: A = 0, B = E. */
-void   pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation);
-
 /* ---- how bonds are weighed (scene: method.*) -------------------------------------------------------------------------------- */
 typedef enum { PG_PARTIAL_NONE, PG_PARTIAL_LINEAR, PG_PARTIAL_OVERLAP } pg_partial;
 typedef enum { PG_SURFACE_NONE, PG_SURFACE_PRODUCT, PG_SURFACE_VOLUME } pg_surface;
@@ -30,6 +26,8 @@ typedef struct {
     pg_partial partial;                                /* share beta of a neighbour's volume that counts                 */
     pg_surface surface;                                /* g_ij: 1 | 1 / sqrt (v_i v_j) | 2 / (v_i + v_j), v = family volume / full one */
     int        calibrate;                              /* 1: c_h = c S_d m_d / sum k r beta V, hydrostatic energy exact  */
+    int        state;                                  /* 1: state-based (linear peridynamic solid, theory B6), see pg_sweep_setting */
+    int        follow;                                 /* state-based: 1: q counts the bonds that live, 0: those of the start */
     int        finite;                                 /* 0: s = e.eta / r; 1: s = (|xi + eta| - r) / r, force along xi + eta */
     pg_evaluation evaluation;                          /* never changes the physics                                      */
 } pg_sum_rule;
@@ -87,6 +85,9 @@ typedef struct {
  * horizon, overlap without a lattice, points that coincide, no bond at all. */
 pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud, const pg_lattice *lattice /* or NULL, as above */);
 void      pg_sums_free   (pg_sums **sums);
+/* Energy of a straight crack along the lattice over that of theory at the same stretch, mean of the axes: `toughness`, or with rule.state that of a
+ * material (E, Pa; nu). 1 without a lattice. */
+double    pg_sums_toughness (const pg_sums *sums, double E, double nu);
 /* Neighbours of every point, ascending, itself excluded; i sees j if and only if j sees i. */
 pg_status pg_sums_family (pg_family *out, const pg_sums *sums);
 /* Of the bonds of point i in `family`: xi (m x dim, m; on a lattice the stencil's own), weight k beta g_ij (m), beta (m); NULL: not wanted.
@@ -132,11 +133,10 @@ struct pg_sweep_setting {
     const double    *modulus;                          /* c_h of each point, N/m^6; between two of them 2 a b / (a + b)   */
     const double    *limit;                            /* critical stretch of each point, the smaller one rules; NULL: nothing breaks */
     const unsigned char *exempt;                       /* per point: bonds with such an end never break; NULL: none      */
-    /* State-based (linear peridynamic solid: Silling et al. 2007; theory B6) if `dilation` is not NULL; then `modulus` is not read. Of each point A =
-     * d kappa - (d + 2) mu and B = d (d + 2) mu, Pa (pg_state_moduli); w = k beta / r, so that A = 0 gives the bonds' own sums (c = 2 B / q). */
+    /* With rule.state (Silling et al. 2007; theory B6): A and B of each point, Pa (pg_state_moduli); `modulus` is not read then. w = k beta / r,
+     * so that A = 0 gives the sums of bonds alone with c = 2 B / q. */
     const double    *dilation, *deviation;
-    const unsigned char *counted;                      /* bonds of the family that q counts, for good; NULL: all         */
-    int              follow;                           /* 1: q counts the bonds that live, and changes when one dies     */
+    const unsigned char *counted;                      /* bonds of the family that q counts, unless it follows; NULL: all */
     const pg_beam_law *beams;                          /* NULL: bonds pull along themselves only; else u and f below have dim + rotations
                                                           unknowns a point, moments in f over the law's length, N; linear rule only */
     int              threads;
@@ -159,7 +159,7 @@ double      pg_sweep_energy (pg_sweep *sweep, const double *u);
 /* W (n, J/m^3) = energy density of every point at displacement u: half the energy of each of its live bonds over its volume, W_i = 1/4 sum_j
  * c k beta g r s^2 V_j (theory B2); sum of W_i V_i = pg_sweep_energy to rounding. 0 where a point has no live bond. The same bits for any number of threads. */
 pg_status   pg_sweep_energies (pg_sweep *sweep, const double *u, double *W);
-/* State-based sums: dilatation of every point, theta_i = d / q_i sum_j w xi.eta V_j (1), and its q_i (m^2 times m^3 over the unit of w), both n or NULL;
- * 0 where no bond counts. PG_E_USAGE: bonds alone have none. */
+/* State-based sums: dilatation of every point, theta_i = d / q_i sum_j w xi.eta V_j (1), and its q_i (m^2 times m^3 over the unit of w), both n or NULL (theta NULL: u is
+ * not read); 0 where no bond counts. PG_E_USAGE: bonds alone have none. */
 pg_status   pg_sweep_dilatation (pg_sweep *sweep, const double *u, double *theta, double *q);
 #endif

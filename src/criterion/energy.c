@@ -5,6 +5,44 @@
 #include "perigal/kernel.h"
 #include <math.h>
 
+/* ---- state-based ---------------------------------------------------------------------------------------------------------------- */
+enum { PANELS = 24 };
+static double point_of (int k, double *weight)         /* of 3 Gauss points on each of the panels of [0, 1]              */
+{
+    static const double place[3] = { -0.774596669241483377035853, 0, 0.774596669241483377035853 };
+    *weight = (k % 3 == 1 ? 8.0 : 5.0) / 18 / PANELS;
+    return (k / 3 + (1 + place[k % 3]) / 2) / PANELS;
+}
+
+/* Of q, over horizon^(d + 1): what lies further than z along one axis; r = z + (1 - z) t^2 is smooth where the cap begins */
+static double beyond (const pg_kernel *kernel, pg_mode mode, double z)
+{
+    static const double pi = 3.14159265358979323846;
+    double sum = 0;
+    for (int k = 0; k < 3 * PANELS; k++) {
+        double weight, t = point_of (k, &weight), r = z + (1 - z) * t * t, w;
+        double part = mode == PG_SOLID ? 2 * pi * r * (r - z) : mode == PG_LINE ? 1 : 2 * r * acos (z / r);
+        kernel->value (1, &r, &w, NULL);
+        sum += w * r * part * 2 * (1 - z) * t * weight;
+    }
+    return sum;
+}
+
+double pg_state_fracture_energy (const pg_criterion_setting *s, double s0)
+{
+    const pg_kernel *kernel = pg_kernel_find (s->kernel);
+    double A, B, sum = 0, d = s->mode == PG_SOLID ? 3 : s->mode == PG_LINE ? 1 : 2;
+    if (!kernel) return 0;
+    pg_state_moduli (s->mode, s->modulus, s->poisson, &A, &B);
+    double whole = 2 * beyond (kernel, s->mode, 0);
+    for (int k = 0; k < 3 * PANELS; k++) {
+        double weight, z = point_of (k, &weight), share = beyond (kernel, s->mode, z) / whole;
+        sum += (A * d * share * share + B * share) * weight;
+    }
+    return s->horizon * s0 * s0 * sum * (s->toughness > 0 ? s->toughness : 1);
+}
+
+/* ---- bonds alone ---------------------------------------------------------------------------------------------------------------- */
 /* s0^2 = ratio * G0 */
 static double ratio (const pg_criterion_setting *s)
 {
@@ -13,6 +51,7 @@ static double ratio (const pg_criterion_setting *s)
     static const int order[] = { [PG_LINE] = 1, [PG_PLANE_STRESS] = 2, [PG_PLANE_STRAIN] = 2, [PG_SOLID] = 3 };
     const pg_kernel *kernel = pg_kernel_find (s->kernel);
     if (!kernel) return 0;
+    if (s->state) return 1 / pg_state_fracture_energy (s, 1);
     int n = order[s->mode];
     double tough = s->toughness > 0 ? s->toughness : 1;        /* of a lattice (theory A2)                                */
     return a[s->mode] * pg_kernel_moment (kernel, n) / (pg_kernel_moment (kernel, n + 1) * s->horizon * s->modulus * tough);

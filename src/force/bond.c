@@ -20,7 +20,7 @@ double bond_kappa (const bond *b, size_t i, const bond_star *s, size_t e, double
 {
     size_t j = (size_t) s->node[e];
     const double *V = b->problem->cloud.volume, *c = b->modulus, *xi = s->xi + e * (size_t) b->dim;
-    double both = c[i] == c[j] ? c[i] : 2 * c[i] * c[j] / (c[i] + c[j]), rr = 0;
+    double both = b->stiff ? b->stiff[i] + b->stiff[j] : c[i] == c[j] ? c[i] : 2 * c[i] * c[j] / (c[i] + c[j]), rr = 0;
     for (int k = 0; k < b->dim; k++) rr += xi[k] * xi[k];
     if (r) *r = sqrt (rr);
     return both * s->weight[e] * (V[i] * V[j]) / (rr * sqrt (rr));
@@ -32,7 +32,7 @@ void bond_free (void **self)
     bond *b = *self;
     if (!b) return;
     pg_sweep_free (&b->sweep), pg_sweep_free (&b->tangent);
-    bond_energy_free (b);
+    bond_energy_free (b), lps_free (b);
     nodal_free (&b->nodal);
     pg_sparse_clear (&b->K);
     pg_nearest_free (&b->near);
@@ -55,8 +55,9 @@ static pg_status make_constants (bond *b)
     pg_status status = PG_OK;
     const pg_problem *p = b->problem;
     const pg_sum_rule *rule = &p->sums->rule;
-    PG_ALLOC (b->modulus, b->n);
-    for (size_t i = 0; i < b->n; i++) {
+    PG_TRY (lps_create (b));
+    if (!b->dilation) PG_ALLOC (b->modulus, b->n);
+    for (size_t i = 0; b->modulus && i < b->n; i++) {
         size_t block = (size_t) p->block[PG_NODES][i];
         double E = p->material[block].modulus;
         if (i > 0 && block == (size_t) p->block[PG_NODES][i - 1]) b->modulus[i] = b->modulus[i - 1];
@@ -75,7 +76,7 @@ done:
 
 static pg_status make_sweep (bond *b, pg_sweep **out, const pg_sums *sums, const double *limit)
 {
-    pg_sweep_setting s = { .sums = sums, .family = b->family, .modulus = b->modulus, .limit = limit, .exempt = b->problem->exempt[PG_NODES],
+    pg_sweep_setting s = { .sums = sums, .family = b->family, .modulus = b->modulus, .dilation = b->dilation, .deviation = b->deviation, .counted = b->counted, .limit = limit, .exempt = b->problem->exempt[PG_NODES],
                            .threads = b->threads };
     return pg_sweep_create (out, &s);
 }
@@ -101,6 +102,7 @@ pg_status bond_create (void **self, const pg_problem *problem)
     PG_ALLOC (b->stale, b->n);
     PG_TRY (make_constants (b));
     PG_TRY (make_sweep (b, &b->sweep, problem->sums, b->limit));
+    PG_TRY (lps_weigh (b));
     PG_TRY (nodal_create (&b->nodal, problem, b->dim));
 done:
     if (status != PG_OK) bond_free (self);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: bond-based peridynamics. Files: bond.c (life cycle, forces, breaking), bond_matrix.c (K, its diagonal and row sums, the bound of the
- * largest frequency), bond_field.c (utilisation, fields, places, census), bond_energy.c, bond_tiles.c (points that die by their energy), bond_words.c (what the
- * plan says).
+ * largest frequency), bond_field.c (utilisation, fields, places, census), bond_energy.c, bond_tiles.c (points that die by their energy), lps.c (what
+ * state-based theory adds), bond_words.c (what the plan says).
  * Pair force on i from j: V_i V_j c k beta g s e, s = e . eta / r; linear in the displacement: kappa (xi . eta) xi,
  * kappa = V_i V_j c k beta g / r^3 (N/m^3), the same bits from either end. */
 #ifndef PG_BOND_H
@@ -21,6 +21,9 @@ typedef struct {
     double   *density;                                 /* W of each point, J/m^3; with critical (n)                      */
     unsigned char *dying;                              /* 0 but while they are looked for; with critical (n)             */
     bond_tiles *tiles;                                 /* NULL until points are looked at in motion                      */
+    double   *dilation, *deviation;                    /* state-based: A and B of each point, Pa; NULL: bonds alone (n)  */
+    double   *q, *stiff;  unsigned long weighed;       /* state-based: weighted volumes and C / q at that revision (n)   */
+    unsigned char *counted;                            /* state-based: bonds that no pre-crack cuts; NULL: all           */
     pg_sweep *sweep;                                   /* forces, by the stretch of the rule                             */
     pg_sums   small;  pg_sweep *tangent;               /* finite stretch: sums and sweep of the linear one, for K x; made when asked for */
     const unsigned char *alive;                        /* of the state of the last refresh, borrowed; NULL: all live     */
@@ -87,15 +90,25 @@ pg_status bond_energy_utilisation (bond *b, const pg_state *state, const double 
 pg_status bond_tiles_look    (bond *b, const double *d, size_t *dying);
 void      bond_tiles_forget  (bond *b);
 void      bond_tiles_free    (bond_tiles **tiles);
+/* state-based (dilation not NULL) */
+pg_status lps_create (bond *b);                                        /* moduli and bonds that count; nothing unless the rule is state-based */
+pg_status lps_weigh  (bond *b);                                        /* q and stiff as they are now                    */
+void      lps_free   (bond *b);
+pg_status lps_look   (bond *b, const double *d, size_t *dying);         /* as bond_tiles_look, by the energies of all points */
+/* C / q, C = B + d max (A, 0): bonds alone with constant C_i / q_i + C_j / q_j are at least as stiff as the state-based ones. */
+void      lps_own    (const bond *b, size_t i, const bond_star *s, double *D);           /* diagonal block of K         */
+double    lps_bound  (const bond *b, size_t i, const bond_star *s);    /* of omega^2 times density, whatever bonds die   */
+void      lps_virial (const bond *b, size_t i, const bond_star *s, const unsigned char *alive, const double *d, double *T);      /* sum t x xi V, Pa */
 /* words */
 int         bond_describe (const void *self, size_t line, char *text, size_t size);
 const char *bond_refuses  (const pg_problem *problem, const char *kind);
 
-/* All of it, for every force whose bonds are these. */
-#define BOND_ENTRIES \
+/* All of it, for every force whose bonds are these; BOND_COMMON: without a matrix. */
+#define BOND_ENTRIES BOND_COMMON, .matrix = bond_matrix, .assemble = bond_assemble
+#define BOND_COMMON \
     .create = bond_create, .free = bond_free, .fields = bond_fields, .refresh = bond_refresh, .balance = bond_balance, .mass = bond_mass, \
-    .operator_ = bond_operator, .matrix = bond_matrix, .basis = bond_basis, .impose = bond_impose, .utilisation = bond_utilisation, \
+    .operator_ = bond_operator, .basis = bond_basis, .impose = bond_impose, .utilisation = bond_utilisation, \
     .ledger = bond_ledger, .field = bond_field, .probe = bond_probe, .overlap = bond_overlap, .census = bond_census, .revision = bond_revision, \
-    .assemble = bond_assemble, .sample = bond_sample, .march = bond_march, .external = bond_external, .bound = bond_bound, \
+    .sample = bond_sample, .march = bond_march, .external = bond_external, .bound = bond_bound, \
     .row_sums = bond_row_sums, .describe = bond_describe, .refuses = bond_refuses, .couplings = bond_couplings
 #endif

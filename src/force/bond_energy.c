@@ -104,7 +104,8 @@ pg_status bond_energy_kill (bond *b, const double *d, pg_changes *broken)
 {
     pg_status status = PG_OK;
     size_t before = broken->n, dying = 0;
-    PG_TRY (bond_tiles_look (b, d, &dying));
+    if (b->dilation) PG_TRY (lps_look (b, d, &dying));
+    else PG_TRY (bond_tiles_look (b, d, &dying));
     if (dying == 0) goto done;
     status = collect (b, broken);
     memset (b->dying, 0, b->n);

@@ -176,7 +176,8 @@ static void add_virial (const bond *b, size_t i, const bond_star *s, size_t e, c
 static void stress_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const bond_star *s, double *out)
 {
     double T[9] = { 0 };
-    for (size_t e = 0; e < s->m; e++) if (!alive || alive[s->first + e]) add_virial (b, i, s, e, d, T);
+    if (b->dilation) lps_virial (b, i, s, alive, d, T);
+    for (size_t e = 0; !b->dilation && e < s->m; e++) if (!alive || alive[s->first + e]) add_virial (b, i, s, e, d, T);
     out[0] = T[0];
     if (b->dim == 2) out[1] = T[3], out[2] = 0.5 * (T[1] + T[2]);
     if (b->dim == 3) out[1] = T[4], out[2] = T[8], out[3] = 0.5 * (T[1] + T[3]), out[4] = 0.5 * (T[5] + T[7]), out[5] = 0.5 * (T[2] + T[6]);
@@ -197,6 +198,7 @@ pg_status bond_field (void *self, const pg_state *state, const double *d, const 
     else if (strain || strcmp (name, "stress") == 0) *components = pg_voigt_size (b->dim), *unit = strain ? "" : "Pa", p.at = strain ? strain_at : stress_at;
     else return PG_OK;
     p.components = (size_t) *components;
+    if (p.at == stress_at && lps_weigh (b) != PG_OK) return PG_E_MEMORY;
     pg_parallel (b->threads, b->n, p.at == damage_at ? paint_damage : paint_points, &p);
     return PG_OK;
 }
@@ -258,7 +260,7 @@ pg_status bond_sample (void *self, const pg_state *state, const double *d, size_
         if (b->dim == 3) memcpy (out, v, sizeof v);
         else out[0] = v[0];
         if (b->dim == 2) out[1] = v[1], out[3] = v[2];
-        if (b->problem->mode == PG_PLANE_STRAIN) out[2] = pg_bond_poisson (PG_PLANE_STRAIN) * (v[0] + v[1]);
+        if (b->problem->mode == PG_PLANE_STRAIN) out[2] = b->problem->material[b->problem->block[PG_NODES][i]].parameter[1] * (v[0] + v[1]);
     }
 done:
     return status;

@@ -35,7 +35,7 @@ static void own_block (const bond *b, size_t i, const bond_star *s, int all, dou
     memset (D, 0, dim * dim * sizeof *D);
     for (size_t e = 0; e < s->m; e++) {
         const double *xi = s->xi + e * dim;
-        if (!all && !bond_lives (b, s->first + e)) continue;
+        if (all ? b->counted && !b->counted[s->first + e] : !bond_lives (b, s->first + e)) continue;
         double kappa = bond_kappa (b, i, s, e, NULL);
         for (size_t a = 0; a < dim; a++)
             for (size_t c = 0; c < dim; c++) D[a * dim + c] += kappa * xi[a] * xi[c];
@@ -71,7 +71,7 @@ static void find_whole (bond *b)
     size_t i = 0, n = sums->stencil.n, bb = (size_t) (b->dim * b->dim);
     if (b->searched) return;
     b->searched = 1;
-    if (!n || !sums->ordered || sums->share || sums->family_volume) return;
+    if (b->dilation || !n || !sums->ordered || sums->share || sums->family_volume) return;
     for (size_t k = 1; k < b->n; k++) if (b->modulus[k] != b->modulus[0]) return;
     while (i < b->n && family_size (b, i) != n) i++;
     if (i == b->n) return;
@@ -101,7 +101,8 @@ static void diagonal_points (void *context, size_t first, size_t last, int threa
         if (is_whole ((void *) (uintptr_t) w->b, i)) own = w->b->whole + family_size (w->b, i) * dim * dim;
         else {
             bond_star_at (w->b, i, thread, &s);
-            own_block (w->b, i, &s, 0, D);
+            if (w->b->dilation) lps_own (w->b, i, &s, D);
+            else own_block (w->b, i, &s, 0, D);
         }
         for (size_t k = 0; k < dim; k++) w->out[i * dim + k] = own[k * dim + k];
     }
@@ -117,6 +118,7 @@ void bond_diagonal (void *context, double *d)
     }
     job w = { b, d };
     find_whole (b);
+    lps_weigh (b);
     pg_parallel (b->threads, b->n, diagonal_points, &w);
     if (!b->diagonal) b->diagonal = pg_calloc (ndof, sizeof *d);       /* kept where there is room for it                */
     if (b->diagonal) memcpy (b->diagonal, d, ndof * sizeof *d), b->diagonal_of = b->revision;
@@ -151,6 +153,7 @@ pg_status bond_row_sums (void *self, double *sum)
 {
     bond *b = self;
     job w = { b, sum };
+    if (lps_weigh (b) != PG_OK) return PG_E_MEMORY;
     pg_parallel (b->threads, b->n, row_sum_points, &w);
     return PG_OK;
 }
@@ -222,6 +225,10 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) {
         double mass = p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i];
         bond_star_at (w->b, i, thread, &s);
+        if (w->b->dilation && p->sums->rule.follow && (w->b->limit || w->b->critical)) {
+            w->out[i] = lps_bound (w->b, i, &s) * p->cloud.volume[i] / mass;
+            continue;
+        }
         own_block (w->b, i, &s, 1, P);
         pg_dense_eigen (w->b->dim, P, lambda, NULL);
         w->out[i] = 2 * lambda[0] / mass;

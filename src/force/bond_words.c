@@ -9,6 +9,15 @@ static void say_constant (const bond *b, size_t m, char *text, size_t size)
 {
     const pg_problem *p = b->problem;
     const pg_sum_rule *rule = &p->sums->rule;
+    if (rule->state) {
+        const pg_material *a = &p->material[m];
+        double E = a->modulus, nu = a->parameter[1], A, B, d = p->dim;
+        pg_state_moduli (p->mode, E, nu, &A, &B);
+        snprintf (text, size, "%s%s%slinear peridynamic solid, bulk modulus %.6g Pa%s, shear modulus %.6g Pa; weighted volumes of %s", p->nmaterial > 1 ? "material " : "",
+                  p->nmaterial > 1 ? a->name : "", p->nmaterial > 1 ? ": " : "", (A + B / d) / d, p->dim == 2 ? " (of the plane)" : "", B / (d * (d + 2)),
+                  rule->follow ? "the bonds that live" : "the bonds of the start");
+        return;
+    }
     double c = pg_bond_modulus (p->mode, rule->kernel, rule->horizon, p->material[m].modulus, p->cloud.thickness);
     int used = snprintf (text, size, "%s%s%sconstant %.6g N/m^6, Poisson's ratio %.4g", p->nmaterial > 1 ? "material " : "",
                          p->nmaterial > 1 ? p->material[m].name : "", p->nmaterial > 1 ? ": " : "", c, pg_bond_poisson (p->mode));
@@ -30,7 +39,7 @@ static void say_toughness (const bond *b, char *text, size_t size)
     if (b->critical)
         snprintf (text, size, "energy of points is looked at in every step; a crack kills points over a width of about the horizon, which costs more than G0 at "
                   "wc_factor 1 (see doc/method.md)");
-    else if (s->stencil.n) snprintf (text, size, "a straight crack along the lattice consumes %.5g of theory's energy at the same stretch%s", s->toughness,
+    else if (s->stencil.n) snprintf (text, size, "a straight crack along the lattice consumes %.5g of theory's energy at the same stretch%s", pg_sums_toughness (s, b->problem->material->modulus, b->problem->material->parameter[1]),
                                 s->rule.calibrate ? ": allowed for where one follows from the other" : "");
     else snprintf (text, size, "critical stretch and fracture energy are those of theory: points without a lattice are not calibrated for them");
 }

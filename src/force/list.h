@@ -3,3 +3,4 @@
 PG_FORCE (galerkin)
 PG_FORCE (bond)
 PG_FORCE (fcbm)
+PG_FORCE (lps)

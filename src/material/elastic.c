@@ -22,6 +22,14 @@ void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D)
     if (mode == PG_LINE) D[0] = E;
 }
 
+void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation)
+{
+    double mu = E / (2 * (1 + nu)), lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), d = mode == PG_SOLID ? 3 : 2;
+    double bulk = mode == PG_PLANE_STRESS ? E / (2 * (1 - nu)) : mode == PG_PLANE_STRAIN ? lambda + mu : lambda + 2 * mu / 3;
+    *dilation = mode == PG_LINE ? 0 : d * bulk - (d + 2) * mu;
+    *deviation = mode == PG_LINE ? E : d * (d + 2) * mu;
+}
+
 static pg_status read (pg_material *m, const pg_scene *scene)
 {
     double E = pg_scene_number (scene, "materials.%s.youngs_modulus", m->name);

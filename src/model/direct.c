@@ -18,9 +18,10 @@ static int is (const pg_scene *scene, const char *key, const char *word)
 }
 
 /* What a force means where the scene says nothing: how it is summed, what breaks. */
-typedef struct { const char *force; pg_evaluation evaluation; const char *criterion; } custom;
+typedef struct { const char *force; pg_evaluation evaluation; const char *criterion; int state; } custom;
 static const custom customs[] = {
-    { "fcbm", PG_EVALUATE_AUTO, "node_energy" },       /* Jafarzadeh et al. 2022                                         */
+    { "fcbm", PG_EVALUATE_AUTO, "node_energy", 0 },    /* Jafarzadeh et al. 2022                                         */
+    { "lps", PG_EVALUATE_AUTO, NULL, 1 },              /* Silling et al. 2007                                            */
 };
 
 static const custom *custom_of (const pg_scene *scene)
@@ -51,6 +52,9 @@ void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, con
     rule->calibrate = pg_scene_bool (scene, "method.calibrate");
     rule->finite = is (scene, "method.stretch", "finite");
     rule->evaluation = is (scene, evaluation, "stencil") ? PG_EVALUATE_STENCIL : is (scene, evaluation, "list") ? PG_EVALUATE_LIST : PG_EVALUATE_AUTO;
+    rule->state = own && own->state;
+    rule->follow = rule->state && is (scene, "method.weighted_volume", "live");
+    if (rule->state && !is (scene, surface, "product") && !is (scene, surface, "volume")) rule->surface = PG_SURFACE_NONE;
     if (own && !pg_scene_given (scene, "method.evaluation")) rule->evaluation = own->evaluation;
 }
 
@@ -88,6 +92,15 @@ static void take_poisson (pg_problem *p)
     }
 }
 
+/* State-based: any Poisson's ratio; families that are not whole count by their own q. */
+static void check_state (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
+{
+    if (p->mode == PG_LINE) pg_scene_fault (scene, "method.force", "%s has no meaning in one dimension, where it is the same as bond: use force: bond", p->force);
+    if (rule->finite) pg_scene_fault (scene, "method.stretch", "force: %s is linear in the displacement: use stretch: linear, or force: bond", p->force);
+    if (rule->surface != PG_SURFACE_NONE)
+        pg_scene_fault (scene, "method.surface_correction", "force: %s weighs families that are not whole by their own weighted volume: use none or auto", p->force);
+}
+
 /* ---- sums -------------------------------------------------------------------------------------------------------------------- */
 static pg_status on_lattice (const pg_problem *p, int *yes)
 {
@@ -105,9 +118,10 @@ pg_status pg_direct_build (pg_problem *p, const pg_scene *scene)
     int lattice;
     p->integration = pg_integration_find ("nodal");
     note_unused (p, scene);
-    take_poisson (p);
     PG_TRY (on_lattice (p, &lattice));
     pg_direct_rule (&rule, scene, p->mode, &p->approx, p->cloud.h, lattice);
+    if (rule.state) check_state (p, scene, &rule);
+    else take_poisson (p);
     if (!lattice && rule.partial == PG_PARTIAL_OVERLAP)
         pg_scene_fault (scene, "method.partial_volume", "overlap needs the cells of a lattice, and these points lie on none: use linear or none");
     if (!lattice && rule.evaluation == PG_EVALUATE_STENCIL)

@@ -73,8 +73,9 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
         setting[i] = (pg_criterion_setting) {
             .mode = p->mode, .horizon = p->approx.horizon, .modulus = p->material[i].modulus, .poisson = p->material[i].parameter[1],
             .thickness = p->cloud.thickness, .kernel = p->approx.kernel->name, .material = p->material[i].name,
-            .graded = p->cloud.size != NULL && !p->direct, .toughness = p->direct && p->sums->rule.calibrate ? p->sums->toughness : 0,
-            .stretch = !p->direct ? NULL : p->sums->rule.finite ? "finite" : "linear", .usual = pg_direct_criterion (scene) };
+            .graded = p->cloud.size != NULL && !p->direct, .toughness = p->direct && p->sums->rule.calibrate ? pg_sums_toughness (p->sums, p->material[i].modulus, p->material[i].parameter[1]) : 0,
+            .stretch = !p->direct ? NULL : p->sums->rule.finite ? "finite" : "linear", .usual = pg_direct_criterion (scene),
+            .state = p->direct && p->sums->rule.state };
     PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));
     int needs = p->criterion->type ? p->criterion->type->needs : 0;
     if (p->direct && (needs & PG_NEEDS_STRESS))

@@ -35,11 +35,3 @@ double pg_bond_fracture_energy (pg_mode mode, const pg_kernel *kernel, double ho
     default: return thickness * c * s0 * s0 * moment (kernel, horizon, 3);
     }
 }
-
-void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation)
-{
-    double mu = E / (2 * (1 + nu)), lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), d = mode == PG_SOLID ? 3 : 2;
-    double bulk = mode == PG_PLANE_STRESS ? E / (2 * (1 - nu)) : mode == PG_PLANE_STRAIN ? lambda + mu : lambda + 2 * mu / 3;
-    *dilation = mode == PG_LINE ? 0 : d * bulk - (d + 2) * mu;
-    *deviation = mode == PG_LINE ? E : d * (d + 2) * mu;
-}

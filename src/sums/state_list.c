@@ -95,7 +95,7 @@ static void list_update (void *self, const unsigned char *alive, const pg_change
     if (!changes && alive) memcpy (s->alive, alive, entries);
     else if (!changes) memset (s->alive, 1, entries);
     for (size_t c = 0; changes && c < changes->n; c++) s->alive[changes->bond[c]] = 0;
-    if (!s->setting.follow) return;
+    if (!s->setting.sums->rule.follow) return;
     if (!changes) weigh_all (s, s->alive);
     for (size_t c = 0; changes && c < changes->n; c++) weigh (s, owner (s, changes->bond[c]), s->alive);
 }
@@ -130,7 +130,7 @@ static pg_status list_create (void **self, const pg_sweep_setting *setting, pg_i
     PG_ALLOC (s->alpha, n);
     memset (s->alive, 1, entries);
     pg_parallel_heavy (threads_for (s), n, find_weights, s);
-    weigh_all (s, setting->follow ? NULL : setting->counted);
+    weigh_all (s, setting->sums->rule.follow ? NULL : setting->counted);
 done:
     return status;
 }
@@ -185,7 +185,7 @@ static void dilate_points (void *context, size_t first, size_t last, int thread)
             }
             sum += s->w[e] * c->volume[j] * p;
         }
-        if (lost && s->setting.follow) weigh (s, i, s->alive);
+        if (lost && s->setting.sums->rule.follow) weigh (s, i, s->alive);
         s->alpha[i] = sum;
     }
 }
@@ -284,9 +284,10 @@ static pg_status list_dilatation (void *self, const double *u, double *theta, do
 {
     list *s = self;
     size_t n = s->setting.family->n;
-    pg_parallel_heavy (threads_for (s), n, dilate_points, &(sweep) { s, u, NULL, 0 });
-    for (size_t i = 0; theta && i < n; i++) theta[i] = s->q[i] > 0 ? s->setting.sums->cloud->dim / s->q[i] * s->alpha[i] : 0;
     if (q) memcpy (q, s->q, n * sizeof *q);
+    if (!theta) return PG_OK;
+    pg_parallel_heavy (threads_for (s), n, dilate_points, &(sweep) { s, u, NULL, 0 });
+    for (size_t i = 0; i < n; i++) theta[i] = s->q[i] > 0 ? s->setting.sums->cloud->dim / s->q[i] * s->alpha[i] : 0;
     return PG_OK;
 }
 

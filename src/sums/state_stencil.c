@@ -68,7 +68,7 @@ static void state_update (void *self, const unsigned char *alive, const pg_chang
 {
     state *s = self;
     stencil_update (self, alive, changes);
-    if (!s->base.setting.follow) return;
+    if (!s->base.setting.sums->rule.follow) return;
     if (!changes) weigh_all (s);
     for (size_t c = 0; changes && c < changes->n; c++) weigh (s, stencil_owner (&s->base, changes->bond[c]));
 }
@@ -99,9 +99,9 @@ static pg_status create (void **self, const pg_sweep_setting *setting, pg_instru
     PG_ALLOC (s->alpha, places);
     job->factor = s->factor, job->beta = s->beta, job->alpha = s->alpha;
     set_terms (s);
-    if (setting->counted && !setting->follow) stencil_update (s, setting->counted, NULL);
+    if (setting->counted && !setting->sums->rule.follow) stencil_update (s, setting->counted, NULL);
     weigh_all (s);
-    if (setting->counted && !setting->follow) stencil_update (s, NULL, NULL);
+    if (setting->counted && !setting->sums->rule.follow) stencil_update (s, NULL, NULL);
 done:
     return status;
 }
@@ -124,7 +124,7 @@ static pg_status force (void *self, const double *u, double *f, pg_changes *brok
     b->job.f = f;
     stencil_spread (b, u);
     PG_TRY (stencil_run (b, b->kernels->dilate[at][check][weighted], check ? b->kernels->dilate[at][PG_CHECK_NONE][weighted] : NULL,
-                         b->setting.follow ? weigh_block : NULL, broken));
+                         b->setting.sums->rule.follow ? weigh_block : NULL, broken));
     PG_TRY (stencil_run (b, b->kernels->pull[at][weighted], NULL, NULL, NULL));
 done:
     return status;
@@ -158,14 +158,15 @@ static pg_status dilatation (void *self, const double *u, double *theta, double 
     stencil *b = &s->base;
     size_t n = b->setting.sums->cloud->n;
     double *factor = s->factor, *own = NULL;
+    if (q) memcpy (q, s->q, n * sizeof *q);
+    if (!theta) return PG_OK;
     PG_ALLOC (own, stencil_places (b));
     for (size_t i = 0; i < n; i++) own[b->place[i]] = s->q[i] > 0 ? b->job.dim / s->q[i] : 0;
     b->job.factor = own;
     stencil_spread (b, u);
     status = stencil_run (b, b->kernels->dilate[b->job.dim - 2][PG_CHECK_NONE][b->p != NULL], NULL, NULL, NULL);
     b->job.factor = factor;
-    for (size_t i = 0; theta && i < n; i++) theta[i] = s->alpha[b->place[i]];
-    if (q) memcpy (q, s->q, n * sizeof *q);
+    for (size_t i = 0; i < n; i++) theta[i] = s->alpha[b->place[i]];
 done:
     pg_free (own);
     return status;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A rule and a cloud brought together: sites and stencil of a lattice, calibration, volumes of families for the surface. */
 #include "sums_private.h"
+#include "perigal/criterion.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,6 +80,31 @@ static pg_status from_lattice (pg_sums *s)
     if (rule->surface != PG_SURFACE_NONE) PG_TRY (lattice_volumes (s));
 done:
     return status;
+}
+
+/* With I_l = the part of q beyond a plane that lies l - 1/2 layers off: G = h s0^2 sum_l [A d (I_l / q)^2 + B I_l / q]; here for h = s0 = 1 */
+static double state_energy (const pg_stencil *t, double A, double B, int axis)
+{
+    double q = 0, sum = 0, inside = 1;
+    for (size_t b = 0; b < t->n; b++) q += t->weight[b] * t->r[b];
+    for (int layer = 1; inside > 0; layer++) {
+        inside = 0;
+        for (size_t b = 0; b < t->n; b++) if (t->offset[3*b + (size_t) axis] >= layer) inside += t->weight[b] * t->r[b];
+        sum += A * t->dim * (inside / q) * (inside / q) + B * inside / q;
+    }
+    return sum;
+}
+
+double pg_sums_toughness (const pg_sums *sums, double E, double nu)
+{
+    const pg_sum_rule *rule = &sums->rule;
+    double A, B, G = 0;
+    int dim = sums->sites.dim;
+    if (!rule->state || sums->stencil.n == 0) return sums->toughness;
+    pg_criterion_setting s = { .mode = rule->mode, .horizon = rule->horizon, .modulus = E, .poisson = nu, .kernel = rule->kernel->name, .state = 1 };
+    pg_state_moduli (rule->mode, E, nu, &A, &B);
+    for (int k = 0; k < dim; k++) G += sums->sites.step[k] * state_energy (&sums->stencil, A, B, k) / dim;
+    return G / pg_state_fracture_energy (&s, 1);
 }
 
 /* ---- without a lattice -------------------------------------------------------------------------------------------------- */

@@ -50,7 +50,7 @@ static pg_status choose_kind (const pg_sweep_kind **out, const pg_sweep_setting 
     static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL, [PG_EVALUATE_STENCIL] = "stencil", [PG_EVALUATE_LIST] = "list" };
     pg_status status = PG_OK;
     const char *only = asked[setting->sums->rule.evaluation], *why = "there is no such loop";
-    int theory = setting->beams ? 2 : setting->dilation ? 1 : 0;
+    int theory = setting->beams ? 2 : setting->sums->rule.state;
     *out = NULL;
     for (size_t k = 0; k < KINDS && !*out; k++) {
         if (kinds[k]->state != theory || (only && strcmp (only, kinds[k]->name) != 0)) continue;

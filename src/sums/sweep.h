@@ -11,7 +11,7 @@ int         pg_instructions_here (pg_instructions set);               /* 1: this
 
 typedef struct {
     const char *name;                                  /* "stencil", "list"                                              */
-    int state;                                         /* 1: of state-based theory, for settings with a dilation; 2: of beams; 0: of bonds alone */
+    int state;                                         /* 1: of state-based theory, for rules that say so; 2: of beams; 0: of bonds alone */
     /* NULL: this kind can sum what the setting asks for; else why not ("surface factor of volumes"). */
     const char *(*refusal) (const pg_sweep_setting *setting);
     /* `set` is there on this machine. The setting has been copied: what it points to lives as long as self, the struct itself may not.

@@ -20,9 +20,10 @@ typedef struct {
 
 static inline bonded bonded_with (const char *text, int threads, size_t nset, const char *const *set)
 {
-    bonded b = { .force = pg_force_find ("bond") };
+    bonded b = { 0 };
     check_ok (pg_scene_parse_with (&b.scene, text, "test.yaml", nset, set));
     check_ok (pg_problem_build (&b.problem, b.scene, threads));
+    b.force = pg_force_find (b.problem->force);
     check_ok (pg_state_create (&b.state, b.problem, b.problem->dim));
     check_ok (b.force->create (&b.self, b.problem));
     check_ok (b.force->refresh (b.self, b.state, NULL));

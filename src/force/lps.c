@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Ordinary state-based peridynamics, the linear peridynamic solid (Silling et al. 2007; theory B6), in 2D and 3D and for any Poisson's ratio. Forces of
+ * points as those of bonds, whose code this is, but for the constants, the diagonal of K, the bound of frequencies and the stress:
+ *   q = sum w r^2 V,  theta = (d / q) sum w xi.eta V,  t = (A theta / q) w r + (B / q) w e.eta,  f = (t_i + t_j) e,  w = k beta / r. */
+#include "bond.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- constants ----------------------------------------------------------------------------------------------------------------- */
+/* Bonds of a new state, which the pre-cracks have cut. */
+static pg_status count_bonds (bond *b)
+{
+    pg_status status = PG_OK;
+    pg_state *fresh = NULL;
+    size_t all = b->family->start[b->n];
+    if (b->problem->cracks.n == 0) return PG_OK;
+    PG_TRY (pg_state_create (&fresh, b->problem, b->dim));
+    PG_ALLOC (b->counted, all);
+    memcpy (b->counted, fresh->alive + b->problem->first_bond[PG_NODES], all);
+done:
+    pg_state_free (&fresh);
+    return status;
+}
+
+pg_status lps_create (bond *b)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = b->problem;
+    if (!p->sums->rule.state) return PG_OK;
+    PG_ALLOC (b->dilation, b->n);
+    PG_ALLOC (b->deviation, b->n);
+    PG_ALLOC (b->q, b->n);
+    PG_ALLOC (b->stiff, b->n);
+    for (size_t i = 0; i < b->n; i++) {
+        const pg_material *m = &p->material[p->block[PG_NODES][i]];
+        pg_state_moduli (p->mode, m->modulus, m->parameter[1], &b->dilation[i], &b->deviation[i]);
+    }
+    PG_TRY (count_bonds (b));
+done:
+    return status;
+}
+
+void lps_free (bond *b) { pg_free (b->dilation), pg_free (b->deviation), pg_free (b->q), pg_free (b->stiff), pg_free (b->counted); }
+
+pg_status lps_weigh (bond *b)
+{
+    pg_status status = PG_OK;
+    if (!b->dilation || (b->weighed && (b->weighed == b->revision || !b->problem->sums->rule.follow))) return PG_OK;
+    PG_TRY (pg_sweep_dilatation (b->sweep, NULL, NULL, b->q));
+    for (size_t i = 0; i < b->n; i++) b->stiff[i] = b->q[i] > 0 ? (b->deviation[i] + b->dim * fmax (b->dilation[i], 0)) / b->q[i] : 0;
+    b->weighed = b->revision;
+done:
+    return status;
+}
+
+pg_status lps_look (bond *b, const double *d, size_t *dying)
+{
+    pg_status status = PG_OK;
+    PG_TRY (pg_sweep_energies (b->sweep, d, b->density));
+    *dying = 0;
+    for (size_t i = 0; i < b->n; i++) *dying += b->dying[i] = b->density[i] >= b->critical[i];
+done:
+    return status;
+}
+
+/* ---- one point ----------------------------------------------------------------------------------------------------------------- */
+static double weight_of (const bond_star *s, size_t e, size_t dim, double *rr)
+{
+    *rr = 0;
+    for (size_t k = 0; k < dim; k++) *rr += s->xi[e * dim + k] * s->xi[e * dim + k];
+    return s->weight[e] / sqrt (*rr);
+}
+
+static double over (double a, double q) { return q > 0 ? a / q : 0; }
+
+/* Second derivatives of the energy by u_i: of its own dilatation, of those of its neighbours, of the stretches. */
+void lps_own (const bond *b, size_t i, const bond_star *s, double *D)
+{
+    size_t dim = (size_t) b->dim;
+    const double *V = b->problem->cloud.volume, *q = b->q;
+    double g[3] = { 0 }, rr;
+    memset (D, 0, dim * dim * sizeof *D);
+    for (size_t e = 0; e < s->m; e++) {
+        if (!bond_lives (b, s->first + e)) continue;
+        size_t j = (size_t) s->node[e];
+        const double *xi = s->xi + e * dim;
+        double w = weight_of (s, e, dim, &rr), other = over (b->dilation[j] * b->dim, q[j] * q[j]) * V[j] * (w * V[i]) * (w * V[i]);
+        double both = V[i] * V[j] * w * (over (b->deviation[i], q[i]) + over (b->deviation[j], q[j])) / rr + other;
+        for (size_t a = 0; a < dim; a++) {
+            g[a] += w * V[j] * xi[a];
+            for (size_t c = 0; c < dim; c++) D[a * dim + c] += both * xi[a] * xi[c];
+        }
+    }
+    for (size_t a = 0; a < dim; a++)
+        for (size_t c = 0; c < dim; c++) D[a * dim + c] += V[i] * over (b->dilation[i] * b->dim, q[i] * q[i]) * g[a] * g[c];
+}
+
+/* A q that follows shrinks as bonds die, yet never below what one live bond makes it: w r^2 V. */
+double lps_bound (const bond *b, size_t i, const bond_star *s)
+{
+    const double *V = b->problem->cloud.volume;
+    double nearest = INFINITY, sum = 0, rr, far = b->dim;
+    for (size_t e = 0; e < s->m; e++) {
+        size_t j = (size_t) s->node[e];
+        weight_of (s, e, (size_t) b->dim, &rr);
+        nearest = fmin (nearest, rr);
+        sum += (b->deviation[j] + far * fmax (b->dilation[j], 0)) * V[j] / (V[i] * rr);
+    }
+    return 2 * (sum + (b->deviation[i] + far * fmax (b->dilation[i], 0)) / nearest);
+}
+
+/* Stress of Silling and Lehoucq (2008) for uniform strain: its trace is d kappa theta whatever the family. */
+void lps_virial (const bond *b, size_t i, const bond_star *s, const unsigned char *alive, const double *d, double *T)
+{
+    size_t dim = (size_t) b->dim;
+    const double *V = b->problem->cloud.volume;
+    double sum = 0, rr, beta = over (b->deviation[i], b->q[i]), spread[9] = { 0 };
+    for (size_t e = 0; e < s->m; e++) {
+        if (alive && !alive[s->first + e]) continue;
+        size_t j = (size_t) s->node[e];
+        const double *xi = s->xi + e * dim;
+        double w = weight_of (s, e, dim, &rr) * V[j], along = 0;
+        for (size_t a = 0; a < dim; a++) along += xi[a] * (d[j * dim + a] - d[i * dim + a]);
+        sum += w * along;
+        for (size_t a = 0; a < dim; a++)
+            for (size_t c = 0; c < dim; c++) spread[a * dim + c] += w * xi[a] * xi[c], T[a * dim + c] += beta * w * along / rr * xi[a] * xi[c];
+    }
+    double alpha = over (b->dilation[i] * b->dim, b->q[i] * b->q[i]) * sum;
+    for (size_t k = 0; k < dim * dim; k++) T[k] += alpha * spread[k];
+}
+
+const pg_force_type pg_force_lps = { .name = "lps", .summary = "ordinary state-based peridynamics, any Poisson's ratio (Silling et al. 2007)", BOND_COMMON };
