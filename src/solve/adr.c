@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Adaptive dynamic relaxation (Kilic and Madenci 2010; theory B4): dt = 1 and masses D_ii = 1/4 sum_j |K_ij| of the first K, with which
+ * Adaptive dynamic relaxation (Kilic and Madenci 2010; theory B4): dt = 1 and masses D_ii = 1/4 sum_j |K_ij|, with which
  * the largest frequency is at most 2; damping from Rayleigh's quotient at every iteration. */
 #include "relaxing.h"
 #include <math.h>
+#include <string.h>
 
 /* At the bound itself a motion would never die. */
 static const double margin = 1.02;
@@ -24,6 +25,22 @@ done:
     return status;
 }
 
+static pg_status weigh (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->breaker.system;
+    double *mass = s->motion->relaxing->mass;
+    memset (mass, 0, sys->ndof * sizeof *mass);
+    PG_TRY (sys->force->row_sums ? sys->force->row_sums (sys->self, mass) : sum_rows (sys, mass));
+    for (size_t i = 0; i < sys->ndof; i++) {
+        mass[i] *= 0.25 * margin;
+        s->motion->inverse[i] = mass[i] > 0 ? 1 / mass[i] : 0;
+    }
+done:
+    return status;
+}
+
+/* Forces that tell the sums of their rows only soften when bonds break; others may stiffen what is left, and are weighed anew. */
 static pg_status prepare (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -31,12 +48,9 @@ static pg_status prepare (pg_solver *s)
     PG_TRY (relaxing_create (s));
     struct relaxing *x = s->motion->relaxing;
     PG_TRY (system_refresh (sys, s->backup, NULL));
-    PG_TRY (sys->force->row_sums ? sys->force->row_sums (sys->self, x->mass) : sum_rows (sys, x->mass));
     x->dt = 1;
-    for (size_t i = 0; i < sys->ndof; i++) {
-        x->mass[i] *= 0.25 * margin;
-        s->motion->inverse[i] = x->mass[i] > 0 ? 1 / x->mass[i] : 0;
-    }
+    PG_TRY (weigh (s));
+    if (!sys->force->row_sums) x->weigh = weigh;
     PG_TRY (relaxing_stages (s));
 done:
     return status;

@@ -230,8 +230,9 @@ static pg_status check_growth (pg_solver *s, double t)
     double stored = s->report.energy_strain + s->report.energy_kinetic;
     m->most = fmax (m->most, fabs (s->breaker.work));
     if ((s->problem->nload == 0 || s->breaker.system.force->ledger) && stored > 10 * m->most)
-        PG_FAIL (PG_E_EQUILIBRIUM, "the energy of the body has grown to %.3g J at t = %.6g s, while %.3g J of work were done: the time step has become unstable, "
-                 "for breaking has made the body stiffer; take a smaller solver.dt", stored, t, m->most);
+        PG_FAIL (PG_E_EQUILIBRIUM, "the energy of the body has grown to %.3g J at t = %.6g s, while %.3g J of work were done: breaking has made "
+                 "parts of the body stiffer, which feeds energy into it or makes the time step unstable; try a smaller solver.dt, solver.kind: newmark, or "
+                 "method.force: bond, whose bonds only ever soften it", stored, t, m->most);
 done:
     return status;
 }

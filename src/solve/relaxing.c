@@ -88,9 +88,14 @@ done:
 
 pg_status relaxing_start (pg_solver *s, pg_state *state)
 {
+    pg_status status = PG_OK;
+    struct relaxing *x = s->motion->relaxing;
     s->next_level = 1;
-    s->motion->relaxing->resting = 1;
-    return system_refresh (&s->breaker.system, state, NULL);
+    x->resting = 1;
+    PG_TRY (system_refresh (&s->breaker.system, state, NULL));
+    if (x->weigh) PG_TRY (x->weigh (s));
+done:
+    return status;
 }
 
 static double factor_at (const pg_solver *s, long stage) { return stage == s->options.stages ? 1 : (double) stage / (double) s->options.stages; }
@@ -149,6 +154,7 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     double reference = 0, total[SUMS];
     PG_TRY (explicit_force (s, state, t, breaking, &reference));
     x->broke = breaking && s->breaker.changes.n > 0;
+    if (x->broke && x->weigh) PG_TRY (x->weigh (s));
     double t0 = pg_seconds ();
     for (size_t k = 0; k < m->nheld; k++) m->push[k] = -sys->residual[m->held[k]], sys->residual[m->held[k]] = 0;
     if (m->P) reference = 0;
@@ -241,6 +247,7 @@ static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_s
         s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
         if (b->changes.n) {
             PG_TRY (system_refresh (sys, state, &b->changes));
+            if (s->motion->relaxing->weigh) PG_TRY (s->motion->relaxing->weigh (s));
             state->events++, s->report.events++;
         }
     }

@@ -8,6 +8,7 @@
 
 struct relaxing {
     double *mass;                                      /* of every unknown                      (ndof)                   */
+    pg_status (*weigh) (pg_solver *s);                 /* masses anew where bonds that broke may have stiffened the body; NULL: never */
     double *rate;                                      /* given damping, 1/s; NULL: c           (ndof)                   */
     double dt, c;                                      /* 1/s, by Rayleigh's quotient of the last iteration              */
     double imbalance, worst;                           /* of the last residual; hold: off: the largest                   */
