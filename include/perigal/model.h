@@ -113,9 +113,9 @@ typedef struct {
     double matrix_entries, factor_entries, factor_flops;                              /* upper triangle; of L            */
     double bytes[PG_BYTES_COUNT], peak;
 } pg_forecast;
-/* 1: systems of so many unknowns on a lattice are cheaper by conjugate gradients with the sweep than by a factor: by stored rates, bonds of
- * direct forces summed by a stencil. */
-int         pg_direct_large (int dim, double dofs);
+/* 1: static systems of so many unknowns of direct forces are cheaper by conjugate gradients with the sweep than by a factor: by stored rates
+ * (bench/equilibrium.c). told: the force tells the rows of K, so that the multilevel preconditioner can be made. */
+int         pg_direct_large (int told, int dim, double dofs);
 /* From the scene alone: points and bonds by counting on its lattice (a coarser one when it has more than 4e6 cells), the factor by the
  * law of nested dissection. PG_E_SCENE: the scene has faults, which were added to it. */
 pg_status pg_forecast_scene   (pg_forecast *out, const pg_scene *scene);

@@ -54,7 +54,7 @@ static void dissect (const pg_forecast *f, double *entries, double *flops)
 static void choose_linear (pg_forecast *f)
 {
     if (!f->automatic) return;
-    int none = f->explicit_ ? 1 : f->dynamic ? f->weight <= 9 * f->spacing * f->spacing : f->direct && !f->listed ? pg_direct_large (f->dim, f->points * f->dim)
+    int none = f->explicit_ ? 1 : f->dynamic ? f->weight <= 9 * f->spacing * f->spacing : f->direct ? pg_direct_large (1, f->dim, f->points * f->dim)
              : f->dim == 3 && f->points * 3 > 200000;
     strcpy (f->linear, none ? "cg" : "cholmod");
 }
@@ -84,6 +84,8 @@ void pg_forecast_sum (pg_forecast *f)
     if (f->direct) b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? 7 : 0.25) * all + 100 * n + (factors ? 0 : 8 * f->dofs);       /* pg_sweep, bond */
     b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;    /* states; breaker; factored      */
     b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
+    if (f->direct && !factors && !f->explicit_ && !f->dynamic)         /* the multilevel preconditioner: its finest level, its first coarse matrix */
+        b[PG_BYTES_VECTORS] += n * (32 * d + 16 * corners + 16) + n * d * d * 12 * pow (1.25, d);
     b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
     b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
     if (factors)

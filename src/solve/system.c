@@ -257,26 +257,31 @@ done:
     return status;
 }
 
-static int by_stencil (const pg_system *s)
+static int by_sweeps (const pg_system *s, int can)
 {
     const pg_problem *p = s->problem;
-    return p->direct && p->sums->stencil.n && pg_direct_large (p->dim, (double) s->ndof);
+    return p->direct && (can || p->sums->stencil.n) && pg_direct_large (can, p->dim, (double) s->ndof);
 }
 
 /* Chosen once: solver.linear says it, a force without a matrix leaves no choice, and in a small time step the mass dominates: then a few
  * iterations without any factor do, which is simply tried. Large static 3D bodies have factors that outgrow everything else. */
-static void choose_mode (pg_system *s, const dynamics *dyn)
+static pg_status choose_mode (pg_system *s, const dynamics *dyn)
 {
+    pg_status status = PG_OK;
+    int can;
     const char *linear = s->options->linear;
     int automatic = strcmp (linear, "auto") == 0;
+    PG_TRY (system_can_precondition (s, dyn, &can));
     s->mode = SYSTEM_FACTOR;
     if (!has_matrix (s) || (strcmp (linear, "pcg") == 0 && operator_of (s))) s->mode = SYSTEM_NO_FACTOR;
     else if (automatic && operator_of (s) && dyn) s->mode = SYSTEM_TRIAL;
-    else if (automatic && operator_of (s) && by_stencil (s)) {
+    else if (automatic && operator_of (s) && by_sweeps (s, can)) {
         s->mode = SYSTEM_NO_FACTOR;
-        pg_report_skip (s->report, NAN, "stiffness matrix, analysis and factorization", "so many points of a lattice: conjugate gradients with the stencil are "
-                        "faster by stored rates");
+        pg_report_skip (s->report, NAN, "stiffness matrix, analysis and factorization", "so many points: conjugate gradients with sums over the bonds are "
+                        "cheaper by stored rates");
     } else if (automatic && operator_of (s) && s->problem->dim == 3 && s->ndof > 200000) s->mode = SYSTEM_NO_FACTOR;
+done:
+    return status;
 }
 
 enum { FEW_ITERATIONS = 40 };
@@ -308,7 +313,7 @@ static pg_status solve_once (pg_system *s, const dynamics *dyn, double tolerance
 {
     pg_status status = PG_OK;
     size_t used = 0;
-    if (s->mode == SYSTEM_UNDECIDED) choose_mode (s, dyn);
+    if (s->mode == SYSTEM_UNDECIDED) PG_TRY (choose_mode (s, dyn));
     if (s->mode == SYSTEM_TRIAL) {
         pg_status now = system_iterate (s, dyn, 0, tolerance, FEW_ITERATIONS, &used);
         if (now != PG_OK && now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
