@@ -11,10 +11,10 @@ VERSION := 0.1.0
 ORDER   := base scene kernel material criterion linalg mesh cloud cells approx integration sums model stiffness force solve output compare report cli
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libmetis-dev libopenblas-pthread-dev \
-            libgsl-dev libnetcdf-dev libcairo2-dev libcmocka-dev
+            libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libcmocka-dev
 
 BUILD   := build/$(MODE)
-LIBS    := -lcholmod -lumfpack -lamd -lcamd -lsuitesparseconfig -lmetis -lopenblas -lgsl -lyaml -ludunits2 -lnetcdf -lcairo -lm -lpthread
+LIBS    := -lcholmod -lumfpack -lamd -lcamd -lsuitesparseconfig -lmetis -lopenblas -lgsl -lfftw3 -lyaml -ludunits2 -lnetcdf -lcairo -lm -lpthread
 STD     := -std=c17 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700 -DPG_VERSION='"$(VERSION)"'
 WARN    := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
 INCLUDE := -Iinclude -Isrc -I/usr/include/suitesparse -I/usr/include/udunits2 -I/usr/include/cairo

@@ -18,7 +18,7 @@ double pg_bond_fracture_energy (pg_mode mode, const pg_kernel *kernel, double ho
 /* ---- how bonds are weighed (scene: method.*) -------------------------------------------------------------------------------- */
 typedef enum { PG_PARTIAL_NONE, PG_PARTIAL_LINEAR, PG_PARTIAL_OVERLAP } pg_partial;
 typedef enum { PG_SURFACE_NONE, PG_SURFACE_PRODUCT, PG_SURFACE_VOLUME } pg_surface;
-typedef enum { PG_EVALUATE_AUTO, PG_EVALUATE_STENCIL, PG_EVALUATE_LIST } pg_evaluation;
+typedef enum { PG_EVALUATE_AUTO, PG_EVALUATE_STENCIL, PG_EVALUATE_LIST, PG_EVALUATE_FFT } pg_evaluation;
 typedef struct {
     pg_mode    mode;
     const pg_kernel *kernel;
@@ -141,6 +141,8 @@ struct pg_sweep_setting {
                                                           unknowns a point, moments in f over the law's length, N; linear rule only */
     int              threads;
     const char      *instructions;                     /* "avx512", "avx2", "scalar"; NULL: the best that this machine has */
+    double           sweeps;                           /* forces that will be asked for, about; many are worth timing plans of transforms, which then
+                                                          are kept in $XDG_CACHE_HOME/perigal or ~/.cache/perigal. 0: plans are guessed, everywhere alike */
 };
 typedef struct pg_sweep pg_sweep;
 /* By stencil where the rule allows it (a lattice, one modulus, one limit, surface none or product), else by list. PG_E_USAGE: the rule asks for
@@ -148,6 +150,13 @@ typedef struct pg_sweep pg_sweep;
 pg_status   pg_sweep_create (pg_sweep **out, const pg_sweep_setting *setting);
 void        pg_sweep_free   (pg_sweep **sweep);
 const char *pg_sweep_name   (const pg_sweep *sweep);   /* "stencil avx512", "list scalar", ...                           */
+typedef struct {                                       /* of a sweep by transforms ("fft avx2") since it was made; all 0 of others */
+    long   sums;                                       /* forces                                                         */
+    long   forward, back;                              /* real transforms of the padded box                              */
+    size_t blocks, bonds, cut;                         /* blocks of 32 sites, summed over forces; looked at bond by bond; with cut bonds */
+    size_t gone;                                       /* points all whose bonds are dead, now                           */
+} pg_sweep_counts;
+void        pg_sweep_counted (const pg_sweep *sweep, pg_sweep_counts *out);
 void        pg_sweep_bytes  (const pg_sweep *sweep, double *per_bond, double *per_point);        /* of memory that a force sweep reads and writes */
 /* Brings the sweep's own bits in line with alive (entries of the family): all (changes NULL), or those that died. */
 void        pg_sweep_update (pg_sweep *sweep, const unsigned char *alive, const pg_changes *changes);

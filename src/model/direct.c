@@ -58,7 +58,8 @@ void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, con
                   : is (scene, surface, "none") || approx->horizon < 4 * spacing * (1 - 1e-9) ? PG_SURFACE_NONE : PG_SURFACE_PRODUCT;
     rule->calibrate = pg_scene_bool (scene, "method.calibrate");
     rule->finite = is (scene, "method.stretch", "finite");
-    rule->evaluation = is (scene, evaluation, "stencil") ? PG_EVALUATE_STENCIL : is (scene, evaluation, "list") ? PG_EVALUATE_LIST : PG_EVALUATE_AUTO;
+    rule->evaluation = is (scene, evaluation, "stencil") ? PG_EVALUATE_STENCIL : is (scene, evaluation, "list") ? PG_EVALUATE_LIST
+                     : is (scene, evaluation, "fft") ? PG_EVALUATE_FFT : PG_EVALUATE_AUTO;
     rule->state = own && own->state;
     rule->follow = rule->state && is (scene, "method.weighted_volume", "live");
     if (rule->state && !is (scene, surface, "product") && !is (scene, surface, "volume")) rule->surface = PG_SURFACE_NONE;
@@ -104,6 +105,7 @@ static void check_state (pg_problem *p, const pg_scene *scene, const pg_sum_rule
 {
     if (p->mode == PG_LINE) pg_scene_fault (scene, "method.force", "%s has no meaning in one dimension, where it is the same as bond: use force: bond", p->force);
     if (rule->finite) pg_scene_fault (scene, "method.stretch", "force: %s is linear in the displacement: use stretch: linear, or force: bond", p->force);
+    if (rule->evaluation == PG_EVALUATE_FFT) pg_scene_fault (scene, "method.evaluation", "force: %s is not summed by transforms: use stencil, list or auto", p->force);
     if (rule->surface != PG_SURFACE_NONE)
         pg_scene_fault (scene, "method.surface_correction", "force: %s weighs families that are not whole by their own weighted volume: use none or auto", p->force);
 }
@@ -131,9 +133,13 @@ pg_status pg_direct_build (pg_problem *p, const pg_scene *scene)
     else take_poisson (p);
     if (!lattice && rule.partial == PG_PARTIAL_OVERLAP)
         pg_scene_fault (scene, "method.partial_volume", "overlap needs the cells of a lattice, and these points lie on none: use linear or none");
-    if (!lattice && rule.evaluation == PG_EVALUATE_STENCIL)
-        pg_scene_fault (scene, "method.evaluation", "a stencil needs a lattice, and these points lie on none: use list or auto");
-    if (rule.surface == PG_SURFACE_VOLUME && rule.evaluation == PG_EVALUATE_STENCIL)
+    int alike = rule.evaluation == PG_EVALUATE_STENCIL || rule.evaluation == PG_EVALUATE_FFT;          /* one weight for all bonds of an offset */
+    if (!lattice && alike)
+        pg_scene_fault (scene, "method.evaluation", "%s a lattice, and these points lie on none: use list or auto",
+                        rule.evaluation == PG_EVALUATE_FFT ? "transforms need" : "a stencil needs");
+    if (rule.finite && rule.evaluation == PG_EVALUATE_FFT)
+        pg_scene_fault (scene, "method.evaluation", "with stretch: finite forces are not linear in the displacement, and fft sums linear ones: use stencil, list or auto");
+    if (rule.surface == PG_SURFACE_VOLUME && alike)
         pg_scene_fault (scene, "method.evaluation", "with surface_correction: volume every bond has a weight of its own: use list or auto");
     PG_TRY (pg_scene_verdict (scene));
     PG_TRY (pg_sums_create (&p->sums, &rule, &p->cloud, p->lattice.dim ? &p->lattice : NULL));

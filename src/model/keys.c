@@ -18,8 +18,9 @@ static const pg_key keys[] = {
     { "method.weighted_volume", PG_NAME, NULL, NULL, "intact", "intact|live", NULL, NULL,
       "lps: the weighted volume q of a point, which its dilatation and forces are divided by: intact: of the bonds that no pre-crack cuts, for good; live: of the "
       "bonds that live, so that what is left of a family carries on as if it had never had more (stiffer near new cracks; small time steps)." },
-    { "method.evaluation", PG_NAME, NULL, NULL, "auto", "auto|stencil|list", NULL, NULL,
-      "bond: by the stencil of a lattice or by lists of neighbours; the answer is the same, auto is the faster." },
+    { "method.evaluation", PG_NAME, NULL, NULL, "auto", "auto|stencil|list|fft", NULL, NULL,
+      "bond: by the stencil of a lattice, by lists of neighbours, or by fast Fourier transforms (a lattice, linear stretch); the answer is the same, auto "
+      "takes what is faster for so many points and bonds." },
     { "method.partial_volume", PG_NAME, NULL, NULL, "auto", "auto|none|linear|overlap", NULL, NULL,
       "bond: share of a neighbour's volume that counts: none: all or nothing; linear: falls over one spacing at the horizon; overlap: of its cell and the "
       "ball; auto: overlap on a lattice (none for a kernel that is zero at the horizon, except in 3D), else linear." },

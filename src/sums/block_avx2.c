@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Loops of block.h, 4 sites at once. */
 #include "block.h"
+#include "fft_rows.h"
 #ifdef __x86_64__
 #include <immintrin.h>
 
 #define TARGET __attribute__ ((target ("avx2,fma")))
 #define NAME pg_block_avx2
+#define FFT_NAME pg_fft_avx2
 enum { LANES = 4 };
 #define VECS(dim) ((dim) == 1 ? 4 : 2)
 typedef double vec __attribute__ ((vector_size (32)));
@@ -20,6 +22,8 @@ static const long long lanes[16][4] __attribute__ ((aligned (32))) = {
 #define OVER(v, limit) _mm256_cmp_pd ((__m256d) (v), (__m256d) (limit), _CMP_GE_OQ)
 
 #define FUSED 1
+#define vec_least(a, b) ((vec) _mm256_min_pd ((__m256d) (a), (__m256d) (b)))
+#define vec_most(a, b) ((vec) _mm256_max_pd ((__m256d) (a), (__m256d) (b)))
 #define vec_fuse(a, b, c) ((vec) _mm256_fmadd_pd ((__m256d) (a), (__m256d) (b), (__m256d) (c)))
 #define vec_root(v) ((vec) _mm256_sqrt_pd ((__m256d) (v)))
 #define vec_keep(v, bits) ((v) = (vec) _mm256_and_pd ((__m256d) (v), OF (bits)))
@@ -43,6 +47,8 @@ static inline __attribute__ ((always_inline)) TARGET void unzip (const double *i
 }
 
 #include "block_kernel.h"
+#include "fft_kernel.h"
 #else
 const pg_block_kernels pg_block_avx2 = { .spread = NULL };
+const fft_kernels pg_fft_avx2 = { .still = NULL };
 #endif

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Loops of block.h, 8 sites at once. */
 #include "block.h"
+#include "fft_rows.h"
 #ifdef __x86_64__
 #include <immintrin.h>
 
 #define TARGET __attribute__ ((target ("avx512f,avx512bw,avx512dq,avx512vl,avx2,fma")))
 #define NAME pg_block_avx512
+#define FFT_NAME pg_fft_avx512
 enum { LANES = 8 };
 #define VECS(dim) ((dim) == 3 ? 2 : 4)
 typedef double vec __attribute__ ((vector_size (64)));
@@ -13,6 +15,8 @@ typedef unsigned hits;
 
 #define FUSED 1
 #define vec_fuse(a, b, c) ((vec) _mm512_fmadd_pd ((__m512d) (a), (__m512d) (b), (__m512d) (c)))
+#define vec_least(a, b) ((vec) _mm512_min_pd ((__m512d) (a), (__m512d) (b)))
+#define vec_most(a, b) ((vec) _mm512_max_pd ((__m512d) (a), (__m512d) (b)))
 #define vec_root(v) ((vec) _mm512_sqrt_pd ((__m512d) (v)))
 #define vec_keep(v, bits) ((v) = (vec) _mm512_maskz_mov_pd ((__mmask8) (bits), (__m512d) (v)))
 #define HITS_OVER(hits, v, limit) ((hits) |= _mm512_cmp_pd_mask ((__m512d) (v), (__m512d) (limit), _CMP_GE_OQ))
@@ -35,6 +39,8 @@ static inline __attribute__ ((always_inline)) TARGET void unzip (const double *i
 }
 
 #include "block_kernel.h"
+#include "fft_kernel.h"
 #else
 const pg_block_kernels pg_block_avx512 = { .spread = NULL };
+const fft_kernels pg_fft_avx512 = { .still = NULL };
 #endif

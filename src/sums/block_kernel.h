@@ -2,6 +2,7 @@
  * block_kernel.h: the loops of block.h in terms of vectors (private, no include guard: one file per instruction set includes it after defining
  *   TARGET        attribute of every function, LANES doubles of a vector, VECS(dim) vectors of a stride, NAME of the table,
  *   vec           typedef, and vec_root (vec), vec_fuse (a, b, c): a b + c, FUSED: 1 if rounded once,
+ *   vec_least (a, b), vec_most (a, b): the smaller, the larger one,
  *   vec_keep (v, bits): 0 in lanes whose bit is not set,
  *   hits, HITS_OVER (hits, v, limit), HITS_OVER_OF (hits, v, limit, bits), HITS_ANY (hits): lanes with v >= limit (of those in bits),
  *   zip (out, a, b), unzip (in, &a, &b): pairs in memory from and to two vectors. */

@@ -322,7 +322,7 @@ done:
     return status;
 }
 
-typedef struct { stencil *s; const double *u; pg_block_loop loop, again; stencil_lost lost; } pass;
+typedef struct { stencil *s; const double *u; pg_block_loop loop, again; stencil_lost lost; size_t n; const int *list; } pass;      /* list NULL: all n blocks */
 
 static void spread_blocks (void *context, size_t first, size_t last, int thread)
 {
@@ -335,9 +335,11 @@ static void force_blocks (void *context, size_t first, size_t last, int thread)
 {
     pass *p = context;
     stencil *s = p->s;
-    p->loop (&s->job, first, last);
-    for (size_t k = first; p->again && k < last; k++) {
-        if (!s->hit[k]) continue;
+    if (!p->list) p->loop (&s->job, first, last);
+    for (size_t at = first; (p->again || p->list) && at < last; at++) {
+        size_t k = p->list ? (size_t) p->list[at] : at;
+        if (p->list) p->loop (&s->job, k, k + 1);
+        if (!p->again || !s->hit[k]) continue;
         s->hit[k] = 0;
         pg_status now = kill_bonds (s, k, &s->found[thread]);
         if (now != PG_OK) s->failed[thread] = now;
@@ -351,13 +353,12 @@ void stencil_spread (stencil *s, const double *u)
     pg_parallel_heavy (stencil_threads (s), s->nblock, spread_blocks, &(pass) { .s = s, .u = u });
 }
 
-pg_status stencil_run (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, pg_changes *broken)
+static pg_status run (stencil *s, pass *p, pg_changes *broken)
 {
     pg_status status = PG_OK;
     int threads = stencil_threads (s);
-    pass p = { s, NULL, loop, again, lost };
-    pg_parallel_heavy (threads, s->nblock, force_blocks, &p);
-    if (!again) return PG_OK;
+    pg_parallel_heavy (threads, p->n, force_blocks, p);
+    if (!p->again) return PG_OK;
     for (int t = 0; t < threads; t++) if (s->failed[t] != PG_OK) status = s->failed[t], s->failed[t] = PG_OK;
     if (status != PG_OK) PG_FAIL (status, "no memory to note the bonds that broke");
     PG_TRY (sweep_collect (broken, threads, s->found));
@@ -366,36 +367,50 @@ done:
     return status;
 }
 
+pg_status stencil_run (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, pg_changes *broken)
+{
+    return run (s, &(pass) { .s = s, .loop = loop, .again = again, .lost = lost, .n = s->nblock }, broken);
+}
+
+pg_status stencil_force_some (stencil *s, size_t n, const int *list, double *f, pg_changes *broken)
+{
+    int finite = s->setting.sums->rule.finite != 0, weighted = s->p != NULL;
+    int check = !broken || !s->setting.limit ? PG_CHECK_NONE : s->may ? PG_CHECK_SOME : PG_CHECK_ALL;
+    pass p = { .s = s, .loop = s->kernels->force[s->job.dim - 1][finite][check][weighted], .n = n, .list = list };
+    if (check) p.again = s->kernels->force[s->job.dim - 1][finite][PG_CHECK_NONE][weighted];
+    s->job.f = f;
+    return run (s, &p, broken);
+}
+
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     stencil *s = self;
-    int finite = s->setting.sums->rule.finite != 0, weighted = s->p != NULL;
-    int check = !broken || !s->setting.limit ? PG_CHECK_NONE : s->may ? PG_CHECK_SOME : PG_CHECK_ALL;
-    s->job.f = f;
     stencil_spread (s, u);
-    return stencil_run (s, s->kernels->force[s->job.dim - 1][finite][check][weighted],
-                        check ? s->kernels->force[s->job.dim - 1][finite][PG_CHECK_NONE][weighted] : NULL, NULL, broken);
+    return stencil_force_some (s, s->nblock, NULL, f, broken);
 }
 
 static void energy_blocks (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
     pass *p = context;
-    p->loop (&p->s->job, first, last);
+    if (!p->list) p->loop (&p->s->job, first, last);
+    else for (size_t k = first; k < last; k++) p->loop (&p->s->job, (size_t) p->list[k], (size_t) p->list[k] + 1);
 }
 
-static void sum_energies (stencil *s, const double *u)
+void stencil_energies_some (stencil *s, size_t n, const int *list, double *W)
 {
-    pass p = { .s = s, .loop = s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL] };
-    stencil_spread (s, u);
-    pg_parallel_heavy (stencil_threads (s), s->nblock, energy_blocks, &p);
+    pass p = { .s = s, .loop = s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL], .list = list };
+    s->job.energies = W;
+    pg_parallel_heavy (stencil_threads (s), n, energy_blocks, &p);
+    s->job.energies = NULL;
 }
 
 static double energy (void *self, const double *u)
 {
     stencil *s = self;
     double sum = 0;
-    sum_energies (s, u);
+    stencil_spread (s, u);
+    stencil_energies_some (s, s->nblock, NULL, NULL);
     for (size_t k = 0; k < s->nblock; k++) sum += s->energy[k];
     return sum / 4;                                    /* w / 2 of each bond, seen from both its ends                    */
 }
@@ -404,9 +419,8 @@ static pg_status energies (void *self, const double *u, double *W)
 {
     stencil *s = self;
     const pg_cloud *cloud = s->setting.sums->cloud;
-    s->job.energies = W;
-    sum_energies (s, u);
-    s->job.energies = NULL;
+    stencil_spread (s, u);
+    stencil_energies_some (s, s->nblock, NULL, W);
     for (size_t i = 0; i < cloud->n; i++) W[i] = W[i] != 0 ? W[i] / (4 * cloud->volume[i]) : 0;
     return PG_OK;
 }

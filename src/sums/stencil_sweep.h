@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * stencil_sweep.h: points of a lattice in blocks with a bit per bond, and loops over them (private): shared by the sums of bond-based theory
- * (stencil_sweep.c) and of state-based theory (state_stencil.c). */
+ * (stencil_sweep.c), by transforms, which leave blocks with cut bonds to these loops (fft_sweep.c), and of state-based theory (state_stencil.c). */
 #ifndef PERIGAL_SUMS_STENCIL_SWEEP_H
 #define PERIGAL_SUMS_STENCIL_SWEEP_H
 #include "block.h"
@@ -41,4 +41,7 @@ void      stencil_spread (stencil *s, const double *u);                         
  * that died are appended to broken. */
 typedef void (*stencil_lost) (stencil *s, size_t block);
 pg_status stencil_run    (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, pg_changes *broken);
+/* Forces, and four times W_i V_i, of the points of n blocks of a list alone, at the displacements in job.u. */
+pg_status stencil_force_some    (stencil *s, size_t n, const int *list, double *f, pg_changes *broken);
+void      stencil_energies_some (stencil *s, size_t n, const int *list, double *W);
 #endif

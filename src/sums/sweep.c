@@ -10,7 +10,7 @@ struct pg_sweep {
     char  name[32];
 };
 
-static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list, &pg_sweep_state_stencil, &pg_sweep_state_list, &pg_sweep_beam_list };
+static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list, &pg_sweep_fft, &pg_sweep_state_stencil, &pg_sweep_state_list, &pg_sweep_beam_list };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 static const char *const set_name[PG_INSTRUCTION_SETS] = { "scalar", "avx2", "avx512" };
 
@@ -47,7 +47,7 @@ done:
 
 static pg_status choose_kind (const pg_sweep_kind **out, const pg_sweep_setting *setting)
 {
-    static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL, [PG_EVALUATE_STENCIL] = "stencil", [PG_EVALUATE_LIST] = "list" };
+    static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL, [PG_EVALUATE_STENCIL] = "stencil", [PG_EVALUATE_LIST] = "list", [PG_EVALUATE_FFT] = "fft" };
     pg_status status = PG_OK;
     const char *only = asked[setting->sums->rule.evaluation], *why = "there is no such loop";
     int theory = setting->beams ? 2 : setting->sums->rule.state;
@@ -89,6 +89,12 @@ void pg_sweep_free (pg_sweep **sweep)
 }
 
 const char *pg_sweep_name (const pg_sweep *sweep) { return sweep->name; }
+
+void pg_sweep_counted (const pg_sweep *sweep, pg_sweep_counts *out)
+{
+    *out = (pg_sweep_counts) { 0 };
+    if (sweep->kind->counts) sweep->kind->counts (sweep->self, out);
+}
 
 void pg_sweep_bytes (const pg_sweep *sweep, double *per_bond, double *per_point) { sweep->kind->bytes (sweep->self, per_bond, per_point); }
 

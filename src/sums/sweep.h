@@ -10,7 +10,7 @@ const char *pg_instructions_name (pg_instructions set);
 int         pg_instructions_here (pg_instructions set);               /* 1: this machine has them and this compiler knew them */
 
 typedef struct {
-    const char *name;                                  /* "stencil", "list"                                              */
+    const char *name;                                  /* "stencil", "list", "fft"                                        */
     int state;                                         /* 1: of state-based theory, for rules that say so; 2: of beams; 0: of bonds alone */
     /* NULL: this kind can sum what the setting asks for; else why not ("surface factor of volumes"). */
     const char *(*refusal) (const pg_sweep_setting *setting);
@@ -23,9 +23,10 @@ typedef struct {
     pg_status (*force)  (void *self, const double *u, double *f, pg_changes *broken);
     double    (*energy) (void *self, const double *u);
     pg_status (*energies) (void *self, const double *u, double *W);
+    void      (*counts) (const void *self, pg_sweep_counts *out);        /* NULL: none                                    */
     pg_status (*dilatation) (void *self, const double *u, double *theta, double *q);           /* state-based only         */
 } pg_sweep_kind;
-extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list, pg_sweep_state_stencil, pg_sweep_state_list, pg_sweep_beam_list;
+extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list, pg_sweep_fft, pg_sweep_state_stencil, pg_sweep_state_list, pg_sweep_beam_list;
 
 /* Adds n bonds (any order, none twice) to the end of `to`, ascending among themselves; sorts `bond`. */
 pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond);

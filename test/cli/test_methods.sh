@@ -37,6 +37,10 @@ pair() {
     esac
 }
 for force in $forces; do for solver in $solvers; do pair "$force x $solver" "$force" "$solver"; done; done
+# points that die by their energy instead of bonds that break by their stretch
+energy='failure={criterion: node_energy, fracture_energy: 0.4, exclude: [top_grip, bottom_grip]}'
+for solver in $solvers; do pair "fcbm x $solver, energies of points" fcbm "$solver" "$energy"; grep -q runs "$work/line" || bad=1; done
+pair "bond x static, energies of points, fixed steps" bond static "$energy" 'solver={stepping: fixed, steps: 5, break: all}'; grep -q runs "$work/line" || bad=1
 # what was refused above for its time step
 for solver in verlet central relax; do pair "galerkin x $solver, a stable time step" galerkin $solver solver.dt='15 ns'; grep -q 'runs\|ends' "$work/line" || bad=1; done
 echo "1..$n"

@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_resume.sh BUILD: runs that are interrupted at random moments (10 by TERM, 10 by KILL, some again while they go on) and resumed end
+# test_resume.sh BUILD: runs that are interrupted at random moments (11 by TERM, 11 by KILL, some again while they go on) and resumed end
 # with the files of a run that nobody disturbed; finished, foreign and missing checkpoints; disks that are full or read-only.
 perigal=$(realpath "$1/perigal"); n=0; bad=0
 cd "$(dirname "$0")" || exit 1
@@ -17,6 +17,7 @@ fixed=(plate.yaml --set spacing='1.25 mm' --set 'solver={stepping: fixed, steps:
        --set 'output={at: {broken: 2 %, levels: 4}}')
 newmark=(moving.yaml)
 explicit=(bonds.yaml)
+dying=(bonds.yaml --set method.force=fcbm --set 'failure={fracture_energy: 21 J/m2}')
 relaxed=(bonds.yaml --set 'solver={kind: adr, stages: 6}' --set 'boundary[1]={name: pull, set: right, displacement: {x: 60 um}}')
 
 # same DIR1 DIR2: tables, fields and pictures byte by byte, report.json without times and memory
@@ -28,7 +29,7 @@ same() {
 plain() { sed -e '/"seconds": {/,/}/d' -e '/"peak_bytes"/d' -e '/"seconds_saved"/d' "$1"; }
 
 declare -A took
-for kind in event fixed newmark explicit relaxed; do
+for kind in event fixed newmark explicit relaxed dying; do
     declare -n scene=$kind; t0=$(now)
     run "${scene[@]}" -o "$work/$kind"; code=$?
     took[$kind]=$((($(now) - t0) / 1000000))
@@ -52,8 +53,9 @@ resumed() {
 }
 RANDOM=20220
 kinds=(event fixed newmark explicit relaxed)
-for k in $(seq 20); do
-    kind=${kinds[$((k % 5))]}; declare -n scene=$kind; out=$work/run$k; times=1
+for k in $(seq 22); do
+    [ $k -le 20 ] && kind=${kinds[$((k % 5))]} || kind=dying
+    declare -n scene=$kind; out=$work/run$k; times=1
     [ $((k % 2)) -eq 0 ] && signal=TERM || signal=KILL
     limit=${took[$kind]}
     until disturb $signal $((limit * (RANDOM % 900 + 80) / 1000)) "${scene[@]}" -o "$out"; do limit=$((limit * 3 / 4 + 1)); done

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Sizes that transform fast, and FFTW's plans: guessed (the same everywhere), or measured and kept in a file of the user's cache. */
+#include "fft.h"
+#include <errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* The planner is not thread-safe, and what it has learned is one for the whole process: kept aside while ours is used. */
+static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
+
+/* ---- sizes ------------------------------------------------------------------------------------------------------------------ */
+/* Time of a transform per place, from bench/fcbm_step on an AMD EPYC (FFTW 3.3.10): a constant and a share of each prime factor. */
+static double time_of (size_t n)
+{
+    static const struct { size_t prime; double time; } factor[] = { { 2, 0.08 }, { 3, 0.17 }, { 5, 0.22 }, { 7, 0.24 } };
+    double sum = n % 2 ? 0.45 : 0.2;
+    for (size_t k = 0; k < sizeof factor / sizeof *factor; k++)
+        while (n % factor[k].prime == 0) n /= factor[k].prime, sum += factor[k].time;
+    return n == 1 ? sum : INFINITY;
+}
+
+size_t fft_size (size_t least, int even)
+{
+    size_t best = 0;
+    double least_time = INFINITY;
+    for (size_t n = least; n <= 2 * least + 2; n++) {
+        double t = (double) n * time_of (n);
+        if ((even && n % 2) || !(t < least_time)) continue;
+        best = n, least_time = t;
+    }
+    return best;
+}
+
+double fft_work (const fft_box *box)
+{
+    double n = 1;
+    for (int k = 0; k < 3; k++) n *= (double) box->T[k];
+    return 2.5 * n * log2 (n + 1);
+}
+
+/* ---- what the planner knows --------------------------------------------------------------------------------------------------- */
+/* Path of the file of wisdom; 0: there is no place for it. */
+static int wisdom_path (char *path, size_t size, int make)
+{
+    const char *cache = getenv ("XDG_CACHE_HOME"), *home = getenv ("HOME");
+    int used = cache && cache[0] == '/' ? snprintf (path, size, "%s/perigal", cache)
+             : home && home[0] == '/' ? snprintf (path, size, "%s/.cache/perigal", home) : -1;
+    if (used < 0 || (size_t) used + 32 > size) return 0;
+    if (make && mkdir (path, 0777) != 0 && errno != EEXIST) {
+        char *slash = strrchr (path, '/');
+        *slash = 0;
+        mkdir (path, 0777);
+        *slash = '/';
+        if (mkdir (path, 0777) != 0 && errno != EEXIST) return 0;
+    }
+    strcat (path, "/fftw_wisdom");
+    return 1;
+}
+
+typedef struct { char *text; size_t n, cap; } copy;
+
+static void add_letter (char letter, void *context)
+{
+    copy *c = context;
+    if (c->n + 2 > c->cap) {
+        char *more = pg_resize (c->text, 2 * c->cap + 256, 1);
+        if (!more) return;                             /* a text cut short is refused when it is read                    */
+        c->text = more, c->cap = 2 * c->cap + 256;
+    }
+    c->text[c->n++] = letter, c->text[c->n] = 0;
+}
+
+static void keep_wisdom (void)
+{
+    char path[4096], fresh[4096 + 32];
+    if (!wisdom_path (path, sizeof path, 1)) return;
+    snprintf (fresh, sizeof fresh, "%s.%ld", path, (long) getpid ());
+    if (!fftw_export_wisdom_to_filename (fresh) || rename (fresh, path) != 0) remove (fresh);
+}
+
+/* ---- plans -------------------------------------------------------------------------------------------------------------------- */
+static fftw_plan columns (size_t T, double *x, int sign, unsigned how)
+{
+    fftw_iodim along = { (int) T, FFT_WIDE, FFT_WIDE }, side = { FFT_WIDE, 1, 1 };
+    return fftw_plan_guru_dft (1, &along, 1, &side, (fftw_complex *) x, (fftw_complex *) x, sign, how);
+}
+
+static int make_plans (fft_box *b, double *x, double *y, unsigned how)
+{
+    int all = 1;
+    b->row[0] = fftw_plan_dft_r2c_1d ((int) b->T[0], x, (fftw_complex *) y, how);
+    b->row[1] = fftw_plan_dft_c2r_1d ((int) b->T[0], (fftw_complex *) y, x, how);
+    for (int k = 0; k < 2; k++) {
+        if (b->T[1] > 1) b->middle[k] = columns (b->T[1], x, k ? FFTW_BACKWARD : FFTW_FORWARD, how), all &= b->middle[k] != NULL;
+        if (b->T[2] > 1) b->last[k] = columns (b->T[2], x, k ? FFTW_BACKWARD : FFTW_FORWARD, how), all &= b->last[k] != NULL;
+        all &= b->row[k] != NULL;
+    }
+    return all;
+}
+
+static void clear_plans (fft_box *b)
+{
+    fftw_plan *all[] = { &b->row[0], &b->row[1], &b->middle[0], &b->middle[1], &b->last[0], &b->last[1] };
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        if (*all[k]) fftw_destroy_plan (*all[k]);
+        *all[k] = NULL;
+    }
+}
+
+pg_status fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *reach, int measure)
+{
+    pg_status status = PG_OK;
+    fft_box *b = out;
+    double *room = NULL;
+    size_t most = 0;
+    *b = (fft_box) { .dim = dim, .n = { n[0], dim == 3 ? n[1] : 1, dim == 3 ? n[2] : dim == 2 ? n[1] : 1 }, .measured = measure };
+    for (int k = 0; k < 3; k++) {
+        size_t far = k == 0 ? reach[0] : k == 1 ? (dim == 3 ? reach[1] : 0) : dim == 3 ? reach[2] : dim == 2 ? reach[1] : 0;
+        b->T[k] = k == 0 || dim == 3 || (dim == 2 && k == 2) ? fft_size (b->n[k] + far, k == 0) : 1;
+        if (b->T[k] > 1u << 26) PG_FAIL (PG_E_LIMIT, "transforms of %zu places are too long; try evaluation: stencil", b->T[k]);
+        most = b->T[k] > most ? b->T[k] : most;
+    }
+    b->C = (b->T[0] / 2 + 1 + FFT_WIDE - 1) / FFT_WIDE * FFT_WIDE;
+    PG_ALLOC (room, 4 * FFT_WIDE * (most + 8));
+    double *x = (double *) (((uintptr_t) room + 63) / 64 * 64), *y = x + 2 * FFT_WIDE * (most + 2);
+    pthread_mutex_lock (&planner);
+    char path[4096];
+    copy theirs = { NULL, 0, 0 };
+    fftw_export_wisdom (add_letter, &theirs);
+    fftw_forget_wisdom ();
+    if (measure && wisdom_path (path, sizeof path, 0)) fftw_import_wisdom_from_filename (path);
+    int known = measure && make_plans (b, x, y, FFTW_MEASURE | FFTW_WISDOM_ONLY), made = known;
+    if (!made) {
+        clear_plans (b);
+        made = make_plans (b, x, y, measure ? FFTW_MEASURE : FFTW_ESTIMATE);
+        if (made && measure) keep_wisdom ();
+    }
+    if (!made) clear_plans (b);
+    fftw_forget_wisdom ();
+    if (theirs.text) fftw_import_wisdom_from_string (theirs.text);
+    pg_free (theirs.text);
+    pthread_mutex_unlock (&planner);
+    if (!made) PG_FAIL (PG_E_MEMORY, "no memory for the plan of a transform");
+done:
+    pg_free (room);
+    return status;
+}
+
+void fft_box_clear (fft_box *box)
+{
+    pthread_mutex_lock (&planner);
+    clear_plans (box);
+    pthread_mutex_unlock (&planner);
+}
+
+fftw_plan fft_plan_box (const int *T, double *x)
+{
+    pthread_mutex_lock (&planner);
+    fftw_plan plan = fftw_plan_dft_r2c (3, T, x, (fftw_complex *) x, FFTW_ESTIMATE);
+    pthread_mutex_unlock (&planner);
+    return plan;
+}
+
+void fft_plan_free (fftw_plan plan)
+{
+    pthread_mutex_lock (&planner);
+    fftw_destroy_plan (plan);
+    pthread_mutex_unlock (&planner);
+}
