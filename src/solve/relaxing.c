@@ -7,6 +7,7 @@
 
 enum { BLOCK = 2048, SUM_R = 0, SUM_STIFF = 1, SUM_MASS = 2 };
 static const double least = 1e-2;                      /* of the largest reference so far: a body apart bears nothing   */
+static const double memory = 0.9;                      /* of Rayleigh's quotient, an iteration: from one alone damping jumps, and blows rounding up to 1e-3 */
 static const double arrival = 1e-2;                    /* imbalance at which the load of a stage has come to act         */
 
 pg_status relaxing_create (pg_solver *s)
@@ -167,8 +168,11 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     double size = sqrt (total[SUM_R]);
     if (total[SUM_BAD] != 0 || !isfinite (size)) PG_TRY (explicit_lost (s, state, t));
     x->imbalance = reference > 0 ? size / reference : size > 0 ? 1 : 0;
-    if (!x->broke && !x->resting && total[SUM_MASS] > 0)
-        x->c = fmin (1.9 / x->dt, 2 * sqrt (fmax (0, total[SUM_STIFF] / (total[SUM_MASS] * x->dt))));
+    if (x->resting) x->stiff = x->heavy = 0;
+    else if (!x->broke && total[SUM_MASS] > 0) {
+        x->stiff = memory * x->stiff + total[SUM_STIFF], x->heavy = memory * x->heavy + total[SUM_MASS];
+        x->c = fmin (1.9 / x->dt, 2 * sqrt (fmax (0, x->stiff / (x->heavy * x->dt))));
+    }
     s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
 done:
     return status;
@@ -403,11 +407,11 @@ pg_status relaxing_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     struct relaxing *x = s->motion->relaxing;
-    double number[4] = { x->c, x->imbalance, x->worst, x->most };
+    double number[6] = { x->c, x->imbalance, x->worst, x->most, x->stiff, x->heavy };
     long count[4] = { x->armed, x->resting, x->pending, x->broke };
-    PG_TRY (k->numbers (k->context, "relaxing.numbers", 4, number));
+    PG_TRY (k->numbers (k->context, "relaxing.numbers", 6, number));
     PG_TRY (k->counts (k->context, "relaxing.counts", 4, count));
-    x->c = number[0], x->imbalance = number[1], x->worst = number[2], x->most = number[3];
+    x->c = number[0], x->imbalance = number[1], x->worst = number[2], x->most = number[3], x->stiff = number[4], x->heavy = number[5];
     x->armed = (int) count[0], x->resting = (int) count[1], x->pending = (int) count[2], x->broke = (int) count[3];
 done:
     return status;

@@ -10,7 +10,8 @@ struct relaxing {
     double *mass;                                      /* of every unknown                      (ndof)                   */
     pg_status (*weigh) (pg_solver *s);                 /* masses anew where bonds that broke may have stiffened the body; NULL: never */
     double *rate;                                      /* given damping, 1/s; NULL: c           (ndof)                   */
-    double dt, c;                                      /* 1/s, by Rayleigh's quotient of the last iteration              */
+    double dt, c;                                      /* 1/s, by Rayleigh's quotient stiff / heavy                      */
+    double stiff, heavy;                               /* v K v dt and v M v of the last iterations, older ones count less */
     double imbalance, worst;                           /* of the last residual; hold: off: the largest                   */
     double most;                                       /* largest reference of a state that the load has come to, N       */
     int    armed, resting, pending, broke;             /* bonds may break; the next iteration starts from rest; the ledger at hand is that
