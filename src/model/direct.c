@@ -20,7 +20,7 @@ static int is (const pg_scene *scene, const char *key, const char *word)
 /* What a force means where the scene says nothing: how it is summed, what breaks. */
 typedef struct { const char *force; pg_evaluation evaluation; const char *criterion; int state; } custom;
 static const custom customs[] = {
-    { "fcbm", PG_EVALUATE_AUTO, "node_energy", 0 },    /* Jafarzadeh et al. 2022                                         */
+    { "fcbm", PG_EVALUATE_FFT, "node_energy", 0 },     /* Jafarzadeh et al. 2022                                         */
     { "lps", PG_EVALUATE_AUTO, NULL, 1 },              /* Silling et al. 2007                                            */
 };
 
@@ -152,7 +152,9 @@ void pg_direct_check_laws (const pg_problem *p, const pg_scene *scene)
     pg_evaluation asked = p->sums->rule.evaluation;
     for (size_t m = 1; m < p->nmaterial && asked != PG_EVALUATE_AUTO && asked != PG_EVALUATE_LIST; m++) {
         const pg_criterion *a = &p->criterion[0], *b = &p->criterion[m];
-        int same = p->material[m].modulus == p->material[0].modulus && a->never == b->never && memcmp (a->parameter, b->parameter, sizeof a->parameter) == 0;
+        int at_points = a->type && (a->type->needs & PG_NEEDS_ENERGY);             /* the loops know of no limit              */
+        int same = p->material[m].modulus == p->material[0].modulus
+                && (at_points || (a->never == b->never && memcmp (a->parameter, b->parameter, sizeof a->parameter) == 0));
         if (same) continue;
         pg_scene_fault (scene, "method.evaluation", "materials %.40s and %.40s differ in stiffness or limit, and bonds must all be alike for this: use list or auto",
                         p->material[0].name, p->material[m].name);

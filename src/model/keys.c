@@ -13,7 +13,7 @@ static const char *const no_choice = NULL;
 static const pg_key keys[] = {
     { "method.force", PG_NAME, NULL, NULL, "galerkin", "galerkin|bond|fcbm|lps", NULL, NULL,
       "How bonds make forces: galerkin: weak form with the shape functions of method.approximation; bond: pair forces between points (bond-based "
-      "peridynamics; Poisson's ratio is 1/3 in plane stress, 1/4 in plane strain and 3D); fcbm: bond whose points die by energy unless failure.criterion says "
+      "peridynamics; Poisson's ratio is 1/3 in plane stress, 1/4 in plane strain and 3D); fcbm: bond summed by fft unless method.evaluation, whose points die by energy unless failure.criterion says "
       "otherwise; lps: forces that depend on the dilatation of both points as well (ordinary state-based: linear peridynamic solid, any Poisson's ratio)." },
     { "method.weighted_volume", PG_NAME, NULL, NULL, "intact", "intact|live", NULL, NULL,
       "lps: the weighted volume q of a point, which its dilatation and forces are divided by: intact: of the bonds that no pre-crack cuts, for good; live: of the "

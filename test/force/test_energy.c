@@ -19,6 +19,7 @@ static const char *const bodies[] = {
     BODY1 NODE ("") "method: {force: bond}\n",
     LARGE NODE ("") "method: {force: bond}\n",
     LARGE NODE (", exclude: [grip]") "sets: {grip: {where: 'x <= 0.25'}}\nmethod: {force: bond, evaluation: list}\n",
+    LARGE NODE ("") "method: {force: fcbm}\n",
 };
 enum { BODIES = sizeof bodies / sizeof *bodies };
 
@@ -205,9 +206,12 @@ static void who_dies_in_motion (void **unused)
     for (size_t k = 0; k < BODIES; k++) marching (bodies[k], 1, &bits[k]);
     bonded b = bonded_of (bodies[0]);
     assert_memory_equal (bits[0], bits[1], b.state->nbond);            /* stencil, list                                  */
-    assert_memory_equal (bits[0], bits[6], b.state->nbond);            /* fcbm: half of twice the energy                  */
-    marching (bodies[0], 3, &again);
-    assert_memory_equal (bits[0], again, b.state->nbond);
+    assert_memory_equal (bits[0], bits[6], b.state->nbond);            /* transforms; half of twice the energy            */
+    unbonded (&b);
+    b = bonded_of (bodies[9]);
+    assert_memory_equal (bits[9], bits[11], b.state->nbond);
+    marching (bodies[9], 3, &again);
+    assert_memory_equal (bits[9], again, b.state->nbond);
     pg_free (again);
     unbonded (&b);
     for (size_t k = 0; k < BODIES; k++) pg_free (bits[k]);
