@@ -7,7 +7,8 @@
 
 enum { BLOCK = 2048, SUM_R = 0, SUM_STIFF = 1, SUM_MASS = 2 };
 static const double least = 1e-2;                      /* of the largest reference so far: a body apart bears nothing   */
-static const double memory = 0.9;                      /* of Rayleigh's quotient, an iteration: from one alone damping jumps, and blows rounding up to 1e-3 */
+static const double memory = 0.98;                     /* of Rayleigh's quotient, an iteration: from one alone damping jumps, and blows rounding up */
+static const double share = 0.5;                       /* hold: off: least damping, of the critical one of the shape that the loads give the body */
 static const double arrival = 1e-2;                    /* imbalance at which the load of a stage has come to act         */
 
 pg_status relaxing_create (pg_solver *s)
@@ -171,7 +172,7 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     if (x->resting) x->stiff = x->heavy = 0;
     else if (!x->broke && total[SUM_MASS] > 0) {
         x->stiff = memory * x->stiff + total[SUM_STIFF], x->heavy = memory * x->heavy + total[SUM_MASS];
-        x->c = fmin (1.9 / x->dt, 2 * sqrt (fmax (0, x->stiff / (x->heavy * x->dt))));
+        x->c = fmin (1.9 / x->dt, fmax (x->floor, 2 * sqrt (fmax (0, x->stiff / (x->heavy * x->dt)))));
     }
     s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
 done:
@@ -338,6 +339,26 @@ done:
 }
 
 /* ---- one iteration a stage ------------------------------------------------------------------------------------------------------------ */
+/* The body that follows slow loads moves without strain rates to speak of: v K v would tell no damping, and what then swings grows out of rounding.
+ * Rayleigh's quotient of the displacement itself, but for its mean, does: d . (P - r) is d K d. */
+static double steady_damping (const pg_solver *s, const pg_state *state)
+{
+    const motion *m = s->motion;
+    const pg_system *sys = &s->breaker.system;
+    const double *d = state->d, *mass = m->relaxing->mass;
+    double stiff = 0, heavy = 0;
+    for (size_t i = 0; i < sys->ndof; i++) stiff += d[i] * ((m->P ? m->P[i] : 0) - sys->residual[i]);
+    for (size_t k = 0; k < m->nheld; k++) stiff += d[m->held[k]] * m->push[k];
+    for (size_t c = 0; c < (size_t) sys->components; c++) {
+        double sum = 0, first = 0, second = 0;
+        for (size_t i = c; i < sys->ndof; i += (size_t) sys->components) sum += mass[i], first += mass[i] * d[i], second += mass[i] * d[i] * d[i];
+        if (sum > 0) heavy += second - first * first / sum;
+    }
+    return heavy > 0 && stiff > 0 ? share * 2 * sqrt (stiff / heavy) : 0;
+}
+
+static int is_due (long n) { return n % 64 == 0 || (n < 64 && (n & (n - 1)) == 0); }
+
 static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -353,6 +374,7 @@ static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
         PG_TRY (explicit_follow (s, t, t, t));
         impose (s, state);
         PG_TRY (examine (s, state, t, 1));
+        if (is_due (n)) x->floor = steady_damping (s, state);
         x->worst = fmax (x->worst, x->imbalance);
         iterate (s, state);
         b->round = n - state->iterations;
@@ -407,11 +429,11 @@ pg_status relaxing_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     struct relaxing *x = s->motion->relaxing;
-    double number[6] = { x->c, x->imbalance, x->worst, x->most, x->stiff, x->heavy };
+    double number[7] = { x->c, x->imbalance, x->worst, x->most, x->stiff, x->heavy, x->floor };
     long count[4] = { x->armed, x->resting, x->pending, x->broke };
-    PG_TRY (k->numbers (k->context, "relaxing.numbers", 6, number));
+    PG_TRY (k->numbers (k->context, "relaxing.numbers", 7, number));
     PG_TRY (k->counts (k->context, "relaxing.counts", 4, count));
-    x->c = number[0], x->imbalance = number[1], x->worst = number[2], x->most = number[3], x->stiff = number[4], x->heavy = number[5];
+    x->c = number[0], x->imbalance = number[1], x->worst = number[2], x->most = number[3], x->stiff = number[4], x->heavy = number[5], x->floor = number[6];
     x->armed = (int) count[0], x->resting = (int) count[1], x->pending = (int) count[2], x->broke = (int) count[3];
 done:
     return status;

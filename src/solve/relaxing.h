@@ -12,6 +12,7 @@ struct relaxing {
     double *rate;                                      /* given damping, 1/s; NULL: c           (ndof)                   */
     double dt, c;                                      /* 1/s, by Rayleigh's quotient stiff / heavy                      */
     double stiff, heavy;                               /* v K v dt and v M v of the last iterations, older ones count less */
+    double floor;                                      /* hold: off: least c, 1/s                                        */
     double imbalance, worst;                           /* of the last residual; hold: off: the largest                   */
     double most;                                       /* largest reference of a state that the load has come to, N       */
     int    armed, resting, pending, broke;             /* bonds may break; the next iteration starts from rest; the ledger at hand is that

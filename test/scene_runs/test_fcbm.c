@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Zhou's first two examples by direct sums and by transforms, at a coarser spacing: without failure the same displacements at iterations 750 and 1000;
+ * with the stretch criterion the same bonds broken at every row of the history, so the same path and the same curve of the tip; with both the
+ * energy of points as criterion, alike. PERIGAL_LONG: at the scenes' own spacing. */
+#include "run.h"
+
+typedef struct { const char *scene, *spacing, *more[3]; } example;
+static const example coarse[] = { { "data/zhou_1/scene.yaml", "spacing=1 mm", { "output.at.rows=1000" } },
+    { "data/zhou_2/scene.yaml", "spacing=0.25 mm", { "solver.dt=3.341e-8 s", "output.at.rows=1000", "failure.critical_stretch=0.02828" } } };
+static const example own[] = { { "data/zhou_1/scene.yaml", "spacing=0.5 mm", { "output.at.rows=1000" } },
+    { "data/zhou_2/scene.yaml", "spacing=0.1 mm", { "solver.dt=1.3367e-8 s", "output.at.rows=1000", "failure.critical_stretch=0.04472" } } };
+
+static run load (const example *e, const char *evaluation, const char *failure)
+{
+    const char *set[6] = { evaluation, e->spacing };
+    size_t n = 2;
+    run r = { 0 };
+    for (int k = 0; k < 3 && e->more[k]; k++) set[n++] = e->more[k];
+    if (failure) set[n++] = failure;
+    check_ok (pg_scene_load_with (&r.scene, e->scene, n, set));
+    check_ok (pg_problem_build (&r.problem, r.scene, 1));
+    check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
+    check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
+    check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
+    return r;
+}
+
+/* Largest difference of the displacements over the largest one. */
+static double apart (const run *a, const run *b)
+{
+    return largest_difference (a->state->d, b->state->d, a->state->ndof) / largest_of (a->state->d, a->state->ndof);
+}
+
+static const example *which (void) { return getenv ("PERIGAL_LONG") ? own : coarse; }
+
+static void elastic_fields (void **unused)
+{
+    (void) unused;
+    for (int k = 0; k < 2; k++) {
+        run a = load (&which ()[k], "method.evaluation=stencil", "failure.critical_stretch=1000"), b = load (&which ()[k], "method.evaluation=fft", "failure.critical_stretch=1000");
+        for (int n = 1; n <= 1000; n++) {
+            advance (&a), advance (&b);
+            if (n != 750 && n != 1000) continue;
+            print_message ("example %d, iteration %d: displacements apart by %.2g of the largest\n", k + 1, n, apart (&a, &b));
+            check_below (apart (&a, &b), 1e-12);
+        }
+        clear (&a), clear (&b);
+    }
+}
+
+/* Row by row the same bonds; at least `most` of them broken in the end. */
+static void same_cracks (const example *e, const char *failure)
+{
+    run a = load (e, "method.evaluation=stencil", failure), b = load (e, "method.evaluation=fft", failure);
+    size_t dead = 0;
+    while (!pg_solver_done (a.solver, a.state)) {
+        advance (&a), advance (&b);
+        assert_int_equal (a.step.nbroken, b.step.nbroken);
+        assert_memory_equal (a.state->alive, b.state->alive, a.state->nbond);
+        dead += a.step.nbroken;
+    }
+    assert_true (pg_solver_done (b.solver, b.state));
+    print_message ("%s, %s: %zu bonds broken by either\n", e->scene, failure ? failure : "as the scene has it", dead);
+    assert_true (dead > 500);
+    clear (&a), clear (&b);
+}
+
+static void cracks_by_stretch (void **unused)
+{
+    (void) unused;
+    for (int k = 0; k < 2; k++) same_cracks (&which ()[k], NULL);
+}
+
+static void cracks_by_energy (void **unused)
+{
+    (void) unused;
+    same_cracks (&(example) { "data/zhou_1/scene_energy.yaml", which ()[0].spacing, { "output.at.rows=1000" } }, NULL);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test (elastic_fields), cmocka_unit_test (cracks_by_stretch), cmocka_unit_test (cracks_by_energy) };
+    return cmocka_run_group_tests (tests, NULL, NULL);
+}
