@@ -96,8 +96,8 @@ static pg_status time_sweep (result *out, bench *b, pg_evaluation evaluation, in
     pg_status status = PG_OK;
     pg_sweep *sweep = NULL;
     pg_changes broken = { 0 };
-    pg_sweep_setting setting = { .sums = b->sums, .family = &b->family, .modulus = b->modulus, .limit = b->limit, .threads = 1, .sweeps = 1e5 };
-    b->sums->rule.evaluation = evaluation;
+    pg_sweep_setting setting = { .sums = b->sums, .family = &b->family, .modulus = b->modulus, .limit = b->limit, .threads = 1 };
+    b->sums->rule.evaluation = evaluation, b->sums->rule.sweeps = 1e5;
     PG_TRY (pg_sweep_create (&sweep, &setting));
     pg_sweep_update (sweep, b->alive, NULL);
     double best = INFINITY, start = seconds (), most = 0, off = 0;

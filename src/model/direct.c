@@ -46,6 +46,14 @@ int pg_direct_large (int told, int dim, double dofs)
     return dofs > (dim == 3 ? 3e4 : 4e5);
 }
 
+/* Sums of forces that such a run asks for, about */
+static double sweeps_of (const pg_scene *scene)
+{
+    if (pg_scene_has (scene, "solver.time_steps")) return (double) pg_scene_integer (scene, "solver.time_steps");
+    if (is (scene, "solver.kind", "static")) return 200;
+    return 1000;
+}
+
 void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, const pg_approx *approx, double spacing, int lattice)
 {
     static const char partial[] = "method.partial_volume", surface[] = "method.surface_correction", evaluation[] = "method.evaluation";
@@ -60,6 +68,7 @@ void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, con
     rule->finite = is (scene, "method.stretch", "finite");
     rule->evaluation = is (scene, evaluation, "stencil") ? PG_EVALUATE_STENCIL : is (scene, evaluation, "list") ? PG_EVALUATE_LIST
                      : is (scene, evaluation, "fft") ? PG_EVALUATE_FFT : PG_EVALUATE_AUTO;
+    rule->sweeps = sweeps_of (scene);
     rule->state = own && own->state;
     rule->follow = rule->state && is (scene, "method.weighted_volume", "live");
     if (rule->state && !is (scene, surface, "product") && !is (scene, surface, "volume")) rule->surface = PG_SURFACE_NONE;

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which loop sums the bonds: the first kind that can, with the best instructions that this machine has. */
+ * Which loop sums the bonds: the first kind that can, or transforms where these are faster, with the best instructions that this machine has. */
 #include "sweep.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct pg_sweep {
     const pg_sweep_kind *kind;
     void *self;
-    char  name[32];
+    char  name[32], reason[160];
 };
 
 static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list, &pg_sweep_fft, &pg_sweep_state_stencil, &pg_sweep_state_list, &pg_sweep_beam_list };
@@ -45,6 +46,15 @@ done:
     return status;
 }
 
+/* Transforms, where they save at least a fifth of the stencil's time: cracks will cost some of it. */
+static void compare_transforms (const pg_sweep_kind **kind, const pg_sweep_setting *setting, pg_instructions set, char *reason, size_t size)
+{
+    if (*kind != &pg_sweep_stencil || pg_sweep_fft.refusal (setting)) return;
+    double n = (double) setting->sums->cloud->n, direct = pg_sweep_stencil.time (setting, set) / n, fast = pg_sweep_fft.time (setting, set) / n;
+    if (fast < 0.8 * direct) *kind = &pg_sweep_fft;
+    snprintf (reason, size, "auto: about %.2g ns a point by transforms, %.2g by stencil", fast, direct);
+}
+
 static pg_status choose_kind (const pg_sweep_kind **out, const pg_sweep_setting *setting)
 {
     static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL, [PG_EVALUATE_STENCIL] = "stencil", [PG_EVALUATE_LIST] = "list", [PG_EVALUATE_FFT] = "fft" };
@@ -71,9 +81,15 @@ pg_status pg_sweep_create (pg_sweep **out, const pg_sweep_setting *setting)
     PG_ALLOC (s, 1);
     PG_TRY (choose_instructions (&set, setting->instructions));
     PG_TRY (choose_kind (&s->kind, setting));
+    if (setting->sums->rule.evaluation != PG_EVALUATE_AUTO) strcpy (s->reason, "asked for");
+    else compare_transforms (&s->kind, setting, set, s->reason, sizeof s->reason);
     strcpy (s->name, s->kind->name);
     strcat (strcat (s->name, " "), set_name[set]);
     PG_TRY (s->kind->create (&s->self, setting, set));
+    if (s->kind->remark) {
+        size_t used = strlen (s->reason);
+        snprintf (s->reason + used, sizeof s->reason - used, "%s%s", used ? "; " : "", s->kind->remark (s->self));
+    }
     *out = s, s = NULL;
 done:
     pg_sweep_free (&s);
@@ -89,6 +105,8 @@ void pg_sweep_free (pg_sweep **sweep)
 }
 
 const char *pg_sweep_name (const pg_sweep *sweep) { return sweep->name; }
+
+const char *pg_sweep_reason (const pg_sweep *sweep) { return sweep->reason; }
 
 void pg_sweep_counted (const pg_sweep *sweep, pg_sweep_counts *out)
 {

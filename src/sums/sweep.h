@@ -23,6 +23,8 @@ typedef struct {
     pg_status (*force)  (void *self, const double *u, double *f, pg_changes *broken);
     double    (*energy) (void *self, const double *u);
     pg_status (*energies) (void *self, const double *u, double *W);
+    double    (*time) (const pg_sweep_setting *setting, pg_instructions set);        /* about, ns a sum on one thread, of what is not refused; NULL: unknown */
+    const char *(*remark) (const void *self);          /* what else to say about it; NULL: nothing                       */
     void      (*counts) (const void *self, pg_sweep_counts *out);        /* NULL: none                                    */
     pg_status (*dilatation) (void *self, const double *u, double *theta, double *q);           /* state-based only         */
 } pg_sweep_kind;

@@ -286,6 +286,64 @@ static void breaking_equals_starting_anew (void **state)
     body_free (&b);
 }
 
+/* Automatic: transforms where a horizon is long and the body large, said with the reason; never for a small body or finite stretch. */
+static void work_decides_between_stencil_and_transforms (void **state)
+{
+    (void) state;
+    static const struct { body_wish wish; int fast; } cases[] = {
+        { { { 250, 250, 1 }, 0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 0, PG_EVALUATE_AUTO }, 0 },
+        { { { 250, 250, 1 }, 0, 0, 0, 2, 9.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 0, PG_EVALUATE_AUTO }, 1 },
+        { { { 250, 250, 1 }, 0, 0, 0, 2, 9.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 1, PG_EVALUATE_AUTO }, 0 },
+        { { { 12, 9, 1 }, 0, 0, 0, 2, 9.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 0, PG_EVALUATE_AUTO }, 0 },
+    };
+    for (size_t k = 0; k < 4; k++) {
+        body b;
+        pg_sweep *s = NULL;
+        body_create (&b, &cases[k].wish, 3);
+        make_sweep (&s, &b, PG_EVALUATE_AUTO, NULL, 1, 0, 0);
+        check_contains (pg_sweep_name (s), cases[k].fast ? "fft" : "stencil");
+        if (!cases[k].wish.finite) check_contains (pg_sweep_reason (s), "auto: about");
+        if (cases[k].fast) check_contains (pg_sweep_reason (s), "guessed");
+        pg_sweep_free (&s);
+        make_sweep (&s, &b, PG_EVALUATE_STENCIL, NULL, 1, 0, 0);
+        assert_string_equal (pg_sweep_reason (s), "asked for");
+        pg_sweep_free (&s);
+        body_free (&b);
+    }
+}
+
+/* Timed plans are kept in a file of the user's cache and make the same bits again; where nothing can be kept, nothing is said. */
+static void timed_plans_are_kept (void **state)
+{
+    (void) state;
+    char folder[] = "/tmp/perigal_test_XXXXXX", path[64];
+    assert_non_null (mkdtemp (folder));
+    body b;
+    body_create (&b, &wishes[1], 3);
+    size_t values = b.cloud.n * 2;
+    double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g), *plain = pg_calloc (values, sizeof *plain);
+    body_plain (&b, 0, plain, NULL);
+    b.sums->rule.sweeps = 1e9;
+    for (int round = 0; round < 3; round++) {
+        pg_sweep *s = NULL;
+        setenv ("XDG_CACHE_HOME", round < 2 ? folder : "/dev/null/nowhere", 1);
+        make_sweep (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
+        check_contains (pg_sweep_reason (s), "timed");
+        check_ok (pg_sweep_force (s, b.u, round ? f : g, NULL));
+        check_below (difference (round ? f : g, plain, values), 1e-13);
+        if (round == 1) assert_memory_equal (f, g, values * sizeof *f);
+        pg_sweep_free (&s);
+    }
+    snprintf (path, sizeof path, "%s/perigal/fftw_wisdom", folder);
+    assert_int_equal (remove (path), 0);               /* it was there */
+    snprintf (path, sizeof path, "%s/perigal", folder);
+    assert_int_equal (remove (path), 0);               /* and nothing beside it */
+    assert_int_equal (remove (folder), 0);
+    unsetenv ("XDG_CACHE_HOME");
+    pg_free (f), pg_free (g), pg_free (plain);
+    body_free (&b);
+}
+
 static void what_transforms_cannot_is_refused (void **state)
 {
     (void) state;
@@ -356,6 +414,8 @@ int main (void)
         cmocka_unit_test (transforms_are_as_few_as_theory_has_them),
         cmocka_unit_test (only_what_is_cut_counts),
         cmocka_unit_test (breaking_equals_starting_anew),
+        cmocka_unit_test (work_decides_between_stencil_and_transforms),
+        cmocka_unit_test (timed_plans_are_kept),
         cmocka_unit_test (what_transforms_cannot_is_refused),
         cmocka_unit_test (lack_of_memory_is_reported),
     };
