@@ -48,6 +48,26 @@ static void answers_agree (void **state)
     }
 }
 
+/* State-based forces have no matrix; the rows of bonds with the same Young's modulus are near enough, whatever Poisson's ratio. fcbm: sums by FFT. */
+static void forces_without_a_matrix (void **state)
+{
+    (void) state;
+    static const struct { const char *force, *plane, *nu; } cases[] = { { "lps", "stress", "0.1" }, { "lps", "stress", "0.45" }, { "lps", "strain", "0.4" }, { "fcbm", "stress", "0.3333" } };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        static const char text[] = "dimension: 2\nthickness: 2 mm\nplane: %s\nspacing: 1 mm\nlattice: cells\ncells: staircase\n" ROCK "method: {force: %s}\n"
+            "body: [{add: {box: {low: [0, 0], high: [50 mm, 50 mm]}}}, {subtract: {disk: {center: [25 mm, 25 mm], diameter: 10 mm}}}]\n"
+            "cracks: [{from: [-1 mm, 17.3 mm], to: [30.2 mm, 20.3 mm]}]\n"
+            "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 10 um}}]\n" ONCE;
+        run a = scene_of (2, text, cases[k].plane, cases[k].nu, cases[k].force, "linear: pcg");
+        run c = scene_of (1, text, cases[k].plane, cases[k].nu, cases[k].force, "linear: pcg, preconditioner: jacobi");
+        to_the_end (&a), to_the_end (&c);
+        print_message ("%s, %s, %s: %zu iterations, by the diagonal %zu\n", cases[k].force, cases[k].plane, cases[k].nu, report_of (&a)->cg_iterations, report_of (&c)->cg_iterations);
+        check_below (difference (&a, &c), 1e-7);
+        assert_true (report_of (&a)->cg_iterations <= 20 && report_of (&c)->cg_iterations > 100);
+        clear (&a), clear (&c);
+    }
+}
+
 #define BREAKING PLATE "lattice: cells\ncracks: [{from: [-1 mm, 12.5 mm], to: [9.2 mm, 12.5 mm]}]\n" PULL2 "failure: {criterion: stretch, critical_stretch: 1e-4, exclude: [bottom, top]}\n"
 
 /* The same bonds die at the same loads as with factors; the preconditioner is made a few times only. */
@@ -55,7 +75,7 @@ static void cascades_are_the_same (void **state)
 {
     (void) state;
     run a = scene_of (1, BREAKING "solver: {stepping: event, linear: pcg}\n"), b = scene_of (1, BREAKING "solver: {stepping: event, linear: cholmod}\n");
-    while (!pg_solver_done (b.solver, b.state) && b.state->events < 40) {
+    while (!pg_solver_done (b.solver, b.state) && b.state->events < 30) {
         advance (&a), advance (&b);
         assert_memory_equal (a.state->alive, b.state->alive, a.state->nbond);
         check_relative (a.step.factor, b.step.factor, 1e-7);
@@ -63,7 +83,7 @@ static void cascades_are_the_same (void **state)
     }
     const pg_report *r = report_of (&a);
     print_message ("%ld events, %ld bonds, %zu iterations in %ld solves, %ld preconditioners\n", r->events, r->broken, r->cg_iterations, r->solves, r->preconditioners);
-    assert_true (r->events >= 30 && r->preconditioners >= 1 && r->preconditioners < r->events / 4 && r->factorizations == 0);
+    assert_true (r->events >= 25 && r->preconditioners >= 1 && r->preconditioners < r->events / 4 && r->factorizations == 0);
     assert_true (r->cg_iterations < 20 * (size_t) r->solves);
     int told = 0;
     for (size_t k = 0; k < r->nskipped; k++) told |= strstr (r->skipped[k].what, "preconditioner in") != NULL;
@@ -126,6 +146,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (answers_agree),
+        cmocka_unit_test (forces_without_a_matrix),
         cmocka_unit_test (cascades_are_the_same),
         cmocka_unit_test (threads_do_not_change_a_bit),
         cmocka_unit_test (loose_parts),
