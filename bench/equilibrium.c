@@ -1,84 +1,190 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Draft: multilevel tuning. equilibrium N step degree threads [jacobi] */
+ * Equilibrium of bond-based bodies: plate with a hole, the same with a crack through most of it, cantilever, points off a lattice, cube. One CSV row per
+ * body, size and way to solve: conjugate gradients with the multilevel preconditioner and with the diagonal, the factorization of K.
+ * equilibrium [BODY [POINTS ALONG]]; without: all. Seconds are processor time of all threads (min of 3 set-ups and solves), wall: of the solve; relative
+ * residual 1e-8; error: largest difference to the factorization over the largest displacement, where that was made.
+ * PERIGAL_BENCH_THREADS: threads (1). The factorization only up to 2e4 points in 2D and 5e3 in 3D, the diagonal up to 2e5. */
 #include "perigal/force.h"
 #include "perigal/scene.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <math.h>
 #include <time.h>
-static double cpu (void) { struct timespec t; clock_gettime (CLOCK_PROCESS_CPUTIME_ID, &t); return (double) t.tv_sec + 1e-9 * (double) t.tv_nsec; }
-static const pg_operator *K;
-static unsigned char *fixed;
-static void apply (void *c, const double *x, double *y) { (void) c; K->apply (K->context, x, y); for (size_t i = 0; i < K->n; i++) if (fixed[i]) y[i] = 0; }
-static void diagonal (void *c, double *d) { (void) c; K->diagonal (K->context, d); for (size_t i = 0; i < K->n; i++) if (fixed[i]) d[i] = 0; }
+
+static const double tolerance = 1e-8;
+enum { REPEATS = 3 };
+
+static double processor (void)
+{
+    struct timespec t;
+    clock_gettime (CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double) t.tv_sec + 1e-9 * (double) t.tv_nsec;
+}
+
+/* ---- bodies ------------------------------------------------------------------------------------------------------------------------ */
+#define ROCK2 "thickness: 1\nmaterials: {rock: {youngs_modulus: 10, poissons_ratio: 0.333333333333, density: 3}}\n"
+#define HOLE "body: [{add: {box: {low: [0, 0], high: [1, 1]}}}, {subtract: {disk: {center: [0.5, 0.5], diameter: 0.2}}}]\ncells: staircase\n"
+#define PULL2 "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {x: 0, y: 0.01}}]\n"
+typedef struct { const char *name; int dim; double length; size_t sizes[5]; const char *text; } body;
+static const body bodies[] = {
+    { "hole",       2, 1,  { 100, 200, 400, 1000 }, "dimension: 2\nlattice: cells\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n" ROCK2 HOLE PULL2 },
+    { "crack",      2, 1,  { 100, 200, 400 },       "dimension: 2\nlattice: cells\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n" ROCK2 HOLE PULL2
+      "cracks: [{from: [0.1, 0.7003], to: [0.9, 0.7503]}]\n" },
+    { "cantilever", 2, 10, { 500, 1000, 2000 },     "dimension: 2\nlattice: cells\nmethod: {force: bond, kernel: quadratic, horizon: 3.015 spacing}\n" ROCK2
+      "body: [{add: {box: {low: [0, 0], high: [10, 1]}}}]\nboundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {y: -0.01}}]\n" },
+    { "irregular",  2, 1,  { 100, 200, 400 },       "dimension: 2\nperturb: {amount: 0.2}\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n" ROCK2 HOLE PULL2 },
+    { "cube",       3, 1,  { 16, 32, 64 },          "dimension: 3\nlattice: cells\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n"
+      "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.25, density: 3}}\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\n"
+      "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 0.01}}]\n" },
+};
+enum { BODIES = sizeof bodies / sizeof *bodies };
+
+typedef struct {
+    const char *name;
+    pg_scene *scene;  pg_problem *problem;  pg_state *state;
+    const pg_force_type *force;  void *self;
+    const pg_operator *K;
+    unsigned char *fixed;
+    double *r, *x, *exact;                             /* exact: by the factor, NULL: not made                           */
+    size_t n;
+} job;
+
+static pg_status start (job *j, const body *b, size_t along, int threads)
+{
+    pg_status status = PG_OK;
+    char text[2000];
+    double reference;
+    snprintf (text, sizeof text, "%sspacing: %.17g\nsolver: {kind: static}\n", b->text, b->length / (double) along);
+    *j = (job) { .name = b->name, .force = pg_force_find ("bond") };
+    PG_TRY (pg_scene_parse (&j->scene, text, b->name));
+    PG_TRY (pg_problem_build (&j->problem, j->scene, threads));
+    PG_TRY (pg_state_create (&j->state, j->problem, b->dim));
+    PG_TRY (j->force->create (&j->self, j->problem));
+    PG_TRY (j->force->refresh (j->self, j->state, NULL));
+    j->K = j->force->operator_ (j->self), j->n = j->K->n;
+    PG_ALLOC (j->fixed, j->n);
+    PG_ALLOC (j->r, j->n);
+    PG_ALLOC (j->x, j->n);
+    const pg_sparse *T = j->force->basis (j->self);
+    memset (j->fixed, 1, j->n);
+    for (size_t k = 0; k < T->ncol; k++) j->fixed[T->row[k]] = 0;
+    j->force->impose (j->self, 1, j->x);
+    PG_TRY (j->force->balance (j->self, 1, j->x, j->r, &reference));
+    for (size_t i = 0; i < j->n; i++) if (j->fixed[i]) j->r[i] = 0;
+done:
+    return status;
+}
+
+static void stop (job *j)
+{
+    if (j->self) j->force->free (&j->self);
+    pg_free (j->fixed), pg_free (j->r), pg_free (j->x), pg_free (j->exact);
+    pg_state_free (&j->state), pg_problem_free (&j->problem), pg_scene_free (&j->scene);
+}
+
+static void apply (void *context, const double *x, double *y)
+{
+    const job *j = context;
+    j->K->apply (j->K->context, x, y);
+    for (size_t i = 0; i < j->n; i++) if (j->fixed[i]) y[i] = 0;
+}
+
+static void diagonal (void *context, double *d) { const job *j = context; j->K->diagonal (j->K->context, d); }
+
+/* ---- ways -------------------------------------------------------------------------------------------------------------------------- */
+static void row (const job *j, const char *way, const char *levels, size_t iterations, double set_up, double solve, double wall)
+{
+    double worst = 0, top = 0;
+    for (size_t i = 0; j->exact && i < j->n; i++) worst = fmax (worst, fabs (j->x[i] - j->exact[i])), top = fmax (top, fabs (j->exact[i]));
+    printf ("%s,%zu,%zu,%d,%s,%s,%zu,%.4f,%.4f,%.4f,", j->name, j->problem->cloud.n, j->n, j->problem->threads, way, levels, iterations, set_up, solve, wall);
+    if (j->exact) printf ("%.2e\n", worst / top);
+    else puts ("");
+    fflush (stdout);
+}
+
+static pg_status by_factor (job *j)
+{
+    pg_status status = PG_OK;
+    const pg_linear_type *cholmod = pg_linear_find ("cholmod");
+    const pg_sparse *T = j->force->basis (j->self);
+    pg_sparse A = { 0 };
+    void *factor = NULL;
+    double t0 = processor (), *b = NULL, *q = NULL;
+    pg_linear_options o = { 1, j->problem->dim, j->problem->threads, 0 };
+    PG_ALLOC (b, j->n);
+    PG_ALLOC (q, j->n);
+    PG_ALLOC (j->exact, j->n);
+    PG_TRY (j->force->assemble (j->self));
+    PG_TRY (pg_sparse_congruence (&A, j->force->matrix (j->self), T));
+    PG_TRY (cholmod->analyse (&factor, &A, &o));
+    PG_TRY (cholmod->factor (factor, &A));
+    double t1 = processor (), w1 = pg_seconds ();
+    pg_sparse_multiply_transposed (T, j->r, b);
+    PG_TRY (cholmod->solve (factor, 1, b, q));
+    pg_sparse_multiply (T, q, j->exact);
+    double t2 = processor (), wall = pg_seconds () - w1;
+    memcpy (j->x, j->exact, j->n * sizeof *j->x);
+    row (j, "cholmod", "", 0, t1 - t0, t2 - t1, wall);
+done:
+    if (factor) cholmod->free (&factor);
+    pg_sparse_clear (&A);
+    pg_free (b), pg_free (q);
+    return status;
+}
+
+static pg_status by_gradients (job *j, int multilevel)
+{
+    pg_status status = PG_OK;
+    pg_multilevel_setting s = { .dim = j->problem->dim, .block = j->problem->dim, .threads = j->problem->threads, .n = j->problem->cloud.n,
+                                .x = j->problem->cloud.x, .fixed = j->fixed, .A = j->K };
+    pg_operator A = { j->n, j, apply, diagonal };
+    pg_multilevel *m = NULL;
+    pg_multilevel_info info = { 0 };
+    double set_up = INFINITY, solve = INFINITY, wall = INFINITY;
+    size_t used = 0;
+    char levels[100] = "";
+    for (int k = 0; k < (multilevel ? REPEATS : 1); k++) {
+        pg_multilevel_free (&m);
+        double t0 = processor ();
+        if (multilevel) PG_TRY (j->force->couplings (j->self, &s.rows));
+        if (multilevel) PG_TRY (pg_multilevel_create (&m, &s));
+        double t1 = processor (), w1 = pg_seconds ();
+        pg_preconditioner P = { 0 };
+        if (m) P = pg_multilevel_preconditioner (m);
+        memset (j->x, 0, j->n * sizeof *j->x);
+        PG_TRY (pg_conjugate_gradients_with (&A, m ? &P : NULL, j->r, j->x, tolerance, 100000, &used));
+        set_up = fmin (set_up, t1 - t0), solve = fmin (solve, processor () - t1), wall = fmin (wall, pg_seconds () - w1);
+    }
+    if (m) pg_multilevel_describe (m, &info);
+    for (int k = 0, at = 0; k < info.levels; k++) at += snprintf (levels + at, sizeof levels - (size_t) at, "%s%zu", k ? " " : "", info.unknowns[k]);
+    row (j, m ? "multilevel" : "diagonal", levels, used, set_up, solve, wall);
+done:
+    pg_multilevel_free (&m);
+    return status;
+}
+
 int main (int argc, char **argv)
 {
-    if (argc < 5) return 1;
-    int n = atoi (argv[1]), degree = atoi (argv[3]), threads = atoi (argv[4]), dim = 2;
-    double step = atof (argv[2]);
-    const char *kind = argc > 5 ? argv[5] : "plate";
-    char text[4000];
-    if (strcmp (kind, "cube") == 0) {
-        dim = 3;
-        snprintf (text, sizeof text, "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\nspacing: %.17g\nlattice: cells\n"
-            "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.25, density: 3}}\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n"
-            "sets: {a: {where: \"y < %.17g\"}, b: {where: \"y > %.17g\"}}\n"
-            "boundary: [{set: a, displacement: {x: 0, y: 0, z: 0}}, {set: b, displacement: {y: 0.01}}]\nsolver: {kind: static}\n", 1.0 / n, 3.0 / n, 1 - 3.0 / n);
-    } else if (strcmp (kind, "beam") == 0)
-        snprintf (text, sizeof text, "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [10, 1]}}}]\nspacing: %.17g\nlattice: cells\nthickness: 1\n"
-            "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.3333333333, density: 3}}\nmethod: {force: bond, kernel: quadratic, horizon: 3.015 spacing}\n"
-            "sets: {a: {where: \"x < %.17g\"}, b: {where: \"x > %.17g\"}}\n"
-            "boundary: [{set: a, displacement: {x: 0, y: 0}}, {set: b, force: {y: -0.01}}]\nsolver: {kind: static}\n", 10.0 / n, 3 * 10.0 / n, 10 - 10.0 / n);
-    else
-        snprintf (text, sizeof text, "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}, {subtract: {disk: {center: [0.5, 0.5], diameter: 0.2}}}]\nspacing: %.17g\nlattice: cells\ncells: staircase\nthickness: 1\n"
-            "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.3333333333, density: 3}}\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n%s"
-            "sets: {a: {where: \"y < %.17g\"}, b: {where: \"y > %.17g\"}}\n"
-            "boundary: [{set: a, displacement: {x: 0, y: 0}}, {set: b, displacement: {x: 0, y: 0.01}}]\nsolver: {kind: static}\n", 1.0 / n,
-            strcmp (kind, "crack") == 0 ? "cracks: [{from: [0.1, 0.7003], to: [0.9, 0.7503]}]\n" : "", 3.0 / n, 1 - 3.0 / n);
-    pg_scene *scene; pg_problem *p; pg_state *state; void *self; const pg_force_type *force = pg_force_find ("bond");
-    double t0 = cpu ();
-    if (pg_scene_parse (&scene, text, "bench") || pg_problem_build (&p, scene, threads) || pg_state_create (&state, p, dim) || force->create (&self, p)
-        || force->refresh (self, state, NULL)) { puts (pg_last_error ()); return 1; }
-    printf ("problem %.3f s cpu, %zu points\n", cpu () - t0, p->cloud.n);
-    K = force->operator_ (self);
-    fixed = calloc (K->n, 1);
-    const pg_sparse *T = force->basis (self);
-    memset (fixed, 1, K->n);
-    for (size_t j = 0; j < T->ncol; j++) fixed[T->row[j]] = 0;
-    double *x = calloc (K->n, 8), *r = calloc (K->n, 8), *d = calloc (K->n, 8), ref;
-    force->impose (self, 1, d);
-    force->balance (self, 1, d, r, &ref);
-    for (size_t i = 0; i < K->n; i++) if (fixed[i]) r[i] = 0;
-    pg_couplings rows;
-    t0 = cpu (); double w0 = pg_seconds ();
-    force->couplings (self, &rows);
-    pg_multilevel_setting s = { .dim = dim, .block = dim, .threads = threads, .n = p->cloud.n, .x = p->cloud.x, .fixed = fixed, .A = K, .rows = rows, .step = step, .degree = degree };
-    pg_multilevel *m = NULL;
-    if (pg_multilevel_create (&m, &s)) { puts (pg_last_error ()); return 1; }
-    double t1 = cpu (), w1 = pg_seconds ();
-    pg_multilevel_info info;
-    pg_multilevel_describe (m, &info);
-    printf ("set-up %.3f s cpu %.3f wall; levels", t1 - t0, w1 - w0);
-    for (int k = 0; k < info.levels; k++) printf (" %zu (%.2f)", info.unknowns[k], info.top[k]);
-    printf ("; split %zu\n", info.split);
-    pg_preconditioner P = pg_multilevel_preconditioner (m);
-    pg_operator A = { K->n, NULL, apply, diagonal };
-    size_t used = 0;
-    for (int k = 0; k < 3; k++) {
-        memset (x, 0, K->n * 8);
-        t0 = cpu (), w0 = pg_seconds ();
-        pg_status now = pg_conjugate_gradients_with (&A, &P, r, x, 1e-10, 1000, &used);
-        printf ("multilevel: %zu iterations %.3f s cpu %.3f s wall %s\n", used, cpu () - t0, pg_seconds () - w0, now ? pg_last_error () : "");
+    pg_status status = PG_OK;
+    const char *text = getenv ("PERIGAL_BENCH_THREADS");
+    int threads = text ? atoi (text) : 1;
+    puts ("body,points,dofs,threads,way,levels,iterations,set_up_s,solve_s,wall_s,error");
+    for (int b = 0; b < BODIES; b++) {
+        if (argc > 1 && strcmp (argv[1], bodies[b].name) != 0) continue;
+        for (int k = 0; k < 5 && bodies[b].sizes[k]; k++) {
+            job j = { 0 };
+            size_t along = argc > 2 ? strtoul (argv[2], NULL, 10) : bodies[b].sizes[k];
+            PG_TRY (start (&j, &bodies[b], along, threads));
+            size_t n = j.problem->cloud.n;
+            if (n <= (j.problem->dim == 3 ? 5000 : 20000)) PG_TRY (by_factor (&j));
+            if (n <= 200000) PG_TRY (by_gradients (&j, 0));
+            PG_TRY (by_gradients (&j, 1));
+            stop (&j);
+            if (argc > 2) break;
+        }
     }
-    t0 = cpu (), w0 = pg_seconds ();
-    for (int k = 0; k < 10; k++) K->apply (K->context, r, x);
-    printf ("product %.2f ms cpu %.2f wall\n", (cpu () - t0) * 100, (pg_seconds () - w0) * 100);
-    if (argc > 6) {
-        memset (x, 0, K->n * 8);
-        t0 = cpu (), w0 = pg_seconds ();
-        pg_status now = pg_conjugate_gradients_with (&A, NULL, r, x, 1e-10, 100000, &used);
-        printf ("jacobi: %zu iterations %.3f s cpu %.3f wall %s\n", used, cpu () - t0, pg_seconds () - w0, now ? pg_last_error () : "");
-    }
-    return 0;
+done:
+    if (status != PG_OK) fprintf (stderr, "equilibrium: %s\n", pg_last_error ());
+    return status != PG_OK;
 }

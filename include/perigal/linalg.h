@@ -66,7 +66,8 @@ pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditi
 long pg_linear_failed_row (void);
 
 /* ---- multilevel preconditioner ------------------------------------------------------------------------------------------ */
-typedef struct {                                       /* the rows of a matrix of nodes, for those who must see it        */
+typedef struct {                                       /* the rows of a matrix of nodes, or of one like it with fewer couplings: the
+                                                          same rigid motions, energies within a small factor                           */
     void  *context;
     size_t widest;                                     /* most couplings of one node, its own block among them           */
     double reach;                                      /* m: no two nodes further apart are coupled                      */

@@ -230,7 +230,7 @@ static void print_times (const plan *p)
 
 static void print_factor (const pg_forecast *f)
 {
-    printf ("  %-18s  %s", "linear solver", strcmp (f->linear, "cg") == 0 ? "conjugate gradients, no matrix\n" : f->linear);
+    printf ("  %-18s  %s", "linear solver", strcmp (f->linear, "cg") == 0 ? f->direct && !f->dynamic ? "conjugate gradients, no matrix, preconditioned on several grids\n" : "conjugate gradients, no matrix\n" : f->linear);
     if (strcmp (f->linear, "cg") == 0) return;
     printf (", %.4g entries in the upper triangle of K\n", f->matrix_entries);
     printf ("  %-18s  %.4g entries, %.3g operations, about %.2g s each at 20 GFLOP/s (%s%s)\n", "factor", f->factor_entries, f->factor_flops,

@@ -27,6 +27,9 @@ static void print_counts (const pg_report *r, const pg_solver_options *o)
     else printf ("  %ld steps, %ld events, %ld break rounds, %ld bonds broken, %ld factorizations, %ld solves\n  largest residual %.2e, largest utilisation "
                  "of an accepted state %.6f", r->steps, r->events, r->iterations, r->broken, r->factorizations, r->solves, r->residual_max, r->utilisation_max);
     printf (", %zu degenerate points, %zu fragments\n", r->degenerate_points, r->fragments);
+    if (r->cg_iterations && !o->marching && !o->staged)
+        printf ("  %zu iterations of conjugate gradients%s%s%s\n", r->cg_iterations, *r->preconditioner ? ", preconditioner " : "", r->preconditioner,
+                r->preconditioners > 1 ? ", made anew as bonds broke" : "");
     if (o->marching) printf ("  energy: external work %.4g J = strain %.4g + kinetic %.4g + damping %.4g + breaking %.4g J\n", r->energy_external, r->energy_strain,
                              r->energy_kinetic, r->energy_damping, r->energy_dissipated);
 }

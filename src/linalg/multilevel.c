@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { DIRECT_2D = 6000, DIRECT_3D = 3000 };           /* most unknowns of a coarsest level; 1D as 2D                    */
+enum { DIRECT = 3000 };                                /* most unknowns of a coarsest level                              */
 
 static void level_clear (level *l, int finest)
 {
@@ -92,9 +92,8 @@ static pg_status make_levels (pg_multilevel *m, double step)
     pg_status status = PG_OK;
     for (;; step *= 2) {
         level *l = &m->at[m->count++];
-        size_t direct = l->dim == 3 ? DIRECT_3D : DIRECT_2D;
         PG_TRY (make_vectors (l, m->count == 1));
-        if (m->count > 1 && (l->ndof <= direct || m->count == MOST_LEVELS)) {
+        if (m->count > 1 && (l->ndof <= DIRECT || m->count == MOST_LEVELS)) {
             PG_TRY (factor_coarsest (m, l));
             break;
         }

@@ -141,11 +141,33 @@ typedef struct {                                       /* sums of a cell like ma
 } pattern;
 typedef struct { level *c; const level *f; room room; summer *summer; const size_t *cell; pattern pattern; } galerkin;
 
-static void add_scaled (size_t bb, double w, const double *a, double *out)
+static inline void add_scaled (size_t bb, double w, const double *restrict a, double *restrict out)
 {
-    if (bb == 4) for (int k = 0; k < 4; k++) out[k] += w * a[k];
-    else if (bb == 9) for (int k = 0; k < 9; k++) out[k] += w * a[k];
-    else for (size_t k = 0; k < bb; k++) out[k] += w * a[k];
+    for (size_t k = 0; k < bb; k++) out[k] += w * a[k];
+}
+
+/* spread += value of every coupling times the functions at its node, whose columns are known. */
+static inline void spread_row (const summer *s, const level *f, size_t bb, size_t m, const int *node, const double *value)
+{
+    size_t corners = (size_t) f->corners;
+    for (size_t e = 0; e < m; e++) {
+        const int *function = f->function + (size_t) node[e] * corners;
+        const float *weight = f->weight + (size_t) node[e] * corners;
+        for (size_t c = 0; c < corners; c++)
+            if (function[c] >= 0) add_scaled (bb, weight[c], value + e * bb, s->spread + (size_t) s->where[function[c]] * bb);
+    }
+}
+
+/* sum += functions at node i times spread */
+static inline void gather_node (const summer *s, const level *f, size_t bb, size_t i)
+{
+    size_t corners = (size_t) f->corners;
+    for (size_t c = 0; c < corners; c++) {
+        int p = f->function[i * corners + c];
+        if (p < 0) continue;
+        double w = f->weight[i * corners + c], *to = s->sum + (size_t) s->row_of[p] * bb;
+        for (size_t q = 0; q < s->ncolumn; q++) add_scaled (bb, w, s->spread + q * bb, to + q * s->nrow * bb);
+    }
 }
 
 static void blank_masked (const level *f, int rows, int columns, double *B)
@@ -186,25 +208,18 @@ static pg_status add_node (summer *s, const level *f, size_t i, size_t m, const 
 {
     pg_status status = PG_OK;
     size_t bb = (size_t) (f->block * f->block), corners = (size_t) f->corners;
-    memset (s->spread, 0, s->ncolumn * bb * sizeof *s->spread);
     for (size_t e = 0; e < m; e++) {
         size_t j = (size_t) node[e];
-        const int *function = f->function + j * corners;
-        const float *weight = f->weight + j * corners;
         if (f->mask[i] | f->mask[j]) blank_masked (f, f->mask[i], f->mask[j], value + e * bb);
         for (size_t c = 0; c < corners; c++) {
-            int p = function[c];
-            if (p < 0) continue;
-            if (s->where[p] < 0) PG_TRY (new_column (s, bb, p));
-            add_scaled (bb, weight[c], value + e * bb, s->spread + (size_t) s->where[p] * bb);
+            int p = f->function[j * corners + c];
+            if (p >= 0 && s->where[p] < 0) PG_TRY (new_column (s, bb, p));
         }
     }
-    for (size_t c = 0; c < corners; c++) {
-        int p = f->function[i * corners + c];
-        if (p < 0) continue;
-        double w = f->weight[i * corners + c], *to = s->sum + (size_t) s->row_of[p] * bb;
-        for (size_t q = 0; q < s->ncolumn; q++) add_scaled (bb, w, s->spread + q * bb, to + q * s->nrow * bb);
-    }
+    memset (s->spread, 0, s->ncolumn * bb * sizeof *s->spread);
+    if (bb == 4) spread_row (s, f, 4, m, node, value), gather_node (s, f, 4, i);       /* lengths that the compiler knows */
+    else if (bb == 9) spread_row (s, f, 9, m, node, value), gather_node (s, f, 9, i);
+    else spread_row (s, f, bb, m, node, value), gather_node (s, f, bb, i);
 done:
     return status;
 }

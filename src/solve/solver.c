@@ -128,6 +128,7 @@ done:
         int quasi = s->options.quasi_static;
         snprintf (text, sizeof text, "%s", pg_last_error ());
         system_refresh (&s->breaker.system, s->backup, NULL);      /* fields asked for now are those of the accepted state       */
+        pg_multilevel_free (&s->breaker.system.multilevel);        /* bonds live again that it does not know                     */
         s->breaker.work = s->backup->work, s->breaker.round = 0;
         if (s->type->refused) s->type->refused (s);
         if (status != PG_E_MEMORY) pg_error (status, PG_HERE, "step %ld after %s %.6g%s is refused: %s", s->backup->step + 1, quasi ? "load factor" : "t =",

@@ -272,6 +272,9 @@ static pg_status choose_mode (pg_system *s, const dynamics *dyn)
     const char *linear = s->options->linear;
     int automatic = strcmp (linear, "auto") == 0;
     PG_TRY (system_can_precondition (s, dyn, &can));
+    if (!can && strcmp (s->options->preconditioner, "multilevel") == 0)
+        pg_report_warn (s->report, "preconditioner: multilevel needs a body at rest and a force that tells the rows of K, with supports on points: the diagonal instead "
+                        "where there is no factor");
     s->mode = SYSTEM_FACTOR;
     if (!has_matrix (s) || (strcmp (linear, "pcg") == 0 && operator_of (s))) s->mode = SYSTEM_NO_FACTOR;
     else if (automatic && operator_of (s) && dyn) s->mode = SYSTEM_TRIAL;

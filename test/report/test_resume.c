@@ -20,6 +20,10 @@ static const struct { const char *name, *text; } scenes[] = {
     { "newmark", BODY "boundary: [{set: bottom, velocity: {x: 0, y: -4 m/s}}, {set: top, velocity: {y: 4 m/s}, table: [[0, 0], [1e-3, 1]]}]\n"
       "method: {essential: transformation}\nsolver: {kind: newmark, dt: 0.1 ms, end: 1 ms, rayleigh: {stiffness: 1 us}, break: fraction, break_fraction: 5 %}\n"
       "output: {pictures: [], at: {levels: 5, broken: 4 %}}\n" },
+    { "multilevel", "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.8, 0.9]}}}]\nspacing: 0.1\n"
+      "materials: {rock: {youngs_modulus: 1e9, poissons_ratio: 0.3333, density: 2500}}\ncracks: [{from: [-0.1, 0.45], to: [0.22, 0.45]}]\n"
+      "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\nmethod: {force: bond}\n" PULL
+      "solver: {stepping: event, linear: pcg, max_events: 16}\noutput: {at: {levels: 4, broken: 2 %}, pictures: []}\n" },
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -122,7 +126,7 @@ static void from_every_moment (int i, long some)
     for (long k = 1; k <= 3 && stop_at (text, where, -k); k++) from_moment (text, plain, where, &within);
     assert_int_equal (within, 0);
     for (long k = 1; stop_at (text, where, k); k += stride, moments++) from_moment (text, plain, where, &within);
-    assert_true (moments > 3 && (within == 0) == (i == 0));            /* an event is a step of its own                   */
+    assert_true (moments > 3 && (within == 0) == (i == 0 || i == 5));            /* an event is a step of its own                   */
     remove_folder (plain), remove_folder (where);
 }
 static void from_every_event (void **state) { (void) state; from_every_moment (0, 5); }
@@ -130,6 +134,7 @@ static void from_every_round_of_load_steps (void **state) { (void) state; from_e
 static void from_every_round_with_elimination (void **state) { (void) state; from_every_moment (2, 9); }
 static void from_every_round_of_nodal_integration (void **state) { (void) state; from_every_moment (3, 5); }
 static void from_every_round_of_time_steps (void **state) { (void) state; from_every_moment (4, 13); }
+static void from_every_event_with_an_old_preconditioner (void **state) { (void) state; from_every_moment (5, 5); }
 
 /* ---- what does not fit ------------------------------------------------------------------------------------------------------ */
 static void refused (const char *text, const char *where, const char *why)
@@ -284,7 +289,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (from_every_event), cmocka_unit_test (from_every_round_of_load_steps), cmocka_unit_test (from_every_round_with_elimination),
-        cmocka_unit_test (from_every_round_of_nodal_integration), cmocka_unit_test (from_every_round_of_time_steps),
+        cmocka_unit_test (from_every_round_of_nodal_integration), cmocka_unit_test (from_every_round_of_time_steps), cmocka_unit_test (from_every_event_with_an_old_preconditioner),
         cmocka_unit_test (what_is_not_of_this_run_is_refused), cmocka_unit_test (finished_is_told_from_interrupted),
         cmocka_unit_test (a_new_run_leaves_no_old_checkpoint_or_report), cmocka_unit_test (a_file_that_lost_rows_is_refused),
         cmocka_unit_test (stages_within_a_step_ascend_in_time), cmocka_unit_test (a_disk_that_was_full_costs_nothing),
