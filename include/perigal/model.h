@@ -95,6 +95,7 @@ enum { PG_BYTES_PROGRAM, PG_BYTES_POINTS, PG_BYTES_BONDS, PG_BYTES_SHAPES, PG_BY
        PG_BYTES_VECTORS, PG_BYTES_RESULTS, PG_BYTES_COUNT };
 typedef struct {
     int    dim, nodal, breaks, pictures;               /* nodal: the points of evaluation are the nodes; breaks: with a criterion */
+    int    matrixless;                                 /* 1: the force has no matrix (state-based)                       */
     int    direct, listed, explicit_;                  /* pg_problem.direct; its points are no lattice; no linear systems at all */
     int    by_list;                                    /* direct: bonds are summed by lists of neighbours, on a lattice or off it */
     int    counted, analysed;                          /* 1: the counts, the factor are exact, not estimates             */
