@@ -49,7 +49,7 @@ typedef struct {
     const pg_integration_type *integration;
     pg_consistency *consistency;                       /* integration: consistent; else NULL                             */
     char     force[32];
-    int      direct;                                   /* 1: bonds between points carry the force themselves (bond, later fcbm, gmpd, lps):
+    int      direct;                                   /* 1: bonds between points carry the force themselves (bond, fcbm, lps, later gmpd):
                                                           rows[PG_NODES] come from `sums` without the own point, PG_POINTS and PG_FACETS are empty */
     pg_sums *sums;                                     /* direct; else NULL                                              */
     double   silling;                                  /* Gs; 0: no stabilisation                                        */
