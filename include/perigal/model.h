@@ -49,7 +49,7 @@ typedef struct {
     const pg_integration_type *integration;
     pg_consistency *consistency;                       /* integration: consistent; else NULL                             */
     char     force[32];
-    int      direct;                                   /* 1: bonds between points carry the force themselves (bond, later fcbm, gmpd, lps):
+    int      direct;                                   /* 1: bonds between points carry the force themselves (bond, fcbm, lps, later gmpd):
                                                           rows[PG_NODES] come from `sums` without the own point, PG_POINTS and PG_FACETS are empty */
     pg_sums *sums;                                     /* direct; else NULL                                              */
     double   silling;                                  /* Gs; 0: no stabilisation                                        */
@@ -95,6 +95,7 @@ enum { PG_BYTES_PROGRAM, PG_BYTES_POINTS, PG_BYTES_BONDS, PG_BYTES_SHAPES, PG_BY
        PG_BYTES_VECTORS, PG_BYTES_RESULTS, PG_BYTES_COUNT };
 typedef struct {
     int    dim, nodal, breaks, pictures;               /* nodal: the points of evaluation are the nodes; breaks: with a criterion */
+    int    matrixless;                                 /* 1: the force has no matrix (state-based)                       */
     int    direct, listed, explicit_;                  /* pg_problem.direct; its points are no lattice; no linear systems at all */
     int    by_list;                                    /* direct: bonds are summed by lists of neighbours, on a lattice or off it */
     int    counted, analysed;                          /* 1: the counts, the factor are exact, not estimates             */

@@ -202,6 +202,7 @@ pg_status bond_couplings (void *self, pg_couplings *out)
     bond *b = self;
     const pg_stencil *t = &b->problem->sums->stencil;
     double far = 0;
+    lps_weigh (b);
     *out = (pg_couplings) { .context = b, .widest = b->widest + 1, .row = couplings_of };
     find_whole (b);
     if (b->whole) out->alike = is_whole;

@@ -36,6 +36,12 @@ const char *pg_direct_criterion (const pg_scene *scene)
     return c ? c->criterion : NULL;
 }
 
+int pg_direct_state (const pg_scene *scene)
+{
+    const custom *c = custom_of (scene);
+    return c && c->state;
+}
+
 /* With the multilevel preconditioner a solve is some 10 iterations of 15 sweeps of the bonds each, at any size, and making it costs two solves; the
  * analysis and factorization of K alone are dearer from about 1000 unknowns on, and below 4000 (2D) and 1500 (3D) both take a few
  * hundredths of a second: there the factor stays, whose residual is rounding. With the diagonal alone iterations grow as the points along the body. */
@@ -114,7 +120,8 @@ static void check_state (pg_problem *p, const pg_scene *scene, const pg_sum_rule
 {
     if (p->mode == PG_LINE) pg_scene_fault (scene, "method.force", "%s has no meaning in one dimension, where it is the same as bond: use force: bond", p->force);
     if (rule->finite) pg_scene_fault (scene, "method.stretch", "force: %s is linear in the displacement: use stretch: linear, or force: bond", p->force);
-    if (rule->evaluation == PG_EVALUATE_FFT) pg_scene_fault (scene, "method.evaluation", "force: %s is not summed by transforms: use stencil, list or auto", p->force);
+    if (is (scene, "solver.linear", "cholmod") || is (scene, "solver.linear", "umfpack"))
+        pg_scene_fault (scene, "solver.linear", "force: %s reaches its neighbours' neighbours and has no matrix, only its product: use pcg or auto", p->force);
     if (rule->surface != PG_SURFACE_NONE)
         pg_scene_fault (scene, "method.surface_correction", "force: %s weighs families that are not whole by their own weighted volume: use none or auto", p->force);
 }

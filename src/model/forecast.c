@@ -54,7 +54,7 @@ static void dissect (const pg_forecast *f, double *entries, double *flops)
 static void choose_linear (pg_forecast *f)
 {
     if (!f->automatic) return;
-    int none = f->explicit_ ? 1 : f->dynamic ? f->weight <= 9 * f->spacing * f->spacing : f->direct ? pg_direct_large (1, f->dim, f->points * f->dim)
+    int none = f->explicit_ || f->matrixless ? 1 : f->dynamic ? f->weight <= 9 * f->spacing * f->spacing : f->direct ? pg_direct_large (1, f->dim, f->points * f->dim)
              : f->dim == 3 && f->points * 3 > 200000;
     strcpy (f->linear, none ? "cg" : "cholmod");
 }
@@ -130,7 +130,7 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
 static int summed_by_list (const pg_problem *p)
 {
     const pg_sum_rule *rule = &p->sums->rule;
-    return p->sums->stencil.n == 0 || p->nmaterial > 1 || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
+    return p->sums->stencil.n == 0 || (p->nmaterial > 1 && !rule->state) || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
 }
 
 pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
@@ -145,6 +145,7 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
     f->evaluation = (double) p->rows[PG_POINTS].n, f->facets = (double) p->rows[PG_FACETS].n;
     for (int s = 0; s < PG_BOND_SETS; s++) f->bonds[s] = (double) (p->first_bond[s + 1] - p->first_bond[s]);
     f->pairs = p->direct ? 0.5 * f->bonds[PG_NODES] + f->points : shared * f->points;
+    f->matrixless = p->sums && p->sums->rule.state;
     f->direct = p->direct, f->listed = p->sums && p->sums->stencil.n == 0, f->by_list = p->sums && summed_by_list (p);
     f->summed = p->consistency ? (double) (p->consistency->family.start[p->consistency->family.n] + p->consistency->face.family.start[p->consistency->face.n]) : 0;
     f->horizon = p->approx.horizon, f->spacing = p->cloud.h;

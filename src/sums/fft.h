@@ -21,6 +21,7 @@ pg_status fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *
 void      fft_box_clear  (fft_box *box);
 size_t    fft_size       (size_t least, int even);     /* 2^a 3^b 5^c 7^d >= least, the one that is transformed fastest   */
 fftw_plan fft_plan_box   (const int *T, double *x);   /* one forward transform in place of [T0][T1][T2], rows of T2 + 2; NULL: no memory */
+fftw_plan fft_plan_box_back (const int *T, double *x);
 void      fft_plan_free  (fftw_plan plan);
 double    fft_work       (const fft_box *box);         /* of one transform of the box, operations                        */
 

@@ -166,6 +166,14 @@ fftw_plan fft_plan_box (const int *T, double *x)
     return plan;
 }
 
+fftw_plan fft_plan_box_back (const int *T, double *x)
+{
+    pthread_mutex_lock (&planner);
+    fftw_plan plan = fftw_plan_dft_c2r (3, T, (fftw_complex *) x, x, FFTW_ESTIMATE);
+    pthread_mutex_unlock (&planner);
+    return plan;
+}
+
 void fft_plan_free (fftw_plan plan)
 {
     pthread_mutex_lock (&planner);

@@ -32,7 +32,8 @@ static int threads_for (const list *s)
 }
 
 /* xi.eta and r^2 of a bond; of the other direction the same bits */
-static inline double product (const double *x, const double *u, size_t dim, size_t i, size_t j, double *xi, double *rr)
+#define INLINE static inline __attribute__ ((always_inline))
+INLINE double product (const double *x, const double *u, size_t dim, size_t i, size_t j, double *xi, double *rr)
 {
     double s = 0, r2 = 0;
     for (size_t k = 0; k < dim; k++) {
@@ -162,13 +163,11 @@ done:
     return status;
 }
 
-static void dilate_points (void *context, size_t first, size_t last, int thread)
+INLINE void dilate (const sweep *w, size_t first, size_t last, int thread, const size_t dim)
 {
-    const sweep *w = context;
     list *s = w->s;
     const pg_family *f = s->setting.family;
     const pg_cloud *c = s->setting.sums->cloud;
-    size_t dim = (size_t) c->dim;
     double xi[3], rr;
     for (size_t i = first; i < last; i++) {
         double sum = 0;
@@ -190,14 +189,18 @@ static void dilate_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-static void pull_points (void *context, size_t first, size_t last, int thread)
+static void dilate_points (void *context, size_t first, size_t last, int thread)
 {
-    (void) thread;
     const sweep *w = context;
+    if (w->s->setting.sums->cloud->dim == 2) dilate (w, first, last, thread, 2);
+    else dilate (w, first, last, thread, 3);
+}
+
+INLINE void pull (const sweep *w, size_t first, size_t last, const size_t dim)
+{
     const list *s = w->s;
     const pg_family *f = s->setting.family;
     const pg_cloud *c = s->setting.sums->cloud;
-    size_t dim = (size_t) c->dim;
     double xi[3], rr;
     for (size_t i = first; i < last; i++) {
         double own = s->factor[i] * s->alpha[i], sum[3] = { 0 };
@@ -210,6 +213,14 @@ static void pull_points (void *context, size_t first, size_t last, int thread)
         }
         for (size_t k = 0; k < dim; k++) w->out[i * dim + k] = sum[k];
     }
+}
+
+static void pull_points (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const sweep *w = context;
+    if (w->s->setting.sums->cloud->dim == 2) pull (w, first, last, 2);
+    else pull (w, first, last, 3);
 }
 
 static pg_status collect (list *s, pg_changes *broken)

@@ -1,16 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * State-based sums (linear peridynamic solid) over the bonds of points on a lattice: a loop for the dilatation of every point, one for the forces,
  * on the blocks and bits of stencil_sweep.c. Breaking: bonds over their limit die in the first loop. theory B6. */
-#include "state.h"
-#include "stencil_sweep.h"
+#include "state_stencil.h"
 #include <math.h>
 #include <string.h>
-
-typedef struct {
-    stencil base;                                      /* first: loops over blocks see it alone                          */
-    double *q;                                         /* m^2 times volume                   (n)                         */
-    double *factor, *beta, *alpha;                     /* padded                                                         */
-} state;
 
 const char *state_refusal (const pg_sweep_setting *setting)
 {
@@ -26,7 +19,7 @@ static const char *refusal (const pg_sweep_setting *setting)
     return why ? why : stencil_refusal (setting);
 }
 
-static void state_free (void *self)
+void state_free (void *self)
 {
     state *s = self;
     if (!s) return;
@@ -64,7 +57,9 @@ static void weigh_block (stencil *b, size_t k)
         weigh ((state *) b, (size_t) b->job.point[b->block[k].site + (size_t) __builtin_ctz (left)]);
 }
 
-static void state_update (void *self, const unsigned char *alive, const pg_changes *changes)
+stencil_lost state_lost (const stencil *s) { return s->setting.sums->rule.follow ? weigh_block : NULL; }
+
+void state_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     state *s = self;
     stencil_update (self, alive, changes);
@@ -85,10 +80,10 @@ static void set_terms (state *s)
     }
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+pg_status state_create (void **self, const pg_sweep_setting *setting, pg_instructions set, size_t bytes)
 {
     pg_status status = PG_OK;
-    PG_TRY (stencil_create (self, setting, set, sizeof (state)));
+    PG_TRY (stencil_create (self, setting, set, bytes));
     state *s = *self;
     pg_block_job *job = &s->base.job;
     size_t places = stencil_places (&s->base);
@@ -104,6 +99,11 @@ static pg_status create (void **self, const pg_sweep_setting *setting, pg_instru
     if (setting->counted && !setting->sums->rule.follow) stencil_update (s, NULL, NULL);
 done:
     return status;
+}
+
+static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+{
+    return state_create (self, setting, set, sizeof (state));
 }
 
 static void bytes (const void *self, double *per_bond, double *per_point)
@@ -123,8 +123,7 @@ static pg_status force (void *self, const double *u, double *f, pg_changes *brok
     int at = b->job.dim - 2, weighted = b->p != NULL, check = !broken || !b->setting.limit ? PG_CHECK_NONE : b->may ? PG_CHECK_SOME : PG_CHECK_ALL;
     b->job.f = f;
     stencil_spread (b, u);
-    PG_TRY (stencil_run (b, b->kernels->dilate[at][check][weighted], check ? b->kernels->dilate[at][PG_CHECK_NONE][weighted] : NULL,
-                         b->setting.sums->rule.follow ? weigh_block : NULL, broken));
+    PG_TRY (stencil_run (b, b->kernels->dilate[at][check][weighted], check ? b->kernels->dilate[at][PG_CHECK_NONE][weighted] : NULL, state_lost (b), broken));
     PG_TRY (stencil_run (b, b->kernels->pull[at][weighted], NULL, NULL, NULL));
 done:
     return status;
@@ -142,16 +141,16 @@ static double sum_energies (state *s, const double *u, double *W)
     return sum;
 }
 
-static double energy (void *self, const double *u) { return sum_energies (self, u, NULL); }
+double state_energy (void *self, const double *u) { return sum_energies (self, u, NULL); }
 
-static pg_status energies (void *self, const double *u, double *W)
+pg_status state_energies (void *self, const double *u, double *W)
 {
     sum_energies (self, u, W);
     return PG_OK;
 }
 
 /* theta = alpha q / A, summed with a factor of its own */
-static pg_status dilatation (void *self, const double *u, double *theta, double *q)
+pg_status state_dilatation (void *self, const double *u, double *theta, double *q)
 {
     pg_status status = PG_OK;
     state *s = self;
@@ -164,7 +163,7 @@ static pg_status dilatation (void *self, const double *u, double *theta, double 
     for (size_t i = 0; i < n; i++) own[b->place[i]] = s->q[i] > 0 ? b->job.dim / s->q[i] : 0;
     b->job.factor = own;
     stencil_spread (b, u);
-    status = stencil_run (b, b->kernels->dilate[b->job.dim - 2][PG_CHECK_NONE][b->p != NULL], NULL, NULL, NULL);
+    stencil_run (b, b->kernels->dilate[b->job.dim - 2][PG_CHECK_NONE][b->p != NULL], NULL, NULL, NULL);
     b->job.factor = factor;
     for (size_t i = 0; i < n; i++) theta[i] = s->alpha[b->place[i]];
 done:
@@ -174,5 +173,5 @@ done:
 
 const pg_sweep_kind pg_sweep_state_stencil = {
     .name = "stencil", .state = 1, .refusal = refusal, .create = create, .free = state_free, .bytes = bytes, .update = state_update, .force = force,
-    .energy = energy, .energies = energies, .dilatation = dilatation,
+    .energy = state_energy, .energies = state_energies, .dilatation = state_dilatation,
 };

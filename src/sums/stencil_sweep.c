@@ -372,6 +372,11 @@ pg_status stencil_run (stencil *s, pg_block_loop loop, pg_block_loop again, sten
     return run (s, &(pass) { .s = s, .loop = loop, .again = again, .lost = lost, .n = s->nblock }, broken);
 }
 
+pg_status stencil_run_some (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, size_t n, const int *list, pg_changes *broken)
+{
+    return run (s, &(pass) { .s = s, .loop = loop, .again = again, .lost = lost, .n = n, .list = list }, broken);
+}
+
 pg_status stencil_force_some (stencil *s, size_t n, const int *list, double *f, pg_changes *broken)
 {
     int finite = s->setting.sums->rule.finite != 0, weighted = s->p != NULL;

@@ -41,6 +41,8 @@ void      stencil_spread (stencil *s, const double *u);                         
  * that died are appended to broken. */
 typedef void (*stencil_lost) (stencil *s, size_t block);
 pg_status stencil_run    (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, pg_changes *broken);
+/* ... over n blocks of a list. */
+pg_status stencil_run_some (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, size_t n, const int *list, pg_changes *broken);
 /* Forces, and four times W_i V_i, of the points of n blocks of a list alone, at the displacements in job.u. */
 pg_status stencil_force_some    (stencil *s, size_t n, const int *list, double *f, pg_changes *broken);
 void      stencil_energies_some (stencil *s, size_t n, const int *list, double *W);

@@ -83,7 +83,7 @@ done:
 }
 
 /* With I_l = the part of q beyond a plane that lies l - 1/2 layers off: G = h s0^2 sum_l [A d (I_l / q)^2 + B I_l / q]; here for h = s0 = 1 */
-static double state_energy (const pg_stencil *t, double A, double B, int axis)
+static double cut_energy (const pg_stencil *t, double A, double B, int axis)
 {
     double q = 0, sum = 0, inside = 1;
     for (size_t b = 0; b < t->n; b++) q += t->weight[b] * t->r[b];
@@ -103,7 +103,7 @@ double pg_sums_toughness (const pg_sums *sums, double E, double nu)
     if (!rule->state || sums->stencil.n == 0) return sums->toughness;
     pg_criterion_setting s = { .mode = rule->mode, .horizon = rule->horizon, .modulus = E, .poisson = nu, .kernel = rule->kernel->name, .state = 1 };
     pg_state_moduli (rule->mode, E, nu, &A, &B);
-    for (int k = 0; k < dim; k++) G += sums->sites.step[k] * state_energy (&sums->stencil, A, B, k) / dim;
+    for (int k = 0; k < dim; k++) G += sums->sites.step[k] * cut_energy (&sums->stencil, A, B, k) / dim;
     return G / pg_state_fracture_energy (&s, 1);
 }
 

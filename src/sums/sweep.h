@@ -28,7 +28,7 @@ typedef struct {
     void      (*counts) (const void *self, pg_sweep_counts *out);        /* NULL: none                                    */
     pg_status (*dilatation) (void *self, const double *u, double *theta, double *q);           /* state-based only         */
 } pg_sweep_kind;
-extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list, pg_sweep_fft, pg_sweep_state_stencil, pg_sweep_state_list, pg_sweep_beam_list;
+extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list, pg_sweep_fft, pg_sweep_state_stencil, pg_sweep_state_list, pg_sweep_state_fft, pg_sweep_beam_list;
 
 /* Adds n bonds (any order, none twice) to the end of `to`, ascending among themselves; sorts `bond`. */
 pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond);

@@ -18,6 +18,7 @@ fixed=(plate.yaml --set spacing='1.25 mm' --set 'solver={stepping: fixed, steps:
 newmark=(moving.yaml)
 explicit=(bonds.yaml)
 dying=(bonds.yaml --set method.force=fcbm --set 'failure={fracture_energy: 21 J/m2}')
+state=(bonds.yaml --set method.force=lps --set method.weighted_volume=live)
 relaxed=(bonds.yaml --set 'solver={kind: adr, stages: 6}' --set 'boundary[1]={name: pull, set: right, displacement: {x: 60 um}}')
 
 # same DIR1 DIR2: tables, fields and pictures byte by byte, report.json without times and memory
@@ -29,7 +30,7 @@ same() {
 plain() { sed -e '/"seconds": {/,/}/d' -e '/"peak_bytes"/d' -e '/"seconds_saved"/d' "$1"; }
 
 declare -A took
-for kind in event fixed newmark explicit relaxed dying; do
+for kind in event fixed newmark explicit relaxed dying state; do
     declare -n scene=$kind; t0=$(now)
     run "${scene[@]}" -o "$work/$kind"; code=$?
     took[$kind]=$((($(now) - t0) / 1000000))
@@ -53,8 +54,9 @@ resumed() {
 }
 RANDOM=20220
 kinds=(event fixed newmark explicit relaxed)
-for k in $(seq 22); do
+for k in $(seq 24); do
     [ $k -le 20 ] && kind=${kinds[$((k % 5))]} || kind=dying
+    [ $k -le 22 ] || kind=state
     declare -n scene=$kind; out=$work/run$k; times=1
     [ $((k % 2)) -eq 0 ] && signal=TERM || signal=KILL
     limit=${took[$kind]}

@@ -15,6 +15,7 @@
 static const char *const bodies[] = { PLATE ("stress", "0.45") "method: {force: lps}\n", SOLID ("0.4") "method: {force: lps}\n",
     SOLID ("0.1") "method: {force: lps, horizon: 2.5 spacing, kernel: quadratic}\n", TWO "method: {force: lps, weighted_volume: live}\n",
     PLATE ("strain", "0.3") "perturb: {amount: 0.2}\nmethod: {force: lps}\ncracks: [{from: [0.52, -0.1], to: [0.52, 0.4]}]\n",
+    SOLID ("0.4") "method: {force: lps, evaluation: fft}\n",
     PLATE ("stress", "0.2") "lattice: cells\nmethod: {force: lps, weighted_volume: live}\ncracks: [{from: [0.5, -0.1], to: [0.5, 0.4]}]\n" };
 enum { BODIES = sizeof bodies / sizeof *bodies };
 

@@ -136,6 +136,7 @@ static void test_against_definition (void **unused)
             }
             compare (&s, PG_EVALUATE_LIST, NULL);
             for (int i = 0; i < 3; i++) if (have (sets[i])) compare (&s, PG_EVALUATE_STENCIL, sets[i]);
+            compare (&s, PG_EVALUATE_FFT, NULL);
             solid_free (&s);
             if (k > 1) continue;
             body_wish scattered = wishes[k];
@@ -143,9 +144,37 @@ static void test_against_definition (void **unused)
             solid_create (&s, &scattered, follow ? 0.2 : 0, 1, follow, 0.4, 50 + (uint64_t) k);     /* materials; scattered points */
             body_wound (&s.b, 0.1);
             compare (&s, PG_EVALUATE_LIST, NULL);
-            if (!follow) compare (&s, PG_EVALUATE_STENCIL, NULL);
+            if (!follow) compare (&s, PG_EVALUATE_STENCIL, NULL), compare (&s, PG_EVALUATE_FFT, NULL);
             solid_free (&s);
         }
+}
+
+/* By transforms: whole bodies, and those of which a few blocks are cut; a rigid shift of 1 m costs nothing where it is taken off. */
+static void test_transforms (void **unused)
+{
+    (void) unused;
+    for (int k = 0; k < WISHES; k++)
+        for (int follow = 0; follow < 2; follow++)
+            for (int cut = 0; cut < 2; cut++) {
+                solid s;
+                solid_create (&s, &wishes[k], 0, 0, follow, 0.45, 31 + (uint64_t) k);
+                if (cut) body_wound (&s.b, 2.0 / (double) s.b.nbond);
+                compare (&s, PG_EVALUATE_FFT, NULL);
+                size_t ndof = s.b.cloud.n * (size_t) s.b.cloud.dim;
+                double *f = pg_calloc (ndof, sizeof *f), *g = pg_calloc (ndof, sizeof *g);
+                pg_sweep *sweep;
+                check_ok (pg_sweep_create (&sweep, &s.setting));
+                check_contains (pg_sweep_name (sweep), "fft");
+                pg_sweep_update (sweep, s.b.alive, NULL);
+                for (size_t i = 0; i < ndof; i++) s.b.u[i] = ldexp (round (ldexp (s.b.u[i], 50)), -50);       /* exact after a shift by 1 */
+                check_ok (pg_sweep_force (sweep, s.b.u, f, NULL));
+                for (size_t i = 0; i < ndof; i++) s.b.u[i] += 1;
+                check_ok (pg_sweep_force (sweep, s.b.u, g, NULL));
+                check_near (ndof, g, f, 1e-8);         /* displacements of 1e-6 m, 2^-50 m of rounding in their mean     */
+                pg_sweep_free (&sweep);
+                pg_free (f), pg_free (g);
+                solid_free (&s);
+            }
 }
 
 /* A march of growing displacement: both loops lose the same bonds at the same time, their forces agree, threads change no bit. */
@@ -157,29 +186,31 @@ static void test_breaking (void **unused)
             solid s;
             solid_create (&s, &wishes[k], 0, 0, follow, 0.3, 9);
             size_t ndof = s.b.cloud.n * (size_t) s.b.cloud.dim, total = 0;
-            double *f[4], *u = pg_calloc (ndof, sizeof *u);
-            pg_sweep *sweep[4];
-            pg_changes lost[4] = { { 0 } };
+            double *f[6], *u = pg_calloc (ndof, sizeof *u);
+            pg_sweep *sweep[6];
+            pg_changes lost[6] = { { 0 } };
             for (size_t i = 0; i < s.b.cloud.n; i += 7) s.b.exempt[i] = 1;
             s.setting.limit = s.b.limit, s.setting.exempt = s.b.exempt;
-            for (int w = 0; w < 4; w++) {
+            for (int w = 0; w < 6; w++) {
                 f[w] = pg_calloc (ndof, sizeof *f[w]);
-                s.b.sums->rule.evaluation = w < 2 ? PG_EVALUATE_STENCIL : PG_EVALUATE_LIST, s.setting.threads = w % 2 ? 3 : 1;
+                s.b.sums->rule.evaluation = w < 2 ? PG_EVALUATE_STENCIL : w < 4 ? PG_EVALUATE_LIST : PG_EVALUATE_FFT, s.setting.threads = w % 2 ? 3 : 1;
                 check_ok (pg_sweep_create (&sweep[w], &s.setting));
             }
             for (int step = 0; step < 4; step++) {
                 for (size_t i = 0; i < ndof; i++) u[i] = s.b.u[i] * (2 + step);
-                for (int w = 0; w < 4; w++) {
+                for (int w = 0; w < 6; w++) {
                     lost[w].n = 0;
                     check_ok (pg_sweep_force (sweep[w], u, f[w], &lost[w]));
                 }
-                for (int w = 1; w < 4; w++) {
+                for (int w = 1; w < 6; w++) {
                     assert_int_equal (lost[w].n, lost[0].n);
                     if (lost[0].n) assert_memory_equal (lost[w].bond, lost[0].bond, lost[0].n * sizeof *lost[0].bond);
                 }
                 assert_memory_equal (f[0], f[1], ndof * sizeof *u);
                 assert_memory_equal (f[2], f[3], ndof * sizeof *u);
+                assert_memory_equal (f[4], f[5], ndof * sizeof *u);
                 check_near (ndof, f[2], f[0], 1e-13);
+                check_near (ndof, f[4], f[0], 1e-13);
                 for (size_t c = 0; c < lost[0].n; c++) s.b.alive[lost[0].bond[c]] = 0;
                 total += lost[0].n;
                 double *own = s.b.u;
@@ -188,7 +219,7 @@ static void test_breaking (void **unused)
                 s.b.u = own;
             }
             assert_true (total > 100 && total < s.b.nbond / 2);
-            for (int w = 0; w < 4; w++) pg_sweep_free (&sweep[w]), pg_free (f[w]), pg_free (lost[w].bond);
+            for (int w = 0; w < 6; w++) pg_sweep_free (&sweep[w]), pg_free (f[w]), pg_free (lost[w].bond);
             pg_free (u);
             solid_free (&s);
         }
@@ -281,9 +312,9 @@ static void test_refusals (void **unused)
     }
     solid s;
     pg_sweep *sweep = NULL;
-    for (int list = 0; list < 2; list++) {
+    for (int list = 0; list < 3; list++) {
         solid_create (&s, &wishes[3], 0, 0, 0, 0.3, 1);
-        s.b.sums->rule.evaluation = list ? PG_EVALUATE_LIST : PG_EVALUATE_STENCIL;
+        s.b.sums->rule.evaluation = list == 2 ? PG_EVALUATE_FFT : list ? PG_EVALUATE_LIST : PG_EVALUATE_STENCIL;
         pg_status now = PG_E_MEMORY;
         for (size_t k = 1; now == PG_E_MEMORY; k++) {
             assert_true (k < 200);
@@ -301,7 +332,7 @@ static void test_refusals (void **unused)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (test_against_definition), cmocka_unit_test (test_breaking), cmocka_unit_test (test_motions), cmocka_unit_test (test_bonds),
+        cmocka_unit_test (test_against_definition), cmocka_unit_test (test_transforms), cmocka_unit_test (test_breaking), cmocka_unit_test (test_motions), cmocka_unit_test (test_bonds),
         cmocka_unit_test (test_refusals),
     };
     return cmocka_run_group_tests (tests, NULL, NULL);
