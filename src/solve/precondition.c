@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { RENEWAL = 20, MOST_ITERATIONS = 500 };          /* a new preconditioner costs about so many iterations            */
+enum { RENEWAL = 20, MOST_ITERATIONS = 200 };          /* a new preconditioner costs about so many iterations            */
 
 /* T selects unknowns: one entry 1 in each column, no row twice. */
 static pg_status find_fixed (pg_system *s, const pg_sparse *T, int *selects)

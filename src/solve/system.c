@@ -296,18 +296,23 @@ static void tell_small_step (pg_system *s, size_t used)
     pg_report_skip (s->report, NAN, "stiffness matrix, analysis and factorization", why);
 }
 
-/* With the diagonal where there is no better preconditioner, or where that one fails (a loaded part has come loose): its message is the plainer. */
+enum { LAST_TRY = 2000 };                              /* iterations by the diagonal where the better preconditioner failed: probably a loaded part has come loose */
+
+/* With the diagonal where there is no better preconditioner. */
 static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double tolerance)
 {
     pg_status status = PG_OK;
-    size_t used = 0;
+    size_t used = 0, limit = 20 * s->ndof + 1000;
     int can;
     PG_TRY (system_can_precondition (s, dyn, &can));
     if (can) {
         pg_status now = system_iterate_multilevel (s, tolerance);
         if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) return now;
+        limit = LAST_TRY;
     }
-    PG_TRY (system_iterate (s, dyn, 0, tolerance, 20 * s->ndof + 1000, &used));
+    pg_status now = system_iterate (s, dyn, 0, tolerance, limit, &used);
+    if (can && now == PG_E_EQUILIBRIUM) PG_FAIL (now, "%s; probably a loaded part has come loose: try prescribed displacements, newmark, or a coarser criterion", pg_last_error ());
+    PG_TRY (now);
 done:
     return status;
 }
