@@ -7,7 +7,7 @@
 
 enum { BLOCK = 2048, SUM_R = 0, SUM_STIFF = 1, SUM_MASS = 2 };
 static const double least = 1e-2;                      /* of the largest reference so far: a body apart bears nothing   */
-static const double memory = 0.98;                     /* of Rayleigh's quotient, an iteration: from one alone damping jumps, and blows rounding up */
+static const double memory[2] = { 0.98, 0.9 };         /* hold: off, on: of Rayleigh's quotient, an iteration: from one alone damping jumps, and blows rounding up */
 static const double share = 0.5;                       /* hold: off: least damping, of the critical one of the shape that the loads give the body */
 static const double arrival = 1e-2;                    /* imbalance at which the load of a stage has come to act         */
 
@@ -171,7 +171,7 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     x->imbalance = reference > 0 ? size / reference : size > 0 ? 1 : 0;
     if (x->resting) x->stiff = x->heavy = 0;
     else if (!x->broke && total[SUM_MASS] > 0) {
-        x->stiff = memory * x->stiff + total[SUM_STIFF], x->heavy = memory * x->heavy + total[SUM_MASS];
+        x->stiff = memory[o->hold] * x->stiff + total[SUM_STIFF], x->heavy = memory[o->hold] * x->heavy + total[SUM_MASS];
         x->c = fmin (1.9 / x->dt, fmax (x->floor, 2 * sqrt (fmax (0, x->stiff / (x->heavy * x->dt)))));
     }
     s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
