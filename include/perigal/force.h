@@ -12,7 +12,7 @@ typedef struct { const char *name, *unit; int components; } pg_field;
 typedef struct {
     size_t  npair;
     double *force, *displacement;                      /* N, m (npair)                                                   */
-    double *reaction;                                  /* force on the body per load and component, N (nload x 3)        */
+    double *reaction;                                  /* on the body per load and component, N; of rotations, moments: N m (nload x 3) */
     double  strain;                                    /* stored energy: strain, stabilisation, boundary terms, J        */
 } pg_ledger;
 
