@@ -196,7 +196,7 @@ static void print_counts (const plan *p)
     printf ("  %-18s  %zu, on the boundary %zu\n", "evaluation points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n,
             q->rows[PG_FACETS].n);
     printf ("  %-18s  node-node %zu, point-node %zu, facet-node %zu\n", "bonds", first[1], first[2] - first[1], first[3] - first[2]);
-    printf ("  %-18s  %zu\n  %-18s  %.6g m = %.4g spacings, mean family %.3g points\n", "unknowns", q->cloud.n * (size_t) q->dim, "horizon",
+    printf ("  %-18s  %zu\n  %-18s  %.6g m = %.4g spacings, mean family %.3g points\n", "unknowns", q->cloud.n * (size_t) (q->dim + q->turns), "horizon",
             q->approx.horizon, q->approx.horizon / q->cloud.h, (double) first[1] / (double) q->cloud.n);
 }
 
