@@ -102,6 +102,8 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
                         p->criterion->type->name, p->force);
     if (!p->turns && (needs & PG_NEEDS_BEAMS))
         pg_scene_fault (scene, "failure.criterion", "%s judges bonds that bear shear and bending, which only force: gmpd has", p->criterion->type->name);
+    if (p->turns && (needs & PG_NEEDS_ENERGY))
+        pg_scene_fault (scene, "failure.criterion", "%s is for bonds that pull along themselves: with force: gmpd use beam_limits or stretch", p->criterion->type->name);
     if (!p->direct && (needs & PG_NEEDS_ENERGY))
         pg_scene_fault (scene, "failure.criterion", "%s needs the energy that bonds store at a point, and force: %s has bonds without energy: use stretch, "
                         "principal_stress or mohr_coulomb, or force: bond or fcbm", p->criterion->type->name, p->force);
