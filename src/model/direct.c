@@ -145,6 +145,9 @@ static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule 
         double nu = p->material[m].parameter[1], most = pg_beam_poisson (p->mode);
         char path[120];
         snprintf (path, sizeof path, "materials.%.63s.poissons_ratio", p->material[m].name);
+        double axial, shear;
+        if (nu <= most + 1e-9 && pg_beam_moduli (&axial, &shear, p->mode, rule->kernel, rule->horizon, p->material[m].modulus, nu, p->cloud.thickness) != PG_OK)
+            pg_scene_fault (scene, "method.kernel", "%s", pg_last_error ());
         if (nu > most + 1e-9)
             pg_scene_fault (scene, path, "%.6g is more than %.6g, the largest of micropolar bonds%s: their shear stiffness would be negative and the body unstable; "
                             "use force: galerkin", nu, most, p->mode == PG_PLANE_STRESS ? " in plane stress" : "");
