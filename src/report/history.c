@@ -69,7 +69,7 @@ static pg_status event_rows (pg_result *r, const pg_step *step)
     for (size_t i = 0; i < step->nbroken; i++) {
         const pg_broken *b = &step->broken[i];
         char text[8][40];
-        const char *kind = b->kind == 's' ? "shear" : b->kind == 'e' ? "energy" : "tension";
+        const char *kind = b->kind == 's' ? "shear" : b->kind == 'e' ? "energy" : b->kind == 'b' ? "bending" : "tension";
         const char *cell[10] = { text[0], text[1], text[2], set_name[b->set], kind, text[3], text[4], text[5], text[6], text[7] };
         double factor = b->time == step->time || !(step->time > 0) ? step->factor : step->factor * b->time / step->time;
         double number[8] = { (double) step->number, factor, b->time, b->place[0], b->place[1], b->place[2], b->utilisation,
