@@ -108,6 +108,7 @@ double    lps_bound  (const bond *b, size_t i, const bond_star *s);    /* of ome
 void      lps_virial (const bond *b, size_t i, const bond_star *s, const unsigned char *alive, const double *d, double *T);      /* sum t x xi V, Pa */
 /* bonds that bear shear */
 pg_status gmpd_create (bond *b);                                       /* moduli and limits; nothing unless the rule is of beams */
+char      gmpd_kind_of (void *self, const double *d, size_t entry);
 void      gmpd_free   (bond *b);
 /* words */
 int         bond_describe (const void *self, size_t line, char *text, size_t size);

@@ -53,6 +53,26 @@ done:
     return status;
 }
 
+char gmpd_kind_of (void *self, const double *d, size_t entry)
+{
+    const bond *b = self;
+    const pg_problem *p = b->problem;
+    size_t i, j = (size_t) b->family->node[entry], dim = (size_t) b->dim, m = (size_t) b->stride;
+    double xi[3], eta[3], shear, bending, ratio, u;
+    char kind = 't';
+    int set;
+    pg_problem_locate (p, entry, &set, &i);
+    for (size_t k = 0; k < dim; k++) xi[k] = p->cloud.x[j * dim + k] - p->cloud.x[i * dim + k], eta[k] = d[j * m + k] - d[i * m + k];
+    pg_beam_strain (b->dim, xi, b->beams.length, d + i * m, d + j * m, &shear, &bending);
+    ratio = fmax (pg_cloud_ratio (&p->cloud, i), pg_cloud_ratio (&p->cloud, j));
+    const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];
+    if (c->never) c = &p->criterion[p->block[PG_NODES][j]];
+    pg_bond_measures one = { .n = 1, .dim = b->dim, .xi = xi, .eta = eta, .reach = &ratio, .shear = &shear, .bending = &bending };
+    c->type->utilisation (c, &one, &u, &kind);
+    return kind;
+}
+
 void gmpd_free (bond *b) { pg_free (b->shear), pg_free (b->bending), pg_free (b->idle), pg_free (b->shear_limit), pg_free (b->bending_limit); }
 
-const pg_force_type pg_force_gmpd = { .name = "gmpd", .summary = "micropolar peridynamics: bonds as beams, points that turn (Chen et al. 2022)", BOND_ENTRIES };
+const pg_force_type pg_force_gmpd = { .name = "gmpd", .summary = "micropolar peridynamics: bonds as beams, points that turn (Chen et al. 2022)", BOND_ENTRIES,
+    .kind_of = gmpd_kind_of };
