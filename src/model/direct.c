@@ -136,6 +136,7 @@ static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule 
     static const char *const only[] = { "method.shear_parameter", "method.cm_ratio" }, *const of[] = { "timoshenko", "chen" };
     if (p->mode == PG_LINE) pg_scene_fault (scene, "method.force", "gmpd has no meaning in one dimension, where bonds bear no shear: use force: bond");
     if (rule->finite) pg_scene_fault (scene, "method.stretch", "force: gmpd is linear in displacement and rotation: use stretch: linear, or force: bond");
+    if (rule->evaluation == PG_EVALUATE_FFT) pg_scene_fault (scene, "method.evaluation", "bonds that bear shear have no sums by FFT: use auto, stencil or list");
     for (int k = 0; k < 2; k++)
         if (pg_scene_given (scene, "%s", only[k]) && !is (scene, "method.beam", of[k])) pg_scene_fault (scene, only[k], "is for method.beam: %s", of[k]);
     p->turns = pg_direct_turns (scene, p->dim);

@@ -294,6 +294,7 @@ static void test_refused (void **unused)
     fault_of (BODY2_OF ("0.2") "method: {force: gmpd}\nboundary: [{set: left, rotation: {x: 0}}]\n", "no such component");
     fault_of (BODY2_OF ("0.2") "method: {force: bond}\nfailure: {criterion: beam_limits, fracture_energy: 1}\n", "gmpd");
     fault_of (BODY2_OF ("0.2") "method: {force: gmpd}\nfailure: {criterion: node_energy, fracture_energy: 1}\n", "beam_limits");
+    fault_of (BODY2_OF ("0.2") "method: {force: gmpd, evaluation: fft}\n", "by FFT");
     fault_of (BODY2_OF ("0.2") "method: {force: gmpd, kernel: inverse_r}\n", "kernel");
 }
 
