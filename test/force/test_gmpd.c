@@ -6,7 +6,10 @@
 static const char turned[] = BODY3_OF ("0.2") "perturb: {amount: 0.2}\nmethod: {force: gmpd}\n";
 static const char *const bodies[] = { BODY2_OF ("0.2") "method: {force: gmpd}\n", BODY3_OF ("0.1") "method: {force: gmpd, beam: timoshenko, shear_parameter: 0.5}\n", turned,
     BODY2_OF ("0") "perturb: {amount: 0.3}\nmethod: {force: gmpd, horizon: 4.2 spacing, surface_correction: volume}\n",
-    BODY3_OF ("0.25") "method: {force: gmpd}\n" };
+    BODY3_OF ("0.25") "method: {force: gmpd}\n",
+    "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [1, 0.7]}}}]\nspacing: 0.1\nthickness: 0.2\nlattice: cells\nmethod: {force: gmpd}\n"
+    "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.25, density: 3}, hard: {youngs_modulus: 10, poissons_ratio: 0.1, density: 3}}\n"
+    "blocks: [{material: soft, where: \"x < 0.5\"}, {material: hard, where: \"x >= 0.5\"}]\n" };
 enum { BODIES = sizeof bodies / sizeof *bodies };
 
 /* Forces of any state, bonds broken, add up to nothing, and so do moments: sum f = 0, sum x x f + m = 0. */
@@ -27,6 +30,53 @@ static void test_balance (void **unused)
         }
         for (size_t a = 0; a < 3; a++) check_scaled (sum[a], 0, 1e-13, size), check_scaled (moment[a], 0, 1e-13, size);
         pg_free (d), pg_free (f), pg_free (c.bond);
+        unbonded (&b);
+    }
+}
+
+/* Between two materials the moduli are 2 a b / (a + b), and what breaks is what the weaker law says; points of the one that bears no shear do not turn. */
+static void test_two_materials (void **unused)
+{
+    (void) unused;
+    bonded b = bonded_of (bodies[BODIES - 1]);
+    const pg_sparse *T = b.force->basis (b.self);
+    assert_int_equal (T->ncol, b.ndof - b.n / 2);
+    double *d = random_vector (b.ndof, 5), *f = pg_calloc (b.ndof, sizeof *f), work = 0, reference;
+    pg_ledger ledger = { 0 };
+    check_ok (b.force->balance (b.self, 0, d, f, &reference));
+    for (size_t i = 0; i < b.ndof; i++) work -= 0.5 * f[i] * d[i];
+    check_ok (b.force->ledger (b.self, 0, d, NULL, &ledger));
+    check_relative (ledger.strain, work, 1e-12);
+    pg_ledger_clear (&ledger), pg_free (d), pg_free (f);
+    unbonded (&b);
+}
+
+/* Each allocation fails once: the force says so and leaves nothing behind. */
+static void test_memory (void **unused)
+{
+    (void) unused;
+    for (int k = 0; k < 2; k++) {
+        char text[600];
+        snprintf (text, sizeof text, "%smethod: {force: gmpd, evaluation: %s}\nfailure: {criterion: beam_limits, fracture_energy: 1}\n", BODY3_OF ("0.1"), k ? "list" : "stencil");
+        bonded b = bonded_of (text);
+        double *d = random_vector (b.ndof, 5), *f = pg_calloc (b.ndof, sizeof *f), reference;
+        size_t held = pg_memory_used (), calls = 0;
+        pg_changes broken = { 0 };
+        for (pg_status now = PG_E_MEMORY; now != PG_OK; calls++) {
+            void *self = NULL;
+            assert_true (calls < 1000);
+            pg_memory_fail_at (calls + 1);
+            now = b.force->create (&self, b.problem);
+            if (now == PG_OK) now = b.force->march (self, 0, d, f, &reference, &broken);
+            pg_memory_fail_at (0);
+            assert_true (now == PG_OK || now == PG_E_MEMORY);
+            if (self) b.force->free (&self);
+            pg_free (broken.bond);
+            broken = (pg_changes) { 0 };
+            assert_int_equal (pg_memory_used (), held);
+        }
+        assert_true (calls > 20);
+        pg_free (d), pg_free (f);
         unbonded (&b);
     }
 }
@@ -300,7 +350,7 @@ static void test_refused (void **unused)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (test_balance), cmocka_unit_test (test_limit_is_bond), cmocka_unit_test (test_fracture_energy),
+    const struct CMUnitTest tests[] = { cmocka_unit_test (test_balance), cmocka_unit_test (test_two_materials), cmocka_unit_test (test_memory), cmocka_unit_test (test_limit_is_bond), cmocka_unit_test (test_fracture_energy),
         cmocka_unit_test (test_breaking), cmocka_unit_test (test_prescribed_rotation), cmocka_unit_test (test_moment), cmocka_unit_test (test_free_motion),
         cmocka_unit_test (test_refused) };
     return cmocka_run_group_tests (tests, NULL, NULL);
