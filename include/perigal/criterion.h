@@ -5,11 +5,12 @@
 #define PERIGAL_CRITERION_H
 #include "perigal/material.h"
 
-enum { PG_NEEDS_STRETCH = 1, PG_NEEDS_STRESS = 2, PG_NEEDS_ENERGY = 4, PG_MOST_LIMITS = 4 };
+enum { PG_NEEDS_STRETCH = 1, PG_NEEDS_STRESS = 2, PG_NEEDS_ENERGY = 4, PG_NEEDS_BEAMS = 8, PG_MOST_LIMITS = 4 };
 
 typedef struct pg_criterion_type pg_criterion_type;
 typedef struct {
     const pg_criterion_type *type;
+    int    single;                                     /* beam_limits: any one of the limits breaks a bond, not all together */
     int    never;                                      /* 1: bonds that end in this material never break                 */
     double parameter[8];                               /* of the type                                                    */
 } pg_criterion;
@@ -22,6 +23,7 @@ typedef struct {
     const double *eta;                                 /* relative displacement, m   (n x dim)                           */
     const double *reach;                               /* support of the bond or point over the horizon of the setting; NULL: 1 (n) */
     const double *s1, *s3;                             /* largest, smallest principal stress, mean of both ends, Pa (n)  */
+    const double *shear, *bending;                     /* gamma (1) and kappa (rad) of bonds that bear shear (n): perigal/sums.h */
     const double *energy;                              /* stored by a point, J/m^3 (n): at its limit all its bonds break  */
 } pg_bond_measures;
 
@@ -36,6 +38,7 @@ typedef struct {                                       /* what the criterion may
     double  toughness;                                 /* energy of a unit of crack over that of theory at the same stretch; 0: not known, 1 */
     const char *stretch;                               /* "linear", "finite": as the force measures it; NULL: as failure.stretch says */
     int     state;                                     /* 1: state-based forces; 0: those of bonds alone                  */
+    double  beam[3];                                   /* bonds that bear shear: energy of a straight cut (J/m^2) whose bonds all have s = 1, gamma = 1, kappa = 1 */
     const char *usual;                                 /* criterion where the scene has `failure` without one; NULL: it must say */
 } pg_criterion_setting;
 

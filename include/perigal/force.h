@@ -12,7 +12,7 @@ typedef struct { const char *name, *unit; int components; } pg_field;
 typedef struct {
     size_t  npair;
     double *force, *displacement;                      /* N, m (npair)                                                   */
-    double *reaction;                                  /* force on the body per load and component, N (nload x 3)        */
+    double *reaction;                                  /* on the body per load and component, N; of rotations, moments: N m (nload x 3) */
     double  strain;                                    /* stored energy: strain, stabilisation, boundary terms, J        */
 } pg_ledger;
 
@@ -81,6 +81,8 @@ typedef struct {
     const char *(*refuses) (const pg_problem *problem, const char *solver_kind);
     /* Rows of K at the last refresh, by points, for preconditioners of the operator. NULL: none can be had. */
     pg_status (*couplings) (void *self, pg_couplings *out);
+    /* What the bond breaks of at d: 't' tension, 's' shear, 'b' bending ... NULL: tension, or energy with criteria of energies. */
+    char      (*kind_of) (void *self, const double *d, size_t bond);
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

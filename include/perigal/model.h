@@ -10,13 +10,13 @@
 #include "perigal/sums.h"
 
 /* ---- loads and supports ------------------------------------------------------------------------------------------------ */
-typedef enum { PG_DISPLACEMENT, PG_VELOCITY, PG_TRACTION, PG_PRESSURE, PG_POINT_FORCE, PG_BODY_FORCE } pg_load_kind;
+typedef enum { PG_DISPLACEMENT, PG_VELOCITY, PG_TRACTION, PG_PRESSURE, PG_POINT_FORCE, PG_BODY_FORCE, PG_ROTATION, PG_MOMENT } pg_load_kind;
 typedef enum { PG_ESSENTIAL_NITSCHE, PG_ESSENTIAL_TRANSFORMATION, PG_ESSENTIAL_PENALTY } pg_essential;
 typedef struct {
     char           name[64];
     pg_load_kind   kind;
     const pg_set  *set;
-    pg_expression *value[3];                           /* per component, NULL: free; m, m/s, Pa, N, N/m^3                */
+    pg_expression *value[3];                           /* per component, NULL: free; m, m/s, Pa, N, N/m^3, rad, N m; 2D rotation, moment: about z, the first */
     pg_expression *ramp;                               /* factor of t; NULL: from the table                              */
     double        *table; size_t ntable;               /* ntable x 2: t (s), factor                                      */
     int            proportional;                       /* factor is t itself                                             */
@@ -30,7 +30,10 @@ int    pg_load_separates (const pg_load *load);
 double pg_load_factor  (const pg_load *load, double t);
 double pg_load_pattern (const pg_load *load, int k, int dim, const double *x);
 pg_place pg_place_of (int dim, const double *x, double t);             /* what expressions see at x                      */
-int    pg_load_prescribes (const pg_load *load);       /* displacement or velocity                                       */
+int    pg_load_prescribes (const pg_load *load);       /* displacement, velocity or rotation                             */
+int    pg_load_turns (const pg_load *load);            /* rotation or moment                                             */
+int    pg_load_components (const pg_load *load, int dim);              /* dim; of a rotation or moment 1 in 2D, 3 in 3D  */
+char   pg_load_axis (const pg_load *load, int dim, int k);             /* 'x', 'y', 'z' of component k                    */
 
 /* ---- problem ----------------------------------------------------------------------------------------------------------- */
 /* Bond sets, each a list of points and the nodes they see (style: one array of alive bits per set, all in state). */
@@ -52,6 +55,8 @@ typedef struct {
     int      direct;                                   /* 1: bonds between points carry the force themselves (bond, fcbm, lps, later gmpd):
                                                           rows[PG_NODES] come from `sums` without the own point, PG_POINTS and PG_FACETS are empty */
     pg_sums *sums;                                     /* direct; else NULL                                              */
+    int      turns;                                    /* rotations of every point: gmpd 1 in 2D, 3 in 3D; else 0        */
+    double   bending;                                  /* gmpd: B / C_t                                                  */
     double   silling;                                  /* Gs; 0: no stabilisation                                        */
     double   nitsche, penalty;                         /* factors of E / h, h the local spacing                          */
     pg_load *load;   size_t nload;
@@ -96,6 +101,7 @@ enum { PG_BYTES_PROGRAM, PG_BYTES_POINTS, PG_BYTES_BONDS, PG_BYTES_SHAPES, PG_BY
 typedef struct {
     int    dim, nodal, breaks, pictures;               /* nodal: the points of evaluation are the nodes; breaks: with a criterion */
     int    matrixless;                                 /* 1: the force has no matrix (state-based)                       */
+    int    turns;                                      /* rotations of a point                                           */
     int    direct, listed, explicit_;                  /* pg_problem.direct; its points are no lattice; no linear systems at all */
     int    by_list;                                    /* direct: bonds are summed by lists of neighbours, on a lattice or off it */
     int    counted, analysed;                          /* 1: the counts, the factor are exact, not estimates             */

@@ -28,6 +28,7 @@ typedef struct {
     int        calibrate;                              /* 1: c_h = c S_d m_d / sum k r beta V, hydrostatic energy exact  */
     int        state;                                  /* 1: state-based (linear peridynamic solid, theory B6), see pg_sweep_setting */
     int        follow;                                 /* state-based: 1: q counts the bonds that live, 0: those of the start */
+    int        beams;                                  /* 1: bonds bear shear and bending (theory G)                     */
     int        finite;                                 /* 0: s = e.eta / r; 1: s = (|xi + eta| - r) / r, force along xi + eta */
     pg_evaluation evaluation;                          /* never changes the physics                                      */
     double     sweeps;                                 /* sums of forces that will be asked for, about; 0: a few. Many are worth timing plans of transforms */

@@ -66,7 +66,7 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
     for (size_t l = 0; l < p->nload; l++) pinned += pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
     if (p->direct) PG_TRY (pg_stiffness_graph_direct (&G, &p->rows[PG_NODES].family));
     else PG_TRY (pg_stiffness_graph (&G, p->cloud.n, pinned ? 2 : 1, seen));
-    PG_TRY (pg_linear_forecast (&G, p->dim, &info));
+    PG_TRY (pg_linear_forecast (&G, p->dim + p->turns, &info));
     pg_forecast_analysed (f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
     if (f->slaves > 0) f->analysed = 0;                /* elimination joins the masters: a little more                   */
 done:

@@ -54,7 +54,7 @@ void plan_doubts (const pg_problem *p, const pg_solver_options *o, FILE *to)
     for (int k = 0; k < p->dim; k++) {
         int held = !is_static;
         for (size_t l = 0; l < p->nload; l++) {
-            held |= pg_load_prescribes (&p->load[l]) && p->load[l].value[k];
+            held |= pg_load_prescribes (&p->load[l]) && !pg_load_turns (&p->load[l]) && p->load[l].value[k];
             moving |= acts (p, &p->load[l], k, is_static ? 1 : o->end) || p->load[l].kind == PG_PRESSURE;
         }
         if (!held) fprintf (to, "  warning: nothing holds the body along %c: no displacement along %c is prescribed anywhere\n", "xyz"[k], "xyz"[k]);
@@ -71,7 +71,7 @@ void plan_print (const pg_problem *p, const pg_solver_options *o)
 {
     printf ("%s\n", p->title);
     printf ("  %zu points, spacing %.6g m, %zu evaluation points, %zu bonds, %zu unknowns\n", p->cloud.n, p->cloud.h,
-            p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n, p->first_bond[PG_BOND_SETS], p->cloud.n * (size_t) p->dim);
+            p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n, p->first_bond[PG_BOND_SETS], p->cloud.n * (size_t) (p->dim + p->turns));
     if (p->direct) printf ("  force %s (%s kernel, horizon %.6g m)\n", p->force, p->approx.kernel->name, p->approx.horizon);
     else printf ("  %s (%s basis, %s kernel, horizon %.6g m), %s integration\n", p->approx.type->name, p->approx.order == 2 ? "quadratic" : "linear",
                  p->approx.kernel->name, p->approx.horizon, p->integration->name);
@@ -196,7 +196,7 @@ static void print_counts (const plan *p)
     printf ("  %-18s  %zu, on the boundary %zu\n", "evaluation points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n,
             q->rows[PG_FACETS].n);
     printf ("  %-18s  node-node %zu, point-node %zu, facet-node %zu\n", "bonds", first[1], first[2] - first[1], first[3] - first[2]);
-    printf ("  %-18s  %zu\n  %-18s  %.6g m = %.4g spacings, mean family %.3g points\n", "unknowns", q->cloud.n * (size_t) q->dim, "horizon",
+    printf ("  %-18s  %zu\n  %-18s  %.6g m = %.4g spacings, mean family %.3g points\n", "unknowns", q->cloud.n * (size_t) (q->dim + q->turns), "horizon",
             q->approx.horizon, q->approx.horizon / q->cloud.h, (double) first[1] / (double) q->cloud.n);
 }
 

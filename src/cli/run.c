@@ -123,7 +123,7 @@ void openblas_set_num_threads (int threads);           /* of OpenBLAS; its heade
 /* Two BLAS threads gain 7 % of a factorization at 4 000 unknowns on an idle machine, and lose half the speed on a busy one. */
 static void settle_blas (const pg_problem *p)
 {
-    size_t unknowns = p->cloud.n * (size_t) p->dim, enough = p->dim == 3 ? 10000 : 50000;
+    size_t unknowns = p->cloud.n * (size_t) (p->dim + p->turns), enough = p->dim == 3 ? 10000 : 50000;
     openblas_set_num_threads (unknowns < enough ? 1 : p->threads);
 }
 

@@ -22,6 +22,8 @@ static const pg_key keys[] = {
       .doc = "node_energy: a point dies at the energy density wc_factor times fracture_energy / horizon." },
     { .path = "failure.stretch", .kind = PG_NAME, .fallback = "linear", .choices = "linear|finite",
       .doc = "stretch: measured along the undeformed bond (small displacements), or from the deformed length." },
+    { .path = "failure.modes", .kind = PG_NAME, .fallback = "together", .choices = "together|single",
+      .doc = "beam_limits: shares of stretch, shear and bending in the fracture energy add up, or each has its limit alone." },
     { .path = "failure.tensile_strength", .kind = PG_NUMBER, .unit = "Pa", .range = "(0, inf)", .fallback = "",
       .doc = "principal_stress, mohr_coulomb: largest principal stress that a bond bears." },
     { .path = "failure.cohesion", .kind = PG_NUMBER, .unit = "Pa", .range = "(0, inf)", .fallback = "",

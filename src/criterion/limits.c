@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const limits[] = { "critical_stretch", "fracture_energy", "wc_factor", "stretch", "tensile_strength", "cohesion", "friction_angle" };
+static const char *const limits[] = { "critical_stretch", "fracture_energy", "wc_factor", "stretch", "modes", "tensile_strength", "cohesion", "friction_angle" };
 enum { NLIMIT = sizeof limits / sizeof *limits, WORD = 32 };
 
 /* The words of a need, "a" or "a or b". */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-static size_t ndof (const bond *b) { return b->n * (size_t) b->dim; }
+static size_t ndof (const bond *b) { return b->n * (size_t) b->stride; }
 
 /* ---- one point ----------------------------------------------------------------------------------------------------------------- */
 void bond_star_at (const bond *b, size_t i, int thread, bond_star *s)
@@ -26,13 +26,29 @@ double bond_kappa (const bond *b, size_t i, const bond_star *s, size_t e, double
     return both * s->weight[e] * (V[i] * V[j]) / (rr * sqrt (rr));
 }
 
+void bond_blocks (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other)
+{
+    size_t dim = (size_t) b->dim;
+    const double *xi = s->xi + e * dim;
+    double spare[36];
+    if (b->shear) {
+        pg_beam beam = pg_beam_between (&b->setting, i, (size_t) s->node[e], xi, s->weight[e]);
+        pg_beam_blocks (b->dim, xi, &beam, b->beams.length, own, other ? other : spare);
+        return;
+    }
+    double kappa = bond_kappa (b, i, s, e, NULL);
+    for (size_t a = 0; a < dim; a++)
+        for (size_t c = 0; c < dim; c++) own[a * dim + c] = kappa * xi[a] * xi[c];
+    for (size_t k = 0; other && k < dim * dim; k++) other[k] = -own[k];
+}
+
 /* ---- life ---------------------------------------------------------------------------------------------------------------------- */
 void bond_free (void **self)
 {
     bond *b = *self;
     if (!b) return;
     pg_sweep_free (&b->sweep), pg_sweep_free (&b->tangent);
-    bond_energy_free (b), lps_free (b);
+    bond_energy_free (b), lps_free (b), gmpd_free (b);
     nodal_free (&b->nodal);
     pg_sparse_clear (&b->K);
     pg_nearest_free (&b->near);
@@ -57,14 +73,15 @@ static pg_status make_constants (bond *b)
     const pg_sum_rule *rule = &p->sums->rule;
     PG_TRY (lps_create (b));
     if (!b->dilation) PG_ALLOC (b->modulus, b->n);
-    for (size_t i = 0; b->modulus && i < b->n; i++) {
+    PG_TRY (gmpd_create (b));
+    for (size_t i = 0; b->modulus && !b->shear && i < b->n; i++) {
         size_t block = (size_t) p->block[PG_NODES][i];
         double E = p->material[block].modulus;
         if (i > 0 && block == (size_t) p->block[PG_NODES][i - 1]) b->modulus[i] = b->modulus[i - 1];
         else b->modulus[i] = p->sums->calibration * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);
     }
     PG_TRY (bond_energy_create (b));
-    if (!p->criterion->type || b->critical) goto done;
+    if (!p->criterion->type || b->critical || b->limit) goto done;
     PG_ALLOC (b->limit, b->n);
     for (size_t i = 0; i < b->n; i++) {
         const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];
@@ -76,8 +93,9 @@ done:
 
 static pg_status make_sweep (bond *b, pg_sweep **out, const pg_sums *sums, const double *limit)
 {
-    pg_sweep_setting s = { .sums = sums, .family = b->family, .modulus = b->modulus, .dilation = b->dilation, .deviation = b->deviation, .counted = b->counted, .limit = limit, .exempt = b->problem->exempt[PG_NODES],
-                           .threads = b->threads };
+    pg_sweep_setting s = { .sums = sums, .family = b->family, .modulus = b->modulus, .dilation = b->dilation, .deviation = b->deviation, .counted = b->counted,
+                           .limit = limit, .exempt = b->problem->exempt[PG_NODES], .beams = b->shear ? &b->beams : NULL, .threads = b->threads };
+    b->setting = s;
     return pg_sweep_create (out, &s);
 }
 
@@ -90,6 +108,7 @@ pg_status bond_create (void **self, const pg_problem *problem)
     PG_ALLOC (b, 1);
     *self = b;
     b->problem = problem, b->dim = problem->dim, b->threads = problem->threads, b->n = problem->cloud.n;
+    b->stride = problem->dim + problem->turns;
     b->family = &problem->rows[PG_NODES].family;
     b->all_stale = 1, b->revision = 1;
     b->op = (pg_operator) { ndof (b), b, bond_apply, bond_diagonal };
@@ -103,7 +122,7 @@ pg_status bond_create (void **self, const pg_problem *problem)
     PG_TRY (make_constants (b));
     PG_TRY (make_sweep (b, &b->sweep, problem->sums, b->limit));
     PG_TRY (lps_weigh (b));
-    PG_TRY (nodal_create (&b->nodal, problem, b->dim));
+    PG_TRY (nodal_create (&b->nodal, problem, b->stride, b->beams.length, b->idle));
 done:
     if (status != PG_OK) bond_free (self);
     return status;
@@ -127,8 +146,10 @@ done:
 
 size_t bond_fields (const void *self, size_t max, pg_field *out)
 {
-    if (max > 0) out[0] = (pg_field) { "displacement", "m", ((const bond *) self)->dim };
-    return 1;
+    const bond *b = self;
+    if (max > 0) out[0] = (pg_field) { "displacement", "m", b->dim };
+    if (max > 1 && b->shear) out[1] = (pg_field) { "rotation", "m", b->stride - b->dim };
+    return b->shear ? 2 : 1;
 }
 
 /* ---- breaking ------------------------------------------------------------------------------------------------------------------ */
@@ -203,8 +224,12 @@ pg_status bond_mass (void *self, double *mass)
 {
     const bond *b = self;
     const pg_problem *p = b->problem;
-    for (size_t i = 0; i < b->n; i++)
-        for (size_t k = 0; k < (size_t) b->dim; k++) mass[i * (size_t) b->dim + k] = p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i];
+    for (size_t i = 0; i < b->n; i++) {
+        double own = p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i], across = 0;
+        if (b->shear) across = pg_problem_spacing (p, PG_NODES, i) / b->beams.length;
+        for (size_t k = 0; k < (size_t) b->stride; k++)                /* a cube of the spacing's size turns: theory G4       */
+            mass[i * (size_t) b->stride + k] = k < (size_t) b->dim ? own : own * across * across / 6;
+    }
     return PG_OK;
 }
 

@@ -11,7 +11,7 @@
 typedef struct bond_tiles bond_tiles;                  /* bond_tiles.c                                                   */
 typedef struct {
     const pg_problem *problem;
-    int       dim, threads;
+    int       dim, threads, stride;                    /* stride: unknowns of a point, dim and its rotations             */
     size_t    n, widest;                               /* points; most bonds of one                                      */
     const pg_family *family;
     nodal     nodal;
@@ -24,6 +24,11 @@ typedef struct {
     double   *dilation, *deviation;                    /* state-based: A and B of each point, Pa; NULL: bonds alone (n)  */
     double   *q, *stiff;  unsigned long weighed;       /* state-based: weighted volumes and C / q at that revision (n)   */
     unsigned char *counted;                            /* state-based: bonds that no pre-crack cuts; NULL: all           */
+    /* beams (gmpd.c): bonds that bear shear; C_t,h and B of each point, N/m^4, limits gamma0, kappa0 (n); shear NULL: bonds pull along themselves */
+    double   *shear, *bending, *shear_limit, *bending_limit;
+    unsigned char *idle;                               /* points whose rotations nothing resists, C_t = 0; with shear (n) */
+    pg_beam_law beams;                                 /* length: unknowns of rotations are this times the angle, m      */
+    pg_sweep_setting setting;                          /* what `sweep` was made from                                     */
     pg_sweep *sweep;                                   /* forces, by the stretch of the rule                             */
     pg_sums   small;  pg_sweep *tangent;               /* finite stretch: sums and sweep of the linear one, for K x; made when asked for */
     const unsigned char *alive;                        /* of the state of the last refresh, borrowed; NULL: all live     */
@@ -45,6 +50,8 @@ typedef struct {                                       /* the bonds of one point
     double *xi, *weight, *beta;                        /* m; k beta g; beta                                              */
 } bond_star;
 void   bond_star_at (const bond *b, size_t i, int thread, bond_star *out);
+/* Force on i = - own d_i - other d_j (stride x stride each; other NULL: not wanted), small displacements. */
+void   bond_blocks  (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other);
 double bond_kappa   (const bond *b, size_t i, const bond_star *s, size_t e, double *r);      /* N/m^3; r (m) or NULL      */
 static inline int bond_lives (const bond *b, size_t entry) { return !b->alive || b->alive[entry]; }
 
@@ -99,6 +106,10 @@ pg_status lps_look   (bond *b, const double *d, size_t *dying);         /* as bo
 void      lps_own    (const bond *b, size_t i, const bond_star *s, double *D);           /* diagonal block of K         */
 double    lps_bound  (const bond *b, size_t i, const bond_star *s);    /* of omega^2 times density, whatever bonds die   */
 void      lps_virial (const bond *b, size_t i, const bond_star *s, const unsigned char *alive, const double *d, double *T);      /* sum t x xi V, Pa */
+/* bonds that bear shear */
+pg_status gmpd_create (bond *b);                                       /* moduli and limits; nothing unless the rule is of beams */
+char      gmpd_kind_of (void *self, const double *d, size_t entry);
+void      gmpd_free   (bond *b);
 /* words */
 int         bond_describe (const void *self, size_t line, char *text, size_t size);
 const char *bond_refuses  (const pg_problem *problem, const char *kind);

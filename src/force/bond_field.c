@@ -10,7 +10,7 @@ enum { BATCH = 128 };
 
 /* ---- limits -------------------------------------------------------------------------------------------------------------------- */
 typedef struct { const bond *b; const pg_state *state; const double *d; double *utilisation, *factor; char *kind; } sweep;
-typedef struct { size_t n, entry[BATCH]; double xi[3 * BATCH], eta[3 * BATCH], reach[BATCH]; int material[BATCH]; } batch;
+typedef struct { size_t n, entry[BATCH]; double xi[3 * BATCH], eta[3 * BATCH], reach[BATCH], shear[BATCH], bending[BATCH]; int material[BATCH]; } batch;
 
 /* Those of a batch whose law is that of the material; the weaker of two laws decides. */
 static void judge_by (const sweep *s, const batch *all, int material)
@@ -18,15 +18,17 @@ static void judge_by (const sweep *s, const batch *all, int material)
     const pg_problem *p = s->b->problem;
     const pg_criterion *c = &p->criterion[material];
     size_t dim = (size_t) p->dim, some[BATCH], n = 0;
-    double xi[3 * BATCH], eta[3 * BATCH], reach[BATCH], out[BATCH];
+    double xi[3 * BATCH], eta[3 * BATCH], reach[BATCH], shear[BATCH], bending[BATCH], out[BATCH];
     char kind[BATCH];
     for (size_t k = 0; k < all->n; k++) {
         if (all->material[k] != material) continue;
         memcpy (xi + n * dim, all->xi + k * dim, dim * sizeof *xi), memcpy (eta + n * dim, all->eta + k * dim, dim * sizeof *eta);
+        shear[n] = all->shear[k], bending[n] = all->bending[k];
         reach[n] = all->reach[k], some[n++] = all->entry[k];
     }
     if (n == 0) return;
-    pg_bond_measures m = { .n = n, .dim = p->dim, .xi = xi, .eta = eta, .reach = p->cloud.size ? reach : NULL };
+    pg_bond_measures m = { .n = n, .dim = p->dim, .xi = xi, .eta = eta, .reach = p->cloud.size ? reach : NULL,
+                           .shear = s->b->shear ? shear : NULL, .bending = s->b->shear ? bending : NULL };
     if (s->utilisation) c->type->utilisation (c, &m, out, kind);
     for (size_t k = 0; s->utilisation && k < n; k++) {
         if (out[k] < s->utilisation[some[k]]) continue;
@@ -46,9 +48,11 @@ static void judge (const sweep *s, batch *all)
 static void add (const sweep *s, batch *all, size_t i, const bond_star *star, size_t e, int material)
 {
     const pg_cloud *cloud = &s->b->problem->cloud;
-    size_t dim = (size_t) s->b->dim, j = (size_t) star->node[e], k = all->n++;
+    size_t dim = (size_t) s->b->dim, m = (size_t) s->b->stride, j = (size_t) star->node[e], k = all->n++;
     memcpy (all->xi + k * dim, star->xi + e * dim, dim * sizeof *all->xi);
-    for (size_t a = 0; a < dim; a++) all->eta[k * dim + a] = s->d[j * dim + a] - s->d[i * dim + a];
+    for (size_t a = 0; a < dim; a++) all->eta[k * dim + a] = s->d[j * m + a] - s->d[i * m + a];
+    all->shear[k] = all->bending[k] = 0;
+    if (s->b->shear) pg_beam_strain (s->b->dim, star->xi + e * dim, s->b->beams.length, s->d + i * m, s->d + j * m, &all->shear[k], &all->bending[k]);
     all->reach[k] = fmax (pg_cloud_ratio (cloud, i), pg_cloud_ratio (cloud, j));           /* the weaker end decides        */
     all->entry[k] = star->first + e, all->material[k] = material;
     if (all->n == BATCH) judge (s, all);
@@ -129,7 +133,7 @@ static void paint_damage (void *context, size_t first, size_t last, int thread)
 /* H[c * dim + k] = du_c/dx_k; 0 where the live bonds do not spread in all directions (design section 3) */
 static void gradient_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const bond_star *s, double *H)
 {
-    size_t dim = (size_t) b->dim;
+    size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     double M[9] = { 0 }, B[9] = { 0 }, lambda[3], sum = 0, h = pg_problem_spacing (b->problem, PG_NODES, i);
     memset (H, 0, dim * dim * sizeof *H);
     for (size_t e = 0; e < s->m; e++) {
@@ -139,7 +143,7 @@ static void gradient_at (const bond *b, const unsigned char *alive, const double
         double w = s->beta[e] * b->problem->cloud.volume[j];
         sum += w;
         for (size_t a = 0; a < dim; a++)
-            for (size_t c = 0; c < dim; c++) M[a * dim + c] += w * xi[a] * xi[c], B[a * dim + c] += w * (d[j * dim + a] - d[i * dim + a]) * xi[c];
+            for (size_t c = 0; c < dim; c++) M[a * dim + c] += w * xi[a] * xi[c], B[a * dim + c] += w * (d[j * m + a] - d[i * m + a]) * xi[c];
     }
     pg_dense_eigen (b->dim, M, lambda, NULL);
     if (!(lambda[dim - 1] > 1e-3 * h * h * sum) || pg_dense_cholesky (b->dim, M, 1e-12)) return;
@@ -156,12 +160,29 @@ static void strain_at (const bond *b, const unsigned char *alive, const double *
     if (b->dim == 3) out[1] = H[4], out[2] = H[8], out[3] = H[1] + H[3], out[4] = H[5] + H[7], out[5] = H[2] + H[6];
 }
 
+/* The same with shear */
+static void add_beam_virial (const bond *b, size_t i, const bond_star *s, size_t e, const double *d, double *T)
+{
+    size_t dim = (size_t) b->dim, m = (size_t) b->stride, j = (size_t) s->node[e];
+    double own[36], other[36];
+    bond_blocks (b, i, s, e, own, other);
+    for (size_t a = 0; a < dim; a++) {
+        double f = 0;
+        for (size_t k = 0; k < m; k++) f -= own[a * m + k] * d[i * m + k] + other[a * m + k] * d[j * m + k];
+        for (size_t c = 0; c < dim; c++) T[a * dim + c] += 0.5 / b->problem->cloud.volume[i] * f * s->xi[e * dim + c];
+    }
+}
+
 /* Of one bond, over V_i: force on i times 1/2 xi; T[a * dim + c] += f_a xi_c */
 static void add_virial (const bond *b, size_t i, const bond_star *s, size_t e, const double *d, double *T)
 {
     size_t dim = (size_t) b->dim, j = (size_t) s->node[e];
     const double *xi = s->xi + e * dim;
     double r, kappa = bond_kappa (b, i, s, e, &r), f[3], along = 0, length = 0;
+    if (b->shear) {
+        add_beam_virial (b, i, s, e, d, T);
+        return;
+    }
     for (size_t a = 0; a < dim; a++) {
         double eta = d[j * dim + a] - d[i * dim + a];
         f[a] = xi[a] + eta, along += xi[a] * eta, length += f[a] * f[a];
@@ -183,6 +204,12 @@ static void stress_at (const bond *b, const unsigned char *alive, const double *
     if (b->dim == 3) out[1] = T[4], out[2] = T[8], out[3] = 0.5 * (T[1] + T[3]), out[4] = 0.5 * (T[5] + T[7]), out[5] = 0.5 * (T[2] + T[6]);
 }
 
+static void take_parts (const bond *b, const double *d, int first, int count, double scale, double *value)
+{
+    for (size_t i = 0; i < b->n; i++)
+        for (size_t k = 0; k < (size_t) count; k++) value[i * (size_t) count + k] = scale * d[i * (size_t) b->stride + (size_t) first + k];
+}
+
 pg_status bond_field (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value)
 {
     bond *b = self;
@@ -191,7 +218,12 @@ pg_status bond_field (void *self, const pg_state *state, const double *d, const 
     *components = 0, *unit = "";
     if (vector) {
         *components = b->dim, *unit = *name == 'v' ? "m/s" : "m";
-        memcpy (value, *name == 'v' ? state->v : d, b->n * (size_t) b->dim * sizeof *value);
+        take_parts (b, *name == 'v' ? state->v : d, 0, b->dim, 1, value);
+        return PG_OK;
+    }
+    if (b->shear && strcmp (name, "rotation") == 0) {
+        *components = b->stride - b->dim, *unit = "rad";
+        take_parts (b, d, b->dim, b->stride - b->dim, 1 / b->beams.length, value);
         return PG_OK;
     }
     if (strcmp (name, "damage") == 0) *components = 1, p.at = damage_at;
@@ -228,7 +260,7 @@ static size_t expand (bond *b, const unsigned char *alive, const double *d, cons
     gradient_at (b, alive, d, i, s, H);
     memset (u, 0, 3 * sizeof *u);
     for (size_t a = 0; a < dim; a++) {
-        u[a] = d[i * dim + a];
+        u[a] = d[i * (size_t) b->stride + a];
         for (size_t c = 0; c < dim; c++) u[a] += H[a * dim + c] * (x[c] - b->problem->cloud.x[i * dim + c]);
     }
     return i;
@@ -274,7 +306,7 @@ static void closing_points (void *context, size_t first, size_t last, int thread
 {
     const closing *w = context;
     const bond *b = w->b;
-    size_t dim = (size_t) b->dim;
+    size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     bond_star s;
     double H[9];
     for (size_t i = first; i < last; i++) {
@@ -289,7 +321,7 @@ static void closing_points (void *context, size_t first, size_t last, int thread
             if (w->state->alive[s.first + e]) continue;
             for (size_t a = 0; a < dim; a++) {
                 rr += xi[a] * xi[a];
-                approach -= xi[a] * (w->d[(size_t) s.node[e] * dim + a] - w->d[i * dim + a]);
+                approach -= xi[a] * (w->d[(size_t) s.node[e] * m + a] - w->d[i * m + a]);
                 for (size_t c = 0; c < dim; c++) elastic -= xi[a] * H[a * dim + c] * xi[c];
             }
             if (rr <= limit * limit) w->worst[i] = fmax (w->worst[i], (approach - fmax (elastic, 0)) / sqrt (rr));

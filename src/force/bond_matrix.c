@@ -22,37 +22,36 @@ void bond_apply (void *context, const double *x, double *y)
 {
     bond *b = context;
     pg_sweep *sweep;
-    size_t ndof = b->n * (size_t) b->dim;
+    size_t ndof = b->n * (size_t) b->stride;
     int failed = bond_tangent_sweep (b, &sweep) != PG_OK || pg_sweep_force (sweep, x, y, NULL) != PG_OK;
     negation w = { y, failed };
     pg_parallel (b->threads, ndof, negate, &w);
 }
 
-/* sum_j kappa xi x xi over the live (or all) bonds of a point */
+enum { MOST = 36 };                                    /* numbers of a block                                             */
+
+/* Sum of the bonds' own blocks over the live (or all) bonds of a point */
 static void own_block (const bond *b, size_t i, const bond_star *s, int all, double *D)
 {
-    size_t dim = (size_t) b->dim;
-    memset (D, 0, dim * dim * sizeof *D);
+    size_t bb = (size_t) (b->stride * b->stride);
+    double own[MOST];
+    memset (D, 0, bb * sizeof *D);
     for (size_t e = 0; e < s->m; e++) {
-        const double *xi = s->xi + e * dim;
         if (all ? b->counted && !b->counted[s->first + e] : !bond_lives (b, s->first + e)) continue;
-        double kappa = bond_kappa (b, i, s, e, NULL);
-        for (size_t a = 0; a < dim; a++)
-            for (size_t c = 0; c < dim; c++) D[a * dim + c] += kappa * xi[a] * xi[c];
+        bond_blocks (b, i, s, e, own, NULL);
+        for (size_t k = 0; k < bb; k++) D[k] += own[k];
     }
 }
 
 /* ---- rows of points that have all their bonds ----------------------------------------------------------------------------------- */
 static size_t row_of_star (const bond *b, size_t i, const bond_star *s, int all, int *node, double *value)
 {
-    size_t dim = (size_t) b->dim, bb = dim * dim, m = 0;
-    double own[9] = { 0 };
+    size_t bb = (size_t) (b->stride * b->stride), m = 0;
+    double own[MOST] = { 0 }, part[MOST];
     for (size_t e = 0; e < s->m; e++) {
-        const double *xi = s->xi + e * dim;
         if (!all && !bond_lives (b, s->first + e)) continue;
-        double kappa = bond_kappa (b, i, s, e, NULL), *v = value + m * bb;
-        for (size_t a = 0; a < dim; a++)
-            for (size_t c = 0; c < dim; c++) v[a * dim + c] = -(kappa * xi[a] * xi[c]), own[a * dim + c] += kappa * xi[a] * xi[c];
+        bond_blocks (b, i, s, e, part, value + m * bb);
+        for (size_t k = 0; k < bb; k++) own[k] += part[k];
         if (node) node[m] = s->node[e];
         m++;
     }
@@ -68,7 +67,7 @@ static size_t family_size (const bond *b, size_t i) { return b->family->start[i 
 static void find_whole (bond *b)
 {
     const pg_sums *sums = b->problem->sums;
-    size_t i = 0, n = sums->stencil.n, bb = (size_t) (b->dim * b->dim);
+    size_t i = 0, n = sums->stencil.n, bb = (size_t) (b->stride * b->stride);
     if (b->searched) return;
     b->searched = 1;
     if (b->dilation || !n || !sums->ordered || sums->share || sums->family_volume) return;
@@ -88,14 +87,14 @@ static int is_whole (void *context, size_t i)
     return b->whole && m == b->problem->sums->stencil.n && !(b->alive && memchr (b->alive + first, 0, m));
 }
 
-typedef struct { const bond *b; double *out; } job;
+typedef struct { const bond *b; double *out; const double *mass; } job;
 
 static void diagonal_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
-    size_t dim = (size_t) w->b->dim;
+    size_t dim = (size_t) w->b->stride;
     bond_star s;
-    double D[9];
+    double D[MOST];
     for (size_t i = first; i < last; i++) {
         const double *own = D;
         if (is_whole ((void *) (uintptr_t) w->b, i)) own = w->b->whole + family_size (w->b, i) * dim * dim;
@@ -111,12 +110,12 @@ static void diagonal_points (void *context, size_t first, size_t last, int threa
 void bond_diagonal (void *context, double *d)
 {
     bond *b = context;
-    size_t ndof = b->n * (size_t) b->dim;
+    size_t ndof = b->n * (size_t) b->stride;
     if (b->diagonal && b->diagonal_of == b->revision) {
         memcpy (d, b->diagonal, ndof * sizeof *d);
         return;
     }
-    job w = { b, d };
+    job w = { b, d, NULL };
     find_whole (b);
     lps_weigh (b);
     pg_parallel (b->threads, b->n, diagonal_points, &w);
@@ -124,27 +123,27 @@ void bond_diagonal (void *context, double *d)
     if (b->diagonal) memcpy (b->diagonal, d, ndof * sizeof *d), b->diagonal_of = b->revision;
 }
 
+static void add_sizes (size_t m, const double *block, double *sum)
+{
+    for (size_t a = 0; a < m; a++)
+        for (size_t c = 0; c < m; c++) sum[a] += fabs (block[a * m + c]);
+}
+
 static void row_sum_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
-    size_t dim = (size_t) w->b->dim;
+    size_t m = (size_t) w->b->stride;
     bond_star s;
-    double D[9];
+    double D[MOST], own[MOST], other[MOST];
     for (size_t i = first; i < last; i++) {
         bond_star_at (w->b, i, thread, &s);
         own_block (w->b, i, &s, 0, D);
-        double *sum = w->out + i * dim;
-        for (size_t a = 0; a < dim; a++) {
-            sum[a] = 0;
-            for (size_t c = 0; c < dim; c++) sum[a] += fabs (D[a * dim + c]);
-        }
+        memset (w->out + i * m, 0, m * sizeof *w->out);
+        add_sizes (m, D, w->out + i * m);
         for (size_t e = 0; e < s.m; e++) {
-            const double *xi = s.xi + e * dim;
-            double reach = 0;
             if (!bond_lives (w->b, s.first + e)) continue;
-            for (size_t c = 0; c < dim; c++) reach += fabs (xi[c]);
-            double kappa = bond_kappa (w->b, i, &s, e, NULL);
-            for (size_t a = 0; a < dim; a++) sum[a] += kappa * fabs (xi[a]) * reach;
+            bond_blocks (w->b, i, &s, e, own, other);
+            add_sizes (m, other, w->out + i * m);
         }
     }
 }
@@ -152,7 +151,7 @@ static void row_sum_points (void *context, size_t first, size_t last, int thread
 pg_status bond_row_sums (void *self, double *sum)
 {
     bond *b = self;
-    job w = { b, sum };
+    job w = { b, sum, NULL };
     if (lps_weigh (b) != PG_OK) return PG_E_MEMORY;
     pg_parallel (b->threads, b->n, row_sum_points, &w);
     return PG_OK;
@@ -162,7 +161,7 @@ pg_status bond_row_sums (void *self, double *sum)
 static size_t couplings_of (void *context, size_t i, int thread, int *node, double *value)
 {
     const bond *b = context;
-    size_t dim = (size_t) b->dim, bb = dim * dim, m = 0;
+    size_t bb = (size_t) (b->stride * b->stride), m = 0;
     if (!value) {
         for (size_t e = b->family->start[i]; e < b->family->start[i + 1]; e++) if (bond_lives (b, e)) node[m++] = b->family->node[e];
         node[m++] = (int) i;
@@ -209,7 +208,7 @@ pg_status bond_couplings (void *self, pg_couplings *out)
     for (int k = 0; b->whole && k < b->dim; k++) out->lattice[k] = b->problem->sums->sites.step[k];
     if (t->n) for (size_t e = 0; e < t->n * (size_t) t->dim; e++) far = fmax (far, fabs (t->xi[e]));
     else {
-        job w = { b, b->work };
+        job w = { b, b->work, NULL };
         pg_parallel (b->threads, b->n, farthest_points, &w);
         for (size_t i = 0; i < b->n; i++) far = fmax (far, b->work[i]);
     }
@@ -217,37 +216,44 @@ pg_status bond_couplings (void *self, pg_couplings *out)
     return PG_OK;
 }
 
+/* Of every bond d.K d <= 2 (d_i.own d_i + d_j.own d_j), for none has negative energy: M^-1/2 D M^-1/2 of every point alone */
 static void bound_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
     const pg_problem *p = w->b->problem;
+    size_t m = (size_t) w->b->stride;
     bond_star s;
-    double P[9], lambda[3];
+    double P[MOST], lambda[6];
     for (size_t i = first; i < last; i++) {
-        double mass = p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i];
+        const double *mass = w->mass + i * m;
         bond_star_at (w->b, i, thread, &s);
         if (w->b->dilation && p->sums->rule.follow && (w->b->limit || w->b->critical)) {
-            w->out[i] = lps_bound (w->b, i, &s) * p->cloud.volume[i] / mass;
+            w->out[i] = lps_bound (w->b, i, &s) * p->cloud.volume[i] / mass[0];
             continue;
         }
         own_block (w->b, i, &s, 1, P);
-        pg_dense_eigen (w->b->dim, P, lambda, NULL);
-        w->out[i] = 2 * lambda[0] / mass;
+        for (size_t k = 0; w->b->shear && k < m * m; k++) P[k] *= mass[0] / sqrt (mass[k / m] * mass[k % m]);
+        pg_dense_eigen ((int) m, P, lambda, NULL);
+        w->out[i] = 2 * lambda[0] / mass[0];
     }
 }
 
 pg_status bond_bound (void *self, double *omega)
 {
+    pg_status status = PG_OK;
     bond *b = self;
-    double top = 0;
-    job w = { b, b->work };
+    double top = 0, *mass = NULL;
     for (size_t m = 0; m < b->problem->nmaterial; m++)
         if (!(b->problem->material[m].density > 0))
             return pg_error (PG_E_USAGE, PG_HERE, "material %s has no density: there is no frequency", b->problem->material[m].name);
-    pg_parallel (b->threads, b->n, bound_points, &w);
+    PG_ALLOC (mass, b->n * (size_t) b->stride);
+    PG_TRY (bond_mass (b, mass));
+    pg_parallel (b->threads, b->n, bound_points, &(job) { b, b->work, mass });
     for (size_t i = 0; i < b->n; i++) top = fmax (top, b->work[i]);
     *omega = sqrt (top);
-    return PG_OK;
+done:
+    pg_free (mass);
+    return status;
 }
 
 /* ---- the matrix ---------------------------------------------------------------------------------------------------------------- */
@@ -262,7 +268,7 @@ static size_t lower (const bond *b, size_t i)
 static pg_status create_matrix (bond *b)
 {
     pg_status status = PG_OK;
-    size_t dim = (size_t) b->dim, nnz = 0;
+    size_t dim = (size_t) b->stride, nnz = 0;
     for (size_t i = 0; i < b->n; i++) nnz += lower (b, i) * dim * dim + dim * (dim + 1) / 2;
     PG_TRY (pg_sparse_create (&b->K, b->n * dim, b->n * dim, nnz, 1));
     long at = 0;
@@ -286,22 +292,22 @@ static void make_columns (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
     const bond *b = w->b;
-    size_t dim = (size_t) b->dim;
+    size_t m = (size_t) b->stride;
     bond_star s;
-    double D[9];
+    double D[MOST], own[MOST], other[MOST];
     for (size_t i = first; i < last; i++) {
         if (!b->all_stale && !b->stale[i]) continue;
         bond_star_at (b, i, thread, &s);
         own_block (b, i, &s, 0, D);
         size_t below = lower (b, i);
-        for (size_t e = 0; e < below; e++) {
-            const double *xi = s.xi + e * dim;
-            double kappa = bond_lives (b, s.first + e) ? bond_kappa (b, i, &s, e, NULL) : 0;
-            for (size_t c = 0; c < dim; c++)
-                for (size_t a = 0; a < dim; a++) b->K.value[b->K.start[i * dim + c] + (long) (e * dim + a)] = kappa == 0 ? 0 : -(kappa * xi[a] * xi[c]);
+        for (size_t e = 0; e < below; e++) {               /* the block of row i, column node: its transpose stands above      */
+            memset (other, 0, sizeof other);
+            if (bond_lives (b, s.first + e)) bond_blocks (b, i, &s, e, own, other);
+            for (size_t c = 0; c < m; c++)
+                for (size_t a = 0; a < m; a++) b->K.value[b->K.start[i * m + c] + (long) (e * m + a)] = other[c * m + a];
         }
-        for (size_t c = 0; c < dim; c++)
-            for (size_t a = 0; a <= c; a++) b->K.value[b->K.start[i * dim + c] + (long) (below * dim + a)] = D[a * dim + c];
+        for (size_t c = 0; c < m; c++)
+            for (size_t a = 0; a <= c; a++) b->K.value[b->K.start[i * m + c] + (long) (below * m + a)] = D[a * m + c];
     }
 }
 
@@ -310,7 +316,7 @@ pg_status bond_assemble (void *self)
     pg_status status = PG_OK;
     bond *b = self;
     if (!b->K.row) PG_TRY (create_matrix (b));
-    job w = { b, NULL };
+    job w = { b, NULL, NULL };
     pg_parallel (b->threads, b->n, make_columns, &w);
     b->all_stale = 0;
     memset (b->stale, 0, b->n);

@@ -5,6 +5,22 @@
 #include <stdio.h>
 #include <string.h>
 
+static void say_beams (const bond *b, size_t m, char *text, size_t size)
+{
+    const pg_problem *p = b->problem;
+    const pg_material *a = &p->material[m];
+    double axial, shear;
+    pg_beam_sums sums;
+    int used = 0;
+    if (p->nmaterial > 1) used = snprintf (text, size, "material %.60s: ", a->name);
+    if (pg_beam_moduli (&axial, &shear, p->mode, p->sums->rule.kernel, p->sums->rule.horizon, a->modulus, a->parameter[1], p->cloud.thickness) != PG_OK
+        || pg_beam_measure (&sums, p->sums) != PG_OK) return;
+    used += snprintf (text + used, size - (size_t) used, "C_N %.6g N/m^6, C_t %.6g N/m^4, bending %.6g C_t", axial, shear, p->bending);
+    if (p->sums->rule.calibrate && (size_t) used < size)
+        used += snprintf (text + used, size - (size_t) used, ", times %.6g and %.6g for these points (calibrated)", p->sums->calibration, sums.calibration);
+    if (shear == 0 && (size_t) used < size) snprintf (text + used, size - (size_t) used, "; nothing resists rotations: they are held");
+}
+
 static void say_constant (const bond *b, size_t m, char *text, size_t size)
 {
     const pg_problem *p = b->problem;
@@ -16,6 +32,10 @@ static void say_constant (const bond *b, size_t m, char *text, size_t size)
         snprintf (text, size, "%s%s%slinear peridynamic solid, bulk modulus %.6g Pa%s, shear modulus %.6g Pa; weighted volumes of %s", p->nmaterial > 1 ? "material " : "",
                   p->nmaterial > 1 ? a->name : "", p->nmaterial > 1 ? ": " : "", (A + B / d) / d, p->dim == 2 ? " (of the plane)" : "", B / (d * (d + 2)),
                   rule->follow ? "the bonds that live" : "the bonds of the start");
+        return;
+    }
+    if (b->shear) {
+        say_beams (b, m, text, size);
         return;
     }
     double c = pg_bond_modulus (p->mode, rule->kernel, rule->horizon, p->material[m].modulus, p->cloud.thickness);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private to the forces whose unknowns are the values of the points: supports by elimination, loads given to points, the ledger.
- * Unknown k of point i is i * stride + k; the first dim of them are its displacement. */
+ * Unknown k of point i is i * stride + k; the first dim of them are its displacement, further ones its rotations times a length, so that all unknowns
+ * are lengths and what works on them are forces. */
 #ifndef PG_NODAL_H
 #define PG_NODAL_H
 #include "perigal/force.h"
 #include "perigal/integration.h"
 
-typedef struct { size_t dof, point; int load, component; } nodal_support;
+typedef struct { size_t dof, point; int load, component; } nodal_support;     /* load -1: held at zero for want of stiffness   */
 typedef struct {                                       /* what one place of a load gives to one point                    */
     size_t at;                                         /* index into the points of the load                              */
     double weight;                                     /* m^2, m^3 or 1 times the share of the point                     */
@@ -17,12 +18,14 @@ typedef struct {
     size_t  npoint, npart;
     int    *point;                                     /* ascending, each once               (npoint)                    */
     nodal_part *part;                                  /* NULL once the pattern is known                                 */
-    double *pattern;                                   /* N, of factor 1; else of `time`     (npoint x dim)              */
+    int     first, components;                         /* unknowns of a point it works on                                */
+    double *pattern;                                   /* N, of factor 1; else of `time`     (npoint x components)       */
     double  time;                                      /* s                                                              */
 } nodal_load;
 typedef struct {
     const pg_problem *problem;
     int        dim, stride;
+    double     length;                                 /* of rotations, m                                                */
     size_t     n;
     nodal_support *support;  size_t nsupport;          /* ascending by unknown, each once: the first entry that prescribes it */
     double    *goal;                                   /* m, of factor 1 where its load separates (nsupport)             */
@@ -30,7 +33,8 @@ typedef struct {
     pg_sparse  T;                                      /* selects the free unknowns                                      */
 } nodal;
 
-pg_status nodal_create (nodal *s, const pg_problem *problem, int stride);
+/* idle: points whose rotations nothing resists, which are held; NULL: none (n). */
+pg_status nodal_create (nodal *s, const pg_problem *problem, int stride, double length, const unsigned char *idle);
 void      nodal_free   (nodal *s);
 /* Which points a load acts on and by which share (nodal_parts.c). */
 pg_status nodal_parts  (nodal_load *out, const nodal *s, int load);

@@ -17,11 +17,14 @@ static int is (const pg_scene *scene, const char *key, const char *word)
     return text && strcmp (text, word) == 0;
 }
 
+int pg_direct_turns (const pg_scene *scene, int dim) { return is (scene, "method.force", "gmpd") ? dim == 3 ? 3 : dim == 2 : 0; }
+
 /* What a force means where the scene says nothing: how it is summed, what breaks. */
 typedef struct { const char *force; pg_evaluation evaluation; const char *criterion; int state; } custom;
 static const custom customs[] = {
     { "fcbm", PG_EVALUATE_FFT, "node_energy", 0 },     /* Jafarzadeh et al. 2022                                         */
     { "lps", PG_EVALUATE_AUTO, NULL, 1 },              /* Silling et al. 2007                                            */
+    { "gmpd", PG_EVALUATE_AUTO, "beam_limits", 0 },    /* Chen et al. 2022                                               */
 };
 
 static const custom *custom_of (const pg_scene *scene)
@@ -70,6 +73,7 @@ void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, con
                   : is (scene, partial, "overlap") ? PG_PARTIAL_OVERLAP : !lattice ? PG_PARTIAL_LINEAR : fading ? PG_PARTIAL_NONE : PG_PARTIAL_OVERLAP;
     rule->surface = is (scene, surface, "product") ? PG_SURFACE_PRODUCT : is (scene, surface, "volume") ? PG_SURFACE_VOLUME
                   : is (scene, surface, "none") || approx->horizon < 4 * spacing * (1 - 1e-9) ? PG_SURFACE_NONE : PG_SURFACE_PRODUCT;
+    rule->beams = is (scene, "method.force", "gmpd");
     rule->calibrate = pg_scene_bool (scene, "method.calibrate");
     rule->finite = is (scene, "method.stretch", "finite");
     rule->evaluation = is (scene, evaluation, "stencil") ? PG_EVALUATE_STENCIL : is (scene, evaluation, "list") ? PG_EVALUATE_LIST
@@ -126,6 +130,31 @@ static void check_state (pg_problem *p, const pg_scene *scene, const pg_sum_rule
         pg_scene_fault (scene, "method.surface_correction", "force: %s weighs families that are not whole by their own weighted volume: use none or auto", p->force);
 }
 
+/* B / C_t of a beam: Euler and Bernoulli 1; with shear, phi = 12 EI / (k G A r^2), 1 + phi; Chen's 4 C_M - 3 C_t (theory G1) */
+static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
+{
+    static const char *const only[] = { "method.shear_parameter", "method.cm_ratio" }, *const of[] = { "timoshenko", "chen" };
+    if (p->mode == PG_LINE) pg_scene_fault (scene, "method.force", "gmpd has no meaning in one dimension, where bonds bear no shear: use force: bond");
+    if (rule->finite) pg_scene_fault (scene, "method.stretch", "force: gmpd is linear in displacement and rotation: use stretch: linear, or force: bond");
+    if (rule->evaluation == PG_EVALUATE_FFT) pg_scene_fault (scene, "method.evaluation", "bonds that bear shear have no sums by FFT: use auto, stencil or list");
+    for (int k = 0; k < 2; k++)
+        if (pg_scene_given (scene, "%s", only[k]) && !is (scene, "method.beam", of[k])) pg_scene_fault (scene, only[k], "is for method.beam: %s", of[k]);
+    p->turns = pg_direct_turns (scene, p->dim);
+    p->bending = is (scene, "method.beam", "timoshenko") ? 1 + pg_scene_number (scene, only[0])
+               : is (scene, "method.beam", "chen") ? 4 * pg_scene_number (scene, only[1]) - 3 : 1;
+    for (size_t m = 0; m < p->nmaterial && p->mode != PG_LINE; m++) {
+        double nu = p->material[m].parameter[1], most = pg_beam_poisson (p->mode);
+        char path[120];
+        snprintf (path, sizeof path, "materials.%.63s.poissons_ratio", p->material[m].name);
+        double axial, shear;
+        if (nu <= most + 1e-9 && pg_beam_moduli (&axial, &shear, p->mode, rule->kernel, rule->horizon, p->material[m].modulus, nu, p->cloud.thickness) != PG_OK)
+            pg_scene_fault (scene, "method.kernel", "%s", pg_last_error ());
+        if (nu > most + 1e-9)
+            pg_scene_fault (scene, path, "%.6g is more than %.6g, the largest of micropolar bonds%s: their shear stiffness would be negative and the body unstable; "
+                            "use force: galerkin", nu, most, p->mode == PG_PLANE_STRESS ? " in plane stress" : "");
+    }
+}
+
 /* ---- sums -------------------------------------------------------------------------------------------------------------------- */
 static pg_status on_lattice (const pg_problem *p, int *yes)
 {
@@ -145,7 +174,8 @@ pg_status pg_direct_build (pg_problem *p, const pg_scene *scene)
     note_unused (p, scene);
     PG_TRY (on_lattice (p, &lattice));
     pg_direct_rule (&rule, scene, p->mode, &p->approx, p->cloud.h, lattice);
-    if (rule.state) check_state (p, scene, &rule);
+    if (rule.beams) read_beams (p, scene, &rule);
+    else if (rule.state) check_state (p, scene, &rule);
     else take_poisson (p);
     if (!lattice && rule.partial == PG_PARTIAL_OVERLAP)
         pg_scene_fault (scene, "method.partial_volume", "overlap needs the cells of a lattice, and these points lie on none: use linear or none");

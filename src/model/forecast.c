@@ -29,7 +29,7 @@ static void halve (parts *p, int k)
 static void dissect (const pg_forecast *f, double *entries, double *flops)
 {
     parts p = { 0 };
-    double L[3] = { f->edge[0], f->edge[1], f->edge[2] }, m = f->dim;
+    double L[3] = { f->edge[0], f->edge[1], f->edge[2] }, m = f->dim + f->turns;
     p.count[0][0][0] = 1;
     *entries = *flops = 0;
     for (int level = 0, k = 0, last = 0; level < 200 && !last; level++) {
@@ -54,7 +54,7 @@ static void dissect (const pg_forecast *f, double *entries, double *flops)
 static void choose_linear (pg_forecast *f)
 {
     if (!f->automatic) return;
-    int none = f->explicit_ || f->matrixless ? 1 : f->dynamic ? f->weight <= 9 * f->spacing * f->spacing : f->direct ? pg_direct_large (1, f->dim, f->points * f->dim)
+    int none = f->explicit_ || f->matrixless ? 1 : f->dynamic ? f->weight <= 9 * f->spacing * f->spacing : f->direct ? pg_direct_large (1, f->dim, f->points * (f->dim + f->turns))
              : f->dim == 3 && f->points * 3 > 200000;
     strcpy (f->linear, none ? "cg" : "cholmod");
 }
@@ -74,18 +74,19 @@ void pg_forecast_sum (pg_forecast *f)
     double bulk = f->nodal ? f->bonds[PG_NODES] : f->summed > 0 ? f->summed : f->bonds[PG_POINTS], corners = pow (2, d), *b = f->bytes;
     choose_linear (f);
     int factors = strcmp (f->linear, "cg") != 0, lu = strcmp (f->linear, "umfpack") == 0;
-    f->dofs = n * d;
-    f->matrix_entries = (f->pairs - n) * d * d + n * d * (d + 1) / 2;
+    double m = d + f->turns;
+    f->dofs = n * m;
+    f->matrix_entries = (f->pairs - n) * m * m + n * m * (m + 1) / 2;
     b[PG_BYTES_PROGRAM] = 35e6;
     b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->cells * 8 * d * corners;                    /* pg_cloud, pg_cells             */
     b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows                        */
     b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;                  /* galerkin      */
     b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;                                        /* pg_consistency                 */
-    if (f->direct) b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? 7 : 0.25) * all + 100 * n + (factors ? 0 : 8 * f->dofs);       /* pg_sweep, bond */
+    if (f->direct) b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? (f->turns ? 25 + 8 * d : 7) : 0.25) * all + (100 + 16 * f->turns) * n + (factors ? 0 : 8 * f->dofs);       /* pg_sweep, bond */
     b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;    /* states; breaker; factored      */
     b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
     if (f->direct && !factors && !f->explicit_ && !f->dynamic)         /* the multilevel preconditioner: its finest level, its first coarse matrix */
-        b[PG_BYTES_VECTORS] += n * (32 * d + 16 * corners + 16) + n * d * d * 12 * pow (1.25, d);
+        b[PG_BYTES_VECTORS] += n * (32 * m + 16 * corners + 16) + n * m * m * 12 * pow (1.25, d);
     b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
     b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
     if (factors)
@@ -146,7 +147,7 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
     for (int s = 0; s < PG_BOND_SETS; s++) f->bonds[s] = (double) (p->first_bond[s + 1] - p->first_bond[s]);
     f->pairs = p->direct ? 0.5 * f->bonds[PG_NODES] + f->points : shared * f->points;
     f->matrixless = p->sums && p->sums->rule.state;
-    f->direct = p->direct, f->listed = p->sums && p->sums->stencil.n == 0, f->by_list = p->sums && summed_by_list (p);
+    f->direct = p->direct, f->listed = p->sums && p->sums->stencil.n == 0, f->by_list = p->sums && summed_by_list (p), f->turns = p->turns;
     f->summed = p->consistency ? (double) (p->consistency->family.start[p->consistency->family.n] + p->consistency->face.family.start[p->consistency->face.n]) : 0;
     f->horizon = p->approx.horizon, f->spacing = p->cloud.h;
     f->counted = 1;

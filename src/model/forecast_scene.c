@@ -65,7 +65,7 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
 static void read_method (pg_forecast *f, const pg_scene *scene)
 {
     const pg_integration_type *integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
-    f->direct = pg_direct_force (scene), f->matrixless = pg_direct_state (scene);
+    f->direct = pg_direct_force (scene), f->matrixless = pg_direct_state (scene), f->turns = pg_direct_turns (scene, f->dim);
     f->by_list = f->direct && (is (pg_scene_text (scene, "method.evaluation"), "list") || is (pg_scene_text (scene, "method.surface_correction"), "volume")
                                || pg_scene_number (scene, "perturb.amount") > 0 || pg_scene_count (scene, "blocks") > 1);
     f->nodal = f->direct || (integration && integration->at_nodes);

@@ -37,12 +37,12 @@ done:
 
 void pg_initial_set (const pg_problem *p, double *v)
 {
-    size_t dim = (size_t) p->dim;
+    size_t dim = (size_t) p->dim, stride = dim + (size_t) p->turns;
     for (size_t k = 0; k < dim; k++) {
         if (!p->initial[k]) continue;
         for (size_t i = 0; i < p->cloud.n; i++) {
             pg_place at = pg_place_of (p->dim, p->cloud.x + i * dim, 0);
-            v[i * dim + k] = pg_expression_value (p->initial[k], &at);
+            v[i * stride + k] = pg_expression_value (p->initial[k], &at);
         }
     }
 }

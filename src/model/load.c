@@ -8,9 +8,13 @@
 static const struct { const char *key, *unit; pg_load_kind kind; } kinds[] = {
     { "displacement", "m", PG_DISPLACEMENT }, { "velocity", "m/s", PG_VELOCITY }, { "traction", "Pa", PG_TRACTION },
     { "pressure", "Pa", PG_PRESSURE }, { "force", "N", PG_POINT_FORCE }, { "body_force", "N/m3", PG_BODY_FORCE },
+    { "rotation", "rad", PG_ROTATION }, { "moment", "N m", PG_MOMENT },
 };
 
-int pg_load_prescribes (const pg_load *load) { return load->kind == PG_DISPLACEMENT || load->kind == PG_VELOCITY; }
+int pg_load_prescribes (const pg_load *load) { return load->kind == PG_DISPLACEMENT || load->kind == PG_VELOCITY || load->kind == PG_ROTATION; }
+int pg_load_turns (const pg_load *load) { return load->kind == PG_ROTATION || load->kind == PG_MOMENT; }
+int pg_load_components (const pg_load *load, int dim) { return !pg_load_turns (load) || dim == 3 ? dim : dim == 2; }
+char pg_load_axis (const pg_load *load, int dim, int k) { return "xyz"[pg_load_turns (load) && dim < 3 ? 2 : k]; }
 
 static double table_value (const pg_load *load, double t)
 {
@@ -136,12 +140,17 @@ static pg_status read_values (pg_load *load, const pg_scene *scene, size_t i, co
         PG_TRY (pg_expression_compile (&load->value[0], pg_scene_text (scene, "boundary[%zu].pressure", i), unit));
         goto done;
     }
-    for (int k = 0; k < 3; k++) {
-        const char *text = pg_scene_text (scene, "boundary[%zu].%s.%c", i, key, "xyz"[k]);
+    for (int axis = 0; axis < 3; axis++) {
+        const char *text = pg_scene_text (scene, "boundary[%zu].%s.%c", i, key, "xyz"[axis]);
         if (!text || !*text) continue;
-        snprintf (path, sizeof path, "boundary[%zu].%s.%c", i, key, "xyz"[k]);
-        if (k >= dim) pg_scene_fault (scene, path, "a %dD body has no such component", dim);
-        else PG_TRY (pg_expression_compile (&load->value[k], text, unit));
+        snprintf (path, sizeof path, "boundary[%zu].%s.%c", i, key, "xyz"[axis]);
+        int k = pg_load_turns (load) && dim < 3 ? axis - 2 : axis;
+        if (k < 0 || k >= pg_load_components (load, dim)) {
+            pg_scene_fault (scene, path, "a %dD body has no such component", dim);
+            found++;
+            continue;
+        }
+        PG_TRY (pg_expression_compile (&load->value[k], text, unit));
         if (load->value[k] && pg_expression_uses (load->value[k], 't')) {
             load->proportional = 0;
             if (load->kind == PG_VELOCITY) pg_scene_fault (scene, path, "a prescribed velocity may not depend on t (use displacement)");
@@ -185,8 +194,10 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     char path[64];
     const char *set = pg_scene_text (scene, "boundary[%zu].set", i), *name = pg_scene_text (scene, "boundary[%zu].name", i);
     size_t k = 0;
-    while (k < 5 && !pg_scene_given (scene, "boundary[%zu].%s", i, kinds[k].key)) k++;
+    while (k + 1 < sizeof kinds / sizeof *kinds && !pg_scene_given (scene, "boundary[%zu].%s", i, kinds[k].key)) k++;
     load->kind = kinds[k].kind;
+    snprintf (path, sizeof path, "boundary[%zu].%s", i, kinds[k].key);
+    if (pg_load_turns (load) && !problem->turns) pg_scene_fault (scene, path, "is for force: gmpd: points of force: %s do not turn", problem->force);
     snprintf (load->name, sizeof load->name, "%.63s", name && *name ? name : set);
     snprintf (path, sizeof path, "boundary[%zu].set", i);
     load->set = pg_sets_named (&problem->sets, scene, path, set);

@@ -18,6 +18,7 @@ void      pg_direct_check_laws (const pg_problem *problem, const pg_scene *scene
 int       pg_direct_force (const pg_scene *scene);
 /* 1: its bonds are those of state-based theory. */
 int       pg_direct_state (const pg_scene *scene);
+int       pg_direct_turns (const pg_scene *scene, int dim);              /* rotations of a point                           */
 /* Criterion of that force where the scene names none; NULL: it must.  */
 const char *pg_direct_criterion (const pg_scene *scene);
 /* Its rule, on a lattice or not; mode and kernel as given. */

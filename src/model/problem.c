@@ -63,6 +63,19 @@ done:
     return status;
 }
 
+/* Energy of a straight cut, J/m^2, all bonds at s = 1, gamma = 1, kappa = 1. */
+static pg_status measure_beams (double *out, const pg_problem *p, double axial, double shear)
+{
+    pg_status status = PG_OK;
+    pg_beam_sums sums;
+    PG_TRY (pg_beam_measure (&sums, p->sums));
+    out[0] = 0.5 * p->sums->calibration * axial * sums.along;
+    out[1] = 6 * sums.calibration * shear * sums.across;
+    out[2] = 0.5 * p->bending * sums.calibration * shear * sums.across;
+done:
+    return status;
+}
+
 static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -76,11 +89,21 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
             .graded = p->cloud.size != NULL && !p->direct, .toughness = p->direct && p->sums->rule.calibrate ? pg_sums_toughness (p->sums, p->material[i].modulus, p->material[i].parameter[1]) : 0,
             .stretch = !p->direct ? NULL : p->sums->rule.finite ? "finite" : "linear", .usual = pg_direct_criterion (scene),
             .state = p->direct && p->sums->rule.state };
+    for (size_t i = 0; p->turns && i < p->nmaterial; i++) {
+        double axial, shear;
+        PG_TRY (pg_beam_moduli (&axial, &shear, p->mode, p->approx.kernel, p->approx.horizon, p->material[i].modulus, p->material[i].parameter[1], p->cloud.thickness));
+        PG_TRY (measure_beams (setting[i].beam, p, axial, shear));
+        setting[i].modulus = p->material[i].modulus * axial / pg_bond_modulus (p->mode, p->approx.kernel, p->approx.horizon, p->material[i].modulus, p->cloud.thickness);
+    }
     PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));
     int needs = p->criterion->type ? p->criterion->type->needs : 0;
     if (p->direct && (needs & PG_NEEDS_STRESS))
         pg_scene_fault (scene, "failure.criterion", "%s needs stresses, and force: %s knows only the stretch of its bonds: use stretch, or force: galerkin",
                         p->criterion->type->name, p->force);
+    if (!p->turns && (needs & PG_NEEDS_BEAMS))
+        pg_scene_fault (scene, "failure.criterion", "%s judges bonds that bear shear and bending, which only force: gmpd has", p->criterion->type->name);
+    if (p->turns && (needs & PG_NEEDS_ENERGY))
+        pg_scene_fault (scene, "failure.criterion", "%s is for bonds that pull along themselves: with force: gmpd use beam_limits or stretch", p->criterion->type->name);
     if (!p->direct && (needs & PG_NEEDS_ENERGY))
         pg_scene_fault (scene, "failure.criterion", "%s needs the energy that bonds store at a point, and force: %s has bonds without energy: use stretch, "
                         "principal_stress or mohr_coulomb, or force: bond or fcbm", p->criterion->type->name, p->force);
@@ -225,7 +248,7 @@ int pg_problem_proportional (const pg_problem *p)
         /* a displacement held at zero is proportional too */
         static const double places[3][3] = { { 0.37, -0.21, 0.83 }, { -1.3, 2.7, 0.11 }, { 5.1, 0.77, -3.9 } };
         int held = pg_load_prescribes (&p->load[i]);
-        for (int k = 0; k < p->dim && held; k++)
+        for (int k = 0; k < pg_load_components (&p->load[i], p->dim) && held; k++)
             for (int q = 0; q < 9 && held; q++) held = pg_load_value (&p->load[i], k, p->dim, places[q % 3], 0.1 + 0.4 * (q / 3)) == 0;
         if (!held) return 0;
     }

@@ -7,8 +7,9 @@
 #include <string.h>
 
 /* "damage|displacement|displacement.x|...|stress.xx|..." */
-static void picture_names (int dim, char *out, size_t size)
+static void picture_names (const pg_problem *p, char *out, size_t size)
 {
+    int dim = p->dim;
     static const char *const vector[] = { "displacement", "velocity" }, *const tensor[] = { "stress", "strain" };
     size_t at = (size_t) snprintf (out, size, "damage");
     for (int f = 0; f < 2; f++) {
@@ -19,6 +20,7 @@ static void picture_names (int dim, char *out, size_t size)
         if (dim == 1) at += (size_t) snprintf (out + at, size - at, "|%s", tensor[f]);
         for (int k = 0; k < pg_voigt_size (dim); k++) at += (size_t) snprintf (out + at, size - at, "|%s.%s", tensor[f], result_voigt (dim, k));
     }
+    if (p->turns) at += (size_t) snprintf (out + at, size - at, "|rotation%s", p->turns == 3 ? "|rotation.x|rotation.y|rotation.z" : "");
     snprintf (out + at, size - at, "|error_estimate");
 }
 
@@ -149,11 +151,16 @@ pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
     const char *name;
     size_t count = 0;
     pg_reference *reference = NULL;
-    picture_names (problem->dim, names, sizeof names);
+    picture_names (problem, names, sizeof names);
     for (; (name = pg_scene_name (scene, count, "output.pictures")); count++)
         if (!among (names, name)) {
             snprintf (path, sizeof path, "output.pictures[%zu]", count);
             fault_of_picture (scene, path, name, names);
+        }
+    for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")); k++)
+        if (strcmp (name, "rotation") == 0 && !problem->turns) {
+            snprintf (path, sizeof path, "output.fields[%zu]", k);
+            pg_scene_fault (scene, path, "is for force: gmpd: points of force: %s do not turn", problem->force);
         }
     for (size_t i = 0; i < pg_scene_count (scene, "output.views"); i++, count++) check_view (scene, problem, i, names);
     if (count >= MOST_PICTURES) pg_scene_fault (scene, "output.pictures", "at most %d pictures", MOST_PICTURES - 1);

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char axis[3] = { 'x', 'y', 'z' };
 static const char *const first_columns[] = { "step [1]", "time [s]", "load_factor [1]" };
 static const char *const last_columns[] = { "energy_strain [J]", "energy_kinetic [J]", "energy_external [J]", "energy_dissipated [J]",
                                             "broken [1]", "iterations [1]", "residual [1]", "utilisation [1]", "event [1]", "level [1]" };
@@ -21,9 +20,11 @@ pg_status result_history_create (pg_result *r, const result_marks *from)
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
     for (size_t l = 0; l < p->nload; l++)
-        for (int k = 0; k < p->dim; k++) {
-            snprintf (name[n++], sizeof *name, "%s.force_%c [N]", p->load[l].name, axis[k]);
-            snprintf (name[n++], sizeof *name, "%s.displacement_%c [m]", p->load[l].name, axis[k]);
+        for (int k = 0; k < pg_load_components (&p->load[l], p->dim); k++) {
+            char axis = pg_load_axis (&p->load[l], p->dim, k);
+            int turns = pg_load_turns (&p->load[l]);
+            snprintf (name[n++], sizeof *name, turns ? "%s.moment_%c [N m]" : "%s.force_%c [N]", p->load[l].name, axis);
+            snprintf (name[n++], sizeof *name, turns ? "%s.rotation_%c [rad]" : "%s.displacement_%c [m]", p->load[l].name, axis);
         }
     for (size_t g = 0; g < p->ngauge; g++) snprintf (name[n++], sizeof *name, "%s [m]", p->gauge[g].name);
     for (size_t a = 0; a < r->naverage; a++) result_average_column (r, a, name[n++], sizeof *name);
@@ -68,7 +69,7 @@ static pg_status event_rows (pg_result *r, const pg_step *step)
     for (size_t i = 0; i < step->nbroken; i++) {
         const pg_broken *b = &step->broken[i];
         char text[8][40];
-        const char *kind = b->kind == 's' ? "shear" : b->kind == 'e' ? "energy" : "tension";
+        const char *kind = b->kind == 's' ? "shear" : b->kind == 'e' ? "energy" : b->kind == 'b' ? "bending" : "tension";
         const char *cell[10] = { text[0], text[1], text[2], set_name[b->set], kind, text[3], text[4], text[5], text[6], text[7] };
         double factor = b->time == step->time || !(step->time > 0) ? step->factor : step->factor * b->time / step->time;
         double number[8] = { (double) step->number, factor, b->time, b->place[0], b->place[1], b->place[2], b->utilisation,
@@ -102,9 +103,12 @@ pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step
     const char *unit;
     r->row[n++] = (double) step->number, r->row[n++] = step->time, r->row[n++] = step->factor;
     if (force->field) PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, r->u));
+    if (force->field && p->turns) PG_TRY (force->field (self, state, state->d, "rotation", &components, &unit, r->u + 3 * p->cloud.n));
     for (size_t l = 0; l < p->nload; l++)
-        for (int k = 0; k < p->dim; k++) {
-            double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0, u = mean_of (p->load[l].set, r->u, p->dim, k);
+        for (int k = 0; k < pg_load_components (&p->load[l], p->dim); k++) {
+            int turns = pg_load_turns (&p->load[l]);
+            double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0;
+            double u = mean_of (p->load[l].set, turns ? r->u + 3 * p->cloud.n : r->u, turns ? p->turns : p->dim, k);
             if ((int) l == r->curve_load && k == r->curve_component) PG_TRY (add_curve_point (r, fabs (u), fabs (f)));
             r->row[n++] = f, r->row[n++] = u;
         }

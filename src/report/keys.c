@@ -3,7 +3,7 @@
 #include "perigal/scene.h"
 
 static const pg_key keys[] = {
-    { "output.fields", PG_NAMES, NULL, NULL, "[displacement, damage, stress]", "displacement|velocity|damage|stress|strain|error_estimate", NULL, NULL, "Fields of result.e; error_estimate: of the stress, by recovery." },
+    { "output.fields", PG_NAMES, NULL, NULL, "[displacement, damage, stress]", "displacement|rotation|velocity|damage|stress|strain|error_estimate", NULL, NULL, "Fields of result.e; rotation: of points, gmpd only; error_estimate: of the stress, by recovery." },
     { "output.pictures", PG_NAMES, NULL, NULL, "[damage]", NULL, NULL, NULL, "Pictures of the last state: a field, or a part of one (displacement.y, stress.xx). Of a mesh: on its elements, while no bond is broken." },
     { "output.views", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "More pictures of the last state, each with its own view, range or name: {field: damage, view: back}." },
     { "output.views[].field", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL, "A field, or a part of one, as in output.pictures; damage if not given." },

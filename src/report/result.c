@@ -55,7 +55,7 @@ static void choose_curve (pg_result *r)
     for (size_t l = 0; l < p->nload; l++)
         for (int k = 0; k < p->dim; k++) {
             const pg_load *load = &p->load[l];
-            if (!pg_load_prescribes (load) || load->set->npoint == 0) continue;
+            if (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_turns (load)) continue;
             double end = load->kind == PG_VELOCITY ? 1e-9 : 1, size = 0;
             for (size_t i = 0; i < load->set->npoint; i++)
                 size = fmax (size, fabs (pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, end)));
@@ -89,8 +89,10 @@ static pg_status read_wishes (pg_result *r, const pg_scene *scene)
         pg_field_view *f = &r->field[k];
         int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0 || strcmp (f->name, "coefficient") == 0;
         PG_ALLOC (r->value[k], 6 * r->problem->cloud.n);
-        f->components = strcmp (f->name, "damage") == 0 || strcmp (f->name, "error_estimate") == 0 ? 1 : vector ? r->problem->dim : pg_voigt_size (r->problem->dim);
+        int turns = strcmp (f->name, "rotation") == 0;
+        f->components = turns ? r->problem->turns : strcmp (f->name, "damage") == 0 || strcmp (f->name, "error_estimate") == 0 ? 1 : vector ? r->problem->dim : pg_voigt_size (r->problem->dim);
         snprintf (f->unit, sizeof f->unit, "%s", strcmp (f->name, "stress") == 0 || *f->name == 'e' ? "Pa" : !vector ? "" : f->name[0] == 'v' ? "m/s" : "m");
+        if (turns) snprintf (f->unit, sizeof f->unit, "rad");
         f->value = r->value[k];
     }
 done:

@@ -191,9 +191,11 @@ static pg_status bury (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
     breaker *b = &s->breaker;
+    const pg_force_type *force = b->system.force;
     char kind = s->problem->criterion->type->needs & PG_NEEDS_ENERGY ? 'e' : 't';
     for (size_t k = 0; k < b->changes.n; k++) {
         state->alive[b->changes.bond[k]] = 0;
+        if (force->kind_of) kind = force->kind_of (b->system.self, state->d, b->changes.bond[k]);
         PG_TRY (breaker_log (b, b->changes.bond[k], kind, NAN, t));
     }
     state->broken += (long) b->changes.n;

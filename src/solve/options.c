@@ -40,7 +40,7 @@ static void read_static (pg_solver_options *o, const pg_problem *problem, const 
 static int stands_still (const pg_problem *p, const pg_load *load)
 {
     for (size_t i = 0; i < load->set->npoint; i++)
-        for (int k = 0; k < p->dim; k++)
+        for (int k = 0; k < pg_load_components (load, p->dim); k++)
             if (load->value[k] && pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, 1) != 0) return 0;
     return pg_load_prescribes (load);
 }

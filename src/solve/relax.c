@@ -15,7 +15,7 @@ static pg_status prepare (pg_solver *s)
     for (size_t i = 0; i < sys->ndof; i++) x->mass[i] = sys->mass[i];
     if (s->options.damping > 0) {
         PG_ALLOC (x->rate, sys->ndof);
-        for (size_t i = 0; i < sys->ndof; i++) x->rate[i] = s->options.damping * s->problem->cloud.volume[i / components] / sys->mass[i];
+        for (size_t i = 0; i < sys->ndof; i++) x->rate[i] = s->options.damping * s->problem->cloud.volume[i / components] / sys->mass[i / components * components];
     }
     PG_TRY (relaxing_stages (s));
 done:

@@ -17,9 +17,9 @@ static double moment (const pg_kernel *kernel, double horizon, int n) { return p
 static pg_status shear_moment (double *out, const pg_kernel *kernel, double horizon, int dim)
 {
     pg_status status = PG_OK;
-    double q = 1e-12, w;
+    double q = 1e-4, w;
     kernel->value (1, &q, &w, NULL);
-    if (dim == 2 && w * q > 1e-6) PG_FAIL (PG_E_USAGE, "kernel %s: the shear of short bonds has no bound in 2D; use constant", kernel->name);
+    if (dim == 2 && w * q > 0.01) PG_FAIL (PG_E_USAGE, "kernel %s: the shear of short bonds has no bound in 2D; use constant", kernel->name);
     *out = moment (kernel, horizon, dim - 2);
 done:
     return status;

@@ -193,6 +193,6 @@ static pg_status energies (void *self, const double *u, double *W)
 }
 
 const pg_sweep_kind pg_sweep_beam_list = {
-    .name = "list", .state = 2, .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = update, .force = force, .energy = energy,
+    .name = "list", .state = 2, .plain = 1, .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = update, .force = force, .energy = energy,
     .energies = energies,
 };

@@ -8,6 +8,7 @@
 
 enum { PG_BLOCK = 32, PG_TERMS = 10 };                 /* sites of a block; doubles per bond                             */
 enum { PG_AT_XI, PG_AT_PULL = 3, PG_AT_LIMIT = 6, PG_AT_R2 = 7, PG_AT_R = 8, PG_AT_STORED = 9 };
+enum { PG_AT_KT = 3, PG_AT_KG = 4, PG_AT_KB = 5, PG_AT_BEAM_INVERSE = 6, PG_AT_STRETCH_SHARE = 7, PG_AT_SHEAR_SHARE = 8, PG_AT_BEND_SHARE = 9 };    /* beams */
 enum { PG_AT_WV = 3, PG_AT_WVV = 4, PG_AT_INVERSE = 5 };               /* state-based                                    */
 typedef struct {
     size_t   base;                                     /* padded place of its first site                                 */
@@ -34,6 +35,11 @@ typedef struct {
     double         *energies;                          /* the same sum of each point (n); NULL: not wanted               */
     /* State-based (state.h): term = xi (3), w V, w V^2, 1 / r^2, and the limit where it always is.                      */
     double         *factor, *beta, *alpha;             /* padded, 0 where there is no point: A d / q^2, B / q, A theta / q */
+    /* Beams (beam_kernel.h): term = xi (3), kt, (kn - kt) / r^2, kb, 1 / r^2, 1 / s0^2, 1 / (r gamma0)^2, 1 / (length kappa0)^2. */
+    double         *q[3];                              /* padded rotations times a length, m                             */
+    double          lever;                             /* 1 / (2 length), 1/m                                            */
+    int             single;                            /* any one limit, not all together                                */
+    uint32_t       *over;                              /* as alive: those at their limit                                 */
     double          volume;                            /* of a lattice cell, m^3                                         */
 } pg_block_job;
 
@@ -44,6 +50,7 @@ typedef struct {
     pg_block_loop energy[3][2][2];                     /* [dim - 1][finite][weighted]: job->energy                       */
     /* State-based, of 2 and 3 dimensions [dim - 2]: sums of w xi.eta V times factor to job->alpha (and job->hit); job->f; job->energy, J */
     pg_block_loop dilate[2][3][2], pull[2][2], store[2][2];            /* [check][weighted]                              */
+    pg_block_loop beam[2][2], beam_energy[2][2], beam_look[2], beam_over[2];           /* [dim - 2][weighted]             */
     int fused;                                         /* a b + c is rounded once                                        */
     void (*spread) (const pg_block_job *job, const double *u, size_t first, size_t last);      /* u (n x dim) to job->u  */
 } pg_block_kernels;

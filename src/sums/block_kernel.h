@@ -163,6 +163,7 @@ static TARGET void spread (const pg_block_job *job, const double *u, size_t firs
 }
 
 #include "state_kernel.h"
+#include "beam_kernel.h"
 
 #define FORCE(D, F, C, W) static TARGET void force_##D##F##C##W (const pg_block_job *job, size_t first, size_t last) \
     { force_loop (job, first, last, D, F, C, W); }
@@ -178,5 +179,7 @@ const pg_block_kernels NAME = {
     .force  = { { ROW (1, 0), ROW (1, 1) }, { ROW (2, 0), ROW (2, 1) }, { ROW (3, 0), ROW (3, 1) } },
     .energy = { { SUM (1, 0), SUM (1, 1) }, { SUM (2, 0), SUM (2, 1) }, { SUM (3, 0), SUM (3, 1) } },
     .dilate = { DILATES (2), DILATES (3) }, .pull = { PULLS (2), PULLS (3) }, .store = { STORES (2), STORES (3) },
+    .beam = { { beam_force_20, beam_force_21 }, { beam_force_30, beam_force_31 } }, .beam_look = { beam_look_2, beam_look_3 },
+    .beam_energy = { { beam_energy_20, beam_energy_21 }, { beam_energy_30, beam_energy_31 } }, .beam_over = { beam_over_2, beam_over_3 },
     .spread = spread, .fused = FUSED,
 };

@@ -274,8 +274,7 @@ void stencil_bytes (const void *self, double *per_bond, double *per_point)
 }
 
 /* ---- sums ------------------------------------------------------------------------------------------------------------------------- */
-/* Position in the family of the bond b of the site at `place`, whose point is i */
-static size_t entry_of (const stencil *s, int i, size_t place, size_t b)
+size_t stencil_entry (const stencil *s, int i, size_t place, size_t b)
 {
     const pg_family *family = s->setting.family;
     size_t low = family->start[i], high = family->start[i + 1];
@@ -315,7 +314,7 @@ static pg_status kill_bonds (stencil *s, size_t k, pg_changes *found)
             if (!(measure (s, block->base + bit, b) >= s->term[b * PG_TERMS + PG_AT_LIMIT])) continue;
             *word &= ~(1u << bit);
             PG_GROW (found->bond, found->cap, found->n + 1);
-            found->bond[found->n++] = entry_of (s, s->job.point[block->site + bit], block->base + bit, b);
+            found->bond[found->n++] = stencil_entry (s, s->job.point[block->site + bit], block->base + bit, b);
         }
     }
 done:

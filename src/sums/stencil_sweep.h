@@ -39,6 +39,8 @@ size_t    stencil_owner  (const stencil *s, size_t entry);                      
 void      stencil_spread (stencil *s, const double *u);                                   /* u (n x dim) to job.u        */
 /* The loop over all blocks; where it says `hit` the bonds over their limit die, `lost` (or NULL) is told, and `again` does the block anew. Bonds
  * that died are appended to broken. */
+/* Position in the family of bond b of the site at `place`, whose point is i. */
+size_t    stencil_entry  (const stencil *s, int i, size_t place, size_t b);
 typedef void (*stencil_lost) (stencil *s, size_t block);
 pg_status stencil_run    (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, pg_changes *broken);
 /* ... over n blocks of a list. */

@@ -11,7 +11,7 @@ struct pg_sweep {
     char  name[32], reason[160];
 };
 
-static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list, &pg_sweep_fft, &pg_sweep_state_stencil, &pg_sweep_state_list, &pg_sweep_state_fft, &pg_sweep_beam_list };
+static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list, &pg_sweep_fft, &pg_sweep_state_stencil, &pg_sweep_state_list, &pg_sweep_state_fft, &pg_sweep_beam_stencil, &pg_sweep_beam_list };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 static const char *const set_name[PG_INSTRUCTION_SETS] = { "scalar", "avx2", "avx512" };
 
@@ -84,7 +84,7 @@ pg_status pg_sweep_create (pg_sweep **out, const pg_sweep_setting *setting)
     if (setting->sums->rule.evaluation != PG_EVALUATE_AUTO) strcpy (s->reason, "asked for");
     else compare_transforms (&s->kind, setting, set, s->reason, sizeof s->reason);
     strcpy (s->name, s->kind->name);
-    strcat (strcat (s->name, " "), set_name[set]);
+    if (!s->kind->plain) strcat (strcat (s->name, " "), set_name[set]);
     PG_TRY (s->kind->create (&s->self, setting, set));
     if (s->kind->remark) {
         size_t used = strlen (s->reason);

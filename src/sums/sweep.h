@@ -26,9 +26,10 @@ typedef struct {
     double    (*time) (const pg_sweep_setting *setting, pg_instructions set);        /* about, ns a sum on one thread, of what is not refused; NULL: unknown */
     const char *(*remark) (const void *self);          /* what else to say about it; NULL: nothing                       */
     void      (*counts) (const void *self, pg_sweep_counts *out);        /* NULL: none                                    */
+    int plain;                                         /* 1: the same loop whatever the instructions                     */
     pg_status (*dilatation) (void *self, const double *u, double *theta, double *q);           /* state-based only         */
 } pg_sweep_kind;
-extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list, pg_sweep_fft, pg_sweep_state_stencil, pg_sweep_state_list, pg_sweep_state_fft, pg_sweep_beam_list;
+extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list, pg_sweep_fft, pg_sweep_state_stencil, pg_sweep_state_list, pg_sweep_state_fft, pg_sweep_beam_stencil, pg_sweep_beam_list;
 
 /* Adds n bonds (any order, none twice) to the end of `to`, ascending among themselves; sorts `bond`. */
 pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond);

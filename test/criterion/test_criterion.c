@@ -28,14 +28,36 @@ static double stress_use (const pg_criterion *c, double s1, double s3, char *kin
     return u;
 }
 
-static void the_catalogue_lists_four (void **state)
+/* Shares add up as squares, or the largest counts; shortening has none. */
+static void beams_break_by_energy (void **state)
 {
     (void) state;
-    assert_string_equal (pg_criterion_names (), "stretch|principal_stress|mohr_coulomb|node_energy");
+    const double xi[3][2] = { { 2, 0 }, { 0, 1 }, { 1, 0 } }, eta[3][2] = { { 0.2, 5 }, { 7, -0.3 }, { 0.06, 0 } }, shear[3] = { 0.01, 0.02, 0.08 }, bending[3] = { 0.3, 0.1, 0 };
+    double u[3], f[3];
+    char kind[3];
+    pg_criterion c = { .type = pg_criterion_find ("beam_limits"), .parameter = { 0.1, 0.1, 0.4, 1 } };
+    const pg_bond_measures m = { .n = 3, .dim = 2, .xi = &xi[0][0], .eta = &eta[0][0], .shear = shear, .bending = bending };
+    for (int single = 0; single < 2; single++) {
+        c.single = single;
+        c.type->utilisation (&c, &m, u, kind);
+        c.type->factor (&c, &m, f);
+        check_relative (u[0], single ? 1 : sqrt (1 + 0.01 + 0.5625), 1e-12);
+        check_relative (u[1], single ? 0.25 : hypot (0.2, 0.25), 1e-12);
+        check_relative (u[2], single ? 0.8 : 1, 1e-12);
+        assert_memory_equal (kind, "tbs", 3);
+        for (int k = 0; k < 3; k++) check_relative (f[k] * u[k], 1, 1e-12);
+    }
+}
+
+static void the_catalogue_lists_five (void **state)
+{
+    (void) state;
+    assert_string_equal (pg_criterion_names (), "stretch|principal_stress|mohr_coulomb|node_energy|beam_limits");
     assert_null (pg_criterion_find ("energy"));
     assert_int_equal (pg_criterion_find ("stretch")->needs, PG_NEEDS_STRETCH);
     assert_int_equal (pg_criterion_find ("mohr_coulomb")->needs, PG_NEEDS_STRESS);
     assert_int_equal (pg_criterion_find ("node_energy")->needs, PG_NEEDS_ENERGY);
+    assert_int_equal (pg_criterion_find ("beam_limits")->needs, PG_NEEDS_BEAMS);
 }
 
 static void stretch_along_the_bond_counts_and_turning_does_not (void **state)
@@ -195,7 +217,7 @@ static void description_names_the_constants (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (the_catalogue_lists_four),
+        cmocka_unit_test (the_catalogue_lists_five), cmocka_unit_test (beams_break_by_energy),
         cmocka_unit_test (stretch_along_the_bond_counts_and_turning_does_not),
         cmocka_unit_test (finite_stretch_is_the_change_of_length),
         cmocka_unit_test (finite_stretch_keeps_its_digits_for_tiny_strains),

@@ -3,8 +3,8 @@
 #include "check.h"
 #include "perigal/criterion.h"
 
-static const pg_criterion_setting setting[2] = { { PG_SOLID, 0.06, 30e9, 0.2, 1, "constant", "rock", 0, 0, NULL, 0, NULL },
-                                                 { PG_SOLID, 0.06, 120e9, 0.3, 1, "constant", "iron", 0, 0, NULL, 0, NULL } };
+static const pg_criterion_setting setting[2] = { { .mode = PG_SOLID, .horizon = 0.06, .modulus = 30e9, .poisson = 0.2, .thickness = 1, .kernel = "constant", .material = "rock" },
+                                                 { .mode = PG_SOLID, .horizon = 0.06, .modulus = 120e9, .poisson = 0.3, .thickness = 1, .kernel = "constant", .material = "iron" } };
 
 /* Reads both materials; rock and iron: their maps `failure`, or "". */
 static pg_status reading (pg_criterion *c, const char *failure, const char *rock, const char *iron)

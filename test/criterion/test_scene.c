@@ -3,7 +3,7 @@
 #include "check.h"
 #include "perigal/criterion.h"
 
-static const pg_criterion_setting setting = { PG_SOLID, 0.06, 30e9, 0.2, 1, "constant", NULL, 0, 0, NULL, 0, NULL };
+static const pg_criterion_setting setting = { .mode = PG_SOLID, .horizon = 0.06, .modulus = 30e9, .poisson = 0.2, .thickness = 1, .kernel = "constant" };
 
 /* Reads `failure: {...}`; the scene itself may already refuse. */
 static pg_status reading (const char *failure, pg_criterion *c)

@@ -5,17 +5,19 @@
 #include "check.h"
 #include "perigal/force.h"
 
-#define BODY2 "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [1, 0.7]}}}]\nspacing: 0.1\nthickness: 0.2\n" \
-    "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.3333333333, density: 3}}\n"
-#define BODY3 "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.6, 0.5, 0.4]}}}]\nspacing: 0.1\n" \
-    "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.25, density: 3}}\n"
+#define BODY2 BODY2_OF ("0.3333333333")
+#define BODY3 BODY3_OF ("0.25")
+#define BODY2_OF(nu) "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [1, 0.7]}}}]\nspacing: 0.1\nthickness: 0.2\n" \
+    "materials: {rock: {youngs_modulus: 10, poissons_ratio: " nu ", density: 3}}\n"
+#define BODY3_OF(nu) "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.6, 0.5, 0.4]}}}]\nspacing: 0.1\n" \
+    "materials: {rock: {youngs_modulus: 10, poissons_ratio: " nu ", density: 3}}\n"
 #define BODY1 "dimension: 1\ncross_section: 0.3\nbody: [{add: {box: {low: [0], high: [2]}}}]\nspacing: 0.1\n" \
     "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0, density: 3}}\n"
 
 typedef struct {
     pg_scene *scene; pg_problem *problem; pg_state *state;
     const pg_force_type *force; void *self;
-    size_t n, ndof, dim;
+    size_t n, ndof, dim, stride;                       /* stride: unknowns of a point                                    */
 } bonded;
 
 static inline bonded bonded_with (const char *text, int threads, size_t nset, const char *const *set)
@@ -24,10 +26,10 @@ static inline bonded bonded_with (const char *text, int threads, size_t nset, co
     check_ok (pg_scene_parse_with (&b.scene, text, "test.yaml", nset, set));
     check_ok (pg_problem_build (&b.problem, b.scene, threads));
     b.force = pg_force_find (b.problem->force);
-    check_ok (pg_state_create (&b.state, b.problem, b.problem->dim));
+    check_ok (pg_state_create (&b.state, b.problem, b.problem->dim + b.problem->turns));
     check_ok (b.force->create (&b.self, b.problem));
     check_ok (b.force->refresh (b.self, b.state, NULL));
-    b.n = b.problem->cloud.n, b.dim = (size_t) b.problem->dim, b.ndof = b.n * b.dim;
+    b.n = b.problem->cloud.n, b.dim = (size_t) b.problem->dim, b.stride = b.dim + (size_t) b.problem->turns, b.ndof = b.n * b.stride;
     return b;
 }
 static inline bonded bonded_of (const char *text) { return bonded_with (text, 1, 0, NULL); }
@@ -53,13 +55,21 @@ static inline double size_of (size_t n, const double *x)
     for (size_t i = 0; i < n; i++) sum += x[i] * x[i];
     return sqrt (sum);
 }
-/* u = H x */
+/* u = H x, the points turning with it: unknowns of rotations are spacing times half the curl */
 static inline double *linear_field (const bonded *b, const double *H)
 {
     double *u = pg_calloc (b->ndof, sizeof *u);
-    for (size_t i = 0; i < b->n; i++)
+    double h = b->problem->cloud.h;
+    for (size_t i = 0; i < b->n; i++) {
+        double *own = u + i * b->stride;
         for (size_t a = 0; a < b->dim; a++)
-            for (size_t c = 0; c < b->dim; c++) u[i * b->dim + a] += H[a * b->dim + c] * b->problem->cloud.x[i * b->dim + c];
+            for (size_t c = 0; c < b->dim; c++) own[a] += H[a * b->dim + c] * b->problem->cloud.x[i * b->dim + c];
+        if (b->problem->turns == 1) own[2] = 0.5 * h * (H[2] - H[1]);
+        for (size_t k = 0; b->problem->turns == 3 && k < 3; k++) {
+            size_t y = (k + 1) % 3, z = (k + 2) % 3;
+            own[3 + k] = 0.5 * h * (H[z * 3 + y] - H[y * 3 + z]);
+        }
+    }
     return u;
 }
 /* Kills every `nth` bond and its partner; refreshes by the changes. */

@@ -3,9 +3,13 @@
 #include "bond.h"
 
 static const char perturbed[] = BODY2 "perturb: {amount: 0.2}\nmethod: {force: bond}\n";
+static const char turned[] = BODY3_OF ("0.2") "perturb: {amount: 0.2}\nmethod: {force: gmpd}\n";
 static const char *const bodies[] = { BODY2 "method: {force: bond}\n", BODY3 "method: {force: bond}\n", BODY1 "method: {force: bond}\n", perturbed,
     BODY2 "method: {force: bond, horizon: 4.2 spacing, kernel: quadratic, surface_correction: volume}\n",
     BODY2 "lattice: cells\nmethod: {force: bond, horizon: 4.2 spacing, partial_volume: linear}\n",
+    BODY2_OF ("0.2") "method: {force: gmpd}\n", BODY3_OF ("0.1") "method: {force: gmpd, beam: timoshenko, shear_parameter: 0.5}\n", turned,
+    BODY2_OF ("0") "lattice: cells\nmethod: {force: gmpd, horizon: 4.2 spacing, evaluation: list, surface_correction: volume}\n",
+    BODY2_OF ("0.25") "method: {force: gmpd, beam: chen, cm_ratio: 0.75, kernel: quadratic, surface_correction: product}\n",
     BODY2 "method: {force: bond, stretch: finite}\n" };
 enum { BODIES = sizeof bodies / sizeof *bodies };
 
@@ -71,8 +75,9 @@ static void test_partial_assembly (void **unused)
             size_t i, j = (size_t) f->node[c.bond[n]];
             pg_problem_locate (b.problem, c.bond[n], &set, &i);
             if (j > i) continue;
-            for (size_t a = 0; a < b.dim; a++)
-                for (long q = K->start[i * b.dim + a]; q < K->start[i * b.dim + a + 1]; q++) if ((size_t) K->row[q] / b.dim == j) assert_true (K->value[q] == 0);
+            for (size_t a = 0; a < b.stride; a++)
+                for (long q = K->start[i * b.stride + a]; q < K->start[i * b.stride + a + 1]; q++)
+                    if ((size_t) K->row[q] / b.stride == j) assert_true (K->value[q] == 0);
         }
         double *d = random_vector (b.ndof, 3), *r = pg_calloc (b.ndof, sizeof *r), *s = pg_calloc (b.ndof, sizeof *s);
         check_ok (b.force->balance (b.self, 0, d, r, NULL));
@@ -92,7 +97,7 @@ static void test_rigid (void **unused)
         if (b.dim == 2) H[1] = 1e-6, H[2] = -1e-6;
         if (b.dim == 3) H[1] = 1e-6, H[3] = -1e-6, H[5] = 2e-6, H[7] = -2e-6;
         double *u = linear_field (&b, H);
-        for (size_t i = 0; i < b.ndof; i++) u[i] += 1e-3 * (double) (1 + i % b.dim), one[i] *= 1e-7;
+        for (size_t i = 0; i < b.ndof; i++) u[i] += i % b.stride < b.dim ? 1e-3 * (double) (1 + i % b.stride) : 0, one[i] *= 1e-7;
         check_ok (b.force->balance (b.self, 0, one, r, &strained));
         check_ok (b.force->balance (b.self, 0, u, r, &reference));
         assert_true (strained > 0);

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Scenes of bonds that are beams, coarse: the crack of the L-shaped panel and what it takes; the first breaks of the cube in compression. */
+#include "run.h"
+
+static run loaded (const char *path, size_t nset, const char *const *set)
+{
+    run r = { 0 };
+    check_ok (pg_scene_load_with (&r.scene, path, nset, set));
+    check_ok (pg_problem_build (&r.problem, r.scene, 1));
+    check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
+    check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
+    check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
+    return r;
+}
+
+/* From the inner corner to the far side, level behind it; its energy is that of the fracture energy to the lattice's share. */
+static void test_panel (void **unused)
+{
+    (void) unused;
+    static const char *const set[] = { "spacing=25 mm", "body[2].add.box.low=[0, -75 mm]", "sets.lift.where=x >= 0.45 m and y <= 0.28 m", "sets.far.where=x <= 0.06 m" };
+    run r = loaded ("data/l_panel/scene.yaml", sizeof set / sizeof *set, set);
+    double first[2] = { 0 }, low[2] = { 1, 1 }, high[2] = { 0 };
+    while (!pg_solver_done (r.solver, r.state)) {
+        advance (&r);
+        for (size_t k = 0; k < r.step.nbroken; k++) {
+            const double *x = r.step.broken[k].place;
+            if (high[0] == 0) memcpy (first, x, sizeof first);
+            for (int a = 0; a < 2; a++) low[a] = fmin (low[a], x[a]), high[a] = fmax (high[a], x[a]);
+        }
+    }
+    const pg_report *report = pg_solver_report (r.solver, r.state);
+    assert_int_equal (report->nwarning, 1);
+    check_contains (report->warning[0], "the crack has arrived");
+    check_below (hypot (first[0] - 0.25, first[1] - 0.25), 0.05);
+    check_below (low[0], 0.06);
+    check_below (high[0], 0.3);
+    check_below (0.15, low[1]);
+    check_below (high[1], 0.3);
+    check_relative (report->energy_dissipated / (90 * 0.1 * (0.25 - low[0])), 1, 0.15);
+    check_below (report->residual_max, 1e-8);
+    check_below (report->overlap_max, 1e-6);
+    assert_int_equal (report->bonds_over_limit, 0);
+    clear (&r);
+}
+
+/* The first bonds break at the rim of the flaw; what breaks has its mirror image through the middle; both ends bear the same force. */
+static void test_cube (void **unused)
+{
+    (void) unused;
+    static const char *const set[] = { "spacing=2 mm", "solver.end=0.34 ms", "output.at.rows=60" };
+    run r = loaded ("data/chen_cube/scene.yaml", sizeof set / sizeof *set, set);
+    size_t broken = 0, seen = 0;
+    double start = NAN;
+    while (!pg_solver_done (r.solver, r.state)) {
+        advance (&r);
+        broken += r.step.nbroken;
+        for (size_t k = 0; k < r.step.nbroken; k++) {
+            const double *x = r.step.broken[k].place;
+            if (isnan (start)) start = r.step.broken[k].time;
+            check_below (sqrt (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]), 9e-3);
+            size_t images = 0;
+            for (size_t m = 0; m < r.step.nbroken; m++) {
+                const double *y = r.step.broken[m].place;
+                images += fabs (x[0] + y[0]) < 1e-6 && fabs (x[1] + y[1]) < 1e-6 && fabs (x[2] + y[2]) < 1e-6;
+            }
+            assert_true (images > 0);
+            seen += r.step.broken[k].kind == 's';
+        }
+    }
+    print_message ("%zu bonds, the first at %.4g s, %zu by shear; %.5g N\n", broken, start, seen, r.step.reaction[1]);
+    assert_true (broken > 20 && seen > 0);
+    check_relative (start, 0.324e-3, 0.02);
+    check_relative (r.step.reaction[1], -r.step.reaction[4], 1e-9);
+    clear (&r);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test (test_panel), cmocka_unit_test (test_cube) };
+    return cmocka_run_group_tests_name ("scene_runs/beams", tests, NULL, NULL);
+}
