@@ -216,7 +216,7 @@ static pg_status add_node (summer *s, const level *f, size_t i, size_t m, const 
             if (p >= 0 && s->where[p] < 0) PG_TRY (new_column (s, bb, p));
         }
     }
-    memset (s->spread, 0, s->ncolumn * bb * sizeof *s->spread);
+    if (s->ncolumn) memset (s->spread, 0, s->ncolumn * bb * sizeof *s->spread);
     if (bb == 4) spread_row (s, f, 4, m, node, value), gather_node (s, f, 4, i);       /* lengths that the compiler knows */
     else if (bb == 9) spread_row (s, f, 9, m, node, value), gather_node (s, f, 9, i);
     else spread_row (s, f, bb, m, node, value), gather_node (s, f, bb, i);
