@@ -141,17 +141,11 @@ static void sum_points (void *context, size_t first, size_t last, int thread)
 
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
-    pg_status status = PG_OK;
     list *s = self;
     int threads = threads_for (s);
     pass p = { s, u, f, NULL, broken && s->setting.limit };
     pg_parallel (threads, s->setting.family->n, sum_points, &p);
-    for (int t = 0; t < threads; t++) if (s->failed[t] != PG_OK) status = s->failed[t], s->failed[t] = PG_OK;
-    if (status != PG_OK) PG_FAIL (status, "no memory to note the bonds that broke");
-    if (p.breaking) PG_TRY (sweep_collect (broken, threads, s->found));
-done:
-    for (int t = 0; t < threads; t++) s->found[t].n = 0;
-    return status;
+    return p.breaking ? sweep_collect (broken, threads, s->found, s->failed) : PG_OK;
 }
 
 static void store_points (void *context, size_t first, size_t last, int thread)

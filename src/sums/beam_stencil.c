@@ -139,16 +139,10 @@ static void break_blocks (void *context, size_t first, size_t last, int thread)
 
 static pg_status break_bonds (beams *s, pg_changes *broken)
 {
-    pg_status status = PG_OK;
     stencil *b = &s->base;
     int threads = stencil_threads (b);
     pg_parallel_heavy (threads, b->nblock, break_blocks, s);
-    for (int t = 0; t < threads; t++) if (b->failed[t] != PG_OK) status = b->failed[t], b->failed[t] = PG_OK;
-    if (status != PG_OK) PG_FAIL (status, "no memory to note the bonds that broke");
-    PG_TRY (sweep_collect (broken, threads, b->found));
-done:
-    for (int t = 0; t < threads; t++) b->found[t].n = 0;
-    return status;
+    return sweep_collect (broken, threads, b->found, b->failed);
 }
 
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
@@ -167,13 +161,8 @@ done:
 static double sum_energies (beams *s, const double *u, double *W)
 {
     stencil *b = &s->base;
-    double sum = 0;
-    b->job.energies = W;
     spread (s, u);
-    stencil_run (b, b->kernels->beam_energy[b->job.dim - 2][b->p != NULL], NULL, NULL, NULL);
-    b->job.energies = NULL;
-    for (size_t k = 0; k < b->nblock; k++) sum += b->energy[k];
-    return sum / 4;                                    /* half of w, and half of it to each end                          */
+    return stencil_stored (b, b->kernels->beam_energy[b->job.dim - 2][b->p != NULL], W) / 4;       /* half of w, and half of it to each end */
 }
 
 static double energy (void *self, const double *u) { return sum_energies (self, u, NULL); }

@@ -223,25 +223,6 @@ static void pull_points (void *context, size_t first, size_t last, int thread)
     else pull (w, first, last, 3);
 }
 
-static pg_status collect (list *s, pg_changes *broken)
-{
-    pg_status status = PG_OK;
-    pg_changes *all = &s->found[0];
-    for (int t = 0; t < MAX_THREADS; t++) {
-        pg_changes *some = &s->found[t];
-        if (s->failed[t] != PG_OK) status = s->failed[t], s->failed[t] = PG_OK;
-        if (t == 0 || some->n == 0) continue;
-        PG_GROW (all->bond, all->cap, all->n + some->n);
-        memcpy (all->bond + all->n, some->bond, some->n * sizeof *some->bond);
-        all->n += some->n;
-    }
-    if (status != PG_OK) PG_FAIL (status, "no memory to note the bonds that broke");
-    PG_TRY (pg_changes_append (broken, all->n, all->bond));
-done:
-    for (int t = 0; t < MAX_THREADS; t++) s->found[t].n = 0;
-    return status;
-}
-
 static pg_status list_force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -249,7 +230,7 @@ static pg_status list_force (void *self, const double *u, double *f, pg_changes 
     sweep w = { s, u, f, broken && s->setting.limit };
     size_t n = s->setting.family->n;
     pg_parallel_heavy (threads_for (s), n, dilate_points, &w);
-    if (w.check) PG_TRY (collect (s, broken));
+    if (w.check) PG_TRY (sweep_collect (broken, threads_for (s), s->found, s->failed));
     pg_parallel_heavy (threads_for (s), n, pull_points, &w);
 done:
     return status;

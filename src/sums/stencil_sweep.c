@@ -354,16 +354,9 @@ void stencil_spread (stencil *s, const double *u)
 
 static pg_status run (stencil *s, pass *p, pg_changes *broken)
 {
-    pg_status status = PG_OK;
     int threads = stencil_threads (s);
     pg_parallel_heavy (threads, p->n, force_blocks, p);
-    if (!p->again) return PG_OK;
-    for (int t = 0; t < threads; t++) if (s->failed[t] != PG_OK) status = s->failed[t], s->failed[t] = PG_OK;
-    if (status != PG_OK) PG_FAIL (status, "no memory to note the bonds that broke");
-    PG_TRY (sweep_collect (broken, threads, s->found));
-done:
-    for (int t = 0; t < threads; t++) s->found[t].n = 0;
-    return status;
+    return p->again ? sweep_collect (broken, threads, s->found, s->failed) : PG_OK;
 }
 
 pg_status stencil_run (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, pg_changes *broken)
@@ -409,14 +402,21 @@ void stencil_energies_some (stencil *s, size_t n, const int *list, double *W)
     s->job.energies = NULL;
 }
 
+double stencil_stored (stencil *s, pg_block_loop loop, double *W)
+{
+    double sum = 0;
+    s->job.energies = W;
+    pg_parallel_heavy (stencil_threads (s), s->nblock, energy_blocks, &(pass) { .s = s, .loop = loop });
+    s->job.energies = NULL;
+    for (size_t k = 0; k < s->nblock; k++) sum += s->energy[k];
+    return sum;
+}
+
 static double energy (void *self, const double *u)
 {
     stencil *s = self;
-    double sum = 0;
     stencil_spread (s, u);
-    stencil_energies_some (s, s->nblock, NULL, NULL);
-    for (size_t k = 0; k < s->nblock; k++) sum += s->energy[k];
-    return sum / 4;                                    /* w / 2 of each bond, seen from both its ends                    */
+    return stencil_stored (s, s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL], NULL) / 4;                                    /* w / 2 of each bond, seen from both its ends                    */
 }
 
 static pg_status energies (void *self, const double *u, double *W)

@@ -37,10 +37,10 @@ size_t    stencil_places (const stencil *s);           /* of the padded box     
 size_t    stencil_block  (const stencil *s, size_t place, unsigned *bit);                 /* block and bit of a padded place */
 size_t    stencil_owner  (const stencil *s, size_t entry);                                /* point of an entry of the family */
 void      stencil_spread (stencil *s, const double *u);                                   /* u (n x dim) to job.u        */
-/* The loop over all blocks; where it says `hit` the bonds over their limit die, `lost` (or NULL) is told, and `again` does the block anew. Bonds
- * that died are appended to broken. */
 /* Position in the family of bond b of the site at `place`, whose point is i. */
 size_t    stencil_entry  (const stencil *s, int i, size_t place, size_t b);
+/* The loop over all blocks; where it says `hit` the bonds over their limit die, `lost` (or NULL) is told, and `again` does the block anew. Bonds
+ * that died are appended to broken. */
 typedef void (*stencil_lost) (stencil *s, size_t block);
 pg_status stencil_run    (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, pg_changes *broken);
 /* ... over n blocks of a list. */
@@ -48,4 +48,6 @@ pg_status stencil_run_some (stencil *s, pg_block_loop loop, pg_block_loop again,
 /* Forces, and four times W_i V_i, of the points of n blocks of a list alone, at the displacements in job.u. */
 pg_status stencil_force_some    (stencil *s, size_t n, const int *list, double *f, pg_changes *broken);
 void      stencil_energies_some (stencil *s, size_t n, const int *list, double *W);
+/* What a loop stores over all blocks, in `energy` of each, added up; the points' shares in W unless that is NULL. */
+double    stencil_stored (stencil *s, pg_block_loop loop, double *W);
 #endif

@@ -154,9 +154,11 @@ done:
     return status;
 }
 
-pg_status sweep_collect (pg_changes *to, int threads, pg_changes *found)
+pg_status sweep_collect (pg_changes *to, int threads, pg_changes *found, pg_status *failed)
 {
     pg_status status = PG_OK;
+    for (int t = 0; t < threads; t++) if (failed[t] != PG_OK) status = failed[t], failed[t] = PG_OK;
+    if (status != PG_OK) PG_FAIL (status, "no memory to note the bonds that broke");
     for (int t = 1; t < threads; t++) {
         if (found[t].n == 0) continue;
         PG_GROW (found->bond, found->cap, found->n + found[t].n);
@@ -165,5 +167,6 @@ pg_status sweep_collect (pg_changes *to, int threads, pg_changes *found)
     }
     PG_TRY (pg_changes_append (to, found->n, found->bond));
 done:
+    for (int t = 0; t < threads; t++) found[t].n = 0;
     return status;
 }

@@ -33,6 +33,6 @@ extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list, pg_sweep_fft, pg_swe
 
 /* Adds n bonds (any order, none twice) to the end of `to`, ascending among themselves; sorts `bond`. */
 pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond);
-/* The same for what each thread has found; gathers it in the first. */
-pg_status sweep_collect (pg_changes *to, int threads, pg_changes *found);
+/* The same for what each thread has found, or failed to note; leaves nothing found and nothing failed, whatever it returns. */
+pg_status sweep_collect (pg_changes *to, int threads, pg_changes *found, pg_status *failed);
 #endif
