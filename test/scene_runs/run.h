@@ -15,16 +15,31 @@ typedef struct {
     pg_step     step;                                  /* the last one                                                   */
 } run;
 
+/* Problem, options, solver and state of a scene that is read. */
+static inline void build (run *r, int threads)
+{
+    check_ok (pg_problem_build (&r->problem, r->scene, threads));
+    check_ok (pg_solver_options_read (&r->options, r->problem, r->scene));
+    check_ok (pg_solver_create (&r->solver, r->problem, &r->options));
+    check_ok (pg_state_create (&r->state, r->problem, pg_solver_components (r->solver)));
+}
+
 /* The problem of a scene; text from a printf format. */
 static inline run scene_of (int threads, const char *format, ...) __attribute__ ((format (printf, 2, 3), unused));
 static inline run prepare (int threads, const char *text)
 {
     run r = { 0 };
     check_ok (pg_scene_parse (&r.scene, text, "test.yaml"));
-    check_ok (pg_problem_build (&r.problem, r.scene, threads));
-    check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
-    check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
-    check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
+    build (&r, threads);
+    return r;
+}
+
+/* The problem of a scene file, one thread, with --set options. */
+static inline run loaded (const char *path, size_t nset, const char *const *set)
+{
+    run r = { 0 };
+    check_ok (pg_scene_load_with (&r.scene, path, nset, set));
+    build (&r, 1);
     return r;
 }
 

@@ -2,17 +2,6 @@
  * Scenes of bonds that are beams, coarse: the crack of the L-shaped panel and what it takes; the first breaks of the cube in compression. */
 #include "run.h"
 
-static run loaded (const char *path, size_t nset, const char *const *set)
-{
-    run r = { 0 };
-    check_ok (pg_scene_load_with (&r.scene, path, nset, set));
-    check_ok (pg_problem_build (&r.problem, r.scene, 1));
-    check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
-    check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
-    check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
-    return r;
-}
-
 /* From the inner corner to the far side, level behind it; its energy is that of the fracture energy to the lattice's share. */
 static void test_panel (void **unused)
 {

@@ -22,11 +22,7 @@ static double complementary (const double *s)
 static run shipped (const char *path, size_t nset, const char *const *set)
 {
     run r = { 0 };
-    check_ok (pg_scene_load_with (&r.scene, path, nset, set));
-    check_ok (pg_problem_build (&r.problem, r.scene, 1));
-    check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
-    check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
-    check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
+    r = loaded (path, nset, set);
     to_the_end (&r);
     return r;
 }

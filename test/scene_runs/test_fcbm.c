@@ -14,15 +14,9 @@ static run load (const example *e, const char *evaluation, const char *failure)
 {
     const char *set[6] = { evaluation, e->spacing };
     size_t n = 2;
-    run r = { 0 };
     for (int k = 0; k < 3 && e->more[k]; k++) set[n++] = e->more[k];
     if (failure) set[n++] = failure;
-    check_ok (pg_scene_load_with (&r.scene, e->scene, n, set));
-    check_ok (pg_problem_build (&r.problem, r.scene, 1));
-    check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
-    check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
-    check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
-    return r;
+    return loaded (e->scene, n, set);
 }
 
 /* Largest difference of the displacements over the largest one. */

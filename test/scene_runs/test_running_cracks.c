@@ -3,17 +3,6 @@
  * runs along its axis no faster than Rayleigh waves, and in glass splits into two where the scene at its own spacing does. */
 #include "run.h"
 
-static run load (const char *path, size_t nset, const char *const *set)
-{
-    run r = { 0 };
-    check_ok (pg_scene_load_with (&r.scene, path, nset, set));
-    check_ok (pg_problem_build (&r.problem, r.scene, 1));
-    check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
-    check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
-    check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
-    return r;
-}
-
 /* Of each point the one at the mirrored place: x[axis] -> -x[axis]. */
 static int *mirror_of (const pg_cloud *cloud, int axis)
 {
@@ -86,7 +75,7 @@ static void a_centre_crack_runs_straight_and_alike_to_both_sides (void **state)
     (void) state;
     static const char *const set[] = { "spacing=0.25 mm", "failure.critical_stretch=0.028283", "solver={kind: verlet, dt: 3.34175e-8 s, time_steps: 400}",
                                        "output.at={levels: 1, rows: 400}" };
-    run r = load ("data/zhou_2/scene.yaml", 4, set);
+    run r = loaded ("data/zhou_2/scene.yaml", 4, set);
     pg_waves w = pg_material_waves (&r.problem->material[0]);
     size_t dead, before;
     double start = NAN;
@@ -118,7 +107,7 @@ static void a_crack_in_glass_branches_in_two_alike (void **state)
 {
     (void) state;
     static const char *const set[] = { "spacing=0.33333333333 mm", "output.at={levels: 1, rows: 400}" };
-    run r = load ("data/glass_branching/scene.yaml", 2, set);
+    run r = loaded ("data/glass_branching/scene.yaml", 2, set);
     double c_R = pg_material_waves (&r.problem->material[0]).rayleigh;
     size_t dead;
     double early = arrives (&r, 52e-3), late = arrives (&r, 62e-3);

@@ -71,11 +71,7 @@ static run drawn (const char *solver, const char *spacing, int to_first, path *p
     const char *const set[] = { solver, spacing, force, "output.at.rows=1000" };
     run r = { 0 };
     *p = (path) { .start = NAN };
-    check_ok (pg_scene_load_with (&r.scene, "data/zhou_1/scene.yaml", strstr (solver, "static") ? 3 : 4, set));
-    check_ok (pg_problem_build (&r.problem, r.scene, 1));
-    check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
-    check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
-    check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
+    r = loaded ("data/zhou_1/scene.yaml", strstr (solver, "static") ? 3 : 4, set);
     while (!pg_solver_done (r.solver, r.state) && !(to_first && !isnan (p->start))) {
         advance (&r);
         if (!r.step.nbroken || !isnan (p->start)) continue;
