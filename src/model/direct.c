@@ -17,14 +17,12 @@ static int is (const pg_scene *scene, const char *key, const char *word)
     return text && strcmp (text, word) == 0;
 }
 
-int pg_direct_turns (const pg_scene *scene, int dim) { return is (scene, "method.force", "gmpd") ? dim == 3 ? 3 : dim == 2 : 0; }
-
-/* What a force means where the scene says nothing: how it is summed, what breaks. */
-typedef struct { const char *force; pg_evaluation evaluation; const char *criterion; int state; } custom;
+/* What a force means where the scene says nothing: how it is summed, what breaks; state: state-based; turns: its points turn as well. */
+typedef struct { const char *force; pg_evaluation evaluation; const char *criterion; int state, turns; } custom;
 static const custom customs[] = {
-    { "fcbm", PG_EVALUATE_FFT, "node_energy", 0 },     /* Jafarzadeh et al. 2022                                         */
-    { "lps", PG_EVALUATE_AUTO, NULL, 1 },              /* Silling et al. 2007                                            */
-    { "gmpd", PG_EVALUATE_AUTO, "beam_limits", 0 },    /* Chen et al. 2022                                               */
+    { "fcbm", PG_EVALUATE_FFT, "node_energy", 0, 0 },  /* Jafarzadeh et al. 2022                                         */
+    { "lps", PG_EVALUATE_AUTO, NULL, 1, 0 },           /* Silling et al. 2007                                            */
+    { "gmpd", PG_EVALUATE_AUTO, "beam_limits", 0, 1 }, /* Chen et al. 2022                                               */
 };
 
 static const custom *custom_of (const pg_scene *scene)
@@ -37,6 +35,12 @@ const char *pg_direct_criterion (const pg_scene *scene)
 {
     const custom *c = custom_of (scene);
     return c ? c->criterion : NULL;
+}
+
+int pg_direct_turns (const pg_scene *scene, int dim)
+{
+    const custom *c = custom_of (scene);
+    return c && c->turns ? dim == 3 ? 3 : dim == 2 : 0;
 }
 
 int pg_direct_state (const pg_scene *scene)
