@@ -3,6 +3,7 @@ MODE    ?= release
 prefix  ?= /usr/local
 CC      ?= gcc
 THREADS ?= 0
+JOBS    ?= $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 T       ?=
 
 # ---- nothing to change below this line -------------------------------------------------------------------------------
@@ -45,6 +46,8 @@ PROGRAM := $(BUILD)/perigal
 GMSH    := $(wildcard /usr/include/gmshc.h)
 CONVERT := $(if $(GMSH),$(BUILD)/perigal-mesh)
 Q       := $(if $(V),,@)
+# compilations and tests at a time: as many as make was given with -j, else a core each
+PARALLEL = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
 
 all: $(PROGRAM) $(SOLIB) $(CONVERT) perigal.pc
 
@@ -91,16 +94,16 @@ packages:            ## install the Debian packages that are missing
 	$(Q).ci/packages $(PACKAGES)
 
 demo: packages       ## install, build, run the Brazilian disk, leave pictures
-	$(Q)$(MAKE) --no-print-directory -j2 perigal
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal
 	$(Q)./perigal run data/cui_disk_plane/scene.yaml -o out/demo --threads $(THREADS)
 
 test: packages       ## everything; last line: N passed, N failed
-	$(Q)$(MAKE) --no-print-directory -j2 perigal test-programs
-	$(Q).ci/test $(BUILD) "$(T)" short
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal test-programs
+	$(Q).ci/test $(BUILD) "$(T)" short $(JOBS)
 
 test-long: packages
-	$(Q)$(MAKE) --no-print-directory -j2 perigal test-programs
-	$(Q).ci/test $(BUILD) "$(T)" long
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal test-programs
+	$(Q).ci/test $(BUILD) "$(T)" long $(JOBS)
 
 test-programs: $(PROGRAM) $(CONVERT) $(if $(T),$(filter $(BUILD)/test/$(T)/%,$(TESTBIN)),$(TESTBIN))
 
@@ -120,7 +123,7 @@ doc: perigal         ## doc/input.md, from the tables that check a scene
 	$(Q)./perigal help --manual > doc/input.md.new && mv doc/input.md.new doc/input.md
 
 bench: packages
-	$(Q)$(MAKE) --no-print-directory -j2 perigal bench-programs
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal bench-programs
 	$(Q)bench/run $(BUILD)
 
 bench-programs: $(BENCHBIN)

@@ -82,7 +82,12 @@ done
 verdict "a finished run has nothing to go on with" $?
 run plate.yaml -o "$work/none" --resume; [ $? -eq 64 ] && grep -q 'no .*checkpoint.nc' "$work/err" && [ ! -e "$work/none" ]
 verdict "no checkpoint: said, nothing made" $?
-until disturb TERM $((took[event] * 7 / 10)) "${event[@]}" -o "$work/half" && [ -e "$work/half/checkpoint.nc" ]; do took[event]=$((took[event] * 9 / 10 + 5)); done
+delay=$((took[event] * 7 / 10))
+for _ in $(seq 60); do                                 # too late: earlier; before there was anything to go on with: later
+    if ! disturb TERM $delay "${event[@]}" -o "$work/half"; then delay=$((delay * 9 / 10)); continue; fi
+    [ -e "$work/half/checkpoint.nc" ] && break
+    delay=$((delay * 11 / 10 + 5))
+done
 [ $code -eq 130 ] && grep -q 'go on with: perigal run plate.yaml -o .*--set .spacing=0.5 mm. .*--resume' "$work/err"; verdict "TERM: exit code 130 and the command to go on" $?
 grep -q '"outcome": "interrupted' "$work/half/report.json"; verdict "TERM: the report tells it" $?
 sum=$(cd "$work/half" && cat checkpoint.nc history.csv result.e | cksum)
