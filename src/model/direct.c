@@ -90,16 +90,27 @@ void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, con
 }
 
 /* ---- what the scene says in vain ----------------------------------------------------------------------------------------------- */
-static void note_unused (pg_problem *p, const pg_scene *scene)
+/* Which force, or forces that are not galerkin, a key of method is for */
+static const struct { const char *key, *force; } uses[] = {
+    { "approximation", "galerkin" }, { "basis", "galerkin" }, { "support", "galerkin" }, { "weights", "galerkin" }, { "degenerate", "galerkin" },
+    { "integration", "galerkin" }, { "gauss_points", "galerkin" }, { "stabilization", "galerkin" }, { "stabilization_factor", "galerkin" },
+    { "essential", "galerkin" }, { "nitsche_factor", "galerkin" }, { "penalty_factor", "galerkin" },
+    { "evaluation", "direct" }, { "partial_volume", "direct" }, { "calibrate", "direct" }, { "surface_correction", "direct" }, { "stretch", "direct" },
+    { "weighted_volume", "lps" }, { "beam", "gmpd" }, { "shear_parameter", "gmpd" }, { "cm_ratio", "gmpd" },
+};
+
+void pg_direct_note_unused (pg_problem *p, const pg_scene *scene)
 {
-    static const char *const keys[] = { "approximation", "basis", "support", "weights", "degenerate", "integration", "gauss_points", "stabilization",
-                                        "stabilization_factor", "essential", "nitsche_factor", "penalty_factor" };
+    const char *force = p->direct ? p->force : "galerkin";
     char text[200] = "";
     size_t used = 0;
-    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
-        if (pg_scene_given (scene, "method.%s", keys[k]) && used + 40 < sizeof text)
-            used += (size_t) snprintf (text + used, sizeof text - used, "%s%s", used ? ", " : "", keys[k]);
-    if (used) pg_problem_note (p, "without meaning for force: %s, in method: %s", p->force, text);
+    for (size_t k = 0; k < sizeof uses / sizeof *uses; k++) {
+        int meant = strcmp (uses[k].force, force) == 0 || (p->direct && strcmp (uses[k].force, "direct") == 0);
+        if (!meant && pg_scene_given (scene, "method.%s", uses[k].key) && used + 40 < sizeof text)
+            used += (size_t) snprintf (text + used, sizeof text - used, "%s%s", used ? ", " : "", uses[k].key);
+    }
+    if (used) pg_problem_note (p, "without meaning for force: %s, in method: %s", force, text);
+    if (!p->direct) return;
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
         char path[64];
         snprintf (path, sizeof path, "boundary[%zu].essential", i);
@@ -175,7 +186,6 @@ pg_status pg_direct_build (pg_problem *p, const pg_scene *scene)
     pg_sum_rule rule;
     int lattice;
     p->integration = pg_integration_find ("nodal");
-    note_unused (p, scene);
     PG_TRY (on_lattice (p, &lattice));
     pg_direct_rule (&rule, scene, p->mode, &p->approx, p->cloud.h, lattice);
     if (rule.beams) read_beams (p, scene, &rule);

@@ -146,7 +146,7 @@ static pg_status read_values (pg_load *load, const pg_scene *scene, size_t i, co
         snprintf (path, sizeof path, "boundary[%zu].%s.%c", i, key, "xyz"[axis]);
         int k = pg_load_turns (load) && dim < 3 ? axis - 2 : axis;
         if (k < 0 || k >= pg_load_components (load, dim)) {
-            pg_scene_fault (scene, path, "a %dD body has no such component", dim);
+            pg_scene_fault (scene, path, "a %dD body has no such component%s", dim, pg_load_turns (load) && dim == 2 ? ": it turns about z alone" : "");
             found++;
             continue;
         }

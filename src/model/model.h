@@ -12,6 +12,7 @@ void      pg_initial_clear (pg_problem *problem);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
 /* Forces straight between points: their rule, their sums, the only Poisson's ratio they know; and their bonds. */
 pg_status pg_direct_build (pg_problem *problem, const pg_scene *scene);
+void      pg_direct_note_unused (pg_problem *p, const pg_scene *scene);   /* keys of method that say nothing to its force     */
 pg_status pg_direct_bonds (pg_problem *problem);
 /* Can all points have one law where the evaluation asked for wants that? Once criteria are read. */
 void      pg_direct_check_laws (const pg_problem *problem, const pg_scene *scene);

@@ -98,10 +98,10 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));
     int needs = p->criterion->type ? p->criterion->type->needs : 0;
     if (p->direct && (needs & PG_NEEDS_STRESS))
-        pg_scene_fault (scene, "failure.criterion", "%s needs stresses, and force: %s knows only the stretch of its bonds: use stretch, or force: galerkin",
-                        p->criterion->type->name, p->force);
+        pg_scene_fault (scene, "failure.criterion", "%s needs stresses, and force: %s knows only %s of its bonds: use %s, or force: galerkin",
+                        p->criterion->type->name, p->force, p->turns ? "stretch, shear and bending" : "the stretch", p->turns ? "beam_limits or stretch" : "stretch");
     if (!p->turns && (needs & PG_NEEDS_BEAMS))
-        pg_scene_fault (scene, "failure.criterion", "%s judges bonds that bear shear and bending, which only force: gmpd has", p->criterion->type->name);
+        pg_scene_fault (scene, "failure.criterion", "%s judges bonds that bear shear and bending, which only force: gmpd has: use that, or stretch", p->criterion->type->name);
     if (p->turns && (needs & PG_NEEDS_ENERGY))
         pg_scene_fault (scene, "failure.criterion", "%s is for bonds that pull along themselves: with force: gmpd use beam_limits or stretch", p->criterion->type->name);
     if (!p->direct && (needs & PG_NEEDS_ENERGY))
@@ -142,6 +142,7 @@ static pg_status build_laws (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_approx_read (&p->approx, scene, p->cloud.h));
     snprintf (p->force, sizeof p->force, "%s", pg_scene_text (scene, "method.force"));
     p->direct = pg_direct_force (scene);
+    pg_direct_note_unused (p, scene);
     if (p->direct) PG_TRY (pg_direct_build (p, scene));
     else read_galerkin (p, scene);
     PG_TRY (read_criteria (p, scene));

@@ -12,6 +12,7 @@ static const method methods[] = {
     { "rkpm", "gauss", "nitsche", "quadratic" }, { "pddo", "gauss", "nitsche", "linear" }, { "nosb", "nodal", "transformation", "linear" },
     { "rkpm", "consistent", "nitsche", "linear" }, { "rkpm, force: bond", "nodal", "auto", "linear" },
     { "rkpm, force: bond, evaluation: list, surface_correction: volume", "nodal", "auto", "linear" },
+    { "rkpm, force: gmpd", "nodal", "auto", "linear" }, { "rkpm, force: gmpd, evaluation: list", "nodal", "auto", "linear" },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
@@ -86,8 +87,8 @@ static void points_in_another_order (void **state)
     assert_true (close (mkstemp (one)) == 0 && close (mkstemp (two)) == 0);
     write_points (one, 16, 13, 0.0625, 0.15, 0);
     write_points (two, 16, 13, 0.0625, 0.15, 99);
-    static const char *const names[] = { "nosb", "pddo", "rkpm", "rkpm, force: bond" };
-    for (int k = 0; k < 4; k++) {
+    static const char *const names[] = { "nosb", "pddo", "rkpm", "rkpm, force: bond", "rkpm, force: gmpd" };
+    for (int k = 0; k < 5; k++) {
         run a = cloud_run (one, names[k]), b = cloud_run (two, names[k]);
         double stress, u = displacement_difference (&plain, &a, &b, &stress);
         print_message ("%s, shuffled: displacement %.1e, stress %.1e\n", names[k], u, stress);

@@ -61,17 +61,19 @@ static void check_same (const view *v, history *a, history *b)
     check_below (factor, 1e-8);
 }
 
-typedef struct { const char *name, *method, *failure; int stress; } kind;
+typedef struct { const char *name, *method, *failure; enum { STRETCH, STRESS, ENERGY } limit; } kind;
 static const kind kinds[] = {
     { "rkpm gauss, nitsche, stress", "approximation: rkpm, integration: gauss, essential: nitsche",
-        "criterion: principal_stress, tensile_strength", 1 },
+        "criterion: principal_stress, tensile_strength", STRESS },
     { "rkpm gauss, transformation, stretch", "approximation: rkpm, integration: gauss, essential: transformation",
-        "criterion: stretch, critical_stretch", 0 },
-    { "rkpm consistent, stress", "approximation: rkpm, integration: consistent", "criterion: principal_stress, tensile_strength", 1 },
+        "criterion: stretch, critical_stretch", STRETCH },
+    { "rkpm consistent, stress", "approximation: rkpm, integration: consistent", "criterion: principal_stress, tensile_strength", STRESS },
     { "nosb nodal, stretch", "approximation: nosb, integration: nodal, essential: transformation",
-        "criterion: stretch, critical_stretch", 0 },
-    { "bond", "force: bond", "criterion: stretch, critical_stretch", 0 },
+        "criterion: stretch, critical_stretch", STRETCH },
+    { "bond", "force: bond", "criterion: stretch, critical_stretch", STRETCH },
+    { "gmpd", "force: gmpd", "criterion: beam_limits, fracture_energy", ENERGY },
 };
+static const double limit_of[] = { [STRETCH] = 1e-4, [STRESS] = 1e6, [ENERGY] = 10 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
 /* 1 m x 1.25 m, spacing 1/16 m, crack from the left edge, pulled apart at bottom and top */
@@ -90,7 +92,7 @@ static void plate (history *h, const view *v, const kind *k)
             "  - {set: %s, displacement: {x: %.17g, y: %.17g}}\n"
         "solver: {stepping: event, break: worst, max_events: %d, stop: {stiffness: 0.01}}\noutput: {at: {levels: 1}}\n",
         0.02 * v->length, box, v->length / 16, from[0], from[1], to[0], to[1], 10e9 * v->stress, k->failure,
-            k->stress ? 1e6 * v->stress : 1e-4, k->method,
+            limit_of[k->limit] * (k->limit == STRETCH ? 1 : v->stress) * (k->limit == ENERGY ? v->length : 1), k->method,
         v->sy > 0 ? "bottom" : "top", -1e-3 * v->length * v->sy, v->sy > 0 ? "top" : "bottom", 2e-4 * v->length * v->sx,
             1e-3 * v->length * v->sy, EVENTS);
     run_events (h);
@@ -129,17 +131,17 @@ static void mirrored_left_to_right (void **state) { (void) state, check_view (&(
 static void rotated_by_180_degrees (void **state) { (void) state, check_view (&(view) { "", 1, 1, -1, -1, 0, 0, 1 }); }
 static void two_threads (void **state) { (void) state, check_view (&(view) { "", 1, 1, 1, 1, 0, 0, 2 }); }
 
-static void cloud_plate (history *h, const char *path, const char *approximation)
+static void cloud_plate (history *h, const char *path, const char *approximation, const char *failure)
 {
     *h = (history) { 0 };
     h->r = scene_of (1, "dimension: 2\nthickness: 0.02\npoints: %s\ncracks: [{from: [-0.1, 0.553], to: [0.31, 0.672]}]\n"
         "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
-            "failure: {criterion: stretch, critical_stretch: 1e-4, exclude: [low, high]}\n"
+            "failure: {criterion: %s, exclude: [low, high]}\n"
         "sets: {low: {where: 'y < 0.07 m'}, high: {where: 'y > 1.18 m'}}\n"
             "method: {approximation: %s, integration: nodal, horizon: 0.14}\n"
         "boundary:\n  - {set: low, displacement: {x: 0, y: -1e-3}}\n  - {set: high, displacement: {x: 2e-4, y: 1e-3}}\n"
         "solver: {stepping: event, break: worst, max_events: %d, stop: {stiffness: 0.01}}\noutput: {at: {levels: 1}}\n", path,
-            approximation, EVENTS);
+            failure, approximation, EVENTS);
     run_events (h);
 }
 
@@ -150,12 +152,13 @@ static void points_in_another_order (void **state)
     assert_true (close (mkstemp (one)) == 0 && close (mkstemp (two)) == 0);
     write_points (one, 17, 21, 0.0625, 0.1, 0);
     write_points (two, 17, 21, 0.0625, 0.1, 7);
-    static const char *const names[] = { "nosb", "rkpm" };
-    for (int k = 0; k < 2; k++) {
+    static const char *const names[] = { "nosb", "rkpm", "rkpm, force: gmpd" };
+    for (int k = 0; k < 3; k++) {
         history a, b;
         view v = plain;
-        cloud_plate (&a, one, names[k]);
-        cloud_plate (&b, two, names[k]);
+        const char *failure = k < 2 ? "stretch, critical_stretch: 1e-4" : "beam_limits, fracture_energy: 10";
+        cloud_plate (&a, one, names[k], failure);
+        cloud_plate (&b, two, names[k], failure);
         v.name = names[k];
         check_same (&v, &a, &b);
         clear_history (&a), clear_history (&b);

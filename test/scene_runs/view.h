@@ -42,7 +42,21 @@ static inline int *images (const view *v, const run *from, const run *to)
     return image;
 }
 
-/* Largest difference of displacement (and, stress != NULL, of stress) at image points, relative to the largest value */
+/* Largest difference of the rotations of points in the plane, relative to the largest; 0 where points do not turn */
+static inline double rotation_difference (const view *v, const run *a, const run *b, const int *image)
+{
+    size_t n = a->problem->cloud.n;
+    double worst = 0, top = 0;
+    assert_int_equal (a->problem->turns, b->problem->turns);
+    if (!a->problem->turns) return 0;
+    double *ra = field_of (a, NULL, "rotation", NULL), *rb = field_of (b, NULL, "rotation", NULL);
+    for (size_t i = 0; i < n; i++) top = fmax (top, fabs (ra[i])), worst = fmax (worst, fabs (rb[image[i]] * v->sx * v->sy - ra[i]));
+    assert_true (top > 0 && isfinite (top));
+    pg_free (ra), pg_free (rb);
+    return worst / top;
+}
+
+/* Largest difference of displacement and rotation (and, stress != NULL, of stress) at image points, relative to the largest value */
 static inline double displacement_difference (const view *v, const run *a, const run *b, double *stress)
 {
     size_t n = a->problem->cloud.n;
@@ -55,6 +69,7 @@ static inline double displacement_difference (const view *v, const run *a, const
         worst = fmax (worst, fabs (u[1] / (v->length * v->sy) - ua[2*i + 1]));
     }
     assert_true (top > 0 && isfinite (top));
+    double turn = rotation_difference (v, a, b, image);
     if (stress) {
         double *sa = field_of (a, NULL, "stress", NULL), *sb = field_of (b, NULL, "stress", NULL), strength = largest_of (sa, 3 * n);
         *stress = 0;
@@ -66,7 +81,7 @@ static inline double displacement_difference (const view *v, const run *a, const
         pg_free (sa), pg_free (sb);
     }
     pg_free (ua), pg_free (ub), pg_free (image);
-    return worst / top;
+    return fmax (worst / top, turn);
 }
 
 /* A points file of an nx by ny grid h apart from the origin on, moved at random by up to amount h, in an order that the seed shuffles
