@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Equilibrium of bond-based bodies: plate with a hole, the same with a crack through most of it, cantilever, points off a lattice, cube. One CSV row per
- * body, size and way to solve: conjugate gradients with the multilevel preconditioner and with the diagonal, the factorization of K.
+ * Equilibrium of bodies of bonds: plate with a hole, the same with a crack through most of it, cantilever, points off a lattice, cube; of micropolar ones
+ * the same plate and the cube with a penny-shaped flaw of data/chen_cube. One CSV row per body, size and way to solve: conjugate gradients with the multilevel
+ * preconditioner and with the diagonal, the factorization of K.
  * equilibrium [BODY [POINTS ALONG]]; without: all. Seconds are processor time of all threads (min of 3 set-ups and solves), wall: of the solve; relative
  * residual 1e-8; error: largest difference to the factorization over the largest displacement, where that was made.
- * PERIGAL_BENCH_THREADS: threads (1). The factorization only up to 2e4 points in 2D and 5e3 in 3D, the diagonal up to 2e5. */
+ * PERIGAL_BENCH_THREADS: threads (1). The factorization only up to 4e4 unknowns in 2D and 15e3 in 3D, the diagonal up to 5e5. */
 #include "perigal/force.h"
 #include "perigal/scene.h"
 #include <math.h>
@@ -37,6 +38,14 @@ static const body bodies[] = {
     { "cube",       3, 1,  { 16, 32, 64 },          "dimension: 3\nlattice: cells\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n"
       "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.25, density: 3}}\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\n"
       "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 0.01}}]\n" },
+    { "beams",      2, 1,  { 100, 400 },            "dimension: 2\nlattice: cells\nmethod: {force: gmpd, horizon: 3 spacing}\n"
+      "thickness: 1\nmaterials: {rock: {youngs_modulus: 10, poissons_ratio: 0.2, density: 3}}\n" HOLE PULL2 },
+    { "flaw",       3, 0.04, { 10, 20, 40 },        "dimension: 3\nlattice: cells\nmethod: {force: gmpd, horizon: 3 spacing}\n"
+      "materials: {resin: {youngs_modulus: 3.81 GPa, poissons_ratio: 0.2, density: 1210 kg/m3}}\n"
+      "body: [{add: {box: {low: [-20 mm, -20 mm, -20 mm], high: [20 mm, 20 mm, 20 mm]}}}]\n"
+      "layers: [{name: foot, side: bottom, thickness: 3 spacing}, {name: head, side: top, thickness: 3 spacing}]\n"
+      "cracks: [{disc: {center: [0, 0, 0], normal: [-0.5, 0.8660254, 0], radius: 5 mm}}]\n"
+      "boundary: [{set: foot, displacement: {x: 0, y: 0.348 mm, z: 0}}, {set: head, displacement: {x: 0, y: -0.348 mm, z: 0}}]\n" },
 };
 enum { BODIES = sizeof bodies / sizeof *bodies };
 
@@ -48,6 +57,7 @@ typedef struct {
     unsigned char *fixed;
     double *r, *x, *exact;                             /* exact: by the factor, NULL: not made                           */
     size_t n;
+    int components;                                    /* unknowns of a point                                            */
 } job;
 
 static pg_status start (job *j, const body *b, size_t along, int threads)
@@ -55,12 +65,16 @@ static pg_status start (job *j, const body *b, size_t along, int threads)
     pg_status status = PG_OK;
     char text[2000];
     double reference;
+    pg_field field[2];
     snprintf (text, sizeof text, "%sspacing: %.17g\nsolver: {kind: static}\n", b->text, b->length / (double) along);
-    *j = (job) { .name = b->name, .force = pg_force_find ("bond") };
+    *j = (job) { .name = b->name };
     PG_TRY (pg_scene_parse (&j->scene, text, b->name));
     PG_TRY (pg_problem_build (&j->problem, j->scene, threads));
-    PG_TRY (pg_state_create (&j->state, j->problem, b->dim));
+    j->force = pg_force_find (j->problem->force);
     PG_TRY (j->force->create (&j->self, j->problem));
+    size_t nfield = j->force->fields (j->self, 2, field);
+    for (size_t k = 0; k < nfield && k < 2; k++) j->components += field[k].components;
+    PG_TRY (pg_state_create (&j->state, j->problem, j->components));
     PG_TRY (j->force->refresh (j->self, j->state, NULL));
     j->K = j->force->operator_ (j->self), j->n = j->K->n;
     PG_ALLOC (j->fixed, j->n);
@@ -136,7 +150,7 @@ done:
 static pg_status by_gradients (job *j, int multilevel)
 {
     pg_status status = PG_OK;
-    pg_multilevel_setting s = { .dim = j->problem->dim, .block = j->problem->dim, .threads = j->problem->threads, .n = j->problem->cloud.n,
+    pg_multilevel_setting s = { .dim = j->problem->dim, .block = j->components, .threads = j->problem->threads, .n = j->problem->cloud.n,
                                 .x = j->problem->cloud.x, .fixed = j->fixed, .A = j->K };
     pg_operator A = { j->n, j, apply, diagonal };
     pg_multilevel *m = NULL;
@@ -176,9 +190,8 @@ int main (int argc, char **argv)
             job j = { 0 };
             size_t along = argc > 2 ? strtoul (argv[2], NULL, 10) : bodies[b].sizes[k];
             PG_TRY (start (&j, &bodies[b], along, threads));
-            size_t n = j.problem->cloud.n;
-            if (n <= (j.problem->dim == 3 ? 5000 : 20000)) PG_TRY (by_factor (&j));
-            if (n <= 200000) PG_TRY (by_gradients (&j, 0));
+            if (j.n <= (j.problem->dim == 3 ? 15000 : 40000)) PG_TRY (by_factor (&j));
+            if (j.n <= 500000) PG_TRY (by_gradients (&j, 0));
             PG_TRY (by_gradients (&j, 1));
             stop (&j);
             if (argc > 2) break;

@@ -5,12 +5,9 @@
  * PERI scales a neighbour's volume by (horizon + step/2 - r) / step where r > horizon - step/2, but has no bonds beyond the horizon: the sums called
  * `peri` here do the same; `linear` are Perigal's own, with bonds up to horizon + step/2. Stiffness: under equal stretches, over that of a body without
  * gaps; it is why the two move apart. Seconds are those of the processor. */
-#include "perigal/sums.h"
-#include <math.h>
+#include "lattice.h"
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 typedef struct { const char *name; int dim, count, steps; double dt; } shape;
@@ -19,93 +16,71 @@ static const double step = 1e-3, ratio = 3.015, E = 72e9, rho = 2440, speed = 1,
 
 typedef struct {
     const shape *shape;
-    pg_cloud cloud;
-    pg_sums *sums;
-    pg_family family;
-    double modulus, *moduli, *limit, *u, *v, *f, *other;
-    unsigned char *alive;
-} body;
+    lattice_body body;                                 /* plain: LAMMPS' displacements                                   */
+    double modulus, *moduli, *limit, *v;
+} runner;
 
-static double seconds (void)
+static void clear (runner *r)
 {
-    struct timespec t;
-    clock_gettime (CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double) t.tv_sec + 1e-9 * (double) t.tv_nsec;
+    pg_free (r->moduli), pg_free (r->limit), pg_free (r->v);
+    lattice_clear (&r->body);
 }
 
-static void clear (body *b)
+static void start (runner *r)
 {
-    void *all[] = { b->cloud.x, b->cloud.volume, b->moduli, b->limit, b->u, b->v, b->f, b->other, b->alive };
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++) pg_free (all[k]);
-    pg_family_clear (&b->family);
-    pg_sums_free (&b->sums);
-    memset (b, 0, sizeof *b);
-}
-
-static void start (body *b)
-{
+    lattice_body *b = &r->body;
     size_t dim = (size_t) b->cloud.dim;
     for (size_t i = 0; i < b->cloud.n; i++) {
         const double *x = b->cloud.x + i * dim;
-        for (size_t d = 0; d < dim; d++) b->u[i*dim + d] = b->v[i*dim + d] = 0;
-        b->v[i*dim] = speed * sin (wave * (x[0] + 2 * x[1])), b->v[i*dim + 1] = speed * cos (wave * (2 * x[0] - x[1]));
+        for (size_t d = 0; d < dim; d++) b->u[i*dim + d] = r->v[i*dim + d] = 0;
+        r->v[i*dim] = speed * sin (wave * (x[0] + 2 * x[1])), r->v[i*dim + 1] = speed * cos (wave * (2 * x[0] - x[1]));
     }
 }
 
-static pg_status build (body *b, const shape *s, int peri, pg_evaluation evaluation)
+static pg_status build (runner *r, const shape *s, int peri, pg_evaluation evaluation)
 {
     pg_status status = PG_OK;
-    pg_cloud *c = &b->cloud;
-    size_t dim = (size_t) s->dim, count = (size_t) s->count, n = count * count * (dim == 3 ? count : 1);
-    memset (b, 0, sizeof *b);
-    b->shape = s;
-    c->dim = s->dim, c->n = n, c->h = step, c->thickness = dim == 2 ? step : 1;
-    PG_ALLOC (c->x, n * dim);
-    PG_ALLOC (c->volume, n);
-    PG_ALLOC (b->moduli, n);
-    PG_ALLOC (b->limit, n);
-    PG_ALLOC (b->u, n * dim);
-    PG_ALLOC (b->v, n * dim);
-    PG_ALLOC (b->f, n * dim);
-    PG_ALLOC (b->other, n * dim);
-    for (size_t i = 0; i < n; i++) {
-        size_t at[3] = { i % count, i / count % count, i / count / count };
-        for (size_t d = 0; d < dim; d++) c->x[i*dim + d] = (double) at[d] * step, c->high[d] = step * (double) count;
-        c->volume[i] = step * step * step;
-    }
-    pg_lattice lattice = { .dim = s->dim, .step = { step, step, step } };
-    pg_sum_rule rule = { .mode = dim == 2 ? PG_PLANE_STRESS : PG_SOLID, .kernel = pg_kernel_find ("constant"), .horizon = ratio * step,
+    lattice_body *b = &r->body;
+    *r = (runner) { .shape = s };
+    PG_TRY (lattice_create (b, s->dim, (int[3]) { s->count, s->count, s->count }, step, s->dim));
+    size_t n = b->cloud.n;
+    PG_ALLOC (r->moduli, n);
+    PG_ALLOC (r->limit, n);
+    PG_ALLOC (r->v, n * (size_t) s->dim);
+    if (s->dim == 2) b->cloud.thickness = step;
+    for (size_t i = 0; i < n; i++) b->cloud.volume[i] = step * step * step;
+    pg_sum_rule rule = { .mode = s->dim == 2 ? PG_PLANE_STRESS : PG_SOLID, .kernel = pg_kernel_find ("constant"), .horizon = ratio * step,
                          .partial = peri ? PG_PARTIAL_NONE : PG_PARTIAL_LINEAR, .finite = 1, .evaluation = evaluation };
-    PG_TRY (pg_sums_create (&b->sums, &rule, c, &lattice));
+    PG_TRY (lattice_bond (b, &rule, 0));
     pg_stencil *t = &b->sums->stencil;
     for (size_t k = 0; peri && k < t->n; k++) t->beta[k] = t->weight[k] = fmin (1, (rule.horizon + step / 2 - t->r[k]) / step);
-    PG_TRY (pg_sums_family (&b->family, b->sums));
-    b->modulus = pg_bond_modulus (rule.mode, rule.kernel, rule.horizon, E, c->thickness);
-    for (size_t i = 0; i < n; i++) b->moduli[i] = b->modulus, b->limit[i] = 1;
-    start (b);
+    r->modulus = pg_bond_modulus (rule.mode, rule.kernel, rule.horizon, E, b->cloud.thickness);
+    for (size_t i = 0; i < n; i++) r->moduli[i] = r->modulus, r->limit[i] = 1;
+    start (r);
 done:
     return status;
 }
 
 /* Velocity Verlet from the start to the end; seconds of one sum of forces: the shortest one. */
-static pg_status go (body *b, const char *set, char *name, double *best)
+static pg_status go (runner *r, const char *set, char *name, double *best)
 {
     pg_status status = PG_OK;
+    lattice_body *b = &r->body;
     size_t values = b->cloud.n * (size_t) b->cloud.dim;
-    double half = b->shape->dt / 2 / (rho * b->cloud.volume[0]);
+    double half = r->shape->dt / 2 / (rho * b->cloud.volume[0]);
     pg_sweep *sweep = NULL;
     pg_changes broken = { 0 };
-    pg_sweep_setting setting = { .sums = b->sums, .family = &b->family, .modulus = b->moduli, .limit = b->limit, .threads = 1, .instructions = set };
+    pg_sweep_setting setting = { .sums = b->sums, .family = &b->family, .modulus = r->moduli, .limit = r->limit, .threads = 1, .instructions = set };
     PG_TRY (pg_sweep_create (&sweep, &setting));
     strcpy (name, pg_sweep_name (sweep));
-    start (b);
+    start (r);
     *best = INFINITY;
-    for (int k = 0; k <= b->shape->steps; k++) {
-        double now = seconds ();
+    for (int k = 0; k <= r->shape->steps; k++) {
+        double now = lattice_seconds (1);
         PG_TRY (pg_sweep_force (sweep, b->u, b->f, &broken));
-        *best = fmin (*best, seconds () - now);
-        for (size_t i = 0; k > 0 && i < values; i++) b->v[i] += half * b->f[i];
-        for (size_t i = 0; k < b->shape->steps && i < values; i++) b->v[i] += half * b->f[i], b->u[i] += b->shape->dt * b->v[i];
+        *best = fmin (*best, lattice_seconds (1) - now);
+        for (size_t i = 0; k > 0 && i < values; i++) r->v[i] += half * b->f[i];
+        for (size_t i = 0; k < r->shape->steps && i < values; i++) r->v[i] += half * b->f[i], b->u[i] += r->shape->dt * r->v[i];
     }
     if (broken.n > 0) PG_FAIL (PG_E_EQUILIBRIUM, "%zu bonds broke", broken.n);
 done:
@@ -115,10 +90,11 @@ done:
 }
 
 /* Displacements of LAMMPS' last state. */
-static pg_status read_final (body *b, const char *path)
+static pg_status read_final (runner *r, const char *path)
 {
     pg_status status = PG_OK;
-    size_t dim = (size_t) b->cloud.dim, count = (size_t) b->shape->count, got = 0;
+    lattice_body *b = &r->body;
+    size_t dim = (size_t) b->cloud.dim, count = (size_t) r->shape->count, got = 0;
     char line[256];
     FILE *file = fopen (path, "r");
     if (!file) PG_FAIL (PG_E_FILE, "%s is not there: LAMMPS failed", path);
@@ -128,7 +104,7 @@ static pg_status read_final (body *b, const char *path)
         if (sscanf (line, "%zu %lf %lf %lf", &id, x, x + 1, x + 2) != 4) continue;
         for (size_t d = dim; d-- > 0; ) i = i * count + (size_t) lround (x[d] / step);
         if (i >= b->cloud.n) PG_FAIL (PG_E_FILE, "%s: point %zu is outside the body", path, id);
-        for (size_t d = 0; d < dim; d++) b->other[i*dim + d] = x[d] - b->cloud.x[i*dim + d];
+        for (size_t d = 0; d < dim; d++) b->plain[i*dim + d] = x[d] - b->cloud.x[i*dim + d];
         got++;
     }
     if (got != b->cloud.n) PG_FAIL (PG_E_FILE, "%s: %zu points of %zu", path, got, b->cloud.n);
@@ -140,7 +116,7 @@ done:
 typedef struct { double bonds, pair, loop; } rival;    /* seconds of the processor, all steps                            */
 
 /* LAMMPS on this body, one process, one thread; bonds = 0: there is no LAMMPS. */
-static pg_status run_lammps (body *b, rival *r)
+static pg_status run_lammps (runner *b, rival *r)
 {
     pg_status status = PG_OK;
     const char *program = getenv ("LAMMPS");
@@ -172,18 +148,12 @@ done:
     return status;
 }
 
-static double difference (const body *b, const double *u)
+static void row (const runner *b, const char *program, const char *sums, double bonds, double time, const rival *r, double off)
 {
-    double most = 0, off = 0;
-    for (size_t i = 0; i < b->cloud.n * (size_t) b->cloud.dim; i++) most = fmax (most, fabs (u[i])), off = fmax (off, fabs (b->u[i] - u[i]));
-    return off / most;
-}
-
-static void row (const body *b, const char *program, const char *sums, double bonds, double time, const rival *r, double off)
-{
+    const pg_sums *of = b->body.sums;
     double rate = bonds / time, pair = r->bonds * b->shape->steps / r->pair;
-    printf ("%s,%zu,%.0f,%s,%s,%d,%.4f,%.4f,", b->shape->name, b->cloud.n, bonds, program, sums, b->shape->steps, time * 1e3, rate * 1e-9);
-    printf ("%.4f,", 1 / pg_stencil_calibration (&b->sums->stencil, &b->sums->rule));
+    printf ("%s,%zu,%.0f,%s,%s,%d,%.4f,%.4f,", b->shape->name, b->body.cloud.n, bonds, program, sums, b->shape->steps, time * 1e3, rate * 1e-9);
+    printf ("%.4f,", 1 / pg_stencil_calibration (&of->stencil, &of->rule));
     if (r->bonds > 0) printf ("%.1f,%.3g\n", rate / pair, off);
     else printf (",\n");
     fflush (stdout);
@@ -196,7 +166,7 @@ static pg_status race (const shape *s)
         { PG_EVALUATE_STENCIL, 1, "avx2" }, { PG_EVALUATE_STENCIL, 1, "scalar" }, { PG_EVALUATE_LIST, 0, NULL }, { PG_EVALUATE_STENCIL, 0, NULL },
     };
     pg_status status = PG_OK;
-    body b = { 0 };
+    runner b = { 0 };
     rival r = { 0, 0, 0 };
     double *other = NULL;
     for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
@@ -205,7 +175,7 @@ static pg_status race (const shape *s)
         PG_TRY (build (&b, s, runs[k].peri, runs[k].evaluation));
         if (k == 0) {
             PG_TRY (run_lammps (&b, &r));
-            other = b.other, b.other = NULL;
+            other = b.body.plain, b.body.plain = NULL;
             double zero = 0;
             if (r.bonds > 0) {
                 row (&b, "lammps pair", "peri", r.bonds, r.pair / s->steps, &r, zero);
@@ -213,7 +183,7 @@ static pg_status race (const shape *s)
             }
         }
         status = go (&b, runs[k].set, name, &best);
-        if (status == PG_OK) row (&b, name, runs[k].peri ? "peri" : "linear", (double) b.family.start[b.cloud.n], best, &r, difference (&b, other));
+        if (status == PG_OK) row (&b, name, runs[k].peri ? "peri" : "linear", (double) b.body.family.start[b.body.cloud.n], best, &r, lattice_apart (&b.body, b.body.u, other));
         else if (status != PG_E_USAGE) goto done;      /* usage: instructions that this machine lacks */
         status = PG_OK;
         clear (&b);

@@ -14,7 +14,7 @@
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
 /* ---- sizes ------------------------------------------------------------------------------------------------------------------ */
-/* Time of a transform per place, from bench/fcbm_step on an AMD EPYC (FFTW 3.3.10): a constant and a share of each prime factor. */
+/* Time of a transform per place, from bench/sums_rate fcbm on an AMD EPYC (FFTW 3.3.10): a constant and a share of each prime factor. */
 static double time_of (size_t n)
 {
     static const struct { size_t prime; double time; } factor[] = { { 2, 0.08 }, { 3, 0.17 }, { 5, 0.22 }, { 7, 0.24 } };

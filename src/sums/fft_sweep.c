@@ -424,7 +424,7 @@ static void fft_bytes (const void *self, double *per_bond, double *per_point)
     *per_point = sizeof (double) * (2 * t->dim * n + places * (4 * t->dim + 2 + t->pairs) + passes * t->dim * 2 * (double) (b->C * b->T[1] * b->n[2])) / n;
 }
 
-/* From bench/fcbm_step on one thread of an AMD EPYC (280^2 to 1024^2 and 50^3 to 140^3 places, AVX-512; plans between guessed and timed ones): a pair of
+/* From bench/sums_rate fcbm on one thread of an AMD EPYC (280^2 to 1024^2 and 50^3 to 140^3 places, AVX-512; plans between guessed and timed ones): a pair of
  * transforms takes 0.3 ns (in space 0.4) times places times their binary logarithm, all the rest 6 (15) ns a point and 20 us. */
 static double fft_time (const pg_sweep_setting *setting, pg_instructions set)
 {

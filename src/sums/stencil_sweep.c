@@ -429,7 +429,7 @@ static pg_status energies (void *self, const double *u, double *W)
     return PG_OK;
 }
 
-/* Bonds a nanosecond by instruction set, in a plane and in space: bench/bond_rate, square_400_m6 and cube_64, one thread of an AMD EPYC. */
+/* Bonds a nanosecond by instruction set, in a plane and in space: bench/sums_rate bond, square_400_m6 and cube_64, one thread of an AMD EPYC. */
 static double time_of (const pg_sweep_setting *setting, pg_instructions set)
 {
     static const double rate[][2] = { { 1.7, 0.8 }, { 3.9, 2.1 }, { 7.3, 3.7 } };
