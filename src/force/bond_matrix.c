@@ -71,7 +71,7 @@ static void find_whole (bond *b)
     if (b->searched) return;
     b->searched = 1;
     if (b->dilation || !n || !sums->ordered || sums->share || sums->family_volume) return;
-    for (size_t k = 1; k < b->n; k++) if (b->modulus[k] != b->modulus[0]) return;
+    for (size_t k = 1; k < b->n; k++) if (b->modulus[k] != b->modulus[0] || (b->shear && b->shear[k] != b->shear[0])) return;
     while (i < b->n && family_size (b, i) != n) i++;
     if (i == b->n) return;
     bond_star s;

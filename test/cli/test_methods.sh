@@ -41,6 +41,9 @@ for force in $forces; do for solver in $solvers; do pair "$force x $solver" "$fo
 energy='failure={criterion: node_energy, fracture_energy: 0.4, exclude: [top_grip, bottom_grip]}'
 for solver in $solvers; do pair "fcbm x $solver, energies of points" fcbm "$solver" "$energy"; grep -q runs "$work/line" || bad=1; done
 pair "bond x static, energies of points, fixed steps" bond static "$energy" 'solver={stepping: fixed, steps: 5, break: all}'; grep -q runs "$work/line" || bad=1
+# points that turn: at a Poisson's ratio below the bound bonds bear shear and bending, which break them too
+turning=(materials.glass.poissons_ratio=0.2 'failure={criterion: beam_limits, fracture_energy: 400 J/m2, exclude: [top_grip, bottom_grip]}')
+for solver in $solvers; do pair "gmpd x $solver, points that turn" gmpd "$solver" "${turning[@]}"; grep -q runs "$work/line" || bad=1; done
 # what was refused above for its time step
 for solver in verlet central relax; do pair "galerkin x $solver, a stable time step" galerkin $solver solver.dt='15 ns'; grep -q 'runs\|ends' "$work/line" || bad=1; done
 echo "1..$n"

@@ -10,6 +10,10 @@ static const char *const bodies[] = { BODY2 "method: {force: bond}\n", BODY3 "me
     BODY2_OF ("0.2") "method: {force: gmpd}\n", BODY3_OF ("0.1") "method: {force: gmpd, beam: timoshenko, shear_parameter: 0.5}\n", turned,
     BODY2_OF ("0") "lattice: cells\nmethod: {force: gmpd, horizon: 4.2 spacing, evaluation: list, surface_correction: volume}\n",
     BODY2_OF ("0.25") "method: {force: gmpd, beam: chen, cm_ratio: 0.75, kernel: quadratic, surface_correction: product}\n",
+    /* one C_N and two shear stiffnesses: 1 / ((1 + nu)(1 - 2 nu)) is 1 at 0 and at -1/2 */
+    "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [2.4, 0.9]}}}]\nspacing: 0.1\nlattice: cells\nmethod: {force: gmpd}\n"
+    "materials: {one: {youngs_modulus: 10, poissons_ratio: 0, density: 3}, other: {youngs_modulus: 10, poissons_ratio: -0.5, density: 3}}\n"
+    "blocks: [{material: one, where: \"x < 1.2\"}, {material: other, where: \"x >= 1.2\"}]\n",
     BODY2 "method: {force: bond, stretch: finite}\n" };
 enum { BODIES = sizeof bodies / sizeof *bodies };
 
