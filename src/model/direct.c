@@ -213,8 +213,9 @@ void pg_direct_check_laws (const pg_problem *p, const pg_scene *scene)
     for (size_t m = 1; m < p->nmaterial && asked != PG_EVALUATE_AUTO && asked != PG_EVALUATE_LIST; m++) {
         const pg_criterion *a = &p->criterion[0], *b = &p->criterion[m];
         int at_points = a->type && (a->type->needs & PG_NEEDS_ENERGY);             /* the loops know of no limit              */
-        int same = p->material[m].modulus == p->material[0].modulus && (!(p->turns || p->sums->rule.state) || p->material[m].parameter[1] == p->material[0].parameter[1])
-                && (at_points || (a->never == b->never && memcmp (a->parameter, b->parameter, sizeof a->parameter) == 0));
+        int alike = p->sums->rule.state                                            /* whose loops know each point's constants  */
+                 || (p->material[m].modulus == p->material[0].modulus && (!p->turns || p->material[m].parameter[1] == p->material[0].parameter[1]));
+        int same = alike && (at_points || (a->never == b->never && memcmp (a->parameter, b->parameter, sizeof a->parameter) == 0));
         if (same) continue;
         pg_scene_fault (scene, "method.evaluation", "materials %.40s and %.40s differ in stiffness or limit, and bonds must all be alike for this: use list or auto",
                         p->material[0].name, p->material[m].name);

@@ -372,10 +372,33 @@ static void test_threads (void **unused)
     }
 }
 
+/* Materials that differ in both constants: every loop knows each point's own. */
+static void test_two_materials_by_any_loop (void **unused)
+{
+    (void) unused;
+    static const char *const loops[] = { "list", "stencil", "fft" };
+    double *d = NULL, *first = NULL;
+    for (int k = 0; k < 3; k++) {
+        char text[900];
+        snprintf (text, sizeof text, "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [2, 0.7]}}}]\nspacing: 0.1\nlattice: cells\n"
+            "materials: {a: {youngs_modulus: 10, poissons_ratio: 0.4, density: 3}, b: {youngs_modulus: 3, poissons_ratio: 0.1, density: 3}}\n"
+            "blocks: [{material: a, where: \"x < 1\"}, {material: b, where: \"x >= 1\"}]\nmethod: {force: lps, evaluation: %s}\n", loops[k]);
+        bonded b = bonded_of (text);
+        double *f = pg_calloc (b.ndof, sizeof *f), reference;
+        if (!d) d = random_vector (b.ndof, 5);
+        check_ok (b.force->balance (b.self, 0, d, f, &reference));
+        for (size_t i = 0; first && i < b.ndof; i++) check_scaled (f[i], first[i], 1e-13, size_of (b.ndof, first));
+        if (!first) first = f;
+        else pg_free (f);
+        unbonded (&b);
+    }
+    pg_free (d), pg_free (first);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (test_operator), cmocka_unit_test (test_uniform), cmocka_unit_test (test_waves),
         cmocka_unit_test (test_bound), cmocka_unit_test (test_step), cmocka_unit_test (test_cut), cmocka_unit_test (test_symmetry),
-        cmocka_unit_test (test_scattered), cmocka_unit_test (test_threads) };
+        cmocka_unit_test (test_scattered), cmocka_unit_test (test_two_materials_by_any_loop), cmocka_unit_test (test_threads) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
