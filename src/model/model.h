@@ -4,6 +4,7 @@
 #define PG_MODEL_PRIVATE_H
 #include "perigal/model.h"
 pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
+void      pg_loads_check_moments (const pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
 /* initial.velocity: checked and compiled; put into v (n x dim, m/s), which is left alone where nothing is given. */
 pg_status pg_initial_read  (pg_problem *problem, const pg_scene *scene);

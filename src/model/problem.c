@@ -199,6 +199,7 @@ pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads
     PG_TRY (pg_initial_read (p, scene));
     PG_TRY (pg_scene_verdict (scene));
     PG_TRY (pg_bonds_build (p, scene));
+    pg_loads_check_moments (p, scene);
     PG_TRY (read_gauges (p, scene));
     PG_TRY (pg_scene_verdict (scene));
     *out = p;
