@@ -213,7 +213,7 @@ void pg_direct_check_laws (const pg_problem *p, const pg_scene *scene)
     for (size_t m = 1; m < p->nmaterial && asked != PG_EVALUATE_AUTO && asked != PG_EVALUATE_LIST; m++) {
         const pg_criterion *a = &p->criterion[0], *b = &p->criterion[m];
         int at_points = a->type && (a->type->needs & PG_NEEDS_ENERGY);             /* the loops know of no limit              */
-        int alike = p->sums->rule.state                                            /* whose loops know each point's constants  */
+        int alike = (p->sums->rule.state && !p->turns)                            /* whose loops know each point's constants  */
                  || (p->material[m].modulus == p->material[0].modulus && (!p->turns || p->material[m].parameter[1] == p->material[0].parameter[1]));
         int same = alike && (at_points || (a->never == b->never && memcmp (a->parameter, b->parameter, sizeof a->parameter) == 0));
         if (same) continue;
