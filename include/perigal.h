@@ -29,6 +29,7 @@
 #include "perigal/model.h"
 #include "perigal/stiffness.h"
 #include "perigal/force.h"
+#include "perigal/symbol.h"
 #include "perigal/solve.h"
 #include "perigal/output.h"
 #include "perigal/compare.h"

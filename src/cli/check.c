@@ -24,6 +24,7 @@ int pg_cli_check (int argc, char **argv)
     pg_solver_options o;
     pg_forecast f;
     first_break first = { 0 };
+    spectrum waves = { 0 };
     pg_solver *solver = NULL;
     const char *from = "";
     double stable = NAN;
@@ -42,12 +43,16 @@ int pg_cli_check (int argc, char **argv)
     }
     if (!solver && p->direct) PG_TRY (try_force (p));
     if (c.solve) PG_TRY (first_break_find (&first, p, &o));
-    plan all = { p, &o, &f, afford_available (&c), &first, stable, from };
+    if (c.spectrum) PG_TRY (spectrum_find (&waves, scene, p));
+    plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from };
     if (c.json) PG_TRY (plan_print_json (&all));
     else printf ("%s: the scene is right\n", c.scene);
     if (!c.quiet && !c.json) plan_print_long (&all);
+    if (c.spectrum && !c.json) spectrum_print (&waves);
+    if (c.spectrum && c.folder) PG_TRY (spectrum_write (&waves, p, c.folder));
 done:
     if (status != PG_OK) command_complain (status, pg_last_error ());
+    spectrum_free (&waves);
     pg_solver_free (&solver);
     pg_problem_free (&p);
     pg_scene_free (&scene);

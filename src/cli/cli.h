@@ -24,7 +24,7 @@ void progress_show  (progress *p, double share, const pg_step *step, const pg_re
 void progress_end   (progress *p);
 
 /* command.c: options shared by run and check */
-typedef struct { const char *scene, *folder, *set[64]; size_t nset; int threads, quiet, resume, json, solve; double memory; const char *given; } command;
+typedef struct { const char *scene, *folder, *set[64]; size_t nset; int threads, quiet, resume, json, solve, spectrum; double memory; const char *given; } command;
 int       command_parse (command *c, int argc, char **argv);   /* -1: go on; else the exit code (message printed)         */
 int       command_usage (FILE *to, const char *name);          /* 0: there is no such command                             */
 pg_status command_scene (const command *c, pg_scene **scene);  /* a file that cannot be read counts as a wrong scene      */
@@ -49,9 +49,17 @@ typedef struct {
 } first_break;
 pg_status first_break_find (first_break *out, const pg_problem *p, const pg_solver_options *o);
 
+/* check_spectrum.c: plane waves of the scene's lattice; symbol NULL: not asked for */
+typedef struct { pg_symbol *symbol; pg_survey survey; char verdict[400]; } spectrum;
+pg_status spectrum_find  (spectrum *out, const pg_scene *scene, const pg_problem *p);
+void      spectrum_free  (spectrum *spectrum);
+void      spectrum_print (const spectrum *spectrum);
+void      spectrum_json  (pg_json *j, const spectrum *spectrum);
+pg_status spectrum_write (const spectrum *spectrum, const pg_problem *p, const char *folder);      /* spectrum.csv, spectrum.png  */
+
 /* plan.c */
 void plan_print      (const pg_problem *p, const pg_solver_options *o);
-typedef struct { const pg_problem *problem; const pg_solver_options *options; const pg_forecast *forecast; double available; const first_break *first; double stable; const char *from; } plan;   /* stable: of an explicit method, s; else NAN */
+typedef struct { const pg_problem *problem; const pg_solver_options *options; const pg_forecast *forecast; double available; const first_break *first; const spectrum *waves; double stable; const char *from; } plan;   /* stable: of an explicit method, s; else NAN */
 typedef struct { double omega, dt, courant; int measured; } plan_times;  /* rad/s, s stable, c_p dt / h of newmark        */
 plan_times plan_times_of (const plan *p);
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most);           /* what the run will not do, as far as known     */

@@ -15,10 +15,12 @@ static const struct { const char *name, *text; } usages[] = {
              "  -s, --set KEY=VALUE  replaces or adds one value of the scene, such as method.horizon='2.5 spacing'\n"
              "  -q, --quiet          neither progress nor summary; warnings are in DIR/report.json\n"
              "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) leaves a checkpoint after the break round at hand; a second one ends at once.\n" },
-    { "check", "perigal check SCENE.yaml [--json] [--solve] [--memory SIZE] [--set KEY=VALUE]... [--quiet]\n"
+    { "check", "perigal check SCENE.yaml [--json] [--solve] [--spectrum [-o DIR]] [--memory SIZE] [--set KEY=VALUE]... [--quiet]\n"
                "  All faults of the scene with line and column, or what it amounts to: points, bonds, unknowns, memory, constants,\n"
                "  time steps, and what the run will skip.\n"
                "      --solve          solves once: the load at which the first bond breaks, and where; the stable time step\n"
+               "      --spectrum       plane waves of the lattice: is every motion resisted, how fast are long waves, which time step is stable;\n"
+               "                       with -o DIR: DIR/spectrum.csv, spectrum.png: frequencies along the edges of the zone\n"
                "      --json           the same for programs\n"
                "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A scene that needs more is refused\n" },
     { "plot", "perigal plot DIR [--field NAME] [--component x|xx|magnitude] [--step N|all | --steps N,N,...] [--view SIDE|iso|crack] [--section CUT] ...\n"
@@ -108,7 +110,7 @@ int command_parse (command *c, int argc, char **argv)
     static const struct option options[] = {
         { "out", required_argument, NULL, 'o' }, { "threads", required_argument, NULL, 't' }, { "set", required_argument, NULL, 's' },
         { "resume", no_argument, NULL, 'r' }, { "memory", required_argument, NULL, 'm' }, { "json", no_argument, NULL, 'j' },
-        { "solve", no_argument, NULL, 'v' }, { "quiet", no_argument, NULL, 'q' }, { "help", no_argument, NULL, 'h' }, { NULL, 0, NULL, 0 } };
+        { "solve", no_argument, NULL, 'v' }, { "spectrum", no_argument, NULL, 'w' }, { "quiet", no_argument, NULL, 'q' }, { "help", no_argument, NULL, 'h' }, { NULL, 0, NULL, 0 } };
     int checks = strcmp (argv[0], "check") == 0;
     memset (c, 0, sizeof *c);
     optind = 1, opterr = 0;
@@ -122,6 +124,7 @@ int command_parse (command *c, int argc, char **argv)
         else if (k == 'm') wrong = read_memory (c, optarg);
         else if (k == 'j' && checks) c->json = 1;
         else if (k == 'v' && checks) c->solve = 1;
+        else if (k == 'w' && checks) c->spectrum = 1;
         else wrong = refuse (argv[0], k, argv[optind - 1]);
         if (wrong >= 0) return wrong;
     }

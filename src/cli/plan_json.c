@@ -127,6 +127,7 @@ static pg_status write_plan (const plan *p, const char *path)
     steps (j, p);
     memory (j, p);
     first (j, p);
+    if (p->waves) spectrum_json (j, p->waves);
     pg_json_open (j, "skipped", '[');
     for (size_t k = 0; k < n; k++) {
         pg_json_open (j, NULL, '{');

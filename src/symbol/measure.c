@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * K_0j of a lattice: the answer of every point of a box to unit displacements and rotations of its middle one. */
+#include "symbol.h"
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TRIES = 6, MOST_POINTS = 400000 };
+/* Of the largest answer: too little to enlarge the box for; rounding, of transforms also far away. */
+static const double little = 1e-12, nothing = 1e-14;
+
+typedef struct {
+    pg_scene *scene;  pg_problem *problem;  pg_state *state;
+    const pg_force_type *force;  void *self;
+    size_t middle;                                     /* the point at the origin                                        */
+    int    m;
+    double *answer;                                    /* to unknown c of the middle: ndof x m, column by column         */
+} box;
+
+static void clear (box *b)
+{
+    if (b->self) b->force->free (&b->self);
+    pg_state_free (&b->state);
+    pg_problem_free (&b->problem);
+    pg_scene_free (&b->scene);
+    pg_free (b->answer);
+    memset (b, 0, sizeof *b);
+}
+
+static size_t middle_of (const pg_cloud *c)
+{
+    size_t best = 0, dim = (size_t) c->dim;
+    double least = INFINITY;
+    for (size_t i = 0; i < c->n; i++) {
+        double r = 0;
+        for (size_t k = 0; k < dim; k++) r += c->x[i * dim + k] * c->x[i * dim + k];
+        if (r < least) least = r, best = i;
+    }
+    return best;
+}
+
+/* K x by the product of the force or by its matrix. */
+static pg_status multiply (box *b, const double *x, double *y)
+{
+    pg_status status = PG_OK;
+    const pg_operator *K = b->force->operator_ ? b->force->operator_ (b->self) : NULL;
+    if (K) {
+        K->apply (K->context, x, y);
+        return PG_OK;
+    }
+    if (b->force->assemble) PG_TRY (b->force->assemble (b->self));
+    pg_sparse_multiply (b->force->matrix (b->self), x, y);
+done:
+    return status;
+}
+
+static pg_status build (box *b, const pg_scene *scene, const pg_problem *p, const box_size *size)
+{
+    pg_status status = PG_OK;
+    pg_field field[4];
+    double points = 1, *x = NULL;
+    for (int k = 0; k < p->dim; k++) points *= 2 * size->half[k] + 1;
+    if (points > MOST_POINTS)
+        PG_FAIL (PG_E_LIMIT, "the waves of this lattice need a box of %.3g points, as its horizon is %.3g spacings: this is done up to %d points", points,
+                 p->approx.horizon / size->h, MOST_POINTS);
+    PG_TRY (box_fits (size, p->dim));
+    PG_TRY (box_scene (&b->scene, scene, p, size));
+    PG_TRY (pg_problem_build (&b->problem, b->scene, p->threads));
+    b->force = pg_force_find (b->problem->force);
+    PG_TRY (b->force->create (&b->self, b->problem));
+    size_t n = b->force->fields (b->self, sizeof field / sizeof *field, field);
+    for (size_t f = 0; f < n; f++) b->m += field[f].components;
+    PG_TRY (pg_state_create (&b->state, b->problem, b->m));
+    PG_TRY (b->force->refresh (b->self, b->state, NULL));
+    b->middle = middle_of (&b->problem->cloud);
+    size_t ndof = b->problem->cloud.n * (size_t) b->m;
+    PG_ALLOC (b->answer, ndof * (size_t) b->m);
+    PG_ALLOC (x, ndof);
+    for (size_t c = 0; c < (size_t) b->m; c++) {
+        x[b->middle * (size_t) b->m + c] = 1;
+        PG_TRY (multiply (b, x, b->answer + c * ndof));
+        x[b->middle * (size_t) b->m + c] = 0;
+    }
+done:
+    pg_free (x);
+    return status;
+}
+
+static double answer_at (const box *b, size_t j, int r, int c)
+{
+    return b->answer[((size_t) c * b->problem->cloud.n + j) * (size_t) b->m + (size_t) r];
+}
+
+static void offset_of (const box *b, const box_size *size, size_t j, int *offset)
+{
+    size_t dim = (size_t) b->problem->dim;
+    for (size_t k = 0; k < 3; k++) offset[k] = k < dim ? (int) lround (b->problem->cloud.x[j * dim + k] / size->step[k]) : 0;
+}
+
+/* Is K_0j whole? The points that answer must not see the surface of the box, nor may their families, which weigh the bonds of some forces. Sets how
+ * large the box must be. */
+static int large_enough (const box *b, box_size *size)
+{
+    int reach[3] = { 0 }, offset[3], enough = 1, dim = b->problem->dim, m = b->m;
+    double largest = 0;
+    for (size_t k = 0; k < b->problem->cloud.n * (size_t) (m * m); k++) largest = fmax (largest, fabs (b->answer[k]));
+    for (size_t j = 0; j < b->problem->cloud.n; j++) {
+        double most = 0;
+        for (int e = 0; e < m * m; e++) most = fmax (most, fabs (answer_at (b, j, e / m, e % m)));
+        if (most <= little * largest) continue;
+        offset_of (b, size, j, offset);
+        for (int k = 0; k < dim; k++) if (abs (offset[k]) > reach[k]) reach[k] = abs (offset[k]);
+    }
+    for (int k = 0; k < dim; k++) {
+        int need = reach[k] + 2 + (b->problem->direct ? (int) ceil (b->problem->approx.horizon / size->step[k]) : 0);
+        if (need > size->half[k]) size->half[k] = need, enough = 0;
+    }
+    return enough;
+}
+
+/* ---- what is kept of it ----------------------------------------------------------------------------------------------------------- */
+static pg_status collect (pg_symbol *s, const box *b, const box_size *size)
+{
+    pg_status status = PG_OK;
+    size_t m = (size_t) s->unknowns, n = b->problem->cloud.n;
+    const pg_sparse *mass = NULL;
+    double *x = NULL, largest = 0;
+    for (size_t k = 0; k < n * m * m; k++) largest = fmax (largest, fabs (b->answer[k]));
+    if (b->force->mass_matrix) {
+        PG_TRY (b->force->mass_matrix (b->self, &mass));
+        PG_ALLOC (s->spread, n);
+        PG_ALLOC (x, 2 * n);
+        x[b->middle] = 1 / (s->material.density * s->volume);
+        pg_sparse_multiply (mass, x, x + n);
+    }
+    PG_ALLOC (s->offset, 3 * n);
+    PG_ALLOC (s->block, n * m * m);
+    for (size_t j = 0; j < n; j++) {
+        double *K = s->block + s->n * m * m, most = 0;
+        for (size_t e = 0; e < m * m; e++) {           /* K_0j is K_j0 transposed                                             */
+            K[e] = answer_at (b, j, (int) (e % m), (int) (e / m));
+            most = fmax (most, fabs (K[e]));
+        }
+        if (most <= nothing * largest) {
+            memset (K, 0, m * m * sizeof *K);
+            continue;
+        }
+        offset_of (b, size, j, s->offset + 3 * s->n);
+        if (mass) s->spread[s->n] = x[n + j];
+        s->n++;
+    }
+done:
+    pg_free (x);
+    return status;
+}
+
+/* The blocks of opposite offsets are each other's transposes, and a rigid translation meets no force. */
+static pg_status verify (pg_symbol *s, const box_size *size)
+{
+    pg_status status = PG_OK;
+    size_t m = (size_t) s->unknowns, mm = m * m, wide[3] = { 1, 1, 1 }, all, *at = NULL;
+    double largest = 0, difference = 0, sum[PG_UNKNOWNS * PG_UNKNOWNS] = { 0 }, drift = 0;
+    for (int k = 0; k < s->dim; k++) wide[k] = (size_t) (2 * size->half[k] + 1);
+    all = wide[0] * wide[1] * wide[2];
+    PG_ALLOC (at, all);
+    for (size_t j = 0, place; j < s->n; j++) {
+        place = 0;
+        for (int k = 2; k >= 0; k--) place = place * wide[k] + (size_t) (s->offset[3 * j + (size_t) k] + (k < s->dim ? size->half[k] : 0));
+        at[place] = j + 1;
+    }
+    for (size_t p = 0; p < all; p++)                   /* the opposite of place p is place all - 1 - p                        */
+        for (size_t e = 0; at[p] && e < mm; e++) {
+            double K = s->block[(at[p] - 1) * mm + e], other = at[all - 1 - p] ? s->block[(at[all - 1 - p] - 1) * mm + e % m * m + e / m] : 0;
+            largest = fmax (largest, fabs (K)), difference = fmax (difference, fabs (K - other)), sum[e] += K;
+        }
+    for (size_t e = 0; e < mm; e++) if (e % m < (size_t) s->dim) drift = fmax (drift, fabs (sum[e]));
+    s->size = largest, s->lopsided = largest > 0 ? difference / largest : 0;
+    if (!(largest > 0)) PG_FAIL (PG_E_USAGE, "nothing resists the points of this lattice");
+    if (!(s->lopsided < 1e-9) || !(drift < 1e-9 * largest))
+        PG_FAIL (PG_E_USAGE, "the points in the middle of a box answer each other unlike those of a lattice (by %.1e; to a translation by %.1e)", s->lopsided,
+                 drift / largest);
+    for (size_t r = 0; r < m; r++) {
+        double most = 0;
+        for (size_t j = 0; j < s->n; j++) for (size_t c = 0; c < m; c++) most = fmax (most, fabs (s->block[j * mm + r * m + c]));
+        s->held[r] = most <= nothing * largest;
+    }
+done:
+    pg_free (at);
+    return status;
+}
+
+/* As explicit methods bound the largest frequency (solve/explicit.c). */
+static pg_status bound (pg_symbol *s, box *b)
+{
+    pg_status status = PG_OK;
+    size_t m = (size_t) s->unknowns, ndof = b->problem->cloud.n * m;
+    double *mass = NULL, *sum = NULL;
+    PG_ALLOC (mass, ndof);
+    PG_TRY (b->force->mass (b->self, mass));
+    for (size_t c = 0; c < m; c++) s->mass[c] = mass[b->middle * m + c];
+    s->bound = NAN, s->from = "largest frequency";
+    if (b->force->bound) {
+        s->from = "bound of the largest frequency";
+        PG_TRY (b->force->bound (b->self, &s->bound));
+    } else if (b->force->row_sums) {
+        s->from = "bound by row sums", s->bound = 0;
+        PG_ALLOC (sum, ndof);
+        PG_TRY (b->force->row_sums (b->self, sum));
+        for (size_t i = 0; i < ndof; i++) s->bound = fmax (s->bound, sqrt (sum[i] / mass[i]));
+    }
+done:
+    pg_free (mass), pg_free (sum);
+    return status;
+}
+
+pg_status pg_symbol_create (pg_symbol **out, const pg_scene *scene, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_symbol *s = NULL;
+    box b = { 0 };
+    box_size size = { .odd = 0 };
+    int whole = 0;
+    *out = NULL;
+    PG_TRY (box_steps (&size, scene, p));
+    for (int k = 0; k < p->dim; k++) size.half[k] = 2 * (int) ceil (p->approx.horizon / size.step[k]) + 3;
+    for (int t = 0; t < TRIES && !whole; t++) {
+        clear (&b);
+        PG_TRY (build (&b, scene, p, &size));
+        whole = large_enough (&b, &size);
+    }
+    if (!whole) PG_FAIL (PG_E_USAGE, "a point of this lattice is coupled to all others, however far");
+    PG_ALLOC (s, 1);
+    s->dim = p->dim, s->unknowns = b.m, s->threads = p->threads, s->points = b.problem->cloud.n, s->h = size.h;
+    memcpy (s->step, size.step, sizeof s->step);
+    s->material = b.problem->material[0];
+    memcpy (s->material.name, p->material[0].name, sizeof s->material.name);
+    s->dense = p->material[0].density > 0;
+    s->volume = b.problem->cloud.volume[b.middle];
+    PG_TRY (collect (s, &b, &size));
+    PG_TRY (verify (s, &size));
+    PG_TRY (bound (s, &b));
+    *out = s, s = NULL;
+done:
+    clear (&b);
+    pg_symbol_free (&s);
+    return status;
+}
+
+void pg_symbol_free (pg_symbol **symbol)
+{
+    if (!*symbol) return;
+    pg_free ((*symbol)->offset), pg_free ((*symbol)->block), pg_free ((*symbol)->spread);
+    pg_free (*symbol);
+    *symbol = NULL;
+}
