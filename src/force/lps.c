@@ -33,7 +33,9 @@ pg_status lps_create (bond *b)
     PG_ALLOC (b->stiff, b->n);
     for (size_t i = 0; i < b->n; i++) {
         const pg_material *m = &p->material[p->block[PG_NODES][i]];
-        pg_state_moduli (p->mode, m->modulus, m->parameter[1], &b->dilation[i], &b->deviation[i]);
+        double E, nu;
+        if (p->sums->rule.beams) pg_problem_beams (p, (size_t) p->block[PG_NODES][i], &E, &nu, &b->dilation[i]);
+        else pg_state_moduli (p->mode, m->modulus, m->parameter[1], &b->dilation[i], &b->deviation[i]);
     }
     PG_TRY (count_bonds (b));
 done:
@@ -112,7 +114,7 @@ double lps_bound (const bond *b, size_t i, const bond_star *s)
 /* Stress of Silling and Lehoucq (2008) for uniform strain: its trace is d kappa theta whatever the family. */
 void lps_virial (const bond *b, size_t i, const bond_star *s, const unsigned char *alive, const double *d, double *T)
 {
-    size_t dim = (size_t) b->dim;
+    size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     const double *V = b->problem->cloud.volume;
     double sum = 0, rr, beta = over (b->deviation[i], b->q[i]), spread[9] = { 0 };
     for (size_t e = 0; e < s->m; e++) {
@@ -120,7 +122,7 @@ void lps_virial (const bond *b, size_t i, const bond_star *s, const unsigned cha
         size_t j = (size_t) s->node[e];
         const double *xi = s->xi + e * dim;
         double w = weight_of (s, e, dim, &rr) * V[j], along = 0;
-        for (size_t a = 0; a < dim; a++) along += xi[a] * (d[j * dim + a] - d[i * dim + a]);
+        for (size_t a = 0; a < dim; a++) along += xi[a] * (d[j * m + a] - d[i * m + a]);
         sum += w * along;
         for (size_t a = 0; a < dim; a++)
             for (size_t c = 0; c < dim; c++) spread[a * dim + c] += w * xi[a] * xi[c], T[a * dim + c] += beta * w * along / rr * xi[a] * xi[c];
