@@ -23,7 +23,7 @@ double bond_kappa (const bond *b, size_t i, const bond_star *s, size_t e, double
     double both = b->stiff ? b->stiff[i] + b->stiff[j] : c[i] == c[j] ? c[i] : 2 * c[i] * c[j] / (c[i] + c[j]), rr = 0;
     for (int k = 0; k < b->dim; k++) rr += xi[k] * xi[k];
     if (r) *r = sqrt (rr);
-    return both * s->weight[e] * (V[i] * V[j]) / (rr * sqrt (rr));
+    return both * (b->stiff ? lps_weight (b, i, s, e) : s->weight[e]) * (V[i] * V[j]) / (rr * sqrt (rr));
 }
 
 static void add_pull (const bond *b, const double *xi, double kappa, double *own, double *other)

@@ -106,6 +106,7 @@ pg_status lps_create (bond *b);                                        /* moduli
 pg_status lps_weigh  (bond *b);                                        /* q and stiff as they are now                    */
 void      lps_free   (bond *b);
 pg_status lps_look   (bond *b, const double *d, size_t *dying);         /* as bond_tiles_look, by the energies of all points */
+double    lps_weight (const bond *b, size_t i, const bond_star *s, size_t e);        /* k beta: dilatations know no factors of surfaces */
 /* C / q, C = B + d max (A, 0): bonds alone with constant C_i / q_i + C_j / q_j are at least as stiff as the state-based ones. */
 void      lps_own    (const bond *b, size_t i, const bond_star *s, double *D);           /* diagonal block of K         */
 double    lps_bound  (const bond *b, size_t i, const bond_star *s);    /* of omega^2 times density, whatever bonds die   */

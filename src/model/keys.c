@@ -29,7 +29,7 @@ static const pg_key keys[] = {
       "1/4 (plane stress 1/3)." },
     { "method.bond_poisson", PG_NUMBER, "1", "(-1, 0.5)", "", no_choice, NULL, NULL,
       "gmpd, volumetric: on: Poisson's ratio of what the bonds alone make, at most the material's and 1/4 (plane stress 1/3, where bonds bear no shear "
-      "and points do not turn); default 0.2, or the material's if that is less." },
+      "and points do not turn); default 0.2 (plane stress 0.25), where a lattice is nearest to isotropic, or the material's if that is less." },
     { "method.evaluation", PG_NAME, NULL, NULL, "auto", "auto|stencil|list|fft", NULL, NULL,
       "bond: by the stencil of a lattice, by lists of neighbours, or by fast Fourier transforms (a lattice, linear stretch); the answer is the same, auto "
       "takes what is faster for so many points and bonds." },
