@@ -69,5 +69,7 @@ double pg_stretch_from_energy (const pg_criterion_setting *setting, double G0);
 /* Energy (J/m^2) of state-based theory when all bonds across a plane have stretch s0 and no other is stretched: with I (z) = the part of q of a point
  * z from the plane that lies beyond it, G = s0^2 int_0^horizon [A d (I/q)^2 + B I/q] dz (pg_state_moduli). With A = 0 that of bonds alone. */
 double pg_state_fracture_energy (const pg_criterion_setting *setting, double s0);
+/* That integral over horizon, Pa, with A and B (Pa) as given; 0: no such kernel. */
+double pg_state_cut_share (pg_mode mode, const char *kernel, double A, double B);
 double pg_energy_from_stretch (const pg_criterion_setting *setting, double s0);
 #endif

@@ -77,6 +77,8 @@ typedef struct {
     pg_status (*row_sums) (void *self, double *sum);
     /* Constants and choices in words, one line each, for plans and reports; returns 0 past the last line. NULL: nothing to say. */
     int       (*describe) (const void *self, size_t line, char *text, size_t size);
+    /* 1: has no matrix all the same, for what it was created with. NULL: as matrix says. */
+    int       (*matrix_free) (const void *self);
     /* NULL, or why this force does not go with that solver kind (a sentence for the user; static text). NULL entry: goes with all. */
     const char *(*refuses) (const pg_problem *problem, const char *solver_kind);
     /* Rows of K at the last refresh, by points, for preconditioners of the operator. NULL: none can be had. */

@@ -57,6 +57,7 @@ typedef struct {
     pg_sums *sums;                                     /* direct; else NULL                                              */
     int      turns;                                    /* rotations of every point: gmpd 1 in 2D, 3 in 3D; else 0        */
     double   bending;                                  /* gmpd: B / C_t                                                  */
+    double   bond_poisson;                             /* gmpd with volumetric: on: Poisson's ratio that was asked of the bonds; NAN: usual */
     double   silling;                                  /* Gs; 0: no stabilisation                                        */
     double   nitsche, penalty;                         /* factors of E / h, h the local spacing                          */
     pg_load *load;   size_t nload;
@@ -75,6 +76,9 @@ pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads
 void      pg_problem_free  (pg_problem **problem);
 /* The bond set and the point of that set that own a bond (an index into state->alive). */
 void      pg_problem_locate (const pg_problem *problem, size_t bond, int *set, size_t *point);
+/* gmpd: Young's modulus (Pa) and Poisson's ratio of what the bonds of a material make alone; dilation (Pa): A of the dilatation beside them
+ * (pg_beam_split), 0 without volumetric: on. */
+void      pg_problem_beams (const pg_problem *problem, size_t material, double *E, double *nu, double *dilation);
 double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);   /* local, m                            */
 /* solver.kind: 1: the t of loads is the load factor, 0 to 1 (static, adr, relax); 0: seconds. */
 int       pg_kind_quasi_static (const char *kind);

@@ -26,7 +26,7 @@ typedef struct {
     pg_partial partial;                                /* share beta of a neighbour's volume that counts                 */
     pg_surface surface;                                /* g_ij: 1 | 1 / sqrt (v_i v_j) | 2 / (v_i + v_j), v = family volume / full one */
     int        calibrate;                              /* 1: c_h = c S_d m_d / sum k r beta V, hydrostatic energy exact  */
-    int        state;                                  /* 1: state-based (linear peridynamic solid, theory B6), see pg_sweep_setting */
+    int        state;                                  /* 1: state-based (linear peridynamic solid, theory B6), see pg_sweep_setting; with beams dilatation alone */
     int        follow;                                 /* state-based: 1: q counts the bonds that live, 0: those of the start */
     int        beams;                                  /* 1: bonds bear shear and bending (theory G)                     */
     int        finite;                                 /* 0: s = e.eta / r; 1: s = (|xi + eta| - r) / r, force along xi + eta */
@@ -103,6 +103,10 @@ void      pg_sums_bonds  (const pg_sums *sums, const pg_family *family, size_t i
 double pg_beam_poisson (pg_mode mode);                 /* largest Poisson's ratio: 1/3 plane stress, 1/4 plane strain and solid; there C_t = 0 */
 /* C_N (N/m^6) and C_t (N/m^4) from E (Pa), nu; thickness as above. PG_E_USAGE: a line, nu out of range, a kernel too singular for shear. */
 pg_status pg_beam_moduli (double *axial, double *shear, pg_mode mode, const pg_kernel *kernel, double horizon, double E, double nu, double thickness);
+/* Any Poisson's ratio (theory G3): bonds of the same shear modulus with a ratio of their own, and a state-based energy of the dilatation for what they
+ * lack of the bulk modulus, (kappa - kappa_b) theta^2 / 2 per volume: kappa = K (solid), lambda + mu (plane strain), E / 2 (1 - nu) (plane stress).
+ * Young's modulus of the bonds, Pa; dilation (Pa) is d (kappa - kappa_b), the A of a state without deviation; 0 with nu = bond_poisson. */
+void      pg_beam_split  (double *bond_modulus, double *dilation, pg_mode mode, double E, double nu, double bond_poisson);
 typedef struct {
     double calibration;                                /* C_t,h / C_t; C_N has that of pg_sums                           */
     /* Energy of a straight cut, J/m^2, all its bonds at s, gamma, kappa: C_N / 2 long s^2 + (6 C_t gamma^2 + B / 2 kappa^2) across; m^5, m^3
@@ -110,6 +114,8 @@ typedef struct {
     double along, across;
 } pg_beam_sums;
 pg_status pg_beam_measure (pg_beam_sums *out, const pg_sums *sums);
+/* Energy (J/m^2) that dilatation stores when all bonds across a plane have stretch 1 and no other is stretched; lattice or theory as above. */
+double    pg_beam_cut_dilatation (const pg_sums *sums, double dilation);
 typedef struct {                                       /* what pg_sweep_setting needs for beams                          */
     const double *shear, *bending;                     /* C_t,h and B of each point, N/m^4; between two of them 2 a b / (a + b) */
     double length;                                     /* m: unknowns of a point are its displacement and length times its rotation */
@@ -136,7 +142,7 @@ struct pg_sweep_setting {
     const double    *limit;                            /* critical stretch of each point, the smaller one rules; NULL: nothing breaks */
     const unsigned char *exempt;                       /* per point: bonds with such an end never break; NULL: none      */
     /* With rule.state (Silling et al. 2007; theory B6): A and B of each point, Pa (pg_state_moduli); `modulus` is not read then. w = k beta / r,
-     * so that A = 0 gives the sums of bonds alone with c = 2 B / q. */
+     * so that A = 0 gives the sums of bonds alone with c = 2 B / q. With beams and rule.state: A of what dilatation bears beside the bonds, B is 0. */
     const double    *dilation, *deviation;
     const unsigned char *counted;                      /* bonds of the family that q counts, unless it follows; NULL: all */
     const pg_beam_law *beams;                          /* NULL: bonds pull along themselves only; else u and f below have dim + rotations

@@ -28,18 +28,24 @@ static double beyond (const pg_kernel *kernel, pg_mode mode, double z)
     return sum;
 }
 
-double pg_state_fracture_energy (const pg_criterion_setting *s, double s0)
+double pg_state_cut_share (pg_mode mode, const char *name, double A, double B)
 {
-    const pg_kernel *kernel = pg_kernel_find (s->kernel);
-    double A, B, sum = 0, d = s->mode == PG_SOLID ? 3 : s->mode == PG_LINE ? 1 : 2;
+    const pg_kernel *kernel = pg_kernel_find (name);
+    double sum = 0, d = mode == PG_SOLID ? 3 : mode == PG_LINE ? 1 : 2;
     if (!kernel) return 0;
-    pg_state_moduli (s->mode, s->modulus, s->poisson, &A, &B);
-    double whole = 2 * beyond (kernel, s->mode, 0);
+    double whole = 2 * beyond (kernel, mode, 0);
     for (int k = 0; k < 3 * PANELS; k++) {
-        double weight, z = point_of (k, &weight), share = beyond (kernel, s->mode, z) / whole;
+        double weight, z = point_of (k, &weight), share = beyond (kernel, mode, z) / whole;
         sum += (A * d * share * share + B * share) * weight;
     }
-    return s->horizon * s0 * s0 * sum * (s->toughness > 0 ? s->toughness : 1);
+    return sum;
+}
+
+double pg_state_fracture_energy (const pg_criterion_setting *s, double s0)
+{
+    double A, B;
+    pg_state_moduli (s->mode, s->modulus, s->poisson, &A, &B);
+    return s->horizon * s0 * s0 * pg_state_cut_share (s->mode, s->kernel, A, B) * (s->toughness > 0 ? s->toughness : 1);
 }
 
 /* ---- bonds alone ---------------------------------------------------------------------------------------------------------------- */

@@ -23,7 +23,21 @@ double bond_kappa (const bond *b, size_t i, const bond_star *s, size_t e, double
     double both = b->stiff ? b->stiff[i] + b->stiff[j] : c[i] == c[j] ? c[i] : 2 * c[i] * c[j] / (c[i] + c[j]), rr = 0;
     for (int k = 0; k < b->dim; k++) rr += xi[k] * xi[k];
     if (r) *r = sqrt (rr);
-    return both * s->weight[e] * (V[i] * V[j]) / (rr * sqrt (rr));
+    return both * (b->stiff ? lps_weight (b, i, s, e) : s->weight[e]) * (V[i] * V[j]) / (rr * sqrt (rr));
+}
+
+static void add_pull (const bond *b, const double *xi, double kappa, double *own, double *other)
+{
+    size_t dim = (size_t) b->dim, m = (size_t) b->stride;
+    for (size_t a = 0; a < dim; a++)
+        for (size_t c = 0; c < dim; c++) own[a * m + c] += kappa * xi[a] * xi[c], other[a * m + c] -= kappa * xi[a] * xi[c];
+}
+
+void bond_beam (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other)
+{
+    const double *xi = s->xi + e * (size_t) b->dim;
+    pg_beam beam = pg_beam_between (&b->setting, i, (size_t) s->node[e], xi, s->weight[e]);
+    pg_beam_blocks (b->dim, xi, &beam, b->beams.length, own, other);
 }
 
 void bond_blocks (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other)
@@ -32,8 +46,8 @@ void bond_blocks (const bond *b, size_t i, const bond_star *s, size_t e, double 
     const double *xi = s->xi + e * dim;
     double spare[36];
     if (b->shear) {
-        pg_beam beam = pg_beam_between (&b->setting, i, (size_t) s->node[e], xi, s->weight[e]);
-        pg_beam_blocks (b->dim, xi, &beam, b->beams.length, own, other ? other : spare);
+        bond_beam (b, i, s, e, own, other ? other : spare);
+        if (b->stiff) add_pull (b, xi, bond_kappa (b, i, s, e, NULL), own, other ? other : spare);
         return;
     }
     double kappa = bond_kappa (b, i, s, e, NULL);
@@ -72,7 +86,7 @@ static pg_status make_constants (bond *b)
     const pg_problem *p = b->problem;
     const pg_sum_rule *rule = &p->sums->rule;
     PG_TRY (lps_create (b));
-    if (!b->dilation) PG_ALLOC (b->modulus, b->n);
+    if (!b->dilation || rule->beams) PG_ALLOC (b->modulus, b->n);
     PG_TRY (gmpd_create (b));
     for (size_t i = 0; b->modulus && !b->shear && i < b->n; i++) {
         size_t block = (size_t) p->block[PG_NODES][i];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: bond-based peridynamics. Files: bond.c (life cycle, forces, breaking), bond_matrix.c (K, its diagonal and row sums, the bound of the
  * largest frequency), bond_field.c (utilisation, fields, places, census), bond_energy.c, bond_tiles.c (points that die by their energy), lps.c (what
- * state-based theory adds), bond_words.c (what the plan says).
+ * state-based theory adds, alone or beside beams), bond_words.c (what the plan says).
  * Pair force on i from j: V_i V_j c k beta g s e, s = e . eta / r; linear in the displacement: kappa (xi . eta) xi,
  * kappa = V_i V_j c k beta g / r^3 (N/m^3), the same bits from either end. */
 #ifndef PG_BOND_H
@@ -21,7 +21,8 @@ typedef struct {
     double   *density;                                 /* W of each point, J/m^3; with critical (n)                      */
     unsigned char *dying;                              /* 0 but while they are looked for; with critical (n)             */
     bond_tiles *tiles;                                 /* NULL until points are looked at in motion                      */
-    double   *dilation, *deviation;                    /* state-based: A and B of each point, Pa; NULL: bonds alone (n)  */
+    double   *dilation, *deviation;                    /* state-based: A and B of each point, Pa; with beams A of the dilatation beside them, B 0;
+                                                          NULL: bonds alone (n)                                          */
     double   *q, *stiff;  unsigned long weighed;       /* state-based: weighted volumes and C / q at that revision (n)   */
     unsigned char *counted;                            /* state-based: bonds that no pre-crack cuts; NULL: all           */
     /* beams (gmpd.c): bonds that bear shear; C_t,h and B of each point, N/m^4, limits gamma0, kappa0 (n); shear NULL: bonds pull along themselves */
@@ -51,6 +52,8 @@ typedef struct {                                       /* the bonds of one point
 } bond_star;
 void   bond_star_at (const bond *b, size_t i, int thread, bond_star *out);
 /* Force on i = - own d_i - other d_j (stride x stride each; other NULL: not wanted), small displacements. */
+void   bond_beam    (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other);       /* with shear: the beam alone */
+/* As that; of a dilatation beside the beams what bonds alone that are at least as stiff would do. */
 void   bond_blocks  (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other);
 double bond_kappa   (const bond *b, size_t i, const bond_star *s, size_t e, double *r);      /* N/m^3; r (m) or NULL      */
 static inline int bond_lives (const bond *b, size_t entry) { return !b->alive || b->alive[entry]; }
@@ -75,6 +78,7 @@ void bond_diagonal (void *context, double *d);
 pg_status bond_tangent_sweep (bond *b, pg_sweep **out);                /* forces by the linear stretch                   */
 pg_status bond_assemble (void *self);
 const pg_sparse *bond_matrix (void *self);
+int       bond_matrix_free (const void *self);                         /* 1: dilatations reach further than bonds do     */
 pg_status bond_row_sums (void *self, double *sum);
 pg_status bond_couplings (void *self, pg_couplings *out);
 pg_status bond_bound (void *self, double *omega);
@@ -102,6 +106,7 @@ pg_status lps_create (bond *b);                                        /* moduli
 pg_status lps_weigh  (bond *b);                                        /* q and stiff as they are now                    */
 void      lps_free   (bond *b);
 pg_status lps_look   (bond *b, const double *d, size_t *dying);         /* as bond_tiles_look, by the energies of all points */
+double    lps_weight (const bond *b, size_t i, const bond_star *s, size_t e);        /* k beta: dilatations know no factors of surfaces */
 /* C / q, C = B + d max (A, 0): bonds alone with constant C_i / q_i + C_j / q_j are at least as stiff as the state-based ones. */
 void      lps_own    (const bond *b, size_t i, const bond_star *s, double *D);           /* diagonal block of K         */
 double    lps_bound  (const bond *b, size_t i, const bond_star *s);    /* of omega^2 times density, whatever bonds die   */
@@ -115,7 +120,7 @@ int         bond_describe (const void *self, size_t line, char *text, size_t siz
 const char *bond_refuses  (const pg_problem *problem, const char *kind);
 
 /* All of it, for every force whose bonds are these; BOND_COMMON: without a matrix. */
-#define BOND_ENTRIES BOND_COMMON, .matrix = bond_matrix, .assemble = bond_assemble
+#define BOND_ENTRIES BOND_COMMON, .matrix = bond_matrix, .assemble = bond_assemble, .matrix_free = bond_matrix_free
 #define BOND_COMMON \
     .create = bond_create, .free = bond_free, .fields = bond_fields, .refresh = bond_refresh, .balance = bond_balance, .mass = bond_mass, \
     .operator_ = bond_operator, .basis = bond_basis, .impose = bond_impose, .utilisation = bond_utilisation, \

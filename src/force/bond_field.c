@@ -165,7 +165,7 @@ static void add_beam_virial (const bond *b, size_t i, const bond_star *s, size_t
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride, j = (size_t) s->node[e];
     double own[36], other[36];
-    bond_blocks (b, i, s, e, own, other);
+    bond_beam (b, i, s, e, own, other);
     for (size_t a = 0; a < dim; a++) {
         double f = 0;
         for (size_t k = 0; k < m; k++) f -= own[a * m + k] * d[i * m + k] + other[a * m + k] * d[j * m + k];
@@ -198,7 +198,7 @@ static void stress_at (const bond *b, const unsigned char *alive, const double *
 {
     double T[9] = { 0 };
     if (b->dilation) lps_virial (b, i, s, alive, d, T);
-    for (size_t e = 0; !b->dilation && e < s->m; e++) if (!alive || alive[s->first + e]) add_virial (b, i, s, e, d, T);
+    for (size_t e = 0; (b->shear || !b->dilation) && e < s->m; e++) if (!alive || alive[s->first + e]) add_virial (b, i, s, e, d, T);
     out[0] = T[0];
     if (b->dim == 2) out[1] = T[3], out[2] = 0.5 * (T[1] + T[2]);
     if (b->dim == 3) out[1] = T[4], out[2] = T[8], out[3] = 0.5 * (T[1] + T[3]), out[4] = 0.5 * (T[5] + T[7]), out[5] = 0.5 * (T[2] + T[6]);

@@ -30,15 +30,16 @@ void bond_apply (void *context, const double *x, double *y)
 
 enum { MOST = 36 };                                    /* numbers of a block                                             */
 
-/* Sum of the bonds' own blocks over the live (or all) bonds of a point */
-static void own_block (const bond *b, size_t i, const bond_star *s, int all, double *D)
+/* Sum of the bonds' own blocks over the live (or all) bonds of a point; exact: of a dilatation beside beams nothing */
+static void own_block (const bond *b, size_t i, const bond_star *s, int all, int exact, double *D)
 {
     size_t bb = (size_t) (b->stride * b->stride);
-    double own[MOST];
+    double own[MOST], other[MOST];
     memset (D, 0, bb * sizeof *D);
     for (size_t e = 0; e < s->m; e++) {
         if (all ? b->counted && !b->counted[s->first + e] : !bond_lives (b, s->first + e)) continue;
-        bond_blocks (b, i, s, e, own, NULL);
+        if (exact) bond_beam (b, i, s, e, own, other);
+        else bond_blocks (b, i, s, e, own, NULL);
         for (size_t k = 0; k < bb; k++) D[k] += own[k];
     }
 }
@@ -89,6 +90,18 @@ static int is_whole (void *context, size_t i)
 
 typedef struct { const bond *b; double *out; const double *mass; } job;
 
+/* State-based: what the dilatations add to the own block, that of beams beside them included */
+static void exact_block (const bond *b, size_t i, const bond_star *s, double *D)
+{
+    size_t dim = (size_t) b->dim, m = (size_t) b->stride;
+    double state[9];
+    lps_own (b, i, s, state);
+    memset (D, 0, m * m * sizeof *D);
+    if (b->shear) own_block (b, i, s, 0, 1, D);
+    for (size_t a = 0; a < dim; a++)
+        for (size_t c = 0; c < dim; c++) D[a * m + c] += state[a * dim + c];
+}
+
 static void diagonal_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
@@ -100,8 +113,8 @@ static void diagonal_points (void *context, size_t first, size_t last, int threa
         if (is_whole ((void *) (uintptr_t) w->b, i)) own = w->b->whole + family_size (w->b, i) * dim * dim;
         else {
             bond_star_at (w->b, i, thread, &s);
-            if (w->b->dilation) lps_own (w->b, i, &s, D);
-            else own_block (w->b, i, &s, 0, D);
+            if (!w->b->dilation) own_block (w->b, i, &s, 0, 0, D);
+            else exact_block (w->b, i, &s, D);
         }
         for (size_t k = 0; k < dim; k++) w->out[i * dim + k] = own[k * dim + k];
     }
@@ -137,7 +150,7 @@ static void row_sum_points (void *context, size_t first, size_t last, int thread
     double D[MOST], own[MOST], other[MOST];
     for (size_t i = first; i < last; i++) {
         bond_star_at (w->b, i, thread, &s);
-        own_block (w->b, i, &s, 0, D);
+        own_block (w->b, i, &s, 0, 0, D);
         memset (w->out + i * m, 0, m * sizeof *w->out);
         add_sizes (m, D, w->out + i * m);
         for (size_t e = 0; e < s.m; e++) {
@@ -227,14 +240,14 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) {
         const double *mass = w->mass + i * m;
         bond_star_at (w->b, i, thread, &s);
-        if (w->b->dilation && p->sums->rule.follow && (w->b->limit || w->b->critical)) {
-            w->out[i] = lps_bound (w->b, i, &s) * p->cloud.volume[i] / mass[0];
-            continue;
-        }
-        own_block (w->b, i, &s, 1, P);
+        int grows = w->b->dilation && p->sums->rule.follow && (w->b->limit || w->b->critical);
+        double state = grows ? lps_bound (w->b, i, &s) * p->cloud.volume[i] / mass[0] : 0;
+        w->out[i] = state;
+        if (grows && !w->b->shear) continue;
+        own_block (w->b, i, &s, 1, grows, P);
         for (size_t k = 0; w->b->shear && k < m * m; k++) P[k] *= mass[0] / sqrt (mass[k / m] * mass[k % m]);
         pg_dense_eigen ((int) m, P, lambda, NULL);
-        w->out[i] = 2 * lambda[0] / mass[0];
+        w->out[i] = state + 2 * lambda[0] / mass[0];
     }
 }
 
@@ -298,7 +311,7 @@ static void make_columns (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) {
         if (!b->all_stale && !b->stale[i]) continue;
         bond_star_at (b, i, thread, &s);
-        own_block (b, i, &s, 0, D);
+        own_block (b, i, &s, 0, 0, D);
         size_t below = lower (b, i);
         for (size_t e = 0; e < below; e++) {               /* the block of row i, column node: its transpose stands above      */
             memset (other, 0, sizeof other);
@@ -323,6 +336,8 @@ pg_status bond_assemble (void *self)
 done:
     return status;
 }
+
+int bond_matrix_free (const void *self) { return ((const bond *) self)->dilation != NULL; }
 
 const pg_sparse *bond_matrix (void *self)
 {

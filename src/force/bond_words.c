@@ -9,23 +9,27 @@ static void say_beams (const bond *b, size_t m, char *text, size_t size)
 {
     const pg_problem *p = b->problem;
     const pg_material *a = &p->material[m];
-    double axial, shear;
+    double axial, shear, E, nu, dilation;
     pg_beam_sums sums;
     int used = 0;
+    pg_problem_beams (p, m, &E, &nu, &dilation);
     if (p->nmaterial > 1) used = snprintf (text, size, "material %.60s: ", a->name);
-    if (pg_beam_moduli (&axial, &shear, p->mode, p->sums->rule.kernel, p->sums->rule.horizon, a->modulus, a->parameter[1], p->cloud.thickness) != PG_OK
+    if (pg_beam_moduli (&axial, &shear, p->mode, p->sums->rule.kernel, p->sums->rule.horizon, E, nu, p->cloud.thickness) != PG_OK
         || pg_beam_measure (&sums, p->sums) != PG_OK) return;
     used += snprintf (text + used, size - (size_t) used, "C_N %.6g N/m^6, C_t %.6g N/m^4, bending %.6g C_t", axial, shear, p->bending);
     if (p->sums->rule.calibrate && (size_t) used < size)
         used += snprintf (text + used, size - (size_t) used, ", times %.6g and %.6g for these points (calibrated)", p->sums->calibration, sums.calibration);
-    if (shear == 0 && (size_t) used < size) snprintf (text + used, size - (size_t) used, "; nothing resists rotations: they are held");
+    if (shear == 0 && (size_t) used < size) used += snprintf (text + used, size - (size_t) used, "; nothing resists rotations: they are held");
+    if (p->sums->rule.state && (size_t) used < size)
+        snprintf (text + used, size - (size_t) used, "; bonds make Poisson's ratio %.4g, dilatation bears %.6g Pa more (weighted volumes of %s)", nu, dilation / p->dim,
+                  p->sums->rule.follow ? "the bonds that live" : "the bonds of the start");
 }
 
 static void say_constant (const bond *b, size_t m, char *text, size_t size)
 {
     const pg_problem *p = b->problem;
     const pg_sum_rule *rule = &p->sums->rule;
-    if (rule->state) {
+    if (rule->state && !b->shear) {
         const pg_material *a = &p->material[m];
         double E = a->modulus, nu = a->parameter[1], A, B, d = p->dim;
         pg_state_moduli (p->mode, E, nu, &A, &B);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Generalised micropolar peridynamics (Chen et al. 2022, corrected in theory G): bonds are beams that bear elongation, shear and bending, points have
- * rotations. Everything else is that of bonds, whose code this is. */
+ * rotations. Everything else is that of bonds, whose code this is; a dilatation beside them (theory G3) that of lps.c. */
 #include "bond.h"
 #include <math.h>
 
@@ -41,8 +41,9 @@ pg_status gmpd_create (bond *b)
     PG_ALLOC (b->bending, b->n);
     PG_ALLOC (b->idle, b->n);
     for (size_t i = 0; i < b->n; i++) {
-        const pg_material *m = &p->material[p->block[PG_NODES][i]];
-        PG_TRY (pg_beam_moduli (&b->modulus[i], &b->shear[i], p->mode, rule->kernel, rule->horizon, m->modulus, m->parameter[1], p->cloud.thickness));
+        double E, nu, dilation;
+        pg_problem_beams (p, (size_t) p->block[PG_NODES][i], &E, &nu, &dilation);
+        PG_TRY (pg_beam_moduli (&b->modulus[i], &b->shear[i], p->mode, rule->kernel, rule->horizon, E, nu, p->cloud.thickness));
         b->modulus[i] *= p->sums->calibration, b->shear[i] *= sums.calibration;
         b->bending[i] = p->bending * b->shear[i];
         b->idle[i] = b->shear[i] == 0;

@@ -33,7 +33,9 @@ pg_status lps_create (bond *b)
     PG_ALLOC (b->stiff, b->n);
     for (size_t i = 0; i < b->n; i++) {
         const pg_material *m = &p->material[p->block[PG_NODES][i]];
-        pg_state_moduli (p->mode, m->modulus, m->parameter[1], &b->dilation[i], &b->deviation[i]);
+        double E, nu;
+        if (p->sums->rule.beams) pg_problem_beams (p, (size_t) p->block[PG_NODES][i], &E, &nu, &b->dilation[i]);
+        else pg_state_moduli (p->mode, m->modulus, m->parameter[1], &b->dilation[i], &b->deviation[i]);
     }
     PG_TRY (count_bonds (b));
 done:
@@ -64,11 +66,21 @@ done:
 }
 
 /* ---- one point ----------------------------------------------------------------------------------------------------------------- */
-static double weight_of (const bond_star *s, size_t e, size_t dim, double *rr)
+double lps_weight (const bond *b, size_t i, const bond_star *s, size_t e)
 {
+    const pg_sums *sums = b->problem->sums;
+    const double *v = sums->family_volume;
+    size_t j = (size_t) s->node[e];
+    if (!v) return s->weight[e];
+    return s->weight[e] * (sums->rule.surface == PG_SURFACE_VOLUME ? 0.5 * (v[i] + v[j]) : sqrt (v[i] * v[j]));
+}
+
+static double weight_of (const bond *b, size_t i, const bond_star *s, size_t e, double *rr)
+{
+    size_t dim = (size_t) b->dim;
     *rr = 0;
     for (size_t k = 0; k < dim; k++) *rr += s->xi[e * dim + k] * s->xi[e * dim + k];
-    return s->weight[e] / sqrt (*rr);
+    return lps_weight (b, i, s, e) / sqrt (*rr);
 }
 
 static double over (double a, double q) { return q > 0 ? a / q : 0; }
@@ -84,7 +96,7 @@ void lps_own (const bond *b, size_t i, const bond_star *s, double *D)
         if (!bond_lives (b, s->first + e)) continue;
         size_t j = (size_t) s->node[e];
         const double *xi = s->xi + e * dim;
-        double w = weight_of (s, e, dim, &rr), other = over (b->dilation[j] * b->dim, q[j] * q[j]) * V[j] * (w * V[i]) * (w * V[i]);
+        double w = weight_of (b, i, s, e, &rr), other = over (b->dilation[j] * b->dim, q[j] * q[j]) * V[j] * (w * V[i]) * (w * V[i]);
         double both = V[i] * V[j] * w * (over (b->deviation[i], q[i]) + over (b->deviation[j], q[j])) / rr + other;
         for (size_t a = 0; a < dim; a++) {
             g[a] += w * V[j] * xi[a];
@@ -102,7 +114,7 @@ double lps_bound (const bond *b, size_t i, const bond_star *s)
     double nearest = INFINITY, sum = 0, rr, far = b->dim;
     for (size_t e = 0; e < s->m; e++) {
         size_t j = (size_t) s->node[e];
-        weight_of (s, e, (size_t) b->dim, &rr);
+        weight_of (b, i, s, e, &rr);
         nearest = fmin (nearest, rr);
         sum += (b->deviation[j] + far * fmax (b->dilation[j], 0)) * V[j] / (V[i] * rr);
     }
@@ -112,15 +124,15 @@ double lps_bound (const bond *b, size_t i, const bond_star *s)
 /* Stress of Silling and Lehoucq (2008) for uniform strain: its trace is d kappa theta whatever the family. */
 void lps_virial (const bond *b, size_t i, const bond_star *s, const unsigned char *alive, const double *d, double *T)
 {
-    size_t dim = (size_t) b->dim;
+    size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     const double *V = b->problem->cloud.volume;
     double sum = 0, rr, beta = over (b->deviation[i], b->q[i]), spread[9] = { 0 };
     for (size_t e = 0; e < s->m; e++) {
         if (alive && !alive[s->first + e]) continue;
         size_t j = (size_t) s->node[e];
         const double *xi = s->xi + e * dim;
-        double w = weight_of (s, e, dim, &rr) * V[j], along = 0;
-        for (size_t a = 0; a < dim; a++) along += xi[a] * (d[j * dim + a] - d[i * dim + a]);
+        double w = weight_of (b, i, s, e, &rr) * V[j], along = 0;
+        for (size_t a = 0; a < dim; a++) along += xi[a] * (d[j * m + a] - d[i * m + a]);
         sum += w * along;
         for (size_t a = 0; a < dim; a++)
             for (size_t c = 0; c < dim; c++) spread[a * dim + c] += w * xi[a] * xi[c], T[a * dim + c] += beta * w * along / rr * xi[a] * xi[c];

@@ -17,6 +17,10 @@ static int is (const pg_scene *scene, const char *key, const char *word)
     return text && strcmp (text, word) == 0;
 }
 
+/* Of micropolar bonds beside an energy of the dilatation, at most: there the two shears of a lattice with a horizon of 3 spacings come nearest to
+ * each other (0.3 %; 2 % at the largest ratio, where bonds bear no shear, 6 % at 0) */
+static double usual_poisson (pg_mode mode) { return mode == PG_PLANE_STRESS ? 0.25 : 0.2; }
+
 /* What a force means where the scene says nothing: how it is summed, what breaks; state: state-based; turns: its points turn as well. */
 typedef struct { const char *force; pg_evaluation evaluation; const char *criterion; int state, turns; } custom;
 static const custom customs[] = {
@@ -46,7 +50,7 @@ int pg_direct_turns (const pg_scene *scene, int dim)
 int pg_direct_state (const pg_scene *scene)
 {
     const custom *c = custom_of (scene);
-    return c && c->state;
+    return c && (c->state || (c->turns && pg_scene_bool (scene, "method.volumetric")));
 }
 
 /* With the multilevel preconditioner a solve is some 10 iterations of 15 sweeps of the bonds each, at any size, and making it costs two solves; the
@@ -83,20 +87,20 @@ void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, con
     rule->evaluation = is (scene, evaluation, "stencil") ? PG_EVALUATE_STENCIL : is (scene, evaluation, "list") ? PG_EVALUATE_LIST
                      : is (scene, evaluation, "fft") ? PG_EVALUATE_FFT : PG_EVALUATE_AUTO;
     rule->sweeps = sweeps_of (scene);
-    rule->state = own && own->state;
+    rule->state = pg_direct_state (scene);
     rule->follow = rule->state && is (scene, "method.weighted_volume", "live");
-    if (rule->state && !is (scene, surface, "product") && !is (scene, surface, "volume")) rule->surface = PG_SURFACE_NONE;
+    if (rule->state && !rule->beams && !is (scene, surface, "product") && !is (scene, surface, "volume")) rule->surface = PG_SURFACE_NONE;
     if (own && !pg_scene_given (scene, "method.evaluation")) rule->evaluation = own->evaluation;
 }
 
 /* ---- what the scene says in vain ----------------------------------------------------------------------------------------------- */
-/* Which force, or forces that are not galerkin, a key of method is for */
+/* Which force, forces that are not galerkin, or forces with dilatations a key of method is for */
 static const struct { const char *key, *force; } uses[] = {
     { "approximation", "galerkin" }, { "basis", "galerkin" }, { "support", "galerkin" }, { "weights", "galerkin" }, { "degenerate", "galerkin" },
     { "integration", "galerkin" }, { "gauss_points", "galerkin" }, { "stabilization", "galerkin" }, { "stabilization_factor", "galerkin" },
     { "essential", "galerkin" }, { "nitsche_factor", "galerkin" }, { "penalty_factor", "galerkin" },
     { "evaluation", "direct" }, { "partial_volume", "direct" }, { "calibrate", "direct" }, { "surface_correction", "direct" }, { "stretch", "direct" },
-    { "weighted_volume", "lps" }, { "beam", "gmpd" }, { "shear_parameter", "gmpd" }, { "cm_ratio", "gmpd" },
+    { "weighted_volume", "state" }, { "beam", "gmpd" }, { "shear_parameter", "gmpd" }, { "cm_ratio", "gmpd" }, { "volumetric", "gmpd" }, { "bond_poisson", "gmpd" },
 };
 
 void pg_direct_note_unused (pg_problem *p, const pg_scene *scene)
@@ -105,7 +109,7 @@ void pg_direct_note_unused (pg_problem *p, const pg_scene *scene)
     char text[200] = "";
     size_t used = 0;
     for (size_t k = 0; k < sizeof uses / sizeof *uses; k++) {
-        int meant = strcmp (uses[k].force, force) == 0 || (p->direct && strcmp (uses[k].force, "direct") == 0);
+        int meant = strcmp (uses[k].force, force) == 0 || (p->direct && strcmp (uses[k].force, "direct") == 0) || (pg_direct_state (scene) && strcmp (uses[k].force, "state") == 0);
         if (!meant && pg_scene_given (scene, "method.%s", uses[k].key) && used + 40 < sizeof text)
             used += (size_t) snprintf (text + used, sizeof text - used, "%s%s", used ? ", " : "", uses[k].key);
     }
@@ -135,14 +139,44 @@ static void take_poisson (pg_problem *p)
 }
 
 /* State-based: any Poisson's ratio; families that are not whole count by their own q. */
+static void refuse_matrix (const pg_problem *p, const pg_scene *scene)
+{
+    if (is (scene, "solver.linear", "cholmod") || is (scene, "solver.linear", "umfpack"))
+        pg_scene_fault (scene, "solver.linear", "force: %s%s reaches its neighbours' neighbours and has no matrix, only its product: use pcg or auto", p->force,
+                        p->turns ? " with volumetric: on" : "");
+}
+
 static void check_state (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
 {
+    refuse_matrix (p, scene);
     if (p->mode == PG_LINE) pg_scene_fault (scene, "method.force", "%s has no meaning in one dimension, where it is the same as bond: use force: bond", p->force);
     if (rule->finite) pg_scene_fault (scene, "method.stretch", "force: %s is linear in the displacement: use stretch: linear, or force: bond", p->force);
-    if (is (scene, "solver.linear", "cholmod") || is (scene, "solver.linear", "umfpack"))
-        pg_scene_fault (scene, "solver.linear", "force: %s reaches its neighbours' neighbours and has no matrix, only its product: use pcg or auto", p->force);
     if (rule->surface != PG_SURFACE_NONE)
         pg_scene_fault (scene, "method.surface_correction", "force: %s weighs families that are not whole by their own weighted volume: use none or auto", p->force);
+}
+
+void pg_problem_beams (const pg_problem *p, size_t material, double *E, double *nu, double *dilation)
+{
+    const pg_material *m = &p->material[material];
+    *E = m->modulus, *nu = m->parameter[1], *dilation = 0;
+    if (!p->sums->rule.state) return;
+    *nu = isnan (p->bond_poisson) ? fmin (*nu, usual_poisson (p->mode)) : p->bond_poisson;
+    pg_beam_split (E, dilation, p->mode, m->modulus, m->parameter[1], *nu);
+}
+
+/* The bonds' own Poisson's ratio may be neither more than they bear nor more than the material's: dilatation would have negative energy. */
+static void check_volumetric (pg_problem *p, const pg_scene *scene)
+{
+    static const char key[] = "method.bond_poisson";
+    double most = pg_beam_poisson (p->mode);
+    refuse_matrix (p, scene);
+    p->bond_poisson = pg_scene_given (scene, key) ? pg_scene_number (scene, key) : NAN;
+    if (p->bond_poisson > most + 1e-9)
+        pg_scene_fault (scene, key, "%.6g is more than %.6g, the largest of micropolar bonds%s", p->bond_poisson, most, p->mode == PG_PLANE_STRESS ? " in plane stress" : "");
+    for (size_t m = 0; m < p->nmaterial; m++)
+        if (p->bond_poisson > p->material[m].parameter[1])
+            pg_scene_fault (scene, key, "%.6g is more than that of material %.63s, %.6g: less energy of dilatation than none; choose at most that", p->bond_poisson,
+                            p->material[m].name, p->material[m].parameter[1]);
 }
 
 /* B / C_t of a beam: Euler and Bernoulli 1; with shear, phi = 12 EI / (k G A r^2), 1 + phi; Chen's 4 C_M - 3 C_t (theory G1) */
@@ -157,8 +191,10 @@ static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule 
     p->turns = pg_direct_turns (scene, p->dim);
     p->bending = is (scene, "method.beam", "timoshenko") ? 1 + pg_scene_number (scene, only[0])
                : is (scene, "method.beam", "chen") ? 4 * pg_scene_number (scene, only[1]) - 3 : 1;
+    if (rule->state) check_volumetric (p, scene);
+    else if (pg_scene_given (scene, "method.bond_poisson")) pg_scene_fault (scene, "method.bond_poisson", "is for method.volumetric: on");
     for (size_t m = 0; m < p->nmaterial && p->mode != PG_LINE; m++) {
-        double nu = p->material[m].parameter[1], most = pg_beam_poisson (p->mode);
+        double nu = rule->state ? 0 : p->material[m].parameter[1], most = pg_beam_poisson (p->mode);
         char path[120];
         snprintf (path, sizeof path, "materials.%.63s.poissons_ratio", p->material[m].name);
         double axial, shear;
@@ -166,7 +202,7 @@ static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule 
             pg_scene_fault (scene, "method.kernel", "%s", pg_last_error ());
         if (nu > most + 1e-9)
             pg_scene_fault (scene, path, "%.6g is more than %.6g, the largest of micropolar bonds%s: their shear stiffness would be negative and the body unstable; "
-                            "use force: galerkin", nu, most, p->mode == PG_PLANE_STRESS ? " in plane stress" : "");
+                            "use volumetric: on, which lets the dilatation bear the difference", nu, most, p->mode == PG_PLANE_STRESS ? " in plane stress" : "");
     }
 }
 

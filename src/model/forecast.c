@@ -83,6 +83,7 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;                  /* galerkin      */
     b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;                                        /* pg_consistency                 */
     if (f->direct) b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? (f->turns ? 25 + 8 * d : 7) : 0.25) * all + (100 + 16 * f->turns) * n + (factors ? 0 : 8 * f->dofs);       /* pg_sweep, bond */
+    if (f->matrixless && f->turns) b[PG_BYTES_SHAPES] += (f->listed || f->by_list ? 9 : 0.25) * all + (120 + 40 * d) * n;         /* dilatations     */
     b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;    /* states; breaker; factored      */
     b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
     if (f->direct && !factors && !f->explicit_ && !f->dynamic)         /* the multilevel preconditioner: its finest level, its first coarse matrix */
@@ -131,7 +132,7 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
 static int summed_by_list (const pg_problem *p)
 {
     const pg_sum_rule *rule = &p->sums->rule;
-    return p->sums->stencil.n == 0 || (p->nmaterial > 1 && !rule->state) || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
+    return p->sums->stencil.n == 0 || (p->nmaterial > 1 && (!rule->state || rule->beams)) || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
 }
 
 pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)

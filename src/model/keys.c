@@ -15,15 +15,21 @@ static const pg_key keys[] = {
       "How bonds make forces: galerkin: weak form with the shape functions of method.approximation; bond: pair forces between points (bond-based "
       "peridynamics; Poisson's ratio is 1/3 in plane stress, 1/4 in plane strain and 3D); fcbm: bond summed by fft unless method.evaluation, whose points die by energy unless failure.criterion says "
       "otherwise; lps: forces that depend on the dilatation of both points as well (ordinary state-based: linear peridynamic solid, any Poisson's ratio); "
-      "gmpd: bonds as beams between points that turn (micropolar; Poisson's ratio up to that of bond)." },
+      "gmpd: bonds as beams between points that turn (micropolar; Poisson's ratio up to that of bond, or any with volumetric: on)." },
     { "method.weighted_volume", PG_NAME, NULL, NULL, "intact", "intact|live", NULL, NULL,
-      "lps: the weighted volume q of a point, which its dilatation and forces are divided by: intact: of the bonds that no pre-crack cuts, for good; live: of the "
+      "lps, gmpd with volumetric: on: the weighted volume q of a point, which its dilatation and forces are divided by: intact: of the bonds that no pre-crack cuts, for good; live: of the "
       "bonds that live, so that what is left of a family carries on as if it had never had more (stiffer near new cracks; small time steps)." },
     { "method.beam", PG_NAME, NULL, NULL, "euler", "euler|timoshenko|chen", NULL, NULL,
       "gmpd: bending stiffness of bonds, which sets a length of the order of the horizon and no modulus: euler: as Euler and Bernoulli's beam; timoshenko: "
       "(1 + shear_parameter) of that; chen: 4 cm_ratio - 3 of that, none as published." },
     { "method.shear_parameter", PG_NUMBER, "1", "[0, inf)", "1", NULL, NULL, NULL, "gmpd, beam timoshenko: 12 EI / (k G A r^2), the same for every bond." },
     { "method.cm_ratio", PG_NUMBER, "1", "[0.75, inf)", "0.75", NULL, NULL, NULL, "gmpd, beam chen: C_M / C_t; below 0.75 a bond would not be stable." },
+    { "method.volumetric", PG_BOOL, NULL, NULL, "off", no_choice, NULL, NULL,
+      "gmpd: an energy of the dilatation beside that of the bonds (state-based, with weighted_volume), so that Poisson's ratio is free: off: bonds alone, up to "
+      "1/4 (plane stress 1/3)." },
+    { "method.bond_poisson", PG_NUMBER, "1", "(-1, 0.5)", "", no_choice, NULL, NULL,
+      "gmpd, volumetric: on: Poisson's ratio of what the bonds alone make, at most the material's and 1/4 (plane stress 1/3, where bonds bear no shear "
+      "and points do not turn); default 0.2 (plane stress 0.25), where a lattice is nearest to isotropic, or the material's if that is less." },
     { "method.evaluation", PG_NAME, NULL, NULL, "auto", "auto|stencil|list|fft", NULL, NULL,
       "bond: by the stencil of a lattice, by lists of neighbours, or by fast Fourier transforms (a lattice, linear stretch); the answer is the same, auto "
       "takes what is faster for so many points and bonds." },

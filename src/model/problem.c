@@ -88,11 +88,15 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
             .thickness = p->cloud.thickness, .kernel = p->approx.kernel->name, .material = p->material[i].name,
             .graded = p->cloud.size != NULL && !p->direct, .toughness = p->direct && p->sums->rule.calibrate ? pg_sums_toughness (p->sums, p->material[i].modulus, p->material[i].parameter[1]) : 0,
             .stretch = !p->direct ? NULL : p->sums->rule.finite ? "finite" : "linear", .usual = pg_direct_criterion (scene),
-            .state = p->direct && p->sums->rule.state };
+            .state = p->direct && p->sums->rule.state && !p->turns };
     for (size_t i = 0; p->turns && i < p->nmaterial; i++) {
-        double axial, shear;
-        PG_TRY (pg_beam_moduli (&axial, &shear, p->mode, p->approx.kernel, p->approx.horizon, p->material[i].modulus, p->material[i].parameter[1], p->cloud.thickness));
+        double axial, shear, E, nu, dilation, beside;
+        pg_problem_beams (p, i, &E, &nu, &dilation);
+        PG_TRY (pg_beam_moduli (&axial, &shear, p->mode, p->approx.kernel, p->approx.horizon, E, nu, p->cloud.thickness));
         PG_TRY (measure_beams (setting[i].beam, p, axial, shear));
+        beside = pg_beam_cut_dilatation (p->sums, dilation) / setting[i].beam[0];
+        setting[i].beam[0] *= 1 + beside;
+        setting[i].toughness = (setting[i].toughness > 0 ? setting[i].toughness : 1) * (1 + beside);
         setting[i].modulus = p->material[i].modulus * axial / pg_bond_modulus (p->mode, p->approx.kernel, p->approx.horizon, p->material[i].modulus, p->cloud.thickness);
     }
     PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));

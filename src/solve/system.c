@@ -23,7 +23,11 @@ void system_free (pg_system *s)
     pg_free (s->fixed);
 }
 
-static int has_matrix (const pg_system *s) { return s->force->matrix && (s->force->assemble || s->force->matrix (s->self)); }
+static int has_matrix (const pg_system *s)
+{
+    if (!s->force->matrix || (s->force->matrix_free && s->force->matrix_free (s->self))) return 0;
+    return s->force->assemble || s->force->matrix (s->self);
+}
 static const pg_operator *operator_of (const pg_system *s) { return s->force->operator_ ? s->force->operator_ (s->self) : NULL; }
 
 void system_multiply (const pg_system *s, const double *x, double *y)

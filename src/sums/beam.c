@@ -48,6 +48,15 @@ done:
     return status;
 }
 
+void pg_beam_split (double *bond_modulus, double *dilation, pg_mode mode, double E, double nu, double bond_poisson)
+{
+    double bonds, same;
+    *bond_modulus = E * ((1 + bond_poisson) / (1 + nu));
+    pg_state_moduli (mode, E, nu, dilation, &same);
+    pg_state_moduli (mode, *bond_modulus, bond_poisson, &bonds, &same);
+    *dilation -= bonds;
+}
+
 /* ---- points at hand ------------------------------------------------------------------------------------------------------------------ */
 static int ascending (const void *a, const void *b)
 {

@@ -100,11 +100,20 @@ double pg_sums_toughness (const pg_sums *sums, double E, double nu)
     const pg_sum_rule *rule = &sums->rule;
     double A, B, G = 0;
     int dim = sums->sites.dim;
-    if (!rule->state || sums->stencil.n == 0) return sums->toughness;
+    if (!rule->state || rule->beams || sums->stencil.n == 0) return sums->toughness;
     pg_criterion_setting s = { .mode = rule->mode, .horizon = rule->horizon, .modulus = E, .poisson = nu, .kernel = rule->kernel->name, .state = 1 };
     pg_state_moduli (rule->mode, E, nu, &A, &B);
     for (int k = 0; k < dim; k++) G += sums->sites.step[k] * cut_energy (&sums->stencil, A, B, k) / dim;
     return G / pg_state_fracture_energy (&s, 1);
+}
+
+double pg_beam_cut_dilatation (const pg_sums *sums, double dilation)
+{
+    const pg_sum_rule *rule = &sums->rule;
+    double G = 0;
+    if (!rule->calibrate || sums->stencil.n == 0) return rule->horizon * pg_state_cut_share (rule->mode, rule->kernel->name, dilation, 0);
+    for (int k = 0; k < sums->sites.dim; k++) G += sums->sites.step[k] * cut_energy (&sums->stencil, dilation, 0, k) / sums->sites.dim;
+    return G;
 }
 
 /* ---- without a lattice -------------------------------------------------------------------------------------------------- */

@@ -11,7 +11,7 @@ struct pg_sweep {
     char  name[32], reason[160];
 };
 
-static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list, &pg_sweep_fft, &pg_sweep_state_stencil, &pg_sweep_state_list, &pg_sweep_state_fft, &pg_sweep_beam_stencil, &pg_sweep_beam_list };
+static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list, &pg_sweep_fft, &pg_sweep_state_stencil, &pg_sweep_state_list, &pg_sweep_state_fft, &pg_sweep_beam_stencil, &pg_sweep_beam_list, &pg_sweep_beam_volume };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 static const char *const set_name[PG_INSTRUCTION_SETS] = { "scalar", "avx2", "avx512" };
 
@@ -60,10 +60,10 @@ static pg_status choose_kind (const pg_sweep_kind **out, const pg_sweep_setting 
     static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL, [PG_EVALUATE_STENCIL] = "stencil", [PG_EVALUATE_LIST] = "list", [PG_EVALUATE_FFT] = "fft" };
     pg_status status = PG_OK;
     const char *only = asked[setting->sums->rule.evaluation], *why = "there is no such loop";
-    int theory = setting->beams ? 2 : setting->sums->rule.state;
+    int theory = (setting->beams ? 2 : 0) + (setting->sums->rule.state != 0);
     *out = NULL;
     for (size_t k = 0; k < KINDS && !*out; k++) {
-        if (kinds[k]->state != theory || (only && strcmp (only, kinds[k]->name) != 0)) continue;
+        if (kinds[k]->state != theory || (only && theory < 3 && strcmp (only, kinds[k]->name) != 0)) continue;
         why = kinds[k]->refusal (setting);
         if (!why) *out = kinds[k];
     }

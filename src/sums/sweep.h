@@ -11,7 +11,7 @@ int         pg_instructions_here (pg_instructions set);               /* 1: this
 
 typedef struct {
     const char *name;                                  /* "stencil", "list", "fft"                                        */
-    int state;                                         /* 1: of state-based theory, for rules that say so; 2: of beams; 0: of bonds alone */
+    int state;                                         /* 1: of state-based theory, for rules that say so; 2: of beams; 3: of both; 0: of bonds alone */
     /* NULL: this kind can sum what the setting asks for; else why not ("surface factor of volumes"). */
     const char *(*refusal) (const pg_sweep_setting *setting);
     /* `set` is there on this machine. The setting has been copied: what it points to lives as long as self, the struct itself may not.
@@ -29,7 +29,7 @@ typedef struct {
     int plain;                                         /* 1: the same loop whatever the instructions                     */
     pg_status (*dilatation) (void *self, const double *u, double *theta, double *q);           /* state-based only         */
 } pg_sweep_kind;
-extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list, pg_sweep_fft, pg_sweep_state_stencil, pg_sweep_state_list, pg_sweep_state_fft, pg_sweep_beam_stencil, pg_sweep_beam_list;
+extern const pg_sweep_kind pg_sweep_stencil, pg_sweep_list, pg_sweep_fft, pg_sweep_state_stencil, pg_sweep_state_list, pg_sweep_state_fft, pg_sweep_beam_stencil, pg_sweep_beam_list, pg_sweep_beam_volume;
 
 /* Adds n bonds (any order, none twice) to the end of `to`, ascending among themselves; sorts `bond`. */
 pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond);
