@@ -33,7 +33,7 @@ pg_status pg_criterion_read (pg_criterion *out, size_t n, const pg_scene *scene,
     const pg_criterion_type *type = !name || strcmp (name, "none") == 0 ? NULL : pg_criterion_find (name);
     memset (out, 0, n * sizeof *out);
     if (name && !type && strcmp (name, "none")) PG_FAIL (PG_E_USAGE, "failure.criterion = %s: this library has no such criterion", name);
-    if (silent && !name) pg_scene_fault (scene, "failure.criterion", "is missing: when a bond breaks (only force: fcbm has one of its own)");
+    if (silent && !name) pg_scene_fault (scene, "failure.criterion", "is missing: when a bond breaks");
     pg_criterion_check (scene, type, n, setting);
     for (size_t i = 0; type && i < n; i++) {
         out[i].type = type;

@@ -12,7 +12,8 @@ static const char *names_or_none (void) { return choices; }
 
 static const pg_key keys[] = {
     { .path = "failure.criterion", .kind = PG_NAME, .fallback = "", .choices_of = names_or_none,
-      .doc = "When a bond breaks; without `failure`, and with none, nothing breaks. Needed, except with force: fcbm, where it is node_energy unless given." },
+      .doc = "When a bond breaks; without `failure`, and with none, nothing breaks. Without it: node_energy with force: fcbm, beam_limits with gmpd, and "
+             "with the others stretch where `failure` has critical_stretch or fracture_energy; else it is needed." },
     { .path = "failure.critical_stretch", .kind = PG_NUMBER, .unit = "1", .range = "(0, inf)", .fallback = "", .group = "limit:most",
       .doc = "stretch: relative elongation at which a bond breaks; either this or fracture_energy." },
     { .path = "failure.fracture_energy", .kind = PG_NUMBER, .unit = "J/m2", .range = "(0, inf)", .fallback = "", .group = "limit:most",

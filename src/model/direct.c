@@ -38,7 +38,8 @@ static const custom *custom_of (const pg_scene *scene)
 const char *pg_direct_criterion (const pg_scene *scene)
 {
     const custom *c = custom_of (scene);
-    return c ? c->criterion : NULL;
+    if (c && c->criterion) return c->criterion;
+    return pg_scene_given (scene, "failure.fracture_energy") || pg_scene_given (scene, "failure.critical_stretch") ? "stretch" : NULL;
 }
 
 int pg_direct_turns (const pg_scene *scene, int dim)
