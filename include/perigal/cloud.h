@@ -16,7 +16,8 @@ typedef struct {
     double *vertex; size_t nvertex;                    /* polygon, prism: nvertex x 2, m                                 */
     struct pg_solid *solid;                            /* mesh: its elements and their surface; stairs: cells of a lattice */
 } pg_shape;
-/* A fictitious boundary layer: a box over the whole width of one face of the bounding box of the shapes, outside of it. */
+/* A fictitious boundary layer: a box over one face of the bounding box of the shapes, outside of it; over all of the face, or over its part from
+ * the first to the last place along each axis below which, half a cell deep, the body lies. */
 typedef struct {
     char   name[32];                                   /* of the layer, of its set and of its surface                    */
     int    side;                                       /* left right bottom top back front: 2 axis + (high side)         */
@@ -29,7 +30,7 @@ typedef struct {
     double low[3], high[3];                            /* bounding box of the added shapes and layers, m                 */
     pg_layer *layer; size_t nlayer;
 } pg_body;
-/* body: list of {add|subtract: {...}}; layers: list of {name, side, thickness}, which become whole cells of the lattice that pg_lattice_fit
+/* body: list of {add|subtract: {...}}; layers: list of {name, side, thickness, over}, which become whole cells of the lattice that pg_lattice_fit
  * lays over the body without them at the scene's spacing: round (thickness / step) of them. */
 pg_status pg_body_read  (pg_body *out, const pg_scene *scene);
 /* The layer that x lies in, beyond the face by more than `margin` (m); -1: none. */

@@ -123,8 +123,7 @@ void      pg_skin_free   (pg_mesh_skin **skin);
 /* Distance (no sign) to the surface where that is at most `reach`, else HUGE_VAL; *face: the number of the nearest face (NULL, or -1 where
  * there is none; of equals the lowest). Straight and plane faces to rounding, curved ones by Newton's method from their middle. Thread-safe. */
 double    pg_skin_distance (const pg_mesh_skin *skin, const double *place, double reach, long *face);
-/* Faces; element and side of one. low, high (dim): box of the surface, curved faces to 1/1000 of their height. Its size (length, area). */
-size_t    pg_skin_faces  (const pg_mesh_skin *skin);
+/* Element and side of a face. low, high (dim): box of the surface, curved faces to 1/1000 of their height. Its size (length, area). */
 void      pg_skin_face   (const pg_mesh_skin *skin, size_t face, int *element, int *side);
 void      pg_skin_box    (const pg_mesh_skin *skin, double *low, double *high);
 double    pg_skin_size   (const pg_mesh_skin *skin);

@@ -28,6 +28,7 @@ typedef struct {
     const pg_set *stop_set; double stop_damage;        /* stop when a point of the set is damaged so far; NULL: never    */
     long     levels;                                   /* reports at k / levels of the load (or of the end time)         */
     char     unused[256];                              /* keys of the scene's solver that this kind does not heed, "dt, end"; "": none */
+    const pg_scene *scene;                             /* that they were read from: pg_solver_create places there what it finds wrong; NULL: none */
 } pg_solver_options;
 pg_status pg_solver_options_read (pg_solver_options *out, const pg_problem *problem, const pg_scene *scene);
 

@@ -36,7 +36,7 @@ int pg_cli_check (int argc, char **argv)
     PG_TRY (pg_solver_options_read (&o, p, scene));
     PG_TRY (pg_result_check (scene, p));
     PG_TRY (afford_problem (&c, &f, p, 1));
-    if (o.marching || (o.staged && o.dt > 0)) {
+    if (o.marching || o.staged) {
         PG_TRY (pg_solver_create (&solver, p, &o));
         o = *pg_solver_settled (solver);
         stable = pg_solver_stable (solver, &from);

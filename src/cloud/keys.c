@@ -47,13 +47,16 @@ static const pg_key keys[] = {
     { .path = "body[].subtract", .kind = PG_MAP, .fallback = "", .group = "op:one", .doc = "The shape is cut out of the body." },
     SHAPES ("body[].subtract"),
     { .path = "layers", .kind = PG_LIST, .fallback = "",
-      .doc = "Fictitious boundary layers outside of a body of shapes: the body grows by a box over the whole width of one face of its bounding box."
+      .doc = "Fictitious boundary layers outside of a body of shapes: the body grows by a box over one face of its bounding box."
              " The spacing is that of the body without them." },
     { .path = "layers[].name", .kind = PG_TEXT,
       .doc = "Name of the set that holds the points of the layer (without those on the body's own face) and the facets of its cells; boundary, failure.exclude ... take it." },
     { .path = "layers[].side", .kind = PG_NAME, .choices = "left|right|bottom|top|back|front", .doc = "On which side of the body; one layer each." },
     { .path = "layers[].thickness", .kind = PG_NUMBER, .unit = "m|spacing", .range = LENGTH,
       .doc = "Thickness, rounded to whole cells of the lattice." },
+    { .path = "layers[].over", .kind = PG_NAME, .choices = "box|body", .fallback = "box",
+      .doc = "Over the whole face of the bounding box, or only over the part where the body is: from the first to the last place along the face with the body half a"
+             " cell below it (the foot of an L; one box, also across a notch)." },
     { .path = "points", .kind = PG_TEXT, .fallback = "", .group = "origin:most",
       .doc = "CSV file of points in place of a body, next to the scene file; columns x [y [z]] volume [block] [spacing] in m and m3."
              " With a spacing (distance to the neighbours) the support of each point follows it." },

@@ -70,6 +70,52 @@ static void lay (pg_shape *box, pg_layer *layer, int dim, const double *low, con
     memcpy (box->boundary, layer->name, sizeof box->boundary);
 }
 
+/* Where the body ends between x, which is inside, and `to` along an axis. */
+static double edge_of (const pg_body *body, const double *x, int axis, double to)
+{
+    double at[3] = { x[0], x[1], x[2] }, inside = x[axis], outside = to;
+    at[axis] = to;
+    if (pg_body_inside (body, at, 0)) return to;
+    for (int n = 0; n < 100; n++) {
+        at[axis] = 0.5 * (inside + outside);
+        if (at[axis] == inside || at[axis] == outside) break;
+        if (pg_body_inside (body, at, 0)) inside = at[axis]; else outside = at[axis];
+    }
+    return inside;
+}
+
+enum { MOST_LOOKS = 4096 };                                /* along an axis                                              */
+
+/* Shrinks the box of a layer to the part of the face below which, half a cell deep, the body lies: from the first cell to the last one along
+ * every axis, and there to the body's own edge. body: without layers. 0: it lies below none. */
+static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, const double *low, const double *high, double spacing)
+{
+    int normal = layer->side / 2, found = 0, i[3] = { 0 }, count[3] = { 1, 1, 1 };
+    double step[3] = { 0 }, first[3], last[3];
+    for (int k = 0; k < body->dim; k++) {
+        first[k] = high[k], last[k] = low[k];
+        double cells = fmax (1, floor ((high[k] - low[k]) / spacing + 0.5));
+        if (k != normal) count[k] = (int) (cells = fmin (cells, MOST_LOOKS));
+        step[k] = (high[k] - low[k]) / cells;
+    }
+    for (i[2] = 0; i[2] < count[2]; i[2]++)
+        for (i[1] = 0; i[1] < count[1]; i[1]++)
+            for (i[0] = 0; i[0] < count[0]; i[0]++) {
+                double x[3] = { 0 };
+                for (int k = 0; k < body->dim; k++) x[k] = low[k] + (i[k] + 0.5) * step[k];
+                x[normal] = layer->face + (layer->side % 2 ? -0.5 : 0.5) * step[normal];
+                if (!pg_body_inside (body, x, 0)) continue;
+                found = 1;
+                for (int k = 0; k < body->dim; k++) {
+                    if (k == normal) continue;
+                    if (x[k] - step[k] < first[k]) first[k] = fmin (first[k], edge_of (body, x, k, fmax (low[k], x[k] - step[k])));
+                    if (x[k] + step[k] > last[k]) last[k] = fmax (last[k], edge_of (body, x, k, fmin (high[k], x[k] + step[k])));
+                }
+            }
+    for (int k = 0; k < body->dim; k++) if (k != normal) box->low[k] = first[k], box->high[k] = last[k];
+    return found;
+}
+
 static void refuse (const pg_scene *scene)
 {
     const char *origin = pg_scene_given (scene, "mesh") ? "a mesh" : pg_scene_given (scene, "points") ? "a file of points" : NULL;
@@ -82,12 +128,14 @@ pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
     pg_status status = PG_OK;
     size_t n = pg_scene_count (scene, "layers");
     double low[3], high[3];
+    char at[64];
     if (n == 0) return PG_OK;
     refuse (scene);
     PG_TRY (pg_scene_verdict (scene));
     if (body->n == 0 || !(pg_scene_number (scene, "spacing") > 0)) return PG_OK;           /* a fault, found later           */
     memcpy (low, body->low, sizeof low), memcpy (high, body->high, sizeof high);
     PG_ALLOC (body->layer, n);
+    const pg_body bare = *body;                            /* without layers                                             */
     for (size_t i = 0; i < n; i++) {
         pg_layer *layer = &body->layer[i];
         double reach;
@@ -97,6 +145,11 @@ pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
         if (layer->side >= 2 * body->dim) continue;
         read_thickness (layer, low, high, scene, i, &reach);
         lay (&body->shape[body->n], layer, body->dim, low, high, reach);
+        int whole = strcmp (pg_scene_text (scene, "layers[%zu].over", i), "body") != 0;
+        if (!whole && !shrink (&body->shape[body->n], layer, &bare, low, high, pg_scene_number (scene, "spacing"))) {
+            snprintf (at, sizeof at, "layers[%zu].over", i);
+            pg_scene_fault (scene, at, "half a cell below this side there is no body: it meets the side in a corner only");
+        }
         if (layer->side % 2) body->high[layer->side / 2] = body->shape[body->n].high[layer->side / 2];
         else body->low[layer->side / 2] = body->shape[body->n].low[layer->side / 2];
         body->n++;

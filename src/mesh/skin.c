@@ -64,8 +64,6 @@ double pg_skin_distance (const pg_mesh_skin *skin, const double *place, double r
     return d;
 }
 
-size_t pg_skin_faces (const pg_mesh_skin *skin) { return skin->faces.n; }
-
 void pg_skin_face (const pg_mesh_skin *skin, size_t face, int *element, int *side) { *element = skin->element[face], *side = skin->side[face]; }
 
 static pg_element nodes_of (const pg_mesh *f, size_t k, double *x)

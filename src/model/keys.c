@@ -73,7 +73,7 @@ static const pg_key keys[] = {
     LOAD ("body_force", "N/m3", "Force per volume; set all: everywhere, else on the points of the set."),
     { "boundary[].pressure", PG_EXPRESSION, "Pa", NULL, "", NULL, NULL, "load:one", "Pressure against the boundary facets (positive pushes inwards)." },
     { "boundary[].depth", PG_NUMBER, "m|spacing", "(0, inf)", "", no_choice, NULL, NULL,
-      "Traction, pressure with force: bond: shared, by volume, by the points down to this depth below each facet; unless given by the outermost points." },
+      "Traction, pressure with force: bond: shared, by volume, by the points down to this depth below each facet, at most all of the body; unless given by the outermost points." },
     { "boundary[].essential", PG_NAME, NULL, NULL, "", "auto|nitsche|transformation|penalty", NULL, NULL,
       "How this displacement or velocity is prescribed; method.essential unless given. penalty: cheapest for a point that only keeps the body from moving." },
     { "boundary[].ramp", PG_TEXT, NULL, NULL, "", NULL, NULL, "ramp:most",

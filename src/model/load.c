@@ -177,6 +177,27 @@ static void check_place (const pg_problem *problem, const pg_load *load, const p
     else if (!on_facets && set->npoint == 0) pg_scene_fault (scene, path, "the set %s holds no point", set->name);
 }
 
+/* The most that the box of the body measures along the normal of a facet of the set, m. */
+static double deepest (const pg_problem *problem, const pg_set *set)
+{
+    const pg_cells *c = &problem->cells;
+    const pg_cloud *cloud = &problem->cloud;
+    size_t dim = (size_t) problem->dim;
+    double most = 0, size[3] = { 0 };
+    for (size_t k = 0; k < dim; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t f = 0; f < c->nfacet; f++) low = fmin (low, c->facet_centre[f * dim + k]), high = fmax (high, c->facet_centre[f * dim + k]);
+        for (size_t i = 0; i < cloud->n; i++) low = fmin (low, cloud->x[i * dim + k]), high = fmax (high, cloud->x[i * dim + k]);
+        size[k] = high - low;
+    }
+    for (size_t f = 0; f < set->nfacet; f++) {
+        double along = 0;
+        for (size_t k = 0; k < dim; k++) along += fabs (c->normal[(size_t) set->facet[f] * dim + k]) * size[k];
+        most = fmax (most, along);
+    }
+    return most;
+}
+
 /* Shape functions carry a traction on the surface itself. */
 static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i)
 {
@@ -186,6 +207,10 @@ static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene
     load->depth = pg_scene_length (scene, problem->cloud.h, "%s", path);
     if (load->kind != PG_TRACTION && load->kind != PG_PRESSURE) pg_scene_fault (scene, path, "is for a traction or a pressure: others act on the points of their set");
     else if (!problem->direct) pg_scene_fault (scene, path, "is for force: bond; shape functions carry a traction on the surface itself");
+    else if (load->set->nfacet) {
+        double most = deepest (problem, load->set);
+        if (load->depth > most * (1 + 1e-9)) pg_scene_fault (scene, path, "reaches beyond the body, which is %.6g m deep below %s: at most that", most, load->set->name);
+    }
 }
 
 static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i, int is_static, double duration)

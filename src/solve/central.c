@@ -10,7 +10,6 @@ static void range (const sweep *w, size_t first, size_t last, double *sum)
     double *restrict d = w->d, *restrict v = w->v, *restrict a = w->a, before[8] = { 0 }, after[8] = { 0 }, kinetic[8] = { 0 };
     const double *restrict f = w->f, *restrict inverse = w->inverse;
     if (w->settle) {
-        if (w->P) sum[SUM_A] = sweep_dot (w->P, v, first, last);
         for (size_t i = first; c > 0 && i < last; i++) {
             double vn = 0.5 * (v[i] + (keep * v[i] + push * (f[i] * inverse[i])));
             before[i & 7] += w->mass[i] * vn * v[i];
@@ -34,8 +33,6 @@ static void range (const sweep *w, size_t first, size_t last, double *sum)
         }
         sum[SUM_K] = sweep_sum (kinetic);
     }
-    if (w->launch && w->P) sum[SUM_B] = sweep_dot (w->P, v, first, last);
-    if (w->launch) sum[SUM_BAD] = sweep_bad (d, first, last);
 }
 
 static pg_status step (pg_solver *s, pg_state *state, pg_step *out) { return march_step (s, state, out, range, 1); }

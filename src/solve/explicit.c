@@ -156,9 +156,13 @@ static pg_status check_dt (pg_solver *s)
     if (s->options.dt <= m->stable) goto done;
     PG_TRY (pg_solver_fastest (s, s->backup, &omega));
     double limit = omega > 0 ? 0.99 * 2 / omega : INFINITY;
-    if (!(s->options.dt <= limit))
-        PG_FAIL (PG_E_SCENE, "solver.dt = %.6g s is too large: explicit steps are stable up to %.4g s (2 / largest frequency); take at most that, or leave "
-                 "solver.dt out", s->options.dt, limit);
+    if (s->options.dt <= limit) goto done;
+    const pg_scene *scene = s->options.scene;
+    if (scene && !pg_scene_given (scene, "solver.dt"))     /* by solver.end / solver.time_steps                         */
+        PG_TRY (solver_fault (s, "solver.time_steps", "steps of %.6g s are too large: explicit steps are stable up to %.4g s (2 / largest frequency); take at least %.0f, "
+                              "or leave solver.time_steps out", s->options.dt, limit, ceil (s->options.end / limit)));
+    PG_TRY (solver_fault (s, "solver.dt", "%.6g s is too large: explicit steps are stable up to %.4g s (2 / largest frequency); take at most that, or leave "
+                          "solver.dt out", s->options.dt, limit));
 done:
     return status;
 }
@@ -169,13 +173,13 @@ pg_status explicit_stable (pg_solver *s)
     pg_system *sys = &s->breaker.system;
     motion *m = s->motion;
     for (size_t i = 0; i < sys->ndof; i++) {
-        if (!(sys->mass[i] > 0)) PG_FAIL (PG_E_SCENE, "%s needs mass at every point: give the material a density", s->type->name);
+        if (!(sys->mass[i] > 0)) PG_TRY (solver_fault (s, "solver.kind", "%s needs mass at every point: give the material a density", s->type->name));
         m->inverse[i] = 1 / sys->mass[i];
     }
     PG_TRY (find_bound (s));
     if (s->options.dt > 0) PG_TRY (check_dt (s));
     else if (isfinite (m->stable)) s->options.dt = 0.9 * m->stable;
-    else PG_FAIL (PG_E_SCENE, "nothing resists, so that any time step is stable: give solver.dt");
+    else PG_TRY (solver_fault (s, "solver.dt", "nothing resists, so that any time step is stable: give solver.dt"));
 done:
     return status;
 }

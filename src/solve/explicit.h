@@ -49,7 +49,7 @@ pg_status explicit_keep    (pg_solver *s, const pg_keeper *keeper);
 
 /* ---- march.c ------------------------------------------------------------------------------------------------------------------- */
 /* One sweep over unknowns first..last - 1 of a block; settle: forces are at hand, v and a become those of the method at t_n; launch: on to
- * the next half step and d_n+1. Both at once give the bits of one after the other. */
+ * the next half step and d_n+1. Both at once give the bits of one after the other. Of `sum` it fills C, D (settle) and K (settle alone). */
 typedef struct {
     double *d, *v, *a;
     const double *f, *inverse, *mass, *P;              /* P: or NULL                                                     */

@@ -35,7 +35,7 @@ static pg_status count_steps (pg_solver *s)
     pg_solver_options *o = &s->options;
     if (o->end > 0) {
         double steps = o->time_steps > 0 ? (double) o->time_steps : ceil (o->end / o->dt * (1 - 1e-12));
-        if (steps > 1e9) PG_FAIL (PG_E_USAGE, "%g time steps of %.4g s are too many", steps, o->dt);
+        if (steps > 1e9) PG_TRY (solver_fault (s, "solver.end", "%g time steps of %.4g s are too many", steps, o->dt));
         o->time_steps = (long) steps;
         o->dt = o->end / steps;
     } else o->end = o->dt * (double) o->time_steps;
@@ -70,10 +70,15 @@ typedef struct { sweep w; sweep_range range; size_t ndof; double *sum; } sweepin
 static void work_on_blocks (void *context, size_t first, size_t last, int thread)
 {
     const sweeping *c = context;
+    const sweep *w = &c->w;
     (void) thread;
     for (size_t b = first; b < last; b++) {
         size_t i = b * BLOCK, end = i + BLOCK < c->ndof ? i + BLOCK : c->ndof;
-        c->range (&c->w, i, end, c->sum + b * SUMS);
+        double *sum = c->sum + b * SUMS;
+        if (w->settle && w->P) sum[SUM_A] = sweep_dot (w->P, w->v, i, end);
+        c->range (w, i, end, sum);
+        if (w->launch && w->P) sum[SUM_B] = sweep_dot (w->P, w->v, i, end);
+        if (w->launch) sum[SUM_BAD] = sweep_bad (w->d, i, end);
     }
 }
 

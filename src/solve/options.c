@@ -133,6 +133,7 @@ static void find_unused (pg_solver_options *o, const pg_scene *scene)
 pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     memset (o, 0, sizeof *o);
+    o->scene = scene;
     snprintf (o->kind, sizeof o->kind, "%s", pg_scene_text (scene, "solver.kind"));
     snprintf (o->linear, sizeof o->linear, "%s", pg_scene_text (scene, "solver.linear"));
     const pg_solver_type *type = solver_type_find (o->kind);

@@ -66,7 +66,8 @@ static pg_status limit_stages (pg_solver *s)
     PG_TRY (s->breaker.system.force->external (s->breaker.system.self, 1, m->P));
     for (size_t i = 0; i < s->breaker.system.ndof; i++) if (x->mass[i] > 0) most = fmax (most, fabs (m->P[i]) / x->mass[i]);
     double needed = ceil (most * x->dt * x->dt / (2 * s0 * s->problem->cloud.h) * (1 - 1e-12));
-    if (needed > 1e9) PG_FAIL (PG_E_USAGE, "the load would need %g stages so that its mere arrival breaks no bond: it is too large for these limits", needed);
+    if (needed > 1e9)
+        PG_TRY (solver_fault (s, "solver.stages", "the load would need %g stages so that its mere arrival breaks no bond: it is too large for these limits", needed));
     if (needed > (double) o->stages) {
         pg_report_warn (&s->report, "the load comes in %.0f stages instead of %ld, so that its mere arrival breaks no bond (Shen 2016 eq (22))", needed, o->stages);
         o->stages = (long) needed;

@@ -115,6 +115,8 @@ typedef struct {
     double    (*progress) (const pg_solver *s, const pg_state *state); /* NULL: steps done of options.steps              */
 } pg_solver_type;
 const pg_solver_type *solver_type_find (const char *name);             /* NULL: unknown                                  */
+/* PG_E_SCENE: what is found wrong with a key while the solver is made, placed in the scene if options.scene knows it. */
+pg_status solver_fault (const pg_solver *s, const char *key, const char *format, ...) __attribute__ ((format (printf, 3, 4)));
 typedef struct motion motion;                          /* explicit.h                                                     */
 
 struct pg_solver {

@@ -2,6 +2,7 @@
  * The solver object: the list of methods, steps with refusal, the report of the run. */
 #include "solve.h"
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -39,6 +40,18 @@ const char *pg_solver_summary (const char *name)
     return type ? type->summary : NULL;
 }
 
+pg_status solver_fault (const pg_solver *s, const char *key, const char *format, ...)
+{
+    char text[512];
+    va_list args;
+    va_start (args, format);
+    vsnprintf (text, sizeof text, format, args);
+    va_end (args);
+    if (!s->options.scene) return pg_error (PG_E_SCENE, PG_HERE, "%s: %s", key, text);
+    pg_scene_fault (s->options.scene, key, "%s", text);
+    return pg_scene_verdict (s->options.scene);
+}
+
 pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg_solver_options *options)
 {
     const pg_force_type *force = pg_force_find (problem->force);
@@ -66,6 +79,7 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     PG_ALLOC (s->work2, sys->ndof);
     PG_TRY (pg_state_create (&s->backup, problem, sys->components));
     if (s->type->prepare) PG_TRY (s->type->prepare (s));
+    s->options.scene = NULL;                               /* may be gone from here on                                   */
     if (options->break_mode == PG_BREAK_ALL && problem->criterion->type)
         pg_report_warn (&s->report, "break: all breaks every bond over its limit at once: the peak load depends on the increment");
     *out = s;

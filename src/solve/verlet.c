@@ -11,7 +11,6 @@ static void range (const sweep *w, size_t first, size_t last, double *sum)
     double *restrict d = w->d, *restrict v = w->v, *restrict a = w->a;
     const double *restrict f = w->f, *restrict inverse = w->inverse;
     if (w->settle) {
-        if (w->P) sum[SUM_A] = sweep_dot (w->P, v, first, last);
         for (size_t i = first; c > 0 && i < last; i++) {
             double vn = (v[i] + h * (f[i] * inverse[i])) * less;
             before[i & 7] += w->mass[i] * vn * v[i];
@@ -38,8 +37,6 @@ static void range (const sweep *w, size_t first, size_t last, double *sum)
         }
         sum[SUM_K] = sweep_sum (kinetic);
     }
-    if (w->launch && w->P) sum[SUM_B] = sweep_dot (w->P, v, first, last);
-    if (w->launch) sum[SUM_BAD] = sweep_bad (d, first, last);
 }
 
 static pg_status step (pg_solver *s, pg_state *state, pg_step *out) { return march_step (s, state, out, range, 0); }

@@ -140,6 +140,41 @@ static void over_a_round_body_it_covers_the_width_of_the_box (void **state)
     drop (&m);
 }
 
+#define L_SHAPE "dimension: 2\nbody:\n  - add: {box: {low: [0, 0], high: [500, 500]}}\n  - subtract: {box: {low: [250, 0], high: [500, 250]}}\n"
+static size_t of_layer (const char *scene, const char *layer, int cut, double volume)
+{
+    char text[800];
+    model m;
+    snprintf (text, sizeof text, "%slayers: [{name: foot, %s}]", scene, layer);
+    check_ok (make (&m, text, cut));
+    size_t n = find (&m, "foot")->npoint;
+    if (volume > 0) check_relative (total (m.cells.volume, m.cells.n), volume, 1e-12);
+    drop (&m);
+    return n;
+}
+
+/* The foot of an L is half as wide as its box; its right side begins above the notch. */
+static void over_the_body_it_leaves_out_what_has_no_body_below (void **state)
+{
+    (void) state;
+    for (int cut = 0; cut < 2; cut++) {
+        assert_int_equal (of_layer (L_SHAPE "spacing: 25\nlattice: cells\n", "side: bottom, thickness: 3 spacing", cut, 187500 + 500 * 75), 60);
+        assert_int_equal (of_layer (L_SHAPE "spacing: 25\nlattice: cells\n", "side: bottom, thickness: 3 spacing, over: body", cut, 187500 + 250 * 75), 30);
+        assert_int_equal (of_layer (L_SHAPE "spacing: 25\nlattice: cells\n", "side: right, thickness: 3 spacing, over: body", cut, 187500 + 250 * 75), 30);
+        assert_int_equal (of_layer (L_SHAPE "spacing: 25\nlattice: cells\n", "side: top, thickness: 3 spacing, over: body", cut, 187500 + 500 * 75), 60);
+        assert_int_equal (of_layer (L_SHAPE "spacing: 25\nlattice: nodes\n", "side: bottom, thickness: 3 spacing, over: body", cut, 0), 33);
+    }
+    /* cells that the notch cuts: the layer ends where the body does */
+    of_layer (L_SHAPE "spacing: 30\nlattice: cells\n", "side: bottom, thickness: 1 spacing, over: body", 1, 187500 + 250 * 500 / 17.0);
+    /* in space, along both axes of the side; a disk in the first row of its cells; a box across a notch */
+    assert_int_equal (of_layer ("dimension: 3\nspacing: 1\nlattice: cells\nbody: [{add: {box: {low: [0, 0, 0], high: [9, 4, 6]}}}, {add: {box: {low: [2, 4, 1], high: [5, 7, 3]}}}]\n",
+                                "side: top, thickness: 2, over: body", 1, 9 * 4 * 6 + 3 * 3 * 2 + 3 * 2 * 2), 12);
+    assert_int_equal (of_layer ("dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}]\nspacing: 0.1\nlattice: cells\n",
+                                "side: top, thickness: 0.2, over: body", 0, 0), 2 * 6);
+    assert_int_equal (of_layer ("dimension: 2\nspacing: 1\nlattice: cells\nbody: [{add: {box: {low: [0, 0], high: [9, 4]}}}, {subtract: {box: {low: [3, 0], high: [5, 2]}}}]\n",
+                                "side: bottom, thickness: 1, over: body", 0, 32 + 9), 9);
+}
+
 static void in_one_and_three_dimensions (void **state)
 {
     (void) state;
@@ -178,6 +213,7 @@ static void what_cannot_be_is_a_fault (void **state)
     must_fault (BOX "layers: [{name: a, side: top, thickness: 1 mm}, {name: b, side: top, thickness: 1 mm}]", "layer a is on this side already");
     must_fault (BOX "lattice_offset: [0.5, 0]\nlayers: [{name: a, side: top, thickness: 1 mm}]", "lattice_offset");
     must_fault (BOX "layers: [{name: a, side: top, thickness: 1 mm}]\nsets: {a: {boundary: left}}", "is a layer");
+    must_fault ("dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [10, 0], [5, 7]]}}}]\nspacing: 1\nlayers: [{name: a, side: top, thickness: 1, over: body}]", "in a corner only");
     must_fault ("dimension: 2\npoints: none.csv\nlayers: [{name: a, side: top, thickness: 1 mm}]", "a file of points has none");
 }
 
@@ -211,7 +247,7 @@ int main (void)
         cmocka_unit_test (equal_layers_keep_the_mirror),
         cmocka_unit_test (a_set_holds_the_points_beyond_the_face),
         cmocka_unit_test (cut_cells_join_the_layer),
-        cmocka_unit_test (over_a_round_body_it_covers_the_width_of_the_box),
+        cmocka_unit_test (over_a_round_body_it_covers_the_width_of_the_box), cmocka_unit_test (over_the_body_it_leaves_out_what_has_no_body_below),
         cmocka_unit_test (in_one_and_three_dimensions),
         cmocka_unit_test (what_cannot_be_is_a_fault),
         cmocka_unit_test (broken_memory_leaves_nothing_behind),

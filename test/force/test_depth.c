@@ -102,6 +102,18 @@ static void it_goes_with_tractions_of_direct_forces_only (void **state)
     must_refuse (PLATE "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, traction: {y: 1}, depth: 1}]", "is for force: bond");
 }
 
+/* All of the height is allowed, whichever points the lattice has; more is refused with what is. */
+static void it_ends_at_the_body (void **state)
+{
+    (void) state;
+    for (int nodes = 0; nodes < 2; nodes++) {
+        run r = scene_of (1, SCENE, BOX, nodes ? "nodes" : "cells", "top", "traction: {y: 12 MPa}, depth: 8 mm");
+        clear (&r);
+    }
+    must_refuse (PLATE "method: {force: bond}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1}, depth: 10.01}]",
+                 "boundary[1].depth = 10.01: reaches beyond the body, which is 10 m deep below right: at most that");
+}
+
 static void broken_memory_is_told (void **state)
 {
     (void) state;
@@ -131,7 +143,7 @@ int main (void)
         cmocka_unit_test (a_depth_below_half_a_row_is_the_outermost),
         cmocka_unit_test (pressure_on_a_curved_surface),
         cmocka_unit_test (perturbed_points_and_three_dimensions),
-        cmocka_unit_test (it_goes_with_tractions_of_direct_forces_only),
+        cmocka_unit_test (it_goes_with_tractions_of_direct_forces_only), cmocka_unit_test (it_ends_at_the_body),
         cmocka_unit_test (broken_memory_is_told),
     };
     return cmocka_run_group_tests_name ("force/depth", tests, NULL, NULL);

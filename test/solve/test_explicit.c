@@ -221,7 +221,7 @@ static void time_steps_beyond_the_stable_one_are_refused (void **state)
         pg_solver_options o = options_of (kinds[kind], 1.2 * limit, 10000);
         size_t used = pg_memory_used ();
         check_fails (try_link (&l, &o, &chain_type), PG_E_SCENE);
-        check_contains (pg_last_error (), "solver.dt = 0.012");
+        check_contains (pg_last_error (), "solver.dt: 0.012");
         check_contains (pg_last_error (), "stable up to 0.0099");
         unlink_all (&l);
         assert_int_equal (pg_memory_used (), used);

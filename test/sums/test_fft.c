@@ -1,25 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Bonds of a lattice summed by transforms against the plain double loop and the stencil (theory B-1, B-4, B-5): forces, energies of points, bonds
  * that break, on bodies with holes, cut volumes, cracks, dead points; any number of threads gives the same bits. */
-#include "lattice_body.h"
+#include "sweeps.h"
 
-/* 1: made; 0: this machine lacks the instructions */
-static int make_sweep (pg_sweep **out, const body *b, pg_evaluation evaluation, const char *set, int threads, int breaks, int exempt)
+static int make_as (pg_sweep **out, const body *b, pg_evaluation evaluation, const char *set, int threads, int breaks, int exempt)
 {
     b->sums->rule.evaluation = evaluation;
-    pg_sweep_setting setting = { .sums = b->sums, .family = &b->family, .modulus = b->modulus, .limit = breaks ? b->limit : NULL,
-                                 .exempt = exempt ? b->exempt : NULL, .threads = threads, .instructions = set };
-    pg_status status = pg_sweep_create (out, &setting);
-    if (status == PG_E_USAGE && set && strstr (pg_last_error (), "this machine has none")) return 0;
-    check_ok (status);
-    return 1;
-}
-
-static double largest (const double *f, size_t n)
-{
-    double most = 0;
-    for (size_t i = 0; i < n; i++) most = fmax (most, fabs (f[i]));
-    return most;
+    return make_sweep (out, b, set, threads, breaks, exempt);
 }
 
 static double difference (const double *f, const double *g, size_t n)
@@ -75,7 +62,7 @@ static void forces_and_energies_equal_the_plain_loop (void **state)
             double energy = body_plain (&b, 0, g, NULL);
             for (int threads = 1; threads <= 3; threads++) {
                 pg_sweep *s = NULL;
-                make_sweep (&s, &b, PG_EVALUATE_FFT, NULL, threads, 0, 0);
+                make_as (&s, &b, PG_EVALUATE_FFT, NULL, threads, 0, 0);
                 check_contains (pg_sweep_name (s), "fft");
                 pg_sweep_update (s, b.alive, NULL);
                 memset (f, 0x7f, values * sizeof *f);
@@ -115,7 +102,7 @@ static void bonds_break_as_by_the_stencil (void **state)
             for (size_t k = 0; k < values; k++) noise[k] = 1e-7 * cell_side * (body_random (&b) - 0.5);
             pg_sweep *s = NULL, *t = NULL;
             pg_changes broken = { 0 }, torn = { 0 };
-            make_sweep (&s, &b, PG_EVALUATE_FFT, NULL, 2, 1, exempt), make_sweep (&t, &b, PG_EVALUATE_STENCIL, NULL, 1, 1, exempt);
+            make_as (&s, &b, PG_EVALUATE_FFT, NULL, 2, 1, exempt), make_as (&t, &b, PG_EVALUATE_STENCIL, NULL, 1, 1, exempt);
             for (int step = 0; step < 12; step++) {
                 /* rotated by half, strained by 0.9 of the limit across; a bump of growing height at a third of the length */
                 for (size_t i = 0; i < b.cloud.n; i++) {
@@ -155,7 +142,7 @@ static void rigid_motions_cost_no_digits (void **state)
         size_t dim = (size_t) b.cloud.dim, values = b.cloud.n * dim;
         double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g), *W = pg_calloc (b.cloud.n, sizeof *W);
         pg_sweep *s = NULL;
-        make_sweep (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
+        make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
         for (size_t i = 0; i < b.cloud.n; i++)
             for (size_t d = 0; d < dim; d++) b.u[i*dim + d] = 1e-6 * b.cloud.x[i*dim + d] * (1 + 0.1 * sin (b.cloud.x[i*dim] / cell_side));
         body_plain (&b, 0, g, NULL);
@@ -190,7 +177,7 @@ static void transforms_are_as_few_as_theory_has_them (void **state)
         pg_sweep *s = NULL;
         pg_sweep_counts count;
         long all = of[k].forward;
-        make_sweep (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
+        make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
         pg_sweep_counted (s, &count);
         assert_int_equal (count.forward + count.back + count.sums, 0);
         for (int step = 1; step <= 3; step++) {
@@ -228,7 +215,7 @@ static void only_what_is_cut_counts (void **state)
         unsigned char *before = pg_calloc (b.nbond, 1);
         pg_changes changes = { .bond = pg_calloc (b.nbond, sizeof *changes.bond) };
         pg_sweep *s = NULL, *t = NULL;
-        make_sweep (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
+        make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
         check_ok (pg_sweep_force (s, b.u, whole, NULL));
         for (int round = 0; round < 3; round++) {
             memcpy (before, b.alive, b.nbond);
@@ -237,7 +224,7 @@ static void only_what_is_cut_counts (void **state)
             for (size_t e = 0; e < b.nbond; e++) if (before[e] && !b.alive[e]) changes.bond[changes.n++] = e;
             pg_sweep_update (s, b.alive, &changes);
             check_ok (pg_sweep_force (s, b.u, f, NULL));
-            make_sweep (&t, &b, PG_EVALUATE_FFT, NULL, 2, 0, 0);
+            make_as (&t, &b, PG_EVALUATE_FFT, NULL, 2, 0, 0);
             pg_sweep_update (t, b.alive, NULL);
             check_ok (pg_sweep_force (t, b.u, g, NULL));
             assert_memory_equal (f, g, values * sizeof *f);
@@ -266,7 +253,7 @@ static void breaking_equals_starting_anew (void **state)
     double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g);
     pg_changes broken = { 0 };
     pg_sweep *s = NULL, *t = NULL;
-    make_sweep (&s, &b, PG_EVALUATE_FFT, NULL, 1, 1, 0);
+    make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 1, 0);
     for (size_t i = 0; i < b.cloud.n; i++) {
         const double *x = b.cloud.x + 2*i;
         double y[2] = { x[0] - 40 * cell_side, x[1] - 20 * cell_side }, far = (y[0] * y[0] + y[1] * y[1]) / pow (6 * cell_side, 2);
@@ -274,7 +261,7 @@ static void breaking_equals_starting_anew (void **state)
     }
     check_ok (pg_sweep_force (s, b.u, f, &broken));
     for (size_t c = 0; c < broken.n; c++) b.alive[broken.bond[c]] = 0;
-    make_sweep (&t, &b, PG_EVALUATE_FFT, NULL, 2, 0, 0);
+    make_as (&t, &b, PG_EVALUATE_FFT, NULL, 2, 0, 0);
     pg_sweep_update (t, b.alive, NULL);
     check_ok (pg_sweep_force (t, b.u, g, NULL));
     pg_sweep_counts count;
@@ -300,12 +287,12 @@ static void work_decides_between_stencil_and_transforms (void **state)
         body b;
         pg_sweep *s = NULL;
         body_create (&b, &cases[k].wish, 3);
-        make_sweep (&s, &b, PG_EVALUATE_AUTO, NULL, 1, 0, 0);
+        make_as (&s, &b, PG_EVALUATE_AUTO, NULL, 1, 0, 0);
         check_contains (pg_sweep_name (s), cases[k].fast ? "fft" : "stencil");
         if (!cases[k].wish.finite) check_contains (pg_sweep_reason (s), "auto: about");
         if (cases[k].fast) check_contains (pg_sweep_reason (s), "guessed");
         pg_sweep_free (&s);
-        make_sweep (&s, &b, PG_EVALUATE_STENCIL, NULL, 1, 0, 0);
+        make_as (&s, &b, PG_EVALUATE_STENCIL, NULL, 1, 0, 0);
         assert_string_equal (pg_sweep_reason (s), "asked for");
         pg_sweep_free (&s);
         body_free (&b);
@@ -327,7 +314,7 @@ static void timed_plans_are_kept (void **state)
     for (int round = 0; round < 3; round++) {
         pg_sweep *s = NULL;
         setenv ("XDG_CACHE_HOME", round < 2 ? folder : "/dev/null/nowhere", 1);
-        make_sweep (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
+        make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
         check_contains (pg_sweep_reason (s), "timed");
         check_ok (pg_sweep_force (s, b.u, round ? f : g, NULL));
         check_below (difference (round ? f : g, plain, values), 1e-13);

@@ -1,34 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Loops over the bonds of a lattice against the plain double loop: forces, energy, broken bonds; any number of threads gives the same bits,
  * and so do the instruction sets that fuse products and sums. */
-#include "lattice_body.h"
-
-static const char *const sets[] = { "scalar", "avx2", "avx512" };
-enum { SETS = 3 };
-
-/* 1: made; 0: this machine lacks the instructions */
-static int make_sweep (pg_sweep **out, const body *b, const char *set, int threads, int breaks, int exempt)
-{
-    pg_sweep_setting setting = { .sums = b->sums, .family = &b->family, .modulus = b->modulus, .limit = breaks ? b->limit : NULL,
-                                 .exempt = exempt ? b->exempt : NULL, .threads = threads, .instructions = set };
-    pg_status status = pg_sweep_create (out, &setting);
-    if (status == PG_E_USAGE && set && strstr (pg_last_error (), "this machine has none")) return 0;
-    check_ok (status);
-    return 1;
-}
-
-static double largest (const double *f, size_t n)
-{
-    double most = 0;
-    for (size_t i = 0; i < n; i++) most = fmax (most, fabs (f[i]));
-    return most;
-}
-
-static void close_to (const double *f, const double *g, size_t n, double tolerance)
-{
-    double most = largest (g, n);
-    for (size_t i = 0; i < n; i++) check_scaled (f[i], g[i], tolerance, most);
-}
+#include "sweeps.h"
 
 static const body_wish wishes[] = {
     { { 70, 11, 1 }, 0.1, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 0, PG_EVALUATE_STENCIL },
@@ -47,88 +20,13 @@ static const body_wish wishes[] = {
     { { 40, 1, 2 }, 0, 0, 0, 3, 3.015, PG_SURFACE_PRODUCT, PG_PARTIAL_LINEAR, 0, PG_EVALUATE_STENCIL },
     { { 2, 1, 1 }, 0, 0, 0, 1, 1.5, PG_SURFACE_NONE, PG_PARTIAL_NONE, 0, PG_EVALUATE_STENCIL },
 };
-enum { WISHES = sizeof wishes / sizeof *wishes };
+static void wish (body *b, size_t w, uint64_t seed) { body_create (b, &wishes[w], seed); }
+static const swept stencils = { "stencil", wish, sizeof wishes / sizeof *wishes, 1 };
 
-static void forces_and_energy_equal_the_plain_loop (void **state)
-{
-    (void) state;
-    for (size_t w = 0; w < WISHES; w++) {
-        body b;
-        body_create (&b, &wishes[w], 11 + w);
-        body_wound (&b, 0.2);
-        size_t values = b.cloud.n * (size_t) b.cloud.dim;
-        double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g), *first = pg_calloc (values, sizeof *first), energy = body_plain (&b, 0, g, NULL), stored = 0;
-        for (int k = 0; k < SETS; k++)
-            for (int threads = 1; threads <= 3; threads++) {
-                pg_sweep *s = NULL;
-                if (!make_sweep (&s, &b, sets[k], threads, 0, 0)) continue;
-                check_contains (pg_sweep_name (s), "stencil");
-                check_contains (pg_sweep_name (s), sets[k]);
-                pg_sweep_update (s, b.alive, NULL);
-                memset (f, 0x7f, values * sizeof *f);
-                check_ok (pg_sweep_force (s, b.u, f, NULL));
-                close_to (f, g, values, 1e-13);
-                double now = pg_sweep_energy (s, b.u);
-                check_relative (now, energy, 1e-12);
-                if (threads == 1 && k < 2) {
-                    memcpy (first, f, values * sizeof *f);
-                    stored = now;
-                }
-                assert_memory_equal (f, first, values * sizeof *f);
-                check_ok (pg_sweep_energies (s, b.u, f));
-                close_to (f, b.W, b.cloud.n, 1e-12);
-                assert_true (now == stored);
-                pg_sweep_free (&s);
-                assert_null (s);
-            }
-        pg_free (f), pg_free (g), pg_free (first);
-        body_free (&b);
-    }
-}
-
-/* Every round moves the points a little more; broken bonds, and then forces, are those of the plain loop. */
-static void bonds_break_as_in_the_plain_loop (void **state)
-{
-    (void) state;
-    for (size_t w = 0; w < WISHES; w++)
-        for (int k = 0; k < 2 * SETS; k++) {
-            body b;
-            body_create (&b, &wishes[w], 100 + w);
-            body_wound (&b, 0.1);
-            int exempt = k >= SETS;
-            for (size_t i = 0; exempt && i < b.cloud.n; i++) b.exempt[i] = body_random (&b) < 0.2;
-            size_t values = b.cloud.n * (size_t) b.cloud.dim, total = 0;
-            double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g);
-            unsigned char *dead = pg_calloc (b.nbond, 1);
-            pg_changes broken = { 0 };
-            pg_sweep *s = NULL;
-            if (make_sweep (&s, &b, sets[k % SETS], 1 + k % 2, 1, exempt)) {
-                pg_sweep_update (s, b.alive, NULL);
-                for (int round = 0; round < 4; round++) {
-                    for (size_t i = 0; i < values; i++) b.u[i] *= 1.4;
-                    memset (dead, 0, b.nbond);
-                    body_plain (&b, 1, g, dead);
-                    broken.n = 0;
-                    check_ok (pg_sweep_force (s, b.u, f, &broken));
-                    size_t at = 0;
-                    for (size_t e = 0; e < b.nbond; e++) {
-                        if (!dead[e]) continue;
-                        assert_true (at < broken.n);
-                        assert_int_equal (broken.bond[at], e);
-                        at++;
-                    }
-                    assert_int_equal (at, broken.n);
-                    assert_int_equal (broken.n % 2, 0);
-                    close_to (f, g, values, 1e-13);
-                    total += broken.n;
-                }
-                if (b.nbond > 100) assert_true (total > 0 && total < b.nbond);
-            }
-            pg_sweep_free (&s);
-            pg_free (broken.bond), pg_free (f), pg_free (g), pg_free (dead);
-            body_free (&b);
-        }
-}
+static void forces_and_energy_equal_the_plain_loop (void **state) { (void) state, sums_equal_the_plain_loop (&stencils); }
+static void bonds_break_as_in_the_plain_loop (void **state) { (void) state, breaking_equals_the_plain_loop (&stencils); }
+static void changes_equal_a_whole_update (void **state) { (void) state, updates_by_changes_equal_whole_ones (&stencils); }
+static void steady_sums_allocate_nothing (void **state) { (void) state, steady_sums_cost_what_is_said (&stencils, 2, 0.12, 1); }
 
 /* Unless they are asked for, nothing breaks. */
 static void nothing_breaks_unasked (void **state)
@@ -223,42 +121,6 @@ static void rounding_decides_alike_everywhere (void **state)
     }
 }
 
-/* Updating by changes is updating all. */
-static void changes_equal_a_whole_update (void **state)
-{
-    (void) state;
-    for (size_t w = 0; w < WISHES; w++) {
-        body b;
-        body_create (&b, &wishes[w], 31 + w);
-        size_t values = b.cloud.n * (size_t) b.cloud.dim;
-        double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g);
-        pg_sweep *s = NULL, *t = NULL;
-        make_sweep (&s, &b, NULL, 1, 0, 0), make_sweep (&t, &b, NULL, 2, 0, 0);
-        for (int round = 0; round < 3; round++) {
-            pg_changes changes = { 0 };
-            changes.bond = pg_calloc (b.nbond, sizeof *changes.bond);
-            unsigned char *before = pg_calloc (b.nbond, 1);
-            memcpy (before, b.alive, b.nbond);
-            body_wound (&b, 0.1);
-            for (size_t e = 0; e < b.nbond; e++) if (before[e] && !b.alive[e]) changes.bond[changes.n++] = e;
-            pg_sweep_update (s, b.alive, &changes);
-            pg_sweep_update (t, b.alive, NULL);
-            check_ok (pg_sweep_force (s, b.u, f, NULL));
-            check_ok (pg_sweep_force (t, b.u, g, NULL));
-            assert_memory_equal (f, g, values * sizeof *f);
-            pg_free (changes.bond), pg_free (before);
-        }
-        memset (b.alive, 1, b.nbond);                  /* resurrection: a state may be read back */
-        pg_sweep_update (s, b.alive, NULL);
-        body_plain (&b, 0, g, NULL);
-        check_ok (pg_sweep_force (s, b.u, f, NULL));
-        close_to (f, g, values, 1e-13);
-        pg_sweep_free (&s), pg_sweep_free (&t);
-        pg_free (f), pg_free (g);
-        body_free (&b);
-    }
-}
-
 /* Finite: a rigid motion, however large, pulls at nothing; linear: a shift does not. Forces on the whole are none. */
 static void rigid_motions_pull_at_nothing (void **state)
 {
@@ -319,20 +181,8 @@ static void lack_of_memory_is_reported (void **state)
     body b;
     body_create (&b, &wishes[4], 3);
     b.exempt[0] = 1;
-    size_t before = pg_memory_used (), k = 1;
     pg_sweep *s = NULL;
-    pg_sweep_setting setting = { .sums = b.sums, .family = &b.family, .modulus = b.modulus, .limit = b.limit, .exempt = b.exempt, .threads = 1 };
-    for (pg_status status = PG_E_MEMORY; status != PG_OK; k++) {
-        pg_memory_fail_at (k);
-        status = pg_sweep_create (&s, &setting);
-        pg_memory_fail_at (0);
-        if (status == PG_OK) break;
-        assert_int_equal (status, PG_E_MEMORY);
-        assert_null (s);
-        assert_int_equal (pg_memory_used (), before);
-        assert_true (k < 50);
-    }
-    assert_true (k > 8);
+    creation_survives_lack_of_memory (&s, &b, 50);
     /* ... and when bonds break */
     double *f = pg_calloc (b.cloud.n * 2, sizeof *f);
     pg_changes broken = { 0 };
@@ -342,26 +192,6 @@ static void lack_of_memory_is_reported (void **state)
     pg_memory_fail_at (0);
     pg_sweep_free (&s);
     pg_free (f), pg_free (broken.bond);
-    body_free (&b);
-}
-
-static void steady_sums_allocate_nothing (void **state)
-{
-    (void) state;
-    body b;
-    body_create (&b, &wishes[0], 3);
-    double *f = pg_calloc (b.cloud.n * 2, sizeof *f), per_bond, per_point;
-    pg_changes broken = { 0 };
-    pg_sweep *s = NULL;
-    make_sweep (&s, &b, NULL, 2, 1, 0);
-    pg_sweep_bytes (s, &per_bond, &per_point);
-    assert_true (per_bond > 0.12 && per_bond < 1 && per_point > 60 && per_point < 140);
-    size_t calls = pg_memory_calls ();
-    for (int k = 0; k < 5; k++) check_ok (pg_sweep_force (s, b.u, f, &broken));
-    assert_int_equal (broken.n, 0);
-    assert_int_equal (pg_memory_calls (), calls);
-    pg_sweep_free (&s);
-    pg_free (f);
     body_free (&b);
 }
 
