@@ -84,9 +84,11 @@ static void need_density (const pg_solver_options *o, const pg_problem *problem,
         if (!(problem->material[i].density > 0)) pg_scene_fault (scene, "solver.kind", "%s needs the density of material %s", o->kind, problem->material[i].name);
 }
 
-static void read_newmark (pg_solver_options *o, const pg_scene *scene)
+static void read_newmark (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
+    const pg_force_type *force = pg_force_find (problem->force);
     o->consistent = is (pg_scene_text (scene, "solver.mass"), "consistent");
+    if (o->consistent && force && !force->mass_matrix) pg_scene_fault (scene, "solver.mass", "force: %s has no consistent mass: use lumped", problem->force);
     o->alpha = pg_scene_number (scene, "solver.alpha");
     o->beta = given (scene, "solver.beta") ? pg_scene_number (scene, "solver.beta") : (1 - o->alpha) * (1 - o->alpha) / 4;
     o->gamma = given (scene, "solver.gamma") ? pg_scene_number (scene, "solver.gamma") : 0.5 - o->alpha;
@@ -152,7 +154,7 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     if (o->staged) read_stages (o, scene);
     else if (o->quasi_static) read_static (o, problem, scene);
     if (!o->quasi_static) read_times (o, problem, scene);
-    if (!o->quasi_static && !o->marching) read_newmark (o, scene);
+    if (!o->quasi_static && !o->marching) read_newmark (o, problem, scene);
     find_unused (o, scene);
     if (!o->quasi_static || is (o->kind, "relax")) need_density (o, problem, scene);
     const pg_force_type *force = pg_force_find (problem->force);
