@@ -47,7 +47,7 @@ pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *la
 /* The ends of the angle ranges of all sets of the scene (pg_free): facets are parted there. */
 pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg_body *body);
 /* Volumes of the points become those of the cells: each cell is shared equally by its points (vertices, or its centre); one without
- * any goes to the nearest point. */
+ * any goes to the nearest point, or in equal parts to those equally near. */
 pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_lattice *lattice);
 /* The elements of a mesh (block: index into its blocks) and its surface, after pg_mesh_body_cloud. Its side sets become sets of facets and
  * of their points, without faces inside the body; its node sets become sets of points and of the facets whose nodes all belong to them. */

@@ -1,7 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Volumes of points from cut cells. */
 #include "sites.h"
+#include <math.h>
 #include <string.h>
+
+enum { MOST = 16 };
+typedef struct { int point[MOST]; size_t n; } found;
+
+static int is_found (void *context, const double *place, size_t point)
+{
+    const found *f = context;
+    (void) place;
+    for (size_t k = 0; k < f->n; k++) if (f->point[k] == (int) point) return 1;
+    return 0;
+}
+
+/* The nearest points, those within a millionth of a spacing alike: mirror images of a body get mirror images of volumes. */
+static void find_nearest (found *f, const pg_cloud *cloud, const pg_nearest *nearest, const double *place)
+{
+    double first = 0;
+    f->n = 0;
+    while (f->n < MOST) {
+        long j = pg_nearest_find (nearest, place, is_found, f);
+        double away = 0;
+        if (j < 0) return;
+        for (int k = 0; k < cloud->dim; k++) away = hypot (away, cloud->x[(size_t) j * (size_t) cloud->dim + (size_t) k] - place[k]);
+        if (f->n == 0) first = away;
+        if (away > first + 1e-6 * cloud->h) return;
+        f->point[f->n++] = (int) j;
+    }
+}
 
 pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_lattice *lattice)
 {
@@ -15,13 +43,14 @@ pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_latti
     memset (cloud->volume, 0, cloud->n * sizeof *cloud->volume);
     for (size_t c = 0; c < cells->n; c++) {
         const double *low = cells->x + cells->start[c] * dim, *high = low + (dim == 3 ? 6 : dim == 2 ? 2 : 1) * dim;
-        int i[3], point[8];
+        int i[3];
         double middle[3];
+        found of;
         cells_sites_cell (&sites, low, i);
-        int n = cells_sites_points (&sites, i, 0, point);
+        of.n = (size_t) cells_sites_points (&sites, i, 0, of.point);
         for (size_t k = 0; k < dim; k++) middle[k] = 0.5 * (low[k] + high[k]);
-        if (n == 0) point[n++] = (int) pg_nearest_find (nearest, middle, NULL, NULL);
-        for (int k = 0; k < n; k++) cloud->volume[point[k]] += cells->volume[c] / n;
+        if (of.n == 0) find_nearest (&of, cloud, nearest, middle);
+        for (size_t k = 0; k < of.n; k++) cloud->volume[of.point[k]] += cells->volume[c] / (double) of.n;
     }
 done:
     cells_sites_clear (&sites);

@@ -277,20 +277,27 @@ done:
     return status;
 }
 
+static int bears_shear (const pg_problem *p, int material)
+{
+    double E, nu, dilation;
+    pg_problem_beams (p, (size_t) material, &E, &nu, &dilation);
+    return fabs (nu - pg_beam_poisson (p->mode)) > 1e-9;
+}
+
 /* Where bonds bear no shear nothing resists rotations, and none are solved for: a moment would go nowhere. Once every point has its material. */
 void pg_loads_check_moments (const pg_problem *p, const pg_scene *scene)
 {
-    double most = pg_beam_poisson (p->mode);
+    const int *material = p->block[PG_NODES];
     char path[64];
     for (size_t i = 0; p->turns && i < p->nload; i++) {
         const pg_set *set = p->load[i].set;
         size_t k = 0;
         if (p->load[i].kind != PG_MOMENT) continue;
-        while (k < set->npoint && fabs (p->material[p->block[PG_NODES][set->point[k]]].parameter[1] - most) > 1e-9) k++;
+        while (k < set->npoint && bears_shear (p, material[set->point[k]])) k++;
         if (k == set->npoint) continue;
         snprintf (path, sizeof path, "boundary[%zu].moment", i);
         pg_scene_fault (scene, path, "material %.40s: at a Poisson's ratio of %.6g its bonds bear no shear, and nothing resists rotations: use a smaller one, or forces",
-                        p->material[p->block[PG_NODES][set->point[k]]].name, most);
+                        p->material[material[set->point[k]]].name, pg_beam_poisson (p->mode));
     }
 }
 

@@ -20,7 +20,7 @@ typedef struct {
     void                *self;
     const pg_solver_options *options;
     pg_report           *report;
-    int       components, stale, umfpack, mode, unshifted;
+    int       components, stale, umfpack, mode, unshifted, all_weak;       /* all_weak: every unknown gets the shift (touched)  */
     unsigned long revision;                            /* of K when it was last factored or found stale                  */
     long      spared;                                  /* solves by the factor of an earlier K                           */
     long      kept;                                    /* refreshes that left K as it was                                */

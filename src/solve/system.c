@@ -195,6 +195,12 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
             s->shift *= 100;
             continue;
         }
+        if (s->problem->direct && !s->all_weak) {      /* no bond has negative energy, but those of a chain or a sheet leave motions free */
+            memset (s->touched, 1, s->problem->cloud.n);
+            s->all_weak = 1, s->shift = 1e-11;
+            continue;
+        }
+        if (s->problem->direct) PG_FAIL (PG_E_NOT_SPD, "%s; bonds leave parts of the body free to move: hold them, or set solver.linear: pcg", pg_last_error ());
         if (!automatic || s->umfpack) PG_FAIL (PG_E_NOT_SPD, "%s; with essential: nitsche raise method.nitsche_factor, or set solver.linear: umfpack",
                                                pg_last_error ());
         pg_report_warn (s->report, "K is not positive definite: UMFPACK instead of Cholesky from step %ld on (with essential: nitsche, a larger "
