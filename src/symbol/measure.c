@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TRIES = 6, MOST_POINTS = 400000 };
+enum { TRIES = 6 };
+static const double most_pairs = 2e8;                  /* of points that see each other, counted by what they take: 1 GB */
 /* Of the largest answer: too little to enlarge the box for; rounding, of transforms also far away. */
 static const double little = 1e-12, nothing = 1e-14;
 
@@ -59,11 +60,12 @@ static pg_status build (box *b, const pg_scene *scene, const pg_problem *p, cons
 {
     pg_status status = PG_OK;
     pg_field field[4];
-    double points = 1, *x = NULL;
-    for (int k = 0; k < p->dim; k++) points *= 2 * size->half[k] + 1;
-    if (points > MOST_POINTS)
-        PG_FAIL (PG_E_LIMIT, "the waves of this lattice need a box of %.3g points, as its horizon is %.3g spacings: this is done up to %d points", points,
-                 p->approx.horizon / size->h, MOST_POINTS);
+    double points = 1, family = 1, *x = NULL;
+    for (int k = 0; k < p->dim; k++) points *= 2 * size->half[k] + 1, family *= 1.7 * p->approx.horizon / size->step[k];
+    double pairs = points * family * (p->direct ? 1 : 10 * fmax (1, (double) p->rows[PG_POINTS].n / (double) p->cloud.n));
+    if (pairs > most_pairs)
+        PG_FAIL (PG_E_LIMIT, "the waves of this lattice need a box of %.0f points with about %.0f neighbours each, as its horizon is %.3g spacings: that is too "
+                 "large; take a smaller horizon, or fewer Gauss points", points, family, p->approx.horizon / size->h);
     PG_TRY (box_fits (size, p->dim));
     PG_TRY (box_scene (&b->scene, scene, p, size));
     PG_TRY (pg_problem_build (&b->problem, b->scene, p->threads));
@@ -98,11 +100,11 @@ static void offset_of (const box *b, const box_size *size, size_t j, int *offset
     for (size_t k = 0; k < 3; k++) offset[k] = k < dim ? (int) lround (b->problem->cloud.x[j * dim + k] / size->step[k]) : 0;
 }
 
-/* Is K_0j whole? The points that answer must not see the surface of the box, nor may their families, which weigh the bonds of some forces. Sets how
- * large the box must be. */
+/* Is K_0j whole? The points that answer must not see the surface of the box, nor may their families where these weigh bonds. Sets how large the
+ * box must be. */
 static int large_enough (const box *b, box_size *size)
 {
-    int reach[3] = { 0 }, offset[3], enough = 1, dim = b->problem->dim, m = b->m;
+    int reach[3] = { 0 }, offset[3], enough = 1, dim = b->problem->dim, m = b->m, weighed = b->problem->direct && b->problem->sums->rule.surface != PG_SURFACE_NONE;
     double largest = 0;
     for (size_t k = 0; k < b->problem->cloud.n * (size_t) (m * m); k++) largest = fmax (largest, fabs (b->answer[k]));
     for (size_t j = 0; j < b->problem->cloud.n; j++) {
@@ -113,7 +115,7 @@ static int large_enough (const box *b, box_size *size)
         for (int k = 0; k < dim; k++) if (abs (offset[k]) > reach[k]) reach[k] = abs (offset[k]);
     }
     for (int k = 0; k < dim; k++) {
-        int need = reach[k] + 2 + (b->problem->direct ? (int) ceil (b->problem->approx.horizon / size->step[k]) : 0);
+        int need = reach[k] + 2 + (weighed ? (int) ceil (b->problem->approx.horizon / size->step[k]) : 0);
         if (need > size->half[k]) size->half[k] = need, enough = 0;
     }
     return enough;
