@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_resume.sh BUILD: runs that are interrupted at random moments (13 by TERM, 13 by KILL, some again while they go on) and resumed end
+# test_resume.sh BUILD: runs that are interrupted at random moments (14 by TERM, 14 by KILL, some again while they go on) and resumed end
 # with the files of a run that nobody disturbed; finished, foreign and missing checkpoints; disks that are full or read-only.
 perigal=$(realpath "$1/perigal"); n=0; bad=0
 cd "$(dirname "$0")" || exit 1
@@ -22,6 +22,8 @@ state=(bonds.yaml --set method.force=lps --set method.weighted_volume=live)
 relaxed=(bonds.yaml --set 'solver={kind: adr, stages: 6}' --set 'boundary[1]={name: pull, set: right, displacement: {x: 60 um}}')
 turning=(bonds.yaml --set method.force=gmpd --set materials.stone.poissons_ratio=0.2 --set 'failure={criterion: beam_limits, fracture_energy: 12 J/m2}'
          --set 'output.fields=[displacement, rotation, damage]')
+swelling=(bonds.yaml --set method.force=gmpd --set method.volumetric=on --set method.weighted_volume=live --set materials.stone.poissons_ratio=0.4
+          --set 'failure={criterion: beam_limits, fracture_energy: 12 J/m2}')
 
 # same DIR1 DIR2: tables, fields and pictures byte by byte, report.json without times and memory
 same() {
@@ -32,7 +34,7 @@ same() {
 plain() { sed -e '/"seconds": {/,/}/d' -e '/"peak_bytes"/d' -e '/"seconds_saved"/d' "$1"; }
 
 declare -A took
-for kind in event fixed newmark explicit relaxed dying state turning; do
+for kind in event fixed newmark explicit relaxed dying state turning swelling; do
     declare -n scene=$kind; t0=$(now)
     run "${scene[@]}" -o "$work/$kind"; code=$?
     took[$kind]=$((($(now) - t0) / 1000000))
@@ -56,10 +58,11 @@ resumed() {
 }
 RANDOM=20220
 kinds=(event fixed newmark explicit relaxed)
-for k in $(seq 26); do
+for k in $(seq 28); do
     [ $k -le 20 ] && kind=${kinds[$((k % 5))]} || kind=dying
     [ $k -le 22 ] || kind=state
     [ $k -le 24 ] || kind=turning
+    [ $k -le 26 ] || kind=swelling
     declare -n scene=$kind; out=$work/run$k; times=1
     [ $((k % 2)) -eq 0 ] && signal=TERM || signal=KILL
     limit=${took[$kind]}

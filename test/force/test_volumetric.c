@@ -186,11 +186,13 @@ static double strained (bonded *b, const double *H, double *worst)
     return ratio;
 }
 
-/* Dilatation is exact on a lattice, whatever the ratios; shear is as isotropic as the lattice is. */
+/* Dilatation is exact on a lattice, whatever the ratios, and so is the mean of the shears; how far these are apart depends on the bonds' ratio alone,
+ * and is least where it is by itself (0.2; plane stress 0.25). */
 static void test_uniform (void **unused)
 {
     (void) unused;
     static const char *const plane[] = { "dimension: 2\nplane: stress\nthickness: 0.2\n", "dimension: 2\nplane: strain\nthickness: 0.2\n", "dimension: 3\n" };
+    static const double apart_of[][3] = { { 0.0565, 0.01619, 0.00276 }, { 0.0565, 0.00276, 0.02412 }, { 0.03385, 0.00417, 0.01067 } };
     static const char *const nu[] = { "0.3", "0.4", "0.45" }, *const bonds[] = { "0", "0.2", "0.25" };
     for (int p = 0; p < 3; p++)
         for (int k = 0; k < 3; k++)
@@ -206,7 +208,11 @@ static void test_uniform (void **unused)
                 check_below (off, 1e-12);
                 double a = strained (&b, shear, &off), worst = off, c = strained (&b, turn, &off), e = strained (&b, pull, &off);
                 worst = fmax (worst, off);
-                print_message ("%s nu %s, bonds %s: xy %.5f, xx - yy %.5f, xx %.5f; mean of the shears %.5f; stress %.4f\n", p == 0 ? "plane stress" : p == 1 ? "plane strain" : "solid", nu[k], bonds[w], a, c, e, p < 2 ? 0.5 * (a + c) : 0.6 * a + 0.4 * c, worst);
+                double mean = p < 2 ? 0.5 * (a + c) : 0.6 * a + 0.4 * c, apart = fmax (fabs (a - 1), fabs (c - 1));
+                check_relative (mean, 1, 1e-12);
+                check_scaled (apart, apart_of[p][w], 2e-5, 1);
+                check_below (fabs (e - 1), 0.55 * apart);
+                check_below (worst, 1.01 * apart);
                 unbonded (&b);
             }
 }
@@ -317,7 +323,7 @@ static void test_breaking (void **unused)
             size_t over = 0;
             for (size_t e = 0; e < b.state->nbond; e++) over += u[e] * 1.7 / most >= 1;
             assert_int_equal (broken.n, over);
-            assert_true (over > 100 && over < b.state->nbond / 2);
+            assert_true (over > 30 && over < b.state->nbond / 2);
             for (size_t k = 0; k < broken.n; k++) fresh.state->alive[broken.bond[k]] = b.state->alive[broken.bond[k]] = 0;
             check_ok (fresh.force->refresh (fresh.self, fresh.state, NULL));
             check_ok (fresh.force->balance (fresh.self, 0, d, g, NULL));
@@ -367,7 +373,7 @@ static void test_bound (void **unused)
             top = fmax (top, now);
         }
         print_message ("bound over largest frequency: %.3f whole, %.3f at the worst of broken\n", omega / first, omega / top);
-        check_below (omega, (b.problem->sums->rule.follow ? 12 : 1.6) * first);
+        check_below (omega, (b.problem->sums->rule.follow ? 12 : 2) * first);
         unbonded (&b);
     }
 }
