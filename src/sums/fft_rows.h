@@ -8,7 +8,7 @@
 typedef struct {                                       /* a row of sites                                                 */
     const double *u[3], *chi;                          /* at its first site, blocks full                                 */
     const double *q[3], *D[6];
-    double shift[3], from[3], by[3];                   /* rigid motion of site k: shift + (from + by k)                  */
+    double shift[3], from[3], by[3];                   /* motion of site k that is taken off: shift + (from + by k)      */
     size_t blocks;
     const int *block_at;                               /* -1: without points                                             */
     const unsigned char *skip;                         /* blocks that are summed otherwise                               */

@@ -17,7 +17,7 @@ static void fft_free (void *self)
     if (!t) return;
     fft_clear (&t->f);
     stencil_free (t->s);
-    void *blocks[] = { t->K, t->chi, t->D, t->cut, t->seen, t->seen_block, t->touched, t->list, t->edge, t->ragged, t->risky, t->W, t->ones, t->f_own };
+    void *blocks[] = { t->K, t->chi, t->D, t->cut, t->seen, t->seen_block, t->touched, t->list, t->edge, t->ragged, t->risky, t->W, t->ones, t->f_own, t->third, t->open, t->rim };
     for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) pg_free (blocks[k]);
     pg_free (t);
 }
@@ -35,6 +35,21 @@ static void weigh_point (transformer *t, size_t i)
     t->chi[place] = any >> bit & 1 ? (s->p ? s->p[place] : 1) : 0;
 }
 
+static void sum_third (transformer *t, size_t i, const double *chi)
+{
+    const stencil *s = t->s;
+    size_t n = s->job.n;
+    double *T = t->third + i * (size_t) t->thirds;
+    memset (T, 0, (size_t) t->thirds * sizeof *T);
+    for (size_t e = 0; e < n; e++) {
+        const double *xi = s->term + e * PG_TERMS + PG_AT_XI;
+        double weight = chi[s->jump[e]];
+        for (int c = 0; weight != 0 && c < t->dim; c++)
+            for (int b = 0; b <= c; b++)
+                for (int a = 0; a <= b; a++) T[fft_third (a, b, c)] += weight * t->K[(size_t) fft_pair (t->dim, a, b) * n + e] * xi[c];
+    }
+}
+
 static void sum_D (transformer *t, size_t i)
 {
     const stencil *s = t->s;
@@ -47,6 +62,8 @@ static void sum_D (transformer *t, size_t i)
         for (size_t b = 0; !whole && b < n; b++) sum += t->K[(size_t) p * n + b] * chi[s->jump[b]];
         t->D[(size_t) p * all + at] = sum;
     }
+    t->open[i] = !whole;
+    if (!whole) sum_third (t, i, chi);
 }
 
 static void judge_block (transformer *t, size_t k)
@@ -94,6 +111,8 @@ static void renew (transformer *t)
     int threads = stencil_threads (t->s);
     pg_parallel (threads, n, weigh_points, t);
     pg_parallel (threads, n, sum_D_points, t);
+    t->nrim = 0;
+    for (size_t i = 0; i < n; i++) if (t->open[i]) t->rim[t->nrim++] = (int) i;
     pg_parallel (threads, t->s->nblock, judge_blocks, t);
     count_gone (t);
 }
@@ -135,7 +154,9 @@ static void lose_bonds (transformer *t, size_t n, const size_t *bond)
     }
     for (size_t c = 0; c < points; c++) {
         size_t i = (size_t) t->touched[c];
+        int was = t->open[i];
         if (t->seen[i] & AROUND) sum_D (t, i);
+        if (t->open[i] && !was) t->rim[t->nrim++] = (int) i;
         t->seen[i] = 0;
     }
     for (size_t k = 0; k < blocks; k++) {
@@ -152,51 +173,102 @@ static void fft_update (void *self, const unsigned char *alive, const pg_changes
     else renew (t);
 }
 
-/* ---- rigid motion --------------------------------------------------------------------------------------------------------------- */
-/* The motion that fits u best at some points spread over the body: taken off before the transforms, which would round by its size. */
-static void fit_motion (transformer *t, const double *u)
+/* ---- motion taken off ----------------------------------------------------------------------------------------------------------- */
+/* Moments of some points spread over the body: their mean place and displacement, sum r r and sum v r about these */
+typedef struct { double centre[3], shift[3], rr[9], vr[9]; } moments;
+
+static moments sample (const transformer *t, const double *u)
 {
-    enum { SAMPLES = 4096 };
+    enum { SAMPLES = 1024 };
     const pg_cloud *cloud = t->s->setting.sums->cloud;
-    size_t dim = (size_t) t->dim, stride = cloud->n / SAMPLES + 1, count = 0;
-    double J[9] = { 0 }, h[3] = { 0, 0, 0 }, r[3] = { 0, 0, 0 }, v[3] = { 0, 0, 0 };
-    for (int k = 0; k < 3; k++) t->centre[k] = t->shift[k] = t->turn[k] = 0;
-    for (size_t i = 0; i < cloud->n; i += stride) {
+    size_t dim = (size_t) t->dim, n = cloud->n, all = n < SAMPLES ? n : SAMPLES, count = 0, point[SAMPLES];
+    moments m = { 0 };
+    for (size_t k = 0; k < all; k++) {
+        double golden = 0.6180339887498949 * (double) k;              /* as spread along rows as across them */
+        size_t i = all == n ? k : (size_t) ((golden - floor (golden)) * (double) n);
         if (t->chi[t->s->place[i]] == 0) continue;
-        for (size_t d = 0; d < dim; d++) t->centre[d] += cloud->x[i*dim + d], t->shift[d] += u[i*dim + d];
-        count++;
+        for (size_t d = 0; d < dim; d++) m.centre[d] += cloud->x[i*dim + d], m.shift[d] += u[i*dim + d];
+        point[count++] = i;
     }
-    for (size_t d = 0; count && d < dim; d++) t->centre[d] /= (double) count, t->shift[d] /= (double) count;
-    for (size_t i = 0; i < cloud->n; i += stride) {
-        if (t->chi[t->s->place[i]] == 0) continue;
-        for (size_t d = 0; d < dim; d++) r[d] = cloud->x[i*dim + d] - t->centre[d], v[d] = u[i*dim + d] - t->shift[d];
-        double rr = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-        for (int a = 0; a < 3; a++) {
-            int b = (a + 1) % 3, c = (a + 2) % 3;
-            h[a] += r[b] * v[c] - r[c] * v[b];
-            for (int k = 0; k < 3; k++) J[3*a + k] += (a == k ? rr : 0) - r[a] * r[k];
+    for (size_t d = 0; count && d < dim; d++) m.centre[d] /= (double) count, m.shift[d] /= (double) count;
+    for (size_t k = 0; k < count; k++)
+        for (size_t d = 0; d < dim; d++)
+            for (size_t c = 0; c < dim; c++) {
+                double r = cloud->x[point[k]*dim + c] - m.centre[c];
+                m.rr[3*d + c] += (cloud->x[point[k]*dim + d] - m.centre[d]) * r, m.vr[3*d + c] += (u[point[k]*dim + d] - m.shift[d]) * r;
+            }
+    return m;
+}
+
+/* Gradient of the best rotation: turn x r */
+static void fit_turn (const moments *m, int dim, double *G)
+{
+    double J[9], turn[3], all = m->rr[0] + m->rr[4] + m->rr[8];
+    memset (G, 0, 9 * sizeof *G);
+    for (int a = 0; a < 3; a++) {
+        int b = (a + 1) % 3, c = (a + 2) % 3;
+        turn[a] = m->vr[3*c + b] - m->vr[3*b + c];
+        for (int k = 0; k < 3; k++) J[3*a + k] = (a == k ? all : 0) - m->rr[3*a + k];
+    }
+    if (dim < 2 || !(all > 0)) return;
+    if (dim == 2) turn[0] = turn[1] = 0, turn[2] /= all;
+    else if (pg_dense_cholesky (3, J, 1e-9) != 0) return;
+    else pg_dense_solve (3, J, turn);
+    for (int a = 0; a < 3; a++) {
+        int b = (a + 1) % 3, c = (a + 2) % 3;
+        G[3*c + b] = turn[a], G[3*b + c] = -turn[a];
+    }
+}
+
+/* Of the best uniform gradient; points in a line or plane: of the rotation */
+static void fit_strain (const moments *m, int dim, double *G)
+{
+    double J[9];
+    for (int a = 0; a < dim; a++) for (int b = 0; b < dim; b++) J[a*dim + b] = m->rr[3*a + b];
+    if (pg_dense_cholesky (dim, J, 1e-9) != 0) {
+        fit_turn (m, dim, G);
+        return;
+    }
+    for (int d = 0; d < dim; d++) {
+        double row[3] = { m->vr[3*d], m->vr[3*d + 1], m->vr[3*d + 2] };
+        pg_dense_solve (dim, J, row);
+        for (int k = 0; k < dim; k++) G[3*d + k] = row[k];
+    }
+}
+
+/* shift + (base + slope . (x, y, z)) of a site. Base and slope in units so coarse that no sum or product of these is rounded anywhere in the lattice:
+ * a motion of rounded values would be another one at every point. Strained: all in base, so that u loses no digit of the little that is left of it. */
+static void fit_motion (transformer *t, const double *u, int strained)
+{
+    const pg_sums *sums = t->s->setting.sums;
+    const pg_sites *sites = &sums->sites;
+    moments m = sample (t, u);
+    double G[9] = { 0 };
+    int at[3], site = sites->site[0];
+    (strained ? fit_strain : fit_turn) (&m, t->dim, G);
+    for (int k = 0; k < 3; k++) at[k] = site % sites->count[k], site /= sites->count[k];
+    memset (t->base, 0, sizeof t->base), memset (t->slope, 0, sizeof t->slope);
+    for (int d = 0; d < t->dim; d++) {
+        double base = strained ? m.shift[d] : 0, most = 0, slope[3] = { 0 };
+        t->shift[d] = m.shift[d] - base;
+        for (int k = 0; k < t->dim; k++) {
+            base += G[3*d + k] * (sums->cloud->x[k] - at[k] * sites->step[k] - m.centre[k]);
+            slope[k] = G[3*d + k] * sites->step[k], most += fabs (slope[k]) * sites->count[k];
         }
+        most += fabs (base);
+        if (!(most > 0) || !isfinite (most)) continue;
+        double unit = ldexp (1, ilogb (most) - 51);
+        t->base[d] = unit * nearbyint (base / unit);
+        for (int k = 0; k < t->dim; k++) t->slope[3*d + k] = unit * nearbyint (slope[k] / unit);
     }
-    if (dim == 2 && J[8] > 0) t->turn[2] = h[2] / J[8];
-    if (dim < 3 || pg_dense_cholesky (3, J, 1e-9) != 0) return;
-    pg_dense_solve (3, J, h);
-    for (int k = 0; k < 3; k++) t->turn[k] = h[k];
 }
 
 /* That motion along a row: shift + (from + k * by) at its site k */
 static void motion_of (const transformer *t, size_t row, int d, double *from, double *by)
 {
-    const pg_sums *sums = t->s->setting.sums;
-    const pg_sites *sites = &sums->sites;
-    size_t ny = (size_t) sites->count[1], i = 0, dim = (size_t) t->dim;
-    long at[3] = { 0, (long) (row % ny), (long) (row / ny) }, first[3];
-    double r[3] = { 0, 0, 0 };
-    int site = sites->site[0];
-    for (int k = 0; k < 3; k++) first[k] = site % sites->count[k], site /= sites->count[k];
-    for (size_t k = 0; k < dim; k++) r[k] = sums->cloud->x[i*dim + k] + (double) (at[k] - first[k]) * sites->step[k] - t->centre[k];
-    int b = (d + 1) % 3, c = (d + 2) % 3;
-    *from = t->turn[b] * r[c] - t->turn[c] * r[b];
-    *by = (c == 0 ? t->turn[b] : b == 0 ? -t->turn[c] : 0) * sites->step[0];
+    size_t ny = (size_t) t->s->setting.sums->sites.count[1];
+    *from = t->base[d] + t->slope[3*d + 1] * (double) (row % ny) + t->slope[3*d + 2] * (double) (row / ny);
+    *by = t->slope[3*d];
 }
 
 /* Displacements of a row less the motion, times a weight */
@@ -250,6 +322,28 @@ static void take_force (void *context, size_t row, double *const *q, double *spa
     t->f.kernels->force[t->dim - 1] (&t->s->job, &r);
 }
 
+/* What the uniform strain does to points that lack neighbours */
+static void add_strain (void *context, size_t first, size_t last, int thread)
+{
+    const transformer *t = context;
+    const double *step = t->s->setting.sums->sites.step;
+    (void) thread;
+    for (size_t k = first; k < last; k++) {
+        size_t i = (size_t) t->rim[k], place = t->s->place[i];
+        unsigned bit;
+        const double *T = t->third + i * (size_t) t->thirds;
+        double *f = t->s->job.f + i * (size_t) t->dim, chi = t->chi[place];
+        if (chi == 0 || t->cut[stencil_block (t->s, place, &bit)]) continue;
+        for (int a = 0; a < t->dim; a++)
+            for (int b = 0; b < t->dim; b++)
+                for (int c = 0; c <= b; c++) {
+                    int low = a < c ? a : c, high = a < b ? b : a, mid = a + b + c - low - high;
+                    double e = b == c ? t->slope[4*b] / step[b] : t->slope[3*b + c] / step[c] + t->slope[3*c + b] / step[b];
+                    f[a] += chi * e * T[fft_third (low, mid, high)];
+                }
+    }
+}
+
 /* Forces of blocks by their bonds where some are cut or might break, of the others by transforms. */
 static pg_status fft_force (void *self, const double *u, double *f, pg_changes *broken)
 {
@@ -267,9 +361,10 @@ static pg_status fft_force (void *self, const double *u, double *f, pg_changes *
     for (size_t k = 0; k < blocks; k++) cut += t->cut[k];
     t->count.sums++, t->count.blocks += blocks, t->count.bonds += n, t->count.cut += cut;
     if (cut == blocks) goto done;
-    fit_motion (t, u);
+    fit_motion (t, u, 1);
     fft_job job = { t->dim, t->dim, fill_force, take_force, t };
     fft_convolve (&t->f, &job);
+    pg_parallel (stencil_threads (s), t->nrim, add_strain, t);
 done:
     return status;
 }
@@ -320,7 +415,7 @@ static pg_status fft_energies (void *self, const double *u, double *W)
     if (!t->W) PG_ALLOC (t->W, t->rows * t->width);
     PG_TRY (fft_fields (&t->f, t->pairs));
     stencil_spread (s, u);
-    fit_motion (t, u);
+    fit_motion (t, u, 0);
     fft_job force = { t->dim, t->dim, fill_force, take_work, t }, squares = { t->pairs, 1, fill_squares, take_squares, t };
     fft_convolve (&t->f, &force);
     fft_convolve (&t->f, &squares);
@@ -339,13 +434,13 @@ static double fft_energy (void *self, const double *u)
     size_t dim = (size_t) t->dim;
     double sum = 0;
     fft_force (t, u, t->f_own, NULL);
-    fit_motion (t, u);
+    fit_motion (t, u, 0);
     for (size_t i = 0; i < cloud->n; i++) {
-        double r[3] = { 0, 0, 0 }, part = 0;
-        for (size_t d = 0; d < dim; d++) r[d] = cloud->x[i*dim + d] - t->centre[d];
+        size_t site = (size_t) t->s->setting.sums->sites.site[i];
+        double part = 0, from, by;
         for (size_t d = 0; d < dim; d++) {
-            size_t b = (d + 1) % 3, c = (d + 2) % 3;
-            part += t->f_own[i*dim + d] * ((u[i*dim + d] - t->shift[d]) - (t->turn[b] * r[c] - t->turn[c] * r[b]));
+            motion_of (t, site / t->nx, (int) d, &from, &by);
+            part += t->f_own[i*dim + d] * (u[i*dim + d] - t->shift[d] - (from + by * (double) (site % t->nx)));
         }
         sum += part;
     }
@@ -403,6 +498,10 @@ static pg_status fft_create_sweep (void **self, const pg_sweep_setting *setting,
     for (size_t k = 0; k < t->width; k++) t->ones[k] = 1;
     PG_ALLOC (t->f_own, n * (size_t) t->dim);
     PG_ALLOC (t->cut, s->nblock);
+    t->thirds = fft_third (0, 0, t->dim);
+    PG_ALLOC (t->third, n * (size_t) t->thirds);
+    PG_ALLOC (t->open, n);
+    PG_ALLOC (t->rim, n);
     PG_ALLOC (t->seen, n);
     PG_ALLOC (t->seen_block, s->nblock);
     PG_ALLOC (t->touched, n);

@@ -3,7 +3,9 @@
  * of how full its family is; 0 where there is no point or where all its bonds are dead) and K_ab = c V^2 k beta / r^3 xi_a xi_b,
  *   f_a = chi (q_a - sum_b D_ab u_b),  q_a = sum_b K_ab * (chi u_b),  D_ab = K_ab * chi      (*: cyclic convolution)
  * is the force on points all whose bonds (to points of weight) live. A block of 32 sites with a cut bond is summed bond by bond instead, by the loops
- * of the stencil. D is summed directly, and only about points that died. Nothing depends on what was cut when: only on what is. */
+ * of the stencil. D is summed directly, and only about points that died. Nothing depends on what was cut when: only on what is.
+ * Transforms round by the size of u, bonds by that of eta: the uniform strain (and rigid motion) that fits u best is taken off first. Inside it makes
+ * no force; at points whose family is not whole T_abc e_bc, which is added. Its values at the sites are exact multiples of a power of 2. */
 #ifndef PERIGAL_SUMS_FFT_SWEEP_H
 #define PERIGAL_SUMS_FFT_SWEEP_H
 #include "fft_rows.h"
@@ -12,7 +14,7 @@
 typedef struct {
     stencil *s;                                        /* bits of bonds, displacements in padded places, loops over bonds */
     fft     f;
-    int     dim, pairs;
+    int     dim, pairs, thirds;                        /* thirds: 1, 4, 10                                               */
     size_t  nx, rows, width, places;                   /* sites of a row, rows, that of whole blocks, padded places             */
     double *K;                                         /* of the stencil's bonds, N/m        (pairs x n)                 */
     double *chi;                                       /* (places)                                                       */
@@ -22,7 +24,10 @@ typedef struct {
     unsigned char *seen, *seen_block;                  /* while bonds die                    (points, blocks)            */
     int    *touched, *list;                            /* points, blocks                                                 */
     size_t  gone;                                      /* points all whose bonds are dead                                */
-    double  centre[3], shift[3], turn[3];              /* rigid motion taken off: shift + turn x (x - centre), m         */
+    double  shift[3], base[3], slope[9];               /* motion taken off, m: shift + (base + slope . place of a site)  */
+    double *third;                                     /* sum K_ab xi_c chi, N: where open                    (points x thirds) */
+    unsigned char *open;                               /* point: its family is not a whole one of weight 1               */
+    int    *rim;  size_t nrim;                         /* those                                                          */
     double *edge;                                      /* fft_bound.c                                                    */
     unsigned char *ragged, *risky;
     size_t  room_edges;
@@ -38,6 +43,7 @@ static inline size_t fft_row_base (const transformer *t, size_t row)         /* 
     return ((z + (size_t) s->reach[2]) * s->rows + y + (size_t) s->reach[1]) * s->pitch + (size_t) s->left;
 }
 
+static inline int fft_third (int a, int b, int c) { return c * (c + 1) * (c + 2) / 6 + b * (b + 1) / 2 + a; }        /* a <= b <= c */
 static inline int fft_pair (int dim, int a, int b) { return dim == 3 ? a * (5 - a) / 2 + b : dim == 2 ? a + b : 0; }   /* a <= b */
 
 /* Blocks that may have a bond at its limit (fft_bound.c) and those with cut bonds: written to list, ascending; how many. */

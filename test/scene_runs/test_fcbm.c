@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Zhou's first two examples by direct sums and by transforms, at a coarser spacing: without failure the same displacements at iterations 750 and 1000;
  * with the stretch criterion the same bonds broken at every row of the history, so the same path and the same curve of the tip; with both the
- * energy of points as criterion, alike. PERIGAL_LONG: at the scenes' own spacing, where the second example is known to miss
- * 1e-12: 2e-14 of a force by transforms gathers over the steps to 1.2e-12 and 1.8e-12. */
+ * energy of points as criterion, alike. PERIGAL_LONG: at the scenes' own spacing. */
 #include "run.h"
 
 typedef struct { const char *scene, *spacing, *more[3]; } example;

@@ -164,6 +164,53 @@ static void rigid_motions_cost_no_digits (void **state)
     }
 }
 
+/* A uniform strain in the box makes no force on points inside, and costs what is on top of it no digits: it never goes through transforms. Points that
+ * lack neighbours get what the plain loop gives them, some of them dead. */
+static void uniform_strain_costs_no_digits (void **state)
+{
+    (void) state;
+    static const size_t which[] = { 0, 1, 3, 4, 6, 7 };
+    for (size_t w = 0; w < 6; w++)
+        for (int rough = 0; rough < 2; rough++) {
+            body b;
+            body_create (&b, &wishes[which[w]], 5);
+            size_t dim = (size_t) b.cloud.dim, values = b.cloud.n * dim, inside = 0;
+            double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g), *own = pg_calloc (values, sizeof *own);
+            double most = 0, off = 0, within = 0;
+            wound (&b, 0, 0, 0.01);
+            for (size_t k = 0; k < values; k++) b.u[k] = rough ? ldexp (nearbyint (ldexp (b.u[k], 48)), -60) : 0;        /* 1e-10 m   */
+            body_plain (&b, 0, own, NULL);
+            for (size_t i = 0; i < b.cloud.n; i++)
+                for (size_t d = 0; d < dim; d++)       /* 1e-6 m a step, nothing rounded                    */
+                    for (size_t k = 0; k < dim; k++) b.u[i*dim + d] += ldexp ((d == k ? 3 : 1 + (double) k) * nearbyint (b.cloud.x[i*dim + k] / cell_side - 0.5), -20);
+            pg_sweep *s = NULL;
+            make_sweep (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
+            pg_sweep_update (s, b.alive, NULL);
+            check_ok (pg_sweep_force (s, b.u, f, NULL));
+            body_plain (&b, 0, g, NULL);
+            for (size_t i = 0; i < b.cloud.n; i++) {
+                int whole = b.family.start[i + 1] - b.family.start[i] == b.sums->stencil.n && b.sums->rule.surface == PG_SURFACE_NONE;
+                for (size_t e = b.family.start[i]; whole && e < b.family.start[i + 1]; e++) {
+                    whole = b.alive[e];
+                    for (size_t d = 0; d < dim; d++) {                  /* nor is a neighbour's volume another one         */
+                        double x = b.cloud.x[(size_t) b.family.node[e] * dim + d];
+                        if (wishes[which[w]].shares && (x == b.cloud.low[d] || x == b.cloud.high[d])) whole = 0;
+                    }
+                }
+                for (size_t d = 0; d < dim; d++) {
+                    most = fmax (most, fabs (g[i*dim + d]));
+                    if (whole) inside++, within = fmax (within, fabs (own[i*dim + d])), off = fmax (off, fabs (f[i*dim + d] - own[i*dim + d]));
+                }
+            }
+            check_below (difference (f, g, values), 1e-14);
+            check_below (off, rough ? 1e-13 * within : 1e-24 * most);
+            if (which[w] < 2) assert_true (inside > 10);
+            pg_sweep_free (&s);
+            pg_free (f), pg_free (g), pg_free (own);
+            body_free (&b);
+        }
+}
+
 /* Transforms of a step: two forward and two back in the plane, three and three in space (B-5); none where every block has a cut bond. */
 static void transforms_are_as_few_as_theory_has_them (void **state)
 {
@@ -397,7 +444,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (forces_and_energies_equal_the_plain_loop),
         cmocka_unit_test (bonds_break_as_by_the_stencil),
-        cmocka_unit_test (rigid_motions_cost_no_digits),
+        cmocka_unit_test (rigid_motions_cost_no_digits), cmocka_unit_test (uniform_strain_costs_no_digits),
         cmocka_unit_test (transforms_are_as_few_as_theory_has_them),
         cmocka_unit_test (only_what_is_cut_counts),
         cmocka_unit_test (breaking_equals_starting_anew),
