@@ -96,6 +96,8 @@ pg_status pg_picture_range (size_t n, const double *value, double excess, double
 /* "z = 5 mm", "1, 0, 1 = 5 mm" (normal = distance from the origin along it): sets section, at, direction. */
 pg_status pg_picture_section (pg_picture_style *style, const char *text);
 pg_status pg_picture_direction (double direction[3], const char *text);       /* "1, 0.5, 2", not zero                     */
+/* Appends text to a file name in out: letters, digits and ". - _" stay, what lies between becomes one _. */
+void      pg_picture_name (char *out, size_t size, const char *text);
 /* 2D field, one cell-sized square per point, NaN grey, length unit chosen by size (mm, m, ...), axes with ticks, colour bar.
  * 1D: a chart over x. 3D: the section or the view that style names. Labels may raise and lower text: "c_{x} (m^{2})". */
 pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value /* n */, const pg_picture_style *style);

@@ -185,18 +185,6 @@ static void drop_stage (stage *g)
 }
 
 /* ---- drawing ---------------------------------------------------------------------------------------------------------------------- */
-static void add_plain (char *out, size_t size, const char *text)
-{
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
-    size_t n = strlen (out);
-    for (; *text && n + 1 < size; text++) {
-        if (strchr (plain, *text)) out[n++] = *text;
-        else if (n > 0 && out[n - 1] != '_') out[n++] = '_';
-    }
-    while (n > 0 && out[n - 1] == '_') n--;
-    out[n] = 0;
-}
-
 /* DIR/FIELD-COMPONENT_VIEW_0007.png, or --out with the number before its ending. */
 static void name_picture (const plot_request *q, int number, char *path, size_t size)
 {
@@ -208,9 +196,9 @@ static void name_picture (const plot_request *q, int number, char *path, size_t 
         snprintf (path, size, "%.*s%s%s", (int) n, q->out, count, q->out + n);
         return;
     }
-    add_plain (name, 60, q->field);
-    if (q->component) strcat (name, "-"), add_plain (name, 90, q->component);
-    if (q->look) strcat (name, "_"), add_plain (name, 130, q->look);
+    pg_picture_name (name, 60, q->field);
+    if (q->component) strcat (name, "-"), pg_picture_name (name, 90, q->component);
+    if (q->look) strcat (name, "_"), pg_picture_name (name, 130, q->look);
     if (q->panels) strcat (name, "_steps");
     snprintf (path, size, "%.2100s/%s%s.png", q->directory, name, count);
 }

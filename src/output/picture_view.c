@@ -122,3 +122,15 @@ pg_status pg_picture_section (pg_picture_style *style, const char *text)
 done:
     return status;
 }
+
+void pg_picture_name (char *out, size_t size, const char *text)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
+    size_t n = strlen (out);
+    for (; *text && n + 1 < size; text++) {
+        if (strchr (plain, *text)) out[n++] = *text;
+        else if (n > 0 && out[n - 1] != '_') out[n++] = '_';
+    }
+    while (n > 0 && out[n - 1] == '_') n--;
+    out[n] = 0;
+}

@@ -4,19 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Letters, digits and ". - _" stay; what lies between becomes one _. */
-static void add_plain (char *out, size_t size, const char *text)
-{
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
-    size_t n = strlen (out);
-    for (; *text && n + 1 < size; text++) {
-        if (strchr (plain, *text)) out[n++] = *text;
-        else if (n > 0 && out[n - 1] != '_') out[n++] = '_';
-    }
-    while (n > 0 && out[n - 1] == '_') n--;
-    out[n] = 0;
-}
-
 static int place_of (const char *word, const char *names)
 {
     int k = 0;
@@ -56,11 +43,11 @@ pg_status result_view_read (result_view *v, const pg_scene *scene, size_t i, int
     read_limits (v, scene, i);
     if (section && dim == 3) PG_TRY (pg_picture_section (&v->style, section));
     snprintf (v->look, sizeof v->look, "%.40s%s", dim < 3 ? "" : section ? "section " : view ? view : "iso", section && dim == 3 ? section : "");
-    add_plain (v->name, sizeof v->name, name ? name : v->field);
+    pg_picture_name (v->name, sizeof v->name, name ? name : v->field);
     if (!name && v->look[0]) {
         size_t n = strlen (v->name);
         if (n + 2 < sizeof v->name) v->name[n] = '_', v->name[n + 1] = 0;
-        add_plain (v->name, sizeof v->name, section ? section : v->look);
+        pg_picture_name (v->name, sizeof v->name, section ? section : v->look);
     }
 done:
     return status;

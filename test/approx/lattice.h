@@ -85,4 +85,22 @@ static inline double dN_of (const pg_rows *r, size_t i, int j, int k)
     size_t e = place_of (r, i, j);
     return e == (size_t) -1 ? 0 : r->dN[e * (size_t) r->dim + (size_t) k];
 }
+
+/* The derivative at x is that of the shape functions, by differences over `step` both ways. */
+static inline void check_derivative (const pg_approx *a, const pg_cloud *c, const double *x, double step)
+{
+    double y[3];
+    pg_rows r = rows_at (a, c, 1, x, NULL);
+    for (int k = 0; k < c->dim; k++) {
+        memcpy (y, x, (size_t) c->dim * sizeof *y);
+        y[k] = x[k] + step;
+        pg_rows up = rows_at (a, c, 1, y, NULL);
+        y[k] = x[k] - step;
+        pg_rows down = rows_at (a, c, 1, y, NULL);
+        for (int j = 0; j < (int) c->n; j++) check_absolute (dN_of (&r, 0, j, k), (N_of (&up, 0, j) - N_of (&down, 0, j)) / (2 * step), 1e-7);
+        pg_rows_clear (&up);
+        pg_rows_clear (&down);
+    }
+    pg_rows_clear (&r);
+}
 #endif

@@ -1,47 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Layers outside a body: whole cells beside those of the body alone, their sets, whole and cut cells, nodes and centres, faults, memory. */
-#include "check.h"
-#include "perigal/cells.h"
-
-typedef struct { pg_scene *scene; pg_body body; pg_lattice lattice; pg_cloud cloud; pg_cells cells; pg_sets sets; } model;
+#include "model.h"
 
 #define BOX  "dimension: 2\nthickness: 2 mm\nbody: [{add: {box: {low: [-25 mm, 1 mm], high: [25 mm, 11 mm]}}}]\nspacing: 0.51 mm\n"
 #define HOLE "dimension: 2\nthickness: 2 mm\nbody:\n  - add: {box: {low: [-25 mm, 1 mm], high: [25 mm, 11 mm]}}\n  - subtract: {disk: {center: [0, 6 mm], radius: 3 mm}}\nspacing: 0.51 mm\n"
 #define GRIPS "layers: [{name: above, side: top, thickness: 3 spacing}, {name: below, side: bottom, thickness: 1.4 mm}]\n"
-
-static pg_status make (model *m, const char *text, int cut)
-{
-    pg_status status = PG_OK;
-    memset (m, 0, sizeof *m);
-    check_ok (pg_scene_parse (&m->scene, text, "test.yaml"));
-    PG_TRY (pg_body_read (&m->body, m->scene));
-    PG_TRY (pg_cloud_build (&m->cloud, &m->lattice, &m->body, m->scene));
-    if (cut) {
-        PG_TRY (pg_cells_cut (&m->cells, &m->body, &m->lattice, m->cloud.thickness, 0, NULL));
-        PG_TRY (pg_cells_share (&m->cloud, &m->cells, &m->lattice));
-    } else PG_TRY (pg_cells_from_lattice (&m->cells, &m->lattice, m->cloud.thickness));
-    PG_TRY (pg_sets_build (&m->sets, m->scene, &m->body, &m->lattice, &m->cloud, &m->cells));
-done:
-    return status;
-}
-
-static void drop (model *m)
-{
-    pg_sets_clear (&m->sets);
-    pg_cells_clear (&m->cells);
-    pg_cloud_clear (&m->cloud);
-    pg_lattice_clear (&m->lattice);
-    pg_body_clear (&m->body);
-    pg_scene_free (&m->scene);
-}
-
-static const pg_set *find (const model *m, const char *name)
-{
-    const pg_set *s = pg_sets_find (&m->sets, name);
-    if (!s) print_error ("no set %s\n", name);
-    assert_non_null (s);
-    return s;
-}
 
 static double total (const double *v, size_t n) { double sum = 0; for (size_t i = 0; i < n; i++) sum += v[i]; return sum; }
 
@@ -188,14 +151,6 @@ static void in_one_and_three_dimensions (void **state)
     assert_int_equal (find (&m, "front_grip")->npoint, 2 * 4 * 2);
     assert_int_equal (find (&m, "l")->npoint, 4 * 6);      /* each over the face of the body alone                         */
     check_relative (total (m.cloud.volume, m.cloud.n), 6 + 2 + 3, 1e-12);
-    drop (&m);
-}
-
-static void must_fault (const char *text, const char *part)
-{
-    model m;
-    check_fails (make (&m, text, 0), PG_E_SCENE);
-    check_contains (pg_last_error (), part);
     drop (&m);
 }
 

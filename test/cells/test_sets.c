@@ -1,43 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Sets: sides of the box, surfaces of shapes, angles, conditions, parts, faults; nodes, cells and points from a file. */
-#include "check.h"
-#include "perigal/cells.h"
+#include "model.h"
 #include <stdlib.h>
 #include <unistd.h>
-
-typedef struct { pg_scene *scene; pg_body body; pg_lattice lattice; pg_cloud cloud; pg_cells cells; pg_sets sets; } model;
 
 #define PLATE "dimension: 2\nbody:\n  - add: {box: {low: [0, 0], high: [2, 1]}}\n  - subtract: {disk: {center: [0.5, 0.5], radius: 0.22}}\nspacing: 0.1\n"
 #define DISK "dimension: 2\nthickness: 10 mm\nbody: [{add: {disk: {center: [0, 0], diameter: 100 mm}}}]\nspacing: 2 mm\n"
 #define CUBE "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 2, 3]}}}]\nspacing: 0.5\n"
-
-static pg_status make (model *m, const char *text)
-{
-    memset (m, 0, sizeof *m);
-    check_ok (pg_scene_parse (&m->scene, text, "test.yaml"));
-    check_ok (pg_body_read (&m->body, m->scene));
-    check_ok (pg_cloud_build (&m->cloud, &m->lattice, &m->body, m->scene));
-    check_ok (pg_cells_from_lattice (&m->cells, &m->lattice, m->cloud.thickness));
-    return pg_sets_build (&m->sets, m->scene, &m->body, &m->lattice, &m->cloud, &m->cells);
-}
-
-static void drop (model *m)
-{
-    pg_sets_clear (&m->sets);
-    pg_cells_clear (&m->cells);
-    pg_cloud_clear (&m->cloud);
-    pg_lattice_clear (&m->lattice);
-    pg_body_clear (&m->body);
-    pg_scene_free (&m->scene);
-}
-
-static const pg_set *find (const model *m, const char *name)
-{
-    const pg_set *s = pg_sets_find (&m->sets, name);
-    if (!s) print_error ("no set %s\n", name);
-    assert_non_null (s);
-    return s;
-}
 
 static double area (const model *m, const char *name)
 {
@@ -49,20 +18,11 @@ static double area (const model *m, const char *name)
 
 static double angle_at (double x, double y) { double a = atan2 (y, x); return a < 0 ? a + 2 * acos (-1) : a; }
 
-static void must_fault (const char *text, const char *part)
-{
-    model m;
-    check_fails (make (&m, text), PG_E_SCENE);
-    check_contains (pg_last_error (), part);
-    assert_null (m.sets.set);
-    drop (&m);
-}
-
 static void sides_of_a_box_have_their_points_and_areas (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, CUBE));
+    check_ok (make (&m, CUBE, 0));
     const char *name[6] = {"left", "right", "bottom", "top", "back", "front"};
     size_t points[3] = {5 * 7, 3 * 7, 3 * 5};
     double size[3] = {6, 3, 2};
@@ -79,7 +39,7 @@ static void a_bar_has_two_ends (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, "dimension: 1\ncross_section: 3\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1"));
+    check_ok (make (&m, "dimension: 1\ncross_section: 3\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1", 0));
     assert_int_equal (find (&m, "left")->npoint, 1);
     assert_int_equal (find (&m, "right")->point[0], 10);
     check_relative (area (&m, "right"), 3, 1e-15);
@@ -92,7 +52,7 @@ static void all_is_everything (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, PLATE));
+    check_ok (make (&m, PLATE, 0));
     assert_int_equal (find (&m, "all")->npoint, m.cloud.n);
     assert_int_equal (find (&m, "all")->nfacet, m.cells.nfacet);
     drop (&m);
@@ -102,7 +62,7 @@ static void a_hole_is_what_lies_nearest_to_its_circle (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, PLATE "sets: {bore: {boundary: hole}, edge: {boundary: side}, whole: {boundary: all}}"));
+    check_ok (make (&m, PLATE "sets: {bore: {boundary: hole}, edge: {boundary: side}, whole: {boundary: all}}", 0));
     const pg_set *bore = find (&m, "bore");
     assert_true (bore->nfacet >= 12 && bore->npoint == bore->nfacet);      /* a ring has as many corners as edges */
     for (size_t k = 0; k < bore->npoint; k++)
@@ -118,7 +78,7 @@ static void boundaries_add_up_and_conditions_narrow_down (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, PLATE "sets: {ends: {boundary: [left, right]}, corner: {boundary: [left, right], where: y <= 0.27}}"));
+    check_ok (make (&m, PLATE "sets: {ends: {boundary: [left, right]}, corner: {boundary: [left, right], where: y <= 0.27}}", 0));
     assert_int_equal (find (&m, "ends")->npoint, 22);
     assert_int_equal (find (&m, "corner")->npoint, 6);          /* y = 0, 0.1, 0.2 */
     assert_int_equal (find (&m, "corner")->nfacet, 6);          /* centres at 0.05, 0.15, 0.25 */
@@ -129,7 +89,7 @@ static void where_alone_picks_points_inside_as_well (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, CUBE "sets: {core: {where: x > 0.2 and x < 0.8 and r > 1 and angle < 90 deg}}"));
+    check_ok (make (&m, CUBE "sets: {core: {where: x > 0.2 and x < 0.8 and r > 1 and angle < 90 deg}}", 0));
     const pg_set *s = find (&m, "core");
     size_t n = 0;
     for (size_t i = 0; i < m.cloud.n; i++) {
@@ -146,7 +106,7 @@ static void platens_of_the_disk_are_found_by_angle (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, DISK "sets: {platens: {boundary: rim, angle: [[80 deg, 100 deg], [260 deg, 280 deg]]}}"));
+    check_ok (make (&m, DISK "sets: {platens: {boundary: rim, angle: [[80 deg, 100 deg], [260 deg, 280 deg]]}}", 0));
     const pg_set *s = find (&m, "platens"), *top = find (&m, "platens.top"), *bottom = find (&m, "platens.bottom");
     double degree = acos (-1) / 180;
     size_t n = 0;
@@ -171,7 +131,7 @@ static void angles_wrap_around (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, DISK "sets: {a: {angle: [[350 deg, 10 deg]]}, b: {angle: [[-10 deg, 10 deg]]}, c: {angle: [[710 deg, 730 deg]]}, d: {angle: [[0, 360 deg]]}}"));
+    check_ok (make (&m, DISK "sets: {a: {angle: [[350 deg, 10 deg]]}, b: {angle: [[-10 deg, 10 deg]]}, c: {angle: [[710 deg, 730 deg]]}, d: {angle: [[0, 360 deg]]}}", 0));
     const pg_set *a = find (&m, "a"), *b = find (&m, "b"), *c = find (&m, "c");
     assert_int_equal (a->npoint, b->npoint);
     assert_int_equal (a->npoint, c->npoint);
@@ -186,7 +146,7 @@ static void parts_leave_out_the_middle (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, CUBE));
+    check_ok (make (&m, CUBE, 0));
     assert_int_equal (find (&m, "all.left")->npoint, 35);
     assert_int_equal (find (&m, "all.right")->npoint, 35);
     assert_int_equal (find (&m, "all.back")->npoint, 3 * 5 * 3);
@@ -200,7 +160,7 @@ static void points_in_cells_take_the_cells_behind_the_facets (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, PLATE "lattice: cells\nsets: {bore: {boundary: hole}}"));
+    check_ok (make (&m, PLATE "lattice: cells\nsets: {bore: {boundary: hole}}", 0));
     const pg_set *left = find (&m, "left"), *bore = find (&m, "bore");
     assert_int_equal (left->npoint, 10);
     for (size_t k = 0; k < 10; k++) check_relative (m.cloud.x[2 * left->point[k]], 0.05, 1e-13);
@@ -215,7 +175,7 @@ static void a_shifted_lattice_still_has_its_sides (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [2, 1]}}}]\nspacing: 0.1\nlattice_offset: [0.3, -0.6]\n"));
+    check_ok (make (&m, "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [2, 1]}}}]\nspacing: 0.1\nlattice_offset: [0.3, -0.6]\n", 0));
     check_relative (area (&m, "left"), 1, 1e-13);
     check_relative (area (&m, "right"), 1, 1e-13);
     check_relative (area (&m, "top"), 2, 1e-13);
@@ -227,7 +187,7 @@ static void members_ascend (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, DISK "sets: {platens: {boundary: [rim, left, all]}}"));
+    check_ok (make (&m, DISK "sets: {platens: {boundary: [rim, left, all]}}", 0));
     for (size_t k = 0; k < m.sets.n; k++) {
         const pg_set *s = &m.sets.set[k];
         for (size_t i = 1; i < s->npoint; i++) assert_true (s->point[i - 1] < s->point[i]);
@@ -247,7 +207,7 @@ static void points_from_a_file_have_sides_but_no_facets (void **state)
     fclose (f);
     snprintf (text, sizeof text, "dimension: 2\npoints: %s\nsets: {low: {where: y < 0.15}, ring: {boundary: all}}\n", path);
     model m;
-    check_ok (make (&m, text));
+    check_ok (make (&m, text, 0));
     assert_int_equal (find (&m, "left")->npoint, 5);
     assert_int_equal (find (&m, "top")->npoint, 9);
     assert_int_equal (find (&m, "low")->npoint, 18);
@@ -290,7 +250,7 @@ static void names_of_sets_are_checked (void **state)
     must_fault (PLATE "sets: {left: {where: x > 1}}", "always there");
     must_fault (PLATE "sets: {a123456789a123456789a123456789a123456789a123456789a1234567: {where: x > 1}}", "at most 56 letters");
     model m;
-    check_ok (make (&m, PLATE "sets: {a123456789a123456789a123456789a123456789a123456789a12345: {where: x > 1}}"));
+    check_ok (make (&m, PLATE "sets: {a123456789a123456789a123456789a123456789a123456789a12345: {where: x > 1}}", 0));
     find (&m, "a123456789a123456789a123456789a123456789a123456789a12345.bottom");
     drop (&m);
 }
@@ -308,7 +268,7 @@ static void any_allocation_may_fail (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, PLATE "sets: {a: {boundary: hole, angle: [[0, 6.3]], where: x > 0.1}}"));
+    check_ok (make (&m, PLATE "sets: {a: {boundary: hole, angle: [[0, 6.3]], where: x > 0.1}}", 0));
     pg_sets_clear (&m.sets);
     size_t before = pg_memory_used (), k = 0;
     pg_status status = PG_E_MEMORY;
@@ -330,7 +290,7 @@ static void the_rim_of_a_cylinder_is_round (void **state)
     (void) state;
     model m;
     check_ok (make (&m, "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], length: 10 mm, diameter: 40 mm}}}]\nspacing: 2 mm\n"
-                    "sets: {platens: {boundary: rim, angle: [[80 deg, 100 deg]]}, ends: {boundary: side}, skin: {boundary: all}}"));
+                    "sets: {platens: {boundary: rim, angle: [[80 deg, 100 deg]]}, ends: {boundary: side}, skin: {boundary: all}}", 0));
     const pg_set *platens = pg_sets_find (&m.sets, "platens"), *ends = pg_sets_find (&m.sets, "ends"), *skin = pg_sets_find (&m.sets, "skin");
     assert_true (platens->npoint > 0 && platens->nfacet > 0);
     for (size_t i = 0; i < platens->npoint; i++) assert_true (m.cloud.x[3 * (size_t) platens->point[i] + 1] > 17e-3);

@@ -1,22 +1,8 @@
 #!/bin/bash
 # test_bench.sh BUILD: perigal bench and perigal converge on a small cantilever: tables, pictures, orders, what is refused and how.
-perigal=$(realpath "$1/perigal"); n=0; bad=0
+. "$(dirname "$0")/expect.sh"
 cd "$(dirname "$0")/../.." || exit 1
-work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
 beam=data/textbook_cantilever/scene.yaml
-verdict() {   # name, 0 for good
-    n=$((n + 1))
-    if [ "$2" -eq 0 ]; then echo "ok $n - $1"; return; fi
-    bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" "$work/err"
-}
-expect() {   # name, exit code, pattern of stdout, pattern of stderr ('' wants nothing), arguments...
-    local name=$1 code=$2 out=$3 err=$4 k good=0; shift 4
-    "$perigal" "$@" > "$work/out" 2> "$work/err"; k=$?
-    [ $k -eq "$code" ] || good=1
-    if [ -z "$out" ]; then [ ! -s "$work/out" ] || good=1; else grep -q -- "$out" "$work/out" || good=1; fi
-    if [ -z "$err" ]; then [ ! -s "$work/err" ] || good=1; else grep -q -- "$err" "$work/err" || good=1; fi
-    verdict "$name" $good
-}
 # column FILE NAME [FILTER]: the values of a column (unit dropped) in the rows that match
 column() {
     awk -F, -v want="$2" -v filter="${3:-.}" 'NR == 1 { for (k = 1; k <= NF; k++) { split ($k, part, " \\["); if (part[1] == want) at = k } next } $0 ~ filter { print $at }' "$1"
@@ -100,5 +86,4 @@ expect "converge: no number"                           64 '' '--ratio x: a numbe
 expect "converge without a scene"                      64 '' 'a scene file is needed' converge
 expect "converge: a wrong scene"                       65 '' 'unknown key' converge test/cli/wrong/unknown_key.yaml -o "$work/wrong"
 expect "converge --help"                                0 'Richardson' '' converge --help
-echo "1..$n"
-exit $bad
+finish

@@ -1,24 +1,7 @@
 #!/bin/bash
 # test_commands.sh BUILD: the program as a user meets it: exit codes, what goes to which stream, result folders.
-perigal=$(realpath "$1/perigal"); n=0; bad=0
+. "$(dirname "$0")/expect.sh"
 cd "$(dirname "$0")" || exit 1
-work=$(mktemp -d); trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
-verdict() {   # name, 0 for good
-    n=$((n + 1))
-    if [ "$2" -eq 0 ]; then echo "ok $n - $1"; return; fi
-    bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" "$work/err"
-}
-# expect NAME CODE PATTERN-OF-STDOUT PATTERN-OF-STDERR ARGUMENTS...: an empty pattern wants an empty stream, '*' anything
-expect() {
-    local name=$1 code=$2 out=$3 err=$4 k good=0; shift 4
-    "$perigal" "$@" > "$work/out" 2> "$work/err"; k=$?
-    [ $k -eq "$code" ] || good=1
-    matches "$out" "$work/out" && matches "$err" "$work/err" || good=1
-    verdict "$name" $good
-}
-matches() {
-    if [ -z "$1" ]; then [ ! -s "$2" ]; elif [ "$1" = '*' ]; then true; else grep -q -- "$1" "$2"; fi
-}
 
 expect "no command: usage on stderr"          64 ''  'usage:' 
 expect "--help: usage on stdout"               0 'usage:' '' --help
@@ -165,5 +148,4 @@ kill -INT $pid; wait $pid; code=$?
 [ $code -eq 130 ]; verdict "SIGINT: exit code 130 (got $code)" $?
 grep -q 'interrupted' "$work/stopped/report.json"; verdict "SIGINT: the report tells it" $?
 expect "SIGINT: results are readable"          0 'damage.png' '' plot "$work/stopped"
-echo "1..$n"
-exit $bad
+finish

@@ -1,22 +1,8 @@
 #!/bin/bash
 # test_compare.sh BUILD: perigal compare as a user meets it, and the norms of the textbook scenes (doc/accuracy.md).
-perigal=$(realpath "$1/perigal"); n=0; bad=0
+. "$(dirname "$0")/expect.sh"
 cd "$(dirname "$0")/../.." || exit 1
-work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
-verdict() {   # name, 0 for good
-    n=$((n + 1))
-    if [ "$2" -eq 0 ]; then echo "ok $n - $1"; return; fi
-    bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" "$work/err"
-}
-# expect NAME CODE PATTERN-OF-STDOUT PATTERN-OF-STDERR ARGUMENTS... of compare
-expect() {
-    local name=$1 code=$2 out=$3 err=$4 k good=0; shift 4
-    "$perigal" compare "$@" > "$work/out" 2> "$work/err"; k=$?
-    [ $k -eq "$code" ] || good=1
-    if [ -z "$out" ]; then [ ! -s "$work/out" ]; else grep -q -- "$out" "$work/out"; fi || good=1
-    if [ -z "$err" ]; then [ ! -s "$work/err" ]; else grep -q -- "$err" "$work/err"; fi || good=1
-    verdict "$name" $good
-}
+compare() { local of=("${@:1:4}"); shift 4; expect "${of[@]}" compare "$@"; }
 # within FILE KEYS LOW HIGH: a number of a JSON file, keys separated by dots
 within() {
     python3 - "$@" > "$work/out" 2> "$work/err" << 'END'
@@ -38,31 +24,30 @@ within "$work/one/report.json" error.energy.relative 5e-3 1.4e-2; verdict "energ
 [ -s "$work/one/error.png" ]; verdict "error.png" $?
 run data/textbook_patch/scene.yaml -o "$work/patch" -q; within "$work/patch/report.json" error.displacement_maximum.relative 1e-3 5e-3; verdict "patch" $?
 
-expect "a run against its scene's reference"  0 'energy norm 2.2' '' "$work/two"
+compare "a run against its scene's reference"  0 'energy norm 2.2' '' "$work/two"
 cp "$work/two/compare.json" "$work/scene.json"
 within "$work/scene.json" displacement_l2.relative 5.8e-4 6.1e-4; verdict "the same numbers as the run" $?
-expect "a run against itself"                 0 'by its own shape functions' '' "$work/two" "$work/two"
+compare "a run against itself"                 0 'by its own shape functions' '' "$work/two" "$work/two"
 within "$work/two/compare.json" displacement_l2.relative 0 1e-14; verdict "is 0" $?
 within "$work/two/compare.json" energy.relative 0 1e-13; verdict "stresses too" $?
-expect "against a finer run"                  0 'displacement: L2' '' "$work/two" "$work/one/result.e"
+compare "against a finer run"                  0 'displacement: L2' '' "$work/two" "$work/one/result.e"
 within "$work/two/compare.json" displacement_l2.relative 4.5e-4 6e-4; verdict "about the difference of their errors" $?
 [ "$(wc -l < "$work/two/compare.csv")" -eq $((49 * 13 + 1)) ]; verdict "a row for each point of the finer one" $?
-expect "half of it"                           0 'displacement' '' "$work/two" "$work/two" --scale 0.5 --field displacement.y --out "$work/half.png"
+compare "half of it"                           0 'displacement' '' "$work/two" "$work/two" --scale 0.5 --field displacement.y --out "$work/half.png"
 within "$work/two/compare.json" displacement_l2.relative 0.999 1.001; verdict "differs by 1" $?
 [ -s "$work/half.png" ]; verdict "picture where asked" $?
-expect "bodies apart"                         64 '' 'no place in common' "$work/two" "$work/two" --shift 500,0
+compare "bodies apart"                         64 '' 'no place in common' "$work/two" "$work/two" --shift 500,0
 printf 'x [m],y [m],u_y [mm],s_xx [kPa]\n24,0,-2781,0\n48,0,-8900,0\n24,3,,500\n60,3,1,500\n' > "$work/line.csv"
-expect "against a table"                      0 'line.csv u_y' '' "$work/one" "$work/line.csv"
+compare "against a table"                      0 'line.csv u_y' '' "$work/one" "$work/line.csv"
 within "$work/one/compare.json" lines.0.missed 2 2; verdict "an empty cell and a place outside are missed" $?
 head -1 "$work/one/compare.csv" | grep -q '^x \[m\],y \[m\],u_y \[m\],reference_u_y \[m\],difference_u_y \[m\],s_xx'; verdict "columns of compare.csv" $?
-expect "--json"                               0 '"displacement_l2"' '' "$work/one" --json
+compare "--json"                               0 '"displacement_l2"' '' "$work/one" --json
 python3 -m json.tool "$work/out" > /dev/null 2>> "$work/err"; verdict "is JSON" $?
-expect "a table of nothing"                   70 '' 'no column of values' "$work/one" test/cli/wrong/reference_columns.csv
-expect "no such field"                        64 '' 'displacement.x' "$work/one" --field u
-expect "no folder"                            64 '' 'is no result folder' "$work/nowhere"
-expect "no such reference"                    70 '' 'nowhere' "$work/one" "$work/nowhere"
-expect "no such step"                         64 '' 'its steps are 0 to 0' "$work/one" --step 3
-expect "unknown option"                       64 '' 'there is no option --foo' "$work/one" --foo
-expect "nothing"                              64 '' 'perigal compare DIR' 
-echo "1..$n"
-exit $bad
+compare "a table of nothing"                   70 '' 'no column of values' "$work/one" test/cli/wrong/reference_columns.csv
+compare "no such field"                        64 '' 'displacement.x' "$work/one" --field u
+compare "no folder"                            64 '' 'is no result folder' "$work/nowhere"
+compare "no such reference"                    70 '' 'nowhere' "$work/one" "$work/nowhere"
+compare "no such step"                         64 '' 'its steps are 0 to 0' "$work/one" --step 3
+compare "unknown option"                       64 '' 'there is no option --foo' "$work/one" --foo
+compare "nothing"                              64 '' 'perigal compare DIR' 
+finish

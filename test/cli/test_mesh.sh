@@ -1,13 +1,7 @@
 #!/bin/bash
 # test_mesh.sh BUILD: every sample of a mesh file is the body of a scene (its own cells; a shape that a lattice fills) and a picture that shows something.
-perigal=$(realpath "$1/perigal"); n=0; bad=0
+. "$(dirname "$0")/expect.sh"
 cd "$(dirname "$0")/../.." || exit 1
-work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
-verdict() {   # name, 0 for good
-    n=$((n + 1))
-    if [ "$2" -eq 0 ]; then echo "ok $n - $1"; return; fi
-    bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" "$work/err" | head -20
-}
 # shows FOLDER LEAST: PNGs of so many different rows at least
 shows() {
     python3 - "$@" > "$work/out" 2> "$work/err" << 'END'
@@ -83,5 +77,4 @@ cp data/mesh/disk_quad4.msh "$work/here/disk.msh"; draw whole whole_other && cmp
 verdict "points where the mesh is another now" $?
 
 [ "$(ls "$work/pictures" | wc -l)" -eq $pictures ] && shows "$work/pictures" 100; verdict "$pictures pictures show something" $?
-echo "1..$n"
-exit $bad
+finish

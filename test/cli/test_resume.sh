@@ -1,14 +1,9 @@
 #!/bin/bash
 # test_resume.sh BUILD: runs that are interrupted at random moments (14 by TERM, 14 by KILL, some again while they go on) and resumed end
 # with the files of a run that nobody disturbed; finished, foreign and missing checkpoints; disks that are full or read-only.
-perigal=$(realpath "$1/perigal"); n=0; bad=0
+. "$(dirname "$0")/expect.sh"
 cd "$(dirname "$0")" || exit 1
-work=$(mktemp -d); trap 'umount "$work/small" 2> /dev/null; chmod -R u+w "$work"; rm -rf "$work"' EXIT
-verdict() {   # name, 0 for good
-    n=$((n + 1))
-    if [ "$2" -eq 0 ]; then echo "ok $n - $1"; return; fi
-    bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" "$work/err" "$work/why" 2> /dev/null | head -40
-}
+trap 'umount "$work/small" 2> /dev/null; chmod -R u+w "$work"; rm -rf "$work"' EXIT
 now() { date +%s%N; }
 run() { "$perigal" run "$@" --quiet --threads 1 --set output.checkpoint='0.05 s' > "$work/out" 2> "$work/err"; }
 
@@ -119,5 +114,4 @@ if mount -t tmpfs -o size=400k tmpfs "$work/small" 2> /dev/null; then
     run "${event[@]}" -o "$work/small/out"; [ $? -eq 70 ] && grep -q 'small/out.*Read-only' "$work/err"; verdict "a read-only disk: exit code 70 and the reason" $?
     umount "$work/small"
 fi
-echo "1..$n"
-exit $bad
+finish

@@ -42,5 +42,28 @@ static inline void refused_at (const char *text, const char *part, const char *f
     if (scene && pg_memory_used () > used + 4096) _fail (file, line);      /* the scene keeps its faults                 */
     pg_scene_free (&scene);
 }
+/* The problem of a scene built with each allocation failing in turn: told as that, and nothing is left behind. */
+static inline void each_allocation_may_fail (const char *text)
+{
+    pg_scene *scene = NULL;
+    check_ok (pg_scene_parse (&scene, text, "test.yaml"));
+    size_t used = pg_memory_used (), k = 0;
+    pg_status status = PG_E_MEMORY;
+    while (status != PG_OK) {
+        pg_problem *problem = NULL;
+        pg_memory_fail_at (++k);
+        status = pg_problem_build (&problem, scene, 1);
+        pg_memory_fail_at (0);
+        if (status != PG_OK) {
+            assert_int_equal (status, PG_E_MEMORY);
+            assert_null (problem);
+        }
+        pg_problem_free (&problem);
+        assert_int_equal (pg_memory_used (), used);
+        assert_true (k < 5000);
+    }
+    assert_true (k > 50);
+    pg_scene_free (&scene);
+}
 #define check_refused(text, part) refused_at ((text), (part), __FILE__, __LINE__)
 #endif

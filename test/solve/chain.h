@@ -153,6 +153,25 @@ static inline void unlink_all (linked *l)
     pg_solver_free (&l->solver);
 }
 
+/* Making the solver and one step with each allocation failing in turn: told as that, and nothing is left behind. */
+static inline void each_allocation_may_fail (const pg_solver_options *o)
+{
+    linked l;
+    pg_step step;
+    for (size_t k = 1;; k++) {
+        size_t used = pg_memory_used ();
+        pg_memory_fail_at (k);
+        pg_status status = try_link (&l, o, &chain_type);
+        if (status == PG_OK) status = pg_solver_step (l.solver, l.state, &step);
+        pg_memory_fail_at (0);
+        unlink_all (&l);
+        assert_int_equal (pg_memory_used (), used);
+        if (status == PG_OK) break;
+        assert_int_equal (status, PG_E_MEMORY);
+        assert_true (k < 200);
+    }
+}
+
 static inline void run_all (linked *l)
 {
     pg_step step;
