@@ -96,8 +96,8 @@ void spectrum_json (pg_json *j, const spectrum *x)
 {
     const pg_symbol *s = x->symbol;
     const pg_survey *v = &x->survey;
-    int nv = pg_voigt_size (s->dim);
     if (!s) return;
+    int nv = pg_voigt_size (s->dim);
     pg_json_open (j, "spectrum", '{');
     pg_json_count (j, "vectors", v->vectors);
     pg_json_count (j, "grid", (size_t) v->grid);
