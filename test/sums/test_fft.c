@@ -184,7 +184,7 @@ static void uniform_strain_costs_no_digits (void **state)
                 for (size_t d = 0; d < dim; d++)       /* 1e-6 m a step, nothing rounded                    */
                     for (size_t k = 0; k < dim; k++) b.u[i*dim + d] += ldexp ((d == k ? 3 : 1 + (double) k) * nearbyint (b.cloud.x[i*dim + k] / cell_side - 0.5), -20);
             pg_sweep *s = NULL;
-            make_sweep (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
+            make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
             pg_sweep_update (s, b.alive, NULL);
             check_ok (pg_sweep_force (s, b.u, f, NULL));
             body_plain (&b, 0, g, NULL);
