@@ -41,7 +41,7 @@ static void print_tangent (const spectrum *x)
     for (int d = 0; d < dim; d++) {
         printf ("  %-18s  20 spacings along %s: longitudinal %.5g", d ? "" : "wave speeds", x->survey.wave[d].along, x->survey.wave[d].longitudinal);
         if (dim > 1) printf (", shear %.5g", x->survey.wave[d].shear[0]);
-        if (x->survey.wave[d].shear[1] - x->survey.wave[d].shear[0] > 1e-6) printf (" and %.5g", x->survey.wave[d].shear[1]);
+        if (x->survey.wave[d].shear[1] - x->survey.wave[d].shear[0] > 1e-5) printf (" and %.5g", x->survey.wave[d].shear[1]);
         printf ("%s\n", d ? "" : " of the continuum's");
     }
 }
@@ -96,8 +96,8 @@ void spectrum_json (pg_json *j, const spectrum *x)
 {
     const pg_symbol *s = x->symbol;
     const pg_survey *v = &x->survey;
-    int nv = pg_voigt_size (s->dim);
     if (!s) return;
+    int nv = pg_voigt_size (s->dim);
     pg_json_open (j, "spectrum", '{');
     pg_json_count (j, "vectors", v->vectors);
     pg_json_count (j, "grid", (size_t) v->grid);
