@@ -41,7 +41,7 @@ static void print_tangent (const spectrum *x)
     for (int d = 0; d < dim; d++) {
         printf ("  %-18s  20 spacings along %s: longitudinal %.5g", d ? "" : "wave speeds", x->survey.wave[d].along, x->survey.wave[d].longitudinal);
         if (dim > 1) printf (", shear %.5g", x->survey.wave[d].shear[0]);
-        if (x->survey.wave[d].shear[1] - x->survey.wave[d].shear[0] > 1e-6) printf (" and %.5g", x->survey.wave[d].shear[1]);
+        if (x->survey.wave[d].shear[1] - x->survey.wave[d].shear[0] > 1e-5) printf (" and %.5g", x->survey.wave[d].shear[1]);
         printf ("%s\n", d ? "" : " of the continuum's");
     }
 }

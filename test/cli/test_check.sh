@@ -67,6 +67,19 @@ expect "newmark: its steps"                  0 'time steps  *1000 of 1e-07 s, c_
 expect "newmark: what a small step skips"    0 'skipped  *stiffness matrix and factorization (small time step' '' check plate.yaml \
     --set materials.glass.density='2500 kg/m3' --set solver='{kind: newmark, dt: 0.1 us, end: 0.1 ms}'
 
+# ---- plane waves ---------------------------------------------------------------------------------------------------------
+nosb=(--set method='{approximation: nosb, integration: nodal, kernel: constant, horizon: 3.015 spacing, stabilization: none}')
+expect "--spectrum: a stable lattice"        0 'verdict  *stable: every motion is resisted' '' check plate.yaml --spectrum
+expect "nosb without stabilisation"          0 'verdict  *unstable: nothing resists 6 motions of .* (checkerboard); try method.stabilization: silling' '' check plate.yaml --spectrum "${nosb[@]}"
+expect "-o writes table and picture"         0 'largest frequency  *[0-9.]* c_p / h, ' '' check plate.yaml --spectrum -o "$work/waves"
+[ "$(head -1 "$work/waves/spectrum.csv" | tr , '\n' | wc -l)" -eq 8 ] && [ "$(wc -l < "$work/waves/spectrum.csv")" -eq 122 ] && [ -s "$work/waves/spectrum.png" ]
+verdict "they hold two branches along three legs" $?
+"$perigal" check plate.yaml --json --spectrum --solve --set materials.glass.density='2500 kg/m3' --set spacing='0.4 mm' > "$work/out" 2> "$work/err" \
+    && python3 -m json.tool "$work/out" > /dev/null 2>> "$work/err" && within "$(number explicit_dt "$work/out")" "$(number stable_dt "$work/out")" 0.02
+verdict "the time step of the infinite lattice is that of the plate ($(number stable_dt "$work/out"), $(number explicit_dt "$work/out") s)" $?
+expect "a mesh has no plane waves"           64 '' '^perigal: the points of a mesh lie on no lattice' check ../../data/kirsch_mesh/scene.yaml --spectrum
+expect "--spectrum is for check"             64 '' 'there is no option --spectrum' run plate.yaml --spectrum
+
 # ---- refusals ------------------------------------------------------------------------------------------------------------
 expect "a run that does not fit is refused"  70 '' '^perigal: the run would need about .* of memory, and 1 MB are available' run plate.yaml --memory 1MB -o "$work/none"
 [ ! -e "$work/none" ]; verdict "it leaves no folder" $?

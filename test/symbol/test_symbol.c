@@ -37,7 +37,6 @@ static void drop (lattice *l)
     pg_scene_free (&l->scene);
 }
 
-/* nu 0.2, 3D 0.1: E = 10 GPa */
 #define ROCK "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.2, density: 2500 kg/m3}}\n"
 #define GLASS "materials: {glass: {youngs_modulus: 10 GPa, poissons_ratio: 0.3}}\n"
 #define CELLS "lattice: cells\n"
@@ -263,6 +262,30 @@ static void micropolar_bonds (void **state)
     drop (&l);
 }
 
+/* Poisson's ratios that bonds alone do not have: refused without the energy of dilatation (G-4: every wave gains energy), stable with it. */
+static void the_volumetric_term_makes_any_poissons_ratio_stable (void **state)
+{
+    (void) state;
+    char more[256];
+    static const double nu[] = { 0.3, 0.4, 0.49 };
+    for (int t = 0; t < 6; t++) {
+        lattice l;
+        int dim = t < 3 ? 2 : 3;
+        if (dim == 3 && t % 3 != 1) continue;
+        snprintf (more, sizeof more, "%smaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: %g}}\n" CELLS, dim == 2 ? "plane: strain\n" : "", nu[t % 3]);
+        check_fails (make (&l, scene_text (dim, 0.1, more, "force: gmpd"), 1), PG_E_SCENE);
+        drop (&l);
+        l = survey_of (dim, more, "force: gmpd, volumetric: on");
+        print_message ("# %dD, nu = %g: smallest %.4g, rotations %.4g, softest %.3g of a continuum's\n", dim, nu[t % 3], l.survey.smallest.value, l.survey.turning[1],
+                       l.survey.softest.value);
+        assert_true (l.survey.smallest.value > 0 && l.survey.turning[1] > 0.1 && l.survey.softest.value > 0.05);
+        assert_int_equal (l.survey.negative + l.survey.zero + l.survey.weak, 0);
+        check_relative (l.survey.tangent[0], 1, 0.005);
+        assert_true (l.symbol->bound >= l.survey.fastest.value);
+        drop (&l);
+    }
+}
+
 /* Fields of rotation that gain energy: blocks of them turned over. */
 static void what_gains_energy_is_told (void **state)
 {
@@ -410,6 +433,7 @@ int main (void)
         cmocka_unit_test (every_method_has_a_sound_symbol),
         cmocka_unit_test (nosb_has_motions_without_energy_and_silling_resists_them),
         cmocka_unit_test (micropolar_bonds),
+        cmocka_unit_test (the_volumetric_term_makes_any_poissons_ratio_stable),
         cmocka_unit_test (what_gains_energy_is_told),
         cmocka_unit_test (state_based_constants),
         cmocka_unit_test (units_and_threads_change_nothing),
