@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum { TRIES = 6 };
-static const double most_pairs = 2e8;                  /* of points that see each other, counted by what they take: 1 GB */
+static const double most_pairs = 2e8;                  /* of points that see each other, counted by what they take: 1.4 GB */
 /* Of the largest answer: too little to enlarge the box for; rounding, of transforms also far away. */
 static const double little = 1e-12, nothing = 1e-14;
 
@@ -225,7 +225,7 @@ pg_status pg_symbol_create (pg_symbol **out, const pg_scene *scene, const pg_pro
     int whole = 0;
     *out = NULL;
     PG_TRY (box_steps (&size, scene, p));
-    for (int k = 0; k < p->dim; k++) size.half[k] = 2 * (int) ceil (p->approx.horizon / size.step[k]) + 3;
+    for (int k = 0; k < p->dim; k++) size.half[k] = 2 * (int) ceil (p->approx.horizon / size.step[k] - 1e-6) + 2;
     for (int t = 0; t < TRIES && !whole; t++) {
         clear (&b);
         PG_TRY (build (&b, scene, p, &size));

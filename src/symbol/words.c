@@ -37,14 +37,14 @@ void pg_survey_verdict (const pg_survey *v, const pg_symbol *s, const pg_problem
     char where[64];
     int nodal = !p->direct && p->integration->at_nodes, nosb = nodal && strcmp (p->approx.type->name, "nosb") == 0;
     const char *cure = nosb ? "method.stabilization: silling, or method.integration: gauss" : nodal ? "method.integration: gauss"
-                     : p->turns ? "a smaller Poisson's ratio" : "another kernel or a smaller horizon";
+                     : p->turns && v->negative ? "a smaller Poisson's ratio" : p->approx.horizon < 1.7 * s->h ? "a larger horizon" : "another kernel or a smaller horizon";
     if (v->negative) {
         pg_motion_where (&v->smallest, s, where, sizeof where);
-        snprintf (text, size, "unstable: %s (%s) gains energy, and %zu more motions of %d^%d points do; try %s", pg_motion_kind (&v->smallest, s), where,
+        snprintf (text, size, "unstable: %s (%s) gains energy, as do %zu more motions of %d^%d points; try %s", pg_motion_kind (&v->smallest, s), where,
                   v->negative - 1, v->grid, s->dim, cure);
     } else if (v->zero) {
         pg_motion_where (&v->first, s, where, sizeof where);
-        snprintf (text, size, "unstable: nothing resists %zu motions of %d^%d points beside rigid translation, such as %s (%s); try %s", v->zero, v->grid, s->dim,
+        snprintf (text, size, "unstable: nothing resists %zu motion%s of %d^%d points beside rigid translation, such as %s (%s); try %s", v->zero, v->zero > 1 ? "s" : "", v->grid, s->dim,
                   pg_motion_kind (&v->first, s), where, cure);
     } else if (v->weak) {
         pg_motion_where (&v->softest, s, where, sizeof where);
