@@ -62,7 +62,7 @@ void bond_free (void **self)
     bond *b = *self;
     if (!b) return;
     pg_sweep_free (&b->sweep), pg_sweep_free (&b->tangent);
-    bond_energy_free (b), lps_free (b), gmpd_free (b);
+    bond_energy_free (b), lps_free (b), lps_rows_free (b), gmpd_free (b);
     nodal_free (&b->nodal);
     pg_sparse_clear (&b->K);
     pg_nearest_free (&b->near);

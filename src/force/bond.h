@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: bond-based peridynamics. Files: bond.c (life cycle, forces, breaking), bond_matrix.c (K, its diagonal and row sums, the bound of the
- * largest frequency), bond_field.c (utilisation, fields, places, census), bond_energy.c, bond_tiles.c (points that die by their energy), lps.c (what
+ * largest frequency), bond_field.c (utilisation, fields, places, census), bond_energy.c, bond_tiles.c (points that die by their energy), lps.c, lps_rows.c (what
  * state-based theory adds, alone or beside beams), bond_words.c (what the plan says).
  * Pair force on i from j: V_i V_j c k beta g s e, s = e . eta / r; linear in the displacement: kappa (xi . eta) xi,
  * kappa = V_i V_j c k beta g / r^3 (N/m^3), the same bits from either end. */
@@ -9,6 +9,7 @@
 #include "nodal.h"
 
 typedef struct bond_tiles bond_tiles;                  /* bond_tiles.c                                                   */
+typedef struct lps_rows lps_rows;                      /* lps_rows.c                                                     */
 typedef struct {
     const pg_problem *problem;
     int       dim, threads, stride;                    /* stride: unknowns of a point, dim and its rotations             */
@@ -24,6 +25,7 @@ typedef struct {
     double   *dilation, *deviation;                    /* state-based: A and B of each point, Pa; with beams A of the dilatation beside them, B 0;
                                                           NULL: bonds alone (n)                                          */
     double   *q, *stiff;  unsigned long weighed;       /* state-based: weighted volumes and C / q at that revision (n)   */
+    lps_rows *rows;                                    /* state-based: of the last preconditioner, NULL until then       */
     unsigned char *counted;                            /* state-based: bonds that no pre-crack cuts; NULL: all           */
     /* beams (gmpd.c): bonds that bear shear; C_t,h and B of each point, N/m^4, limits gamma0, kappa0 (n); shear NULL: bonds pull along themselves */
     double   *shear, *bending, *shear_limit, *bending_limit;
@@ -111,6 +113,8 @@ double    lps_weight (const bond *b, size_t i, const bond_star *s, size_t e);   
 void      lps_own    (const bond *b, size_t i, const bond_star *s, double *D);           /* diagonal block of K         */
 double    lps_bound  (const bond *b, size_t i, const bond_star *s);    /* of omega^2 times density, whatever bonds die   */
 void      lps_virial (const bond *b, size_t i, const bond_star *s, const unsigned char *alive, const double *d, double *T);      /* sum t x xi V, Pa */
+pg_status lps_couplings (bond *b, pg_couplings *out);                  /* row, alike and lattice of these                */
+void      lps_rows_free (bond *b);
 /* bonds that bear shear */
 pg_status gmpd_create (bond *b);                                       /* moduli and limits; nothing unless the rule is of beams */
 char      gmpd_kind_of (void *self, const double *d, size_t entry);

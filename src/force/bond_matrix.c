@@ -214,9 +214,10 @@ pg_status bond_couplings (void *self, pg_couplings *out)
     bond *b = self;
     const pg_stencil *t = &b->problem->sums->stencil;
     double far = 0;
-    lps_weigh (b);
+    pg_status status = PG_OK;
     *out = (pg_couplings) { .context = b, .widest = b->widest + 1, .row = couplings_of };
     find_whole (b);
+    if (b->dilation) PG_TRY (lps_couplings (b, out));
     if (b->whole) out->alike = is_whole;
     for (int k = 0; b->whole && k < b->dim; k++) out->lattice[k] = b->problem->sums->sites.step[k];
     if (t->n) for (size_t e = 0; e < t->n * (size_t) t->dim; e++) far = fmax (far, fabs (t->xi[e]));
@@ -226,7 +227,8 @@ pg_status bond_couplings (void *self, pg_couplings *out)
         for (size_t i = 0; i < b->n; i++) far = fmax (far, b->work[i]);
     }
     out->reach = far * (1 + 1e-9);
-    return PG_OK;
+done:
+    return status;
 }
 
 /* Of every bond d.K d <= 2 (d_i.own d_i + d_j.own d_j), for none has negative energy: M^-1/2 D M^-1/2 of every point alone */

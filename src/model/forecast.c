@@ -86,6 +86,7 @@ void pg_forecast_sum (pg_forecast *f)
     if (f->matrixless && f->turns) b[PG_BYTES_SHAPES] += (f->listed || f->by_list ? 9 : 0.25) * all + (120 + 40 * d) * n;         /* dilatations     */
     b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;    /* states; breaker; factored      */
     b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
+    if (f->matrixless && !f->explicit_ && !f->dynamic) b[PG_BYTES_VECTORS] += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));           /* lps_rows.c    */
     if (f->direct && !factors && !f->explicit_ && !f->dynamic)         /* the multilevel preconditioner: its finest level, its first coarse matrix */
         b[PG_BYTES_VECTORS] += n * (32 * m + 16 * corners + 16) + n * m * m * 12 * pow (1.25, d);
     b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);

@@ -104,6 +104,61 @@ static void test_operator (void **unused)
     }
 }
 
+/* Rows for preconditioners: symmetric, of no negative energy, and inside a body those of K for strains that vary slowly. */
+static double *dense_rows (bonded *b)
+{
+    size_t m = b->stride, n = b->ndof;
+    pg_couplings c;
+    check_ok (b->force->couplings (b->self, &c));
+    double *A = pg_calloc (n * n, sizeof *A), *value = pg_calloc (c.widest * m * m, sizeof *value);
+    int *node = pg_calloc (c.widest, sizeof *node), *pattern = pg_calloc (c.widest, sizeof *node);
+    for (size_t i = 0; i < b->n; i++) {
+        size_t count = c.row (c.context, i, 0, node, value);
+        assert_int_equal (c.row (c.context, i, 0, pattern, NULL), count);
+        assert_memory_equal (pattern, node, count * sizeof *node);
+        for (size_t e = 0; e < count; e++)
+            for (size_t a = 0; a < m; a++)
+                for (size_t k = 0; k < m; k++) A[(i * m + a) * n + (size_t) node[e] * m + k] = value[(e * m + a) * m + k];
+    }
+    pg_free (value), pg_free (node), pg_free (pattern);
+    return A;
+}
+
+static void test_rows (void **unused)
+{
+    (void) unused;
+    static const char *const more[] = { BODY2_OF ("0.45") "method: {force: lps, horizon: 4 spacing}\n", BODY2_OF ("0.45") "lattice: cells\nmethod: {force: lps, horizon: 2 spacing, weighted_volume: live}\n" };
+    for (size_t k = 0; k < BODIES + 2; k++)
+        for (int cut = 0; cut < 2; cut++) {
+            bonded b = bonded_of (k < BODIES ? bodies[k] : more[k - BODIES]);
+            pg_changes c = { 0 };
+            if (b.ndof > 700) {                        /* too many for all eigenvalues                                   */
+                unbonded (&b);
+                continue;
+            }
+            if (cut) c = kill_some (&b, 9);
+            double *A = dense_rows (&b), *lambda = pg_calloc (b.ndof, sizeof *lambda), size = 0;
+            for (size_t i = 0; i < b.ndof; i++) size = fmax (size, A[i * b.ndof + i]);
+            for (size_t i = 0; i < b.ndof; i++)
+                for (size_t j = 0; j < i; j++) check_scaled (A[i * b.ndof + j], A[j * b.ndof + i], 1e-13, size);
+            eigenvalues (b.ndof, A, lambda);
+            check_below (-lambda[0], 1e-13 * lambda[b.ndof - 1]);
+            pg_free (A), pg_free (lambda), pg_free (c.bond);
+            unbonded (&b);
+        }
+    bonded b = bonded_of ("dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [21, 21]}}}]\nspacing: 1\nlattice: cells\n"
+                          "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.45, density: 3}}\n" GMPD (", horizon: 3 spacing"));
+    double *A = dense_rows (&b), *d = pg_calloc (b.ndof, sizeof *d), *f = pg_calloc (b.ndof, sizeof *f), sum = 0, M = 10 * 0.55 / (1.45 * 0.1);
+    size_t middle = b.n / 2;
+    for (size_t i = 0; i < b.n; i++) d[3 * i] = 0.5 * b.problem->cloud.x[2 * i] * b.problem->cloud.x[2 * i];
+    check_ok (b.force->balance (b.self, 0, d, f, NULL));
+    for (size_t j = 0; j < b.ndof; j++) sum -= A[3 * middle * b.ndof + j] * d[j];
+    check_relative (f[3 * middle], M, 1e-3);               /* (lambda + 2 mu) d2u/dx2                                        */
+    check_relative (sum, M, 1e-3);
+    pg_free (A), pg_free (d), pg_free (f);
+    unbonded (&b);
+}
+
 /* No negative energy, whole or with broken bonds; only rigid motions have none. */
 static void test_positive (void **unused)
 {
@@ -512,7 +567,7 @@ static void test_refused (void **unused)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (test_balance), cmocka_unit_test (test_operator), cmocka_unit_test (test_positive), cmocka_unit_test (test_uniform),
+    const struct CMUnitTest tests[] = { cmocka_unit_test (test_balance), cmocka_unit_test (test_operator), cmocka_unit_test (test_rows), cmocka_unit_test (test_positive), cmocka_unit_test (test_uniform),
         cmocka_unit_test (test_nothing_left), cmocka_unit_test (test_fracture_energy), cmocka_unit_test (test_breaking), cmocka_unit_test (test_bound), cmocka_unit_test (test_patch),
         cmocka_unit_test (test_runs), cmocka_unit_test (test_memory), cmocka_unit_test (test_refused) };
     return cmocka_run_group_tests (tests, NULL, NULL);

@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Rows of K for preconditioners of forces with dilatations, within the bonds' reach: K itself has neighbours of neighbours. Energy of a point's
+ * dilatation, A theta^2 / (2 d) V: theta from the gradient over the nearest points alone (half the horizon, 1.5 spacings at most; exact for uniform
+ * strain, as theta is, so that coarse grids see the body's own bulk modulus), where these and the bonds among them live; elsewhere bonds alone that are at
+ * least as stiff (d A / q, lps.c). */
+#include "bond.h"
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+enum { MOST = 36, NEAR = 40 };                         /* numbers of a block; nearest points looked at                   */
+struct lps_rows {
+    size_t *start;  int *node;                         /* nearest points of each                 (n + 1; of all)         */
+    double *inverse;                                   /* of sum V xi x xi over them, 1/m^5      (n x dim x dim)         */
+    double *stiff;                                     /* C / q, or B / q where theta is that of the nearest (n)         */
+    unsigned char *narrow, *uniform;                   /* that is so; row like that of all such  (n)                     */
+    unsigned char *intact;                             /* no bond of the point is dead           (n)                     */
+    double *whole;                                     /* that row; NULL: there is none                                  */
+};
+
+void lps_rows_free (bond *b)
+{
+    lps_rows *r = b->rows;
+    if (!r) return;
+    pg_free (r->start), pg_free (r->node), pg_free (r->inverse), pg_free (r->stiff), pg_free (r->narrow), pg_free (r->uniform), pg_free (r->intact), pg_free (r->whole);
+    pg_free (r);
+    b->rows = NULL;
+}
+
+/* ---- nearest points ------------------------------------------------------------------------------------------------------------ */
+static void offset (const bond *b, size_t i, size_t j, double *xi)
+{
+    for (size_t k = 0; k < (size_t) b->dim; k++) xi[k] = b->problem->cloud.x[j * (size_t) b->dim + k] - b->problem->cloud.x[i * (size_t) b->dim + k];
+}
+
+/* Of point i, all or those of live bonds, at most NEAR */
+static size_t nearest (const bond *b, size_t i, int *node)
+{
+    const pg_family *f = b->family;
+    double h = pg_problem_spacing (b->problem, PG_NODES, i), ratio = h / b->problem->cloud.h, xi[3];
+    double reach = fmin (0.5 * b->problem->sums->rule.horizon * ratio, 1.5 * h) * (1 + 1e-9);
+    size_t m = 0;
+    for (size_t e = f->start[i]; e < f->start[i + 1] && m < NEAR; e++) {
+        double rr = 0;
+        offset (b, i, (size_t) f->node[e], xi);
+        for (int k = 0; k < b->dim; k++) rr += xi[k] * xi[k];
+        if (rr <= reach * reach) node[m++] = bond_lives (b, e) ? f->node[e] : -1;
+    }
+    return m;
+}
+
+/* Entry of the bond to j in point i's part of the family; one that is dead or missing: -1 */
+static long entry_of (const bond *b, size_t i, int j)
+{
+    const int *node = b->family->node;
+    size_t low = b->family->start[i], high = b->family->start[i + 1];
+    while (high > low + 1) {
+        size_t middle = (low + high) / 2;
+        if (node[middle] <= j) low = middle;
+        else high = middle;
+    }
+    return low < high && node[low] == j && bond_lives (b, low) ? (long) low : -1;
+}
+
+/* Live, in all directions, and each the other's neighbour */
+static int is_narrow (const bond *b, const lps_rows *r, size_t i, size_t m, const int *node)
+{
+    int intact = r->intact[i] && b->problem->sums->stencil.n;
+    if (!(b->dilation[i] > 0) || m < 2 * (size_t) b->dim) return 0;
+    for (size_t k = 0; k < m; k++) {
+        if (node[k] < 0) return 0;
+        intact &= r->intact[node[k]];
+    }
+    for (size_t k = 0; k < m && !intact; k++)
+        for (size_t l = 0; l < k; l++) if (entry_of (b, (size_t) node[k], node[l]) < 0) return 0;
+    return 1;
+}
+
+static int invert (const bond *b, size_t i, size_t m, const int *node, double *out)
+{
+    size_t dim = (size_t) b->dim;
+    double M[9] = { 0 }, lambda[3], xi[3], copy[9];
+    for (size_t k = 0; k < m; k++) {
+        offset (b, i, (size_t) node[k], xi);
+        for (size_t a = 0; a < dim; a++)
+            for (size_t c = 0; c < dim; c++) M[a * dim + c] += b->problem->cloud.volume[node[k]] * xi[a] * xi[c];
+    }
+    memcpy (copy, M, sizeof M);
+    pg_dense_eigen (b->dim, copy, lambda, NULL);
+    if (!(lambda[dim - 1] > 0.1 * lambda[0]) || pg_dense_cholesky (b->dim, M, 1e-12)) return 0;
+    for (size_t a = 0; a < dim; a++) {
+        for (size_t c = 0; c < dim; c++) out[a * dim + c] = a == c;
+        pg_dense_solve (b->dim, M, out + a * dim);
+    }
+    return 1;
+}
+
+static void count_points (void *context, size_t first, size_t last, int thread)
+{
+    bond *b = context;
+    const size_t *start = b->family->start;
+    int node[NEAR];
+    (void) thread;
+    for (size_t i = first; i < last; i++) {
+        b->rows->start[i + 1] = nearest (b, i, node);
+        b->rows->intact[i] = !(b->alive && memchr (b->alive + start[i], 0, start[i + 1] - start[i]));
+    }
+}
+
+static void find_points (void *context, size_t first, size_t last, int thread)
+{
+    bond *b = context;
+    lps_rows *r = b->rows;
+    (void) thread;
+    for (size_t i = first; i < last; i++) {
+        int *node = r->node + r->start[i];
+        size_t m = nearest (b, i, node);
+        r->narrow[i] = (unsigned char) (is_narrow (b, r, i, m, node) && invert (b, i, m, node, r->inverse + i * (size_t) (b->dim * b->dim)));
+        r->stiff[i] = !r->narrow[i] ? b->stiff[i] : b->q[i] > 0 ? b->deviation[i] / b->q[i] : 0;
+    }
+}
+
+/* On a lattice: all bonds, and nothing but gradients over the nearest, with one B / q, at the point and whatever it sees */
+static void compare_points (void *context, size_t first, size_t last, int thread)
+{
+    bond *b = context;
+    lps_rows *r = b->rows;
+    (void) thread;
+    for (size_t i = first; i < last; i++) {
+        size_t at = b->family->start[i], end = b->family->start[i + 1];
+        int same = end - at == b->problem->sums->stencil.n && r->intact[i] && r->narrow[i];
+        for (size_t e = at; e < end && same; e++) {
+            size_t j = (size_t) b->family->node[e];
+            same = r->narrow[j] && r->stiff[j] == r->stiff[i];
+        }
+        r->uniform[i] = (unsigned char) same;
+    }
+}
+
+/* ---- a row --------------------------------------------------------------------------------------------------------------------- */
+/* g_j of theta_k = sum g_j . (u_j - u_k); of k itself minus their sum */
+static void gradient (const bond *b, size_t k, int j, double *g)
+{
+    const lps_rows *r = b->rows;
+    size_t dim = (size_t) b->dim;
+    double xi[3], sum[3] = { 0 };
+    for (size_t e = r->start[k]; e < r->start[k + 1]; e++) {
+        if ((size_t) j != k && r->node[e] != j) continue;
+        offset (b, k, (size_t) r->node[e], xi);
+        for (size_t a = 0; a < dim; a++)
+            for (size_t c = 0; c < dim; c++) sum[a] += b->problem->cloud.volume[r->node[e]] * r->inverse[(k * dim + a) * dim + c] * xi[c];
+    }
+    for (size_t a = 0; a < dim; a++) g[a] = (size_t) j == k ? -sum[a] : sum[a];
+}
+
+/* What the dilatation of point k adds to the row of point i, whose n blocks are at `node`, its own the last. */
+static void add_dilatation (const bond *b, size_t i, size_t k, size_t n, const int *node, double *value)
+{
+    const lps_rows *r = b->rows;
+    size_t dim = (size_t) b->dim, m = (size_t) b->stride, near = r->start[k + 1] - r->start[k];
+    double mine[3], other[3], scale = b->problem->cloud.volume[k] * b->dilation[k] / b->dim;
+    gradient (b, k, (int) i, mine);
+    for (size_t e = 0; e <= near; e++) {
+        int j = e < near ? r->node[r->start[k] + e] : (int) k;
+        size_t low = 0, high = n - 1;
+        while (high > low + 1) {
+            size_t middle = (low + high) / 2;
+            if (node[middle] <= j) low = middle;
+            else high = middle;
+        }
+        if ((size_t) j == i) low = n - 1;
+        if (node[low] != j) continue;                  /* cannot be: they are neighbours                                 */
+        gradient (b, k, j, other);
+        for (size_t a = 0; a < dim; a++)
+            for (size_t c = 0; c < dim; c++) value[low * m * m + a * m + c] += scale * mine[a] * other[c];
+    }
+}
+
+static void pull_block (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other)
+{
+    const double *V = b->problem->cloud.volume, *xi = s->xi + e * (size_t) b->dim;
+    size_t dim = (size_t) b->dim, m = (size_t) b->stride, j = (size_t) s->node[e];
+    double rr = 0;
+    if (b->shear) bond_beam (b, i, s, e, own, other);
+    else memset (own, 0, m * m * sizeof *own), memset (other, 0, m * m * sizeof *other);
+    for (size_t k = 0; k < dim; k++) rr += xi[k] * xi[k];
+    double kappa = (b->rows->stiff[i] + b->rows->stiff[j]) * lps_weight (b, i, s, e) * (V[i] * V[j]) / (rr * sqrt (rr));
+    for (size_t a = 0; a < dim; a++)
+        for (size_t c = 0; c < dim; c++) own[a * m + c] += kappa * xi[a] * xi[c], other[a * m + c] -= kappa * xi[a] * xi[c];
+}
+
+static size_t make_row (const bond *b, size_t i, int thread, int *node, double *value)
+{
+    const lps_rows *r = b->rows;
+    size_t bb = (size_t) (b->stride * b->stride), m = 0;
+    double own[MOST] = { 0 }, part[MOST];
+    bond_star s;
+    bond_star_at (b, i, thread, &s);
+    for (size_t e = 0; e < s.m; e++) {
+        if (!bond_lives (b, s.first + e)) continue;
+        pull_block (b, i, &s, e, part, value + m * bb);
+        for (size_t k = 0; k < bb; k++) own[k] += part[k];
+        node[m++] = s.node[e];
+    }
+    memcpy (value + m * bb, own, bb * sizeof *own);
+    node[m++] = (int) i;
+    if (r->narrow[i]) add_dilatation (b, i, i, m, node, value);
+    for (size_t e = 0; e + 1 < m; e++)                 /* points that have i among their nearest                         */
+        if (r->narrow[node[e]])
+            for (size_t k = r->start[node[e]]; k < r->start[node[e] + 1]; k++)
+                if ((size_t) r->node[k] == i) add_dilatation (b, i, (size_t) node[e], m, node, value);
+    return m;
+}
+
+static size_t row (void *context, size_t i, int thread, int *node, double *value)
+{
+    const bond *b = context;
+    const lps_rows *r = b->rows;
+    size_t first = b->family->start[i], m = 0;
+    if (value && r->whole && r->uniform[i]) {
+        m = b->family->start[i + 1] - first;
+        memcpy (node, b->family->node + first, m * sizeof *node);
+        memcpy (value, r->whole, (m + 1) * (size_t) (b->stride * b->stride) * sizeof *value);
+        node[m] = (int) i;
+        return m + 1;
+    }
+    if (value) return make_row (b, i, thread, node, value);
+    for (size_t e = first; e < b->family->start[i + 1]; e++) if (bond_lives (b, e)) node[m++] = b->family->node[e];
+    node[m++] = (int) i;
+    return m;
+}
+
+static int is_uniform (void *context, size_t i) { return ((const bond *) context)->rows->uniform[i]; }
+
+/* ---- all of them --------------------------------------------------------------------------------------------------------------- */
+/* One row serves all points alike on a lattice without shares of volume, factors of surfaces or several moduli. */
+static pg_status find_whole (bond *b, pg_couplings *out)
+{
+    pg_status status = PG_OK;
+    const pg_sums *sums = b->problem->sums;
+    size_t i = 0, n = sums->stencil.n;
+    int *node = NULL;
+    if (!n || !sums->ordered || sums->share || sums->family_volume || b->problem->nmaterial > 1) return PG_OK;
+    pg_parallel (b->threads, b->n, compare_points, b);
+    while (i < b->n && !b->rows->uniform[i]) i++;
+    if (i == b->n) return PG_OK;
+    PG_ALLOC (node, n + 1);
+    PG_ALLOC (b->rows->whole, (n + 1) * (size_t) (b->stride * b->stride));
+    make_row (b, i, 0, node, b->rows->whole);
+    out->alike = is_uniform;
+    for (int k = 0; k < b->dim; k++) out->lattice[k] = sums->sites.step[k];
+done:
+    pg_free (node);
+    return status;
+}
+
+pg_status lps_couplings (bond *b, pg_couplings *out)
+{
+    pg_status status = PG_OK;
+    lps_rows *r = NULL;
+    lps_rows_free (b);
+    PG_TRY (lps_weigh (b));
+    PG_ALLOC (r, 1);
+    b->rows = r;
+    PG_ALLOC (r->start, b->n + 1);
+    PG_ALLOC (r->inverse, b->n * (size_t) (b->dim * b->dim));
+    PG_ALLOC (r->stiff, b->n);
+    PG_ALLOC (r->narrow, b->n);
+    PG_ALLOC (r->uniform, b->n);
+    PG_ALLOC (r->intact, b->n);
+    pg_parallel (b->threads, b->n, count_points, b);
+    for (size_t i = 0; i < b->n; i++) r->start[i + 1] += r->start[i];
+    PG_ALLOC (r->node, r->start[b->n]);
+    pg_parallel (b->threads, b->n, find_points, b);
+    out->row = row;
+    PG_TRY (find_whole (b, out));
+done:
+    return status;
+}
