@@ -45,15 +45,14 @@ static void judge (const sweep *s, batch *all)
     all->n = 0;
 }
 
-static void add (const sweep *s, batch *all, size_t i, const bond_star *star, size_t e, int material)
+static void add (const sweep *s, batch *all, size_t i, const bond_star *star, size_t e, int material, double ratio)
 {
-    const pg_cloud *cloud = &s->b->problem->cloud;
     size_t dim = (size_t) s->b->dim, m = (size_t) s->b->stride, j = (size_t) star->node[e], k = all->n++;
     memcpy (all->xi + k * dim, star->xi + e * dim, dim * sizeof *all->xi);
     for (size_t a = 0; a < dim; a++) all->eta[k * dim + a] = s->d[j * m + a] - s->d[i * m + a];
     all->shear[k] = all->bending[k] = 0;
     if (s->b->shear) pg_beam_strain (s->b->dim, star->xi + e * dim, s->b->beams.length, s->d + i * m, s->d + j * m, &all->shear[k], &all->bending[k]);
-    all->reach[k] = fmax (pg_cloud_ratio (cloud, i), pg_cloud_ratio (cloud, j));           /* the weaker end decides        */
+    all->reach[k] = ratio;
     all->entry[k] = star->first + e, all->material[k] = material;
     if (all->n == BATCH) judge (s, all);
 }
@@ -73,8 +72,10 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
             if (s->utilisation) s->utilisation[entry] = 0;
             if (s->factor) s->factor[entry] = INFINITY;
             if (!s->state->alive[entry] || exempt[i] || exempt[j]) continue;
-            add (s, &all, i, &star, e, material[i]);
-            if (material[j] != material[i]) add (s, &all, i, &star, e, material[j]);
+            double near = pg_cloud_ratio (&b->problem->cloud, i), far = pg_cloud_ratio (&b->problem->cloud, j);
+            int alike = material[j] == material[i];
+            add (s, &all, i, &star, e, material[i], alike ? fmax (near, far) : near);      /* the weaker end decides        */
+            if (!alike) add (s, &all, i, &star, e, material[j], far);
         }
     }
     judge (s, &all);

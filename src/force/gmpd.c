@@ -54,22 +54,28 @@ done:
     return status;
 }
 
+/* By the law of the end that is nearer to its limit */
 char gmpd_kind_of (void *self, const double *d, size_t entry)
 {
     const bond *b = self;
     const pg_problem *p = b->problem;
     size_t i, j = (size_t) b->family->node[entry], dim = (size_t) b->dim, m = (size_t) b->stride;
-    double xi[3], eta[3], shear, bending, ratio, u;
+    double xi[3], eta[3], shear, bending, most = -1;
     char kind = 't';
     int set;
     pg_problem_locate (p, entry, &set, &i);
     for (size_t k = 0; k < dim; k++) xi[k] = p->cloud.x[j * dim + k] - p->cloud.x[i * dim + k], eta[k] = d[j * m + k] - d[i * m + k];
     pg_beam_strain (b->dim, xi, b->beams.length, d + i * m, d + j * m, &shear, &bending);
-    ratio = fmax (pg_cloud_ratio (&p->cloud, i), pg_cloud_ratio (&p->cloud, j));
-    const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];
-    if (c->never) c = &p->criterion[p->block[PG_NODES][j]];
-    pg_bond_measures one = { .n = 1, .dim = b->dim, .xi = xi, .eta = eta, .reach = &ratio, .shear = &shear, .bending = &bending };
-    c->type->utilisation (c, &one, &u, &kind);
+    for (int end = 0; end < 2; end++) {
+        size_t point = end ? j : i;
+        const pg_criterion *c = &p->criterion[p->block[PG_NODES][point]];
+        double ratio = pg_cloud_ratio (&p->cloud, point), u;
+        char own;
+        pg_bond_measures one = { .n = 1, .dim = b->dim, .xi = xi, .eta = eta, .reach = &ratio, .shear = &shear, .bending = &bending };
+        if (c->never) continue;
+        c->type->utilisation (c, &one, &u, &own);
+        if (u > most) most = u, kind = own;
+    }
     return kind;
 }
 

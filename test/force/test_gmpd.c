@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The force of micropolar bonds: balance of forces and moments, what breaks and what that costs, rotations prescribed and loaded, solvers alike. */
+#define _DEFAULT_SOURCE                                 /* mkstemps                                                      */
+#include <stdlib.h>
+#include <unistd.h>
 #include "bond.h"
 #include "perigal/solve.h"
 
@@ -215,6 +218,53 @@ static void test_breaking (void **unused)
             }
 }
 
+/* Points of different spacings and two materials with limits of their own, a bond with the weaker law of its two ends: the loops and the search agree. */
+static void test_breaking_graded (void **unused)
+{
+    (void) unused;
+    char path[] = "/tmp/perigal_graded_XXXXXX.csv";
+    int file = mkstemps (path, 4);
+    FILE *out = fdopen (file, "w");
+    assert_non_null (out);
+    fprintf (out, "x,y,volume,block,spacing\n");
+    double x = 0;
+    for (int i = 0; i < 12; i++) {
+        double h = 0.1 * pow (1.06, i);
+        for (int j = 0; j < 8; j++) fprintf (out, "%.17g,%.17g,%.17g,%d,%.17g\n", x + 0.03 * sin (7.0 * i * j), 0.15 * j + 0.02 * cos (5.0 * i * j), 0.2 * h * 0.15, (i + j) % 3 == 0, sqrt (h * 0.15));
+        x += h;
+    }
+    fclose (out);
+    for (int k = 0; k < 2; k++) {
+        bonded b;
+        char text[1200];
+        snprintf (text, sizeof text, "dimension: 2\nplane: stress\nthickness: 0.2\npoints: %s\nmethod: {force: %s, horizon: 0.4}\n"
+            "materials: {a: {youngs_modulus: 10, poissons_ratio: 0.3, density: 3, failure: {fracture_energy: 1}}, b: {youngs_modulus: 7, poissons_ratio: 0.05, density: 3, failure: {fracture_energy: 0.6}}}\n"
+            "blocks: [{material: a, block: 0}, {material: b, block: 1}]\nfailure: {criterion: %s}\n", path, k ? "bond" : "gmpd", k ? "stretch" : "beam_limits");
+        b = bonded_of (text);
+        assert_non_null (b.problem->cloud.size);
+        double *d = random_vector (b.ndof, 17), *f = pg_calloc (b.ndof, sizeof *f), *u = pg_calloc (b.state->nbond, sizeof *u), reference, most = 0;
+        char *kind = pg_calloc (b.state->nbond, 1);
+        pg_changes broken = { 0 };
+        check_ok (b.force->utilisation (b.self, b.state, d, u, NULL, NULL));
+        for (size_t e = 0; e < b.state->nbond; e++) most = fmax (most, u[e]);
+        for (size_t i = 0; i < b.ndof; i++) d[i] *= 2.5 / most;
+        check_ok (b.force->utilisation (b.self, b.state, d, u, kind, NULL));
+        check_ok (b.force->march (b.self, 0, d, f, &reference, &broken));
+        assert_true (broken.n > 20 && broken.n < b.state->nbond - 20);
+        size_t at = 0;
+        for (size_t n = 0; b.force->kind_of && n < broken.n; n++) assert_int_equal (b.force->kind_of (b.self, d, broken.bond[n]), kind[broken.bond[n]]);
+        for (size_t e = 0; e < b.state->nbond; e++) {
+            int dead = at < broken.n && broken.bond[at] == e;
+            if (dead != (u[e] >= 1) && fabs (u[e] - 1) > 1e-12) print_error ("%s: bond %zu at %.9g is %s\n", k ? "bond" : "gmpd", e, u[e], dead ? "dead" : "alive");
+            if (fabs (u[e] - 1) > 1e-12) assert_int_equal (dead, u[e] >= 1);
+            at += (size_t) dead;
+        }
+        pg_free (d), pg_free (f), pg_free (u), pg_free (kind), pg_free (broken.bond);
+        unbonded (&b);
+    }
+    unlink (path);
+}
+
 /* ---- runs ---------------------------------------------------------------------------------------------------------------------- */
 #define BAR "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [2, 0.6]}}}]\nspacing: 0.1\nlattice: cells\nthickness: 0.2\n" \
     "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.2, density: 3}}\nsets: {l: {where: \"x < 0.3\"}, r: {where: \"x > 1.7\"}}\nmethod: {force: gmpd}\n"
@@ -351,7 +401,7 @@ static void test_refused (void **unused)
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (test_balance), cmocka_unit_test (test_two_materials), cmocka_unit_test (test_memory), cmocka_unit_test (test_limit_is_bond), cmocka_unit_test (test_fracture_energy),
-        cmocka_unit_test (test_breaking), cmocka_unit_test (test_prescribed_rotation), cmocka_unit_test (test_moment), cmocka_unit_test (test_free_motion),
+        cmocka_unit_test (test_breaking), cmocka_unit_test (test_breaking_graded), cmocka_unit_test (test_prescribed_rotation), cmocka_unit_test (test_moment), cmocka_unit_test (test_free_motion),
         cmocka_unit_test (test_refused) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
