@@ -16,6 +16,13 @@ static const char newmark_scene[] = BLOCK METHOD "failure: {criterion: mohr_coul
     "boundary: [{set: bottom, velocity: {x: 0, y: -20 m/s, z: 0}}, {set: top, velocity: {y: 20 m/s}}]\n"
     "solver: {kind: newmark, dt: 20 us, end: 80 us, rayleigh: {mass: 10 1/s}}\n";
 
+static const char turning_scene[] = BLOCK "method: {force: gmpd, beam: timoshenko, horizon: 2 spacing}\nfailure: {criterion: beam_limits, fracture_energy: 1 J/m2}\n"
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: bottom, rotation: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 0.2 mm}}]\n"
+    "solver: {stepping: fixed, steps: 2, break: all}\n";
+static const char dilating_scene[] = BLOCK "method: {force: gmpd, volumetric: on, bond_poisson: 0.1, horizon: 2 spacing}\nfailure: {criterion: beam_limits, fracture_energy: 1 J/m2}\n"
+    "boundary: [{set: bottom, velocity: {x: 0, y: -20 m/s, z: 0}}, {set: top, velocity: {y: 20 m/s}}, {set: top, moment: {z: 1 kN m}}]\n"
+    "solver: {kind: verlet, end: 100 us}\n";
+
 /* Loads, builds, makes up to three steps, writes them. */
 static pg_status run_file (const char *path, const char *folder, long *broken)
 {
@@ -80,12 +87,16 @@ static void sweep (const char *text)
 
 static void a_static_block_survives_every_failing_allocation (void **state) { (void) state; sweep (static_scene); }
 static void a_newmark_block_survives_every_failing_allocation (void **state) { (void) state; sweep (newmark_scene); }
+static void a_micropolar_block_survives_every_failing_allocation (void **state) { (void) state; sweep (turning_scene); }
+static void a_marching_block_survives_every_failing_allocation (void **state) { (void) state; sweep (dilating_scene); }
 
 int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_static_block_survives_every_failing_allocation),
         cmocka_unit_test (a_newmark_block_survives_every_failing_allocation),
+        cmocka_unit_test (a_micropolar_block_survives_every_failing_allocation),
+        cmocka_unit_test (a_marching_block_survives_every_failing_allocation),
     };
     return cmocka_run_group_tests_name ("fuzz/allocation", tests, NULL, NULL);
 }
