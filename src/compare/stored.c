@@ -117,24 +117,43 @@ done:
     return status;
 }
 
+/* The unknowns of the points: coefficients, and where points turn the spacing times their rotations. */
+static pg_status read_unknowns (pg_stored *s, const char *path, const char *name)
+{
+    pg_status status = PG_OK;
+    double *part[2] = { NULL, NULL };
+    const pg_problem *p = s->problem;
+    size_t count[2] = { (size_t) p->dim, (size_t) p->turns }, stride = count[0] + count[1];
+    PG_TRY (read_field (s, path, name, p->dim, &part[0]));
+    if (p->turns) PG_TRY (read_field (s, path, "rotation", p->turns, &part[1]));
+    for (size_t i = 0; i < p->cloud.n; i++)
+        for (size_t k = 0; k < stride; k++) {
+            int turn = k >= count[0];
+            s->state->d[i * stride + k] = part[turn][i * count[turn] + k - (turn ? count[0] : 0)] * (turn ? p->cloud.h : 1);
+        }
+done:
+    pg_free (part[0]), pg_free (part[1]);
+    return status;
+}
+
 static pg_status read_step (pg_stored *s, const char *path, double broken)
 {
     pg_status status = PG_OK;
     double *u = NULL;
     unsigned char *torn = NULL;
     pg_sampler field = { 0 };
-    int nosb = strcmp (s->problem->approx.type->name, "nosb") == 0, coefficients, displacements;
+    int nosb = strcmp (s->problem->approx.type->name, "nosb") == 0, coefficients, displacements, rotations = 1;
     PG_TRY (has_field (path, "coefficient", &coefficients));
     PG_TRY (has_field (path, "displacement", &displacements));
-    if (broken == 0 && (coefficients || (nosb && displacements))) {
-        PG_TRY (read_field (s, path, coefficients ? "coefficient" : "displacement", s->problem->dim, &u));
-        memcpy (s->state->d, u, s->state->ndof * sizeof *u);
+    if (s->problem->turns) PG_TRY (has_field (path, "rotation", &rotations));
+    if (broken == 0 && rotations && (coefficients || (nosb && displacements))) {
+        PG_TRY (read_unknowns (s, path, coefficients ? "coefficient" : "displacement"));
         PG_TRY (pg_sampler_solution (&field, s->problem, s->force, s->self, s->state));
         snprintf (s->how, sizeof s->how, s->force->sample ? "by its own shape functions" : "by least squares through its points");
     } else {
         if (!displacements) PG_FAIL (PG_E_USAGE, "%s has no field displacement: add it to output.fields and run again", path);
         PG_TRY (read_field (s, path, "displacement", s->problem->dim, &u));
-        snprintf (s->how, sizeof s->how, "by least squares through its points: it has no field coefficient");
+        snprintf (s->how, sizeof s->how, "by least squares through its points: it has no field %s", rotations ? "coefficient" : "rotation");
         if (broken > 0) PG_TRY (find_torn (s, path, &torn));
         PG_TRY (pg_sampler_points (&field, s->problem, u, torn));
     }

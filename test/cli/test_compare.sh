@@ -30,6 +30,22 @@ within "$work/scene.json" displacement_l2.relative 5.8e-4 6.1e-4; verdict "the s
 compare "a run against itself"                 0 'by its own shape functions' '' "$work/two" "$work/two"
 within "$work/two/compare.json" displacement_l2.relative 0 1e-14; verdict "is 0" $?
 within "$work/two/compare.json" energy.relative 0 1e-13; verdict "stresses too" $?
+turning=(--set spacing=2 --set lattice=cells --set method.force=gmpd --set method.horizon='3 spacing')
+run data/textbook_cantilever/scene.yaml -o "$work/turning" -q "${turning[@]}" --set 'output.fields=[displacement, rotation, stress]'; verdict "points that turn" $?
+compare "against themselves"                   0 'by its own shape functions' '' "$work/turning" "$work/turning"
+within "$work/turning/compare.json" displacement_l2.relative 0 1e-14; verdict "is 0 with rotations" $?
+within "$work/turning/compare.json" energy.relative 0 1e-13; verdict "stresses too, which shear makes with them" $?
+compare "against the reference of the scene"   0 'energy norm' '' "$work/turning"
+python3 - "$work/turning" > "$work/out" 2> "$work/err" << 'END'
+import json, sys
+run, asked = (json.load(open(sys.argv[1] + name)) for name in ('/report.json', '/compare.json'))
+a, b = run['error']['displacement_l2']['relative'], asked['displacement_l2']['relative']
+print(a, b)
+sys.exit(not abs(a - b) <= 1e-9 * abs(a))
+END
+verdict "as the run found it" $?
+run data/textbook_cantilever/scene.yaml -o "$work/straight" -q "${turning[@]}" --set 'output.fields=[displacement, stress]'
+compare "rotations that are not stored"        0 'it has no field rotation' '' "$work/straight"
 compare "against a finer run"                  0 'displacement: L2' '' "$work/two" "$work/one/result.e"
 within "$work/two/compare.json" displacement_l2.relative 4.5e-4 6e-4; verdict "about the difference of their errors" $?
 [ "$(wc -l < "$work/two/compare.csv")" -eq $((49 * 13 + 1)) ]; verdict "a row for each point of the finer one" $?
