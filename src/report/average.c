@@ -8,8 +8,8 @@
 static const char *const fixed_columns = "step|time|load_factor|energy_strain|energy_kinetic|energy_external|energy_dissipated|broken|"
                                          "iterations|residual|utilisation|event|level";
 
-/* "damage|displacement.x|...|stress.xx|...": every component there is in this dimension. */
-static void component_names (int dim, char *out, size_t size)
+/* "damage|displacement.x|...|stress.xx|...": every component there is in this dimension; turns: rotations of a point. */
+static void component_names (int dim, int turns, char *out, size_t size)
 {
     static const char *const vector[] = { "displacement", "velocity" }, *const tensor[] = { "stress", "strain" };
     size_t at = (size_t) snprintf (out, size, "damage");
@@ -17,6 +17,7 @@ static void component_names (int dim, char *out, size_t size)
         for (int k = 0; k < dim; k++) at += (size_t) snprintf (out + at, size - at, "|%s.%c", vector[f], "xyz"[k]);
     for (int f = 0; f < 2; f++)
         for (int k = 0; k < pg_voigt_size (dim); k++) at += (size_t) snprintf (out + at, size - at, "|%s.%s", tensor[f], result_voigt (dim, k));
+    if (turns) snprintf (out + at, size - at, turns == 3 ? "|rotation.x|rotation.y|rotation.z" : "|rotation");
 }
 
 /* Place of a name in "a|b|c", -1 when it is not there. */
@@ -32,11 +33,11 @@ static int place_in (const char *names, const char *name)
 }
 
 /* ---- checks --------------------------------------------------------------------------------------------------------------- */
-static void check_field (const pg_scene *scene, const char *path, const char *field, int dim)
+static void check_field (const pg_scene *scene, const char *path, const char *field, int dim, int turns)
 {
     char names[400], listed[600];
     size_t n = 0;
-    component_names (dim, names, sizeof names);
+    component_names (dim, turns, names, sizeof names);
     if (place_in (names, field) >= 0) return;
     for (const char *c = names; *c; c++) {
         listed[n++] = *c == '|' ? ',' : *c;
@@ -73,7 +74,7 @@ void result_averages_check (const pg_scene *scene, const pg_problem *problem)
     check_names (scene);
     for (size_t i = 0; i < pg_scene_count (scene, "output.averages"); i++) {
         snprintf (path, sizeof path, "output.averages[%zu].field", i);
-        check_field (scene, path, pg_scene_text (scene, "%s", path), problem->dim);
+        check_field (scene, path, pg_scene_text (scene, "%s", path), problem->dim, problem->turns);
         snprintf (path, sizeof path, "output.averages[%zu].set", i);
         const pg_set *set = pg_sets_named (&problem->sets, scene, path, pg_scene_text (scene, "%s", path));
         if (set && set->npoint == 0) pg_scene_fault (scene, path, "the set %s holds no point", set->name);
@@ -93,7 +94,7 @@ pg_status result_averages_read (pg_result *r, const pg_scene *scene)
         snprintf (a->name, sizeof a->name, "%s", pg_scene_text (scene, "output.averages[%zu].name", i));
         snprintf (a->field, sizeof a->field, "%.*s", (int) (dot ? dot - field : 31), field);
         a->set = pg_sets_find (&r->problem->sets, pg_scene_text (scene, "output.averages[%zu].set", i));
-        a->unit = strcmp (a->field, "stress") == 0 ? "Pa" : a->field[0] == 'v' ? "m/s" : strcmp (a->field, "displacement") == 0 ? "m" : "1";
+        a->unit = strcmp (a->field, "stress") == 0 ? "Pa" : a->field[0] == 'v' ? "m/s" : strcmp (a->field, "displacement") == 0 ? "m" : strcmp (a->field, "rotation") == 0 ? "rad" : "1";
         if (dot && !dot[2]) a->component = dot[1] - 'x';
         for (int k = 0; dot && dot[2] && k < pg_voigt_size (dim); k++) if (strcmp (dot + 1, result_voigt (dim, k)) == 0) a->component = k;
     }

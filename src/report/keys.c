@@ -24,7 +24,7 @@ static const pg_key keys[] = {
     { "output.averages", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "Means of a field over a set, a column of history.csv each." },
     { "output.averages[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Column name in history.csv." },
     { "output.averages[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all", NULL, NULL, "Over the points of which set: a set, a part of one (platens.top), or left, right, bottom, top, back, front, all." },
-    { "output.averages[].field", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "One component of a field: damage, displacement.y, stress.yy, strain.xy ..." },
+    { "output.averages[].field", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "One component of a field: damage, displacement.y, stress.yy, strain.xy, rotation.z (gmpd; 2D: rotation) ..." },
     { "output.tips", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "Tips of cracks: how far from a place a crack has come along a direction, a column of history.csv each; tip.png, tip_speed.png and report.json show length and speed, beside the speed of Rayleigh waves." },
     { "output.tips[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Column name in history.csv." },
     { "output.tips[].from", PG_VECTOR, "m", NULL, NULL, NULL, NULL, NULL, "Where the length is counted from; points behind it do not count." },

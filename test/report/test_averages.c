@@ -69,6 +69,30 @@ static void a_displacement_is_averaged_over_the_points_of_the_set (void **state)
     pg_free (text);
 }
 
+/* Points that turn: the whole body as it is told to. */
+static void rotations_are_averaged_where_points_turn (void **state)
+{
+    (void) state;
+    for (int dim = 2; dim <= 3; dim++) {
+        char where[64];
+        pg_result *result = NULL;
+        run r = scene_of (1, "dimension: %d\n%sbody: [{add: {box: {low: %s, high: %s}}}]\nspacing: 0.1\nlattice: cells\nmethod: {force: gmpd}\n"
+            "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.2}}\nboundary: [{set: all, displacement: {x: 0}}, {set: all, rotation: {z: '1e-3 + x * 1e-3 / (1 m)'}}]\n"
+            "solver: {stepping: fixed, steps: 1}\noutput: {pictures: [], averages: [{name: turn, set: right, field: %s}]}\n", dim, dim == 2 ? "plane: stress\nthickness: 1\n" : "",
+            dim == 2 ? "[0, 0]" : "[0, 0, 0]", dim == 2 ? "[0.4, 0.3]" : "[0.4, 0.3, 0.3]", dim == 2 ? "rotation" : "rotation.z");
+        make_folder (where);
+        check_ok (pg_result_open (&result, where, r.scene, r.problem, r.solver));
+        to_the_end (&r);
+        check_ok (pg_result_step (result, r.state, &r.step));
+        pg_result_free (&result);
+        char *text = slurp (inside (where, "history.csv"));
+        check_relative (number_at (text, 1, "turn [rad]"), 1.35e-3, 1e-12);
+        remove_folder (where);
+        pg_free (text);
+        clear (&r);
+    }
+}
+
 static void a_field_is_computed_once_a_step (void **state)
 {
     (void) state;
@@ -92,6 +116,7 @@ static void what_is_no_component_is_refused_with_the_nearest (void **state)
 {
     (void) state;
     must_refuse (ONE ("a", "all", "stress.zy"), "output.averages[0].field = stress.zy: must be one component of a field in 3D: damage, displacement.x");
+    must_refuse (ONE ("a", "all", "rotation.z"), "must be one component");       /* these points do not turn */
     must_refuse (ONE ("a", "all", "stres.zz"), "did you mean stress.zz?");
     must_refuse (ONE ("a", "all", "displacement"), "did you mean displacement.");
     must_refuse (ONE ("a", "all", "'damage|stress.xx'"), "must be one component");
@@ -124,6 +149,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_uniform_field_is_its_own_average),
         cmocka_unit_test (a_displacement_is_averaged_over_the_points_of_the_set),
+        cmocka_unit_test (rotations_are_averaged_where_points_turn),
         cmocka_unit_test (a_field_is_computed_once_a_step),
         cmocka_unit_test (what_is_no_component_is_refused_with_the_nearest),
         cmocka_unit_test (names_of_columns_are_unique),
