@@ -184,7 +184,7 @@ static pg_status draw (const course *c, const spectrum *x, const pg_problem *p, 
 {
     pg_status status = PG_OK;
     pg_curve curve[PG_UNKNOWNS + 2];
-    char path[4096], name[PG_UNKNOWNS][16], title[400];
+    char path[4096], name[PG_UNKNOWNS][32], title[400];
     double top = 0;
     size_t n = 0, half = x->symbol->dim > 1 ? 2 : 1;
     for (size_t b = 0; b < c->m; b++) {
