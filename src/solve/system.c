@@ -321,7 +321,8 @@ static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double
         limit = LAST_TRY;
     }
     pg_status now = system_iterate (s, dyn, 0, tolerance, limit, &used);
-    if (can && now == PG_E_EQUILIBRIUM) PG_FAIL (now, "%s; probably a loaded part has come loose: try prescribed displacements, newmark, or a coarser criterion", pg_last_error ());
+    int free_to_move = (can && now == PG_E_EQUILIBRIUM) || (s->problem->direct && now == PG_E_NOT_SPD);
+    if (free_to_move) PG_FAIL (now, "%s; probably a loaded part has come loose: try prescribed displacements, newmark, or a coarser criterion", pg_last_error ());
     PG_TRY (now);
 done:
     return status;

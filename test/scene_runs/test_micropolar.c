@@ -102,6 +102,21 @@ static void a_chain_twists_freely (void **state)
     unlink (path);
 }
 
+/* A moment about the chain finds no resistance: said so, whoever solves. */
+static void a_loaded_twist_is_refused (void **state)
+{
+    (void) state;
+    static const char *const linear[] = { "cholmod", "pcg" };
+    for (int k = 0; k < 2; k++) {
+        run r = scene_of (1, "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [12, 1, 1]}}}]\nspacing: 1\nlattice: cells\n" STONE "method: {force: gmpd}\n"
+            "sets: {l: {where: 'x < 3'}, r: {where: 'x > 9'}}\nboundary: [{set: l, displacement: {x: 0, y: 0, z: 0}}, {set: l, rotation: {x: 0, y: 0, z: 0}}, {set: r, moment: {x: 1 kN m}}]\n"
+            "solver: {kind: static, linear: %s}\noutput: {at: {levels: 1}}\n", linear[k]);
+        assert_true (pg_solver_step (r.solver, r.state, &r.step) != PG_OK);
+        check_contains (pg_last_error (), "probably a loaded part has come loose");
+        clear (&r);
+    }
+}
+
 /* ---- other sides --------------------------------------------------------------------------------------------------------------- */
 /* Axis of the seen body for each of the plain one, and its sign. */
 typedef struct { const char *name; int axis[3]; double sign[3]; int threads; const char *more; } side;
@@ -276,7 +291,7 @@ static void what_breaking_takes_stays_taken (void **state)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (a_bond_breaks_at_its_limits), cmocka_unit_test (a_chain_twists_freely), cmocka_unit_test (the_same_block_from_all_sides),
+    const struct CMUnitTest tests[] = { cmocka_unit_test (a_bond_breaks_at_its_limits), cmocka_unit_test (a_chain_twists_freely), cmocka_unit_test (a_loaded_twist_is_refused), cmocka_unit_test (the_same_block_from_all_sides),
         cmocka_unit_test (threads_change_no_bit), cmocka_unit_test (newmark_keeps_energy), cmocka_unit_test (work_of_a_turning_end),
         cmocka_unit_test (what_breaking_takes_stays_taken) };
     return cmocka_run_group_tests_name ("scene_runs/micropolar", tests, NULL, NULL);
