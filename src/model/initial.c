@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * initial: the velocity of every point at the start of a dynamic run. Direct forces only: their unknowns are displacements of points. */
 #include "model.h"
+#include <math.h>
 #include <string.h>
 
 static pg_status read_component (pg_problem *p, const pg_scene *scene, int k)
@@ -29,20 +30,44 @@ pg_status pg_initial_read (pg_problem *p, const pg_scene *scene)
         pg_problem_note (p, "without meaning for solver: %s: initial", kind);
         return PG_OK;
     }
-    if (!p->direct) pg_scene_fault (scene, "initial.velocity", "only with force: bond so far");
+    if (!p->direct) pg_scene_fault (scene, "initial.velocity", "not with force: galerkin so far: use bond, fcbm, lps or gmpd");
     for (int k = 0; p->direct && k < 3; k++) PG_TRY (read_component (p, scene, k));
 done:
     return status;
 }
 
+static double velocity_at (const pg_problem *p, const double *x, size_t k)
+{
+    pg_place at = pg_place_of (p->dim, x, 0);
+    return p->initial[k] ? pg_expression_value (p->initial[k], &at) : 0;
+}
+
+/* dv_k / dx_a by the difference over one spacing; 0 where the expression has no value */
+static double slope_at (const pg_problem *p, size_t i, size_t k, size_t a)
+{
+    size_t dim = (size_t) p->dim;
+    double x[3] = { 0 }, v[2];
+    for (int end = 0; end < 2; end++) {
+        memcpy (x, p->cloud.x + i * dim, dim * sizeof *x);
+        x[a] += (end - 0.5) * p->cloud.h;
+        v[end] = velocity_at (p, x, k);
+    }
+    double slope = (v[1] - v[0]) / p->cloud.h;
+    return isfinite (slope) ? slope : 0;
+}
+
+/* Points that turn do so with the velocity of the body about them, half its curl (unknown: spacing times rotation): a body that spins is at rest in itself. */
 void pg_initial_set (const pg_problem *p, double *v)
 {
     size_t dim = (size_t) p->dim, stride = dim + (size_t) p->turns;
-    for (size_t k = 0; k < dim; k++) {
-        if (!p->initial[k]) continue;
-        for (size_t i = 0; i < p->cloud.n; i++) {
-            pg_place at = pg_place_of (p->dim, p->cloud.x + i * dim, 0);
-            v[i * stride + k] = pg_expression_value (p->initial[k], &at);
+    if (!p->initial[0] && !p->initial[1] && !p->initial[2]) return;
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        double *own = v + i * stride;
+        for (size_t k = 0; k < dim; k++) own[k] = velocity_at (p, p->cloud.x + i * dim, k);
+        if (p->turns == 1) own[2] = 0.5 * p->cloud.h * (slope_at (p, i, 1, 0) - slope_at (p, i, 0, 1));
+        for (size_t t = 0; p->turns == 3 && t < 3; t++) {
+            size_t y = (t + 1) % 3, z = (t + 2) % 3;
+            own[3 + t] = 0.5 * p->cloud.h * (slope_at (p, i, z, y) - slope_at (p, i, y, z));
         }
     }
 }
