@@ -48,7 +48,7 @@ int pg_cli_check (int argc, char **argv)
     if (c.json) PG_TRY (plan_print_json (&all));
     else printf ("%s: the scene is right\n", c.scene);
     if (!c.quiet && !c.json) plan_print_long (&all);
-    if (c.spectrum && !c.json) spectrum_print (&waves);
+    if (c.spectrum && !c.json) spectrum_print (&waves, p);
     if (c.spectrum && c.folder) PG_TRY (spectrum_write (&waves, p, c.folder));
 done:
     if (status != PG_OK) command_complain (status, pg_last_error ());

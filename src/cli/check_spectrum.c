@@ -48,13 +48,13 @@ static void print_tangent (const spectrum *x)
 
 static double seconds (const spectrum *x, double omega) { return x->symbol->dense ? 2 / omega : NAN; }
 
-void spectrum_print (const spectrum *x)
+void spectrum_print (const spectrum *x, const pg_problem *p)
 {
     const pg_symbol *s = x->symbol;
     const pg_survey *v = &x->survey;
     double speed = pg_material_waves (&s->material).pressure / s->h;
-    printf ("  %-18s  %s: %zu wave vectors, grid of %d along each axis; a point answers %zu others (measured in a box of %zu points)\n", "spectrum",
-            s->material.name, v->vectors, v->grid, s->n - 1, s->points);
+    printf ("  %-18s  %s%s: %zu wave vectors, grid of %d along each axis; a point answers %zu others (measured in a box of %zu points)\n", "spectrum",
+            s->material.name, p->nmaterial > 1 ? " (the first material)" : "", v->vectors, v->grid, s->n - 1, s->points);
     printf ("  %-18s  %.4g to %.4g E V / h^2, in the shortest waves %.4g to %.4g\n", "eigenvalues", v->smallest.value, v->largest, v->shortest[0], v->shortest[1]);
     printf ("  %-18s  %.4g, ", "smallest", v->smallest.value), print_motion (&v->smallest, s);
     printf ("  %-18s  %.4g of a continuum's, ", "softest", v->softest.value), print_motion (&v->softest, s);
@@ -66,7 +66,7 @@ void spectrum_print (const spectrum *x)
     printf ("  %-18s  %.5g c_p / h", "largest frequency", v->fastest.value / speed);
     if (s->dense) printf (" = %.5g rad/s", v->fastest.value);
     printf (", "), print_motion (&v->fastest, s);
-    printf ("  %-18s  stable up to %.4g h / c_p", "explicit steps", 2 / v->fastest.value * speed);
+    printf ("  %-18s  far from surfaces stable up to %.4g h / c_p", "explicit steps", 2 / v->fastest.value * speed);
     if (s->dense) printf (" = %.4g s", seconds (x, v->fastest.value));
     if (isnan (s->bound)) printf ("; explicit solvers measure it\n");
     else {

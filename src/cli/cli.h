@@ -53,7 +53,7 @@ pg_status first_break_find (first_break *out, const pg_problem *p, const pg_solv
 typedef struct { pg_symbol *symbol; pg_survey survey; char verdict[400]; } spectrum;
 pg_status spectrum_find  (spectrum *out, const pg_scene *scene, const pg_problem *p);
 void      spectrum_free  (spectrum *spectrum);
-void      spectrum_print (const spectrum *spectrum);
+void      spectrum_print (const spectrum *spectrum, const pg_problem *p);
 void      spectrum_json  (pg_json *j, const spectrum *spectrum);
 pg_status spectrum_write (const spectrum *spectrum, const pg_problem *p, const char *folder);      /* spectrum.csv, spectrum.png  */
 
