@@ -15,6 +15,7 @@ static const struct { const char *name, *text; } scenes[] = {
     { "newmark", BODY "boundary: [{set: bottom, velocity: {x: 0, y: -4 m/s}}, {set: top, velocity: {y: 4 m/s}, table: [[0, 0], [1e-3, 1]]}]\n"
       "method: {essential: transformation}\nsolver: {kind: newmark, dt: 0.5 ms, end: 5 ms, rayleigh: {stiffness: 1 us}}\n" },
     { "pcg", BODY PULL "solver: {stepping: fixed, steps: 3, linear: pcg}\n" },
+    { "volumetric", BODY PULL "method: {force: gmpd, volumetric: on, bond_poisson: 0.1}\nsolver: {stepping: event}\noutput: {at: {levels: 3}}\n" },
     { "umfpack", BODY PULL "solver: {stepping: event, linear: umfpack}\n" },
 };
 enum { SCENES = sizeof scenes / sizeof *scenes, STEPS = 3 };
