@@ -32,6 +32,7 @@ typedef struct {
     int        finite;                                 /* 0: s = e.eta / r; 1: s = (|xi + eta| - r) / r, force along xi + eta */
     pg_evaluation evaluation;                          /* never changes the physics                                      */
     double     sweeps;                                 /* sums of forces that will be asked for, about; 0: a few. Many are worth timing plans of transforms */
+    int        threads;                                /* of the search for neighbours on a lattice, below 2: one; never changes a bit */
 } pg_sum_rule;
 
 /* ---- sites: a cloud as part of a lattice ------------------------------------------------------------------------------------ */

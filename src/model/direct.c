@@ -239,6 +239,7 @@ pg_status pg_direct_build (pg_problem *p, const pg_scene *scene)
     if (rule.surface == PG_SURFACE_VOLUME && alike)
         pg_scene_fault (scene, "method.evaluation", "with surface_correction: volume every bond has a weight of its own: use list or auto");
     PG_TRY (pg_scene_verdict (scene));
+    rule.threads = p->threads;
     PG_TRY (pg_sums_create (&p->sums, &rule, &p->cloud, p->lattice.dim ? &p->lattice : NULL));
 done:
     return status;

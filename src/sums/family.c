@@ -36,8 +36,7 @@ typedef struct {
     int   packed;                                      /* every site has a point                                         */
     int   reach[3];                                    /* largest offsets                                                */
     long *jump;                                        /* of each bond, in sites                                         */
-    size_t *start;
-    int  *node;                                        /* NULL: count                                                    */
+    pg_family *out;
 } walk;
 
 /* Is every offset of the stencil from this site inside the box of sites? */
@@ -67,13 +66,27 @@ static size_t visit (const walk *w, size_t i, int *node)
     return n;
 }
 
+static void count_points (void *context, size_t first, size_t last, int thread)
+{
+    const walk *w = context;
+    (void) thread;
+    for (size_t i = first; i < last; i++) w->out->start[i + 1] = visit (w, i, NULL);
+}
+
+static void fill_points (void *context, size_t first, size_t last, int thread)
+{
+    const walk *w = context;
+    (void) thread;
+    for (size_t i = first; i < last; i++) visit (w, i, w->out->node + w->out->start[i]);
+}
+
 static pg_status by_stencil (pg_family *out, const pg_sums *sums)
 {
     pg_status status = PG_OK;
     const pg_stencil *t = &sums->stencil;
     const int *count = sums->sites.count;
     size_t n = sums->cloud->n;
-    walk w = {.sums = sums, .packed = n == (size_t) count[0] * (size_t) count[1] * (size_t) count[2]};
+    walk w = {.sums = sums, .out = out, .packed = n == (size_t) count[0] * (size_t) count[1] * (size_t) count[2]};
     PG_ALLOC (w.jump, t->n);
     for (size_t b = 0; b < t->n; b++) {
         const int *o = t->offset + 3*b;
@@ -82,9 +95,10 @@ static pg_status by_stencil (pg_family *out, const pg_sums *sums)
     }
     PG_ALLOC (out->start, n + 1);
     out->n = n;
-    for (size_t i = 0; i < n; i++) out->start[i + 1] = out->start[i] + visit (&w, i, NULL);
+    pg_parallel (sums->rule.threads, n, count_points, &w);
+    for (size_t i = 0; i < n; i++) out->start[i + 1] += out->start[i];
     PG_ALLOC (out->node, out->start[n]);
-    for (size_t i = 0; i < n; i++) visit (&w, i, out->node + out->start[i]);
+    pg_parallel (sums->rule.threads, n, fill_points, &w);
 done:
     pg_free (w.jump);
     return status;

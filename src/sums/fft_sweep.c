@@ -17,7 +17,8 @@ static void fft_free (void *self)
     if (!t) return;
     fft_clear (&t->f);
     stencil_free (t->s);
-    void *blocks[] = { t->K, t->chi, t->D, t->cut, t->seen, t->seen_block, t->touched, t->list, t->edge, t->ragged, t->risky, t->W, t->ones, t->f_own, t->third, t->open, t->rim };
+    void *blocks[] = { t->K, t->chi, t->D, t->cut, t->seen, t->seen_block, t->touched, t->list, t->edge, t->ragged, t->risky, t->W, t->ones, t->f_own,
+                       t->third, t->open, t->rim };
     for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) pg_free (blocks[k]);
     pg_free (t);
 }
@@ -35,35 +36,33 @@ static void weigh_point (transformer *t, size_t i)
     t->chi[place] = any >> bit & 1 ? (s->p ? s->p[place] : 1) : 0;
 }
 
-static void sum_third (transformer *t, size_t i, const double *chi)
+/* Sums of K_ab and K_ab xi_c over the neighbours' weights */
+static inline __attribute__ ((always_inline)) void sum_terms (const transformer *t, const double *chi, const size_t terms, double *sum)
 {
-    const stencil *s = t->s;
-    size_t n = s->job.n;
-    double *T = t->third + i * (size_t) t->thirds;
-    memset (T, 0, (size_t) t->thirds * sizeof *T);
-    for (size_t e = 0; e < n; e++) {
-        const double *xi = s->term + e * PG_TERMS + PG_AT_XI;
-        double weight = chi[s->jump[e]];
-        for (int c = 0; weight != 0 && c < t->dim; c++)
-            for (int b = 0; b <= c; b++)
-                for (int a = 0; a <= b; a++) T[fft_third (a, b, c)] += weight * t->K[(size_t) fft_pair (t->dim, a, b) * n + e] * xi[c];
+    for (size_t p = 0; p < terms; p++) sum[p] = 0;
+    for (size_t e = 0; e < t->s->job.n; e++) {
+        double weight = chi[t->s->jump[e]];
+        for (size_t p = 0; weight != 0 && p < terms; p++) sum[p] += weight * t->K[e * terms + p];
     }
 }
 
 static void sum_D (transformer *t, size_t i)
 {
     const stencil *s = t->s;
-    size_t site = (size_t) s->setting.sums->sites.site[i], n = s->job.n, at = site / t->nx * t->width + site % t->nx, all = t->rows * t->width;
-    const double *chi = t->chi + s->place[i];
+    size_t site = (size_t) s->setting.sums->sites.site[i], at = site / t->nx * t->width + site % t->nx, all = t->rows * t->width;
+    const double *chi = t->chi + s->place[i], *sum = t->whole;
+    double own[FFT_TERMS];
     int whole = 1;
-    for (size_t b = 0; whole && b < n; b++) whole = chi[s->jump[b]] == 1;
-    for (int p = 0; p < t->pairs; p++) {
-        double sum = whole ? t->whole[p] : 0;
-        for (size_t b = 0; !whole && b < n; b++) sum += t->K[(size_t) p * n + b] * chi[s->jump[b]];
-        t->D[(size_t) p * all + at] = sum;
-    }
+    for (size_t b = 0; whole && b < s->job.n; b++) whole = chi[s->jump[b]] == 1;
     t->open[i] = !whole;
-    if (!whole) sum_third (t, i, chi);
+    if (!whole) {
+        if (t->dim == 1) sum_terms (t, chi, 2, own);
+        else if (t->dim == 2) sum_terms (t, chi, 7, own);
+        else sum_terms (t, chi, FFT_TERMS, own);
+        memcpy (t->third + i * (size_t) t->thirds, own + t->pairs, (size_t) t->thirds * sizeof *own);
+        sum = own;
+    }
+    for (int p = 0; p < t->pairs; p++) t->D[(size_t) p * all + at] = sum[p];
 }
 
 static void judge_block (transformer *t, size_t k)
@@ -105,6 +104,13 @@ static void count_gone (transformer *t)
     for (size_t i = 0; i < t->s->setting.sums->cloud->n; i++) t->gone += t->chi[t->s->place[i]] == 0;
 }
 
+static void join_rim (transformer *t, size_t i)
+{
+    unsigned bit;
+    size_t block = stencil_block (t->s, t->s->place[i], &bit);
+    t->rim[t->nrim++] = (fft_rim) { (int) i, (int) block };
+}
+
 static void renew (transformer *t)
 {
     size_t n = t->s->setting.sums->cloud->n;
@@ -112,7 +118,7 @@ static void renew (transformer *t)
     pg_parallel (threads, n, weigh_points, t);
     pg_parallel (threads, n, sum_D_points, t);
     t->nrim = 0;
-    for (size_t i = 0; i < n; i++) if (t->open[i]) t->rim[t->nrim++] = (int) i;
+    for (size_t i = 0; i < n; i++) if (t->open[i]) join_rim (t, i);
     pg_parallel (threads, t->s->nblock, judge_blocks, t);
     count_gone (t);
 }
@@ -156,7 +162,7 @@ static void lose_bonds (transformer *t, size_t n, const size_t *bond)
         size_t i = (size_t) t->touched[c];
         int was = t->open[i];
         if (t->seen[i] & AROUND) sum_D (t, i);
-        if (t->open[i] && !was) t->rim[t->nrim++] = (int) i;
+        if (t->open[i] && !was) join_rim (t, i);
         t->seen[i] = 0;
     }
     for (size_t k = 0; k < blocks; k++) {
@@ -322,26 +328,42 @@ static void take_force (void *context, size_t row, double *const *q, double *spa
     t->f.kernels->force[t->dim - 1] (&t->s->job, &r);
 }
 
-/* What the uniform strain does to points that lack neighbours */
+/* What the uniform strain does to points that lack neighbours: f_a = chi sum_bc T_abc e_bc; e: xx, 2 xy, yy, 2 xz, 2 yz, zz */
+typedef struct { transformer *t; double e[6]; } strain;
+
+static strain strain_of (transformer *t)
+{
+    const double *step = t->s->setting.sums->sites.step, *G = t->slope;
+    strain s = { .t = t };
+    for (int b = 0, at = 0; b < t->dim; b++)
+        for (int c = 0; c <= b; c++) s.e[at++] = b == c ? G[4*b] / step[b] : G[3*b + c] / step[c] + G[3*c + b] / step[b];
+    return s;
+}
+
+static inline __attribute__ ((always_inline)) void add_to (const strain *s, size_t first, size_t last, const int dim, const int terms)
+{
+    static const int third[3][6] = { { 0, 1, 2, 4, 5, 7 }, { 1, 2, 3, 5, 6, 8 }, { 4, 5, 6, 7, 8, 9 } };             /* fft_third    */
+    const transformer *t = s->t;
+    for (size_t k = first; k < last; k++) {
+        size_t i = (size_t) t->rim[k].point;
+        const double *T = t->third + i * (size_t) fft_third (0, 0, dim);
+        double *f = t->s->job.f + i * (size_t) dim, chi = t->chi[t->s->place[i]];
+        if (t->cut[t->rim[k].block]) continue;
+        _Pragma ("GCC unroll 3") for (int a = 0; a < dim; a++) {
+            double sum = 0;
+            _Pragma ("GCC unroll 6") for (int p = 0; p < terms; p++) sum += s->e[p] * T[third[a][p]];
+            f[a] += chi * sum;
+        }
+    }
+}
+
 static void add_strain (void *context, size_t first, size_t last, int thread)
 {
-    const transformer *t = context;
-    const double *step = t->s->setting.sums->sites.step;
+    const strain *s = context;
     (void) thread;
-    for (size_t k = first; k < last; k++) {
-        size_t i = (size_t) t->rim[k], place = t->s->place[i];
-        unsigned bit;
-        const double *T = t->third + i * (size_t) t->thirds;
-        double *f = t->s->job.f + i * (size_t) t->dim, chi = t->chi[place];
-        if (chi == 0 || t->cut[stencil_block (t->s, place, &bit)]) continue;
-        for (int a = 0; a < t->dim; a++)
-            for (int b = 0; b < t->dim; b++)
-                for (int c = 0; c <= b; c++) {
-                    int low = a < c ? a : c, high = a < b ? b : a, mid = a + b + c - low - high;
-                    double e = b == c ? t->slope[4*b] / step[b] : t->slope[3*b + c] / step[c] + t->slope[3*c + b] / step[b];
-                    f[a] += chi * e * T[fft_third (low, mid, high)];
-                }
-    }
+    if (s->t->dim == 1) add_to (s, first, last, 1, 1);
+    else if (s->t->dim == 2) add_to (s, first, last, 2, 3);
+    else add_to (s, first, last, 3, 6);
 }
 
 /* Forces of blocks by their bonds where some are cut or might break, of the others by transforms. */
@@ -364,7 +386,8 @@ static pg_status fft_force (void *self, const double *u, double *f, pg_changes *
     fit_motion (t, u, 1);
     fft_job job = { t->dim, t->dim, fill_force, take_force, t };
     fft_convolve (&t->f, &job);
-    pg_parallel (stencil_threads (s), t->nrim, add_strain, t);
+    strain strain_ = strain_of (t);
+    pg_parallel (stencil_threads (s), t->nrim, add_strain, &strain_);
 done:
     return status;
 }
@@ -451,21 +474,26 @@ static double fft_energy (void *self, const double *u)
 static double kernel_value (const void *context, int pair, size_t entry)
 {
     const transformer *t = context;
-    return t->K[(size_t) pair * t->s->job.n + entry];
+    return t->K[entry * (size_t) (t->pairs + t->thirds) + (size_t) pair];
 }
 
 static pg_status set_kernels (transformer *t)
 {
     pg_status status = PG_OK;
     const stencil *s = t->s;
-    size_t n = s->job.n;
-    PG_ALLOC (t->K, (size_t) t->pairs * n);
+    size_t n = s->job.n, terms = (size_t) (t->pairs + t->thirds);
+    PG_ALLOC (t->K, terms * n);
     for (size_t e = 0; e < n; e++) {
         const double *term = s->term + e * PG_TERMS;
-        for (int a = 0; a < t->dim; a++)
-            for (int b = a; b < t->dim; b++) t->K[(size_t) fft_pair (t->dim, a, b) * n + e] = term[PG_AT_PULL + a] * term[PG_AT_XI + b];
+        double *K = t->K + e * terms;
+        for (int b = 0; b < t->dim; b++)
+            for (int a = 0; a <= b; a++) {
+                double pull = term[PG_AT_PULL + a] * term[PG_AT_XI + b];
+                K[fft_pair (t->dim, a, b)] = pull;
+                for (int c = b; c < t->dim; c++) K[t->pairs + fft_third (a, b, c)] = pull * term[PG_AT_XI + c];
+            }
     }
-    for (int p = 0; p < t->pairs; p++) for (size_t e = 0; e < n; e++) t->whole[p] += t->K[(size_t) p * n + e];
+    for (size_t e = 0; e < n; e++) for (int p = 0; p < t->pairs; p++) t->whole[p] += t->K[e * terms + (size_t) p];
 done:
     return status;
 }
@@ -490,7 +518,7 @@ static pg_status fft_create_sweep (void **self, const pg_sweep_setting *setting,
     PG_TRY (status);
     stencil *s = t->s;
     size_t n = setting->sums->cloud->n, count[3] = { (size_t) sites->count[0], (size_t) sites->count[1], (size_t) sites->count[2] };
-    t->dim = s->job.dim, t->pairs = t->dim * (t->dim + 1) / 2;
+    t->dim = s->job.dim, t->pairs = t->dim * (t->dim + 1) / 2, t->thirds = fft_third (0, 0, t->dim);
     t->nx = count[0], t->rows = count[1] * count[2], t->width = s->row_blocks * PG_BLOCK, t->places = stencil_places (s);
     PG_ALLOC (t->chi, t->places);
     PG_ALLOC (t->D, (size_t) t->pairs * t->rows * t->width);
@@ -498,7 +526,6 @@ static pg_status fft_create_sweep (void **self, const pg_sweep_setting *setting,
     for (size_t k = 0; k < t->width; k++) t->ones[k] = 1;
     PG_ALLOC (t->f_own, n * (size_t) t->dim);
     PG_ALLOC (t->cut, s->nblock);
-    t->thirds = fft_third (0, 0, t->dim);
     PG_ALLOC (t->third, n * (size_t) t->thirds);
     PG_ALLOC (t->open, n);
     PG_ALLOC (t->rim, n);

@@ -11,12 +11,14 @@
 #include "fft_rows.h"
 #include "stencil_sweep.h"
 
+enum { FFT_TERMS = 16 };                               /* pairs and thirds in space                                      */
+typedef struct { int point, block; } fft_rim;
 typedef struct {
     stencil *s;                                        /* bits of bonds, displacements in padded places, loops over bonds */
     fft     f;
     int     dim, pairs, thirds;                        /* thirds: 1, 4, 10                                               */
     size_t  nx, rows, width, places;                   /* sites of a row, rows, that of whole blocks, padded places             */
-    double *K;                                         /* of the stencil's bonds, N/m        (pairs x n)                 */
+    double *K;                                         /* of the stencil's bonds, N/m; K_ab xi_c, N         (n x (pairs + thirds)) */
     double *chi;                                       /* (places)                                                       */
     double *D;                                         /* N/m                                (pairs x rows x width)      */
     double  whole[FFT_MOST];                           /* D of a point with a whole family of weight 1                   */
@@ -27,7 +29,7 @@ typedef struct {
     double  shift[3], base[3], slope[9];               /* motion taken off, m: shift + (base + slope . place of a site)  */
     double *third;                                     /* sum K_ab xi_c chi, N: where open                    (points x thirds) */
     unsigned char *open;                               /* point: its family is not a whole one of weight 1               */
-    int    *rim;  size_t nrim;                         /* those                                                          */
+    fft_rim *rim;  size_t nrim;                        /* those                                                          */
     double *edge;                                      /* fft_bound.c                                                    */
     unsigned char *ragged, *risky;
     size_t  room_edges;
