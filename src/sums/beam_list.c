@@ -14,6 +14,8 @@ typedef struct {
     pg_beam *beam;                                     /* N/m    (bonds)                                                 */
     unsigned char *alive;                              /*        (bonds)                                                 */
     double  *energy;                                   /* J, of each point's halves (n)                                  */
+    double  *share;                                    /* 1 / s0^2, 1 / gamma0^2, 1 / kappa0^2 of each point (n x 3); NULL: nothing breaks */
+    int      alike;                                    /* those of all points are                                        */
     pg_changes found[MAX_THREADS];
     pg_status  failed[MAX_THREADS];
 } list;
@@ -29,7 +31,7 @@ static void release (void *self)
     list *s = self;
     if (!s) return;
     for (int t = 0; t < MAX_THREADS; t++) pg_free (s->found[t].bond);
-    pg_free (s->xi), pg_free (s->beam), pg_free (s->alive), pg_free (s->energy);
+    pg_free (s->xi), pg_free (s->beam), pg_free (s->alive), pg_free (s->energy), pg_free (s->share);
     pg_free (s);
 }
 
@@ -51,6 +53,23 @@ static void fill (void *context, size_t first, size_t last, int thread)
     }
 }
 
+static pg_status set_shares (list *s)
+{
+    pg_status status = PG_OK;
+    size_t n = s->setting.family->n;
+    const double *of[3] = { s->setting.limit, s->law.shear_limit, s->law.bending_limit };
+    if (!s->setting.limit) goto done;
+    PG_ALLOC (s->share, 3 * n);
+    s->alike = 1;
+    for (size_t k = 0; k < 3 * n; k++) {
+        double limit = of[k % 3][k / 3];
+        s->share[k] = 1 / (limit * limit);
+        s->alike = s->alike && s->share[k] == s->share[k % 3];
+    }
+done:
+    return status;
+}
+
 static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -66,6 +85,7 @@ static pg_status create (void **self, const pg_sweep_setting *setting, pg_instru
     PG_ALLOC (s->alive, nbond);
     PG_ALLOC (s->energy, n);
     memset (s->alive, 1, nbond);
+    PG_TRY (set_shares (s));
     pg_parallel (threads_for (s), n, fill, s);
 done:
     return status;
@@ -87,10 +107,10 @@ static void update (void *self, const unsigned char *alive, const pg_changes *ch
 
 /* ---- sums ---------------------------------------------------------------------------------------------------------------------------- */
 /* Is the bond at a limit of point i's? */
-static int over_by (const list *s, size_t i, double stretch, double shear2, double bending2)
+static inline int over_by (const list *s, size_t i, double stretch, double shear2, double bending2)
 {
-    double s0 = s->setting.limit[i], g0 = s->law.shear_limit[i], k0 = s->law.bending_limit[i];
-    double a = stretch > 0 ? stretch / s0 * (stretch / s0) : 0, b = shear2 / (g0 * g0), c = bending2 / (k0 * k0);
+    const double *share = s->share + 3 * i;
+    double a = stretch > 0 ? stretch * stretch * share[0] : 0, b = shear2 * share[1], c = bending2 * share[2];
     return s->law.single ? a >= 1 || b >= 1 || c >= 1 : a + b + c >= 1;
 }
 
@@ -115,7 +135,7 @@ static inline __attribute__ ((always_inline)) void sum_point (const pass *p, siz
         if (p->breaking && !(exempt && (exempt[i] || exempt[j]))) {
             double stretch, shear2, bending2;
             beam_measures (dim, 1 / s->law.length, xi, rr, w, diff, &stretch, &shear2, &bending2);
-            if (over_by (s, i, stretch, shear2, bending2) || over_by (s, j, stretch, shear2, bending2)) {
+            if (over_by (s, i, stretch, shear2, bending2) || (!s->alike && over_by (s, j, stretch, shear2, bending2))) {
                 s->alive[e] = 0;
                 PG_GROW (found->bond, found->cap, found->n + 1);
                 found->bond[found->n++] = e;

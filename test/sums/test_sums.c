@@ -227,6 +227,35 @@ static void families_of_lattices_match_brute_force (void **state)
             }
 }
 
+/* Any number of threads: the same families, of points numbered as their sites and otherwise */
+static void threads_find_the_same_families (void **state)
+{
+    (void) state;
+    const double step[3] = {1, 1, 1};
+    for (int k = 0; k < 2; k++) {
+        body *b = lattice_body (2, 20, 20, 1, step, k ? ring : NULL);
+        pg_family f[4];
+        for (int t = 0; t < 4; t++) {
+            pg_sum_rule rule = rule_of (2, "constant", 3.015, PG_PARTIAL_OVERLAP, PG_SURFACE_NONE);
+            pg_sums *s;
+            rule.threads = (int[]) {0, 2, 3, 7}[t];
+            for (size_t i = 0; t == 0 && k && i < b->cloud.n / 2; i++)
+                for (int d = 0; d < 2; d++) {
+                    double *p = &b->x[2*i + (size_t) d], *q = &b->x[2 * (b->cloud.n - 1 - i) + (size_t) d], x = *p;
+                    *p = *q, *q = x;
+                }
+            check_ok (pg_sums_create (&s, &rule, &b->cloud, &b->lattice));
+            assert_int_equal (s->ordered, !k);
+            check_ok (pg_sums_family (&f[t], s));
+            if (t) assert_memory_equal (f[t].start, f[0].start, (b->cloud.n + 1) * sizeof *f->start);
+            if (t) assert_memory_equal (f[t].node, f[0].node, f[0].start[b->cloud.n] * sizeof *f->node);
+            pg_sums_free (&s);
+        }
+        for (int t = 0; t < 4; t++) pg_family_clear (&f[t]);
+        free (b);
+    }
+}
+
 /* Points numbered otherwise than their sites: the same bonds */
 static void the_numbering_of_points_changes_nothing (void **state)
 {
@@ -484,6 +513,7 @@ int main (void)
         cmocka_unit_test (points_off_a_lattice_are_none),
         cmocka_unit_test (lattices_are_found),
         cmocka_unit_test (families_of_lattices_match_brute_force),
+        cmocka_unit_test (threads_find_the_same_families),
         cmocka_unit_test (the_numbering_of_points_changes_nothing),
         cmocka_unit_test (families_of_irregular_clouds_match_brute_force),
         cmocka_unit_test (a_lattice_is_a_cloud),
