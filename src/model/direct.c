@@ -190,8 +190,8 @@ static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule 
     for (int k = 0; k < 2; k++)
         if (pg_scene_given (scene, "%s", only[k]) && !is (scene, "method.beam", of[k])) pg_scene_fault (scene, only[k], "is for method.beam: %s", of[k]);
     p->turns = pg_direct_turns (scene, p->dim);
-    p->bending = is (scene, "method.beam", "timoshenko") ? 1 + pg_scene_number (scene, only[0])
-               : is (scene, "method.beam", "chen") ? 4 * pg_scene_number (scene, only[1]) - 3 : 1;
+    p->bending = is (scene, "method.beam", "timoshenko") ? 1 + pg_scene_number (scene, "%s", only[0])
+               : is (scene, "method.beam", "chen") ? 4 * pg_scene_number (scene, "%s", only[1]) - 3 : 1;
     if (rule->state) check_volumetric (p, scene);
     else if (pg_scene_given (scene, "method.bond_poisson")) pg_scene_fault (scene, "method.bond_poisson", "is for method.volumetric: on");
     for (size_t m = 0; m < p->nmaterial && p->mode != PG_LINE; m++) {
