@@ -74,7 +74,10 @@ static pg_status event_rows (pg_result *r, const pg_step *step)
         double factor = b->time == step->time || !(step->time > 0) ? step->factor : step->factor * b->time / step->time;
         double number[8] = { (double) step->number, factor, b->time, b->place[0], b->place[1], b->place[2], b->utilisation,
                              i == 0 ? step->dissipated : 0 };
-        for (int k = 0; k < 8; k++) snprintf (text[k], sizeof text[k], isnan (number[k]) ? "" : "%.10g", number[k]);
+        for (int k = 0; k < 8; k++) {
+            text[k][0] = '\0';                         /* empty: not known                                              */
+            if (!isnan (number[k])) snprintf (text[k], sizeof text[k], "%.10g", number[k]);
+        }
         PG_TRY (pg_table_line (r->events, cell));
     }
 done:
