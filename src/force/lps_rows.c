@@ -33,12 +33,12 @@ static void offset (const bond *b, size_t i, size_t j, double *xi)
     for (size_t k = 0; k < (size_t) b->dim; k++) xi[k] = b->problem->cloud.x[j * (size_t) b->dim + k] - b->problem->cloud.x[i * (size_t) b->dim + k];
 }
 
-/* Of point i, all or those of live bonds, at most NEAR */
+/* Those of point i, at most NEAR; -1: its bond is dead. Half the horizon, so that they are each other's neighbours: a kernel that vanishes there has none. */
 static size_t nearest (const bond *b, size_t i, int *node)
 {
     const pg_family *f = b->family;
     double h = pg_problem_spacing (b->problem, PG_NODES, i), ratio = h / b->problem->cloud.h, xi[3];
-    double reach = fmin (0.5 * b->problem->sums->rule.horizon * ratio, 1.5 * h) * (1 + 1e-9);
+    double half = 0.5 * b->problem->sums->rule.horizon * ratio * (b->problem->sums->rule.kernel->closed ? 1 + 1e-9 : 1 - 1e-9), reach = fmin (half, 1.5 * h * (1 + 1e-9));
     size_t m = 0;
     for (size_t e = f->start[i]; e < f->start[i + 1] && m < NEAR; e++) {
         double rr = 0;
