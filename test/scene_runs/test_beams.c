@@ -43,11 +43,10 @@ static size_t images (const run *r, const double *x)
     return found;
 }
 
-/* Quasi-statically: force at the ends when the first bonds of the cube break, by tension, at the flaw's ends above and below. */
-static double first_break_at_rest (void)
+/* Quasi-statically, event by event: force at the ends when the first bonds of the cube break, by tension, at the flaw's ends above and below. */
+static double first_break_at_rest (size_t nset, const char *const *set)
 {
-    static const char *const set[] = { "spacing=2 mm", "solver={kind: static, stepping: event, max_events: 1}", "output.at.levels=1" };
-    run r = loaded ("data/chen_cube/scene_static.yaml", sizeof set / sizeof *set, set);
+    run r = loaded ("data/chen_cube/scene_static.yaml", nset, set);
     while (!pg_solver_done (r.solver, r.state)) advance (&r);
     assert_int_equal (r.step.nbroken, 8);
     for (size_t k = 0; k < r.step.nbroken; k++) {
@@ -59,7 +58,6 @@ static double first_break_at_rest (void)
         check_relative (fabs (x[2]), 1e-3, 1e-6);
     }
     double force = r.step.reaction[1];
-    check_relative (force, 42146, 1e-3);
     check_relative (force, -r.step.reaction[4], 1e-8);
     for (int k = 6; k < 12; k++) check_below (fabs (r.step.reaction[k]), 1e-6 * force);      /* pin and rail bear nothing */
     clear (&r);
@@ -89,7 +87,9 @@ static void test_cube (void **unused)
             shear += r.step.broken[k].kind == 's';
         }
     }
-    double rest = first_break_at_rest ();
+    static const char *const still[] = { "spacing=2 mm", "solver={kind: static, stepping: event, max_events: 1}", "output.at.levels=1" };
+    double rest = first_break_at_rest (sizeof still / sizeof *still, still);
+    check_relative (rest, 42146, 1e-3);
     print_message ("%zu bonds, %zu by shear; the first at %.5g N, at rest %.5g N\n", broken, shear, start, rest);
     assert_true (broken > 20 && shear > 0);
     check_relative (start, rest, 0.02);
@@ -97,8 +97,26 @@ static void test_cube (void **unused)
     clear (&r);
 }
 
+/* With dilatation for a Poisson's ratio of 0.4 (the free sides kept whole: scene_0.4.yaml) the flaw opens at 0.7 of that load; motion and rest agree again. */
+static void test_cube_volumetric (void **unused)
+{
+    (void) unused;
+    static const char *const set[] = { "spacing=2 mm", "sets.skin.where=abs(x) > 14 mm or abs(z) > 14 mm", "solver.end=0.27 ms", "solver.max_events=1", "output.at.rows=1000" };
+    static const char *const still[] = { "spacing=2 mm", "solver={kind: static, stepping: event, max_events: 1}", "output.at.levels=1", "method.volumetric=on",
+        "materials.resin.poissons_ratio=0.4", "sets.skin={where: \"abs(x) > 14 mm or abs(z) > 14 mm\"}", "failure.exclude=[foot, head, skin]" };
+    run r = loaded ("data/chen_cube/scene_0.4.yaml", sizeof set / sizeof *set, set);
+    while (!pg_solver_done (r.solver, r.state)) advance (&r);
+    assert_int_equal (r.step.nbroken, 8);
+    assert_int_equal (r.step.broken[0].kind, 't');
+    check_relative (fabs (r.step.broken[0].place[0]), 3e-3, 1e-6);
+    double rest = first_break_at_rest (sizeof still / sizeof *still, still);
+    check_relative (rest, 29589, 1e-3);
+    check_relative (r.step.reaction[1], rest, 0.02);
+    clear (&r);
+}
+
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (test_panel), cmocka_unit_test (test_cube) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (test_panel), cmocka_unit_test (test_cube), cmocka_unit_test (test_cube_volumetric) };
     return cmocka_run_group_tests_name ("scene_runs/beams", tests, NULL, NULL);
 }
