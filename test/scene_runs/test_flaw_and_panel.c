@@ -43,6 +43,28 @@ static void test_forces (void **unused)
     }
 }
 
+/* Micropolar bonds: the crack leaves the corner upwards and becomes level one to three spacings above it (0.27 to 0.28 m at all finer ones). */
+static void test_turn (void **unused)
+{
+    (void) unused;
+    static const char *const set[] = { "spacing=12.5 mm", "body[2].add.box.low=[0, -37.5 mm]", "sets.far.where=x <= 0.17 m" };
+    run r = loaded ("data/l_panel/scene.yaml", sizeof set / sizeof *set, set);
+    double level[2] = { 0 }, n[2] = { 0 };
+    while (!pg_solver_done (r.solver, r.state)) {
+        advance (&r);
+        for (size_t b = 0; b < r.step.nbroken; b++) {
+            const double *x = r.step.broken[b].place;
+            int behind = x[0] < 0.2;
+            if (behind || x[0] > 0.23) level[behind] += x[1], n[behind]++;
+        }
+    }
+    print_message ("%g, %g bonds about y = %.4g, %.4g m\n", n[0], n[1], level[0] / n[0], level[1] / n[1]);
+    check_below (50, n[1]);
+    check_relative (level[0] / n[0], 0.254, 0.02);
+    check_relative (level[1] / n[1], 0.275, 0.01);
+    clear (&r);
+}
+
 /* By shape functions: where the panel breaks first, and that its supports are those of the others. */
 static void test_galerkin (void **unused)
 {
@@ -65,9 +87,9 @@ static void test_flaw (void **unused)
 {
     (void) unused;
     static const char *const rule[] = { "failure.criterion=beam_limits", "failure.criterion=stretch" };
-    const double end = 4.4955e-3, expected[] = { 1616, 1694 };
+    const double end = 4.4955e-3, expected[] = { 1636, 1722 };
     for (int k = 0; k < 2; k++) {
-        const char *set[] = { rule[k], "solver.max_events=120" };
+        const char *set[] = { rule[k], "solver.max_events=90" };
         run r = loaded ("data/inclined_flaw/scene.yaml", 2, set);
         double first[2] = { 0 }, across = 0, along = 0, load = 0;
         size_t n = 0, wings = 0, sheared = 0;
@@ -90,8 +112,8 @@ static void test_flaw (void **unused)
         print_message ("%s: %.5g N, %zu bonds, %zu of the wings, %zu by shear, %.3g deg from the flaw\n", rule[k], load, n, wings, sheared, angle);
         check_relative (load, expected[k], 1e-3);
         check_below (0.9, (double) wings / (double) n);
-        check_below (60, angle);
-        check_below (angle, 95);
+        check_below (50, angle);                       /* 70 (closed) to 90 (open crack), and 20 for a wing of three horizons */
+        check_below (angle, 110);
         assert_true (k ? sheared == 0 : sheared > 0 && 2 * sheared < n);
         clear (&r);
     }
@@ -99,6 +121,6 @@ static void test_flaw (void **unused)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (test_forces), cmocka_unit_test (test_galerkin), cmocka_unit_test (test_flaw) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (test_forces), cmocka_unit_test (test_turn), cmocka_unit_test (test_galerkin), cmocka_unit_test (test_flaw) };
     return cmocka_run_group_tests_name ("scene_runs/flaw_and_panel", tests, NULL, NULL);
 }
