@@ -186,6 +186,6 @@ void pg_beam_strain (int dim, const double *xi, double length, const double *di,
 {
     double w[3], diff[3], s;
     beam_motion (dim, 0.5 / length, xi, di, dj, w, diff);
-    beam_measures (dim, 1 / length, xi, beam_dot (dim, xi, xi), w, diff, &s, shear, bending);
+    beam_measures (dim, 1 / length, xi, 1 / beam_dot (dim, xi, xi), w, diff, &s, shear, bending);
     *shear = sqrt (*shear), *bending = sqrt (*bending);
 }

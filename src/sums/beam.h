@@ -30,36 +30,36 @@ static inline double beam_dot (int n, const double *a, const double *b)
     return sum;
 }
 
-/* Adds force and moment on i to f; rr = xi . xi, scale: of all stiffnesses. */
-static inline void beam_pull (int dim, double lever, const double *xi, double rr, const pg_beam *b, const double *w, const double *diff, double *f)
+/* Adds force and moment on i to f; inverse: 1 / xi . xi */
+static inline void beam_pull (int dim, double lever, const double *xi, double inverse, const pg_beam *b, const double *w, const double *diff, double *f)
 {
-    double along = (b->along - b->shear) * (beam_dot (dim, xi, w) / rr), g[3];
+    double along = (b->along - b->shear) * (beam_dot (dim, xi, w) * inverse), g[3];
     for (int k = 0; k < dim; k++) g[k] = b->shear * w[k] + along * xi[k], f[k] += g[k];
     if (dim == 2) {
         f[2] += lever * (xi[0] * g[1] - xi[1] * g[0]) + b->bending * diff[0];
         return;
     }
-    double twist = beam_dot (3, xi, diff) / rr;
+    double twist = beam_dot (3, xi, diff) * inverse;
     f[3] += lever * (xi[1] * g[2] - xi[2] * g[1]) + b->bending * (diff[0] - twist * xi[0]);
     f[4] += lever * (xi[2] * g[0] - xi[0] * g[2]) + b->bending * (diff[1] - twist * xi[1]);
     f[5] += lever * (xi[0] * g[1] - xi[1] * g[0]) + b->bending * (diff[2] - twist * xi[2]);
 }
 
 /* s^2 with its sign, gamma^2, kappa^2; per_length: 1 / length */
-static inline void beam_measures (int dim, double per_length, const double *xi, double rr, const double *w, const double *diff, double *s, double *shear2, double *bending2)
+static inline void beam_measures (int dim, double per_length, const double *xi, double inverse, const double *w, const double *diff, double *s, double *shear2, double *bending2)
 {
-    double along = beam_dot (dim, xi, w) / rr, across = 0, turn = 0, twist = dim == 3 ? beam_dot (3, xi, diff) / rr : 0;
+    double along = beam_dot (dim, xi, w) * inverse, across = 0, turn = 0, twist = dim == 3 ? beam_dot (3, xi, diff) * inverse : 0;
     for (int k = 0; k < dim; k++) across += (w[k] - along * xi[k]) * (w[k] - along * xi[k]);
     if (dim == 2) turn = diff[0] * diff[0];
     else for (int k = 0; k < 3; k++) turn += (diff[k] - twist * xi[k]) * (diff[k] - twist * xi[k]);
-    *s = along, *shear2 = across / rr, *bending2 = turn * (per_length * per_length);
+    *s = along, *shear2 = across * inverse, *bending2 = turn * (per_length * per_length);
 }
 
 /* Twice the energy of the bond, J */
 static inline double beam_energy (int dim, const double *xi, double rr, const pg_beam *b, const double *w, const double *diff)
 {
     double s, shear2, turn2;
-    beam_measures (dim, 1, xi, rr, w, diff, &s, &shear2, &turn2);
+    beam_measures (dim, 1, xi, 1 / rr, w, diff, &s, &shear2, &turn2);
     return (b->along * (s * s) + b->shear * shear2) * rr + b->bending * turn2;
 }
 #endif

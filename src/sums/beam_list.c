@@ -123,18 +123,18 @@ static inline __attribute__ ((always_inline)) void sum_point (const pass *p, siz
     const pg_family *family = s->setting.family;
     const unsigned char *exempt = s->setting.exempt;
     const int m = beam_unknowns (dim);
-    double lever = 0.5 / s->law.length, w[3], diff[3];
+    double lever = 0.5 / s->law.length, per_length = 1 / s->law.length, w[3], diff[3];
     const double *di = p->u + i * (size_t) m;
     for (int k = 0; k < m; k++) f[k] = 0;
     for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
         if (!s->alive[e]) continue;
         size_t j = (size_t) family->node[e];
         const double *xi = s->xi + e * (size_t) dim;
-        double rr = beam_dot (dim, xi, xi);
+        double inverse = 1 / beam_dot (dim, xi, xi);
         beam_motion (dim, lever, xi, di, p->u + j * (size_t) m, w, diff);
         if (p->breaking && !(exempt && (exempt[i] || exempt[j]))) {
             double stretch, shear2, bending2;
-            beam_measures (dim, 1 / s->law.length, xi, rr, w, diff, &stretch, &shear2, &bending2);
+            beam_measures (dim, per_length, xi, inverse, w, diff, &stretch, &shear2, &bending2);
             if (over_by (s, i, stretch, shear2, bending2) || (!s->alike && over_by (s, j, stretch, shear2, bending2))) {
                 s->alive[e] = 0;
                 PG_GROW (found->bond, found->cap, found->n + 1);
@@ -142,7 +142,7 @@ static inline __attribute__ ((always_inline)) void sum_point (const pass *p, siz
                 continue;
             }
         }
-        beam_pull (dim, lever, xi, rr, &s->beam[e], w, diff, f);
+        beam_pull (dim, lever, xi, inverse, &s->beam[e], w, diff, f);
     }
 done:
     if (status != PG_OK) *failed = status;
