@@ -547,7 +547,7 @@ static void fft_bytes (const void *self, double *per_bond, double *per_point)
     const fft_box *b = &t->f.box;
     double n = (double) t->s->setting.sums->cloud->n, places = (double) (t->rows * t->width), passes = t->dim == 3 ? 4 : 4;
     *per_bond = 0;
-    *per_point = sizeof (double) * (2 * t->dim * n + places * (4 * t->dim + 2 + t->pairs) + passes * t->dim * 2 * (double) (b->C * b->T[1] * b->n[2])) / n;
+    *per_point = sizeof (double) * (2 * t->dim * n + (t->thirds + 2 * t->dim + 1) * (double) t->nrim + places * (4 * t->dim + 2 + t->pairs) + passes * t->dim * 2 * (double) (b->C * b->T[1] * b->n[2])) / n;
 }
 
 /* From bench/sums_rate fcbm on one thread of an AMD EPYC (280^2 to 1024^2 and 50^3 to 140^3 places, AVX-512; plans between guessed and timed ones): a pair of
