@@ -49,7 +49,7 @@ Q       := $(if $(V),,@)
 # compilations and tests at a time: as many as make was given with -j, else a core each
 PARALLEL = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
 
-all: $(PROGRAM) $(SOLIB) $(CONVERT) perigal.pc
+all: perigal $(SOLIB) $(CONVERT) perigal.pc
 
 perigal: $(PROGRAM)
 	$(Q)ln -sf $(PROGRAM) perigal
