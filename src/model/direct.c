@@ -82,7 +82,7 @@ void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, con
                   : is (scene, partial, "overlap") ? PG_PARTIAL_OVERLAP : !lattice ? PG_PARTIAL_LINEAR : fading ? PG_PARTIAL_NONE : PG_PARTIAL_OVERLAP;
     rule->surface = is (scene, surface, "product") ? PG_SURFACE_PRODUCT : is (scene, surface, "volume") ? PG_SURFACE_VOLUME
                   : is (scene, surface, "none") || approx->horizon < 4 * spacing * (1 - 1e-9) ? PG_SURFACE_NONE : PG_SURFACE_PRODUCT;
-    rule->beams = is (scene, "method.force", "gmpd");
+    rule->beams = own && own->turns;
     rule->calibrate = pg_scene_bool (scene, "method.calibrate");
     rule->finite = is (scene, "method.stretch", "finite");
     rule->evaluation = is (scene, evaluation, "stencil") ? PG_EVALUATE_STENCIL : is (scene, evaluation, "list") ? PG_EVALUATE_LIST
