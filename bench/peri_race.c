@@ -23,6 +23,7 @@ typedef struct {
 static void clear (runner *r)
 {
     pg_free (r->moduli), pg_free (r->limit), pg_free (r->v);
+    r->moduli = r->limit = r->v = NULL;
     lattice_clear (&r->body);
 }
 
