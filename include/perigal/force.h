@@ -88,6 +88,9 @@ typedef struct {
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);
+/* The upper bound of the largest eigenfrequency that explicit methods take, rad/s: the force's own, or from row sums at its last refresh (room: one
+ * number for each dof, as mass is). NAN: the force has neither. *from: which, in words. */
+pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass, double *room, double *omega, const char **from);
 const pg_force_type *pg_force_find  (const char *name);
 const char          *pg_force_names (void);
 void pg_ledger_clear (pg_ledger *ledger);

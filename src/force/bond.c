@@ -16,19 +16,29 @@ void bond_star_at (const bond *b, size_t i, int thread, bond_star *s)
     pg_sums_bonds (b->problem->sums, b->family, i, s->xi, s->weight, s->beta);
 }
 
-double bond_kappa (const bond *b, size_t i, const bond_star *s, size_t e, double *r)
+/* N/m^3, of a bond whose constant is `both` */
+static double kappa_of (const bond *b, size_t i, const bond_star *s, size_t e, double both, double *r)
 {
     size_t j = (size_t) s->node[e];
-    const double *V = b->problem->cloud.volume, *c = b->modulus, *xi = s->xi + e * (size_t) b->dim;
-    double both = b->stiff ? b->stiff[i] + b->stiff[j] : c[i] == c[j] ? c[i] : 2 * c[i] * c[j] / (c[i] + c[j]), rr = 0;
+    const double *V = b->problem->cloud.volume, *xi = s->xi + e * (size_t) b->dim;
+    double rr = 0;
     for (int k = 0; k < b->dim; k++) rr += xi[k] * xi[k];
     if (r) *r = sqrt (rr);
     return both * (b->stiff ? lps_weight (b, i, s, e) : s->weight[e]) * (V[i] * V[j]) / (rr * sqrt (rr));
 }
 
-static void add_pull (const bond *b, const double *xi, double kappa, double *own, double *other)
+double bond_kappa (const bond *b, size_t i, const bond_star *s, size_t e, double *r)
+{
+    size_t j = (size_t) s->node[e];
+    const double *c = b->modulus;
+    return kappa_of (b, i, s, e, b->stiff ? b->stiff[i] + b->stiff[j] : c[i] == c[j] ? c[i] : 2 * c[i] * c[j] / (c[i] + c[j]), r);
+}
+
+void bond_pull (const bond *b, size_t i, const bond_star *s, size_t e, double both, double *own, double *other)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
+    const double *xi = s->xi + e * dim;
+    double kappa = kappa_of (b, i, s, e, both, NULL);
     for (size_t a = 0; a < dim; a++)
         for (size_t c = 0; c < dim; c++) own[a * m + c] += kappa * xi[a] * xi[c], other[a * m + c] -= kappa * xi[a] * xi[c];
 }
@@ -47,7 +57,7 @@ void bond_blocks (const bond *b, size_t i, const bond_star *s, size_t e, double 
     double spare[36];
     if (b->shear) {
         bond_beam (b, i, s, e, own, other ? other : spare);
-        if (b->stiff) add_pull (b, xi, bond_kappa (b, i, s, e, NULL), own, other ? other : spare);
+        if (b->stiff) bond_pull (b, i, s, e, b->stiff[i] + b->stiff[s->node[e]], own, other ? other : spare);
         return;
     }
     double kappa = bond_kappa (b, i, s, e, NULL);

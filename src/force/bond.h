@@ -53,7 +53,9 @@ typedef struct {                                       /* the bonds of one point
     double *xi, *weight, *beta;                        /* m; k beta g; beta                                              */
 } bond_star;
 void   bond_star_at (const bond *b, size_t i, int thread, bond_star *out);
-/* Force on i = - own d_i - other d_j (stride x stride each; other NULL: not wanted), small displacements. */
+/* Force on i = - own d_i - other d_j (stride x stride each; other NULL: not wanted), small displacements. pull: added to them, of a pull along the
+ * bond with the constant `both`, N/m^6 */
+void   bond_pull    (const bond *b, size_t i, const bond_star *s, size_t e, double both, double *own, double *other);
 void   bond_beam    (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other);       /* with shear: the beam alone */
 /* As that; of a dilatation beside the beams what bonds alone that are at least as stiff would do. */
 void   bond_blocks  (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other);

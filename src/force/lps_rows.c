@@ -178,15 +178,10 @@ static void add_dilatation (const bond *b, size_t i, size_t k, size_t n, const i
 
 static void pull_block (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other)
 {
-    const double *V = b->problem->cloud.volume, *xi = s->xi + e * (size_t) b->dim;
-    size_t dim = (size_t) b->dim, m = (size_t) b->stride, j = (size_t) s->node[e];
-    double rr = 0;
+    size_t mm = (size_t) (b->stride * b->stride);
     if (b->shear) bond_beam (b, i, s, e, own, other);
-    else memset (own, 0, m * m * sizeof *own), memset (other, 0, m * m * sizeof *other);
-    for (size_t k = 0; k < dim; k++) rr += xi[k] * xi[k];
-    double kappa = (b->rows->stiff[i] + b->rows->stiff[j]) * lps_weight (b, i, s, e) * (V[i] * V[j]) / (rr * sqrt (rr));
-    for (size_t a = 0; a < dim; a++)
-        for (size_t c = 0; c < dim; c++) own[a * m + c] += kappa * xi[a] * xi[c], other[a * m + c] -= kappa * xi[a] * xi[c];
+    else memset (own, 0, mm * sizeof *own), memset (other, 0, mm * sizeof *other);
+    bond_pull (b, i, s, e, b->rows->stiff[i] + b->rows->stiff[s->node[e]], own, other);
 }
 
 static size_t make_row (const bond *b, size_t i, int thread, int *node, double *value)

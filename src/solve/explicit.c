@@ -113,35 +113,17 @@ done:
 }
 
 /* ---- the stable time step -------------------------------------------------------------------------------------------------------- */
-static pg_status by_row_sums (pg_solver *s, double *omega)
-{
-    pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
-    double top = 0;
-    PG_TRY (sys->force->row_sums (sys->self, sys->full));
-    for (size_t i = 0; i < sys->ndof; i++) top = fmax (top, sys->full[i] / sys->mass[i]);
-    *omega = sqrt (top);
-done:
-    return status;
-}
-
 /* A bound from above where the force has one; else the largest frequency itself, from below within 1 %. */
 static pg_status find_bound (pg_solver *s)
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
     pg_system *sys = &s->breaker.system;
-    if (sys->force->bound) {
-        m->from = "bound of the largest frequency";
-        PG_TRY (sys->force->bound (sys->self, &m->omega));
-    } else {
-        PG_TRY (system_refresh (sys, s->backup, NULL));
-        m->from = sys->force->row_sums ? "bound by row sums" : "largest frequency";
-        if (sys->force->row_sums) PG_TRY (by_row_sums (s, &m->omega));
-        else PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
-    }
-    if (!isfinite (m->omega)) PG_FAIL (PG_E_SCENE, "the largest frequency of the body is not finite: check stiffness and density");
     int exact = !sys->force->bound && !sys->force->row_sums;
+    if (!sys->force->bound) PG_TRY (system_refresh (sys, s->backup, NULL));
+    PG_TRY (pg_force_bound (sys->force, sys->self, sys->ndof, sys->mass, sys->full, &m->omega, &m->from));
+    if (exact) PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
+    if (!isfinite (m->omega)) PG_FAIL (PG_E_SCENE, "the largest frequency of the body is not finite: check stiffness and density");
     m->stable = m->omega > 0 ? (exact ? 0.99 : 1) * 2 / m->omega : INFINITY;
 done:
     return status;

@@ -53,7 +53,7 @@ static pg_status put_keys (writing *w, const pg_scene *scene, const char *root, 
             if (strncmp (key->path, root, length) != 0 || strpbrk (last, ".[{") || (key->unit && strchr (key->unit, '|'))) continue;
             snprintf (path, sizeof path, "%s%s", at, last);
             if (!pg_scene_given (scene, "%s", path)) continue;
-            snprintf (name, sizeof name, "  %s%s", *at == 'm' && strncmp (at, "materials", 9) == 0 ? "  " : "", last);
+            snprintf (name, sizeof name, "  %s%s", strncmp (at, "materials", 9) == 0 ? "  " : "", last);
             PG_TRY (put_key (w, scene, key, path, name));
         }
 done:

@@ -192,27 +192,18 @@ done:
     return status;
 }
 
-/* As explicit methods bound the largest frequency (solve/explicit.c). */
-static pg_status bound (pg_symbol *s, box *b)
+static pg_status weigh (pg_symbol *s, box *b)
 {
     pg_status status = PG_OK;
     size_t m = (size_t) s->unknowns, ndof = b->problem->cloud.n * m;
-    double *mass = NULL, *sum = NULL;
+    double *mass = NULL, *room = NULL;
     PG_ALLOC (mass, ndof);
+    PG_ALLOC (room, ndof);
     PG_TRY (b->force->mass (b->self, mass));
     for (size_t c = 0; c < m; c++) s->mass[c] = mass[b->middle * m + c];
-    s->bound = NAN, s->from = "largest frequency";
-    if (b->force->bound) {
-        s->from = "bound of the largest frequency";
-        PG_TRY (b->force->bound (b->self, &s->bound));
-    } else if (b->force->row_sums) {
-        s->from = "bound by row sums", s->bound = 0;
-        PG_ALLOC (sum, ndof);
-        PG_TRY (b->force->row_sums (b->self, sum));
-        for (size_t i = 0; i < ndof; i++) s->bound = fmax (s->bound, sqrt (sum[i] / mass[i]));
-    }
+    PG_TRY (pg_force_bound (b->force, b->self, ndof, mass, room, &s->bound, &s->from));
 done:
-    pg_free (mass), pg_free (sum);
+    pg_free (mass), pg_free (room);
     return status;
 }
 
@@ -241,7 +232,7 @@ pg_status pg_symbol_create (pg_symbol **out, const pg_scene *scene, const pg_pro
     s->volume = b.problem->cloud.volume[b.middle];
     PG_TRY (collect (s, &b, &size));
     PG_TRY (verify (s, &size));
-    PG_TRY (bound (s, &b));
+    PG_TRY (weigh (s, &b));
     *out = s, s = NULL;
 done:
     clear (&b);

@@ -95,29 +95,6 @@ void pg_symbol_solve (const pg_symbol *s, const double *k, int weighted, pg_symb
 }
 
 /* ---- long waves -------------------------------------------------------------------------------------------------------------------- */
-/* x of A x = b for n <= 3 by elimination; 0: A is singular. */
-static int eliminate (int n, double *A, double *b)
-{
-    for (int p = 0; p < n; p++) {
-        int top = p;
-        for (int r = p + 1; r < n; r++) if (fabs (A[r * n + p]) > fabs (A[top * n + p])) top = r;
-        if (A[top * n + p] == 0) return 0;
-        for (int c = 0; c < n; c++) { double t = A[p * n + c]; A[p * n + c] = A[top * n + c], A[top * n + c] = t; }
-        double t = b[p];
-        b[p] = b[top], b[top] = t;
-        for (int r = p + 1; r < n; r++) {
-            double f = A[r * n + p] / A[p * n + p];
-            for (int c = p; c < n; c++) A[r * n + c] -= f * A[p * n + c];
-            b[r] -= f * b[p];
-        }
-    }
-    for (int p = n - 1; p >= 0; p--) {
-        for (int c = p + 1; c < n; c++) b[p] -= A[p * n + c] * b[c];
-        b[p] /= A[p * n + p];
-    }
-    return 1;
-}
-
 /* S = k^2 P + i k Q' + R for k = |k| e small: with the rotations in equilibrium the displacements have k^2 (P - Q R^-1 Q'), P = - 1/2 sum K (e.x)^2,
  * Q = sum K (e.x), R = sum K. Pa, dim x dim. */
 static void acoustic (const pg_symbol *s, const double *e, double *T)
@@ -135,14 +112,14 @@ static void acoustic (const pg_symbol *s, const double *e, double *T)
         }
         for (int t = 0; t < n; t++) for (int u = 0; u < n; u++) R[t * n + u] += K[live[t] * m + live[u]];
     }
+    int stable = pg_dense_cholesky (n, R, 1e-12) == 0;
     for (int b = 0; b < dim; b++) {
-        double A[9], q[3] = { 0 };
+        double q[3] = { 0 };
         for (int t = 0; t < n; t++) q[t] = Q[b * n + t];
-        memcpy (A, R, sizeof A);
-        int solved = eliminate (n, A, q);
+        if (stable) pg_dense_solve (n, R, q);
         for (int a = 0; a < dim; a++) {
             T[a * dim + b] = P[a * dim + b];
-            for (int t = 0; t < n; t++) T[a * dim + b] -= Q[a * n + t] * (solved ? q[t] : NAN);
+            for (int t = 0; t < n; t++) T[a * dim + b] -= Q[a * n + t] * (stable ? q[t] : NAN);
             T[a * dim + b] /= s->volume;
         }
     }

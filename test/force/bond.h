@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * bond.h: a problem of bonds from text with its force and state; random displacements. */
+ * bond.h: a problem of bonds from text with its force and state; random displacements; what every such force must bear. */
 #ifndef PERIGAL_TEST_BOND_H
 #define PERIGAL_TEST_BOND_H
 #include "check.h"
@@ -55,6 +55,12 @@ static inline double size_of (size_t n, const double *x)
     for (size_t i = 0; i < n; i++) sum += x[i] * x[i];
     return sqrt (sum);
 }
+static inline double product (size_t n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
 /* u = H x, the points turning with it: unknowns of rotations are spacing times half the curl */
 static inline double *linear_field (const bonded *b, const double *H)
 {
@@ -87,5 +93,54 @@ static inline pg_changes kill_some (bonded *b, size_t nth)
         }
     check_ok (b->force->refresh (b->self, b->state, &c));
     return c;
+}
+/* Largest eigenfrequency of K x = omega^2 M x, rad/s, by power iteration: from below */
+static inline double largest_frequency (bonded *b)
+{
+    double *x = random_vector (b->ndof, 11), *y = pg_calloc (b->ndof, sizeof *y), *m = pg_calloc (b->ndof, sizeof *m), top = 0;
+    const pg_operator *op = b->force->operator_ (b->self);
+    check_ok (b->force->mass (b->self, m));
+    for (int it = 0; it < 300; it++) {
+        op->apply (op->context, x, y);
+        top = 0;
+        for (size_t i = 0; i < b->ndof; i++) y[i] /= m[i], top = fmax (top, fabs (y[i]));
+        for (size_t i = 0; i < b->ndof; i++) x[i] = y[i] / top;
+    }
+    pg_free (x), pg_free (y), pg_free (m);
+    return sqrt (top);
+}
+/* Each allocation of making the force and one march fails once: it says so and leaves nothing behind; returns how many calls that took. */
+static inline size_t fail_each_allocation (const char *text)
+{
+    bonded b = bonded_of (text);
+    double *d = random_vector (b.ndof, 5), *f = pg_calloc (b.ndof, sizeof *f), reference;
+    size_t held = pg_memory_used (), calls = 0;
+    pg_changes broken = { 0 };
+    for (pg_status now = PG_E_MEMORY; now != PG_OK; calls++) {
+        void *self = NULL;
+        assert_true (calls < 1000);
+        pg_memory_fail_at (calls + 1);
+        now = b.force->create (&self, b.problem);
+        if (now == PG_OK) now = b.force->march (self, 0, d, f, &reference, &broken);
+        pg_memory_fail_at (0);
+        assert_true (now == PG_OK || now == PG_E_MEMORY);
+        if (self) b.force->free (&self);
+        pg_free (broken.bond);
+        broken = (pg_changes) { 0 };
+        assert_int_equal (pg_memory_used (), held);
+    }
+    pg_free (d), pg_free (f);
+    unbonded (&b);
+    return calls;
+}
+/* The scene is wrong, and says so in these words among others. */
+static inline void check_problem_refused (const char *text, const char *words)
+{
+    pg_scene *scene;
+    pg_problem *problem = NULL;
+    check_ok (pg_scene_parse_with (&scene, text, "test.yaml", 0, NULL));
+    check_fails (pg_problem_build (&problem, scene, 1), PG_E_SCENE);
+    check_contains (pg_last_error (), words);
+    pg_problem_free (&problem), pg_scene_free (&scene);
 }
 #endif

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 #include "bond.h"
-#include "perigal/solve.h"
+#include "scene_runs/run.h"
 
 static const char turned[] = BODY3_OF ("0.2") "perturb: {amount: 0.2}\nmethod: {force: gmpd}\n";
 static const char *const bodies[] = { BODY2_OF ("0.2") "method: {force: gmpd}\n", BODY3_OF ("0.1") "method: {force: gmpd, beam: timoshenko, shear_parameter: 0.5}\n", turned,
@@ -61,26 +61,7 @@ static void test_memory (void **unused)
     for (int k = 0; k < 2; k++) {
         char text[600];
         snprintf (text, sizeof text, "%smethod: {force: gmpd, evaluation: %s}\nfailure: {criterion: beam_limits, fracture_energy: 1}\n", BODY3_OF ("0.1"), k ? "list" : "stencil");
-        bonded b = bonded_of (text);
-        double *d = random_vector (b.ndof, 5), *f = pg_calloc (b.ndof, sizeof *f), reference;
-        size_t held = pg_memory_used (), calls = 0;
-        pg_changes broken = { 0 };
-        for (pg_status now = PG_E_MEMORY; now != PG_OK; calls++) {
-            void *self = NULL;
-            assert_true (calls < 1000);
-            pg_memory_fail_at (calls + 1);
-            now = b.force->create (&self, b.problem);
-            if (now == PG_OK) now = b.force->march (self, 0, d, f, &reference, &broken);
-            pg_memory_fail_at (0);
-            assert_true (now == PG_OK || now == PG_E_MEMORY);
-            if (self) b.force->free (&self);
-            pg_free (broken.bond);
-            broken = (pg_changes) { 0 };
-            assert_int_equal (pg_memory_used (), held);
-        }
-        assert_true (calls > 20);
-        pg_free (d), pg_free (f);
-        unbonded (&b);
+        assert_true (fail_each_allocation (text) > 20);
     }
 }
 
@@ -269,23 +250,6 @@ static void test_breaking_graded (void **unused)
 #define BAR "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [2, 0.6]}}}]\nspacing: 0.1\nlattice: cells\nthickness: 0.2\n" \
     "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.2, density: 3}}\nsets: {l: {where: \"x < 0.3\"}, r: {where: \"x > 1.7\"}}\nmethod: {force: gmpd}\n"
 
-typedef struct { pg_scene *scene; pg_problem *problem; pg_solver *solver; pg_state *state; pg_step step; double reaction[12]; } run;
-
-static void run_scene (run *r, const char *text, int threads)
-{
-    memset (r, 0, sizeof *r);
-    pg_solver_options o;
-    check_ok (pg_scene_parse_with (&r->scene, text, "test.yaml", 0, NULL));
-    check_ok (pg_problem_build (&r->problem, r->scene, threads));
-    check_ok (pg_solver_options_read (&o, r->problem, r->scene));
-    check_ok (pg_solver_create (&r->solver, r->problem, &o));
-    check_ok (pg_state_create (&r->state, r->problem, pg_solver_components (r->solver)));
-    while (!pg_solver_done (r->solver, r->state)) check_ok (pg_solver_step (r->solver, r->state, &r->step));
-    memcpy (r->reaction, r->step.reaction, 3 * r->problem->nload * sizeof *r->reaction);
-}
-
-static void run_free (run *r) { pg_solver_free (&r->solver), pg_state_free (&r->state), pg_problem_free (&r->problem), pg_scene_free (&r->scene); }
-
 /* An end that turns about its middle: shear of both ends balances, moments too; by factor and by iteration, and by relaxing. */
 static void test_prescribed_rotation (void **unused)
 {
@@ -298,8 +262,9 @@ static void test_prescribed_rotation (void **unused)
         char text[1500];
         snprintf (text, sizeof text, "%sboundary:\n  - {set: l, displacement: {x: 0, y: 0}}\n  - {set: l, rotation: {z: 0}}\n  - {set: r, rotation: {z: 1e-3}}\n"
                   "  - {set: r, displacement: {x: \"-1e-3 * (y - 0.3)\", y: \"1e-3 * (x - 1.85)\"}}\nsolver: %s\n", BAR, solver[k]);
-        run_scene (&r, text, 1);
-        const double *R = r.reaction;
+        r = prepare (1, text);
+        to_the_end (&r);
+        const double *R = r.step.reaction;
         check_scaled (R[0] + R[9], 0, 1e-5, fabs (R[1]));
         check_scaled (R[1] + R[10], 0, 1e-5, fabs (R[1]));
         assert_true (fabs (R[3]) > 0 && fabs (R[6]) > 0 && fabs (R[1]) > 0);
@@ -321,10 +286,10 @@ static void test_prescribed_rotation (void **unused)
         }
         double size = size_of (r.state->ndof, first.state->d);
         for (size_t i = 0; i < r.state->ndof; i++) check_scaled (r.state->d[i], first.state->d[i], tolerance[k], size);
-        for (int c = 0; c < 11; c++) check_scaled (R[c], first.reaction[c], 100 * tolerance[k] + 1e-12, fabs (first.reaction[1]));
-        run_free (&r);
+        for (int c = 0; c < 11; c++) check_scaled (R[c], first.step.reaction[c], 100 * tolerance[k] + 1e-12, fabs (first.step.reaction[1]));
+        clear (&r);
     }
-    run_free (&first);
+    clear (&first);
 }
 
 /* A moment at the end turns a held bar: work of the load is what is stored, its moment comes back at the other end. */
@@ -332,8 +297,9 @@ static void test_moment (void **unused)
 {
     (void) unused;
     run r;
-    run_scene (&r, BAR "boundary:\n  - {set: l, displacement: {x: 0, y: 0}}\n  - {set: l, rotation: {z: 0}}\n  - {set: r, moment: {z: 2e-3}}\nsolver: {kind: static}\n", 1);
-    check_relative (r.reaction[6], 2e-3, 1e-12);
+    r = prepare (1, BAR "boundary:\n  - {set: l, displacement: {x: 0, y: 0}}\n  - {set: l, rotation: {z: 0}}\n  - {set: r, moment: {z: 2e-3}}\nsolver: {kind: static}\n");
+    to_the_end (&r);
+    check_relative (r.step.reaction[6], 2e-3, 1e-12);
     const pg_report *report = pg_solver_report_now (r.solver);
     check_relative (report->energy_strain, report->energy_external, 1e-10);
     assert_true (report->energy_strain > 0);
@@ -352,7 +318,7 @@ static void test_moment (void **unused)
        stiffness for want of whole families (bonds that pull alone 0.69; 24 rows 0.90, 0.92) */
     check_relative (slope / tilt, 2e-3 * (1.85 - 0.3) / (10 * 0.2 * 0.6 * 0.6 * 0.6 / 12) / 0.684, 0.05);
     pg_free (f);
-    run_free (&r);
+    clear (&r);
 }
 
 /* Free flight with vibration: energy stays; the largest stable step is not exceeded by its bound, ten times it is refused. */
@@ -364,38 +330,29 @@ static void test_free_motion (void **unused)
         char text[1500];
         run r;
         snprintf (text, sizeof text, "%sinitial: {velocity: {x: \"0.01 m/s * y / (1 m)\", y: \"0.02 m/s * x * x / (1 m2)\"}}\nsolver: {kind: %s, end: 20}\n", BAR, solvers[k]);
-        run_scene (&r, text, 1);
+        r = prepare (1, text);
+        to_the_end (&r);
         const pg_report *report = pg_solver_report_now (r.solver);
         check_relative (report->energy_strain + report->energy_kinetic, report->energy_external, 2e-2);
         assert_true (report->energy_strain > 0.05 * report->energy_kinetic);
-        run_free (&r);
+        clear (&r);
     }
-}
-
-static void fault_of (const char *text, const char *words)
-{
-    pg_scene *scene;
-    pg_problem *problem = NULL;
-    check_ok (pg_scene_parse_with (&scene, text, "test.yaml", 0, NULL));
-    check_fails (pg_problem_build (&problem, scene, 1), PG_E_SCENE);
-    check_contains (pg_last_error (), words);
-    pg_problem_free (&problem), pg_scene_free (&scene);
 }
 
 static void test_refused (void **unused)
 {
     (void) unused;
-    fault_of (BODY2_OF ("0.34") "method: {force: gmpd}\n", "0.333333");
-    fault_of (BODY3_OF ("0.3") "method: {force: gmpd}\n", "unstable");
-    fault_of (BODY1 "method: {force: gmpd}\n", "one dimension");
-    fault_of (BODY2_OF ("0.2") "method: {force: gmpd, stretch: finite}\n", "linear");
-    fault_of (BODY2_OF ("0.2") "method: {force: gmpd, cm_ratio: 1}\n", "method.beam: chen");
-    fault_of (BODY2_OF ("0.2") "method: {force: bond}\nboundary: [{set: left, rotation: {z: 0}}]\n", "do not turn");
-    fault_of (BODY2_OF ("0.2") "method: {force: gmpd}\nboundary: [{set: left, rotation: {x: 0}}]\n", "no such component");
-    fault_of (BODY2_OF ("0.2") "method: {force: bond}\nfailure: {criterion: beam_limits, fracture_energy: 1}\n", "gmpd");
-    fault_of (BODY2_OF ("0.2") "method: {force: gmpd}\nfailure: {criterion: node_energy, fracture_energy: 1}\n", "beam_limits");
-    fault_of (BODY2_OF ("0.2") "method: {force: gmpd, evaluation: fft}\n", "by FFT");
-    fault_of (BODY2_OF ("0.2") "method: {force: gmpd, kernel: inverse_r}\n", "kernel");
+    check_problem_refused (BODY2_OF ("0.34") "method: {force: gmpd}\n", "0.333333");
+    check_problem_refused (BODY3_OF ("0.3") "method: {force: gmpd}\n", "unstable");
+    check_problem_refused (BODY1 "method: {force: gmpd}\n", "one dimension");
+    check_problem_refused (BODY2_OF ("0.2") "method: {force: gmpd, stretch: finite}\n", "linear");
+    check_problem_refused (BODY2_OF ("0.2") "method: {force: gmpd, cm_ratio: 1}\n", "method.beam: chen");
+    check_problem_refused (BODY2_OF ("0.2") "method: {force: bond}\nboundary: [{set: left, rotation: {z: 0}}]\n", "do not turn");
+    check_problem_refused (BODY2_OF ("0.2") "method: {force: gmpd}\nboundary: [{set: left, rotation: {x: 0}}]\n", "no such component");
+    check_problem_refused (BODY2_OF ("0.2") "method: {force: bond}\nfailure: {criterion: beam_limits, fracture_energy: 1}\n", "gmpd");
+    check_problem_refused (BODY2_OF ("0.2") "method: {force: gmpd}\nfailure: {criterion: node_energy, fracture_energy: 1}\n", "beam_limits");
+    check_problem_refused (BODY2_OF ("0.2") "method: {force: gmpd, evaluation: fft}\n", "by FFT");
+    check_problem_refused (BODY2_OF ("0.2") "method: {force: gmpd, kernel: inverse_r}\n", "kernel");
 }
 
 int main (void)

@@ -19,13 +19,6 @@ static const char *const bodies[] = { PLATE ("stress", "0.45") "method: {force: 
     PLATE ("stress", "0.2") "lattice: cells\nmethod: {force: lps, weighted_volume: live}\ncracks: [{from: [0.5, -0.1], to: [0.5, 0.4]}]\n" };
 enum { BODIES = sizeof bodies / sizeof *bodies };
 
-static double product (size_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
-
 /* x.Ky = y.Kx, x.Kx / 2 = energy, the diagonal is that of K, and bounds of its eigenvalues are bounds. */
 static void check_operator (bonded *b)
 {
@@ -202,21 +195,6 @@ static void test_waves (void **unused)
 }
 
 /* ---- time steps ------------------------------------------------------------------------------------------------------------------ */
-static double largest_frequency (bonded *b)
-{
-    double *x = random_vector (b->ndof, 11), *y = pg_calloc (b->ndof, sizeof *y), *m = pg_calloc (b->ndof, sizeof *m), top = 0;
-    const pg_operator *op = b->force->operator_ (b->self);
-    check_ok (b->force->mass (b->self, m));
-    for (int it = 0; it < 300; it++) {
-        op->apply (op->context, x, y);
-        top = 0;
-        for (size_t i = 0; i < b->ndof; i++) y[i] /= m[i], top = fmax (top, fabs (y[i]));
-        for (size_t i = 0; i < b->ndof; i++) x[i] = y[i] / top;
-    }
-    pg_free (x), pg_free (y), pg_free (m);
-    return sqrt (top);
-}
-
 /* Leaves one bond in `nth`. */
 static void thin_out (bonded *b, size_t nth)
 {

@@ -2,7 +2,7 @@
  * Micropolar bonds with an energy of the dilatation beside them: any Poisson's ratio. Balance, symmetry, no negative energy, exact dilatation, the same
  * bits where nothing is left for it, what a cut takes, time steps, threads, failures of memory, refusals. */
 #include "bond.h"
-#include "perigal/solve.h"
+#include "scene_runs/run.h"
 #include "method/spectrum.h"
 #include <stdlib.h>
 
@@ -16,13 +16,6 @@ static const char *const bodies[] = { BODY2_OF ("0.45") GMPD (""), BODY3_OF ("0.
     BODY2_OF ("0.4") "lattice: cells\ncracks: [{from: [0.5, -0.1], to: [0.5, 0.4]}]\n" GMPD (", horizon: 4.2 spacing, surface_correction: product"),
     BODY3_OF ("0.4") GMPD (", bond_poisson: 0.25") };
 enum { BODIES = sizeof bodies / sizeof *bodies };
-
-static double product (size_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
 
 /* ---- forces -------------------------------------------------------------------------------------------------------------------- */
 /* Forces of any state, bonds broken, add up to nothing, and so do moments; a rigid turn makes none. */
@@ -389,21 +382,6 @@ static void test_breaking (void **unused)
 }
 
 /* ---- time steps ---------------------------------------------------------------------------------------------------------------- */
-static double largest_frequency (bonded *b)
-{
-    double *x = random_vector (b->ndof, 11), *y = pg_calloc (b->ndof, sizeof *y), *m = pg_calloc (b->ndof, sizeof *m), top = 0;
-    const pg_operator *op = b->force->operator_ (b->self);
-    check_ok (b->force->mass (b->self, m));
-    for (int it = 0; it < 300; it++) {
-        op->apply (op->context, x, y);
-        top = 0;
-        for (size_t i = 0; i < b->ndof; i++) y[i] /= m[i], top = fmax (top, fabs (y[i]));
-        for (size_t i = 0; i < b->ndof; i++) x[i] = y[i] / top;
-    }
-    pg_free (x), pg_free (y), pg_free (m);
-    return sqrt (top);
-}
-
 /* The bound is one, whole and while bonds break, and not far from the largest frequency. */
 static void test_bound (void **unused)
 {
@@ -434,22 +412,6 @@ static void test_bound (void **unused)
 }
 
 /* ---- solvers ------------------------------------------------------------------------------------------------------------------- */
-typedef struct { pg_scene *scene; pg_problem *problem; pg_solver *solver; pg_state *state; pg_step step; } run;
-
-static void run_scene (run *r, const char *text, int threads)
-{
-    pg_solver_options o;
-    memset (r, 0, sizeof *r);
-    check_ok (pg_scene_parse_with (&r->scene, text, "test.yaml", 0, NULL));
-    check_ok (pg_problem_build (&r->problem, r->scene, threads));
-    check_ok (pg_solver_options_read (&o, r->problem, r->scene));
-    check_ok (pg_solver_create (&r->solver, r->problem, &o));
-    check_ok (pg_state_create (&r->state, r->problem, pg_solver_components (r->solver)));
-    while (!pg_solver_done (r->solver, r->state)) check_ok (pg_solver_step (r->solver, r->state, &r->step));
-}
-
-static void run_free (run *r) { pg_solver_free (&r->solver), pg_state_free (&r->state), pg_problem_free (&r->problem), pg_scene_free (&r->scene); }
-
 /* A rim of two horizons that strains uniformly: so does what it encloses, by every static solver, and points do not turn against it. */
 static void test_patch (void **unused)
 {
@@ -467,7 +429,8 @@ static void test_patch (void **unused)
             "sets: {rim: {where: \"x < 0.41 or x > 0.89 or y < 0.41 or y > 0.89 or z < 0.41 or z > 0.89\"}}\nboundary:\n"
             "  - {set: rim, displacement: {x: \"2e-3 * x + 1e-3 * y\", y: \"5e-4 * x - 1e-3 * y\", z: \"-3e-3 * z\"}}\n"
             "  - {set: rim, rotation: {x: 0, y: 0, z: -2.5e-4}}\nsolver: %s\n", solver[0]);
-        run_scene (&r, text, 1);
+        r = prepare (1, text);
+        to_the_end (&r);
         size_t dim = (size_t) r.problem->dim, m = dim == 2 ? 3 : 6;
         double size = 4e-3, tolerance = k == 2 ? 1e-7 : 1e-9;
         for (size_t i = 0; i < r.problem->cloud.n; i++) {
@@ -477,7 +440,7 @@ static void test_patch (void **unused)
             if (dim == 3) check_scaled (d[2], -3e-3 * x[2], tolerance, size);
         }
         if (k == 0 || k == 3) check_below ((double) pg_solver_report_now (r.solver)->cg_iterations, 30);
-        run_free (&r);
+        clear (&r);
     }
 }
 
@@ -497,7 +460,8 @@ static void test_runs (void **unused)
                     "boundary: [{set: l, %s: {x: 0, y: 0}}, {set: r, %s: {x: %s}}]\nsolver: %s\n",
                     dim == 2 ? "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [2.6, 1]}}}]\ncracks: [{from: [1.3, -0.1], to: [1.3, 0.3]}]\n"
                              : "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1.2, 0.6, 0.5]}}}]\n", dim == 2 ? "2.3" : "0.9", load, load, amount, solver[k]);
-                run_scene (&r[threads - 1], text, threads);
+                r[threads - 1] = prepare (threads, text);
+                to_the_end (&r[threads - 1]);
             }
             const pg_report *report = pg_solver_report (r[0].solver, r[0].state);
             print_message ("%dD, %s: %zu bonds broken, residual %.2g\n", dim, k == 0 ? "events" : k == 1 ? "fixed steps" : "motion", (size_t) r[0].state->broken, report->residual_max);
@@ -505,7 +469,7 @@ static void test_runs (void **unused)
             if (k < 2) check_below (report->residual_max, 1e-8);
             assert_memory_equal (r[0].state->d, r[1].state->d, r[0].state->ndof * sizeof (double));
             assert_memory_equal (r[0].state->alive, r[1].state->alive, r[0].state->nbond);
-            run_free (&r[0]), run_free (&r[1]);
+            clear (&r[0]), clear (&r[1]);
         }
 }
 
@@ -517,52 +481,23 @@ static void test_memory (void **unused)
     for (int k = 0; k < 2; k++) {
         char text[600];
         snprintf (text, sizeof text, "%smethod: {force: gmpd, volumetric: on, evaluation: %s}\nfailure: {criterion: beam_limits, fracture_energy: 1}\n", BODY3_OF ("0.4"), k ? "list" : "stencil");
-        bonded b = bonded_of (text);
-        double *d = random_vector (b.ndof, 5), *f = pg_calloc (b.ndof, sizeof *f), reference;
-        size_t held = pg_memory_used (), calls = 0;
-        pg_changes broken = { 0 };
-        for (pg_status now = PG_E_MEMORY; now != PG_OK; calls++) {
-            void *self = NULL;
-            assert_true (calls < 1000);
-            pg_memory_fail_at (calls + 1);
-            now = b.force->create (&self, b.problem);
-            if (now == PG_OK) now = b.force->march (self, 0, d, f, &reference, &broken);
-            pg_memory_fail_at (0);
-            assert_true (now == PG_OK || now == PG_E_MEMORY);
-            if (self) b.force->free (&self);
-            pg_free (broken.bond);
-            broken = (pg_changes) { 0 };
-            assert_int_equal (pg_memory_used (), held);
-        }
-        assert_true (calls > 40);
-        pg_free (d), pg_free (f);
-        unbonded (&b);
+        assert_true (fail_each_allocation (text) > 40);
     }
-}
-
-static void fault_of (const char *text, const char *words)
-{
-    pg_scene *scene;
-    pg_problem *problem = NULL;
-    check_ok (pg_scene_parse_with (&scene, text, "test.yaml", 0, NULL));
-    check_fails (pg_problem_build (&problem, scene, 1), PG_E_SCENE);
-    check_contains (pg_last_error (), words);
-    pg_problem_free (&problem), pg_scene_free (&scene);
 }
 
 static void test_refused (void **unused)
 {
     (void) unused;
-    fault_of (BODY3_OF ("0.4") "method: {force: gmpd}\n", "0.25");
-    fault_of (BODY3_OF ("0.4") "method: {force: gmpd}\n", "volumetric: on");
-    fault_of (BODY2_OF ("0.4") "method: {force: gmpd}\n", "0.333333");
-    fault_of (BODY3_OF ("0.2") "method: {force: gmpd, bond_poisson: 0.1}\n", "volumetric: on");
-    fault_of (BODY3_OF ("0.4") GMPD (", bond_poisson: 0.3"), "0.25");
-    fault_of (BODY3_OF ("0.1") GMPD (", bond_poisson: 0.2"), "at most that");
-    fault_of (BODY3_OF ("0.4") GMPD (", evaluation: fft"), "by FFT");
-    fault_of (BODY3_OF ("0.4") GMPD (", stretch: finite"), "linear");
-    fault_of (BODY3_OF ("0.4") GMPD ("") "solver: {linear: cholmod}\n", "no matrix");
-    fault_of (BODY1 GMPD (""), "one dimension");
+    check_problem_refused (BODY3_OF ("0.4") "method: {force: gmpd}\n", "0.25");
+    check_problem_refused (BODY3_OF ("0.4") "method: {force: gmpd}\n", "volumetric: on");
+    check_problem_refused (BODY2_OF ("0.4") "method: {force: gmpd}\n", "0.333333");
+    check_problem_refused (BODY3_OF ("0.2") "method: {force: gmpd, bond_poisson: 0.1}\n", "volumetric: on");
+    check_problem_refused (BODY3_OF ("0.4") GMPD (", bond_poisson: 0.3"), "0.25");
+    check_problem_refused (BODY3_OF ("0.1") GMPD (", bond_poisson: 0.2"), "at most that");
+    check_problem_refused (BODY3_OF ("0.4") GMPD (", evaluation: fft"), "by FFT");
+    check_problem_refused (BODY3_OF ("0.4") GMPD (", stretch: finite"), "linear");
+    check_problem_refused (BODY3_OF ("0.4") GMPD ("") "solver: {linear: cholmod}\n", "no matrix");
+    check_problem_refused (BODY1 GMPD (""), "one dimension");
 }
 
 int main (void)

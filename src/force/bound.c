@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The largest eigenfrequency from above: in closed form where a force has one, else by Gershgorin. */
+#include "perigal/force.h"
+#include <math.h>
+
+pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass, double *room, double *omega, const char **from)
+{
+    pg_status status = PG_OK;
+    double top = 0;
+    *omega = NAN, *from = "largest frequency";
+    if (force->bound) {
+        *from = "bound of the largest frequency";
+        PG_TRY (force->bound (self, omega));
+    } else if (force->row_sums) {
+        *from = "bound by row sums";
+        PG_TRY (force->row_sums (self, room));
+        for (size_t i = 0; i < ndof; i++) top = fmax (top, room[i] / mass[i]);
+        *omega = sqrt (top);
+    }
+done:
+    return status;
+}
