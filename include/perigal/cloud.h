@@ -129,6 +129,8 @@ void      pg_nearest_free   (pg_nearest **nearest);
 /* The nearest point that is not refused (refuse NULL: none is); of equals the lowest number; -1: all are refused. Thread-safe. */
 long      pg_nearest_find   (const pg_nearest *nearest, const double *place, pg_refuse refuse, void *context);
 
+#define PG_NO_LENGTH 1e-6                               /* of the local spacing: what is no further apart is at one place  */
+
 /* ---- pre-cracks ------------------------------------------------------------------------------------------------------ */
 enum { PG_CRACK_SEGMENT, PG_CRACK_POLYGON, PG_CRACK_DISC };
 typedef struct {

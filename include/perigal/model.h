@@ -80,6 +80,10 @@ void      pg_problem_locate (const pg_problem *problem, size_t bond, int *set, s
  * (pg_beam_split), 0 without volumetric: on. */
 void      pg_problem_beams (const pg_problem *problem, size_t material, double *E, double *nu, double *dilation);
 double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);   /* local, m                            */
+/* 1: entry `e` of the family of a point of a set has no length: its node is the point itself, or lies within PG_NO_LENGTH of the local spacing
+ * of it (an evaluation point in the middle of a cell of `lattice: cells`). It has no direction and no stretch: no criterion judges it, it never
+ * breaks, and damage does not count it. */
+int       pg_problem_no_bond (const pg_problem *problem, int set, size_t point, size_t e);
 /* solver.kind: 1: the t of loads is the load factor, 0 to 1 (static, adr, relax); 0: seconds. */
 int       pg_kind_quasi_static (const char *kind);
 int       pg_problem_proportional (const pg_problem *problem);   /* every load is a constant pattern times t               */

@@ -104,7 +104,8 @@ static void sweep_points (void *context, size_t first, size_t last, int thread)
             int j = r->family.node[e];
             if (s->utilisation) s->utilisation[base + e] = 0;
             if (s->factor) s->factor[base + e] = INFINITY;
-            if (!alive[e] || j == r->own[p] || g->problem->exempt[s->set][p] || g->problem->exempt[PG_NODES][j]) continue;
+            if (!alive[e] || g->problem->exempt[s->set][p] || g->problem->exempt[PG_NODES][j]) continue;
+            if (pg_problem_no_bond (g->problem, s->set, p, e)) continue;
             bond[count] = e, point[count++] = p;
             if (count == BATCH) judge (s, count, bond, point), count = 0;
         }

@@ -15,7 +15,7 @@ static void damage (const galerkin *g, const pg_state *state, double *value)
         for (size_t p = 0; p < f->n; p++)
             for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
                 int j = f->node[e];
-                if (j == g->rows[set].own[p]) continue;
+                if (pg_problem_no_bond (g->problem, set, p, e)) continue;
                 all[j]++, value[j] += !alive[e];
             }
     }

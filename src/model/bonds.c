@@ -158,6 +158,14 @@ done:
 
 double pg_problem_spacing (const pg_problem *p, int set, size_t point) { return p->spacing[set] ? p->spacing[set][point] : p->cloud.h; }
 
+int pg_problem_no_bond (const pg_problem *p, int set, size_t point, size_t e)
+{
+    const pg_rows *r = &p->rows[set];
+    int j = r->family.node[e];
+    double least = PG_NO_LENGTH * pg_problem_spacing (p, set, point);
+    return j == r->own[point] || distance2 (p, r->x + point * (size_t) p->dim, j) <= least * least;
+}
+
 /* A node of an excluded set exempts its bonds; another point follows its nearest node. A material that never breaks exempts its points. */
 static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
 {

@@ -471,6 +471,9 @@ static void wrong_input_is_refused (void **state)
     memcpy (b->x + 30, b->x + 34, 2 * sizeof (double));
     check_fails (pg_sums_create (&s, &good, &b->cloud, &b->lattice), PG_E_USAGE);
     check_contains (pg_last_error (), "15 and 17 coincide");
+    b->x[30] += 1e-9;                                              /* not the same bits, the same place                  */
+    check_fails (pg_sums_create (&s, &good, &b->cloud, &b->lattice), PG_E_USAGE);
+    check_contains (pg_last_error (), "15 and 17 coincide");
     b->cloud.n = 0;
     check_fails (pg_sums_create (&s, &good, &b->cloud, &b->lattice), PG_E_USAGE);
     pg_sums_free (&s);                                             /* NULL is fine                                       */
