@@ -23,14 +23,19 @@ typedef struct {
 
 struct pg_material_type {
     const char *name, *summary;
+    const char *keys;                                  /* of materials.<name> that it reads, beside model and density: "youngs_modulus poissons_ratio" */
+    int isotropic;                                     /* 1: E and nu (parameter[0], [1]) say all; 0: only the tangent D does, which not every force can carry */
     /* Fills `m` (mode set by the caller) from materials.<name>; faults go to the scene. */
     pg_status (*read) (pg_material *m, const pg_scene *scene);
     /* n strains (n x nv) -> stresses (n x nv, Pa) and, unless NULL, sigma_zz (n; 0 in plane stress). */
     void (*stress) (const pg_material *m, size_t n, const double *strain, double *stress, double *zz);
 };
 const pg_material_type *pg_material_find (const char *name);
-const char *pg_material_names (void);
-/* The material materials.<name> of the scene, for a mode. */
+const char *pg_material_names (void);                  /* "elastic|..."                                                  */
+/* Adds a material of the calling program to the catalogue, under a name of its own, before any scene is read; `type` is borrowed for good.
+ * PG_E_USAGE: the name is taken, or 8 were added. Not for several threads at a time. */
+pg_status pg_material_add (const pg_material_type *type);
+/* The material materials.<name> of the scene, for a mode. A key that its model does not read is a fault of the scene. */
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode);
 /* Isotropic tangent for a mode (theory section 0). D is nv x nv. */
 void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D);

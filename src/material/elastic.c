@@ -58,4 +58,5 @@ static void stress (const pg_material *m, size_t n, const double *strain, double
 }
 
 const pg_material_type pg_material_elastic = {
-    .name = "elastic", .summary = "isotropic, linear: Young's modulus and Poisson's ratio", .read = read, .stress = stress };
+    .name = "elastic", .summary = "isotropic, linear: Young's modulus and Poisson's ratio", .keys = "youngs_modulus poissons_ratio",
+    .isotropic = 1, .read = read, .stress = stress };

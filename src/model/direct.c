@@ -139,6 +139,18 @@ static void take_poisson (pg_problem *p)
     }
 }
 
+/* Bonds take their constants from Young's modulus and Poisson's ratio: a tangent alone they would have to replace by an isotropic one. */
+static void refuse_tangents (const pg_problem *p, const pg_scene *scene)
+{
+    for (size_t m = 0; m < p->nmaterial; m++) {
+        char path[120];
+        if (p->material[m].type->isotropic) continue;
+        snprintf (path, sizeof path, "materials.%.63s.model", p->material[m].name);
+        pg_scene_fault (scene, path, "force: %s makes its bonds from Young's modulus and Poisson's ratio and cannot carry a material that depends on the direction: "
+                        "use force: galerkin, or model: elastic", p->force);
+    }
+}
+
 /* State-based: any Poisson's ratio; families that are not whole count by their own q. */
 static void refuse_matrix (const pg_problem *p, const pg_scene *scene)
 {
@@ -223,6 +235,8 @@ pg_status pg_direct_build (pg_problem *p, const pg_scene *scene)
     pg_sum_rule rule;
     int lattice;
     p->integration = pg_integration_find ("nodal");
+    refuse_tangents (p, scene);
+    PG_TRY (pg_scene_verdict (scene));
     PG_TRY (on_lattice (p, &lattice));
     pg_direct_rule (&rule, scene, p->mode, &p->approx, p->cloud.h, lattice);
     if (rule.beams) read_beams (p, scene, &rule);
