@@ -71,6 +71,9 @@ typedef struct {
     size_t   eroded;                                   /* points that lie on a pre-crack                                 */
     char     note[16][224];  size_t nnote;             /* what the plan says: keys without meaning, constants taken otherwise */
 } pg_problem;
+/* A remark on the scene, as printf. One that begins with PG_WARNING counts among the warnings of the run (pg_solver_doubts), others
+ * among its notes (pg_solver_note). At most 16 are kept. */
+#define PG_WARNING "warning: "
 void      pg_problem_note  (pg_problem *problem, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
 pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads);
 void      pg_problem_free  (pg_problem **problem);

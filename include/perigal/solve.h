@@ -51,6 +51,11 @@ typedef struct {                                       /* of the run so far     
     char   warning[16][256]; size_t nwarning;
 } pg_report;
 void pg_report_warn (pg_report *report, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
+/* Adds the warnings that a run has before its first step: what is legal, yet hardly meant, such as a body that nothing holds, and what the
+ * problem was built with otherwise than asked. pg_solver_create does so for the report of its solver. */
+void pg_solver_doubts (pg_report *report, const pg_problem *problem, const pg_solver_options *options);
+/* The k-th note on the scene, such as keys without meaning for its solver or force; 0: there are no more. */
+int  pg_solver_note (const pg_problem *problem, const pg_solver_options *options, size_t k, char *out, size_t size);
 void pg_report_skip (pg_report *report, double seconds, const char *what, const char *why);
 
 typedef struct {                                       /* of one step: a user level, a time step or an event             */

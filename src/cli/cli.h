@@ -68,5 +68,5 @@ pg_status plan_print_json (const plan *p);
 void plan_mesh       (const pg_problem *p);                               /* plan_mesh.c: nothing without a mesh           */
 void plan_mesh_json  (pg_json *j, const pg_problem *p);
 void plan_settled     (const pg_solver *solver);                          /* what the solver has settled: time steps, stages */
-void plan_doubts     (const pg_problem *p, const pg_solver_options *o, FILE *to);
+void plan_doubts     (const pg_problem *p, const pg_solver_options *o);     /* warnings and notes of the scene            */
 #endif

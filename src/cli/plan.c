@@ -26,15 +26,6 @@ static void describe (const pg_problem *p, int width)
     }
 }
 
-static int acts (const pg_problem *p, const pg_load *load, int k, double end)
-{
-    if (!load->value[k]) return 0;
-    if (!pg_load_prescribes (load) || load->set->npoint == 0) return 1;
-    for (size_t i = 0; i < load->set->npoint; i++)
-        if (pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, end) != 0) return 1;
-    return 0;
-}
-
 /* What the force itself says of its constants. */
 static void print_direct (const pg_problem *p)
 {
@@ -47,24 +38,13 @@ static void print_direct (const pg_problem *p)
     force->free (&self);
 }
 
-/* What is legal, yet hardly meant. */
-void plan_doubts (const pg_problem *p, const pg_solver_options *o, FILE *to)
+void plan_doubts (const pg_problem *p, const pg_solver_options *o)
 {
-    int is_static = o->quasi_static, moving = 0;
-    for (int k = 0; k < p->dim; k++) {
-        int held = !is_static;
-        for (size_t l = 0; l < p->nload; l++) {
-            held |= pg_load_prescribes (&p->load[l]) && !pg_load_turns (&p->load[l]) && p->load[l].value[k];
-            moving |= acts (p, &p->load[l], k, is_static ? 1 : o->end) || p->load[l].kind == PG_PRESSURE;
-        }
-        if (!held) fprintf (to, "  warning: nothing holds the body along %c: no displacement along %c is prescribed anywhere\n", "xyz"[k], "xyz"[k]);
-    }
-    for (size_t k = 0; k < p->nnote; k++) fprintf (to, "  %s\n", p->note[k]);
-    if (*o->unused) fprintf (to, "  without meaning for solver.kind: %s, in solver: %s\n", o->kind, o->unused);
-    if (!moving) fprintf (to, "  warning: nothing loads the body: every prescribed displacement is zero, and there is no force\n");
-    if (p->part.mesh.n && p->part.quality < 0.1)
-        fprintf (to, "  warning: element %ld of the mesh is nearly flat: quality %.2g (scaled Jacobian; better than 0.1 is wanted)\n",
-                 p->part.mesh.element_id[p->part.worst], p->part.quality);
+    pg_report doubts = { 0 };
+    char note[400];
+    pg_solver_doubts (&doubts, p, o);
+    for (size_t k = 0; k < doubts.nwarning; k++) printf ("  warning: %s\n", doubts.warning[k]);
+    for (size_t k = 0; pg_solver_note (p, o, k, note, sizeof note); k++) printf ("  %s\n", note);
 }
 
 void plan_print (const pg_problem *p, const pg_solver_options *o)
@@ -78,7 +58,7 @@ void plan_print (const pg_problem *p, const pg_solver_options *o)
     describe (p, 9);
     if (p->eroded) printf ("  %zu points lie on a pre-crack and lose their bonds to both sides\n", p->eroded);
     printf ("  solver %s%s\n", o->kind, stepping (o));
-    plan_doubts (p, o, stdout);
+    plan_doubts (p, o);
     fflush (stdout);                                   /* progress goes to the other stream */
 }
 
@@ -301,6 +281,6 @@ void plan_print_long (const plan *p)
     if (q->eroded) printf ("  %-18s  %zu points lie on a pre-crack and lose their bonds to both sides\n", "eroded", q->eroded);
     for (size_t k = 0; k < nskip; k++) printf ("  %-18s  %s (%s)\n", "skipped", skip[k].what, skip[k].why);
     print_memory (p);
-    plan_doubts (q, p->options, stdout);
+    plan_doubts (q, p->options);
     print_first_break (p);
 }

@@ -114,6 +114,19 @@ static void first (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
+static void doubts (pg_json *j, const plan *p)
+{
+    pg_report report = { 0 };
+    char note[400];
+    pg_solver_doubts (&report, p->problem, p->options);
+    pg_json_open (j, "warnings", '[');
+    for (size_t k = 0; k < report.nwarning; k++) pg_json_text (j, NULL, report.warning[k]);
+    pg_json_shut (j);
+    pg_json_open (j, "notes", '[');
+    for (size_t k = 0; pg_solver_note (p->problem, p->options, k, note, sizeof note); k++) pg_json_text (j, NULL, note);
+    pg_json_shut (j);
+}
+
 static pg_status write_plan (const plan *p, const char *path)
 {
     pg_status status = PG_OK;
@@ -136,6 +149,7 @@ static pg_status write_plan (const plan *p, const char *path)
         pg_json_shut (j);
     }
     pg_json_shut (j);
+    doubts (j, p);
     pg_json_shut (j);
     status = pg_json_close (&j);
 done:

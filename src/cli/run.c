@@ -34,8 +34,21 @@ static void print_counts (const pg_report *r, const pg_solver_options *o)
                              r->energy_kinetic, r->energy_damping, r->energy_dissipated);
 }
 
-static void print_summary (const pg_result *result, const pg_report *r, const pg_solver_options *o, int nodal, double total)
+/* Warnings that came on the way: the others stand above the progress. */
+static void print_warnings (const pg_report *r, const pg_problem *problem, const pg_solver_options *o)
 {
+    pg_report before = { 0 };
+    pg_solver_doubts (&before, problem, o);
+    for (size_t k = 0; k < r->nwarning; k++) {
+        size_t i = 0;
+        while (i < before.nwarning && strcmp (before.warning[i], r->warning[k]) != 0) i++;
+        if (i == before.nwarning) printf ("  warning: %s\n", r->warning[k]);
+    }
+}
+
+static void print_summary (const pg_result *result, const pg_report *r, const pg_solver_options *o, const pg_problem *problem, double total)
+{
+    int nodal = problem->integration->at_nodes;
     print_counts (r, o);
     const pg_estimate *e = pg_result_estimate (result);
     if (e) printf ("  estimated error of the stress: %s%.2g %% in the energy norm, %zu of %zu points left out (%.2g s)\n", nodal ? "more than " : "",
@@ -49,12 +62,12 @@ static void print_summary (const pg_result *result, const pg_report *r, const pg
         printf ("  %s%s\n", k ? "" : "against the reference: ", row);
     for (size_t k = 0; pg_result_tip (result, k, row, sizeof row); k++) printf ("  crack %s\n", row);
     for (size_t k = 0; k < r->nskipped; k++) printf ("  skipped: %s (%s)\n", r->skipped[k].what, r->skipped[k].why);
-    for (size_t k = 0; k < r->nwarning; k++) printf ("  warning: %s\n", r->warning[k]);
+    print_warnings (r, problem, o);
     printf ("  results in %s: result.e history.csv events.csv report.json\n", pg_result_folder (result));
     for (size_t k = 0; k < pg_result_pictures (result); k++) printf ("  picture %s\n", pg_result_picture (result, k));
 }
 
-typedef struct { pg_result *result; pg_state *state; int within, nodal; } watched;
+typedef struct { pg_result *result; pg_state *state; const pg_problem *problem; int within; } watched;
 
 /* An old checkpoint is better than no run: one that cannot be written ends nothing. */
 static void keep_now (const watched *w)
@@ -140,7 +153,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     status = pg_result_finish (w->result, w->state, outcome == PG_OK ? NULL : failure, search, pg_seconds () - start);
     snprintf (last, sizeof last, "%s", pg_last_error ());
     if (status != PG_OK && outcome == PG_OK) kept = keep_for_later (w);
-    if (status == PG_OK && !c->quiet) print_summary (w->result, pg_solver_report_now (solver), pg_solver_settled (solver), w->nodal, pg_seconds () - start);
+    if (status == PG_OK && !c->quiet) print_summary (w->result, pg_solver_report_now (solver), pg_solver_settled (solver), w->problem, pg_seconds () - start);
     if (outcome != PG_OK) command_complain (outcome, failure);
     if (status != PG_OK && (outcome == PG_OK || strcmp (failure, last) != 0)) command_complain (status, last);
     if (kept && (outcome == PG_OK || outcome == PG_E_INTERRUPTED || outcome == PG_E_FILE || outcome == PG_E_MEMORY)) command_again (c);
@@ -179,7 +192,7 @@ int pg_cli_run (int argc, char **argv)
     if (!c.quiet) plan_settled (solver);
     PG_TRY (pg_state_create (&w.state, problem, pg_solver_components (solver)));
     PG_TRY (open_result (&c, c.folder ? c.folder : folder, scene, problem, solver, &w));
-    told = 1, w.nodal = problem->integration->at_nodes;
+    told = 1, w.problem = problem;
     status = run_to_the_end (&c, solver, &w, pg_seconds () - start, start);
 done:
     if (status != PG_OK && !told) command_complain (status, pg_last_error ());

@@ -93,7 +93,7 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
 {
     pg_status status = PG_OK;
     pg_json *j = NULL;
-    char path[4096];
+    char path[4096], note[400];
     const pg_report *r = pg_solver_report (res->solver, state);
     snprintf (path, sizeof path, "%s/report.json", res->folder);
     PG_TRY (pg_json_create (&j, path));
@@ -125,6 +125,9 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
     pg_json_shut (j);
     pg_json_open (j, "warnings", '[');
     for (size_t k = 0; k < r->nwarning; k++) pg_json_text (j, NULL, r->warning[k]);
+    pg_json_shut (j);
+    pg_json_open (j, "notes", '[');
+    for (size_t k = 0; pg_solver_note (res->problem, pg_solver_settled (res->solver), k, note, sizeof note); k++) pg_json_text (j, NULL, note);
     pg_json_shut (j);
     pg_json_shut (j);
     PG_TRY (pg_json_close (&j));

@@ -73,6 +73,7 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     s->options.marching = s->type->way == MARCHES, s->options.staged = s->type->way == RELAXES;
     pg_system *sys = &s->breaker.system;
     sys->problem = problem, sys->force = force, sys->options = &s->options, sys->report = &s->report;
+    pg_solver_doubts (&s->report, problem, &s->options);
     PG_TRY (breaker_create (&s->breaker));
     PG_ALLOC (s->reaction, 3 * problem->nload);
     PG_ALLOC (s->work1, sys->ndof);

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What a scene asks for that is legal, yet hardly meant: the warnings that a run has before its first step. */
+#include "perigal/solve.h"
+#include <stdio.h>
+#include <string.h>
+
+/* Does component k of this load ever differ from zero? */
+static int acts (const pg_problem *p, const pg_load *load, int k, double end)
+{
+    if (!load->value[k]) return 0;
+    if (!pg_load_prescribes (load) || load->set->npoint == 0) return 1;
+    for (size_t i = 0; i < load->set->npoint; i++)
+        if (pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, end) != 0) return 1;
+    return 0;
+}
+
+static void doubt_supports (pg_report *report, const pg_problem *p, const pg_solver_options *o)
+{
+    int moving = 0;
+    for (int k = 0; k < p->dim; k++) {
+        int held = !o->quasi_static;
+        for (size_t l = 0; l < p->nload; l++) {
+            held |= pg_load_prescribes (&p->load[l]) && !pg_load_turns (&p->load[l]) && p->load[l].value[k];
+            moving |= acts (p, &p->load[l], k, o->quasi_static ? 1 : o->end) || p->load[l].kind == PG_PRESSURE;
+        }
+        if (!held) pg_report_warn (report, "nothing holds the body along %c: no displacement along %c is prescribed anywhere", "xyz"[k], "xyz"[k]);
+    }
+    if (!moving) pg_report_warn (report, "nothing loads the body: every prescribed displacement is zero, and there is no force");
+}
+
+static int warns (const char *note) { return strncmp (note, PG_WARNING, strlen (PG_WARNING)) == 0; }
+
+void pg_solver_doubts (pg_report *report, const pg_problem *p, const pg_solver_options *o)
+{
+    doubt_supports (report, p, o);
+    for (size_t k = 0; k < p->nnote; k++) if (warns (p->note[k])) pg_report_warn (report, "%s", p->note[k] + strlen (PG_WARNING));
+    if (p->part.mesh.n && p->part.quality < 0.1)
+        pg_report_warn (report, "element %ld of the mesh is nearly flat: quality %.2g (scaled Jacobian; better than 0.1 is wanted)",
+                        p->part.mesh.element_id[p->part.worst], p->part.quality);
+}
+
+int pg_solver_note (const pg_problem *p, const pg_solver_options *o, size_t k, char *out, size_t size)
+{
+    for (size_t i = 0; i < p->nnote; i++) {
+        if (warns (p->note[i]) || k-- > 0) continue;
+        snprintf (out, size, "%s", p->note[i]);
+        return 1;
+    }
+    if (!*o->unused || k > 0) return 0;
+    snprintf (out, size, "without meaning for solver.kind: %s, in solver: %s", o->kind, o->unused);
+    return 1;
+}
