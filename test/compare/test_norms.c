@@ -235,6 +235,42 @@ static void perturbed_patch (void **unused)
     pg_errors_clear (&first);
 }
 
+/* The size of a stress difference is that of the tensor: each shear stands for two components. */
+static pg_status sample_shears (void *context, size_t n, const double *x, double *u, double *stress)
+{
+    const double *size = context;                      /* of the components (6); they grow from place to place           */
+    (void) x, (void) u;
+    for (size_t i = 0; stress && i < n; i++) for (size_t k = 0; k < 6; k++) stress[6*i + k] = size[k] * (1 + (double) i);
+    return PG_OK;
+}
+
+static void shears_count_twice_in_the_largest_stress (void **unused)
+{
+    (void) unused;
+    static const pg_mode modes[4] = { PG_LINE, PG_LINE, PG_PLANE_STRESS, PG_SOLID };
+    for (int dim = 1; dim <= 3; dim++) {
+        double value[6] = { 5, -2, 7, 3, 4, -6 }, reference[6] = { 1, 1, 2, -1, 1, 1 }, want[2] = { 0 };
+        for (int a = 0; a < dim; a++)
+            for (int b = 0; b < dim; b++) {
+                static const int voigt[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } };
+                int k = voigt[a][b];
+                want[0] += (value[k] - reference[k]) * (value[k] - reference[k]), want[1] += reference[k] * reference[k];
+            }
+        pg_sampler a = { value, dim, 0, 63, sample_shears, NULL }, b = { reference, dim, 0, 63, sample_shears, NULL };
+        double x[9] = { 0, 1, 2, 3, 4, 5, 6, 7, 8 }, weight[3] = { 1, 1, 1 };
+        pg_material m = { .mode = modes[dim] };
+        pg_elastic_tangent (m.mode, 4, 0, m.D);
+        pg_quadrature q = { .n = 3, .x = x, .weight = weight };
+        pg_norms n;
+        pg_norm_options o = { &m, NULL, NULL };
+        check_ok (pg_norms_measure (&n, &q, &a, &b, &o));
+        assert_true (n.stress && !n.displacement);
+        check_relative (n.stress_maximum.difference, 3 * sqrt (want[0]), 1e-14);
+        check_relative (n.stress_maximum.reference, 3 * sqrt (want[1]), 1e-14);
+        for (int k = 0; k < dim; k++) check_relative (n.stress_maximum.place[k], x[2 * dim + k], 0);
+    }
+}
+
 /* Two materials in a row: each place has the law of its own side. */
 static void energy_of_two_materials (void **unused)
 {
@@ -257,6 +293,6 @@ static void energy_of_two_materials (void **unused)
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (nodes_and_points_agree), cmocka_unit_test (linear_fields_are_sampled_exactly),
-        cmocka_unit_test (faces_of_a_crack_stay_apart), cmocka_unit_test (known_difference), cmocka_unit_test (perturbed_patch), cmocka_unit_test (energy_of_two_materials) };
+        cmocka_unit_test (faces_of_a_crack_stay_apart), cmocka_unit_test (known_difference), cmocka_unit_test (perturbed_patch), cmocka_unit_test (shears_count_twice_in_the_largest_stress), cmocka_unit_test (energy_of_two_materials) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }

@@ -54,6 +54,34 @@ static void test_two_materials (void **unused)
     unbonded (&b);
 }
 
+/* Bending stiffness over that of Euler and Bernoulli's beam is 1 + shear_parameter (timoshenko), 4 cm_ratio - 3 (chen). Points that only turn store the shear
+ * of the mean rotations, which does not know it, and a bending that goes with it. */
+static void test_bending_ratio (void **unused)
+{
+    (void) unused;
+    static const struct { const char *beam; double ratio; } known[] = { { "beam: chen, cm_ratio: 0.75", 0 }, { "beam: euler", 1 }, { "beam: timoshenko, shear_parameter: 0", 1 },
+        { "beam: timoshenko, shear_parameter: 0.3", 1.3 }, { "beam: timoshenko", 2 }, { "beam: timoshenko, shear_parameter: 4", 5 }, { "beam: chen, cm_ratio: 1", 1 },
+        { "beam: chen, cm_ratio: 1.1", 1.4 }, { "beam: chen, cm_ratio: 3", 9 } };
+    static const char *const body[] = { BODY2_OF ("0.2"), BODY3_OF ("0.1") };
+    for (int w = 0; w < 2; w++) {
+        double energy[9];
+        for (int k = 0; k < 9; k++) {
+            char text[600];
+            snprintf (text, sizeof text, "%smethod: {force: gmpd, %s}\n", body[w], known[k].beam);
+            bonded b = bonded_of (text);
+            pg_ledger ledger = { 0 };
+            double *d = random_vector (b.ndof, 5);
+            for (size_t i = 0; i < b.ndof; i++) if (i % b.stride < b.dim) d[i] = 0;
+            check_ok (b.force->ledger (b.self, 0, d, NULL, &ledger));
+            energy[k] = ledger.strain;
+            pg_ledger_clear (&ledger), pg_free (d);
+            unbonded (&b);
+        }
+        assert_true (energy[1] > 1.2 * energy[0]);
+        for (int k = 2; k < 9; k++) check_relative (energy[k], energy[0] + known[k].ratio * (energy[1] - energy[0]), 1e-12);
+    }
+}
+
 /* Each allocation fails once: the force says so and leaves nothing behind. */
 static void test_memory (void **unused)
 {
@@ -357,7 +385,7 @@ static void test_refused (void **unused)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (test_balance), cmocka_unit_test (test_two_materials), cmocka_unit_test (test_memory), cmocka_unit_test (test_limit_is_bond), cmocka_unit_test (test_fracture_energy),
+    const struct CMUnitTest tests[] = { cmocka_unit_test (test_balance), cmocka_unit_test (test_two_materials), cmocka_unit_test (test_bending_ratio), cmocka_unit_test (test_memory), cmocka_unit_test (test_limit_is_bond), cmocka_unit_test (test_fracture_energy),
         cmocka_unit_test (test_breaking), cmocka_unit_test (test_breaking_graded), cmocka_unit_test (test_prescribed_rotation), cmocka_unit_test (test_moment), cmocka_unit_test (test_free_motion),
         cmocka_unit_test (test_refused) };
     return cmocka_run_group_tests (tests, NULL, NULL);

@@ -230,6 +230,40 @@ static void test_bound (void **unused)
     }
 }
 
+/* Volumes that follow: two points left alone with one bond of length h swing at sqrt (4 (B + d A) / density) / h; beside it a point with its nearest
+ * neighbours, each of which has lost all others. With few neighbours the bound is not far above the first:
+ * half of it would be none. */
+static void test_bound_of_volumes_that_follow (void **unused)
+{
+    (void) unused;
+    static const char *const body[] = { PLATE ("stress", "0.3"), SOLID ("0.3") };
+    for (int w = 0; w < 2; w++)
+        for (int star = 0; star < 2; star++) {
+            char text[600];
+            snprintf (text, sizeof text, "%slattice: cells\nmethod: {force: lps, horizon: 1.2 spacing, partial_volume: none, weighted_volume: live}\n"
+                      "failure: {criterion: stretch, critical_stretch: 1}\n", body[w]);
+            bonded b = bonded_of (text);
+            const pg_family *f = &b.problem->rows[PG_NODES].family;
+            double omega, dilation, deviation, h = b.problem->cloud.h;
+            size_t centre = 0;
+            while (f->start[centre + 1] - f->start[centre] < 2 * b.dim) centre++;
+            size_t other = (size_t) f->node[f->start[centre]];
+            for (size_t i = 0; i < b.n; i++)
+                for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
+                    size_t j = (size_t) f->node[e];
+                    b.state->alive[e] = star ? i == centre || j == centre : (i == centre && j == other) || (i == other && j == centre);
+                }
+            check_ok (b.force->refresh (b.self, b.state, NULL));
+            check_ok (b.force->bound (b.self, &omega));
+            pg_state_moduli (b.problem->mode, 10, 0.3, &dilation, &deviation);
+            double top = largest_frequency (&b), pair = sqrt (4 * (deviation + (double) b.dim * dilation) / 3) / h;
+            if (!star) check_relative (top, pair, 1e-6);
+            if (!star) check_below (0.5 * omega, 0.97 * top);
+            check_below (top, omega);
+            unbonded (&b);
+        }
+}
+
 static void test_step (void **unused)
 {
     (void) unused;
@@ -376,7 +410,7 @@ static void test_two_materials_by_any_loop (void **unused)
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (test_operator), cmocka_unit_test (test_uniform), cmocka_unit_test (test_waves),
-        cmocka_unit_test (test_bound), cmocka_unit_test (test_step), cmocka_unit_test (test_cut), cmocka_unit_test (test_symmetry),
+        cmocka_unit_test (test_bound), cmocka_unit_test (test_bound_of_volumes_that_follow), cmocka_unit_test (test_step), cmocka_unit_test (test_cut), cmocka_unit_test (test_symmetry),
         cmocka_unit_test (test_scattered), cmocka_unit_test (test_two_materials_by_any_loop), cmocka_unit_test (test_threads) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
