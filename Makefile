@@ -1,4 +1,4 @@
-# Perigal: make [MODE=release|debug|asan] [V=1];  targets: all demo test test-long fuzz lint doc bench install clean
+# Perigal: make [MODE=release|debug|asan] [V=1];  targets: all demo test test-long fuzz mutate lint doc bench install clean
 MODE    ?= release
 prefix  ?= /usr/local
 CC      ?= gcc
@@ -22,10 +22,12 @@ INCLUDE := -Iinclude -Isrc -I/usr/include/suitesparse -I/usr/include/udunits2 -I
 OPT_release := -O2 -g -ftree-vectorize
 OPT_debug   := -Og -g -DPG_DEBUG
 OPT_fuzz    := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+OPT_mutate  := -O2 -w
 OPT_asan    := -O1 -g -DPG_DEBUG -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 # -ffp-contract=off: machines with and without FMA round alike
 CFLAGS  := $(STD) $(OPT_$(MODE)) -ffp-contract=off -fno-math-errno -fPIC $(WARN) $(INCLUDE) $(EXTRA_CFLAGS)
 comma   := ,
+LINK    ?= static
 LDFLAGS := $(if $(filter asan,$(MODE)),-fsanitize=address$(comma)undefined,) $(EXTRA_LDFLAGS)
 SECONDS ?= 60
 FUZZ    ?= scene points expression mesh
@@ -42,6 +44,9 @@ BENCHBIN:= $(TOOLS:bench/%.c=$(BUILD)/bench/%)
 LIB     := $(BUILD)/libperigal.a
 SOLIB   := $(BUILD)/libperigal.so.0
 PROGRAM := $(BUILD)/perigal
+# LINK=shared: the program and the tests take the shared library, so that one changed file costs one compilation and one link (make mutate)
+LINKED  := $(if $(filter shared,$(LINK)),-L$(BUILD) -lperigal,$(LIB))
+BEHIND  := $(if $(filter shared,$(LINK)),| $(SOLIB),$(LIB))
 # perigal-mesh: only where Gmsh's library is installed (libgmsh-dev); newer ones start with one argument more
 GMSH    := $(wildcard /usr/include/gmshc.h)
 CONVERT := $(if $(GMSH),$(BUILD)/perigal-mesh)
@@ -68,9 +73,9 @@ $(SOLIB): $(OBJECTS)
 	$(Q)$(CC) -shared -Wl,-soname,libperigal.so.0 $(LDFLAGS) $^ $(LIBS) -o $@
 	$(Q)ln -sf libperigal.so.0 $(BUILD)/libperigal.so
 
-$(PROGRAM): $(CLIOBJ) $(LIB)
+$(PROGRAM): $(CLIOBJ) $(BEHIND)
 	$(if $(V),,@echo "  LD   $@")
-	$(Q)$(CC) $(LDFLAGS) $^ $(LIBS) -o $@
+	$(Q)$(CC) $(LDFLAGS) $(CLIOBJ) $(LINKED) $(LIBS) -o $@
 
 $(BUILD)/src/convert/%.o: CFLAGS += $(if $(shell grep -A3 '^GMSH_API void gmshInitialize' $(GMSH) /dev/null | grep -w run),-DGMSH_RUN)
 
@@ -78,10 +83,10 @@ $(BUILD)/perigal-mesh: $(BUILD)/src/convert/perigal_mesh.o $(LIB)
 	$(if $(V),,@echo "  LD   $@")
 	$(Q)$(CC) $(LDFLAGS) $^ -lgmsh $(LIBS) -o $@
 
-$(BUILD)/test/%: test/%.c $(LIB)
+$(BUILD)/test/%: test/%.c $(BEHIND)
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  TEST $<")
-	$(Q)$(CC) $(CFLAGS) -Itest -MMD -MP -MF $@.d $< $(LDFLAGS) $(LIB) $(LIBS) -lcmocka -o $@
+	$(Q)$(CC) $(CFLAGS) -Itest -MMD -MP -MF $@.d $< $(LDFLAGS) $(LINKED) $(LIBS) -lcmocka -o $@
 
 $(BUILD)/bench/%: bench/%.c $(LIB)
 	@mkdir -p $(@D)
@@ -116,6 +121,9 @@ $(BUILD)/test/fuzz/fuzz_%: test/fuzz/fuzz_%.c $(LIB)
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) -Itest -MMD -MP -MF $@.d $< -fsanitize=fuzzer,address,undefined $(LIB) $(LIBS) -o $@
 
+mutate: packages     ## plants the bugs of test/mutate (T=folder: of one) one at a time in a copy and counts those that the tests find
+	$(Q).ci/mutate $(if $(T),-f $(T)) $(if $(MUTANTS),-n $(MUTANTS)) -j $(JOBS)
+
 lint:                ## one-way includes, file and function lengths
 	$(Q).ci/lint $(ORDER)
 
@@ -145,6 +153,6 @@ FORCE:
 print-%:
 	@echo '$($*)'
 
-.PHONY: FORCE all perigal packages demo test test-long test-programs fuzz lint doc bench bench-programs install clean
+.PHONY: FORCE all perigal packages demo test test-long test-programs fuzz mutate lint doc bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(TESTBIN:=.d) $(BENCHBIN:=.d)
