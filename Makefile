@@ -1,10 +1,11 @@
-# Perigal: make [MODE=release|debug|asan] [V=1];  targets: all demo test test-long fuzz mutate lint doc bench install clean
+# Perigal: make [MODE=release|debug|asan] [V=1];  targets: all demo test test-long stress fresh fuzz mutate lint doc bench install clean
 MODE    ?= release
 prefix  ?= /usr/local
 CC      ?= gcc
 THREADS ?= 0
 JOBS    ?= $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(shell nproc))
 T       ?=
+SIZE    ?= full
 
 # ---- nothing to change below this line -------------------------------------------------------------------------------
 VERSION := 0.1.0
@@ -123,6 +124,13 @@ $(BUILD)/test/fuzz/fuzz_%: test/fuzz/fuzz_%.c $(LIB)
 
 mutate: packages     ## plants the bugs of test/mutate (T=folder: of one) one at a time in a copy and counts those that the tests find
 	$(Q).ci/mutate $(if $(T),-f $(T)) $(if $(MUTANTS),-n $(MUTANTS)) -j $(JOBS)
+
+stress: packages     ## conditions x methods, 45 minutes on two cores; rows in out/stress/stress.csv (SIZE=short|long: a sample)
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal
+	$(Q)test/stress/run $(BUILD) $(SIZE) $(JOBS)
+
+fresh:               ## make demo and make test on a bare Debian in a folder (root, debootstrap)
+	$(Q).ci/fresh
 
 lint:                ## one-way includes, file and function lengths
 	$(Q).ci/lint $(ORDER)

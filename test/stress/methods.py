@@ -1,0 +1,64 @@
+"""The columns of the matrix: every way to compute that the program lists, so that a new catalogue entry joins by itself.
+
+A method is a name, the changes that it makes to a scene, and the family of conditions that it takes part in:
+`static` methods carry a load to equilibrium, `motion` methods march in time, `break` methods let bonds fail.
+"""
+import subprocess
+
+BOND_POISSON = {('stress', 2): 1 / 3, ('strain', 2): 1 / 4, ('', 3): 1 / 4}
+
+
+class Method:
+    def __init__(self, name, changes, kinds, force='galerkin'):
+        self.name, self.changes, self.kinds, self.force = name, changes, kinds, force
+
+    def poisson(self, plane, dimension):
+        """Poisson's ratio of conditions that do not set one: what pair forces carry, else that of rock."""
+        if self.force in ('bond', 'fcbm'):
+            return BOND_POISSON[(plane if dimension == 2 else '', dimension)]
+        return 0.2
+
+
+def catalogue(program):
+    """The entries of `perigal list`: {key: [name, ...]}."""
+    entries, key = {}, None
+    for line in subprocess.run([program, 'list'], capture_output=True, text=True, check=True).stdout.splitlines():
+        if line and not line[0].isspace():
+            key = line.strip()
+            entries[key] = []
+        elif line.strip():
+            entries[key].append(line.split()[0])
+    return entries
+
+
+def methods(program):
+    has = catalogue(program)
+    found = []
+    for approximation in has['method.approximation']:
+        for integration in has['method.integration']:
+            for basis, horizon in (('linear', '2.0 spacing'), ('quadratic', '2.8 spacing')):
+                changes = {'method': {'force': 'galerkin', 'approximation': approximation, 'integration': integration,
+                                      'basis': basis, 'horizon': horizon}}
+                kinds = {'static', 'break'} if basis == 'linear' else {'static'}
+                found.append(Method(f'{approximation} {integration} {basis}', changes, kinds))
+    for force in has['method.force']:
+        if force != 'galerkin':
+            found.append(Method(force, {'method': {'force': force}}, {'static', 'break'}, force))
+    if 'gmpd' in has['method.force']:
+        found.append(Method('gmpd volumetric', {'method': {'force': 'gmpd', 'volumetric': True}}, {'static'}, 'gmpd'))
+    for kernel in has['method.kernel']:
+        found.append(Method(f'rkpm gauss, {kernel}', {'method': {'kernel': kernel}}, {'static'}))
+        found.append(Method(f'bond, {kernel}', {'method': {'force': 'bond', 'kernel': kernel}}, {'static'}, 'bond'))
+    for linear in has['solver.linear']:
+        found.append(Method(f'rkpm gauss, {linear}', {'solver': {'linear': linear}}, {'linear'}))
+        found.append(Method(f'bond, {linear}', {'method': {'force': 'bond'}, 'solver': {'linear': linear}}, {'linear'}, 'bond'))
+    for solver in has['solver.kind']:
+        for force in has['method.force']:
+            kinds = {'relaxed'} if solver in ('adr', 'relax') else {'motion'} if solver != 'static' else set()
+            if kinds:
+                found.append(Method(f'{force}, {solver}', {'method': {'force': force}, 'solver': {'kind': solver}}, kinds, force))
+    for criterion in has['failure.criterion']:
+        for force in has['method.force']:
+            changes = {'method': {'force': force}, 'failure': {'criterion': criterion}}
+            found.append(Method(f'{force}, {criterion}', changes, {'criterion'}, force))
+    return found
