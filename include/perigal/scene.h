@@ -77,6 +77,15 @@ const char *pg_scene_hash    (const pg_scene *s);            /* SHA-256 of text 
 /* "10 GPa" with unit "Pa" -> 1e10. A bare number is SI. On failure *why (static text or last error) says what is wrong. */
 pg_status pg_unit_parse (double *out, const char *text, const char *unit);
 
+/* ---- columns of tables ---------------------------------------------------------------------------------------------- */
+/* Cuts the header of a column, "u_x [mm]" or "u_x (mm)", in place into its name and *unit, "" where it names none (borrowed from
+ * `header`). PG_E_SCENE: the bracket does not close, or something follows it; the name is cut all the same. */
+pg_status pg_column_cut (char *header, const char **unit);
+/* The size of that unit ("": 1) in units of `kind`: "m", "m3", "Pa", "1" for a plain number. PG_E_SCENE: unknown, or of another kind. */
+pg_status pg_column_scale (double *scale, const char *unit, const char *kind);
+/* A value of such a column in SI: 3 at a scale of 1e-3 is exactly 0.003. */
+double    pg_column_value (double value, double scale);
+
 /* ---- expressions ---------------------------------------------------------------------------------------------------- */
 /* Variables x y z r (m), angle (rad, atan2 (y, x) in [0, 2 pi)), t (s; load factor 0..1 when static); numbers may carry
  * units; + - * / ^, comparisons, and or not, functions sin cos tan sqrt abs min max exp log step hypot atan2, pi. Comparing or

@@ -58,7 +58,8 @@ static const pg_key keys[] = {
       .doc = "Over the whole face of the bounding box, or only over the part where the body is: from the first to the last place along the face with the body half a"
              " cell below it (the foot of an L; one box, also across a notch)." },
     { .path = "points", .kind = PG_TEXT, .fallback = "", .group = "origin:most",
-      .doc = "CSV file of points in place of a body, next to the scene file; columns x [y [z]] volume [block] [spacing] in m and m3."
+      .doc = "CSV file of points in place of a body, next to the scene file; columns x [y [z]] volume [block] [spacing] in m and m3. A header may name them in"
+             " another order and in other units: x [mm], y [mm], volume [mm3]."
              " With a spacing (distance to the neighbours) the support of each point follows it." },
     { .path = "mesh", .kind = PG_MAP, .fallback = "", .group = "origin:most",
       .doc = "Mesh in place of a body: its elements are the background cells, its nodes the points, its sets are sets." },

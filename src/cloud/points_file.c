@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * points: FILE. One point a line, x [y [z]] volume [block] [spacing], by commas or blanks; '#' starts a comment; one header line may
- * lead (and must, for a spacing without a block). */
+ * points: FILE. One point a line, x [y [z]] volume [block] [spacing], by commas or blanks; '#' starts a comment. One header line may
+ * lead: it names the columns, in any order, with their units in brackets (and must, for a spacing without a block). */
 #include "points_file.h"
 #include "place.h"
 #include <errno.h>
@@ -12,7 +12,10 @@
 #include <string.h>
 #include <strings.h>
 
-enum { MOST_FIELDS = 8 };
+enum { MOST_FIELDS = 16 };
+enum { X, VOLUME = 3, BLOCK, SPACING, ROLES };         /* X + k: coordinate k                                            */
+static const struct { const char *name, *unit; } role[ROLES] = {
+    { "x", "m" }, { "y", "m" }, { "z", "m" }, { "volume", "m3" }, { "block", "1" }, { "spacing", "m" } };
 
 typedef struct {
     const pg_scene *scene;
@@ -20,7 +23,9 @@ typedef struct {
     char   *text;
     size_t  line;                                      /* being read, from 1                                             */
     size_t  columns;                                   /* of all lines, 0: not known yet                                 */
-    size_t  block, spacing;                            /* columns that hold these, 0: none does                          */
+    size_t  column[ROLES];                             /* that holds it, from 1; 0: none does                            */
+    double  scale[ROLES];                              /* SI units a unit of that column                                 */
+    int     headed;                                    /* a header has named the columns                                 */
     size_t  capacity;
     size_t *line_of;                                   /* line of each point                                             */
 } reader;
@@ -88,6 +93,7 @@ static size_t split (char *line, char *field[MOST_FIELDS])
         int last = !*end;
         while (tail > s && (tail[-1] == ' ' || tail[-1] == '\t')) tail--;
         *tail = '\0';
+        if (tail > s + 1 && *s == '"' && tail[-1] == '"') s++, tail[-1] = '\0';
         if (n < MOST_FIELDS) field[n] = s;
         n++;
         if (last) return n;
@@ -102,26 +108,74 @@ static int number (const char *text, double *value)
     return end != text && !*end && isfinite (*value);
 }
 
-static int names (const char *field, const char *name) /* a unit may follow                                              */
+/* ---- header ---------------------------------------------------------------------------------------------------------- */
+/* Nothing in it is a number. */
+static int is_header (size_t n, char *const *field)
 {
-    size_t length = strlen (name);
-    return !strncasecmp (field, name, length) && strchr (" [(", field[length]);
+    char *end;
+    for (size_t k = 0; k < n && k < MOST_FIELDS; k++) {
+        (void) strtod (field[k], &end);
+        if (!*field[k] || (end != field[k] && !*end)) return 0;
+    }
+    return n > 1;
 }
 
-/* A header names the columns in their order. */
-static int is_header (reader *r, size_t n, char *const *field, size_t dim)
+/* Blanks separate "x [mm] y [mm]" into four: a unit goes back to its name. */
+static size_t join_units (size_t n, char **field)
 {
-    static const char *const word[] = {"x", "y", "z"};
-    if (n < dim + 1 || n > dim + 3) return 0;
-    for (size_t k = 0; k < dim; k++) if (!names (field[k], word[k])) return 0;
-    if (!names (field[dim], "volume")) return 0;
-    size_t block = n > dim + 1 && names (field[dim + 1], "block") ? dim + 1 : 0;
-    size_t spacing = n > dim + 1 && names (field[n - 1], "spacing") ? n - 1 : 0;
-    if (n != dim + 1 + (block > 0) + (spacing > 0)) return 0;
-    r->columns = n, r->block = block, r->spacing = spacing;
-    return 1;
+    size_t kept = 0;
+    for (size_t k = 0; k < n && k < MOST_FIELDS; k++) {
+        if (!kept || !strchr ("[(", *field[k])) field[kept++] = field[k];
+        else for (char *s = field[kept - 1] + strlen (field[kept - 1]); s < field[k]; s++) *s = ' ';
+    }
+    return n > MOST_FIELDS ? n : kept;
 }
 
+/* Names a body of this dimension has, "x, y, volume, block, spacing". */
+static const char *names_of (size_t dim, const char *between)
+{
+    static _Thread_local char text[64];
+    size_t n = 0;
+    for (size_t k = 0; k < ROLES; k++)
+        if (k < dim || k >= VOLUME) n += (size_t) snprintf (text + n, sizeof text - n, "%s%s", n ? between : "", role[k].name);
+    return text;
+}
+
+static pg_status read_name (reader *r, size_t k, char *cell, size_t dim)
+{
+    const char *unit, *near;
+    char given[64];
+    size_t what = 0;
+    snprintf (given, sizeof given, "%.60s", cell);
+    int closed = pg_column_cut (cell, &unit) == PG_OK;
+    while (what < ROLES && (strcasecmp (cell, role[what].name) != 0 || (what >= dim && what < VOLUME))) what++;
+    if (what == ROLES) {
+        near = pg_nearest_name (cell, names_of (dim, "|"));
+        return WRONG (r, "column %zu of the header is called '%.40s'%s%s%s: the columns of a %zuD body are %s, in any order, with their units: x [mm], volume [mm3]",
+                      k + 1, cell, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "", dim, names_of (dim, ", "));
+    }
+    if (!closed || pg_column_scale (&r->scale[what], unit, role[what].unit) != PG_OK)
+        return WRONG (r, "column %zu of the header, '%.60s': %s", k + 1, given, pg_last_error ());
+    if (r->column[what]) return WRONG (r, "columns %zu and %zu of the header are both called '%s'", r->column[what], k + 1, role[what].name);
+    r->column[what] = k + 1;
+    return PG_OK;
+}
+
+static pg_status read_header (reader *r, size_t n, char **field, size_t dim)
+{
+    pg_status status = PG_OK;
+    n = join_units (n, field);
+    if (n > MOST_FIELDS) PG_TRY (WRONG (r, "%zu columns in the header; those of a %zuD body are %s", n, dim, names_of (dim, ", ")));
+    for (size_t k = 0; k < n; k++) PG_TRY (read_name (r, k, field[k], dim));
+    for (size_t k = 0; k <= VOLUME; k++)
+        if ((k < dim || k == VOLUME) && !r->column[k])
+            PG_TRY (WRONG (r, "the header has no column '%s': coordinates and a volume are needed, a block and a spacing may be", role[k].name));
+    r->columns = n, r->headed = 1;
+done:
+    return status;
+}
+
+/* ---- points ---------------------------------------------------------------------------------------------------------- */
 static pg_status add_point (reader *r, pg_cloud *c, const double *value)
 {
     pg_status status = PG_OK;
@@ -129,7 +183,7 @@ static pg_status add_point (reader *r, pg_cloud *c, const double *value)
     if (n > INT_MAX / 4) PG_FAIL (PG_E_LIMIT, "%s has more than %d points", r->name, INT_MAX / 4);
     if (n > r->capacity) {
         size_t cx = 0, cv = 0, cb = 0, cs = 0, cl = 0;     /* 0: grow now, all alike */
-        if (r->spacing) PG_GROW (c->size, cs, n);
+        if (r->column[SPACING]) PG_GROW (c->size, cs, n);
         PG_GROW (c->x, cx, n * dim);
         PG_GROW (c->volume, cv, n);
         PG_GROW (c->block, cb, n);
@@ -137,36 +191,59 @@ static pg_status add_point (reader *r, pg_cloud *c, const double *value)
         r->capacity = 2 * n;
     }
     memcpy (c->x + c->n * dim, value, dim * sizeof *value);
-    c->volume[c->n] = value[dim];
-    c->block[c->n] = r->block ? (int) value[r->block] : 0;
-    if (r->spacing) c->size[c->n] = value[r->spacing];
+    c->volume[c->n] = value[VOLUME];
+    c->block[c->n] = (int) value[BLOCK];
+    if (r->column[SPACING]) c->size[c->n] = value[SPACING];
     r->line_of[c->n] = r->line;
     c->n = n;
 done:
     return status;
 }
 
+static pg_status settle_columns (reader *r, size_t n, size_t dim)
+{
+    if (n < dim + 1 || n > dim + 3)
+        return WRONG (r, "%zu columns; in %zuD a line has %zu (coordinates, volume), %zu (and block) or %zu (and spacing)", n, dim, dim + 1, dim + 2, dim + 3);
+    for (size_t k = 0; k < dim; k++) r->column[X + k] = k + 1;
+    r->column[VOLUME] = dim + 1, r->column[BLOCK] = n > dim + 1 ? dim + 2 : 0, r->column[SPACING] = n > dim + 2 ? dim + 3 : 0;
+    for (size_t k = 0; k < ROLES; k++) r->scale[k] = 1;
+    r->columns = n;
+    return PG_OK;
+}
+
+/* A value that cannot be: what it was taken for, and why. */
+static pg_status refuse_value (reader *r, size_t what, double value, const char *must, size_t dim)
+{
+    return WRONG (r, "the %s %g must be %s: it stands in column %zu%s%s%s", role[what].name, value, must, r->column[what],
+                  r->headed ? "" : "; without a header the columns are ", r->headed ? "" : names_of (dim, ", "),
+                  r->headed ? "" : " (a header such as x [mm], y [mm], volume [mm3] may give another order, and units)");
+}
+
 static pg_status read_line (reader *r, pg_cloud *c, char *line)
 {
+    pg_status status = PG_OK;
     char *field[MOST_FIELDS];
-    double value[MOST_FIELDS];
+    double value[ROLES] = { [SPACING] = 1 };
     size_t dim = (size_t) c->dim;
     line[strcspn (line, "#\r")] = '\0';
     if (!line[strspn (line, " \t")]) return PG_OK;
     size_t n = split (line, field);
-    if (c->n == 0 && r->columns == 0 && is_header (r, n, field, dim)) return PG_OK;
-    if (n < dim + 1 || n > dim + 3)
-        return WRONG (r, "%zu columns; in %zuD a line has %zu (coordinates, volume), %zu (and block) or %zu (and spacing)", n, dim, dim + 1, dim + 2, dim + 3);
-    if (r->columns && n != r->columns) return WRONG (r, "%zu columns, the lines before have %zu", n, r->columns);
-    if (!r->columns) r->block = n > dim + 1 ? dim + 1 : 0, r->spacing = n > dim + 2 ? dim + 2 : 0;
-    r->columns = n;
-    for (size_t k = 0; k < n; k++)
-        if (!number (field[k], &value[k])) return WRONG (r, "'%.40s' in column %zu is not a finite number", field[k], k + 1);
-    if (!(value[dim] > 0)) return WRONG (r, "the volume %g must be positive", value[dim]);
-    double block = r->block ? value[r->block] : 0, spacing = r->spacing ? value[r->spacing] : 1;
-    if (!(block >= 0 && block <= INT_MAX && block == floor (block))) return WRONG (r, "the block %g must be a whole number from 0", block);
-    if (!(spacing > 0)) return WRONG (r, "the spacing %g must be positive", spacing);
-    return add_point (r, c, value);
+    if (c->n == 0 && r->columns == 0 && is_header (n, field)) return read_header (r, n, field, dim);
+    if (r->columns && n != r->columns) return WRONG (r, "%zu columns, %s %zu", n, r->headed && c->n == 0 ? "the header has" : "the lines before have", r->columns);
+    if (!r->columns) PG_TRY (settle_columns (r, n, dim));
+    for (size_t what = 0; what < ROLES; what++) {
+        size_t k = r->column[what];
+        if (!k) continue;
+        if (!number (field[k - 1], &value[what]))
+            PG_TRY (WRONG (r, "'%.40s' in column %zu (%s) is not a finite number", field[k - 1], k, role[what].name));
+        double given = value[what];
+        value[what] = pg_column_value (given, r->scale[what]);
+        if ((what == VOLUME || what == SPACING) && !(value[what] > 0)) PG_TRY (refuse_value (r, what, given, "positive", dim));
+        if (what == BLOCK && !(given >= 0 && given <= INT_MAX && given == floor (given))) PG_TRY (refuse_value (r, what, given, "a whole number from 0", dim));
+    }
+    PG_TRY (add_point (r, c, value));
+done:
+    return status;
 }
 
 /* ---- duplicates ----------------------------------------------------------------------------------------------------- */

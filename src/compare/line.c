@@ -56,23 +56,12 @@ static int meaning_of (const char *name, int dim)
 static pg_status read_name (reader *r, size_t k, char *cell)
 {
     pg_status status = PG_OK;
-    char *open = strchr (cell, '['), *shut = open ? strchr (open, ']') : NULL, one[96];
-    double size = 0;
-    if (open) {
-        char *tail = open;
-        while (tail > cell && tail[-1] == ' ') tail--;
-        if (!shut) PG_FAIL (PG_E_FILE, "%s:%zu: column %zu: the bracket of its unit does not close", r->path, r->at, k + 1);
-        *tail = *shut = 0;
-    }
-    int what = r->meaning[k] = meaning_of (cell, r->line->dim);
+    const char *text;
+    int closed = pg_column_cut (cell, &text) == PG_OK, what = r->meaning[k] = meaning_of (cell, r->line->dim);
+    if (what >= 0 && !closed) PG_FAIL (PG_E_FILE, "%s:%zu: column %zu, %s: %s", r->path, r->at, k + 1, cell, pg_last_error ());
     r->scale[k] = what < 0 || (what >= 3 && what < PLACE) ? 1 : r->unit;
-    if (what >= 0 && open && open[1]) {
-        snprintf (one, sizeof one, "1 %.80s", open + 1);
-        const char *unit = what >= PLACE ? "m" : pg_column_unit (what);
-        if (pg_unit_parse (&size, one, unit) != PG_OK)
-            PG_FAIL (PG_E_FILE, "%s:%zu: column %s: [%.40s] is no unit of the kind of %s", r->path, r->at, cell, open + 1, unit);
-        r->scale[k] = size;
-    }
+    if (what >= 0 && *text && pg_column_scale (&r->scale[k], text, what >= PLACE ? "m" : pg_column_unit (what)) != PG_OK)
+        PG_FAIL (PG_E_FILE, "%s:%zu: column %s: %s", r->path, r->at, cell, pg_last_error ());
     for (size_t j = 0; j < k; j++)
         if (what >= 0 && r->meaning[j] == what) PG_FAIL (PG_E_FILE, "%s:%zu: there are two columns %s", r->path, r->at, cell);
     if (what >= 0 && what < PLACE) r->line->column[r->line->ncolumn++] = what, r->scale[k] *= r->factor;
@@ -106,7 +95,7 @@ static pg_status read_number (const reader *r, const char *cell, size_t k, doubl
     if (!*cell) return PG_OK;
     *out = strtod (cell, &end);
     if (end == cell || *end) PG_FAIL (PG_E_FILE, "%s:%zu: '%.40s' in column %zu is not a number", r->path, r->at, cell, k + 1);
-    *out *= r->scale[k];
+    *out = pg_column_value (*out, r->scale[k]);
 done:
     return status;
 }

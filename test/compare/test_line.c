@@ -32,6 +32,13 @@ static void columns_and_units (void **state)
     assert_true (isnan (l.value[3]) && isnan (l.value[4]));
     check_relative (l.value[5], 1e4, 1e-15);
     pg_line_clear (&l);
+    write_file ("x (mm),u_x (um),s_xx (MPa)\n1,2,3\n");
+    check_ok (pg_line_read (&l, path, 1, 1, 1, origin));
+    assert_int_equal (l.ncolumn, 2);
+    check_relative (l.x[0], 1e-3, 1e-15);
+    check_relative (l.value[0], 2e-6, 1e-15);
+    check_relative (l.value[1], 3e6, 1e-15);
+    pg_line_clear (&l);
     write_file ("x,u_x,s_xx\n1,2,3\n");
     check_ok (pg_line_read (&l, path, 1, 1e-3, 1, origin));
     check_relative (l.x[0], 1e-3, 1e-15);
@@ -45,7 +52,8 @@ static void faults (void **state)
     (void) state;
     static const struct { const char *text, *message; } wrong[] = {
         { "", "has no rows" }, { "x,u_x\n", "has no rows" }, { "a,b\n1,2\n", ":1: no column x, y" }, { "x,y\n1,2\n", ":1: no column of values" },
-        { "x [s],u_x\n1,2\n", ":1: column x: [s] is no unit" }, { "x [mm,u_x\n1,2\n", "does not close" }, { "x,u_x,u_x\n1,2,3\n", "two columns u_x" },
+        { "x [s],u_x\n1,2\n", ":1: column x: 's' does not fit: expected m" }, { "x [mm,u_x\n1,2\n", "does not close" }, { "x,u_x [MPa]\n1,2\n", "column u_x: 'MPa' does not fit: expected m" },
+        { "x,u_x,u_x\n1,2,3\n", "two columns u_x" },
         { "x,u_x\n1,2\n1,2,3\n", ":3: 3 columns, the first row names 2" }, { "x,u_x\n1,two\n", ":2: 'two' in column 2" }, { "x,u_x\n,2\n", ":2: the place has no x" },
         { "x,u_z\n1,2\n", "no column of values" } };
     pg_line l;
