@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * No memory on the whole way from a scene file to a result folder, in 3D, static and Newmark: each allocation fails once (the short test:
- * each of the first, then some of the rest). Nothing crashes, nothing is lost, and the status says so. */
+ * No memory on the whole way from a scene file to a result folder, in 3D and, for every force, integration and solver, in 2D: each allocation fails once
+ * (the short test: each of the first, then some of the rest). Nothing crashes, nothing is lost, and the status says so. */
 #include "report/folder.h"
 
 #define BLOCK "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.4, 0.3, 0.2]}}}]\nspacing: 0.1\n" \
@@ -55,7 +55,7 @@ static void write_scene (const char *path, const char *text)
     assert_int_equal (fclose (file), 0);
 }
 
-static void sweep (const char *text)
+static void sweep (const char *text, size_t first, size_t rest)
 {
     char folder[64], path[96];
     const char *size = getenv ("PERIGAL_TEST_SIZE");
@@ -70,7 +70,7 @@ static void sweep (const char *text)
     assert_true (broken > 0 && calls > 300);
     assert_int_equal (pg_memory_used (), used);
     int whole = size && strcmp (size, "long") == 0;
-    for (size_t k = 1; k <= calls; k += whole || k < 20 ? 1 : 1 + calls / 60, tried++) {
+    for (size_t k = 1; k <= calls; k += whole || k < first ? 1 : 1 + calls / rest, tried++) {
         pg_memory_fail_at (k);
         pg_status status = run_file (path, folder, &broken);
         pg_memory_fail_at (0);
@@ -85,10 +85,52 @@ static void sweep (const char *text)
     remove_folder (folder);
 }
 
-static void a_static_block_survives_every_failing_allocation (void **state) { (void) state; sweep (static_scene); }
-static void a_newmark_block_survives_every_failing_allocation (void **state) { (void) state; sweep (newmark_scene); }
-static void a_micropolar_block_survives_every_failing_allocation (void **state) { (void) state; sweep (turning_scene); }
-static void a_marching_block_survives_every_failing_allocation (void **state) { (void) state; sweep (dilating_scene); }
+static void a_static_block_survives_every_failing_allocation (void **state) { (void) state; sweep (static_scene, 20, 60); }
+static void a_newmark_block_survives_every_failing_allocation (void **state) { (void) state; sweep (newmark_scene, 20, 60); }
+static void a_micropolar_block_survives_every_failing_allocation (void **state) { (void) state; sweep (turning_scene, 20, 60); }
+static void a_marching_block_survives_every_failing_allocation (void **state) { (void) state; sweep (dilating_scene, 20, 60); }
+
+/* ---- every force, integration and solver -------------------------------------------------------------------------------------------- */
+#define PLATE "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [6 mm, 8 mm]}}}]\nspacing: 1 mm\n%s\n" \
+    "cracks: [{from: [-1 mm, 4 mm], to: [2 mm, 4 mm]}]\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: %s, density: 2440 kg/m3}}\nmethod: {%s}\n" \
+    "failure: {criterion: %s}\nsets: {up: {where: y > 6 mm}, down: {where: y < 2 mm}}\nboundary: [{set: down, displacement: {x: 0, y: 0}}, {set: up, displacement: {%s}}]\n" \
+    "solver: {%s}\noutput: {at: {levels: 3}, fields: [displacement, damage], pictures: []}\n"
+#define STRETCH "stretch, critical_stretch: 1e-4"
+
+typedef struct { const char *name, *lattice, *poisson, *method, *criterion, *solver; } plan;
+static const char pulled[] = "x: 0, y: 20 um", moved[] = "x: 0, y: '20 um * t / (0.1 us)'";
+static const plan plans[] = {
+    { "lps, verlet", "lattice: cells", "0.2", "force: lps, horizon: 2.5 spacing", STRETCH, "kind: verlet, end: 1 us" },
+    { "lps, central, live volumes of a list", "perturb: {amount: 0.2}", "0.2", "force: lps, horizon: 2.5 spacing, weighted_volume: live", STRETCH, "kind: central, end: 1 us, rayleigh: {mass: 10 1/s}" },
+    { "lps, static without a matrix", "lattice: cells", "0.4", "force: lps, horizon: 2.5 spacing", STRETCH, "kind: static, linear: pcg, stepping: fixed, steps: 2, break: all" },
+    { "lps by transforms, verlet", "lattice: cells", "0.2", "force: lps, horizon: 2.5 spacing, evaluation: fft", STRETCH, "kind: verlet, end: 1 us" },
+    { "fcbm, relax", "lattice: cells", "0.333333333333333", "force: fcbm, horizon: 2.5 spacing", "node_energy, fracture_energy: 0.1 J/m2", "kind: relax" },
+    { "fcbm, verlet", "lattice: cells", "0.333333333333333", "force: fcbm, horizon: 2.5 spacing", "node_energy, fracture_energy: 0.1 J/m2", "kind: verlet, end: 1 us" },
+    { "bond, adr", "lattice: cells", "0.333333333333333", "force: bond, horizon: 2.5 spacing", STRETCH, "kind: adr" },
+    { "bond, central, list, finite stretch", "perturb: {amount: 0.2}", "0.333333333333333", "force: bond, horizon: 2.5 spacing, surface_correction: volume, stretch: finite", STRETCH, "kind: central, end: 1 us" },
+    { "bond, newmark", "lattice: cells", "0.333333333333333", "force: bond, horizon: 2.5 spacing", STRETCH, "kind: newmark, dt: 0.1 us, end: 1 us, break: all" },
+    { "bond, event stepping", "lattice: cells", "0.333333333333333", "force: bond, horizon: 2.5 spacing", STRETCH, "kind: static, stepping: event, max_events: 3" },
+    { "gmpd, newmark", "lattice: cells", "0.2", "force: gmpd, horizon: 2.5 spacing", "beam_limits, fracture_energy: 0.1 J/m2", "kind: newmark, dt: 0.1 us, end: 1 us" },
+    { "gmpd, relax, list", "perturb: {amount: 0.2}", "0.2", "force: gmpd, horizon: 2.5 spacing", "beam_limits, fracture_energy: 0.1 J/m2", "kind: relax" },
+    { "galerkin, consistent", "", "0.2", "approximation: rkpm, integration: consistent", "principal_stress, tensile_strength: 10 MPa", "kind: static, stepping: event, max_events: 3" },
+    { "galerkin, pddo, consistent, newmark", "", "0.2", "approximation: pddo, integration: consistent", "principal_stress, tensile_strength: 10 MPa", "kind: newmark, dt: 0.1 us, end: 1 us, mass: consistent" },
+    { "galerkin, nodal, umfpack", "", "0.2", "approximation: nosb, integration: nodal, essential: penalty", STRETCH, "kind: static, linear: umfpack, stepping: fixed, steps: 2, break: all" },
+    { "galerkin, pddo, nodal, verlet", "", "0.2", "approximation: pddo, integration: nodal, essential: nitsche", STRETCH, "kind: verlet, end: 1 us" },
+    { "galerkin, quadratic, central", "", "0.2", "basis: quadratic, integration: gauss, horizon: 3.01 spacing, essential: nitsche", STRETCH, "kind: central, dt: 5 ns, end: 1 us" },
+    { "galerkin, adr", "", "0.2", "integration: gauss, essential: nitsche", STRETCH, "kind: adr" },
+};
+static void every_method_survives_every_failing_allocation (void **state)
+{
+    (void) state;
+    for (size_t k = 0; k < sizeof plans / sizeof *plans; k++) {
+        char text[2000];
+        const plan *p = &plans[k];
+        int timed = strstr (p->solver, "end:") != NULL;
+        snprintf (text, sizeof text, PLATE, p->lattice, p->poisson, p->method, p->criterion, timed ? moved : pulled, p->solver);
+        printf ("# %s\n", p->name);
+        sweep (text, 1, 25);
+    }
+}
 
 int main (void)
 {
@@ -97,6 +139,7 @@ int main (void)
         cmocka_unit_test (a_newmark_block_survives_every_failing_allocation),
         cmocka_unit_test (a_micropolar_block_survives_every_failing_allocation),
         cmocka_unit_test (a_marching_block_survives_every_failing_allocation),
+        cmocka_unit_test (every_method_survives_every_failing_allocation),
     };
     return cmocka_run_group_tests_name ("fuzz/allocation", tests, NULL, NULL);
 }
