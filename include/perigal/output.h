@@ -118,18 +118,30 @@ int       pg_picture_on_elements (const pg_mesh_body *body, const pg_picture_sty
 
 /* A time for titles: 1.337e-5 s -> "13.37 µs" in UTF-8. */
 void      pg_picture_time (double t, char *out, size_t size);
+/* A value in SI with a prefix for its unit, which begins with N, m, Pa or J: -1.5034e7, "N" -> "-15.03 MN"; m2, m3 and the like stay as they are. */
+void      pg_picture_quantity (double value, const char *unit, char *out, size_t size);
 
 enum { PG_CURVE_LINE, PG_CURVE_MARKERS, PG_CURVE_BOTH };
 typedef struct { const char *name; size_t n; const double *x, *y; int points; /* PG_CURVE_... */ } pg_curve;
 /* A triangle of slope `order` (y ~ x^order) between x low and high, beside that curve, with the order written at it. low == high:
  * the middle part of the curve. Drawn where both axes are logarithmic and the curve passes both ends. */
 typedef struct { double order; size_t curve; double low, high; } pg_chart_slope;
+typedef struct { size_t curve; double x, y; const char *text; } pg_chart_mark;         /* a ring in the colour of that curve; text beside it, or NULL */
 typedef struct {
     const char *title, *xlabel, *ylabel;
     int logx, logy;
     int beside;                                        /* legend beside the frame; else there only if it would hide data */
     size_t nslope;  const pg_chart_slope *slopes;
+    size_t npale;   const pg_curve *pale;              /* thin and pale behind the curve of the same number; n = 0: none; the legend has the name of the first */
+    size_t nmark;   const pg_chart_mark *marks;
+    int zero;                                          /* lines through x = 0 and y = 0 where they lie inside the frame  */
 } pg_chart_style;
 /* Curves differ in colour and marker, from the ninth on also in dashes and hollow markers. */
 pg_status pg_picture_chart (const char *path, size_t ncurve, const pg_curve *curves, const pg_chart_style *style);
+/* What a test shows that raises |x| steadily, of a path of n states of a body that breaks event by event, where x and y fall and rise. A state
+ * counts when its |x| (of the sign that the largest one has) exceeds that of all before it: up to there the body held. linear: the states between
+ * two events lie on a line through the origin, as under loads that all grow in proportion; then the curve starts there, falls at the same x to the
+ * line of the next state that counts, or of the last one at the end. Else it joins the states that count. ex, ey hold 2 n + 2 values; returns how
+ * many were filled. *peak: which of them has the largest |y|. */
+size_t    pg_envelope (size_t n, const double *x, const double *y, int linear, double *ex, double *ey, size_t *peak);
 #endif

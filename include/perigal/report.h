@@ -38,6 +38,8 @@ const pg_errors *pg_result_errors (const pg_result *result);
 const pg_estimate *pg_result_estimate (const pg_result *result);
 /* The k-th of output.tips in words: how far its crack has come, when and how fast. 0: there is no such. */
 int       pg_result_tip    (const pg_result *result, size_t k, char *out, size_t size /* 256 */);
+/* After pg_result_finish: the largest force and where, secant stiffness, new crack and what it cost, a line each. 0: there are no more. */
+int       pg_result_words  (const pg_result *result, size_t k, char *out, size_t size /* 1 or more */);
 const char *pg_result_folder (const pg_result *result);
 size_t    pg_result_pictures (const pg_result *result);     /* written                                                   */
 const char *pg_result_picture (const pg_result *result, size_t i);

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs, or of other tables, as a chart. */
 #include "plot.h"
+#include "perigal/model.h"
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { CELL = 256, LIST = 4096, MOST = 24, EXIT_USAGE = 64, EXIT_FAILED = 70 };
 
@@ -16,17 +18,28 @@ typedef struct {
     int     negate, absolute, markers, log[2];         /* log: of x, of y                                                */
 } request;
 
+/* What the scene of a run says of two of its columns. */
+typedef struct {
+    int at_rest;                                       /* the run starts unloaded: both columns at 0                     */
+    int events;                                        /* static, both proportional to the load: a path of events has an envelope */
+    int linear;                                        /* all loads grow in proportion                                   */
+} run_kind;
+
 typedef struct {
     size_t  n;
-    double *at[2];                                     /* x, y of each row                                               */
+    double *at[2], *factor;                                     /* x, y, load factor of each row                                  */
     char    column[2][CELL], name[CELL];               /* "name (unit)"; name in the legend                              */
+    run_kind kind;
+    size_t  nline, peak;                               /* of the line drawn: the rows, or their envelope                 */
+    double *line[2];
 } run_curve;
 
 static const char usage[] =
     "usage: perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--log x|y|xy] [--markers]\n"
     "                    [--out FILE.png|FILE.svg]\n"
     "Draws columns X and Y of every DIR/history.csv (of DIR itself if it is a .csv file) in one picture; --negate turns the signs of both (not of step,\n"
-    "time, load_factor), --abs drops them. The legend shows --labels, else the names of the folders. --markers: a marker on every row.\n";
+    "time, load_factor), --abs drops them. Of event stepping the line is the envelope and the path of events thin behind it; peaks are ringed. The\n"
+    "legend shows --labels, else the names of the folders. --markers: a marker on every row, and no envelope.\n";
 
 static int is_table (const char *path)                 /* a file of its own, not a folder with history.csv               */
 {
@@ -98,28 +111,110 @@ static double cell_of (const char *row, int column)
     return end == cell ? NAN : value;
 }
 
+/* ---- what the scene says ---------------------------------------------------------------------------------------------------- */
+/* Is the column one of a list, by its name? */
+static int is_one_of (const char *column, const char *list)
+{
+    char name[CELL];
+    size_t n = strcspn (column, "[");
+    while (n > 0 && column[n - 1] == ' ') n--;
+    snprintf (name, sizeof name, "%.*s", (int) n, column);
+    return pg_plot_index (name, list) >= 0;
+}
+
+/* Damage of pre-cracks, and tips of them, are there before any load. */
+static int starts_elsewhere (const pg_scene *scene, const char *column)
+{
+    for (size_t i = 0; i < pg_scene_count (scene, "output.tips"); i++)
+        if (is_one_of (column, pg_scene_text (scene, "output.tips[%zu].name", i))) return 1;
+    for (size_t i = 0; i < pg_scene_count (scene, "output.averages"); i++)
+        if (is_one_of (column, pg_scene_text (scene, "output.averages[%zu].name", i)) && strncmp (pg_scene_text (scene, "output.averages[%zu].field", i), "damage", 6) == 0) return 1;
+    return is_one_of (column, "iterations|residual|event|level");
+}
+
+static void read_kind (run_kind *out, const char *directory, const char *const *wanted)
+{
+    char path[LIST];
+    pg_scene *scene = NULL;
+    snprintf (path, sizeof path, "%s/scene.yaml", directory);
+    if (is_table (directory) || access (path, R_OK) != 0 || pg_scene_load (&scene, path) != PG_OK) return;
+    const char *kind = pg_scene_text (scene, "solver.kind");
+    out->linear = 1;
+    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++)
+        if (pg_scene_given (scene, "boundary[%zu].ramp", i) || pg_scene_given (scene, "boundary[%zu].table", i)) out->linear = 0;
+    out->at_rest = pg_kind_quasi_static (kind) && out->linear;
+    out->events = strcmp (kind, "static") == 0;
+    for (int k = 0; k < 2; k++) {
+        if (starts_elsewhere (scene, wanted[k])) out->at_rest = out->events = 0;
+        if (is_one_of (wanted[k], "step|energy_strain|energy_kinetic|energy_external|energy_dissipated|broken|utilisation")) out->events = 0;
+    }
+    pg_scene_free (&scene);
+}
+
 /* ---- one run -------------------------------------------------------------------------------------------------------------- */
 static pg_status read_rows (run_curve *c, const char *directory, const char *const *wanted)
 {
     pg_status status = PG_OK;
     char table[LIST], *row = NULL;
-    size_t room[2] = { 0, 0 }, width = 0;
-    int column[2];
+    size_t room[3] = { 0, 0, 0 }, width = 0;
+    int column[3] = { 0, 0, -1 };
+    char none[CELL];
     snprintf (table, sizeof table, "%s%s", directory, is_table (directory) ? "" : "/history.csv");
     FILE *file = fopen (table, "r");
     if (!file) PG_FAIL (PG_E_FILE, "%s: %s", table, strerror (errno));
     if (getline (&row, &width, file) < 0) PG_FAIL (PG_E_FILE, "%s is empty", table);
     for (int k = 0; k < 2; k++) PG_TRY (find_column (table, row, wanted[k], &column[k], c->column[k]));
-    for (; getline (&row, &width, file) > 0; c->n++)
+    if (find_column (table, row, "load_factor", &column[2], none) != PG_OK) column[2] = -1;
+    for (; getline (&row, &width, file) > 0; c->n++) {
         for (int k = 0; k < 2; k++) {
             PG_GROW (c->at[k], room[k], c->n + 1);
             c->at[k][c->n] = cell_of (row, column[k]);
         }
+        PG_GROW (c->factor, room[2], c->n + 1);
+        c->factor[c->n] = column[2] < 0 ? 0 : cell_of (row, column[2]);
+    }
     if (c->n == 0) PG_FAIL (PG_E_FILE, "%s has no rows yet", table);
 done:
     free (row);                                        /* of getline */
     if (file) fclose (file);
     return status;
+}
+
+/* The line drawn: the rows, from the origin where the run starts unloaded; of a path of events, on which the load falls and rises, its envelope. */
+static pg_status choose_line (const request *q, run_curve *c)
+{
+    pg_status status = PG_OK;
+    int falls = 0;
+    for (size_t i = 1; i < c->n; i++) falls |= c->factor[i] < c->factor[i - 1];
+    c->kind.events &= falls && !q->markers;
+    for (int k = 0; k < 2; k++) PG_ALLOC (c->line[k], 2 * c->n + 2);
+    if (c->kind.events) {
+        c->nline = pg_envelope (c->n, c->at[0], c->at[1], c->kind.linear, c->line[0], c->line[1], &c->peak);
+        goto done;
+    }
+    c->nline = (size_t) (c->kind.at_rest && !q->markers);
+    for (size_t i = 0; i < c->n; i++) c->line[0][c->nline] = c->at[0][i], c->line[1][c->nline++] = c->at[1][i];
+    for (size_t i = 0; i < c->nline; i++) if (fabs (c->line[1][i]) > fabs (c->line[1][c->peak])) c->peak = i;
+done:
+    return status;
+}
+
+/* Forces, couples and stresses have a peak. */
+static int has_peak (const char *column)
+{
+    size_t n = strlen (column);
+    for (const char *u = "(N)\0(N m)\0(Pa)\0"; *u; u += strlen (u) + 1) if (n > strlen (u) && strcmp (column + n - strlen (u), u) == 0) return 1;
+    return 0;
+}
+
+/* "-15.03 MN": a value of a column by its label's unit. */
+static void quantity_of (const char *column, double value, char *out, size_t size)
+{
+    const char *open = strrchr (column, '(');
+    char unit[32] = "";
+    if (open) snprintf (unit, sizeof unit, "%.*s", (int) strcspn (open + 1, ")"), open + 1);
+    if (*unit && strchr ("NmPJ", *unit)) pg_picture_quantity (value, unit, out, size);
+    else snprintf (out, size, "%.4g%s%s", value, *unit ? " " : "", unit);
 }
 
 /* The last part of a path, slashes at its end aside. */
@@ -182,27 +277,62 @@ static void name_picture (const request *q, char *path, size_t size)
     else snprintf (path, size, "%s/%s.png", q->directory[0], name);
 }
 
+/* Peaks: a ring on every curve; their values beside it, or in the legend where there are several. */
+static void mark_peaks (const request *q, run_curve *c, pg_chart_mark *mark, char *note, size_t size)
+{
+    char value[CELL / 4], place[CELL / 4];
+    for (size_t i = 0; i < q->n; i++) {
+        double x = c[i].line[0][c[i].peak], y = c[i].line[1][c[i].peak];
+        size_t used = strlen (c[i].name);
+        mark[i] = (pg_chart_mark) { i, x, y, q->n == 1 ? note : NULL };
+        quantity_of (c[i].column[1], y, value, sizeof value);
+        quantity_of (c[i].column[0], x, place, sizeof place);
+        if (q->n == 1) snprintf (note, size, "peak %s at %s", value, place);
+        else snprintf (c[i].name + used, sizeof c[i].name - used, ": peak %s", value);
+    }
+}
+
+static pg_status read_all (const request *q, run_curve *c)
+{
+    pg_status status = PG_OK;
+    const char *const wanted[] = { q->x, q->y };
+    PG_TRY (name_curves (q, c));
+    for (size_t i = 0; i < q->n; i++) {
+        PG_TRY (read_rows (&c[i], q->directory[i], wanted));
+        for (int k = 0; k < 2; k++)
+            if (strcmp (c[i].column[k], c[0].column[k]) != 0)
+                PG_FAIL (PG_E_USAGE, "%s has %s and %s has %s: one picture needs one unit", q->directory[0], c[0].column[k], q->directory[i], c[i].column[k]);
+        read_kind (&c[i].kind, q->directory[i], wanted);
+    }
+done:
+    return status;
+}
+
 static pg_status draw (const request *q, const char *path)
 {
     pg_status status = PG_OK;
     run_curve *c = NULL;
-    pg_curve curve[MOST];
+    pg_curve curve[MOST], pale[MOST] = { { 0 } };
+    pg_chart_mark mark[MOST];
+    size_t paths = 0;
+    char note[CELL];
     PG_ALLOC (c, q->n);
-    PG_TRY (name_curves (q, c));
-    for (size_t i = 0; i < q->n; i++) {
-        PG_TRY (read_rows (&c[i], q->directory[i], (const char *const[]) { q->x, q->y }));
-        for (int k = 0; k < 2; k++)
-            if (strcmp (c[i].column[k], c[0].column[k]) != 0)
-                PG_FAIL (PG_E_USAGE, "%s has %s and %s has %s: one picture needs one unit", q->directory[0], c[0].column[k], q->directory[i], c[i].column[k]);
-    }
+    PG_TRY (read_all (q, c));
     for (size_t i = 0; i < q->n; i++) {
         change_signs (q, &c[i]);
-        curve[i] = (pg_curve) { .name = c[i].name, .n = c[i].n, .x = c[i].at[0], .y = c[i].at[1], .points = c[i].n < 3 ? PG_CURVE_MARKERS : q->markers ? PG_CURVE_BOTH : PG_CURVE_LINE };
+        PG_TRY (choose_line (q, &c[i]));
+        curve[i] = (pg_curve) { .name = c[i].name, .n = c[i].nline, .x = c[i].line[0], .y = c[i].line[1], .points = c[i].n < 3 ? PG_CURVE_MARKERS : q->markers ? PG_CURVE_BOTH : PG_CURVE_LINE };
+        if (!c[i].kind.events) continue;
+        pale[i] = (pg_curve) { .n = c[i].n, .x = c[i].at[0], .y = c[i].at[1] };
+        pale[0].name = "path of events", paths = q->n;
     }
-    pg_chart_style style = { .xlabel = c[0].column[0], .ylabel = c[0].column[1], .logx = q->log[0], .logy = q->log[1] };
+    int peaks = has_peak (c[0].column[1]);
+    if (peaks) mark_peaks (q, c, mark, note, sizeof note);
+    pg_chart_style style = { .xlabel = c[0].column[0], .ylabel = c[0].column[1], .logx = q->log[0], .logy = q->log[1], .zero = 1,
+                             .npale = paths, .pale = pale, .nmark = peaks ? q->n : 0, .marks = mark };
     PG_TRY (pg_picture_chart (path, q->n, curve, &style));
 done:
-    for (size_t i = 0; c && i < q->n; i++) pg_free (c[i].at[0]), pg_free (c[i].at[1]);
+    for (size_t i = 0; c && i < q->n; i++) pg_free (c[i].at[0]), pg_free (c[i].at[1]), pg_free (c[i].factor), pg_free (c[i].line[0]), pg_free (c[i].line[1]);
     pg_free (c);
     return status;
 }

@@ -50,6 +50,8 @@ static void print_summary (const pg_result *result, const pg_report *r, const pg
 {
     int nodal = problem->integration->at_nodes;
     print_counts (r, o);
+    char row[400];
+    for (size_t k = 0; pg_result_words (result, k, row, sizeof row); k++) printf ("  %s\n", row);
     const pg_estimate *e = pg_result_estimate (result);
     if (e) printf ("  estimated error of the stress: %s%.2g %% in the energy norm, %zu of %zu points left out (%.2g s)\n", nodal ? "more than " : "",
                    100 * e->relative, e->left_out, e->points + e->left_out, e->seconds);
@@ -57,7 +59,6 @@ static void print_summary (const pg_result *result, const pg_report *r, const pg
             total, r->seconds[PG_SECONDS_SHAPE] + r->seconds[PG_SECONDS_ASSEMBLE] + r->seconds[PG_SECONDS_UPDATE],
             r->seconds[PG_SECONDS_ANALYSE], r->seconds[PG_SECONDS_FACTOR], r->seconds[PG_SECONDS_SOLVE],
             r->seconds[PG_SECONDS_FORCE], r->seconds[PG_SECONDS_BREAK], (double) pg_memory_process_peak () * 1e-6);
-    char row[400];
     for (size_t k = 0; pg_result_errors (result) && pg_errors_row (pg_result_errors (result), k, row, sizeof row); k++)
         printf ("  %s%s\n", k ? "" : "against the reference: ", row);
     for (size_t k = 0; pg_result_tip (result, k, row, sizeof row); k++) printf ("  crack %s\n", row);

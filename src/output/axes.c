@@ -71,6 +71,15 @@ void pg_picture_time (double t, char *out, size_t size)
     snprintf (out, size, "%.4g %s", t * pow (1000, k), unit[k]);
 }
 
+void pg_picture_quantity (double value, const char *unit, char *out, size_t size)
+{
+    static const char *const prefix[] = { "n", "\xc2\xb5", "m", "", "k", "M", "G", "T" };
+    int power = *unit == 'm' && unit[1] >= '2' && unit[1] <= '9', k = 0;               /* a prefix would be squared       */
+    int lowest = power ? 0 : -3, highest = power ? 0 : *unit == 'm' ? 1 : 4;
+    if (value != 0 && isfinite (value)) k = (int) fmin (fmax (floor (log10 (fabs (value) * 1.00005) / 3), lowest), highest);
+    snprintf (out, size, "%.4g %s%s", value / pow (1000, k), prefix[k + 3], unit);
+}
+
 /* Chooses the power of ten that texts are divided by and writes it into the label. */
 static int scale_label (pg_axis *a, double low, double high, const char *label, int plain)
 {

@@ -17,17 +17,23 @@ void chart_place (const chart *c, double x, double y, double *px, double *py)
 }
 
 /* Ranges of the points drawn: both coordinates must be finite, and positive on a log axis. */
-static void ranges (size_t ncurve, const pg_curve *curves, const chart *c, double x[2], double y[2])
+static void widen (int *found, size_t ncurve, const pg_curve *curves, const chart *c, double x[2], double y[2])
 {
-    int found = 0;
     for (size_t k = 0; k < ncurve; k++)
         for (size_t i = 0; i < curves[k].n; i++) {
             double a = curves[k].x[i], b = curves[k].y[i];
             if (!chart_visible (c, a, b)) continue;
-            if (!found) x[0] = x[1] = a, y[0] = y[1] = b;
+            if (!*found) x[0] = x[1] = a, y[0] = y[1] = b;
             x[0] = fmin (x[0], a), x[1] = fmax (x[1], a), y[0] = fmin (y[0], b), y[1] = fmax (y[1], b);
-            found = 1;
+            *found = 1;
         }
+}
+
+static void ranges (size_t ncurve, const pg_curve *curves, const chart *c, const pg_chart_style *style, double x[2], double y[2])
+{
+    int found = 0;
+    widen (&found, ncurve, curves, c, x, y);
+    widen (&found, style->npale, style->pale, c, x, y);
     if (!found) x[0] = y[0] = 1, x[1] = y[1] = 10;
 }
 
@@ -39,7 +45,7 @@ static void lay_out (chart *c, size_t ncurve, const pg_curve *curves, const pg_c
     pg_axis_wish wx = { style->xlabel ? style->xlabel : "", PG_BOTTOM, style->logx, 1, 0 };
     pg_axis_wish wy = { style->ylabel ? style->ylabel : "", PG_LEFT, style->logy, 1, 0 };
     c->x.log = style->logx, c->y.log = style->logy;
-    ranges (ncurve, curves, c, x, y);
+    ranges (ncurve, curves, c, style, x, y);
     c->top = style->title && style->title[0] ? 70 : 30;
     c->height = HEIGHT - c->top - 110;
     pg_axis_fit (&c->y, cr, y[0], y[1], c->height, &wy);
@@ -48,8 +54,9 @@ static void lay_out (chart *c, size_t ncurve, const pg_curve *curves, const pg_c
     pg_axis_fit (&c->x, cr, x[0], x[1], c->width, &wx);
     c->height = floor (HEIGHT - c->top - pg_axis_room (&c->x, cr) - 4);
     c->total = WIDTH;
-    if (ncurve > 1) {
-        chart_legend_size (c, cr, ncurve, curves);
+    chart_marks_place (c, cr, ncurve, curves, style);
+    if (chart_legend_rows (ncurve, style) > 1) {
+        chart_legend_size (c, cr, ncurve, curves, style);
         if (chart_legend_place (c, ncurve, curves, style)) c->total = ceil (c->legend[0] + c->legend[2] + CHART_GAP);
     }
     cairo_destroy (cr);
@@ -69,6 +76,17 @@ static void draw_grid (const chart *c, cairo_t *cr)
             cairo_stroke (cr);
         }
     }
+}
+
+/* The lines of zero, where values of both signs are seen. */
+static void draw_zero (const chart *c, cairo_t *cr)
+{
+    double x = pg_axis_at (&c->x, 0), y = pg_axis_at (&c->y, 0);
+    cairo_set_source_rgb (cr, 0.45, 0.45, 0.45);
+    cairo_set_line_width (cr, 1.5);
+    if (!c->x.log && x > 0 && x < 1) cairo_move_to (cr, c->left + x * c->width, c->top), cairo_rel_line_to (cr, 0, c->height);
+    if (!c->y.log && y > 0 && y < 1) cairo_move_to (cr, c->left, c->top + (1 - y) * c->height), cairo_rel_line_to (cr, c->width, 0);
+    cairo_stroke (cr);
 }
 
 void chart_pen (cairo_t *cr, size_t k)
@@ -149,6 +167,7 @@ static void draw_curve (const chart *c, cairo_t *cr, const pg_curve *curve, size
 static void draw_chart (const chart *c, cairo_t *cr, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
 {
     draw_grid (c, cr);
+    if (style->zero) draw_zero (c, cr);
     cairo_set_source_rgb (cr, 0, 0, 0);
     cairo_set_line_width (cr, 2);
     cairo_rectangle (cr, floor (c->left) + 0.5, floor (c->top) + 0.5, floor (c->width), floor (c->height));
@@ -161,9 +180,11 @@ static void draw_chart (const chart *c, cairo_t *cr, size_t ncurve, const pg_cur
     cairo_clip (cr);
     for (size_t k = 0; k < style->nslope; k++)
         if (style->slopes[k].curve < ncurve) chart_slope_draw (c, cr, &curves[style->slopes[k].curve], style->slopes[k].curve, &style->slopes[k]);
+    for (size_t k = 0; k < style->npale; k++) chart_pale_pen (cr, k), line (c, cr, &style->pale[k]);
     for (size_t k = 0; k < ncurve; k++) draw_curve (c, cr, &curves[k], k);
     cairo_restore (cr);
-    if (ncurve > 1) chart_legend_draw (c, cr, ncurve, curves);
+    chart_marks_draw (c, cr, style);
+    if (chart_legend_rows (ncurve, style) > 1) chart_legend_draw (c, cr, ncurve, curves, style);
     cairo_set_source_rgb (cr, 0, 0, 0);
     if (style->title) pg_title (cr, style->title, c->left + 0.5 * c->width, c->top - 34, c->total);
 }

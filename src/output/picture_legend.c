@@ -64,16 +64,49 @@ void chart_slope_draw (const chart *c, cairo_t *cr, const pg_curve *curve, size_
 /* ---- legend --------------------------------------------------------------------------------------------------------------- */
 static const double row = 1.45 * PG_FONT;
 
-void chart_legend_size (chart *c, cairo_t *cr, size_t ncurve, const pg_curve *curves)
+size_t chart_legend_rows (size_t ncurve, const pg_chart_style *style)
 {
-    double w = 0;
-    for (size_t k = 0; k < ncurve; k++) w = fmax (w, pg_text (cr, curves[k].name ? curves[k].name : "", PG_FONT, 0, 0, 0, 0, 0));
-    c->legend[2] = ceil (w + CHART_SAMPLE + 3 * CHART_GAP), c->legend[3] = ceil (row * (double) ncurve + CHART_GAP);
+    for (size_t k = 0; k < style->npale; k++) if (style->pale[k].n) return ncurve + 1;
+    return ncurve;
 }
 
-/* How much lies in a box: triangles, points, and places between neighbours on lines. */
-static size_t crowd (const chart *c, size_t ncurve, const pg_curve *curves, const pg_chart_style *style, double x, double y, double w, double h)
+/* Row k: a curve, or at the end the pale ones together. */
+static const char *name_of_row (size_t k, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
 {
+    const char *name = k < ncurve ? curves[k].name : style->pale[0].name;
+    return name ? name : "";
+}
+
+void chart_legend_size (chart *c, cairo_t *cr, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
+{
+    double w = 0;
+    size_t rows = chart_legend_rows (ncurve, style);
+    for (size_t k = 0; k < rows; k++) w = fmax (w, pg_text (cr, name_of_row (k, ncurve, curves, style), PG_FONT, 0, 0, 0, 0, 0));
+    c->legend[2] = ceil (w + CHART_SAMPLE + 3 * CHART_GAP), c->legend[3] = ceil (row * (double) rows + CHART_GAP);
+}
+
+static size_t crowd_of_curve (const chart *c, const pg_curve *curve, const double *box)
+{
+    double x = box[0], y = box[1], w = box[2], h = box[3];
+    size_t count = 0;
+    for (size_t i = 0; i < curve->n; i++) {
+        const double *a = curve->x + i, *b = curve->y + i;
+        double px, py, qx, qy;
+        if (!chart_visible (c, *a, *b)) continue;
+        chart_place (c, *a, *b, &px, &py);
+        qx = px, qy = py;
+        if (curve->points != PG_CURVE_MARKERS && i + 1 < curve->n && chart_visible (c, a[1], b[1])) chart_place (c, a[1], b[1], &qx, &qy);
+        for (int s = 0; s < 16; s++) {
+            double ex = px + (qx - px) * s / 16, ey = py + (qy - py) * s / 16;
+            count += ex > x && ex < x + w && ey > y && ey < y + h;
+        }
+    }
+    return count;
+}
+
+size_t chart_crowd (const chart *c, size_t ncurve, const pg_curve *curves, const pg_chart_style *style, const double *box)
+{
+    double x = box[0], y = box[1], w = box[2], h = box[3];
     size_t count = 0;
     double tx[3], ty[3], room = 1.5 * PG_FONT;         /* of the numbers at a triangle                                   */
     for (size_t k = 0; k < style->nslope; k++) {
@@ -81,19 +114,12 @@ static size_t crowd (const chart *c, size_t ncurve, const pg_curve *curves, cons
         if (s->curve >= ncurve || !slope_corners (c, &curves[s->curve], s, tx, ty)) continue;
         count += fmin (tx[0], tx[1]) - room < x + w && fmax (tx[0], tx[1]) + room > x && fmin (ty[0], ty[1]) < y + h && ty[2] + room > y;
     }
-    for (size_t k = 0; k < ncurve; k++)
-        for (size_t i = 0; i < curves[k].n; i++) {
-            const double *a = curves[k].x + i, *b = curves[k].y + i;
-            double px, py, qx, qy;
-            if (!chart_visible (c, *a, *b)) continue;
-            chart_place (c, *a, *b, &px, &py);
-            qx = px, qy = py;
-            if (curves[k].points != PG_CURVE_MARKERS && i + 1 < curves[k].n && chart_visible (c, a[1], b[1])) chart_place (c, a[1], b[1], &qx, &qy);
-            for (int s = 0; s < 16; s++) {
-                double ex = px + (qx - px) * s / 16, ey = py + (qy - py) * s / 16;
-                count += ex > x && ex < x + w && ey > y && ey < y + h;
-            }
-        }
+    for (size_t k = 0; k < CHART_NOTES; k++) {
+        const double *n = c->note[k];
+        count += n[2] > 0 && n[0] < x + w && n[0] + n[2] > x && n[1] < y + h && n[1] + n[3] > y;
+    }
+    for (size_t k = 0; k < ncurve; k++) count += crowd_of_curve (c, &curves[k], box);
+    for (size_t k = 0; k < style->npale; k++) count += crowd_of_curve (c, &style->pale[k], box);
     return count;
 }
 
@@ -105,7 +131,7 @@ int chart_legend_place (chart *c, size_t ncurve, const pg_curve *curves, const p
         double bx = spot > 5 ? c->left + 0.5 * (c->width - w) : spot % 2 ? c->left + gap : c->left + c->width - w - gap;
         double by = spot > 5 ? (spot == 6 ? c->top + gap : c->top + c->height - h - gap)
                   : spot < 2 ? c->top + gap : spot < 4 ? c->top + c->height - h - gap : c->top + 0.5 * (c->height - h);
-        size_t n = crowd (c, ncurve, curves, style, bx - 10, by - 10, w + 20, h + 20);
+        size_t n = chart_crowd (c, ncurve, curves, style, (double[]) { bx - 10, by - 10, w + 20, h + 20 });
         if (n < least) least = n, c->legend[0] = bx, c->legend[1] = by;
     }
     if (!style->beside && least == 0 && w < 0.6 * c->width && h < 0.6 * c->height) return 0;
@@ -113,7 +139,7 @@ int chart_legend_place (chart *c, size_t ncurve, const pg_curve *curves, const p
     return 1;
 }
 
-void chart_legend_draw (const chart *c, cairo_t *cr, size_t ncurve, const pg_curve *curves)
+void chart_legend_draw (const chart *c, cairo_t *cr, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
 {
     double x = c->legend[0], y = c->legend[1], w = c->legend[2], h = c->legend[3];
     cairo_rectangle (cr, floor (x) + 0.5, floor (y) + 0.5, floor (w), floor (h));
@@ -122,16 +148,16 @@ void chart_legend_draw (const chart *c, cairo_t *cr, size_t ncurve, const pg_cur
     cairo_set_source_rgb (cr, 0.6, 0.6, 0.6);
     cairo_set_line_width (cr, 1.5);
     cairo_stroke (cr);
-    for (size_t k = 0; k < ncurve; k++) {
+    for (size_t k = 0; k < chart_legend_rows (ncurve, style); k++) {
         double middle = y + 0.5 * CHART_GAP + ((double) k + 0.5) * row;
-        chart_pen (cr, k);
-        if (curves[k].points != PG_CURVE_MARKERS) {
+        (k < ncurve ? chart_pen : chart_pale_pen) (cr, k % ncurve);
+        if (k >= ncurve || curves[k].points != PG_CURVE_MARKERS) {
             cairo_move_to (cr, x + CHART_GAP, middle);
             cairo_rel_line_to (cr, CHART_SAMPLE, 0);
             cairo_stroke (cr);
         }
-        if (curves[k].points) chart_marker (cr, k, x + CHART_GAP + 0.5 * CHART_SAMPLE, middle);
+        if (k < ncurve && curves[k].points) chart_marker (cr, k, x + CHART_GAP + 0.5 * CHART_SAMPLE, middle);
         cairo_set_source_rgb (cr, 0, 0, 0);
-        pg_text (cr, curves[k].name ? curves[k].name : "", PG_FONT, x + CHART_SAMPLE + 2 * CHART_GAP, middle, 0, 0, 1);
+        pg_text (cr, name_of_row (k, ncurve, curves, style), PG_FONT, x + CHART_SAMPLE + 2 * CHART_GAP, middle, 0, 0, 1);
     }
 }

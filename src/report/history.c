@@ -84,16 +84,6 @@ done:
     return status;
 }
 
-static pg_status add_curve_point (pg_result *r, double x, double y)
-{
-    pg_status status = PG_OK;
-    PG_GROW (r->curve_x, r->cap_x, r->npoint + 1);
-    PG_GROW (r->curve_y, r->cap_y, r->npoint + 1);
-    r->curve_x[r->npoint] = x, r->curve_y[r->npoint++] = y;
-done:
-    return status;
-}
-
 pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;
@@ -102,6 +92,7 @@ pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     const pg_report *report = pg_solver_report_now (r->solver);
     size_t n = 0;
+    double x = 0, y = 0;                               /* of the load-displacement curve                                 */
     int components;
     const char *unit;
     r->row[n++] = (double) step->number, r->row[n++] = step->time, r->row[n++] = step->factor;
@@ -112,9 +103,10 @@ pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step
             int turns = pg_load_turns (&p->load[l]);
             double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0;
             double u = mean_of (p->load[l].set, turns ? r->u + 3 * p->cloud.n : r->u, turns ? p->turns : p->dim, k);
-            if ((int) l == r->curve_load && k == r->curve_component) PG_TRY (add_curve_point (r, fabs (u), fabs (f)));
+            if ((int) l == r->curve_load && k == r->curve_component) x = u, y = f;
             r->row[n++] = f, r->row[n++] = u;
         }
+    const double *gauges = r->row + n;
     for (size_t g = 0; g < p->ngauge; g++) {
         double a[3] = { NAN, NAN, NAN }, b[3] = { NAN, NAN, NAN };
         if (force->probe) {
@@ -123,6 +115,7 @@ pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step
         }
         r->row[n++] = opening (&p->gauge[g], p->dim, a, b);
     }
+    if (r->curve_load >= 0) PG_TRY (result_curve_row (r, x, y, gauges, step));
     PG_TRY (result_averages_row (r, state, r->row + n, r->u));
     n += r->naverage;
     PG_TRY (result_tips_row (r, state, step, r->row + n, r->u));

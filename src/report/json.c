@@ -76,6 +76,17 @@ static void estimate_block (pg_json *j, const pg_result *res)
     pg_json_shut (j);
 }
 
+static void crack_block (pg_json *j, const pg_result *res)
+{
+    if (!res->crack.found) return;
+    pg_json_open (j, "new_crack", '{');
+    pg_json_text (j, "kind", "estimate");
+    pg_json_number (j, "area", res->crack.area);
+    if (res->problem->dim == 2) pg_json_number (j, "length", res->crack.length);
+    pg_json_number (j, "dissipated_per_area", res->crack.dissipated);
+    pg_json_shut (j);
+}
+
 /* One line; of several materials one each. */
 static void criteria (pg_json *j, const pg_problem *p)
 {
@@ -103,6 +114,8 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
     pg_json_text (j, "scene_sha256", res->hash);
     pg_json_text (j, "outcome", failure ? failure : "done");
     run_block (j, res, r, state);
+    result_curve_json (j, res);
+    crack_block (j, res);
     estimate_block (j, res);
     seconds_block (j, res, r, search, total);
     if (res->measured) {

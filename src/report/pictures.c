@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Pictures of the last state or of a stage, and the load-displacement curve. */
+ * Pictures of the last state or of a stage. */
 #include "result.h"
 #include <math.h>
 #include <stdio.h>
@@ -115,36 +115,6 @@ done:
     return status;
 }
 
-/* What a test with rising displacement sees: the steps that pass every displacement before them. Starts at rest. */
-static size_t envelope (const pg_result *r, double *x, double *y)
-{
-    size_t n = 1;
-    for (size_t k = 0; k < r->npoint; k++) if (r->curve_x[k] > x[n - 1]) x[n] = r->curve_x[k], y[n++] = r->curve_y[k];
-    return n;
-}
-
-static pg_status load_displacement (pg_result *r)
-{
-    pg_status status = PG_OK;
-    double *x = NULL, *y = NULL;
-    const pg_load *load = &r->problem->load[r->curve_load];
-    char ylabel[128], xlabel[128];
-    snprintf (ylabel, sizeof ylabel, "force of %s along %c (N)", load->name, "xyz"[r->curve_component]);
-    snprintf (xlabel, sizeof xlabel, "mean displacement of %s (m)", load->name);
-    PG_ALLOC (x, r->npoint + 1);
-    PG_ALLOC (y, r->npoint + 1);
-    size_t n = envelope (r, x, y);
-    pg_curve curve[2] = { { "every step", r->npoint, r->curve_x, r->curve_y, 1 }, { "at rising displacement", n, x, y, 0 } };
-    pg_chart_style style = { .title = r->problem->title, .xlabel = xlabel, .ylabel = ylabel };
-    char path[4096];
-    snprintf (path, sizeof path, "%s/load_displacement.png", r->folder);
-    PG_TRY (pg_picture_chart (path, n < r->npoint + 1 ? 2 : 1, n < r->npoint + 1 ? curve : curve + 1, &style));
-    memcpy (r->written[r->nwritten++], path, sizeof path);
-done:
-    pg_free (x), pg_free (y);
-    return status;
-}
-
 static pg_status error_picture (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -179,7 +149,7 @@ pg_status result_pictures (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
     PG_TRY (draw_all (r, state, "", "", 1));
-    if (r->curve_load >= 0 && r->npoint > 1) PG_TRY (load_displacement (r));
+    if (r->curve_load >= 0 && r->npoint > 1) PG_TRY (result_curve_picture (r));
     PG_TRY (result_tips_pictures (r));
 done:
     return status;

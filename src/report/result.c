@@ -36,36 +36,6 @@ done:
     return status;
 }
 
-/* A pressure acts along the axis nearest to its first normal. */
-static int pushes_along (const pg_problem *p, const pg_load *load, int k)
-{
-    if (load->kind == PG_TRACTION || load->kind == PG_POINT_FORCE) return load->value[k] != NULL;
-    if (load->kind != PG_PRESSURE) return 0;
-    const double *normal = p->cells.normal + (size_t) load->set->facet[0] * (size_t) p->dim;
-    for (int c = 0; c < p->dim; c++) if (fabs (normal[c]) > fabs (normal[k])) return 0;
-    return 1;
-}
-
-/* The curve follows the prescribed component that moves most, else the first load with a force. */
-static void choose_curve (pg_result *r)
-{
-    const pg_problem *p = r->problem;
-    double most = 0;
-    r->curve_load = -1;
-    for (size_t l = 0; l < p->nload; l++)
-        for (int k = 0; k < p->dim; k++) {
-            const pg_load *load = &p->load[l];
-            if (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_turns (load)) continue;
-            double end = load->kind == PG_VELOCITY ? 1e-9 : 1, size = 0;
-            for (size_t i = 0; i < load->set->npoint; i++)
-                size = fmax (size, fabs (pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, end)));
-            if (size > most) most = size, r->curve_load = (int) l, r->curve_component = k;
-        }
-    for (size_t l = 0; l < p->nload && r->curve_load < 0; l++)
-        for (int k = 0; k < p->dim && r->curve_load < 0; k++)
-            if (pushes_along (p, &p->load[l], k)) r->curve_load = (int) l, r->curve_component = k;
-}
-
 static pg_status read_wishes (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -133,7 +103,7 @@ pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scen
     PG_TRY (result_averages_read (r, scene));
     PG_TRY (result_tips_read (r, scene));
     PG_TRY (pg_reference_read (&r->reference, scene, problem));
-    choose_curve (r);
+    result_curve_choose (r);
     r->next_broken = r->broken_share > 0 ? 1 : 0;
 done:
     return status;
@@ -264,6 +234,8 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     double t0 = pg_seconds ();
     if (!r->last_written) PG_TRY (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp));
     r->last_written = 1;
+    PG_TRY (result_curve_read (r));
+    PG_TRY (result_crack_measure (r, state));
     PG_TRY (result_pictures (r, state));
     PG_TRY (result_errors (r, state));
     if (!failure) PG_TRY (estimate (r, state));
@@ -286,7 +258,7 @@ void pg_result_free (pg_result **result)
     pg_reference_free (&r->reference);
     pg_errors_clear (&r->errors);
     result_tips_free (r);
-    pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve_x), pg_free (r->curve_y);
+    pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve_x), pg_free (r->curve_y), pg_free (r->curve_more);
     pg_free (r);
     *result = NULL;
 }

@@ -19,6 +19,10 @@ typedef struct { char name[32]; double from[3], direction[3], damage, *along, *l
 typedef struct { double mean; size_t first, start, stop, fastest; double largest; int moved; } result_tip_run;
 /* A picture: NAME.png of field. limited: only points of the field above style.above; by_damage: of damage. */
 typedef struct { char name[64], field[64], look[64]; pg_picture_style style; int limited, by_damage; } result_view;
+/* What the curve comes to (result_curve_read). found: 0: there is no curve. row: of the largest |force|. */
+typedef struct { int found; size_t row; double force, displacement, step, time, factor, initial, secant; } result_peak;
+/* What broken bonds say of new crack faces (result_crack_measure). m2; m (2D), else NAN; J/m2 or NAN. */
+typedef struct { int found; double area, length, dissipated; } result_crack;
 struct pg_result {
     char     folder[3072];
     const pg_problem *problem;
@@ -41,9 +45,11 @@ struct pg_result {
     long      tip_broken;                              /* bonds at the last row; -1: lengths are not those of it         */
     long      exodus_steps;
     int       last_written;                            /* the state of the last step is in result.e                      */
-    /* load-displacement curve */
-    size_t    npoint, cap_x, cap_y;
-    double   *curve_x, *curve_y;
+    /* load-displacement curve: a point a row of history.csv, with sign; more: of each row step, time, load factor, gauges */
+    size_t    npoint, cap_x, cap_y, cap_more;
+    double   *curve_x, *curve_y, *curve_more;          /* m; N                                                           */
+    result_peak peak;
+    result_crack crack;
     int       curve_load, curve_component;
     int       estimating, estimated;                   /* wanted; made                                                   */
     pg_estimate estimate;
@@ -81,6 +87,13 @@ double    result_tips_rayleigh  (const pg_result *r);  /* of the fastest materia
 void      result_tips_run       (const pg_result *r, size_t i, result_tip_run *out, double *speed);
 pg_status result_tips_pictures  (pg_result *r);        /* tip.png, tip_speed.png                                         */
 void      result_tips_json      (pg_json *j, const pg_result *r);
+void      result_curve_choose   (pg_result *r);        /* which load and component; curve_load -1: none                  */
+pg_status result_curve_row      (pg_result *r, double x, double y, const double *gauges, const pg_step *step);
+pg_status result_curve_keep     (pg_result *r, size_t n, const pg_keeper *keeper);
+pg_status result_curve_picture  (pg_result *r);        /* load_displacement.png                                          */
+pg_status result_curve_read     (pg_result *r);        /* fills peak                                                     */
+void      result_curve_json     (pg_json *j, const pg_result *r);
+pg_status result_crack_measure  (pg_result *r, const pg_state *state);        /* fills crack                              */
 const char *result_voigt        (int dim, int k);       /* "xx", "yy", ... of component k                                 */
 pg_status result_pictures       (pg_result *r, const pg_state *state);
 pg_status result_stage          (pg_result *r, const pg_state *state);         /* stages/NAME_0007.png of step 7 of result.e */

@@ -94,18 +94,6 @@ done:
     return status;
 }
 
-static pg_status keep_curve (pg_result *r, size_t n, const pg_keeper *k)
-{
-    pg_status status = PG_OK;
-    PG_GROW (r->curve_x, r->cap_x, n);
-    PG_GROW (r->curve_y, r->cap_y, n);
-    if (k->reading) r->npoint = n;
-    PG_TRY (k->numbers (k->context, "curve.x", n, r->curve_x));
-    PG_TRY (k->numbers (k->context, "curve.y", n, r->curve_y));
-done:
-    return status;
-}
-
 static pg_status keep_all (void *context, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -120,7 +108,7 @@ static pg_status keep_all (void *context, const pg_keeper *k)
     if (k->reading) r->seconds = seconds[1];
     PG_TRY (keep_marks (&m->now, "now", k));
     PG_TRY (keep_marks (&r->done, "done", k));
-    PG_TRY (keep_curve (r, (size_t) m->now.points, k));
+    PG_TRY (result_curve_keep (r, (size_t) m->now.points, k));
     PG_TRY (result_tips_keep (r, (size_t) m->now.history, k));
     PG_TRY (keep_pending (m, k));
     PG_TRY (pg_solver_keep (r->solver, m->state, k));

@@ -263,6 +263,29 @@ static void slopes_are_drawn_under_their_curve (void **state)
     }
 }
 
+/* A path behind a curve is pale and in the legend; a mark is a ring around its place, with a text that hides no curve. */
+static void paths_are_pale_and_peaks_are_ringed (void **state)
+{
+    (void) state;
+    double x[] = { 0, -1, -2, -2 }, y[] = { 0, -3, -4, -1 }, px[] = { -1, -0.5, -2, -0.4 }, py[] = { -3, -1, -2, -0.2 };
+    pg_curve curve = { "envelope", 4, x, y, PG_CURVE_LINE }, path = { "path", 4, px, py, PG_CURVE_LINE };
+    pg_chart_mark mark = { 0, -2, -4, "peak" };
+    size_t full[3], pale[3], dark[3];
+    const char *file = file_at ("marks.png");
+    image m;
+    for (int k = 0; k < 3; k++) {
+        check_ok (pg_picture_chart (file, 1, &curve, &(pg_chart_style) { .npale = k > 0, .pale = &path, .nmark = k > 1, .marks = &mark }));
+        open_image (&m, file);
+        full[k] = count_near (&m, 0x124a99, 45), pale[k] = count_near (&m, 0xb5c6df, 28), dark[k] = count_near (&m, 0, 20);
+        assert_int_equal (m.width, 1200);
+        cairo_surface_destroy (m.surface);
+    }
+    assert_true (pale[1] > pale[0] + 300);
+    assert_true (full[1] > full[0] + 100);             /* the sample in the legend                                       */
+    assert_true (full[2] > full[1] + 40);
+    assert_true (dark[2] > dark[1] + 100);
+}
+
 static void a_chart_of_nothing_is_drawn (void **state)
 {
     (void) state;
@@ -352,7 +375,7 @@ int main (void)
         cmocka_unit_test (a_field_shows_the_right_colour_at_the_right_place), cmocka_unit_test (nan_is_grey),
         cmocka_unit_test (equal_values_are_drawn), cmocka_unit_test (cracks_are_black_lines),
         cmocka_unit_test (a_section_shows_its_own_layer), cmocka_unit_test (points_on_a_line_make_a_chart),
-        cmocka_unit_test (every_curve_has_its_colour), cmocka_unit_test (many_curves_stay_apart), cmocka_unit_test (slopes_are_drawn_under_their_curve), cmocka_unit_test (a_chart_of_nothing_is_drawn),
+        cmocka_unit_test (every_curve_has_its_colour), cmocka_unit_test (many_curves_stay_apart), cmocka_unit_test (slopes_are_drawn_under_their_curve), cmocka_unit_test (paths_are_pale_and_peaks_are_ringed), cmocka_unit_test (a_chart_of_nothing_is_drawn),
         cmocka_unit_test (svg_is_written_by_the_ending), cmocka_unit_test (a_failed_write_is_named),
         cmocka_unit_test (any_allocation_may_fail),
     };
