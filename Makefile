@@ -152,6 +152,12 @@ install: all
 	install -m 644 perigal.pc $(DESTDIR)$(prefix)/lib/pkgconfig
 	install -m 644 include/perigal.h $(DESTDIR)$(prefix)/include
 	install -m 644 include/perigal/*.h $(DESTDIR)$(prefix)/include/perigal
+	install -d $(DESTDIR)$(prefix)/share/doc/perigal/doc $(DESTDIR)$(prefix)/share/man/man1 $(DESTDIR)$(prefix)/share/perigal
+	install -m 644 README.md COPYING $(DESTDIR)$(prefix)/share/doc/perigal
+	install -m 644 doc/*.md doc/*.png $(DESTDIR)$(prefix)/share/doc/perigal/doc
+	.ci/man $(PROGRAM) > $(DESTDIR)$(prefix)/share/man/man1/perigal.1
+	rm -rf $(DESTDIR)$(prefix)/share/perigal/scenes
+	cp -r data $(DESTDIR)$(prefix)/share/perigal/scenes
 
 clean:
 	rm -rf build out perigal perigal.pc
@@ -161,6 +167,6 @@ FORCE:
 print-%:
 	@echo '$($*)'
 
-.PHONY: FORCE all perigal packages demo test test-long test-programs fuzz mutate lint doc bench bench-programs install clean
+.PHONY: FORCE all perigal packages demo test test-long test-programs stress fresh fuzz mutate lint doc bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(TESTBIN:=.d) $(BENCHBIN:=.d)

@@ -24,5 +24,10 @@ try "run, static" bash -c '"$1" test/cli/plate.yaml > "$1.txt"' - "$work/static"
 try "both say the same" cmp "$work/shared.txt" "$work/static.txt"
 try "the answer is that of the scene" grep -q 'largest displacement 1\.0[0-9]*e-05 m' "$work/shared.txt"
 try "installed program runs" "$at/bin/perigal" check test/cli/plate.yaml
+try "documents are installed" test -s "$at/share/doc/perigal/README.md" -a -s "$at/share/doc/perigal/doc/input.md" -a -s "$at/share/doc/perigal/COPYING"
+try "installed scenes are checked where they lie" "$at/bin/perigal" check "$at/share/perigal/scenes/kirsch_mesh/scene.yaml"
+page=$at/share/man/man1/perigal.1
+try "every command stands in the man page" bash -c '"$1" --help | sed -n "s/^  perigal \([a-z]*\) .*/\1/p" | while read -r c; do grep -q "^.SS perigal $c" "$2" || exit 1; done' - "$at/bin/perigal" "$page"
+try "no line of the man page is taken for a command of its own" bash -c '! grep -n "^\." "$1" | grep -v ":\.\(TH\|SH\|SS\|B\|I\|RI\|nf\|fi\)\b"' - "$page"
 echo "1..$n"
 exit $bad
