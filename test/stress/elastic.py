@@ -3,16 +3,17 @@ from cells import Cell, Run, balanced, last_over_peak, patch_error, residual, sa
 from scenes import MODULUS, STRESS, cloud, from_mesh, from_points, merged, mesh, tension, turned
 
 DIMENSIONS = ((2, 'stress'), (2, 'strain'), (3, ''))
+BAR = ((1, ''),)
 PATCH_LIMIT = 0.05          # where a run must begin to warn
 SAME = 1e-9                 # rounding of a solved system, seen through other numbers
 
 
 def label(dimension, plane):
-    return f'2D plane {plane}' if dimension == 2 else '3D'
+    return f'2D plane {plane}' if dimension == 2 else f'{dimension}D'
 
 
 def spacing_of(dimension):
-    return 0.1 if dimension == 2 else 0.2
+    return 0.2 if dimension == 3 else 0.1
 
 
 def base(method, dimension, plane, **changes):
@@ -27,7 +28,7 @@ def patch(condition, value, method, scene, files=(), limit=PATCH_LIMIT):
 
 def points(method):
     """Irregular points: of lattices, meshes and clouds, and two that nearly coincide."""
-    for dimension, plane in DIMENSIONS:
+    for dimension, plane in BAR + DIMENSIONS:
         for amount in (0, 0.1, 0.2, 0.3, 0.45):
             scene = base(method, dimension, plane)
             yield patch('moved lattice points', f'{amount} h, {label(dimension, plane)}', method, merged(scene, {'perturb': {'amount': amount}}))
@@ -63,7 +64,7 @@ def held_rim(scene, n):
 
 
 def horizons(method):
-    for dimension, plane in DIMENSIONS:
+    for dimension, plane in BAR + DIMENSIONS:
         for m in (0.9, 1.01, 1.5, 2, 2.5, 3, 4.5, 6):
             yield patch('horizon', f'{m} h, {label(dimension, plane)}', method,
                         merged(base(method, dimension, plane), {'method': {'horizon': f'{m} spacing'}}))

@@ -14,6 +14,8 @@ class Method:
 
     def poisson(self, plane, dimension):
         """Poisson's ratio of conditions that do not set one: what pair forces carry, else that of rock."""
+        if dimension == 1:
+            return 0
         if self.force in ('bond', 'fcbm'):
             return BOND_POISSON[(plane if dimension == 2 else '', dimension)]
         return 0.2
