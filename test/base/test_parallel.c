@@ -2,6 +2,8 @@
  * Parallel ranges cover every item once, by threads of their own number; the clock does not go back. */
 #include "check.h"
 #include <pthread.h>
+#include <stdatomic.h>
+#include <time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -52,6 +54,30 @@ static void few_items_stay_on_one_thread (void **state)
     memset (&t, 0, sizeof t);
     pg_parallel (8, 63, trace, &t);
     for (size_t i = 0; i < 63; i++) assert_int_equal (t.thread[i], 0);
+}
+
+/* The caller goes on when the slowest part is done, asleep meanwhile: parts of other threads take longer than it looks at a word. */
+typedef struct { _Atomic int begun; int done[8]; } slow;
+
+static void work_slowly (void *context, size_t first, size_t last, int thread)
+{
+    slow *w = context;
+    const struct timespec little = { 0, 1000000 }, long_ = { 0, 50000000 };
+    (void) first, (void) last;
+    w->begun++;
+    for (int k = 0; thread == 0 && w->begun < 4 && k < 500; k++) nanosleep (&little, NULL);      /* the others have all begun     */
+    if (thread > 0) nanosleep (&long_, NULL);
+    w->done[thread] = 1;
+}
+
+static void the_caller_waits_for_all_parts (void **state)
+{
+    (void) state;
+    for (int round = 0; round < 3; round++) {
+        slow w = { 0 };
+        pg_parallel_heavy (4, 4, work_slowly, &w);
+        for (int k = 0; k < 4; k++) assert_int_equal (w.done[k], 1);
+    }
 }
 
 /* A loop inside a loop keeps its ranges and stays on its thread. */
@@ -156,6 +182,7 @@ int main (void)
         cmocka_unit_test (every_item_is_visited_once),
         cmocka_unit_test (a_thread_number_belongs_to_one_thread),
         cmocka_unit_test (few_items_stay_on_one_thread),
+        cmocka_unit_test (the_caller_waits_for_all_parts),
         cmocka_unit_test (loops_may_be_nested),
         cmocka_unit_test (several_threads_may_call),
         cmocka_unit_test (a_child_of_fork_may_call),

@@ -53,6 +53,18 @@ static void values_are_the_same_without_derivatives (void **state)
     }
 }
 
+static void moments_are_those_of_the_closed_forms (void **state)
+{
+    (void) state;
+    for (int n = 0; n <= 4; n++) {
+        const double m = n, want[] = { 1 / (m + 1), 1 / (m + 1) - 1 / (m + 2), 1 / (m + 1) - 1 / (m + 3), 1 / (m + 2),
+            1 / (m + 1) - 6 / (m + 3) + 8 / (m + 4) - 3 / (m + 5) };
+        static const char *const name[] = { "constant", "conical", "quadratic", "linear_r", "quartic_spline" };
+        for (int k = 0; k < 5; k++) check_relative (pg_kernel_moment (pg_kernel_find (name[k]), n), want[k], 1e-13);
+        if (n > 0) check_relative (pg_kernel_moment (pg_kernel_find ("inverse_r"), n), 1 / m, 1e-13);
+    }
+}
+
 static void open_kernels_vanish_at_the_horizon_and_closed_ones_do_not (void **state)
 {
     (void) state;
@@ -101,6 +113,7 @@ int main (void)
         cmocka_unit_test (every_entry_is_found_by_its_name_and_listed),
         cmocka_unit_test (derivative_equals_finite_difference),
         cmocka_unit_test (values_are_the_same_without_derivatives),
+        cmocka_unit_test (moments_are_those_of_the_closed_forms),
         cmocka_unit_test (open_kernels_vanish_at_the_horizon_and_closed_ones_do_not),
         cmocka_unit_test (kernels_are_finite_and_not_negative_everywhere),
         cmocka_unit_test (splines_take_their_printed_values),

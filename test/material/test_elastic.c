@@ -98,6 +98,26 @@ static void tangents_are_symmetric (void **state)
     }
 }
 
+/* State-based moduli give back the energy of Hooke's law: uniform dilatation A theta^2 / (2 d) + B theta^2 / (2 d^2) (all e.eta = r theta / d), uniform shear
+ * gamma^2 / 2 of B mean ((2 x y)^2) / 4 with mean (x^2 y^2) = 1 / (d (d + 2)). */
+static void state_based_moduli_store_the_energy_of_hooke (void **state)
+{
+    (void) state;
+    static const pg_mode modes[3] = { PG_PLANE_STRESS, PG_PLANE_STRAIN, PG_SOLID };
+    double A, B;
+    for (int k = 0; k < 3; k++) {
+        pg_material m = glass (modes[k]);
+        double d = modes[k] == PG_SOLID ? 3 : 2, bulk = 0;
+        int nv = modes[k] == PG_SOLID ? 6 : 3;
+        pg_state_moduli (modes[k], E, nu, &A, &B);
+        for (int a = 0; a < (int) d; a++) for (int b = 0; b < (int) d; b++) bulk += m.D[a * nv + b] / (d * d);
+        check_relative (A / (2 * d) + B / (2 * d * d), bulk / 2, 1e-13);
+        check_relative (B / (d * (d + 2)), m.D[nv * nv - 1], 1e-13);
+    }
+    pg_state_moduli (PG_LINE, E, nu, &A, &B);
+    assert_true (A == 0 && B == E);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -108,6 +128,7 @@ int main (void)
         cmocka_unit_test (plane_stress_leaves_no_stress_across),
         cmocka_unit_test (plane_strain_equals_a_solid_held_across),
         cmocka_unit_test (tangents_are_symmetric),
+        cmocka_unit_test (state_based_moduli_store_the_energy_of_hooke),
     };
     return cmocka_run_group_tests_name ("material/elastic", tests, NULL, NULL);
 }
