@@ -92,7 +92,16 @@ double    pg_solver_stable (const pg_solver *solver, const char **from);
 /* Largest eigenfrequency sqrt (K x / M x), rad/s, from below within about 1 %: explicit steps are stable up to 2 / omega. */
 pg_status pg_solver_fastest (pg_solver *solver, const pg_state *state, double *omega);
 int       pg_solver_done   (const pg_solver *solver, const pg_state *state);
-double    pg_solver_progress (const pg_solver *solver, const pg_state *state);     /* 0..1                              */
+/* How far a run has come. Event stepping cannot know which of its ends comes first: the nearest one counts. */
+typedef struct {
+    double      share;                                 /* 0..1, of `end`                                                 */
+    const char *end;                                   /* "the load", "the time", "the time steps", "the stages", "max_events", "stop.damage" */
+    int         even;                                  /* 1: steps are about alike, so that the time left follows from the pace so far */
+    int         event;                                 /* 1: event stepping                                              */
+    double      stiffness;                             /* event stepping: secant stiffness (or compliance) over the first; NAN: not known */
+    double      damage;                                /* largest damage in solver.stop.set; NAN: none, or not looked at yet */
+} pg_progress;
+void      pg_solver_progress (const pg_solver *solver, const pg_state *state, pg_progress *out);
 const pg_report *pg_solver_report (pg_solver *solver, const pg_state *state);      /* with a fresh census and overlap     */
 const pg_report *pg_solver_report_now (const pg_solver *solver);                   /* counts and energies only            */
 /* The force behind it, for fields and gauges. */

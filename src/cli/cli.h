@@ -17,10 +17,15 @@ int pg_cli_converge (int argc, char **argv);
 void memory_keep (void);
 void memory_large_pages (void);
 
-/* progress.c: a line that rewrites itself on a terminal, every tenth elsewhere. */
-typedef struct { double start, last; int tenth, tty, quiet, marching; } progress;
-void progress_start (progress *p, int quiet, int marching /* by time steps alike: the time left can be foretold */);
-void progress_show  (progress *p, double share, const pg_step *step, const pg_report *report);
+/* progress.c: on a terminal one line that rewrites itself and fits; elsewhere a line every tenth, and now and then between. */
+typedef struct {
+    double start, last;                                /* s; when a line was last written                                */
+    struct { double at, share, events; } mark[2];      /* the pace is that since mark[0]                                 */
+    int    tenth, tty, quiet, marching, staged, begun;
+} progress;
+void progress_start (progress *p, int quiet, const pg_solver_options *settled);
+/* within: between the rounds of a step that is not done yet, `step` so far. */
+void progress_show  (progress *p, const pg_progress *at, const pg_step *step, const pg_report *report, int within);
 void progress_end   (progress *p);
 
 /* command.c: options shared by run and check */

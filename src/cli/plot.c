@@ -14,10 +14,12 @@ static const char usage[] =
     "                        [--view front|back|left|right|top|bottom|iso|crack | --section 'z = 5 mm']\n"
     "                        [--direction X,Y,Z] [--above VALUE] [--range LOW,HIGH] [--magnify FACTOR]\n"
     "                        [--columns N] [--out FILE.png|FILE.svg]\n"
+    "       perigal plot DIR --list\n"
     "       perigal plot FILE [--sets | --field NAME ...] [--unit mm] [options as above]\n"
     "       perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--out FILE]\n"
     "Draws a field of DIR/result.e (damage, last step) or two columns of DIR/history.csv,\n"
     "or a mesh (.msh, .inp) or result of finite elements (.frd, .e): blocks, --sets or a field at its nodes.\n"
+    "  --list        the steps that DIR/result.e holds: their numbers, loads or times\n"
     "  --step all    one picture a step;  --steps 2,5,8: one picture with a panel a step, --columns of them in a row\n"
     "  --view        3D: the side of that name (front is the face of largest z), or obliquely: iso; crack: points of\n"
     "                damage 0.35 and more\n"
@@ -156,6 +158,7 @@ done:
 }
 
 static pg_status read_sets (plot_request *q, const char *text) { (void) text, q->sets = 1; return PG_OK; }
+static pg_status read_list (plot_request *q, const char *text) { (void) text, q->list = 1; return PG_OK; }
 static pg_status read_log (plot_request *q, const char *text) { (void) text, q->style.log = 1; return PG_OK; }
 static pg_status read_field (plot_request *q, const char *text) { q->field = text; return PG_OK; }
 static pg_status read_component (plot_request *q, const char *text) { q->component = text; return PG_OK; }
@@ -164,7 +167,7 @@ static pg_status read_out (plot_request *q, const char *text) { q->out = text; r
 static const struct { const char *name; pg_status (*read) (plot_request *q, const char *text); } options[] = {
     { "--field", read_field }, { "--component", read_component }, { "--step", read_step }, { "--steps", read_panels }, { "--columns", read_columns },
     { "--view", read_view }, { "--section", read_section }, { "--direction", read_direction }, { "--above", read_above }, { "--range", read_range },
-    { "--magnify", read_magnify }, { "--out", read_out }, { "--unit", read_unit }, { "--sets", read_sets }, { "--log", read_log },
+    { "--magnify", read_magnify }, { "--out", read_out }, { "--unit", read_unit }, { "--sets", read_sets }, { "--log", read_log }, { "--list", read_list },
 };
 
 /* used: 1 when the value was. */
@@ -176,7 +179,7 @@ static pg_status read_option (plot_request *q, const char *name, const char *val
         size_t n = strlen (names);
         snprintf (names + n, sizeof names - n, "|%s", options[k].name);
         if (strcmp (name, options[k].name) != 0) continue;
-        *used = options[k].read != read_sets && options[k].read != read_log;
+        *used = options[k].read != read_sets && options[k].read != read_log && options[k].read != read_list;
         if (!value && *used) PG_FAIL (PG_E_USAGE, "%s needs a value", name);
         return options[k].read (q, value);
     }
@@ -229,7 +232,7 @@ int pg_cli_plot (int argc, char **argv)
     else {
         if (q.sets || q.length > 0) PG_FAIL (PG_E_USAGE, "--sets and --unit are for mesh files; %s is none", q.directory);
         if (!q.field) q.field = "damage";
-        PG_TRY (pg_plot_field (&q));
+        PG_TRY (q.list ? pg_plot_list (&q) : pg_plot_field (&q));
     }
 done:
     if (status == PG_OK) return 0;

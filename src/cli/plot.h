@@ -16,11 +16,16 @@ typedef struct {
     int    step[PLOT_STEPS], steps;                    /* -1: the last one                                               */
     int    all, panels, columns;                       /* all: every step; panels: in one picture                        */
     int    limited, ranged;                            /* --above, --range given                                         */
-    int    sets;
+    int    sets, list;
     pg_picture_style style;
 } plot_request;
 /* plot_field.c: draws and prints the names of the files. */
 pg_status pg_plot_field (const plot_request *q);
+/* The steps of the result, a line each: number and load or time. */
+pg_status pg_plot_list (const plot_request *q);
+
+/* plot_stage.c: event stepping: events so far and load factor of that step of the run, from FOLDER/history.csv; 0: not known. */
+int pg_plot_event (const char *folder, double step, long *events, double *factor);
 
 /* plot_mesh.c: the same for a mesh file. */
 pg_status pg_plot_mesh (const plot_request *q);

@@ -144,15 +144,19 @@ static void close_source (source *s)
     pg_cloud_clear (&s->cloud);
 }
 
-/* "time 2 ms", "load factor 0.5"; by event stepping the number of the event. */
-static void name_stage (const source *s, int step, char *text, size_t size)
+/* "time 2 ms", "load factor 0.5"; by event stepping "event 12, load factor 0.5". */
+static void name_stage (const plot_request *q, const source *s, int step, char *text, size_t size)
 {
     const char *kind = s->scene ? pg_scene_text (s->scene, "solver.kind") : "", *stepping = s->scene ? pg_scene_text (s->scene, "solver.stepping") : "";
-    double time = s->time[step], last = s->time[s->nstep - 1];
+    double time = s->time[step], last = s->time[s->nstep - 1], factor;
+    long events;
     int event = strcmp (stepping, "event") == 0 || (strcmp (stepping, "auto") == 0 && last > 1);        /* load factors end at 1 */
     if (*kind && !pg_kind_quasi_static (kind)) pg_picture_time (time, text + snprintf (text, size, "time "), size - 5);
-    else if (*kind) snprintf (text, size, event && strcmp (kind, "static") == 0 ? "after event %.0f" : "load factor %.4g", time);
-    else snprintf (text, size, "step %d, time %.6g", step, time);
+    else if (!*kind) snprintf (text, size, "step %d, time %.6g", step, time);
+    else if (!event || strcmp (kind, "static") != 0) snprintf (text, size, "load factor %.4g", time);
+    else if (!pg_plot_event (q->directory, time, &events, &factor)) snprintf (text, size, "step %.0f", time);
+    else if (events) snprintf (text, size, "event %ld, load factor %.4g", events, factor);
+    else snprintf (text, size, "load factor %.4g", factor);
 }
 
 static pg_status read_stage (const plot_request *q, const source *s, int step, stage *g)
@@ -172,7 +176,7 @@ static pg_status read_stage (const plot_request *q, const source *s, int step, s
         if (m != s->cloud.dim) PG_FAIL (PG_E_FILE, "%s: displacement has %d components", q->result, m);
     }
     if (q->style.view == PG_VIEW_CRACK && !q->limited) PG_TRY (pg_exodus_read (q->result, "damage", step, &n, &m, &g->select));
-    name_stage (s, step < 0 ? (int) s->nstep - 1 : step, g->title, sizeof g->title);
+    name_stage (q, s, step < 0 ? (int) s->nstep - 1 : step, g->title, sizeof g->title);
 done:
     pg_free (field);
     return status;
@@ -306,6 +310,22 @@ pg_status pg_plot_field (const plot_request *q)
     source s = { 0 };
     PG_TRY (open_source (q, &s));
     PG_TRY (q->all ? draw_each (q, &s) : draw_together (q, &s));
+done:
+    close_source (&s);
+    return status;
+}
+
+pg_status pg_plot_list (const plot_request *q)
+{
+    pg_status status = PG_OK;
+    source s = { 0 };
+    char title[96];
+    PG_TRY (pg_exodus_points (q->result, &s.cloud, &s.nstep, &s.time));
+    read_scene (q, &s);
+    for (int k = 0; k < (int) s.nstep; k++) {
+        name_stage (q, &s, k, title, sizeof title);
+        printf ("%5d  %s\n", k, title);
+    }
 done:
     close_source (&s);
     return status;

@@ -1,32 +1,112 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Progress with the time left. */
+ * Progress: how far, what is going on, the pace, and the time left where it can be known. */
 #include "cli.h"
+#include <math.h>
+#include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
-void progress_start (progress *p, int quiet, int marching)
+enum { LINE = 400, NARROW = 20, FULL = 3 };
+
+void progress_start (progress *p, int quiet, const pg_solver_options *o)
 {
-    *p = (progress) { pg_seconds (), 0, 0, isatty (2), quiet, marching };
+    double now = pg_seconds ();
+    *p = (progress) { .start = now, .last = now, .tty = isatty (2), .quiet = quiet, .marching = o->marching, .staged = o->staged };
+    p->mark[0].at = p->mark[1].at = now;
 }
 
-static void write_line (const progress *p, double share, const pg_step *step, const pg_report *r, double passed)
+/* The pace is taken over the last third to two thirds of the time: what was easy at the start does not count for ever. */
+static void keep_pace (progress *p, double now, double share, double events)
 {
-    char left[32] = "", how[96];                       /* events come at no rate that could be foretold */
-    if (share > 0.005 && share < 1 && passed > 1 && (r->events == 0 || p->marching)) snprintf (left, sizeof left, ", about %.0f s left", passed * (1 - share) / share);
-    if (p->marching) snprintf (how, sizeof how, "step %ld, %.4g s", r->iterations, step->time);
-    else snprintf (how, sizeof how, "step %ld, load factor %.4g, %ld events", step->number, step->factor, r->events);
-    fprintf (stderr, "%s%5.1f %%  %s, %ld bonds broken", p->tty ? "\r" : "", 100 * share, how, r->broken);
-    if (!p->marching) fprintf (stderr, ", residual %.1e", r->residual_max);
-    fprintf (stderr, ", %.1f s%s%s", passed, left, p->tty ? "\033[K" : "\n");
+    if (!p->begun) {
+        for (int k = 0; k < 2; k++) p->mark[k].share = share, p->mark[k].events = events;
+        p->begun = 1;
+    }
+    if (now - p->mark[1].at < (now - p->start) / 3) return;
+    p->mark[0] = p->mark[1];
+    p->mark[1].at = now, p->mark[1].share = share, p->mark[1].events = events;
+}
+
+static void put_time (char *out, size_t size, double seconds)
+{
+    if (seconds < 100) snprintf (out, size, seconds < 10 ? "%.1f s" : "%.0f s", seconds);
+    else if (seconds < 6000) snprintf (out, size, "%.0f min", ceil (seconds / 60));
+    else if (seconds < 360000) snprintf (out, size, "%.1f h", seconds / 3600);
+    else snprintf (out, size, "%.0f days", seconds / 86400);
+}
+
+static void add (char *line, const char *text)
+{
+    size_t n = strlen (line);
+    snprintf (line + n, LINE - n, "%s%s", n ? ", " : "", text);
+}
+
+/* What step: time steps, events, or load steps with the rounds of the one at hand. */
+static void add_step (char *line, const progress *p, const pg_progress *at, const pg_step *step, const pg_report *r, double now, int within)
+{
+    char text[96];
+    double passed = now - p->mark[0].at, pace = passed > 0.5 ? ((double) r->events - p->mark[0].events) / passed : 0;
+    if (p->marching) snprintf (text, sizeof text, "step %ld, %.4g s", r->iterations + (within ? step->iterations : 0), step->time);
+    else if (!at->event && within) snprintf (text, sizeof text, "step %ld, %s %ld", step->number, p->staged ? "iteration" : "round", step->iterations);
+    else if (!at->event) snprintf (text, sizeof text, "step %ld", step->number);
+    else if (r->events && pace > 0) snprintf (text, sizeof text, "%ld events (%.3g/s)", r->events, pace);
+    else snprintf (text, sizeof text, "%ld event%s", r->events, r->events == 1 ? "" : "s");
+    add (line, text);
+}
+
+static void add_time (char *line, const progress *p, const pg_progress *at, double now, int breaking)
+{
+    char word[32], text[64];
+    double passed = now - p->start, gained = at->share - p->mark[0].share, since = now - p->mark[0].at;
+    put_time (word, sizeof word, passed);
+    add (line, word);
+    if (!at->even || breaking || !(gained > 0) || at->share >= 1 || passed < 1) return;
+    put_time (word, sizeof word, since * (1 - at->share) / gained);
+    snprintf (text, sizeof text, "%s%s left", at->event && p->mark[0].events + p->mark[1].events > 0 ? "at most " : "about ", word);
+    add (line, text);
+}
+
+/* full: 0 the least, FULL everything. */
+static void compose (char *line, int full, const progress *p, const pg_progress *at, const pg_step *step, const pg_report *r, double now, int within)
+{
+    char text[96];
+    snprintf (line, LINE, at->event ? "%5.1f %% of %s" : "%5.1f %%", 100 * at->share, at->end);
+    add_step (line, p, at, step, r, now, within);
+    if (full > 0 && !p->marching && !within) snprintf (text, sizeof text, "load factor %.4g", step->factor), add (line, text);
+    if (full > 2 && at->event && isfinite (at->stiffness)) snprintf (text, sizeof text, "stiffness %.3g of the first", at->stiffness), add (line, text);
+    if (full > 2 && isfinite (at->damage)) snprintf (text, sizeof text, "damage in stop.set %.2g", at->damage), add (line, text);
+    if (full > 1) snprintf (text, sizeof text, "%ld bonds broken", r->broken + (within ? (long) step->nbroken : 0)), add (line, text);
+    if (full > 2 && !p->marching) snprintf (text, sizeof text, "residual %.1e", r->residual_max), add (line, text);
+    add_time (line, p, at, now, within && step->nbroken && !p->marching);     /* nobody knows how many rounds will follow  */
+}
+
+static size_t width_of_terminal (void)
+{
+    struct winsize size;
+    return ioctl (2, TIOCGWINSZ, &size) == 0 && size.ws_col >= NARROW ? size.ws_col : 80;
+}
+
+static void write_line (const progress *p, const pg_progress *at, const pg_step *step, const pg_report *r, double now, int within)
+{
+    char line[LINE];
+    size_t width = p->tty ? width_of_terminal () - 1 : LINE;
+    int full = FULL;
+    do compose (line, full, p, at, step, r, now, within);
+    while (strlen (line) > width && full-- > 0);
+    if (strlen (line) > width) line[width] = 0;
+    fprintf (stderr, "%s%s%s", p->tty ? "\r" : "", line, p->tty ? "\033[K" : "\n");
     if (p->tty) fflush (stderr);
 }
 
-void progress_show (progress *p, double share, const pg_step *step, const pg_report *report)
+void progress_show (progress *p, const pg_progress *at, const pg_step *step, const pg_report *report, int within)
 {
-    double now = pg_seconds ();
+    double now = pg_seconds (), passed = now - p->start, pause = p->tty ? 0.2 : fmax (10, 0.02 * passed);
+    int tenth = (int) (at->share * 10 * (1 + 1e-12));
     if (p->quiet) return;
-    if (p->tty ? now - p->last < 0.2 : now - p->last < 10 && (int) (share * 10) <= p->tenth) return;
-    p->last = now, p->tenth = (int) (share * 10);
-    write_line (p, share, step, report, now - p->start);
+    keep_pace (p, now, at->share, (double) report->events);
+    if (now - p->last < pause && (p->tty || tenth <= p->tenth)) return;
+    p->last = now, p->tenth = tenth > p->tenth ? tenth : p->tenth;
+    write_line (p, at, step, report, now, within);
 }
 
 void progress_end (progress *p)

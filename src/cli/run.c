@@ -68,12 +68,19 @@ static void print_summary (const pg_result *result, const pg_report *r, const pg
     for (size_t k = 0; k < pg_result_pictures (result); k++) printf ("  picture %s\n", pg_result_picture (result, k));
 }
 
-typedef struct { pg_result *result; pg_state *state; const pg_problem *problem; int within; } watched;
+typedef struct { pg_result *result; pg_state *state; const pg_problem *problem; const pg_solver *solver; progress shown; int within; } watched;
 
 /* An old checkpoint is better than no run: one that cannot be written ends nothing. */
 static void keep_now (const watched *w)
 {
     if (pg_result_checkpoint (w->result, w->state) != PG_OK) fprintf (stderr, "perigal: no checkpoint: %s\n", pg_last_error ());
+}
+
+static void show (watched *w, const pg_step *step)
+{
+    pg_progress at;
+    pg_solver_progress (w->solver, w->state, &at);
+    progress_show (&w->shown, &at, step, pg_solver_report_now (w->solver), w->within);
 }
 
 /* Between the break rounds of a step */
@@ -83,6 +90,7 @@ static pg_status look (void *context, const pg_state *state, const pg_step *so_f
     watched *w = context;
     w->within = 1;
     PG_TRY (pg_result_stage (w->result, state, so_far));
+    show (w, so_far);
     if (asked_to_stop) PG_FAIL (PG_E_INTERRUPTED, "interrupted in step %ld after %ld break rounds", so_far->number, so_far->iterations);
     if (pg_result_due (w->result)) keep_now (w);
     w->within = 0;                                     /* set: it was this look that has ended the step                  */
@@ -95,8 +103,8 @@ static pg_status advance (pg_solver *solver, watched *w, int quiet)
     pg_status status = PG_OK;
     pg_state *state = w->state;
     pg_step step;
-    progress p;
-    progress_start (&p, quiet, pg_solver_settled (solver)->marching);
+    w->solver = solver;
+    progress_start (&w->shown, quiet, pg_solver_settled (solver));
     pg_solver_watch (solver, look, w);
     while (!pg_solver_done (solver, state)) {
         if (asked_to_stop) PG_FAIL (PG_E_INTERRUPTED, "interrupted after step %ld, load factor %.6g", state->step, state->factor);
@@ -105,10 +113,10 @@ static pg_status advance (pg_solver *solver, watched *w, int quiet)
         PG_TRY (status);
         PG_TRY (pg_result_step (w->result, state, &step));
         if (pg_result_due (w->result)) keep_now (w);
-        progress_show (&p, pg_solver_progress (solver, state), &step, pg_solver_report_now (solver));
+        show (w, &step);
     }
 done:
-    progress_end (&p);
+    progress_end (&w->shown);
     return status;
 }
 

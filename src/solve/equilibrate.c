@@ -177,7 +177,10 @@ pg_status breaker_arrived (breaker *b, const pg_state *state, const double *d, i
     if (!set || !s->force->field) return PG_OK;
     if (!b->damage) PG_ALLOC (b->damage, 6 * s->problem->cloud.n);
     PG_TRY (s->force->field (s->self, state, d, "damage", &components, &unit, b->damage));
-    for (size_t i = 0; components == 1 && i < set->npoint && !*arrived; i++) *arrived = b->damage[set->point[i]] >= s->options->stop_damage;
+    b->nearest = 0;
+    for (size_t i = 0; components == 1 && i < set->npoint; i++) b->nearest = fmax (b->nearest, b->damage[set->point[i]]);
+    if (!b->looked) b->nearest0 = b->nearest, b->looked = 1;
+    *arrived = set->npoint && b->nearest >= s->options->stop_damage;
 done:
     return status;
 }

@@ -80,6 +80,7 @@ typedef struct {
     pg_ledger  ledger, before;                         /* now; at the last accounted state                               */
     double     work;                                   /* external work, J                                               */
     double    *damage;                                 /* with stop.set (6 n)                                            */
+    double     nearest, nearest0; int looked;          /* largest damage of stop.set: now, when it was first looked at   */
 } breaker;
 pg_status breaker_create (breaker *b);
 void      breaker_free   (breaker *b);
@@ -132,6 +133,7 @@ struct pg_solver {
     pg_status ended;  char why[1024];                  /* event stepping: why no step can follow, told by the next       */
     int       ledger_fresh;                            /* the ledger is that of `unit`                                   */
     double    secant0;                                 /* event stepping: first work per squared load factor             */
+    double    secant, top_factor;                      /* event stepping: work per squared load factor over the first; largest load factor */
     pg_state *backup;                                  /* last accepted state, for refused steps                         */
     double   *reaction;
     double   *work1, *work2, *work3, *work4;           /* newmark (work4: 3 x ndof)                                      */

@@ -157,12 +157,6 @@ void pg_solver_watch (pg_solver *s, pg_watch watch, void *context) { s->breaker.
 
 int pg_solver_done (const pg_solver *s, const pg_state *state) { return s->finished || (s->type->done && s->type->done (s, state)); }
 
-double pg_solver_progress (const pg_solver *s, const pg_state *state)
-{
-    double p = s->type->progress ? s->type->progress (s, state) : s->options.event ? (double) (s->next_level - 1) / (double) s->options.levels : (double) state->step / (double) s->options.steps;
-    return fmin (1, fmax (0, p));
-}
-
 static double largest_displacement (const pg_solver *s, const pg_state *state)
 {
     double top = 0;

@@ -105,7 +105,7 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
         pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at event %ld, load factor %.6g", o->stop_set->name, state->events, factor);
         s->finished = 1;
     }
-    double share = secant (b) / s->secant0;
+    double share = s->secant = secant (b) / s->secant0;
     if (s->problem->nload && (share < o->stop_stiffness || share > 1 / fmax (o->stop_stiffness, 1e-12))) {
         pg_report_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g", state->events, factor);
         s->finished = 1;
@@ -149,6 +149,7 @@ static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     double factor = next < level ? next : level;
     PG_TRY (settle (s, state, factor));
+    s->top_factor = fmax (s->top_factor, factor);
     if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     if (s->secant0 == 0) s->secant0 = secant (b);
     step->factor = step->time = factor;

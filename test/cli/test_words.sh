@@ -20,4 +20,47 @@ python3 -c "import json, sys; r = json.load (open (sys.argv[1])); sys.exit (len 
 verdict "check --json has them too" $?
 "$perigal" run plate.yaml -o "$work/loud" "${once[@]}" "${loose[@]}" > "$work/out" 2> "$work/err"
 [ "$(grep -c 'warning: nothing holds the body along x' "$work/out")" -eq 1 ]; verdict "on the screen each comes once" $?
+
+# ---- progress ---------------------------------------------------------------------------------------------------------------
+# Without a terminal: a line each tenth of the nearest end, which is named; event stepping counts events.
+"$perigal" run plate.yaml -o "$work/events" --threads 1 --set solver.max_events=20 > "$work/out" 2> "$work/err"
+[ "$(grep -c ' % of max_events, [0-9]* event' "$work/err")" -ge 6 ]; verdict "progress goes on after the peak of the load" $?
+holds "it ends at its end" "$work/err" '^100.0 % of max_events, 20 events.*, load factor .*, stiffness .* of the first, .* bonds broken, residual'
+"$perigal" run plate.yaml -o "$work/load" --threads 1 --set failure='{criterion: none}' > "$work/out" 2> "$work/err"
+holds "event stepping without a break: the load" "$work/err" '^ 50.0 % of the load, 0 events, load factor 0.5'
+"$perigal" run plate.yaml -o "$work/stop" --threads 1 --set 'solver.stop={set: right, damage: 20 %}' > "$work/out" 2> "$work/err"
+holds "event stepping to a damage: that damage" "$work/err" '^100.0 % of stop.damage, [0-9]* events.*, damage in stop.set 0\.2'
+"$perigal" run plate.yaml -o "$work/fixed" --threads 1 --set solver='{kind: static, stepping: fixed, steps: 10}' --set failure='{criterion: none}' > "$work/out" 2> "$work/err"
+holds "fixed steps: the steps" "$work/err" '^ 50.0 %, step 5, load factor 0.5'
+"$perigal" run bonds.yaml -o "$work/verlet" --threads 1 > "$work/out" 2> "$work/err"
+holds "time steps: the steps and the time" "$work/err" '^ 60.[0-9] %, step [0-9]*, 0.00012[0-9]* s, '
+# On a terminal of 60 columns no line is longer, so that each rewrites the one before.
+python3 - "$perigal" "$work" > "$work/out" 2> "$work/err" <<'END'
+import fcntl, os, pty, re, struct, sys, termios
+pid, fd = pty.fork ()
+if pid == 0:
+    os.read (0, 1)                                     # the size is set
+    null = os.open (os.devnull, os.O_WRONLY)
+    os.dup2 (null, 1)
+    os.execv (sys.argv[1], [sys.argv[1], 'run', 'plate.yaml', '-o', sys.argv[2] + '/tty', '--threads', '1', '--set', 'spacing=0.4 mm', '--set', 'solver.max_events=150'])
+fcntl.ioctl (fd, termios.TIOCSWINSZ, struct.pack ('HHHH', 24, 60, 0, 0))
+os.write (fd, b'\n')
+text = b''
+try:
+    while True:
+        more = os.read (fd, 65536)
+        if not more: break
+        text += more
+except OSError: pass
+os.waitpid (pid, 0)
+shown = [line.split ('\033')[0] for line in text.decode ().split ('\r') if ' %' in line]
+print (*shown, sep='\n')
+sys.exit (not shown or max (map (len, shown)) > 59 or not any (re.search (r'% of .*, [0-9]+ events', line) for line in shown))
+END
+verdict "on a terminal progress fits one line" $?
+
+# ---- steps of a result --------------------------------------------------------------------------------------------------------
+"$perigal" plot "$work/events" --list > "$work/out" 2> "$work/err"
+last=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i ~ /^event /) e = i; if ($i ~ /^load_factor /) f = i } } NR > 1 { n += $e; at = sprintf ("event %d, load factor %.4g", n, $f) } END { print at }' "$work/events/history.csv")
+[ "$(tail -1 "$work/out" | sed 's/^ *[0-9]* *//')" = "$last" ] && [[ $last == "event 20,"* ]]; verdict "steps are called by event and load factor ($last)" $?
 finish
