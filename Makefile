@@ -31,7 +31,7 @@ comma   := ,
 LINK    ?= static
 LDFLAGS := $(if $(filter asan,$(MODE)),-fsanitize=address$(comma)undefined,) $(EXTRA_LDFLAGS)
 SECONDS ?= 60
-FUZZ    ?= scene points expression mesh
+FUZZ    ?= scene points expression mesh table result
 FUZZ_BUILD ?= build/fuzz
 
 SOURCES := $(filter-out src/cli/% src/convert/%,$(wildcard src/*/*.c))

@@ -17,6 +17,12 @@ static char replayed[300];
 #define LLVMFuzzerTestOneInput fuzz_mesh
 #include "fuzz_mesh.c"
 #undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_table
+#include "fuzz_table.c"
+#undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_result
+#include "fuzz_result.c"
+#undef LLVMFuzzerTestOneInput
 #include <dirent.h>
 
 typedef int (*fuzzer) (const uint8_t *data, size_t size);
@@ -64,14 +70,18 @@ static void seeds_are_answered (void **state)
     assert_true (replay (fuzz_points, "test/fuzz/seed_points", "") > 2);
     assert_true (replay (fuzz_expression, "test/fuzz/seed_expression", "") > 8);
     assert_true (replay (fuzz_mesh, "test/fuzz/seed_mesh", "") > 8);
+    assert_true (replay (fuzz_table, "test/fuzz/seed_table", "") > 2);
+    assert_true (replay (fuzz_result, "test/fuzz/seed_result", "") > 1);
 }
 
-static void points_expressions_meshes_that_were_found_are_answered (void **state)
+static void other_files_that_were_found_are_answered (void **state)
 {
     (void) state;
     replay (fuzz_mesh, "test/fuzz/found", "mesh-");
     replay (fuzz_points, "test/fuzz/found", "points-");
     replay (fuzz_expression, "test/fuzz/found", "expression-");
+    replay (fuzz_table, "test/fuzz/found", "table-");
+    replay (fuzz_result, "test/fuzz/found", "result-");
 }
 
 static void wrong_scenes_leave_nothing_behind (void **state)
@@ -111,7 +121,7 @@ static void any_mesh_cut_anywhere_is_answered (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (scenes_that_were_found_are_answered), cmocka_unit_test (points_expressions_meshes_that_were_found_are_answered),
+        cmocka_unit_test (scenes_that_were_found_are_answered), cmocka_unit_test (other_files_that_were_found_are_answered),
         cmocka_unit_test (seeds_are_answered), cmocka_unit_test (wrong_scenes_leave_nothing_behind),
         cmocka_unit_test (any_seed_cut_anywhere_is_answered), cmocka_unit_test (any_mesh_cut_anywhere_is_answered),
     };
