@@ -1,4 +1,4 @@
-# Perigal: make [MODE=release|debug|asan] [V=1];  targets: all demo test test-long stress fresh fuzz mutate lint doc bench install clean
+# Perigal: make [MODE=release|debug|asan|tsan] [V=1];  targets: all demo test test-long stress fresh fuzz mutate compilers lint doc bench install clean
 MODE    ?= release
 prefix  ?= /usr/local
 CC      ?= gcc
@@ -16,6 +16,9 @@ PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev li
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libcmocka-dev
 
 BUILD   := build/$(MODE)
+# the threaded parts are what the thread sanitizer is for
+THREADED := base sums force
+T       := $(or $(T),$(if $(filter tsan,$(MODE)),$(THREADED)))
 LIBS    := -lcholmod -lumfpack -lamd -lcamd -lsuitesparseconfig -lmetis -lopenblas -lgsl -lfftw3 -lyaml -ludunits2 -lnetcdf -lcairo -lm -lpthread
 STD     := -std=c17 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700 -DPG_VERSION='"$(VERSION)"'
 WARN    := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
@@ -24,12 +27,13 @@ OPT_release := -O2 -g -ftree-vectorize
 OPT_debug   := -Og -g -DPG_DEBUG
 OPT_fuzz    := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT_mutate  := -O2 -w
+OPT_tsan    := -O1 -g -fsanitize=thread -fno-omit-frame-pointer
 OPT_asan    := -O1 -g -DPG_DEBUG -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 # -ffp-contract=off: machines with and without FMA round alike
 CFLAGS  := $(STD) $(OPT_$(MODE)) -ffp-contract=off -fno-math-errno -fPIC $(WARN) $(INCLUDE) $(EXTRA_CFLAGS)
 comma   := ,
 LINK    ?= static
-LDFLAGS := $(if $(filter asan,$(MODE)),-fsanitize=address$(comma)undefined,) $(EXTRA_LDFLAGS)
+LDFLAGS := $(if $(filter asan,$(MODE)),-fsanitize=address$(comma)undefined) $(if $(filter tsan,$(MODE)),-fsanitize=thread) $(EXTRA_LDFLAGS)
 SECONDS ?= 60
 FUZZ    ?= scene points expression mesh table result
 FUZZ_BUILD ?= build/fuzz
@@ -111,7 +115,7 @@ test-long: packages
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal test-programs
 	$(Q).ci/test $(BUILD) "$(T)" long $(JOBS)
 
-test-programs: $(PROGRAM) $(CONVERT) $(if $(T),$(filter $(BUILD)/test/$(T)/%,$(TESTBIN)),$(TESTBIN))
+test-programs: $(PROGRAM) $(CONVERT) $(if $(T),$(filter $(T:%=$(BUILD)/test/%/%),$(TESTBIN)),$(TESTBIN))
 
 fuzz:                ## random inputs for SECONDS each (FUZZ=scene: one of them); findings land in build/fuzz
 	$(Q)command -v clang > /dev/null || { echo "make fuzz needs libFuzzer: install the Debian package clang"; exit 1; }
@@ -131,6 +135,9 @@ stress: packages     ## conditions x methods, 45 minutes on two cores; rows in o
 
 fresh:               ## make demo and make test on a bare Debian in a folder (root, debootstrap)
 	$(Q).ci/fresh
+
+compilers: packages  ## gcc -O0, gcc -O3, clang, warnings being errors; the short tests with each
+	$(Q).ci/compilers "$(or $(T),base kernel material criterion linalg stiffness approx integration sums force solve)" $(JOBS)
 
 lint:                ## one-way includes, file and function lengths
 	$(Q).ci/lint $(ORDER)
@@ -167,6 +174,6 @@ FORCE:
 print-%:
 	@echo '$($*)'
 
-.PHONY: FORCE all perigal packages demo test test-long test-programs stress fresh fuzz mutate lint doc bench bench-programs install clean
+.PHONY: FORCE all perigal packages demo test test-long test-programs stress fresh fuzz mutate compilers lint doc bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(TESTBIN:=.d) $(BENCHBIN:=.d)

@@ -190,6 +190,42 @@ static void each_failed_allocation_is_reported (void **state)
     random_free (&s[0]), random_free (&s[1]);
 }
 
+/* Graphs for forecasts: two nodes are coupled where a point sees both, or where a bond ties them; every node to itself. */
+static void graphs_hold_the_pairs_and_the_diagonal (void **state)
+{
+    (void) state;
+    enum { N = 40 };
+    random_source s[2] = { random_points (25, N, 0.1, 1, 3), random_points (10, N, 0.2, 1, 4) };
+    const pg_family *of[2] = { &s[0].family, &s[1].family };
+    pg_family bonds = { N, pg_calloc (N + 1, sizeof (size_t)), pg_calloc (N * N, sizeof (int)) };
+    unsigned char seen[2][N][N] = { { { 0 } } };
+    for (int k = 0; k < 2; k++)
+        for (size_t p = 0; p < of[k]->n; p++)
+            for (size_t a = of[k]->start[p]; a < of[k]->start[p + 1]; a++)
+                for (size_t b = of[k]->start[p]; b < of[k]->start[p + 1]; b++) seen[0][of[k]->node[a]][of[k]->node[b]] = 1;
+    for (size_t i = 0, at = 0; i < N; i++) {
+        for (size_t j = 0; j < N; j++)
+            if (i != j && hash (5, i < j ? i : j, i < j ? j : i, 0, 0) > 0.6) bonds.node[at++] = (int) j, seen[1][i][j] = 1;
+        bonds.start[i + 1] = at;
+        seen[0][i][i] = seen[1][i][i] = 1;
+    }
+    for (int k = 0; k < 2; k++) {
+        pg_sparse G;
+        size_t at = 0;
+        check_ok (k ? pg_stiffness_graph_direct (&G, &bonds) : pg_stiffness_graph (&G, N, 2, of));
+        assert_true (G.symmetric && G.nrow == N && G.ncol == N);
+        for (size_t j = 0; j < N; j++) {
+            assert_int_equal (G.start[j], at);
+            for (size_t i = 0; i <= j; i++) if (seen[k][i][j]) assert_int_equal (G.row[at++], i);
+        }
+        assert_int_equal (G.start[N], at);
+        assert_true (at > 2 * N);
+        pg_sparse_clear (&G);
+    }
+    pg_family_clear (&bonds);
+    random_free (&s[0]), random_free (&s[1]);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -197,6 +233,7 @@ int main (void)
         cmocka_unit_test (redone_rows_equal_a_full_gather),
         cmocka_unit_test (threads_change_no_bit),
         cmocka_unit_test (a_node_that_no_point_sees_keeps_its_diagonal),
+        cmocka_unit_test (graphs_hold_the_pairs_and_the_diagonal),
         cmocka_unit_test (each_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests_name ("stiffness/gather", tests, NULL, NULL);
