@@ -24,7 +24,7 @@ static const struct { const char *name, *text; } usages[] = {
                "      --json           the same for programs\n"
                "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A scene that needs more is refused\n" },
     { "plot", "perigal plot DIR [--field NAME] [--component x|xx|magnitude] [--step N|all | --steps N,N,...] [--view SIDE|iso|crack] [--section CUT] ...\n"
-              "perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--out FILE]\n"
+              "perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
               "  A field of DIR/result.e (damage, last step), or two columns of DIR/history.csv, as PNG or SVG; all options: perigal plot --help.\n" },
     { "compare", "perigal compare DIR [REFERENCE] [--step N] [--field NAME] [--unit mm] [--shift X,Y,Z] [--scale S] [--out FILE.png] [--json] [--quiet]\n"
                  "  Norms of the difference of the result in DIR and a reference: that of its scene, or REFERENCE: a table (.csv: x [mm], y [mm],\n"

@@ -16,11 +16,12 @@ static const char usage[] =
     "                        [--columns N] [--out FILE.png|FILE.svg]\n"
     "       perigal plot DIR --list\n"
     "       perigal plot FILE [--sets | --field NAME ...] [--unit mm] [options as above]\n"
-    "       perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--out FILE]\n"
+    "       perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
     "Draws a field of DIR/result.e (damage, last step) or two columns of DIR/history.csv,\n"
     "or a mesh (.msh, .inp) or result of finite elements (.frd, .e): blocks, --sets or a field at its nodes.\n"
     "  --list        the steps that DIR/result.e holds: their numbers, loads or times\n"
-    "  --step all    one picture a step;  --steps 2,5,8: one picture with a panel a step, --columns of them in a row\n"
+    "  --step all    one picture a step;  --steps 2,5,8: one picture with a panel a step, --columns of them in a row;\n"
+    "                -1 is the last step, -2 the one before\n"
     "  --view        3D: the side of that name (front is the face of largest z), or obliquely: iso; crack: points of\n"
     "                damage 0.35 and more\n"
     "  --section     3D: AXIS = PLACE, or NORMAL = DISTANCE along it: '1, 0, 1 = 5 mm'\n"
@@ -63,7 +64,7 @@ static pg_status read_steps (plot_request *q, const char *name, const char *text
     for (;; s++) {
         char *end;
         long k = strtol (s, &end, 10);
-        if (end == s || k < -1 || k > 1000000000 || (*end && *end != ',')) PG_FAIL (PG_E_USAGE, "%s %s: expected 0, 1, 2 ...", name, text);
+        if (end == s || k < -1000000000 || k > 1000000000 || (*end && *end != ',')) PG_FAIL (PG_E_USAGE, "%s %s: expected 0, 1, 2 ..., or from the end -1, -2 ...", name, text);
         if (q->steps == most) PG_FAIL (PG_E_USAGE, "%s %s: at most %d", name, text, most);
         q->step[q->steps++] = (int) k;
         s = end;

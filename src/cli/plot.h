@@ -20,7 +20,7 @@ typedef struct {
     pg_picture_style style;
 } plot_request;
 /* plot_field.c: draws and prints the names of the files. */
-pg_status pg_plot_field (const plot_request *q);
+pg_status pg_plot_field (plot_request *q);
 /* The steps of the result, a line each: number and load or time. */
 pg_status pg_plot_list (const plot_request *q);
 

@@ -15,7 +15,8 @@ typedef struct {
     const char *directory[MOST], *x, *y, *out;
     char   *labels;                                    /* cut in place                                                   */
     size_t  n;
-    int     negate, absolute, markers, log[2];         /* log: of x, of y                                                */
+    int     markers, log[2];                           /* log: of x, of y                                                */
+    enum { AS_IT_IS, NEGATED, ABSOLUTE } sign[2];      /* of x, of y                                                     */
 } request;
 
 /* What the scene of a run says of two of its columns. */
@@ -35,10 +36,11 @@ typedef struct {
 } run_curve;
 
 static const char usage[] =
-    "usage: perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate | --abs] [--log x|y|xy] [--markers]\n"
+    "usage: perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--abs [x|y|xy]] [--log x|y|xy] [--markers]\n"
     "                    [--out FILE.png|FILE.svg]\n"
-    "Draws columns X and Y of every DIR/history.csv (of DIR itself if it is a .csv file) in one picture; --negate turns the signs of both (not of step,\n"
-    "time, load_factor), --abs drops them. Of event stepping the line is the envelope and the path of events thin behind it; peaks are ringed. The\n"
+    "Draws columns X and Y of every DIR/history.csv (of DIR itself if it is a .csv file) in one picture. --negate turns the sign of Y\n"
+    "(--negate x: of X, --negate xy: of both), --abs drops it in the same way; step, time and load_factor stay as they are. Of event\n"
+    "stepping the line is the envelope and the path of events thin behind it; peaks are ringed. The\n"
     "legend shows --labels, else the names of the folders. --markers: a marker on every row, and no envelope.\n";
 
 static int is_table (const char *path)                 /* a file of its own, not a folder with history.csv               */
@@ -253,14 +255,15 @@ static void change_signs (const request *q, run_curve *c)
 {
     for (int k = 0; k < 2; k++) {
         if (is_column (c->column[k], "step") || strncmp (c->column[k], "time (", 6) == 0 || is_column (c->column[k], "load_factor")) continue;
-        for (size_t i = 0; i < c->n; i++) c->at[k][i] = q->negate ? 0 - c->at[k][i] : q->absolute ? fabs (c->at[k][i]) : c->at[k][i];
+        if (q->sign[k] == AS_IT_IS) continue;
+        for (size_t i = 0; i < c->n; i++) c->at[k][i] = q->sign[k] == NEGATED ? 0 - c->at[k][i] : fabs (c->at[k][i]);
         char plain[CELL];
         memcpy (plain, c->column[k], sizeof plain);
         size_t n = strcspn (plain, "("), end = n;
         while (end > 0 && plain[end - 1] == ' ') end--;
         const char *gap = plain[n] ? " " : "";
-        const char *bar = q->absolute ? "|" : "";
-        if (q->negate || q->absolute) snprintf (c->column[k], sizeof c->column[k], "%s%.*s%s%s%.60s", q->negate ? "\xE2\x88\x92" : bar, (int) (end < 180 ? end : 180), plain, bar, gap, plain + n);
+        const char *bar = q->sign[k] == ABSOLUTE ? "|" : "";
+        snprintf (c->column[k], sizeof c->column[k], "%s%.*s%s%s%.60s", q->sign[k] == NEGATED ? "\xE2\x88\x92" : bar, (int) (end < 180 ? end : 180), plain, bar, gap, plain + n);
     }
 }
 
@@ -338,24 +341,42 @@ done:
 }
 
 /* ---- command line ----------------------------------------------------------------------------------------------------------- */
+static int is_axes (const char *text) { return text && (strcmp (text, "x") == 0 || strcmp (text, "y") == 0 || strcmp (text, "xy") == 0); }
+
+/* --negate, --abs: of y, unless axes follow. */
+static pg_status read_sign (request *q, const char *name, const char *axes)
+{
+    pg_status status = PG_OK;
+    int sign = strcmp (name, "--negate") == 0 ? NEGATED : ABSOLUTE;
+    for (int k = 0; k < 2; k++) {
+        if (!strchr (axes, "xy"[k])) continue;
+        if (q->sign[k] != AS_IT_IS && (int) q->sign[k] != sign) PG_FAIL (PG_E_USAGE, "--negate and --abs exclude each other on the same axis, %c", "xy"[k]);
+        if (sign == NEGATED) q->sign[k] = NEGATED;
+        else q->sign[k] = ABSOLUTE;
+    }
+done:
+    return status;
+}
+
 static pg_status read_option (request *q, const char *name, char **value, int left, int *used)
 {
     static const char names[] = "--curve|--labels|--negate|--abs|--log|--markers|--out";
     pg_status status = PG_OK;
     int curve = strcmp (name, "--curve") == 0, label = strcmp (name, "--labels") == 0, out = strcmp (name, "--out") == 0;
-    int negate = strcmp (name, "--negate") == 0, absolute = strcmp (name, "--abs") == 0;
+    int sign = strcmp (name, "--negate") == 0 || strcmp (name, "--abs") == 0, axes = sign && left > 0 && is_axes (value[0]);
     int logs = strcmp (name, "--log") == 0, markers = strcmp (name, "--markers") == 0;
-    if (!curve && !label && !out && !negate && !absolute && !logs && !markers) {
+    if (!curve && !label && !out && !sign && !logs && !markers) {
         const char *near = pg_nearest_name (name, names);
         PG_FAIL (PG_E_USAGE, "unknown option %s beside --curve%s%s", name, near ? "; did you mean " : "", near ? near : "");
     }
-    *used = 1 + label + out + logs + 2 * curve;
+    *used = 1 + label + out + logs + axes + 2 * curve;
     if (left < *used - 1) PG_FAIL (PG_E_USAGE, "%s needs %s", name, curve ? "two column names" : "a value");
     if (curve) q->x = value[0], q->y = value[1];
     if (label) q->labels = value[0];
     if (out) q->out = value[0];
-    q->negate |= negate, q->absolute |= absolute, q->markers |= markers;
-    if (logs && strcmp (value[0], "x") != 0 && strcmp (value[0], "y") != 0 && strcmp (value[0], "xy") != 0) PG_FAIL (PG_E_USAGE, "--log %s: expected x, y or xy", value[0]);
+    q->markers |= markers;
+    if (sign) PG_TRY (read_sign (q, name, axes ? value[0] : "y"));
+    if (logs && !is_axes (value[0])) PG_FAIL (PG_E_USAGE, "--log %s: expected x, y or xy", value[0]);
     if (logs) for (int k = 0; k < 2; k++) q->log[k] = strchr (value[0], "xy"[k]) != NULL;
 done:
     return status;
@@ -371,7 +392,6 @@ static pg_status read_arguments (request *q, int argc, char **argv)
         else q->directory[q->n++] = argv[k];
     }
     if (q->n == 0) PG_FAIL (PG_E_USAGE, "no directory given");
-    if (q->negate && q->absolute) PG_FAIL (PG_E_USAGE, "--negate and --abs exclude each other");
 done:
     return status;
 }

@@ -129,7 +129,6 @@ static pg_status open_source (const plot_request *q, source *s)
         PG_FAIL (PG_E_USAGE, "--section, --view, --direction and --above are for 3D results; %s is %dD", q->result, s->cloud.dim);
     PG_TRY (choose_component (q, s));
     read_scene (q, s);
-    PG_TRY (read_part (q, s));
 done:
     pg_free (field);
     return status;
@@ -304,11 +303,28 @@ done:
     return status;
 }
 
-pg_status pg_plot_field (const plot_request *q)
+/* Steps from the end become steps from the start. */
+static pg_status count_steps (plot_request *q, const source *s)
+{
+    pg_status status = PG_OK;
+    int n = (int) s->nstep;
+    if (n == 0) PG_FAIL (PG_E_USAGE, "%s holds no step yet", q->result);
+    for (int k = 0; k < q->steps && !q->all; k++) {
+        if (q->step[k] >= n || q->step[k] < -n)
+            PG_FAIL (PG_E_USAGE, "%s has no step %d; its steps are 0 to %d (-1 is the last; perigal plot %s --list tells what they are)", q->result, q->step[k], n - 1, q->directory);
+        if (q->step[k] < 0) q->step[k] += n;
+    }
+done:
+    return status;
+}
+
+pg_status pg_plot_field (plot_request *q)
 {
     pg_status status = PG_OK;
     source s = { 0 };
     PG_TRY (open_source (q, &s));
+    PG_TRY (count_steps (q, &s));
+    PG_TRY (read_part (q, &s));
     PG_TRY (q->all ? draw_each (q, &s) : draw_together (q, &s));
 done:
     close_source (&s);

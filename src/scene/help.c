@@ -132,9 +132,9 @@ pg_status pg_help_write (FILE *to, const char *key, const pg_schema *s)
         for (size_t k = 0; k < s->n; k++)
             if (match (s->row[k], plain) == 2) print_key (to, s, s->row[k]);
     } else if (*plain && ends) {
-        fprintf (to, "%s occurs more than once:\n", plain);
+        fprintf (to, "%s occurs in %zu places:\n", plain, ends);
         for (size_t k = 0; k < s->n; k++)
-            if (match (s->row[k], plain) == 2) fprintf (to, "    %-44s %s\n", s->row[k]->path, s->row[k]->doc ? s->row[k]->doc : "");
+            if (match (s->row[k], plain) == 2) fprintf (to, "\n"), print_key (to, s, s->row[k]);
     } else {
         const char *near = nearest_key (s, plain);
         if (near) return pg_error (PG_E_USAGE, PG_HERE, "unknown key '%.100s'; did you mean %s?", key, near);

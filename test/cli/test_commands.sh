@@ -62,6 +62,15 @@ expect "plot draws a curve of a table"         0 'table.png' '' plot "$out/histo
 expect "plot counts the labels"               64 '' '1 names for 2 folders' plot "$out" "$work/quiet" --curve step pull.force_y --labels one
 expect "plot: a column that one run lacks"    64 '' "quiet/history.csv has no column 'pull'" plot "$work/quiet" --curve step pull
 expect "plot --negate or --abs"               64 '' 'exclude each other' plot "$out" --curve step pull.force_y --abs --negate
+expect "plot --negate x --abs y"                0 '.png' '' plot "$out" --curve step pull.force_y --negate x --abs y
+awk 'BEGIN { print "a [m],b [N]"; for (i = 0; i < 60; i++) print 0.5 + 0.1 * i "," sin (0.1 * i) * (1 + i) }' > "$work/signs.csv"
+awk -F, 'NR == 1; NR > 1 { print $1 "," 0 - $2 }' "$work/signs.csv" > "$work/turned.csv"
+line_of() { grep 'fill:none' "$1" | grep -oE ' d="M [^"]*"' | awk 'length ($0) > n { n = length ($0); d = $0 } END { print d }'; }       # the longest line
+for k in 'signs n --negate' 'turned t' 'signs xy --negate xy'; do
+    read -r table name options <<< "$k"
+    "$perigal" plot "$work/$table.csv" --curve a b --out "$work/$name.svg" $options > "$work/out" 2> "$work/err"
+done
+[ -n "$(line_of "$work/n.svg")" ] && [ "$(line_of "$work/n.svg")" = "$(line_of "$work/t.svg")" ] && [ "$(line_of "$work/n.svg")" != "$(line_of "$work/xy.svg")" ]; verdict "--negate turns y alone" $?
 expect "plot names the nearest curve option"  64 '' 'did you mean --labels' plot "$out" --curve step pull.force_y --label a
 expect "plot names the nearest field"         64 '' "did you mean 'damage'" plot "$out" --field damag
 expect "plot names the nearest column"        64 '' "did you mean 'pull.force_y'" plot "$out" --curve step pull.force_yy

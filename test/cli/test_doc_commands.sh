@@ -1,6 +1,8 @@
 #!/bin/bash
 # test_doc_commands.sh BUILD: every command that a document shows is one: its options are known, its scene is right with the same --set,
 # its make target, test or bench program is there. Commands are lines of indented or fenced blocks, and `perigal ... data/...` in a text.
+# What works on the demo, on DIR (a small solid here) and on out/beam is done in full, so are help and list, and the snippets of README.md in
+# Python and Octave where these are installed; other plots and comparisons go as far as they can without their results, which take too long.
 perigal=$(realpath "$1/perigal"); n=0; bad=0
 cd "$(dirname "$0")/../.." || exit 1
 work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
@@ -34,6 +36,24 @@ stops() {
     [ $? -eq "$code" ] && grep -q -- "$why" "$work/err"
 }
 absent() { local w; for w in "$@"; do case $w in out/*|DIR) echo "$work/none" ;; SCENE) echo "$any" ;; *) echo "$w" ;; esac; done; }
+# ---- results to work on --------------------------------------------------------------------------------------------------------
+ours() { case $1 in out/demo|out/beam|out/finer|line.csv) echo "$work/$(basename "$1")" ;; DIR) echo "$work/solid" ;; *) echo "$1" ;; esac; }
+cat > "$work/solid.yaml" <<'EOF'
+dimension: 3
+body: [{add: {box: {low: [0, 0, 0], high: [12 mm, 12 mm, 10 mm]}}}]
+spacing: 2 mm
+cracks: [{polygon: [[0, 6 mm, 0], [5 mm, 6 mm, 0], [5 mm, 6 mm, 10 mm], [0, 6 mm, 10 mm]]}]
+materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.2}}
+method: {force: bond}
+boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 10 um}}]
+output: {at: {levels: 8}, pictures: []}
+EOF
+printf 'x [mm], y [mm], u_y [mm]\n%s\n%s\n' '10, 0, -0.01' '20, 0, -0.02' > "$work/line.csv"
+beam=data/textbook_cantilever/scene.yaml
+{ "$perigal" run data/cui_disk_plane/scene.yaml -q -o "$work/demo" --set spacing='4 mm' && "$perigal" run "$work/solid.yaml" -q -o "$work/solid" \
+    && "$perigal" run $beam -q -o "$work/beam" && "$perigal" run $beam -q -o "$work/finer" --set method.kernel=conical; } > "$work/out" 2>&1 ||
+    { echo "not ok 1 - results to work on"; sed 's/^/# /' "$work/out"; echo "1..1"; exit 1; }
+
 good() {   # the command as words
     local words k
     case $1 in
@@ -46,8 +66,13 @@ good() {   # the command as words
     case $1 in
         run|check) shift; scene_of "$@" ;;
         help|list) "$perigal" "$@" > "$work/out" 2> "$work/err" ;;
-        plot) mapfile -t words < <(absent "$@"); stops 70 'No such file or ' "${words[@]}" ;;
-        compare) mapfile -t words < <(absent "$@"); stops 64 'is no result folder' "${words[@]}" ;;
+        plot|compare)
+            if [ -d "$(ours "$2")" ] && [[ $3 != *.frd ]]; then
+                mapfile -t words < <(for k in "$@"; do ours "$k"; done)
+                "$perigal" "${words[@]}" > "$work/out" 2> "$work/err"; return
+            fi
+            mapfile -t words < <(absent "$@")
+            if [ "$1" = plot ]; then stops 70 'No such file or ' "${words[@]}"; else stops 64 'is no result folder' "${words[@]}"; fi ;;
         bench|converge) mapfile -t words < <(absent "$@"); stops 70 "$nowhere" "${words[@]}" -o $nowhere ;;
         *) return 1 ;;
     esac
@@ -67,6 +92,18 @@ for page in README.md doc/*.md data/*/README.md matlab-compat/README.md; do
     n=$((n + 1))
     if [ ! -s "$work/bad" ]; then echo "ok $n - commands of $page"; else bad=1; echo "not ok $n - commands of $page"; sed 's/^/# /' "$work/bad"; fi
 done
+# ---- snippets ------------------------------------------------------------------------------------------------------------------
+# snippet LANGUAGE PAGE: the code of the page, on the demo of here
+snippet() { sed -n "/^\`\`\`$1/,/^\`\`\`/p" "$2" | grep -v '^```' | sed "s|out/demo|$work/demo|g; /^system/d"; }
+try() {   # name, what it takes, command, file
+    n=$((n + 1))
+    if ! eval "$2" > "$work/out" 2>&1; then echo "ok $n - $1 # skipped, it needs: $2"; return; fi
+    if $3 "$4" > "$work/out" 2>&1; then echo "ok $n - $1"; else bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" | head -20; fi
+}
+{ snippet python README.md; echo "assert len (damage) == len (x) and damage.max () > 0.5"; } > "$work/a.py"
+{ echo "graphics_toolkit ('gnuplot'); figure ('visible', 'off');"; snippet matlab README.md; echo "assert (max (damage(:, end)) > 0.5)"; } > "$work/a.m"
+try "README.md in Python" 'python3 -c "import netCDF4"' python3 "$work/a.py"
+try "README.md in Octave" 'octave-cli --eval "pkg load netcdf"' octave-cli "$work/a.m"
 n=$((n + 1))
 if [ $count -ge 100 ]; then echo "ok $n - $count commands were found"; else bad=1; echo "not ok $n - only $count commands were found"; fi
 echo "1..$n"

@@ -60,7 +60,16 @@ END
 verdict "on a terminal progress fits one line" $?
 
 # ---- steps of a result --------------------------------------------------------------------------------------------------------
-"$perigal" plot "$work/events" --list > "$work/out" 2> "$work/err"
+"$perigal" plot "$work/events" --list > "$work/events.list" 2> "$work/err"; cp "$work/events.list" "$work/out"
 last=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i ~ /^event /) e = i; if ($i ~ /^load_factor /) f = i } } NR > 1 { n += $e; at = sprintf ("event %d, load factor %.4g", n, $f) } END { print at }' "$work/events/history.csv")
 [ "$(tail -1 "$work/out" | sed 's/^ *[0-9]* *//')" = "$last" ] && [[ $last == "event 20,"* ]]; verdict "steps are called by event and load factor ($last)" $?
+expect "steps are counted from the end too"      0 '/last.png' '' plot "$work/events" --step -1 --out "$work/last.png"
+"$perigal" plot "$work/events" --step -2 --out "$work/a.png" > "$work/out" 2> "$work/err" && "$perigal" plot "$work/events" --step "$(($(tail -1 "$work/events.list" | awk '{ print $1 }') - 1))" --out "$work/b.png" >> "$work/out" 2>> "$work/err" && cmp "$work/a.png" "$work/b.png" >> "$work/err" 2>&1
+verdict "step -2 is the last but one" $?
+expect "a step that is not there: which are"    64 '' 'has no step 99; its steps are 0 to [0-9]* (-1 is the last; perigal plot .* --list' plot "$work/events" --steps 1,99
+
+# ---- help -------------------------------------------------------------------------------------------------------------------
+"$perigal" help friction_angle > "$work/out" 2> "$work/err"
+[ "$(grep -c '^  unit     rad' "$work/out")" -eq 2 ] && [ "$(grep -c '^  range    ' "$work/out")" -eq 2 ] && [ "$(grep -c '^  default  ' "$work/out")" -eq 2 ]
+verdict "help KEY tells all of a key, in each of its places" $?
 finish
