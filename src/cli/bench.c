@@ -96,6 +96,8 @@ static pg_status read_arguments (bench_request *q, int argc, char **argv)
     pg_status status = PG_OK;
     memset (q, 0, sizeof *q);
     q->repeat = q->threads = 1, q->folder = "out/bench";
+    char unquoted[1200];
+    if (command_unquoted (unquoted, sizeof unquoted, argc, argv)) PG_FAIL (PG_E_USAGE, "%s", unquoted);
     for (int k = 1; k < argc; k++) {
         const char *name = strcmp (argv[k], "-o") == 0 ? "--out" : strcmp (argv[k], "-s") == 0 ? "--set" : strcmp (argv[k], "-q") == 0 ? "--quiet" : argv[k];
         if (strcmp (name, "--fem") == 0) q->fem = 1;

@@ -31,6 +31,7 @@ void progress_end   (progress *p);
 /* command.c: options shared by run and check */
 typedef struct { const char *scene, *folder, *set[64]; size_t nset; int threads, quiet, resume, json, solve, spectrum; double memory; const char *given; } command;
 int       command_parse (command *c, int argc, char **argv);   /* -1: go on; else the exit code (message printed)         */
+int       command_unquoted (char *out, size_t size, int argc, char **argv);     /* 1: what a value without its quotes left behind */
 int       command_usage (FILE *to, const char *name);          /* 0: there is no such command                             */
 pg_status command_scene (const command *c, pg_scene **scene);  /* a file that cannot be read counts as a wrong scene      */
 void      command_complain (pg_status status, const char *text);

@@ -23,7 +23,7 @@ static const struct { const char *name, *text; } usages[] = {
                "                       with -o DIR: DIR/spectrum.csv, spectrum.png: frequencies along the edges of the zone\n"
                "      --json           the same for programs\n"
                "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A scene that needs more is refused\n" },
-    { "plot", "perigal plot DIR [--field NAME] [--component x|xx|magnitude] [--step N|all | --steps N,N,...] [--view SIDE|iso|crack] [--section CUT] ...\n"
+    { "plot", "perigal plot DIR [--field damage|stress.yy|displacement.x ...] [--step N|all | --steps N,N,...] [--view SIDE|iso|crack] [--section CUT] ...\n"
               "perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
               "  A field of DIR/result.e (damage, last step), or two columns of DIR/history.csv, as PNG or SVG; all options: perigal plot --help.\n" },
     { "compare", "perigal compare DIR [REFERENCE] [--step N] [--field NAME] [--unit mm] [--shift X,Y,Z] [--scale S] [--out FILE.png] [--json] [--quiet]\n"
@@ -105,13 +105,37 @@ static int refuse (const char *name, int option, const char *argument)
     return EXIT_USAGE;
 }
 
+static int is_scene (const char *word)
+{
+    const char *dot = strrchr (word, '.');
+    return access (word, F_OK) == 0 || (dot && (strcmp (dot, ".yaml") == 0 || strcmp (dot, ".yml") == 0));
+}
+
+/* Words that follow the value of a --set and are no options: a value with blanks that lost its quotes. 0: there are none. */
+int command_unquoted (char *out, size_t size, int argc, char **argv)
+{
+    for (int k = 1; k + 1 < argc; k++) {
+        int joined = strncmp (argv[k], "--set=", 6) == 0, apart = strcmp (argv[k], "--set") == 0 || strcmp (argv[k], "-s") == 0;
+        int first = k + 1 + apart, last = first;
+        if (!joined && !apart) continue;
+        while (last < argc && argv[last][0] != '-' && !is_scene (argv[last])) last++;
+        if (first >= argc || last == first) continue;
+        size_t n = (size_t) snprintf (out, size, "'%.60s' is no file: a value with blanks needs quotes: --set '%.200s", argv[first], joined ? argv[k] + 6 : argv[k + 1]);
+        for (int i = first; i < last && n < size; i++) n += (size_t) snprintf (out + n, size - n, " %.100s", argv[i]);
+        if (n < size) snprintf (out + n, size - n, "'");
+        return 1;
+    }
+    return 0;
+}
+
 int command_parse (command *c, int argc, char **argv)
 {
     static const struct option options[] = {
         { "out", required_argument, NULL, 'o' }, { "threads", required_argument, NULL, 't' }, { "set", required_argument, NULL, 's' },
         { "resume", no_argument, NULL, 'r' }, { "memory", required_argument, NULL, 'm' }, { "json", no_argument, NULL, 'j' },
         { "solve", no_argument, NULL, 'v' }, { "spectrum", no_argument, NULL, 'w' }, { "quiet", no_argument, NULL, 'q' }, { "help", no_argument, NULL, 'h' }, { NULL, 0, NULL, 0 } };
-    int checks = strcmp (argv[0], "check") == 0;
+    char unquoted[1200];
+    int checks = strcmp (argv[0], "check") == 0, lost = command_unquoted (unquoted, sizeof unquoted, argc, argv);
     memset (c, 0, sizeof *c);
     optind = 1, opterr = 0;
     for (int k, wrong = -1; (k = getopt_long (argc, argv, ":o:qs:h", options, NULL)) != -1;) {
@@ -127,6 +151,10 @@ int command_parse (command *c, int argc, char **argv)
         else if (k == 'w' && checks) c->spectrum = 1;
         else wrong = refuse (argv[0], k, argv[optind - 1]);
         if (wrong >= 0) return wrong;
+    }
+    if (lost) {
+        fprintf (stderr, "perigal: %s\n", unquoted);
+        return EXIT_USAGE;
     }
     if (optind + 1 != argc) {
         fprintf (stderr, "perigal: %s needs exactly one scene file\n", argv[0]);

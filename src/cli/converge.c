@@ -72,6 +72,8 @@ static pg_status read_arguments (request *q, int argc, char **argv)
     int delta = 0;
     memset (q, 0, sizeof *q);
     q->threads = 1, q->ratio = 2, q->folder = "out/converge";
+    char unquoted[1200];
+    if (command_unquoted (unquoted, sizeof unquoted, argc, argv)) PG_FAIL (PG_E_USAGE, "%s", unquoted);
     for (int k = 1; k < argc; k++) {
         const char *name = strcmp (argv[k], "-o") == 0 ? "--out" : strcmp (argv[k], "-s") == 0 ? "--set" : strcmp (argv[k], "-q") == 0 ? "--quiet" : argv[k];
         if (strcmp (name, "--m") == 0) q->fixed = 1;

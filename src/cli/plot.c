@@ -10,7 +10,7 @@
 enum { EXIT_USAGE = 64, EXIT_FAILED = 70 };
 
 static const char usage[] =
-    "usage: perigal plot DIR [--field NAME] [--component NUMBER|x|xx|magnitude] [--step N|all | --steps N,N,...]\n"
+    "usage: perigal plot DIR [--field NAME[.x|.xx|.magnitude]] [--component NUMBER|x|xx|magnitude] [--step N|all | --steps N,N,...]\n"
     "                        [--view front|back|left|right|top|bottom|iso|crack | --section 'z = 5 mm']\n"
     "                        [--direction X,Y,Z] [--above VALUE] [--range LOW,HIGH] [--magnify FACTOR]\n"
     "                        [--columns N] [--out FILE.png|FILE.svg]\n"
@@ -19,6 +19,7 @@ static const char usage[] =
     "       perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
     "Draws a field of DIR/result.e (damage, last step) or two columns of DIR/history.csv,\n"
     "or a mesh (.msh, .inp) or result of finite elements (.frd, .e): blocks, --sets or a field at its nodes.\n"
+    "  --field       such as damage, stress.yy (or stress --component yy): DIR/stress.yy.png\n"
     "  --list        the steps that DIR/result.e holds: their numbers, loads or times\n"
     "  --step all    one picture a step;  --steps 2,5,8: one picture with a panel a step, --columns of them in a row;\n"
     "                -1 is the last step, -2 the one before\n"
@@ -161,7 +162,17 @@ done:
 static pg_status read_sets (plot_request *q, const char *text) { (void) text, q->sets = 1; return PG_OK; }
 static pg_status read_list (plot_request *q, const char *text) { (void) text, q->list = 1; return PG_OK; }
 static pg_status read_log (plot_request *q, const char *text) { (void) text, q->style.log = 1; return PG_OK; }
-static pg_status read_field (plot_request *q, const char *text) { q->field = text; return PG_OK; }
+/* "stress" or, as in output.pictures, "stress.yy" */
+static pg_status read_field (plot_request *q, const char *text)
+{
+    const char *dot = strrchr (text, '.');
+    q->field = text;
+    if (!dot || dot == text || place_of (dot + 1, "x|y|z|xx|yy|zz|xy|yz|zx|magnitude|mises") < 0) return PG_OK;
+    snprintf (q->name, sizeof q->name, "%.*s", (int) (dot - text), text);
+    q->field = q->name, q->part = dot + 1;
+    return PG_OK;
+}
+
 static pg_status read_component (plot_request *q, const char *text) { q->component = text; return PG_OK; }
 static pg_status read_out (plot_request *q, const char *text) { q->out = text; return PG_OK; }
 
@@ -210,6 +221,8 @@ static pg_status read_arguments (plot_request *q, int argc, char **argv)
     }
     if (!q->directory) PG_FAIL (PG_E_USAGE, "no directory given");
     if (strlen (q->directory) > PLOT_PATH / 2) PG_FAIL (PG_E_USAGE, "the path is too long");
+    if (q->part && q->component && strcmp (q->part, q->component) != 0) PG_FAIL (PG_E_USAGE, "--field %s.%s and --component %s: which part?", q->field, q->part, q->component);
+    if (q->part) q->component = q->part;
     if (q->all && q->panels) PG_FAIL (PG_E_USAGE, "--step all and --steps exclude each other");
     cut_result (q->directory);
     if (access (q->directory, F_OK) != 0) PG_FAIL (PG_E_FILE, "%s: No such file or folder", q->directory);

@@ -9,8 +9,9 @@ int pg_cli_plot (int argc, char **argv);               /* argv[0] = "plot"; retu
 /* What the command line of a picture of a field asks for. */
 enum { PLOT_PATH = 4096, PLOT_STEPS = 64 };
 typedef struct {
-    char *directory;
-    const char *field, *component, *out, *look;        /* directory: or a mesh file; look: of the view or the section, for names */
+    char *directory;                                   /* or a mesh file                                                 */
+    const char *field, *part, *component, *out, *look; /* part: yy of "stress.yy"; look: of the view or the section, for names */
+    char   name[128];                                  /* "stress" of "stress.yy"                                        */
     double length;                                     /* meshes: m in a unit of the file, 0: not given                  */
     char   result[PLOT_PATH];
     int    step[PLOT_STEPS], steps;                    /* -1: the last one                                               */

@@ -188,7 +188,7 @@ static void drop_stage (stage *g)
 }
 
 /* ---- drawing ---------------------------------------------------------------------------------------------------------------------- */
-/* DIR/FIELD-COMPONENT_VIEW_0007.png, or --out with the number before its ending. */
+/* DIR/FIELD.COMPONENT_VIEW_0007.png, as in output.pictures, or --out with the number before its ending. */
 static void name_picture (const plot_request *q, int number, char *path, size_t size)
 {
     char name[160] = "", count[16] = "";
@@ -200,7 +200,7 @@ static void name_picture (const plot_request *q, int number, char *path, size_t 
         return;
     }
     pg_picture_name (name, 60, q->field);
-    if (q->component) strcat (name, "-"), pg_picture_name (name, 90, q->component);
+    if (q->component) strcat (name, "."), pg_picture_name (name, 90, q->component);
     if (q->look) strcat (name, "_"), pg_picture_name (name, 130, q->look);
     if (q->panels) strcat (name, "_steps");
     snprintf (path, size, "%.2100s/%s%s.png", q->directory, name, count);

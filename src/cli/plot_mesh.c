@@ -99,7 +99,7 @@ static void name_picture (const plot_request *q, char *path, size_t size)
     size_t n = dot && (!slash || dot > slash + 1) ? (size_t) (dot - q->directory) : strlen (q->directory);
     if (q->out) snprintf (path, size, "%s", q->out);
     else snprintf (path, size, "%.*s%s%.40s%s%.40s%s%s.png", (int) n, q->directory, q->sets ? "_sets" : q->field ? "_" : "", q->field && !q->sets ? q->field : "",
-                   q->component ? "-" : "", q->component ? q->component : "", q->style.view ? "_" : "", q->style.view ? q->look : "");
+                   q->component ? "." : "", q->component ? q->component : "", q->style.view ? "_" : "", q->style.view ? q->look : "");
 }
 
 static pg_status draw (const plot_request *q, const fem *f)

@@ -43,7 +43,11 @@ expect "run --quiet is quiet"                  0 '' '' run plate.yaml -o "$work/
 expect "a run ends where a wrong scene does"  65 '' 'unknown key' run wrong/unknown_key.yaml -o "$work/none"
 [ ! -e "$work/none" ]; verdict "a wrong scene leaves no folder" $?
 
-expect "plot draws a field"                    0 'stress-yy.png' '' plot "$out" --field stress --component yy
+expect "plot draws a field"                    0 '/stress.yy.png$' '' plot "$out" --field stress --component yy
+expect "plot names fields as output.pictures"  0 '/stress.yy.png$' '' plot "$out" --field stress.yy
+expect "plot: two parts of one field"         64 '' 'which part' plot "$out" --field stress.yy --component xx
+expect "a run calls its picture alike"         0 '' '' run plate.yaml --quiet -o "$work/quiet" --threads 1 --set 'failure={criterion: none}' --set output.pictures='[stress.yy]'
+[ -s "$work/quiet/stress.yy.png" ]; verdict "stress.yy.png by a run" $?
 expect "plot takes result.e for its folder"     0 'damage.png' '' plot "$out/result.e"
 expect "plot draws SVG"                        0 'a.svg' '' plot "$out" --out "$work/a.svg"
 grep -q '<svg' "$work/a.svg"; verdict "SVG is SVG" $?
@@ -129,7 +133,7 @@ cat > "$work/two.frd" <<'END'
 END
 expect "plot draws a mesh"                     0 'two.png' '' plot "$work/two.msh" --unit mm
 expect "plot draws the sets of a mesh"         0 'two_sets.png' '' plot "$work/two.msh" --sets
-expect "plot draws a field of a mesh"          0 'two_displacement-y.png' '' plot "$work/two.frd" --field displacement --component y --magnify 1
+expect "plot draws a field of a mesh"          0 'two_displacement.y.png' '' plot "$work/two.frd" --field displacement --component y --magnify 1
 expect "plot names the nearest field of a mesh" 64 '' 'did you mean displacement' plot "$work/two.frd" --field displacment
 expect "plot: components of a field"          64 '' 'one of x|y, magnitude' plot "$work/two.frd" --field displacement --component z
 expect "plot: a mesh without fields"          70 '' 'holds no fields' plot "$work/two.msh" --field stress

@@ -72,4 +72,11 @@ expect "a step that is not there: which are"    64 '' 'has no step 99; its steps
 "$perigal" help friction_angle > "$work/out" 2> "$work/err"
 [ "$(grep -c '^  unit     rad' "$work/out")" -eq 2 ] && [ "$(grep -c '^  range    ' "$work/out")" -eq 2 ] && [ "$(grep -c '^  default  ' "$work/out")" -eq 2 ]
 verdict "help KEY tells all of a key, in each of its places" $?
+
+# ---- a value that lost its quotes --------------------------------------------------------------------------------------------
+expect "--set KEY=VALUE without quotes"         64 '' "'mm' is no file: a value with blanks needs quotes: --set 'spacing=4 mm'" check plate.yaml --set spacing=4 mm
+expect "the same before the scene"              64 '' "quotes: --set 'spacing=4 mm'" check --set spacing=4 mm plate.yaml
+expect "a map without quotes"                   64 '' "quotes: --set 'failure={criterion: none}'" run plate.yaml -s failure={criterion: none} -o "$work/none"
+expect "converge says it too"                   64 '' "quotes: --set 'spacing=4 mm'" converge plate.yaml --set spacing=4 mm
+expect "a scene that is not there is no value"  65 '' '^nowhere.yaml: cannot be opened' check --set spacing=4 nowhere.yaml
 finish
