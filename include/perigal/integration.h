@@ -65,6 +65,34 @@ void      pg_consistency_free   (pg_consistency **c);
 pg_status pg_consistency_apply  (const pg_consistency *c, const pg_rows *points, pg_rows *wide, const unsigned char *whole,
                                  size_t count, const size_t *list, int threads);
 
+/* ---- patches of the dilatation --------------------------------------------------------------------------------------------
+ * Near Poisson's ratio 1/2 a condition on the dilatation at every evaluation point leaves the displacement too little freedom (locking). The
+ * dilatation that carries the pressure is then that of patches of about 2 cells, or 3 points of nodal integration, per axis: of one material,
+ * disjoint, none of less than 0.4 of that volume where there is a neighbour to join. */
+typedef struct {
+    size_t  n;                                         /* patches                                                        */
+    size_t *first, *point;                             /* points of patch c, ascending: point[first[c]..first[c + 1])    */
+    long   *of;                                        /* patch of an evaluation point; -1: none (its material has no lambda) */
+    pg_family family;                                  /* nodes that the points of a patch see                           */
+    double *full;                                      /* volume of so many cells at the patch, m^3 (fewer where the body is thinner)  (n) */
+    double *lambda;                                    /* of every material, Pa; 0: dilatation at the points             */
+} pg_patches;
+typedef struct {                                       /* all borrowed                                                   */
+    const pg_rows    *points;                          /* of evaluation: places, weights, cells                          */
+    const pg_family  *family;                          /* nodes that they see                                            */
+    const pg_cloud   *cloud;
+    const pg_cells   *cells;                           /* NULL: the points are the nodes                                 */
+    const pg_lattice *lattice;                         /* NULL: none                                                     */
+    int               centred;                         /* the nodes lie in the middle of the cells of the lattice        */
+    const int        *block;                           /* material of every point                                        */
+    const double     *spacing;                         /* local, of every point, m; NULL: the cloud's                    */
+    int               across;                          /* cells or points of a patch per axis                            */
+    size_t            materials;
+    const double     *lambda;                          /* of every material, Pa; 0: not projected                        */
+} pg_patch_source;
+pg_status pg_patches_create (pg_patches **out, const pg_patch_source *source);
+void      pg_patches_free   (pg_patches **patches);
+
 /* Silling 2017 stabilisation of nodally integrated NOSB (theory D3a): adds S_ab I to the blocks (dim x dim each) of local nodes
  * b = 0..m-1 against a, the energy of point p being (1/2) sum_ab S_ab d_a.d_b; modulus = Gs mu (Pa), volume of the point (m^3). */
 void pg_silling_add (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t a, size_t m, double modulus, double volume, double *blocks);

@@ -18,6 +18,8 @@ typedef struct {
     double  parameter[8];                              /* of the type: elastic {E Pa, nu}                                */
     double  D[36];                                     /* tangent, nv x nv row-major, Pa                                 */
     double  out_of_plane[6];                           /* sigma_zz = out_of_plane . strain (plane strain), Pa            */
+    double  lambda;                                    /* Pa: stress = lambda (trace of strain) 1 + what the rest of D and of out_of_plane makes of the
+                                                          strain, the rest positive definite; 0: no such part is told (plane stress, a bar) */
     double  modulus;                                   /* Young's modulus, the scale of stiffness, Pa                    */
 } pg_material;
 

@@ -51,6 +51,7 @@ typedef struct {
     pg_approx     approx;
     const pg_integration_type *integration;
     pg_consistency *consistency;                       /* integration: consistent; else NULL                             */
+    pg_patches *patches;                               /* dilatation of patches where Poisson's ratio is near 1/2; NULL: at the points everywhere */
     char     force[32];
     int      direct;                                   /* 1: bonds between points carry the force themselves (bond, fcbm, lps, later gmpd):
                                                           rows[PG_NODES] come from `sums` without the own point, PG_POINTS and PG_FACETS are empty */
@@ -125,6 +126,7 @@ typedef struct {
     double bonds[PG_BOND_SETS], dofs;
     double slaves, eliminated;                         /* essential: transformation: unknowns, entries of its matrices   */
     double summed;                                     /* consistent integration: what its points and faces see; else 0  */
+    double patched;                                    /* nodes of all patches of the dilatation, once the problem is built  */
     double pairs;                                      /* nodes I <= J that share a point of evaluation                  */
     double edge[3], width;                             /* nodes along the body, of a separator (nested dissection)       */
     double fields;                                     /* of result.e                                                    */

@@ -61,11 +61,13 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
     pg_status status = PG_OK;
     pg_sparse G = { 0 };
     pg_linear_info info;
-    const pg_family *seen[2] = { p->consistency ? &p->consistency->cell_family : &p->rows[f->nodal ? PG_NODES : PG_POINTS].family, &p->rows[PG_FACETS].family };
-    size_t pinned = 0;
+    const pg_family *seen[3] = { p->consistency ? &p->consistency->cell_family : &p->rows[f->nodal ? PG_NODES : PG_POINTS].family, &p->rows[PG_FACETS].family };
+    size_t pinned = 0, n = 1;
     for (size_t l = 0; l < p->nload; l++) pinned += pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
+    n += pinned > 0;
+    if (p->patches) seen[n++] = &p->patches->family;
     if (p->direct) PG_TRY (pg_stiffness_graph_direct (&G, &p->rows[PG_NODES].family));
-    else PG_TRY (pg_stiffness_graph (&G, p->cloud.n, pinned ? 2 : 1, seen));
+    else PG_TRY (pg_stiffness_graph (&G, p->cloud.n, n, seen));
     PG_TRY (pg_linear_forecast (&G, p->dim + p->turns, &info));
     pg_forecast_analysed (f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
     if (f->slaves > 0) f->analysed = 0;                /* elimination joins the masters: a little more                   */

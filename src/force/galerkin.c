@@ -27,6 +27,7 @@ static void galerkin_free (void **self)
     galerkin_basis_free (g);
     galerkin_slices_free (g);
     galerkin_consistent_free (g);
+    galerkin_dilatation_free (g);
     pg_nearest_free (&g->near_point);
     pg_nearest_free (&g->near_node);
     pg_free (g->work), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide);
@@ -74,6 +75,7 @@ static pg_status galerkin_create (void **self, const pg_problem *problem)
     PG_ALLOC (g->work, g->n * (size_t) g->dim);
     PG_TRY (galerkin_boundary_create (g));
     PG_TRY (galerkin_basis_create (g));
+    PG_TRY (galerkin_dilatation_create (g));
     PG_TRY (galerkin_slices_create (g));
     PG_TRY (galerkin_operator_create (g));
 done:
@@ -103,7 +105,7 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
     if (changes) touched_points (g, changes, count);
     for (int s = 0; s < PG_BOND_SETS; s++) {
         size_t n = changes ? count[s] : g->rows[s].n;
-        int known = changes && g->fresh[s];
+        int known = changes && g->fresh[s] && !g->dilatation;  /* pressures of patches reach further             */
         g->fresh[s] = 0;
         if (n) PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &g->rows[s], state->alive + p->first_bond[s], n,
                                                  changes ? g->list[s] : NULL, g->threads));
@@ -112,6 +114,7 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
         g->fresh[s] = known;
         if (known) galerkin_measure_list (g, s, n, g->list[s]);
     }
+    if (g->dilatation) PG_TRY (galerkin_dilatation_update (g, state, !changes, changes ? count[g->bulk] : 0));
     if (!changes) g->all_stale = 1, g->revision++;
     else galerkin_mark_stale (g, count);
     if (g->has_T && (!changes || count[PG_NODES])) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress, blocks, energy),
  * galerkin_boundary.c (Nitsche, penalty, loads), galerkin_basis.c (elimination), galerkin_bonds.c (utilisation, overlap, census),
- * galerkin_consistent.c (rows of the sums), galerkin_field.c (fields, gauges), galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
+ * galerkin_dilatation.c, galerkin_dilatation_facet.c (near Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_field.c (fields, gauges), galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
 #include "perigal/force.h"
@@ -22,6 +22,7 @@ typedef struct {                                       /* one component's elimin
 } elimination;
 
 typedef struct galerkin_slices galerkin_slices;         /* galerkin_sum.c                                                 */
+typedef struct galerkin_dilatation galerkin_dilatation; /* galerkin_dilatation.c                                          */
 
 typedef struct {
     const pg_problem *problem;
@@ -37,6 +38,7 @@ typedef struct {
     double  *seen[PG_BOND_SETS];                       /* the displacement of the last measure (ndof)                    */
     int      fresh[PG_BOND_SETS];                      /* the measure is that of `seen` and of the rows as they are      */
     galerkin_slices *slices;
+    galerkin_dilatation *dilatation;                   /* NULL: at the points everywhere                                 */
     pg_stiffness *K;                                   /* NULL until someone asks for the matrix                         */
     pg_stiffness *M;                                   /* consistent mass, NULL until asked for                          */
     int      all_stale;                                /* rows of K to be gathered again: all, or those marked           */
@@ -81,6 +83,22 @@ void galerkin_consistent_free (galerkin *g);
 /* Brings `sums` in line with the rows of the bulk: all, or cells with the touched points of g->list[bulk], whose number grows to all points
  * of the cells that changed. */
 pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int all, size_t *count);
+/* dilatation: all but galerkin_plain, _traction and _spread only where g->dilatation is there */
+pg_status galerkin_dilatation_create (galerkin *g);
+void galerkin_dilatation_free (galerkin *g);
+/* After the rows of the bulk: all patches, or those with points of g->list[bulk][0..count); marks the rows of K that they enter. */
+pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int all, size_t count);
+/* The material without the part of D that the projected dilatation carries. */
+const pg_material *galerkin_plain (const galerkin *g, int set, size_t p);
+void galerkin_dilatation_measure (galerkin *g, int set, const double *d);   /* adds the pressure of the patches to stresses of the plain materials */
+void galerkin_dilatation_apply (galerkin *g, const double *x, double *y);   /* y += K x of the patches                    */
+void galerkin_dilatation_diagonal (galerkin *g, double *d);
+void galerkin_dilatation_blocks (void *context, size_t patch, size_t a, size_t m, double *out);
+const double *galerkin_dilatation_of_nodes (galerkin *g, const double *d);  /* pressure of the patches at every node, Pa (n) */
+const pg_family *galerkin_dilatation_facet_family (const galerkin *g);
+void galerkin_dilatation_facet_blocks (void *context, size_t q, size_t a, size_t m, double *out);
+double galerkin_dilatation_traction (const galerkin *g, size_t q, int k, const double *x);      /* component k of the patch's traction on facet point q */
+void galerkin_dilatation_spread (const galerkin *g, size_t q, int k, double share, double *f);  /* f += share times its derivative */
 /* bulk */
 void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out);
 void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out);        /* consistent: all points of a cell at once */

@@ -100,9 +100,12 @@ static void traction_row (int dim, int k, const double *n, double *Q)
     for (int c = 0; c < dim; c++) Q[dim == 3 ? voigt3[k][c] : dim == 2 ? voigt2[k][c] : 0] += n[c];
 }
 
+/* Where lambda outgrows E the term must outgrow the traction that lambda makes. */
 static double beta (const galerkin *g, size_t q)
 {
-    return g->problem->nitsche * galerkin_material (g, PG_FACETS, q)->modulus / pg_problem_spacing (g->problem, PG_FACETS, q);
+    const pg_material *m = galerkin_material (g, PG_FACETS, q);
+    int projected = g->problem->patches && g->problem->patches->lambda[g->material[PG_FACETS][q]] > 0;
+    return g->problem->nitsche * (projected ? m->D[0] : m->modulus) / pg_problem_spacing (g->problem, PG_FACETS, q);
 }
 
 static const double *normal (const galerkin *g, size_t q)
@@ -114,7 +117,7 @@ static const double *normal (const galerkin *g, size_t q)
 static void traction_of_strain (const galerkin *g, size_t q, int k, double *QD)
 {
     double Q[6];
-    const double *D = galerkin_material (g, PG_FACETS, q)->D;
+    const double *D = galerkin_plain (g, PG_FACETS, q)->D;
     traction_row (g->dim, k, normal (g, q), Q);
     for (int v = 0; v < g->nv; v++) {
         QD[v] = 0;
@@ -262,7 +265,8 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
             u += r->N[e] * d[k];
             for (size_t c = 0; c < dim; c++) t += part[c] * d[c];
         }
-        double force = w * (beta (g, p) * u - t);
+        double force = w * (beta (g, p) * u - t - galerkin_dilatation_traction (g, p, q->component, x));
+        galerkin_dilatation_spread (g, p, q->component, -w * u, y);
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
             double *to = y + (size_t) r->family.node[e] * dim;
             galerkin_B_transpose (g->dim, r->dN + e * dim, QD, part);
@@ -303,6 +307,7 @@ static void add_adjoint (galerkin *g, double t, double *f)
             galerkin_B_transpose (g->dim, r->dN + e * dim, QD, part);
             for (size_t c = 0; c < dim; c++) f[(size_t) r->family.node[e] * dim + c] += gap * part[c];
         }
+        galerkin_dilatation_spread (g, q->point, q->component, gap, f);
     }
 }
 

@@ -63,7 +63,7 @@ static void add_point (galerkin *g, size_t p, size_t a, size_t m, double *out)
 {
     const pg_rows *r = &g->sums;
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv, first = r->family.start[p];
-    const double *D = galerkin_material (g, g->bulk, p)->D, *qa = r->dN + (first + a) * dim;
+    const double *D = galerkin_plain (g, g->bulk, p)->D, *qa = r->dN + (first + a) * dim;
     double DB[18], unit[3];
     for (size_t v = 0; v < 3 && dim == 2; v++) {         /* the same, written out                                          */
         DB[v] = (D[3 * v] * qa[0] + D[3 * v + 2] * qa[1]) * r->weight[p];
@@ -142,6 +142,7 @@ void galerkin_bulk_force (galerkin *g, const double *d, double *f)
 void galerkin_bulk_apply (galerkin *g, const double *x, double *y)
 {
     galerkin_sum_tangent (g, x, y);
+    if (g->dilatation) galerkin_dilatation_apply (g, x, y);
     for (size_t p = 0; p < g->rows[g->bulk].n && g->problem->silling > 0; p++) silling_force (g, p, x, y);
 }
 

@@ -16,6 +16,7 @@ typedef struct {
     unsigned char *alive;
     size_t *at;                                        /* nearest evaluation point                                       */
     double *u, *stress;                                /* n x 3, n x 6 or NULL                                           */
+    const double *pressure;                            /* of patches, at the nodes (n), Pa; NULL: none                   */
 } sampling;
 
 static int cut (const pg_problem *p, const double *x, const double *y)
@@ -131,6 +132,18 @@ void pg_stress_of_gradient (const pg_material *m, int dim, const double *H, doub
     if (dim == 2) stress[1] = s[1], stress[2] = zz, stress[3] = s[2];
 }
 
+/* The pressure of the patches, between the nodes of the point's material by their shape functions. */
+static void add_pressure (const sampling *s, const pg_rows *r, size_t at, size_t point, double *stress)
+{
+    const galerkin *g = s->g;
+    double sum = 0, share = 0;
+    for (size_t e = r->family.start[at]; e < r->family.start[at + 1]; e++) {
+        size_t j = (size_t) r->family.node[e];
+        if (g->material[PG_NODES][j] == g->material[g->bulk][point]) sum += r->N[e] * s->pressure[j], share += r->N[e];
+    }
+    for (int k = 0; k < 3 && share > 0.1; k++) stress[k] += sum / share;
+}
+
 static void evaluate (void *context, size_t first, size_t last, int thread)
 {
     const sampling *s = context;
@@ -141,13 +154,16 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
     for (size_t p = first; p < last; p++) {
         size_t q = s->at[p];
         double *u = s->u + 3*p, H[9];
-        if (s->rows.grade[p] <= bulk->grade[q]) gradient (s, &s->rows, p, u, H);
+        int whole = s->rows.grade[p] <= bulk->grade[q];
+        if (whole) gradient (s, &s->rows, p, u, H);
         else {
             gradient (s, bulk, q, u, H);
             for (size_t c = 0; c < dim; c++)
                 for (size_t k = 0; k < dim; k++) u[c] += H[c*dim + k] * (s->rows.x[p*dim + k] - bulk->x[q*dim + k]);
         }
-        if (s->stress) pg_stress_of_gradient (galerkin_material (g, g->bulk, q), g->dim, H, s->stress + 6*p);
+        if (!s->stress) continue;
+        pg_stress_of_gradient (galerkin_plain (g, g->bulk, q), g->dim, H, s->stress + 6*p);
+        if (s->pressure) add_pressure (s, whole ? &s->rows : bulk, whole ? p : q, q, s->stress + 6*p);
     }
 }
 
@@ -192,6 +208,7 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
     if (!g->near_node) PG_TRY (pg_nearest_create (&g->near_node, g->dim, g->n, g->problem->cloud.x));
     PG_ALLOC (s.at, CHUNK);
     PG_ALLOC (own, CHUNK);
+    if (g->dilatation && stress) s.pressure = galerkin_dilatation_of_nodes (g, d);
     for (size_t first = 0; first < n; first += CHUNK) {
         s.u = u + 3 * first, s.stress = stress ? stress + 6 * first : NULL;
         PG_TRY (sample_chunk (&s, n - first < CHUNK ? n - first : CHUNK, x + first * (size_t) g->dim, own));

@@ -133,7 +133,7 @@ static void measure_points (void *context, size_t first, size_t last, int thread
         size_t p = m->list ? m->list[i] : i;
         double *e = g->strain[m->set] + p * nv;
         if (dim < 3) strain_flat (g->dim, m->rows, p, m->x, g->u[m->set] + p * dim, e);
-        const pg_material *mat = galerkin_material (g, m->set, p);
+        const pg_material *mat = galerkin_plain (g, m->set, p);
         mat->type->stress (mat, 1, e, g->stress[m->set] + p * nv, g->zz[m->set] + p);
     }
 }
@@ -154,6 +154,7 @@ void galerkin_measure (galerkin *g, int set, const double *d)
     memcpy (g->seen[set], d, bytes);
     measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], widened (g, d), NULL };
     pg_parallel (g->threads, g->rows[set].n, measure_points, &m);
+    if (g->dilatation) galerkin_dilatation_measure (g, set, d);
     g->fresh[set] = 1;
 }
 
@@ -183,7 +184,7 @@ WIDE static void sum_solid (const summing *m, size_t first, size_t last, double 
         const double *s = g->stress[g->bulk] + 6 * p;
         if (m->x) {
             strain_solid (r, p, m->x, NULL, e);
-            tangent (galerkin_material (g, g->bulk, p)->D, e, own);
+            tangent (galerkin_plain (g, g->bulk, p)->D, e, own);
             s = own;
         }
         force_solid (r, p, s, sum, low);
@@ -197,7 +198,7 @@ static void sum_flat (const summing *m, size_t first, size_t last, double *sum, 
     size_t nv = (size_t) g->nv;
     double e[3], own[3];
     for (size_t p = first; p < last; p++) {
-        const double *s = g->stress[g->bulk] + nv * p, *D = galerkin_material (g, g->bulk, p)->D;
+        const double *s = g->stress[g->bulk] + nv * p, *D = galerkin_plain (g, g->bulk, p)->D;
         if (m->x) {
             strain_flat (g->dim, r, p, m->x, NULL, e);
             for (size_t v = 0; v < nv; v++) {

@@ -37,6 +37,7 @@ static pg_status read (pg_material *m, const pg_scene *scene)
     m->parameter[E_YOUNG] = m->modulus = E;
     m->parameter[POISSON] = nu;
     pg_elastic_tangent (m->mode, E, nu, m->D);
+    if (m->mode == PG_PLANE_STRAIN || m->mode == PG_SOLID) m->lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
     if (m->mode == PG_PLANE_STRAIN) m->out_of_plane[0] = m->out_of_plane[1] = E * nu / ((1 + nu) * (1 - 2 * nu));
     return PG_OK;
 }

@@ -203,6 +203,7 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
     for (int s = 0; s < PG_BOND_SETS; s++) p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
     PG_TRY (measure_spacing (p));
     PG_TRY (pg_blocks_build (p, scene));
+    PG_TRY (pg_dilatation_build (p, scene));
     PG_TRY (make_exempt (p, scene));
     for (size_t i = 0; i < p->cloud.n; i++)
         for (size_t c = 0; c < p->cracks.n; c++)

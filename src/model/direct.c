@@ -98,7 +98,7 @@ void pg_direct_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, con
 /* Which force, forces that are not galerkin, or forces with dilatations a key of method is for */
 static const struct { const char *key, *force; } uses[] = {
     { "approximation", "galerkin" }, { "basis", "galerkin" }, { "support", "galerkin" }, { "weights", "galerkin" }, { "degenerate", "galerkin" },
-    { "integration", "galerkin" }, { "gauss_points", "galerkin" }, { "stabilization", "galerkin" }, { "stabilization_factor", "galerkin" },
+    { "integration", "galerkin" }, { "gauss_points", "galerkin" }, { "dilatation", "galerkin" }, { "stabilization", "galerkin" }, { "stabilization_factor", "galerkin" },
     { "essential", "galerkin" }, { "nitsche_factor", "galerkin" }, { "penalty_factor", "galerkin" },
     { "evaluation", "direct" }, { "partial_volume", "direct" }, { "calibrate", "direct" }, { "surface_correction", "direct" }, { "stretch", "direct" },
     { "weighted_volume", "state" }, { "beam", "gmpd" }, { "shear_parameter", "gmpd" }, { "cm_ratio", "gmpd" }, { "volumetric", "gmpd" }, { "bond_poisson", "gmpd" },

@@ -82,6 +82,7 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows                        */
     b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;                  /* galerkin      */
     b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;                                        /* pg_consistency                 */
+    b[PG_BYTES_SHAPES] += (4 + 8 * d * (d + 1)) * f->patched;                              /* galerkin_dilatation            */
     if (f->direct) b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? (f->turns ? 25 + 8 * d : 7) : 0.25) * all + (100 + 16 * f->turns) * n + (factors ? 0 : 8 * f->dofs);       /* pg_sweep, bond */
     if (f->matrixless && f->turns) b[PG_BYTES_SHAPES] += (f->listed || f->by_list ? 9 : 0.25) * all + (120 + 40 * d) * n;         /* dilatations     */
     b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;    /* states; breaker; factored      */
@@ -151,6 +152,7 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
     f->matrixless = p->sums && p->sums->rule.state;
     f->direct = p->direct, f->listed = p->sums && p->sums->stencil.n == 0, f->by_list = p->sums && summed_by_list (p), f->turns = p->turns;
     f->summed = p->consistency ? (double) (p->consistency->family.start[p->consistency->family.n] + p->consistency->face.family.start[p->consistency->face.n]) : 0;
+    f->patched = p->patches ? (double) p->patches->family.start[p->patches->n] : 0;
     f->horizon = p->approx.horizon, f->spacing = p->cloud.h;
     f->counted = 1;
     forecast_factor (f);

@@ -48,6 +48,9 @@ static const pg_key keys[] = {
     { "method.gauss_points", PG_INTEGER, NULL, "[1, 5]", "", NULL, NULL, NULL,
       "Gauss points per direction of a background cell; default 2 for the linear basis, 3 for the quadratic one (with 2 it converges slowly); "
       "2 more in a mesh with points in the middle of edges. Triangles and tetrahedra take the rule of the same degree." },
+    { "method.dilatation", PG_NAME, NULL, NULL, "auto", "auto|pointwise|projected", NULL, NULL,
+      "The dilatation that carries the pressure, against locking near Poisson's ratio 1/2 (plane strain, 3D): pointwise: at every evaluation point; projected: "
+      "of patches of about 2 x 2 (x 2) cells, linear in each; auto: projected for materials with a Poisson's ratio of 0.45 or more." },
     { "method.stabilization", PG_NAME, NULL, NULL, "auto", "auto|none|silling", NULL, NULL,
       "Against zero-energy modes of nodal integration; auto: silling for nosb with nodal integration, else none." },
     { "method.stabilization_factor", PG_NUMBER, "1", "(0, inf)", "0.1", NULL, NULL, NULL, "Strength Gs of the stabilisation, 0.05 to 1." },

@@ -29,6 +29,8 @@ void      pg_direct_rule  (pg_sum_rule *out, const pg_scene *scene, pg_mode mode
 int       pg_bonds_nearest (const pg_problem *problem, int set, size_t point);
 /* block of every point, once the rows are there. */
 pg_status pg_blocks_build (pg_problem *problem, const pg_scene *scene);
+/* method.dilatation: patches for the materials that need them; notes and warnings for those that have none. */
+pg_status pg_dilatation_build (pg_problem *problem, const pg_scene *scene);
 /* alive = 0 where a bond meets a pre-crack. */
 void      pg_bonds_cut   (const pg_problem *problem, unsigned char *alive);
 #endif

@@ -219,6 +219,7 @@ void pg_problem_free (pg_problem **problem)
     if (!p) return;
     for (int s = 0; s < PG_BOND_SETS; s++) pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]);
     pg_consistency_free (&p->consistency);
+    pg_patches_free (&p->patches);
     pg_sums_free (&p->sums);
     pg_loads_clear (p), pg_initial_clear (p);
     pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->material), pg_free (p->criterion);

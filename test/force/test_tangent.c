@@ -29,8 +29,13 @@ static const struct { const char *method; int transformation; } methods[] = {
     { "method: {approximation: pddo, integration: nodal, horizon: 2.5 spacing}\n", 0 },
     { "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, kernel: constant}\n", 1 },
     { "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty, stabilization: silling}\n", 0 },
+    { "method: {approximation: rkpm, integration: gauss, essential: nitsche, dilatation: projected}\n", 0 },
+    { "method: {approximation: rkpm, basis: quadratic, horizon: 2.6 spacing, integration: consistent, dilatation: projected}\n", 0 },
+    { "method: {approximation: rkpm, integration: gauss, essential: transformation, dilatation: projected}\n", 1 },
+    { "method: {approximation: pddo, integration: nodal, horizon: 2.5 spacing, dilatation: projected}\n", 0 },
+    { "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty, stabilization: silling, dilatation: projected}\n", 0 },
 };
-enum { BODIES = 3, METHODS = 9 };
+enum { BODIES = 3, METHODS = 14 };
 
 static run body_of (int body, int method) { return scene_of (1, "%s%s", bodies[body], methods[method].method); }
 

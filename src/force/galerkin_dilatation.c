@@ -1,0 +1,440 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The dilatation that carries the pressure near Poisson's ratio 1/2: stress = lambda P (div u) 1 + (D - lambda 1 1') strain, P the projection, by the
+ * weights of the evaluation points, on polynomials of a patch (integration.h): 1 and x, y (, z), or 1 alone where the patch is small. With psi_m
+ * orthonormal, sum_p w_p psi_m (p) psi_n (p) = delta_mn, and g_m = sum_p w_p psi_m (p) grad N (p), the patch adds (lambda / 2) sum_m (g_m . d)^2 to the
+ * energy: K stays symmetric, and what it loses against pointwise is positive. Linear displacements have constant dilatation: nothing changes
+ * for them. Where bonds are dead a patch falls apart into the parts that live bonds of neighbours still join, each with polynomials of its own. */
+#include "galerkin_dilatation.h"
+#include <math.h>
+#include <string.h>
+
+static const double enough = 0.7;                      /* of the full volume: linear, else constant                      */
+static const double nearby = 1.25;                     /* spacings: bonds that join the points of a patch                */
+
+typedef galerkin_part part;
+
+/* ---- polynomials ------------------------------------------------------------------------------------------------------ */
+/* psi of a part at x (terms) */
+static void polynomials (const part *a, int dim, const double *x, double *psi)
+{
+    psi[0] = 1;
+    for (int k = 0; k < a->terms - 1; k++) psi[k + 1] = (x[k] - a->centre[k]) / a->size;
+    (void) dim;
+    for (int i = 0; i < a->terms; i++) {               /* L^-1 q                                                         */
+        for (int j = 0; j < i; j++) psi[i] -= a->L[i * a->terms + j] * psi[j];
+        psi[i] /= a->L[i * a->terms + i];
+    }
+}
+
+static double weight (const galerkin *g, size_t p) { return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->sums.weight[p]; }
+
+/* Of the points of patch c that belong to part k. */
+static void measure_part (const galerkin *g, size_t c, int k, part *a, double *volume)
+{
+    const galerkin_dilatation *d = g->dilatation;
+    const pg_patches *q = g->problem->patches;
+    size_t dim = (size_t) g->dim;
+    *volume = 0, a->size = 0;
+    memset (a->centre, 0, sizeof a->centre);
+    for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
+        size_t p = q->point[i];
+        if (d->part_of[p] != k) continue;
+        *volume += weight (g, p);
+        for (size_t m = 0; m < dim; m++) a->centre[m] += weight (g, p) * g->sums.x[p * dim + m];
+    }
+    for (size_t m = 0; m < dim; m++) a->centre[m] /= *volume;
+    for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
+        size_t p = q->point[i];
+        if (d->part_of[p] != k) continue;
+        for (size_t m = 0; m < dim; m++) a->size = fmax (a->size, fabs (g->sums.x[p * dim + m] - a->centre[m]));
+    }
+    if (!(a->size > 0)) a->size = 1;                   /* one point: constant                                            */
+}
+
+/* As many polynomials as the part bears. */
+static void find_polynomials (const galerkin *g, size_t c, int k, part *a)
+{
+    const galerkin_dilatation *d = g->dilatation;
+    const pg_patches *q = g->problem->patches;
+    size_t dim = (size_t) g->dim;
+    double volume, z[4];
+    measure_part (g, c, k, a, &volume);
+    a->terms = volume >= enough * q->full[c] ? g->dim + 1 : 1;
+    for (;; a->terms = 1) {
+        int n = a->terms;
+        memset (a->L, 0, sizeof a->L);
+        for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
+            size_t p = q->point[i];
+            if (d->part_of[p] != k) continue;
+            z[0] = 1;
+            for (size_t m = 0; m < dim; m++) z[m + 1] = (g->sums.x[p * dim + m] - a->centre[m]) / a->size;
+            for (int r = 0; r < n; r++) for (int s = 0; s <= r; s++) a->L[r * n + s] += weight (g, p) / volume * z[r] * z[s];
+        }
+        if (pg_dense_cholesky (n, a->L, 1e-3) == 0 || n == 1) break;
+    }
+    for (int r = 0; r < a->terms * a->terms; r++) a->L[r] *= sqrt (volume);
+}
+
+/* g_m of a part, on the nodes of its patch */
+static void sum_rows (const galerkin *g, size_t c, int k, part *a)
+{
+    const galerkin_dilatation *d = g->dilatation;
+    const pg_patches *q = g->problem->patches;
+    const pg_rows *r = &g->sums;
+    size_t dim = (size_t) g->dim, first = q->family.start[c], m = q->family.start[c + 1] - first;
+    const int *node = q->family.node + first;
+    double psi[4];
+    memset (a->g, 0, (size_t) a->terms * m * dim * sizeof *a->g);
+    for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
+        size_t p = q->point[i], at = 0;
+        if (d->part_of[p] != k) continue;
+        polynomials (a, g->dim, r->x + p * dim, psi);
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++, at++) {
+            while (node[at] != r->family.node[e]) at++;
+            for (int t = 0; t < a->terms; t++)
+                for (size_t s = 0; s < dim; s++) a->g[((size_t) t * m + at) * dim + s] += weight (g, p) * psi[t] * r->dN[e * dim + s];
+        }
+    }
+}
+
+/* ---- parts ------------------------------------------------------------------------------------------------------------ */
+static int root (int *parent, int i)
+{
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+static int whole (const galerkin *g, const pg_state *state, size_t c)
+{
+    const pg_patches *q = g->problem->patches;
+    const size_t *start = g->rows[g->bulk].family.start;
+    const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
+    for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
+        size_t p = q->point[i];
+        if (g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD || memchr (alive + start[p], 0, start[p + 1] - start[p])) return 0;
+    }
+    return 1;
+}
+
+/* Does the live bond e join its point with those around its node? The short ones do, and the shortest of all. */
+static double length_of (const galerkin *g, size_t p, size_t e)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    size_t dim = (size_t) g->dim, j = (size_t) r->family.node[e];
+    double s = 0;
+    for (size_t k = 0; k < dim; k++) s += pow (g->problem->cloud.x[j * dim + k] - r->x[p * dim + k], 2);
+    return sqrt (s);
+}
+
+static int stamped (galerkin_dilatation *d, int node, int first)
+{
+    if (d->stamp[node] < 0) d->stamp[node] = first;
+    return d->stamp[node];
+}
+
+/* parent: of the points of the patch, by their place in it */
+static void join (galerkin *g, const pg_state *state, size_t c, int *parent)
+{
+    galerkin_dilatation *d = g->dilatation;
+    const pg_patches *q = g->problem->patches;
+    const pg_rows *r = &g->rows[g->bulk];
+    const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
+    size_t n = q->first[c + 1] - q->first[c];
+    for (size_t e = q->family.start[c]; e < q->family.start[c + 1]; e++) d->stamp[q->family.node[e]] = -1;
+    for (size_t i = 0; i < n; i++) parent[i] = (int) i;
+    for (size_t i = 0; i < n; i++) {
+        size_t p = q->point[q->first[c] + i];
+        double reach = nearby * pg_problem_spacing (g->problem, g->bulk, p), shortest = INFINITY;
+        if (r->grade[p] >= PG_GRADE_SHEPARD) continue;
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
+            if (alive[e] || r->family.node[e] == r->own[p]) shortest = fmin (shortest, length_of (g, p, e));
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
+            if (!alive[e] && r->family.node[e] != r->own[p]) continue;
+            if (length_of (g, p, e) > fmax (reach, shortest * (1 + 1e-6))) continue;
+            parent[root (parent, stamped (d, r->family.node[e], (int) i))] = root (parent, (int) i);
+        }
+    }
+}
+
+/* Parts of patch c, numbered in the order of their first points; -1: a point that carries no stress. */
+static pg_status divide (galerkin *g, const pg_state *state, size_t c, int *count)
+{
+    pg_status status = PG_OK;
+    galerkin_dilatation *d = g->dilatation;
+    const pg_patches *q = g->problem->patches;
+    size_t n = q->first[c + 1] - q->first[c];
+    int *parent = NULL, *name = NULL;
+    *count = 1;
+    for (size_t i = 0; i < n; i++) d->part_of[q->point[q->first[c] + i]] = 0;
+    if (whole (g, state, c)) return PG_OK;
+    PG_ALLOC (parent, n);
+    PG_ALLOC (name, n);
+    join (g, state, c, parent);
+    *count = 0;
+    for (size_t i = 0; i < n; i++) name[i] = -1;
+    for (size_t i = 0; i < n; i++) {
+        size_t p = q->point[q->first[c] + i];
+        int r = root (parent, (int) i);
+        d->part_of[p] = -1;
+        if (g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD) continue;
+        if (name[r] < 0) name[r] = (*count)++;
+        d->part_of[p] = name[r];
+    }
+done:
+    pg_free (parent), pg_free (name);
+    return status;
+}
+
+static pg_status rebuild (galerkin *g, const pg_state *state, size_t c)
+{
+    pg_status status = PG_OK;
+    galerkin_dilatation *d = g->dilatation;
+    const pg_family *f = &g->problem->patches->family;
+    galerkin_patch *patch = &d->patch[c];
+    size_t room = (size_t) (g->dim + 1) * (f->start[c + 1] - f->start[c]) * (size_t) g->dim;
+    int count;
+    PG_TRY (divide (g, state, c, &count));
+    if ((size_t) count > patch->room) {
+        PG_GROW (patch->part, patch->room, (size_t) count);
+        PG_GROW (patch->g, patch->room_g, patch->room * room);
+    }
+    patch->n = (size_t) count;
+    for (int k = 0; k < count; k++) {
+        patch->part[k].g = patch->g + (size_t) k * room;
+        find_polynomials (g, c, k, &patch->part[k]);
+        sum_rows (g, c, k, &patch->part[k]);
+    }
+done:
+    return status;
+}
+
+/* ---- life ------------------------------------------------------------------------------------------------------------- */
+pg_status galerkin_dilatation_create (galerkin *g)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = g->problem;
+    galerkin_dilatation *d = NULL;
+    if (!p->patches) return PG_OK;
+    size_t nv = (size_t) g->nv;
+    PG_ALLOC (d, 1);
+    g->dilatation = d;
+    PG_ALLOC (d->plain, p->nmaterial);
+    PG_ALLOC (d->patch, p->patches->n);
+    PG_ALLOC (d->part_of, g->rows[g->bulk].n);
+    PG_ALLOC (d->stamp, g->n);
+    PG_ALLOC (d->mark, p->patches->n);
+    PG_ALLOC (d->amount, g->n);
+    PG_ALLOC (d->share, g->n);
+    for (size_t m = 0; m < p->nmaterial; m++) {
+        pg_material *a = &d->plain[m];
+        *a = p->material[m];
+        for (size_t k = 0; k < (size_t) g->dim; k++) {
+            a->out_of_plane[k] -= g->dim == 2 ? p->patches->lambda[m] : 0;
+            for (size_t l = 0; l < (size_t) g->dim; l++) a->D[k * nv + l] -= p->patches->lambda[m];
+        }
+    }
+    PG_TRY (galerkin_dilatation_facets_create (g));
+done:
+    return status;
+}
+
+void galerkin_dilatation_free (galerkin *g)
+{
+    galerkin_dilatation *d = g->dilatation;
+    if (!d) return;
+    for (size_t c = 0; d->patch && c < g->problem->patches->n; c++) pg_free (d->patch[c].part), pg_free (d->patch[c].g);
+    galerkin_dilatation_facets_free (g);
+    pg_free (d->plain), pg_free (d->patch), pg_free (d->part_of), pg_free (d->stamp), pg_free (d->mark), pg_free (d->amount), pg_free (d->share);
+    pg_free (d);
+    g->dilatation = NULL;
+}
+
+const pg_material *galerkin_plain (const galerkin *g, int set, size_t p)
+{
+    return g->dilatation ? &g->dilatation->plain[g->material[set][p]] : galerkin_material (g, set, p);
+}
+
+pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int all, size_t count)
+{
+    pg_status status = PG_OK;
+    galerkin_dilatation *d = g->dilatation;
+    const pg_patches *q = g->problem->patches;
+    memset (d->mark, all, q->n);
+    for (size_t k = 0; !all && k < count; k++) {
+        long c = q->of[g->list[g->bulk][k]];
+        if (c >= 0) d->mark[c] = 1;
+    }
+    for (size_t c = 0; c < q->n; c++) {
+        if (!d->mark[c]) continue;
+        PG_TRY (rebuild (g, state, c));
+        for (size_t e = q->family.start[c]; !all && e < q->family.start[c + 1]; e++) g->stale[q->family.node[e]] = 1;
+    }
+    galerkin_dilatation_facets_update (g, all);
+done:
+    return status;
+}
+
+/* ---- what the patches add --------------------------------------------------------------------------------------------- */
+static double lambda_of (const galerkin *g, size_t c)
+{
+    const pg_patches *q = g->problem->patches;
+    return q->lambda[g->material[g->bulk][q->point[q->first[c]]]];
+}
+
+void galerkin_dilatation_blocks (void *context, size_t c, size_t a, size_t m, double *out)
+{
+    const galerkin *g = context;
+    const pg_family *f = &g->problem->patches->family;
+    const galerkin_patch *patch = &g->dilatation->patch[c];
+    size_t dim = (size_t) g->dim, n = f->start[c + 1] - f->start[c];
+    double lambda = lambda_of (g, c);
+    for (size_t k = 0; k < patch->n; k++)
+        for (int t = 0; t < patch->part[k].terms; t++) {
+            const double *row = patch->part[k].g + (size_t) t * n * dim;
+            for (size_t r = 0; r < dim; r++) {
+                double share = lambda * row[a * dim + r];
+                for (size_t b = 0; b < m && share != 0; b++)
+                    for (size_t s = 0; s < dim; s++) out[(b * dim + r) * dim + s] += share * row[b * dim + s];
+            }
+        }
+}
+
+/* g_m . x of every part of patches first .. last */
+typedef struct { galerkin *g; const double *x; } measuring;
+
+static void measure_patches (void *context, size_t first, size_t last, int thread)
+{
+    const measuring *m = context;
+    const pg_family *f = &m->g->problem->patches->family;
+    size_t dim = (size_t) m->g->dim;
+    (void) thread;
+    for (size_t c = first; c < last; c++) {
+        const int *node = f->node + f->start[c];
+        size_t n = f->start[c + 1] - f->start[c];
+        for (size_t k = 0; k < m->g->dilatation->patch[c].n; k++) {
+            part *a = &m->g->dilatation->patch[c].part[k];
+            const double *row = a->g;
+            for (int t = 0; t < a->terms; t++) {
+                double sum = 0;
+                for (size_t e = 0; e < n; e++, row += dim)
+                    for (size_t s = 0; s < dim; s++) sum += row[s] * m->x[(size_t) node[e] * dim + s];
+                a->amount[t] = sum;
+            }
+        }
+    }
+}
+
+static void measure_all (galerkin *g, const double *x)
+{
+    measuring m = { g, x };
+    pg_parallel (g->threads, g->problem->patches->n, measure_patches, &m);
+}
+
+void galerkin_dilatation_apply (galerkin *g, const double *x, double *y)
+{
+    const pg_family *f = &g->problem->patches->family;
+    size_t dim = (size_t) g->dim;
+    measure_all (g, x);
+    for (size_t c = 0; c < f->n; c++) {
+        const int *node = f->node + f->start[c];
+        size_t n = f->start[c + 1] - f->start[c];
+        double lambda = lambda_of (g, c);
+        for (size_t k = 0; k < g->dilatation->patch[c].n; k++) {
+            const part *a = &g->dilatation->patch[c].part[k];
+            const double *row = a->g;
+            for (int t = 0; t < a->terms; t++)
+                for (size_t e = 0; e < n; e++, row += dim)
+                    for (size_t s = 0; s < dim; s++) y[(size_t) node[e] * dim + s] += lambda * a->amount[t] * row[s];
+        }
+    }
+}
+
+void galerkin_dilatation_diagonal (galerkin *g, double *d)
+{
+    const pg_family *f = &g->problem->patches->family;
+    size_t dim = (size_t) g->dim;
+    for (size_t c = 0; c < f->n; c++) {
+        size_t n = f->start[c + 1] - f->start[c];
+        for (size_t k = 0; k < g->dilatation->patch[c].n; k++) {
+            const part *a = &g->dilatation->patch[c].part[k];
+            const double *row = a->g;
+            for (int t = 0; t < a->terms; t++)
+                for (size_t e = 0; e < n; e++, row += dim)
+                    for (size_t s = 0; s < dim; s++) d[(size_t) f->node[f->start[c] + e] * dim + s] += lambda_of (g, c) * row[s] * row[s];
+        }
+    }
+}
+
+/* ---- pressures -------------------------------------------------------------------------------------------------------- */
+/* lambda P (div u) at x, of the part of bulk point q; Pa */
+static double pressure_at (const galerkin *g, size_t q, const double *x)
+{
+    const galerkin_dilatation *d = g->dilatation;
+    long c = g->problem->patches->of[q];
+    double psi[4], sum = 0;
+    if (c < 0 || d->part_of[q] < 0) return 0;
+    const part *a = &d->patch[c].part[d->part_of[q]];
+    polynomials (a, g->dim, x, psi);
+    for (int t = 0; t < a->terms; t++) sum += psi[t] * a->amount[t];
+    return lambda_of (g, (size_t) c) * sum;
+}
+
+static void add_pressure (galerkin *g, int set, size_t p, double value)
+{
+    for (int k = 0; k < g->dim; k++) g->stress[set][p * (size_t) g->nv + (size_t) k] += value;
+    if (g->dim == 2) g->zz[set][p] += value;
+}
+
+/* Of nodes between points: mean of what the patches of the points that see them say there, by the influence of the live bonds. */
+static void node_pressures (galerkin *g, double *value, double *share)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    size_t dim = (size_t) g->dim;
+    memset (value, 0, g->n * sizeof *value);
+    memset (share, 0, g->n * sizeof *share);
+    for (size_t p = 0; p < r->n; p++) {
+        if (g->dilatation->part_of[p] < 0 || g->problem->patches->of[p] < 0) continue;
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
+            size_t j = (size_t) r->family.node[e];
+            double w = r->w[e] / g->problem->cloud.volume[j] * r->weight[p];
+            if (!(w > 0) || g->material[PG_NODES][j] != g->material[g->bulk][p]) continue;
+            value[j] += w * pressure_at (g, p, g->problem->cloud.x + j * dim), share[j] += w;
+        }
+    }
+    for (size_t j = 0; j < g->n; j++) value[j] = share[j] > 0 ? value[j] / share[j] : 0;
+}
+
+static void at_nodes (galerkin *g)
+{
+    galerkin_dilatation *d = g->dilatation;
+    if (g->bulk != PG_NODES) node_pressures (g, d->amount, d->share);
+    else for (size_t p = 0; p < g->n; p++) d->amount[p] = pressure_at (g, p, g->sums.x + p * (size_t) g->dim);
+}
+
+void galerkin_dilatation_measure (galerkin *g, int set, const double *d)
+{
+    galerkin_dilatation *q = g->dilatation;
+    size_t dim = (size_t) g->dim;
+    measure_all (g, d);
+    if (set == PG_NODES) {
+        at_nodes (g);
+        for (size_t p = 0; p < g->n; p++) add_pressure (g, set, p, q->amount[p]);
+    } else for (size_t p = 0; p < g->rows[set].n; p++) {
+        long home = set == PG_FACETS ? q->home[p] : (long) p;
+        if (home >= 0) add_pressure (g, set, p, pressure_at (g, (size_t) home, g->rows[set].x + p * dim));
+    }
+}
+
+const double *galerkin_dilatation_of_nodes (galerkin *g, const double *d)
+{
+    measure_all (g, d);
+    at_nodes (g);
+    return g->dilatation->amount;
+}
+
+void galerkin_dilatation_polynomials (const galerkin *g, size_t q, const double *x, const galerkin_part **a, double *psi)
+{
+    long c = g->problem->patches->of[q];
+    *a = c < 0 || g->dilatation->part_of[q] < 0 ? NULL : &g->dilatation->patch[c].part[g->dilatation->part_of[q]];
+    if (*a) polynomials (*a, g->dim, x, psi);
+}

@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Patches of the dilatation (see integration.h): which evaluation points share one. On a lattice so many cells (nodal integration: points) per axis,
+ * divided evenly between the ends of the body, so that a mirrored body has mirrored patches. Elsewhere every cell or point goes to the nearest of
+ * a set of roots that keep a distance of each other. What is left too small joins a neighbour. */
+#include "perigal/integration.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double too_small = 0.4;                   /* of the full volume: joins a neighbour                          */
+static const double apart = 0.875;                     /* least distance of two roots, in widths of a patch              */
+
+typedef struct {
+    const pg_patch_source *s;
+    size_t  n, units;                                  /* points; cells or nodes                                         */
+    int     dim;
+    double *centre;                                    /* of every unit, m                   (units x dim)               */
+    double *size;                                      /* volume of its points               (units)                     */
+    long   *group;                                     /* of every unit                      (units)                     */
+    size_t  groups;
+    double *volume, *middle, *full;                    /* of every group                                                 */
+    int    *material;                                  /* of every point                     (n)                         */
+    double  extent[3], body[3];                        /* of the units, a spacing more; the middle, m                    */
+} builder;
+
+static size_t unit_of (const builder *b, size_t p) { return b->s->points->cell[p] >= 0 ? (size_t) b->s->points->cell[p] : p; }
+
+static double spacing_at (const builder *b, size_t p) { return b->s->spacing ? b->s->spacing[p] : b->s->cloud->h; }
+
+/* ---- units ------------------------------------------------------------------------------------------------------------ */
+static pg_status measure_units (builder *b)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = b->s->points;
+    size_t dim = (size_t) b->dim;
+    b->units = b->s->cells ? b->s->cells->n : b->n;
+    PG_ALLOC (b->centre, b->units * dim);
+    PG_ALLOC (b->size, b->units);
+    PG_ALLOC (b->group, b->units);
+    for (size_t p = 0; p < b->n; p++) b->size[unit_of (b, p)] += r->weight[p];
+    for (size_t u = 0; u < b->units; u++) {
+        size_t first = b->s->cells ? b->s->cells->start[u] : u, last = b->s->cells ? b->s->cells->start[u + 1] : u + 1;
+        const double *x = b->s->cells ? b->s->cells->x : r->x;
+        for (size_t v = first; v < last; v++)
+            for (size_t k = 0; k < dim; k++) b->centre[u * dim + k] += x[v * dim + k] / (double) (last - first);
+    }
+    for (size_t k = 0; k < dim; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t u = 0; u < b->units; u++)
+            if (b->size[u] > 0) low = fmin (low, b->centre[u * dim + k]), high = fmax (high, b->centre[u * dim + k]);
+        b->extent[k] = high - low + b->s->cloud->h, b->body[k] = (low + high) / 2;
+    }
+done:
+    return status;
+}
+
+/* ---- lattices --------------------------------------------------------------------------------------------------------- */
+/* Group of index i of n, about `across` in each and at least two, mirror symmetric: an odd number of indices makes an odd number of groups. */
+static long group_of (long i, long n, long across)
+{
+    long mirrored = n - 1 - i, left = i < mirrored ? i : mirrored, groups = n / across < 1 ? 1 : n / across, at;
+    if (n % 2 && groups % 2 == 0) groups += n >= 2 * (groups + 1) ? 1 : -1;
+    at = (2 * left + 1) * groups / (2 * n);
+    return i <= mirrored ? at : groups - 1 - at;
+}
+
+static void index_of (const builder *b, size_t u, long *at)
+{
+    const pg_lattice *l = b->s->lattice;
+    double shift = b->s->cells || b->s->centred ? 0 : 0.5;
+    for (int k = 0; k < b->dim; k++)
+        at[k] = (long) floor ((b->centre[u * (size_t) b->dim + (size_t) k] - l->origin[k]) / l->step[k] + shift + 1e-9);
+}
+
+static void bin_units (builder *b)
+{
+    long low[3] = { 0 }, high[3] = { 0 }, at[3], groups[3] = { 1, 1, 1 };
+    int first = 1;
+    for (size_t u = 0; u < b->units; u++) {
+        if (!(b->size[u] > 0)) continue;
+        index_of (b, u, at);
+        for (int k = 0; k < b->dim; k++) {
+            low[k] = first || at[k] < low[k] ? at[k] : low[k];
+            high[k] = first || at[k] > high[k] ? at[k] : high[k];
+        }
+        first = 0;
+    }
+    b->groups = 1;
+    for (int k = 0; k < b->dim; k++) {
+        long n = high[k] - low[k] + 1;
+        groups[k] = group_of (n - 1, n, b->s->across) + 1;
+        b->groups *= (size_t) groups[k];
+    }
+    for (size_t u = 0; u < b->units; u++) {
+        b->group[u] = 0;
+        if (!(b->size[u] > 0)) continue;
+        index_of (b, u, at);
+        for (int k = b->dim - 1; k >= 0; k--) b->group[u] = b->group[u] * groups[k] + group_of (at[k] - low[k], high[k] - low[k] + 1, b->s->across);
+    }
+}
+
+/* ---- clouds and meshes ------------------------------------------------------------------------------------------------ */
+static double distance (const builder *b, size_t u, size_t v)
+{
+    double s = 0;
+    for (int k = 0; k < b->dim; k++) {
+        double d = b->centre[u * (size_t) b->dim + (size_t) k] - b->centre[v * (size_t) b->dim + (size_t) k];
+        s += d * d;
+    }
+    return sqrt (s);
+}
+
+/* Roots in the order of the units; every unit then goes to the nearest, among equals to the first. */
+static pg_status root_units (builder *b, const double *local, const pg_family *near)
+{
+    pg_status status = PG_OK;
+    long *root = NULL;
+    PG_ALLOC (root, b->units);
+    b->groups = 0;
+    for (size_t u = 0; u < b->units; u++) root[u] = -1;
+    for (size_t u = 0; u < b->units; u++) {
+        int covered = !(b->size[u] > 0);
+        for (size_t e = near->start[u]; e < near->start[u + 1] && !covered; e++) {
+            size_t v = (size_t) near->node[e];
+            covered = root[v] >= 0 && distance (b, u, v) < apart * b->s->across * fmin (local[u], local[v]);
+        }
+        if (!covered) root[u] = (long) b->groups++;
+    }
+    for (size_t u = 0; u < b->units; u++) {
+        double best = INFINITY;
+        b->group[u] = root[u] < 0 ? 0 : root[u];
+        for (size_t e = near->start[u]; e < near->start[u + 1] && root[u] < 0; e++) {
+            size_t v = (size_t) near->node[e];
+            double d = root[v] >= 0 ? distance (b, u, v) / local[v] : INFINITY;
+            if (d < best * (1 - 1e-6)) best = d, b->group[u] = root[v];
+        }
+    }
+done:
+    pg_free (root);
+    return status;
+}
+
+static pg_status group_by_roots (builder *b)
+{
+    pg_status status = PG_OK;
+    double *local = NULL, widest = 0;
+    pg_cloud centres = { .dim = b->dim, .n = b->units, .x = b->centre, .h = b->s->cloud->h };
+    pg_family near = { 0 };
+    PG_ALLOC (local, b->units);
+    for (size_t p = 0; p < b->n; p++) local[unit_of (b, p)] = fmax (local[unit_of (b, p)], spacing_at (b, p));
+    for (size_t u = 0; u < b->units; u++) widest = fmax (widest, local[u]);
+    PG_TRY (pg_family_build (&near, &centres, b->units, b->centre, 1.01 * apart * b->s->across * widest, PG_RADIAL, 1));
+    PG_TRY (root_units (b, local, &near));
+done:
+    pg_family_clear (&near);
+    pg_free (local);
+    return status;
+}
+
+/* ---- groups of one material ------------------------------------------------------------------------------------------- */
+/* Group of every point: that of its unit, parted by materials. */
+static pg_status measure_groups (builder *b, const long *group)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = b->s->points;
+    size_t dim = (size_t) b->dim;
+    pg_free (b->volume), pg_free (b->middle), pg_free (b->full);
+    b->volume = b->middle = b->full = NULL;
+    PG_ALLOC (b->volume, b->groups);
+    PG_ALLOC (b->middle, b->groups * dim);
+    PG_ALLOC (b->full, b->groups);
+    for (size_t p = 0; p < b->n; p++) {
+        if (group[p] < 0) continue;
+        size_t c = (size_t) group[p];
+        b->volume[c] += r->weight[p];
+        b->full[c] = fmax (b->full[c], spacing_at (b, p));
+        for (size_t k = 0; k < dim; k++) b->middle[c * dim + k] += r->weight[p] * r->x[p * dim + k];
+    }
+    for (size_t c = 0; c < b->groups; c++) {
+        double thick = dim == 3 ? 1 : b->s->cloud->thickness, h = b->full[c];
+        b->full[c] = thick;
+        for (size_t k = 0; k < dim; k++) {
+            b->full[c] *= fmin (b->s->across, b->extent[k] / b->s->cloud->h) * h;
+            if (b->volume[c] > 0) b->middle[c * dim + k] /= b->volume[c];
+        }
+    }
+done:
+    return status;
+}
+
+typedef struct { const builder *b; const int *material; size_t own; const long *tied; size_t ntied; } choice;
+
+static int unfit (void *context, const double *place, size_t c)
+{
+    const choice *h = context;
+    (void) place;
+    for (size_t k = 0; k < h->ntied; k++) if (h->tied[k] == (long) c) return 1;
+    return c == h->own || h->material[c] != h->material[h->own] || !(h->b->volume[c] > 0) || h->b->volume[c] < too_small * h->b->full[c];
+}
+
+enum { MOST_TIED = 8 };
+
+static double away (const builder *b, const double *x, const double *y)
+{
+    double s = 0;
+    for (int k = 0; k < b->dim; k++) s += (x[k] - y[k]) * (x[k] - y[k]);
+    return sqrt (s);
+}
+
+/* The nearest group that is large enough; among those equally near the one nearer to the middle of the body, then the first. */
+static long neighbour (const builder *b, const pg_nearest *grid, const int *material, size_t c)
+{
+    size_t dim = (size_t) b->dim;
+    const double *x = b->middle + c * dim;
+    long tied[MOST_TIED], best = -1;
+    choice h = { b, material, c, tied, 0 };
+    double least = INFINITY, first = INFINITY;
+    while (h.ntied < MOST_TIED) {
+        long d = pg_nearest_find (grid, x, unfit, &h);
+        if (d < 0) break;
+        const double *y = b->middle + (size_t) d * dim;
+        double r = away (b, x, y), m = away (b, y, b->body), eps = 1e-6 * b->s->cloud->h;
+        if (h.ntied && r > first + eps) break;
+        if (h.ntied == 0) first = r;
+        if (best < 0 || m < least - eps || (m <= least + eps && d < best)) best = d, least = m;
+        tied[h.ntied++] = d;
+    }
+    return best;
+}
+
+static pg_status join_small (builder *b, long *group)
+{
+    pg_status status = PG_OK;
+    pg_nearest *grid = NULL;
+    int *material = NULL;
+    long *to = NULL;
+    PG_ALLOC (material, b->groups);
+    PG_ALLOC (to, b->groups);
+    for (size_t p = 0; p < b->n; p++) if (group[p] >= 0) material[group[p]] = b->material[p];
+    PG_TRY (pg_nearest_create (&grid, b->dim, b->groups, b->middle));
+    for (size_t c = 0; c < b->groups; c++) {
+        to[c] = (long) c;
+        if (!(b->volume[c] > 0) || b->volume[c] >= too_small * b->full[c]) continue;
+        long other = neighbour (b, grid, material, c);
+        if (other >= 0) to[c] = other;
+    }
+    for (size_t p = 0; p < b->n; p++) if (group[p] >= 0) group[p] = to[group[p]];
+done:
+    pg_nearest_free (&grid);
+    pg_free (material), pg_free (to);
+    return status;
+}
+
+/* Numbers without gaps, in the order of the first points; groups of different materials apart. */
+static pg_status number (builder *b, long *group, size_t materials)
+{
+    pg_status status = PG_OK;
+    long *name = NULL;
+    size_t n = 0, all = b->groups * materials;
+    PG_ALLOC (name, all);
+    for (size_t c = 0; c < all; c++) name[c] = -1;
+    for (size_t p = 0; p < b->n; p++) {
+        if (group[p] < 0) continue;
+        long *to = &name[(size_t) group[p] * materials + (materials > 1 ? (size_t) b->material[p] : 0)];
+        if (*to < 0) *to = (long) n++;
+        group[p] = *to;
+    }
+    b->groups = n;
+done:
+    pg_free (name);
+    return status;
+}
+
+/* ---- result ----------------------------------------------------------------------------------------------------------- */
+static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
+
+static pg_status see (pg_patches *out, const pg_family *f, size_t nodes)
+{
+    pg_status status = PG_OK;
+    int *seen = NULL;
+    size_t cap = 0, n = 0;
+    PG_ALLOC (seen, nodes);
+    PG_ALLOC (out->family.start, out->n + 1);
+    out->family.n = out->n;
+    for (size_t c = 0; c < out->n; c++) {
+        for (size_t i = out->first[c]; i < out->first[c + 1]; i++)
+            for (size_t e = f->start[out->point[i]]; e < f->start[out->point[i] + 1]; e++) {
+                int j = f->node[e];
+                if (seen[j] == (int) c + 1) continue;
+                seen[j] = (int) c + 1;
+                PG_GROW (out->family.node, cap, n + 1);
+                out->family.node[n++] = j;
+            }
+        qsort (out->family.node + out->family.start[c], n - out->family.start[c], sizeof (int), ascending);
+        out->family.start[c + 1] = n;
+    }
+done:
+    pg_free (seen);
+    return status;
+}
+
+static pg_status collect (pg_patches *out, const builder *b, const long *group)
+{
+    pg_status status = PG_OK;
+    size_t *next = NULL;
+    out->n = b->groups;
+    PG_ALLOC (out->first, out->n + 1);
+    PG_ALLOC (out->of, b->n);
+    PG_ALLOC (out->point, b->n);
+    PG_ALLOC (out->full, out->n);
+    PG_ALLOC (next, out->n + 1);
+    for (size_t p = 0; p < b->n; p++) if (group[p] >= 0) out->first[group[p] + 1]++;
+    for (size_t c = 0; c < out->n; c++) out->first[c + 1] += out->first[c], next[c] = out->first[c], out->full[c] = b->full[c];
+    for (size_t p = 0; p < b->n; p++) {
+        out->of[p] = group[p];
+        if (group[p] >= 0) out->point[next[group[p]]++] = p;
+    }
+    PG_TRY (see (out, b->s->family, b->s->cloud->n));
+done:
+    pg_free (next);
+    return status;
+}
+
+pg_status pg_patches_create (pg_patches **out, const pg_patch_source *source)
+{
+    pg_status status = PG_OK;
+    builder b = { .s = source, .n = source->points->n, .dim = source->cloud->dim };
+    pg_patches *made = NULL;
+    long *group = NULL;
+    PG_ALLOC (made, 1);
+    PG_ALLOC (made->lambda, source->materials);
+    memcpy (made->lambda, source->lambda, source->materials * sizeof *made->lambda);
+    PG_ALLOC (b.material, b.n);
+    PG_ALLOC (group, b.n);
+    PG_TRY (measure_units (&b));
+    if (source->lattice) bin_units (&b);
+    else PG_TRY (group_by_roots (&b));
+    for (size_t p = 0; p < b.n; p++) {
+        b.material[p] = source->block[p];
+        group[p] = source->lambda[source->block[p]] > 0 ? b.group[unit_of (&b, p)] : -1;
+    }
+    PG_TRY (number (&b, group, source->materials));
+    PG_TRY (measure_groups (&b, group));
+    PG_TRY (join_small (&b, group));
+    PG_TRY (number (&b, group, 1));
+    PG_TRY (measure_groups (&b, group));
+    PG_TRY (collect (made, &b, group));
+    *out = made, made = NULL;
+done:
+    pg_patches_free (&made);
+    pg_free (group), pg_free (b.centre), pg_free (b.size), pg_free (b.group), pg_free (b.volume), pg_free (b.middle), pg_free (b.full), pg_free (b.material);
+    return status;
+}
+
+void pg_patches_free (pg_patches **patches)
+{
+    pg_patches *p = *patches;
+    if (!p) return;
+    pg_family_clear (&p->family);
+    pg_free (p->first), pg_free (p->point), pg_free (p->of), pg_free (p->full), pg_free (p->lambda);
+    pg_free (p);
+    *patches = NULL;
+}

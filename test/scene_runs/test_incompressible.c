@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Poisson's ratio near 1/2: with the dilatation of patches nothing locks and pressures do not oscillate; what was exact stays exact. */
+#include "run.h"
+
+/* ---- thick cylinder, plane strain (Lame): radii 1 and 2, pressure 1 within, E 1 ---------------------------------------------- */
+typedef struct { const char *integration, *basis, *essential; double horizon, spacing; } row;
+
+static run cylinder (const row *c, double nu, const char *dilatation, const char *approximation)
+{
+    return scene_of (1, "dimension: 2\nplane: strain\nthickness: 1 m\nbody:\n"
+                     "  - {name: outside, add: {disk: {center: [0, 0], radius: 2}}}\n  - {name: bore, subtract: {disk: {center: [0, 0], radius: 1}}}\n"
+                     "  - {name: axis_y, subtract: {box: {low: [-3, -3], high: [0, 3]}}}\n  - {name: axis_x, subtract: {box: {low: [-3, -3], high: [3, 0]}}}\n"
+                     "spacing: %g\nmaterials: {ring: {youngs_modulus: 1, poissons_ratio: %.10g}}\n"
+                     "sets: {bore: {boundary: bore}, axis_y: {boundary: axis_y}, axis_x: {boundary: axis_x}}\n"
+                     "method: {approximation: %s, integration: %s, basis: %s, essential: %s, horizon: %g spacing, dilatation: %s}\n"
+                     "boundary: [{set: bore, pressure: 1 Pa}, {set: axis_y, displacement: {x: 0}}, {set: axis_x, displacement: {y: 0}}]\n"
+                     "solver: {kind: static}\n", c->spacing, nu, approximation, c->integration, c->basis, c->essential, c->horizon, dilatation);
+}
+
+typedef struct { double u, stress, pressure; } errors;     /* L2 over L2; pressure: largest at a node over the largest stress, 5/3 */
+
+static errors lame_errors (const run *r, double nu)
+{
+    size_t dim = (size_t) r->problem->dim;
+    int nv;
+    double *u = field_of (r, NULL, "displacement", NULL), *s = field_of (r, NULL, "stress", &nv), du = 0, uu = 0, ds = 0, ss = 0;
+    errors e = { 0, 0, 0 };
+    for (size_t i = 0; i < r->problem->cloud.n; i++) {
+        const double *x = r->problem->cloud.x + i * dim, *t = s + i * (size_t) nv;
+        double V = r->problem->cloud.volume[i], r2 = x[0] * x[0] + x[1] * x[1], c2 = (x[0] * x[0] - x[1] * x[1]) / r2, s2 = 2 * x[0] * x[1] / r2;
+        double scale = (1 + nu) / 3 * ((1 - 2 * nu) + 4 / r2), xx = 1. / 3 - 4 / (3 * r2) * c2, yy = 1. / 3 + 4 / (3 * r2) * c2, xy = -4 / (3 * r2) * s2;
+        double ux = u[i * dim] - scale * x[0], uy = u[i * dim + 1] - scale * x[1], shear = t[dim] - xy;
+        du += V * (ux * ux + uy * uy), uu += V * scale * scale * r2;
+        ds += V * ((t[0] - xx) * (t[0] - xx) + (t[1] - yy) * (t[1] - yy) + 2 * shear * shear);
+        ss += V * (xx * xx + yy * yy + 2 * xy * xy);
+        e.pressure = fmax (e.pressure, fabs (t[0] + t[1] - 2. / 3) / 2 / (5. / 3));
+    }
+    e.u = sqrt (du / uu), e.stress = sqrt (ds / ss);
+    pg_free (u), pg_free (s);
+    return e;
+}
+
+static errors solved (const row *c, double nu, const char *dilatation, const char *approximation)
+{
+    run r = cylinder (c, nu, dilatation, approximation);
+    to_the_end (&r);
+    errors e = lame_errors (&r, nu);
+    print_message ("  %-4s %-10s %-9s %-8s nu %-8g %-9s displacement %.2e, stress %.2e, pressure at a node %.2e\n", approximation, c->integration, c->basis, c->essential,
+                   nu, dilatation, e.u, e.stress, e.pressure);
+    clear (&r);
+    return e;
+}
+
+static const row rows[] = {
+    { "gauss", "linear", "nitsche", 2, 0.1 }, { "gauss", "linear", "penalty", 2, 0.1 }, { "gauss", "quadratic", "nitsche", 2.6, 0.1 },
+    { "gauss", "quadratic", "penalty", 2.6, 0.1 }, { "consistent", "linear", "nitsche", 2, 0.1 }, { "consistent", "linear", "penalty", 2, 0.1 },
+    { "consistent", "quadratic", "nitsche", 2.6, 0.1 }, { "consistent", "quadratic", "penalty", 2.6, 0.1 },
+};
+
+/* At the spacing where the displacement is within 0.1 % at Poisson's ratio 0.3. */
+static void a_thick_cylinder_does_not_lock (void **state)
+{
+    (void) state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        errors usual = solved (&rows[k], 0.3, "auto", "rkpm");
+        check_below (usual.u, 1e-3);
+        for (double gap = 1e-2; gap > (*rows[k].essential == 'n' ? 5e-5 : 5e-7); gap *= 1e-2) {
+            errors e = solved (&rows[k], 0.5 - gap, "auto", "rkpm");
+            check_below (e.u, 2e-3);
+            check_below (e.stress, 0.03);
+            check_below (e.pressure, 0.1);
+        }
+    }
+}
+
+/* Nodal integration, and derivatives that are no gradients, have errors of their own: those of Poisson's ratio 0.3. */
+static void other_methods_are_as_good_as_at_lower_ratios (void **state)
+{
+    (void) state;
+    static const struct { const char *approximation; row row; } cases[] = {
+        { "rkpm", { "nodal", "linear", "penalty", 2, 0.05 } }, { "rkpm", { "nodal", "quadratic", "nitsche", 2.6, 0.05 } },
+        { "pddo", { "nodal", "linear", "penalty", 2, 0.05 } }, { "nosb", { "nodal", "linear", "transformation", 2, 0.05 } },
+        { "pddo", { "gauss", "linear", "penalty", 2, 0.1 } } };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        errors usual = solved (&cases[k].row, 0.3, "auto", cases[k].approximation), e = solved (&cases[k].row, 0.4999, "auto", cases[k].approximation);
+        check_below (e.u, 1.6 * usual.u);
+        check_below (e.stress, 1.3 * usual.stress);
+    }
+}
+
+static void without_patches_it_does (void **state)
+{
+    (void) state;
+    errors e = solved (&rows[1], 0.4999, "pointwise", "rkpm");
+    assert_true (e.u > 0.02 && e.stress > 1);
+}
+
+/* A slice of the same cylinder in 3D, held in its thickness. */
+static void nor_does_a_slice_in_3d (void **state)
+{
+    (void) state;
+    static const double nus[] = { 0.3, 0.4999 };
+    for (int k = 0; k < 2; k++) {
+        run r = scene_of (1, "dimension: 3\nbody:\n"
+                          "  - {name: outside, add: {cylinder: {center: [0, 0, 0], length: 0.3, radius: 2}}}\n"
+                          "  - {name: bore, subtract: {cylinder: {center: [0, 0, -1], length: 3, radius: 1}}}\n"
+                          "  - {name: axis_y, subtract: {box: {low: [-3, -3, -1], high: [0, 3, 1]}}}\n"
+                          "  - {name: axis_x, subtract: {box: {low: [-3, -3, -1], high: [3, 0, 1]}}}\n"
+                          "spacing: 0.15\nmaterials: {ring: {youngs_modulus: 1, poissons_ratio: %g}}\n"
+                          "sets: {bore: {boundary: bore}, axis_y: {boundary: axis_y}, axis_x: {boundary: axis_x}}\n"
+                          "boundary: [{set: bore, pressure: 1 Pa}, {set: axis_y, displacement: {x: 0}}, {set: axis_x, displacement: {y: 0}}, "
+                          "{set: back, displacement: {z: 0}}, {set: front, displacement: {z: 0}}]\nsolver: {kind: static}\n", nus[k]);
+        to_the_end (&r);
+        errors e = lame_errors (&r, nus[k]);
+        print_message ("  slice in 3D, nu %g: displacement %.2e, stress %.2e, pressure at a node %.2e\n", nus[k], e.u, e.stress, e.pressure);
+        check_below (e.u, 0.01);
+        check_below (e.stress, 0.05);
+        clear (&r);
+    }
+}
+
+/* ---- what was exact stays exact --------------------------------------------------------------------------------------------- */
+#define BLOCK "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [-1, -0.5], high: [1.1, 0.6]}}}]\nspacing: 0.1\nperturb: {amount: 0.2}\n" \
+              "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.4999}}\nsolver: {kind: static}\nsets: {rim: {where: 'x < -0.999 m or x > 1.099 m or y < -0.499 m or y > 0.599 m'}}\n"
+
+/* Largest error of the displacement of a block whose rim is held at u, over the largest displacement */
+static double held_error (const char *method, const char *ux, const char *uy, void (*exact) (const double *x, double *u))
+{
+    run r = scene_of (1, BLOCK "%sboundary: [{set: left, displacement: {x: '%s', y: '%s'}}, {set: right, displacement: {x: '%s', y: '%s'}}, "
+                      "{set: top, displacement: {x: '%s', y: '%s'}}, {set: bottom, displacement: {x: '%s', y: '%s'}}]\n", method, ux, uy, ux, uy, ux, uy, ux, uy);
+    assert_non_null (r.problem->patches);
+    to_the_end (&r);
+    double *u = field_of (&r, NULL, "displacement", NULL), off = 0, top = 0;
+    for (size_t i = 0; i < r.problem->cloud.n; i++) {
+        double v[2];
+        exact (r.problem->cloud.x + 2 * i, v);
+        for (size_t k = 0; k < 2; k++) off = fmax (off, fabs (u[2 * i + k] - v[k])), top = fmax (top, fabs (v[k]));
+    }
+    pg_free (u);
+    clear (&r);
+    return off / top;
+}
+
+static void stretched (const double *x, double *u) { u[0] = 2e-3 * x[0] + 1e-3 * x[1], u[1] = -3e-3 * x[0] - 1e-3 * x[1]; }
+
+static const double turn = 0.4999 / (1 - 0.4999);
+static void bent (const double *x, double *u) { u[0] = 0.01 * x[0] * x[1], u[1] = -0.005 * x[0] * x[0] - 0.005 * turn * x[1] * x[1]; }
+
+static void linear_fields (void **state)
+{
+    (void) state;
+    static const char *const methods[] = { "method: {integration: consistent, essential: nitsche}\n",
+                                           "method: {integration: consistent, essential: nitsche, basis: quadratic, horizon: 2.6 spacing}\n" };
+    for (int k = 0; k < 2; k++) check_below (held_error (methods[k], "2e-3*x + 1e-3*y", "-3e-3*x - 1e-3*y", stretched), 1e-9);
+}
+
+/* Pressure is linear in pure bending, and so is the dilatation of a patch. */
+static void bending_with_the_quadratic_basis (void **state)
+{
+    (void) state;
+    char uy[100];
+    snprintf (uy, sizeof uy, "-0.005*x*x/(1 m) - %.17g*y*y/(1 m)", 0.005 * turn);
+    check_below (held_error ("method: {integration: consistent, essential: nitsche, basis: quadratic, horizon: 2.6 spacing}\n", "0.01*x*y/(1 m)", uy, bent), 1e-8);
+}
+
+static void other_materials_have_the_same_bits (void **state)
+{
+    (void) state;
+    for (int k = 0; k < 2; k++) {
+        run usual = cylinder (&rows[2 * k], k ? 0.3 : 0.449, "auto", "rkpm"), plain = cylinder (&rows[2 * k], k ? 0.3 : 0.449, "pointwise", "rkpm");
+        assert_null (usual.problem->patches);
+        to_the_end (&usual), to_the_end (&plain);
+        assert_memory_equal (usual.state->d, plain.state->d, plain.state->ndof * sizeof *plain.state->d);
+        clear (&usual), clear (&plain);
+    }
+    run r = cylinder (&rows[0], 0.45, "auto", "rkpm");
+    assert_non_null (r.problem->patches);
+    clear (&r);
+}
+
+/* ---- symmetry and cracks ----------------------------------------------------------------------------------------------------- */
+#define NOTCHED "dimension: 2\nplane: strain\nbody: [{add: {polygon: {vertices: [[0, 0], [%g, 0], [%g, 1], [0, 1.3]]}}}]\nspacing: 0.1\n" \
+                "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.4999}}\nmethod: {integration: %s}\ncracks: [{from: [%g, 0], to: [%g, 0.52]}]\n" \
+                "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, traction: {y: 1e-3 Pa}}]\nsolver: {kind: static}\n"
+
+static void a_mirrored_body_has_the_mirrored_answer (void **state)
+{
+    (void) state;
+    static const char *const integrations[] = { "gauss", "consistent", "nodal" };
+    for (int k = 0; k < 3; k++) {
+        run a = scene_of (1, NOTCHED, 1.1, 1.1, integrations[k], 0.53, 0.53), b = scene_of (1, NOTCHED, -1.1, -1.1, integrations[k], -0.53, -0.53);
+        to_the_end (&a), to_the_end (&b);
+        size_t n = a.problem->cloud.n, found = 0;
+        assert_true (n == b.problem->cloud.n);
+        double *u = field_of (&a, NULL, "displacement", NULL), *v = field_of (&b, NULL, "displacement", NULL), top = largest_of (u, 2 * n);
+        for (size_t i = 0; i < n; i++)
+            for (size_t j = 0; j < n; j++) {
+                const double *x = a.problem->cloud.x + 2 * i, *y = b.problem->cloud.x + 2 * j;
+                if (fabs (x[0] + y[0]) > 1e-6 || fabs (x[1] - y[1]) > 1e-6) continue;
+                found++;
+                check_scaled (v[2 * j], -u[2 * i], 1e-8, top);
+                check_scaled (v[2 * j + 1], u[2 * i + 1], 1e-8, top);
+            }
+        assert_true (found == n);
+        pg_free (u), pg_free (v);
+        clear (&a), clear (&b);
+    }
+}
+
+/* Patches lie across the crack: the halves must not hang together by their pressure. */
+static void halves_part_without_a_force (void **state)
+{
+    (void) state;
+    static const char *const integrations[] = { "gauss", "consistent", "nodal" };
+    for (int k = 0; k < 3; k++) {
+        run r = scene_of (1, "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.1\n"
+                          "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.4999}}\nmethod: {integration: %s}\ncracks: [{from: [-0.1, 0.53], to: [1.1, 0.57]}]\n"
+                          "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {x: 0, y: 1e-3}}]\nsolver: {kind: static}\n", integrations[k]);
+        to_the_end (&r);
+        void *self;
+        const pg_force_type *force = pg_solver_force (r.solver, &self);
+        pg_ledger ledger = { 0 };
+        check_ok (force->ledger (self, 1, r.state->d, NULL, &ledger));
+        print_message ("  %s: energy of halves that part %.3g, whole %.3g\n", integrations[k], ledger.strain, 0.5e-6);
+        check_below (fabs (ledger.strain), 1e-12 * 0.5e-6);
+        pg_ledger_clear (&ledger);
+        clear (&r);
+    }
+}
+
+static void what_has_no_remedy_is_warned_of (void **state)
+{
+    (void) state;
+    run r = cylinder (&rows[1], 0.4999, "pointwise", "rkpm");
+    assert_true (r.problem->nnote == 1);
+    check_contains (r.problem->note[0], "warning: material ring: Poisson's ratio is near 1/2");
+    clear (&r);
+    r = cylinder (&rows[1], 0.4999, "auto", "rkpm");
+    assert_true (r.problem->nnote == 1);
+    check_contains (r.problem->note[0], "dilatation projected: linear in each of ");
+    clear (&r);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (a_thick_cylinder_does_not_lock),
+        cmocka_unit_test (other_methods_are_as_good_as_at_lower_ratios),
+        cmocka_unit_test (without_patches_it_does),
+        cmocka_unit_test (nor_does_a_slice_in_3d),
+        cmocka_unit_test (linear_fields),
+        cmocka_unit_test (bending_with_the_quadratic_basis),
+        cmocka_unit_test (other_materials_have_the_same_bits),
+        cmocka_unit_test (a_mirrored_body_has_the_mirrored_answer),
+        cmocka_unit_test (halves_part_without_a_force),
+        cmocka_unit_test (what_has_no_remedy_is_warned_of),
+    };
+    return cmocka_run_group_tests_name ("scene_runs/incompressible", tests, NULL, NULL);
+}
