@@ -63,6 +63,8 @@ void      pg_json_text   (pg_json *j, const char *key, const char *value);
 pg_status pg_json_close  (pg_json **j);
 
 /* ---- pictures (PNG or SVG by the file's ending) ----------------------------------------------------------------------- */
+/* The body behind the points, one of the three: its shapes, the cells of a lattice that are in (dim > 0; before the shapes), plane elements (m). */
+typedef struct { const pg_body *body; const pg_lattice *lattice; const pg_mesh *mesh; } pg_outline;
 typedef struct {
     const char *title, *label;                         /* label of the colour bar, with unit: "damage", "s_yy (MPa)"     */
     double      low, high;                             /* colour range; low == high: from the data                       */
@@ -84,26 +86,30 @@ typedef struct {
     double      length;                                /* meshes: m in a unit of the mesh; 0: not known, axes without unit */
     int         edges;                                 /* meshes: edges of elements: 0: if they are fewer than 5000; 1: drawn; -1: not */
     int         sets;                                  /* meshes: sets of sides (or nodes) in colours instead of the value */
+    const pg_outline *outline;                         /* where the body is, or NULL: from the points alone              */
+    const double *damage;                              /* of the points, or NULL: not known. Displaced, whole points hold together
+                                                          however much they are magnified; damaged ones may part  (n)   */
 } pg_picture_style;
 /* Sides as the sets of the same name: left x, bottom y, back z low; right, top, front high. The eye looks at that side from
  * outside, y up (top, bottom: x to the right). iso and crack: obliquely, y up, with light. */
 enum { PG_SECTION, PG_VIEW_FRONT, PG_VIEW_BACK, PG_VIEW_LEFT, PG_VIEW_RIGHT, PG_VIEW_TOP, PG_VIEW_BOTTOM, PG_VIEW_ISO, PG_VIEW_CRACK, PG_VIEWS };
 #define PG_CRACK_DAMAGE 0.35                           /* damage of points that view crack shows unless told otherwise  */
 extern const char pg_view_names[];                     /* "section|front|back|..." in that order                         */
-/* Range of n finite values; excess > 0: without the outer 0.5 % at each end if the rest spans less than 1 / excess of the whole
- * (loose fragments fly far). 1 in *found when there is a finite value, else 0 to 1.                                     */
+/* Range of n finite values; excess > 0: without the outer 1 % at each end (of 50 to 99 values the outermost one) if the rest spans less than
+ * 1 / excess of the whole (loose fragments fly far, single points carry the stress of a corner or a tip). 1 in *found when there is a finite value, else 0 to 1.                                     */
 pg_status pg_picture_range (size_t n, const double *value, double excess, double *low, double *high, int *found);
 /* "z = 5 mm", "1, 0, 1 = 5 mm" (normal = distance from the origin along it): sets section, at, direction. */
 pg_status pg_picture_section (pg_picture_style *style, const char *text);
 pg_status pg_picture_direction (double direction[3], const char *text);       /* "1, 0.5, 2", not zero                     */
 /* Appends text to a file name in out: letters, digits and ". - _" stay, what lies between becomes one _. */
 void      pg_picture_name (char *out, size_t size, const char *text);
-/* 2D field, one cell-sized square per point, NaN grey, length unit chosen by size (mm, m, ...), axes with ticks, colour bar.
+/* 2D field: each place of the body has the colour of the nearest point on its side of the pre-cracks, NaN grey; points of no lattice without an outline:
+ * the gaps between them closed, as much body as their volumes say; length unit chosen by size (mm, m, ...), axes with ticks, colour bar.
  * 1D: a chart over x. 3D: the section or the view that style names. Labels may raise and lower text: "c_{x} (m^{2})". */
 pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value /* n */, const pg_picture_style *style);
 
-typedef struct { const char *title; const double *value, *u, *select; } pg_panel;
-/* Several states in one picture with one colour bar, row by row; columns 0: as many as suit. style's value, u, select unused. */
+typedef struct { const char *title; const double *value, *u, *select, *damage; } pg_panel;
+/* Several states in one picture with one colour bar, row by row; columns 0: as many as suit. style's value, u, select, damage unused. */
 pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel, int columns, const pg_picture_style *style);
 
 /* A mesh: values at its nodes (nnode, in the unit of the label; NULL: elements coloured by block), u in units of the mesh (nnode x dim of the

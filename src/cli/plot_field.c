@@ -12,6 +12,10 @@ typedef struct {
     pg_cloud cloud;
     pg_scene *scene;                                   /* the copy the run left, NULL when there is none                 */
     pg_cracks cracks;
+    pg_body  body;                                     /* its shapes, its lattice where the scene has cells: staircase  */
+    pg_lattice lattice;
+    pg_outline outline;
+    int      damaged;                                  /* the file has damage                                            */
     pg_mesh_body part;                                 /* the mesh whose nodes the points are, if it is still there      */
     size_t   nstep;
     double  *time;
@@ -19,7 +23,7 @@ typedef struct {
     char     name[128], unit[16];                      /* on the colour bar                                              */
 } source;
 
-typedef struct { double *value, *u, *select; char title[64]; } stage;          /* n, n x dim, n                          */
+typedef struct { double *value, *u, *select, *damage; char title[64]; } stage; /* n, n x dim, n, n                       */
 
 /* ---- components ---------------------------------------------------------------------------------------------------------------- */
 int pg_plot_index (const char *word, const char *list)
@@ -80,13 +84,38 @@ static double magnitude (const double *v, int dim, int m, double shear)
 }
 
 /* ---- reading ---------------------------------------------------------------------------------------------------------------------- */
+/* Where the body is, by the scene: not where its points come from files. */
+static void read_outline (source *s)
+{
+    pg_cloud cloud = { 0 };
+    if (pg_scene_given (s->scene, "points") || pg_scene_given (s->scene, "mesh") || s->cloud.dim < 2) return;
+    if (pg_body_read (&s->body, s->scene) != PG_OK) s->body = (pg_body) { 0 };
+    int stairs = strcmp (pg_scene_text (s->scene, "cells"), "staircase") == 0;
+    if (stairs && s->body.n && pg_cloud_build (&cloud, &s->lattice, &s->body, s->scene) != PG_OK) s->lattice = (pg_lattice) { 0 };
+    pg_cloud_clear (&cloud);
+    s->outline = (pg_outline) { .body = &s->body, .lattice = &s->lattice };
+}
+
+/* Was the name written to the file? */
+static int is_stored (const plot_request *q, const char *name)
+{
+    char (*names)[32] = NULL;
+    size_t n = 0;
+    int found = 0;
+    if (pg_exodus_fields (q->result, &names, &n) != PG_OK) return 0;
+    for (size_t k = 0; k < n; k++) found |= strcmp (names[k], name) == 0;
+    pg_free (names);
+    return found;
+}
+
 /* The cracks of the scene the run kept a copy of; a picture without them when there is none. */
 static void read_scene (const plot_request *q, source *s)
 {
     char path[PLOT_PATH];
     snprintf (path, sizeof path, "%.2100s/scene.yaml", q->directory);
-    if (access (path, R_OK) != 0 || pg_scene_load (&s->scene, path) != PG_OK) return;
+    if (access (path, R_OK) != 0 || (pg_stored_scene (&s->scene, q->directory) != PG_OK && pg_scene_load (&s->scene, path) != PG_OK)) return;
     if (pg_cracks_read (&s->cracks, s->scene) != PG_OK) s->cracks = (pg_cracks) { 0 };
+    read_outline (s);
 }
 
 /* The mesh of the run, unless it is gone or no longer that of the points, or something broke: elements would hide the crack. */
@@ -129,6 +158,7 @@ static pg_status open_source (const plot_request *q, source *s)
         PG_FAIL (PG_E_USAGE, "--section, --view, --direction and --above are for 3D results; %s is %dD", q->result, s->cloud.dim);
     PG_TRY (choose_component (q, s));
     read_scene (q, s);
+    s->damaged = is_stored (q, "damage");
 done:
     pg_free (field);
     return status;
@@ -137,6 +167,7 @@ done:
 static void close_source (source *s)
 {
     pg_cracks_clear (&s->cracks);
+    pg_body_clear (&s->body), pg_lattice_clear (&s->lattice);
     pg_mesh_body_clear (&s->part);
     pg_scene_free (&s->scene);
     pg_free (s->time);
@@ -173,6 +204,7 @@ static pg_status read_stage (const plot_request *q, const source *s, int step, s
     if (q->style.magnify != 0) {
         PG_TRY (pg_exodus_read (q->result, "displacement", step, &n, &m, &g->u));
         if (m != s->cloud.dim) PG_FAIL (PG_E_FILE, "%s: displacement has %d components", q->result, m);
+        if (s->damaged) PG_TRY (pg_exodus_read (q->result, "damage", step, &n, &m, &g->damage));
     }
     if (q->style.view == PG_VIEW_CRACK && !q->limited) PG_TRY (pg_exodus_read (q->result, "damage", step, &n, &m, &g->select));
     name_stage (q, s, step < 0 ? (int) s->nstep - 1 : step, g->title, sizeof g->title);
@@ -183,7 +215,7 @@ done:
 
 static void drop_stage (stage *g)
 {
-    pg_free (g->value), pg_free (g->u), pg_free (g->select);
+    pg_free (g->value), pg_free (g->u), pg_free (g->select), pg_free (g->damage);
     *g = (stage) { 0 };
 }
 
@@ -222,7 +254,7 @@ done:
 
 static void settle_range (const plot_request *q, pg_picture_style *style)
 {
-    style->diverging = style->low < 0 && style->high > 0;
+    style->diverging = fmin (-style->low, style->high) > 0.02 * fmax (-style->low, style->high);       /* not for a trace of the other sign */
     if (style->diverging) style->high = fmax (-style->low, style->high), style->low = -style->high;
     if (strcmp (q->field, "damage") == 0 && !style->log) style->low = 0, style->high = 1;
     if (style->log) style->low = style->high = 0;
@@ -238,7 +270,7 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
     int crack = style.view == PG_VIEW_CRACK;
     PG_ALLOC (panel, n);
     for (size_t k = 0; k < n; k++)
-        panel[k] = (pg_panel) { n > 1 || s->cloud.dim == 1 ? g[k].title : NULL, g[k].value, g[k].u, q->limited ? g[k].value : g[k].select };
+        panel[k] = (pg_panel) { n > 1 || s->cloud.dim == 1 ? g[k].title : NULL, g[k].value, g[k].u, q->limited ? g[k].value : g[k].select, g[k].damage };
     if (crack && !q->limited) style.above = PG_CRACK_DAMAGE;
     style.by_depth = crack && strcmp (q->field, "damage") == 0;
     int used = snprintf (title, sizeof title, "%s%s%.60s", s->name, q->look ? ", " : "", q->look ? q->look : "");
@@ -248,7 +280,7 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
     if (style.magnify != 0) snprintf (title + used, sizeof title - (size_t) used, ", displacements \xc3\x97 %g", style.magnify);
     const char *bar = style.log && !s->norm ? "|" : "";
     snprintf (label, sizeof label, "%s%s%s%s%s%s", bar, s->name, bar, s->unit[0] ? " (" : "", s->unit, s->unit[0] ? ")" : "");
-    style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL;
+    style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL, style.outline = s->body.n ? &s->outline : NULL;
     name_picture (q, number, path, sizeof path);
     style.u = panel->u, style.select = panel->select;
     if (n == 1 && s->part.mesh.n && pg_picture_on_elements (&s->part, &style)) PG_TRY (pg_picture_body (path, &s->part, &s->cloud, panel->value, &style));
@@ -263,7 +295,7 @@ static pg_status draw_each (const plot_request *q, const source *s)
 {
     pg_status status = PG_OK;
     pg_picture_style style = q->style;
-    style.clip = strcmp (q->field, "displacement") == 0 || strcmp (q->field, "velocity") == 0;
+    style.clip = strcmp (q->field, "damage") != 0;
     stage g = { 0 };
     int found = 0;
     for (int k = 0; k < (int) s->nstep; k++) {
@@ -286,7 +318,7 @@ static pg_status draw_together (const plot_request *q, const source *s)
 {
     pg_status status = PG_OK;
     pg_picture_style style = q->style;
-    style.clip = strcmp (q->field, "displacement") == 0 || strcmp (q->field, "velocity") == 0;
+    style.clip = strcmp (q->field, "damage") != 0;
     stage *g = NULL;
     int found = 0;
     PG_ALLOC (g, (size_t) q->steps);

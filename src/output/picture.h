@@ -133,6 +133,7 @@ typedef struct {
     pg_axis x, y, bar;
     int     beyond[2];                                 /* values below, above the colour bar: it ends in arrows          */
     pg_colour_map colour;
+    char    note[200];                                 /* below the picture; "": none                                    */
     int     bare;                                      /* lengths have no unit                                           */
     size_t  nlegend;                                   /* names with their colours instead of the colour bar; value k is name k */
     const char *const *legend;
@@ -140,6 +141,8 @@ typedef struct {
 enum { PG_CATEGORIES = 1023 };
 
 const char *pg_plate_unit (const pg_plate *p);
+/* Before the fit: what the colours from low to high leave out of n values (NAN: not shown), if anything, as the note. */
+void pg_plate_leave_out (pg_plate *p, const char *label, size_t n, const double *value, double low, double high);
 void pg_plate_fit  (pg_plate *p, const pg_picture_style *style, double low, double high);    /* low, high: of the colours  */
 void pg_plate_to   (const pg_plate *p, size_t panel, double a, double b, double *px, double *py);
 void pg_plate_draw (const pg_plate *p, cairo_t *cr, const pg_cloud *cloud, const pg_grid *grid, const pg_picture_style *style);
@@ -149,5 +152,7 @@ pg_status pg_panel_paint (const pg_plate *p, cairo_t *cr, size_t panel, const pg
 /* ---- picture_wire.c: lines in the body's space ---------------------------------------------------------------------------------- */
 void pg_wire_box    (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *grid, int hidden);
 void pg_wire_cracks (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *grid, const pg_cracks *cracks, const pg_screen *screen /* NULL: see-through */);
+/* Displaced faces of cracks: n lines of m places (m, NAN: none) each. */
+void pg_wire_faces  (const pg_plate *p, cairo_t *cr, size_t panel, size_t n, size_t m, const double *place);
 void pg_wire_triad  (const pg_plate *p, cairo_t *cr, double x, double y, double length);
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Fields as pictures: which points are seen, the frame they fill, their colours; one state or several side by side.
  * 2D: a coloured cell per point; 3D: a section, or the body from outside; 1D: value over x. */
-#include "picture.h"
+#include "picture_tiles.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +20,8 @@ typedef struct {
     int    *index, layer;                              /* of a spot's point; of the section                              */
     pg_spots spots;
     double *spacing;                                   /* of the points of a 2D cloud that is no lattice, m, or NULL   */
-    char    label[32];
+    double *face;  size_t nface, cap_face;             /* displaced faces of pre-cracks, FACE places each, m (2D)        */
+    char    label[32], title[440];
 } drawing;
 
 static const double *displaced (const drawing *d, size_t panel)
@@ -98,6 +99,17 @@ done:
     return status;
 }
 
+/* Not displaced, the body ends where its box does. */
+static void end_at_body (const drawing *d, const double *direction, double *low, double *high)
+{
+    const pg_body *body = d->style->outline->body;
+    for (size_t k = 0; k < d->n; k++) if (displaced (d, k)) return;
+    for (int c = 0; c < d->cloud->dim; c++) {
+        if (fabs (fabs (direction[c]) - 1) > 1e-12) continue;
+        *low = fmax (*low, direction[c] > 0 ? body->low[c] : -body->high[c]), *high = fmin (*high, direction[c] > 0 ? body->high[c] : -body->low[c]);
+    }
+}
+
 /* Range of the cells drawn along one axis of the picture, over all panels. */
 static pg_status extent (const drawing *d, const double *direction, double *low, double *high)
 {
@@ -114,6 +126,7 @@ static pg_status extent (const drawing *d, const double *direction, double *low,
     double half = half_cell (d, direction);
     if (!(half > 0)) half = *high > *low ? 0.5 * (*high - *low) / sqrt ((double) d->cloud->n) : 0.5;
     *low -= half, *high += half;
+    if (d->style->outline && d->style->outline->body && d->style->outline->body->n) end_at_body (d, direction, low, high);
 done:
     pg_free (place);
     return status;
@@ -210,6 +223,20 @@ done:
     return status;
 }
 
+static pg_status choose_note (drawing *d, const char *label, double low, double high)
+{
+    pg_status status = PG_OK;
+    double *shown = NULL;
+    if (d->own || d->style->log) return PG_OK;
+    PG_ALLOC (shown, d->n * d->cloud->n);
+    for (size_t k = 0; k < d->n; k++)
+        for (size_t i = 0; i < d->cloud->n; i++) shown[k * d->cloud->n + i] = d->seen[i] && above (d, k, i) ? value_of (d, k)[i] : NAN;
+    pg_plate_leave_out (&d->plate, label, d->n * d->cloud->n, shown, low, high);
+done:
+    pg_free (shown);
+    return status;
+}
+
 /* Does the bar end before the values do? */
 static void choose_arrows (drawing *d)
 {
@@ -224,8 +251,74 @@ static void choose_arrows (drawing *d)
         }
 }
 
+/* How far the cell of a point reaches along an axis of the picture, m; of points without a spacing by their number. */
+static double half_of_points (const drawing *d, int a)
+{
+    double half = half_cell (d, a ? d->plate.eye.up : d->plate.eye.right);
+    return half > 0 ? half : 0.5 * (d->plate.high[a] - d->plate.low[a]) / sqrt ((double) d->cloud->n);
+}
+
 /* ---- painting ---------------------------------------------------------------------------------------------------------------- */
-/* Cells of the points in the plane, as 2D bodies and sections show them. */
+enum { FACE = 129 };
+static pg_status find_faces (drawing *d, const pg_tiles *t)
+{
+    pg_status status = PG_OK;
+    d->nface = 0;
+    if (!t->shift || d->cloud->dim != 2 || !d->style->cracks) goto done;
+    for (size_t c = 0; c < d->style->cracks->n; c++)
+        for (int side = 0; side < 2; side++) {
+            const double *v = d->style->cracks->crack[c].vertex;
+            PG_GROW (d->face, d->cap_face, 2 * FACE * (d->nface + 1));
+            pg_tiles_face (t, v, v + 2, side, FACE, d->face + 2 * FACE * d->nface++);
+        }
+done:
+    return status;
+}
+
+/* The parts of the points in the plane, as 2D bodies and layers show them. */
+static pg_status paint_tiles (drawing *d, size_t panel, pg_screen *s)
+{
+    pg_status status = PG_OK;
+    const pg_eye *e = &d->plate.eye;
+    const double *u = displaced (d, panel), *damage = d->panel[panel].damage, *size = d->cloud->size ? d->cloud->size : d->spacing;
+    size_t dim = (size_t) d->cloud->dim, n = d->cloud->n;
+    double *place = NULL, *shift = NULL, *harm = NULL, *local = NULL;
+    pg_tiles t = { .dim = d->cloud->dim, .loose = d->spacing || d->cloud->size || d->grid.loose, .eye = e, .outline = d->style->outline, .cracks = d->style->cracks };
+    PG_ALLOC (place, 2 * n);
+    if (u) PG_ALLOC (shift, 2 * n);
+    if (damage) PG_ALLOC (harm, n);
+    if (size) PG_ALLOC (local, n);
+    for (size_t i = 0; i < n; i++) {
+        if (!d->seen[i] || !isfinite (d->cloud->x[i * dim]) || !isfinite (d->cloud->x[i * dim + 1])) continue;
+        size_t k = t.n++;
+        for (int a = 0; a < 2; a++) {
+            const double *direction = a ? e->up : e->right;
+            place[2*k + (size_t) a] = pg_along (direction, d->cloud->x + i * dim, (int) dim);
+            if (u) shift[2*k + (size_t) a] = d->style->magnify * pg_along (direction, u + i * dim, (int) dim);
+        }
+        if (damage) harm[k] = damage[i];
+        if (size) local[k] = size[i];
+        if (dim == 2 && d->cloud->volume && d->cloud->thickness > 0) t.area += d->cloud->volume[i] / d->cloud->thickness;
+        d->index[k] = (int) i;
+    }
+    for (int a = 0; a < 2; a++) t.step[a] = 2 * half_of_points (d, a);
+    if (e->kind == PG_LAYER) t.at = e->toward[e->cut] * (d->grid.origin[e->cut] + d->layer * d->grid.step[e->cut]);
+    t.place = place, t.shift = shift, t.damage = harm, t.size = d->cloud->size ? local : NULL;
+    PG_TRY (pg_tiles_open (&t));
+    PG_TRY (pg_tiles_draw (&t, s));
+    PG_TRY (find_faces (d, &t));
+    for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++) {
+        if (s->owner[p] < 0) continue;
+        s->owner[p] = d->index[s->owner[p]];
+        if (!d->keep[s->owner[p]]) s->owner[p] = PG_GHOST;
+    }
+done:
+    pg_tiles_close (&t);
+    pg_free (place), pg_free (shift), pg_free (harm), pg_free (local);
+    return status;
+}
+
+/* Cells of the points near an oblique plane. */
 static pg_status paint_spots (drawing *d, size_t panel, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -243,11 +336,9 @@ static pg_status paint_spots (drawing *d, size_t panel, pg_screen *s)
             d->spots.place[2 * k + (size_t) a] = a ? (s->top - place) * s->scale : (place - s->left) * s->scale;
         }
         d->index[k] = (int) i;
-        if (d->spacing) d->spots.spacing[k] = d->spacing[i] * s->scale;
     }
     for (int a = 0; a < 2; a++) {
-        double half = half_cell (d, a ? e->up : e->right);
-        d->spots.size[a] = 2 * (half > 0 ? half : 0.5 * (d->plate.high[a] - d->plate.low[a]) / sqrt ((double) d->cloud->n)) * s->scale;
+        d->spots.size[a] = 2 * half_of_points (d, a) * s->scale;
     }
     d->spots.reach = u ? 1.3 : 1.9;                    /* opened cracks stay open                                        */
     PG_TRY (pg_raster (&d->spots, s->width, s->height, s->owner));
@@ -276,16 +367,28 @@ static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
         pg_solid_draw (&solid, &s);
         if (d->panel[panel].select) PG_TRY (pg_ghost_draw (&solid, &s));
     } else if (e->kind == PG_SLICE && !d->grid.loose && !u) paint_slice (d, &s);
-    else PG_TRY (paint_spots (d, panel, &s));
+    else if (e->kind == PG_SLICE) PG_TRY (paint_spots (d, panel, &s));
+    else PG_TRY (paint_tiles (d, panel, &s));
     int box = e->kind == PG_SOLID && !e->framed && d->panel[panel].select;
     if (box) pg_wire_box (p, cr, panel, &d->grid, 1);
     PG_TRY (pg_panel_paint (p, cr, panel, &s, value_of (d, panel), fine));
     if (box) pg_wire_box (p, cr, panel, &d->grid, 0);
-    if (d->style->cracks && (d->cloud->dim == 2 || !u)) pg_wire_cracks (p, cr, panel, &d->grid, d->style->cracks, d->panel[panel].select ? NULL : &s);
+    if (u && d->cloud->dim == 2) pg_wire_faces (p, cr, panel, d->nface, FACE, d->face);
+    else if (d->style->cracks && !u) pg_wire_cracks (p, cr, panel, &d->grid, d->style->cracks, d->panel[panel].select ? NULL : &s);
     pg_panel_draw (p, cr, panel, d->panel[panel].title);
 done:
     pg_screen_close (&s);
     return status;
+}
+
+/* The cut that nobody asked for is named. */
+static const char *name_layer (drawing *d)
+{
+    const char *given = d->style->title ? d->style->title : "";
+    char axis = "xyz"[d->plate.eye.cut];
+    double at = d->grid.origin[d->plate.eye.cut] + d->layer * d->grid.step[d->plate.eye.cut];
+    snprintf (d->title, sizeof d->title, "%.380s%ssection %c = %.4g %s", given, *given ? ", " : "", axis, at / d->plate.unit + 0.0, pg_plate_unit (&d->plate));
+    return d->title;
 }
 
 static pg_status draw_sheet (drawing *d, const char *path)
@@ -297,11 +400,12 @@ static pg_status draw_sheet (drawing *d, const char *path)
     if (style.by_depth && d->plate.eye.kind == PG_SOLID) PG_TRY (colour_by_depth (d));
     if (d->own) style.label = d->label;
     PG_TRY (choose_colours (d, &low, &high));
+    PG_TRY (choose_note (d, style.label, low, high));
+    if (d->plate.eye.kind == PG_LAYER && !style.section) style.title = name_layer (d);
     pg_plate_fit (&d->plate, &style, low, high);
     choose_arrows (d);
     PG_ALLOC (d->spots.place, 2 * d->cloud->n);
     PG_ALLOC (d->index, d->cloud->n);
-    if (d->spacing) PG_ALLOC (d->spots.spacing, d->cloud->n);
     PG_TRY (pg_canvas_open (&canvas, path, d->plate.total[0], d->plate.total[1]));
     for (size_t k = 0; k < d->n; k++) PG_TRY (paint_panel (d, canvas.cr, k, canvas.svg || !d->plate.eye.framed ? 2 : 1));
     pg_plate_draw (&d->plate, canvas.cr, d->cloud, &d->grid, &style);
@@ -362,7 +466,7 @@ done:
     if (d) {
         pg_grid_clear (&d->grid);
         pg_free (d->seen), pg_free (d->keep), pg_free (d->own), pg_free (d->index), pg_free (d->spots.place);
-        pg_free (d->spots.spacing), pg_free (d->spacing);
+        pg_free (d->spacing), pg_free (d->face);
     }
     pg_free (d);
     return status;
@@ -370,6 +474,6 @@ done:
 
 pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value, const pg_picture_style *style)
 {
-    pg_panel panel = { NULL, value, style->u, style->select };
+    pg_panel panel = { NULL, value, style->u, style->select, style->damage };
     return pg_picture_panels (path, cloud, 1, &panel, 1, style);
 }

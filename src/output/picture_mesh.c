@@ -210,7 +210,10 @@ static pg_status draw_sheet (mesh_drawing *d, const char *path)
     double low = 0, high = 1;
     if (d->style->sets) PG_TRY (colour_sets (d));
     else if (!d->value) PG_TRY (colour_blocks (d));
-    else PG_TRY (colour_values (d, &low, &high));
+    else {
+        PG_TRY (colour_values (d, &low, &high));
+        if (!d->style->log) pg_plate_leave_out (p, d->style->label, d->mesh->nnode, d->value, low, high);
+    }
     p->panels = 1, p->columns = 1;
     pg_plate_fit (p, d->style, low, high);
     choose_arrows (d);

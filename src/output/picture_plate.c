@@ -6,7 +6,7 @@
 #include <string.h>
 
 enum { WIDE = 1120, BROAD = 900, TALL = 1000, SHARED = 1440, LEAST_FRAME = 340, BAR = 30, BAR_GAP = 34, LEAST = 640, STRIP = 128,
-       TITLE = 74, PANEL_TITLE = 48, GAP = 34, SIDE = 24 };
+       TITLE = 74, PANEL_TITLE = 48, GAP = 34, SIDE = 24, NOTE = 36 };
 
 const char *pg_plate_unit (const pg_plate *p)
 {
@@ -64,6 +64,7 @@ static void place_parts (pg_plate *p, cairo_t *cr, const pg_picture_style *style
     double w = p->width + (p->columns - 1) * p->pitch[0], h = p->height + (p->rows - 1) * p->pitch[1];
     p->total[0] = p->left + w + (p->flat ? 46 : BAR_GAP + BAR + bar + 4);
     p->total[1] = ceil (p->top + h + below + (p->flat ? 14 + BAR + bar : 0) + 6);
+    if (p->note[0]) p->total[1] += NOTE;
     if (p->total[0] < LEAST) p->left += floor (0.5 * (LEAST - p->total[0])), p->total[0] = LEAST;
     p->total[0] = ceil (p->total[0]);
     p->bar_at[0] = p->flat ? p->left : p->left + w + BAR_GAP, p->bar_at[2] = p->flat ? w : BAR;
@@ -169,7 +170,7 @@ static void draw_legend (const pg_plate *p, cairo_t *cr)
 static void draw_strip (const pg_plate *p, cairo_t *cr, const pg_grid *g)
 {
     char text[160];
-    double room = p->total[0] - 2 * SIDE - 130, size = PG_FONT, y = p->total[1] - 0.5 * STRIP - 4;
+    double room = p->total[0] - 2 * SIDE - 130, size = PG_FONT, y = p->total[1] - 0.5 * STRIP - 4 - (p->note[0] ? NOTE : 0);
     snprintf (text, sizeof text, "%.4g \xc3\x97 %.4g \xc3\x97 %.4g %s%s(x \xc3\x97 y \xc3\x97 z)", (g->high[0] - g->low[0]) / p->unit,
               (g->high[1] - g->low[1]) / p->unit, (g->high[2] - g->low[2]) / p->unit, pg_plate_unit (p), p->bare ? "" : " ");
     double w = pg_text (cr, text, size, 0, 0, 0, 0, 0);
@@ -179,12 +180,41 @@ static void draw_strip (const pg_plate *p, cairo_t *cr, const pg_grid *g)
     pg_text (cr, text, size, SIDE + 130, y, 0, 0, 1);
 }
 
+static void draw_note (const pg_plate *p, cairo_t *cr)
+{
+    double size = 0.8 * PG_FONT, room = p->total[0] - 2 * SIDE, w = pg_text (cr, p->note, size, 0, 0, 0, 0, 0);
+    if (w > room) size *= room / w;
+    cairo_set_source_rgb (cr, 0.25, 0.25, 0.25);
+    pg_text (cr, p->note, size, 0.5 * p->total[0], p->total[1] - 0.5 * NOTE - 4, 0.5, 0, 1);
+}
+
+void pg_plate_leave_out (pg_plate *p, const char *label, size_t n, const double *value, double low, double high)
+{
+    double least = INFINITY, most = -INFINITY, slack = 1e-9 * (high - low), all = 0, in = 0;
+    char unit[32] = "", end[2][48];
+    const char *open = label ? strrchr (label, '(') : NULL;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite (value[i])) continue;
+        least = fmin (least, value[i]), most = fmax (most, value[i]);
+        all++, in += value[i] >= low - slack && value[i] <= high + slack;
+    }
+    p->note[0] = 0;
+    if (!(in < all)) return;
+    if (open) snprintf (unit, sizeof unit, "%.*s", (int) strcspn (open + 1, ")"), open + 1);
+    for (int k = 0; k < 2; k++) {
+        if (*unit && strchr ("NmPJ", *unit)) pg_picture_quantity (k ? most : least, unit, end[k], sizeof end[k]);
+        else snprintf (end[k], sizeof end[k], "%.4g%s%s", k ? most : least, *unit ? " " : "", unit);
+    }
+    snprintf (p->note, sizeof p->note, "colours end at %.3g %% of the points; values from %s to %s", floor (1000 * in / all) / 10, end[0], end[1]);
+}
+
 void pg_plate_draw (const pg_plate *p, cairo_t *cr, const pg_cloud *cloud, const pg_grid *grid, const pg_picture_style *style)
 {
     double w = p->width + (p->columns - 1) * p->pitch[0];
     if (p->nlegend) draw_legend (p, cr);
     else draw_bar (p, cr);
     if (!p->eye.framed && cloud->dim == 3) draw_strip (p, cr, grid);
+    if (p->note[0]) draw_note (p, cr);
     cairo_set_source_rgb (cr, 0, 0, 0);
     if (style->title) pg_title (cr, style->title, p->left + 0.5 * w, p->top - (p->titles ? PANEL_TITLE : 0) - 36, p->total[0]);
 }

@@ -16,11 +16,11 @@ pg_status pg_picture_range (size_t n, const double *value, double excess, double
     double *sorted = NULL;
     size_t m = 0;
     *found = pg_range_of (n, value, 0, low, high);
-    if (!*found || !(excess > 0) || n < 200) goto done;
+    if (!*found || !(excess > 0)) goto done;
     PG_ALLOC (sorted, n);
     for (size_t i = 0; i < n; i++) if (isfinite (value[i])) sorted[m++] = value[i];
     qsort (sorted, m, sizeof *sorted, ascending);
-    size_t cut = m / 200;
+    size_t cut = m / 100 ? m / 100 : m >= 50;
     double from = sorted[cut], to = sorted[m - 1 - cut];
     if (to > from && *high - *low > excess * (to - from)) *low = from, *high = to;
 done:

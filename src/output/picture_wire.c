@@ -132,6 +132,26 @@ void pg_wire_cracks (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid
     cairo_restore (cr);
 }
 
+void pg_wire_faces (const pg_plate *p, cairo_t *cr, size_t panel, size_t n, size_t m, const double *place)
+{
+    double x, y;
+    pg_plate_to (p, panel, p->low[0], p->high[1], &x, &y);
+    cairo_save (cr);
+    cairo_rectangle (cr, x, y, p->width, p->height);
+    cairo_clip (cr);
+    cairo_set_line_join (cr, CAIRO_LINE_JOIN_ROUND);
+    for (size_t i = 0; i < n * m; i++) {
+        const double *a = place + 2 * i;
+        if (!isfinite (a[0]) || !isfinite (a[1])) continue;
+        pg_plate_to (p, panel, a[0], a[1], &x, &y);
+        (i % m > 0 && isfinite (a[-2]) ? cairo_line_to : cairo_move_to) (cr, x, y);
+    }
+    cairo_set_source_rgb (cr, 0, 0, 0);
+    cairo_set_line_width (cr, 2);
+    cairo_stroke (cr);
+    cairo_restore (cr);
+}
+
 /* ---- box and triad -------------------------------------------------------------------------------------------------------- */
 /* Edges that meet the corner farthest from the eye (hidden) or the others. */
 void pg_wire_box (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g, int hidden)

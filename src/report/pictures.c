@@ -57,6 +57,15 @@ static void write_title (const pg_result *r, const pg_state *state, const result
     else snprintf (title + used, size - (size_t) used, "load factor %.4g", state->factor);
 }
 
+/* Where the body is: its plane elements, its shapes, or the whole cells that stand for it; of a file of points nothing is known. */
+static pg_outline result_outline (const pg_result *r)
+{
+    const pg_problem *p = r->problem;
+    if (p->part.mesh.n) return (pg_outline) { .mesh = p->dim == 2 ? &p->part.mesh : NULL };
+    if (!p->lattice.dim || !p->body.n) return (pg_outline) { 0 };
+    return (pg_outline) { .body = &p->body, .lattice = r->stairs ? &p->lattice : NULL };
+}
+
 static pg_status one_picture (pg_result *r, const pg_state *state, const result_view *v, const char *path, double *work, double *u)
 {
     pg_status status = PG_OK;
@@ -68,15 +77,17 @@ static pg_status one_picture (pg_result *r, const pg_state *state, const result_
     int components;
     double *one = NULL, *damage = NULL;
     PG_TRY (read_part (r, state, v->field, work, &one, &unit));
-    if (v->by_damage || p->part.mesh.n) PG_TRY (read_part (r, state, "damage", work, &damage, &none));
+    if (v->by_damage || p->part.mesh.n || v->style.magnify != 0) PG_TRY (read_part (r, state, "damage", work, &damage, &none));
     PG_TRY (force->field (self, state, state->d, "displacement", &components, &none, u));
     snprintf (label, sizeof label, "%s%s%s%s", v->field, *unit ? " (" : "", unit, *unit ? ")" : "");
     write_title (r, state, v, unit, title, sizeof title);
     pg_picture_style style = v->style;
     style.title = title, style.label = label, style.u = u, style.cracks = &p->cracks;
     style.diverging = style.low < style.high ? style.low == -style.high : strncmp (v->field, "stress", 6) == 0;
-    style.clip = strncmp (v->field, "displacement", 12) == 0 || strncmp (v->field, "velocity", 8) == 0;
+    style.clip = strncmp (v->field, "damage", 6) != 0;
     style.select = v->by_damage ? damage : v->limited ? one : NULL;
+    pg_outline outline = result_outline (r);
+    style.outline = outline.body || outline.mesh ? &outline : NULL, style.damage = damage;
     int whole = p->part.mesh.n > 0;                        /* elements would hide a crack                                    */
     for (size_t i = 0; whole && i < p->cloud.n; i++) whole = !(damage[i] > 0);
     PG_TRY (pg_picture_body (path, whole ? &p->part : NULL, &p->cloud, one, &style));
@@ -120,7 +131,8 @@ static pg_status error_picture (pg_result *r, const pg_state *state)
     pg_status status = PG_OK;
     const pg_norms *n = &r->errors.norms;
     char path[4096], title[400];
-    pg_picture_style style = { .label = "|u - u_{ref}| (m)", .cracks = &r->problem->cracks, .title = title };
+    pg_outline outline = result_outline (r);
+    pg_picture_style style = { .label = "|u - u_{ref}| (m)", .cracks = &r->problem->cracks, .title = title, .outline = outline.body || outline.mesh ? &outline : NULL };
     snprintf (title, sizeof title, "%s: difference from the reference, L2 %.2e, largest %.2e", r->problem->title, n->l2.relative, n->maximum.relative);
     snprintf (path, sizeof path, "%s/error.png", r->folder);
     PG_TRY (pg_picture_body (path, state->broken ? NULL : &r->problem->part, &r->problem->cloud, r->errors.difference, &style));

@@ -35,7 +35,7 @@ struct pg_result {
     double   *value[MOST_FIELDS];
     result_view picture[MOST_PICTURES];
     char      written[MOST_PICTURES + 3][4096];
-    int       stages, dynamic;                         /* pictures at every written stage; time instead of load factor   */
+    int       stages, dynamic, stairs;                 /* pictures at every written stage; time instead of load factor; cells: staircase */
     double    magnify, broken_share;
     long      every, next_broken;
     double   *row, *u;

@@ -302,7 +302,7 @@ static void any_allocation_may_fail (void **state)
     size_t before = pg_memory_used ();
     const char *path = file_at ("sweep.png");
     for (int view = 0; view < PG_VIEWS; view += 2) {
-        pg_panel panel[2] = { { "one", b.value, b.u, NULL }, { "two", b.value, b.u, view == PG_VIEW_CRACK ? b.value : NULL } };
+        pg_panel panel[2] = { { "one", b.value, b.u, NULL, NULL }, { "two", b.value, b.u, view == PG_VIEW_CRACK ? b.value : NULL, NULL } };
         pg_picture_style style = { .label = "v", .view = view, .magnify = view == PG_VIEW_LEFT, .by_depth = view == PG_VIEW_CRACK, .clip = 1 };
         pg_status status = PG_E_MEMORY;
         size_t k = 1;
