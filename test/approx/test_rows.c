@@ -328,6 +328,46 @@ static void too_few_nodes_for_a_quadratic_give_a_linear_basis (void **state)
     }
 }
 
+/* A grade says what the derivatives of a point reproduce, whatever bonds have died: FULL all polynomials of the basis, LOWERED those of degree one. */
+static void grades_say_what_is_reproduced (void **state)
+{
+    (void) state;
+    size_t seen[PG_GRADE_DEAD + 1] = { 0 };
+    for (int t = 0; t < 60; t++) {
+        pg_cloud c = lattice (2, 9, 1, t % 2 ? 0.2 : 0);
+        pg_approx a = make (type[t % 2], "cubic_spline", 2, PG_RADIAL, 2.6);
+        pg_rows r = rows_at_nodes (&a, &c);
+        size_t nnz = r.family.start[r.n];
+        unsigned char *alive = pg_calloc (nnz, 1);
+        double share = 0.4 * (t / 2 % 5) - 0.6;
+        for (size_t e = 0; e < nnz; e++) alive[e] = rnd () > share;
+        for (size_t i = 0; i < r.n; i++)
+            for (size_t e = r.family.start[i]; e < r.family.start[i + 1]; e++) if (r.family.node[e] == (int) i) alive[e] = 1;
+        check_ok (a.type->evaluate (&a, &c, &r, alive, r.n, NULL, 1));
+        for (size_t i = 0; i < r.n; i++) {
+            double worst[3] = { 0 }, steep = 0;        /* by degree: dN of 1, of x and y, of products about the point   */
+            seen[r.grade[i]]++;
+            if (r.grade[i] > PG_GRADE_LOWERED) continue;
+            for (int k = 0; k < 2; k++) {
+                double sum[6] = { 0 };
+                for (size_t e = r.family.start[i]; e < r.family.start[i + 1]; e++) {
+                    const double *y = c.x + 2 * (size_t) r.family.node[e], z[2] = { y[0] - c.x[2*i], y[1] - c.x[2*i + 1] }, p[6] = { 1, z[0], z[1], z[0]*z[0], z[0]*z[1], z[1]*z[1] };
+                    for (int m = 0; m < 6; m++) sum[m] += r.dN[2*e + (size_t) k] * p[m];
+                    steep = fmax (steep, fabs (r.dN[2*e + (size_t) k]));
+                }
+                for (int m = 0; m < 6; m++) worst[m == 0 ? 0 : m < 3 ? 1 : 2] = fmax (worst[m == 0 ? 0 : m < 3 ? 1 : 2], fabs (sum[m] - (m == 1 + k)));
+            }
+            check_below (worst[0] / fmax (1, steep), 1e-6);        /* rounding, where pivots are 1e-10: 1e-8                  */
+            check_below (worst[1] / fmax (1, steep), 1e-6);
+            if (r.grade[i] == PG_GRADE_FULL) check_below (worst[2] / fmax (1, steep), 1e-6);
+        }
+        pg_free (alive);
+        pg_rows_clear (&r);
+        lattice_clear (&c);
+    }
+    assert_true (seen[PG_GRADE_FULL] > 500 && seen[PG_GRADE_LOWERED] > 100);
+}
+
 /* Wherever bonds die: never NaN, shape functions sum to 1 where any lives, gradients to 0. A quadratic basis is admitted down
  * to pivots of 1e-10, where the coefficients of p reach 1e5 and rounding 1e-11. */
 static void random_deaths_keep_the_partition_of_unity (void **state)
@@ -452,6 +492,7 @@ int main (void)
         cmocka_unit_test (a_node_outside_its_own_family_is_an_error_of_nosb),
         cmocka_unit_test (an_order_beyond_two_is_an_error),
         cmocka_unit_test (no_points_are_no_error),
+        cmocka_unit_test (grades_say_what_is_reproduced),          /* last: the others keep their random numbers           */
     };
     return cmocka_run_group_tests_name ("approx/rows", tests, NULL, NULL);
 }

@@ -60,6 +60,35 @@ static void the_catalogue_lists_five (void **state)
     assert_int_equal (pg_criterion_find ("beam_limits")->needs, PG_NEEDS_BEAMS);
 }
 
+/* Where spacings differ: limits by an energy per area go with horizon^(-1/2), a stretch that is given is the same everywhere. */
+static void limits_follow_the_horizon_where_an_energy_gives_them (void **state)
+{
+    (void) state;
+    const double xi[4] = { 1, 0, 2, 0 }, eta[4] = { 1e-3, 0, 2e-3, 0 }, reach[2] = { 1, 4 }, energy[2] = { 9, 9 }, shear[2] = { 0.2, 0.2 }, bending[2] = { 0.4, 0.4 };
+    const pg_bond_measures m = { .n = 2, .dim = 2, .xi = xi, .eta = eta, .reach = reach, .energy = energy, .shear = shear, .bending = bending };
+    double u[2], f[2];
+    for (int finite = 0; finite < 2; finite++)
+        for (int derived = 0; derived < 2; derived++) {
+            pg_criterion c = { .type = pg_criterion_find ("stretch"), .parameter = { 1e-3, finite, 1, derived, 1 } };
+            c.type->utilisation (&c, &m, u, NULL);
+            c.type->factor (&c, &m, f);
+            check_relative (u[0], 1, 1e-12);
+            check_relative (u[1], derived ? 2 : 1, 1e-12);
+            check_relative (f[1], derived ? 0.5 : 1, 1e-9);
+        }
+    pg_criterion point = { .type = pg_criterion_find ("node_energy"), .parameter = { 9 } }, beam = { .type = pg_criterion_find ("beam_limits"), .parameter = { 1, 0.2, 4 } };
+    point.type->utilisation (&point, &m, u, NULL);
+    check_relative (u[0], 1, 1e-12);
+    check_relative (u[1], 2, 1e-12);
+    for (beam.single = 0; beam.single < 2; beam.single++) {
+        beam.type->utilisation (&beam, &m, u, NULL);
+        beam.type->factor (&beam, &m, f);
+        check_relative (u[0], beam.single ? 1 : sqrt (1e-6 + 1 + 0.01), 1e-12);
+        check_relative (u[1], 2 * u[0], 1e-12);
+        check_relative (f[1] * u[1], 1, 1e-12);
+    }
+}
+
 static void stretch_along_the_bond_counts_and_turning_does_not (void **state)
 {
     (void) state;
@@ -218,6 +247,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (the_catalogue_lists_five), cmocka_unit_test (beams_break_by_energy),
+        cmocka_unit_test (limits_follow_the_horizon_where_an_energy_gives_them),
         cmocka_unit_test (stretch_along_the_bond_counts_and_turning_does_not),
         cmocka_unit_test (finite_stretch_is_the_change_of_length),
         cmocka_unit_test (finite_stretch_keeps_its_digits_for_tiny_strains),

@@ -143,6 +143,42 @@ static void bonds_over_a_plane_at_the_critical_stretch_store_the_fracture_energy
         }
 }
 
+/* ---- state-based ------------------------------------------------------------------------------------------------------------------ */
+/* Of q = int k r dV the part that lies beyond a plane z away, by midpoints over the half ball; kernel constant, horizon 1 */
+static double part_beyond (int mode, double z)
+{
+    enum { N = 2000 };
+    double sum = 0, whole = 0;
+    for (int k = 0; k < N; k++) {
+        double r = (k + 0.5) / N, all = mode == 0 ? 2 : mode == 3 ? 4 * pi * r * r : 2 * pi * r;
+        double share = r <= z ? 0 : mode == 0 ? 0.5 : mode == 3 ? 0.5 * (1 - z / r) : acos (z / r) / pi;
+        whole += r * all, sum += r * all * share;
+    }
+    return sum / whole;
+}
+
+/* Dilatation of a point beside a cut is d s0 I / q, its energy A theta^2 / (2 d); each stretched bond stores by B: A goes with the square of the part, B with
+ * the part itself; both faces of the cut. */
+static void energy_of_a_state_based_cut (void **state)
+{
+    (void) state;
+    enum { N = 400 };
+    for (int m = 0; m < 4; m++) {
+        double d = m == 0 ? 1 : m == 3 ? 3 : 2, first = 0, second = 0;
+        for (int k = 0; k < N; k++) {
+            double share = part_beyond (m, (k + 0.5) / N);
+            first += share / N, second += share * share / N;
+        }
+        check_relative (pg_state_cut_share (modes[m], "constant", 0, 1), first, 1e-3);       /* of these sums of 2000 shells    */
+        check_relative (pg_state_cut_share (modes[m], "constant", 1, 0), d * second, 1e-3);
+    }
+    check_relative (pg_state_cut_share (PG_LINE, "constant", 1, 0), 2.0 / 15, 1e-10);
+    check_relative (pg_state_cut_share (PG_LINE, "constant", 0, 1), 1.0 / 3, 1e-10);
+    check_relative (pg_state_cut_share (PG_SOLID, "constant", 0, 1), 1.0 / 5, 1e-10);
+    check_relative (pg_state_cut_share (PG_SOLID, "constant", 1, 0), 3 * (1.0 / 4 - 1.0 / 3 + 1.0 / 30 + 1.0 / 9 + 1.0 / 324), 1e-10);
+    assert_true (pg_state_cut_share (PG_SOLID, "nothing", 1, 1) == 0);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -151,6 +187,7 @@ int main (void)
         cmocka_unit_test (plate_of_the_coupling_paper_dissipates_2160_joules),
         cmocka_unit_test (an_unknown_kernel_gives_nothing),
         cmocka_unit_test (uniform_strain_stores_the_energy_of_hooke),
+        cmocka_unit_test (energy_of_a_state_based_cut),
         cmocka_unit_test (bonds_over_a_plane_at_the_critical_stretch_store_the_fracture_energy),
     };
     return cmocka_run_group_tests_name ("criterion/energy", tests, NULL, NULL);

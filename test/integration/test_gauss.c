@@ -239,6 +239,26 @@ static void nodal_integration_needs_no_points_of_its_own (void **state)
     assert_string_equal (pg_integration_names (), "nodal|gauss|consistent");
 }
 
+/* Elements of several kinds in one mesh, in any order: each by the rule of its own kind. */
+static void kinds_may_be_mixed (void **state)
+{
+    (void) state;
+    static double x[] = { 0, 0, 1, 0, 1, 1, 0, 1,   1, 0, 2, 0, 1, 1,   2, 0, 2, 1, 1, 1,   0, 1, 2, 1, 2, 2, 0, 2,   2, 0, 3, 0, 2, 1 };
+    static unsigned char kind[] = { PG_QUAD4, PG_TRI3, PG_TRI3, PG_QUAD4, PG_TRI3 };
+    static size_t start[] = { 0, 4, 7, 10, 14, 17 };
+    const double area[] = { 1, 0.5, 0.5, 2, 0.5 };
+    pg_cells c = { .dim = 2, .n = 5, .kind = kind, .start = start, .x = x, .thickness = 0.3 };
+    for (int order = 1; order <= 5; order++) {
+        pg_quadrature q;
+        double sum[5] = { 0 }, moment = 0;
+        check_ok (pg_integration_find ("gauss")->points (&q, &c, 0.3, order));
+        for (size_t k = 0; k < q.n; k++) sum[q.cell[k]] += q.weight[k], moment += q.weight[k] * q.x[2*k];
+        for (int e = 0; e < 5; e++) check_relative (sum[e], 0.3 * area[e], 1e-14);
+        check_relative (moment, 0.3 * (0.5 + 0.5 * 4 / 3 + 0.5 * 5 / 3 + 2 + 0.5 * 7 / 3), 1e-14);
+        pg_quadrature_clear (&q);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -249,6 +269,7 @@ int main (void)
         cmocka_unit_test (bars_are_integrated_exactly),
         cmocka_unit_test (facet_weights_sum_to_areas),
         cmocka_unit_test (facets_close_the_body),
+        cmocka_unit_test (kinds_may_be_mixed),
         cmocka_unit_test (nodal_integration_needs_no_points_of_its_own),
     };
     return cmocka_run_group_tests_name ("integration/gauss", tests, fine_rule, NULL);

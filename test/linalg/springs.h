@@ -67,7 +67,7 @@ typedef struct {
     double shake;                                      /* share of the spacing by which points move at random            */
     double reach;                                      /* in spacings                                                    */
     int (*cut) (const double *a, const double *b);     /* no spring between these; NULL: all                             */
-    int (*held) (const double *x);                     /* all unknowns prescribed                                        */
+    int (*held) (const double *x);                     /* 1: all unknowns are prescribed, 2: the first                   */
 } springs_rule;
 
 static inline void springs_free (springs *s)
@@ -97,7 +97,8 @@ static inline springs springs_of (const springs_rule *rule)
     for (size_t i = 0, rest; i < s.n; i++) {
         rest = i;
         for (size_t k = 0; k < dim; k++) s.x[i * dim + k] = (double) (rest % rule->side[k]) + (rule->shake > 0 ? rule->shake * random_number () : 0), rest /= rule->side[k];
-        for (size_t k = 0; k < (size_t) s.block; k++) s.fixed[i * (size_t) s.block + k] = rule->held && rule->held (s.x + i * dim);
+        int held = rule->held ? rule->held (s.x + i * dim) : 0;
+        for (size_t k = 0; k < (size_t) s.block; k++) s.fixed[i * (size_t) s.block + k] = held == 1 || (held == 2 && k == 0);
     }
     for (size_t i = 0; i < s.n; i++) {
         size_t at = s.start[i];

@@ -4,6 +4,7 @@
 #include "springs.h"
 
 static int held_below (const double *x) { return x[0] < 1.5; }
+static int held_and_rolling (const double *x) { return x[0] < 1.5 ? 1 : x[0] > 30 && (int) (x[0] + x[1] + 0.5) % 3 == 0 ? 2 : 0; }
 static int held_both (const double *x) { return x[0] < 1.5 || x[0] > 57.5; }
 static int over_cut (const double *a, const double *b) { return (a[0] < 29.3) != (b[0] < 29.3); }
 static int round_notch (const double *a, const double *b)              /* x = 20.5 up to y = 30                            */
@@ -91,7 +92,7 @@ static void it_is_symmetric (void **state)
 {
     (void) state;
     static const springs_rule rules[] = { { 2, 2, { 60, 60 }, 0.2, 3.015, round_notch, held_below }, { 3, 3, { 12, 13, 14 }, 0, 2.1, NULL, held_below },
-                                          { 2, 2, { 120, 120 }, 0, 3.015, NULL, held_below } };
+                                          { 2, 2, { 120, 120 }, 0, 3.015, NULL, held_below }, { 2, 2, { 60, 60 }, 0, 3.015, NULL, held_and_rolling } };
     for (size_t k = 0; k < sizeof rules / sizeof *rules; k++) {
         springs s = springs_of (&rules[k]);
         pg_multilevel_setting setting = springs_setting (&s, 1);

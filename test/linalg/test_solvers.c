@@ -20,6 +20,24 @@ done:
     return status;
 }
 
+/* One unknown to nine: what is left over of loops in steps of four and of blocks. */
+static void systems_of_few_unknowns (void **state)
+{
+    (void) state;
+    for (size_t n = 1; n <= 9; n++) {
+        dense D = random_laplacian (n, 1, 1);
+        pg_sparse A = sparse_of (&D, 1);
+        double b[9], x[9];
+        for (size_t i = 0; i < n; i++) b[i] = random_number ();
+        for (int k = 0; k < NAMES; k++) {
+            check_ok (solve_with (names[k], &A, &(pg_linear_options) { 1, 1, 1, 1e-14 }, 1, b, x));
+            check_below (misfit (&D, 1, x, b), 1e-12);
+        }
+        pg_sparse_clear (&A);
+        dense_free (&D);
+    }
+}
+
 static void the_catalogue_knows_its_entries (void **state)
 {
     (void) state;
@@ -309,6 +327,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (the_catalogue_knows_its_entries),
+        cmocka_unit_test (systems_of_few_unknowns),
         cmocka_unit_test (every_solver_on_every_lattice),
         cmocka_unit_test (a_larger_body_is_ordered_by_metis),
         cmocka_unit_test (one_analysis_serves_many_factorizations),

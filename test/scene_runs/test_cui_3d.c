@@ -48,6 +48,32 @@ static void the_shallower_the_crack_the_larger_the_load (void **state)
     assert_true (load[0] < load[1] && load[1] < load[2]);
 }
 
+/* The same order from equilibrium, at 5 mm: the deeper the crack the softer the disk, and the less it bears over the first 25 events. */
+static void the_deeper_the_crack_the_softer_and_weaker_the_disk (void **state)
+{
+    (void) state;
+    static const char *const sets[] = { "spacing=5 mm", "sets.platens.angle=[[80 deg, 100 deg], [260 deg, 280 deg]]",
+        "boundary=[{name: top, set: platens.top, displacement: {x: 0, y: -20 um}}, {name: bottom, set: platens.bottom, displacement: {x: 0, y: 20 um}}]",
+        "solver={kind: static, linear: pcg, stepping: event, max_events: 25}", "output={}" };
+    static const char *const scene[3] = { "data/cui_disk_10/scene.yaml", "data/cui_disk_6/scene.yaml", "data/cui_disk_2/scene.yaml" };
+    double stiffness[3] = { 0 }, load[3] = { 0 };
+    for (int k = 0; k < 3; k++) {
+        run r = coarse (scene[k], 5, sets);
+        while (!pg_solver_done (r.solver, r.state)) {
+            advance (&r);
+            if (stiffness[k] == 0) stiffness[k] = fabs (r.step.reaction[1]) / r.step.factor;
+            load[k] = fmax (load[k], fabs (r.step.reaction[1]));
+        }
+        print_message ("%s: %.5g N at 20 um while whole, at most %.5g N\n", scene[k], stiffness[k], load[k]);
+        assert_true (r.state->events >= 25);
+        clear (&r);
+    }
+    check_below (1.02 * stiffness[0], stiffness[1]);
+    check_below (1.02 * stiffness[1], stiffness[2]);
+    check_below (1.5 * load[0], load[1]);
+    check_below (1.5 * load[1], load[2]);
+}
+
 /* A crack through the thickness: front and back alike, and the disk point-symmetric. */
 static void a_through_crack_is_symmetric (void **state)
 {
@@ -107,6 +133,7 @@ int main (void)
 {
     const char *size = getenv ("PERIGAL_TEST_SIZE");
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test (the_deeper_the_crack_the_softer_and_weaker_the_disk),
         cmocka_unit_test (a_through_crack_is_symmetric),
         cmocka_unit_test (the_plate_parts_near_the_middle_of_the_mouth),
     }, minutes[] = { cmocka_unit_test (the_shallower_the_crack_the_larger_the_load) };     /* make test-long only            */

@@ -26,6 +26,7 @@ static void test_forces (void **unused)
 {
     (void) unused;
     static const char *const force[] = { "method.force=gmpd", "method.force=bond", "method.force=lps", "method.force=fcbm" };
+    static const double load[] = { 12.88e3, 11.70e3, 14.88e3, 13.05e3 };       /* of this lattice of 25 mm: each theory has its own missing families at the corner */
     for (size_t k = 0; k < sizeof force / sizeof *force; k++) {
         const char *set[] = { force[k], "spacing=25 mm", "body[2].add.box.low=[0, -75 mm]", "sets.lift.where=x >= 0.45 m and y <= 0.28 m and y >= 0",
                               "sets.far.where=x <= 0.06 m" };
@@ -33,12 +34,14 @@ static void test_forces (void **unused)
         crack c = broken_by (&r, 4);
         const pg_report *report = pg_solver_report (r.solver, r.state);
         print_message ("%s: %.4g kN at %.4g mm, x from %.3g m, y %.3g to %.3g m\n", force[k], c.load / 1e3, c.shift, c.low[0], c.low[1], c.high[1]);
-        check_contains (report->warning[0], "the crack has arrived");
+        int arrived = 0;
+        for (size_t w = 0; w < report->nwarning; w++) arrived |= strstr (report->warning[w], "the crack has arrived") != NULL;
+        assert_true (arrived);
         check_below (hypot (c.first[0] - 0.25, c.first[1] - 0.25), k < 3 ? 0.05 : 0.09);      /* fcbm: bonds of a point that dies */
         check_below (c.low[0], 0.06);
         check_below (0.14, c.low[1]);
         check_below (c.high[1], 0.3);
-        check_relative (c.load, 13e3, 0.16);
+        check_relative (c.load, load[k], 0.01);
         clear (&r);
     }
 }
@@ -76,7 +79,7 @@ static void test_galerkin (void **unused)
     double stiffness = r.step.reaction[4] / (r.step.factor * 1e-3);
     crack c = broken_by (&r, 4);
     print_message ("galerkin: %.4g MN/m, first (%.3g, %.3g) m\n", stiffness / 1e6, c.first[0], c.first[1]);
-    check_relative (stiffness, 68.05e6, 0.12);          /* CPS8 of CalculiX, 2.5 mm (lift of one spacing less deep)       */
+    check_relative (stiffness, 74.55e6, 5e-3);          /* of this lattice: 9.6 % over CPS8 of CalculiX, 2.5 mm, whose lift is one spacing deeper */
     check_below (hypot (c.first[0] - 0.25, c.first[1] - 0.25), 0.03);
     clear (&r);
 }
@@ -87,7 +90,7 @@ static void test_flaw (void **unused)
 {
     (void) unused;
     static const char *const rule[] = { "failure.criterion=beam_limits", "failure.criterion=stretch" };
-    const double end = 4.4955e-3, expected[] = { 1636, 1722 };
+    const double end = 4.4955e-3, expected[] = { 1636, 1722 }, turn[] = { 96, 72.5 };      /* 70 (closed) to 90 degrees (open crack), and 20 for a wing of three horizons */
     for (int k = 0; k < 2; k++) {
         const char *set[] = { rule[k], "solver.max_events=90" };
         run r = loaded ("data/inclined_flaw/scene.yaml", 2, set);
@@ -112,8 +115,7 @@ static void test_flaw (void **unused)
         print_message ("%s: %.5g N, %zu bonds, %zu of the wings, %zu by shear, %.3g deg from the flaw\n", rule[k], load, n, wings, sheared, angle);
         check_relative (load, expected[k], 1e-3);
         check_below (0.9, (double) wings / (double) n);
-        check_below (50, angle);                       /* 70 (closed) to 90 (open crack), and 20 for a wing of three horizons */
-        check_below (angle, 110);
+        check_absolute (angle / 90, turn[k] / 90, 3.0 / 90);           /* of this lattice; a column of bonds more or less is 2 degrees   */
         assert_true (k ? sheared == 0 : sheared > 0 && 2 * sheared < n);
         clear (&r);
     }
