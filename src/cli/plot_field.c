@@ -17,6 +17,7 @@ typedef struct {
     pg_outline outline;
     int      damaged;                                  /* the file has damage                                            */
     pg_mesh_body part;                                 /* the mesh whose nodes the points are, if it is still there      */
+    int      whole;                                    /* nothing of it broke                                            */
     size_t   nstep;
     double  *time;
     int      component, components, norm;              /* of the field; norm: its size                                   */
@@ -93,7 +94,7 @@ static void read_outline (source *s)
     int stairs = strcmp (pg_scene_text (s->scene, "cells"), "staircase") == 0;
     if (stairs && s->body.n && pg_cloud_build (&cloud, &s->lattice, &s->body, s->scene) != PG_OK) s->lattice = (pg_lattice) { 0 };
     pg_cloud_clear (&cloud);
-    s->outline = (pg_outline) { .body = &s->body, .lattice = &s->lattice };
+    if (s->body.n) s->outline = (pg_outline) { .body = &s->body, .lattice = &s->lattice };
 }
 
 /* Was the name written to the file? */
@@ -118,7 +119,8 @@ static void read_scene (const plot_request *q, source *s)
     read_outline (s);
 }
 
-/* The mesh of the run, unless it is gone or no longer that of the points, or something broke: elements would hide the crack. */
+/* The mesh of the run, unless it is gone or no longer that of the points: where the body is. Fields are drawn on its elements (whole) unless
+ * something broke: they would hide the crack. */
 static pg_status read_part (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -126,8 +128,8 @@ static pg_status read_part (const plot_request *q, source *s)
     pg_cloud cloud = { 0 };
     double *damage = NULL;
     size_t n, known = s->cloud.n * (size_t) s->cloud.dim;
-    int m, same = 0, whole = 1;
-    if (q->panels || strcmp (q->field, "damage") == 0 || !s->scene || !pg_scene_given (s->scene, "mesh")) return PG_OK;
+    int m, same = 0, whole = !q->panels && strcmp (q->field, "damage") != 0;
+    if (!s->scene || !pg_scene_given (s->scene, "mesh")) return PG_OK;
     if (pg_stored_scene (&scene, q->directory) == PG_OK && pg_mesh_body_read (&s->part, scene) == PG_OK && pg_mesh_body_cloud (&cloud, &s->part, scene) == PG_OK)
         same = cloud.n == s->cloud.n && cloud.dim == s->cloud.dim;
     for (size_t i = 0; same && i < known; i++) same = fabs (cloud.x[i] - s->cloud.x[i]) <= 1e-6 * cloud.h;
@@ -139,7 +141,9 @@ static pg_status read_part (const plot_request *q, source *s)
         if (!q->all) break;
     }
 done:
-    if (status != PG_OK || !same || !whole) pg_mesh_body_clear (&s->part);
+    if (status != PG_OK || !same) pg_mesh_body_clear (&s->part);
+    s->whole = whole;
+    if (s->part.mesh.n && s->cloud.dim == 2) s->outline = (pg_outline) { .mesh = &s->part.mesh };
     pg_free (damage);
     pg_cloud_clear (&cloud);
     pg_scene_free (&scene);
@@ -280,10 +284,10 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
     if (style.magnify != 0) snprintf (title + used, sizeof title - (size_t) used, ", displacements \xc3\x97 %g", style.magnify);
     const char *bar = style.log && !s->norm ? "|" : "";
     snprintf (label, sizeof label, "%s%s%s%s%s%s", bar, s->name, bar, s->unit[0] ? " (" : "", s->unit, s->unit[0] ? ")" : "");
-    style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL, style.outline = s->body.n ? &s->outline : NULL;
+    style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL, style.outline = s->outline.body || s->outline.mesh ? &s->outline : NULL;
     name_picture (q, number, path, sizeof path);
     style.u = panel->u, style.select = panel->select;
-    if (n == 1 && s->part.mesh.n && pg_picture_on_elements (&s->part, &style)) PG_TRY (pg_picture_body (path, &s->part, &s->cloud, panel->value, &style));
+    if (n == 1 && s->whole && s->part.mesh.n && pg_picture_on_elements (&s->part, &style)) PG_TRY (pg_picture_body (path, &s->part, &s->cloud, panel->value, &style));
     else PG_TRY (pg_picture_panels (path, &s->cloud, n, panel, q->columns, &style));
     puts (path);
 done:

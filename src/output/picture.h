@@ -116,6 +116,7 @@ typedef struct {
     const double *u;                                   /* NULL: undeformed                                               */
     double magnify;
     const unsigned char *keep;                         /* points drawn, NULL: all                                        */
+    const double *damage;                              /* of the points: whole ones hold together; NULL: not known       */
 } pg_solid;
 void      pg_solid_draw (const pg_solid *solid, pg_screen *screen);
 pg_status pg_ghost_draw (const pg_solid *solid, pg_screen *screen);          /* the whole body under what is drawn         */

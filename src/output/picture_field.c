@@ -362,7 +362,7 @@ static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
     pg_screen s = { .left = p->low[0], .top = p->high[1], .scale = fine * p->width / (p->high[0] - p->low[0]) };
     PG_TRY (pg_screen_open (&s, (int) p->width * fine, (int) p->height * fine));
     for (size_t i = 0; i < d->cloud->n; i++) d->keep[i] = (unsigned char) above (d, panel, i);
-    pg_solid solid = { d->cloud, &d->grid, e, u, d->style->magnify, d->keep };
+    pg_solid solid = { d->cloud, &d->grid, e, u, d->style->magnify, d->keep, d->panel[panel].damage };
     if (e->kind == PG_SOLID) {
         pg_solid_draw (&solid, &s);
         if (d->panel[panel].select) PG_TRY (pg_ghost_draw (&solid, &s));

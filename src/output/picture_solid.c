@@ -63,9 +63,10 @@ float pg_light_on (const pg_eye *e, const double *normal)
 
 static int kept (const pg_solid *s, int point) { return point >= 0 && (!s->keep || s->keep[point]); }
 
-/* Have the two points drifted apart by more than half a cell? */
+/* Have the two points drifted apart by more than half a cell? Whole ones have not, however much is magnified. */
 static int torn (const pg_solid *s, int i, int j)
 {
+    if (s->damage && fmin (s->damage[i], s->damage[j]) < 0.1) return 0;
     for (int a = 0; s->u && a < 3; a++)
         if (fabs (s->magnify * (s->u[3 * (size_t) i + (size_t) a] - s->u[3 * (size_t) j + (size_t) a])) > 0.5 * s->grid->step[a]) return 1;
     return 0;

@@ -8,7 +8,7 @@
 
 enum { M = 9, SIZE = 180 };
 
-typedef struct { pg_cloud cloud; pg_grid grid; double *value, *u; } body;
+typedef struct { pg_cloud cloud; pg_grid grid; double *value, *u, *damage; } body;
 
 /* Cells of 1 mm, M to each axis, x fastest. */
 static void make_body (body *b)
@@ -46,7 +46,7 @@ static void draw (const body *b, int view, double magnify, const unsigned char *
     double room = fmax (high[0] - low[0], high[1] - low[1]) + 2e-3;
     *screen = (pg_screen) { .left = 0.5 * (low[0] + high[0] - room), .top = 0.5 * (low[1] + high[1] + room), .scale = SIZE / room };
     check_ok (pg_screen_open (screen, SIZE, SIZE));
-    pg_solid_draw (&(pg_solid) { &b->cloud, &b->grid, eye, magnify != 0 ? b->u : NULL, magnify, keep }, screen);
+    pg_solid_draw (&(pg_solid) { &b->cloud, &b->grid, eye, magnify != 0 ? b->u : NULL, magnify, keep, b->damage }, screen);
 }
 
 static size_t count_of (const pg_screen *s, int owner)
@@ -196,6 +196,27 @@ static void an_opening_stays_open_and_a_stretch_leaves_no_gap (void **state)
     check_relative ((double) empty_between (0.8), 0.8 * SIZE / 11.0, 0.1);
 }
 
+/* Stretched to two and a half times its length, a whole body has no hole in it; one whose damage is not known is taken for torn. */
+static void whole_points_hold_together (void **state)
+{
+    (void) state;
+    for (int known = 0; known < 2; known++) {
+        body b;
+        pg_eye eye;
+        pg_screen s;
+        size_t empty = 0;
+        double none[M * M * M] = { 0 };
+        make_body (&b);
+        if (known) b.damage = none;
+        for (size_t i = 0; i < b.cloud.n; i++) b.u[3 * i] = 1.5e-6 * ((double) (i % M) - M / 2);
+        draw (&b, PG_VIEW_FRONT, 1000, NULL, &eye, &s);
+        for (int i = 10; i < SIZE - 10; i++) empty += s.owner[SIZE / 2 * SIZE + i] < 0;
+        assert_true (known ? empty == 0 : empty > 30);
+        pg_screen_close (&s);
+        drop_body (&b);
+    }
+}
+
 static void displaced_points_move_by_the_multiple (void **state)
 {
     (void) state;
@@ -261,7 +282,7 @@ static void the_body_behind_a_choice_is_a_ghost (void **state)
     keep[M * M * M / 2] = 1;                           /* the one in the middle                                          */
     draw (&b, PG_VIEW_FRONT, 0, keep, &eye, &s);
     check_relative ((double) count_of (&s, M * M * M / 2), SIZE * SIZE / 121.0, 0.15);
-    check_ok (pg_ghost_draw (&(pg_solid) { &b.cloud, &b.grid, &eye, NULL, 0, keep }, &s));
+    check_ok (pg_ghost_draw (&(pg_solid) { &b.cloud, &b.grid, &eye, NULL, 0, keep, NULL }, &s));
     check_relative ((double) count_of (&s, M * M * M / 2), SIZE * SIZE / 121.0, 0.15);
     assert_true (count_of (&s, PG_GHOST) > 15000 && count_of (&s, PG_EDGE) > 400);
     pg_screen_close (&s);
@@ -326,7 +347,7 @@ int main (void)
         cmocka_unit_test (every_side_shows_its_own_face), cmocka_unit_test (sides_are_not_mirrored),
         cmocka_unit_test (iso_shows_three_faces_and_nothing_inside), cmocka_unit_test (a_mirrored_body_gives_the_mirrored_view),
         cmocka_unit_test (half_a_turn_swaps_front_and_back), cmocka_unit_test (an_opening_stays_open_and_a_stretch_leaves_no_gap),
-        cmocka_unit_test (displaced_points_move_by_the_multiple), cmocka_unit_test (half_cells_end_at_the_body),
+        cmocka_unit_test (whole_points_hold_together), cmocka_unit_test (displaced_points_move_by_the_multiple), cmocka_unit_test (half_cells_end_at_the_body),
         cmocka_unit_test (a_cloud_without_lattice_is_drawn_as_loose_cubes), cmocka_unit_test (the_body_behind_a_choice_is_a_ghost),
         cmocka_unit_test (an_oblique_slice_shows_the_cells_it_cuts), cmocka_unit_test (any_allocation_may_fail),
     };
