@@ -23,6 +23,9 @@ static const char dilating_scene[] = BLOCK "method: {force: gmpd, volumetric: on
     "boundary: [{set: bottom, velocity: {x: 0, y: -20 m/s, z: 0}}, {set: top, velocity: {y: 20 m/s}}, {set: top, moment: {z: 1 kN m}}]\n"
     "solver: {kind: verlet, end: 100 us}\n";
 
+static const char soft_scene[] = BLOCK "method: {gauss_points: 1, horizon: 1.5 spacing, essential: nitsche, dilatation: projected}\nfailure: {criterion: principal_stress, tensile_strength: 1 MPa}\n"
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 1 mm}}]\nsolver: {stepping: fixed, steps: 2, break: all}\n";
+
 /* Loads, builds, makes up to three steps, writes them. */
 static pg_status run_file (const char *path, const char *folder, long *broken)
 {
@@ -86,6 +89,7 @@ static void sweep (const char *text, size_t first, size_t rest)
 }
 
 static void a_static_block_survives_every_failing_allocation (void **state) { (void) state; sweep (static_scene, 20, 60); }
+static void a_block_of_patches_survives_every_failing_allocation (void **state) { (void) state; sweep (soft_scene, 20, 60); }
 static void a_newmark_block_survives_every_failing_allocation (void **state) { (void) state; sweep (newmark_scene, 20, 60); }
 static void a_micropolar_block_survives_every_failing_allocation (void **state) { (void) state; sweep (turning_scene, 20, 60); }
 static void a_marching_block_survives_every_failing_allocation (void **state) { (void) state; sweep (dilating_scene, 20, 60); }
@@ -136,6 +140,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_static_block_survives_every_failing_allocation),
+        cmocka_unit_test (a_block_of_patches_survives_every_failing_allocation),
         cmocka_unit_test (a_newmark_block_survives_every_failing_allocation),
         cmocka_unit_test (a_micropolar_block_survives_every_failing_allocation),
         cmocka_unit_test (a_marching_block_survives_every_failing_allocation),

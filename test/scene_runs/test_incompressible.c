@@ -207,23 +207,49 @@ static void a_mirrored_body_has_the_mirrored_answer (void **state)
     }
 }
 
-/* Patches lie across the crack: the halves must not hang together by their pressure. */
-static void halves_part_without_a_force (void **state)
+/* Patches lie across a crack through the whole body: stretching the upper half must not move the lower one by a common pressure. */
+static void a_crack_parts_the_patches_that_it_crosses (void **state)
 {
     (void) state;
     static const char *const integrations[] = { "gauss", "consistent", "nodal" };
     for (int k = 0; k < 3; k++) {
         run r = scene_of (1, "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.1\n"
                           "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.4999}}\nmethod: {integration: %s}\ncracks: [{from: [-0.1, 0.53], to: [1.1, 0.57]}]\n"
-                          "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {x: 0, y: 1e-3}}]\nsolver: {kind: static}\n", integrations[k]);
+                          "sets: {upper: {where: y > 0.58 m}}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, "
+                          "{set: upper, displacement: {x: 1e-3*x, y: 2e-3*y}, essential: penalty}]\nsolver: {kind: static}\n", integrations[k]);
         to_the_end (&r);
+        double *u = field_of (&r, NULL, "displacement", NULL), lower = 0;
+        for (size_t i = 0; i < r.problem->cloud.n; i++)
+            if (r.problem->cloud.x[2 * i + 1] < 0.52) lower = fmax (lower, hypot (u[2 * i], u[2 * i + 1]));
+        print_message ("  %s: the lower half moves %.2e of the upper\n", integrations[k], lower / largest_of (u, 2 * r.problem->cloud.n));
+        check_below (lower, 1e-12 * largest_of (u, 2 * r.problem->cloud.n));
+        pg_free (u);
+        clear (&r);
+    }
+}
+
+/* Stress at any place: that of the points, for a field with a pressure a thousand times the shears. */
+static void places_have_the_pressure_of_their_patches (void **state)
+{
+    (void) state;
+    static const char *const methods[] = { "method: {integration: gauss}\n", "method: {integration: nodal}\n", "method: {integration: consistent, basis: quadratic, horizon: 2.6 spacing}\n" };
+    static const double places[] = { 0.013, -0.21, 0.77, 0.31, -0.95, 0.55, 1.05, -0.45 };
+    double mu = 1 / (2 * 1.4999), lambda = 0.4999 / (1.4999 * 2e-4), volume = 1e-3;
+    for (int k = 0; k < 3; k++) {
+        run r = scene_of (1, BLOCK "%sboundary: [{set: left, displacement: {x: 0, y: 0}}]\n", methods[k]);
         void *self;
         const pg_force_type *force = pg_solver_force (r.solver, &self);
-        pg_ledger ledger = { 0 };
-        check_ok (force->ledger (self, 1, r.state->d, NULL, &ledger));
-        print_message ("  %s: energy of halves that part %.3g, whole %.3g\n", integrations[k], ledger.strain, 0.5e-6);
-        check_below (fabs (ledger.strain), 1e-12 * 0.5e-6);
-        pg_ledger_clear (&ledger);
+        double *d = pg_calloc (r.state->ndof, sizeof *d), u[12], stress[24];
+        for (size_t i = 0; i < r.problem->cloud.n; i++) stretched (r.problem->cloud.x + 2 * i, d + 2 * i);
+        refresh (&r, NULL);
+        check_ok (force->sample (self, r.state, d, 4, places, u, stress));
+        for (int q = 0; q < 4; q++) {
+            check_relative (stress[6*q], lambda * volume + 2 * mu * 2e-3, 1e-9);
+            check_relative (stress[6*q + 1], lambda * volume - 2 * mu * 1e-3, 1e-9);
+            check_relative (stress[6*q + 2], lambda * volume, 1e-9);
+            check_scaled (stress[6*q + 3], -mu * 2e-3, 1e-9, lambda * volume);
+        }
+        pg_free (d);
         clear (&r);
     }
 }
@@ -252,7 +278,8 @@ int main (void)
         cmocka_unit_test (bending_with_the_quadratic_basis),
         cmocka_unit_test (other_materials_have_the_same_bits),
         cmocka_unit_test (a_mirrored_body_has_the_mirrored_answer),
-        cmocka_unit_test (halves_part_without_a_force),
+        cmocka_unit_test (a_crack_parts_the_patches_that_it_crosses),
+        cmocka_unit_test (places_have_the_pressure_of_their_patches),
         cmocka_unit_test (what_has_no_remedy_is_warned_of),
     };
     return cmocka_run_group_tests_name ("scene_runs/incompressible", tests, NULL, NULL);
