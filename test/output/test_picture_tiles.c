@@ -4,6 +4,7 @@
 #include "check.h"
 #include "fonts.h"
 #include "sample.h"
+#include "meshes.h"
 #include <cairo.h>
 
 enum { FILL = 0xfbec6e };                              /* value 1 of 0 to 1                                              */
@@ -114,6 +115,42 @@ static void the_body_ends_where_its_shapes_do (void **state)
     }
 }
 
+/* Whole cells where the scene has cells: staircase; the elements of a plane mesh, on which the points lie. */
+static void stairs_and_meshes_are_outlines_too (void **state)
+{
+    (void) state;
+    thing t;
+    image m;
+    pg_lattice lattice;
+    pg_mesh sheet;
+    double cells = 0, one[200], x[400], volume[200];
+    make (&t, 1, 1, 1, 1);
+    check_ok (pg_lattice_fit (&lattice, &t.body, 0.1, NULL));
+    for (int k = 0; k < lattice.count[0] * lattice.count[1]; k++) cells += lattice.in[k];
+    pg_outline stairs = { .body = &t.body, .lattice = &lattice }, elements = { .mesh = &sheet };
+    const char *path = file_at ("outline.png");
+    check_ok (pg_picture_field (path, &t.cloud, t.one, &(pg_picture_style) { .label = "v", .high = 1, .outline = &stairs }));
+    open_image (&m, path);
+    double size = (m.box[1] + 1 - m.box[0]) / 20.0;    /* pixels of a cell */
+    check_relative (m.area, cells * size * size, 0.003);
+    pg_free (m.on);
+    make_mesh (&sheet, &(mesh_plan) { to_box, { 4, 3, 1 }, 2, 0, PG_TRI6, NULL });
+    pg_cloud c = { .dim = 2, .n = sheet.nnode, .x = x, .volume = volume, .h = 10, .thickness = 1 };
+    assert_true (c.n < 200);
+    for (size_t i = 0; i < c.n; i++) one[i] = volume[i] = 1, memcpy (x + 2 * i, sheet.x + 3 * i, 2 * sizeof *x);
+    check_ok (pg_picture_field (path, &c, one, &(pg_picture_style) { .label = "v", .high = 1, .outline = &elements }));
+    open_image (&m, path);
+    assert_int_equal (holes (&m), 0);
+    check_relative (m.area, (double) (m.box[1] + 1 - m.box[0]) * (m.box[3] + 1 - m.box[2]), 0.003);
+    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
+    for (size_t i = 0; i < c.n; i++) for (int k = 0; k < 2; k++) low[k] = fmin (low[k], x[2*i + (size_t) k]), high[k] = fmax (high[k], x[2*i + (size_t) k]);
+    check_relative ((double) (m.box[1] + 1 - m.box[0]) / (m.box[3] + 1 - m.box[2]), (high[0] - low[0]) / (high[1] - low[1]), 0.01);
+    pg_free (m.on);
+    pg_mesh_clear (&sheet);
+    pg_lattice_clear (&lattice);
+    drop (&t);
+}
+
 /* Any linear displacement, also one that stretches cells to twice their size: no hole, and the area grows by its determinant. */
 static void magnified_bodies_have_no_holes (void **state)
 {
@@ -219,7 +256,7 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (the_body_ends_where_its_shapes_do), cmocka_unit_test (magnified_bodies_have_no_holes), cmocka_unit_test (only_cracks_open),
+        cmocka_unit_test (the_body_ends_where_its_shapes_do), cmocka_unit_test (stairs_and_meshes_are_outlines_too), cmocka_unit_test (magnified_bodies_have_no_holes), cmocka_unit_test (only_cracks_open),
         cmocka_unit_test (clouds_are_filled), cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/picture_tiles", tests, NULL, remove_folder);
