@@ -75,6 +75,11 @@ for k in 'signs n --negate' 'turned t' 'signs xy --negate xy'; do
     "$perigal" plot "$work/$table.csv" --curve a b --out "$work/$name.svg" $options > "$work/out" 2> "$work/err"
 done
 [ -n "$(line_of "$work/n.svg")" ] && [ "$(line_of "$work/n.svg")" = "$(line_of "$work/t.svg")" ] && [ "$(line_of "$work/n.svg")" != "$(line_of "$work/xy.svg")" ]; verdict "--negate turns y alone" $?
+# of event stepping: the thick line never goes back, the thin one behind it does
+pen_of() { grep "stroke-width:$2;" "$1" | grep -oE ' d="M [^"]*"' | awk 'length ($0) > n { n = length ($0); d = $0 } END { print d }'; }
+goes_back() { tr -d 'dML="' | awk '{ for (i = 3; i < NF; i += 2) if ($i < $(i - 2) - 1e-3) back = 1 } END { exit !back }'; }
+"$perigal" plot "$out" --curve pull.displacement_y pull.force_y --out "$work/events.svg" > "$work/out" 2> "$work/err"
+pen_of "$work/events.svg" 1 | goes_back && ! pen_of "$work/events.svg" 3 | goes_back; verdict "plot --curve: the line of an event path is its envelope" $?
 expect "plot names the nearest curve option"  64 '' 'did you mean --labels' plot "$out" --curve step pull.force_y --label a
 expect "plot names the nearest field"         64 '' "did you mean 'damage'" plot "$out" --field damag
 expect "plot names the nearest column"        64 '' "did you mean 'pull.force_y'" plot "$out" --curve step pull.force_yy
