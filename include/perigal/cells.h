@@ -75,7 +75,8 @@ typedef struct { pg_set *set; size_t n; } pg_sets;
 /* Makes the predefined sets left right bottom top back front (faces of the bounding box) and all (every point and facet), the
  * sets of the scene, and the parts of each. What has no side in this dimension does not exist. An empty set of the scene is a
  * fault; an empty predefined set or part is not (npoint = nfacet = 0). Sets of a mesh come before those of the scene, with their parts, and
- * take the place of predefined ones of the same name. */
+ * take the place of predefined ones of the same name. With PG_E_SCENE all sets are there all the same, for the caller to
+ * look for more faults and to clear. */
 pg_status     pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud, const pg_cells *cells);
 const pg_set *pg_sets_find  (const pg_sets *sets, const char *name);
 /* The same for a name that the scene gives at `path`: an unknown one is a fault there that names the nearest. */

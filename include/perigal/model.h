@@ -77,6 +77,11 @@ typedef struct {
 #define PG_WARNING "warning: "
 void      pg_problem_note  (pg_problem *problem, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
 pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads);
+/* The same in two halves, so that faults of solver and output can be found beside those of the problem. prepare: all but the bonds, also of a
+ * scene with faults that do not keep it from that (they are passed by, pg_scene_pass; *out then serves to look for more of them only).
+ * complete: PG_E_SCENE with all faults if there are any, else the bonds. */
+pg_status pg_problem_prepare  (pg_problem **out, const pg_scene *scene, int threads);
+pg_status pg_problem_complete (pg_problem *problem, const pg_scene *scene);
 void      pg_problem_free  (pg_problem **problem);
 /* The bond set and the point of that set that own a bond (an index into state->alive). */
 void      pg_problem_locate (const pg_problem *problem, size_t bond, int *set, size_t *point);

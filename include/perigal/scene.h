@@ -46,6 +46,11 @@ typedef struct pg_scene pg_scene;
 pg_status pg_scene_load   (pg_scene **out, const char *path);
 /* The same with overrides "key=value" (value is YAML), applied before the checks. */
 pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, const char *const *set);
+/* The same, so that one pass tells all faults: a scene that is wrong only beside its geometry (materials, failure, blocks, boundary, initial,
+ * solver, output, reference) is given with PG_OK. pg_scene_partial is then 1, its faults are passed by (pg_scene_pass), and of a problem only the geometry
+ * may be built: pg_problem_prepare does that and returns all faults. */
+pg_status pg_scene_load_some (pg_scene **out, const char *path, size_t nset, const char *const *set);
+int       pg_scene_partial (const pg_scene *s);
 pg_status pg_scene_parse  (pg_scene **out, const char *text, const char *name);      /* from memory, `name` for messages */
 /* The same with overrides as in pg_scene_load_with. */
 pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset, const char *const *set);
@@ -68,6 +73,10 @@ int         pg_scene_vector  (const pg_scene *s, int max, double *out, const cha
 void        pg_scene_fault   (const pg_scene *s, const char *path, const char *format, ...) PG_PATH (3, 4);
 /* PG_OK, or PG_E_SCENE with all faults so far in pg_last_error. */
 pg_status   pg_scene_verdict (const pg_scene *s);
+/* The faults so far do not keep later checks from being made: pg_scene_verdict fails only when there are more, with all of them. */
+void        pg_scene_pass    (const pg_scene *s);
+/* As pg_scene_verdict, of those that were passed by too. */
+pg_status   pg_scene_conclude (const pg_scene *s);
 const char *pg_scene_file    (const pg_scene *s);            /* path as given                                             */
 const char *pg_scene_source  (const pg_scene *s);            /* the text read, overrides not applied                      */
 const char *pg_scene_setting (const pg_scene *s, size_t k);  /* k-th override "key=value"; NULL past the end               */

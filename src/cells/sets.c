@@ -247,7 +247,8 @@ static pg_status add_named (builder *b, const char *name)
     snprintf (at, sizeof at, "sets.%.80s", name);
     if (why) {
         pg_scene_fault (s, at, "%s", why);
-        return PG_OK;
+        pg_marks_fill (&b->marks, 0);
+        return pg_sets_find (b->out, name) || strlen (name) > 56 ? PG_OK : add_set (b, name);
     }
     pg_marks_fill (&b->marks, 1);
     if (boundary) known = mark_boundaries (b, name);
@@ -273,7 +274,7 @@ pg_status pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *bod
     PG_TRY (pg_scene_verdict (scene));
 done:
     pg_marks_clear (&b.marks);
-    if (status != PG_OK) pg_sets_clear (out);
+    if (status != PG_OK && status != PG_E_SCENE) pg_sets_clear (out);
     return status;
 }
 

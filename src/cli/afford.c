@@ -43,6 +43,12 @@ pg_status afford_scene (const command *c, pg_forecast *f)
     memset (f, 0, sizeof *f);
     PG_TRY (command_scene (c, &scene));
     status = pg_forecast_scene (f, scene);
+    if (pg_scene_partial (scene)) {                    /* its geometry is built to look for more faults, if it is small  */
+        if (f->points > 3e5) status = pg_scene_conclude (scene);
+        else status = PG_OK;
+        memset (f, 0, sizeof *f);
+        goto done;
+    }
     if (status == PG_E_SCENE || status == PG_E_FILE) {
         memset (f, 0, sizeof *f);
         status = PG_OK;

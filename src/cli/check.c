@@ -32,9 +32,7 @@ int pg_cli_check (int argc, char **argv)
     if (wrong >= 0) return wrong;
     PG_TRY (command_scene (&c, &scene));
     PG_TRY (afford_scene (&c, &f));
-    PG_TRY (pg_problem_build (&p, scene, c.threads));
-    PG_TRY (pg_solver_options_read (&o, p, scene));
-    PG_TRY (pg_result_check (scene, p));
+    PG_TRY (command_problem (&c, scene, &p, &o));
     PG_TRY (afford_problem (&c, &f, p, 1));
     if (o.marching || o.staged) {
         PG_TRY (pg_solver_create (&solver, p, &o));

@@ -33,7 +33,8 @@ typedef struct { const char *scene, *folder, *set[64]; size_t nset; int threads,
 int       command_parse (command *c, int argc, char **argv);   /* -1: go on; else the exit code (message printed)         */
 int       command_unquoted (char *out, size_t size, int argc, char **argv);     /* 1: what a value without its quotes left behind */
 int       command_usage (FILE *to, const char *name);          /* 0: there is no such command                             */
-pg_status command_scene (const command *c, pg_scene **scene);  /* a file that cannot be read counts as a wrong scene      */
+pg_status command_scene (const command *c, pg_scene **scene);  /* a file that cannot be read counts as a wrong scene; may be partial */
+pg_status command_problem (const command *c, const pg_scene *scene, pg_problem **problem, pg_solver_options *o);       /* with all faults at once */
 void      command_complain (pg_status status, const char *text);
 void      command_again (const command *c);                    /* how to go on with this run, on stderr                   */
 int       exit_code     (pg_status status);

@@ -168,8 +168,22 @@ int command_parse (command *c, int argc, char **argv)
 
 pg_status command_scene (const command *c, pg_scene **scene)
 {
-    pg_status status = pg_scene_load_with (scene, c->scene, c->nset, c->set);
+    pg_status status = pg_scene_load_some (scene, c->scene, c->nset, c->set);
     return status == PG_E_FILE ? PG_E_SCENE : status;
+}
+
+/* Faults of one do not keep the others from being looked for. */
+pg_status command_problem (const command *c, const pg_scene *scene, pg_problem **problem, pg_solver_options *o)
+{
+    pg_status status = PG_OK;
+    PG_TRY (pg_problem_prepare (problem, scene, c->threads));
+    status = pg_solver_options_read (o, *problem, scene);
+    pg_scene_pass (scene);
+    if (status == PG_OK || status == PG_E_SCENE) status = pg_result_check (scene, *problem);
+    pg_scene_pass (scene);
+    if (status == PG_OK || status == PG_E_SCENE) status = pg_problem_complete (*problem, scene);
+done:
+    return status;
 }
 
 /* Faults of a scene begin with their place; all else names the program. */

@@ -186,11 +186,9 @@ int pg_cli_run (int argc, char **argv)
     settle_signals ();
     PG_TRY (command_scene (&c, &scene));
     PG_TRY (afford_scene (&c, &forecast));
-    PG_TRY (pg_problem_build (&problem, scene, c.threads));
-    PG_TRY (pg_solver_options_read (&options, problem, scene));
+    PG_TRY (command_problem (&c, scene, &problem, &options));
     PG_TRY (afford_problem (&c, &forecast, problem, 0));
     snprintf (folder, sizeof folder, "out/%s", problem->name);
-    PG_TRY (pg_result_check (scene, problem));
     if (c.resume && pg_result_finished (c.folder ? c.folder : folder, scene)) {
         if (!c.quiet) printf ("%s: this run is finished\n", c.folder ? c.folder : folder);
         goto done;

@@ -72,6 +72,14 @@ done:
     return status;
 }
 
+pg_status pg_blocks_check (const pg_problem *p, const pg_scene *scene)
+{
+    entries e = { 0 };
+    pg_status status = pg_scene_given (scene, "blocks") ? read_entries (&e, p, scene) : PG_OK;
+    clear (&e);
+    return status == PG_E_SCENE ? PG_OK : status;
+}
+
 /* ---- claims ----------------------------------------------------------------------------------------------------------- */
 /* A point on the boundary is looked at a hair inside its cell, of a cut one inside the surface: rounding must not take it out of the body. */
 static void inside (const pg_problem *p, int set, size_t point, double *x)

@@ -168,6 +168,7 @@ static void check_place (const pg_problem *problem, const pg_load *load, const p
     char path[64];
     snprintf (path, sizeof path, "boundary[%zu].set", i);
     const pg_set *set = load->set;
+    if (set->npoint == 0 && set->nfacet == 0 && pg_scene_given (scene, "sets.%s", set->name)) return;      /* a fault of the set, told there */
     int on_facets = load->kind == PG_TRACTION || load->kind == PG_PRESSURE
                  || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
     if (on_facets && problem->cells.n == 0)

@@ -28,6 +28,8 @@ void      pg_direct_rule  (pg_sum_rule *out, const pg_scene *scene, pg_mode mode
 /* The node nearest to a point of a bond set among those it sees; -1: it sees none. */
 int       pg_bonds_nearest (const pg_problem *problem, int set, size_t point);
 /* block of every point, once the rows are there. */
+/* What is wrong with the entries of `blocks` by themselves, as faults. */
+pg_status pg_blocks_check (const pg_problem *problem, const pg_scene *scene);
 pg_status pg_blocks_build (pg_problem *problem, const pg_scene *scene);
 /* method.dilatation: patches for the materials that need them; notes and warnings for those that have none. */
 pg_status pg_dilatation_build (pg_problem *problem, const pg_scene *scene);

@@ -42,11 +42,18 @@ done:
     return status;
 }
 
+/* A fault found in one stage keeps the next from nothing: all are told together. */
+static pg_status pass (const pg_scene *scene, pg_status status)
+{
+    if (status == PG_E_SCENE) pg_scene_pass (scene);
+    return status == PG_E_SCENE ? PG_OK : status;
+}
+
 static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     PG_TRY (pg_body_read (&p->body, scene));
-    PG_TRY (pg_cracks_read (&p->cracks, scene));
+    PG_TRY (pass (scene, pg_cracks_read (&p->cracks, scene)));
     PG_TRY (pg_scene_verdict (scene));
     if (pg_scene_given (scene, "mesh")) {
         PG_TRY (pg_mesh_body_read (&p->part, scene));
@@ -58,7 +65,7 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
     if (p->part.mesh.n) PG_TRY (pg_cells_from_mesh (&p->cells, &p->part, p->cloud.thickness));
     else if (p->lattice.dim && cut) PG_TRY (cut_cells (p, scene));
     else if (p->lattice.dim) PG_TRY (pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness));
-    PG_TRY (pg_sets_build (&p->sets, scene, &p->body, &p->lattice, &p->cloud, &p->cells));
+    PG_TRY (pass (scene, pg_sets_build (&p->sets, scene, &p->body, &p->lattice, &p->cloud, &p->cells)));
 done:
     return status;
 }
@@ -186,7 +193,7 @@ done:
     return status;
 }
 
-pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads)
+pg_status pg_problem_prepare (pg_problem **out, const pg_scene *scene, int threads)
 {
     pg_status status = PG_OK;
     pg_problem *p = NULL;
@@ -197,15 +204,40 @@ pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads
     const char *title = pg_scene_text (scene, "title");
     name_of (p->name, sizeof p->name, pg_scene_file (scene));
     snprintf (p->title, sizeof p->title, "%s", title && *title ? title : p->name);
+    pg_scene_pass (scene);
     PG_TRY (build_geometry (p, scene));
+    if (pg_scene_partial (scene)) PG_TRY (pg_scene_conclude (scene));
     PG_TRY (build_laws (p, scene));
     PG_TRY (pg_loads_read (p, scene));
+    for (size_t l = 0; l < p->nload; l++) if (!p->load[l].set) PG_TRY (pg_scene_conclude (scene));
     PG_TRY (pg_initial_read (p, scene));
-    PG_TRY (pg_scene_verdict (scene));
+    PG_TRY (pg_blocks_check (p, scene));
+    PG_TRY (read_gauges (p, scene));
+    pg_scene_pass (scene);
+    *out = p;
+    p = NULL;
+done:
+    pg_problem_free (&p);
+    return status;
+}
+
+pg_status pg_problem_complete (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    PG_TRY (pg_scene_conclude (scene));
     PG_TRY (pg_bonds_build (p, scene));
     pg_loads_check_moments (p, scene);
-    PG_TRY (read_gauges (p, scene));
     PG_TRY (pg_scene_verdict (scene));
+done:
+    return status;
+}
+
+pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads)
+{
+    pg_status status = PG_OK;
+    pg_problem *p = NULL;
+    PG_TRY (pg_problem_prepare (&p, scene, threads));
+    PG_TRY (pg_problem_complete (p, scene));
     *out = p;
     p = NULL;
 done:

@@ -50,8 +50,21 @@ static pg_status read_tree (pg_scene *s, const char *text, size_t length)
     return PG_OK;
 }
 
-pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset, const char *const *set,
-                         const pg_key_table *table, size_t ntable)
+/* All faults lie where body, points, cracks and sets do not look. */
+static int geometry_is_sound (const pg_scene *s)
+{
+    static const char *const elsewhere[] = { "title", "materials", "failure", "blocks", "boundary", "initial", "solver", "output", "reference" };
+    for (size_t i = 0; i < s->faults->n; i++) {
+        size_t k = 0, n = sizeof elsewhere / sizeof *elsewhere;
+        while (k < n && strcmp (s->faults->fault[i].top, elsewhere[k]) != 0) k++;
+        if (k == n) return 0;
+    }
+    return s->dimension > 0 && !s->faults->more;
+}
+
+/* some: a scene whose geometry has no fault is given with the faults it has. */
+static pg_status read_some (pg_scene **out, const char *text, size_t length, const char *name, size_t nset, const char *const *set,
+                            const pg_key_table *table, size_t ntable, int some)
 {
     pg_status status = PG_OK;
     pg_scene *s;
@@ -63,12 +76,19 @@ pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const 
     PG_TRY (pg_faults_verdict (s->faults));            /* without a tree there is nothing more to check */
     for (size_t k = 0; k < nset; k++) PG_TRY (pg_scene_override (s, set[k], s->set[k]));
     PG_TRY (pg_scene_check (s));
-    PG_TRY (pg_faults_verdict (s->faults));
+    if (some && s->faults->n && geometry_is_sound (s)) s->partial = 1, pg_scene_pass (s);
+    PG_TRY (pg_scene_verdict (s));
     *out = s;
     s = NULL;
 done:
     pg_scene_free (&s);
     return status;
+}
+
+pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset, const char *const *set,
+                         const pg_key_table *table, size_t ntable)
+{
+    return read_some (out, text, length, name, nset, set, table, ntable, 0);
 }
 
 pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset, const char *const *set)
@@ -99,7 +119,7 @@ done:
     return status;
 }
 
-pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, const char *const *set)
+static pg_status load (pg_scene **out, const char *path, size_t nset, const char *const *set, int some)
 {
     pg_status status = PG_OK;
     char *text = NULL;
@@ -107,12 +127,14 @@ pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, con
     const pg_key_table *table = pg_scene_tables (&n);
     *out = NULL;
     PG_TRY (read_file (&text, &length, path));
-    PG_TRY (pg_scene_read (out, text, length, path, nset, set, table, n));
+    PG_TRY (read_some (out, text, length, path, nset, set, table, n, some));
 done:
     pg_free (text);
     return status;
 }
 
+pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, const char *const *set) { return load (out, path, nset, set, 0); }
+pg_status pg_scene_load_some (pg_scene **out, const char *path, size_t nset, const char *const *set) { return load (out, path, nset, set, 1); }
 pg_status pg_scene_load (pg_scene **out, const char *path) { return pg_scene_load_with (out, path, 0, NULL); }
 
 void pg_scene_free (pg_scene **scene)
@@ -139,4 +161,11 @@ const char *pg_scene_setting (const pg_scene *s, size_t k) { return k < s->nset 
 
 const char *pg_scene_hash   (const pg_scene *s) { return s->hash; }
 
-pg_status pg_scene_verdict (const pg_scene *s) { return pg_faults_verdict (s->faults); }
+pg_status pg_scene_verdict (const pg_scene *s)
+{
+    return s->faults->n > s->faults->passed || s->faults->lost ? pg_faults_verdict (s->faults) : PG_OK;
+}
+
+pg_status pg_scene_conclude (const pg_scene *s) { return pg_faults_verdict (s->faults); }
+void pg_scene_pass (const pg_scene *s) { s->faults->passed = s->faults->n; }
+int pg_scene_partial (const pg_scene *s) { return s->partial; }

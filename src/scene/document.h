@@ -14,6 +14,7 @@ struct pg_scene {
     pg_node    root;
     pg_node   *fallback;                               /* default of each row; no text and no child: none (schema.n) */
     pg_faults *faults;                                 /* grows even in a const scene */
+    int        partial;                                /* it has faults beside its geometry (pg_scene_load_some) */
 };
 
 pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset, const char *const *set,

@@ -40,7 +40,8 @@ void pg_faults_add_v (pg_faults *f, const char *file, const pg_node *at, const c
         return;
     }
     PG_GROW (f->fault, f->cap, f->n + 1);
-    f->fault[f->n] = (pg_fault) { pg_strdup (text), line, column };
+    f->fault[f->n] = (pg_fault) { .text = pg_strdup (text), .line = line, .column = column };
+    snprintf (f->fault[f->n].top, sizeof f->fault[f->n].top, "%.*s", (int) strcspn (path ? path : "", ".["), path ? path : "");
     if (f->fault[f->n].text) f->n++;
     else f->lost = 1;
 done:

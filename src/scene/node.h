@@ -22,11 +22,12 @@ struct pg_node {
     size_t        n, cap;
 };
 
-typedef struct { char *text; int line, column; } pg_fault;
+typedef struct { char *text; int line, column; char top[24]; } pg_fault;        /* top: first word of the key it is about         */
 typedef struct {
     pg_fault *fault;
     size_t    n, cap, more;                            /* more: counted only */
     int       lost;                                    /* no memory for one of them */
+    size_t    passed;                                  /* so many are no reason to stop (pg_scene_pass)                  */
 } pg_faults;
 
 /* One YAML document into `root`. A wrong text is a fault, not a failure; *good tells. */
