@@ -100,7 +100,11 @@ static int read_set (command *c, const char *text)
 static int refuse (const char *name, int option, const char *argument)
 {
     if (option == ':') fprintf (stderr, "perigal %s: %s needs a value\n", name, argument);
-    else fprintf (stderr, "perigal %s: there is no option %s\n", name, argument);
+    else {
+        const char *near = pg_nearest_name (argument, strcmp (name, "check") == 0 ? "--json|--solve|--spectrum|--out|--threads|--memory|--set|--quiet|--help"
+                                                                                   : "--out|--resume|--threads|--memory|--set|--quiet|--help");
+        fprintf (stderr, "perigal %s: there is no option %s%s%s%s\n", name, argument, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+    }
     command_usage (stderr, name);
     return EXIT_USAGE;
 }

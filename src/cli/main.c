@@ -59,8 +59,8 @@ int main (int argc, char **argv)
             memory_keep ();
             return commands[k].run (argc - 1, argv + 1);
         }
-    const char *near = pg_nearest_name (argv[1], "run|check|plot|compare|bench|converge|list|help");
-    fprintf (stderr, "perigal: there is no command %s%s%s%s\n", argv[1], near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+    const char *near = pg_nearest_name (argv[1], "run|check|plot|compare|bench|converge|list|help|--version|--help");
+    fprintf (stderr, "perigal: there is no %s %s%s%s%s\n", argv[1][0] == '-' ? "option" : "command", argv[1], near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     usage (stderr);
     return EXIT_USAGE;
 }

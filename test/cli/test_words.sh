@@ -79,4 +79,7 @@ expect "the same before the scene"              64 '' "quotes: --set 'spacing=4 
 expect "a map without quotes"                   64 '' "quotes: --set 'failure={criterion: none}'" run plate.yaml -s failure={criterion: none} -o "$work/none"
 expect "converge says it too"                   64 '' "quotes: --set 'spacing=4 mm'" converge plate.yaml --set spacing=4 mm
 expect "a scene that is not there is no value"  65 '' '^nowhere.yaml: cannot be opened' check --set spacing=4 nowhere.yaml
+expect "an option of nothing"                   64 '' 'there is no option --verson (did you mean --version?)' --verson
+expect "a misspelt option of run"               64 '' 'there is no option --reume (did you mean --resume?)' run plate.yaml --reume
+expect "help of a misspelt command"             64 '' 'or the command run?' help runn
 finish
