@@ -114,7 +114,7 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
         g->fresh[s] = known;
         if (known) galerkin_measure_list (g, s, n, g->list[s]);
     }
-    if (g->dilatation) PG_TRY (galerkin_dilatation_update (g, state, !changes, changes ? count[g->bulk] : 0));
+    if (g->dilatation) PG_TRY (galerkin_dilatation_update (g, state, !changes, count));
     if (!changes) g->all_stale = 1, g->revision++;
     else galerkin_mark_stale (g, count);
     if (g->has_T && (!changes || count[PG_NODES])) {

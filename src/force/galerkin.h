@@ -83,11 +83,11 @@ void galerkin_consistent_free (galerkin *g);
 /* Brings `sums` in line with the rows of the bulk: all, or cells with the touched points of g->list[bulk], whose number grows to all points
  * of the cells that changed. */
 pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int all, size_t *count);
-/* dilatation: all but galerkin_plain, _traction and _spread only where g->dilatation is there */
+/* dilatation: only where g->dilatation is there, but for galerkin_plain, _gaps, _traction, _adjoint */
 pg_status galerkin_dilatation_create (galerkin *g);
 void galerkin_dilatation_free (galerkin *g);
-/* After the rows of the bulk: all patches, or those with points of g->list[bulk][0..count); marks the rows of K that they enter. */
-pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int all, size_t count);
+/* After the rows of all sets: all patches, or those with touched points of g->list (bulk, facets); marks the rows of K that they enter. */
+pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int all, const size_t *count);
 /* The material without the part of D that the projected dilatation carries. */
 const pg_material *galerkin_plain (const galerkin *g, int set, size_t p);
 void galerkin_dilatation_measure (galerkin *g, int set, const double *d);   /* adds the pressure of the patches to stresses of the plain materials */
@@ -95,10 +95,10 @@ void galerkin_dilatation_apply (galerkin *g, const double *x, double *y);   /* y
 void galerkin_dilatation_diagonal (galerkin *g, double *d);
 void galerkin_dilatation_blocks (void *context, size_t patch, size_t a, size_t m, double *out);
 const double *galerkin_dilatation_of_nodes (galerkin *g, const double *d);  /* pressure of the patches at every node, Pa (n) */
-const pg_family *galerkin_dilatation_facet_family (const galerkin *g);
-void galerkin_dilatation_facet_blocks (void *context, size_t q, size_t a, size_t m, double *out);
-double galerkin_dilatation_traction (const galerkin *g, size_t q, int k, const double *x);      /* component k of the patch's traction on facet point q */
-void galerkin_dilatation_spread (const galerkin *g, size_t q, int k, double share, double *f);  /* f += share times its derivative */
+const pg_family *galerkin_dilatation_family (const galerkin *g);            /* nodes of the patches                       */
+void galerkin_dilatation_gaps (galerkin *g, double t);                      /* after the measure of the facets            */
+double galerkin_dilatation_traction (const galerkin *g, const pin *q);      /* what the flux through the gaps adds to a pin's traction, Pa */
+void galerkin_dilatation_adjoint (const galerkin *g, double *f);            /* f += work of the patches' pressures on the gaps, derived */
 /* bulk */
 void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out);
 void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out);        /* consistent: all points of a cell at once */
@@ -116,8 +116,8 @@ void galerkin_peg_blocks   (void *context, size_t p, size_t a, size_t m, double 
 void galerkin_boundary_apply (galerkin *g, const double *x, double *y);
 /* residual += loads and boundary terms (after measure); external and reaction: squared norms for the reference */
 void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external, double *reaction);
-double galerkin_boundary_energy (const galerkin *g, double t);
-size_t galerkin_boundary_pairs (const galerkin *g);
+double galerkin_boundary_energy (galerkin *g, double t);
+size_t galerkin_boundary_pairs (galerkin *g);
 size_t galerkin_boundary_ledger (galerkin *g, double t, const double *d, pg_ledger *out);
 /* basis */
 pg_status galerkin_basis_create (galerkin *g);

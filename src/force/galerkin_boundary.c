@@ -100,12 +100,10 @@ static void traction_row (int dim, int k, const double *n, double *Q)
     for (int c = 0; c < dim; c++) Q[dim == 3 ? voigt3[k][c] : dim == 2 ? voigt2[k][c] : 0] += n[c];
 }
 
-/* Where lambda outgrows E the term must outgrow the traction that lambda makes. */
+/* In units of E also where the dilatation is projected: what lambda makes of the traction is made up for patch by patch (galerkin_dilatation_facet.c). */
 static double beta (const galerkin *g, size_t q)
 {
-    const pg_material *m = galerkin_material (g, PG_FACETS, q);
-    int projected = g->problem->patches && g->problem->patches->lambda[g->material[PG_FACETS][q]] > 0;
-    return g->problem->nitsche * (projected ? m->D[0] : m->modulus) / pg_problem_spacing (g->problem, PG_FACETS, q);
+    return g->problem->nitsche * galerkin_material (g, PG_FACETS, q)->modulus / pg_problem_spacing (g->problem, PG_FACETS, q);
 }
 
 static const double *normal (const galerkin *g, size_t q)
@@ -181,14 +179,15 @@ static double pin_traction (const galerkin *g, const pin *q, double gap)
     return t - beta (g, q->point) * gap;
 }
 
-static void visit_supports (const galerkin *g, double t, visitor visit, void *context)
+static void visit_supports (galerkin *g, double t, visitor visit, void *context)
 {
     size_t dim = (size_t) g->dim;
+    galerkin_dilatation_gaps (g, t);
     for (size_t i = 0; i < g->npin; i++) {
         const pin *q = &g->pin[i];
         double u = g->u[PG_FACETS][q->point * dim + (size_t) q->component];
         double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_FACETS].x + q->point * dim, t);
-        visit (context, PG_FACETS, q->point, q->load, q->component, g->rows[PG_FACETS].weight[q->point] * pin_traction (g, q, u - goal), goal);
+        visit (context, PG_FACETS, q->point, q->load, q->component, g->rows[PG_FACETS].weight[q->point] * (pin_traction (g, q, u - goal) + galerkin_dilatation_traction (g, q)), goal);
     }
     for (size_t i = 0; i < g->npeg; i++) {
         const pin *q = &g->peg[i];
@@ -265,8 +264,7 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
             u += r->N[e] * d[k];
             for (size_t c = 0; c < dim; c++) t += part[c] * d[c];
         }
-        double force = w * (beta (g, p) * u - t - galerkin_dilatation_traction (g, p, q->component, x));
-        galerkin_dilatation_spread (g, p, q->component, -w * u, y);
+        double force = w * (beta (g, p) * u - t);
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
             double *to = y + (size_t) r->family.node[e] * dim;
             galerkin_B_transpose (g->dim, r->dN + e * dim, QD, part);
@@ -307,8 +305,8 @@ static void add_adjoint (galerkin *g, double t, double *f)
             galerkin_B_transpose (g->dim, r->dN + e * dim, QD, part);
             for (size_t c = 0; c < dim; c++) f[(size_t) r->family.node[e] * dim + c] += gap * part[c];
         }
-        galerkin_dilatation_spread (g, q->point, q->component, gap, f);
     }
+    galerkin_dilatation_adjoint (g, f);
 }
 
 void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external, double *reaction)
@@ -329,15 +327,16 @@ void galerkin_boundary_force (galerkin *g, double t, const double *d, double *re
 
 /* Energy that the boundary terms store: -int (u - g) (sigma n) + (beta / 2) int (u - g)^2, and the penalty springs. With it the work of
  * the supports equals the stored energy exactly as long as nothing breaks. */
-double galerkin_boundary_energy (const galerkin *g, double t)
+double galerkin_boundary_energy (galerkin *g, double t)
 {
     size_t dim = (size_t) g->dim;
     double sum = 0;
+    galerkin_dilatation_gaps (g, t);
     for (size_t i = 0; i < g->npin; i++) {
         const pin *q = &g->pin[i];
         double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_FACETS].x + q->point * dim, t);
         double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal;
-        sum -= g->rows[PG_FACETS].weight[q->point] * gap * 0.5 * (pin_traction (g, q, gap) + pin_traction (g, q, 0));
+        sum -= g->rows[PG_FACETS].weight[q->point] * gap * 0.5 * (pin_traction (g, q, gap) + pin_traction (g, q, 0) + galerkin_dilatation_traction (g, q));
     }
     for (size_t i = 0; i < g->npeg; i++) {
         const pin *q = &g->peg[i];
@@ -356,7 +355,7 @@ static void count_pair (void *context, int set, size_t point, int load, int k, d
     ++*(size_t *) context;
 }
 
-size_t galerkin_boundary_pairs (const galerkin *g)
+size_t galerkin_boundary_pairs (galerkin *g)
 {
     size_t n = 0;
     visit_supports (g, 0, count_pair, &n);

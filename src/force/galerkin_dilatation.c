@@ -14,12 +14,11 @@ static const double nearby = 1.25;                     /* spacings: bonds that j
 typedef galerkin_part part;
 
 /* ---- polynomials ------------------------------------------------------------------------------------------------------ */
-/* psi of a part at x (terms) */
-static void polynomials (const part *a, int dim, const double *x, double *psi)
+void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a, const double *x, double *psi)
 {
     psi[0] = 1;
     for (int k = 0; k < a->terms - 1; k++) psi[k + 1] = (x[k] - a->centre[k]) / a->size;
-    (void) dim;
+    (void) g;
     for (int i = 0; i < a->terms; i++) {               /* L^-1 q                                                         */
         for (int j = 0; j < i; j++) psi[i] -= a->L[i * a->terms + j] * psi[j];
         psi[i] /= a->L[i * a->terms + i];
@@ -81,14 +80,14 @@ static void sum_rows (const galerkin *g, size_t c, int k, part *a)
     const galerkin_dilatation *d = g->dilatation;
     const pg_patches *q = g->problem->patches;
     const pg_rows *r = &g->sums;
-    size_t dim = (size_t) g->dim, first = q->family.start[c], m = q->family.start[c + 1] - first;
-    const int *node = q->family.node + first;
+    size_t dim = (size_t) g->dim, first = d->family.start[c], m = d->family.start[c + 1] - first;
+    const int *node = d->family.node + first;
     double psi[4];
     memset (a->g, 0, (size_t) a->terms * m * dim * sizeof *a->g);
     for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
         size_t p = q->point[i], at = 0;
         if (d->part_of[p] != k) continue;
-        polynomials (a, g->dim, r->x + p * dim, psi);
+        galerkin_dilatation_polynomials (g, a, r->x + p * dim, psi);
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++, at++) {
             while (node[at] != r->family.node[e]) at++;
             for (int t = 0; t < a->terms; t++)
@@ -189,9 +188,10 @@ static pg_status rebuild (galerkin *g, const pg_state *state, size_t c)
 {
     pg_status status = PG_OK;
     galerkin_dilatation *d = g->dilatation;
-    const pg_family *f = &g->problem->patches->family;
+    const pg_family *f = &d->family;
     galerkin_patch *patch = &d->patch[c];
-    size_t room = (size_t) (g->dim + 1) * (f->start[c + 1] - f->start[c]) * (size_t) g->dim;
+    size_t one = (size_t) (g->dim + 1) * (f->start[c + 1] - f->start[c]) * (size_t) g->dim, pinned = d->facet_start[c + 1] > d->facet_start[c];
+    size_t room = pinned ? 2 * one : one;
     int count;
     PG_TRY (divide (g, state, c, &count));
     if ((size_t) count > patch->room) {
@@ -203,6 +203,8 @@ static pg_status rebuild (galerkin *g, const pg_state *state, size_t c)
         patch->part[k].g = patch->g + (size_t) k * room;
         find_polynomials (g, c, k, &patch->part[k]);
         sum_rows (g, c, k, &patch->part[k]);
+        patch->part[k].s = pinned ? patch->part[k].g + one : NULL;
+        galerkin_dilatation_facet_rows (g, c, k, &patch->part[k]);
     }
 done:
     return status;
@@ -254,58 +256,67 @@ const pg_material *galerkin_plain (const galerkin *g, int set, size_t p)
     return g->dilatation ? &g->dilatation->plain[g->material[set][p]] : galerkin_material (g, set, p);
 }
 
-pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int all, size_t count)
+pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int all, const size_t *count)
 {
     pg_status status = PG_OK;
     galerkin_dilatation *d = g->dilatation;
     const pg_patches *q = g->problem->patches;
     memset (d->mark, all, q->n);
-    for (size_t k = 0; !all && k < count; k++) {
+    for (size_t k = 0; !all && k < count[g->bulk]; k++) {
         long c = q->of[g->list[g->bulk][k]];
         if (c >= 0) d->mark[c] = 1;
+    }
+    for (size_t k = 0; !all && k < count[PG_FACETS]; k++) {
+        long home = d->home[g->list[PG_FACETS][k]];
+        if (home >= 0) d->mark[q->of[home]] = 1;
     }
     for (size_t c = 0; c < q->n; c++) {
         if (!d->mark[c]) continue;
         PG_TRY (rebuild (g, state, c));
-        for (size_t e = q->family.start[c]; !all && e < q->family.start[c + 1]; e++) g->stale[q->family.node[e]] = 1;
+        for (size_t e = d->family.start[c]; !all && e < d->family.start[c + 1]; e++) g->stale[d->family.node[e]] = 1;
     }
-    galerkin_dilatation_facets_update (g, all);
 done:
     return status;
 }
 
 /* ---- what the patches add --------------------------------------------------------------------------------------------- */
+const pg_family *galerkin_dilatation_family (const galerkin *g) { return &g->dilatation->family; }
+
 static double lambda_of (const galerkin *g, size_t c)
 {
     const pg_patches *q = g->problem->patches;
     return q->lambda[g->material[g->bulk][q->point[q->first[c]]]];
 }
 
+/* Number `at` of g_m - s_m */
+static double entry (const part *a, size_t at) { return a->s ? a->g[at] - a->s[at] : a->g[at]; }
+
 void galerkin_dilatation_blocks (void *context, size_t c, size_t a, size_t m, double *out)
 {
     const galerkin *g = context;
-    const pg_family *f = &g->problem->patches->family;
+    const pg_family *f = &g->dilatation->family;
     const galerkin_patch *patch = &g->dilatation->patch[c];
     size_t dim = (size_t) g->dim, n = f->start[c + 1] - f->start[c];
     double lambda = lambda_of (g, c);
     for (size_t k = 0; k < patch->n; k++)
-        for (int t = 0; t < patch->part[k].terms; t++) {
-            const double *row = patch->part[k].g + (size_t) t * n * dim;
+        for (size_t t = 0; t < (size_t) patch->part[k].terms; t++)
             for (size_t r = 0; r < dim; r++) {
-                double share = lambda * row[a * dim + r];
+                const part *q = &patch->part[k];
+                double share = lambda * entry (q, (t * n + a) * dim + r), flux = q->s ? lambda * g->problem->nitsche * q->s[(t * n + a) * dim + r] : 0;
                 for (size_t b = 0; b < m && share != 0; b++)
-                    for (size_t s = 0; s < dim; s++) out[(b * dim + r) * dim + s] += share * row[b * dim + s];
+                    for (size_t s = 0; s < dim; s++) out[(b * dim + r) * dim + s] += share * entry (q, (t * n + b) * dim + s);
+                for (size_t b = 0; b < m && flux != 0; b++)
+                    for (size_t s = 0; s < dim; s++) out[(b * dim + r) * dim + s] += flux * q->s[(t * n + b) * dim + s];
             }
-        }
 }
 
-/* g_m . x of every part of patches first .. last */
-typedef struct { galerkin *g; const double *x; } measuring;
+/* g_m . x, or (g_m - s_m) . x, of every part of patches first .. last */
+typedef struct { galerkin *g; const double *x; int whole; } measuring;
 
 static void measure_patches (void *context, size_t first, size_t last, int thread)
 {
     const measuring *m = context;
-    const pg_family *f = &m->g->problem->patches->family;
+    const pg_family *f = &m->g->dilatation->family;
     size_t dim = (size_t) m->g->dim;
     (void) thread;
     for (size_t c = first; c < last; c++) {
@@ -313,54 +324,58 @@ static void measure_patches (void *context, size_t first, size_t last, int threa
         size_t n = f->start[c + 1] - f->start[c];
         for (size_t k = 0; k < m->g->dilatation->patch[c].n; k++) {
             part *a = &m->g->dilatation->patch[c].part[k];
-            const double *row = a->g;
+            size_t at = 0;
             for (int t = 0; t < a->terms; t++) {
-                double sum = 0;
-                for (size_t e = 0; e < n; e++, row += dim)
-                    for (size_t s = 0; s < dim; s++) sum += row[s] * m->x[(size_t) node[e] * dim + s];
-                a->amount[t] = sum;
+                double sum = 0, flux = 0;
+                for (size_t e = 0; e < n; e++)
+                    for (size_t s = 0; s < dim; s++, at++) {
+                        double x = m->x[(size_t) node[e] * dim + s];
+                        sum += a->g[at] * x;
+                        if (m->whole && a->s) flux += a->s[at] * x;
+                    }
+                a->amount[t] = sum - flux, a->flux[t] = flux;
             }
         }
     }
 }
 
-static void measure_all (galerkin *g, const double *x)
+static void measure_all (galerkin *g, const double *x, int whole)
 {
-    measuring m = { g, x };
+    measuring m = { g, x, whole };
     pg_parallel (g->threads, g->problem->patches->n, measure_patches, &m);
 }
 
 void galerkin_dilatation_apply (galerkin *g, const double *x, double *y)
 {
-    const pg_family *f = &g->problem->patches->family;
+    const pg_family *f = &g->dilatation->family;
     size_t dim = (size_t) g->dim;
-    measure_all (g, x);
+    measure_all (g, x, 1);
     for (size_t c = 0; c < f->n; c++) {
-        const int *node = f->node + f->start[c];
-        size_t n = f->start[c + 1] - f->start[c];
         double lambda = lambda_of (g, c);
         for (size_t k = 0; k < g->dilatation->patch[c].n; k++) {
             const part *a = &g->dilatation->patch[c].part[k];
-            const double *row = a->g;
+            size_t at = 0;
             for (int t = 0; t < a->terms; t++)
-                for (size_t e = 0; e < n; e++, row += dim)
-                    for (size_t s = 0; s < dim; s++) y[(size_t) node[e] * dim + s] += lambda * a->amount[t] * row[s];
+                for (size_t e = f->start[c]; e < f->start[c + 1]; e++)
+                    for (size_t s = 0; s < dim; s++, at++)
+                        y[(size_t) f->node[e] * dim + s] += lambda * (a->amount[t] * entry (a, at) + (a->s ? g->problem->nitsche * a->flux[t] * a->s[at] : 0));
         }
     }
 }
 
 void galerkin_dilatation_diagonal (galerkin *g, double *d)
 {
-    const pg_family *f = &g->problem->patches->family;
+    const pg_family *f = &g->dilatation->family;
     size_t dim = (size_t) g->dim;
     for (size_t c = 0; c < f->n; c++) {
-        size_t n = f->start[c + 1] - f->start[c];
+        double lambda = lambda_of (g, c);
         for (size_t k = 0; k < g->dilatation->patch[c].n; k++) {
             const part *a = &g->dilatation->patch[c].part[k];
-            const double *row = a->g;
+            size_t at = 0;
             for (int t = 0; t < a->terms; t++)
-                for (size_t e = 0; e < n; e++, row += dim)
-                    for (size_t s = 0; s < dim; s++) d[(size_t) f->node[f->start[c] + e] * dim + s] += lambda_of (g, c) * row[s] * row[s];
+                for (size_t e = f->start[c]; e < f->start[c + 1]; e++)
+                    for (size_t s = 0; s < dim; s++, at++)
+                        d[(size_t) f->node[e] * dim + s] += lambda * (entry (a, at) * entry (a, at) + (a->s ? g->problem->nitsche * a->s[at] * a->s[at] : 0));
         }
     }
 }
@@ -374,7 +389,7 @@ static double pressure_at (const galerkin *g, size_t q, const double *x)
     double psi[4], sum = 0;
     if (c < 0 || d->part_of[q] < 0) return 0;
     const part *a = &d->patch[c].part[d->part_of[q]];
-    polynomials (a, g->dim, x, psi);
+    galerkin_dilatation_polynomials (g, a, x, psi);
     for (int t = 0; t < a->terms; t++) sum += psi[t] * a->amount[t];
     return lambda_of (g, (size_t) c) * sum;
 }
@@ -415,7 +430,7 @@ void galerkin_dilatation_measure (galerkin *g, int set, const double *d)
 {
     galerkin_dilatation *q = g->dilatation;
     size_t dim = (size_t) g->dim;
-    measure_all (g, d);
+    measure_all (g, d, 0);
     if (set == PG_NODES) {
         at_nodes (g);
         for (size_t p = 0; p < g->n; p++) add_pressure (g, set, p, q->amount[p]);
@@ -427,14 +442,7 @@ void galerkin_dilatation_measure (galerkin *g, int set, const double *d)
 
 const double *galerkin_dilatation_of_nodes (galerkin *g, const double *d)
 {
-    measure_all (g, d);
+    measure_all (g, d, 0);
     at_nodes (g);
     return g->dilatation->amount;
-}
-
-void galerkin_dilatation_polynomials (const galerkin *g, size_t q, const double *x, const galerkin_part **a, double *psi)
-{
-    long c = g->problem->patches->of[q];
-    *a = c < 0 || g->dilatation->part_of[q] < 0 ? NULL : &g->dilatation->patch[c].part[g->dilatation->part_of[q]];
-    if (*a) polynomials (*a, g->dim, x, psi);
 }

@@ -9,7 +9,10 @@ typedef struct {                                       /* points of a patch that
     int     terms;                                     /* polynomials: 1, or dim + 1                                     */
     double  centre[3], size, L[16];                    /* psi = L^-1 (1, (x - centre) / size); m                         */
     double *g;                                         /* sum_p w_p psi_m (p) grad N (p), of the patch's nodes (terms x nodes x dim) */
+    double *s;                                         /* sum_f w_f psi_m (f) n_k N (f) over its supported facet points, alike; NULL: none */
     double  amount[4];                                 /* g_m . d of the last measure                                    */
+    double  flux[4];                                   /* s_m . x of the last apply                                      */
+    double  gap[4];                                    /* c_m, galerkin_dilatation_facet.c                               */
 } galerkin_part;
 
 typedef struct { size_t n, room, room_g; galerkin_part *part; double *g; } galerkin_patch;
@@ -22,13 +25,12 @@ struct galerkin_dilatation {
     unsigned char  *mark;                              /* patches that changed                                           */
     double         *amount, *share;                    /* scratch: per node                                              */
     long           *home;                              /* of every facet point: the evaluation point whose patch goes on there; -1: none */
-    pg_family       facet_family;                      /* nodes of a facet point with pins and of its patch              */
-    double         *facet_N, *facet_g;                 /* N and sum_m psi_m (x) g_m on these     (nnz, nnz x dim)        */
+    size_t         *facet_start, *facet;               /* supported facet points of every patch                          */
+    pg_family       family;                            /* nodes of every patch and of these points                       */
 };
 
-/* Polynomials at x of the part that evaluation point q belongs to (*a NULL: none). */
-void galerkin_dilatation_polynomials (const galerkin *g, size_t q, const double *x, const galerkin_part **a, double *psi);
+void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a, const double *x, double *psi);     /* psi (terms) of a part at x */
 pg_status galerkin_dilatation_facets_create (galerkin *g);
 void galerkin_dilatation_facets_free (galerkin *g);
-void galerkin_dilatation_facets_update (galerkin *g, int all);      /* after the patches; marks rows of K                */
+void galerkin_dilatation_facet_rows (const galerkin *g, size_t patch, int part, galerkin_part *a);     /* its s         */
 #endif

@@ -60,8 +60,7 @@ pg_status galerkin_operator_create (galerkin *g)
 {
     pg_status status = PG_OK;
     size_t most = widest (&g->rows[PG_FACETS].family), bulk = widest (&g->sums.family), peg = widest (&g->peg_family);
-    size_t facets = g->dilatation ? widest (galerkin_dilatation_facet_family (g)) : 0;
-    most = most > bulk ? most : bulk, most = most > peg ? most : peg, most = most > facets ? most : facets;
+    most = most > bulk ? most : bulk, most = most > peg ? most : peg;
     PG_ALLOC (g->wide, most * (size_t) (g->dim * g->dim));
     PG_ALLOC (g->stale, g->n);
     PG_ALLOC (g->diagonal, g->n * (size_t) g->dim);
@@ -82,7 +81,6 @@ void galerkin_diagonal (void *context, double *d)
         if (!(g->problem->silling > 0)) bulk_diagonal (g, g->diagonal);
         else add_diagonal_blocks (g, &g->sums.family, galerkin_bulk_blocks, g->wide, g->diagonal);
         if (g->npin) add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, g->wide, g->diagonal);
-        if (g->npin && g->dilatation) add_diagonal_blocks (g, galerkin_dilatation_facet_family (g), galerkin_dilatation_facet_blocks, g->wide, g->diagonal);
         if (g->npeg) add_diagonal_blocks (g, &g->peg_family, galerkin_peg_blocks, g->wide, g->diagonal);
         g->diagonal_of = g->revision;
     }
@@ -90,15 +88,10 @@ void galerkin_diagonal (void *context, double *d)
 }
 
 /* ---- the matrix -------------------------------------------------------------------------------------------------------------- */
-static void mark_nodes (galerkin *g, const pg_family *f, size_t p)
-{
-    for (size_t e = f->start[p]; e < f->start[p + 1]; e++) g->stale[f->node[e]] = 1;
-}
-
 static void mark_family (galerkin *g, int set, size_t p)
 {
-    mark_nodes (g, set == g->bulk ? &g->sums.family : &g->rows[set].family, p);
-    if (set == PG_FACETS && g->dilatation) mark_nodes (g, galerkin_dilatation_facet_family (g), p);
+    const pg_family *f = set == g->bulk ? &g->sums.family : &g->rows[set].family;
+    for (size_t e = f->start[p]; e < f->start[p + 1]; e++) g->stale[f->node[e]] = 1;
 }
 
 void galerkin_mark_stale (galerkin *g, const size_t *count)
@@ -112,13 +105,12 @@ void galerkin_mark_stale (galerkin *g, const size_t *count)
 
 static pg_status create_matrix (galerkin *g)
 {
-    pg_source source[5];
+    pg_source source[4];
     size_t n = 0;
     if (g->whole) source[n++] = (pg_source) { &g->problem->consistency->cell_family, g, galerkin_cell_blocks };
     else source[n++] = (pg_source) { &g->sums.family, g, galerkin_bulk_blocks };
     if (g->npin) source[n++] = (pg_source) { &g->rows[PG_FACETS].family, g, galerkin_facet_blocks };
-    if (g->dilatation) source[n++] = (pg_source) { &g->problem->patches->family, g, galerkin_dilatation_blocks };
-    if (g->dilatation && g->npin) source[n++] = (pg_source) { galerkin_dilatation_facet_family (g), g, galerkin_dilatation_facet_blocks };
+    if (g->dilatation) source[n++] = (pg_source) { galerkin_dilatation_family (g), g, galerkin_dilatation_blocks };
     if (g->npeg) source[n++] = (pg_source) { &g->peg_family, g, galerkin_peg_blocks };
     g->all_stale = 1;
     return pg_stiffness_create (&g->K, g->n, g->dim, n, source);
