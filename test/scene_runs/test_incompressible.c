@@ -151,6 +151,25 @@ static void nor_does_a_cantilever (void **state)
     }
 }
 
+/* Patches of a graded mesh, which gather around roots: Kirsch's plate with CalculiX's elements as cells; its largest stress is 3. */
+static void nor_does_a_plate_on_a_mesh (void **state)
+{
+    (void) state;
+    static const char *const dilatations[] = { "method.dilatation=auto", "method.dilatation=pointwise" };
+    double largest[2];
+    for (int k = 0; k < 2; k++) {
+        const char *set[] = { "plane=strain", "materials.plate.poissons_ratio=0.4999", "method.basis=linear", "method.horizon=\"2 spacing\"", "method.essential=penalty", dilatations[k] };
+        run r = loaded ("data/kirsch_mesh/scene.yaml", 6, set);
+        to_the_end (&r);
+        double *s = field_of (&r, NULL, "stress", NULL);
+        largest[k] = largest_of (s, 3 * r.problem->cloud.n);
+        print_message ("  plate on a mesh, %s: largest stress %.3g\n", dilatations[k], largest[k]);
+        pg_free (s);
+        clear (&r);
+    }
+    assert_true (largest[0] > 2.4 && largest[0] < 3.6 && largest[1] > 10);
+}
+
 /* ---- what was exact stays exact --------------------------------------------------------------------------------------------- */
 #define BLOCK "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [-1, -0.5], high: [1.1, 0.6]}}}]\nspacing: 0.1\nperturb: {amount: 0.2}\n" \
               "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.4999}}\nsolver: {kind: static}\nsets: {rim: {where: 'x < -0.999 m or x > 1.099 m or y < -0.499 m or y > 0.599 m'}}\n"
@@ -307,6 +326,7 @@ int main (void)
         cmocka_unit_test (without_patches_it_does),
         cmocka_unit_test (nor_does_a_slice_in_3d),
         cmocka_unit_test (nor_does_a_cantilever),
+        cmocka_unit_test (nor_does_a_plate_on_a_mesh),
         cmocka_unit_test (linear_fields),
         cmocka_unit_test (bending_with_the_quadratic_basis),
         cmocka_unit_test (other_materials_have_the_same_bits),
