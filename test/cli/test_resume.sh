@@ -35,7 +35,7 @@ for kind in event fixed newmark explicit relaxed dying state turning swelling; d
     took[$kind]=$((($(now) - t0) / 1000000))
     verdict "$kind: the run that nobody disturbs (${took[$kind]} ms)" $code
 done
-[ "$(grep -c , "$work/fixed/history.csv")" -eq 9 ] && [ "$(ncdump -v time_whole "$work/fixed/result.e" | sed -n '/^ time_whole/,$p' | grep -o '[0-9][^ ,;]*' | wc -l)" -gt 12 ]
+[ "$(grep -c , "$work/fixed/history.csv")" -eq 9 ] && [ "$("$perigal" plot "$work/fixed" --list | grep -c '^ *[0-9]')" -gt 12 ]
 verdict "stages in the middle of a step are in result.e, not in history.csv" $?
 
 # disturb SIGNAL DELAY-MS ARGUMENTS...: 0 when the signal came before the end of the run
@@ -96,7 +96,7 @@ run "${event[@]}" -o "$work/torn" --resume; [ $? -eq 70 ] && grep -q 'checkpoint
 run "${event[@]}" -o "$work/half"; code=$?; same "$work/event" "$work/half" > "$work/why" 2>&1; verdict "without --resume it begins anew" $((code + $?))
 
 # ---- disks: limited file size (EFBIG), a small disk (ENOSPC), a folder that cannot be written
-readable() { ncdump -h "$1/result.e" > /dev/null 2>&1 && head -1 "$1/history.csv" | grep -q 'load_factor' && [ "$(tail -c 1 "$1/history.csv" | od -An -c | tr -d ' ')" = '\n' ]; }
+readable() { "$perigal" plot "$1" --list > /dev/null 2>&1 && head -1 "$1/history.csv" | grep -q 'load_factor' && [ "$(tail -c 1 "$1/history.csv" | od -An -c | tr -d ' ')" = '\n' ]; }
 (ulimit -f $(($(stat -c %s "$work/fixed/result.e") * 6 / 10240)); exec "$perigal" run "${fixed[@]}" --quiet --threads 1 --set output.checkpoint='0.05 s' -o "$work/limited") > "$work/out" 2> "$work/err"
 [ $? -eq 70 ] && grep -q 'File too large' "$work/err"; verdict "a file that may not grow: exit code 70 and the reason" $?
 readable "$work/limited"; verdict "its results are readable" $?

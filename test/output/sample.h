@@ -3,7 +3,10 @@
 #ifndef PERIGAL_TEST_OUTPUT_SAMPLE_H
 #define PERIGAL_TEST_OUTPUT_SAMPLE_H
 #include "perigal/output.h"
+#include <signal.h>
 #include <stdlib.h>
+#include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 static char folder[64];
@@ -29,6 +32,20 @@ static int remove_folder (void **unused)
     if (!folder[0]) return 0;
     snprintf (command, sizeof command, "rm -rf %s", folder);
     return system (command);
+}
+
+/* Kills a child a moment after it has told of `least` things done, by a byte each: however busy the machine is, those are done. */
+static inline void kill_after (pid_t child, int told[2], long least, long nanoseconds)
+{
+    char byte;
+    int how;
+    close (told[1]);
+    for (; least > 0; least--) assert_int_equal (read (told[0], &byte, 1), 1);
+    nanosleep (&(struct timespec) { .tv_nsec = nanoseconds }, NULL);
+    kill (child, SIGKILL);
+    waitpid (child, &how, 0);
+    assert_true (WIFSIGNALED (how));
+    close (told[0]);
 }
 
 /* m points per axis, spacing h, first at (-1, 2, 5) h; uneven places and volumes, so that digits are lost if any can be. */
