@@ -48,8 +48,7 @@ typedef struct {
     /* A field at the nodes: "displacement" (m), "coefficient" (of the shape functions, m), "strain", "stress" (Pa), "damage", "error_estimate"
      * (Pa); *components 0: unknown name. value: n x 6. */
     pg_status (*field)   (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
-    /* Displacement (3 components) at any place, for gauges; and the largest overlap of broken bonds (m). */
-    pg_status (*probe)   (void *self, const double *d, const double *x, double *u);
+    /* The largest overlap of broken bonds (m). */
     double    (*overlap) (void *self, const pg_state *state, const double *d);
     void      (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
     /* Changes whenever refresh changed K or the basis: an old factor may serve until then (NULL: every refresh changes them). */

@@ -89,7 +89,6 @@ pg_status bond_bound (void *self, double *omega);
 /* fields */
 pg_status bond_utilisation (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
 pg_status bond_field  (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
-pg_status bond_probe  (void *self, const double *d, const double *x, double *u);
 pg_status bond_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress);
 double    bond_overlap (void *self, const pg_state *state, const double *d);
 void      bond_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
@@ -130,7 +129,7 @@ const char *bond_refuses  (const pg_problem *problem, const char *kind);
 #define BOND_COMMON \
     .create = bond_create, .free = bond_free, .fields = bond_fields, .refresh = bond_refresh, .balance = bond_balance, .mass = bond_mass, \
     .operator_ = bond_operator, .basis = bond_basis, .impose = bond_impose, .utilisation = bond_utilisation, \
-    .ledger = bond_ledger, .field = bond_field, .probe = bond_probe, .overlap = bond_overlap, .census = bond_census, .revision = bond_revision, \
+    .ledger = bond_ledger, .field = bond_field, .overlap = bond_overlap, .census = bond_census, .revision = bond_revision, \
     .sample = bond_sample, .march = bond_march, .external = bond_external, .bound = bond_bound, \
     .row_sums = bond_row_sums, .describe = bond_describe, .refuses = bond_refuses, .couplings = bond_couplings
 #endif

@@ -251,11 +251,11 @@ static int hidden (void *context, const double *place, size_t point)
 }
 
 /* First-order expansion about the nearest point on the same side of the pre-cracks; returns that point. */
-static size_t expand (bond *b, const unsigned char *alive, const double *d, const double *x, int sides, bond_star *s, double *u)
+static size_t expand (bond *b, const unsigned char *alive, const double *d, const double *x, bond_star *s, double *u)
 {
     size_t dim = (size_t) b->dim;
     double H[9];
-    long found = pg_nearest_find (b->near, x, sides && b->problem->cracks.n ? hidden : NULL, b);
+    long found = pg_nearest_find (b->near, x, b->problem->cracks.n ? hidden : NULL, b);
     size_t i = (size_t) (found >= 0 ? found : pg_nearest_find (b->near, x, NULL, NULL));
     bond_star_at (b, i, 0, s);
     gradient_at (b, alive, d, i, s, H);
@@ -267,17 +267,6 @@ static size_t expand (bond *b, const unsigned char *alive, const double *d, cons
     return i;
 }
 
-pg_status bond_probe (void *self, const double *d, const double *x, double *u)
-{
-    pg_status status = PG_OK;
-    bond *b = self;
-    bond_star s;
-    PG_TRY (make_near (b));
-    expand (b, b->alive, d, x, 0, &s, u);
-done:
-    return status;
-}
-
 pg_status bond_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress)
 {
     pg_status status = PG_OK;
@@ -286,7 +275,7 @@ pg_status bond_sample (void *self, const pg_state *state, const double *d, size_
     PG_TRY (make_near (b));
     for (size_t k = 0; k < n; k++) {
         double v[6], *out = stress ? stress + 6 * k : NULL;
-        size_t i = expand (b, state->alive, d, x + k * (size_t) b->dim, 1, &s, u + 3 * k);
+        size_t i = expand (b, state->alive, d, x + k * (size_t) b->dim, &s, u + 3 * k);
         if (!out) continue;
         stress_at (b, state->alive, d, i, &s, v);
         memset (out, 0, 6 * sizeof *out);

@@ -181,7 +181,7 @@ const pg_force_type pg_force_galerkin = {
     .name = "galerkin", .summary = "global stiffness from NOSB, PDDO or RKPM bonds (Cui 2022)",
     .create = galerkin_create, .free = galerkin_free, .fields = galerkin_fields, .refresh = galerkin_refresh, .balance = galerkin_balance,
     .mass = galerkin_mass, .operator_ = galerkin_operator, .matrix = galerkin_matrix, .basis = galerkin_basis, .impose = galerkin_impose,
-    .utilisation = galerkin_utilisation, .ledger = galerkin_ledger, .field = galerkin_field, .probe = galerkin_probe,
+    .utilisation = galerkin_utilisation, .ledger = galerkin_ledger, .field = galerkin_field,
     .overlap = galerkin_overlap, .census = galerkin_census, .revision = galerkin_revision, .assemble = galerkin_assemble,
     .mass_matrix = galerkin_mass_matrix, .sample = galerkin_sample, .estimate = galerkin_estimate
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields at the nodes and displacement at any place, from the nodal shape functions. */
+ * Fields at the nodes, from the nodal shape functions. */
 #include "galerkin.h"
 #include <string.h>
 
@@ -50,27 +50,6 @@ pg_status galerkin_field (void *self, const pg_state *state, const double *d, co
         *components = g->nv, *unit = strcmp (name, "stress") == 0 ? "Pa" : "";
         galerkin_measure (g, PG_NODES, d);
         memcpy (value, **unit ? g->stress[PG_NODES] : g->strain[PG_NODES], g->n * nv * sizeof *value);
-    }
-    return PG_OK;
-}
-
-/* First-order expansion about the nearest node: u_i + grad u_i (x - x_i), so that the two faces of a crack stay apart. */
-pg_status galerkin_probe (void *self, const double *d, const double *x, double *u)
-{
-    galerkin *g = self;
-    const pg_rows *r = &g->rows[PG_NODES];
-    size_t dim = (size_t) g->dim, nearest = 0;
-    double best = -1;
-    for (size_t i = 0; i < g->n; i++) {
-        double s = 0;
-        for (size_t k = 0; k < dim; k++) s += (r->x[i * dim + k] - x[k]) * (r->x[i * dim + k] - x[k]);
-        if (best < 0 || s < best) best = s, nearest = i;
-    }
-    memset (u, 0, 3 * sizeof *u);
-    for (size_t e = r->family.start[nearest]; e < r->family.start[nearest + 1]; e++) {
-        double N = r->N[e];
-        for (size_t k = 0; k < dim; k++) N += r->dN[e * dim + k] * (x[k] - r->x[nearest * dim + k]);
-        for (size_t k = 0; k < dim; k++) u[k] += N * d[(size_t) r->family.node[e] * dim + k];
     }
     return PG_OK;
 }

@@ -109,9 +109,9 @@ pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step
     const double *gauges = r->row + n;
     for (size_t g = 0; g < p->ngauge; g++) {
         double a[3] = { NAN, NAN, NAN }, b[3] = { NAN, NAN, NAN };
-        if (force->probe) {
-            PG_TRY (force->probe (self, state->d, p->gauge[g].from, a));
-            PG_TRY (force->probe (self, state->d, p->gauge[g].to, b));
+        if (force->sample) {
+            PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].from, a, NULL));
+            PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].to, b, NULL));
         }
         r->row[n++] = opening (&p->gauge[g], p->dim, a, b);
     }

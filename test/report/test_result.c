@@ -28,8 +28,8 @@ static void keep_step (void)
     const pg_force_type *force = pg_solver_force (r.solver, &self);
     double a[3], b[3];
     assert_true (nstep < MOST);
-    check_ok (force->probe (self, r.state->d, r.problem->gauge[0].from, a));
-    check_ok (force->probe (self, r.state->d, r.problem->gauge[0].to, b));
+    check_ok (force->sample (self, r.state, r.state->d, 1, r.problem->gauge[0].from, a, NULL));
+    check_ok (force->sample (self, r.state, r.state->d, 1, r.problem->gauge[0].to, b, NULL));
     opening[nstep] = b[1] - a[1];
     memcpy (reaction[nstep], r.step.reaction, sizeof reaction[nstep]);
     nbroken += r.step.nbroken;
