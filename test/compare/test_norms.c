@@ -290,9 +290,87 @@ static void energy_of_two_materials (void **unused)
     clear (&r);
 }
 
+/* Nothing against nothing is no difference; a component that one side does not know does not count. */
+static pg_status sample_pair (void *context, size_t n, const double *x, double *u, double *stress)
+{
+    const double *value = context;                     /* u_x, u_y                                                       */
+    (void) x, (void) stress;
+    for (size_t i = 0; i < n; i++) u[3*i] = value[0], u[3*i + 1] = value[1], u[3*i + 2] = 0;
+    return PG_OK;
+}
+
+static void what_is_not_there_does_not_count (void **unused)
+{
+    (void) unused;
+    double none[2] = { 0, 0 }, one[2] = { 3, 7 }, other[2] = { 2, 5 }, x[4] = { 0, 0, 1, 1 }, weight[2] = { 1, 1 };
+    pg_quadrature q = { .n = 2, .x = x, .weight = weight };
+    pg_norm_options o = { NULL, NULL, NULL };
+    pg_norms n;
+    pg_sampler a = { none, 2, 3, 0, sample_pair, NULL }, b = a;
+    check_ok (pg_norms_measure (&n, &q, &a, &b, &o));
+    assert_true (n.displacement && n.l2.relative == 0 && n.maximum.relative == 0);
+    a.context = one;
+    check_ok (pg_norms_measure (&n, &q, &a, &b, &o));
+    assert_true (isinf (n.l2.relative));
+    a.displacement = 1, b.context = other;             /* u_x alone: 3 against 2                                         */
+    check_ok (pg_norms_measure (&n, &q, &a, &b, &o));
+    check_relative (n.l2.difference, sqrt (2), 1e-14);
+    check_relative (n.l2.relative, 0.5, 1e-14);
+    check_relative (n.maximum.difference, 1, 1e-14);
+}
+
+/* A result moved by (2, -1) and doubled: places, displacements and stresses. */
+static void a_moved_result (void **unused)
+{
+    (void) unused;
+    form f = { 1 };
+    pg_sampler plain = { &f, 2, 3, 15, sample_form, NULL }, s;
+    double x[2] = { 2.5, 0.25 }, u[3], stress[6];
+    check_ok (pg_sampler_moved (&s, &plain, (double[]) { 2, -1, 0 }, 2));
+    check_ok (s.sample (s.context, 1, x, u, stress));
+    check_relative (u[0], 2 * (0.5 + 0.25), 1e-14);
+    check_relative (u[1], 2 * 1.25, 1e-14);
+    check_relative (stress[0], 2 * 2.5, 1e-14);
+    check_relative (stress[1], 2, 1e-14);
+    pg_sampler_clear (&s);
+}
+
+/* Displacements at points: least squares between them, each side of a pre-crack for itself, the nearest point's own where bonds are torn. */
+static void points_beside_cracks_and_tears (void **unused)
+{
+    (void) unused;
+    run r = cells_plate ("nodal", "cracks: [{from: [-0.1, 0.4], to: [1.1, 0.4]}]\n");
+    size_t n = r.problem->cloud.n, nearest = 0;
+    double *d = pg_calloc (2 * n, 8), x[4] = { 0.52, 0.41, 0.5, 0.39 }, u[6], stress[12], best = INFINITY;
+    unsigned char *torn = pg_calloc (n, 1);
+    pg_sampler s;
+    for (size_t i = 0; i < n; i++) {
+        const double *at = r.problem->cloud.x + 2*i;
+        double far = hypot (at[0] - 0.52, at[1] - 0.41);
+        d[2*i] = at[1] > 0.4, d[2*i + 1] = at[0];
+        if (far < best) best = far, nearest = i;
+    }
+    check_ok (pg_sampler_points (&s, r.problem, d, NULL));
+    check_ok (s.sample (s.context, 2, x, u, stress));
+    check_relative (u[0], 1, 1e-9);
+    check_absolute (u[3], 0, 1e-9);
+    check_relative (u[1], 0.52, 1e-9);
+    assert_true (isfinite (stress[0]));
+    pg_sampler_clear (&s);
+    torn[nearest] = 1;
+    check_ok (pg_sampler_points (&s, r.problem, d, torn));
+    check_ok (s.sample (s.context, 2, x, u, stress));
+    assert_true (u[0] == d[2 * nearest] && u[1] == d[2 * nearest + 1]);
+    assert_true (isnan (stress[0]) && isnan (stress[3]));
+    pg_sampler_clear (&s);
+    pg_free (d), pg_free (torn);
+    clear (&r);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (nodes_and_points_agree), cmocka_unit_test (linear_fields_are_sampled_exactly),
-        cmocka_unit_test (faces_of_a_crack_stay_apart), cmocka_unit_test (known_difference), cmocka_unit_test (perturbed_patch), cmocka_unit_test (shears_count_twice_in_the_largest_stress), cmocka_unit_test (energy_of_two_materials) };
+        cmocka_unit_test (faces_of_a_crack_stay_apart), cmocka_unit_test (known_difference), cmocka_unit_test (perturbed_patch), cmocka_unit_test (shears_count_twice_in_the_largest_stress), cmocka_unit_test (energy_of_two_materials),
+        cmocka_unit_test (what_is_not_there_does_not_count), cmocka_unit_test (a_moved_result), cmocka_unit_test (points_beside_cracks_and_tears) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }

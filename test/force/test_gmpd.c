@@ -243,12 +243,13 @@ static void test_breaking_graded (void **unused)
         x += h;
     }
     fclose (out);
-    for (int k = 0; k < 2; k++) {
+    static const char *const forces[] = { "gmpd", "bond", "lps" };
+    for (int k = 0; k < 3; k++) {
         bonded b;
         char text[1200];
         snprintf (text, sizeof text, "dimension: 2\nplane: stress\nthickness: 0.2\npoints: %s\nmethod: {force: %s, horizon: 0.4}\n"
             "materials: {a: {youngs_modulus: 10, poissons_ratio: 0.3, density: 3, failure: {fracture_energy: 1}}, b: {youngs_modulus: 7, poissons_ratio: 0.05, density: 3, failure: {fracture_energy: 0.6}}}\n"
-            "blocks: [{material: a, block: 0}, {material: b, block: 1}]\nfailure: {criterion: %s}\n", path, k ? "bond" : "gmpd", k ? "stretch" : "beam_limits");
+            "blocks: [{material: a, block: 0}, {material: b, block: 1}]\nfailure: {criterion: %s}\n", path, forces[k], k ? "stretch" : "beam_limits");
         b = bonded_of (text);
         assert_non_null (b.problem->cloud.size);
         double *d = random_vector (b.ndof, 17), *f = pg_calloc (b.ndof, sizeof *f), *u = pg_calloc (b.state->nbond, sizeof *u), reference, most = 0;
@@ -264,7 +265,7 @@ static void test_breaking_graded (void **unused)
         for (size_t n = 0; b.force->kind_of && n < broken.n; n++) assert_int_equal (b.force->kind_of (b.self, d, broken.bond[n]), kind[broken.bond[n]]);
         for (size_t e = 0; e < b.state->nbond; e++) {
             int dead = at < broken.n && broken.bond[at] == e;
-            if (dead != (u[e] >= 1) && fabs (u[e] - 1) > 1e-12) print_error ("%s: bond %zu at %.9g is %s\n", k ? "bond" : "gmpd", e, u[e], dead ? "dead" : "alive");
+            if (dead != (u[e] >= 1) && fabs (u[e] - 1) > 1e-12) print_error ("%s: bond %zu at %.9g is %s\n", forces[k], e, u[e], dead ? "dead" : "alive");
             if (fabs (u[e] - 1) > 1e-12) assert_int_equal (dead, u[e] >= 1);
             at += (size_t) dead;
         }

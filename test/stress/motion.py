@@ -33,7 +33,7 @@ def million(method):
         scene = bar(method)
         scene['spacing'] = 0.25
         scene['boundary'] = scene['boundary'][:2]
-        scene['initial'] = {'velocity': {'x': '0.01*x', 'y': '-0.005*y'}}
+        scene['initial'] = {'velocity': {'x': '0.01 s^-1*x', 'y': '-0.005 s^-1*y'}}
         scene['solver'] = {**scene['solver'], 'time_steps': 1000000}
         yield Cell('a million steps', 'free vibration', method.name, [Run(scene)], 'energy lost', energy_error, 0.02, seconds=600)
 

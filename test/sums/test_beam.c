@@ -143,6 +143,30 @@ static void test_beam (void **unused)
         }
 }
 
+/* Springs of one bond between unlike ends: of two moduli in a row each bears half the length, 2 a b / (a + b); lengths across go with the mean of
+ * both spacings, twice. */
+static void test_unlike_ends (void **unused)
+{
+    (void) unused;
+    double x[4] = { 0, 0, 0.3, 0.4 }, volume[2] = { 0.02, 0.05 }, size[2] = { 0.1, 0.3 }, modulus[2] = { 8, 24 }, shear[2] = { 3, 1 }, bending[2] = { 5, 0 };
+    pg_cloud cloud = { .dim = 2, .n = 2, .h = 0.1, .thickness = 1, .x = x, .volume = volume };
+    pg_sums sums = { .cloud = &cloud };
+    pg_beam_law law = { .shear = shear, .bending = bending, .length = 0.7 };
+    pg_sweep_setting s = { .sums = &sums, .modulus = modulus, .beams = &law };
+    for (int graded = 0; graded < 2; graded++) {
+        cloud.size = graded ? size : NULL;
+        double all = 6 * 0.02 * 0.05 / 0.5, wide = all * (graded ? 4 : 1), xi[3] = { 0.3, 0.4, 0 };
+        pg_beam b = pg_beam_between (&s, 0, 1, xi, 6);
+        check_relative (b.along, 2 * 8 * 24 / 32.0 * all, 1e-14);
+        check_relative (b.shear, 12 * (2 * 3 * 1 / 4.0) * wide / 0.25, 1e-14);
+        assert_true (b.bending == 0);
+        bending[1] = 5;
+        b = pg_beam_between (&s, 1, 0, (double[3]) { -0.3, -0.4, 0 }, 6);
+        check_relative (b.bending, 5 * wide / 0.49, 1e-14);
+        bending[1] = 0;
+    }
+}
+
 /* ---- lattices ------------------------------------------------------------------------------------------------------------------ */
 typedef struct { pg_cloud cloud; pg_sums *sums; pg_family family; pg_sweep *sweep; double *modulus, *shear, *bending; pg_beam_law law; double *d, *f, *W; int m; } field;
 
@@ -334,7 +358,7 @@ static void test_turned (void **unused)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (test_constants), cmocka_unit_test (test_uniform_strain), cmocka_unit_test (test_beam),
+    const struct CMUnitTest tests[] = { cmocka_unit_test (test_constants), cmocka_unit_test (test_uniform_strain), cmocka_unit_test (test_beam), cmocka_unit_test (test_unlike_ends),
         cmocka_unit_test (test_lattice), cmocka_unit_test (test_unstable), cmocka_unit_test (test_loops), cmocka_unit_test (test_turned) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Rule and cloud together: sites, families against brute force, weights of bonds, calibration and surface, what is refused. */
 #include "check.h"
+#include "perigal/criterion.h"
 #include "perigal/sums.h"
 #include <stdlib.h>
 
@@ -423,6 +424,25 @@ static void constants_of_a_lattice_are_the_printed_ones (void **state)
     free (b);
 }
 
+/* A straight cut between the rows of a square lattice whose points see four neighbours: a quarter of a family is beyond it, from the row beside
+ * it alone. G = h (A d / 16 + B / 4) s0^2. */
+static void a_cut_of_a_state_based_lattice (void **state)
+{
+    (void) state;
+    const double h = 2e-3, step[3] = { h, h, h }, E = 3, nu = 0.2;
+    double A, B;
+    body *b = lattice_body (2, 9, 9, 1, step, NULL);
+    pg_sum_rule rule = rule_of (2, "constant", 1.2 * h, PG_PARTIAL_NONE, PG_SURFACE_NONE);
+    pg_criterion_setting setting = { .mode = rule.mode, .horizon = rule.horizon, .modulus = E, .poisson = nu, .kernel = "constant", .state = 1 };
+    pg_sums *s;
+    rule.state = 1;
+    check_ok (pg_sums_create (&s, &rule, &b->cloud, &b->lattice));
+    pg_state_moduli (rule.mode, E, nu, &A, &B);
+    check_relative (pg_sums_toughness (s, E, nu), h * (A / 8 + B / 4) / pg_state_fracture_energy (&setting, 1), 1e-12);
+    pg_sums_free (&s);
+    free (b);
+}
+
 /* A cloud shaken by a fifth of its spacing: its calibration stays near the lattice's, and inside the hydrostatic energy is nearly that of elasticity */
 static void a_shaken_lattice_is_calibrated_by_its_inner_points (void **state)
 {
@@ -514,6 +534,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (points_find_their_sites),
         cmocka_unit_test (points_off_a_lattice_are_none),
+        cmocka_unit_test (a_cut_of_a_state_based_lattice),
         cmocka_unit_test (lattices_are_found),
         cmocka_unit_test (families_of_lattices_match_brute_force),
         cmocka_unit_test (threads_find_the_same_families),

@@ -165,12 +165,20 @@ static void sound (int dim, const char *more, const char *method)
             check_scaled (B[i * m + j], -B[j * m + i], 1e-11, s->size);
             check_scaled (A[i * m + j], C[i * m + j], 1e-11, s->size);
         }
+    /* squares of all eigenvalues add up to the square of the matrix, real and imaginary parts */
+    pg_symbol_modes o;
+    double squares = 0, sum = 0;
+    pg_symbol_solve (s, k, 1, &o);
+    for (int i = 0; i < o.n; i++) sum += pow (o.value[i], 4);
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < m; j++)
+            if (!s->held[i] && !s->held[j]) squares += (A[i * m + j] * A[i * m + j] + B[i * m + j] * B[i * m + j]) / (s->mass[i] * s->mass[j]);
+    check_relative (sum, squares, 1e-9);
     pg_symbol_at (s, (double[3]) { 0 }, A, B);
     for (int i = 0; i < m; i++) for (int j = 0; j < dim; j++) check_scaled (A[i * m + j], 0, 1e-11, s->size);
     pg_symbol_tangent (s, D);
     int nv = pg_voigt_size (dim);                      /* linear fields are exact in weak forms                              */
     for (int e = 0; s->spread && e < nv * nv; e++) check_scaled (D[e], s->material.D[e], 1e-9, s->material.modulus);
-    pg_symbol_modes o;
     pg_symbol_solve (s, (double[3]) { 1e-3 / s->h }, 1, &o);
     int best = 0;
     for (int i = 1; i < o.n; i++) if (o.along[i] * (1 - o.turning[i]) > o.along[best] * (1 - o.turning[best])) best = i;
