@@ -4,13 +4,22 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Does component k of this load ever differ from zero? */
+/* Does component k of this load differ from zero at this time (or load factor)? */
+static int acts_at (const pg_problem *p, const pg_load *load, int k, double t)
+{
+    for (size_t i = 0; i < load->set->npoint; i++)
+        if (pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, t) != 0) return 1;
+    return 0;
+}
+
+/* Ever? A load may end at zero (a table that comes back): looked at where its table has rows, or at times all along the run. */
 static int acts (const pg_problem *p, const pg_load *load, int k, double end)
 {
+    enum { LOOKS = 7 };
     if (!load->value[k]) return 0;
-    if (!pg_load_prescribes (load) || load->set->npoint == 0) return 1;
-    for (size_t i = 0; i < load->set->npoint; i++)
-        if (pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, end) != 0) return 1;
+    if (!pg_load_prescribes (load) || load->set->npoint == 0 || acts_at (p, load, k, end)) return 1;
+    for (size_t row = 0; row < load->ntable; row++) if (acts_at (p, load, k, load->table[2 * row])) return 1;
+    for (int look = 1; look < LOOKS; look++) if (acts_at (p, load, k, end * look / LOOKS)) return 1;
     return 0;
 }
 

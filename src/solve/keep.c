@@ -90,6 +90,7 @@ static pg_status keep_system (pg_system *s, const pg_keeper *k)
     long made = s->multilevel != NULL || s->remake;
     PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));
     PG_TRY (k->numbers (k->context, "system.pace", 1, &s->pace));
+    PG_TRY (k->numbers (k->context, "system.borne", 1, &s->borne));
     if (k->reading) s->remake = made != 0;
     size_t nbond = s->problem->first_bond[PG_BOND_SETS];
     if (k->reading && count[4] && !s->factored) PG_ALLOC (s->factored, nbond);

@@ -34,6 +34,8 @@ typedef struct {
     double   *mass;                                    /* lumped, per unknown, kg                                        */
     const pg_sparse *M;                                /* consistent, or NULL                                            */
     double   *residual, *reduced, *delta, *full, *best, *scratch;
+    double    reference, unbalanced;                   /* of the last state measured, N: its forces; what it lacks to balance */
+    double    borne;                                   /* the largest reference of an accepted state of fixed load steps, N */
     double    shift;
     double    rent;                                    /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
     pg_multilevel *multilevel;                         /* NULL: not used, or not made yet                                */

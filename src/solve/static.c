@@ -32,6 +32,7 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     breaker *b = &s->breaker;
     double t = (double) (state->step + 1) / (double) s->options.steps;
     PG_TRY (equilibrate (b, state, t, state->d, NULL, step));
+    b->system.borne = fmax (b->system.borne, b->system.reference);
     state->factor = state->time = t;
     s->report.energy_strain = b->ledger.strain;
     step->dissipated = b->work - b->work0 - (b->ledger.strain - b->stored0);
