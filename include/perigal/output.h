@@ -4,6 +4,7 @@
 #define PERIGAL_OUTPUT_H
 #include "perigal/cloud.h"
 #include "perigal/mesh.h"
+#include <stdio.h>
 
 /* ---- fields on points ----------------------------------------------------------------------------------------------- */
 typedef struct {
@@ -32,6 +33,9 @@ pg_status pg_exodus_fields (const char *path, char (**names)[32], size_t *n);   
 pg_status pg_exodus_unit   (const char *path, const char *field, char unit[16]);          /* "" when there is none        */
 
 pg_status pg_folder_make (const char *path);           /* and those above it; one that is there is no error; PG_E_FILE */
+
+/* Made anew for writing: what is in its place is removed first, a symbolic link too; PG_E_FILE. To be closed with fclose. */
+pg_status pg_file_create (FILE **out, const char *path);
 
 /* ---- tables --------------------------------------------------------------------------------------------------------- */
 /* CSV: header "name [unit]" per column, one row a call, at once in the file or not at all; numbers with 17 digits. */

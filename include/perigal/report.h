@@ -10,7 +10,13 @@
 pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem);
 
 typedef struct pg_result pg_result;
+/* Makes the folder and locks it (DIR/run.lock) until pg_result_free. PG_E_USAGE: another run has it, and as pg_result_may_open. */
 pg_status pg_result_open  (pg_result **out, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver);
+/* PG_E_USAGE: a run here would replace one that is not finished (a checkpoint, or rows without a report of another scene), write over a
+ * scene.yaml that no run put there, or `folder` is a file. */
+pg_status pg_result_may_open (const char *folder, const pg_scene *scene);
+/* Gives up what an unfinished run left; the rest of the folder stays. PG_E_USAGE: a run has it. */
+pg_status pg_result_discard (const char *folder);
 pg_status pg_result_step  (pg_result *result, const pg_state *state, const pg_step *step);
 /* In the middle of a step (a pg_watch): fields, when another share output.at.broken of the bonds has broken. */
 pg_status pg_result_stage (pg_result *result, const pg_state *state, const pg_step *so_far);

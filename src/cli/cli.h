@@ -29,7 +29,7 @@ void progress_show  (progress *p, const pg_progress *at, const pg_step *step, co
 void progress_end   (progress *p);
 
 /* command.c: options shared by run and check */
-typedef struct { const char *scene, *folder, *set[64]; size_t nset; int threads, quiet, resume, json, solve, spectrum; double memory; const char *given; } command;
+typedef struct { const char *scene, *folder, *set[64]; size_t nset; int threads, quiet, resume, force, json, solve, spectrum; double memory; const char *given; } command;
 int       command_parse (command *c, int argc, char **argv);   /* -1: go on; else the exit code (message printed)         */
 int       command_unquoted (char *out, size_t size, int argc, char **argv);     /* 1: what a value without its quotes left behind */
 int       command_usage (FILE *to, const char *name);          /* 0: there is no such command                             */

@@ -7,9 +7,10 @@
 #include <unistd.h>
 
 static const struct { const char *name, *text; } usages[] = {
-    { "run", "perigal run SCENE.yaml [-o DIR] [--resume] [--threads N] [--memory SIZE] [--set KEY=VALUE]... [--quiet]\n"
+    { "run", "perigal run SCENE.yaml [-o DIR] [--resume | --force] [--threads N] [--memory SIZE] [--set KEY=VALUE]... [--quiet]\n"
              "  -o, --out DIR        result folder, made if need be; default out/NAME, NAME from the scene's folder or file\n"
              "      --resume         goes on from DIR/checkpoint.nc of an interrupted run, with the same scene and --set\n"
+             "      --force          begins anew in a folder with an interrupted run, whose checkpoint and rows are lost\n"
              "      --threads N      0 (the default): one per processor\n"
              "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A run that needs more is refused\n"
              "  -s, --set KEY=VALUE  replaces or adds one value of the scene, such as method.horizon='2.5 spacing'\n"
@@ -102,7 +103,7 @@ static int refuse (const char *name, int option, const char *argument)
     if (option == ':') fprintf (stderr, "perigal %s: %s needs a value\n", name, argument);
     else {
         const char *near = pg_nearest_name (argument, strcmp (name, "check") == 0 ? "--json|--solve|--spectrum|--out|--threads|--memory|--set|--quiet|--help"
-                                                                                   : "--out|--resume|--threads|--memory|--set|--quiet|--help");
+                                                                                   : "--out|--resume|--force|--threads|--memory|--set|--quiet|--help");
         fprintf (stderr, "perigal %s: there is no option %s%s%s%s\n", name, argument, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     }
     command_usage (stderr, name);
@@ -136,7 +137,7 @@ int command_parse (command *c, int argc, char **argv)
 {
     static const struct option options[] = {
         { "out", required_argument, NULL, 'o' }, { "threads", required_argument, NULL, 't' }, { "set", required_argument, NULL, 's' },
-        { "resume", no_argument, NULL, 'r' }, { "memory", required_argument, NULL, 'm' }, { "json", no_argument, NULL, 'j' },
+        { "resume", no_argument, NULL, 'r' }, { "force", no_argument, NULL, 'f' }, { "memory", required_argument, NULL, 'm' }, { "json", no_argument, NULL, 'j' },
         { "solve", no_argument, NULL, 'v' }, { "spectrum", no_argument, NULL, 'w' }, { "quiet", no_argument, NULL, 'q' }, { "help", no_argument, NULL, 'h' }, { NULL, 0, NULL, 0 } };
     char unquoted[1200];
     int checks = strcmp (argv[0], "check") == 0, lost = command_unquoted (unquoted, sizeof unquoted, argc, argv);
@@ -149,6 +150,7 @@ int command_parse (command *c, int argc, char **argv)
         else if (k == 's') wrong = read_set (c, optarg);
         else if (k == 'q') c->quiet = 1;
         else if (k == 'r') c->resume = 1;
+        else if (k == 'f' && !checks) c->force = 1;
         else if (k == 'm') wrong = read_memory (c, optarg);
         else if (k == 'j' && checks) c->json = 1;
         else if (k == 'v' && checks) c->solve = 1;
@@ -163,6 +165,10 @@ int command_parse (command *c, int argc, char **argv)
     if (optind + 1 != argc) {
         fprintf (stderr, "perigal: %s needs exactly one scene file\n", argv[0]);
         command_usage (stderr, argv[0]);
+        return EXIT_USAGE;
+    }
+    if (c->force && c->resume) {
+        fprintf (stderr, "perigal: --resume and --force exclude each other: go on, or begin anew\n");
         return EXIT_USAGE;
     }
     c->scene = argv[optind];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs, or of other tables, as a chart. */
 #include "plot.h"
+#include "perigal/compare.h"
 #include "perigal/model.h"
 #include <errno.h>
 #include <math.h>
@@ -139,7 +140,7 @@ static void read_kind (run_kind *out, const char *directory, const char *const *
     char path[LIST];
     pg_scene *scene = NULL;
     snprintf (path, sizeof path, "%s/scene.yaml", directory);
-    if (is_table (directory) || access (path, R_OK) != 0 || pg_scene_load (&scene, path) != PG_OK) return;
+    if (is_table (directory) || access (path, R_OK) != 0 || pg_stored_scene (&scene, directory) != PG_OK) return;
     const char *kind = pg_scene_text (scene, "solver.kind");
     out->linear = 1;
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++)

@@ -131,6 +131,7 @@ static pg_status open_result (const command *c, const char *folder, const pg_sce
 {
     pg_status status = PG_OK;
     pg_resumed from;
+    if (c->force) PG_TRY (pg_result_discard (folder));
     if (!c->resume) return pg_result_open (&w->result, folder, scene, problem, solver);
     PG_TRY (pg_result_resume (&w->result, folder, scene, problem, solver, w->state, &from));
     if (from.threads != problem->threads)
@@ -185,10 +186,12 @@ int pg_cli_run (int argc, char **argv)
     if (wrong >= 0) return wrong;
     settle_signals ();
     PG_TRY (command_scene (&c, &scene));
+    if (c.folder && !c.resume && !c.force) PG_TRY (pg_result_may_open (c.folder, scene));      /* before the long work           */
     PG_TRY (afford_scene (&c, &forecast));
     PG_TRY (command_problem (&c, scene, &problem, &options));
     PG_TRY (afford_problem (&c, &forecast, problem, 0));
     snprintf (folder, sizeof folder, "out/%s", problem->name);
+    if (!c.folder && !c.resume && !c.force) PG_TRY (pg_result_may_open (folder, scene));
     if (c.resume && pg_result_finished (c.folder ? c.folder : folder, scene)) {
         if (!c.quiet) printf ("%s: this run is finished\n", c.folder ? c.folder : folder);
         goto done;

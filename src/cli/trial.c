@@ -95,6 +95,7 @@ static pg_status solve_and_measure (const command *c, const pg_scene *scene, con
     PG_TRY (pg_solver_options_read (&options, problem, scene));
     PG_TRY (pg_solver_create (&solver, problem, &options));
     PG_TRY (pg_state_create (&state, problem, pg_solver_components (solver)));
+    PG_TRY (pg_result_discard (c->folder));
     PG_TRY (pg_result_open (&result, c->folder, scene, problem, solver));
     t->value[TRIAL_BUILD] = pg_seconds () - start;
     while (!pg_solver_done (solver, state)) {

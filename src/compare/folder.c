@@ -51,20 +51,27 @@ static pg_status report_text (const char *folder, const char *key, char *out, si
     return PG_OK;
 }
 
-/* Takes the last lines "# --set KEY=VALUE" off the text; in the order of the file. */
+/* The last line of the text, cut off it, if it begins with the mark: what follows that; NULL. */
+static char *cut_line (char *text, const char *mark)
+{
+    size_t length = strlen (text);
+    if (length && text[length - 1] == '\n') length--;
+    size_t start = length;
+    while (start > 0 && text[start - 1] != '\n') start--;
+    if (strncmp (text + start, mark, strlen (mark)) != 0) return NULL;
+    text[length] = 0;
+    text[start] = 0;                                   /* the line before ends here                                      */
+    return text + start + strlen (mark);
+}
+
+/* Takes what a run added off its copy of a scene; settings in the order of the file. */
 static size_t cut_settings (char *text, char **set)
 {
     size_t n = 0;
-    static const char mark[] = "# --set ";
-    for (;;) {
+    while (n < MOST_SETTINGS && (set[n] = cut_line (text, "# --set "))) n++;
+    if (cut_line (text, "# copied by perigal run from ")) {
         size_t length = strlen (text);
-        if (length && text[length - 1] == '\n') length--;
-        size_t start = length;
-        while (start > 0 && text[start - 1] != '\n') start--;
-        if (strncmp (text + start, mark, sizeof mark - 1) != 0 || n == MOST_SETTINGS) break;
-        text[length] = 0;
-        set[n++] = text + start + sizeof mark - 1;
-        text[start] = 0;                               /* the line before ends here                                      */
+        if (length) text[length - 1] = 0;              /* the line end before the mark                                   */
     }
     for (size_t k = 0; k < n / 2; k++) {
         char *other = set[k];

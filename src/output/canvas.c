@@ -26,9 +26,7 @@ pg_status pg_canvas_open (pg_canvas *c, const char *path, double width, double h
     pg_status status = PG_OK;
     *c = (pg_canvas) { .path = path, .svg = ends_with (path, ".svg") };
     if (!c->svg && !ends_with (path, ".png")) PG_FAIL (PG_E_USAGE, "%s: a picture's file ends in .png or .svg", path);
-    errno = 0;
-    c->file = fopen (path, "wb");
-    if (!c->file) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    PG_TRY (pg_file_create (&c->file, path));
     c->surface = c->svg ? cairo_svg_surface_create_for_stream (write_bytes, c, width, height)
                         : cairo_image_surface_create (CAIRO_FORMAT_RGB24, (int) width, (int) height);
     c->cr = cairo_create (c->surface);

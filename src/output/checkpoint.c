@@ -79,9 +79,8 @@ static pg_status write_file (checkpoint *c, pg_keep walk, void *context)
     pg_status status = PG_OK;
     int before;
     size_t buffer = 1 << 20;
-    errno = 0;
-    FILE *probe = fopen (c->path, "wb");               /* netCDF does not always tell the system's reason                */
-    if (!probe) PG_FAIL (PG_E_FILE, "%s: %s", c->path, strerror (errno));
+    FILE *probe;                                       /* netCDF does not always tell the system's reason                */
+    PG_TRY (pg_file_create (&probe, c->path));
     fclose (probe);
     NC_TRY (c->path, nc__create (c->path, NC_CLOBBER | NC_64BIT_DATA, 0, &buffer, &c->ncid));
     c->open = 1;

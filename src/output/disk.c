@@ -27,6 +27,37 @@ pg_status disk_cut (const char *path, int file, long bytes)
     return ftruncate (file, bytes) == 0 ? PG_OK : pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
 }
 
+pg_status disk_create (const char *path, int *file)
+{
+    pg_status status = PG_OK;
+    struct stat s;
+    *file = -1;
+    if (stat (path, &s) == 0 && S_ISCHR (s.st_mode)) {                 /* a device holds nothing that could be lost      */
+        *file = open (path, O_WRONLY | O_CLOEXEC);
+        if (*file < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+        goto done;
+    }
+    int there = lstat (path, &s) == 0;
+    if (there && !S_ISREG (s.st_mode) && !S_ISLNK (s.st_mode)) PG_FAIL (PG_E_FILE, "%s: %s", path, S_ISDIR (s.st_mode) ? strerror (EISDIR) : "is no regular file");
+    if (there && unlink (path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    *file = open (path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (*file < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+done:
+    return status;
+}
+
+pg_status pg_file_create (FILE **out, const char *path)
+{
+    int file;
+    *out = NULL;
+    pg_status status = disk_create (path, &file);
+    if (status != PG_OK) return status;
+    *out = fdopen (file, "wb");
+    if (*out) return PG_OK;
+    close (file);
+    return pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
+}
+
 pg_status disk_sync (const char *path)
 {
     int file = open (path, O_RDONLY);

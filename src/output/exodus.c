@@ -70,7 +70,7 @@ static pg_status open_file (pg_exodus *f, long *bytes)
     pg_status status = PG_OK;
     struct stat s;
     char magic[4];
-    f->file = open (f->path, O_RDWR);
+    f->file = open (f->path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
     if (f->file < 0 || fstat (f->file, &s) != 0) PG_FAIL (PG_E_FILE, "%s: %s", f->path, strerror (errno));
     if (pread (f->file, magic, 4, 0) != 4 || memcmp (magic, "CDF", 3) != 0 || (magic[3] != 2 && magic[3] != 5))
         PG_FAIL (PG_E_FILE, "%s: not a file that this program can append to", f->path);

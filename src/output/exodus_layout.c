@@ -275,9 +275,8 @@ static pg_status open_file (writer *w)
 {
     pg_status status = PG_OK;
     int before;
-    errno = 0;
-    FILE *probe = fopen (w->l->path, "wb");            /* netCDF does not always tell the system's reason                */
-    if (!probe) PG_FAIL (PG_E_FILE, "%s: %s", w->l->path, strerror (errno));
+    FILE *probe;                                       /* netCDF does not always tell the system's reason                */
+    PG_TRY (pg_file_create (&probe, w->l->path));
     fclose (probe);
     NC_TRY (w->l->path, nc_create (w->l->path, NC_CLOBBER | (w->n > 0xfffffffcu / 8 ? NC_64BIT_DATA : NC_64BIT_OFFSET), &w->ncid));
     w->open = 1;

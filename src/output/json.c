@@ -75,9 +75,7 @@ pg_status pg_json_create (pg_json **out, const char *path)
     j->path = pg_strdup (path);
     if (!j->path) PG_FAIL (PG_E_MEMORY, "no memory for a path");
     snprintf (j->temporary, size, "%s.tmp", path);
-    errno = 0;
-    j->file = fopen (j->temporary, "w");
-    if (!j->file) PG_FAIL (PG_E_FILE, "%s: %s", j->temporary, strerror (errno));
+    PG_TRY (pg_file_create (&j->file, j->temporary));
     *out = j;
     j = NULL;
 done:

@@ -59,7 +59,8 @@ done:
     return status;
 }
 
-static pg_status prepare (pg_table **out, const char *path, int how)
+/* fresh: made anew, else the one that is there. */
+static pg_status prepare (pg_table **out, const char *path, int fresh)
 {
     pg_status status = PG_OK;
     pg_table *t = NULL;
@@ -67,8 +68,8 @@ static pg_status prepare (pg_table **out, const char *path, int how)
     t->file = -1;
     t->path = pg_strdup (path);
     if (!t->path) PG_FAIL (PG_E_MEMORY, "no memory for a path");
-    t->file = open (path, how, 0666);
-    if (t->file < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    if (fresh) PG_TRY (disk_create (path, &t->file));
+    else if ((t->file = open (path, O_RDWR | O_NOFOLLOW | O_CLOEXEC)) < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
     *out = t;
     t = NULL;
 done:
@@ -81,7 +82,7 @@ pg_status pg_table_create (pg_table **out, const char *path, size_t n, const cha
     pg_status status = PG_OK;
     pg_table *t = NULL;
     *out = NULL;
-    PG_TRY (prepare (&t, path, O_WRONLY | O_CREAT | O_TRUNC));
+    PG_TRY (prepare (&t, path, 1));
     t->n = n;
     PG_TRY (pg_table_line (t, columns));
     t->rows = 0;
@@ -114,7 +115,7 @@ pg_status pg_table_open (pg_table **out, const char *path, size_t n, long rows)
     pg_status status = PG_OK;
     pg_table *t = NULL;
     *out = NULL;
-    PG_TRY (prepare (&t, path, O_RDWR));
+    PG_TRY (prepare (&t, path, 0));
     t->n = n;
     PG_TRY (skip_rows (t, rows));
     PG_TRY (disk_cut (path, t->file, t->bytes));

@@ -8,34 +8,6 @@
 #include <string.h>
 #include <math.h>
 
-/* What --set changed, as comments at the end of the copy. */
-static void write_settings (FILE *f, const pg_scene *scene)
-{
-    const char *set;
-    for (size_t k = 0; (set = pg_scene_setting (scene, k)); k++) {
-        fputs ("# --set ", f);
-        for (; *set; set++) fputc (*set == '\n' || *set == '\r' ? ' ' : *set, f);
-        fputc ('\n', f);
-    }
-}
-
-static pg_status copy_scene (const pg_result *r, const pg_scene *scene)
-{
-    pg_status status = PG_OK;
-    char path[4096];
-    snprintf (path, sizeof path, "%s/scene.yaml", r->folder);
-    const char *text = pg_scene_source (scene);
-    FILE *f = fopen (path, "w");
-    if (!f) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
-    size_t n = strlen (text), wrote = fwrite (text, 1, n, f);
-    if (pg_scene_setting (scene, 0) && n && text[n - 1] != '\n') fputc ('\n', f);
-    write_settings (f, scene);
-    int bad = ferror (f);
-    if (fclose (f) != 0 || wrote != n || bad) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
-done:
-    return status;
-}
-
 static pg_status read_wishes (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -109,7 +81,7 @@ done:
     return status;
 }
 
-/* Nothing of an earlier run may be taken for this one's: its checkpoint goes first. */
+/* Nothing of an earlier run may be taken for this one's: its report goes first. */
 pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver)
 {
     pg_status status = PG_OK;
@@ -120,9 +92,10 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     PG_ALLOC (r, 1);
     PG_TRY (result_prepare (r, folder, scene, problem, solver));
     PG_TRY (pg_folder_make (folder));
-    PG_TRY (result_remove (r, "checkpoint.nc"));
+    PG_TRY (result_lock (folder, &r->lock));
+    PG_TRY (pg_result_may_open (folder, scene));
     PG_TRY (result_remove (r, "report.json"));
-    PG_TRY (copy_scene (r, scene));
+    PG_TRY (result_copy_scene (folder, scene));
     PG_TRY (result_history_create (r, NULL));
     snprintf (path, sizeof path, "%s/result.e", folder);
     PG_TRY (pg_exodus_create (&r->file, path, &problem->cloud, problem->title, r->nfield, r->field));
@@ -254,6 +227,7 @@ void pg_result_free (pg_result **result)
     pg_exodus_close (&r->file);
     pg_table_close (&r->history);
     pg_table_close (&r->events);
+    result_unlock (r->folder, &r->lock);
     for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);
     pg_reference_free (&r->reference);
     pg_errors_clear (&r->errors);

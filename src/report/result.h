@@ -25,6 +25,7 @@ typedef struct { int found; size_t row; double force, displacement, step, time, 
 typedef struct { int found; double area, length, dissipated; } result_crack;
 struct pg_result {
     char     folder[3072];
+    int      lock;                                     /* 0: none                                                        */
     const pg_problem *problem;
     pg_solver *solver;
     char     hash[80], scene[3072];
@@ -73,6 +74,10 @@ pg_status result_remove         (const pg_result *r, const char *name);
 /* New tables, or those of `from`, cut to its rows. */
 pg_status result_history_create (pg_result *r, const result_marks *from);
 pg_status result_history_row    (pg_result *r, const pg_state *state, const pg_step *step);
+/* PG_E_USAGE: another run has the folder. *lock: what result_unlock takes. */
+pg_status result_lock           (const char *folder, int *lock);
+void      result_unlock         (const char *folder, int *lock);
+pg_status result_copy_scene     (const char *folder, const pg_scene *scene);
 void      result_averages_check (const pg_scene *scene, const pg_problem *problem);
 pg_status result_averages_read  (pg_result *r, const pg_scene *scene);
 void      result_average_column (const pg_result *r, size_t i, char *out, size_t size);

@@ -186,6 +186,7 @@ pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene 
     PG_ALLOC (r, 1);
     m.r = r;
     PG_TRY (result_prepare (r, folder, scene, problem, solver));
+    PG_TRY (result_lock (folder, &r->lock));
     PG_TRY (pg_checkpoint_read (path, keep_all, &m));
     PG_TRY (open_files (r, &m.now));
     PG_TRY (result_remove (r, "report.json"));

@@ -153,7 +153,7 @@ expect "plot: --log of a curve"               64 '' 'expected x, y or xy' plot "
 expect "plot --help"                           0 'usage' '' plot --help
 
 : > "$work/file"
-expect "a file where the folder should be"    70 '*' 'Not a directory' run plate.yaml -o "$work/file" --threads 1
+expect "a file where the folder should be"    64 '' 'file is a file: results need a folder, name another with -o' run plate.yaml -o "$work/file" --threads 1
 mkdir "$work/locked"; chmod a-w "$work/locked"
 if [ -w "$work/locked" ]; then                         # root may write anywhere; a kernel file system refuses it too
     expect "a folder that cannot be made"     70 '*' 'cannot make the folder' run plate.yaml -o /proc/perigal --threads 1
@@ -166,5 +166,15 @@ for _ in $(seq 200); do [ "$(cat "$work/stopped/history.csv" 2> /dev/null | wc -
 kill -INT $pid; wait $pid; code=$?
 [ $code -eq 130 ]; verdict "SIGINT: exit code 130 (got $code)" $?
 grep -q 'interrupted' "$work/stopped/report.json"; verdict "SIGINT: the report tells it" $?
+expect "an unfinished run is not replaced"    64 '' 'go on with --resume, begin anew with --force' run plate.yaml -o "$work/stopped" --threads 1
+grep -q 'interrupted' "$work/stopped/report.json" && [ -s "$work/stopped/checkpoint.nc" ]; verdict "it stays as it was" $?
 expect "SIGINT: results are readable"          0 'damage.png' '' plot "$work/stopped"
+expect "--force begins anew"                   0 'results in' '*' run plate.yaml -o "$work/stopped" --threads 1 --set solver.max_events=1 --force
+[ ! -e "$work/stopped/checkpoint.nc" ] && [ ! -e "$work/stopped/run.lock" ]; verdict "nothing is left of the old run" $?
+expect "a finished run is run again"           0 'results in' '*' run plate.yaml -o "$work/stopped" --threads 1 --set solver.max_events=2
+expect "--force and --resume"                 64 '' 'exclude each other' run plate.yaml -o "$work/stopped" --force --resume
+mkdir "$work/own"; cp plate.yaml "$work/own/scene.yaml"
+expect "a scene in its own result folder"     64 '' 'is the scene itself' run "$work/own/scene.yaml" -o "$work/own" --threads 1 --set solver.max_events=1
+expect "another scene over one of the user"   64 '' 'was not put there by a run' run plate.yaml -o "$work/own" --threads 1 --set solver.max_events=1
+cmp plate.yaml "$work/own/scene.yaml" > "$work/out" 2>&1; verdict "the scene is as it was" $?
 finish

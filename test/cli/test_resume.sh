@@ -93,7 +93,8 @@ run "${event[@]}" --set solver.tie=1e-9 -o "$work/half" --resume; [ $? -eq 64 ] 
 verdict "a changed scene is refused, the folder stays" $?
 head -c 3000 "$work/half/checkpoint.nc" > "$work/cut" && cp -r "$work/half" "$work/torn" && cp "$work/cut" "$work/torn/checkpoint.nc"
 run "${event[@]}" -o "$work/torn" --resume; [ $? -eq 70 ] && grep -q 'checkpoint.nc' "$work/err"; verdict "a torn checkpoint is refused" $?
-run "${event[@]}" -o "$work/half"; code=$?; same "$work/event" "$work/half" > "$work/why" 2>&1; verdict "without --resume it begins anew" $((code + $?))
+run "${event[@]}" -o "$work/half"; [ $? -eq 64 ] && grep -q 'holds a run that is not finished' "$work/err"; verdict "without --resume or --force it is not replaced" $?
+run "${event[@]}" -o "$work/half" --force; code=$?; same "$work/event" "$work/half" > "$work/why" 2>&1; verdict "with --force it begins anew" $((code + $?))
 
 # ---- disks: limited file size (EFBIG), a small disk (ENOSPC), a folder that cannot be written
 readable() { "$perigal" plot "$1" --list > /dev/null 2>&1 && head -1 "$1/history.csv" | grep -q 'load_factor' && [ "$(tail -c 1 "$1/history.csv" | od -An -c | tr -d ' ')" = '\n' ]; }
@@ -111,7 +112,7 @@ if mount -t tmpfs -o size=400k tmpfs "$work/small" 2> /dev/null; then
         run "${event[@]}" --set 'output.at.events=1' -o "$work/whole"; same "$work/whole" "$work/moved" > "$work/why" 2>&1; verdict "moved to a larger disk it goes on" $((code + $?))
     fi
     mount -o remount,ro "$work/small"
-    run "${event[@]}" -o "$work/small/out"; [ $? -eq 70 ] && grep -q 'small/out.*Read-only' "$work/err"; verdict "a read-only disk: exit code 70 and the reason" $?
+    run "${event[@]}" -o "$work/small/out" --force; [ $? -eq 70 ] && grep -q 'small/out.*Read-only' "$work/err"; verdict "a read-only disk: exit code 70 and the reason" $?
     umount "$work/small"
 fi
 finish

@@ -143,6 +143,7 @@ static pg_status write_and_resume (const char *where, const char *text)
     pg_result *result = NULL;
     advance (&r), advance (&r);
     again = scene_of (1, "%s", text);
+    check_ok (pg_result_discard (where));              /* of the life before                                             */
     pg_memory_fail_at (fail_at);
     PG_TRY (pg_result_open (&result, where, r.scene, r.problem, r.solver));
     PG_TRY (pg_result_step (result, r.state, &r.step));

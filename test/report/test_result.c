@@ -86,7 +86,8 @@ static void the_folder_is_complete (void **state)
     assert_int_equal (npicture, 4);
     assert_int_equal (size_of (inside (folder, "report.json.tmp")), -1);
     char *copy = slurp (inside (folder, "scene.yaml"));
-    assert_string_equal (copy, scene_text);
+    assert_memory_equal (copy, scene_text, strlen (scene_text));
+    assert_string_equal (copy + strlen (scene_text), "\n# copied by perigal run from test.yaml\n");
     pg_free (copy);
 }
 

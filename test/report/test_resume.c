@@ -83,6 +83,7 @@ static int stop_at (const char *text, const char *where, long k)
 {
     run r = prepare (1, text);
     visit v = { .left = k };
+    check_ok (pg_result_discard (where));
     check_ok (pg_result_open (&v.result, where, r.scene, r.problem, r.solver));
     int stopped = go (&r, &v);
     if (stopped) {
@@ -186,6 +187,12 @@ static void a_new_run_leaves_no_old_checkpoint_or_report (void **state)
     make_folder (where);
     assert_int_equal (stop_at (scenes[1].text, where, 5), 1);
     run r = prepare (1, scenes[2].text);
+    long rows = size_of (inside (where, "history.csv")), kept = size_of (inside (where, "checkpoint.nc"));
+    check_fails (pg_result_open (&result, where, r.scene, r.problem, r.solver), PG_E_USAGE);
+    check_contains (pg_last_error (), "holds a run that is not finished");
+    assert_int_equal (size_of (inside (where, "history.csv")), rows);
+    assert_int_equal (size_of (inside (where, "checkpoint.nc")), kept);
+    check_ok (pg_result_discard (where));
     check_ok (pg_result_open (&result, where, r.scene, r.problem, r.solver));
     assert_int_equal (size_of (inside (where, "checkpoint.nc")), -1);
     assert_int_equal (size_of (inside (where, "report.json")), -1);
