@@ -71,15 +71,22 @@ int       pg_cut_is_end (const struct pg_cut *cut, int surface);
 
 /* Named groups: `sets: NAME: {boundary: ..., angle: ..., where: ...}`. NAME.top/.bottom/.left/.right/.front/.back is the part
  * on that side of the centre of the body's bounding box. */
-typedef struct { pg_set *set; size_t n; } pg_sets;
-/* Makes the predefined sets left right bottom top back front (faces of the bounding box) and all (every point and facet), the
- * sets of the scene, and the parts of each. What has no side in this dimension does not exist. An empty set of the scene is a
+typedef struct {
+    pg_set *set; size_t n;
+    double plane[6];                                   /* of left right bottom top back front, m; NAN: none in this dimension */
+    char   parts[320];                                 /* SHAPE.PART of all shapes, for messages                         */
+} pg_sets;
+/* Makes the predefined sets left right bottom top back front (the facets that lie in the planes of the bounding box, and their points; of a body
+ * without facets the points within half their spacing of the planes) and all (every point and facet), the sets of the scene, the parts of shapes
+ * (SHAPE.PART) that loads, averages, exclude and stop name, and the parts of each. What has no side in this dimension does not exist. An empty set of the scene is a
  * fault; an empty predefined set or part is not (npoint = nfacet = 0). Sets of a mesh come before those of the scene, with their parts, and
  * take the place of predefined ones of the same name. With PG_E_SCENE all sets are there all the same, for the caller to
  * look for more faults and to clear. */
 pg_status     pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud, const pg_cells *cells);
 const pg_set *pg_sets_find  (const pg_sets *sets, const char *name);
-/* The same for a name that the scene gives at `path`: an unknown one is a fault there that names the nearest. */
+/* 1: a predefined side in whose plane the body has no face (a disk's top). */
+int           pg_sets_empty_side (const pg_sets *sets, const pg_set *set);
+/* As pg_sets_find, for a name that the scene gives at `path`: an unknown one is a fault there that names the nearest, an empty side one that says what to name. */
 const pg_set *pg_sets_named (const pg_sets *sets, const pg_scene *scene, const char *path, const char *name);
 void          pg_sets_clear (pg_sets *sets);
 #endif

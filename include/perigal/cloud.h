@@ -39,6 +39,7 @@ void      pg_body_clear (pg_body *body);
 int       pg_body_inside (const pg_body *body, const double *x, double tolerance);   /* shapes in order, tolerance in m  */
 /* Index of the shape whose surface is nearest to x, and its distance (m). */
 size_t    pg_body_nearest (const pg_body *body, const double *x, double *distance);
+const char *pg_shape_kind (const pg_shape *shape);      /* "box", "disk" ...: as the scene calls it                       */
 /* Volume (2D: area, m^2) and surface (2D: length, m) in closed form; 0: known for one shape alone. */
 int       pg_body_measure (const pg_body *body, double *volume, double *surface);
 /* Shapes of kind PG_MESH: how many the body has. The side sets of their files are names of their parts: does the surface nearest to x belong to

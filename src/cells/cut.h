@@ -14,6 +14,7 @@ typedef struct {
     cut_quadric psi;                                   /* about `origin`; |grad psi| = 1 on the surface                  */
     double origin[3], low[3], high[3];                 /* m; box of the part that may bound the body                     */
     int    shape, flat, end, axis;                     /* of the body, -1 a knife; a plane; end of a cylinder; normal axis or -1 */
+    int    part;                                       /* of the shape (parts.c)                                         */
 } cut_surface;
 struct pg_cut {
     int dim;

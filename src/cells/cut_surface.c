@@ -114,6 +114,7 @@ static pg_status add_box (maker *m, cut_surface s, const pg_shape *shape)
     for (int f = 0; f < 2 * m->cut->dim; f++) {
         double n[3] = {0, 0, 0};
         n[f / 2] = f % 2 ? 1 : -1;
+        s.part = f;
         PG_TRY (add_plane (m, s, f % 2 ? shape->high : shape->low, n));
     }
 done:
@@ -140,13 +141,14 @@ static pg_status add_cylinder (maker *m, cut_surface s, const pg_shape *shape)
     double far[3], back[3];
     for (int k = 0; k < 3; k++) far[k] = shape->centre[k] + shape->length * shape->axis[k], back[k] = -shape->axis[k];
     PG_TRY (add_round (m, s, shape));
-    s.end = 1;
+    s.end = s.part = 1;
     for (int k = 0; k < 3; k++) {
         double wide = shape->radius * sqrt (fmax (0, 1 - shape->axis[k] * shape->axis[k]));
         s.low[k] = shape->centre[k] - wide, s.high[k] = shape->centre[k] + wide;
     }
     PG_TRY (add_plane (m, s, shape->centre, back));
     for (int k = 0; k < 3; k++) s.low[k] += far[k] - shape->centre[k], s.high[k] += far[k] - shape->centre[k];
+    s.part = 2;
     PG_TRY (add_plane (m, s, far, shape->axis));
 done:
     return status;
@@ -161,10 +163,12 @@ static pg_status add_polygon (maker *m, cut_surface s, const pg_shape *shape)
         double length = hypot (b[0] - a[0], b[1] - a[1]), n[3] = {(b[1] - a[1]) / length, (a[0] - b[0]) / length, 0};
         double point[3] = {a[0], a[1], 0};
         for (int k = 0; k < 2; k++) s.low[k] = fmin (a[k], b[k]), s.high[k] = fmax (a[k], b[k]);
+        s.part = (int) j;
         PG_TRY (add_plane (m, s, point, n));
     }
     for (int f = 0; f < 2 && shape->kind == PG_PRISM; f++) {
         double point[3] = {0, 0, f ? shape->high[2] : shape->low[2]}, n[3] = {0, 0, f ? 1 : -1};
+        end.part = (int) shape->nvertex + f;
         PG_TRY (add_plane (m, end, point, n));
     }
 done:

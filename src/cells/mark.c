@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points and facets lie on a side of the bounding box or on the surface of a shape? */
+ * Which points and facets lie on the surface of a shape, or bear a name that the mesh brought? (sides of the box: sides.c; parts of shapes: parts.c) */
+#include "cut.h"
 #include "mark.h"
 #include "sites.h"
 #include <math.h>
@@ -8,6 +9,19 @@
 const char *const pg_side_names[PG_SIDES] = {"left", "right", "bottom", "top", "back", "front"};
 
 /* ---- points of facets ------------------------------------------------------------------------------------------------ */
+/* A piece of a face of the cell: only the points of that face count, if there are any. */
+static int on_the_face (const pg_marks *m, size_t f, int n, int *point)
+{
+    const cut_surface *s = m->cells->cut && m->cells->facet_surface[f] >= 0 ? &m->cells->cut->surface[m->cells->facet_surface[f]] : NULL;
+    int kept = 0, some[PG_ELEMENT_NODES];
+    for (int k = 0; s && s->axis >= 0 && k < n; k++) {
+        double off = m->cloud->x[(size_t) point[k] * (size_t) m->cells->dim + (size_t) s->axis] - s->origin[s->axis];
+        if (fabs (off) <= 1e-9 * m->cloud->step[s->axis]) some[kept++] = point[k];
+    }
+    if (kept) memcpy (point, some, (size_t) kept * sizeof *point);
+    return kept ? kept : n;
+}
+
 /* Points of facet f, at most 8: at the corners of a whole face; of a piece the outer points of its cell. */
 static int lattice_points (const pg_marks *m, const cells_sites *s, size_t f, int *point)
 {
@@ -15,7 +29,8 @@ static int lattice_points (const pg_marks *m, const cells_sites *s, size_t f, in
     size_t dim = (size_t) c->dim;
     int i[3], n = 0;
     cells_sites_cell (s, c->x + c->start[c->facet_cell[f]] * dim, i);
-    if (s->centred || c->facet_kind[f] == PG_CUT) return cells_sites_points (s, i, 1, point);
+    if (s->centred) return cells_sites_points (s, i, 1, point);
+    if (c->facet_kind[f] == PG_CUT) return on_the_face (m, f, cells_sites_points (s, i, 1, point), point);
     for (size_t k = c->facet_start[f]; k < c->facet_start[f + 1]; k++) {
         int p = cells_sites_at (s, c->facet_x + k * dim);
         if (p >= 0) point[n++] = p;
@@ -113,23 +128,14 @@ static int side_named (int dim, const char *name)
     return -1;
 }
 
-/* On the low or high face of the box, or within half a step of it when the lattice is shifted (of `finer` steps, for points of a file). */
-static int on_side (const pg_marks *m, int side, const double *x, double finer)
-{
-    int k = side / 2;
-    double face = side % 2 ? m->high[k] : m->low[k];
-    if (m->cells->facet_point) return fabs (x[k] - face) <= 1e-6 * m->size;        /* a mesh ends where its nodes are     */
-    return fabs (x[k] - face) <= 0.5 * finer * m->cloud->step[k] * (1 + 1e-9);
-}
-
-static void mark_facet (pg_marks *m, size_t f)
+void cells_mark_facet (pg_marks *m, size_t f)
 {
     m->facet[f] = 1;
     for (size_t k = m->facet_first[f]; k < m->facet_first[f + 1]; k++) m->point[m->facet_point[k]] = 1;
 }
 
 /* The flat ends of a cylinder, whose round surface is called rim. */
-static int is_end (const pg_marks *m, size_t f)
+int cells_is_end (const pg_marks *m, size_t f)
 {
     const pg_shape *s = &m->body->shape[m->facet_shape[f]];
     const double *x = m->cells->facet_centre + 3 * f, *n = m->cells->normal + 3 * f;
@@ -162,7 +168,7 @@ static int mark_shape (pg_marks *m, const char *name)
         known |= !strcmp (s->boundary, name) || (side && s->kind == PG_CYLINDER && !strcmp (s->boundary, "rim"));
     }
     for (size_t f = 0; known && f < m->cells->nfacet; f++)
-        if (is_end (m, f) ? side : is_of_shape (m, f, name)) mark_facet (m, f);
+        if (cells_is_end (m, f) ? side : is_of_shape (m, f, name)) cells_mark_facet (m, f);
     return known;
 }
 
@@ -182,16 +188,12 @@ static int mark_given (pg_marks *m, const char *name)
 int pg_marks_boundary (pg_marks *m, const char *name)
 {
     if (mark_given (m, name)) return 1;
-    size_t dim = (size_t) m->cloud->dim;
     int side = side_named (m->cloud->dim, name), all = !strcmp (name, "all");
-    if (side < 0 && !all) return mark_shape (m, name);
-    for (size_t f = 0; f < m->cells->nfacet; f++) {
-        double n = all ? 0 : m->cells->normal[f * dim + (size_t) side / 2];
-        if (all || ((side % 2 ? n > 0.5 : n < -0.5) && on_side (m, side, m->cells->facet_centre + f * dim, 1))) mark_facet (m, f);
-    }
+    if (side < 0 && !all) return mark_shape (m, name) || cells_mark_part (m, name);
+    for (size_t f = 0; f < m->cells->nfacet; f++) if (all || cells_facet_on_side (m, f, side)) cells_mark_facet (m, f);
     for (size_t i = 0; m->cells->nfacet == 0 && i < m->cloud->n; i++)      /* points from a file */
         for (int s = 0; s < 2 * m->cloud->dim; s++)
-            if ((all || s == side) && on_side (m, s, m->cloud->x + i * dim, pg_cloud_ratio (m->cloud, i))) m->point[i] = 1;
+            if ((all || s == side) && cells_point_on_side (m, i, s)) m->point[i] = 1;
     return 1;
 }
 

@@ -23,6 +23,15 @@ void      pg_marks_clear  (pg_marks *m);
 void      pg_marks_fill   (pg_marks *m, int value);
 /* Adds the part of the boundary of that name; 0: there is no such name. */
 int       pg_marks_boundary (pg_marks *m, const char *name);
+void      cells_mark_facet (pg_marks *m, size_t f);        /* and its points                                             */
+/* sides.c: does the facet lie in the plane of the bounding box there; of a body without facets: is the point within half its spacing of it? */
+int       cells_facet_on_side (const pg_marks *m, size_t f, int side);
+int       cells_point_on_side (const pg_marks *m, size_t i, int side);
+/* parts.c: adds the part of a shape called SHAPE.PART, 0: there is none. Number of a part of a shape, -1: it has none of this name. All names, for messages. */
+int       cells_mark_part (pg_marks *m, const char *name);
+int       cells_part_named (const pg_shape *shape, int dim, const char *part);
+void      cells_parts_list (const pg_body *body, char *out, size_t size);
+int       cells_is_end (const pg_marks *m, size_t f);      /* the flat end of a cylinder whose surface has no name of its own */
 /* Position beyond the centre of the box on that side? */
 int       pg_marks_beyond (const pg_marks *m, int side, const double *x);
 /* Takes away the marks of all that does not pass the test. */

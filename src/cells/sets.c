@@ -190,25 +190,55 @@ done:
     return status;
 }
 
+/* What to say of a side in whose plane the body has no face. */
+static void describe_empty (pg_sets *out, const builder *b)
+{
+    const pg_marks *m = &b->marks;
+    cells_parts_list (m->body, out->parts, sizeof out->parts);
+    for (int side = 0; side < 2 * m->cloud->dim; side++) out->plane[side] = side % 2 ? m->high[side / 2] : m->low[side / 2];
+}
+
+static int side_of (const pg_sets *sets, const char *name)
+{
+    for (int side = 0; side < PG_SIDES; side++) if (!strcmp (name, pg_side_names[side])) return sets->plane[side] == sets->plane[side] ? side : -1;
+    return -1;
+}
+
+int pg_sets_empty_side (const pg_sets *sets, const pg_set *set)
+{
+    return set->npoint == 0 && set->nfacet == 0 && side_of (sets, set->name) >= 0;
+}
+
+static void fault_empty_side (const pg_sets *sets, const pg_scene *scene, const char *path, const char *name)
+{
+    int side = side_of (sets, name);
+    pg_scene_fault (scene, path, "%s is the part of the surface in the plane %c = %.6g m of the bounding box, where the body has no face: a round or slanted body "
+                    "touches it only. Name the part that is meant, by sets: {NAME: {boundary: all, angle: [[80 deg, 100 deg]]}} or {NAME: {boundary: SHAPE.PART}}%s%s%s",
+                    name, "xyz"[side / 2], sets->plane[side], *sets->parts ? " (here: " : "", sets->parts, *sets->parts ? ")" : "");
+}
+
 static void unknown_boundary (const builder *b, const char *at, const char *name)
 {
-    char names[400] = "";
+    char names[800] = "";
     size_t used = 0;
     const pg_body *body = b->marks.body;
     for (int s = 0; s < 2 * b->marks.cloud->dim; s++) used += (size_t) snprintf (names + used, sizeof names - used, "%s|", pg_side_names[s]);
     used += (size_t) snprintf (names + used, sizeof names - used, "all");
-    for (size_t i = 0; b->marks.cells->nfacet > 0 && i < body->n && used + 34 < sizeof names; i++) {
+    for (size_t i = 0; b->marks.cells->nfacet > 0 && i < body->n && used + 34 < 400; i++) {
         size_t k = 0;
         const char *side;
-        while (body->shape[i].kind == PG_MESH && (side = pg_shape_side (&body->shape[i], k)) && used + 100 < sizeof names)
+        while (body->shape[i].kind == PG_MESH && (side = pg_shape_side (&body->shape[i], k)) && used + 100 < 400)
             used += (size_t) snprintf (names + used, sizeof names - used, "|%s", side), k++;
         k = 0;
         while (k < i && strcmp (body->shape[k].boundary, body->shape[i].boundary)) k++;
         if (k == i) used += (size_t) snprintf (names + used, sizeof names - used, "|%s", body->shape[i].boundary);
     }
-    for (size_t i = 0; i < b->marks.cells->ngiven && used + 60 < sizeof names; i++)
+    for (size_t i = 0; i < b->marks.cells->ngiven && used + 60 < 400; i++)
         used += (size_t) snprintf (names + used, sizeof names - used, "|%s", b->marks.cells->given[i].name);
-    const char *near = pg_nearest_name (name, names);
+    if (*b->out->parts && used + 2 < sizeof names) snprintf (names + used, sizeof names - used, "; of shapes %s", b->out->parts);
+    char list[400];
+    snprintf (list, sizeof list, "%.*s", (int) used, names);
+    const char *near = pg_nearest_name (name, list);
     if (near) pg_scene_fault (b->scene, at, "no boundary is called '%.40s'; did you mean %s? (%s)", name, near, names);
     else pg_scene_fault (b->scene, at, "no boundary is called '%.40s'; there are %s", name, names);
 }
@@ -221,11 +251,13 @@ static int mark_boundaries (builder *b, const char *name)
     int known = 1;
     snprintf (at, sizeof at, "sets.%s.boundary", name);
     pg_marks_fill (&b->marks, 0);
-    for (size_t i = 0; (part = pg_scene_name (b->scene, i, "%s", at)); i++)
-        if (!pg_marks_boundary (&b->marks, part)) {
-            unknown_boundary (b, at, part);
-            known = 0;
-        }
+    for (size_t i = 0; (part = pg_scene_name (b->scene, i, "%s", at)); i++) {
+        const pg_set *side = side_of (b->out, part) >= 0 ? pg_sets_find (b->out, part) : NULL;
+        if (side && pg_sets_empty_side (b->out, side)) fault_empty_side (b->out, b->scene, at, part);
+        else if (pg_marks_boundary (&b->marks, part)) continue;
+        else unknown_boundary (b, at, part);
+        known = 0;
+    }
     return known;
 }
 
@@ -261,16 +293,51 @@ done:
     return status;
 }
 
+/* A part of a shape needs no set of its own: `set: disk.rim`, also disk.rim.top. */
+static pg_status add_part (builder *b, const char *name)
+{
+    pg_status status = PG_OK;
+    char base[64];
+    if (!name || !strchr (name, '.') || strlen (name) > 56 || pg_sets_find (b->out, name)) return PG_OK;
+    snprintf (base, sizeof base, "%s", name);
+    char *last = strrchr (base, '.');
+    pg_marks_fill (&b->marks, 0);
+    int known = cells_mark_part (&b->marks, base);
+    if (!known && last != strchr (base, '.')) {
+        *last = '\0';
+        known = !pg_sets_find (b->out, base) && cells_mark_part (&b->marks, base);
+    }
+    if (known) PG_TRY (add_set (b, base));
+done:
+    return status;
+}
+
+static pg_status add_parts (builder *b)
+{
+    pg_status status = PG_OK;
+    const pg_scene *s = b->scene;
+    for (size_t i = 0; i < pg_scene_count (s, "boundary"); i++) PG_TRY (add_part (b, pg_scene_text (s, "boundary[%zu].set", i)));
+    for (size_t i = 0; i < pg_scene_count (s, "output.averages"); i++) PG_TRY (add_part (b, pg_scene_text (s, "output.averages[%zu].set", i)));
+    const char *name;
+    for (size_t i = 0; (name = pg_scene_name (s, i, "failure.exclude")); i++) PG_TRY (add_part (b, name));
+    PG_TRY (add_part (b, pg_scene_text (s, "solver.stop.set")));
+done:
+    return status;
+}
+
 pg_status pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud, const pg_cells *cells)
 {
     pg_status status = PG_OK;
     builder b = {.out = out, .scene = scene};
     const char *name;
     memset (out, 0, sizeof *out);
+    for (int side = 0; side < PG_SIDES; side++) out->plane[side] = NAN;
     PG_TRY (pg_marks_create (&b.marks, body, lattice, cloud, cells));
+    describe_empty (out, &b);
     PG_TRY (add_predefined (&b));
     PG_TRY (add_layers (&b));
     for (size_t i = 0; (name = pg_scene_name (scene, i, "sets")); i++) PG_TRY (add_named (&b, name));
+    PG_TRY (add_parts (&b));
     PG_TRY (pg_scene_verdict (scene));
 done:
     pg_marks_clear (&b.marks);
@@ -289,6 +356,7 @@ const pg_set *pg_sets_named (const pg_sets *sets, const pg_scene *scene, const c
     const pg_set *set = pg_sets_find (sets, name);
     char names[4096] = "";
     size_t at = 0;
+    if (set && pg_sets_empty_side (sets, set)) fault_empty_side (sets, scene, path, name);
     if (set) return set;
     for (size_t s = 0; s < sets->n && at < sizeof names - 70; s++)
         at += (size_t) snprintf (names + at, sizeof names - at, "%s%s", at ? "|" : "", sets->set[s].name);

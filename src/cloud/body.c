@@ -101,6 +101,8 @@ int pg_body_inside (const pg_body *body, const double *x, double tolerance)
     return in;
 }
 
+const char *pg_shape_kind (const pg_shape *shape) { return pg_shape_types[shape->kind].name; }
+
 size_t pg_body_nearest (const pg_body *body, const double *x, double *distance)
 {
     size_t nearest = 0;

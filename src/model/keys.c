@@ -66,7 +66,7 @@ static const pg_key keys[] = {
     { "blocks[].block", PG_TEXT, NULL, NULL, "", no_choice, NULL, "claim:one", "Points of this block number of the points' file; of a mesh: of this block, by name or number." },
     { "boundary", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "Loads and supports." },
     { "boundary[].name", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL, "Name in history.csv; default: the set's name." },
-    { "boundary[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all", NULL, NULL, "Where it acts: a set, a part of one (platens.top), or left, right, bottom, top, back, front, all." },
+    { "boundary[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all", NULL, NULL, "Where it acts: a set, a part of one (platens.top) or of a shape (disk.rim, polygon.edge 3), or left, right, bottom, top, back, front, all." },
     LOAD ("displacement", "m", "Prescribed displacement."),
     LOAD ("velocity", "m/s", "Prescribed velocity (newmark, verlet, central)."),
     LOAD ("rotation", "rad", "gmpd: prescribed rotation (2D: z)."),

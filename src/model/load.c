@@ -168,7 +168,8 @@ static void check_place (const pg_problem *problem, const pg_load *load, const p
     char path[64];
     snprintf (path, sizeof path, "boundary[%zu].set", i);
     const pg_set *set = load->set;
-    if (set->npoint == 0 && set->nfacet == 0 && pg_scene_given (scene, "sets.%s", set->name)) return;      /* a fault of the set, told there */
+    int empty = set->npoint == 0 && set->nfacet == 0;
+    if (empty && (pg_scene_given (scene, "sets.%s", set->name) || pg_sets_empty_side (&problem->sets, set))) return;   /* told there */
     int on_facets = load->kind == PG_TRACTION || load->kind == PG_PRESSURE
                  || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
     if (on_facets && problem->cells.n == 0)
@@ -225,6 +226,7 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     snprintf (path, sizeof path, "boundary[%zu].%s", i, kinds[k].key);
     if (pg_load_turns (load) && !problem->turns) pg_scene_fault (scene, path, "is for force: gmpd: points of force: %s do not turn", problem->force);
     snprintf (load->name, sizeof load->name, "%.63s", name && *name ? name : set);
+    for (char *c = load->name; *c && !(name && *name); c++) if (*c == ' ') *c = '_';         /* polygon.edge 3: a column of history.csv */
     snprintf (path, sizeof path, "boundary[%zu].set", i);
     load->set = pg_sets_named (&problem->sets, scene, path, set);
     if (!load->set) goto done;

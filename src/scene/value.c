@@ -80,6 +80,20 @@ static void add_layers (const pg_scene *s, char *names, size_t at, size_t size)
     }
 }
 
+/* So are the parts of shapes (disk.rim): by what a shape is, or its name. Looked up once they are there. */
+static int is_part_of_shape (const pg_scene *s, const char *base, const char *text)
+{
+    const pg_node *list = pg_node_child (&s->root, "body", 4);
+    if (!text[strlen (base)]) return 0;
+    for (size_t k = 0; list && k < list->n; k++) {
+        const pg_node *name = pg_node_child (&list->child[k], "name", 4), *shape = pg_node_child (&list->child[k], "add", 3);
+        if (!shape) shape = pg_node_child (&list->child[k], "subtract", 8);
+        if (name && name->text && !strcmp (name->text, base)) return 1;
+        for (size_t c = 0; shape && c < shape->n; c++) if (shape->child[c].name && !strcmp (shape->child[c].name, base)) return 1;
+    }
+    return !strcmp (base, "rim") || !strcmp (base, "side") || !strcmp (base, "hole");
+}
+
 /* Choices "sets.{}|left|...": a name of that map of the scene, one of the others, or a part of either (name.top). */
 static void check_reference (pg_scene *s, const pg_node *node, const char *choices, const char *path)
 {
@@ -93,6 +107,7 @@ static void check_reference (pg_scene *s, const pg_node *node, const char *choic
         if (known->child[k].name) at += (size_t) snprintf (names + at, sizeof names - at, "|%s", known->child[k].name);
     if (m == 4 && strncmp (map, "sets", 4) == 0) add_layers (s, names, at, sizeof names);
     if (is_choice (base, names)) return;
+    if (m == 4 && strncmp (map, "sets", 4) == 0 && is_part_of_shape (s, base, node->text)) return;
     if (m == 4 && strncmp (map, "sets", 4) == 0 && pg_node_child (&s->root, "mesh", 4)) return;      /* its own sets: looked up once it is read */
     const char *near = pg_nearest_name (node->text, names);
     FAULT (node, "there is no %.*s of this name%s%s%s", (int) (m ? m - 1 : 0), map, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");

@@ -187,7 +187,7 @@ static void members_ascend (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, DISK "sets: {platens: {boundary: [rim, left, all]}}", 0));
+    check_ok (make (&m, DISK "sets: {platens: {boundary: [rim, all]}}", 0));
     for (size_t k = 0; k < m.sets.n; k++) {
         const pg_set *s = &m.sets.set[k];
         for (size_t i = 1; i < s->npoint; i++) assert_true (s->point[i - 1] < s->point[i]);
