@@ -43,10 +43,10 @@ int cells_part_named (const pg_shape *s, int dim, const char *part)
 }
 
 /* Those of one shape in words, behind its name. */
-static const char *parts_of (const pg_shape *s)
+static const char *parts_of (const pg_shape *s, int dim)
 {
-    return s->kind == PG_BOX ? "left right bottom top back front" : s->kind == PG_POLYGON ? "edge 1, edge 2 ..." : s->kind == PG_PRISM ? "edge 1, edge 2 ..., back, front"
-         : s->kind == PG_CYLINDER ? "rim, start, end" : is_round (s) ? "rim" : NULL;
+    return s->kind == PG_BOX ? dim == 1 ? "{left, right}" : dim == 2 ? "{left, right, bottom, top}" : "{left, right, bottom, top, back, front}" : s->kind == PG_POLYGON ? "edge 1 ..."
+         : s->kind == PG_PRISM ? "{edge 1 ..., back, front}" : s->kind == PG_CYLINDER ? "{rim, start, end}" : is_round (s) ? "rim" : NULL;
 }
 
 /* 1: the shape is called so. Layers only by their own names. */
@@ -64,11 +64,11 @@ void cells_parts_list (const pg_body *body, char *out, size_t size)
     *out = '\0';
     for (size_t i = 0; i + body->nlayer < body->n && used + 80 < size; i++) {
         const pg_shape *s = &body->shape[i];
-        const char *generic[] = {"rim", "side", "hole"}, *name = s->boundary, *parts = parts_of (s);
+        const char *generic[] = {"rim", "side", "hole"}, *name = s->boundary, *parts = parts_of (s, body->dim);
         int told = 0;
         for (int k = 0; k < 3; k++) if (!strcmp (name, generic[k]) && !(k == 2 && s->kind != PG_MESH)) name = pg_shape_kind (s);
         for (size_t j = 0; j < i; j++) told |= body->shape[j].kind == s->kind && !strcmp (body->shape[j].boundary, s->boundary);
-        if (parts && !told) used += (size_t) snprintf (out + used, size - used, "%s%s.%s", used ? "; " : "", name, s->kind == PG_BOX && body->dim < 3 ? "left right bottom top" : parts);
+        if (parts && !told) used += (size_t) snprintf (out + used, size - used, "%s%s.%s", used ? ", " : "", name, parts);
     }
 }
 

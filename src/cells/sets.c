@@ -235,7 +235,7 @@ static void unknown_boundary (const builder *b, const char *at, const char *name
     }
     for (size_t i = 0; i < b->marks.cells->ngiven && used + 60 < 400; i++)
         used += (size_t) snprintf (names + used, sizeof names - used, "|%s", b->marks.cells->given[i].name);
-    if (*b->out->parts && used + 2 < sizeof names) snprintf (names + used, sizeof names - used, "; of shapes %s", b->out->parts);
+    if (*b->out->parts && used + 2 < sizeof names) snprintf (names + used, sizeof names - used, "; parts of shapes: %s", b->out->parts);
     char list[400];
     snprintf (list, sizeof list, "%.*s", (int) used, names);
     const char *near = pg_nearest_name (name, list);

@@ -130,7 +130,7 @@ static void a_side_that_is_only_touched_says_what_to_name (void **state)
     must_say (disk, "boundary: [{set: top, displacement: {y: 0}}]\n", "(here: disk.rim)");
     must_say (disk, "boundary: [{set: disk.left, displacement: {y: 0}}]\n", "there is no set of this name");
     must_say (disk, "sets: {a: {boundary: disk.edge 1}}\n", "no boundary is called 'disk.edge 1'");
-    must_say ("body: [{add: {polygon: {vertices: [[0, 0], [50 mm, 0], [0, 50 mm]]}}}]\n", "sets: {a: {boundary: polygon.edge 4}}\n", "polygon.edge 1, edge 2 ...");
+    must_say ("body: [{add: {polygon: {vertices: [[0, 0], [50 mm, 0], [0, 50 mm]]}}}]\n", "sets: {a: {boundary: polygon.edge 4}}\n", "parts of shapes: polygon.edge 1 ...");
 }
 
 int main (void)
