@@ -288,6 +288,32 @@ static void volumes_of_points_sum_to_the_body (void **state)
     }
 }
 
+/* A disk about a place of symmetry of its lattice: the point that mirrors another at x = y has its volume, slivers between two points too. */
+static void mirror_images_have_equal_volumes (void **state)
+{
+    (void) state;
+    for (int n = 5; n <= 40; n++) {
+        char text[200];
+        pg_scene *scene;
+        pg_body body;
+        pg_lattice l;
+        pg_cloud cloud;
+        pg_cells cells;
+        size_t pairs = 0;
+        snprintf (text, sizeof text, "dimension: 2\nlattice: cells\nspacing: %.17g\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}]", 2.0 / n);
+        check_ok (pg_scene_parse (&scene, text, "test.yaml"));
+        check_ok (pg_body_read (&body, scene));
+        check_ok (pg_cloud_build (&cloud, &l, &body, scene));
+        check_ok (pg_cells_cut (&cells, &body, &l, cloud.thickness, 0, NULL));
+        check_ok (pg_cells_share (&cloud, &cells, &l));
+        for (size_t i = 0; i < cloud.n; i++)
+            for (size_t j = 0; j < cloud.n; j++)
+                if (hypot (cloud.x[2*i] - cloud.x[2*j + 1], cloud.x[2*i + 1] - cloud.x[2*j]) < 1e-9) pairs++, check_relative (cloud.volume[i], cloud.volume[j], 1e-9);
+        assert_int_equal (pairs, cloud.n);
+        pg_cells_clear (&cells), pg_cloud_clear (&cloud), pg_lattice_clear (&l), pg_body_clear (&body), pg_scene_free (&scene);
+    }
+}
+
 static void any_allocation_may_fail (void **state)
 {
     (void) state;
@@ -313,7 +339,8 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (disks_and_holes), cmocka_unit_test (polygons), cmocka_unit_test (cylinders_and_balls), cmocka_unit_test (segments),
         cmocka_unit_test (moments), cmocka_unit_test (moved_bodies_agree), cmocka_unit_test (bodies_along_the_lattice_are_not_cut),
-        cmocka_unit_test (facets_know_their_shape), cmocka_unit_test (rays_part_facets), cmocka_unit_test (volumes_of_points_sum_to_the_body), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (facets_know_their_shape), cmocka_unit_test (rays_part_facets), cmocka_unit_test (volumes_of_points_sum_to_the_body),
+        cmocka_unit_test (mirror_images_have_equal_volumes), cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("cells/cut", tests, NULL, NULL);
 }

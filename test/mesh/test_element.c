@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Elements: shape functions, faces, quadrature, the map and its inverse. */
 #include "check.h"
-#include "perigal/mesh.h"
+#include "mesh/element.h"
 
 static double noise (unsigned k) { return (double) (k * 2654435761u % 1000003u) / 1000003.0; }
 static int nodes_of (pg_element k) { return pg_element_types[k].nodes; }
@@ -148,6 +148,26 @@ static void middles_of_edges_and_faces_lie_half_way (void **state)
     }
 }
 
+/* An element turned inside out: the other way round in space, each node between the same corners as before, twice turned the same again. */
+static void a_mirrored_element_keeps_its_middles (void **state)
+{
+    (void) state;
+    EACH (kind) {
+        const signed char *turn = element_mirror (kind);
+        int n = nodes_of (kind), corners = pg_element_types[kind].corners, end[2], other[2];
+        if (dim_of (kind) == 0) continue;
+        for (int k = 0; k < n; k++) {
+            assert_in_range (turn[k], k < corners ? 0 : corners, k < corners ? corners - 1 : n - 1);
+            assert_int_equal (turn[(int) turn[k]], k);
+        }
+        for (int e = 0; pg_element_types[kind].order == 2 && e < pg_element_types[kind].edges; e++) {
+            pg_element_edge (kind, e, end), pg_element_edge (kind, turn[corners + e] - corners, other);
+            int a = turn[end[0]], b = turn[end[1]];
+            assert_true ((a == other[0] && b == other[1]) || (a == other[1] && b == other[0]));
+        }
+    }
+}
+
 /* ---- quadrature ------------------------------------------------------------------------------------------------------- */
 static double factorial (int n) { return n < 2 ? 1 : n * factorial (n - 1); }
 
@@ -278,7 +298,8 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (shapes_are_one_at_their_node_and_sum_to_one), cmocka_unit_test (slopes_are_those_of_the_shapes),
         cmocka_unit_test (polynomials_of_the_order_are_carried), cmocka_unit_test (faces_look_outward_and_close_the_element),
-        cmocka_unit_test (middles_of_edges_and_faces_lie_half_way), cmocka_unit_test (rules_are_exact_positive_and_inside),
+        cmocka_unit_test (middles_of_edges_and_faces_lie_half_way), cmocka_unit_test (a_mirrored_element_keeps_its_middles),
+        cmocka_unit_test (rules_are_exact_positive_and_inside),
         cmocka_unit_test (rules_of_simplices_have_their_symmetry), cmocka_unit_test (places_are_found_again),
         cmocka_unit_test (a_flat_element_is_not_inverted), cmocka_unit_test (outside_is_measured_in_reference_units),
         cmocka_unit_test (sizes_and_normals_of_lower_elements),

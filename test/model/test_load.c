@@ -35,6 +35,18 @@ static void a_load_may_vary_in_space (void **state)
     check_relative (value ("pressure: 5 Pa/m * x", "", 0, 1), 1.5, 1e-14);
 }
 
+/* The angle of a place runs from 0 along x over a quarter along y to a whole turn. */
+static void angles_are_those_of_a_whole_turn (void **state)
+{
+    (void) state;
+    for (int k = 0; k < 12; k++) {
+        double a = (k + 0.5) * 3.14159265358979323846 / 6, x[2] = { 2 * cos (a), 2 * sin (a) };
+        pg_place at = pg_place_of (2, x, 0);
+        check_relative (at.angle, a, 1e-14);
+        check_relative (at.r, 2, 1e-14);
+    }
+}
+
 static void a_ramp_is_an_expression_in_t (void **state)
 {
     (void) state;
@@ -158,6 +170,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_load_grows_linearly_unless_told),
         cmocka_unit_test (a_load_may_vary_in_space),
+        cmocka_unit_test (angles_are_those_of_a_whole_turn),
         cmocka_unit_test (a_ramp_is_an_expression_in_t),
         cmocka_unit_test (a_table_is_linear_between_and_constant_beyond),
         cmocka_unit_test (a_velocity_is_integrated),
