@@ -4,6 +4,7 @@
 #include "sha256.h"
 #include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { LARGEST = 1 << 28 };                            /* bytes of a scene file */
 
@@ -104,7 +105,11 @@ static pg_status read_file (char **text, size_t *length, const char *path)
 {
     pg_status status = PG_OK;
     size_t cap = 0, n = 0, more;
-    FILE *f = fopen (path, "rb");
+    struct stat s;
+    FILE *f = NULL;
+    if (stat (path, &s) == 0 && !S_ISREG (s.st_mode))  /* a pipe would be waited for, and is empty when it is read again  */
+        PG_FAIL (PG_E_FILE, "%s: cannot be read: %s", path, S_ISDIR (s.st_mode) ? strerror (EISDIR) : "a scene is a regular file, no pipe or device");
+    f = fopen (path, "rb");
     if (!f) PG_FAIL (PG_E_FILE, "%s: cannot be opened: %s", path, strerror (errno));
     do {
         PG_GROW (*text, cap, n + 4096);

@@ -152,13 +152,38 @@ static pg_status load_one (reader *r, yaml_parser_t *parser, pg_node *root, cons
     return status;
 }
 
+/* libyaml looks at all open brackets for every one that follows, so they are counted before it builds a tree; other faults are told then. */
+static pg_status check_depth (reader *r, const char *text, size_t length)
+{
+    yaml_parser_t parser;
+    yaml_event_t event;
+    int deep = 0, end = 0;
+    if (!yaml_parser_initialize (&parser)) return pg_error (PG_E_MEMORY, PG_HERE, "no memory to read the scene");
+    yaml_parser_set_input_string (&parser, (const unsigned char *) text, length);
+    while (!end && yaml_parser_parse (&parser, &event)) {
+        deep += event.type == YAML_SEQUENCE_START_EVENT || event.type == YAML_MAPPING_START_EVENT;
+        deep -= event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT;
+        if (deep > DEEPEST + 1) {
+            pg_node at = { .origin = r->origin, .line = (int) event.start_mark.line + 1, .column = (int) event.start_mark.column + 1 };
+            complain (r, &at, "nested too deeply");
+        }
+        end = event.type == YAML_STREAM_END_EVENT || !r->good;
+        yaml_event_delete (&event);
+    }
+    yaml_parser_delete (&parser);
+    return PG_OK;
+}
+
 pg_status pg_node_read (pg_node *root, const char *text, size_t length, const char *origin, const char *file, pg_faults *faults, int *good)
 {
     reader r = { .origin = origin, .file = file, .faults = faults, .good = 1 };
     yaml_parser_t parser;
+    pg_status status = check_depth (&r, text, length);
+    *good = r.good;
+    if (status != PG_OK || !r.good) return status;
     if (!yaml_parser_initialize (&parser)) return pg_error (PG_E_MEMORY, PG_HERE, "no memory to read the scene");
     yaml_parser_set_input_string (&parser, (const unsigned char *) text, length);
-    pg_status status = load_one (&r, &parser, root, text, length);
+    status = load_one (&r, &parser, root, text, length);
     if (status == PG_OK && r.good) status = load_one (&r, &parser, NULL, text, length);
     yaml_parser_delete (&parser);
     *good = r.good;

@@ -16,6 +16,8 @@ expect "wrong number of threads"              64 '' '--threads x' run plate.yaml
 expect "--set without ="                      64 '' 'KEY=VALUE is needed' run plate.yaml --set spacing
 expect "missing scene file"                   65 '' '^nowhere.yaml: cannot be opened' run nowhere.yaml
 expect "a folder is no scene"                 65 '' 'Is a directory' run wrong
+mkfifo "$work/pipe"; timeout 20 "$perigal" check "$work/pipe" > "$work/out" 2> "$work/err"
+[ $? -eq 65 ] && grep -q 'a scene is a regular file, no pipe' "$work/err"; verdict "a pipe is no scene, and is not waited for" $?
 expect "help KEY by its last word"             0 '^method.horizon' '' help horizon
 expect "help of an unknown key"               64 '' 'did you mean' help horizn
 expect "help of a command"                     0 '--threads' '' help run

@@ -131,6 +131,22 @@ static void broken_yaml_names_the_place (void **state)
     REFUSED ("title: \"a\\0b\"\n", "plate.yaml:1:1: a text with a zero character");
 }
 
+/* Brackets by the hundred thousand: refused at the first that is too much, where libyaml alone looks at all of them for every one. */
+static void deep_nesting_is_refused_at_its_depth (void **state)
+{
+    (void) state;
+    enum { DEEP = 1000000 };
+    static char text[2 * DEEP + 8];
+    strcpy (text, "a: ");
+    for (int pair = 0; pair < 2; pair++) {
+        for (int k = 0; k < DEEP; k++) text[3 + k] = pair ? '{' : '[';
+        text[3 + DEEP] = 0;
+        REFUSED (text, "plate.yaml:1:34: nested too deeply");
+    }
+    for (int k = 0; k < 50000; k++) memcpy (text + 2 * k, "- ", 3);
+    REFUSED (text, "nested too deeply");
+}
+
 static void aliases_cannot_grow_without_end (void **state)
 {
     (void) state;
@@ -244,7 +260,7 @@ int main (void)
         cmocka_unit_test (unknown_choices_list_the_choices), cmocka_unit_test (wrong_shapes_say_what_belongs_there),
         cmocka_unit_test (vectors_of_wrong_length_name_the_dimension), cmocka_unit_test (missing_keys_stand_at_their_parent),
         cmocka_unit_test (groups_want_one_or_at_most_one), cmocka_unit_test (broken_yaml_names_the_place),
-        cmocka_unit_test (aliases_cannot_grow_without_end), cmocka_unit_test (all_faults_come_in_the_order_of_lines),
+        cmocka_unit_test (aliases_cannot_grow_without_end), cmocka_unit_test (deep_nesting_is_refused_at_its_depth), cmocka_unit_test (all_faults_come_in_the_order_of_lines),
         cmocka_unit_test (more_than_fifty_faults_are_counted), cmocka_unit_test (long_and_unprintable_values_are_cut),
         cmocka_unit_test (override_faults_name_the_override), cmocka_unit_test (faults_of_other_folders_join_in),
         cmocka_unit_test (wrong_defaults_of_a_table_are_found), cmocka_unit_test (files_that_cannot_be_read_are_named),
