@@ -19,6 +19,7 @@ typedef enum {
     PG_VECTOR,     /* [a, b] or [a, b, c]: as many numbers as the scene has dimensions                                    */
     PG_NUMBERS,    /* any number of numbers                                                                               */
     PG_NAMES,      /* one name or a list of names (choices NULL: any)                                                     */
+    PG_FILE,       /* name of a file, beside the scene unless it is absolute                                             */
     PG_EXPRESSION  /* a number with unit, or an expression in x y z r angle t (text, compiled by its user)                */
 } pg_kind;
 
@@ -81,6 +82,15 @@ const char *pg_scene_file    (const pg_scene *s);            /* path as given   
 const char *pg_scene_source  (const pg_scene *s);            /* the text read, overrides not applied                      */
 const char *pg_scene_setting (const pg_scene *s, size_t k);  /* k-th override "key=value"; NULL past the end               */
 const char *pg_scene_hash    (const pg_scene *s);            /* SHA-256 of text and overrides, 64 hex digits               */
+
+/* ---- files ---------------------------------------------------------------------------------------------------------- */
+/* Path of a file that the scene names: beside the scene unless it is absolute; pg_free. */
+pg_status pg_scene_beside (char **out, const pg_scene *s, const char *name);
+/* The files that are named by keys of kind PG_FILE, in the order of the scene, with the SHA-256 of what is in them now (64 hex digits).
+ * PG_E_FILE: one cannot be read. */
+typedef struct { char key[128], hash[65]; char *path; } pg_named_file;
+pg_status pg_scene_files      (const pg_scene *s, size_t *n, pg_named_file **out);
+void      pg_scene_files_free (size_t n, pg_named_file **file);
 
 /* ---- units ---------------------------------------------------------------------------------------------------------- */
 /* "10 GPa" with unit "Pa" -> 1e10. A bare number is SI. On failure *why (static text or last error) says what is wrong. */

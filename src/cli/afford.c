@@ -26,13 +26,12 @@ double afford_available (const command *c) { return c->memory > 0 ? c->memory : 
 
 int afford_tiny (const pg_scene *scene)
 {
-    char path[4096];
-    const char *file, *slash;
+    char *path = NULL;
     struct stat s;
     if (!pg_scene_given (scene, "mesh.file")) return 0;
-    file = pg_scene_text (scene, "mesh.file"), slash = strrchr (pg_scene_file (scene), '/');
-    snprintf (path, sizeof path, "%.*s%s", slash && file[0] != '/' ? (int) (slash + 1 - pg_scene_file (scene)) : 0, pg_scene_file (scene), file);
-    return stat (path, &s) == 0 && s.st_size < 300000;
+    int tiny = pg_scene_beside (&path, scene, pg_scene_text (scene, "mesh.file")) == PG_OK && stat (path, &s) == 0 && s.st_size < 300000;
+    pg_free (path);
+    return tiny;
 }
 
 /* A scene of its own: faults are told when the problem is built, once. */

@@ -33,7 +33,7 @@
     { .path = op ".prism.low",  .kind = PG_NUMBER, .unit = "m", .doc = "Smallest z." }, \
     { .path = op ".prism.high", .kind = PG_NUMBER, .unit = "m", .doc = "Largest z." }, \
     SHAPE (op ".mesh", "What the elements of a mesh fill, in two and three dimensions; its surface is that of the cells it leaves (a staircase, also with cells: cut)."), \
-    { .path = op ".mesh.file", .kind = PG_TEXT, .doc = "Mesh file, next to the scene file: formats as under mesh.file. Its side sets are names for sets: {NAME: {boundary: ...}}." }, \
+    { .path = op ".mesh.file", .kind = PG_FILE, .doc = "Mesh file, next to the scene file: formats as under mesh.file. Its side sets are names for sets: {NAME: {boundary: ...}}." }, \
     { .path = op ".mesh.unit", .kind = PG_TEXT, .fallback = "m", .doc = "Unit of length in the file: m, mm, inch, or a length such as 25.4 mm." }, \
     { .path = op ".mesh.blocks", .kind = PG_NAMES, .fallback = "", .doc = "Only these blocks of the mesh, by name or number; default all." }
 
@@ -57,13 +57,13 @@ static const pg_key keys[] = {
     { .path = "layers[].over", .kind = PG_NAME, .choices = "box|body", .fallback = "box",
       .doc = "Over the whole face of the bounding box, or only over the part where the body is: from the first to the last place along the face with the body half a"
              " cell below it (the foot of an L; one box, also across a notch)." },
-    { .path = "points", .kind = PG_TEXT, .fallback = "", .group = "origin:most",
+    { .path = "points", .kind = PG_FILE, .fallback = "", .group = "origin:most",
       .doc = "CSV file of points in place of a body, next to the scene file; columns x [y [z]] volume [block] [spacing] in m and m3. A header may name them in"
              " another order and in other units: x [mm], y [mm], volume [mm3]."
              " With a spacing (distance to the neighbours) the support of each point follows it." },
     { .path = "mesh", .kind = PG_MAP, .fallback = "", .group = "origin:most",
       .doc = "Mesh in place of a body: its elements are the background cells, its nodes the points, its sets are sets." },
-    { .path = "mesh.file", .kind = PG_TEXT,
+    { .path = "mesh.file", .kind = PG_FILE,
       .doc = "Mesh file, next to the scene file: Gmsh .msh, Abaqus or CalculiX .inp, Exodus .e, CalculiX .frd, told by content." },
     { .path = "mesh.unit", .kind = PG_TEXT, .fallback = "m", .doc = "Unit of length in the file: m, mm, inch, or a length such as 25.4 mm." },
     { .path = "mesh.blocks", .kind = PG_NAMES, .fallback = "", .doc = "Only these blocks of the mesh, by name or number; default all." },

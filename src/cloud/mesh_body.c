@@ -13,7 +13,7 @@ static pg_status read_file (pg_mesh_body *b, const pg_scene *scene, const char *
     char *path = NULL, why[900], key[128];
     snprintf (key, sizeof key, "%.100s.file", at);
     snprintf (b->file, sizeof b->file, "%s", pg_scene_text (scene, "%s", key));
-    PG_TRY (pg_place_beside (&path, scene, pg_scene_text (scene, "%s", key)));
+    PG_TRY (pg_scene_beside (&path, scene, pg_scene_text (scene, "%s", key)));
     status = pg_mesh_read (&b->mesh, path);
     if (status == PG_E_MEMORY) goto done;
     if (status != PG_OK) {

@@ -44,18 +44,6 @@ wrong_at (const pg_scene *scene, const char *name, size_t line, const char *form
     return pg_scene_verdict (scene);
 }
 
-pg_status pg_place_beside (char **out, const pg_scene *scene, const char *name)
-{
-    pg_status status = PG_OK;
-    const char *file = pg_scene_file (scene), *slash = file ? strrchr (file, '/') : NULL;
-    size_t folder = slash && name[0] != '/' ? (size_t) (slash - file) + 1 : 0, length = strlen (name) + 1;
-    PG_ALLOC (*out, folder + length);
-    if (folder) memcpy (*out, file, folder);
-    memcpy (*out + folder, name, length);
-done:
-    return status;
-}
-
 /* ---- the file ------------------------------------------------------------------------------------------------------- */
 static pg_status load (reader *r)
 {
@@ -63,7 +51,7 @@ static pg_status load (reader *r)
     char *path = NULL;
     FILE *file = NULL;
     size_t size = 0, capacity = 0, got = 0;
-    PG_TRY (pg_place_beside (&path, r->scene, r->name));
+    PG_TRY (pg_scene_beside (&path, r->scene, r->name));
     file = fopen (path, "rb");
     if (!file) PG_TRY (WRONG (r, "%s", strerror (errno)));
     do {

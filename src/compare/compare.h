@@ -10,8 +10,6 @@ struct pg_reference {
     pg_line *line;  size_t nline;
     pg_sampler mesh;                                   /* sample NULL: none                                              */
 };
-/* Path of a file that the scene names: beside the scene unless it is absolute. */
-pg_status compare_file_beside (const pg_scene *scene, const char *name, char *path, size_t size);
 /* The whole of a text file; to be freed with pg_free. */
 pg_status compare_load_text (const char *path, char **text);
 /* Values of the last row of FOLDER/history.csv whose column `key` is at most stamp; what it lacks stays as it is. */

@@ -64,12 +64,13 @@ static char *cut_line (char *text, const char *mark)
     return text + start + strlen (mark);
 }
 
-/* Takes what a run added off its copy of a scene; settings in the order of the file. */
-static size_t cut_settings (char *text, char **set)
+/* Takes what a run added off its copy of a scene: where that was (NULL: not said), settings in the order of the file. */
+static size_t cut_settings (char *text, char **set, const char **from)
 {
     size_t n = 0;
     while (n < MOST_SETTINGS && (set[n] = cut_line (text, "# --set "))) n++;
-    if (cut_line (text, "# copied by perigal run from ")) {
+    while (cut_line (text, "# with ")) continue;
+    if ((*from = cut_line (text, "# copied by perigal run from "))) {
         size_t length = strlen (text);
         if (length) text[length - 1] = 0;              /* the line end before the mark                                   */
     }
@@ -84,12 +85,13 @@ pg_status pg_stored_scene (pg_scene **out, const char *folder)
 {
     pg_status status = PG_OK;
     char path[4096], name[3072], *text = NULL, *set[MOST_SETTINGS];
+    const char *from;
     *out = NULL;
     snprintf (path, sizeof path, "%s/scene.yaml", folder);
     PG_TRY (compare_load_text (path, &text));
     PG_TRY (report_text (folder, "scene", name, sizeof name));
-    size_t n = cut_settings (text, set);
-    PG_TRY (pg_scene_parse_with (out, text, name[0] ? name : path, n, (const char *const *) set));
+    size_t n = cut_settings (text, set, &from);
+    PG_TRY (pg_scene_parse_with (out, text, from ? from : name[0] ? name : path, n, (const char *const *) set));
 done:
     pg_free (text);
     return status;

@@ -54,20 +54,10 @@ static int length_unit (const char *text, double *unit)
     return (pg_unit_parse (unit, one, "m") == PG_OK || pg_unit_parse (unit, text, "m") == PG_OK) && *unit > 0;
 }
 
-pg_status compare_file_beside (const pg_scene *scene, const char *name, char *path, size_t size)
-{
-    pg_status status = PG_OK;
-    const char *file = pg_scene_file (scene), *slash = file ? strrchr (file, '/') : NULL;
-    int folder = slash && *name != '/' ? (int) (slash - file) + 1 : 0;
-    if ((size_t) snprintf (path, size, "%.*s%s", folder, folder ? file : "", name) >= size) PG_FAIL (PG_E_FILE, "%s: the path is too long", name);
-done:
-    return status;
-}
-
 static pg_status read_line (pg_reference *r, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;
-    char key[64], path[4096];
+    char key[64], *path = NULL;
     double unit, along[3] = { 0 };
     snprintf (key, sizeof key, "reference.lines[%zu].unit", i);
     if (!length_unit (pg_scene_text (scene, "%s", key), &unit)) pg_scene_fault (scene, key, "must be a unit of length, such as mm");
@@ -79,7 +69,7 @@ static pg_status read_line (pg_reference *r, const pg_scene *scene, size_t i)
     }
     PG_TRY (pg_scene_verdict (scene));
     snprintf (key, sizeof key, "reference.lines[%zu].file", i);
-    PG_TRY (compare_file_beside (scene, pg_scene_text (scene, "%s", key), path, sizeof path));
+    PG_TRY (pg_scene_beside (&path, scene, pg_scene_text (scene, "%s", key)));
     status = pg_line_read (&r->line[i], path, r->dim, unit, pg_scene_number (scene, "reference.lines[%zu].factor", i), along);
     if (status == PG_E_FILE) {
         pg_scene_fault (scene, key, "%s", pg_last_error ());
@@ -89,6 +79,7 @@ static pg_status read_line (pg_reference *r, const pg_scene *scene, size_t i)
     r->line[i].relative = pg_scene_given (scene, "reference.lines[%zu].datum", i);
     if (r->line[i].relative) pg_scene_vector (scene, r->dim, r->line[i].datum, "reference.lines[%zu].datum", i);
 done:
+    pg_free (path);
     return status;
 }
 
@@ -101,7 +92,7 @@ int pg_norm_order (const pg_scene *scene, const pg_problem *problem)
 static pg_status read_mesh (pg_reference *r, const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
-    char path[4096];
+    char *path = NULL;
     double unit, shift[3] = { 0 };
     pg_sampler plain = { 0 };
     int step = pg_scene_given (scene, "reference.mesh.step") ? (int) pg_scene_integer (scene, "reference.mesh.step") : -1;
@@ -109,7 +100,7 @@ static pg_status read_mesh (pg_reference *r, const pg_scene *scene, const pg_pro
     if (!length_unit (pg_scene_text (scene, "reference.mesh.unit"), &unit)) pg_scene_fault (scene, "reference.mesh.unit", "must be a unit of length, such as mm");
     pg_scene_vector (scene, 3, shift, "reference.mesh.shift");
     PG_TRY (pg_scene_verdict (scene));
-    PG_TRY (compare_file_beside (scene, pg_scene_text (scene, "reference.mesh.file"), path, sizeof path));
+    PG_TRY (pg_scene_beside (&path, scene, pg_scene_text (scene, "reference.mesh.file")));
     status = pg_sampler_mesh (&plain, path, step, unit, problem);
     if (status == PG_E_FILE || status == PG_E_USAGE) {
         pg_scene_fault (scene, "reference.mesh.file", "%s", pg_last_error ());
@@ -119,6 +110,7 @@ static pg_status read_mesh (pg_reference *r, const pg_scene *scene, const pg_pro
     PG_TRY (pg_sampler_moved (&r->mesh, &plain, shift, pg_scene_number (scene, "reference.mesh.factor")));
 done:
     pg_sampler_clear (&plain);
+    pg_free (path);
     return status;
 }
 

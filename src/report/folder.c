@@ -102,18 +102,26 @@ done:
     return status;
 }
 
-/* The scene as text, behind a line's end as comments where it comes from and what --set changed: pg_stored_scene takes them off again. */
+/* The scene as text, behind a line's end as comments where it comes from, the files it names and what --set changed: pg_stored_scene takes them off again. */
 static pg_status copy_text (char **text, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     size_t n = 0, cap = 0;
     const char *source = pg_scene_source (scene), *file = pg_scene_file (scene), *set;
-    char whole[PATH_MAX];
+    char whole[PATH_MAX], words[PATH_MAX + 300];
+    pg_named_file *named = NULL;
+    size_t nnamed = 0;
+    PG_TRY (pg_scene_files (scene, &nnamed, &named));
     PG_TRY (append (text, &n, &cap, source, strlen (source)));
     PG_TRY (append (text, &n, &cap, "\n", 1));
     PG_TRY (append_line (text, &n, &cap, copied + 1, realpath (file, whole) ? whole : file));
+    for (size_t k = 0; k < nnamed; k++) {
+        snprintf (words, sizeof words, "%s = %s, sha256 %s", named[k].key, realpath (named[k].path, whole) ? whole : named[k].path, named[k].hash);
+        PG_TRY (append_line (text, &n, &cap, "# with ", words));
+    }
     for (size_t k = 0; (set = pg_scene_setting (scene, k)); k++) PG_TRY (append_line (text, &n, &cap, "# --set ", set));
 done:
+    pg_scene_files_free (nnamed, &named);
     return status;
 }
 

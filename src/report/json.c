@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * report.json: what the run did, in fixed keys (doc/output.md). */
 #include "result.h"
+#include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void seconds_block (pg_json *j, const pg_result *res, const pg_report *r, double search, double total)
@@ -61,6 +63,22 @@ static void run_block (pg_json *j, const pg_result *res, const pg_report *r, con
     pg_json_shut (j);
 }
 
+/* Files that the scene names, as they were. */
+static void files_block (pg_json *j, const pg_result *res)
+{
+    char whole[PATH_MAX];
+    pg_json_open (j, "files", '[');
+    for (size_t k = 0; k < res->nnamed; k++) {
+        const pg_named_file *f = &res->named[k];
+        pg_json_open (j, NULL, '{');
+        pg_json_text (j, "key", f->key);
+        pg_json_text (j, "path", realpath (f->path, whole) ? whole : f->path);
+        pg_json_text (j, "sha256", f->hash);
+        pg_json_shut (j);
+    }
+    pg_json_shut (j);
+}
+
 /* lower_bound: integrated at the nodes, recovery sees roughness only. */
 static void estimate_block (pg_json *j, const pg_result *res)
 {
@@ -112,6 +130,7 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
     pg_json_text (j, "version", PG_VERSION);
     pg_json_text (j, "scene", res->scene);
     pg_json_text (j, "scene_sha256", res->hash);
+    files_block (j, res);
     pg_json_text (j, "outcome", failure ? failure : "done");
     run_block (j, res, r, state);
     result_curve_json (j, res);

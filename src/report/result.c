@@ -3,8 +3,6 @@
 #include "result.h"
 #include <errno.h>
 #include <stdio.h>
-#include <limits.h>
-#include <stdlib.h>
 #include <string.h>
 #include <math.h>
 
@@ -51,15 +49,6 @@ done:
     return status;
 }
 
-/* As it was given; with a mesh from the root, for pictures look for the mesh beside it from wherever they are drawn. */
-static void name_scene (pg_result *r, const pg_scene *scene)
-{
-    char whole[PATH_MAX];
-    const char *file = pg_scene_file (scene);
-    if (pg_scene_given (scene, "mesh") && file && realpath (file, whole)) file = whole;
-    snprintf (r->scene, sizeof r->scene, "%.3000s", file);
-}
-
 /* What new and resumed results have in common; leaves the folder as it is. */
 pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver)
 {
@@ -68,7 +57,8 @@ pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scen
     r->opened = r->checkpoint_at = pg_seconds ();
     snprintf (r->folder, sizeof r->folder, "%s", folder);
     snprintf (r->hash, sizeof r->hash, "%s", pg_scene_hash (scene));
-    name_scene (r, scene);
+    snprintf (r->scene, sizeof r->scene, "%.3000s", pg_scene_file (scene));
+    PG_TRY (pg_scene_files (scene, &r->nnamed, &r->named));
     const pg_solver_options *settled = pg_solver_settled (solver);
     r->length = (settled->quasi_static ? 1 : settled->end) / (double) settled->steps;
     PG_TRY (read_wishes (r, scene));
@@ -228,6 +218,7 @@ void pg_result_free (pg_result **result)
     pg_table_close (&r->history);
     pg_table_close (&r->events);
     result_unlock (r->folder, &r->lock);
+    pg_scene_files_free (r->nnamed, &r->named);
     for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);
     pg_reference_free (&r->reference);
     pg_errors_clear (&r->errors);

@@ -25,6 +25,7 @@ typedef struct { int found; size_t row; double force, displacement, step, time, 
 typedef struct { int found; double area, length, dissipated; } result_crack;
 struct pg_result {
     char     folder[3072];
+    pg_named_file *named;  size_t nnamed;              /* files of the scene                                             */
     int      lock;                                     /* 0: none                                                        */
     const pg_problem *problem;
     pg_solver *solver;

@@ -20,12 +20,36 @@ typedef struct {
     pg_broken *broken;  double *reaction;              /* of the pending step, when read back                            */
 } memory;
 
+static uint64_t print_of (uint64_t hash, const void *data, size_t bytes)
+{
+    const unsigned char *byte = data;
+    for (size_t i = 0; data && i < bytes; i++) hash = (hash ^ byte[i]) * 1099511628211u;
+    return hash;
+}
+
+/* Places, volumes and blocks: also of files that the scene does not name itself. */
 static long fingerprint (const pg_cloud *cloud)
 {
-    uint64_t hash = 14695981039346656037u;
-    const unsigned char *byte = (const unsigned char *) cloud->x;
-    for (size_t i = 0; i < cloud->n * (size_t) cloud->dim * sizeof *cloud->x; i++) hash = (hash ^ byte[i]) * 1099511628211u;
-    return (long) (hash >> 1);
+    uint64_t hash = print_of (14695981039346656037u, cloud->x, cloud->n * (size_t) cloud->dim * sizeof *cloud->x);
+    hash = print_of (hash, cloud->volume, cloud->n * sizeof *cloud->volume);
+    return (long) (print_of (hash, cloud->block, cloud->n * sizeof *cloud->block) >> 1);
+}
+
+/* Each file of the scene must hold what it held. */
+static pg_status keep_files (memory *m, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    const pg_result *r = m->r;
+    char (*hash)[WORD] = NULL;
+    PG_ALLOC (hash, r->nnamed + 1);
+    for (size_t i = 0; i < r->nnamed; i++) memcpy (hash[i], r->named[i].hash, WORD);
+    PG_TRY (k->bytes (k->context, "files.sha256", r->nnamed * WORD, hash));
+    for (size_t i = 0; i < r->nnamed; i++)
+        if (memcmp (hash[i], r->named[i].hash, WORD) != 0)
+            PG_FAIL (PG_E_USAGE, "%s (%s of the scene) has changed since %s was written: bring back what it was, or begin anew with --force", r->named[i].path, r->named[i].key, m->path);
+done:
+    pg_free (hash);
+    return status;
 }
 
 /* Version, scene and points must be those of this run; the number of threads may differ. */
@@ -46,6 +70,7 @@ static pg_status keep_identity (memory *m, const pg_keeper *k)
     if (strncmp (hash, m->r->hash, WORD) != 0)
         PG_FAIL (PG_E_USAGE, "%s is of another scene (sha256 %.12s..., now %.12s...): the scene or its --set options have changed since; "
                  "%s/scene.yaml has those it was made with", m->path, hash, m->r->hash, m->r->folder);
+    PG_TRY (keep_files (m, k));
     PG_TRY (k->counts (k->context, "sizes", SIZES, found));
     if (memcmp (found, size, sizeof size) != 0)
         PG_FAIL (PG_E_USAGE, "%s is of other points or bonds (%ld points, %ld bonds, %ld unknowns; now %ld, %ld, %ld): run without --resume", m->path,

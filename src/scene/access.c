@@ -106,7 +106,7 @@ static double number_of (const pg_node *node, double spacing)
 {
     double value = 0;
     if (!node || node->shape != PG_SCALAR) return 0;
-    if (!node->key || node->key->kind == PG_NAME || node->key->kind == PG_TEXT || node->key->kind == PG_NAMES) {
+    if (!node->key || node->key->kind == PG_NAME || node->key->kind == PG_TEXT || node->key->kind == PG_FILE || node->key->kind == PG_NAMES) {
         if (!node->text || !pg_number_read (node->text, &value)) value = 0;
         return value;
     }

@@ -7,7 +7,7 @@
 const char *pg_key_kind (const pg_key *key)
 {
     static const char *const kind[] = {
-        "map", "list", "number", "whole number", "on or off", "name", "text", "vector", "numbers", "names", "expression",
+        "map", "list", "number", "whole number", "on or off", "name", "text", "vector", "numbers", "names", "file", "expression",
     };
     return (unsigned) key->kind < sizeof kind / sizeof *kind ? kind[key->kind] : "?";
 }

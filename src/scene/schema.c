@@ -144,6 +144,7 @@ void pg_schema_wanted (const pg_schema *s, const char *pattern, char *out, size_
     case PG_BOOL:       snprintf (out, n, "on or off"); break;
     case PG_NAME:       snprintf (out, n, "one of %s", pg_key_choices (key) ? pg_key_choices (key) : "the names known here"); break;
     case PG_TEXT:       snprintf (out, n, "a text"); break;
+    case PG_FILE:       snprintf (out, n, "the name of a file"); break;
     case PG_VECTOR:     snprintf (out, n, "a vector such as [0, 0]"); break;
     case PG_NUMBERS:    snprintf (out, n, "a list of numbers"); break;
     case PG_NAMES:      snprintf (out, n, "a name or a list of names"); break;

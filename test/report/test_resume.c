@@ -163,6 +163,65 @@ static void what_is_not_of_this_run_is_refused (void **state)
     remove_folder (where);
 }
 
+static void write_file (const char *path, const char *head, double volume, const char *tail)
+{
+    FILE *f = fopen (path, "w");
+    assert_non_null (f);
+    fputs (head, f);
+    for (int i = 0; volume > 0 && i < 42; i++) fprintf (f, "%g,%g,%.17g,0\n", 0.1 * (i % 7), 0.1 * (i / 7), (i == 17 ? volume : 1) * 1e-3);
+    fputs (tail, f);
+    assert_int_equal (fclose (f), 0);
+}
+
+/* Points and tables in files beside the scene: another volume at one point, another value, refuse the checkpoint and name the file. */
+static void files_of_the_scene_are_part_of_it (void **state)
+{
+    (void) state;
+    static const char scene[] = "dimension: 2\nthickness: 0.1\npoints: points.csv\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
+        "failure: {criterion: stretch, critical_stretch: 1e-3}\nmethod: {force: bond}\nsets: {low: {where: y < 0.15}, high: {where: y > 0.35}}\n"
+        "boundary: [{name: foot, set: low, displacement: {x: 0, y: 0}}, {name: head, set: high, displacement: {y: 2 mm}}]\n"
+        "reference: {lines: [{file: line.csv}]}\nsolver: {stepping: fixed, steps: 6}\noutput: {pictures: []}\n";
+    static const char *const wrong[] = { "points.csv (points of the scene) has changed", "line.csv (reference.lines[0].file of the scene) has changed" };
+    char beside[64], where[64], path[3][128], whole[4200];
+    pg_resumed from;
+    make_folder (beside), make_folder (where);
+    for (int k = 0; k < 3; k++) snprintf (path[k], sizeof path[k], "%s/%s", beside, k == 0 ? "points.csv" : k == 1 ? "line.csv" : "scene.yaml");
+    write_file (path[0], "x,y,volume,block\n", 1, ""), write_file (path[1], "x [m],y [m],u_y [m]\n0.3,0.2,1e-3\n", 0, ""), write_file (path[2], scene, 0, "");
+    run r = loaded (path[2], 0, NULL);
+    visit v = { .left = -2 };
+    check_ok (pg_result_open (&v.result, where, r.scene, r.problem, r.solver));
+    assert_int_equal (go (&r, &v), 1);
+    check_ok (pg_result_checkpoint (v.result, r.state));
+    pg_result_free (&v.result);
+    clear (&r);
+    for (int k = 0; k < 3; k++) {
+        if (k == 0) write_file (path[0], "x,y,volume,block\n", 1.5, "");
+        if (k == 1) write_file (path[0], "x,y,volume,block\n", 1, ""), write_file (path[1], "x [m],y [m],u_y [m]\n0.3,0.2,2e-3\n", 0, "");
+        if (k == 2) write_file (path[1], "x [m],y [m],u_y [m]\n0.3,0.2,1e-3\n", 0, "");
+        r = loaded (path[2], 0, NULL);
+        pg_status status = pg_result_resume (&v.result, where, r.scene, r.problem, r.solver, r.state, &from);
+        assert_int_equal (status, k < 2 ? PG_E_USAGE : PG_OK);
+        if (k < 2) check_contains (pg_last_error (), wrong[k]);
+        else assert_int_equal (go (&r, &v), 0);
+        pg_result_free (&v.result);
+        clear (&r);
+    }
+    /* the report tells where they are, and the copy of the scene finds them from anywhere */
+    char *text = slurp (inside (where, "report.json"));
+    assert_non_null (realpath (path[0], whole));
+    check_contains (json_value (text, NULL, "files"), whole);
+    pg_free (text);
+    pg_scene *stored;
+    pg_problem *again;
+    remove (inside (where, "report.json"));
+    check_ok (pg_stored_scene (&stored, where));
+    check_ok (pg_problem_build (&again, stored, 1));
+    assert_int_equal (again->cloud.n, 42);
+    pg_problem_free (&again);
+    pg_scene_free (&stored);
+    remove_folder (beside), remove_folder (where);
+}
+
 static void finished_is_told_from_interrupted (void **state)
 {
     (void) state;
@@ -297,7 +356,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (from_every_event), cmocka_unit_test (from_every_round_of_load_steps), cmocka_unit_test (from_every_round_with_elimination),
         cmocka_unit_test (from_every_round_of_nodal_integration), cmocka_unit_test (from_every_round_of_time_steps), cmocka_unit_test (from_every_event_with_an_old_preconditioner),
-        cmocka_unit_test (what_is_not_of_this_run_is_refused), cmocka_unit_test (finished_is_told_from_interrupted),
+        cmocka_unit_test (what_is_not_of_this_run_is_refused), cmocka_unit_test (files_of_the_scene_are_part_of_it), cmocka_unit_test (finished_is_told_from_interrupted),
         cmocka_unit_test (a_new_run_leaves_no_old_checkpoint_or_report), cmocka_unit_test (a_file_that_lost_rows_is_refused),
         cmocka_unit_test (stages_within_a_step_ascend_in_time), cmocka_unit_test (a_disk_that_was_full_costs_nothing),
     };

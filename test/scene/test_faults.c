@@ -144,7 +144,7 @@ static void deep_nesting_is_refused_at_its_depth (void **state)
         REFUSED (text, "plate.yaml:1:34: nested too deeply");
     }
     for (int k = 0; k < 50000; k++) memcpy (text + 2 * k, "- ", 3);
-    REFUSED (text, "nested too deeply");
+    REFUSED (text, "plate.yaml:1:63: nested too deeply");
 }
 
 static void aliases_cannot_grow_without_end (void **state)
