@@ -228,9 +228,36 @@ static void test_threads (void **unused)
     }
 }
 
+/* Products with the stiffness follow what a march breaks, also where they have loops of their own (finite stretch): those of a force made from the same
+ * alive bits. */
+static void test_products_after_breaking (void **unused)
+{
+    (void) unused;
+    static const char *const stretches[] = { "linear", "finite" };
+    for (int k = 0; k < 2; k++) {
+        char text[1000];
+        snprintf (text, sizeof text, "%smethod: {force: bond, stretch: %s}\nfailure: {criterion: stretch, critical_stretch: 1e-3}\n", BODY2, stretches[k]);
+        bonded a = bonded_of (text), b = bonded_of (text);
+        double *d = random_vector (a.ndof, 3), *x = random_vector (a.ndof, 4), *y = pg_calloc (3 * a.ndof, sizeof *y), reference;
+        pg_changes broken = { 0 };
+        const pg_operator *A = a.force->operator_ (a.self), *B = b.force->operator_ (b.self);
+        for (size_t i = 0; i < a.ndof; i++) d[i] *= 3e-4;
+        A->apply (A->context, x, y);
+        check_ok (a.force->march (a.self, 0, d, y, &reference, &broken));
+        assert_true (broken.n > 10 && broken.n < a.state->nbond / 2);
+        for (size_t n = 0; n < broken.n; n++) b.state->alive[broken.bond[n]] = 0;
+        check_ok (b.force->refresh (b.self, b.state, NULL));
+        A->apply (A->context, x, y), B->apply (B->context, x, y + a.ndof);
+        for (size_t i = 0; i < a.ndof; i++) check_scaled (y[i], y[a.ndof + i], 1e-14, size_of (a.ndof, y));
+        pg_free (d), pg_free (x), pg_free (y), pg_free (broken.bond);
+        unbonded (&a), unbonded (&b);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (test_matrix), cmocka_unit_test (test_partial_assembly), cmocka_unit_test (test_rigid),
-        cmocka_unit_test (test_hydrostatic), cmocka_unit_test (test_cut), cmocka_unit_test (test_bound), cmocka_unit_test (test_threads) };
+        cmocka_unit_test (test_hydrostatic), cmocka_unit_test (test_cut), cmocka_unit_test (test_bound), cmocka_unit_test (test_threads),
+        cmocka_unit_test (test_products_after_breaking) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
