@@ -11,6 +11,7 @@ typedef struct {
     char    name[64];
     size_t  npoint, nfacet;
     int    *point, *facet;                             /* ascending                                                      */
+    size_t  ninner;  int *inner;                       /* points that none of its facets reaches: a set with an inside. None where it was made of faces */
 } pg_set;
 
 typedef struct {

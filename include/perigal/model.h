@@ -22,7 +22,9 @@ typedef struct {
     int            proportional;                       /* factor is t itself                                             */
     double         depth;                              /* m: tractions, pressure of direct forces act on points so far below the surface; 0: the outermost */
     pg_essential   essential;                          /* how PG_DISPLACEMENT and PG_VELOCITY are imposed                */
+    double         penalty;                            /* its factor of E / h, h the local spacing, for PG_ESSENTIAL_PENALTY */
 } pg_load;
+#define PG_MOST_ELIMINATED 6000                         /* points per direction by PG_ESSENTIAL_TRANSFORMATION: full matrices below 300 MB each */
 /* Component k of the load at place x and time t (s; static: load factor). */
 double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t);
 /* 1: the load is one pattern in space times a factor of t alone; pg_load_value is then the product of these two, bit by bit. */
@@ -95,6 +97,7 @@ double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);
 int       pg_problem_no_bond (const pg_problem *problem, int set, size_t point, size_t e);
 /* solver.kind: 1: the t of loads is the load factor, 0 to 1 (static, adr, relax); 0: seconds. */
 int       pg_kind_quasi_static (const char *kind);
+int       pg_kind_marches (const char *kind);          /* 1: by steps or iterations without linear systems, which stiff springs would shorten */
 int       pg_problem_proportional (const pg_problem *problem);   /* every load is a constant pattern times t               */
 
 /* ---- state: one block, copyable, comparable, savable ---------------------------------------------------------------------- */

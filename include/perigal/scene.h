@@ -60,6 +60,7 @@ void      pg_scene_free   (pg_scene **scene);
 /* ---- use: paths are printf formats, e.g. pg_scene_number (s, "cracks[%zu].width", i) --------------------------------- */
 #define PG_PATH(k, m) __attribute__ ((format (printf, k, m)))
 int         pg_scene_given   (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);   /* the user wrote it            */
+int         pg_scene_line    (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);   /* where the file says it; 0: it does not */
 int         pg_scene_has     (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);   /* written or has a default     */
 size_t      pg_scene_count   (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);   /* elements of a list, names of a map, 1 for a scalar, 0 absent */
 const char *pg_scene_name    (const pg_scene *s, size_t i, const char *path, ...) PG_PATH (3, 4);  /* i-th name in a map or PG_NAMES; NULL past the end */

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-typedef struct { pg_sets *out; size_t capacity; pg_marks marks; const pg_scene *scene; } builder;
+typedef struct { pg_sets *out; size_t capacity; pg_marks marks; const pg_scene *scene; int faces; } builder;     /* faces: the marks are those of faces      */
 
 /* ---- from marks to sets ----------------------------------------------------------------------------------------------- */
 /* Indices of marked items; side >= 0: only those beyond the centre on that side. */
@@ -22,6 +22,25 @@ done:
     return status;
 }
 
+/* Points of s that lie behind its facets; to be held apart from them. */
+static pg_status gather_inner (pg_set *s, const pg_marks *m)
+{
+    pg_status status = PG_OK;
+    unsigned char *reached = NULL;
+    if (s->nfacet == 0 || s->npoint == 0) return PG_OK;
+    PG_ALLOC (reached, m->cloud->n);
+    for (size_t k = 0; k < s->nfacet; k++)
+        for (size_t q = m->facet_first[s->facet[k]]; q < m->facet_first[s->facet[k] + 1]; q++) reached[m->facet_point[q]] = 1;
+    for (size_t k = 0; k < s->npoint; k++) s->ninner += !reached[s->point[k]];
+    if (s->ninner == 0) goto done;
+    PG_ALLOC (s->inner, s->ninner);
+    size_t at = 0;
+    for (size_t k = 0; k < s->npoint; k++) if (!reached[s->point[k]]) s->inner[at++] = s->point[k];
+done:
+    pg_free (reached);
+    return status;
+}
+
 static pg_status add_one (builder *b, const char *name, int side)
 {
     pg_status status = PG_OK;
@@ -33,6 +52,7 @@ static pg_status add_one (builder *b, const char *name, int side)
     snprintf (s->name, sizeof s->name, "%.56s%s%s", name, side < 0 ? "" : ".", side < 0 ? "" : pg_side_names[side]);
     PG_TRY (gather (&s->point, &s->npoint, m, m->point, m->cloud->n, m->cloud->x, side));
     PG_TRY (gather (&s->facet, &s->nfacet, m, m->facet, m->cells->nfacet, m->cells->facet_centre, side));
+    if (!b->faces) PG_TRY (gather_inner (s, m));
 done:
     return status;
 }
@@ -48,11 +68,13 @@ done:
 static pg_status add_predefined (builder *b)
 {
     pg_status status = PG_OK;
+    b->faces = 1;
     for (int side = 0; side < 2 * b->marks.cloud->dim; side++) {
         pg_marks_fill (&b->marks, 0);
         pg_marks_boundary (&b->marks, pg_side_names[side]);
         PG_TRY (add_set (b, pg_side_names[side]));
     }
+    b->faces = 0;
     pg_marks_fill (&b->marks, 1);
     PG_TRY (add_set (b, "all"));
     for (size_t i = 0; i < b->marks.cells->ngiven; i++) {
@@ -283,6 +305,7 @@ static pg_status add_named (builder *b, const char *name)
         return pg_sets_find (b->out, name) || strlen (name) > 56 ? PG_OK : add_set (b, name);
     }
     pg_marks_fill (&b->marks, 1);
+    b->faces = boundary;
     if (boundary) known = mark_boundaries (b, name);
     if (angle) PG_TRY (keep_angles (b, name));
     if (where) PG_TRY (keep_where (b, name));
@@ -307,6 +330,7 @@ static pg_status add_part (builder *b, const char *name)
         *last = '\0';
         known = !pg_sets_find (b->out, base) && cells_mark_part (&b->marks, base);
     }
+    b->faces = 1;
     if (known) PG_TRY (add_set (b, base));
 done:
     return status;
@@ -370,6 +394,7 @@ void pg_sets_clear (pg_sets *sets)
     for (size_t i = 0; sets->set && i < sets->n; i++) {
         pg_free (sets->set[i].point);
         pg_free (sets->set[i].facet);
+        pg_free (sets->set[i].inner);
     }
     pg_free (sets->set);
     memset (sets, 0, sizeof *sets);

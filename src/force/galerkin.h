@@ -50,7 +50,7 @@ typedef struct {
     pin     *pin;  size_t npin;                        /* Nitsche, ascending by point                                    */
     size_t  *pin_start;                                /* facet point -> pins                                            */
     pin     *peg;  size_t npeg;                        /* penalty: point = index into peg_node                           */
-    int     *peg_node; size_t npegnode;
+    int     *peg_node; size_t npegnode; size_t *peg_start;     /* pegs of a node: peg_start[k]..peg_start[k + 1]                */
     pg_family peg_family;                              /* constrained nodes -> nodes (copy of the node rows' families)   */
     elimination side[3];
     pg_sparse T;

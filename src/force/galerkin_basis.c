@@ -4,8 +4,6 @@
 #include "galerkin.h"
 #include <string.h>
 
-enum { MOST = 6000 };                                  /* slaves per component: the dense inverse stays below 300 MB      */
-
 void galerkin_basis_free (galerkin *g)
 {
     for (int k = 0; k < 3; k++) {
@@ -47,8 +45,8 @@ static pg_status find_masters (galerkin *g, int k, int *role)
     const pg_family *f = &g->rows[PG_NODES].family;
     size_t cap = 0;
     if (strcmp (g->problem->approx.type->name, "nosb") == 0) goto done;
-    if (e->n > MOST) PG_FAIL (PG_E_LIMIT, "essential: transformation of %zu points in one direction needs too much memory (at most %d): use nitsche",
-                              e->n, MOST);
+    if (e->n > PG_MOST_ELIMINATED) PG_FAIL (PG_E_LIMIT, "essential: transformation of %zu points in one direction needs too much memory (at most %d): use penalty",
+                                            e->n, PG_MOST_ELIMINATED);
     for (size_t s = 0; s < e->n; s++)
         for (size_t q = f->start[e->slave[s]]; q < f->start[e->slave[s] + 1]; q++) if (role[f->node[q]] == -1) role[f->node[q]] = -2;
     for (size_t i = 0; i < g->n; i++) {

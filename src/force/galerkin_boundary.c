@@ -54,7 +54,7 @@ static pg_status make_pegs (galerkin *g)
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
     const pg_family *f = &g->rows[PG_NODES].family;
-    size_t cap = 0, cap_node = 0, cap_start = 0, cap_entry = 0, nnz = 0;
+    size_t cap = 0, cap_node = 0, cap_start = 0, cap_entry = 0, cap_first = 0, nnz = 0;
     for (size_t i = 0; i < g->n; i++) {
         unsigned taken = 0;
         for (size_t l = 0; l < p->nload; l++) {
@@ -70,10 +70,12 @@ static pg_status make_pegs (galerkin *g)
         if (!taken) continue;
         PG_GROW (g->peg_node, cap_node, g->npegnode + 1);
         PG_GROW (g->peg_family.start, cap_start, g->npegnode + 2);
+        PG_GROW (g->peg_start, cap_first, g->npegnode + 2);
         PG_GROW (g->peg_family.node, cap_entry, nnz + f->start[i + 1] - f->start[i]);
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) g->peg_family.node[nnz++] = f->node[e];
         g->peg_node[g->npegnode++] = (int) i;
         g->peg_family.start[g->npegnode] = nnz;
+        g->peg_start[g->npegnode] = g->npeg;
         g->peg_family.n = g->npegnode;
     }
 done:
@@ -88,7 +90,7 @@ pg_status galerkin_boundary_create (galerkin *g)
 
 void galerkin_boundary_free (galerkin *g)
 {
-    pg_free (g->pin), pg_free (g->pin_start), pg_free (g->peg), pg_free (g->peg_node);
+    pg_free (g->pin), pg_free (g->pin_start), pg_free (g->peg), pg_free (g->peg_node), pg_free (g->peg_start);
     pg_family_clear (&g->peg_family);
 }
 
@@ -146,11 +148,12 @@ void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double 
     }
 }
 
-static double penalty (const galerkin *g, int node)
+static double penalty (const galerkin *g, const pin *peg)
 {
     const pg_problem *p = g->problem;
-    double h = pg_problem_spacing (p, PG_NODES, (size_t) node);
-    return p->penalty * galerkin_material (g, PG_NODES, (size_t) node)->modulus / (h * h) * p->cloud.volume[node];
+    size_t node = (size_t) g->peg_node[peg->point];
+    double h = pg_problem_spacing (p, PG_NODES, node);
+    return p->load[peg->load].penalty * galerkin_material (g, PG_NODES, node)->modulus / (h * h) * p->cloud.volume[node];
 }
 
 void galerkin_peg_blocks (void *context, size_t p, size_t a, size_t m, double *out)
@@ -158,11 +161,10 @@ void galerkin_peg_blocks (void *context, size_t p, size_t a, size_t m, double *o
     galerkin *g = context;
     const pg_rows *r = &g->rows[PG_NODES];
     size_t dim = (size_t) g->dim, first = r->family.start[g->peg_node[p]];
-    for (size_t i = 0; i < g->npeg; i++) {
-        if (g->peg[i].point != p) continue;
+    for (size_t i = g->peg_start[p]; i < g->peg_start[p + 1]; i++) {
         size_t k = (size_t) g->peg[i].component;
         for (size_t b = 0; b < m; b++)
-            out[b * dim * dim + k * dim + k] += penalty (g, g->peg_node[p]) * r->N[first + a] * r->N[first + b];
+            out[b * dim * dim + k * dim + k] += penalty (g, &g->peg[i]) * r->N[first + a] * r->N[first + b];
     }
 }
 
@@ -194,7 +196,7 @@ static void visit_supports (galerkin *g, double t, visitor visit, void *context)
         size_t node = (size_t) g->peg_node[q->point];
         double u = g->u[PG_NODES][node * dim + (size_t) q->component];
         double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_NODES].x + node * dim, t);
-        visit (context, PG_NODES, node, q->load, q->component, -penalty (g, (int) node) * (u - goal), goal);
+        visit (context, PG_NODES, node, q->load, q->component, -penalty (g, q) * (u - goal), goal);
     }
 }
 
@@ -280,7 +282,7 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
         for (size_t e = n->family.start[node]; e < n->family.start[node + 1]; e++)
             u += n->N[e] * x[(size_t) n->family.node[e] * dim + (size_t) q->component];
         for (size_t e = n->family.start[node]; e < n->family.start[node + 1]; e++)
-            y[(size_t) n->family.node[e] * dim + (size_t) q->component] += penalty (g, node) * n->N[e] * u;
+            y[(size_t) n->family.node[e] * dim + (size_t) q->component] += penalty (g, q) * n->N[e] * u;
     }
 }
 
@@ -343,7 +345,7 @@ double galerkin_boundary_energy (galerkin *g, double t)
         size_t node = (size_t) g->peg_node[q->point];
         double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_NODES].x + node * dim, t);
         double gap = g->u[PG_NODES][node * dim + (size_t) q->component] - goal;
-        sum += 0.5 * penalty (g, (int) node) * gap * gap;
+        sum += 0.5 * penalty (g, q) * gap * gap;
     }
     return sum;
 }

@@ -55,7 +55,8 @@ static const pg_key keys[] = {
       "Against zero-energy modes of nodal integration; auto: silling for nosb with nodal integration, else none." },
     { "method.stabilization_factor", PG_NUMBER, "1", "(0, inf)", "0.1", NULL, NULL, NULL, "Strength Gs of the stabilisation, 0.05 to 1." },
     { "method.essential", PG_NAME, NULL, NULL, "auto", "auto|nitsche|transformation|penalty", NULL, NULL,
-      "How displacements are prescribed; auto: nitsche on boundary facets, transformation on points (always for nosb)." },
+      "How displacements are prescribed; auto: nitsche on boundary facets; penalty on all points of a set that has points behind its facets (wide grips), or more than 6000 points and no facet; "
+      "else transformation on points (always for nosb)." },
     { "method.nitsche_factor", PG_NUMBER, "1", "(0, inf)", "100", NULL, NULL, NULL, "Nitsche's beta in units of E / spacing." },
     { "method.penalty_factor", PG_NUMBER, "1", "(0, inf)", "1e6", NULL, NULL, NULL, "Penalty in units of E / spacing." },
     { "blocks", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,

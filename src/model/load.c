@@ -237,6 +237,11 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
                     : strcmp (how, "nitsche") == 0 ? PG_ESSENTIAL_NITSCHE
                     : load->set->nfacet > 0 && !nosb ? PG_ESSENTIAL_NITSCHE : PG_ESSENTIAL_TRANSFORMATION;
     if (problem->direct) load->essential = PG_ESSENTIAL_TRANSFORMATION;
+    load->penalty = problem->penalty;
+    if (!problem->direct && strcmp (how, "auto") == 0 && !nosb && (load->set->ninner || (load->set->nfacet == 0 && load->set->npoint > PG_MOST_ELIMINATED))) {
+        load->essential = PG_ESSENTIAL_PENALTY;            /* a set with an inside: its facets would leave that free */
+        if (pg_kind_marches (pg_scene_text (scene, "solver.kind"))) load->penalty = fmin (problem->penalty, problem->nitsche);        /* no shorter time step */
+    }
     check_place (problem, load, scene, i);
     read_depth (problem, load, scene, i);
     if (pg_scene_given (scene, "boundary[%zu].table", i)) PG_TRY (read_table (load, scene, i));
@@ -276,6 +281,8 @@ pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
     PG_ALLOC (problem->load, problem->nload);
     for (size_t i = 0; i < problem->nload; i++) PG_TRY (read_load (problem, &problem->load[i], scene, i, is_static, duration));
     name_apart (problem, scene);
+    pg_supports_check (problem, scene, duration);
+    pg_supports_check_eliminated (problem, scene);
 done:
     return status;
 }

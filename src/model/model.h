@@ -4,6 +4,9 @@
 #define PG_MODEL_PRIVATE_H
 #include "perigal/model.h"
 pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
+/* supports.c: supports that contradict each other (at corners: warnings), or are too many for elimination, as faults. duration: end of the run, s (static: 1). */
+void      pg_supports_check (pg_problem *problem, const pg_scene *scene, double duration);
+void      pg_supports_check_eliminated (const pg_problem *problem, const pg_scene *scene);
 void      pg_loads_check_moments (const pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
 /* initial.velocity: checked and compiled; put into v (n x dim, m/s), which is left alone where nothing is given. */

@@ -79,6 +79,12 @@ int pg_scene_given (const pg_scene *s, const char *path, ...)
     return f.node && f.given;
 }
 
+int pg_scene_line (const pg_scene *s, const char *path, ...)
+{
+    LOCATE (f, s, path);
+    return f.node && f.given && !f.node->origin ? f.node->line : 0;
+}
+
 int pg_scene_has (const pg_scene *s, const char *path, ...)
 {
     LOCATE (f, s, path);

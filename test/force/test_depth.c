@@ -2,8 +2,9 @@
  * boundary.depth: tractions and pressure spread over the points below the surface: total force, rows, curved surfaces, what is refused. */
 #include "scene_runs/run.h"
 
-#define SCENE "dimension: 2\nthickness: 2 mm\nbody: [%s]\nspacing: 1 mm\nlattice: %s\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.3333}}\n" \
-    "method: {force: bond}\nboundary:\n  - {name: hold, set: bottom, displacement: {x: 0, y: 0}}\n  - {name: load, set: %s, %s}\n"
+#define SCENE SCENE_HELD ("bottom")
+#define SCENE_HELD(set) "dimension: 2\nthickness: 2 mm\nbody: [%s]\nspacing: 1 mm\nlattice: %s\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.3333}}\n" \
+    "method: {force: bond}\nboundary:\n  - {name: hold, set: " set ", displacement: {x: 0, y: 0}}\n  - {name: load, set: %s, %s}\n"
 #define BOX "{add: {box: {low: [0, 0], high: [10 mm, 8 mm]}}}"
 
 static double *loads (run *r)
@@ -52,7 +53,7 @@ static void pressure_on_a_curved_surface (void **state)
 {
     (void) state;
     for (int nodes = 0; nodes < 2; nodes++) {
-        run r = scene_of (1, SCENE, "{add: {disk: {center: [0, 0], radius: 10 mm}}}", nodes ? "nodes\nsets: {rim: {boundary: rim}}"
+        run r = scene_of (1, SCENE_HELD ("rim.bottom"), "{add: {disk: {center: [0, 0], radius: 10 mm}}}", nodes ? "nodes\nsets: {rim: {boundary: rim}}"
                           : "cells\nsets: {rim: {boundary: rim}}", "rim", "pressure: 5 MPa, depth: 2 mm");
         const pg_cloud *c = &r.problem->cloud;
         double *P = loads (&r), size = 5e6 * 2e-2 * 2e-3, inwards = 0;
