@@ -84,6 +84,9 @@ typedef struct {
     pg_status (*couplings) (void *self, pg_couplings *out);
     /* What the bond breaks of at d: 't' tension, 's' shear, 'b' bending ... NULL: tension, or energy with criteria of energies. */
     char      (*kind_of) (void *self, const double *d, size_t bond);
+    /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy xy of a plane, Pa) on all facets
+     * that this force bears loads on: of pg_problem_bare the whole surface. NULL: not known. */
+    pg_status (*surface) (void *self, const double *stress, double *P);
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

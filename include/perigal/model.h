@@ -40,6 +40,19 @@ char   pg_load_axis (const pg_load *load, int dim, int k);             /* 'x', '
 /* ---- problem ----------------------------------------------------------------------------------------------------------- */
 /* Bond sets, each a list of points and the nodes they see (style: one array of alive bits per set, all in state). */
 enum { PG_NODES, PG_POINTS, PG_FACETS, PG_BOND_SETS };
+/* The patch test of a discretisation: the body without cracks and supports, of one material, under the tractions of a uniform stress on its
+ * whole surface; exactly, its displacement is linear. Of the worst state of stress, but for the counts. */
+typedef struct {
+    int    measured;                                   /* 0: not (yet) measured: the numbers below are NAN               */
+    double error;                                      /* of the displacement, relative: its root of mean square, or of that of the loaded surface (compliance) if that is more */
+    double compliance;                                 /* work of the tractions over the exact one, less 1: > 0 too soft */
+    int    state;                                      /* which stress: 0.. of pg_voigt order                            */
+    int    held;                                       /* 1: no facets: the outermost points are held in the linear field instead, compliance is NAN */
+    int    settled;                                    /* 0: iterations ended early: at least so much                    */
+    size_t iterations;                                 /* of conjugate gradients, all states                             */
+    size_t points, degenerate, isolated, fragments;    /* of evaluation; of these without a strain; points without a bond; parts beside the largest */
+    double seconds;
+} pg_patch;
 typedef struct { char name[32]; double from[3], to[3]; } pg_gauge;      /* opening along from -> to, m                     */
 typedef struct {
     char     title[256], name[64];                     /* name: of the scene's folder or file                            */
@@ -71,6 +84,9 @@ typedef struct {
     size_t   first_bond[PG_BOND_SETS + 1];             /* bond b of set k is alive[first_bond[k] + b]                    */
     double  *spacing[PG_BOND_SETS];                    /* local spacing of every point (its nearest node's), m; NULL: h  */
     unsigned char *exempt[PG_BOND_SETS];               /* per point: its bonds never break (failure: exclude, never)     */
+    int      facet_order;                              /* points per direction of a boundary facet                       */
+    int      accept_inexact;                           /* method.accept_inexact: no measured patch error is too large    */
+    pg_patch patch;                                    /* how well the discretisation carries uniform stress             */
     size_t   eroded;                                   /* points that lie on a pre-crack                                 */
     char     note[16][224];  size_t nnote;             /* what the plan says: keys without meaning, constants taken otherwise */
 } pg_problem;
@@ -85,6 +101,10 @@ pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads
 pg_status pg_problem_prepare  (pg_problem **out, const pg_scene *scene, int threads);
 pg_status pg_problem_complete (pg_problem *problem, const pg_scene *scene);
 void      pg_problem_free  (pg_problem **problem);
+/* The same discretisation without loads, supports, cracks and failure, all of its material with the largest Poisson's ratio; the one load left is
+ * a traction of zero on all facets, and PG_FACETS are points on all of them (none for direct forces). It borrows from `problem`. */
+pg_status pg_problem_bare  (pg_problem **out, const pg_problem *problem);
+void      pg_problem_bare_free (pg_problem **bare);
 /* The bond set and the point of that set that own a bond (an index into state->alive). */
 void      pg_problem_locate (const pg_problem *problem, size_t bond, int *set, size_t *point);
 /* gmpd: Young's modulus (Pa) and Poisson's ratio of what the bonds of a material make alone; dilation (Pa): A of the dilatation beside them

@@ -32,6 +32,21 @@ typedef struct {
 } pg_solver_options;
 pg_status pg_solver_options_read (pg_solver_options *out, const pg_problem *problem, const pg_scene *scene);
 
+/* ---- patch test --------------------------------------------------------------------------------------------------------- */
+/* Measures problem->patch, once: the bare body (pg_problem_bare) under the tractions of each independent uniform stress, by conjugate gradients
+ * that begin at the best linear field and end when they gain nothing more, or when they have cost what a run should not notice. Without facets
+ * the outermost points are held instead. From PG_PATCH_TOLD on pg_solver_doubts warns, over PG_PATCH_REFUSED pg_patch_refuse refuses. */
+#define PG_PATCH_TOLD 0.05
+#define PG_PATCH_REFUSED 0.5
+pg_status pg_patch_probe (pg_problem *problem);
+/* PG_E_SCENE with what was measured that no run should go by: too large an error, unless method.accept_inexact says yes, or more than a quarter of
+ * the points without a strain. */
+pg_status pg_patch_refuse (const pg_problem *problem, const pg_scene *scene);
+const char *pg_patch_state (const pg_problem *problem);                            /* "xx", "xy" ...                  */
+/* How far off, and by what; what to do about it. */
+void      pg_patch_words  (const pg_problem *problem, char *out, size_t size);
+void      pg_patch_remedy (const pg_problem *problem, char *out, size_t size);
+
 /* ---- what happened ---------------------------------------------------------------------------------------------------- */
 typedef struct { size_t bond; int set; char kind; double utilisation, place[3], time; } pg_broken;     /* time: s; quasi-static: load factor; utilisation NAN: not known */
 

@@ -34,12 +34,14 @@ int pg_cli_check (int argc, char **argv)
     PG_TRY (afford_scene (&c, &f));
     PG_TRY (command_problem (&c, scene, &p, &o));
     PG_TRY (afford_problem (&c, &f, p, 1));
+    PG_TRY (pg_patch_probe (p));
     if (o.marching || o.staged) {
         PG_TRY (pg_solver_create (&solver, p, &o));
         o = *pg_solver_settled (solver);
         stable = pg_solver_stable (solver, &from);
     }
     if (!solver && p->direct) PG_TRY (try_force (p));
+    PG_TRY (pg_patch_refuse (p, scene));
     if (c.solve) PG_TRY (first_break_find (&first, p, &o));
     if (c.spectrum) PG_TRY (spectrum_find (&waves, scene, p));
     plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from };

@@ -261,6 +261,14 @@ static void print_first_break (const plan *p)
     if (b->factor > 1) printf ("  warning: nothing breaks up to load factor 1: the first bond needs %.4g times this load\n", b->factor);
 }
 
+static void print_patch (const pg_problem *p)
+{
+    char words[240];
+    if (!p->patch.measured) return;
+    pg_patch_words (p, words, sizeof words);
+    printf ("  %-18s  %s (%s)\n", "patch test", words, p->patch.held ? "the outermost points held" : "tractions on the whole surface");
+}
+
 void plan_print_long (const plan *p)
 {
     const pg_problem *q = p->problem;
@@ -271,6 +279,7 @@ void plan_print_long (const plan *p)
     if (q->direct) print_direct (q);
     else printf ("  %-18s  %s, %s basis, %s kernel, %s integration\n", "method", q->approx.type->name, q->approx.order == 2 ? "quadratic" : "linear",
                  q->approx.kernel->name, q->integration->name);
+    print_patch (q);
     describe (q, 19);
     print_materials (q);
     printf ("  %-18s  %s%s\n", "solver", p->options->kind, stepping (p->options));

@@ -138,6 +138,7 @@ static pg_status write_plan (const plan *p, const char *path)
     counts (j, p);
     constants (j, p->problem);
     steps (j, p);
+    if (p->problem->patch.measured) pg_json_number (j, "patch_error", p->problem->patch.error);
     memory (j, p);
     first (j, p);
     if (p->waves) spectrum_json (j, p->waves);

@@ -190,6 +190,7 @@ int pg_cli_run (int argc, char **argv)
     PG_TRY (afford_scene (&c, &forecast));
     PG_TRY (command_problem (&c, scene, &problem, &options));
     PG_TRY (afford_problem (&c, &forecast, problem, 0));
+    PG_TRY (pg_patch_probe (problem));
     snprintf (folder, sizeof folder, "out/%s", problem->name);
     if (!c.folder && !c.resume && !c.force) PG_TRY (pg_result_may_open (folder, scene));
     if (c.resume && pg_result_finished (c.folder ? c.folder : folder, scene)) {
@@ -199,6 +200,7 @@ int pg_cli_run (int argc, char **argv)
     if (!c.quiet) plan_print (problem, &options);
     settle_blas (problem);
     PG_TRY (pg_solver_create (&solver, problem, &options));
+    PG_TRY (pg_patch_refuse (problem, scene));
     if (!c.quiet) plan_settled (solver);
     PG_TRY (pg_state_create (&w.state, problem, pg_solver_components (solver)));
     PG_TRY (open_result (&c, c.folder ? c.folder : folder, scene, problem, solver, &w));

@@ -243,6 +243,12 @@ pg_status bond_external (void *self, double t, double *P)
     return PG_OK;
 }
 
+pg_status bond_surface (void *self, const double *stress, double *P)
+{
+    const bond *b = self;
+    return b->problem->nload ? nodal_surface (&b->nodal, 0, stress, P) : PG_OK;
+}
+
 /* ---- the rest ------------------------------------------------------------------------------------------------------------------ */
 pg_status bond_mass (void *self, double *mass)
 {

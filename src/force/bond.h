@@ -76,6 +76,7 @@ pg_status bond_ledger (void *self, double t, const double *d, const double *iner
 unsigned long bond_revision (const void *self);
 pg_status bond_march (void *self, double t, const double *d, double *residual, double *reference, pg_changes *broken);
 pg_status bond_external (void *self, double t, double *P);
+pg_status bond_surface (void *self, const double *stress, double *P);
 /* matrix */
 void bond_apply    (void *context, const double *x, double *y);
 void bond_diagonal (void *context, double *d);
@@ -131,5 +132,5 @@ const char *bond_refuses  (const pg_problem *problem, const char *kind);
     .operator_ = bond_operator, .basis = bond_basis, .impose = bond_impose, .utilisation = bond_utilisation, \
     .ledger = bond_ledger, .field = bond_field, .overlap = bond_overlap, .census = bond_census, .revision = bond_revision, \
     .sample = bond_sample, .march = bond_march, .external = bond_external, .bound = bond_bound, \
-    .row_sums = bond_row_sums, .describe = bond_describe, .refuses = bond_refuses, .couplings = bond_couplings
+    .row_sums = bond_row_sums, .describe = bond_describe, .refuses = bond_refuses, .couplings = bond_couplings, .surface = bond_surface
 #endif

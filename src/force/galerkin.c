@@ -183,5 +183,5 @@ const pg_force_type pg_force_galerkin = {
     .mass = galerkin_mass, .operator_ = galerkin_operator, .matrix = galerkin_matrix, .basis = galerkin_basis, .impose = galerkin_impose,
     .utilisation = galerkin_utilisation, .ledger = galerkin_ledger, .field = galerkin_field,
     .overlap = galerkin_overlap, .census = galerkin_census, .revision = galerkin_revision, .assemble = galerkin_assemble,
-    .mass_matrix = galerkin_mass_matrix, .sample = galerkin_sample, .estimate = galerkin_estimate
+    .mass_matrix = galerkin_mass_matrix, .sample = galerkin_sample, .estimate = galerkin_estimate, .surface = galerkin_surface
 };

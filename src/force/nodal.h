@@ -39,6 +39,8 @@ void      nodal_free   (nodal *s);
 /* Which points a load acts on and by which share (nodal_parts.c). */
 pg_status nodal_parts  (nodal_load *out, const nodal *s, int load);
 void      nodal_add    (nodal *s, double t, double *P);              /* P += loads at t, N                               */
+/* P += tractions of a uniform stress (as pg_force_type.surface) on the facets of load number `load`, N. */
+pg_status nodal_surface (const nodal *s, int load, const double *stress, double *P);
 double    nodal_size   (nodal *s, double t);                         /* norm of the loads at t, N                        */
 const pg_sparse *nodal_basis (const nodal *s);                       /* NULL: nothing is prescribed                      */
 void      nodal_impose (const nodal *s, double t, double *d);

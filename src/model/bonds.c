@@ -19,14 +19,14 @@ static void strip (pg_rows *rows)
     rows->grade = NULL;
 }
 
-/* Spacings are those of a file: every point of the whole body must see enough to carry a strain. */
+/* No lattice: every point of the whole body must see enough to carry a strain. */
 static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
 {
     static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
     pg_status status = PG_OK;
     pg_rows *r = &p->rows[set];
     char at[100];
-    if ((!p->cloud.size && !p->part.mesh.n) || r->n == 0) goto done;
+    if (p->lattice.dim || r->n == 0) goto done;
     strip_values (r);                                  /* grades only                                                    */
     PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, NULL, r->n, NULL, p->threads));
     for (size_t q = 0; q < r->n; q++) {
@@ -104,7 +104,8 @@ static pg_status make_facets (pg_problem *p, const pg_scene *scene)
         int needs = load->kind == PG_TRACTION || load->kind == PG_PRESSURE || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
         for (size_t k = 0; needs && k < load->set->nfacet; k++) used[load->set->facet[k]] = 1;
     }
-    PG_TRY (pg_facet_points (&q, &p->cells, facet_order (p, scene)));
+    p->facet_order = facet_order (p, scene);
+    PG_TRY (pg_facet_points (&q, &p->cells, p->facet_order));
     for (size_t k = 0; k < q.n; k++) {
         if (!used[q.cell[k]]) continue;
         memmove (q.x + keep * dim, q.x + k * dim, dim * sizeof *q.x);
@@ -191,11 +192,29 @@ done:
     return status;
 }
 
+/* Forces straight between points: a point without a bond bears nothing and would fly off, or leave K singular. */
+static pg_status check_company (const pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const pg_family *f = &p->rows[PG_NODES].family;
+    for (size_t i = 0; i < f->n; i++) {
+        if (f->start[i + 1] > f->start[i]) continue;
+        const double *x = p->cloud.x + i * (size_t) p->dim;
+        pg_scene_fault (scene, "method.horizon", "point %zu at (%.6g, %.6g, %.6g) m sees no other point within its horizon, %.6g m: use a larger horizon", i + 1, x[0],
+                        p->dim > 1 ? x[1] : 0, p->dim > 2 ? x[2] : 0, p->approx.horizon * pg_cloud_ratio (&p->cloud, i));
+        PG_TRY (pg_scene_verdict (scene));
+    }
+done:
+    return status;
+}
+
 pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    if (p->direct) PG_TRY (pg_direct_bonds (p));
-    else {
+    if (p->direct) {
+        PG_TRY (pg_direct_bonds (p));
+        PG_TRY (check_company (p, scene));
+    } else {
         PG_TRY (make_nodes (p, scene));
         PG_TRY (make_points (p, scene));
         PG_TRY (make_facets (p, scene));

@@ -59,6 +59,8 @@ static const pg_key keys[] = {
       "else transformation on points (always for nosb)." },
     { "method.nitsche_factor", PG_NUMBER, "1", "(0, inf)", "100", NULL, NULL, NULL, "Nitsche's beta in units of E / spacing." },
     { "method.penalty_factor", PG_NUMBER, "1", "(0, inf)", "1e6", NULL, NULL, NULL, "Penalty in units of E / spacing." },
+    { "method.accept_inexact", PG_BOOL, NULL, NULL, "off", no_choice, NULL, NULL,
+      "Run although the patch test of the discretisation, which every run makes, is off by more than 50 % (report.json: patch_error)." },
     { "blocks", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
       "Which part is made of which material; needed with several materials. A later entry wins; every point needs one." },
     { "blocks[].material", PG_NAME, NULL, NULL, NULL, "materials.{}", NULL, NULL, "One of materials." },

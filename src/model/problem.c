@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * From the scene to a problem: body, points, cells, sets, cracks, laws, loads, bonds. Faults of all stages are collected. */
 #include "model.h"
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -208,6 +209,8 @@ pg_status pg_problem_prepare (pg_problem **out, const pg_scene *scene, int threa
     p->dim = (int) pg_scene_integer (scene, "dimension");
     p->threads = threads < 1 ? 1 : threads;
     p->mode = mode_of (scene, p->dim);
+    p->accept_inexact = pg_scene_bool (scene, "method.accept_inexact");
+    p->patch = (pg_patch) { .error = NAN, .compliance = NAN };
     const char *title = pg_scene_text (scene, "title");
     name_of (p->name, sizeof p->name, pg_scene_file (scene));
     snprintf (p->title, sizeof p->title, "%s", title && *title ? title : p->name);

@@ -94,6 +94,20 @@ static void estimate_block (pg_json *j, const pg_result *res)
     pg_json_shut (j);
 }
 
+/* Of the discretisation, before the first step */
+static void patch_block (pg_json *j, const pg_problem *p)
+{
+    if (!p->patch.measured) return;
+    pg_json_number (j, "patch_error", p->patch.error);
+    pg_json_open (j, "patch", '{');
+    pg_json_text (j, "stress", pg_patch_state (p));
+    pg_json_number (j, "compliance", p->patch.compliance);
+    pg_json_text (j, "loaded", p->patch.held ? "outermost points held" : "whole surface");
+    pg_json_text (j, "kind", p->patch.settled ? "measured" : "lower bound");
+    pg_json_count (j, "iterations", p->patch.iterations);
+    pg_json_shut (j);
+}
+
 static void crack_block (pg_json *j, const pg_result *res)
 {
     if (!res->crack.found) return;
@@ -135,6 +149,7 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
     run_block (j, res, r, state);
     result_curve_json (j, res);
     crack_block (j, res);
+    patch_block (j, res->problem);
     estimate_block (j, res);
     seconds_block (j, res, r, search, total);
     if (res->measured) {

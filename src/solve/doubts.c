@@ -39,9 +39,23 @@ static void doubt_supports (pg_report *report, const pg_problem *p, const pg_sol
 
 static int warns (const char *note) { return strncmp (note, PG_WARNING, strlen (PG_WARNING)) == 0; }
 
+static void doubt_patch (pg_report *report, const pg_problem *p)
+{
+    char words[240], remedy[240];
+    const pg_patch *t = &p->patch;
+    if (!t->measured) return;
+    if (t->degenerate) pg_report_warn (report, "%zu of %zu evaluation points see too few points for a strain and carry no stress", t->degenerate, t->points);
+    if (t->fragments) pg_report_warn (report, "the body is in %zu parts that no bond joins", t->fragments + 1);
+    if (t->error <= PG_PATCH_TOLD) return;
+    pg_patch_words (p, words, sizeof words);
+    pg_patch_remedy (p, remedy, sizeof remedy);
+    pg_report_warn (report, "%s; %s", words, remedy);
+}
+
 void pg_solver_doubts (pg_report *report, const pg_problem *p, const pg_solver_options *o)
 {
     doubt_supports (report, p, o);
+    doubt_patch (report, p);
     for (size_t k = 0; k < p->nnote; k++) if (warns (p->note[k])) pg_report_warn (report, "%s", p->note[k] + strlen (PG_WARNING));
     if (p->part.mesh.n && p->part.quality < 0.1)
         pg_report_warn (report, "element %ld of the mesh is nearly flat: quality %.2g (scaled Jacobian; better than 0.1 is wanted)",

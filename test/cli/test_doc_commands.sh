@@ -44,7 +44,7 @@ body: [{add: {box: {low: [0, 0, 0], high: [12 mm, 12 mm, 10 mm]}}}]
 spacing: 2 mm
 cracks: [{polygon: [[0, 6 mm, 0], [5 mm, 6 mm, 0], [5 mm, 6 mm, 10 mm], [0, 6 mm, 10 mm]]}]
 materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.2}}
-method: {force: bond}
+method: {force: bond, accept_inexact: yes}
 boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 10 um}}]
 output: {at: {levels: 8}, pictures: []}
 EOF

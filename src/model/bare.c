@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * A problem without its loads, supports and cracks, of one material: what is left is the discretisation, with a load on its whole surface. */
+#include "model.h"
+#include <stdio.h>
+
+/* The material whose dilatation is the hardest to carry. */
+static const pg_material *stiffest (const pg_problem *p)
+{
+    size_t most = 0;
+    for (size_t m = 1; m < p->nmaterial; m++) if (p->material[m].parameter[1] > p->material[most].parameter[1]) most = m;
+    return &p->material[most];
+}
+
+/* Points on all facets, for forces that integrate over them. */
+static pg_status make_surface (pg_problem *out, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_quadrature q = { 0 };
+    out->rows[PG_FACETS] = (pg_rows) { 0 }, out->facet_normal = NULL;
+    PG_TRY (pg_facet_points (&q, &p->cells, p->facet_order));
+    PG_TRY (pg_rows_create (&out->rows[PG_FACETS], &p->approx, &p->cloud, q.n, q.x, q.weight, NULL, q.cell));
+    pg_rows *r = &out->rows[PG_FACETS];
+    pg_free (r->N), pg_free (r->dN), pg_free (r->w), pg_free (r->grade);
+    r->N = r->dN = r->w = NULL, r->grade = NULL;
+    out->facet_normal = q.normal, q.normal = NULL;
+done:
+    pg_quadrature_clear (&q);
+    return status;
+}
+
+/* A traction of no size: it says which facets there are, and how deep below them points bear it. */
+static pg_status make_load (pg_problem *out, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_set *all = NULL;
+    out->load = NULL, out->nload = 0;
+    if (!p->cells.nfacet) return PG_OK;
+    PG_ALLOC (out->load, 1);
+    out->nload = 1;
+    PG_ALLOC (all, 1);
+    out->load->set = all;
+    PG_ALLOC (all->facet, p->cells.nfacet);
+    all->nfacet = p->cells.nfacet;
+    for (size_t f = 0; f < all->nfacet; f++) all->facet[f] = (int) f;
+    snprintf (out->load->name, sizeof out->load->name, "surface");
+    out->load->kind = PG_TRACTION;
+    for (size_t l = 0; l < p->nload; l++)
+        if ((p->load[l].kind == PG_TRACTION || p->load[l].kind == PG_PRESSURE) && p->load[l].depth > 0) out->load->depth = p->load[l].depth;
+    PG_TRY (pg_expression_compile (&out->load->ramp, "1", "1"));
+done:
+    return status;
+}
+
+pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_problem *b = NULL;
+    PG_ALLOC (b, 1);
+    *out = b;
+    *b = *p;
+    b->cracks = (pg_cracks) { 0 }, b->criterion = NULL, b->load = NULL, b->nload = 0, b->facet_normal = NULL;
+    b->rows[PG_FACETS] = (pg_rows) { 0 };
+    for (int s = 0; s < PG_BOND_SETS; s++) b->block[s] = NULL, b->exempt[s] = NULL;
+    b->spacing[PG_FACETS] = NULL;
+    for (int k = 0; k < 3; k++) b->initial[k] = NULL;
+    b->material = (pg_material *) stiffest (p), b->nmaterial = 1;
+    PG_ALLOC (b->criterion, 1);
+    if (!p->direct) PG_TRY (make_surface (b, p));
+    else b->rows[PG_FACETS] = p->rows[PG_FACETS];
+    PG_TRY (make_load (b, p));
+    for (int s = 0; s < PG_BOND_SETS; s++) {
+        PG_ALLOC (b->block[s], b->rows[s].n);
+        PG_ALLOC (b->exempt[s], b->rows[s].n);
+        b->first_bond[s + 1] = b->first_bond[s] + (b->rows[s].n ? b->rows[s].family.start[b->rows[s].n] : 0);
+    }
+    if (p->spacing[PG_FACETS]) PG_ALLOC (b->spacing[PG_FACETS], b->rows[PG_FACETS].n);
+    for (size_t q = 0; b->spacing[PG_FACETS] && q < b->rows[PG_FACETS].n; q++) {
+        int nearest = pg_bonds_nearest (b, PG_FACETS, q);
+        b->spacing[PG_FACETS][q] = nearest < 0 ? p->cloud.h : p->cloud.size[nearest];
+    }
+done:
+    if (status != PG_OK) pg_problem_bare_free (out);
+    return status;
+}
+
+void pg_problem_bare_free (pg_problem **bare)
+{
+    pg_problem *b = *bare;
+    if (!b) return;
+    if (!b->direct) {
+        pg_rows_clear (&b->rows[PG_FACETS]);
+        pg_free (b->facet_normal);
+    }
+    for (int s = 0; s < PG_BOND_SETS; s++) pg_free (b->block[s]), pg_free (b->exempt[s]);
+    pg_free (b->spacing[PG_FACETS]), pg_free (b->criterion);
+    if (b->load) {
+        pg_set *all = (pg_set *) b->load->set;
+        if (all) pg_free (all->facet);
+        pg_free (all);
+        pg_expression_free (&b->load->ramp);
+    }
+    pg_free (b->load), pg_free (b);
+    *bare = NULL;
+}

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What every run says of its own discretisation (pg_patch_probe) against what uniform tension then comes out as. */
+#include "run.h"
+
+typedef struct { const char *method, *more; int dim; double spacing, size[3], least, most; } tension;   /* of the patch error over that of the run */
+
+/* Uniform tension along x on rollers, of length `unit` m a side. */
+static pg_scene *scene_for (const tension *c, double unit, const char *more)
+{
+    static const char *const side[] = { "left", "bottom", "back" };
+    pg_scene *scene = NULL;
+    char text[2048];
+    int at = snprintf (text, sizeof text, "dimension: %d\nspacing: %.17g\nbody: [{add: {box: {low: [", c->dim, c->spacing * unit);
+    for (int k = 0; k < c->dim; k++) at += snprintf (text + at, sizeof text - (size_t) at, "%s0", k ? ", " : "");
+    at += snprintf (text + at, sizeof text - (size_t) at, "], high: [");
+    for (int k = 0; k < c->dim; k++) at += snprintf (text + at, sizeof text - (size_t) at, "%s%.17g", k ? ", " : "", c->size[k] * unit);
+    at += snprintf (text + at, sizeof text - (size_t) at, "]}}}]\n%smaterials: {m: {youngs_modulus: 1 GPa, poissons_ratio: %s}}\nmethod: {%s}\n%s%sboundary:\n",
+                    c->dim == 2 ? "thickness: 1\n" : "", c->dim == 2 ? "0.3333333333333333" : c->dim == 3 ? "0.25" : "0", c->method, c->more, more);
+    for (int k = 0; k < c->dim; k++) at += snprintf (text + at, sizeof text - (size_t) at, "  - {name: hold%d, set: %s, displacement: {%c: 0}}\n", k, side[k], "xyz"[k]);
+    snprintf (text + at, sizeof text - (size_t) at, "  - {name: pull, set: right, traction: {x: 1 MPa}}\nsolver: {kind: static}\n");
+    check_ok (pg_scene_parse (&scene, text, "patch.yaml"));
+    return scene;
+}
+
+static pg_patch measured (const tension *c, double unit, const char *more)
+{
+    pg_scene *scene = scene_for (c, unit, more);
+    pg_problem *p = NULL;
+    check_ok (pg_problem_build (&p, scene, 1));
+    check_ok (pg_patch_probe (p));
+    pg_patch out = p->patch;
+    assert_true (out.measured);
+    pg_problem_free (&p);
+    pg_scene_free (&scene);
+    return out;
+}
+
+/* Relative, root of mean square over the points */
+static double tension_error (const tension *c)
+{
+    run r = { .scene = scene_for (c, 1, "") };
+    build (&r, 1);
+    to_the_end (&r);
+    double *u = field_of (&r, NULL, "displacement", NULL), wrong = 0, all = 0, nu = c->dim == 1 ? 0 : c->dim == 2 ? 1. / 3 : 0.25;
+    for (size_t i = 0; i < r.problem->cloud.n; i++)
+        for (int k = 0; k < c->dim; k++) {
+            size_t at = i * (size_t) c->dim + (size_t) k;
+            double exact = (k ? -nu : 1) * 1e-3 * r.problem->cloud.x[at], V = r.problem->cloud.volume[i];
+            wrong += V * (u[at] - exact) * (u[at] - exact), all += V * exact * exact;
+        }
+    pg_free (u);
+    clear (&r);
+    return sqrt (wrong / all);
+}
+
+#define MOVED "perturb: {amount: 0.2}\n"
+static const tension cases[] = {
+    { "force: bond", "lattice: cells\n", 2, 0.1, { 1, 0.1, 0 }, 0.9, 1.5 }, { "force: bond", "lattice: cells\n", 2, 0.1, { 1, 0.3, 0 }, 0.9, 3.5 },
+    { "force: bond", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "force: bond", "", 2, 0.025, { 1, 1, 0 }, 0.9, 2 }, { "force: bond", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "force: bond", "", 3, 0.2, { 1, 1, 1 }, 0.9, 2 }, { "force: bond", "", 1, 0.05, { 1, 0, 0 }, 0.9, 2 }, { "force: lps", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "force: gmpd", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "force: gmpd, volumetric: on", "", 3, 0.2, { 1, 1, 1 }, 0.9, 2 },
+    { "approximation: nosb, horizon: 2.5 spacing", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "approximation: pddo, horizon: 3 spacing", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "approximation: pddo, integration: nodal", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "approximation: nosb, integration: nodal", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "kernel: constant", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "kernel: linear_r", "", 3, 0.2, { 1, 1, 1 }, 0.9, 2 },
+};
+
+static void it_tells_what_uniform_tension_comes_out_as (void **state)
+{
+    (void) state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        pg_patch p = measured (&cases[k], 1, "");
+        double error = tension_error (&cases[k]);
+        print_message ("  %dD, h %g, %-45s patch error %.3g (%+.2g), tension %.3g: ratio %.2f\n", cases[k].dim, cases[k].spacing, cases[k].method, p.error, p.compliance, error, p.error / error);
+        assert_true (p.settled);
+        assert_true (p.error / error > cases[k].least && p.error / error < cases[k].most);
+    }
+}
+
+static void sound_ones_are_told_to_be (void **state)
+{
+    (void) state;
+    static const tension sound[] = {
+        { "horizon: 2 spacing", MOVED, 2, 0.1, { 1, 1, 0 }, 0, 0.01 }, { "basis: quadratic, horizon: 2.8 spacing", "", 3, 0.2, { 1, 1, 1 }, 0, 0.01 },
+        { "integration: consistent", MOVED, 2, 0.1, { 1, 1, 0 }, 0, 1e-12 }, { "integration: consistent", MOVED, 3, 0.2, { 1, 1, 1 }, 0, 1e-12 },
+        { "integration: consistent", "plane: strain\n", 2, 0.1, { 1, 1, 0 }, 0, 1e-12 }, { "integration: consistent", "", 1, 0.1, { 1, 0, 0 }, 0, 1e-12 },
+    };
+    for (size_t k = 0; k < sizeof sound / sizeof *sound; k++) {
+        pg_patch p = measured (&sound[k], 1, "");
+        print_message ("  %dD, %-30s patch error %.3g\n", sound[k].dim, sound[k].method, p.error);
+        check_below (p.error, sound[k].most);
+    }
+}
+
+/* The number is that of the body without cracks, in any unit. */
+static void units_and_cracks_leave_it_as_it_is (void **state)
+{
+    (void) state;
+    static const tension of[] = { { "force: bond", "", 2, 0.1, { 1, 1, 0 }, 0, 0 }, { "approximation: pddo, horizon: 3 spacing", "", 2, 0.1, { 1, 1, 0 }, 0, 0 } };
+    for (size_t k = 0; k < 2; k++) {
+        pg_patch p = measured (&of[k], 1, ""), cracked = measured (&of[k], 1, "cracks: [{from: [-0.1, 0.53], to: [0.5, 0.53]}]\n");
+        check_relative (cracked.error, p.error, 1e-12);
+        for (double unit = 1e-9; unit < 1e4; unit *= 1e6) check_relative (measured (&of[k], unit, "").error, p.error, 2e-3);
+    }
+}
+
+static void refused (const tension *c, const char *more, const char *const *words)
+{
+    pg_scene *scene = scene_for (c, 1, more);
+    pg_problem *p = NULL;
+    pg_status status = pg_problem_build (&p, scene, 1);
+    if (status == PG_OK) status = pg_patch_probe (p);
+    if (status == PG_OK) status = pg_patch_refuse (p, scene);
+    assert_int_equal (status, PG_E_SCENE);
+    for (; *words; words++) check_contains (pg_last_error (), *words);
+    pg_problem_free (&p);
+    pg_scene_free (&scene);
+}
+
+static void too_wrong_is_refused (void **state)
+{
+    (void) state;
+    static const tension bar = { "force: bond", "lattice: cells\n", 2, 0.1, { 1, 0.1, 0 }, 0, 0 }, wide = { "approximation: nosb, horizon: 4.5 spacing", "", 2, 0.1, { 1, 1, 0 }, 0, 0 },
+        accepted = { "approximation: nosb, horizon: 4.5 spacing, accept_inexact: yes", "", 2, 0.1, { 1, 1, 0 }, 0, 0 },
+        blind = { "basis: quadratic, horizon: 1.01 spacing, accept_inexact: yes", "", 2, 0.1, { 1, 1, 0 }, 0, 0 };
+    refused (&bar, "", (const char *const[]) { "patch.yaml:", "under uniform stress", "too soft", "points across, four horizons, and this body has 1", "accept_inexact", NULL });
+    refused (&wide, "", (const char *const[]) { "under uniform stress", "integration: consistent", NULL });
+    refused (&blind, "", (const char *const[]) { "method.horizon", "400 of 900 evaluation points see too few points", NULL });
+    pg_scene *scene = scene_for (&accepted, 1, "");
+    pg_problem *p = NULL;
+    pg_solver_options o;
+    pg_report doubts = { 0 };
+    check_ok (pg_problem_build (&p, scene, 1));
+    check_ok (pg_patch_probe (p));
+    check_ok (pg_patch_refuse (p, scene));
+    check_ok (pg_solver_options_read (&o, p, scene));
+    pg_solver_doubts (&doubts, p, &o);
+    assert_int_equal (doubts.nwarning, 1);
+    check_contains (doubts.warning[0], "under uniform stress");
+    pg_problem_free (&p);
+    pg_scene_free (&scene);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (it_tells_what_uniform_tension_comes_out_as),
+        cmocka_unit_test (sound_ones_are_told_to_be),
+        cmocka_unit_test (units_and_cracks_leave_it_as_it_is),
+        cmocka_unit_test (too_wrong_is_refused),
+    };
+    return cmocka_run_group_tests (tests, NULL, NULL);
+}
