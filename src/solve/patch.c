@@ -17,29 +17,15 @@ typedef struct {
     pg_state *state;
     size_t    n, dim, stride, ndof, nv;
     const pg_operator *op;
-    double   *field, *Kfield, *P;                      /* linear fields of unit strains, K of them, tractions of a state */
-    double   *x, *r, *z, *q, *inverse, *u;             /* inverse: of the diagonal; 0: held                              */
+    double    middle[3], size;                         /* of the body, m                                                 */
+    double   *P, *x, *r, *z, *q, *inverse, *u;         /* P: tractions of a state; inverse: of the diagonal, 0: held     */
+    double    A[STATES * STATES];                      /* of fields of unit strains: one times K times another           */
     size_t    limit;
     int       rows;                                    /* loads and supports are borne by the outermost rows             */
     pg_patch  out;
 } probe;
 
 /* ---- fields -------------------------------------------------------------------------------------------------------------- */
-/* Of unit strain v (engineering shear) about the origin `c` */
-static void linear_field (const probe *t, size_t v, const double *c, double *out)
-{
-    static const int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 2, 0 } };
-    const int *of = t->dim == 2 && v == 2 ? pair[3] : pair[v];
-    memset (out, 0, t->ndof * sizeof *out);
-    for (size_t i = 0; i < t->n; i++) {
-        const double *x = t->p->cloud.x + i * t->dim;
-        double *d = out + i * t->stride;
-        double share = of[0] == of[1] ? 1 : 0.5;
-        d[of[0]] = share * (x[of[1]] - c[of[1]]);
-        if (of[0] != of[1]) d[of[1]] = share * (x[of[0]] - c[of[0]]);
-    }
-}
-
 static double dot (size_t n, const double *a, const double *b)
 {
     double s = 0;
@@ -47,62 +33,80 @@ static double dot (size_t n, const double *a, const double *b)
     return s;
 }
 
-static void middle (const pg_problem *p, double *c)
+static void find_middle (probe *t)
 {
-    double all = 0;
-    size_t dim = (size_t) p->dim;
-    memset (c, 0, 3 * sizeof *c);
-    for (size_t i = 0; i < p->cloud.n; i++) {
-        all += p->cloud.volume[i];
-        for (size_t k = 0; k < dim; k++) c[k] += p->cloud.volume[i] * p->cloud.x[i * dim + k];
-    }
-    for (size_t k = 0; k < dim; k++) c[k] /= all;
-}
-
-/* Motion number m, of stride numbers a point: rigid ones (translations, then turns), then linear ones. Rotations of points are the spacing times
- * the angle. 0: there are no more. */
-static int mode_number (const probe *t, size_t m, const double *c, size_t stride, double *out)
-{
-    static const int plane[3][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 } };
-    size_t turns = t->dim == 3 ? 3 : t->dim == 2 ? 1 : 0, axis = m - t->dim;
-    memset (out, 0, t->n * stride * sizeof *out);
+    double all = 0, square = 0;
     for (size_t i = 0; i < t->n; i++) {
-        const double *x = t->p->cloud.x + i * t->dim;
-        double *d = out + i * stride;
-        if (m < t->dim) d[m] = 1;
-        else if (m < t->dim + turns) {
-            const int *ab = plane[axis];
-            d[ab[0]] = -(x[ab[1]] - c[ab[1]]), d[ab[1]] = x[ab[0]] - c[ab[0]];
-            if (stride > t->dim) d[t->dim + (t->dim == 2 ? 0 : (axis + 2) % 3)] = t->p->cloud.h;
-        } else for (size_t k = 0; k < t->dim; k++) d[k] = t->field[(m - t->dim - turns) * t->ndof + i * t->stride + k];
+        all += t->p->cloud.volume[i];
+        for (size_t k = 0; k < t->dim; k++) t->middle[k] += t->p->cloud.volume[i] * t->p->cloud.x[i * t->dim + k];
     }
-    return m + 1 < t->dim + turns + t->nv;
+    for (size_t k = 0; k < t->dim; k++) t->middle[k] /= all;
+    for (size_t i = 0; i < t->n * t->dim; i++) {
+        double x = t->p->cloud.x[i] - t->middle[i % t->dim];
+        square += t->p->cloud.volume[i / t->dim] * x * x;
+    }
+    t->size = sqrt (square / all);
 }
 
-/* Takes rigid motions out of f, and with linear the linear ones as well, by weights of points (NULL: 1). */
-static pg_status without (const probe *t, size_t stride, const double *weight, int linear, double *f)
+/* Motion m of point i, up to dim displacements and its rotations times the spacing: linear ones of unit strain (engineering shear), then
+ * translations and turns. */
+static void motion_at (const probe *t, size_t m, size_t i, double *d)
 {
-    pg_status status = PG_OK;
-    double *mode = NULL, c[3];
-    size_t n = t->n * stride, most = t->dim * (t->dim + 1) / 2 + (linear ? t->nv : 0);
-    middle (t->p, c);
-    PG_ALLOC (mode, n * most);
-    for (size_t m = 0; m < most; m++) {
-        double *a = mode + m * n;
-        mode_number (t, m, c, stride, a);
-        for (size_t l = 0; l <= m; l++) {              /* orthogonal to those before it; the last round takes it out of f  */
-            const double *b = mode + l * n;
-            double *of = l < m ? a : f, up = 0, down = 0;
-            for (size_t i = 0; i < n; i++) {
-                double w = weight ? weight[i / stride] : 1;
-                up += w * of[i] * b[i], down += w * b[i] * b[i];
-            }
-            for (size_t i = 0; i < n && down > 0; i++) of[i] -= up / down * b[i];
+    static const int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 2, 0 } };
+    double x[3] = { 0 };
+    for (size_t k = 0; k < t->dim; k++) x[k] = t->p->cloud.x[i * t->dim + k] - t->middle[k];
+    memset (d, 0, 6 * sizeof *d);
+    if (m < t->nv) {
+        const int *of = pair[t->dim == 2 && m == 2 ? 3 : m];
+        if (of[0] == of[1]) d[of[0]] = x[of[0]];
+        else d[of[0]] = 0.5 * x[of[1]], d[of[1]] = 0.5 * x[of[0]];
+    } else if (m < t->nv + t->dim) d[m - t->nv] = t->size;
+    else {
+        size_t turn = m - t->nv - t->dim;
+        const int *of = pair[3 + turn];                /* xy, yz, zx                                                     */
+        d[of[0]] = -x[of[1]], d[of[1]] = x[of[0]];
+        d[t->dim + (t->dim == 2 ? 0 : (turn + 2) % 3)] = t->p->cloud.h;
+    }
+}
+
+/* out = sum of strains times their fields */
+static void linear_field (const probe *t, const double *strain, size_t stride, double *out)
+{
+    double d[6];
+    memset (out, 0, t->n * stride * sizeof *out);
+    for (size_t i = 0; i < t->n; i++)
+        for (size_t v = 0; v < t->nv; v++) {
+            if (strain[v] == 0) continue;
+            motion_at (t, v, i, d);
+            for (size_t k = 0; k < stride; k++) out[i * stride + k] += strain[v] * d[k];
+        }
+}
+
+/* Takes out of f, of stride numbers a point, its least squares of rigid motions, and with linear of linear ones as well; weights: volumes, or 1. */
+static void without (const probe *t, size_t stride, int volumes, int linear, double *f)
+{
+    size_t first = linear ? 0 : t->nv, last = t->nv + t->dim + t->dim * (t->dim - 1) / 2, m = last - first;
+    double G[144] = { 0 }, V[144], lambda[12], b[12] = { 0 }, c[12] = { 0 }, d[12][6];
+    for (size_t i = 0; i < t->n; i++) {
+        double w = volumes ? t->p->cloud.volume[i] : 1;
+        for (size_t a = 0; a < m; a++) {
+            motion_at (t, first + a, i, d[a]);
+            b[a] += w * dot (stride, d[a], f + i * stride);
+            for (size_t e = 0; e <= a; e++) G[a * m + e] += w * dot (stride, d[a], d[e]);
         }
     }
-done:
-    pg_free (mode);
-    return status;
+    for (size_t a = 0; a < m; a++) for (size_t e = 0; e < a; e++) G[e * m + a] = G[a * m + e];
+    pg_dense_eigen ((int) m, G, lambda, V);
+    for (size_t l = 0; l < m && lambda[l] > 1e-12 * lambda[0]; l++) {
+        double along = 0;
+        for (size_t a = 0; a < m; a++) along += V[a * m + l] * b[a];
+        for (size_t a = 0; a < m; a++) c[a] += V[a * m + l] * along / lambda[l];
+    }
+    for (size_t i = 0; i < t->n; i++)
+        for (size_t a = 0; a < m; a++) {
+            motion_at (t, first + a, i, d[0]);
+            for (size_t k = 0; k < stride; k++) f[i * stride + k] -= c[a] * d[0][k];
+        }
 }
 
 /* ---- points at the rim, where there are no facets ---------------------------------------------------------------------------- */
@@ -148,26 +152,23 @@ static int borne_by_rows (const pg_problem *p)
 
 /* ---- one state of stress ------------------------------------------------------------------------------------------------------- */
 /* The strain energy's minimum over linear fields starts it: in a body that is too soft or too stiff everywhere alike it is the answer. */
-static pg_status start (probe *t, const double *strain)
+static void start (probe *t, const double *strain)
 {
-    pg_status status = PG_OK;
-    double A[STATES * STATES], b[STATES];
-    memset (t->x, 0, t->ndof * sizeof *t->x);
-    for (size_t v = 0; v < t->nv; v++) {
-        b[v] = t->out.held ? strain[v] : dot (t->ndof, t->field + v * t->ndof, t->P);
-        for (size_t w = 0; w < t->nv; w++) A[v * t->nv + w] = dot (t->ndof, t->field + v * t->ndof, t->Kfield + w * t->ndof);
+    double A[STATES * STATES], b[STATES], one[STATES];
+    memcpy (A, t->A, sizeof A);
+    memcpy (b, strain, sizeof b);
+    for (size_t v = 0; v < t->nv && !t->out.held; v++) {
+        memset (one, 0, sizeof one), one[v] = 1;
+        linear_field (t, one, t->stride, t->x);
+        b[v] = dot (t->ndof, t->x, t->P);
     }
-    if (!t->out.held) {
-        if (pg_dense_cholesky ((int) t->nv, A, 1e-14)) memcpy (b, strain, t->nv * sizeof *b);
-        else pg_dense_solve ((int) t->nv, A, b);
-    }
-    memcpy (t->r, t->P, t->ndof * sizeof *t->r);
-    for (size_t v = 0; v < t->nv; v++)
-        for (size_t i = 0; i < t->ndof; i++) t->x[i] += b[v] * t->field[v * t->ndof + i], t->r[i] -= b[v] * t->Kfield[v * t->ndof + i];
-    if (!t->out.held) PG_TRY (without (t, t->stride, NULL, 0, t->r));
+    if (!t->out.held && pg_dense_cholesky ((int) t->nv, A, 1e-14)) memcpy (b, strain, sizeof b);
+    else if (!t->out.held) pg_dense_solve ((int) t->nv, A, b);
+    linear_field (t, b, t->stride, t->x);
+    t->op->apply (t->op->context, t->x, t->r);
+    for (size_t i = 0; i < t->ndof; i++) t->r[i] = t->P[i] - t->r[i];
+    if (!t->out.held) without (t, t->stride, 0, 0, t->r);
     for (size_t i = 0; i < t->ndof; i++) if (t->inverse[i] == 0) t->r[i] = 0;
-done:
-    return status;
 }
 
 /* Conjugate gradients; what an iteration takes off the energy of the error tells when to stop (Hestenes and Stiefel; Strakos and Tichy). */
@@ -210,38 +211,29 @@ static double size_of (const probe *t, const double *f)
 static pg_status measure_state (probe *t, size_t v)
 {
     pg_status status = PG_OK;
-    double stress[6] = { 0 }, strain[6] = { 0 }, D[STATES * STATES], square = 0, exact = 0, c[3];
+    double stress[STATES] = { 0 }, strain[STATES] = { 0 }, D[STATES * STATES], volume = 0, work, exact, whole, local, compliance, error;
     int components;
     const char *unit;
-    const pg_material *m = t->p->material;
-    middle (t->p, c);
-    stress[v] = 1;
-    memcpy (D, m->D, t->nv * t->nv * sizeof *D);
-    memcpy (strain, stress, sizeof strain);
+    stress[v] = strain[v] = 1;
+    memcpy (D, t->p->material->D, t->nv * t->nv * sizeof *D);
     if (pg_dense_cholesky ((int) t->nv, D, 1e-14)) return PG_OK;
     pg_dense_solve ((int) t->nv, D, strain);
     memset (t->P, 0, t->ndof * sizeof *t->P);
     if (!t->out.held) PG_TRY (t->force->surface (t->self, stress, t->P));
-    PG_TRY (start (t, strain));
-    memset (t->z, 0, t->ndof * sizeof *t->z);
-    for (size_t w = 0; w < t->nv; w++) for (size_t i = 0; i < t->ndof; i++) t->z[i] += strain[w] * t->field[w * t->ndof + i];
-    double scale = 0, work = dot (t->ndof, t->P, t->z), all = 0;
-    for (size_t i = 0; i < t->n; i++) all += t->p->cloud.volume[i];
-    for (size_t w = 0; w < t->nv; w++) scale += all * stress[w] * strain[w];
-    iterate (t, scale);
+    start (t, strain);
+    for (size_t i = 0; i < t->n; i++) volume += t->p->cloud.volume[i];
+    iterate (t, volume * dot (t->nv, stress, strain));
+    linear_field (t, strain, t->stride, t->z);
+    work = dot (t->ndof, t->P, t->z);
+    linear_field (t, strain, t->dim, t->z);
+    exact = size_of (t, t->z);
     PG_TRY (t->force->field (t->self, t->state, t->x, "displacement", &components, &unit, t->u));
-    for (size_t i = 0; i < t->n * t->dim; i++) t->z[i] = 0;
-    for (size_t w = 0; w < t->nv; w++)
-        for (size_t i = 0; i < t->n; i++) for (size_t k = 0; k < t->dim; k++) t->z[i * t->dim + k] += strain[w] * t->field[w * t->ndof + i * t->stride + k];
-    for (size_t i = 0; i < t->n * t->dim; i++) {
-        exact += t->p->cloud.volume[i / t->dim] * t->z[i] * t->z[i];
-        t->q[i] = t->u[i] - t->z[i];
-    }
-    if (!t->out.held) PG_TRY (without (t, t->dim, t->p->cloud.volume, 0, t->q));
-    all = size_of (t, t->q);
-    PG_TRY (without (t, t->dim, t->p->cloud.volume, 1, t->q));
-    square = size_of (t, t->q);
-    double error = sqrt ((all - 0.75 * square) / exact), compliance = t->out.held ? NAN : dot (t->ndof, t->P, t->x) / work - 1;
+    for (size_t i = 0; i < t->n * t->dim; i++) t->q[i] = t->u[i] - t->z[i];
+    if (!t->out.held) without (t, t->dim, 1, 0, t->q);
+    whole = size_of (t, t->q);
+    without (t, t->dim, 1, 1, t->q);
+    local = size_of (t, t->q);
+    error = sqrt ((whole - 0.75 * local) / exact), compliance = t->out.held ? NAN : dot (t->ndof, t->P, t->x) / work - 1;
     if (t->rows) error = fmax (error, fabs (compliance));              /* fmax passes NAN by                             */
     if (t->out.measured && !(error > (1 + 1e-6) * t->out.error) && !isnan (error)) goto done;
     t->out.measured = 1, t->out.error = isnan (error) ? INFINITY : error, t->out.state = (int) v;
@@ -255,7 +247,6 @@ static pg_status prepare (probe *t)
 {
     pg_status status = PG_OK;
     pg_field field[8];
-    double c[3];
     size_t stride = 0, nbond = t->p->first_bond[PG_BOND_SETS];
     PG_TRY (t->force->create (&t->self, t->p));
     for (size_t k = 0, n = t->force->fields (t->self, 8, field); k < n && k < 8; k++) stride += (size_t) field[k].components;
@@ -266,12 +257,18 @@ static pg_status prepare (probe *t)
     t->limit = (size_t) fmin (MOST, fmax (FEWEST, bonds_paid / ((double) nbond * (double) t->nv)));
     double **arrays[] = { &t->P, &t->x, &t->r, &t->z, &t->q, &t->inverse, &t->u };
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) PG_ALLOC (*arrays[k], t->ndof);
-    PG_ALLOC (t->field, t->nv * t->ndof);
-    PG_ALLOC (t->Kfield, t->nv * t->ndof);
-    middle (t->p, c);
+    find_middle (t);
     for (size_t v = 0; v < t->nv; v++) {
-        linear_field (t, v, c, t->field + v * t->ndof);
-        t->op->apply (t->op->context, t->field + v * t->ndof, t->Kfield + v * t->ndof);
+        double one[STATES] = { 0 };
+        one[v] = 1;
+        linear_field (t, one, stride, t->x);
+        t->op->apply (t->op->context, t->x, t->q);
+        for (size_t w = 0; w < t->nv; w++) {
+            one[v] = 0, one[w] = 1;
+            linear_field (t, one, stride, t->x);
+            t->A[w * t->nv + v] = dot (t->ndof, t->x, t->q);
+            one[w] = 0;
+        }
     }
     t->op->diagonal (t->op->context, t->inverse);
     for (size_t i = 0; i < t->ndof; i++) t->inverse[i] = t->inverse[i] > 0 ? 1 / t->inverse[i] : 0;
@@ -284,7 +281,7 @@ done:
 
 static void clear (probe *t)
 {
-    pg_free (t->P), pg_free (t->x), pg_free (t->r), pg_free (t->z), pg_free (t->q), pg_free (t->inverse), pg_free (t->u), pg_free (t->field), pg_free (t->Kfield);
+    pg_free (t->P), pg_free (t->x), pg_free (t->r), pg_free (t->z), pg_free (t->q), pg_free (t->inverse), pg_free (t->u);
     pg_state_free (&t->state);
     if (t->self) t->force->free (&t->self);
 }
