@@ -102,10 +102,14 @@ static void traction_row (int dim, int k, const double *n, double *Q)
     for (int c = 0; c < dim; c++) Q[dim == 3 ? voigt3[k][c] : dim == 2 ? voigt2[k][c] : 0] += n[c];
 }
 
-/* In units of E also where the dilatation is projected: what lambda makes of the traction is made up for patch by patch (galerkin_dilatation_facet.c). */
+/* In units of E, or of a quarter of lambda + 2 mu where that is more (Poisson's ratio above 0.455): the traction of a strain is of that size, and a factor of E alone leaves K
+ * indefinite from 0.49 on. Where the dilatation is projected, D is without lambda: what lambda makes of the traction is made up for patch by patch (galerkin_dilatation_facet.c). */
 static double beta (const galerkin *g, size_t q)
 {
-    return g->problem->nitsche * galerkin_material (g, PG_FACETS, q)->modulus / pg_problem_spacing (g->problem, PG_FACETS, q);
+    double E = galerkin_material (g, PG_FACETS, q)->modulus;
+    const double *D = galerkin_plain (g, PG_FACETS, q)->D;
+    for (int k = 0; k < g->dim; k++) E = fmax (E, 0.25 * D[k * g->nv + k]);
+    return g->problem->nitsche * E / pg_problem_spacing (g->problem, PG_FACETS, q);
 }
 
 static const double *normal (const galerkin *g, size_t q)

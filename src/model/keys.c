@@ -57,7 +57,7 @@ static const pg_key keys[] = {
     { "method.essential", PG_NAME, NULL, NULL, "auto", "auto|nitsche|transformation|penalty", NULL, NULL,
       "How displacements are prescribed; auto: nitsche on boundary facets; penalty on all points of a set that has points behind its facets (wide grips), or more than 6000 points and no facet; "
       "else transformation on points (always for nosb)." },
-    { "method.nitsche_factor", PG_NUMBER, "1", "(0, inf)", "100", NULL, NULL, NULL, "Nitsche's beta in units of E / spacing." },
+    { "method.nitsche_factor", PG_NUMBER, "1", "(0, inf)", "100", NULL, NULL, NULL, "Nitsche's beta in units of E / spacing (of (lambda + 2 mu) / 4 where that is more and dilatation is pointwise)." },
     { "method.penalty_factor", PG_NUMBER, "1", "(0, inf)", "1e6", NULL, NULL, NULL, "Penalty in units of E / spacing." },
     { "method.accept_inexact", PG_BOOL, NULL, NULL, "off", no_choice, NULL, NULL,
       "Run although the patch test of the discretisation, which every run makes, is off by more than 50 % (report.json: patch_error)." },

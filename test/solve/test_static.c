@@ -183,6 +183,27 @@ static void a_soft_nitsche_support_falls_back_on_umfpack (void **state)
     clear (&c);
 }
 
+/* Cholesky takes K at any Poisson's ratio, also where nothing is projected. */
+static void nitsche_holds_up_to_a_poissons_ratio_of_one_half (void **state)
+{
+    (void) state;
+    static const char *const methods[] = { "", "integration: nodal, ", "integration: consistent, ", "basis: quadratic, horizon: 3 spacing, " };
+    static const double ratios[] = { 0.48, 0.49, 0.495, 0.4999 };
+    for (int body = 0; body < 2; body++)
+        for (int m = 0; m < 4; m++)
+            for (int k = 0; k < 4; k++)
+                for (int pointwise = 0; pointwise < 2; pointwise++) {
+                    run r = scene_of (1, "%smaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: %g}}\nmethod: {%sdilatation: %s, essential: nitsche}\n"
+                                      "boundary: [{set: left, displacement: {x: 0, y: 0%s}}, {set: right, traction: {y: 1 kPa}}]\nsolver: {linear: cholmod}\n",
+                                      body ? "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1 m, 0.5 m, 0.5 m]}}}]\nspacing: 0.25 m\n"
+                                           : "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [2 m, 1 m]}}}]\nspacing: 0.2 m\n",
+                                      ratios[k], methods[m], pointwise ? "pointwise" : "auto", body ? ", z: 0" : "");
+                    advance (&r);
+                    assert_true (r.step.residual <= 1e-8);
+                    clear (&r);
+                }
+}
+
 static void a_body_that_nothing_holds_is_no_equilibrium (void **state)
 {
     (void) state;
@@ -243,6 +264,7 @@ int main (void)
         cmocka_unit_test (three_ways_to_prescribe_agree),
         cmocka_unit_test (linear_solvers_agree),
         cmocka_unit_test (a_soft_nitsche_support_falls_back_on_umfpack),
+        cmocka_unit_test (nitsche_holds_up_to_a_poissons_ratio_of_one_half),
         cmocka_unit_test (a_body_that_nothing_holds_is_no_equilibrium),
         cmocka_unit_test (gauges_see_linear_fields_exactly),
         cmocka_unit_test (a_steady_run_allocates_nothing_more),
