@@ -300,7 +300,10 @@ static pg_status add_named (builder *b, const char *name)
                     : "this set is always there, choose another name" : NULL;
     snprintf (at, sizeof at, "sets.%.80s", name);
     if (why) {
-        pg_scene_fault (s, at, "%s", why);
+        int side = b->marks.cells->ngiven ? -1 : side_of (b->out, name);
+        if (side >= 0) pg_scene_fault (s, at, "%s is always there, the part of the surface in the plane %c = %.6g m, and would have two meanings: choose another name", name, "xyz"[side / 2],
+                                       b->out->plane[side]);
+        else pg_scene_fault (s, at, "%s", why);
         pg_marks_fill (&b->marks, 0);
         return pg_sets_find (b->out, name) || strlen (name) > 56 ? PG_OK : add_set (b, name);
     }
