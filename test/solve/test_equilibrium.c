@@ -91,6 +91,28 @@ static void cascades_are_the_same (void **state)
     clear (&a), clear (&b);
 }
 
+/* Without a tie the one bond that is worst breaks, also when it alone is at the cut; a broken bond lies in the middle of its two ends. */
+static void the_worst_bond_breaks_in_its_middle (void **state)
+{
+    (void) state;
+    run a = scene_of (1, BREAKING "solver: {stepping: event, linear: cholmod}\n"), b;
+    while (a.step.nbroken == 0) advance (&a);
+    b = scene_of (1, BREAKING "solver: {stepping: fixed, steps: %d, break: worst, tie: 0, linear: cholmod, max_iterations: 1000}\n", (int) (0.999 / a.step.factor));
+    advance (&b);
+    assert_true (b.step.nbroken > 0);
+    for (size_t k = 0; k < b.step.nbroken; k++) {
+        const pg_broken *q = &b.step.broken[k];
+        int set;
+        size_t point;
+        pg_problem_locate (b.problem, q->bond, &set, &point);
+        const pg_rows *r = &b.problem->rows[set];
+        const double *from = r->x + 2 * point, *to = b.problem->cloud.x + 2 * (size_t) r->family.node[q->bond - b.problem->first_bond[set]];
+        assert_int_equal (q->set, set);
+        for (int c = 0; c < 2; c++) check_scaled (q->place[c], 0.5 * (from[c] + to[c]), 1e-14, b.problem->cloud.h);
+    }
+    clear (&a), clear (&b);
+}
+
 static void threads_do_not_change_a_bit (void **state)
 {
     (void) state;
@@ -147,7 +169,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (answers_agree),
         cmocka_unit_test (forces_without_a_matrix),
-        cmocka_unit_test (cascades_are_the_same),
+        cmocka_unit_test (cascades_are_the_same), cmocka_unit_test (the_worst_bond_breaks_in_its_middle),
         cmocka_unit_test (threads_do_not_change_a_bit),
         cmocka_unit_test (loose_parts),
         cmocka_unit_test (auto_goes_by_size),
