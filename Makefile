@@ -35,7 +35,7 @@ comma   := ,
 LINK    ?= static
 LDFLAGS := $(if $(filter asan,$(MODE)),-fsanitize=address$(comma)undefined) $(if $(filter tsan,$(MODE)),-fsanitize=thread) $(EXTRA_LDFLAGS)
 SECONDS ?= 60
-FUZZ    ?= scene points expression mesh table result
+FUZZ    ?= scene points expression mesh table result checkpoint
 FUZZ_BUILD ?= build/fuzz
 
 SOURCES := $(filter-out src/cli/% src/convert/%,$(wildcard src/*/*.c))

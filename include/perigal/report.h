@@ -31,6 +31,8 @@ void      pg_result_free  (pg_result **result);
 /* checkpoint.nc: the run as it is, the files of the folder synced before. Also after a refused step, after pg_result_step has failed,
  * in the middle of a step after pg_result_stage. pg_result_finish removes it when all is done. */
 pg_status pg_result_checkpoint (pg_result *result, pg_state *state);
+/* The walk that pg_result_checkpoint writes to its file; keeper->reading must be 0. */
+pg_status pg_result_keep   (pg_result *result, pg_state *state, const pg_keeper *keeper);
 int       pg_result_due    (const pg_result *result);       /* output.checkpoint has passed since the last one            */
 typedef struct { long step, rounds; double seconds; int threads; } pg_resumed;         /* steps done, break rounds of the next */
 /* Brings solver and state to where the checkpoint of the folder was written, cuts off what the files have got since. */

@@ -98,8 +98,10 @@ pg_status pg_solver_step   (pg_solver *solver, pg_state *state, pg_step *step);
 typedef pg_status (*pg_watch) (void *context, const pg_state *state, const pg_step *so_far);
 void      pg_solver_watch  (pg_solver *solver, pg_watch watch, void *context);
 /* Writes or reads back all that later steps depend on, state included, also in the middle of a step. A solver read back goes on bit
- * by bit as the written one would have (same machine, threads and libraries). */
+ * by bit as the written one would have (same machine, threads and libraries). PG_E_FILE: what is read back cannot be of this problem. */
 pg_status pg_solver_keep   (pg_solver *solver, pg_state *state, const pg_keeper *keeper);
+/* Broken bonds in such a walk; what no bond of the problem can be is PG_E_FILE. */
+pg_status pg_broken_keep   (const pg_problem *problem, const char *name, size_t n, pg_broken *broken, const pg_keeper *keeper);
 /* The options as the solver goes by them: what was left to it (dt, end, steps, stages) is filled in. */
 const pg_solver_options *pg_solver_settled (const pg_solver *solver);
 /* Marching and relax: the largest stable time step by the force's bound, s, and what it comes from; else NAN. */

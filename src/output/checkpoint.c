@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * checkpoint.nc: each name of a pg_keeper's walk is one variable of a CDF-5 file (doubles, 64-bit integers, bytes); the last one,
- * `complete`, tells a whole file from one that was cut off. A first walk defines, a second writes; reading is one walk. */
+ * `checksum` over all names, types, lengths and values, tells a whole file from one that was cut off or changed, before a value is used. A first
+ * walk defines, a second writes; reading is one walk. */
 #include "disk.h"
 #include "exodus.h"
 #include <errno.h>
@@ -8,8 +9,23 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double whole = 0x1.921fb54442d18p+1;      /* any value that is not 0                                        */
-typedef struct { const char *path; int ncid, open, defining, reading; } checkpoint;
+typedef struct { const char *path; int ncid, open, defining, reading; uint64_t sum; } checkpoint;
+
+/* FNV-1a, http://www.isthe.com/chongo/tech/comp/fnv/: one changed byte always changes it. */
+static uint64_t sum_of (uint64_t sum, const void *data, size_t bytes)
+{
+    const unsigned char *byte = data;
+    for (size_t i = 0; i < bytes; i++) sum = (sum ^ byte[i]) * 1099511628211u;
+    return sum;
+}
+
+static size_t size_of (nc_type type) { return type == NC_BYTE ? 1 : 8; }
+
+static void sum_head (checkpoint *c, const char *name, size_t n, nc_type type)
+{
+    const uint64_t head[2] = { (uint64_t) n, (uint64_t) type };
+    c->sum = sum_of (sum_of (c->sum, name, strlen (name) + 1), head, sizeof head);
+}
 
 static pg_status define (checkpoint *c, const char *name, size_t n, nc_type type)
 {
@@ -50,6 +66,9 @@ static pg_status keep (checkpoint *c, const char *name, size_t n, nc_type type, 
     }
     PG_TRY (find (c, name, n, type, &var));
     NC_TRY (c->path, c->reading ? nc_get_var (c->ncid, var, value) : nc_put_var (c->ncid, var, value));
+    if (c->reading) goto done;
+    sum_head (c, name, n, type);
+    c->sum = sum_of (c->sum, value, n * size_of (type));
 done:
     return status;
 }
@@ -59,17 +78,53 @@ static pg_status keep_numbers (void *c, const char *name, size_t n, double *valu
 static pg_status keep_counts (void *c, const char *name, size_t n, long *value) { return keep (c, name, n, NC_INT64, value); }
 static pg_status keep_bytes (void *c, const char *name, size_t n, void *value) { return keep (c, name, n, NC_BYTE, value); }
 
+/* The same sum from the file, piece by piece. */
+static pg_status sum_variable (checkpoint *c, int var)
+{
+    pg_status status = PG_OK;
+    enum { PIECE = 1 << 13 };
+    uint64_t part[PIECE];
+    char name[NC_MAX_NAME + 1];
+    int ndim, dim[NC_MAX_VAR_DIMS];
+    nc_type type;
+    size_t n = 0;
+    NC_TRY (c->path, nc_inq_var (c->ncid, var, name, &type, &ndim, dim, NULL));
+    if (ndim != 1 || (type != NC_BYTE && type != NC_DOUBLE && type != NC_INT64)) PG_FAIL (PG_E_FILE, "%s: '%s' is none of a checkpoint", c->path, name);
+    NC_TRY (c->path, nc_inq_dimlen (c->ncid, dim[0], &n));
+    sum_head (c, name, n, type);
+    for (size_t from = 0; from < n; from += PIECE) {
+        size_t count = n - from < PIECE ? n - from : PIECE;
+        NC_TRY (c->path, nc_get_vara (c->ncid, var, &from, &count, part));
+        c->sum = sum_of (c->sum, part, count * size_of (type));
+    }
+done:
+    return status;
+}
+
+static pg_status check_sum (checkpoint *c)
+{
+    pg_status status = PG_OK;
+    int n, last;
+    int64_t found = 0;
+    NC_TRY (c->path, nc_inq_nvars (c->ncid, &n));
+    if (n < 1 || nc_inq_varid (c->ncid, "checksum", &last) != NC_NOERR || last != n - 1) PG_FAIL (PG_E_FILE, "%s is no checkpoint, or not complete: it has no checksum", c->path);
+    PG_TRY (find (c, "checksum", 1, NC_INT64, &last));
+    for (int var = 0; var < last; var++) PG_TRY (sum_variable (c, var));
+    NC_TRY (c->path, nc_get_var (c->ncid, last, &found));
+    if (found != (int64_t) c->sum) PG_FAIL (PG_E_FILE, "%s is damaged or cut off: its checksum is not that of its values; begin anew with --force", c->path);
+done:
+    return status;
+}
+
 static pg_status make_walk (checkpoint *c, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
-    double complete = whole;
     pg_keeper keeper = { c, c->reading, keep_numbers, keep_counts, keep_bytes };
-    if (c->reading) {
-        PG_TRY (keep_numbers (c, "complete", 1, &complete));
-        if (complete != whole) PG_FAIL (PG_E_FILE, "%s is not complete", c->path);
-    }
+    c->sum = 14695981039346656037u;
+    if (c->reading) PG_TRY (check_sum (c));
     PG_TRY (walk (context, &keeper));
-    if (!c->reading) PG_TRY (keep_numbers (c, "complete", 1, &complete));
+    long sum = (long) c->sum;
+    if (!c->reading) PG_TRY (keep_counts (c, "checksum", 1, &sum));
 done:
     return status;
 }

@@ -152,7 +152,7 @@ pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *clo
     PG_TRY (copy_request (f, path, cloud, nfield, fields));
     PG_TRY (open_file (f, &present));
     PG_TRY (check_sizes (f));
-    if (steps < 0 || bytes <= steps * f->record) PG_FAIL (PG_E_USAGE, "%s: %ld steps in %ld bytes", path, steps, bytes);
+    if (steps < 0 || bytes < 0 || steps >= bytes / f->record + (bytes % f->record > 0)) PG_FAIL (PG_E_USAGE, "%s: %ld steps in %ld bytes", path, steps, bytes);
     if (present < bytes) PG_FAIL (PG_E_FILE, "%s has %ld bytes, %ld are missing: it was changed since", path, present, bytes - present);
     f->begin = bytes - steps * f->record;
     f->step = (size_t) steps;

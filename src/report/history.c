@@ -9,6 +9,8 @@ static const char *const first_columns[] = { "step [1]", "time [s]", "load_facto
 static const char *const last_columns[] = { "energy_strain [J]", "energy_kinetic [J]", "energy_external [J]", "energy_dissipated [J]",
                                             "broken [1]", "iterations [1]", "residual [1]", "utilisation [1]", "event [1]", "level [1]" };
 
+enum { EVENT_NUMBERS = 10, EVENT_COLUMNS = EVENT_NUMBERS + 2 };
+
 pg_status result_history_create (pg_result *r, const result_marks *from)
 {
     pg_status status = PG_OK;
@@ -36,10 +38,10 @@ pg_status result_history_create (pg_result *r, const result_marks *from)
     PG_ALLOC (r->u, p->cloud.n * 6);
     snprintf (path, sizeof path, "%s/history.csv", r->folder);
     PG_TRY (from ? pg_table_open (&r->history, path, n, from->history) : pg_table_create (&r->history, path, n, column));
-    static const char *const event_columns[] = { "step [1]", "load_factor [1]", "time [s]", "bond [name]", "kind [name]", "x [m]", "y [m]", "z [m]",
-                                                 "utilisation [1]", "energy_of_step [J]" };
+    static const char *const event_columns[] = { "step [1]", "load_factor [1]", "time [s]", "x [m]", "y [m]", "z [m]", "utilisation [1]", "energy_of_step [J]",
+                                                 "bond_code [1]", "kind_code [1]", "bond [name]", "kind [name]" };
     snprintf (path, sizeof path, "%s/events.csv", r->folder);
-    PG_TRY (from ? pg_table_open (&r->events, path, 10, from->events) : pg_table_create (&r->events, path, 10, event_columns));
+    PG_TRY (from ? pg_table_open (&r->events, path, EVENT_COLUMNS, from->events) : pg_table_create (&r->events, path, EVENT_COLUMNS, event_columns));
 done:
     pg_free (name), pg_free (column);
     return status;
@@ -62,19 +64,22 @@ static double opening (const pg_gauge *g, int dim, const double *a, const double
     return length > 0 ? sum / sqrt (length) : 0;
 }
 
+/* Numbers first, so that a reader of numbers takes all of a row but its two names. */
 static pg_status event_rows (pg_result *r, const pg_step *step)
 {
     pg_status status = PG_OK;
-    static const char *const set_name[] = { "node-node", "point-node", "facet-node" };
+    static const char *const set_name[] = { "node-node", "point-node", "facet-node" }, *const kind_name[] = { "tension", "shear", "bending", "energy" };
     for (size_t i = 0; i < step->nbroken; i++) {
         const pg_broken *b = &step->broken[i];
-        char text[8][40];
-        const char *kind = b->kind == 's' ? "shear" : b->kind == 'e' ? "energy" : b->kind == 'b' ? "bending" : "tension";
-        const char *cell[10] = { text[0], text[1], text[2], set_name[b->set], kind, text[3], text[4], text[5], text[6], text[7] };
+        char text[EVENT_NUMBERS][40];
+        int kind = b->kind == 's' ? 1 : b->kind == 'b' ? 2 : b->kind == 'e' ? 3 : 0;
+        const char *cell[EVENT_COLUMNS];
         double factor = b->time == step->time || !(step->time > 0) ? step->factor : step->factor * b->time / step->time;
-        double number[8] = { (double) step->number, factor, b->time, b->place[0], b->place[1], b->place[2], b->utilisation,
-                             i == 0 ? step->dissipated : 0 };
-        for (int k = 0; k < 8; k++) {
+        double number[EVENT_NUMBERS] = { (double) step->number, factor, b->time, b->place[0], b->place[1], b->place[2], b->utilisation,
+                                         i == 0 ? step->dissipated : 0, b->set, kind };
+        cell[EVENT_NUMBERS] = set_name[b->set], cell[EVENT_NUMBERS + 1] = kind_name[kind];
+        for (int k = 0; k < EVENT_NUMBERS; k++) {
+            cell[k] = text[k];
             text[k][0] = '\0';                         /* empty: not known                                              */
             if (!isnan (number[k])) snprintf (text[k], sizeof text[k], "%.10g", number[k]);
         }

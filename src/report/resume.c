@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { WORD = 64 };
@@ -58,7 +59,7 @@ static pg_status keep_identity (memory *m, const pg_keeper *k)
     pg_status status = PG_OK;
     const pg_problem *p = m->r->problem;
     char version[WORD] = PG_VERSION, hash[WORD + 1] = "";
-    long size[] = { (long) p->cloud.n, (long) p->first_bond[PG_BOND_SETS], (long) m->state->ndof, (long) p->nload, fingerprint (&p->cloud), (long) sizeof (pg_report) };
+    long size[] = { (long) p->cloud.n, (long) p->first_bond[PG_BOND_SETS], (long) m->state->ndof, (long) p->nload, fingerprint (&p->cloud), (long) m->r->ntip };
     enum { SIZES = sizeof size / sizeof *size };
     long found[SIZES];
     memcpy (hash, m->r->hash, WORD);
@@ -80,7 +81,23 @@ done:
     return status;
 }
 
-static pg_status keep_marks (result_marks *m, const char *name, const pg_keeper *k)
+/* No more rows than history.csv has bytes. */
+static pg_status check_marks (const memory *m, const char *name, const long *count)
+{
+    pg_status status = PG_OK;
+    struct stat s;
+    char path[4096];
+    snprintf (path, sizeof path, "%s/history.csv", m->r->folder);
+    if (stat (path, &s) != 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    for (int i = 0; i < 7; i++)
+        if (count[i] < 0 || count[i] > 1L << 50) PG_FAIL (PG_E_FILE, "%s is not of this run: mark %d of %s is %ld", m->path, i, name, count[i]);
+    if (count[0] > s.st_size) PG_FAIL (PG_E_FILE, "%s has %ld bytes, not %ld rows: it was changed since", path, (long) s.st_size, count[0]);
+    if (count[5] > count[0]) PG_FAIL (PG_E_FILE, "%s is not of this run: %ld points of the curve of %ld rows", m->path, count[5], count[0]);
+done:
+    return status;
+}
+
+static pg_status keep_marks (const memory *of, result_marks *m, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     char part[WORD];
@@ -90,6 +107,7 @@ static pg_status keep_marks (result_marks *m, const char *name, const pg_keeper 
     PG_TRY (k->counts (k->context, part, 7, count));
     snprintf (part, sizeof part, "%s.numbers", name);
     PG_TRY (k->numbers (k->context, part, 2, number));
+    if (k->reading) PG_TRY (check_marks (of, name, count));
     *m = (result_marks) { count[0], count[1], count[2], count[3], count[4], count[5], count[6], number[0], number[1] };
 done:
     return status;
@@ -107,13 +125,14 @@ static pg_status keep_pending (memory *m, const pg_keeper *k)
     PG_TRY (k->counts (k->context, "pending.counts", 5, count));
     PG_TRY (k->numbers (k->context, "pending.numbers", 6, number));
     if (k->reading) {
+        if (count[4] < 0 || count[4] > (long) m->r->problem->first_bond[PG_BOND_SETS]) PG_FAIL (PG_E_FILE, "%s is not of this run: %ld bonds broken in a step", m->path, count[4]);
         PG_ALLOC (m->broken, (size_t) count[4]);
         PG_ALLOC (m->reaction, 3 * nload);
         *s = (pg_step) { .number = count[0], .iterations = count[1], .level = (int) count[2], .event = (int) count[3], .nbroken = (size_t) count[4],
                          .broken = m->broken, .reaction = m->reaction, .stamp = number[0], .time = number[1], .factor = number[2],
                          .residual = number[3], .utilisation = number[4], .dissipated = number[5] };
     }
-    PG_TRY (k->bytes (k->context, "pending.broken", s->nbroken * sizeof *s->broken, (void *) s->broken));
+    PG_TRY (pg_broken_keep (m->r->problem, "pending.broken", s->nbroken, (pg_broken *) s->broken, k));
     PG_TRY (k->numbers (k->context, "pending.reaction", s->reaction ? 3 * nload : 0, (double *) s->reaction));
 done:
     return status;
@@ -129,10 +148,11 @@ static pg_status keep_all (void *context, const pg_keeper *k)
     PG_TRY (keep_identity (m, k));
     PG_TRY (k->counts (k->context, "result.counts", 2, flag));
     PG_TRY (k->numbers (k->context, "result.seconds", 2, seconds));
+    if (flag[0] < 0 || flag[0] > 1L << 50) PG_FAIL (PG_E_FILE, "%s is not of this run: %ld rounds of a step", m->path, flag[0]);
     m->rounds = flag[0], m->is_pending = flag[1], m->seconds = seconds[0];
     if (k->reading) r->seconds = seconds[1];
-    PG_TRY (keep_marks (&m->now, "now", k));
-    PG_TRY (keep_marks (&r->done, "done", k));
+    PG_TRY (keep_marks (m, &m->now, "now", k));
+    PG_TRY (keep_marks (m, &r->done, "done", k));
     PG_TRY (result_curve_keep (r, (size_t) m->now.points, k));
     PG_TRY (result_tips_keep (r, (size_t) m->now.history, k));
     PG_TRY (keep_pending (m, k));
@@ -142,14 +162,25 @@ done:
 }
 
 /* ---- writing ---------------------------------------------------------------------------------------------------------------- */
+static memory memory_of (pg_result *r, pg_state *state, const char *path)
+{
+    return (memory) { .r = r, .state = state, .path = path, .now = r->rounds > 0 ? r->now : r->done, .rounds = r->rounds,
+                      .is_pending = r->is_pending, .threads = r->problem->threads, .seconds = r->earlier + pg_seconds () - r->opened, .pending = r->pending };
+}
+
+pg_status pg_result_keep (pg_result *r, pg_state *state, const pg_keeper *keeper)
+{
+    memory m = memory_of (r, state, "the checkpoint");
+    return keeper->reading ? pg_error (PG_E_USAGE, PG_HERE, "pg_result_resume reads") : keep_all (&m, keeper);
+}
+
 pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
 {
     pg_status status = PG_OK;
     char path[4096];
     double t0 = pg_seconds ();
     snprintf (path, sizeof path, "%s/checkpoint.nc", r->folder);
-    memory m = { .r = r, .state = state, .path = path, .now = r->rounds > 0 ? r->now : r->done, .rounds = r->rounds,
-                 .is_pending = r->is_pending, .threads = r->problem->threads, .seconds = r->earlier + t0 - r->opened, .pending = r->pending };
+    memory m = memory_of (r, state, path);
     PG_TRY (pg_table_sync (r->history));
     PG_TRY (pg_table_sync (r->events));
     PG_TRY (pg_exodus_sync (r->file));

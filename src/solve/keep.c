@@ -5,6 +5,28 @@
 #include "solve.h"
 #include <string.h>
 
+static const long most = 1L << 50;                     /* of any count                                                   */
+/* What is read back must lie where the rest of the program may rely on it. */
+#define BOUND(k, name, value, low, high) do { if ((k)->reading && ((value) < (low) || (value) > (high))) \
+    PG_FAIL (PG_E_FILE, "the checkpoint is not of this run: %s is %ld, not from %ld to %ld", (name), (long) (value), (long) (low), (long) (high)); } while (0)
+
+static pg_status keep_flags (const char *name, size_t n, unsigned char *flag, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    PG_TRY (k->bytes (k->context, name, n, flag));
+    for (size_t i = 0; k->reading && i < n; i++) BOUND (k, name, flag[i], 0, 1);
+done:
+    return status;
+}
+
+/* A text of fixed room, ended whatever was read. */
+static pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper *k)
+{
+    pg_status status = k->bytes (k->context, name, size, text);
+    if (k->reading) text[size - 1] = 0;
+    return status;
+}
+
 static pg_status keep_state (pg_state *s, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -16,42 +38,129 @@ static pg_status keep_state (pg_state *s, const char *name, const pg_keeper *k)
 #define PART(suffix) (strcpy (part, name), strcat (part, suffix))
     PG_TRY (k->counts (k->context, PART (".counts"), 5, count));
     PG_TRY (k->numbers (k->context, PART (".numbers"), 3, number));
+    for (int i = 0; i < 5; i++) BOUND (k, name, count[i], 0, most);
     s->step = count[0], s->events = count[1], s->iterations = count[2], s->broken = count[3], s->history_rows = count[4];
     s->time = number[0], s->factor = number[1], s->work = number[2];
     for (int v = 0; v < 3; v++) {
         PART (".");
         PG_TRY (k->numbers (k->context, strcat (part, vectors[v]), s->ndof, vector[v]));
     }
-    PG_TRY (k->bytes (k->context, PART (".alive"), s->nbond, s->alive));
+    PG_TRY (keep_flags (PART (".alive"), s->nbond, s->alive, k));
 #undef PART
 done:
     return status;
 }
 
+/* Word by word: the struct has gaps, and what it holds is looked at before it is used. */
+static pg_status keep_bond (const pg_problem *p, pg_broken *b, const pg_keeper *k, long *count, double *number)
+{
+    pg_status status = PG_OK;
+    if (!k->reading) {
+        count[0] = (long) b->bond, count[1] = b->set, count[2] = b->kind;
+        number[0] = b->utilisation, number[1] = b->time;
+        for (int i = 0; i < 3; i++) number[2 + i] = b->place[i];
+        goto done;
+    }
+    BOUND (k, "the set of a broken bond", count[1], 0, PG_BOND_SETS - 1);
+    BOUND (k, "a broken bond", count[0], 0, (long) p->first_bond[PG_BOND_SETS] - 1);
+    BOUND (k, "the kind of a broken bond", count[2], 0, 127);
+    *b = (pg_broken) { (size_t) count[0], (int) count[1], (char) count[2], number[0], { number[2], number[3], number[4] }, number[1] };
+done:
+    return status;
+}
+
+pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_broken *broken, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    char part[64];
+    long *count = NULL;
+    double *number = NULL;
+    PG_ALLOC (count, 3 * n + 1);
+    PG_ALLOC (number, 5 * n + 1);
+    for (size_t i = 0; !k->reading && i < n; i++) PG_TRY (keep_bond (p, &broken[i], k, count + 3 * i, number + 5 * i));
+    strcat (strcpy (part, name), ".bonds");
+    PG_TRY (k->counts (k->context, part, 3 * n, count));
+    strcat (strcpy (part, name), ".values");
+    PG_TRY (k->numbers (k->context, part, 5 * n, number));
+    for (size_t i = 0; k->reading && i < n; i++) PG_TRY (keep_bond (p, &broken[i], k, count + 3 * i, number + 5 * i));
+done:
+    pg_free (count), pg_free (number);
+    return status;
+}
+
+/* Counts, numbers and texts of the report, seconds too: those of the run so far. */
+static pg_status keep_report (pg_report *r, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    long *const word[9] = { &r->steps, &r->events, &r->iterations, &r->broken, &r->bonds_over_limit, &r->factorizations, &r->updates, &r->solves, &r->preconditioners };
+    size_t *const size[6] = { &r->cg_iterations, &r->degenerate_points, &r->isolated_nodes, &r->fragments, &r->nskipped, &r->nwarning };
+    double *const value[10] = { &r->utilisation_max, &r->residual_max, &r->overlap_max, &r->energy_strain, &r->energy_kinetic, &r->energy_external, &r->energy_damping,
+                                &r->energy_dissipated, &r->factor_entries, &r->factor_flops };
+    enum { SKIPS = sizeof r->skipped / sizeof *r->skipped, WARNINGS = sizeof r->warning / sizeof *r->warning };
+    long count[15];
+    double number[10 + PG_SECONDS_COUNT], saved[SKIPS];
+    for (int i = 0; i < 9; i++) count[i] = *word[i];
+    for (int i = 0; i < 6; i++) count[9 + i] = (long) *size[i];
+    for (int i = 0; i < 10; i++) number[i] = *value[i];
+    memcpy (number + 10, r->seconds, sizeof r->seconds);
+    PG_TRY (k->counts (k->context, "report.counts", 15, count));
+    PG_TRY (k->numbers (k->context, "report.numbers", 10 + PG_SECONDS_COUNT, number));
+    for (int i = 0; i < 13; i++) BOUND (k, "a count of the report", count[i], 0, most);
+    BOUND (k, "the number of skipped things", count[13], 0, SKIPS);
+    BOUND (k, "the number of warnings", count[14], 0, WARNINGS);
+    for (int i = 0; i < 9; i++) *word[i] = count[i];
+    for (int i = 0; i < 6; i++) *size[i] = (size_t) count[9 + i];
+    for (int i = 0; i < 10; i++) *value[i] = number[i];
+    memcpy (r->seconds, number + 10, sizeof r->seconds);
+    PG_TRY (keep_text ("report.ordering", sizeof r->ordering, r->ordering, k));
+    PG_TRY (keep_text ("report.solver", sizeof r->solver, r->solver, k));
+    PG_TRY (keep_text ("report.preconditioner", sizeof r->preconditioner, r->preconditioner, k));
+    for (size_t i = 0; i < SKIPS; i++) saved[i] = r->skipped[i].seconds_saved;
+    PG_TRY (k->numbers (k->context, "report.saved", SKIPS, saved));
+    for (size_t i = 0; i < SKIPS; i++) {
+        char part[64];
+        r->skipped[i].seconds_saved = saved[i];
+        snprintf (part, sizeof part, "report.skipped.%zu", i);
+        PG_TRY (keep_text (part, sizeof r->skipped[i].what, r->skipped[i].what, k));
+        snprintf (part, sizeof part, "report.why.%zu", i);
+        PG_TRY (keep_text (part, sizeof r->skipped[i].why, r->skipped[i].why, k));
+    }
+    for (size_t i = 0; i < WARNINGS; i++) {
+        char part[64];
+        snprintf (part, sizeof part, "report.warning.%zu", i);
+        PG_TRY (keep_text (part, sizeof r->warning[i], r->warning[i], k));
+    }
+done:
+    return status;
+}
+
 /* Bonds that died in the step at hand. */
-static pg_status keep_broken (breaker *b, const pg_keeper *k)
+static pg_status keep_broken (breaker *b, const pg_problem *p, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     long n = (long) b->nbroken;
     PG_TRY (k->counts (k->context, "solver.broken_count", 1, &n));
+    BOUND (k, "the number of broken bonds", n, 0, (long) p->first_bond[PG_BOND_SETS]);
     if (k->reading) {
         PG_GROW (b->broken, b->cap_broken, (size_t) n);
         b->nbroken = (size_t) n;
     }
-    if (n > 0) PG_TRY (k->bytes (k->context, "solver.broken", (size_t) n * sizeof *b->broken, b->broken));
+    if (n > 0) PG_TRY (pg_broken_keep (p, "solver.broken", (size_t) n, b->broken, k));
 done:
     return status;
 }
 
 /* Forces and displacements of the last accounted states, between which work is summed. */
-static pg_status keep_ledger (pg_ledger *l, const char *name, size_t nload, const pg_keeper *k)
+static pg_status keep_ledger (pg_ledger *l, const char *name, size_t nload, long pairs, int reactions, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     char part[64];
     long count[2] = { l->force != NULL ? (long) l->npair : -1, l->reaction != NULL };
     strcat (strcpy (part, name), ".counts");
     PG_TRY (k->counts (k->context, part, 2, count));
+    BOUND (k, part, count[0], count[0] < 0 ? -1 : pairs, count[0] < 0 ? -1 : pairs);
     if (count[0] < 0) goto done;
+    BOUND (k, part, count[1], reactions, 1);
     if (k->reading) {
         pg_ledger_clear (l);
         l->npair = (size_t) count[0];
@@ -79,7 +188,9 @@ static pg_status keep_system (pg_system *s, const pg_keeper *k)
     PG_TRY (k->counts (k->context, "system.counts", 8, count));
     PG_TRY (k->numbers (k->context, "system.numbers", 3, number));
     PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
-    PG_TRY (k->bytes (k->context, "system.touched", s->problem->cloud.n, s->touched));
+    PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, s->touched, k));
+    BOUND (k, "the way to solve", count[0], SYSTEM_UNDECIDED, !system_has_matrix (s) && count[0] != SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_NO_FACTOR);
+    BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, 1);
     s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6], s->spared = count[7];
     s->mean_diagonal = number[0], s->shift = number[1], s->rent = number[2];
     if (k->reading && count[1] && !s->umfpack) {
@@ -94,9 +205,23 @@ static pg_status keep_system (pg_system *s, const pg_keeper *k)
     if (k->reading) s->remake = made != 0;
     size_t nbond = s->problem->first_bond[PG_BOND_SETS];
     if (k->reading && count[4] && !s->factored) PG_ALLOC (s->factored, nbond);
-    if (count[4]) PG_TRY (k->bytes (k->context, "system.factored", nbond, s->factored));
+    if (count[4]) PG_TRY (keep_flags ("system.factored", nbond, s->factored, k));
     s->stale = (int) count[5];
 done:
+    return status;
+}
+
+/* Entries of a ledger of this problem; -1: the force has none. */
+static pg_status count_pairs (pg_solver *s, long *pairs)
+{
+    pg_status status = PG_OK;
+    const pg_system *sys = &s->breaker.system;
+    pg_ledger ledger = { 0 };
+    if (!sys->force->ledger) goto done;
+    PG_TRY (sys->force->ledger (sys->self, s->backup->time, s->backup->d, NULL, &ledger));
+    *pairs = (long) ledger.npair;
+done:
+    pg_ledger_clear (&ledger);
     return status;
 }
 
@@ -105,22 +230,27 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     pg_status status = PG_OK;
     breaker *b = &s->breaker;
     size_t nload = s->problem->nload;
+    long pairs = -1;
     long count[11] = { s->finished, s->overlap_told, s->energy_told, s->skips_told, s->next_level, (long) s->ended, s->ledger_fresh, b->round,
                        s->unit != NULL, s->force0 != NULL, s->spared_told };
     double number[5] = { s->unit_residual, s->secant0, b->work, b->work0, b->stored0 };
     PG_TRY (k->counts (k->context, "solver.counts", 11, count));
     PG_TRY (k->numbers (k->context, "solver.numbers", 5, number));
+    BOUND (k, "the next level", count[4], 0, s->options.levels + 1);
+    BOUND (k, "the round", count[7], 0, most);
+    BOUND (k, "the end of the run", count[5], 0, 63);
     s->finished = (int) count[0], s->overlap_told = (int) count[1], s->energy_told = (int) count[2], s->skips_told = (int) count[3];
     s->next_level = count[4], s->ended = (pg_status) count[5], s->ledger_fresh = (int) count[6], b->round = count[7], s->spared_told = (int) count[10];
     s->unit_residual = number[0], s->secant0 = number[1], b->work = number[2], b->work0 = number[3], b->stored0 = number[4];
-    PG_TRY (k->bytes (k->context, "solver.why", sizeof s->why, s->why));
-    PG_TRY (k->bytes (k->context, "solver.report", sizeof s->report, &s->report));
+    PG_TRY (keep_text ("solver.why", sizeof s->why, s->why, k));
+    PG_TRY (keep_report (&s->report, k));
     if (nload) PG_TRY (k->numbers (k->context, "solver.reaction", 3 * nload, s->reaction));
     if (count[8] && s->unit) PG_TRY (k->numbers (k->context, "solver.unit", b->system.ndof, s->unit));
     if (count[9] && s->force0) PG_TRY (k->numbers (k->context, "solver.force0", b->system.ndof, s->force0));
-    PG_TRY (keep_broken (b, k));
-    PG_TRY (keep_ledger (&b->ledger, "ledger", nload, k));
-    PG_TRY (keep_ledger (&b->before, "before", nload, k));
+    PG_TRY (keep_broken (b, s->problem, k));
+    if (k->reading) PG_TRY (count_pairs (s, &pairs));
+    PG_TRY (keep_ledger (&b->ledger, "ledger", nload, pairs, 1, k));
+    PG_TRY (keep_ledger (&b->before, "before", nload, pairs, 0, k));
 done:
     return status;
 }

@@ -46,6 +46,7 @@ typedef struct {
     const unsigned char *alive;                        /* of the last refresh, borrowed                                  */
     unsigned char *factored;                           /* what lived when the factor or preconditioner was made          */
 } pg_system;
+int       system_has_matrix (const pg_system *s);       /* the force offers K itself                                      */
 pg_status system_create  (pg_system *s);               /* fields up to report set by the caller                           */
 void      system_free    (pg_system *s);
 pg_status system_factorize (pg_system *s, const dynamics *dyn);                      /* k K + m M of the last refresh  */

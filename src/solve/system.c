@@ -23,7 +23,7 @@ void system_free (pg_system *s)
     pg_free (s->fixed);
 }
 
-static int has_matrix (const pg_system *s)
+int system_has_matrix (const pg_system *s)
 {
     if (!s->force->matrix || (s->force->matrix_free && s->force->matrix_free (s->self))) return 0;
     return s->force->assemble || s->force->matrix (s->self);
@@ -48,7 +48,7 @@ pg_status system_create (pg_system *s)
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     s->nred = T ? T->ncol : s->ndof;
     s->stale = 1;
-    if (!has_matrix (s) && !operator_of (s)) PG_FAIL (PG_E_USAGE, "the force %s offers neither a matrix nor an operator", s->force->name);
+    if (!system_has_matrix (s) && !operator_of (s)) PG_FAIL (PG_E_USAGE, "the force %s offers neither a matrix nor an operator", s->force->name);
     PG_ALLOC (s->scratch, s->ndof);
     PG_ALLOC (s->mass, s->ndof);
     PG_ALLOC (s->residual, s->ndof);
@@ -286,7 +286,7 @@ static pg_status choose_mode (pg_system *s, const dynamics *dyn)
         pg_report_warn (s->report, "preconditioner: multilevel needs a body at rest and a force that tells the rows of K, with supports on points: the diagonal instead "
                         "where there is no factor");
     s->mode = SYSTEM_FACTOR;
-    if (!has_matrix (s) || (strcmp (linear, "pcg") == 0 && operator_of (s))) s->mode = SYSTEM_NO_FACTOR;
+    if (!system_has_matrix (s) || (strcmp (linear, "pcg") == 0 && operator_of (s))) s->mode = SYSTEM_NO_FACTOR;
     else if (automatic && operator_of (s) && dyn) s->mode = SYSTEM_TRIAL;
     else if (automatic && operator_of (s) && by_sweeps (s, can)) {
         s->mode = SYSTEM_NO_FACTOR;

@@ -23,6 +23,9 @@ static char replayed[300];
 #define LLVMFuzzerTestOneInput fuzz_result
 #include "fuzz_result.c"
 #undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_checkpoint
+#include "fuzz_checkpoint.c"
+#undef LLVMFuzzerTestOneInput
 #include <dirent.h>
 
 typedef int (*fuzzer) (const uint8_t *data, size_t size);
@@ -72,6 +75,7 @@ static void seeds_are_answered (void **state)
     assert_true (replay (fuzz_mesh, "test/fuzz/seed_mesh", "") > 8);
     assert_true (replay (fuzz_table, "test/fuzz/seed_table", "") > 2);
     assert_true (replay (fuzz_result, "test/fuzz/seed_result", "") > 1);
+    assert_true (replay (fuzz_checkpoint, "test/fuzz/seed_checkpoint", "") > 2);
 }
 
 static void other_files_that_were_found_are_answered (void **state)
@@ -82,6 +86,7 @@ static void other_files_that_were_found_are_answered (void **state)
     replay (fuzz_expression, "test/fuzz/found", "expression-");
     replay (fuzz_table, "test/fuzz/found", "table-");
     replay (fuzz_result, "test/fuzz/found", "result-");
+    replay (fuzz_checkpoint, "test/fuzz/found", "checkpoint-");
 }
 
 static void wrong_scenes_leave_nothing_behind (void **state)
@@ -118,12 +123,25 @@ static void any_mesh_cut_anywhere_is_answered (void **state)
     }
 }
 
+/* Each count and each first value of three runs, set to what no run can have: it goes on, or it is refused by name. */
+static void any_wrong_word_of_a_checkpoint_is_answered (void **state)
+{
+    (void) state;
+    static const uint8_t to[] = { 0, 4, 9 };           /* -1, 17, the largest                                            */
+    for (int which = 0; which < CHECKPOINT_SCENES; which++)
+        for (int part = which; part < 60; part += 2 + which)
+            for (int at = part % 4; at < 15; at += 7) {
+                snprintf (replayed, sizeof replayed, "scene %d, part %d, word %d", which, part, at);
+                fuzz_checkpoint ((const uint8_t[]) { (uint8_t) which, (uint8_t) part, (uint8_t) at, to[(part + at) % 3] }, 4);
+            }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (scenes_that_were_found_are_answered), cmocka_unit_test (other_files_that_were_found_are_answered),
         cmocka_unit_test (seeds_are_answered), cmocka_unit_test (wrong_scenes_leave_nothing_behind),
-        cmocka_unit_test (any_seed_cut_anywhere_is_answered), cmocka_unit_test (any_mesh_cut_anywhere_is_answered),
+        cmocka_unit_test (any_seed_cut_anywhere_is_answered), cmocka_unit_test (any_mesh_cut_anywhere_is_answered), cmocka_unit_test (any_wrong_word_of_a_checkpoint_is_answered),
     };
     return cmocka_run_group_tests_name ("fuzz/replay", tests, NULL, NULL);
 }

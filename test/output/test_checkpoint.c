@@ -137,6 +137,37 @@ static void a_file_cut_off_is_refused (void **state)
     }
 }
 
+/* Any bit of any value, name or length: the sum tells, or the head of the file does. */
+static void a_changed_byte_is_refused (void **state)
+{
+    (void) state;
+    thing a = sample_thing (), b = { .n = 5, .name = "a.count" };
+    const char *path = file_at ("changed.nc");
+    size_t padding = 0;
+    check_ok (pg_checkpoint_write (path, walk, &a));
+    long bytes = bytes_of (path);
+    for (long at = 0; at < bytes; at += 3) {
+        FILE *file = fopen (path, "r+b");
+        assert_non_null (file);
+        assert_int_equal (fseek (file, at, SEEK_SET), 0);
+        int was = fgetc (file);
+        assert_true (fseek (file, at, SEEK_SET) == 0 && fputc (was ^ (1 << at % 8), file) >= 0);
+        assert_int_equal (fclose (file), 0);
+        b = (thing) { .n = 5, .name = "a.count" };
+        pg_status status = pg_checkpoint_read (path, walk, &b);
+        if (status == PG_OK) {                         /* only what fills up to whole words, and nothing comes back wrong */
+            padding++;
+            assert_memory_equal (a.number, b.number, sizeof a.number);
+            assert_memory_equal (a.count, b.count, sizeof a.count);
+            assert_memory_equal (a.text, b.text, sizeof a.text);
+        } else assert_true (status == PG_E_FILE || status == PG_E_MEMORY);
+        file = fopen (path, "r+b");
+        assert_true (file && fseek (file, at, SEEK_SET) == 0 && fputc (was, file) >= 0 && fclose (file) == 0);
+    }
+    assert_true (padding < (size_t) bytes / 12);
+    check_ok (pg_checkpoint_read (path, walk, &b));
+}
+
 /* A child writes one checkpoint after the other until it is killed. */
 static void no_instant_to_be_killed_at_is_bad (void **state)
 {
@@ -185,7 +216,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (all_comes_back), cmocka_unit_test (what_does_not_fit_is_named), cmocka_unit_test (a_name_used_twice_is_a_misuse),
         cmocka_unit_test (a_walk_that_fails_leaves_the_old_file), cmocka_unit_test (a_full_disk_leaves_the_old_file),
-        cmocka_unit_test (a_file_cut_off_is_refused), cmocka_unit_test (no_instant_to_be_killed_at_is_bad),
+        cmocka_unit_test (a_file_cut_off_is_refused), cmocka_unit_test (a_changed_byte_is_refused), cmocka_unit_test (no_instant_to_be_killed_at_is_bad),
         cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/checkpoint", tests, NULL, remove_folder);

@@ -2,6 +2,8 @@
  * The result folder: every file with its columns and keys, rows that agree with the steps, fields at the levels asked for,
  * a folder that cannot be made, a report that is written although the run has failed. */
 #include "folder.h"
+#include <fcntl.h>
+#include <unistd.h>
 #include "output/fonts.h"
 
 static const char scene_text[] =
@@ -131,7 +133,8 @@ static void the_events_have_a_row_a_bond (void **state)
     (void) state;
     char *text = slurp (inside (folder, "events.csv"));
     size_t row = 1;
-    static const char header[] = "step [1],load_factor [1],time [s],bond [name],kind [name],x [m],y [m],z [m],utilisation [1],energy_of_step [J]\n";
+    static const char header[] = "step [1],load_factor [1],time [s],x [m],y [m],z [m],utilisation [1],energy_of_step [J],bond_code [1],kind_code [1],"
+        "bond [name],kind [name]\n";
     assert_int_equal (strncmp (text, header, strlen (header)), 0);
     assert_true (nbroken > 12);
     assert_int_equal (count_lines (text), nbroken + 1);
@@ -146,6 +149,12 @@ static void the_events_have_a_row_a_bond (void **state)
             assert_string_equal (cell (text, row, column_of (text, "kind [name]")), "tension");
             const char *set = cell (text, row, column_of (text, "bond [name]"));
             assert_true (strcmp (set, "node-node") == 0 || strcmp (set, "point-node") == 0);
+            check_relative (number_at (text, row, "bond_code [1]"), strcmp (set, "point-node") == 0, 0);
+            check_relative (number_at (text, row, "kind_code [1]"), 0, 0);
+            for (size_t c = 0; c < 10; c++) {          /* numbers before the names                                       */
+                const char *number = cell (text, row, c);
+                assert_int_equal (strspn (number, "0123456789.e+-"), strlen (number));
+            }
         }
         if (steps[k].nbroken) check_relative (energy, steps[k].dissipated, 1e-9);
     }
@@ -219,6 +228,76 @@ static void the_report_tells_what_happened (void **state)
     pg_free (text);
 }
 
+/* Bonds that break within a row of several time steps: the load factor of each is that of its own time, not of the row. */
+static void bonds_break_at_their_own_time (void **state)
+{
+    (void) state;
+    char where[64];
+    pg_result *result = NULL;
+    size_t broken = 0, within = 0;
+    make_folder (where);
+    run m = prepare (1, "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 0.6]}}}]\nspacing: 0.1\n"
+                        "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.3333, density: 2000}}\nmethod: {force: bond}\n"
+                        "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [left, right]}\n"
+                        "boundary: [{set: left, velocity: {x: -2 m/s}}, {set: right, velocity: {x: 2 m/s}}]\n"
+                        "solver: {kind: verlet, dt: 20 us, end: 2 ms}\noutput: {at: {rows: 4}, pictures: []}\n");
+    check_ok (pg_result_open (&result, where, m.scene, m.problem, m.solver));
+    while (!pg_solver_done (m.solver, m.state)) {
+        advance (&m);
+        check_ok (pg_result_step (result, m.state, &m.step));
+    }
+    pg_result_free (&result);
+    char *events = slurp (inside (where, "events.csv")), *history = slurp (inside (where, "history.csv"));
+    double end = pg_solver_settled (m.solver)->end;
+    for (size_t row = 1; row < count_lines (events); row++, broken++) {
+        size_t step = (size_t) number_at (events, row, "step [1]");
+        double time = number_at (events, row, "time [s]"), last = number_at (history, step, "time [s]");
+        assert_true (time <= last * (1 + 1e-9) && (step == 1 || time > number_at (history, step - 1, "time [s]")));
+        check_relative (number_at (events, row, "load_factor [1]"), time / end, 1e-8);
+        within += time < 0.999 * last;
+    }
+    assert_true (broken > 10 && within > 5);
+    pg_free (events), pg_free (history);
+    clear (&m);
+    remove_folder (where);
+}
+
+/* The device that is always full in the place of one of the two tables, which are then open: the step is not taken for written. */
+static void a_row_that_cannot_be_written_is_told (void **state)
+{
+    (void) state;
+    static const char *const name[] = { "history.csv", "events.csv" };
+    for (int which = 0; which < 2; which++) {
+        char where[64], link[64], path[256];
+        pg_result *result = NULL;
+        make_folder (where);
+        run f = prepare (1, scene_text);
+        check_ok (pg_result_open (&result, where, f.scene, f.problem, f.solver));
+        int full = open ("/dev/full", O_WRONLY), found = 0;
+        assert_true (full >= 0);
+        for (int file = 3; file < 256; file++) {
+            snprintf (link, sizeof link, "/proc/self/fd/%d", file);
+            ssize_t n = readlink (link, path, sizeof path - 1);
+            if (n <= 0) continue;
+            path[n] = 0;
+            if (strstr (path, where) && strstr (path, name[which])) found += dup2 (full, file) == file;
+        }
+        close (full);
+        assert_int_equal (found, 1);
+        pg_status status = PG_OK;
+        while (status == PG_OK && !pg_solver_done (f.solver, f.state)) {
+            advance (&f);
+            status = pg_result_step (result, f.state, &f.step);
+        }
+        assert_int_equal (status, PG_E_FILE);
+        check_contains (pg_last_error (), name[which]);
+        check_contains (pg_last_error (), "No space left");
+        pg_result_free (&result);
+        clear (&f);
+        remove_folder (where);
+    }
+}
+
 /* ---- what goes wrong ------------------------------------------------------------------------------------------------------- */
 static void a_folder_that_cannot_be_made_is_refused (void **state)
 {
@@ -287,6 +366,8 @@ int main (void)
         cmocka_unit_test (the_history_has_its_columns),
         cmocka_unit_test (the_history_has_a_row_a_step),
         cmocka_unit_test (the_events_have_a_row_a_bond),
+        cmocka_unit_test (bonds_break_at_their_own_time),
+        cmocka_unit_test (a_row_that_cannot_be_written_is_told),
         cmocka_unit_test (fields_are_written_at_levels_and_events),
         cmocka_unit_test (the_report_has_its_keys),
         cmocka_unit_test (the_report_tells_what_happened),
