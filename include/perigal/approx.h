@@ -41,6 +41,8 @@ typedef struct {
     int    use_volume;                                 /* V_j in the weights (default: nosb, pddo yes; rkpm no: V_j = 1) */
     double horizon;                                    /* support radius a, m                                            */
     int    projected;                                  /* 1: PG_GRADE_PROJECTED is allowed (linear basis); 0: never      */
+    int    extrapolates;                               /* 1: a point that lost no bond keeps the basis however little its neighbours spread, as
+                                                          long as the moment matrix has a factor (consistent integration) */
 } pg_approx;
 
 struct pg_approx_type {

@@ -99,7 +99,7 @@ int pg_star_grade (pg_star *s, int order, double h)
 {
     s->projected = 0;
     if (s->n == 0) return PG_GRADE_DEAD;
-    if (s->n < (size_t) s->dim + 1 || flat (s, h)) return left_over (s, order, h);
+    if (s->n < (size_t) s->dim + 1 || ((s->lost || !s->extrapolates) && flat (s, h))) return left_over (s, order, h);
     for (s->order = order; s->order >= 1; s->order--) {
         s->size = basis_size (s->dim, s->order, s->constant);
         if (s->n >= (size_t) s->size && factor (s, s->order == 2 ? 1e-10 : 1e-8))

@@ -20,6 +20,7 @@ typedef struct {
     size_t  own;                                       /* place of the own node in the row, where constant = 0           */
     int     stray;                                     /* 1: a node that must be in its own family is not                */
     int     lost;                                      /* 1: a bond of the family is dead                                 */
+    int     extrapolates;                              /* 1: unless it has, its neighbours may spread as little as the factor bears */
     size_t *entry;                                     /* place in the row                          (n)                  */
     double *z;                                         /* bond in horizons                          (n x dim)            */
     double *w;                                         /* weight                                    (n)                  */

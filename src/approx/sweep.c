@@ -200,7 +200,7 @@ static pg_status star_create (pg_star *s, const pg_approx *a, const pg_cloud *cl
 {
     pg_status status = PG_OK;
     size_t vector = most * (size_t) dim;
-    *s = (pg_star) { .dim = dim, .a = a->horizon, .h = cloud->h, .project = a->projected };
+    *s = (pg_star) { .dim = dim, .a = a->horizon, .h = cloud->h, .project = a->projected, .extrapolates = a->extrapolates };
     PG_ALLOC (s->entry, most);
     if (cloud->size) PG_ALLOC (s->ratio, most);
     PG_ALLOC (s->z, 5 * vector + most * (1 + PG_BASIS_MAX));

@@ -27,9 +27,15 @@ void galerkin_consistent_free (galerkin *g)
     pg_free (g->whole);
 }
 
+/* Live bonds alone, and linear fields reproduced at all points of the cell and of its faces? Else the identity would spoil what it corrects. */
 static int bonds_complete (const galerkin *g, const pg_state *state, size_t cell)
 {
     const pg_consistency *c = g->problem->consistency;
+    for (size_t p = c->first[cell]; p < c->first[cell + 1]; p++) if (g->rows[g->bulk].grade[p] > PG_GRADE_LOWERED) return 0;
+    for (size_t k = c->faces.of[cell]; k < c->faces.of[cell + 1]; k++) {
+        size_t face = (size_t) c->faces.face[k];
+        for (size_t q = c->faces.start[face]; q < c->faces.start[face + 1]; q++) if (c->face.grade[q] > PG_GRADE_LOWERED) return 0;
+    }
     const size_t *start = g->rows[g->bulk].family.start;
     const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
     for (size_t e = start[c->first[cell]]; e < start[c->first[cell + 1]]; e++) if (!alive[e]) return 0;
