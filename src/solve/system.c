@@ -130,6 +130,10 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
         if (m == 0 && weak) value[q] += s->shift * s->mean_diagonal;
     }
     if (m != 0) system_add_mass_matrix (s, m, K, value);
+    for (size_t j = 0; j < s->ndof && m != 0; j++) {   /* a point that no evaluation point sees has no consistent mass either */
+        long q = K->start[j + 1] - 1;
+        if (!(fabs (value[q]) > 1e-11 * k * s->mean_diagonal)) value[q] += 1e-11 * k * s->mean_diagonal;
+    }
 }
 
 static pg_status build_matrix (pg_system *s, const dynamics *dyn)
