@@ -138,11 +138,14 @@ typedef struct {
     int    kind;
     double *vertex; size_t nvertex;                    /* segment: 2 x 2; polygon: n x 3, planar (disc: as drawn, 64-gon)  */
     double centre[3], normal[3], radius;               /* disc; normal of polygon, unit normal of segment (2D)           */
+    double *retreat;                                   /* m: how far behind a tip or front bonds cross that are cut; of the two ends of a segment,
+                                                          of the edges of a polygon (edge i from vertex i to the next), of a disc one; NULL: 0 */
 } pg_crack;
 typedef struct { int dim; pg_crack *crack; size_t n; } pg_cracks;
 pg_status pg_cracks_read  (pg_cracks *out, const pg_scene *scene);
 void      pg_cracks_clear (pg_cracks *cracks);
-/* Does the bond x - y meet crack c (a touch within `tolerance` m counts)? The answer is the same for y - x. */
+/* Does the bond x - y meet crack c, less the strip along its tips and fronts that `retreat` says (a touch within `tolerance` m counts)? The answer
+ * is the same for y - x. */
 int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance);
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance);   /* x lies on the crack        */
 #endif

@@ -11,6 +11,9 @@ static const pg_key keys[] = {
       .doc = "Influence function of the distance divided by the horizon; with force: bond that of the force, and constant unless given." },
     { .path = "method.horizon", .kind = PG_NUMBER, .unit = "m|spacing", .range = "(0, inf)", .fallback = "2.0 spacing",
       .doc = "Radius of influence of a point (radial), or half the edge of its box (tensor); with force: bond 3.015 spacing unless given." },
+    { .path = "method.tip_offset", .kind = PG_NUMBER, .unit = "m|spacing", .range = "[0, inf)", .fallback = "",
+      .doc = "Of the bonds that meet a pre-crack only those are cut that cross it at least so far behind its tips (3D: fronts), which makes the crack as long as it is drawn; "
+             "default by horizon and basis (galerkin: 0.25 spacing at a horizon of 2, 0 for the other forces). Ends at the surface or on another crack are no tips." },
     { .path = "method.support", .kind = PG_NAME, .fallback = "radial", .choices = "radial|tensor",
       .doc = "Influence of the distance, or product of the influences of its components (wants a smooth kernel)." },
     { .path = "method.weights", .kind = PG_NAME, .fallback = "auto", .choices = "unit|volume|auto",

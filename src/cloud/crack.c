@@ -51,12 +51,14 @@ static int meets_segment (const pg_crack *c, const double *a, const double *b, d
     double w[2] = {q[0] - p[0], q[1] - p[1]}, e = dot (2, t, w);
     double r[2] = {a[0] - p[0], a[1] - p[1]}, s[2] = {b[0] - p[0], b[1] - p[1]};
     double i = dot (2, t, r), j = dot (2, t, s);
-    return fmax (i, j) >= fmin (0, e) - tolerance && fmin (i, j) <= fmax (0, e) + tolerance;
+    double first = c->retreat ? c->retreat[0] : 0, last = c->retreat ? c->retreat[1] : 0;
+    double low = e > 0 ? first : e + last, high = e > 0 ? e - last : -first;
+    return fmax (i, j) >= low - tolerance && fmin (i, j) <= high + tolerance;
 }
 
 static int meets_disc (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
-    return distance_point (3, c->centre, a, b) <= c->radius + tolerance;
+    return distance_point (3, c->centre, a, b) <= c->radius - (c->retreat ? c->retreat[0] : 0) + tolerance;
 }
 
 /* p, lying in the plane of the polygon: inside? Seen along the axis nearest to the normal. */
@@ -73,8 +75,74 @@ static int in_polygon (const pg_crack *c, const double *p)
     return in;
 }
 
+/* ---- a polygon less the strips along its fronts -------------------------------------------------------------------------- */
+typedef struct { const double *a, *b, *from, *to; } chord;             /* of a bond, in the plane; an edge                */
+
+static void along (const chord *h, double t, double *out) { for (int k = 0; k < 3; k++) out[k] = h->a[k] + t * (h->b[k] - h->a[k]); }
+
+static double away (const chord *h, double t)
+{
+    double x[3];
+    along (h, t, x);
+    return distance_point (3, x, h->from, h->to);
+}
+
+/* Where the chord is nearest to the edge: the distance is convex along it. */
+static double nearest (const chord *h)
+{
+    double low = 0, high = 1;
+    for (int i = 0; i < 80; i++) {
+        double s = low + (high - low) / 3, t = high - (high - low) / 3;
+        if (away (h, s) <= away (h, t)) high = t;
+        else low = s;
+    }
+    return 0.5 * (low + high);
+}
+
+/* Where it comes to within d of the edge, between a place `far` that is further away and one `near` that is not: at least d away. */
+static double crossing (const chord *h, double d, double far, double near)
+{
+    for (int i = 0; i < 60; i++) {
+        double t = 0.5 * (far + near);
+        if (away (h, t) >= d) far = t;
+        else near = t;
+    }
+    return far;
+}
+
+static int in_what_is_left (const pg_crack *c, const double *p, double tolerance)
+{
+    int in = in_polygon (c, p);
+    for (size_t m = 0; m < c->nvertex; m++) {
+        double d = distance_point (3, p, c->vertex + 3*m, c->vertex + 3*((m + 1) % c->nvertex));
+        if (c->retreat[m] > 0 && d < c->retreat[m] - tolerance) return 0;
+        in |= d <= tolerance;
+    }
+    return in;
+}
+
+/* Along the chord what is left of the polygon begins and ends at its ends, at an edge, or where it comes near to a front. */
+static int meets_what_is_left (const pg_crack *c, const double *a, const double *b, double tolerance)
+{
+    double length = 0;
+    if (in_what_is_left (c, a, tolerance) || in_what_is_left (c, b, tolerance)) return 1;
+    for (int k = 0; k < 3; k++) length = fmax (length, fabs (b[k] - a[k]));
+    if (length <= 4 * tolerance) return 0;
+    for (size_t m = 0; m < c->nvertex; m++) {
+        chord h = { a, b, c->vertex + 3*m, c->vertex + 3*((m + 1) % c->nvertex) };
+        double t = nearest (&h), d = c->retreat[m], x[3];
+        double place[3] = { t, away (&h, t) < d && away (&h, 0) > d ? crossing (&h, d, 0, t) : t, away (&h, t) < d && away (&h, 1) > d ? crossing (&h, d, 1, t) : t };
+        for (int k = 0; k < 3; k++) {
+            along (&h, place[k], x);
+            if (in_what_is_left (c, x, tolerance)) return 1;
+        }
+    }
+    return 0;
+}
+
 static int meets_polygon (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
+    if (c->retreat) return meets_what_is_left (c, a, b, tolerance);
     if (in_polygon (c, a) || in_polygon (c, b)) return 1;
     for (size_t m = 0, l = c->nvertex - 1; m < c->nvertex; l = m++)
         if (distance_segments (a, b, c->vertex + 3*l, c->vertex + 3*m) <= tolerance) return 1;
@@ -117,7 +185,7 @@ int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double to
 
 void pg_cracks_clear (pg_cracks *cracks)
 {
-    for (size_t i = 0; cracks->crack && i < cracks->n; i++) pg_free (cracks->crack[i].vertex);
+    for (size_t i = 0; cracks->crack && i < cracks->n; i++) pg_free (cracks->crack[i].vertex), pg_free (cracks->crack[i].retreat);
     pg_free (cracks->crack);
     memset (cracks, 0, sizeof *cracks);
 }

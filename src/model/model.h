@@ -13,6 +13,8 @@ void      pg_loads_clear (pg_problem *problem);
 pg_status pg_initial_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_initial_set   (const pg_problem *problem, double *v);
 void      pg_initial_clear (pg_problem *problem);
+/* method.tip_offset: how far behind its tips and fronts each pre-crack cuts. */
+pg_status pg_tips_retreat (pg_problem *problem, const pg_scene *scene);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
 /* Forces straight between points: their rule, their sums, the only Poisson's ratio they know; and their bonds. */
 pg_status pg_direct_build (pg_problem *problem, const pg_scene *scene);

@@ -129,6 +129,7 @@ static void read_galerkin (pg_problem *p, const pg_scene *scene)
 {
     const char *stab = pg_scene_text (scene, "method.stabilization");
     p->integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
+    p->approx.extrapolates = p->integration->consistent;
     if (!p->integration->at_nodes && p->cells.n == 0)
         pg_scene_fault (scene, "method.integration", "a body of explicit points has no background cells: use nodal");
     int nosb = strcmp (p->approx.type->name, "nosb") == 0;
@@ -218,6 +219,7 @@ pg_status pg_problem_prepare (pg_problem **out, const pg_scene *scene, int threa
     PG_TRY (build_geometry (p, scene));
     if (pg_scene_partial (scene)) PG_TRY (pg_scene_conclude (scene));
     PG_TRY (build_laws (p, scene));
+    PG_TRY (pg_tips_retreat (p, scene));
     PG_TRY (pg_loads_read (p, scene));
     for (size_t l = 0; l < p->nload; l++) if (!p->load[l].set) PG_TRY (pg_scene_conclude (scene));
     PG_TRY (pg_initial_read (p, scene));

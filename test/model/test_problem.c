@@ -44,10 +44,13 @@ static void nodal_integration_has_no_points (void **state)
     unbuild (&b);
 }
 
-static void a_crack_cuts_what_crosses_it (void **state)
+/* Cuts of PLATE with this crack and method against those of a crack along x = 0.55 from `low` to `high`; of the bonds that pass 1e-6 from its ends
+ * nothing is said. */
+static void check_cuts (const char *crack, const char *method, double low, double high)
 {
-    (void) state;
-    built b = build (PLATE "cracks: [{from: [0.55, 0.2], to: [0.55, 0.6]}]\nboundary: [{set: top, displacement: {x: 1}}]\n");
+    char text[600];
+    snprintf (text, sizeof text, PLATE "cracks: [%s]\nmethod: {%s}\nboundary: [{set: top, displacement: {x: 1}}]\n", crack, method);
+    built b = build (text);
     const pg_problem *p = b.problem;
     pg_state *s = NULL;
     size_t dead = 0, alive = 0;
@@ -58,8 +61,8 @@ static void a_crack_cuts_what_crosses_it (void **state)
                 const double *x = p->rows[set].x + 2 * q, *y = p->cloud.x + 2 * (size_t) p->rows[set].family.node[e];
                 double at = (0.55 - x[0]) / (y[0] - x[0]), height = x[1] + at * (y[1] - x[1]);
                 int crosses = (x[0] - 0.55) * (y[0] - 0.55) < 0;
-                if (crosses && fabs (height - 0.2) < 1e-6) continue;
-                int expected = !(crosses && height > 0.2);
+                if (crosses && (fabs (height - low) < 1e-6 || fabs (height - high) < 1e-6)) continue;
+                int expected = !(crosses && height > low && height < high);
                 assert_int_equal (s->alive[p->first_bond[set] + e], expected);
                 dead += !expected, alive += expected;
             }
@@ -68,9 +71,25 @@ static void a_crack_cuts_what_crosses_it (void **state)
     pg_state_free (&s);
     assert_null (s);
     unbuild (&b);
-    b = build (PLATE "cracks: [{from: [0.5, 0.2], to: [0.5, 0.6]}]\n");
-    assert_int_equal (b.problem->eroded, 4);           /* nodes at y = 0.2 ... 0.5                                       */
-    unbuild (&b);
+}
+
+/* The plate is 0.5 m high, its points 0.1 m apart: the crack ends beyond its upper edge. */
+static void a_crack_cuts_what_crosses_it (void **state)
+{
+    static const char edge[] = "{from: [0.55, 0.2], to: [0.55, 0.6]}", back[] = "{from: [0.55, 0.6], to: [0.55, 0.2]}";
+    (void) state;
+    check_cuts (edge, "tip_offset: 0", 0.2, 2);
+    check_cuts (edge, "tip_offset: 0 mm, force: galerkin", 0.2, 2);
+    check_cuts (edge, "tip_offset: 0.5 spacing", 0.25, 2);
+    check_cuts (edge, "tip_offset: 31 mm", 0.231, 2);
+    check_cuts (edge, "basis: linear", 0.226, 2);          /* measured at a horizon of 2                                     */
+    check_cuts (back, "basis: linear", 0.226, 2);
+    check_cuts (edge, "horizon: 2.25 spacing", 0.2355, 2); /* between two that were                                          */
+    check_cuts (edge, "force: bond", 0.2, 2);
+    check_cuts ("{from: [0.55, 0.2], to: [0.55, 0.44]}", "basis: linear", 0.226, 0.414);
+    check_cuts ("{from: [0.55, 0.2], to: [0.55, 0.47]}", "basis: linear", 0.226, 0.47);     /* within half a spacing of the edge         */
+    check_cuts ("{from: [0.55, 0.1], to: [0.55, 0.15]}, {from: [0.55, 0.15], to: [0.55, 0.4]}", "basis: linear", 0.1125, 0.374);     /* short: a quarter of it */
+    check_cuts ("{from: [0.55, 0.1], to: [0.55, 0.3]}, {from: [0.55, 0.3001], to: [0.55, 0.4]}", "tip_offset: 20 mm", 0.12, 0.38);     /* meet as good as  */
 }
 
 static void excluded_sets_exempt_what_is_near (void **state)

@@ -5,7 +5,7 @@
 #include "output/fonts.h"
 
 #define BODY "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.6, 0.5]}}}]\nspacing: 0.1\n" \
-    "cracks: [{from: [-0.1, 0.25], to: [0.15, 0.25]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2, density: 2000}}\n" \
+    "cracks: [{from: [-0.1, 0.25], to: [0.18, 0.25]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2, density: 2000}}\n" \
     "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\n"
 #define PULL "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 2 mm}}]\n"
 static const struct { const char *name, *text; } scenes[] = {
