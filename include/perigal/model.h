@@ -119,6 +119,7 @@ int       pg_problem_no_bond (const pg_problem *problem, int set, size_t point, 
 int       pg_kind_quasi_static (const char *kind);
 int       pg_kind_marches (const char *kind);          /* 1: by steps or iterations without linear systems, which stiff springs would shorten */
 int       pg_problem_proportional (const pg_problem *problem);   /* every load is a constant pattern times t               */
+int       pg_problem_affine (const pg_problem *problem);         /* every load is a constant pattern and t times another, t from 0 to 1 */
 
 /* ---- state: one block, copyable, comparable, savable ---------------------------------------------------------------------- */
 typedef struct {

@@ -14,6 +14,7 @@ typedef struct {
     int      marching;                                 /* verlet, central: explicit time steps                           */
     int      staged;                                   /* adr, relax: stages of the load, each relaxed                   */
     int      event;                                    /* static: event stepping                                         */
+    int      affine;                                   /* event: loads have a constant part                              */
     int      consistent;                               /* newmark: consistent mass, not lumped                           */
     pg_break break_mode;
     double   break_fraction, tie;                      /* bonds within this share of the worst break with it             */

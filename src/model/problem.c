@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <math.h>
 #include <string.h>
 
 static pg_mode mode_of (const pg_scene *scene, int dim)
@@ -304,6 +305,37 @@ int pg_problem_proportional (const pg_problem *p)
         for (int k = 0; k < pg_load_components (&p->load[i], p->dim) && held; k++)
             for (int q = 0; q < 9 && held; q++) held = pg_load_value (&p->load[i], k, p->dim, places[q % 3], 0.1 + 0.4 * (q / 3)) == 0;
         if (!held) return 0;
+    }
+    return 1;
+}
+
+/* Of the load at this place, between t = 0 and 1. */
+static int is_affine (const pg_load *load, int k, int dim, const double *x)
+{
+    double a = pg_load_value (load, k, dim, x, 0), b = pg_load_value (load, k, dim, x, 1), size = fmax (fabs (a), fabs (b));
+    for (int q = 1; q < 16; q++) {
+        double t = q / 16.0 + 0.01;
+        if (fabs (pg_load_value (load, k, dim, x, t) - a - t * (b - a)) > 1e-12 * size) return 0;
+    }
+    for (size_t row = 0; row < load->ntable; row++) {
+        double t = load->table[2 * row];
+        if (t > 0 && t < 1 && fabs (pg_load_value (load, k, dim, x, t) - a - t * (b - a)) > 1e-12 * size) return 0;
+    }
+    return 1;
+}
+
+int pg_problem_affine (const pg_problem *p)
+{
+    double middle[3] = { 0 };
+    for (int k = 0; k < p->dim; k++) middle[k] = 0.37 * p->cloud.low[k] + 0.63 * p->cloud.high[k];
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        int components = load->kind == PG_PRESSURE ? 1 : pg_load_components (load, p->dim);
+        size_t n = pg_load_separates (load) ? 0 : load->set->npoint;
+        for (int k = 0; k < components; k++) {
+            if (!is_affine (load, k, p->dim, middle)) return 0;
+            for (size_t i = 0; i < n; i++) if (!is_affine (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim)) return 0;
+        }
     }
     return 1;
 }

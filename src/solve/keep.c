@@ -246,6 +246,10 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     PG_TRY (keep_report (&s->report, k));
     if (nload) PG_TRY (k->numbers (k->context, "solver.reaction", 3 * nload, s->reaction));
     if (count[8] && s->unit) PG_TRY (k->numbers (k->context, "solver.unit", b->system.ndof, s->unit));
+    if (s->base) {
+        PG_TRY (k->numbers (k->context, "solver.base", b->system.ndof, s->base));
+        PG_TRY (k->counts (k->context, "solver.held", 1, &s->held));
+    }
     if (count[9] && s->force0) PG_TRY (k->numbers (k->context, "solver.force0", b->system.ndof, s->force0));
     PG_TRY (keep_broken (b, s->problem, k));
     if (k->reading) PG_TRY (count_pairs (s, &pairs));

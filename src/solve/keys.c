@@ -7,7 +7,8 @@
 static const pg_key keys[] = {
     { "solver.kind", PG_NAME, NULL, NULL, "static", NULL, pg_solver_names, NULL, "The method that advances the state." },
     ROW ("solver.stepping", PG_NAME, NULL, NULL, "auto", "auto|event|fixed",
-         "static: event goes from break to break in closed form, fixed takes equal load steps; auto: event when all loads are proportional."),
+         "static: event goes from break to break, fixed takes equal load steps. event takes loads that grow with the load factor (in closed form), stay constant (ramp: constant; the first "
+         "step is then at load factor 0), or both; auto: event when all loads are proportional."),
     ROW ("solver.break", PG_NAME, NULL, NULL, "worst", "worst|fraction|all|passing",
          "Which bonds over the limit break before the next solve: the worst (with ties), those within break_fraction of it, or all (as in the paper; "
          "the peak load then depends on the increment). adr and relax, their default: passing, at any iteration once the load of the stage has come to act."),

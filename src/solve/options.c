@@ -31,7 +31,9 @@ static void read_static (pg_solver_options *o, const pg_problem *problem, const 
     int proportional = pg_problem_proportional (problem);
     o->steps = pg_scene_integer (scene, "solver.steps");
     o->event = is (stepping, "event") || (is (stepping, "auto") && proportional && o->break_mode != PG_BREAK_ALL);
-    if (o->event && !proportional) pg_scene_fault (scene, "solver.stepping", "event stepping needs proportional loads (ramp: linear on every load): use fixed");
+    o->affine = o->event && !proportional;
+    if (o->affine && !pg_problem_affine (problem))
+        pg_scene_fault (scene, "solver.stepping", "event stepping needs loads that grow with the load factor (ramp: linear), stay (ramp: constant), or both: use fixed");
     if (o->event && o->break_mode == PG_BREAK_ALL) pg_scene_fault (scene, "solver.break", "all goes with stepping: fixed");
     if (!given (scene, "solver.steps") && o->levels > o->steps) o->steps = o->levels;
 }

@@ -132,6 +132,8 @@ struct pg_solver {
     int       started, finished, overlap_told, energy_told, skips_told, spared_told;
     long      next_level;                              /* next level to report: next_level / levels                      */
     double   *unit;                                    /* event stepping: displacement at load factor 1                  */
+    double   *base;                                    /* affine loads: at load factor 0                                 */
+    long      held;                                    /* affine loads: events at a held load factor                     */
     double    unit_residual;                           /* of `unit`                                                      */
     pg_status ended;  char why[1024];                  /* event stepping: why no step can follow, told by the next       */
     int       ledger_fresh;                            /* the ledger is that of `unit`                                   */
@@ -146,6 +148,14 @@ struct pg_solver {
     motion   *motion;                                  /* explicit and relaxed methods                                   */
     long      support_updates;                         /* report.updates when it was found: breaking changes z           */
 };
+
+/* ---- static.c, affine.c: events ------------------------------------------------------------------------------------------------- */
+pg_status affine_solve (pg_solver *s);                 /* both equilibria                                                */
+pg_status affine_step  (pg_solver *s, pg_state *state, pg_step *step);
+/* What the equilibrium after an event came to: 1: there is none, and the next step says why. */
+int       event_ended  (pg_solver *s, const pg_state *state, double factor, pg_status now);
+pg_status event_stops  (pg_solver *s, const pg_state *state, double factor, double secant);       /* crack arrived, body apart    */
+void      event_limit  (pg_solver *s, const pg_state *state, double factor);                      /* max_events                   */
 
 /* ---- newmark_start.c --------------------------------------------------------------------------------------------------------- */
 pg_status newmark_start    (pg_solver *s, pg_state *state);

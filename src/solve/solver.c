@@ -96,7 +96,7 @@ void pg_solver_free (pg_solver **solver)
     if (!s) return;
     if (s->type && s->type->free) s->type->free (s);
     breaker_free (&s->breaker);
-    pg_free (s->unit), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2), pg_free (s->work3), pg_free (s->work4), pg_free (s->support), pg_free (s->force0);
+    pg_free (s->unit), pg_free (s->base), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2), pg_free (s->work3), pg_free (s->work4), pg_free (s->support), pg_free (s->force0);
     pg_state_free (&s->backup);
     pg_free (s);
     *solver = NULL;

@@ -15,7 +15,13 @@ static pg_status static_start (pg_solver *s, pg_state *state)
     double residual;
     PG_TRY (system_refresh (&s->breaker.system, state, NULL));
     s->next_level = 1;
-    if (s->options.event) {
+    if (s->options.event && s->options.affine) {
+        PG_ALLOC (s->unit, state->ndof);
+        PG_ALLOC (s->base, state->ndof);
+        memcpy (s->unit, state->d, state->ndof * sizeof *s->unit);
+        memcpy (s->base, state->d, state->ndof * sizeof *s->base);
+        PG_TRY (affine_solve (s));
+    } else if (s->options.event) {
         PG_ALLOC (s->unit, state->ndof);
         for (size_t i = 0; state->factor != 0 && i < state->ndof; i++) s->unit[i] = state->d[i] / state->factor;
         PG_TRY (system_solve (&s->breaker.system, 1, s->unit, NULL, &residual));
@@ -76,6 +82,40 @@ static double secant (const breaker *b)
     return sum;
 }
 
+int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status now)
+{
+    if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD && now != PG_E_SINGULAR) return 0;
+    s->ended = now;
+    snprintf (s->why, sizeof s->why, "after event %ld at load factor %.6g: %s", state->events, factor, pg_last_error ());
+    return 1;
+}
+
+pg_status event_stops (pg_solver *s, const pg_state *state, double factor, double secant)
+{
+    pg_status status = PG_OK;
+    const pg_solver_options *o = &s->options;
+    int arrived;
+    PG_TRY (breaker_arrived (&s->breaker, state, state->d, &arrived));
+    if (arrived) {
+        pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at event %ld, load factor %.6g", o->stop_set->name, state->events, factor);
+        s->finished = 1;
+    }
+    double share = s->secant = secant / s->secant0;
+    if (s->problem->nload && (share < o->stop_stiffness || share > 1 / fmax (o->stop_stiffness, 1e-12))) {
+        pg_report_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g", state->events, factor);
+        s->finished = 1;
+    }
+done:
+    return status;
+}
+
+void event_limit (pg_solver *s, const pg_state *state, double factor)
+{
+    if (state->events < s->options.max_events) return;
+    pg_report_warn (&s->report, "stopped after solver.max_events = %ld events at load factor %.6g", state->events, factor);
+    s->finished = 1;
+}
+
 /* Breaks what reaches its limit at `factor` and finds the next unit displacement; where there is none the next step is refused. */
 static pg_status break_at (pg_solver *s, pg_state *state, double factor, double scale, pg_step *step)
 {
@@ -90,27 +130,13 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     double strain = s->report.energy_strain, work = b->work;
     PG_TRY (system_refresh (&b->system, state, &b->changes));
     pg_status now = system_solve (&b->system, 1, s->unit, NULL, &residual);
-    if (now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD || now == PG_E_SINGULAR) {
-        s->ended = now;
-        snprintf (s->why, sizeof s->why, "after event %ld at load factor %.6g: %s", state->events, factor, pg_last_error ());
-        goto done;
-    }
+    if (event_ended (s, state, factor, now)) goto done;
     PG_TRY (now);
     s->unit_residual = residual;
     PG_TRY (breaker_account (b, 1, s->unit, NULL, factor));
     s->report.energy_strain = factor * factor * b->ledger.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
-    int arrived;
-    PG_TRY (breaker_arrived (b, state, state->d, &arrived));
-    if (arrived) {
-        pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at event %ld, load factor %.6g", o->stop_set->name, state->events, factor);
-        s->finished = 1;
-    }
-    double share = s->secant = secant (b) / s->secant0;
-    if (s->problem->nload && (share < o->stop_stiffness || share > 1 / fmax (o->stop_stiffness, 1e-12))) {
-        pg_report_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g", state->events, factor);
-        s->finished = 1;
-    }
+    PG_TRY (event_stops (s, state, factor, secant (b)));
 done:
     return status;
 }
@@ -139,7 +165,6 @@ static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
     pg_status status = PG_OK;
     breaker *b = &s->breaker;
     double next = INFINITY, level = level_factor (s, s->next_level), scale, t0 = pg_seconds ();
-    if (s->ended != PG_OK) PG_FAIL (s->ended, "%s", s->why);
     b->nbroken = 0;
     step->iterations = 1;
     if (s->problem->criterion->type && b->system.force->utilisation) {
@@ -166,10 +191,7 @@ static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
                                 "solves of all levels but one", "no bond broke: the answer is linear in the load factor");
         }
     }
-    if (state->events >= s->options.max_events) {
-        pg_report_warn (&s->report, "stopped after solver.max_events = %ld events at load factor %.6g", state->events, factor);
-        s->finished = 1;
-    }
+    event_limit (s, state, factor);
     for (size_t k = 0; k < 3 * s->problem->nload; k++) s->reaction[k] *= factor;
 done:
     return status;
@@ -177,7 +199,8 @@ done:
 
 static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
 {
-    pg_status status = s->options.event ? step_event (s, state, step) : step_fixed (s, state, step);
+    if (s->ended != PG_OK) return pg_error (s->ended, PG_HERE, "%s", s->why);
+    pg_status status = !s->options.event ? step_fixed (s, state, step) : s->options.affine ? affine_step (s, state, step) : step_event (s, state, step);
     if (status == PG_OK && !s->options.event && s->breaker.ledger.reaction)
         memcpy (s->reaction, s->breaker.ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     return status;

@@ -123,7 +123,8 @@ static void faults_name_key_and_reason (void **state)
     check_refused (PULLED "solver: {kind: newmark, dt: 1}\n", "solver.end: newmark needs an end time");
     check_refused (PULLED "solver: {kind: newmark, dt: 1e-12, end: 1}\n", "time steps are too many");
     check_refused (PULLED "solver: {kind: newmark, dt: 1, end: 10, beta: 0.2, gamma: 0.5}\n", "unconditionally stable only for 2 beta >= gamma");
-    check_refused (HELD BREAKS "solver: {stepping: event}\n", "solver.stepping = event: event stepping needs proportional loads (ramp: linear on every load): use fixed");
+    assert_true (options_of (HELD BREAKS "solver: {stepping: event}\n").affine && !options_of (PULLED BREAKS).affine);
+    check_refused (PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1}, ramp: t^2}]\n" BREAKS "solver: {stepping: event}\n", "solver.stepping = event: event stepping needs loads that grow with the load factor (ramp: linear), stay (ramp: constant), or both: use fixed");
     check_refused (PULLED BREAKS "solver: {stepping: event, break: all}\n", "solver.break = all: all goes with stepping: fixed");
     check_refused (PULLED "solver: {stop: {set: nowhere}}\n", "solver.stop.set = nowhere: there is no set of this name");
     check_refused (PULLED "solver: {kind: sttaic}\n", "did you mean static");

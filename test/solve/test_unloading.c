@@ -2,6 +2,7 @@
  * Fixed load steps that come back to zero and go through it: where the load vanishes all forces do, and the largest that the body has borne is the measure.
  * A body that nothing holds is refused by every method, in every stepping: rounding excuses nothing that moves on at each refinement. */
 #include "scene_runs/run.h"
+#include "tape.h"
 
 static const char *const elastic[] = {
     "method: {essential: nitsche}\n", "method: {essential: transformation}\n", "method: {essential: penalty}\n", "method: {essential: nitsche}\nsolver.linear: pcg\n",
@@ -52,37 +53,7 @@ static void unloading_to_nothing_and_through_it_is_solved (void **state)
             }
 }
 
-/* ---- a checkpoint in memory ---------------------------------------------------------------------------------------------------- */
-typedef struct { unsigned char *byte; size_t n, cap, at; } tape;
-
-static pg_status run_tape (void *context, size_t bytes, void *value, int reading)
-{
-    pg_status status = PG_OK;
-    tape *t = context;
-    if (reading) {
-        assert_true (t->at + bytes <= t->n);
-        if (bytes) memcpy (value, t->byte + t->at, bytes);
-        t->at += bytes;
-    } else {
-        PG_GROW (t->byte, t->cap, t->n + bytes);
-        if (bytes) memcpy (t->byte + t->n, value, bytes);
-        t->n += bytes;
-    }
-done:
-    return status;
-}
-static int reading;
-static pg_status keep_numbers (void *c, const char *name, size_t n, double *v) { (void) name; return run_tape (c, n * sizeof *v, v, reading); }
-static pg_status keep_counts (void *c, const char *name, size_t n, long *v) { (void) name; return run_tape (c, n * sizeof *v, v, reading); }
-static pg_status keep_bytes (void *c, const char *name, size_t n, void *v) { (void) name; return run_tape (c, n, v, reading); }
-
-static void keep (run *r, tape *t, int read)
-{
-    pg_keeper k = { .context = t, .reading = read, .numbers = keep_numbers, .counts = keep_counts, .bytes = keep_bytes };
-    reading = read, t->at = 0;
-    check_ok (pg_solver_keep (r->solver, r->state, &k));
-}
-
+/* ---- resuming ------------------------------------------------------------------------------------------------------------------- */
 /* What the body has borne is in a checkpoint: unloading goes on after it, bit by bit. */
 static void a_run_that_is_resumed_before_it_is_unloaded_remembers_its_load (void **state)
 {

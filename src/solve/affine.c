@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Event stepping under loads that are a constant part and factor lambda times another: between breaks d = d_0 + lambda (d_1 - d_0), with two equilibria, at
+ * lambda = 0 and 1. Every utilisation is convex in lambda (a length, the largest eigenvalue, an energy of something affine), so that what a bond admits is an interval of
+ * lambda: from a place that all bonds admit there is one way out to each side, found by chords of every bond and then by regula falsi on the largest. After a break
+ * no place at or below the present factor may be left: then the constant part drives the crack, the factor is held and the worst bonds break one after the other. */
+#include "solve.h"
+#include <math.h>
+#include <string.h>
+
+static const double close = 1e-12;                     /* of utilisation to its limit                                     */
+enum { MOST_LOOKS = 80, MOST_THIRDS = 40 };
+
+static void move_to (const pg_solver *s, pg_state *state, double factor)
+{
+    for (size_t i = 0; i < state->ndof; i++) state->d[i] = factor == 1 ? s->unit[i] : s->base[i] + factor * (s->unit[i] - s->base[i]);
+}
+
+/* Utilisation of every bond at this factor; *top the largest. */
+static pg_status look (pg_solver *s, pg_state *state, double factor, double *utilisation, double *top)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    double t0 = pg_seconds ();
+    move_to (s, state, factor);
+    PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, utilisation, b->kind, NULL));
+    *top = 0;
+    for (size_t i = 0; i < state->nbond; i++) if (utilisation[i] > *top) *top = utilisation[i];
+done:
+    s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
+    return status;
+}
+
+/* Where the first chord reaches the limit: at `in` all bonds are below it (b->factor), at `out` some are not (b->utilisation). */
+static double first_chord (const pg_solver *s, const pg_state *state, double in, double out)
+{
+    const breaker *b = &s->breaker;
+    double share = 1;
+    for (size_t i = 0; i < state->nbond; i++)
+        if (b->utilisation[i] > 1) share = fmin (share, (1 - fmin (b->factor[i], 1)) / (b->utilisation[i] - fmin (b->factor[i], 1)));
+    return in + share * (out - in);
+}
+
+/* The way out between a factor that all bonds admit and one that some do not; b->utilisation is that of *factor. Regula falsi after Illinois. */
+static pg_status way_out (pg_solver *s, pg_state *state, double in, double out, double *factor)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    double low, high, top;
+    PG_TRY (look (s, state, in, b->factor, &low));
+    PG_TRY (look (s, state, out, b->utilisation, &high));
+    low -= 1, high -= 1;
+    double at = first_chord (s, state, in, out);
+    for (int k = 0, side = 0; k < MOST_LOOKS; k++) {
+        *factor = at;
+        PG_TRY (look (s, state, at, b->utilisation, &top));
+        if (fabs (top - 1) <= close || fabs (out - in) <= 1e-15 * fmax (fabs (in), fabs (out))) break;
+        if (top > 1) {
+            out = at, high = top - 1;
+            if (side > 0) low *= 0.5;
+            side = 1;
+        } else {
+            in = at, low = top - 1;
+            if (side < 0) high *= 0.5;
+            side = -1;
+        }
+        at = in + low / (low - high) * (out - in);
+        if (!(at > fmin (in, out) && at < fmax (in, out))) at = 0.5 * (in + out);
+    }
+done:
+    return status;
+}
+
+/* A factor below `from` that all bonds admit, though zero is none: thirds of a convex function. *found 0: there is none. */
+static pg_status search (pg_solver *s, pg_state *state, double from, double *at, int *found)
+{
+    pg_status status = PG_OK;
+    double low = 0, high = from, a, b;
+    *found = 0;
+    for (int k = 0; k < MOST_THIRDS && high - low > 1e-9 * from; k++) {
+        double p = low + (high - low) / 3, q = high - (high - low) / 3;
+        PG_TRY (look (s, state, q, s->breaker.factor, &b));
+        if ((*found = b <= 1)) *at = q;
+        if (*found) break;
+        PG_TRY (look (s, state, p, s->breaker.factor, &a));
+        if ((*found = a <= 1)) *at = p;
+        if (*found) break;
+        if (a < b) high = q; else low = p;
+    }
+done:
+    return status;
+}
+
+/* Where the next bonds break, or the next level; *breaks: something breaks there. b->utilisation is that of *factor. */
+static pg_status choose (pg_solver *s, pg_state *state, double level, double *factor, int *breaks)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    double now = state->factor, top, there, in;
+    int found = 1;
+    *breaks = 0, *factor = state->step == 0 ? now : level;
+    if (!s->problem->criterion->type || !b->system.force->utilisation) goto done;
+    PG_TRY (breaker_ready (b));
+    PG_TRY (look (s, state, now, b->utilisation, &top));
+    if (top <= 1 + close) {
+        if (state->step == 0) goto done;
+        PG_TRY (look (s, state, level, b->utilisation, &there));
+        if (there <= 1) goto done;
+        *breaks = 1;
+        status = way_out (s, state, now, level, factor);
+        goto done;
+    }
+    *breaks = 1, in = 0;
+    if (now > 0) PG_TRY (look (s, state, 0, b->factor, &there));
+    if (!(now > 0)) found = 0;
+    else if (there > 1) PG_TRY (search (s, state, now, &in, &found));
+    if (found) PG_TRY (way_out (s, state, in, now, factor));
+    else {
+        *factor = now;
+        if (!s->held++) pg_report_warn (&s->report, "at load factor %.6g, after event %ld, no lower factor lets the remaining bonds live: the constant loads drive the crack, which then runs "
+                                        "at a held factor, bond by bond (in truth a dynamic event)", now, state->events);
+        PG_TRY (look (s, state, now, b->utilisation, &top));
+    }
+done:
+    return status;
+}
+
+pg_status affine_solve (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    double first, second;
+    pg_system *sys = &s->breaker.system;
+    PG_TRY (system_solve (sys, 0, s->base, NULL, &first));
+    PG_TRY (system_solve (sys, 1, s->unit, NULL, &second));
+    s->unit_residual = fmax (first, second);
+done:
+    return status;
+}
+
+/* Work of the part that grows, per squared factor. */
+static pg_status secant (pg_solver *s, double *out)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->breaker.system;
+    pg_ledger zero = { 0 }, one = { 0 };
+    *out = 0;
+    if (!sys->force->ledger) return PG_OK;
+    PG_TRY (sys->force->ledger (sys->self, 0, s->base, NULL, &zero));
+    PG_TRY (sys->force->ledger (sys->self, 1, s->unit, NULL, &one));
+    for (size_t k = 0; k < one.npair; k++) *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
+done:
+    pg_ledger_clear (&zero), pg_ledger_clear (&one);
+    return status;
+}
+
+static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_step *step)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    const pg_solver_options *o = &s->options;
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 0, now;
+    for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
+    PG_TRY (breaker_kill (b, state, b->utilisation, (1 - width) * top, 1, factor));
+    step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
+    state->events++, s->report.events++;
+    double strain = s->report.energy_strain, work = b->work;
+    PG_TRY (system_refresh (&b->system, state, &b->changes));
+    pg_status solved = affine_solve (s);
+    if (event_ended (s, state, factor, solved)) goto done;
+    PG_TRY (solved);
+    move_to (s, state, factor);
+    PG_TRY (breaker_account (b, factor, state->d, NULL, 1));
+    s->report.energy_strain = b->ledger.strain;
+    step->dissipated = b->work - work - (s->report.energy_strain - strain);
+    PG_TRY (secant (s, &now));
+    PG_TRY (event_stops (s, state, factor, now));
+done:
+    return status;
+}
+
+pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    breaker *b = &s->breaker;
+    double level = (double) s->next_level / (double) s->options.levels, factor;
+    int breaks, start = state->step == 0;
+    b->nbroken = 0;
+    step->iterations = 1;
+    PG_TRY (choose (s, state, level, &factor, &breaks));
+    if (breaks && factor > level) factor = level;
+    move_to (s, state, factor);
+    state->factor = state->time = step->factor = step->time = factor;
+    s->top_factor = fmax (s->top_factor, factor);
+    PG_TRY (breaker_account (b, factor, state->d, NULL, 1));
+    s->report.energy_strain = b->ledger.strain;
+    if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (start) PG_TRY (secant (s, &s->secant0));
+    step->residual = s->unit_residual;
+    if (s->problem->criterion->type && b->system.force->utilisation) {
+        long over = breaker_over (b, state, 1, &step->utilisation);
+        if (!s->held || !breaks) s->report.bonds_over_limit += over;           /* at a held factor they are about to break      */
+    }
+    if (breaks) PG_TRY (break_here (s, state, factor, step));
+    if (start) step->level = 1;
+    else if (!(level > factor)) {
+        step->level = 1;
+        if (s->next_level++ >= s->options.levels) s->finished = 1;
+    }
+    event_limit (s, state, factor);
+done:
+    return status;
+}

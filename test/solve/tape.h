@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * tape.h: a checkpoint in memory; after run.h. */
+#ifndef PERIGAL_TEST_TAPE_H
+#define PERIGAL_TEST_TAPE_H
+typedef struct { unsigned char *byte; size_t n, cap, at; } tape;
+
+static inline pg_status run_tape (void *context, size_t bytes, void *value, int reading)
+{
+    pg_status status = PG_OK;
+    tape *t = context;
+    if (reading) {
+        assert_true (t->at + bytes <= t->n);
+        if (bytes) memcpy (value, t->byte + t->at, bytes);
+        t->at += bytes;
+    } else {
+        PG_GROW (t->byte, t->cap, t->n + bytes);
+        if (bytes) memcpy (t->byte + t->n, value, bytes);
+        t->n += bytes;
+    }
+done:
+    return status;
+}
+static int reading;
+static inline pg_status keep_numbers (void *c, const char *name, size_t n, double *v) { (void) name; return run_tape (c, n * sizeof *v, v, reading); }
+static inline pg_status keep_counts (void *c, const char *name, size_t n, long *v) { (void) name; return run_tape (c, n * sizeof *v, v, reading); }
+static inline pg_status keep_bytes (void *c, const char *name, size_t n, void *v) { (void) name; return run_tape (c, n, v, reading); }
+
+static inline void keep (run *r, tape *t, int read)
+{
+    pg_keeper k = { .context = t, .reading = read, .numbers = keep_numbers, .counts = keep_counts, .bytes = keep_bytes };
+    reading = read, t->at = 0;
+    check_ok (pg_solver_keep (r->solver, r->state, &k));
+}
+#endif
