@@ -29,7 +29,7 @@ static const pg_key keys[] = {
     { "output.tips[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Column name in history.csv." },
     { "output.tips[].from", PG_VECTOR, "m", NULL, NULL, NULL, NULL, NULL, "Where the length is counted from; points behind it do not count." },
     { "output.tips[].along", PG_VECTOR, "1", NULL, NULL, NULL, NULL, NULL, "Direction in which the crack runs; its length does not matter." },
-    { "output.tips[].damage", PG_NUMBER, "1", "(0, 1]", "35 %", NULL, NULL, NULL, "The tip is the farthest point with at least this damage; beside a straight crack damage is about 0.4 (horizon of 3 spacings)." },
+    { "output.tips[].damage", PG_NUMBER, "1", "(0, 1]", "35 %", NULL, NULL, NULL, "The tip is the farthest point of the crack with at least this damage, the crack being all such points that hang together with those nearest to from; beside a straight crack damage is about 0.4 (horizon of 3 spacings)." },
     { "output.tips[].where", PG_EXPRESSION, "bool", NULL, "", NULL, NULL, NULL, "Only points where this condition in x, y, z, r, angle holds: y > 0 for the upper of two branches." },
 };
 const pg_key_table pg_keys_report = { "report", keys, sizeof keys / sizeof *keys };

@@ -101,11 +101,49 @@ void result_tips_free (pg_result *r)
 }
 
 /* ---- rows ----------------------------------------------------------------------------------------------------------------------- */
-static double farthest (const result_tip *tip, size_t n, const double *damage)
+static double distance (const pg_problem *p, size_t i, const double *x)
 {
     double s = 0;
-    for (size_t i = 0; i < n; i++) if (tip->along[i] > s && damage[i] >= tip->damage) s = tip->along[i];
+    for (size_t k = 0; k < (size_t) p->dim; k++) s = hypot (s, p->cloud.x[i * (size_t) p->dim + k] - x[k]);
     return s;
+}
+
+/* The damaged points of the crack: those nearest to `from` (all within a spacing more), and all that hang together with them, each no further than
+ * REACH spacings from the next, so that no whole point lies between. queue: their numbers (n); seen: n, zeroed. */
+static size_t follow (const result_tip *tip, const pg_problem *p, const double *damage, int *queue, unsigned char *seen)
+{
+    const double REACH = 1.9;
+    const pg_family *f = &p->rows[PG_NODES].family;
+    double nearest = INFINITY;
+    size_t n = 0;
+    for (size_t i = 0; i < p->cloud.n; i++) if (damage[i] >= tip->damage) nearest = fmin (nearest, distance (p, i, tip->from));
+    for (size_t i = 0; i < p->cloud.n; i++)
+        if (damage[i] >= tip->damage && distance (p, i, tip->from) <= nearest + pg_problem_spacing (p, PG_NODES, i)) seen[i] = 1, queue[n++] = (int) i;
+    for (size_t at = 0; at < n; at++) {
+        size_t i = (size_t) queue[at];
+        double reach = REACH * pg_problem_spacing (p, PG_NODES, i);
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
+            size_t j = (size_t) f->node[e];
+            if (seen[j] || !(damage[j] >= tip->damage) || distance (p, j, p->cloud.x + i * (size_t) p->dim) > reach) continue;
+            seen[j] = 1, queue[n++] = (int) j;
+        }
+    }
+    return n;
+}
+
+static pg_status farthest (const result_tip *tip, const pg_problem *p, const double *damage, double *length)
+{
+    pg_status status = PG_OK;
+    int *queue = NULL;
+    unsigned char *seen = NULL;
+    PG_ALLOC (queue, p->cloud.n);
+    PG_ALLOC (seen, p->cloud.n);
+    size_t n = follow (tip, p, damage, queue, seen);
+    *length = 0;
+    for (size_t k = 0; k < n; k++) *length = fmax (*length, tip->along[queue[k]]);
+done:
+    pg_free (queue), pg_free (seen);
+    return status;
 }
 
 pg_status result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row, double *work)
@@ -120,7 +158,9 @@ pg_status result_tips_row (pg_result *r, const pg_state *state, const pg_step *s
     for (size_t i = 0; i < r->ntip; i++) {
         result_tip *tip = &r->tip[i];
         PG_GROW (tip->length, tip->capacity, n + 1);
-        tip->length[n] = row[i] = components == 1 ? farthest (tip, r->problem->cloud.n, work) : n > 0 ? tip->length[n - 1] : 0;
+        tip->length[n] = n > 0 ? tip->length[n - 1] : 0;
+        if (components == 1) PG_TRY (farthest (tip, r->problem, work, &tip->length[n]));
+        row[i] = tip->length[n];
     }
     if (r->ntip == 0) goto done;
     PG_GROW (r->tip_time, r->tip_capacity, n + 1);
