@@ -85,6 +85,7 @@ typedef struct {
     double  *spacing[PG_BOND_SETS];                    /* local spacing of every point (its nearest node's), m; NULL: h  */
     unsigned char *exempt[PG_BOND_SETS];               /* per point: its bonds never break (failure: exclude, never)     */
     int      facet_order;                              /* points per direction of a boundary facet                       */
+    int      thickness_assumed;                        /* 1: cloud.thickness is not that of the scene, but 1           */
     int      accept_inexact;                           /* method.accept_inexact: no measured patch error is too large    */
     pg_patch patch;                                    /* how well the discretisation carries uniform stress             */
     size_t   eroded;                                   /* points that lie on a pre-crack                                 */
@@ -110,6 +111,8 @@ void      pg_problem_locate (const pg_problem *problem, size_t bond, int *set, s
 /* gmpd: Young's modulus (Pa) and Poisson's ratio of what the bonds of a material make alone; dilation (Pa): A of the dilatation beside them
  * (pg_beam_split), 0 without volumetric: on. */
 void      pg_problem_beams (const pg_problem *problem, size_t material, double *E, double *nu, double *dilation);
+/* The box of the body, m (dim each); of points of a file or mesh: of the points. */
+void      pg_problem_box (const pg_problem *problem, double *low, double *high);
 double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);   /* local, m                            */
 /* 1: entry `e` of the family of a point of a set has no length: its node is the point itself, or lies within PG_NO_LENGTH of the local spacing
  * of it (an evaluation point in the middle of a cell of `lattice: cells`). It has no direction and no stretch: no criterion judges it, it never

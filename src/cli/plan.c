@@ -156,11 +156,24 @@ static void print_layers (const pg_problem *q)
     }
 }
 
+/* Where it lies tells a millimetre that was read as a metre */
+static void print_box (const pg_problem *q)
+{
+    double low[3], high[3];
+    pg_problem_box (q, low, high);
+    printf ("  %-18s ", q->lattice.dim ? "body" : "points within");
+    for (int k = 0; k < q->dim; k++) printf ("%s %c %.6g to %.6g m", k ? "," : "", "xyz"[k], low[k], high[k]);
+    if (q->dim < 3) printf ("; %s %.6g m%s%s", q->dim == 2 ? "thickness" : "cross section", q->cloud.thickness, q->dim == 2 ? "" : "^2", q->thickness_assumed ? " (the scene gives none)" : "");
+    printf ("\n");
+}
+
 static void print_counts (const plan *p)
 {
     const pg_problem *q = p->problem;
     const size_t *first = q->first_bond;
-    printf ("  %-18s  %s\n  %-18s  %zu, spacing", "title", q->title, "points", q->cloud.n);
+    printf ("  %-18s  %s\n", "title", q->title);
+    print_box (q);
+    printf ("  %-18s  %zu, spacing", "points", q->cloud.n);
     for (int k = 0; k < q->dim && q->lattice.dim; k++) printf (" %.6g", q->cloud.step[k]);
     if (!q->lattice.dim) printf (" about %.6g", q->cloud.h);
     if (q->cloud.size) printf (" (locally from %.6g)", pg_cloud_finest (&q->cloud));

@@ -38,6 +38,10 @@ pg_status pg_blocks_check (const pg_problem *problem, const pg_scene *scene);
 pg_status pg_blocks_build (pg_problem *problem, const pg_scene *scene);
 /* method.dilatation: patches for the materials that need them; notes and warnings for those that have none. */
 pg_status pg_dilatation_build (pg_problem *problem, const pg_scene *scene);
+/* Remarks on what was perhaps not meant (remarks.c); parts, contrast: once the bonds are there. */
+void      pg_remark_spacing  (pg_problem *problem, const pg_scene *scene);
+pg_status pg_remark_parts    (pg_problem *problem);
+pg_status pg_remark_contrast (pg_problem *problem);
 /* alive = 0 where a bond meets a pre-crack. */
 void      pg_bonds_cut   (const pg_problem *problem, unsigned char *alive);
 #endif

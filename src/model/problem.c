@@ -211,6 +211,7 @@ pg_status pg_problem_prepare (pg_problem **out, const pg_scene *scene, int threa
     p->dim = (int) pg_scene_integer (scene, "dimension");
     p->threads = threads < 1 ? 1 : threads;
     p->mode = mode_of (scene, p->dim);
+    p->thickness_assumed = p->dim < 3 && !pg_scene_given (scene, "%s", p->dim == 2 ? "thickness" : "cross_section");
     p->accept_inexact = pg_scene_bool (scene, "method.accept_inexact");
     p->patch = (pg_patch) { .error = NAN, .compliance = NAN };
     const char *title = pg_scene_text (scene, "title");
@@ -238,7 +239,10 @@ pg_status pg_problem_complete (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     PG_TRY (pg_scene_conclude (scene));
+    pg_remark_spacing (p, scene);
     PG_TRY (pg_bonds_build (p, scene));
+    PG_TRY (pg_remark_parts (p));
+    PG_TRY (pg_remark_contrast (p));
     pg_loads_check_moments (p, scene);
     PG_TRY (pg_scene_verdict (scene));
 done:

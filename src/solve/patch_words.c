@@ -23,7 +23,8 @@ void pg_patch_words (const pg_problem *p, char *out, size_t size)
     const pg_patch *t = &p->patch;
     char by[60] = "";
     if (t->error >= 0.01 && fabs (t->compliance) >= 0.5 * t->error) snprintf (by, sizeof by, ": this body is %.4g %% too %s", percent (t->compliance), t->compliance > 0 ? "soft" : "stiff");
-    snprintf (out, size, "under uniform stress %s the displacement is off by %s%.4g %%%s", pg_patch_state (p), t->settled ? "" : "at least ", percent (t->error), by);
+    if (t->error < 1e-5) snprintf (out, size, "under uniform stress the displacement is off by less than 0.001 %%");
+    else snprintf (out, size, "under uniform stress %s the displacement is off by %s%.4g %%%s", pg_patch_state (p), t->settled ? "" : "at least ", percent (t->error), by);
 }
 
 /* Points across the thinnest side of the box around all points */

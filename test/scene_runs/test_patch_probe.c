@@ -140,6 +140,45 @@ static void too_wrong_is_refused (void **state)
     pg_scene_free (&scene);
 }
 
+/* The first warning of a scene of the unit square, or "". */
+static void remark (const char *more, const char *expected)
+{
+    pg_scene *scene = NULL;
+    pg_problem *p = NULL;
+    pg_solver_options o;
+    pg_report doubts = { 0 };
+    char text[2048];
+    snprintf (text, sizeof text, "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\n%s"
+              "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa}}]\nsolver: {kind: static}\n", more);
+    check_ok (pg_scene_parse (&scene, text, "patch.yaml"));
+    check_ok (pg_problem_build (&p, scene, 1));
+    check_ok (pg_patch_probe (p));
+    check_ok (pg_solver_options_read (&o, p, scene));
+    pg_solver_doubts (&doubts, p, &o);
+    assert_int_equal (p->thickness_assumed, 1);
+    assert_int_equal (doubts.nwarning, *expected ? 1 : 0);
+    if (*expected) check_contains (doubts.warning[0], expected);
+    pg_problem_free (&p);
+    pg_scene_free (&scene);
+}
+
+#define ONE "materials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}}\n"
+#define TWO(E) "materials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0}, hard: {youngs_modulus: " E ", poissons_ratio: 0}}\n" \
+               "blocks: [{material: m, where: 'x <= 0.5'}, {material: hard, where: 'x > 0.5'}]\n"
+
+static void what_was_hardly_meant_is_said (void **state)
+{
+    (void) state;
+    remark (ONE "spacing: 0.1\n", "");
+    remark (ONE "spacing: 2\n", "the spacing, 2 m, is larger than the body, which measures 1 m along x");
+    remark (ONE "spacing: 0.1\ncracks: [{from: [-0.1, 0.53], to: [0.5, 0.53]}]\n", "");
+    remark (ONE "spacing: 0.1\ncracks: [{from: [-0.1, 0.53], to: [1.1, 0.53]}]\n", "the cracks cut the body into 2 parts: 55 of its 121 points");
+    remark (TWO ("1e11 Pa") "spacing: 0.1\n", "");
+    remark (TWO ("1e15 Pa") "spacing: 0.1\n", "material hard is 1e+06 times as stiff as m, and sees 36 % of it");
+    remark (TWO ("1e15 Pa") "spacing: 0.02\n", "sees 7.8 % of it");
+    remark (TWO ("1e15 Pa") "spacing: 0.01\n", "");
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -147,6 +186,7 @@ int main (void)
         cmocka_unit_test (sound_ones_are_told_to_be),
         cmocka_unit_test (units_and_cracks_leave_it_as_it_is),
         cmocka_unit_test (too_wrong_is_refused),
+        cmocka_unit_test (what_was_hardly_meant_is_said),
     };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }

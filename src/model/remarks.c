@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What a problem amounts to that its user may not have meant: a spacing larger than the body, cracks that cut it into parts, materials whose
+ * contrast no discretisation of this spacing can follow. */
+#include "model.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void pg_problem_box (const pg_problem *p, double *low, double *high)
+{
+    size_t dim = (size_t) p->dim;
+    for (size_t k = 0; k < dim; k++) {
+        low[k] = INFINITY, high[k] = -INFINITY;
+        if (p->lattice.dim) low[k] = p->body.low[k], high[k] = p->body.high[k];
+        for (size_t i = 0; i < p->cloud.n && !p->lattice.dim; i++) low[k] = fmin (low[k], p->cloud.x[i * dim + k]), high[k] = fmax (high[k], p->cloud.x[i * dim + k]);
+    }
+}
+
+void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
+{
+    double asked, low[3], high[3];
+    if (!p->lattice.dim || !pg_scene_given (scene, "spacing")) return;
+    asked = pg_scene_number (scene, "spacing");
+    pg_problem_box (p, low, high);
+    for (int k = 0; k < p->dim; k++)
+        if (asked > (high[k] - low[k]) * (1 + 1e-9)) {
+            pg_problem_note (p, PG_WARNING "the spacing, %.4g m, is larger than the body, which measures %.4g m along %c: one cell there", asked, high[k] - low[k], "xyz"[k]);
+            return;
+        }
+}
+
+/* ---- parts ---------------------------------------------------------------------------------------------------------------------------- */
+static int root (int *parent, int i)
+{
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+static int is_cut (const pg_problem *p, size_t i, size_t j)
+{
+    size_t dim = (size_t) p->dim;
+    for (size_t c = 0; c < p->cracks.n; c++)
+        if (pg_crack_cuts (&p->cracks.crack[c], p->dim, p->cloud.x + i * dim, p->cloud.x + j * dim, 1e-9 * p->cloud.h)) return 1;
+    return 0;
+}
+
+/* Parts of several points that no bond joins, once the cracks are cut; bonds between points tell. */
+pg_status pg_remark_parts (pg_problem *p)
+{
+    pg_status status = PG_OK;
+    const pg_family *f = &p->rows[PG_NODES].family;
+    int *parent = NULL, *size = NULL, largest = 0;
+    size_t n = p->cloud.n, parts = 0, beside = 0, at = 0, dim = (size_t) p->dim;
+    if (!p->cracks.n) return PG_OK;
+    PG_ALLOC (parent, n);
+    PG_ALLOC (size, n);
+    for (size_t i = 0; i < n; i++) parent[i] = (int) i;
+    for (size_t i = 0; i < n; i++)
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
+            size_t j = (size_t) f->node[e];
+            if (j < i && root (parent, (int) i) != root (parent, (int) j) && !is_cut (p, i, j)) parent[root (parent, (int) i)] = root (parent, (int) j);
+        }
+    for (size_t i = 0; i < n; i++) size[root (parent, (int) i)]++;
+    for (size_t i = 0; i < n; i++) if (size[i] > size[largest]) largest = (int) i;
+    for (size_t i = 0; i < n; i++) {
+        int r = root (parent, (int) i);
+        if (r == largest || size[r] < 2) continue;
+        if (r == (int) i) parts++;
+        if (!beside++) at = i;
+    }
+    if (parts) {
+        char place[80];
+        int used = 0;
+        for (size_t k = 0; k < dim; k++) used += snprintf (place + used, sizeof place - (size_t) used, "%s%.4g", k ? ", " : "", p->cloud.x[at * dim + k]);
+        pg_problem_note (p, PG_WARNING "the cracks cut the body into %zu parts: %zu of its %zu points hang on the largest part by no bond, such as that at (%s) m", parts + 1,
+                         beside, n, place);
+    }
+done:
+    pg_free (parent), pg_free (size);
+    return status;
+}
+
+/* ---- contrast ------------------------------------------------------------------------------------------------------------------------- */
+/* From here on a point of evaluation of the stiffer material holds the softer one's points that it sees. Below, what it does to them is less than
+ * what a spacing more or less does. */
+static const double stark = 1e3;
+
+pg_status pg_remark_contrast (pg_problem *p)
+{
+    pg_status status = PG_OK;
+    unsigned char *seen = NULL;
+    if (p->direct || p->nmaterial < 2) return PG_OK;
+    int set = p->integration->at_nodes ? PG_NODES : PG_POINTS;
+    const pg_rows *r = &p->rows[set];
+    PG_ALLOC (seen, p->cloud.n);
+    for (size_t soft = 0; soft < p->nmaterial; soft++) {
+        double all = 0, held = 0, most = 0;
+        size_t by = soft;
+        memset (seen, 0, p->cloud.n);
+        for (size_t q = 0; q < r->n; q++) {
+            const pg_material *own = &p->material[p->block[set][q]];
+            if (own->modulus < stark * p->material[soft].modulus) continue;
+            for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++)
+                if (p->block[PG_NODES][r->family.node[e]] == (int) soft) {
+                    seen[r->family.node[e]] = 1;
+                    if (own->modulus > most) most = own->modulus, by = (size_t) p->block[set][q];
+                }
+        }
+        for (size_t i = 0; i < p->cloud.n; i++) {
+            if (p->block[PG_NODES][i] != (int) soft) continue;
+            all += p->cloud.volume[i], held += seen[i] ? p->cloud.volume[i] : 0;
+        }
+        if (held > 0.05 * all)
+            pg_problem_note (p, PG_WARNING "material %.40s is %.2g times as stiff as %.40s, and sees %.2g %% of it within the horizon, which can hardly strain: "
+                             "too stiff by up to as much; use a smaller spacing", p->material[by].name, most / p->material[soft].modulus, p->material[soft].name, 100 * held / all);
+    }
+done:
+    pg_free (seen);
+    return status;
+}
