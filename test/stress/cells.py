@@ -6,11 +6,13 @@ import signal
 import subprocess
 import time
 
-from scenes import finite, write
+from scenes import finite, merged, write
 
 EXIT_DONE, EXIT_USAGE, EXIT_SCENE, EXIT_FAILED = 0, 64, 65, 70
 # What a warning must be about to excuse an inexact answer: these speak of something else.
 BESIDE_THE_POINT = ("Poisson's ratio", 'checkpoint')
+# Numbers that a coarse discretisation spoils, as each run says of itself by its patch error. Others hold in any: their runs accept it.
+OF_THE_DISCRETISATION = ('patch error', 'error of the opening')
 
 
 class Run:
@@ -70,6 +72,9 @@ class Cell:
     def __init__(self, condition, value, method, runs, quantity, number, limit, refusal=False, seconds=60):
         self.condition, self.value, self.method, self.runs = condition, str(value), method, runs
         self.quantity, self.number, self.limit, self.refusal, self.seconds = quantity, number, limit, refusal, seconds
+        for run in runs:
+            if quantity != 'patch error':
+                run.scene = merged(run.scene, {'method': {'accept_inexact': True}})
 
     def name(self):
         return f'{self.condition}|{self.value}|{self.method}'
@@ -101,6 +106,8 @@ class Cell:
         if value <= self.limit:
             return value, 'ok', ''
         warned = [w for run in self.runs for w in run.warnings()]
+        if self.quantity not in OF_THE_DISCRETISATION:
+            warned = [w for w in warned if not w.startswith('under uniform stress')]
         return value, 'inexact' if warned else 'defect', warned[0] if warned else 'no warning'
 
 
