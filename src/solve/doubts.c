@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What a scene asks for that is legal, yet hardly meant: the warnings that a run has before its first step. */
 #include "perigal/solve.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -23,17 +24,45 @@ static int acts (const pg_problem *p, const pg_load *load, int k, double end)
     return 0;
 }
 
+/* Rigid motions that the prescribed displacements leave free: the least eigenvalue of sum (e_k . motion)^2 over all of them, motions in units of the body's size. */
+static int may_turn (const pg_problem *p)
+{
+    size_t dim = (size_t) p->dim, n = dim == 2 ? 3 : 6, count = 0;
+    double A[36] = { 0 }, value[6], size = 0, middle[3] = { 0 };
+    if (dim < 2) return 0;
+    for (size_t k = 0; k < dim; k++) middle[k] = 0.5 * (p->cloud.low[k] + p->cloud.high[k]), size = fmax (size, p->cloud.high[k] - p->cloud.low[k]);
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        if (pg_load_prescribes (load) && pg_load_turns (load)) return 0;
+        for (size_t k = 0; pg_load_prescribes (load) && k < dim; k++)
+            for (size_t i = 0; load->value[k] && i < load->set->npoint; i++) {
+                double row[6] = { 0 }, x[3] = { 0 };
+                for (size_t a = 0; a < dim; a++) x[a] = (p->cloud.x[(size_t) load->set->point[i] * dim + a] - middle[a]) / size;
+                row[k] = 1, count++;
+                if (dim == 2) row[2] = k == 0 ? -x[1] : x[0];
+                else row[3 + (k + 1) % 3] = x[(k + 2) % 3], row[3 + (k + 2) % 3] = -x[(k + 1) % 3];
+                for (size_t a = 0; a < n; a++) for (size_t b = 0; b < n; b++) A[a * n + b] += row[a] * row[b];
+            }
+    }
+    if (count == 0) return 0;
+    pg_dense_eigen ((int) n, A, value, NULL);
+    return value[n - 1] < 1e-12 * value[0];
+}
+
 static void doubt_supports (pg_report *report, const pg_problem *p, const pg_solver_options *o)
 {
-    int moving = 0;
+    int moving = 0, everywhere = 1;
     for (int k = 0; k < p->dim; k++) {
         int held = !o->quasi_static;
         for (size_t l = 0; l < p->nload; l++) {
             held |= pg_load_prescribes (&p->load[l]) && !pg_load_turns (&p->load[l]) && p->load[l].value[k];
             moving |= acts (p, &p->load[l], k, o->quasi_static ? 1 : o->end) || p->load[l].kind == PG_PRESSURE;
         }
+        everywhere &= held;
         if (!held) pg_report_warn (report, "nothing holds the body along %c: no displacement along %c is prescribed anywhere", "xyz"[k], "xyz"[k]);
     }
+    if (everywhere && o->quasi_static && p->nload && may_turn (p))
+        pg_report_warn (report, "nothing keeps the body from turning: the prescribed displacements leave a rotation free");
     if (!moving) pg_report_warn (report, "nothing loads the body: every prescribed displacement is zero, and there is no force");
 }
 

@@ -108,11 +108,35 @@ static void a_load_on_a_body_that_may_move_or_turn_is_refused (void **state)
                 }
 }
 
+/* A run is told before its first step that a rotation is free. */
+static void a_free_rotation_is_told (void **state)
+{
+    (void) state;
+    static const struct { int dim; const char *supports; int turns; } held[] = {
+        { 2, "{set: left, displacement: {x: 0}}, {set: pin, displacement: {y: 0}}", 0 }, { 2, "{set: pin, displacement: {x: 0, y: 0}}", 1 },
+        { 2, "{set: pin, displacement: {x: 0, y: 0}}, {set: far, displacement: {y: 0}}", 0 }, { 2, "{set: pin, displacement: {x: 0, y: 0}}, {set: far, displacement: {x: 0}}", 1 },
+        { 3, "{set: left, displacement: {x: 0, y: 0, z: 0}}", 0 }, { 3, "{set: edge, displacement: {x: 0, y: 0, z: 0}}", 1 }, { 3, "{set: left, displacement: {x: 0}}, {set: pin, displacement: {y: 0, z: 0}}", 1 },
+        { 3, "{set: left, displacement: {x: 0}}, {set: bottom, displacement: {y: 0}}, {set: back, displacement: {z: 0}}", 0 },
+    };
+    for (size_t k = 0; k < sizeof held / sizeof *held; k++) {
+        run r = scene_of (1, "%smaterials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\nsets: {pin: {where: 'abs(x) < 1e-6 and abs(y) < 1e-6 and abs(z) < 1e-6'}, far: {where: 'x > 0.79 and "
+                          "abs(y) < 1e-6 and abs(z) < 1e-6'}, edge: {where: 'abs(x) < 1e-6 and abs(y) < 1e-6'}}\nboundary: [%s, {set: right, traction: {x: 1 MPa}}]\n", bodies[held[k].dim - 2],
+                          held[k].supports);
+        const pg_report *report = pg_solver_report_now (r.solver);
+        int told = 0;
+        for (size_t w = 0; w < report->nwarning; w++) told |= strstr (report->warning[w], "nothing keeps the body from turning") != NULL;
+        if (told != held[k].turns) print_error ("%s\n", held[k].supports);
+        assert_int_equal (told, held[k].turns);
+        clear (&r);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (unloading_to_nothing_and_through_it_is_solved),
         cmocka_unit_test (a_run_that_is_resumed_before_it_is_unloaded_remembers_its_load),
+        cmocka_unit_test (a_free_rotation_is_told),
         cmocka_unit_test (a_load_on_a_body_that_may_move_or_turn_is_refused),
     };
     return cmocka_run_group_tests_name ("solve/unloading", tests, NULL, NULL);
