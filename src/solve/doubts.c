@@ -66,6 +66,19 @@ static void doubt_supports (pg_report *report, const pg_problem *p, const pg_sol
     if (!moving) pg_report_warn (report, "nothing loads the body: every prescribed displacement is zero, and there is no force");
 }
 
+/* A displacement on `all` is one of every point, not of the surface. */
+static void doubt_all (pg_report *report, const pg_problem *p)
+{
+    unsigned held = 0;
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        if (!pg_load_prescribes (load) || pg_load_turns (load) || load->essential == PG_ESSENTIAL_NITSCHE || load->set->npoint < p->cloud.n) continue;
+        for (int k = 0; k < p->dim; k++) held |= (unsigned) (load->value[k] != NULL) << k;
+    }
+    if (held == (1u << p->dim) - 1)
+        pg_report_warn (report, "displacements are prescribed at every point of the body: nothing is left to solve. Of its surface alone: sets: {NAME: {boundary: all}}, or essential: nitsche");
+}
+
 static int warns (const char *note) { return strncmp (note, PG_WARNING, strlen (PG_WARNING)) == 0; }
 
 static void doubt_patch (pg_report *report, const pg_problem *p)
@@ -84,6 +97,7 @@ static void doubt_patch (pg_report *report, const pg_problem *p)
 void pg_solver_doubts (pg_report *report, const pg_problem *p, const pg_solver_options *o)
 {
     doubt_supports (report, p, o);
+    doubt_all (report, p);
     doubt_patch (report, p);
     for (size_t k = 0; k < p->nnote; k++) if (warns (p->note[k])) pg_report_warn (report, "%s", p->note[k] + strlen (PG_WARNING));
     if (p->part.mesh.n && p->part.quality < 0.1)

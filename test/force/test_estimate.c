@@ -41,7 +41,7 @@ static const char kirsch_scene[] =
     "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
     "method: {approximation: %s, integration: %s, gauss_points: %d, basis: %s, kernel: cubic_spline, horizon: %g spacing}\n"
     "boundary:\n"
-    "  - {set: all, displacement: {x: \"3.125e-5*(3.2*x + 2 m^2*(3.2*x/" RR " + " CC "/" RR "^2) - 2 m^4*" CC "/" RR "^3)\",\n"
+    "  - {set: all, essential: nitsche, displacement: {x: \"3.125e-5*(3.2*x + 2 m^2*(3.2*x/" RR " + " CC "/" RR "^2) - 2 m^4*" CC "/" RR "^3)\",\n"
     "                              y: \"3.125e-5*(-0.8*y + 2 m^2*(-1.2*y/" RR " + " SS "/" RR "^2) - 2 m^4*" SS "/" RR "^3)\"}}\n"
     "solver: {kind: static}\n";
 
@@ -49,7 +49,7 @@ static const char patch_scene[] =
     "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: %g\nperturb: {amount: %g}\n"
     "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
     "method: {approximation: %s, integration: %s, gauss_points: %d, basis: %s, kernel: cubic_spline, horizon: %g spacing}\n"
-    "boundary: [{set: all, displacement: {x: \"8.2e-4*x + 1e-4*y\", y: \"-2e-4*x + 5e-4*y\"}}]\n"
+    "boundary: [{set: all, essential: nitsche, displacement: {x: \"8.2e-4*x + 1e-4*y\", y: \"-2e-4*x + 5e-4*y\"}}]\n"
     "solver: {kind: static}\n";
 
 typedef struct {

@@ -74,6 +74,13 @@ static void solids_and_motions_are_looked_at_alike (void **state)
           "boundary:\n - {set: left, velocity: {x: 1 m/s}}\n - {set: left, displacement: {x: 1 mm}, ramp: linear}\nsolver: {kind: newmark, dt: 1 us, end: 2 ms}\n", "contradicts boundary[0].velocity.x");
 }
 
+static double field_largest (const run *r)
+{
+    double *u = field_of (r, NULL, "displacement", NULL), top = largest_of (u, 2 * r->problem->cloud.n);
+    pg_free (u);
+    return top;
+}
+
 /* ---- sets with an inside --------------------------------------------------------------------------------------------------------------- */
 /* Force of a plate between rigid grips 0.5 m wide, 1 mm apart, N. */
 static double grips (int dim, double spacing, const char *method, const char *solver, const char *essential)
@@ -120,6 +127,23 @@ static void forces_are_those_of_penalty_on_every_point (void **state)
     check_relative (grips (2, 0.1, "", "", "essential: transformation, "), grips (2, 0.1, "", "", "essential: penalty, "), 1e-5);
 }
 
+static void a_body_held_everywhere_is_told (void **state)
+{
+    (void) state;
+    static const char *const loads[] = { "{set: all, displacement: {x: 1e-3*x, y: 0}}", "{set: all, essential: nitsche, displacement: {x: 1e-3*x, y: 0}}", "{set: skin, displacement: {x: 1e-3*x, y: 0}}",
+                                         "{set: all, displacement: {x: 1e-3*x}}, {set: bottom, displacement: {y: 0}}" };
+    for (int k = 0; k < 4; k++) {
+        run r = scene_of (1, PLATE "sets: {skin: {boundary: all}}\nboundary: [%s]\n", loads[k]);
+        const pg_report *report = pg_solver_report_now (r.solver);
+        int told = 0;
+        for (size_t w = 0; w < report->nwarning; w++) told |= strstr (report->warning[w], "nothing is left to solve") != NULL;
+        assert_int_equal (told, k == 0);
+        to_the_end (&r);
+        check_relative (field_largest (&r), 1e-3, 1e-4);
+        clear (&r);
+    }
+}
+
 /* Faces have no inside; points of a set without facets are eliminated as before. */
 static void sides_and_boundaries_have_no_inside (void **state)
 {
@@ -153,6 +177,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (two_values_for_one_set_are_a_fault_with_both_lines), cmocka_unit_test (sets_that_share_a_corner), cmocka_unit_test (solids_and_motions_are_looked_at_alike),
         cmocka_unit_test (wide_grips_are_held_in_all_their_points), cmocka_unit_test (forces_are_those_of_penalty_on_every_point),
+        cmocka_unit_test (a_body_held_everywhere_is_told),
         cmocka_unit_test (sides_and_boundaries_have_no_inside), cmocka_unit_test (too_many_points_to_eliminate_are_told),
     };
     return cmocka_run_group_tests_name ("model/supports", tests, NULL, NULL);
