@@ -180,7 +180,9 @@ done:
     return status;
 }
 
-static pg_status keep_system (pg_system *s, const pg_keeper *k)
+static int operates (const pg_system *s) { return s->force->operator_ && s->force->operator_ (s->self); }
+
+static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     long count[8] = { s->mode, s->umfpack, s->kept, s->marked, s->factored != NULL, s->stale, s->unshifted, s->spared };
@@ -190,7 +192,7 @@ static pg_status keep_system (pg_system *s, const pg_keeper *k)
     PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
     PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, s->touched, k));
     BOUND (k, "the way to solve", count[0], SYSTEM_UNDECIDED, !system_has_matrix (s) && count[0] != SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_NO_FACTOR);
-    BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, 1);
+    BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, solves ? 1 : 0);
     s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6], s->spared = count[7];
     s->mean_diagonal = number[0], s->shift = number[1], s->rent = number[2];
     if (k->reading && count[1] && !s->umfpack) {
@@ -200,6 +202,8 @@ static pg_status keep_system (pg_system *s, const pg_keeper *k)
     }
     long made = s->multilevel != NULL || s->remake;
     PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));
+    BOUND (k, "the multilevel preconditioner", made, 0, solves && s->force->couplings && operates (s) && count[4] ? 1 : 0);
+    BOUND (k, "a factor of the bonds", made ? 0 : count[4], 0, system_has_matrix (s) ? 1 : 0);
     PG_TRY (k->numbers (k->context, "system.pace", 1, &s->pace));
     PG_TRY (k->numbers (k->context, "system.borne", 1, &s->borne));
     if (k->reading) s->remake = made != 0;
@@ -298,7 +302,7 @@ pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
     PG_TRY (keep_state (state, "state", k));
     PG_TRY (keep_state (s->backup, "backup", k));
     PG_TRY (keep_solver (s, k));
-    PG_TRY (keep_system (&s->breaker.system, k));
+    PG_TRY (keep_system (&s->breaker.system, s->type->way == SOLVES, k));
     if (s->type->keep) PG_TRY (s->type->keep (s, k));
     if (k->reading) PG_TRY (rebuild (s, state));
 done:

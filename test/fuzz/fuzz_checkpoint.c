@@ -4,6 +4,7 @@
  * With a first byte of 0xff what follows is the file itself. */
 #include "fuzz.h"
 #include "perigal.h"
+#include <math.h>
 #include <stdlib.h>
 #include <unistd.h>
 
