@@ -14,7 +14,7 @@ static inline pg_status bar_create (bar *out, const char *approximation, size_t 
     pg_status status = PG_OK;
     double D = L / (double) cells;
     *out = (bar) { cells, L, D, { .dim = 1, .n = cells + 1, .h = D, .step = { D }, .thickness = 1 },
-                   { pg_approx_find (approximation), pg_kernel_find ("cubic_spline"), 1, PG_RADIAL, 0, a_over_D * D, 0 } };
+                   { pg_approx_find (approximation), pg_kernel_find ("cubic_spline"), 1, PG_RADIAL, 0, a_over_D * D, 0, 0 } };
     PG_ALLOC (out->cloud.x, cells + 1);
     PG_ALLOC (out->cloud.volume, cells + 1);
     for (size_t i = 0; i <= cells; i++) {

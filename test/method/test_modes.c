@@ -33,7 +33,7 @@ static periodic wrap (int dim, size_t n, double h, double horizon)
         memcpy (x + d * at, p.images.x + d * i, d * sizeof *x);
         own[at++] = (int) i;
     }
-    pg_approx approx = { pg_approx_find ("nosb"), pg_kernel_find ("constant"), 1, PG_RADIAL, 1, horizon, 0 };
+    pg_approx approx = { pg_approx_find ("nosb"), pg_kernel_find ("constant"), 1, PG_RADIAL, 1, horizon, 0, 0 };
     check_ok (pg_rows_create (&p.rows, &approx, &p.images, at, x, NULL, own, NULL));
     check_ok (approx.type->evaluate (&approx, &p.images, &p.rows, NULL, at, NULL, 1));
     assert_int_equal (pg_rows_count (&p.rows, PG_GRADE_FULL), p.count);
