@@ -56,7 +56,6 @@ void plan_print (const pg_problem *p, const pg_solver_options *o)
     else printf ("  %s (%s basis, %s kernel, horizon %.6g m), %s integration\n", p->approx.type->name, p->approx.order == 2 ? "quadratic" : "linear",
                  p->approx.kernel->name, p->approx.horizon, p->integration->name);
     describe (p, 9);
-    if (p->eroded) printf ("  %zu points lie on a pre-crack and lose their bonds to both sides\n", p->eroded);
     printf ("  solver %s%s\n", o->kind, stepping (o));
     plan_doubts (p, o);
     fflush (stdout);                                   /* progress goes to the other stream */

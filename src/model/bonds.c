@@ -2,6 +2,7 @@
  * The bond sets: node-node, evaluation point-node, facet point-node (Cui 2022 section 3.1; theory F1), their exemptions, and
  * the bonds that the pre-cracks cut. */
 #include "model.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -208,6 +209,30 @@ done:
     return status;
 }
 
+/* Points on a pre-crack, counted; of the first crack that has some it is said how its rows of points would leave it. */
+static void count_eroded (pg_problem *p, const pg_scene *scene)
+{
+    const pg_crack *first = NULL;
+    char way[96] = "move them off it";
+    for (size_t i = 0; i < p->cloud.n; i++)
+        for (size_t c = 0; c < p->cracks.n; c++)
+            if (pg_crack_touches (&p->cracks.crack[c], p->dim, p->cloud.x + i * (size_t) p->dim, 1e-9 * p->cloud.h)) {
+                p->eroded++;
+                if (!first) first = &p->cracks.crack[c];
+                break;
+            }
+    if (!first) return;
+    if (p->lattice.dim) {
+        int across = 0, n = 0;
+        for (int k = 1; k < p->dim; k++) if (fabs (first->normal[k]) > fabs (first->normal[across]) * (1 + 1e-9)) across = k;
+        n = snprintf (way, sizeof way, "%s [", pg_scene_given (scene, "lattice_offset") ? "lattice_offset more by" : "lattice_offset:");
+        for (int k = 0; k < p->dim; k++) n += snprintf (way + n, sizeof way - (size_t) n, "%s%s", k ? ", " : "", k == across ? "0.5" : "0");
+        snprintf (way + n, sizeof way - (size_t) n, "] puts it between them");
+    }
+    pg_problem_note (p, PG_WARNING "%zu point%s on a pre-crack and lose%s all bonds to both sides, as if the crack were a spacing wide; %s", p->eroded,
+                     p->eroded == 1 ? " lies" : "s lie", p->eroded == 1 ? "s" : "", way);
+}
+
 pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -224,12 +249,7 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_blocks_build (p, scene));
     PG_TRY (pg_dilatation_build (p, scene));
     PG_TRY (make_exempt (p, scene));
-    for (size_t i = 0; i < p->cloud.n; i++)
-        for (size_t c = 0; c < p->cracks.n; c++)
-            if (pg_crack_touches (&p->cracks.crack[c], p->dim, p->cloud.x + i * (size_t) p->dim, 1e-9 * p->cloud.h)) {
-                p->eroded++;
-                break;
-            }
+    count_eroded (p, scene);
 done:
     return status;
 }

@@ -115,7 +115,14 @@ static void nodes_on_a_crack_are_eroded (void **state)
     (void) state;
     run r = plate (0, FIXED, "cracks: [{from: [0.2, 0.2], to: [0.6, 0.6]}]\n", "");
     assert_int_equal (r.problem->eroded, 5);               /* (4..8)/15 on the diagonal: the tips lie further on         */
+    check_contains (r.problem->note[r.problem->nnote - 1], "warning: 5 points lie on a pre-crack and lose all bonds to both sides");
+    check_contains (r.problem->note[r.problem->nnote - 1], "lattice_offset: [0.5, 0] puts it between them");
     to_the_end (&r);
+    pg_report now = { 0 };
+    pg_solver_doubts (&now, r.problem, &r.options);
+    int told = 0;
+    for (size_t k = 0; k < now.nwarning; k++) told += strstr (now.warning[k], "5 points lie on a pre-crack") != NULL;
+    assert_int_equal (told, 1);                            /* the run warns, and report.json with it                         */
     const pg_report *report = pg_solver_report (r.solver, r.state);
     assert_int_equal (report->isolated_nodes, 5);
     double *s = field_of (&r, NULL, "stress", NULL);
