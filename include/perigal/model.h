@@ -49,6 +49,8 @@ typedef struct {
     int    state;                                      /* which stress: 0.. of pg_voigt order                            */
     int    held;                                       /* 1: no facets: the outermost points are held in the linear field instead, compliance is NAN */
     int    settled;                                    /* 0: iterations ended early: at least so much                    */
+    double softness;                                   /* energy that rough forces of unit size put into the body, over their number: about 1; of
+                                                          small bodies 10; 1e9 and more: next to nothing resists some motion */
     size_t iterations;                                 /* of conjugate gradients, all states                             */
     size_t points, degenerate, isolated, fragments;    /* of evaluation; of these without a strain; points without a bond; parts beside the largest */
     double seconds;
@@ -88,6 +90,7 @@ typedef struct {
     int      thickness_assumed;                        /* 1: cloud.thickness is not that of the scene, but 1           */
     int      accept_inexact;                           /* method.accept_inexact: no measured patch error is too large    */
     pg_patch patch;                                    /* how well the discretisation carries uniform stress             */
+    unsigned char *borne;                              /* bare: per facet, bit k: a support on points bears component k (pg_patch_probe); else NULL */
     size_t   eroded;                                   /* points that lie on a pre-crack                                 */
     char     note[16][224];  size_t nnote;             /* what the plan says: keys without meaning, constants taken otherwise */
 } pg_problem;

@@ -12,7 +12,7 @@ pg_status galerkin_surface (void *self, const double *stress, double *P)
         const double *n = g->problem->facet_normal + q * dim;
         double t[3] = { 0 };
         for (size_t k = 0; k < dim; k++)
-            for (size_t c = 0; c < dim; c++) t[k] += stress[dim == 3 ? at3[k][c] : dim == 2 ? at2[k][c] : 0] * n[c] * r->weight[q];
+            for (size_t c = 0; c < dim && !(g->problem->borne && g->problem->borne[r->cell[q]] >> k & 1); c++) t[k] += stress[dim == 3 ? at3[k][c] : dim == 2 ? at2[k][c] : 0] * n[c] * r->weight[q];
         for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++)
             for (size_t k = 0; k < dim; k++) P[(size_t) r->family.node[e] * dim + k] += r->N[e] * t[k];
     }

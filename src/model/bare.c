@@ -61,7 +61,7 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     b->cracks = (pg_cracks) { 0 }, b->criterion = NULL, b->load = NULL, b->nload = 0, b->facet_normal = NULL;
     b->rows[PG_FACETS] = (pg_rows) { 0 };
     for (int s = 0; s < PG_BOND_SETS; s++) b->block[s] = NULL, b->exempt[s] = NULL;
-    b->spacing[PG_FACETS] = NULL;
+    b->spacing[PG_FACETS] = NULL, b->borne = NULL;
     for (int k = 0; k < 3; k++) b->initial[k] = NULL;
     b->material = (pg_material *) stiffest (p), b->nmaterial = 1;
     PG_ALLOC (b->criterion, 1);
@@ -73,6 +73,7 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
         PG_ALLOC (b->exempt[s], b->rows[s].n);
         b->first_bond[s + 1] = b->first_bond[s] + (b->rows[s].n ? b->rows[s].family.start[b->rows[s].n] : 0);
     }
+    PG_ALLOC (b->borne, p->cells.nfacet);
     if (p->spacing[PG_FACETS]) PG_ALLOC (b->spacing[PG_FACETS], b->rows[PG_FACETS].n);
     for (size_t q = 0; b->spacing[PG_FACETS] && q < b->rows[PG_FACETS].n; q++) {
         int nearest = pg_bonds_nearest (b, PG_FACETS, q);
@@ -92,7 +93,7 @@ void pg_problem_bare_free (pg_problem **bare)
         pg_free (b->facet_normal);
     }
     for (int s = 0; s < PG_BOND_SETS; s++) pg_free (b->block[s]), pg_free (b->exempt[s]);
-    pg_free (b->spacing[PG_FACETS]), pg_free (b->criterion);
+    pg_free (b->spacing[PG_FACETS]), pg_free (b->criterion), pg_free (b->borne);
     if (b->load) {
         pg_set *all = (pg_set *) b->load->set;
         if (all) pg_free (all->facet);

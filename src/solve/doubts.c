@@ -88,6 +88,9 @@ static void doubt_patch (pg_report *report, const pg_problem *p)
     if (!t->measured) return;
     if (t->degenerate) pg_report_warn (report, "%zu of %zu evaluation points see too few points for a strain and carry no stress", t->degenerate, t->points);
     if (t->fragments) pg_report_warn (report, "the body is in %zu parts that no bond joins", t->fragments + 1);
+    if (t->softness > 1e9)
+        pg_report_warn (report, "next to nothing resists some motion of the points (%.1g times less than usual): displacements may be wrong there; points that nearly "
+                        "coincide, or modes without energy of nodal integration, do this", t->softness);
     if (t->error <= PG_PATCH_TOLD) return;
     pg_patch_words (p, words, sizeof words);
     pg_patch_remedy (p, remedy, sizeof remedy);

@@ -21,6 +21,7 @@ typedef struct {
     double   *P, *x, *r, *z, *q, *inverse, *u;         /* P: tractions of a state; inverse: of the diagonal, 0: held     */
     double    A[STATES * STATES];                      /* of fields of unit strains: one times K times another           */
     size_t    limit;
+    int       supported;                               /* supports on points hold the body                               */
     int       rows;                                    /* loads and supports are borne by the outermost rows             */
     pg_patch  out;
 } probe;
@@ -157,22 +158,23 @@ static void start (probe *t, const double *strain)
     double A[STATES * STATES], b[STATES], one[STATES];
     memcpy (A, t->A, sizeof A);
     memcpy (b, strain, sizeof b);
-    for (size_t v = 0; v < t->nv && !t->out.held; v++) {
+    for (size_t v = 0; v < t->nv && !t->out.held && !t->supported; v++) {
         memset (one, 0, sizeof one), one[v] = 1;
         linear_field (t, one, t->stride, t->x);
         b[v] = dot (t->ndof, t->x, t->P);
     }
-    if (!t->out.held && pg_dense_cholesky ((int) t->nv, A, 1e-14)) memcpy (b, strain, sizeof b);
-    else if (!t->out.held) pg_dense_solve ((int) t->nv, A, b);
+    int fitted = !t->out.held && !t->supported;
+    if (fitted && pg_dense_cholesky ((int) t->nv, A, 1e-14)) memcpy (b, strain, sizeof b);
+    else if (fitted) pg_dense_solve ((int) t->nv, A, b);
     linear_field (t, b, t->stride, t->x);
     t->op->apply (t->op->context, t->x, t->r);
     for (size_t i = 0; i < t->ndof; i++) t->r[i] = t->P[i] - t->r[i];
-    if (!t->out.held) without (t, t->stride, 0, 0, t->r);
+    if (fitted) without (t, t->stride, 0, 0, t->r);
     for (size_t i = 0; i < t->ndof; i++) if (t->inverse[i] == 0) t->r[i] = 0;
 }
 
 /* Conjugate gradients; what an iteration takes off the energy of the error tells when to stop (Hestenes and Stiefel; Strakos and Tichy). */
-static void iterate (probe *t, double scale)
+static double iterate (probe *t, double scale)
 {
     double rz = 0, found = 0, late[DELAY] = { 0 };
     double *p = t->u;
@@ -196,6 +198,25 @@ static void iterate (probe *t, double scale)
     }
     t->out.iterations += k;
     if (k == t->limit) t->out.settled = 0;
+    return found;
+}
+
+/* Energy that rough forces of unit size put into the body, over their number: where next to nothing resists some motion, it has no bound. */
+static double measure_softness (probe *t)
+{
+    unsigned long long seed = 1;
+    double size = 0;
+    memset (t->x, 0, t->ndof * sizeof *t->x);
+    for (size_t i = 0; i < t->ndof; i++) {
+        seed = seed * 6364136223846793005ull + 1442695040888963407ull;
+        t->r[i] = t->inverse[i] > 0 ? (seed >> 40 & 1 ? 1 : -1) / sqrt (t->inverse[i]) : 0;
+    }
+    if (!t->out.held) without (t, t->stride, 0, 0, t->r);
+    for (size_t i = 0; i < t->ndof; i++) {
+        if (t->inverse[i] == 0) t->r[i] = 0;
+        size += t->r[i] * t->r[i] * t->inverse[i];
+    }
+    return iterate (t, 0) / size;
 }
 
 static double size_of (const probe *t, const double *f)
@@ -203,6 +224,25 @@ static double size_of (const probe *t, const double *f)
     double s = 0;
     for (size_t i = 0; i < t->n * t->dim; i++) s += t->p->cloud.volume[i / t->dim] * f[i] * f[i];
     return s;
+}
+
+/* nosb, whose unknowns are the displacements of the points: supports that hold these leave the traction that the shape functions of other points see
+ * on the facet unanswered, which those of Nitsche do not. 0: there are none. */
+static int mark_supports (probe *t, const pg_problem *p)
+{
+    size_t marked = 0;
+    if (p->direct || strcmp (p->approx.type->name, "nosb") != 0 || !t->p->borne) return 0;
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        if (!pg_load_prescribes (load) || load->essential == PG_ESSENTIAL_NITSCHE || !load->set->nfacet) continue;
+        for (size_t k = 0; k < t->dim; k++) {
+            if (!load->value[k]) continue;
+            for (size_t i = 0; i < load->set->npoint; i++) t->inverse[(size_t) load->set->point[i] * t->stride + k] = 0, marked++;
+            for (size_t i = 0; i < load->set->nfacet; i++) t->p->borne[load->set->facet[i]] |= (unsigned char) (1u << k);
+        }
+    }
+    t->supported = marked > 0;
+    return t->supported;
 }
 
 /* A bar's displacement has half the size about its middle that it has about its end, from which displacements are commonly counted: what is not
@@ -229,11 +269,12 @@ static pg_status measure_state (probe *t, size_t v)
     exact = size_of (t, t->z);
     PG_TRY (t->force->field (t->self, t->state, t->x, "displacement", &components, &unit, t->u));
     for (size_t i = 0; i < t->n * t->dim; i++) t->q[i] = t->u[i] - t->z[i];
-    if (!t->out.held) without (t, t->dim, 1, 0, t->q);
+    if (!t->out.held && !t->supported) without (t, t->dim, 1, 0, t->q);
     whole = size_of (t, t->q);
     without (t, t->dim, 1, 1, t->q);
     local = size_of (t, t->q);
     error = sqrt ((whole - 0.75 * local) / exact), compliance = t->out.held ? NAN : dot (t->ndof, t->P, t->x) / work - 1;
+    if (t->supported) error = 0.5 * sqrt (whole / exact), compliance = NAN;
     if (t->rows) error = fmax (error, fabs (compliance));              /* fmax passes NAN by                             */
     if (t->out.measured && !(error > (1 + 1e-6) * t->out.error) && !isnan (error)) goto done;
     t->out.measured = 1, t->out.error = isnan (error) ? INFINITY : error, t->out.state = (int) v;
@@ -307,6 +348,8 @@ pg_status pg_patch_probe (pg_problem *problem)
     PG_TRY (prepare (&t));
     count_defects (&t);
     for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
+    t.out.softness = measure_softness (&t);
+    if (mark_supports (&t, problem)) for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
     t.out.seconds = pg_seconds () - start;
     problem->patch = t.out;
 done:

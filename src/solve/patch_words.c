@@ -51,6 +51,8 @@ void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
     else if (p->direct)
         snprintf (out, size, "points that lie unevenly, or a kernel and horizon that few points sum badly: use a lattice, a smaller spacing, horizon: 3 spacing, or force: galerkin");
     else if (p->cells.n == 0) snprintf (out, size, "points without cells are integrated by their volumes: use points that lie more evenly, or a mesh or body with integration: consistent");
+    else if (strcmp (p->approx.type->name, "nosb") == 0)
+        snprintf (out, size, "use %sessential: nitsche (supports on the points of nosb are not consistent), or approximation: rkpm", consistent ? "" : "integration: consistent and ");
     else if (!consistent)
         snprintf (out, size, "use integration: consistent%s%s", rkpm ? "" : ", with approximation: rkpm if the horizon is wide", smooth ? "" : ", or kernel: cubic_spline");
     else snprintf (out, size, "use a smaller spacing%s", rkpm ? "" : ", or approximation: rkpm");

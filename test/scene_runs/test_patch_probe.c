@@ -61,6 +61,8 @@ static const tension cases[] = {
     { "force: gmpd", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "force: gmpd, volumetric: on", "", 3, 0.2, { 1, 1, 1 }, 0.9, 2 },
     { "approximation: nosb, horizon: 2.5 spacing", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "approximation: pddo, horizon: 3 spacing", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
     { "approximation: pddo, integration: nodal", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "approximation: nosb, integration: nodal", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "approximation: nosb, integration: consistent, horizon: 6 spacing", "", 1, 0.1, { 1, 0, 0 }, 0.9, 2 },
+    { "approximation: nosb, integration: consistent, horizon: 4.5 spacing", "", 2, 0.1, { 1, 1, 0 }, 0.9, 6 },
     { "kernel: constant", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "kernel: linear_r", "", 3, 0.2, { 1, 1, 1 }, 0.9, 2 },
 };
 
@@ -82,6 +84,7 @@ static void sound_ones_are_told_to_be (void **state)
     static const tension sound[] = {
         { "horizon: 2 spacing", MOVED, 2, 0.1, { 1, 1, 0 }, 0, 0.01 }, { "basis: quadratic, horizon: 2.8 spacing", "", 3, 0.2, { 1, 1, 1 }, 0, 0.01 },
         { "integration: consistent", MOVED, 2, 0.1, { 1, 1, 0 }, 0, 1e-12 }, { "integration: consistent", MOVED, 3, 0.2, { 1, 1, 1 }, 0, 1e-12 },
+        { "approximation: nosb, integration: consistent, essential: nitsche, horizon: 4.5 spacing", "", 2, 0.1, { 1, 1, 0 }, 0, 1e-12 },
         { "integration: consistent", "plane: strain\n", 2, 0.1, { 1, 1, 0 }, 0, 1e-12 }, { "integration: consistent", "", 1, 0.1, { 1, 0, 0 }, 0, 1e-12 },
     };
     for (size_t k = 0; k < sizeof sound / sizeof *sound; k++) {
