@@ -84,11 +84,12 @@ static int from_rest (const pg_problem *p)
 
 static int by_events (const pg_result *r) { return pg_solver_settled (r->solver)->event; }
 
-/* Slope through the origin of the rows up to the peak that carry at most 40 % of it, by least squares; of the first row where there are none. */
+/* Slope through the origin of the rows up to the peak that carry at most 40 % of it, by least squares; of the first row where there are none,
+ * and under event stepping, whose first row is the unbroken body at any load and whose later ones have lost bonds at every load. */
 static double initial_stiffness (const pg_result *r, size_t peak)
 {
     double xy = 0, xx = 0;
-    for (size_t i = 0; i <= peak; i++)
+    for (size_t i = 0; i <= peak && !by_events (r); i++)
         if (fabs (r->curve_y[i]) <= 0.4 * fabs (r->curve_y[peak])) xy += r->curve_x[i] * r->curve_y[i], xx += r->curve_x[i] * r->curve_x[i];
     if (xx > 0 && xy != 0) return xy / xx;
     return r->curve_x[0] != 0 ? r->curve_y[0] / r->curve_x[0] : NAN;
