@@ -16,7 +16,7 @@ holds "report.json: keys without meaning"       "$work/loose/report.json" '"with
 python3 -c "import json, sys; w = json.load (open (sys.argv[1]))['warnings']; sys.exit (len (w) < 3 or len (set (w)) != len (w))" "$work/loose/report.json"
 verdict "each of them once" $?
 "$perigal" check plate.yaml --json "${loose[@]}" > "$work/out" 2> "$work/err"
-python3 -c "import json, sys; r = json.load (open (sys.argv[1])); sys.exit (len (r['warnings']) != 3 or len (r['notes']) < 1)" "$work/out"
+python3 -c "import json, sys; r = json.load (open (sys.argv[1])); sys.exit (len (r['warnings']) != 4 or len (r['notes']) < 1)" "$work/out"
 verdict "check --json has them too" $?
 "$perigal" run plate.yaml -o "$work/loud" "${once[@]}" "${loose[@]}" > "$work/out" 2> "$work/err"
 [ "$(grep -c 'warning: nothing holds the body along x' "$work/out")" -eq 1 ]; verdict "on the screen each comes once" $?
