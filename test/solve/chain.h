@@ -125,7 +125,7 @@ static const pg_force_type chain_type = {
 /* ---- a problem around it ---------------------------------------------------------------------------------------------------- */
 typedef struct {
     double x[MOST], volume[MOST]; int block[MOST];
-    pg_load load; pg_material material; pg_criterion none;
+    pg_load load; pg_set set; pg_material material; pg_criterion none;
     pg_problem problem; pg_solver *solver; pg_state *state;
 } linked;
 
@@ -134,6 +134,7 @@ static inline pg_status try_link (linked *l, const pg_solver_options *o, const p
     pg_status status = PG_OK;
     memset (l, 0, sizeof *l);
     for (size_t i = 0; i < the.n; i++) l->x[i] = (double) i, l->volume[i] = 1;
+    l->load.set = &l->set;
     l->load.kind = the.lead ? PG_DISPLACEMENT : PG_POINT_FORCE;
     l->load.essential = PG_ESSENTIAL_TRANSFORMATION;
     if (the.push) l->load.kind = PG_POINT_FORCE;
