@@ -35,9 +35,9 @@ static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
         if (r->grade[q] < PG_GRADE_PROJECTED) continue;
         for (int k = 0; k < p->dim; k++)
             used += snprintf (at + used, sizeof at - (size_t) used, k ? ", %.6g" : "%.6g", r->x[q * (size_t) p->dim + (size_t) k]);
-        pg_scene_fault (scene, "method.horizon", "%s %zu at (%s) m sees %zu points, too few or too flat a set for a strain: "
-                        "use a larger horizon or larger spacings of the points there",
-                        what[set], q + 1, at, r->family.start[q + 1] - r->family.start[q]);
+        pg_scene_fault (scene, "method.horizon", "%s %zu at (%s) m sees %zu points, too few or too flat a set for a strain: use a larger horizon or %s",
+                        what[set], q + 1, at, r->family.start[q + 1] - r->family.start[q],
+                        p->cloud.size ? "larger spacings of the points there" : "a column spacing in the file of points, which the horizon of each then follows");
         PG_TRY (pg_scene_verdict (scene));
     }
 done:

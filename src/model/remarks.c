@@ -44,13 +44,28 @@ static int is_cut (const pg_problem *p, size_t i, size_t j)
     return 0;
 }
 
-/* Parts of several points that no bond joins, once the cracks are cut; bonds between points tell. */
+static int on_a_crack (const pg_problem *p, size_t i)
+{
+    for (size_t c = 0; c < p->cracks.n; c++)
+        if (pg_crack_touches (&p->cracks.crack[c], p->dim, p->cloud.x + i * (size_t) p->dim, 1e-9 * p->cloud.h)) return 1;
+    return 0;
+}
+
+static void write_place (const pg_problem *p, size_t i, char *out, size_t size)
+{
+    size_t dim = (size_t) p->dim;
+    for (size_t k = 0, used = 0; k < dim; k++) used += (size_t) snprintf (out + used, size - used, "%s%.4g", k ? ", " : "", p->cloud.x[i * dim + k]);
+}
+
+/* Parts of several points that no bond joins, once the cracks are cut, and points without a bond (those on a crack are told elsewhere); bonds
+ * between points tell. */
 pg_status pg_remark_parts (pg_problem *p)
 {
     pg_status status = PG_OK;
     const pg_family *f = &p->rows[PG_NODES].family;
     int *parent = NULL, *size = NULL, largest = 0;
-    size_t n = p->cloud.n, parts = 0, beside = 0, at = 0, dim = (size_t) p->dim;
+    size_t n = p->cloud.n, parts = 0, beside = 0, at = 0, alone = 0, lonely = 0;
+    char place[80];
     if (!p->cracks.n) return PG_OK;
     PG_ALLOC (parent, n);
     PG_ALLOC (size, n);
@@ -64,16 +79,19 @@ pg_status pg_remark_parts (pg_problem *p)
     for (size_t i = 0; i < n; i++) if (size[i] > size[largest]) largest = (int) i;
     for (size_t i = 0; i < n; i++) {
         int r = root (parent, (int) i);
+        if (size[r] == 1 && n > 1 && !on_a_crack (p, i) && !alone++) lonely = i;
         if (r == largest || size[r] < 2) continue;
         if (r == (int) i) parts++;
         if (!beside++) at = i;
     }
     if (parts) {
-        char place[80];
-        int used = 0;
-        for (size_t k = 0; k < dim; k++) used += snprintf (place + used, sizeof place - (size_t) used, "%s%.4g", k ? ", " : "", p->cloud.x[at * dim + k]);
+        write_place (p, at, place, sizeof place);
         pg_problem_note (p, PG_WARNING "the cracks cut the body into %zu parts: %zu of its %zu points hang on the largest part by no bond, such as that at (%s) m", parts + 1,
                          beside, n, place);
+    }
+    if (alone) {
+        write_place (p, lonely, place, sizeof place);
+        pg_problem_note (p, PG_WARNING "the cracks leave %zu point%s without a bond, such as that at (%s) m", alone, alone == 1 ? "" : "s", place);
     }
 done:
     pg_free (parent), pg_free (size);

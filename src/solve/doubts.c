@@ -87,6 +87,7 @@ static void doubt_patch (pg_report *report, const pg_problem *p)
     const pg_patch *t = &p->patch;
     if (!t->measured) return;
     if (t->degenerate) pg_report_warn (report, "%zu of %zu evaluation points see too few points for a strain and carry no stress", t->degenerate, t->points);
+    if (t->isolated) pg_report_warn (report, "%zu point%s by no bond on any other", t->isolated, t->isolated == 1 ? " hangs" : "s hang");
     if (t->fragments) pg_report_warn (report, "the body is in %zu parts that no bond joins", t->fragments + 1);
     if (t->softness > 1e9)
         pg_report_warn (report, "next to nothing resists some motion of the points (%.1g times less than usual): displacements may be wrong there; points that nearly "
