@@ -35,6 +35,37 @@ static void sides_of_a_box_have_their_points_and_areas (void **state)
     drop (&m);
 }
 
+/* Whole cells stand for the surface: every facet of a part is near it and looks out of the body there. */
+static void parts_of_stairs_are_where_they_should_be (void **state)
+{
+    (void) state;
+    static const struct { const char *text; int axis; double at, out, area; } part[] = {
+#define ROD "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, -1], axis: [0, 0, 1], radius: 1, length: 2}}}]\nspacing: 0.2\nsets: {part: {boundary: cylinder."
+        { ROD "start}}", 2, -1, -1, 3.14 }, { ROD "end}}", 2, 1, 1, 3.14 },
+#define AHEAD "[0.3, 0.2], [0.7, 0.2], [0.7, 0.8], [0.3, 0.8]"
+#define BACK "[0.3, 0.8], [0.7, 0.8], [0.7, 0.2], [0.3, 0.2]"
+#define WITH(vertices) "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}, {name: pit, subtract: {polygon: {vertices: [" vertices "]}}}]\nspacing: 0.1\nsets: {part: {boundary: pit.edge "
+        { WITH (AHEAD) "1}}", 1, 0.2, 1, 0.4 }, { WITH (AHEAD) "2}}", 0, 0.7, -1, 0.6 }, { WITH (AHEAD) "3}}", 1, 0.8, -1, 0.4 }, { WITH (AHEAD) "4}}", 0, 0.3, 1, 0.6 },
+        { WITH (BACK) "1}}", 1, 0.8, -1, 0.4 }, { WITH (BACK) "2}}", 0, 0.7, -1, 0.6 },
+#define SQUARE "dimension: 2\nbody: [{add: {polygon: {vertices: [" AHEAD "]}}}]\nspacing: 0.1\nsets: {part: {boundary: polygon.edge "
+        { SQUARE "1}}", 1, 0.2, -1, 0.4 }, { SQUARE "4}}", 0, 0.3, -1, 0.6 },
+    };
+    for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
+        model m;
+        check_ok (make (&m, part[k].text, 0));
+        size_t dim = (size_t) m.cells.dim;
+        const pg_set *s = find (&m, "part");
+        assert_true (s->nfacet > 0);
+        check_relative (area (&m, "part"), part[k].area, 0.15);
+        for (size_t f = 0; f < s->nfacet; f++) {
+            size_t at = (size_t) s->facet[f] * dim + (size_t) part[k].axis;
+            check_scaled (m.cells.normal[at], part[k].out, 1e-12, 1);
+            assert_true (fabs (m.cells.facet_centre[at] - part[k].at) < 1e-9);
+        }
+        drop (&m);
+    }
+}
+
 static void a_bar_has_two_ends (void **state)
 {
     (void) state;
@@ -305,7 +336,7 @@ static void the_rim_of_a_cylinder_is_round (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (sides_of_a_box_have_their_points_and_areas), cmocka_unit_test (a_bar_has_two_ends), cmocka_unit_test (all_is_everything),
+        cmocka_unit_test (sides_of_a_box_have_their_points_and_areas), cmocka_unit_test (parts_of_stairs_are_where_they_should_be), cmocka_unit_test (a_bar_has_two_ends), cmocka_unit_test (all_is_everything),
         cmocka_unit_test (a_hole_is_what_lies_nearest_to_its_circle), cmocka_unit_test (boundaries_add_up_and_conditions_narrow_down),
         cmocka_unit_test (where_alone_picks_points_inside_as_well), cmocka_unit_test (platens_of_the_disk_are_found_by_angle),
         cmocka_unit_test (angles_wrap_around), cmocka_unit_test (parts_leave_out_the_middle), cmocka_unit_test (points_in_cells_take_the_cells_behind_the_facets),

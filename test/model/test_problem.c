@@ -92,6 +92,39 @@ static void a_crack_cuts_what_crosses_it (void **state)
     check_cuts ("{from: [0.55, 0.1], to: [0.55, 0.3]}, {from: [0.55, 0.3001], to: [0.55, 0.4]}", "tip_offset: 20 mm", 0.12, 0.38);     /* meet as good as  */
 }
 
+#define CUBE "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\nspacing: 0.2\nmaterials: {rock: {youngs_modulus: 10, poissons_ratio: 0.2}}\n"
+
+/* How far behind each edge or rim the bonds are cut. */
+static void check_fronts (const char *crack, const char *method, size_t n, const double *expected)
+{
+    char text[600];
+    snprintf (text, sizeof text, CUBE "cracks: [%s]\nmethod: {%s}\n", crack, method);
+    built b = build (text);
+    const pg_crack *c = &b.problem->cracks.crack[0];
+    assert_non_null (c->retreat);
+    for (size_t k = 0; k < n; k++) check_scaled (c->retreat[k], expected[k], 1e-12, 0.2);
+    unbuild (&b);
+}
+
+/* Fronts are the edges ahead of which the body goes on, whichever way round they are given. */
+static void fronts_in_space_retreat (void **state)
+{
+    (void) state;
+    static const char through[] = "{polygon: [[-0.1, -0.1, 0.47], [0.6, -0.1, 0.47], [0.6, 1.1, 0.47], [-0.1, 1.1, 0.47]]}",
+        back[] = "{polygon: [[-0.1, 1.1, 0.47], [0.6, 1.1, 0.47], [0.6, -0.1, 0.47], [-0.1, -0.1, 0.47]]}", inside[] = "{polygon: [[0.2, 0.2, 0.47], [0.8, 0.2, 0.47], [0.8, 0.7, 0.47]]}",
+        disc[] = "{disc: {center: [0.5, 0.5, 0.47], normal: [0, 0, 1], radius: 0.3}}", small[] = "{disc: {center: [0.5, 0.5, 0.47], normal: [0, 0, 1], radius: 0.11}}";
+    check_fronts (through, "tip_offset: 0.5 spacing", 4, (double[]) { 0, 0.1, 0, 0 });
+    check_fronts (back, "tip_offset: 0.5 spacing", 4, (double[]) { 0, 0.1, 0, 0 });
+    check_fronts (inside, "tip_offset: 0.05", 3, (double[]) { 0.05, 0.05, 0.05 });
+    check_fronts (inside, "tip_offset: 1 spacing", 3, (double[]) { 0.25 * sqrt (0.15), 0.25 * sqrt (0.15), 0.25 * sqrt (0.15) });       /* small: a share of its size */
+    check_fronts (disc, "tip_offset: 0.5 spacing", 1, (double[]) { 0.1 });
+    check_fronts (small, "tip_offset: 0.5 spacing", 1, (double[]) { 0.055 });
+    check_fronts (disc, "basis: linear, horizon: 2 spacing", 1, (double[]) { 0.052 });
+    check_fronts (disc, "approximation: pddo, basis: linear, horizon: 2 spacing", 1, (double[]) { 0.064 });
+    check_fronts (disc, "approximation: nosb, basis: linear, horizon: 2.25 spacing", 1, (double[]) { 0.085 });
+    check_fronts (disc, "integration: nodal, approximation: pddo, basis: linear, horizon: 2 spacing", 1, (double[]) { 0.05 });
+}
+
 static void excluded_sets_exempt_what_is_near (void **state)
 {
     (void) state;
@@ -195,7 +228,7 @@ int main (void)
         cmocka_unit_test (bond_sets_are_numbered_through),
         cmocka_unit_test (weights_are_the_volume_of_the_body),
         cmocka_unit_test (nodal_integration_has_no_points),
-        cmocka_unit_test (a_crack_cuts_what_crosses_it),
+        cmocka_unit_test (a_crack_cuts_what_crosses_it), cmocka_unit_test (fronts_in_space_retreat),
         cmocka_unit_test (excluded_sets_exempt_what_is_near),
         cmocka_unit_test (a_state_can_be_copied_and_compared),
         cmocka_unit_test (a_problem_is_named_after_its_folder_or_file),

@@ -167,6 +167,9 @@ static void too_many_points_to_eliminate_are_told (void **state)
     char text[1024];
     snprintf (text, sizeof text, big, "method: {essential: transformation}\n");
     said (text, "boundary[0].set = grip: essential: transformation would eliminate 6724 points along x, at most 6000: its matrices are full. Take essential: penalty");
+    snprintf (text, sizeof text, "dimension: 2\nthickness: 1 m\nbody: [{add: {box: {low: [0, 0], high: [1 m, 1 m]}}}]\nspacing: 0.011 m\nmaterials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}}\n"
+              "sets: {low: {where: 'y < 0.35'}, high: {where: 'y > 0.6'}}\nmethod: {essential: transformation}\nboundary:\n - {set: low, displacement: {x: 0}}\n - {set: high, displacement: {x: 1e-3, y: 0}}\n");
+    said (text, "boundary[1].set = high: essential: transformation would eliminate 6348 points along x");     /* two supports, of 2944 and 3404  */
     run r = scene_of (1, big, "");
     assert_int_equal (r.problem->load[0].essential, PG_ESSENTIAL_PENALTY);
     clear (&r);

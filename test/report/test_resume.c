@@ -222,6 +222,43 @@ static void files_of_the_scene_are_part_of_it (void **state)
     remove_folder (beside), remove_folder (where);
 }
 
+/* Nodes in a file that the mesh includes: the scene does not name it, but the points tell. */
+static void points_of_files_that_files_include_are_part_of_it (void **state)
+{
+    (void) state;
+    static const char scene[] = "dimension: 2\nthickness: 0.1\nmesh: {file: mesh.inp}\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
+        "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 2 mm}}]\nsolver: {stepping: fixed, steps: 3}\noutput: {pictures: []}\n";
+    char beside[64], where[64], path[3][128], elements[2048] = "*INCLUDE, INPUT=nodes.inp\n*ELEMENT, TYPE=CPS4\n", nodes[2048];
+    pg_resumed from;
+    make_folder (beside), make_folder (where);
+    for (int k = 0; k < 3; k++) snprintf (path[k], sizeof path[k], "%s/%s", beside, k == 0 ? "nodes.inp" : k == 1 ? "mesh.inp" : "scene.yaml");
+    for (int e = 0, n = (int) strlen (elements); e < 20; e++) {
+        int first = e / 5 * 6 + e % 5 + 1;
+        n += snprintf (elements + n, sizeof elements - (size_t) n, "%d, %d, %d, %d, %d\n", e + 1, first, first + 1, first + 7, first + 6);
+    }
+    write_file (path[1], elements, 0, ""), write_file (path[2], scene, 0, "");
+    for (int k = 0; k < 3; k++) {                      /* as it was, one node moved, as it was                            */
+        int n = snprintf (nodes, sizeof nodes, "*NODE\n");
+        for (int i = 0; i < 30; i++) n += snprintf (nodes + n, sizeof nodes - (size_t) n, "%d, %.17g, %.17g\n", i + 1, 0.1 * (i % 6) + (k == 1 && i == 14 ? 0.01 : 0), 0.1 * (i / 6));
+        write_file (path[0], nodes, 0, "");
+        run r = loaded (path[2], 0, NULL);
+        visit v = { .left = -2 };
+        if (k == 0) {
+            check_ok (pg_result_open (&v.result, where, r.scene, r.problem, r.solver));
+            assert_int_equal (go (&r, &v), 1);
+            check_ok (pg_result_checkpoint (v.result, r.state));
+        } else {
+            pg_status status = pg_result_resume (&v.result, where, r.scene, r.problem, r.solver, r.state, &from);
+            assert_int_equal (status, k == 1 ? PG_E_USAGE : PG_OK);
+            if (k == 1) check_contains (pg_last_error (), "checkpoint.nc is of other points or bonds (30 points, ");
+            else assert_int_equal (go (&r, &v), 0);
+        }
+        pg_result_free (&v.result);
+        clear (&r);
+    }
+    remove_folder (beside), remove_folder (where);
+}
+
 static void finished_is_told_from_interrupted (void **state)
 {
     (void) state;
@@ -356,7 +393,8 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (from_every_event), cmocka_unit_test (from_every_round_of_load_steps), cmocka_unit_test (from_every_round_with_elimination),
         cmocka_unit_test (from_every_round_of_nodal_integration), cmocka_unit_test (from_every_round_of_time_steps), cmocka_unit_test (from_every_event_with_an_old_preconditioner),
-        cmocka_unit_test (what_is_not_of_this_run_is_refused), cmocka_unit_test (files_of_the_scene_are_part_of_it), cmocka_unit_test (finished_is_told_from_interrupted),
+        cmocka_unit_test (what_is_not_of_this_run_is_refused), cmocka_unit_test (files_of_the_scene_are_part_of_it), cmocka_unit_test (points_of_files_that_files_include_are_part_of_it),
+        cmocka_unit_test (finished_is_told_from_interrupted),
         cmocka_unit_test (a_new_run_leaves_no_old_checkpoint_or_report), cmocka_unit_test (a_file_that_lost_rows_is_refused),
         cmocka_unit_test (stages_within_a_step_ascend_in_time), cmocka_unit_test (a_disk_that_was_full_costs_nothing),
     };

@@ -2,6 +2,7 @@
  * What a valid scene gives back: values, defaults, counts, names, overrides, hash. */
 #include "plate.h"
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const char text[] =
@@ -209,6 +210,49 @@ static void files_are_read_as_texts_are (void **state)
     unlink (name);
 }
 
+static void write_letters (const char *path, size_t n, char last)
+{
+    FILE *f = fopen (path, "w");
+    assert_non_null (f);
+    for (size_t k = 0; k + 1 < n; k++) fputc ('a', f);
+    fputc (last, f);
+    assert_int_equal (fclose (f), 0);
+}
+
+/* Whole files count, in the order of the scene, beside it unless their path begins at the root. */
+static void files_that_a_scene_names_are_summed (void **state)
+{
+    (void) state;
+    static const char whole[] = "dimension: 2\nthickness: 1\npoints: points.csv\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0}}\nreference: {lines: [{file: %s}]}\n";
+    char folder[] = "/tmp/perigal_files_XXXXXX", path[3][64];
+    pg_scene *s;
+    pg_named_file *file;
+    size_t n;
+    assert_non_null (mkdtemp (folder));
+    for (int k = 0; k < 3; k++) snprintf (path[k], sizeof path[k], "%s/%s", folder, k == 0 ? "points.csv" : k == 1 ? "line.csv" : "scene.yaml");
+    FILE *f = fopen (path[2], "w");
+    assert_true (f && fprintf (f, whole, path[1]) > 0 && fclose (f) == 0);
+    write_letters (path[0], 100000, 'a'), write_letters (path[1], 100000, 'b');
+    check_ok (pg_scene_load (&s, path[2]));
+    check_ok (pg_scene_files (s, &n, &file));
+    assert_int_equal (n, 2);
+    for (size_t k = 0; k < 2; k++) assert_string_equal (file[k].path, path[k]);
+    assert_string_equal (file[0].key, "points");
+    assert_string_equal (file[1].key, "reference.lines[0].file");
+    /* from sha256sum */
+    assert_string_equal (file[0].hash, "6d1cf22d7cc09b085dfc25ee1a1f3ae0265804c607bc2074ad253bcc82fd81ee");
+    assert_string_equal (file[1].hash, "4ae5f95c77a51ea4a0d44a0231c1ccb45fb2940d372fe127d1278898111a118c");
+    pg_scene_files_free (n, &file);
+    unlink (path[0]);
+    check_fails (pg_scene_files (s, &n, &file), PG_E_FILE);
+    check_contains (pg_last_error (), "points.csv: No such file");
+    assert_true (n == 0 && !file && mkdir (path[0], 0700) == 0);
+    check_fails (pg_scene_files (s, &n, &file), PG_E_FILE);
+    check_contains (pg_last_error (), "points.csv: is no regular file");
+    pg_scene_free (&s);
+    rmdir (path[0]), unlink (path[1]), unlink (path[2]), rmdir (folder);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -217,7 +261,7 @@ int main (void)
         cmocka_unit_test (lists_and_maps_are_counted_and_named), cmocka_unit_test (vectors_have_as_many_numbers_as_dimensions),
         cmocka_unit_test (lengths_may_count_spacings), cmocka_unit_test (empty_maps_and_lists_are_absent_contents),
         cmocka_unit_test (overrides_replace_add_and_grow), cmocka_unit_test (hash_is_that_of_the_file_and_changes_with_overrides),
-        cmocka_unit_test (files_are_read_as_texts_are),
+        cmocka_unit_test (files_are_read_as_texts_are), cmocka_unit_test (files_that_a_scene_names_are_summed),
     };
     return cmocka_run_group_tests_name ("scene/access", tests, NULL, NULL);
 }
