@@ -2,10 +2,12 @@
  * output.tips: lengths and speeds of a crack that is told to run, rows, report, pictures, going on later, broken memory, a real crack. */
 #include "folder.h"
 
-#define PLATE "dimension: 2\nthickness: 1 mm\nbody: [{add: {box: {low: [0, -20 mm], high: [100 mm, 20 mm]}}}]\nspacing: 2 mm\nlattice: cells\n" \
-    "materials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2440 kg/m3}}\n" \
+#define GLASS "{youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2440 kg/m3}"
+#define PLATE_OF(materials) "dimension: 2\nthickness: 1 mm\nbody: [{add: {box: {low: [0, -20 mm], high: [100 mm, 20 mm]}}}]\nspacing: 2 mm\nlattice: cells\n" \
+    "materials: {glass: " GLASS materials "}\n" \
     "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: transformation}\n" \
     "failure: {criterion: stretch, critical_stretch: 0.5}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, {name: lid, set: top, traction: {y: 1 MPa}}]\n"
+#define PLATE PLATE_OF ("")
 #define WAVES PLATE "solver: {kind: newmark, dt: 0.5 us, end: 40 us}\n"
 #define TIPS "output: {pictures: [], fields: [displacement], tips: [{name: right, from: [10 mm, 0], along: [2, 0]}, {name: up, from: [10 mm, 0], along: [1, 0], damage: 60 %, where: y > 0}," \
     " {name: never, from: [10 mm, 0], along: [-1, 0]}, {name: just, from: [10 mm, 0], along: [1, 0], damage: 50 %}, {name: beyond, from: [90 mm, 0], along: [1, 0]}]}\n"
@@ -94,6 +96,30 @@ static void lengths_and_speeds_are_those_of_the_front (void **state)
     pg_result_free (&result);
     remove_folder (where);
     clear (&r);
+}
+
+/* Of two materials, whichever comes first. */
+static void the_faster_material_limits (void **state)
+{
+    (void) state;
+    static const char *const text[] = { PLATE_OF (", zinc: {youngs_modulus: 1 GPa, poissons_ratio: 0.22, density: 7000 kg/m3}"), PLATE_OF (", iron: {youngs_modulus: 210 GPa, poissons_ratio: 0.22, density: 2440 kg/m3}") };
+    for (int k = 0; k < 2; k++) {
+        char where[64], whole[2048];
+        snprintf (whole, sizeof whole, "%sblocks: [{material: glass, where: x < 50 mm}, {material: %s, where: x >= 50 mm}]\nsolver: {kind: newmark, dt: 2 us, end: 16 us}\n%s", text[k], k ? "iron" : "zinc", TIPS);
+        run r = start (whole);
+        pg_result *result = NULL;
+        make_folder (where);
+        check_ok (pg_result_open (&result, where, r.scene, r.problem, r.solver));
+        check_ok (go_on (&r, result, 100));
+        check_ok (pg_result_finish (result, r.state, NULL, 0, 0));
+        char *report = slurp (inside (where, "report.json"));
+        assert_int_equal (r.problem->nmaterial, 2);
+        check_relative (json_number (strstr (report, "\"right\""), NULL, "rayleigh_speed"), pg_material_waves (&r.problem->material[k]).rayleigh, 1e-12);
+        pg_free (report);
+        pg_result_free (&result);
+        remove_folder (where);
+        clear (&r);
+    }
 }
 
 static void a_resumed_run_knows_the_way_so_far (void **state)
@@ -219,6 +245,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (lengths_and_speeds_are_those_of_the_front),
+        cmocka_unit_test (the_faster_material_limits),
         cmocka_unit_test (a_resumed_run_knows_the_way_so_far),
         cmocka_unit_test (broken_memory_is_told),
         cmocka_unit_test (what_makes_no_sense_is_refused),
