@@ -234,6 +234,7 @@ pg_status pg_direct_build (pg_problem *p, const pg_scene *scene)
     pg_status status = PG_OK;
     pg_sum_rule rule;
     int lattice;
+    char why[256];
     p->integration = pg_integration_find ("nodal");
     refuse_tangents (p, scene);
     PG_TRY (pg_scene_verdict (scene));
@@ -254,7 +255,12 @@ pg_status pg_direct_build (pg_problem *p, const pg_scene *scene)
         pg_scene_fault (scene, "method.evaluation", "with surface_correction: volume every bond has a weight of its own: use list or auto");
     PG_TRY (pg_scene_verdict (scene));
     rule.threads = p->threads;
-    PG_TRY (pg_sums_create (&p->sums, &rule, &p->cloud, p->lattice.dim ? &p->lattice : NULL));
+    status = pg_sums_create (&p->sums, &rule, &p->cloud, p->lattice.dim ? &p->lattice : NULL);
+    if (status == PG_E_USAGE) {                            /* these points, this horizon: the scene's, not the caller's         */
+        snprintf (why, sizeof why, "%s", pg_last_error ());
+        pg_scene_fault (scene, "method.force", "%s: %s", p->force, why);
+        PG_TRY (pg_scene_verdict (scene));
+    }
 done:
     return status;
 }

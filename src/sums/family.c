@@ -136,7 +136,12 @@ static pg_status spread (const pg_sums *sums, const pg_family *near, size_t *nex
             size_t j = (size_t) near->node[e], first = near->start[j], m = near->start[j + 1] - first;
             if (i == j) continue;
             sums_bond b = sums_bond_between (&sums->rule, sums->cloud, i, j);
-            if (!(b.r > PG_NO_LENGTH * sums->cloud->h * pg_cloud_ratio (sums->cloud, i))) PG_FAIL (PG_E_USAGE, "points %zu and %zu coincide: a bond needs a length", i < j ? i : j, i < j ? j : i);
+            if (!(b.r > PG_NO_LENGTH * sums->cloud->h * pg_cloud_ratio (sums->cloud, i))) {
+                double x[3] = { 0 };
+                memcpy (x, sums->cloud->x + i * (size_t) sums->cloud->dim, (size_t) sums->cloud->dim * sizeof *x);
+                PG_FAIL (PG_E_USAGE, "points %zu and %zu coincide, at (%.6g, %.6g, %.6g) m: a bond needs a length, so remove one of them",
+                         i < j ? i : j, i < j ? j : i, x[0], x[1], x[2]);
+            }
             if (!(b.beta > 0)) continue;
             int alone = sums->cloud->size && find (near->node + first, m, (int) i) == m;
             if (node) node[next[i]] = (int) j;

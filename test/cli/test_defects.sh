@@ -40,6 +40,11 @@ grep -q 'warning: 2 points lie on a pre-crack and lose all bonds to both sides' 
     && grep -q 'the cracks leave 1 point' "$out/report.json"
 verdict "points alone, points on a crack: told by the run and in report.json" $?
 
+# Points of a file nearly at one place: a bond needs a length, the scene is at fault.
+{ cat points_apart.csv; tail -n 1 points_apart.csv | awk -F, 'BEGIN { OFS = "," } { $1 += 1e-8; print }'; } > "$work/twins.csv"
+run "points nearly at one place: a fault that names both" 65 '' 'method.force = bond: bond: points [0-9]* and [0-9]* coincide, at (.*) m: a bond needs a length' points_apart.yaml \
+    "points=$work/twins.csv" 'method={force: bond, horizon: 3.015 spacing}'
+
 # ---- unloading -----------------------------------------------------------------------------------------------------------
 run "down to zero load: runs"                 0 '4 steps, 0 events' '100.0 %, step 4, load factor 1' unloading.yaml
 column 't.force_y [N]' > "$work/force"

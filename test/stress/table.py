@@ -22,7 +22,7 @@ def condition_table(rows):
         share = [r['number'] / r['limit'] for r in own if r['verdict'] == 'ok' and r['limit'] > 0]
         far = [r['number'] for r in own if r['verdict'] == 'inexact']
         out.append(f"| {condition} | {len(own)} | " + ' | '.join(str(count[v]) for v in VERDICTS)
-                   + f" | {max(share):.2g} |" * bool(share) + ' exact |' * (not share) + (f' {max(far):.3g} |' if far else ' |'))
+                   + (f' | {max(share):.2g} |' if share else ' | |') + (f' {max(far):.3g} |' if far else ' |'))
     return out
 
 
