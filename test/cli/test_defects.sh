@@ -41,7 +41,7 @@ grep -q 'warning: 2 points lie on a pre-crack and lose all bonds to both sides' 
 verdict "points alone, points on a crack: told by the run and in report.json" $?
 
 # Points of a file nearly at one place: a bond needs a length, the scene is at fault.
-{ cat points_apart.csv; tail -n 1 points_apart.csv | awk -F, 'BEGIN { OFS = "," } { $1 += 1e-8; print }'; } > "$work/twins.csv"
+{ cat points_apart.csv; tail -n 1 points_apart.csv | awk -F, '{ printf "%.12g,%s,%s\n", $1 + 1e-8, $2, $3 }'; } > "$work/twins.csv"
 run "points nearly at one place: a fault that names both" 65 '' 'method.force = bond: bond: points [0-9]* and [0-9]* coincide, at (.*) m: a bond needs a length' points_apart.yaml \
     "points=$work/twins.csv" 'method={force: bond, horizon: 3.015 spacing}'
 
