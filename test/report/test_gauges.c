@@ -59,6 +59,19 @@ static void gauges_across_a_crack_read_its_opening (void **state)
         }
 }
 
+/* What comes nearer is negative, whichever end is named first. */
+static void a_gauge_that_closes_reads_less_than_nothing (void **state)
+{
+    (void) state;
+    double opening[3];
+    read_openings ("dimension: 2\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.1\nmaterials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0.25}}\n"
+                   "boundary: [{set: all, displacement: {x: -1e-3*x, y: 2e-3*y}}]\noutput: {at: {levels: 1}, pictures: [], gauges: [{name: hair, from: [0.2, 0.5], to: [0.6, 0.5]}, "
+                   "{name: near, from: [0.6, 0.5], to: [0.2, 0.5]}, {name: far, from: [0.2, 0.2], to: [0.8, 0.6]}]}\n", opening);
+    check_relative (opening[0], -0.4e-3, 1e-4);
+    check_relative (opening[1], -0.4e-3, 1e-4);
+    check_relative (opening[2], (-0.36e-3 + 0.32e-3) / sqrt (0.52), 1e-3);
+}
+
 /* An end on the crack has the displacements of both faces. */
 static void an_end_on_a_crack_is_told (void **state)
 {
@@ -75,6 +88,6 @@ static void an_end_on_a_crack_is_told (void **state)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (gauges_across_a_crack_read_its_opening), cmocka_unit_test (an_end_on_a_crack_is_told) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (gauges_across_a_crack_read_its_opening), cmocka_unit_test (a_gauge_that_closes_reads_less_than_nothing), cmocka_unit_test (an_end_on_a_crack_is_told) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
