@@ -30,6 +30,15 @@ static void usual_units_become_si (void **state)
     }
 }
 
+/* Of a key that counts in another unit than the SI's. */
+static void values_count_in_the_unit_of_their_key (void **state)
+{
+    (void) state;
+    check_relative (value ("2 m", "mm"), 2000, 1e-15);
+    check_relative (value ("0.5 GPa", "MPa"), 500, 1e-15);
+    check_relative (value ("90 min", "h"), 1.5, 1e-15);
+}
+
 /* The second spelling is one that only the database knows. */
 static void common_units_are_those_of_the_database (void **state)
 {
@@ -139,7 +148,7 @@ static void threads_may_parse_together (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (threads_may_parse_together), cmocka_unit_test (usual_units_become_si), cmocka_unit_test (common_units_are_those_of_the_database),
+        cmocka_unit_test (threads_may_parse_together), cmocka_unit_test (usual_units_become_si), cmocka_unit_test (values_count_in_the_unit_of_their_key), cmocka_unit_test (common_units_are_those_of_the_database),
         cmocka_unit_test (degrees_are_angles),
         cmocka_unit_test (wrong_dimension_names_unit_and_example), cmocka_unit_test (nonsense_is_refused),
         cmocka_unit_test (spacing_is_kept_as_a_multiple), cmocka_unit_test (ranges_hold_their_ends_as_written),
