@@ -121,6 +121,9 @@ static void the_history_has_a_row_a_step (void **state)
         check_scaled (number_at (text, k + 1, "head.displacement_y [m]"), 1e-3 * steps[k].factor, 0.02, 1e-3 * steps[k].factor);
         check_relative (number_at (text, k + 1, "mouth [m]"), opening[k], 1e-14);
         check_relative (number_at (text, k + 1, "broken [1]"), (double) broken, 0);
+        check_relative (number_at (text, k + 1, "iterations [1]"), (double) steps[k].iterations, 0);
+        check_relative (number_at (text, k + 1, "residual [1]"), steps[k].residual, 1e-15);
+        check_relative (number_at (text, k + 1, "utilisation [1]"), steps[k].utilisation, 1e-15);
         check_relative (number_at (text, k + 1, "event [1]"), steps[k].event, 0);
         check_relative (number_at (text, k + 1, "level [1]"), steps[k].level, 0);
         assert_true (number_at (text, k + 1, "energy_external [J]") > 0 && number_at (text, k + 1, "mouth [m]") > 0);
