@@ -3,6 +3,8 @@
 #include "check.h"
 #include "sample.h"
 #include <ctype.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 static char text[20000];
 
@@ -199,6 +201,37 @@ static void misuse_is_reported_and_leaves_no_file (void **state)
     }
 }
 
+static void a_full_disk_leaves_the_old_file (void **state)
+{
+    (void) state;
+    pg_json *j;
+    struct rlimit old, tight;
+    char path[160], fresh[170];
+    strcpy (path, file_at ("full.json"));
+    snprintf (fresh, sizeof fresh, "%s.tmp", path);
+    signal (SIGXFSZ, SIG_IGN);
+    getrlimit (RLIMIT_FSIZE, &old);
+    for (int round = 0; round < 2; round++) {
+        check_ok (pg_json_create (&j, path));
+        pg_json_open (j, NULL, '{');
+        pg_json_number (j, "round", round);
+        for (int k = 0; round && k < 3000; k++) {
+            char key[20];
+            snprintf (key, sizeof key, "k%d", k);
+            pg_json_number (j, key, k);
+        }
+        tight = (struct rlimit) { round ? 4000 : old.rlim_cur, old.rlim_max };
+        setrlimit (RLIMIT_FSIZE, &tight);
+        pg_status status = pg_json_close (&j);
+        setrlimit (RLIMIT_FSIZE, &old);
+        assert_int_equal (status, round ? PG_E_FILE : PG_OK);
+        if (round) check_contains (pg_last_error (), "full.json.tmp: File too large");
+        assert_int_not_equal (access (fresh, F_OK), 0);
+        assert_true (valid (slurp (path)));
+        check_contains (text, "\"round\": 0");
+    }
+}
+
 static void a_folder_that_is_missing_is_named (void **state)
 {
     (void) state;
@@ -230,6 +263,7 @@ int main (void)
         cmocka_unit_test (braces_may_be_left_to_the_writer), cmocka_unit_test (texts_are_escaped),
         cmocka_unit_test (numbers_come_back_exactly), cmocka_unit_test (nothing_shows_before_close),
         cmocka_unit_test (misuse_is_reported_and_leaves_no_file), cmocka_unit_test (a_folder_that_is_missing_is_named),
+        cmocka_unit_test (a_full_disk_leaves_the_old_file),
         cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/json", tests, NULL, remove_folder);
