@@ -38,6 +38,17 @@ static void print_direct (const pg_problem *p)
     force->free (&self);
 }
 
+/* Where it lies tells a millimetre that was read as a metre */
+static void print_box (const pg_problem *q, int width)
+{
+    double low[3], high[3];
+    pg_problem_box (q, low, high);
+    printf ("  %-*s", width, q->lattice.dim ? "body" : "points within");
+    for (int k = 0; k < q->dim; k++) printf ("%s%c %.6g to %.6g m", k ? ", " : " ", "xyz"[k], low[k], high[k]);
+    if (q->dim < 3) printf ("; %s %.6g m%s%s", q->dim == 2 ? "thickness" : "cross section", q->cloud.thickness, q->dim == 2 ? "" : "^2", q->thickness_assumed ? " (the scene gives none)" : "");
+    printf ("\n");
+}
+
 void plan_doubts (const pg_problem *p, const pg_solver_options *o)
 {
     pg_report doubts = { 0 };
@@ -50,6 +61,7 @@ void plan_doubts (const pg_problem *p, const pg_solver_options *o)
 void plan_print (const pg_problem *p, const pg_solver_options *o)
 {
     printf ("%s\n", p->title);
+    print_box (p, 0);
     printf ("  %zu points, spacing %.6g m, %zu evaluation points, %zu bonds, %zu unknowns\n", p->cloud.n, p->cloud.h,
             p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n, p->first_bond[PG_BOND_SETS], p->cloud.n * (size_t) (p->dim + p->turns));
     if (p->direct) printf ("  force %s (%s kernel, horizon %.6g m)\n", p->force, p->approx.kernel->name, p->approx.horizon);
@@ -155,23 +167,12 @@ static void print_layers (const pg_problem *q)
     }
 }
 
-/* Where it lies tells a millimetre that was read as a metre */
-static void print_box (const pg_problem *q)
-{
-    double low[3], high[3];
-    pg_problem_box (q, low, high);
-    printf ("  %-18s ", q->lattice.dim ? "body" : "points within");
-    for (int k = 0; k < q->dim; k++) printf ("%s %c %.6g to %.6g m", k ? "," : "", "xyz"[k], low[k], high[k]);
-    if (q->dim < 3) printf ("; %s %.6g m%s%s", q->dim == 2 ? "thickness" : "cross section", q->cloud.thickness, q->dim == 2 ? "" : "^2", q->thickness_assumed ? " (the scene gives none)" : "");
-    printf ("\n");
-}
-
 static void print_counts (const plan *p)
 {
     const pg_problem *q = p->problem;
     const size_t *first = q->first_bond;
     printf ("  %-18s  %s\n", "title", q->title);
-    print_box (q);
+    print_box (q, 19);
     printf ("  %-18s  %zu, spacing", "points", q->cloud.n);
     for (int k = 0; k < q->dim && q->lattice.dim; k++) printf (" %.6g", q->cloud.step[k]);
     if (!q->lattice.dim) printf (" about %.6g", q->cloud.h);

@@ -44,6 +44,10 @@ verdict "points alone, points on a crack: told by the run and in report.json" $?
 { cat points_apart.csv; tail -n 1 points_apart.csv | awk -F, '{ printf "%.12g,%s,%s\n", $1 + 1e-8, $2, $3 }'; } > "$work/twins.csv"
 run "points nearly at one place: a fault that names both" 65 '' 'method.force = bond: bond: points [0-9]* and [0-9]* coincide, at (.*) m: a bond needs a length' points_apart.yaml \
     "points=$work/twins.csv" 'method={force: bond, horizon: 3.015 spacing}'
+sed -e '/^thickness/d' -e 's/\[1, 1\]/[1, 2]/' points_alone.yaml > "$work/bare.yaml"
+run "where the body lies, and a thickness that nobody gave" 0 '^  body x 0 to 1 m, y 0 to 2 m; thickness 1 m (the scene gives none)$' '*' "$work/bare.yaml"
+run "a spacing larger than the body: told"    0 'warning: the spacing, 3 m, is larger than the body, which measures 1 m along x' '*' "$work/bare.yaml" spacing=3 cracks='[]'
+run "a crack through the whole body: told"    0 'warning: the cracks cut the body into 2 parts: ' '*' "$work/bare.yaml" cracks='[{from: [-1, 0.55], to: [2, 0.55]}]'
 
 # ---- unloading -----------------------------------------------------------------------------------------------------------
 run "down to zero load: runs"                 0 '4 steps, 0 events' '100.0 %, step 4, load factor 1' unloading.yaml
