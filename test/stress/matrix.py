@@ -1,15 +1,14 @@
-"""The picture of the matrix: a row a condition, a column a method, each cell as bad as its worst value."""
+"""The picture of the matrix: a row a condition, a column a method, each cell in shares of the verdicts on its values."""
 from html import escape
 
 COLOURS = {'ok': '#4c9f70', 'refused': '#8fb4d9', 'inexact': '#e8b04b', 'defect': '#c0392b'}
 MEANING = {'ok': 'within its limit', 'refused': 'refused with the reason', 'inexact': 'beyond its limit, and said so', 'defect': 'wrong without a word'}
-RANK = {name: k for k, name in enumerate(('refused', 'ok', 'inexact', 'defect'))}
 SIDE, LEFT, TOP = 14, 230, 190
 
 
 def draw(path, cells):
     conditions = list(dict.fromkeys(c for c, _, _ in cells))
-    methods = list(dict.fromkeys(m for _, m, _ in cells))
+    methods = sorted({m for _, m, _ in cells})
     found = {}
     for condition, method, verdict in cells:
         found.setdefault((condition, method), []).append(verdict)
@@ -25,16 +24,21 @@ def draw(path, cells):
         for k, method in enumerate(methods):
             verdicts = found.get((condition, method))
             if verdicts:
-                worst = max(verdicts, key=RANK.get)
                 counts = ', '.join(f'{verdicts.count(v)} {v}' for v in COLOURS if v in verdicts)
-                out.append(f'<rect x="{LEFT + SIDE * k}" y="{y}" width="{SIDE - 1}" height="{SIDE - 1}" fill="{COLOURS[worst]}">'
-                           f'<title>{escape(condition)} | {escape(method)}: {counts}</title></rect>')
+                out.append(f'<g><title>{escape(condition)} | {escape(method)}: {counts}</title>')
+                left = LEFT + SIDE * k
+                for name, colour in COLOURS.items():
+                    share = (SIDE - 1) * verdicts.count(name) / len(verdicts)
+                    if share:
+                        out.append(f'<rect x="{left:.2f}" y="{y}" width="{share:.2f}" height="{SIDE - 1}" fill="{colour}"/>')
+                    left += share
+                out.append('</g>')
     x = LEFT
     for name, colour in COLOURS.items():
         y = TOP + SIDE * len(conditions) + 20
         out.append(f'<rect x="{x}" y="{y}" width="{SIDE - 1}" height="{SIDE - 1}" fill="{colour}"/>'
                    f'<text x="{x + SIDE + 4}" y="{y + 10}">{name}: {MEANING[name]}</text>')
-        x += 200
+        x += 240
     out.append('</svg>')
     with open(path, 'w') as file:
         file.write('\n'.join(out) + '\n')
