@@ -4,6 +4,7 @@
  * space: its fronts). An end is no tip where the body ends, or where the crack meets another. */
 #include "model.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Behind the tip, in spacings, by horizon (spacings): measured on the single edge notch with Gauss points, mean of 16 places of the lattice against the
@@ -12,6 +13,11 @@ typedef struct { double horizon, offset; } row;
 static const row exact[2][5] = { { { 1.6, 0.07 }, { 2, 0.26 }, { 2.5, 0.45 }, { 3, 0.69 }, { 3.5, 1 } }, { { 2, 0.04 }, { 2.5, 0.09 }, { 3, 0.19 }, { 3.5, 0.39 }, { 4, 0.61 } } };
 static const row approximate[2][5] = { { { 1.6, 0.1 }, { 2, 0.32 }, { 2.5, 0.53 }, { 3, 0.84 }, { 3.5, 1.15 } }, { { 2, 0.3 }, { 2.6, 0.48 }, { 3, 0.66 }, { 3.5, 0.94 }, { 4, 1.2 } } };
 enum { ROWS = 5 };
+/* What is left of it, in spacings, by where the tip lies among the points: the worst places measured there. */
+#define KNOWN_LINEAR 0.2
+#define KNOWN_QUADRATIC 0.25
+#define KNOWN_NODAL 0.3
+#define WORTH_A_WARNING 0.05                           /* of the opening                                                 */
 #define NODAL 0.25                                     /* evaluation at the points alone: +- 0.3 by where they lie        */
 
 static double interpolated (const row *r, double horizon)
@@ -33,11 +39,21 @@ static double offset_of (const pg_problem *p, const pg_scene *scene)
 }
 
 /* ---- where the body is ----------------------------------------------------------------------------------------------------- */
+/* A crack as far as the body goes, for what a tip that is not quite known means. */
+typedef struct {
+    double size, front;                                /* 2D: length, m, and number of tips; 3D: area, m^2, and length of fronts, m */
+    double ligament;                                   /* of its tips, the least length of body ahead, m                 */
+    double spacing;                                    /* the largest at its tips, m                                     */
+    int open;                                          /* reaches the surface                                            */
+    size_t group;                                      /* the first crack that it hangs together with                    */
+} extent;
+
 typedef struct {
     const pg_problem *p;
     pg_mesh_finder *finder;                            /* of a body that is a mesh                                       */
     pg_nearest *near;
     double offset;                                     /* where the local spacing is the nominal one, m                  */
+    extent *extent;                                    /* of each crack                                                  */
 } surroundings;
 
 static double spacing_at (const surroundings *s, const double *x)
@@ -58,14 +74,73 @@ static int has_body (const surroundings *s, const double *x, double spacing)
     return i >= 0 && d <= (p->dim == 3 ? 0.87 : 0.71) * spacing;
 }
 
+static int meets_other (const surroundings *s, size_t crack, const double *x)
+{
+    const pg_problem *p = s->p;
+    double reach = fmax (s->offset, 1e-6 * p->cloud.h) * spacing_at (s, x) / p->cloud.h;
+    for (size_t c = 0; c < p->cracks.n; c++) if (c != crack && pg_crack_touches (&p->cracks.crack[c], p->dim, x, reach)) return 1;
+    return 0;
+}
+
 /* Does the crack end at x, and the body go on ahead, where no other crack takes over? */
 static int is_tip (const surroundings *s, size_t crack, const double *x, const double *ahead)
 {
     const pg_problem *p = s->p;
-    double h = spacing_at (s, x), place[3] = { 0, 0, 0 }, reach = s->offset * h / p->cloud.h;
-    for (size_t c = 0; c < p->cracks.n; c++) if (c != crack && pg_crack_touches (&p->cracks.crack[c], p->dim, x, reach)) return 0;
+    double h = spacing_at (s, x), place[3] = { 0, 0, 0 };
+    if (meets_other (s, crack, x)) return 0;
     for (int k = 0; k < p->dim; k++) place[k] = x[k] + (p->body.n || s->finder ? 0.5 : 1) * h * ahead[k];
-    return has_body (s, place, h);
+    if (has_body (s, place, h)) return 1;
+    s->extent[crack].open = 1;
+    return 0;
+}
+
+/* Length of a segment inside the body. */
+static double length_inside (const surroundings *s, const double *a, const double *b)
+{
+    enum { PLACES = 100 };
+    size_t in = 0;
+    for (size_t q = 0; q < PLACES; q++) {
+        double t = (0.5 + (double) q) / PLACES, x[3] = { a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), 0 };
+        in += (size_t) has_body (s, x, spacing_at (s, x));
+    }
+    return hypot (b[0] - a[0], b[1] - a[1]) * (double) in / PLACES;
+}
+
+/* Area of a polygon inside the body, by triangles that one vertex has with the edges; those of a polygon that is not convex cancel. */
+static double area_inside (const surroundings *s, const pg_crack *c)
+{
+    enum { PLACES = 12 };
+    double area = 0;
+    for (size_t i = 1; i + 1 < c->nvertex; i++) {
+        const double *o = c->vertex, *u = o + 3*i, *v = u + 3;
+        double whole = 0, in = 0, all = 0;
+        for (int k = 0; k < 3; k++) {
+            int m = (k + 1) % 3, n = (k + 2) % 3;
+            whole += 0.5 * c->normal[k] * ((u[m] - o[m]) * (v[n] - o[n]) - (u[n] - o[n]) * (v[m] - o[m]));
+        }
+        for (int a = 0; a < PLACES * PLACES; a++) {    /* strips across, weighed by their length                         */
+            double r = (0.5 + a / PLACES) / PLACES, t = (0.5 + a % PLACES) / PLACES, x[3];
+            for (int k = 0; k < 3; k++) x[k] = o[k] + r * ((1 - t) * (u[k] - o[k]) + t * (v[k] - o[k]));
+            all += r;
+            if (has_body (s, x, spacing_at (s, x))) in += r;
+        }
+        area += whole * in / all;
+    }
+    return area;
+}
+
+/* A tip, or a stretch of front about x. */
+static void add_front (const surroundings *s, size_t crack, const double *x, const double *ahead, double length)
+{
+    enum { FAR = 200 };
+    extent *e = &s->extent[crack];
+    double h = spacing_at (s, x), place[3] = { 0 };
+    int steps = 0;
+    do for (int k = 0; k < s->p->dim; k++) place[k] = x[k] + (0.25 + 0.5 * steps) * h * ahead[k];
+    while (has_body (s, place, h) && ++steps < FAR);
+    e->ligament = e->front > 0 ? fmin (e->ligament, 0.5 * h * steps) : 0.5 * h * steps;
+    e->spacing = fmax (e->spacing, h);
+    e->front += length;
 }
 
 static double retreat_at (const surroundings *s, const double *x) { return s->offset * spacing_at (s, x) / s->p->cloud.h; }
@@ -74,10 +149,13 @@ static double retreat_at (const surroundings *s, const double *x) { return s->of
 static void retreat_segment (const surroundings *s, size_t k, pg_crack *c, double *out)
 {
     double t[2] = { c->vertex[2] - c->vertex[0], c->vertex[3] - c->vertex[1] }, length = hypot (t[0], t[1]);
+    s->extent[k].size = length_inside (s, c->vertex, c->vertex + 2);
     for (int end = 0; end < 2; end++) {
         double ahead[3] = { (end ? 1 : -1) * t[0] / length, (end ? 1 : -1) * t[1] / length, 0 };
         const double *x = c->vertex + 2 * end;
-        out[end] = is_tip (s, k, x, ahead) ? fmin (retreat_at (s, x), 0.25 * length) : 0;
+        int tip = is_tip (s, k, x, ahead);
+        out[end] = tip ? fmin (retreat_at (s, x), 0.25 * length) : 0;
+        if (tip) add_front (s, k, x, ahead, 1);
     }
 }
 
@@ -110,11 +188,80 @@ static void retreat_polygon (const surroundings *s, size_t k, pg_crack *c, doubl
         for (int m = 0; m < 3; m++) length = hypot (length, b[m] - a[m]);
         size_t n = (size_t) fmin (MOST, 3 + 2 * length / s->p->cloud.h);
         out[i] = 0;
-        for (size_t q = 0; q < n && out[i] == 0; q++) {
+        for (size_t q = 0; q < n; q++) {
             for (int m = 0; m < 3; m++) x[m] = a[m] + (0.5 + (double) q) / (double) n * (b[m] - a[m]);
-            if (is_tip (s, k, x, ahead)) out[i] = fmin (retreat_at (s, x), 0.25 * sqrt (area));
+            if (!is_tip (s, k, x, ahead)) continue;
+            out[i] = fmax (out[i], fmin (retreat_at (s, x), 0.25 * sqrt (area)));
+            add_front (s, k, x, ahead, length / (double) n);
         }
     }
+    s->extent[k].size = area_inside (s, c);
+}
+
+static void retreat_disc (const surroundings *s, size_t k, const pg_crack *c, double *out)
+{
+    double rim[3];
+    out[0] = fmin (retreat_at (s, c->centre), 0.5 * c->radius);
+    for (size_t i = 0; i < c->nvertex; i++) {
+        const double *x = c->vertex + 3*i;
+        for (int m = 0; m < 3; m++) rim[m] = (x[m] - c->centre[m]) / c->radius;
+        if (is_tip (s, k, x, rim)) add_front (s, k, x, rim, 2 * acos (-1) * c->radius / (double) c->nvertex);
+    }
+    s->extent[k].size = area_inside (s, c);
+}
+
+/* ---- how well a tip is known --------------------------------------------------------------------------------------------------- */
+static int joined (const pg_problem *p, const pg_crack *a, const pg_crack *b)
+{
+    size_t dim = (size_t) p->dim;
+    for (size_t i = 0; i < a->nvertex; i++) if (pg_crack_touches (b, p->dim, a->vertex + i * dim, 1e-6 * p->cloud.h)) return 1;
+    for (size_t i = 0; i < b->nvertex; i++) if (pg_crack_touches (a, p->dim, b->vertex + i * dim, 1e-6 * p->cloud.h)) return 1;
+    return 0;
+}
+
+/* What hangs together counts as one crack: into the extent of its first. */
+static void join (const pg_problem *p, extent *e)
+{
+    for (size_t k = 0; k < p->cracks.n; k++) e[k].group = k;
+    for (size_t k = 1; k < p->cracks.n; k++)
+        for (size_t j = 0; j < k; j++) {
+            size_t from = e[k].group, to = e[j].group;
+            if (from == to || !joined (p, &p->cracks.crack[k], &p->cracks.crack[j])) continue;
+            for (size_t i = 0; i <= k; i++) if (e[i].group == from || e[i].group == to) e[i].group = from < to ? from : to;
+        }
+    for (size_t k = 1; k < p->cracks.n; k++) {
+        extent *first = &e[e[k].group];
+        if (first == &e[k]) continue;
+        if (e[k].front > 0) first->ligament = first->front > 0 ? fmin (first->ligament, e[k].ligament) : e[k].ligament;
+        first->spacing = fmax (first->spacing, e[k].spacing), first->size += e[k].size, first->front += e[k].front, first->open |= e[k].open;
+    }
+}
+
+/* m: length to a tip (half of a crack inside the body), depth to a front, radius of a disc. */
+static double length_of (const extent *e, int dim) { return (dim == 3 && !e->open ? 2 : 1) * e->size / e->front; }
+
+/* What moving all tips ahead by 1 m adds to the opening, of it: of a short crack 1 / length, of a deep notch in tension 2 / ligament, between them the sum
+ * to a sixth; a crack inside the body feels the ligament less. */
+static double sensitivity (const extent *e, int dim) { return 1 / length_of (e, dim) + (e->open ? 2 : 0.4) / e->ligament; }
+
+/* Of the crack whose opening is known worst. */
+static void tell (pg_problem *p, const pg_scene *scene, extent *e)
+{
+    double known = p->integration->at_nodes ? KNOWN_NODAL : p->approx.order == 2 ? KNOWN_QUADRATIC : KNOWN_LINEAR, worst = 0;
+    size_t at = 0;
+    char remedy[80] = "";
+    if (strcmp (pg_scene_text (scene, "solver.kind"), "static") != 0) return;
+    join (p, e);
+    for (size_t k = 0; k < p->cracks.n; k++) {
+        if (e[k].group != k || !(e[k].front > 0) || !(e[k].size > 0)) continue;
+        double share = known * e[k].spacing * sensitivity (&e[k], p->dim);
+        if (share > worst) worst = share, at = k;
+    }
+    if (!(worst > 0)) return;
+    if (worst > WORTH_A_WARNING) snprintf (remedy, sizeof remedy, "; points %.2g m apart there make that 5 %%", e[at].spacing * WORTH_A_WARNING / worst);
+    const char *end = p->dim == 3 ? "front" : "tip";
+    pg_problem_note (p, "%sthe opening of crack %zu (%.3g spacings to its %s) is known to about +-%.2g %%: where its %s lies among the points is worth +-%g spacing%s",
+                     worst > WORTH_A_WARNING ? PG_WARNING : "", at + 1, length_of (&e[at], p->dim) / e[at].spacing, end, 100 * worst, end, known, remedy);
 }
 
 pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
@@ -124,22 +271,24 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     double *out = NULL, **made = NULL;
     if (p->cracks.n == 0) return PG_OK;
     s.offset = offset_of (p, scene);
-    if (!(s.offset > 0)) return PG_OK;
+    if (p->direct && !(s.offset > 0)) return PG_OK;
     if (p->part.mesh.n) PG_TRY (pg_finder_create (&s.finder, &p->part.mesh));
     PG_TRY (pg_nearest_create (&s.near, p->dim, p->cloud.n, p->cloud.x));
     PG_ALLOC (made, p->cracks.n);
+    PG_ALLOC (s.extent, p->cracks.n);
     for (size_t k = 0; k < p->cracks.n; k++) {         /* all before any: an end on another crack is none of its own     */
         pg_crack *c = &p->cracks.crack[k];
         PG_ALLOC (out, c->nvertex);
         if (c->kind == PG_CRACK_SEGMENT) retreat_segment (&s, k, c, out);
-        else if (c->kind == PG_CRACK_DISC) out[0] = fmin (retreat_at (&s, c->centre), 0.5 * c->radius);
+        else if (c->kind == PG_CRACK_DISC) retreat_disc (&s, k, c, out);
         else retreat_polygon (&s, k, c, out);
         made[k] = out, out = NULL;
     }
-    for (size_t k = 0; k < p->cracks.n; k++) p->cracks.crack[k].retreat = made[k], made[k] = NULL;
+    if (!p->direct) tell (p, scene, s.extent);         /* before they retreat: cracks as drawn                           */
+    for (size_t k = 0; s.offset > 0 && k < p->cracks.n; k++) p->cracks.crack[k].retreat = made[k], made[k] = NULL;
 done:
     for (size_t k = 0; made && k < p->cracks.n; k++) pg_free (made[k]);
-    pg_free (made), pg_free (out);
+    pg_free (made), pg_free (out), pg_free (s.extent);
     pg_nearest_free (&s.near);
     pg_finder_free (&s.finder);
     return status;
