@@ -174,7 +174,7 @@ static void what_was_hardly_meant_is_said (void **state)
     (void) state;
     remark (ONE "spacing: 0.1\n", "");
     remark (ONE "spacing: 2\n", "the spacing, 2 m, is larger than the body, which measures 1 m along x");
-    remark (ONE "spacing: 0.1\ncracks: [{from: [-0.1, 0.53], to: [0.5, 0.53]}]\n", "");
+    remark (ONE "spacing: 0.02\ncracks: [{from: [-0.1, 0.53], to: [0.5, 0.53]}]\n", "");
     remark (ONE "spacing: 0.1\ncracks: [{from: [-0.1, 0.53], to: [1.1, 0.53]}]\n", "the cracks cut the body into 2 parts: 55 of its 121 points");
     remark (TWO ("1e11 Pa") "spacing: 0.1\n", "");
     remark (TWO ("1e15 Pa") "spacing: 0.1\n", "material hard is 1e+06 times as stiff as m, and sees 36 % of it");
