@@ -66,6 +66,20 @@ static void parts_of_stairs_are_where_they_should_be (void **state)
     }
 }
 
+/* A slanted face that ends in the plane of a side is none of it, cut or not. */
+static void a_face_that_ends_in_a_side_is_none_of_it (void **state)
+{
+    (void) state;
+    for (int cut = 0; cut < 2; cut++) {
+        model m;
+        check_ok (make (&m, "dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [16, 0], [16, 10], [0, 20]]}}}]\nspacing: 1", cut));
+        assert_int_equal (find (&m, "top")->nfacet, 0);
+        check_relative (area (&m, "left"), 20, 1e-12);
+        check_relative (area (&m, "right"), 10, 1e-12);
+        drop (&m);
+    }
+}
+
 static void a_bar_has_two_ends (void **state)
 {
     (void) state;
@@ -336,7 +350,7 @@ static void the_rim_of_a_cylinder_is_round (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (sides_of_a_box_have_their_points_and_areas), cmocka_unit_test (parts_of_stairs_are_where_they_should_be), cmocka_unit_test (a_bar_has_two_ends), cmocka_unit_test (all_is_everything),
+        cmocka_unit_test (sides_of_a_box_have_their_points_and_areas), cmocka_unit_test (parts_of_stairs_are_where_they_should_be), cmocka_unit_test (a_face_that_ends_in_a_side_is_none_of_it), cmocka_unit_test (a_bar_has_two_ends), cmocka_unit_test (all_is_everything),
         cmocka_unit_test (a_hole_is_what_lies_nearest_to_its_circle), cmocka_unit_test (boundaries_add_up_and_conditions_narrow_down),
         cmocka_unit_test (where_alone_picks_points_inside_as_well), cmocka_unit_test (platens_of_the_disk_are_found_by_angle),
         cmocka_unit_test (angles_wrap_around), cmocka_unit_test (parts_leave_out_the_middle), cmocka_unit_test (points_in_cells_take_the_cells_behind_the_facets),

@@ -168,6 +168,57 @@ static void a_changed_byte_is_refused (void **state)
     check_ok (pg_checkpoint_read (path, walk, &b));
 }
 
+/* ---- several arrays of one length ---------------------------------------------------------------------------------------------- */
+enum { LONG = 40000 };                                 /* more than are summed at once                                   */
+typedef struct { double first[LONG], other[LONG]; } arrays;
+
+static pg_status walk_arrays (void *context, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    arrays *a = context;
+    PG_TRY (k->numbers (k->context, "the first", LONG, a->first));
+    PG_TRY (k->numbers (k->context, "the other", LONG, a->other));
+done:
+    return status;
+}
+
+/* Exchanges two texts of one length wherever they are in a file; how often. */
+static int exchange (const char *path, const char *one, const char *other)
+{
+    size_t n = strlen (one), bytes = (size_t) bytes_of (path);
+    int times = 0;
+    char *whole = pg_calloc (bytes, 1);
+    FILE *file = fopen (path, "r+b");
+    assert_true (file && fread (whole, 1, bytes, file) == bytes);
+    for (size_t k = 0; k + n <= bytes; k++) {
+        int is = memcmp (whole + k, one, n) == 0, was = memcmp (whole + k, other, n) == 0;
+        if (is || was) memcpy (whole + k, is ? other : one, n), times++;
+    }
+    assert_true (fseek (file, 0, SEEK_SET) == 0 && fwrite (whole, 1, bytes, file) == bytes && fclose (file) == 0);
+    pg_free (whole);
+    return times;
+}
+
+static void long_arrays_count_whole_and_by_their_names (void **state)
+{
+    (void) state;
+    arrays *a = pg_calloc (1, sizeof *a), *b = pg_calloc (1, sizeof *b);
+    const char *path = file_at ("long.nc");
+    for (int k = 0; k < LONG; k++) a->first[k] = 1.0 / (k + 1), a->other[k] = -k;
+    check_ok (pg_checkpoint_write (path, walk_arrays, a));
+    check_ok (pg_checkpoint_read (path, walk_arrays, b));
+    assert_memory_equal (a, b, sizeof *a);
+    assert_int_equal (exchange (path, "the first", "the other"), 2);
+    check_fails (pg_checkpoint_read (path, walk_arrays, b), PG_E_FILE);
+    check_contains (pg_last_error (), "long.nc is damaged or cut off");
+    assert_int_equal (exchange (path, "the first", "the other"), 2);
+    check_ok (pg_checkpoint_read (path, walk_arrays, b));
+    assert_int_equal (exchange (path, "checksum", "checkmum"), 1);
+    check_fails (pg_checkpoint_read (path, walk_arrays, b), PG_E_FILE);
+    check_contains (pg_last_error (), "it has no checksum");
+    pg_free (a), pg_free (b);
+}
+
 /* A child writes one checkpoint after the other until it is killed. */
 static void no_instant_to_be_killed_at_is_bad (void **state)
 {
@@ -216,7 +267,8 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (all_comes_back), cmocka_unit_test (what_does_not_fit_is_named), cmocka_unit_test (a_name_used_twice_is_a_misuse),
         cmocka_unit_test (a_walk_that_fails_leaves_the_old_file), cmocka_unit_test (a_full_disk_leaves_the_old_file),
-        cmocka_unit_test (a_file_cut_off_is_refused), cmocka_unit_test (a_changed_byte_is_refused), cmocka_unit_test (no_instant_to_be_killed_at_is_bad),
+        cmocka_unit_test (a_file_cut_off_is_refused), cmocka_unit_test (a_changed_byte_is_refused), cmocka_unit_test (long_arrays_count_whole_and_by_their_names),
+        cmocka_unit_test (no_instant_to_be_killed_at_is_bad),
         cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/checkpoint", tests, NULL, remove_folder);
