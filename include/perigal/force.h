@@ -41,7 +41,7 @@ typedef struct {
     /* Essential conditions by elimination: d = T q + g. NULL entries or T NULL: none. */
     const pg_sparse   *(*basis)     (void *self);
     pg_status (*impose)  (void *self, double t, double *d);                /* makes d satisfy them                        */
-    /* Utilisation of every bond (NULL entry: nothing can break); factor: load factor of its limit, d being that of factor 1. */
+    /* Utilisation of every bond (NULL entry: nothing can break); factor: load factor of its limit, d being that of factor 1. Dead ones: 0, INFINITY. */
     pg_status (*utilisation) (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
     /* inertia: what motion adds to the residual, - M a - C v (NULL: static); out is sized on the first call.             */
     pg_status (*ledger)  (void *self, double t, const double *d, const double *inertia, pg_ledger *out);

@@ -70,6 +70,39 @@ static void check_means (const scene *a, int mohr_coulomb)
     unbonded (&b);
 }
 
+/* Nor is anything left of what was there before. */
+static void dead_bonds_have_no_utilisation (void **unused)
+{
+    (void) unused;
+    static const struct { const char *nu, *method, *criterion; } laws[] = {
+        { "0.2", "integration: gauss", "principal_stress, tensile_strength: 1 Pa" }, { "0.2", "integration: nodal", "mohr_coulomb, tensile_strength: 1 Pa, cohesion: 2 Pa, friction_angle: 35 deg" },
+        { "0.3333333333", "force: bond", "stretch, critical_stretch: 1e-3" }, { "0.3333333333", "force: fcbm", "node_energy, fracture_energy: 1 J/m2" },
+        { "0.2", "force: lps", "stretch, critical_stretch: 1e-3" }, { "0.2", "force: gmpd", "beam_limits, fracture_energy: 1 J/m2" },
+    };
+    for (size_t l = 0; l < sizeof laws / sizeof *laws; l++) {
+        char text[1200];
+        snprintf (text, sizeof text, "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [1, 0.7]}}}]\nspacing: 0.1\nthickness: 0.2\nmaterials: {rock: {youngs_modulus: 10, poissons_ratio: %s}}\n"
+                  "method: {%s}\nfailure: {criterion: %s}\n", laws[l].nu, laws[l].method, laws[l].criterion);
+        bonded b = bonded_of (text);
+        size_t n = b.state->nbond, live = 0;
+        double *d = random_vector (b.ndof, 5), *u = pg_calloc (n, sizeof *u), *f = pg_calloc (n, sizeof *f);
+        char *kind = pg_calloc (n, 1);
+        for (size_t i = 0; i < n; i++) b.state->alive[i] = i % 3 > 0, u[i] = f[i] = 7;
+        for (size_t i = 0; b.problem->direct && i < b.n; i++)                 /* both directions of a bond                       */
+            for (size_t e = b.problem->rows[PG_NODES].family.start[i]; e < b.problem->rows[PG_NODES].family.start[i + 1]; e++)
+                b.state->alive[e] = (i + (size_t) b.problem->rows[PG_NODES].family.node[e]) % 3 > 0;
+        check_ok (b.force->refresh (b.self, b.state, NULL));
+        check_ok (b.force->utilisation (b.self, b.state, d, u, kind, f));
+        for (size_t i = 0; i < n; i++) {
+            if (!b.state->alive[i]) assert_true (u[i] == 0 && f[i] == INFINITY);
+            live += b.state->alive[i] && u[i] > 0;
+        }
+        assert_true (live > n / 4);
+        pg_free (d), pg_free (u), pg_free (f), pg_free (kind);
+        unbonded (&b);
+    }
+}
+
 static void bonds_are_judged_by_the_mean_of_both_ends (void **unused)
 {
     (void) unused;
@@ -156,6 +189,6 @@ static void limits_of_energy_go_with_the_horizon_of_the_point (void **unused)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (bonds_are_judged_by_the_mean_of_both_ends), cmocka_unit_test (limits_of_energy_go_with_the_horizon_of_the_point) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (dead_bonds_have_no_utilisation), cmocka_unit_test (bonds_are_judged_by_the_mean_of_both_ends), cmocka_unit_test (limits_of_energy_go_with_the_horizon_of_the_point) };
     return cmocka_run_group_tests_name ("force/limits", tests, NULL, NULL);
 }

@@ -74,6 +74,9 @@ static void what_is_read_back_is_written_again (void **state)
     for (int s = 0; s < 4; s++) {
         run a = broken (solvers[s]), b = plate (solvers[s]);
         memory first = { .n = 0 }, again = { .n = 0 };
+        long died = 0;
+        for (size_t i = 0; i < a.state->nbond; i++) died += b.state->alive[i] && !a.state->alive[i];
+        assert_true (died == (long) a.step.nbroken && a.state->broken == died && pg_solver_report_now (a.solver)->broken == died);
         check_ok (walk (&first, &a, 0));
         check_ok (walk (&first, &b, 1));
         check_ok (walk (&again, &b, 0));
