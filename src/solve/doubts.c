@@ -79,6 +79,17 @@ static void doubt_all (pg_report *report, const pg_problem *p)
         pg_report_warn (report, "displacements are prescribed at every point of the body: nothing is left to solve. Of its surface alone: sets: {NAME: {boundary: all}}, or essential: nitsche");
 }
 
+/* Nitsche's method integrates over facets; of the whole body that is meant: its surface. */
+static void doubt_inner (pg_report *report, const pg_problem *p)
+{
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        if (!pg_load_prescribes (load) || load->essential != PG_ESSENTIAL_NITSCHE || !load->set->ninner || load->set->npoint == p->cloud.n) continue;
+        pg_report_warn (report, "%.40s: essential: nitsche holds the %zu facets of %.40s and leaves free %zu of its points, which lie behind them; use essential: penalty", load->name,
+                        load->set->nfacet, load->set->name, load->set->ninner);
+    }
+}
+
 static int warns (const char *note) { return strncmp (note, PG_WARNING, strlen (PG_WARNING)) == 0; }
 
 static void doubt_patch (pg_report *report, const pg_problem *p)
@@ -102,6 +113,7 @@ void pg_solver_doubts (pg_report *report, const pg_problem *p, const pg_solver_o
 {
     doubt_supports (report, p, o);
     doubt_all (report, p);
+    doubt_inner (report, p);
     doubt_patch (report, p);
     for (size_t k = 0; k < p->nnote; k++) if (warns (p->note[k])) pg_report_warn (report, "%s", p->note[k] + strlen (PG_WARNING));
     if (p->part.mesh.n && p->part.quality < 0.1)

@@ -127,6 +127,23 @@ static void forces_are_those_of_penalty_on_every_point (void **state)
     check_relative (grips (2, 0.1, "", "", "essential: transformation, "), grips (2, 0.1, "", "", "essential: penalty, "), 1e-5);
 }
 
+/* Asked for by name, nitsche holds the facets of a grip only: the rest of it may strain, which is told. */
+static void grips_held_by_their_facets_only_are_told (void **state)
+{
+    (void) state;
+    static const char *const hows[] = { "", ", essential: penalty", ", essential: transformation", ", essential: nitsche" };
+    for (int k = 0; k < 4; k++) {
+        run r = scene_of (1, PLATE "sets: {low: {where: y < 0.35}}\nboundary: [{name: grip, set: low, displacement: {x: 0, y: 0}%s}, {set: top, displacement: {y: 1 mm}, essential: nitsche}]\n",
+                          hows[k]);
+        const pg_report *report = pg_solver_report_now (r.solver);
+        int told = 0;
+        for (size_t w = 0; w < report->nwarning; w++)
+            told += strncmp (report->warning[w], "grip: essential: nitsche holds the 16 facets of low and leaves free 27 of its points", 84) == 0;
+        assert_int_equal (told, k == 3);
+        clear (&r);
+    }
+}
+
 static void a_body_held_everywhere_is_told (void **state)
 {
     (void) state;
@@ -180,7 +197,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (two_values_for_one_set_are_a_fault_with_both_lines), cmocka_unit_test (sets_that_share_a_corner), cmocka_unit_test (solids_and_motions_are_looked_at_alike),
         cmocka_unit_test (wide_grips_are_held_in_all_their_points), cmocka_unit_test (forces_are_those_of_penalty_on_every_point),
-        cmocka_unit_test (a_body_held_everywhere_is_told),
+        cmocka_unit_test (grips_held_by_their_facets_only_are_told), cmocka_unit_test (a_body_held_everywhere_is_told),
         cmocka_unit_test (sides_and_boundaries_have_no_inside), cmocka_unit_test (too_many_points_to_eliminate_are_told),
     };
     return cmocka_run_group_tests_name ("model/supports", tests, NULL, NULL);
