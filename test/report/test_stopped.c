@@ -109,7 +109,7 @@ static void points_of_files_that_files_include_are_part_of_it (void **state)
     write_file (path[1], elements, 0, ""), write_file (path[2], scene, 0, "");
     for (int k = 0; k < 3; k++) {                      /* as it was, one node moved, as it was                            */
         int n = snprintf (nodes, sizeof nodes, "*NODE\n");
-        for (int i = 0; i < 30; i++) n += snprintf (nodes + n, sizeof nodes - (size_t) n, "%d, %.17g, %.17g\n", i + 1, 0.1 * (i % 6) + (k == 1 && i == 14 ? 0.01 : 0), 0.1 * (i / 6));
+        for (int i = 0; i < 30; i++) n += snprintf (nodes + n, sizeof nodes - (size_t) n, "%d, %.17g, %.17g\n", i + 1, 0.1 * (i % 6) + (k == 1 && i == 14 ? 1e-10 : 0), 0.1 * (i / 6));
         write_file (path[0], nodes, 0, "");
         run r = loaded (path[2], 0, NULL);
         visit v = { .left = -2 };
@@ -127,6 +127,57 @@ static void points_of_files_that_files_include_are_part_of_it (void **state)
         clear (&r);
     }
     remove_folder (beside), remove_folder (where);
+}
+
+/* A checkpoint whose checksum is right, but one count of which is not. */
+typedef struct { const pg_keeper *inner; run *r; pg_result *result; const char *name; size_t at; long to; } forger;
+
+static pg_status pass_numbers (void *c, const char *name, size_t n, double *v) { const pg_keeper *k = ((forger *) c)->inner; return k->numbers (k->context, name, n, v); }
+static pg_status pass_bytes (void *c, const char *name, size_t n, void *v) { const pg_keeper *k = ((forger *) c)->inner; return k->bytes (k->context, name, n, v); }
+static pg_status forge_counts (void *c, const char *name, size_t n, long *v)
+{
+    const forger *f = c;
+    long kept = 0;
+    int wrong = strcmp (name, f->name) == 0;
+    if (wrong) assert_true (f->at < n), kept = v[f->at], v[f->at] = f->to;
+    pg_status status = f->inner->counts (f->inner->context, name, n, v);
+    if (wrong) v[f->at] = kept;
+    return status;
+}
+static pg_status forge (void *context, const pg_keeper *k)
+{
+    forger *f = context;
+    const pg_keeper mine = { .context = f, .reading = 0, .numbers = pass_numbers, .counts = forge_counts, .bytes = pass_bytes };
+    f->inner = k;
+    return pg_result_keep (f->result, f->r->state, &mine);
+}
+
+static void marks_that_cannot_be_are_refused (void **state)
+{
+    (void) state;
+    static const struct { const char *name; size_t at; long to; const char *words; } wrong[] = {
+        { "none", 0, 0, "" }, { "now.counts", 0, -1, "mark 0 of now is -1" }, { "now.counts", 6, 1L << 60, "mark 6 of now is" }, { "now.counts", 0, 1L << 40, "it was changed since" },
+        { "now.counts", 5, 1L << 20, "1048576 points of the curve of" }, { "done.counts", 5, 1L << 20, "1048576 points of the curve of" }, { "result.counts", 0, -1, "-1 rounds of a step" },
+    };
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char where[64], path[128];
+        run r = prepare (1, scenes[1].text), again;
+        visit v = { .left = -1 }, w;
+        pg_resumed from;
+        make_folder (where);
+        snprintf (path, sizeof path, "%s/checkpoint.nc", where);
+        check_ok (pg_result_open (&v.result, where, r.scene, r.problem, r.solver));
+        assert_int_equal (go (&r, &v), 1);
+        forger f = { .r = &r, .result = v.result, .name = wrong[k].name, .at = wrong[k].at, .to = wrong[k].to };
+        check_ok (pg_checkpoint_write (path, forge, &f));
+        pg_result_free (&v.result);
+        pg_status status = resume (scenes[1].text, where, &again, &w, &from);
+        assert_int_equal (status, *wrong[k].words ? PG_E_FILE : PG_OK);
+        if (*wrong[k].words) check_contains (pg_last_error (), wrong[k].words);
+        pg_result_free (&w.result);
+        clear (&r), clear (&again);
+        remove_folder (where);
+    }
 }
 
 static void finished_is_told_from_interrupted (void **state)
@@ -187,7 +238,8 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (what_is_not_of_this_run_is_refused), cmocka_unit_test (files_of_the_scene_are_part_of_it),
-        cmocka_unit_test (points_of_files_that_files_include_are_part_of_it), cmocka_unit_test (finished_is_told_from_interrupted),
+        cmocka_unit_test (points_of_files_that_files_include_are_part_of_it), cmocka_unit_test (marks_that_cannot_be_are_refused),
+        cmocka_unit_test (finished_is_told_from_interrupted),
         cmocka_unit_test (a_new_run_leaves_no_old_checkpoint_or_report), cmocka_unit_test (a_file_that_lost_rows_is_refused),
     };
     return cmocka_run_group_tests_name ("report/stopped", tests, NULL, NULL);
