@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What every run says of its own discretisation (pg_patch_probe) against what uniform tension then comes out as. */
+#define _DEFAULT_SOURCE                                 /* mkstemp                                                       */
 #include "run.h"
+#include <unistd.h>
 
 typedef struct { const char *method, *more; int dim; double spacing, size[3], least, most; } tension;   /* of the patch error over that of the run */
 
@@ -106,6 +108,48 @@ static void units_and_cracks_leave_it_as_it_is (void **state)
     }
 }
 
+/* Points of a file have no surface: the rim is held as the uniform strain moves it, and the points inside tell. */
+static void points_without_a_surface_are_measured_inside (void **state)
+{
+    (void) state;
+    char name[] = "/tmp/perigal_patch_XXXXXX", text[600];
+    unsigned seed = 3;
+    int file = mkstemp (name);
+    FILE *f = fdopen (file, "w");
+    assert_non_null (f);
+    fputs ("x,y,volume,block\n", f);
+    for (int i = 0; i < 400; i++) {
+        double move[2];
+        for (int k = 0; k < 2; k++) seed = seed * 1664525u + 1013904223u, move[k] = 0.01 * ((double) (seed >> 8) / 8388608.0 - 1);
+        fprintf (f, "%.17g,%.17g,0.0025,0\n", 0.05 * (i % 20) + move[0], 0.05 * (i / 20) + move[1]);
+    }
+    assert_int_equal (fclose (f), 0);
+    snprintf (text, sizeof text, "dimension: 2\nthickness: 1\npoints: %s\nmaterials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0.3333333333333333}}\nmethod: {force: bond, horizon: 0.15}\n", name);
+    pg_scene *scene;
+    pg_problem *p;
+    check_ok (pg_scene_parse (&scene, text, "patch.yaml"));
+    check_ok (pg_problem_build (&p, scene, 1));
+    check_ok (pg_patch_probe (p));
+    print_message ("  points of a file: %g, %zu iterations\n", p->patch.error, p->patch.iterations);
+    assert_true (p->patch.held && p->patch.measured && isnan (p->patch.compliance));
+    assert_true (p->patch.error > 1e-3 && p->patch.error < 0.2);
+    pg_problem_free (&p);
+    pg_scene_free (&scene);
+    unlink (name);
+}
+
+/* What unit forces find of it is a number of the method: as large for few points as for many, in any unit. */
+static void softness_is_a_pure_number (void **state)
+{
+    (void) state;
+    static const tension few = { "integration: consistent", "", 2, 0.1, { 1, 1, 0 }, 0, 0 }, many = { "integration: consistent", "", 2, 0.04, { 1, 1, 0 }, 0, 0 }, bonds = { "force: bond", "", 2, 0.1, { 1, 1, 0 }, 0, 0 };
+    double a = measured (&few, 1, "").softness, b = measured (&many, 1, "").softness, c = measured (&few, 1e-9, "").softness, d = measured (&bonds, 1, "").softness;
+    print_message ("  softness %g, %g, %g, %g\n", a, b, c, d);
+    assert_true (a > 0.3 && a < 30 && d > 0.3 && d < 30);
+    assert_true (b > 0.5 * a && b < 2 * a);
+    check_relative (c, a, 1e-3);
+}
+
 static void refused (const tension *c, const char *more, const char *const *words)
 {
     pg_scene *scene = scene_for (c, 1, more);
@@ -188,6 +232,8 @@ int main (void)
         cmocka_unit_test (it_tells_what_uniform_tension_comes_out_as),
         cmocka_unit_test (sound_ones_are_told_to_be),
         cmocka_unit_test (units_and_cracks_leave_it_as_it_is),
+        cmocka_unit_test (points_without_a_surface_are_measured_inside),
+        cmocka_unit_test (softness_is_a_pure_number),
         cmocka_unit_test (too_wrong_is_refused),
         cmocka_unit_test (what_was_hardly_meant_is_said),
     };
