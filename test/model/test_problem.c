@@ -125,6 +125,38 @@ static void fronts_in_space_retreat (void **state)
     check_fronts (disc, "integration: nodal, approximation: pddo, basis: linear, horizon: 2 spacing", 1, (double[]) { 0.05 });
 }
 
+static void a_bond_is_found_again_by_its_number (void **state)
+{
+    (void) state;
+    built b = build (PLATE "boundary: [{set: right, displacement: {x: 1}}]\n");
+    const pg_problem *p = b.problem;
+    for (int set = 0; set < PG_BOND_SETS; set++)
+        for (size_t q = 0; q < p->rows[set].n; q++)
+            for (size_t e = p->rows[set].family.start[q]; e < p->rows[set].family.start[q + 1]; e++) {
+                int found;
+                size_t point;
+                pg_problem_locate (p, p->first_bond[set] + e, &found, &point);
+                assert_true (found == set && point == q);
+            }
+    unbuild (&b);
+}
+
+/* Young's modulus of the scene, Poisson's ratio of the bonds. */
+static void bonds_have_the_tangent_of_their_own_ratio (void **state)
+{
+    (void) state;
+    static const struct { const char *text; int strain; } plates[] = { { PLATE "plane: stress\nmethod: {force: bond}\n", 0 }, { PLATE "plane: strain\nmethod: {force: bond}\n", 1 } };
+    for (int k = 0; k < 2; k++) {
+        built b = build (plates[k].text);
+        const double *D = b.problem->material[0].D, E = 10, nu = k ? 0.25 : 1. / 3, low = plates[k].strain ? (1 + nu) * (1 - 2 * nu) : 1 - nu * nu;
+        check_relative (D[0], E * (plates[k].strain ? 1 - nu : 1) / low, 1e-12);
+        check_relative (D[1], E * nu / low, 1e-12);
+        check_relative (D[4], D[0], 1e-12);
+        check_relative (D[8], E / (2 * (1 + nu)), 1e-12);
+        unbuild (&b);
+    }
+}
+
 static void excluded_sets_exempt_what_is_near (void **state)
 {
     (void) state;
@@ -228,7 +260,8 @@ int main (void)
         cmocka_unit_test (bond_sets_are_numbered_through),
         cmocka_unit_test (weights_are_the_volume_of_the_body),
         cmocka_unit_test (nodal_integration_has_no_points),
-        cmocka_unit_test (a_crack_cuts_what_crosses_it), cmocka_unit_test (fronts_in_space_retreat),
+        cmocka_unit_test (a_crack_cuts_what_crosses_it), cmocka_unit_test (fronts_in_space_retreat), cmocka_unit_test (a_bond_is_found_again_by_its_number),
+        cmocka_unit_test (bonds_have_the_tangent_of_their_own_ratio),
         cmocka_unit_test (excluded_sets_exempt_what_is_near),
         cmocka_unit_test (a_state_can_be_copied_and_compared),
         cmocka_unit_test (a_problem_is_named_after_its_folder_or_file),

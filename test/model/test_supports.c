@@ -58,6 +58,10 @@ static void sets_that_share_a_corner (void **state)
         assert_int_equal (told, m > 0);
         clear (&r);
     }
+    run weak = scene_of (1, PLATE "sets: {strip: {where: y > 0.85 m}}\nboundary:\n - {set: left, displacement: {x: 0, y: 0}}\n - {set: strip, essential: penalty, displacement: {x: 1 mm}}\n");
+    const pg_report *now = pg_solver_report_now (weak.solver);     /* the face is held weakly: its corner goes with the points */
+    for (size_t k = 0; k < now->nwarning; k++) assert_null (strstr (now->warning[k], "belong to left too"));
+    clear (&weak);
     snprintf (text, sizeof text, PLATE "sets: {pin: {where: x < 0.01 m and y > 0.99 m}}\nboundary:\n - {set: left, displacement: {x: 0}}\n - {set: pin, displacement: {x: 1 mm}}\n");
     said (text, "1 point of pin belong to left too");
 }
