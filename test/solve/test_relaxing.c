@@ -61,6 +61,26 @@ static void equilibrium_of_a_moved_support (void **state)
     }
 }
 
+/* Masses of adr from the rows of the matrix are those from the sums that a force tells itself. */
+static void sums_of_rows_may_be_left_to_the_matrix (void **state)
+{
+    (void) state;
+    pg_force_type silent = chain_type;
+    silent.row_sums = NULL;
+    the = (chain) { .n = 40, .k = 1e4, .ground = 0, .m = 3, .lead = lead, .push = push };
+    pg_solver_options o = options_of ("adr", 5, 1e-11);
+    linked a, b;
+    pg_step one, other;
+    link_up (&a, &o, &chain_type), link_up (&b, &o, &silent);
+    for (int k = 1; k <= 5; k++) {
+        check_ok (pg_solver_step (a.solver, a.state, &one));
+        check_ok (pg_solver_step (b.solver, b.state, &other));
+        for (size_t i = 1; i < the.n; i++) check_relative (b.state->d[i], 0.2 * k * (0.1 + 7e-4 * (double) i), 1e-8);
+        assert_true (other.iterations <= 2 * one.iterations + 50 && one.iterations <= 2 * other.iterations + 50);
+    }
+    unlink_all (&a), unlink_all (&b);
+}
+
 /* What is not proportional to the load factor is not foreseen: stages still end in equilibrium. */
 static void loads_need_not_be_proportional (void **state)
 {
@@ -246,7 +266,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (equilibrium_under_a_load),
-        cmocka_unit_test (equilibrium_of_a_moved_support),
+        cmocka_unit_test (equilibrium_of_a_moved_support), cmocka_unit_test (sums_of_rows_may_be_left_to_the_matrix),
         cmocka_unit_test (loads_need_not_be_proportional),
         cmocka_unit_test (proportional_stages_take_no_iterations),
         cmocka_unit_test (nothing_to_do_is_balance),
