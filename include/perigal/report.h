@@ -8,6 +8,8 @@
 
 /* Faults of output.fields and output.pictures that only the dimension shows; also part of pg_result_open. */
 pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem);
+/* Of that what needs no problem: pictures that no body of this dimension has, as faults of a scene that pg_scene_partial tells from others. */
+void      pg_result_check_names (const pg_scene *scene);
 
 typedef struct pg_result pg_result;
 /* Makes the folder and locks it (DIR/run.lock) until pg_result_free. PG_E_USAGE: another run has it, and as pg_result_may_open. */

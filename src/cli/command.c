@@ -186,6 +186,7 @@ pg_status command_scene (const command *c, pg_scene **scene)
 pg_status command_problem (const command *c, const pg_scene *scene, pg_problem **problem, pg_solver_options *o)
 {
     pg_status status = PG_OK;
+    if (pg_scene_partial (scene)) pg_result_check_names (scene);
     PG_TRY (pg_problem_prepare (problem, scene, c->threads));
     status = pg_solver_options_read (o, *problem, scene);
     pg_scene_pass (scene);

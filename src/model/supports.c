@@ -78,18 +78,18 @@ static void tell (pg_problem *p, const pg_scene *scene, size_t i, size_t l, int 
 {
     const pg_load *a = &p->load[i], *b = &p->load[l];
     char path[96], other[96], line[32] = "", at[80] = "";
-    const char *unit = pg_load_turns (a) ? "rad" : "m", *what = kind == PG_FACETS ? "facet" : "point", *many = c->differ > 1 ? "s" : "";
+    const char *unit = pg_load_turns (a) ? "rad" : "m", *what = kind == PG_FACETS ? "facet" : "point", *many = c->differ > 1 ? "s" : "", *verb = c->differ > 1 ? "belong" : "belongs";
     int number, used = 0;
     snprintf (other, sizeof other, "boundary[%zu].%s.%c", i, key_of (a), pg_load_axis (a, p->dim, k));
     snprintf (path, sizeof path, "boundary[%zu].%s.%c", l, key_of (b), pg_load_axis (b, p->dim, k));
     if ((number = pg_scene_line (scene, "%s", other))) snprintf (line, sizeof line, " (line %d)", number);
     for (int d = 0; d < p->dim; d++) used += snprintf (at + used, sizeof at - (size_t) used, "%s%.6g", d ? ", " : "", c->x[d]);
     if (2 * c->differ > smaller)
-        pg_scene_fault (scene, path, "contradicts %s%s: %zu %s%s of %s belong to %s too, and the %s at (%s) m is moved by %.6g %s there, by %.6g %s here. Equal values are fine; else leave "
-                        "one of them out, or take what they share out of one of the sets (sets: {NAME: {where: ...}})", other, line, c->differ, what, many, b->set->name, a->set->name,
+        pg_scene_fault (scene, path, "contradicts %s%s: %zu %s%s of %s %s to %s too, and the %s at (%s) m is moved by %.6g %s there, by %.6g %s here. Equal values are fine; else leave "
+                        "one of them out, or take what they share out of one of the sets (sets: {NAME: {where: ...}})", other, line, c->differ, what, many, b->set->name, verb, a->set->name,
                         what, at, c->there, unit, c->here, unit);
-    else pg_problem_note (p, PG_WARNING "%zu %s%s of %.32s, such as (%s) m, belong to %.32s too, which moves them by %.6g %s, not %.6g: %s comes first and holds them", c->differ, what, many,
-                          b->set->name, at, a->set->name, c->there, unit, c->here, other);
+    else pg_problem_note (p, PG_WARNING "%zu %s%s of %.32s, such as (%s) m, %s to %.32s too, which moves them by %.6g %s, not %.6g: %s comes first and holds them", c->differ, what, many,
+                          b->set->name, at, verb, a->set->name, c->there, unit, c->here, other);
 }
 
 static int comparable (const pg_load *a, const pg_load *b, int k)

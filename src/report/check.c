@@ -7,9 +7,8 @@
 #include <string.h>
 
 /* "damage|displacement|displacement.x|...|stress.xx|..." */
-static void picture_names (const pg_problem *p, char *out, size_t size)
+static void picture_names (int dim, int turns, char *out, size_t size)
 {
-    int dim = p->dim;
     static const char *const vector[] = { "displacement", "velocity" }, *const tensor[] = { "stress", "strain" };
     size_t at = (size_t) snprintf (out, size, "damage");
     for (int f = 0; f < 2; f++) {
@@ -20,7 +19,7 @@ static void picture_names (const pg_problem *p, char *out, size_t size)
         if (dim == 1) at += (size_t) snprintf (out + at, size - at, "|%s", tensor[f]);
         for (int k = 0; k < pg_voigt_size (dim); k++) at += (size_t) snprintf (out + at, size - at, "|%s.%s", tensor[f], result_voigt (dim, k));
     }
-    if (p->turns) at += (size_t) snprintf (out + at, size - at, "|rotation%s", p->turns == 3 ? "|rotation.x|rotation.y|rotation.z" : "");
+    if (turns) at += (size_t) snprintf (out + at, size - at, "|rotation%s", turns == 3 ? "|rotation.x|rotation.y|rotation.z" : "");
     snprintf (out + at, size - at, "|error_estimate");
 }
 
@@ -145,18 +144,37 @@ static void check_estimate (const pg_scene *scene, const pg_problem *problem)
         }
 }
 
-pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
+/* How many there are. */
+static size_t check_pictures (const pg_scene *scene, const char *names)
 {
-    char names[512], path[64];
-    const char *name;
     size_t count = 0;
-    pg_reference *reference = NULL;
-    picture_names (problem, names, sizeof names);
+    const char *name;
+    char path[64];
     for (; (name = pg_scene_name (scene, count, "output.pictures")); count++)
         if (!among (names, name)) {
             snprintf (path, sizeof path, "output.pictures[%zu]", count);
             fault_of_picture (scene, path, name, names);
         }
+    return count;
+}
+
+void pg_result_check_names (const pg_scene *scene)
+{
+    char names[512];
+    const char *force = pg_scene_text (scene, "method.force");
+    int dim = (int) pg_scene_integer (scene, "dimension"), turns = force && strcmp (force, "gmpd") == 0 ? dim == 3 ? 3 : 1 : 0;
+    if (dim < 1 || dim > 3 || !pg_scene_given (scene, "output.pictures[0]")) return;       /* no list: told already */
+    picture_names (dim, turns, names, sizeof names);
+    check_pictures (scene, names);
+}
+
+pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
+{
+    char names[512], path[64];
+    const char *name;
+    pg_reference *reference = NULL;
+    picture_names (problem->dim, problem->turns, names, sizeof names);
+    size_t count = check_pictures (scene, names);
     for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")); k++)
         if (strcmp (name, "rotation") == 0 && !problem->turns) {
             snprintf (path, sizeof path, "output.fields[%zu]", k);

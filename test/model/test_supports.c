@@ -54,7 +54,7 @@ static void sets_that_share_a_corner (void **state)
         const pg_report *report = pg_solver_report_now (r.solver);
         int told = 0;
         for (size_t k = 0; k < report->nwarning; k++)
-            told |= strcmp (report->warning[k], "1 point of top, such as (0, 1) m, belong to left too, which moves them by 0 m, not 0.001: boundary[0].displacement.x comes first and holds them") == 0;
+            told |= strcmp (report->warning[k], "1 point of top, such as (0, 1) m, belongs to left too, which moves them by 0 m, not 0.001: boundary[0].displacement.x comes first and holds them") == 0;
         assert_int_equal (told, m > 0);
         clear (&r);
     }
@@ -63,7 +63,7 @@ static void sets_that_share_a_corner (void **state)
     for (size_t k = 0; k < now->nwarning; k++) assert_null (strstr (now->warning[k], "belong to left too"));
     clear (&weak);
     snprintf (text, sizeof text, PLATE "sets: {pin: {where: x < 0.01 m and y > 0.99 m}}\nboundary:\n - {set: left, displacement: {x: 0}}\n - {set: pin, displacement: {x: 1 mm}}\n");
-    said (text, "1 point of pin belong to left too");
+    said (text, "1 point of pin belongs to left too");
 }
 
 static void solids_and_motions_are_looked_at_alike (void **state)
