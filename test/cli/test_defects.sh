@@ -76,6 +76,14 @@ done
 run "nosb, wide horizon, consistent and nitsche: runs" 0 'against the reference: displacement: L2 [0-9.]*e-1[0-9]' '*' nosb_horizon.yaml \
     'method={approximation: nosb, integration: consistent, essential: nitsche, horizon: 4.5 spacing}'
 run "degenerate points: refused with how many" 65 'warning: under uniform stress' 'method.horizon = 1.01 spacing: 400 of 900 evaluation points see too few points' all_degenerate.yaml
+for method in 'approximation: pddo' 'integration: consistent' 'integration: nodal'; do
+    run "degenerate points, $method: refused" 65 '*' 'horizon = 1.01 spacing: [0-9]* of [0-9]* evaluation points see too few points' all_degenerate.yaml \
+        "method={basis: quadratic, horizon: 1.01 spacing, $method}"
+done
+run "nodal integration of moved points: refused" 65 'warning: under uniform stress' 'the displacement is off by 9[0-9] %' all_degenerate.yaml perturb.amount=0.3 \
+    'method={approximation: pddo, integration: nodal}'
+run "nosb, nodal, moved points: warned"       0 'warning: under uniform stress xx the displacement is off by 1[0-9] %' '*' all_degenerate.yaml perturb.amount=0.3 \
+    'method={approximation: nosb, integration: nodal, horizon: 2.5 spacing}'
 for horizon in 1.1 1.2 1.3 1.4; do
     run "quadratic basis, horizon $horizon spacings: right" 0 'against the reference: displacement: L2 [0-9.]*e-0[4-9]' '*' all_degenerate.yaml "method.horizon=$horizon spacing"
     awk -v e="$(entry patch_error)" 'BEGIN { exit !(e > 0 && e < 0.01) }'; verdict "its patch error stands in report.json ($(entry patch_error))" $?
