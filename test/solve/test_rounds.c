@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rounds of breaking within a step: how many there may be, what breaks in one of them, and when the crack has arrived. */
+ * Rounds of breaking within a step: how many there may be, what breaks in one of them, when the crack has arrived, and what was dissipated. */
 #include "scene_runs/run.h"
 
-#define PLATE "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 10 mm]}}}]\nspacing: 1 mm\ncracks: [{from: [0, 5 mm], to: [6 mm, 5 mm]}]\n" \
+#define PLATE PLATE_OF ("30 MPa")
+#define PLATE_OF(strength) "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 10 mm]}}}]\nspacing: 1 mm\ncracks: [{from: [0, 5 mm], to: [6 mm, 5 mm]}]\n" \
     "materials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2500 kg/m3}}\nmethod: {integration: nodal}\n" \
-    "failure: {criterion: principal_stress, tensile_strength: 30 MPa, exclude: [bottom, top]}\nsets: {ahead: {where: 'x > 8 mm and x < 11 mm and abs(y - 5 mm) < 1.6 mm'}}\n" \
+    "failure: {criterion: principal_stress, tensile_strength: " strength ", exclude: [bottom, top]}\nsets: {ahead: {where: 'x > 8 mm and x < 11 mm and abs(y - 5 mm) < 1.6 mm'}}\n" \
     "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {y: 10 um}}\n"
 
 static void rounds_have_an_end (void **state)
@@ -72,8 +73,30 @@ static void a_run_ends_when_the_crack_arrives (void **state)
     }
 }
 
+/* What loads have done and is neither strain nor motion has been dissipated: nothing, as long as nothing breaks. */
+static void nothing_is_dissipated_where_nothing_breaks (void **state)
+{
+    (void) state;
+    static const char *const ways[] = { "kind: newmark, dt: 0.1 us, end: 3 us", "stepping: fixed, steps: 50", "kind: verlet, dt: 0.02 us, end: 2 us" };
+    for (int w = 0; w < 3; w++) {
+        run r = scene_of (1, PLATE_OF ("1 TPa") "solver: {%s}\n", ways[w]);
+        double most = 0, kinetic = 0;
+        for (int step = 0; step < 10; step++) {
+            advance (&r);
+            assert_int_equal (r.step.nbroken, 0);
+            most = fmax (most, fabs (r.step.dissipated));
+            kinetic = fmax (kinetic, pg_solver_report_now (r.solver)->energy_kinetic);
+        }
+        double work = pg_solver_report_now (r.solver)->energy_external;
+        print_message ("%s: dissipated %g of %g, in motion %g\n", ways[w], most, work, kinetic);
+        assert_true (work > 0 && (w == 1 || kinetic > 0.1 * work));
+        check_below (most, 1e-6 * work);
+        clear (&r);
+    }
+}
+
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (rounds_have_an_end), cmocka_unit_test (a_share_of_the_worst_breaks_above_its_limit_alone), cmocka_unit_test (a_run_ends_when_the_crack_arrives) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (rounds_have_an_end), cmocka_unit_test (a_share_of_the_worst_breaks_above_its_limit_alone), cmocka_unit_test (a_run_ends_when_the_crack_arrives), cmocka_unit_test (nothing_is_dissipated_where_nothing_breaks) };
     return cmocka_run_group_tests_name ("solve/rounds", tests, NULL, NULL);
 }

@@ -121,6 +121,23 @@ static void the_frequency_that_bounds_explicit_steps (void **state)
     clear (&r);
 }
 
+/* One solve a step, of the whole matrix: what damping adds to it is not left to corrections. */
+static void damping_is_in_the_matrix (void **state)
+{
+    (void) state;
+    size_t solves[2];
+    for (int damped = 0; damped < 2; damped++) {
+        run r = scene_of (1, "dimension: 2\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 10 mm]}}}]\nspacing: 1 mm\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2500 kg/m3}}\n"
+                          "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, traction: {y: 1 MPa}}\nsolver: {kind: newmark, linear: cholmod, dt: 1 us, end: 20 us%s}\n",
+                          damped ? ", rayleigh: {stiffness: 2 us}" : "");
+        to_the_end (&r);
+        solves[damped] = (size_t) pg_solver_report_now (r.solver)->solves;
+        clear (&r);
+    }
+    print_message ("solves: %zu, damped %zu\n", solves[0], solves[1]);
+    assert_int_equal (solves[0], solves[1]);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -128,7 +145,7 @@ int main (void)
         cmocka_unit_test (a_large_step_factors),
         cmocka_unit_test (a_kept_factor_gives_the_same_crack),
         cmocka_unit_test (events_with_a_kept_factor_are_the_same),
-        cmocka_unit_test (the_frequency_that_bounds_explicit_steps),
+        cmocka_unit_test (the_frequency_that_bounds_explicit_steps), cmocka_unit_test (damping_is_in_the_matrix),
     };
     return cmocka_run_group_tests_name ("solve/shortcuts", tests, NULL, NULL);
 }
