@@ -176,6 +176,27 @@ static void test_cut (void **unused)
     unbonded (&b);
 }
 
+/* What a support does to a body that is pulled: it pulls, the one above upwards. */
+static void test_reactions (void **unused)
+{
+    (void) unused;
+    static const char *const forces[] = { "bond", "lps", "gmpd" };
+    for (int k = 0; k < 3; k++) {
+        char text[1000];
+        snprintf (text, sizeof text, BODY2 "method: {force: %s}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 7e-4}}]\n", forces[k]);
+        bonded b = bonded_of (text);
+        double *d = pg_calloc (b.ndof, sizeof *d), area = 0.2, exact = 10 * 1e-3 * area;
+        pg_ledger out = { 0 };
+        for (size_t i = 0; i < b.n; i++) d[i * b.stride] = -1e-3 / 3 * b.problem->cloud.x[2 * i], d[i * b.stride + 1] = 1e-3 * b.problem->cloud.x[2 * i + 1];
+        check_ok (b.force->ledger (b.self, 1, d, NULL, &out));
+        assert_true (out.reaction[4] > 0.1 * exact && out.reaction[4] < exact);      /* the outermost row of those that bear it                  */
+        check_relative (out.reaction[1], -out.reaction[4], 1e-9);
+        pg_ledger_clear (&out);
+        pg_free (d);
+        unbonded (&b);
+    }
+}
+
 /* omega_max^2 is not above the bound, and Gershgorin's row sums are above it too. */
 static void test_bound (void **unused)
 {
@@ -257,7 +278,7 @@ static void test_products_after_breaking (void **unused)
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (test_matrix), cmocka_unit_test (test_partial_assembly), cmocka_unit_test (test_rigid),
-        cmocka_unit_test (test_hydrostatic), cmocka_unit_test (test_cut), cmocka_unit_test (test_bound), cmocka_unit_test (test_threads),
+        cmocka_unit_test (test_hydrostatic), cmocka_unit_test (test_cut), cmocka_unit_test (test_reactions), cmocka_unit_test (test_bound), cmocka_unit_test (test_threads),
         cmocka_unit_test (test_products_after_breaking) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
