@@ -37,6 +37,23 @@ static void a_bar_breaks_in_closed_form (void **state)
         }
 }
 
+/* Nothing breaks: zero, the levels, the end. */
+static void a_run_without_events_ends_with_its_last_level (void **state)
+{
+    (void) state;
+    run r = scene_of (1, "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [0, 0], high: [1, 0.4]}}}]\nspacing: 0.1\nmaterials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0}}\n"
+                      "failure: {criterion: principal_stress, tensile_strength: 5 GPa}\nboundary:\n  - {set: left, displacement: {x: 0, y: 0}}\n  - {set: right, traction: {x: 1 MPa}, ramp: 1 + 2*t}\n"
+                      "solver: {stepping: event}\noutput: {at: {levels: 4}}\n");
+    for (int level = 0; level <= 4; level++) {
+        assert_false (pg_solver_done (r.solver, r.state));
+        advance (&r);
+        check_absolute (r.state->factor, 0.25 * level, 1e-12);
+        assert_true (r.step.nbroken == 0 && r.step.level);
+    }
+    assert_true (pg_solver_done (r.solver, r.state));
+    clear (&r);
+}
+
 static const struct { const char *nu, *keys; } cases[] = {
     { "0.22", "failure: {criterion: principal_stress, tensile_strength: 30 MPa, exclude: [right]}\n" },
     { "0.22", "failure: {criterion: mohr_coulomb, tensile_strength: 30 MPa, cohesion: 60 MPa, friction_angle: 40 deg, exclude: [right]}\nmethod: {integration: nodal}\n" },
@@ -160,7 +177,7 @@ static void other_loads_are_refused (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (a_bar_breaks_in_closed_form), cmocka_unit_test (without_a_constant_part_the_events_are_the_same),
+        cmocka_unit_test (a_bar_breaks_in_closed_form), cmocka_unit_test (a_run_without_events_ends_with_its_last_level), cmocka_unit_test (without_a_constant_part_the_events_are_the_same),
         cmocka_unit_test (states_under_a_constant_part_are_admitted), cmocka_unit_test (a_constant_part_that_drives_the_crack_is_told),
         cmocka_unit_test (a_resumed_run_goes_on_bit_by_bit), cmocka_unit_test (other_loads_are_refused),
     };
