@@ -77,6 +77,10 @@ static void a_face_that_ends_in_a_side_is_none_of_it (void **state)
         check_relative (area (&m, "left"), 20, 1e-12);
         check_relative (area (&m, "right"), 10, 1e-12);
         drop (&m);
+        check_ok (make (&m, "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [10, 10]}}}, {subtract: {box: {low: [4, 5], high: [6, 7]}}}]\nspacing: 1", cut));
+        check_relative (area (&m, "top"), 10, 1e-12);          /* not the floor of the hole below it, which looks up as well        */
+        check_relative (area (&m, "all"), 48, 1e-12);
+        drop (&m);
     }
 }
 
