@@ -95,8 +95,24 @@ static void nothing_is_dissipated_where_nothing_breaks (void **state)
     }
 }
 
+/* Where nothing breaks before it, event stepping goes from level to level, and reactions with it. */
+static void levels_come_before_events_beyond_them (void **state)
+{
+    (void) state;
+    run r = scene_of (1, PLATE_OF ("1 TPa") "solver: {stepping: event}\noutput: {at: {levels: 4}}\n");
+    double first = 0;
+    for (int level = 1; level <= 4; level++) {
+        advance (&r);
+        check_relative (r.state->factor, 0.25 * level, 1e-12);
+        if (level == 1) first = r.step.reaction[4];
+        check_relative (r.step.reaction[4], level * first, 1e-9);
+    }
+    assert_true (first > 0 && pg_solver_done (r.solver, r.state));
+    clear (&r);
+}
+
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (rounds_have_an_end), cmocka_unit_test (a_share_of_the_worst_breaks_above_its_limit_alone), cmocka_unit_test (a_run_ends_when_the_crack_arrives), cmocka_unit_test (nothing_is_dissipated_where_nothing_breaks) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (rounds_have_an_end), cmocka_unit_test (a_share_of_the_worst_breaks_above_its_limit_alone), cmocka_unit_test (a_run_ends_when_the_crack_arrives), cmocka_unit_test (nothing_is_dissipated_where_nothing_breaks), cmocka_unit_test (levels_come_before_events_beyond_them) };
     return cmocka_run_group_tests_name ("solve/rounds", tests, NULL, NULL);
 }
