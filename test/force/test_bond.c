@@ -191,6 +191,9 @@ static void test_reactions (void **unused)
         check_ok (b.force->ledger (b.self, 1, d, NULL, &out));
         assert_true (out.reaction[4] > 0.1 * exact && out.reaction[4] < exact);      /* the outermost row of those that bear it                  */
         check_relative (out.reaction[1], -out.reaction[4], 1e-9);
+        double work = 0;
+        for (size_t i = 0; i < out.npair; i++) work += out.force[i] * out.displacement[i];
+        check_relative (work, 7e-4 * out.reaction[4], 1e-9);
         pg_ledger_clear (&out);
         pg_free (d);
         unbonded (&b);
