@@ -111,8 +111,20 @@ static void levels_come_before_events_beyond_them (void **state)
     clear (&r);
 }
 
+static void a_body_in_pieces_ends_the_run (void **state)
+{
+    (void) state;
+    run r = scene_of (1, PLATE "solver: {stepping: event, stop: {stiffness: 20 %%}}\n");
+    int told = 0, events = 0;
+    while (!pg_solver_done (r.solver, r.state) && events++ < 400) advance (&r);
+    const pg_report *report = pg_solver_report_now (r.solver);
+    for (size_t k = 0; k < report->nwarning; k++) told |= strstr (report->warning[k], "the body is apart") != NULL;
+    assert_true (told && events < 400);
+    clear (&r);
+}
+
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (rounds_have_an_end), cmocka_unit_test (a_share_of_the_worst_breaks_above_its_limit_alone), cmocka_unit_test (a_run_ends_when_the_crack_arrives), cmocka_unit_test (nothing_is_dissipated_where_nothing_breaks), cmocka_unit_test (levels_come_before_events_beyond_them) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (rounds_have_an_end), cmocka_unit_test (a_share_of_the_worst_breaks_above_its_limit_alone), cmocka_unit_test (a_run_ends_when_the_crack_arrives), cmocka_unit_test (nothing_is_dissipated_where_nothing_breaks), cmocka_unit_test (levels_come_before_events_beyond_them), cmocka_unit_test (a_body_in_pieces_ends_the_run) };
     return cmocka_run_group_tests_name ("solve/rounds", tests, NULL, NULL);
 }
