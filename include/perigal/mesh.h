@@ -103,6 +103,12 @@ void      pg_mesh_value    (const pg_mesh *mesh, const pg_mesh_field *field, siz
 /* Its gradient, out[components x dim] = d value_c / d x_a; 0: the element is turned inside out there. */
 int       pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi, double *out);
 
+/* ---- netCDF --------------------------------------------------------------------------------------------------------------- */
+/* Before the library netCDF opens a file (mesh, result, checkpoint): does its header, by the published grammar of the classic formats, fit into
+ * the file? netCDF trusts its counts: a few bytes of a broken file make it take gigabytes. PG_E_FILE: no, near which byte; or no such file, an
+ * empty one, no regular one. Files of netCDF-4 (HDF5) have no such header and are PG_OK. */
+pg_status pg_netcdf_check_header (const char *path);
+
 /* ---- search ----------------------------------------------------------------------------------------------------------- */
 typedef struct pg_mesh_finder pg_mesh_finder;          /* a tree of boxes over the elements; borrows the mesh           */
 pg_status pg_finder_create (pg_mesh_finder **out, const pg_mesh *mesh);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Meshes and nodal results of Exodus II (any netCDF): nodes and elements go by their place in the file while it is read; the numbers
  * that node_num_map and elem_map give them come last. */
-#include "exodus_header.h"
+#include "netcdf_header.h"
 #include "result.h"
 #include <ctype.h>
 #include <math.h>
@@ -99,7 +99,7 @@ static pg_status open_file (reader *r, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
     r->path = file->path, r->bytes = file->size;
-    PG_TRY (exodus_check_header (file));
+    PG_TRY (netcdf_check_header (file));
     NC_TRY (r, nc_open_mem (file->path, NC_NOWRITE, file->size, (void *) file->text, &r->ncid));
     r->open = 1;
     r->nnode = length_of (r->ncid, "num_nodes");

@@ -4,6 +4,7 @@
  * walk defines, a second writes; reading is one walk. */
 #include "disk.h"
 #include "exodus.h"
+#include "perigal/mesh.h"
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -186,10 +187,7 @@ pg_status pg_checkpoint_read (const char *path, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
     checkpoint c = { .path = path, .reading = 1 };
-    errno = 0;
-    FILE *probe = fopen (path, "rb");
-    if (!probe) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-    fclose (probe);
+    PG_TRY (pg_netcdf_check_header (path));
     NC_TRY (path, nc_open (path, NC_NOWRITE, &c.ncid));
     c.open = 1;
     PG_TRY (make_walk (&c, walk, context));

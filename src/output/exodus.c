@@ -5,6 +5,7 @@
  * the number of records, 4 or 8 bytes from byte 4 on, last. A step that cannot be written whole is cut off again. */
 #include "disk.h"
 #include "exodus.h"
+#include "perigal/mesh.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
@@ -129,6 +130,7 @@ static pg_status check_sizes (const pg_exodus *f)
     pg_status status = PG_OK;
     int ncid, open = 0, dim;
     size_t n = 0, m = 0;
+    PG_TRY (pg_netcdf_check_header (f->path));
     NC_TRY (f->path, nc_open (f->path, NC_NOWRITE, &ncid));
     open = 1;
     if (nc_inq_dimid (ncid, "num_nodes", &dim) == NC_NOERR) nc_inq_dimlen (ncid, dim, &n);

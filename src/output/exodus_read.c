@@ -2,7 +2,7 @@
  * Reads result.e back: points and volumes, and fields whose components are grouped by the attribute `field` of vals_nod_var<k>
  * (files of other programs, without it: every variable is a field of one component). */
 #include "exodus.h"
-#include <errno.h>
+#include "perigal/mesh.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -64,10 +64,7 @@ static pg_status reader_open (reader *r, const char *path)
     pg_status status = PG_OK;
     char *row = NULL;
     *r = (reader) { .path = path };
-    errno = 0;
-    FILE *probe = fopen (path, "rb");
-    if (!probe) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-    fclose (probe);
+    PG_TRY (pg_netcdf_check_header (path));
     NC_TRY (path, nc_open (path, NC_NOWRITE, &r->ncid));
     r->open = 1;
     r->n = length_of (r->ncid, "num_nodes");

@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The header of classic netCDF files, by the published grammar of the format: lists of dimensions, attributes and variables. */
-#include "exodus_header.h"
+#include "netcdf_header.h"
+#include <errno.h>
+#include <fcntl.h>
 #include <stdint.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 enum { DIMENSION = 10, VARIABLE = 11, ATTRIBUTE = 12, MOST_DIMENSIONS = 1024 };
 typedef struct { const unsigned char *text; size_t size, at, ndim; int kind; } walker;   /* kind: 1, 2, 5                  */
@@ -88,10 +93,29 @@ static int header (walker *w)
     return 1;
 }
 
-pg_status exodus_check_header (const mesh_bytes *file)
+pg_status netcdf_check_header (const mesh_bytes *file)
 {
     walker w = { .text = (const unsigned char *) file->text, .size = file->size, .at = 4 };
     if (file->size < 4 || memcmp (file->text, "CDF", 3)) return PG_OK;
     w.kind = file->text[3];
     return header (&w) ? PG_OK : pg_error (PG_E_FILE, PG_HERE, "%.400s: the header of this netCDF file is broken near byte %zu: it was cut or changed", file->path, w.at);
+}
+
+/* Of a result of gigabytes only the pages of the header are read. */
+pg_status pg_netcdf_check_header (const char *path)
+{
+    pg_status status = PG_OK;
+    struct stat about;
+    void *text = MAP_FAILED;
+    int file = open (path, O_RDONLY | O_NONBLOCK);
+    if (file < 0 || fstat (file, &about) != 0) PG_FAIL (PG_E_FILE, "%.400s: %s", path, strerror (errno));
+    if (!S_ISREG (about.st_mode)) PG_FAIL (PG_E_FILE, "%.400s: is no file", path);
+    if (about.st_size == 0) PG_FAIL (PG_E_FILE, "%.400s: is empty", path);
+    text = mmap (NULL, (size_t) about.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+    if (text == MAP_FAILED) PG_FAIL (PG_E_FILE, "%.400s: %s", path, strerror (errno));
+    PG_TRY (netcdf_check_header (&(mesh_bytes) { path, text, (size_t) about.st_size }));
+done:
+    if (text != MAP_FAILED) munmap (text, (size_t) about.st_size);
+    if (file >= 0) close (file);
+    return status;
 }
