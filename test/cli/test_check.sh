@@ -57,6 +57,11 @@ fi
 "$perigal" run plate.yaml --quiet --threads 1 -o "$work/plate" --set solver.max_events=1 --set output.pictures='[]' > /dev/null 2>&1
 factor=$(awk -F, 'NR == 2 { printf "%.5g", $2 }' "$work/plate/events.csv")
 expect "--solve finds the first event of a run ($factor)" 0 "first break  *at load factor $factor, a .* bond in tension at" '' check plate.yaml --solve
+# the top is moved by 10 um; only the faces of the crack go further
+expect "--solve tells the largest displacement" 0 'largest displacement 1.0[5-8][0-9]*e-05 m' '' check plate.yaml --solve
+"$perigal" check plate.yaml --solve --json --set 'boundary[0]={name: pull, set: top, displacement: {y: 10 um}, table: [[0, 0.5], [1, 1]]}' > "$work/out" 2> "$work/err"
+python3 -c "import json, sys; b = json.load (open (sys.argv[1]))['first_break']; sys.exit (not abs (b['load_factor'] * b['utilisation'] - 1) < 1e-12 or abs (b['utilisation'] - 1) < 0.1)" "$work/out"
+verdict "--solve under loads that are not proportional: the factor on the whole load" $?
 expect "--solve warns where nothing breaks"  0 'warning: nothing breaks up to load factor 1: the first bond needs' '' check plate.yaml --solve --set failure.tensile_strength='30 GPa'
 expect "--solve warns where nothing can"     0 'warning: no bond can break' '' check plate.yaml --solve --set failure.exclude='[all]'
 expect "--solve without a criterion"         0 'there is no failure criterion' '' check plate.yaml --solve --set failure='{criterion: none}'
