@@ -112,6 +112,8 @@ done:
     return status;
 }
 
+enum { NEAR_CRACK = 1, ON_CRACK };
+
 /* ---- cracks ----------------------------------------------------------------------------------------------------------------- */
 int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
 {
@@ -121,16 +123,26 @@ int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
     return 0;
 }
 
+static int on_crack (const pg_tiles *t, size_t k)
+{
+    double x[3];
+    pg_tiles_space (t, t->place[2*k], t->place[2*k + 1], x);
+    for (size_t c = 0; c < t->cracks->n; c++) if (pg_crack_touches (&t->cracks->crack[c], t->dim, x, 1e-9 * t->spacing[k])) return 1;
+    return 0;
+}
+
 /* Points with a pre-crack within two spacings. */
 static pg_status find_cracked (pg_tiles *t)
 {
     pg_status status = PG_OK;
     PG_ALLOC (t->cracked, t->n);
-    for (size_t k = 0; t->cracks && t->cracks->n && k < t->n; k++)
+    for (size_t k = 0; t->cracks && t->cracks->n && k < t->n; k++) {
         for (int s = 0; s < 16 && !t->cracked[k]; s++) {
             double r = 2.1 * t->spacing[k], end[2] = { t->place[2*k] + r * cos (0.39269908 * s + 0.1), t->place[2*k + 1] + r * sin (0.39269908 * s + 0.1) };
             t->cracked[k] = (unsigned char) pg_tiles_cut (t, t->place + 2 * k, end);
         }
+        if (t->cracked[k] && on_crack (t, k)) t->cracked[k] = ON_CRACK;
+    }
 done:
     return status;
 }
@@ -218,7 +230,7 @@ static double distance_to (const pg_tiles *t, size_t k, double a, double b)
     return hypot (dx, dy);
 }
 
-/* Nearest point of every pixel within `reach` spacings; across a pre-crack only where there is no other. */
+/* Nearest point of every pixel within `reach` spacings; across a pre-crack only where there is no other. What lies on a crack is on both sides of it. */
 static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
 {
     const double *at = t->place + 2 * k;
@@ -232,7 +244,7 @@ static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
             size_t p = (size_t) j * (size_t) s->width + (size_t) i;
             double place[2] = { s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale }, d = distance_to (t, k, place[0], place[1]);
             if (d > reach * t->spacing[k] || (s->owner[p] >= 0 && d >= s->depth[p])) continue;
-            if (t->cracked[k] && pg_tiles_cut (t, at, place)) d += 1e3 * t->widest;
+            if (t->cracked[k] == NEAR_CRACK && pg_tiles_cut (t, at, place)) d += 1e3 * t->widest;
             if (s->owner[p] < 0 || d < s->depth[p]) s->owner[p] = (int) k, s->depth[p] = (float) d;
         }
 }

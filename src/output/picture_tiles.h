@@ -19,7 +19,7 @@ typedef struct {                                       /* borrowed unless said o
     double *spacing, widest, pitch, low[2];            /* of every point, the largest; buckets, m                        */
     long    buckets[2];
     size_t *first;  int *sorted;
-    unsigned char *cracked;                            /* a pre-crack is near                            (n)             */
+    unsigned char *cracked;                            /* a pre-crack is near: 1; the point lies on it: 2 (n)            */
     double *gradient, limit;                           /* of the shift, 1 (n x 4); strain above which damaged points are torn apart */
 } pg_tiles;
 pg_status pg_tiles_open  (pg_tiles *t);

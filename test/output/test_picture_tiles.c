@@ -253,9 +253,35 @@ static void any_allocation_may_fail (void **state)
     drop (&t);
 }
 
+/* Points on a pre-crack are on both sides of it: their cells show them, but for the line of the crack itself. */
+static void points_on_a_crack_are_shown (void **state)
+{
+    (void) state;
+    thing t;
+    image m;
+    double ends[] = { -0.55, 0, 0.55, 0 };
+    pg_crack crack = { .kind = PG_CRACK_SEGMENT, .vertex = ends, .nvertex = 2, .normal = { 0, 1, 0 } };
+    pg_cracks cracks = { 2, &crack, 1 };
+    make (&t, 0, 0, 1, 1);
+    draw (&t, (pg_picture_style) { .label = "v" }, &m);
+    double size = m.box[1] + 1 - m.box[0], cell = size * size / 400;
+    pg_free (m.on);
+    size_t on = 0;
+    for (size_t i = 0; i < t.cloud.n; i++) {
+        t.one[i] = fabs (t.cloud.x[2*i + 1]) < 1e-9 && fabs (t.cloud.x[2*i]) < 0.55;
+        on += t.one[i] > 0;
+    }
+    assert_int_equal (on, 11);
+    draw (&t, (pg_picture_style) { .label = "v", .cracks = &cracks }, &m);
+    assert_true (m.area > 0.7 * 11 * cell && m.area < 1.02 * 11 * cell);
+    pg_free (m.on);
+    drop (&t);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test (points_on_a_crack_are_shown),
         cmocka_unit_test (the_body_ends_where_its_shapes_do), cmocka_unit_test (stairs_and_meshes_are_outlines_too), cmocka_unit_test (magnified_bodies_have_no_holes), cmocka_unit_test (only_cracks_open),
         cmocka_unit_test (clouds_are_filled), cmocka_unit_test (any_allocation_may_fail),
     };
