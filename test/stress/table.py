@@ -11,7 +11,10 @@ def kind(reason):
     text = re.sub(r'^perigal: ', '', text)
     text = re.sub(r'\([^)]*\)', '(...)', text)
     text = re.sub(r'[-+]?\d[\d.]*(e[-+]?\d+)?', '#', text)
-    return text[:110].strip()
+    text = re.sub(r'under uniform stress [a-z]+ ', 'under uniform stress ', text)
+    text = re.sub(r': this body is # % too (soft|stiff)', '', text)
+    text = re.sub(r'#(, #)+', '#', text.split('; ')[0])
+    return text if len(text) <= 110 else text[:110].rsplit(' ', 1)[0] + ' ...'
 
 
 def condition_table(rows):
@@ -26,7 +29,7 @@ def condition_table(rows):
     return out
 
 
-def refusal_table(rows, most=25):
+def refusal_table(rows, most=15):
     count = Counter((r['condition'], kind(r['reason'])) for r in rows if r['verdict'] == 'refused')
     out = ['| condition | refused because | cells |', '|---|---|---|']
     for (condition, why), n in sorted(count.items(), key=lambda item: -item[1])[:most]:
