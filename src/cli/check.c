@@ -3,18 +3,6 @@
 #include "cli.h"
 #include <math.h>
 
-/* What only the force finds out, such as bonds that the evaluation asked for cannot sum. */
-static pg_status try_force (const pg_problem *p)
-{
-    pg_status status = PG_OK;
-    const pg_force_type *force = pg_force_find (p->force);
-    void *self = NULL;
-    PG_TRY (force->create (&self, p));
-    force->free (&self);
-done:
-    return status;
-}
-
 int pg_cli_check (int argc, char **argv)
 {
     pg_status status = PG_OK;
@@ -40,7 +28,6 @@ int pg_cli_check (int argc, char **argv)
         o = *pg_solver_settled (solver);
         stable = pg_solver_stable (solver, &from);
     }
-    if (!solver && p->direct) PG_TRY (try_force (p));
     PG_TRY (pg_patch_refuse (p, scene));
     if (c.solve) PG_TRY (first_break_find (&first, p, &o));
     if (c.spectrum) PG_TRY (spectrum_find (&waves, scene, p));

@@ -89,6 +89,10 @@ expect "--spectrum is for check"             64 '' 'there is no option --spectru
 expect "a run that does not fit is refused"  70 '' '^perigal: the run would need about .* of memory, and 1 MB are available' run plate.yaml --memory 1MB -o "$work/none"
 [ ! -e "$work/none" ]; verdict "it leaves no folder" $?
 expect "check refuses it too"                70 '' 'are available' check plate.yaml --memory 1MB
+# what only the built problem knows: the bonds of a mesh
+"$perigal" check ../../data/plate_hole_mesh/scene.yaml --json > "$work/mesh.json" 2> "$work/err"
+expect "a mesh that lacks a thirtieth of what it needs" 70 '' 'are available' check ../../data/plate_hole_mesh/scene.yaml \
+    --memory "$(awk -v b="$(number peak "$work/mesh.json")" 'BEGIN { printf "%.0fB", 0.97 * b }')"
 expect "what fits is not refused"             0 'of 2.15 GB available' '' check plate.yaml --memory 2GiB
 expect "--memory without a size"             64 '' '--memory lots: a size is needed' run plate.yaml --memory lots
 expect "--memory 0"                          64 '' '--memory 0' run plate.yaml --memory 0
