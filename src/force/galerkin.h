@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress, blocks, energy),
  * galerkin_boundary.c (Nitsche, penalty, loads), galerkin_basis.c (elimination), galerkin_bonds.c (utilisation, overlap, census),
- * galerkin_dilatation.c, galerkin_dilatation_facet.c (near Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_field.c (fields, gauges), galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
+ * galerkin_dilatation.c, galerkin_dilatation_facet.c (near Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_field.c (fields), galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
 #include "perigal/force.h"
@@ -132,14 +132,14 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d);
 void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
 pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, double *value);
-pg_status galerkin_probe (void *self, const double *d, const double *x, double *u);
 /* surface */
 pg_status galerkin_surface (void *self, const double *stress, double *P);
 pg_status galerkin_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress);
 
 /* Four numbers at a time; the same operations in the same order with and without AVX. */
 typedef double four __attribute__ ((vector_size (32), aligned (8)));
-#if defined (__x86_64__) && defined (__GNUC__) && !defined (__clang__) && !defined (PG_DEBUG)
+/* not under the thread sanitizer: the choice is made before it has started */
+#if defined (__x86_64__) && defined (__GNUC__) && !defined (__clang__) && !defined (PG_DEBUG) && !defined (__SANITIZE_THREAD__)
 #define WIDE __attribute__ ((target_clones ("avx2", "default")))
 #else
 #define WIDE
