@@ -1,7 +1,7 @@
 #!/bin/bash
 # test_doc_commands.sh BUILD: every command that a document shows is one: its options are known, its scene is right with the same --set,
 # its make target, test or bench program is there. Commands are lines of indented or fenced blocks, and `perigal ... data/...` in a text.
-# What works on the demo, on DIR (a small solid here) and on out/beam is done in full, so are help and list, and the snippets of README.md in
+# What works on the demo, on DIR (a small solid here) and on out/beam is done in full, so are help and list, and the snippets of doc/guide.md in
 # Python and Octave where these are installed; other plots and comparisons go as far as they can without their results, which take too long.
 perigal=$(realpath "$1/perigal"); n=0; bad=0
 cd "$(dirname "$0")/../.." || exit 1
@@ -10,7 +10,7 @@ any=data/zhou_1/scene.yaml                             # where a document says S
 nowhere=/proc/perigal                                  # no folder can be made there: a command stops once it knows what to do
 # shown PAGE: its commands, one a line
 shown() {
-    { sed -e ':a' -e '/\\$/N; s/\\\n *//; ta' "$1" | grep -oE "^( {4,}|system \(')?(\./)?(perigal|make|bench/run|build/release/[a-z]+/[a-z_/0-9]+)( .*|$)" | sed "s/^ *//; s/^system ('//; s/');$//"
+    { sed -e ':a' -e '/\\$/N; s/\\\n *//; ta' "$1" | grep -oE "^( {4,}|system \(')?(\./)?(perigal|make|bench/run|bench/accuracy|build/release/[a-z]+/[a-z_/0-9]+)( .*|$)" | sed "s/^ *//; s/^system ('//; s/');$//"
       grep -oE '`(\./)?perigal [a-z]+ [^`]*data/[^`]*`' "$1" | tr -d '`'; } | sed 's|^\./||'
 }
 # run or check SCENE OPTIONS: as check
@@ -58,7 +58,7 @@ good() {   # the command as words
     local words k
     case $1 in
         make) shift; for k in "$@"; do case $k in *=*|-*) ;; *) grep -qE "^$k:" Makefile || return 1 ;; esac; done; return 0 ;;
-        bench/run) grep -qE "(^|[ |(])$3([ |)]|$)" bench/run; return ;;
+        bench/run|bench/accuracy) case $3 in list|--*) ;; *) "$1" "$2" list | grep -q "^$3 " ;; esac; return ;;
         build/release/test/*) [ -e "test/${1#build/release/test/}.c" ]; return ;;
         build/release/bench/*) [ -e "bench/${1#build/release/bench/}.c" ]; return ;;
     esac
@@ -100,10 +100,10 @@ try() {   # name, what it takes, command, file
     if ! eval "$2" > "$work/out" 2>&1; then echo "ok $n - $1 # skipped, it needs: $2"; return; fi
     if $3 "$4" > "$work/out" 2>&1; then echo "ok $n - $1"; else bad=1; echo "not ok $n - $1"; sed 's/^/# /' "$work/out" | head -20; fi
 }
-{ snippet python README.md; echo "assert len (damage) == len (x) and damage.max () > 0.5"; } > "$work/a.py"
-{ echo "graphics_toolkit ('gnuplot'); figure ('visible', 'off');"; snippet matlab README.md; echo "assert (max (damage(:, end)) > 0.5)"; } > "$work/a.m"
-try "README.md in Python" 'python3 -c "import netCDF4"' python3 "$work/a.py"
-try "README.md in Octave" 'octave-cli --eval "pkg load netcdf"' octave-cli "$work/a.m"
+{ snippet python doc/guide.md; echo "assert len (damage) == len (x) and damage.max () > 0.5"; } > "$work/a.py"
+{ echo "graphics_toolkit ('gnuplot'); figure ('visible', 'off');"; snippet matlab doc/guide.md; echo "assert (max (damage(:, end)) > 0.5)"; } > "$work/a.m"
+try "doc/guide.md in Python" 'python3 -c "import netCDF4"' python3 "$work/a.py"
+try "doc/guide.md in Octave" 'octave-cli --eval "pkg load netcdf"' octave-cli "$work/a.m"
 n=$((n + 1))
 if [ $count -ge 100 ]; then echo "ok $n - $count commands were found"; else bad=1; echo "not ok $n - only $count commands were found"; fi
 echo "1..$n"
