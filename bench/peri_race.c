@@ -69,23 +69,23 @@ static pg_status go (runner *r, const char *set, char *name, double *best)
     lattice_body *b = &r->body;
     size_t values = b->cloud.n * (size_t) b->cloud.dim;
     double half = r->shape->dt / 2 / (rho * b->cloud.volume[0]);
-    pg_sweep *sweep = NULL;
+    pg_bond_loop *sweep = NULL;
     pg_changes broken = { 0 };
-    pg_sweep_setting setting = { .sums = b->sums, .family = &b->family, .modulus = r->moduli, .limit = r->limit, .threads = 1, .instructions = set };
-    PG_TRY (pg_sweep_create (&sweep, &setting));
-    strcpy (name, pg_sweep_name (sweep));
+    pg_bond_loop_setting setting = { .sums = b->sums, .family = &b->family, .modulus = r->moduli, .limit = r->limit, .threads = 1, .instructions = set };
+    PG_TRY (pg_bond_loop_create (&sweep, &setting));
+    strcpy (name, pg_bond_loop_name (sweep));
     start (r);
     *best = INFINITY;
     for (int k = 0; k <= r->shape->steps; k++) {
         double now = lattice_seconds (1);
-        PG_TRY (pg_sweep_force (sweep, b->u, b->f, &broken));
+        PG_TRY (pg_bond_loop_force (sweep, b->u, b->f, &broken));
         *best = fmin (*best, lattice_seconds (1) - now);
         for (size_t i = 0; k > 0 && i < values; i++) r->v[i] += half * b->f[i];
         for (size_t i = 0; k < r->shape->steps && i < values; i++) r->v[i] += half * b->f[i], b->u[i] += r->shape->dt * r->v[i];
     }
     if (broken.n > 0) PG_FAIL (PG_E_EQUILIBRIUM, "%zu bonds broke", broken.n);
 done:
-    pg_sweep_free (&sweep);
+    pg_bond_loop_free (&sweep);
     pg_free (broken.bond);
     return status;
 }

@@ -55,7 +55,7 @@ static void print_error (double error)
     else printf ("%.6e,", error);
 }
 
-static void print_row (const bench_case *c, const pg_problem *p, const pg_solver_options *o, const pg_state *state, const pg_report *r, const outcome *out)
+static void print_row (const bench_case *c, const pg_problem *p, const pg_solver_options *o, const pg_state *state, const pg_statistics *r, const outcome *out)
 {
     static const char *const rule[] = { "worst", "fraction", "all" };
     printf ("%s,%s,%s %s %s %s,%zu,%zu,%zu,%zu,", c->group, c->name, p->approx.type->name, p->integration->name, o->event ? "event" : "fixed",

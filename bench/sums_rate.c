@@ -8,7 +8,7 @@
  * across the middle as far as half way; `check`: bonds are compared with limits that none reaches. `transforms`: these with their product alone. */
 #include "lattice.h"
 #include "sums/fft_rows.h"
-#include "sums/sweep.h"
+#include "sums/bond_loop.h"
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -55,9 +55,9 @@ typedef struct {
 } bench;
 enum { MODULUS, LIMIT, DILATION, DEVIATION, SHEAR, BENDING, FAR, VALUES };
 
-static pg_sweep_setting setting_of (const bench *b)
+static pg_bond_loop_setting setting_of (const bench *b)
 {
-    return (pg_sweep_setting) { .sums = b->body.sums, .family = &b->body.family, .modulus = b->value[MODULUS], .limit = b->value[LIMIT],
+    return (pg_bond_loop_setting) { .sums = b->body.sums, .family = &b->body.family, .modulus = b->value[MODULUS], .limit = b->value[LIMIT],
                                 .dilation = b->value[DILATION], .deviation = b->value[DEVIATION], .beams = b->force->bit == GMPD ? &b->law : NULL };
 }
 
@@ -180,7 +180,7 @@ static void plain_pull (bench *b, size_t i, const plain_bond *p, const double *u
 
 static void plain_beam (bench *b, size_t i, const plain_bond *p, const double *unused)
 {
-    pg_sweep_setting s = setting_of (b);
+    pg_bond_loop_setting s = setting_of (b);
     size_t m = (size_t) b->body.m;
     double own[36], other[36], *f = b->body.plain + i * m;
     pg_beam beam = pg_beam_between (&s, i, p->j, p->xi, p->weight);
@@ -242,36 +242,36 @@ static void print_start (const bench *b, const char *loop, int threads)
 static pg_status time_row (bench *b, const char *set, int threads)
 {
     pg_status status = PG_OK;
-    pg_sweep *sweep = NULL;
+    pg_bond_loop *sweep = NULL;
     pg_changes broken = { 0 };
-    pg_sweep_setting setting = setting_of (b);
+    pg_bond_loop_setting setting = setting_of (b);
     lattice_body *body = &b->body;
     double best = INFINITY, start = lattice_seconds (2), per_bond, per_point;
     setting.threads = threads, setting.instructions = set;
-    status = pg_sweep_create (&sweep, &setting);
+    status = pg_bond_loop_create (&sweep, &setting);
     if (status == PG_E_USAGE) return PG_OK;            /* not on this machine, or not by this loop                       */
     PG_TRY (status);
-    if (set && strcmp (set, "scalar") != 0 && !strstr (pg_sweep_name (sweep), set)) goto done;         /* the same loop by all */
-    pg_sweep_update (sweep, body->alive, NULL);
+    if (set && strcmp (set, "scalar") != 0 && !strstr (pg_bond_loop_name (sweep), set)) goto done;         /* the same loop by all */
+    pg_bond_loop_update (sweep, body->alive, NULL);
     double setup = lattice_seconds (2) - start;
     start = lattice_seconds (2);
     for (int repeat = 0; repeat < 5 || (repeat < 2000 && lattice_seconds (2) - start < 0.25); repeat++) {
         double t = lattice_seconds (threads);
-        PG_TRY (pg_sweep_force (sweep, body->u, body->f, b->kind->check ? &broken : NULL));
+        PG_TRY (pg_bond_loop_force (sweep, body->u, body->f, b->kind->check ? &broken : NULL));
         best = fmin (best, lattice_seconds (threads) - t);
     }
     if (broken.n) PG_FAIL (PG_E_EQUILIBRIUM, "%zu bonds broke", broken.n);
-    pg_sweep_counts count;
-    pg_sweep_counted (sweep, &count);
-    pg_sweep_bytes (sweep, &per_bond, &per_point);
-    print_start (b, pg_sweep_name (sweep), threads);
+    pg_bond_loop_counts count;
+    pg_bond_loop_counted (sweep, &count);
+    pg_bond_loop_bytes (sweep, &per_bond, &per_point);
+    print_start (b, pg_bond_loop_name (sweep), threads);
     printf ("%.4f,%.4f,%.3g,%.4f,%.3f,%.1f,", (double) body->family.start[body->cloud.n] / best * 1e-9, best * 1e3, lattice_apart (body, body->f, body->plain),
             setup, per_bond, per_point);
     if (count.sums) printf ("%.1f,%.1f,%.3g\n", (double) count.forward / (double) count.sums, (double) count.back / (double) count.sums, (double) count.bonds / (double) count.blocks);
     else puts (",,");
     fflush (stdout);
 done:
-    pg_sweep_free (&sweep);
+    pg_bond_loop_free (&sweep);
     pg_free (broken.bond);
     return status;
 }

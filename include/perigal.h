@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal.h: everything. Read in this order: scene, model, solve, report; then the catalogues.
+ * perigal.h: everything. Read in this order: scene, model, solve, results; then the catalogues.
  *
  *     pg_scene *scene = NULL; pg_problem *problem = NULL; pg_solver *solver = NULL; pg_state *state = NULL;
  *     pg_solver_options options; pg_step step;
@@ -33,5 +33,5 @@
 #include "perigal/solve.h"
 #include "perigal/output.h"
 #include "perigal/compare.h"
-#include "perigal/report.h"
+#include "perigal/results.h"
 #endif

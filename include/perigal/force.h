@@ -14,7 +14,7 @@ typedef struct {
     double *force, *displacement;                      /* N, m (npair)                                                   */
     double *reaction;                                  /* on the body per load and component, N; of rotations, moments: N m (nload x 3) */
     double  strain;                                    /* stored energy: strain, stabilisation, boundary terms, J        */
-} pg_ledger;
+} pg_work_balance;
 
 /* Estimated error of the stress s against the recovered stress s*; norms: sqrt (int s C s dV), C = compliance, so their squares are
  * twice an energy. */
@@ -44,7 +44,7 @@ typedef struct {
     /* Utilisation of every bond (NULL entry: nothing can break); factor: load factor of its limit, d being that of factor 1. Dead ones: 0, INFINITY. */
     pg_status (*utilisation) (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
     /* inertia: what motion adds to the residual, - M a - C v (NULL: static); out is sized on the first call.             */
-    pg_status (*ledger)  (void *self, double t, const double *d, const double *inertia, pg_ledger *out);
+    pg_status (*work_balance)  (void *self, double t, const double *d, const double *inertia, pg_work_balance *out);
     /* A field at the nodes: "displacement" (m), "coefficient" (of the shape functions, m), "strain", "stress" (Pa), "damage", "error_estimate"
      * (Pa); *components 0: unknown name. value: n x 6. */
     pg_status (*field)   (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
@@ -90,10 +90,10 @@ typedef struct {
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);
-/* The upper bound of the largest eigenfrequency that explicit methods take, rad/s: the force's own, or from row sums at its last refresh (room: one
+/* The upper bound of the largest eigenfrequency that explicit methods take, rad/s: the force's own, or from row sums at its last refresh (workspace: one
  * number for each dof, as mass is). NAN: the force has neither. *from: which, in words. */
-pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass, double *room, double *omega, const char **from);
+pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass, double *workspace, double *omega, const char **from);
 const pg_force_type *pg_force_find  (const char *name);
 const char          *pg_force_names (void);
-void pg_ledger_clear (pg_ledger *ledger);
+void pg_work_balance_clear (pg_work_balance *work_balance);
 #endif

@@ -69,20 +69,20 @@ pg_status pg_mesh_read  (pg_mesh *out, const char *path);
 void      pg_mesh_clear (pg_mesh *mesh);
 /* A mesh under construction (readers, generators, tests). Nodes and elements have any numbers; the nodes of an element come in the order
  * of Exodus II (pg_element), whatever the order of the file. Faults are PG_E_FILE and name `path`. */
-typedef struct pg_mesh_maker pg_mesh_maker;
-pg_status pg_maker_create  (pg_mesh_maker **out, const char *path);
-void      pg_maker_free    (pg_mesh_maker **m);
-pg_status pg_maker_node    (pg_mesh_maker *m, long id, const double *x);
+typedef struct pg_mesh_builder pg_mesh_builder;
+pg_status pg_mesh_builder_create  (pg_mesh_builder **out, const char *path);
+void      pg_mesh_builder_free    (pg_mesh_builder **m);
+pg_status pg_mesh_builder_node    (pg_mesh_builder *m, long id, const double *x);
 /* group: number that names the block (elements of the highest dimension) or set (all others) this element belongs to, 0: block "0", no set;
- * names come by pg_maker_group, else the number is the name. line: of the file, 0 unknown. An element of the highest dimension given again
+ * names come by pg_mesh_builder_group, else the number is the name. line: of the file, 0 unknown. An element of the highest dimension given again
  * with the same nodes and another group joins a node set of that group. */
-pg_status pg_maker_element (pg_mesh_maker *m, long id, pg_element kind, const long *node, long group, long line);
-pg_status pg_maker_group   (pg_mesh_maker *m, int dim, long group, const char *name);
-pg_status pg_maker_nodeset (pg_mesh_maker *m, const char *name, long id);              /* a set; the next calls fill it   */
-pg_status pg_maker_nodeset_add (pg_mesh_maker *m, long node);
-pg_status pg_maker_sideset (pg_mesh_maker *m, const char *name, long id);
-pg_status pg_maker_sideset_add (pg_mesh_maker *m, long element, int side /* from 0, as pg_element_face */);
-pg_status pg_maker_finish  (pg_mesh_maker *m, pg_mesh *out);                           /* resolves ids, checks, sorts     */
+pg_status pg_mesh_builder_element (pg_mesh_builder *m, long id, pg_element kind, const long *node, long group, long line);
+pg_status pg_mesh_builder_group   (pg_mesh_builder *m, int dim, long group, const char *name);
+pg_status pg_mesh_builder_nodeset (pg_mesh_builder *m, const char *name, long id);              /* a set; the next calls fill it   */
+pg_status pg_mesh_builder_nodeset_add (pg_mesh_builder *m, long node);
+pg_status pg_mesh_builder_sideset (pg_mesh_builder *m, const char *name, long id);
+pg_status pg_mesh_builder_sideset_add (pg_mesh_builder *m, long element, int side /* from 0, as pg_element_face */);
+pg_status pg_mesh_builder_finish  (pg_mesh_builder *m, pg_mesh *out);                           /* resolves ids, checks, sorts     */
 
 /* Faces that belong to one solid element only: n, element and side (pg_free both). */
 pg_status pg_mesh_surface (const pg_mesh *mesh, size_t *n, int **element, int **side);
@@ -110,17 +110,17 @@ int       pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, siz
 pg_status pg_netcdf_check_header (const char *path);
 
 /* ---- search ----------------------------------------------------------------------------------------------------------- */
-typedef struct pg_mesh_finder pg_mesh_finder;          /* a tree of boxes over the elements; borrows the mesh           */
-pg_status pg_finder_create (pg_mesh_finder **out, const pg_mesh *mesh);
-void      pg_finder_free   (pg_mesh_finder **finder);
+typedef struct pg_mesh_locator pg_mesh_locator;          /* a tree of boxes over the elements; borrows the mesh           */
+pg_status pg_mesh_locator_create (pg_mesh_locator **out, const pg_mesh *mesh);
+void      pg_mesh_locator_free   (pg_mesh_locator **locator);
 /* Element that holds the place (dim of the mesh) and its xi (dim); of several, on a face between them, the lowest. A place is in an element
  * up to 1e-9 of its reference element. Outside: the element nearest to it, xi of the nearest place in it, *away the distance from there in
  * sizes of that element (longest side of the box of its corners; 0 inside). -1: none is as near as its own size. away NULL: -1 for
  * every place outside, which is quicker. Thread-safe. */
-long      pg_finder_find   (const pg_mesh_finder *finder, const double *place, double *xi, double *away);
+long      pg_mesh_locator_find   (const pg_mesh_locator *locator, const double *place, double *xi, double *away);
 /* How deep a place lies in an element, in units of its reference element: the largest of all elements whose boxes hold it, or the first that is
  * `enough`; negative: outside of them, -HUGE_VAL: far from all. Quick: no search for the nearest. */
-double    pg_finder_depth  (const pg_mesh_finder *finder, const double *place, double enough);
+double    pg_mesh_locator_depth  (const pg_mesh_locator *locator, const double *place, double enough);
 
 /* ---- distance to the surface -------------------------------------------------------------------------------------------- */
 typedef struct pg_mesh_skin pg_mesh_skin;              /* the faces of pg_mesh_surface in a tree; borrows the mesh        */

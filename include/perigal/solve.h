@@ -66,14 +66,14 @@ typedef struct {                                       /* of the run so far     
     char   ordering[16], solver[16], preconditioner[128];
     pg_skip skipped[16];  size_t nskipped;
     char   warning[16][256]; size_t nwarning;
-} pg_report;
-void pg_report_warn (pg_report *report, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
+} pg_statistics;
+void pg_statistics_warn (pg_statistics *report, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
 /* Adds the warnings that a run has before its first step: what is legal, yet hardly meant, such as a body that nothing holds, and what the
  * problem was built with otherwise than asked. pg_solver_create does so for the report of its solver. */
-void pg_solver_doubts (pg_report *report, const pg_problem *problem, const pg_solver_options *options);
+void pg_solver_doubts (pg_statistics *report, const pg_problem *problem, const pg_solver_options *options);
 /* The k-th note on the scene, such as keys without meaning for its solver or force; 0: there are no more. */
 int  pg_solver_note (const pg_problem *problem, const pg_solver_options *options, size_t k, char *out, size_t size);
-void pg_report_skip (pg_report *report, double seconds, const char *what, const char *why);
+void pg_statistics_skip (pg_statistics *report, double seconds, const char *what, const char *why);
 
 typedef struct {                                       /* of one step: a user level, a time step or an event             */
     long   number, iterations;                         /* break-and-solve rounds; time steps; iterations of relaxation   */
@@ -121,8 +121,8 @@ typedef struct {
     double      damage;                                /* largest damage in solver.stop.set; NAN: none, or not looked at yet */
 } pg_progress;
 void      pg_solver_progress (const pg_solver *solver, const pg_state *state, pg_progress *out);
-const pg_report *pg_solver_report (pg_solver *solver, const pg_state *state);      /* with a fresh census and overlap     */
-const pg_report *pg_solver_report_now (const pg_solver *solver);                   /* counts and energies only            */
+const pg_statistics *pg_solver_report (pg_solver *solver, const pg_state *state);      /* with a fresh census and overlap     */
+const pg_statistics *pg_solver_report_now (const pg_solver *solver);                   /* counts and energies only            */
 /* The force behind it, for fields and gauges. */
 const pg_force_type *pg_solver_force (const pg_solver *solver, void **self);
 const char *pg_solver_names (void);

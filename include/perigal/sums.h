@@ -26,7 +26,7 @@ typedef struct {
     pg_partial partial;                                /* share beta of a neighbour's volume that counts                 */
     pg_surface surface;                                /* g_ij: 1 | 1 / sqrt (v_i v_j) | 2 / (v_i + v_j), v = family volume / full one */
     int        calibrate;                              /* 1: c_h = c S_d m_d / sum k r beta V, hydrostatic energy exact  */
-    int        state;                                  /* 1: state-based (linear peridynamic solid, theory B6), see pg_sweep_setting; with beams dilatation alone */
+    int        state;                                  /* 1: state-based (linear peridynamic solid, theory B6), see pg_bond_loop_setting; with beams dilatation alone */
     int        follow;                                 /* state-based: 1: q counts the bonds that live, 0: those of the start */
     int        beams;                                  /* 1: bonds bear shear and bending (theory G)                     */
     int        finite;                                 /* 0: s = e.eta / r; 1: s = (|xi + eta| - r) / r, force along xi + eta */
@@ -117,18 +117,18 @@ typedef struct {
 pg_status pg_beam_measure (pg_beam_sums *out, const pg_sums *sums);
 /* Energy (J/m^2) that dilatation stores when all bonds across a plane have stretch 1 and no other is stretched; lattice or theory as above. */
 double    pg_beam_cut_dilatation (const pg_sums *sums, double dilation);
-typedef struct {                                       /* what pg_sweep_setting needs for beams                          */
+typedef struct {                                       /* what pg_bond_loop_setting needs for beams                          */
     const double *shear, *bending;                     /* C_t,h and B of each point, N/m^4; between two of them 2 a b / (a + b) */
     double length;                                     /* m: unknowns of a point are its displacement and length times its rotation */
     const double *shear_limit, *bending_limit;         /* gamma0, kappa0 of each point, with the setting's limit; INFINITY: none */
     int    single;                                     /* a bond breaks 0: at (s+/s0)^2 + (gamma/gamma0)^2 + (kappa/kappa0)^2 = 1, 1: at any one limit */
 } pg_beam_law;
 
-typedef struct pg_sweep_setting pg_sweep_setting;
+typedef struct pg_bond_loop_setting pg_bond_loop_setting;
 typedef struct { double shear, along, bending; } pg_beam;              /* of one bond: kt, kn (N/m), kb (N/m)               */
 /* Force on i, kt w + (kn - kt) e (e . w), moment over length on i, xi x force / (2 length) + kb (q_j - q_i)_perp, q = length theta. xi (m) and
  * weight as pg_sums_bonds gives them. */
-pg_beam pg_beam_between (const pg_sweep_setting *setting, size_t i, size_t j, const double *xi, double weight);
+pg_beam pg_beam_between (const pg_bond_loop_setting *setting, size_t i, size_t j, const double *xi, double weight);
 /* Force and moment on i = - own d_i - other d_j (m x m each, m = 3, 6); own is symmetric. */
 void    pg_beam_blocks  (int dim, const double *xi, const pg_beam *beam, double length, double *own, double *other);
 /* gamma and kappa of a bond between points with unknowns di, dj. */
@@ -136,7 +136,7 @@ void    pg_beam_strain  (int dim, const double *xi, double length, const double 
 
 /* ---- the loops ------------------------------------------------------------------------------------------------------------------ */
 typedef struct { size_t n, cap; size_t *bond; } pg_changes;            /* bonds that died: indices of alive bits, ascending */
-struct pg_sweep_setting {
+struct pg_bond_loop_setting {
     const pg_sums   *sums;
     const pg_family *family;                           /* from pg_sums_family; alive bits are counted by its entries      */
     const double    *modulus;                          /* c_h of each point, N/m^6; between two of them 2 a b / (a + b)   */
@@ -151,35 +151,35 @@ struct pg_sweep_setting {
     int              threads;
     const char      *instructions;                     /* "avx512", "avx2", "scalar"; NULL: the best that this machine has */
 };
-typedef struct pg_sweep pg_sweep;
+typedef struct pg_bond_loop pg_bond_loop;
 /* evaluation auto: by stencil where the rule allows it (a lattice, one modulus, one limit, surface none or product), by transforms where that saves
  * a fifth of the stencil's time by counted work and stored rates (never a clock; linear stretch), else by list. PG_E_USAGE: the rule asks for what
  * cannot be, or the instructions are not there. What the setting points to is borrowed. Plans of transforms are guessed, or with rule.sweeps times
  * points above 2e8 timed and kept in $XDG_CACHE_HOME/perigal or ~/.cache/perigal (where that can be written): the same bits as long as they are kept. */
-pg_status   pg_sweep_create (pg_sweep **out, const pg_sweep_setting *setting);
-void        pg_sweep_free   (pg_sweep **sweep);
-const char *pg_sweep_name   (const pg_sweep *sweep);   /* "stencil avx512", "list scalar", ...                           */
+pg_status   pg_bond_loop_create (pg_bond_loop **out, const pg_bond_loop_setting *setting);
+void        pg_bond_loop_free   (pg_bond_loop **sweep);
+const char *pg_bond_loop_name   (const pg_bond_loop *sweep);   /* "stencil avx512", "list scalar", ...                           */
 /* Why that one: "asked for", "auto: about 2.4 ns a point by transforms, 3 by stencil", ...; plans of transforms guessed or timed. */
-const char *pg_sweep_reason (const pg_sweep *sweep);
+const char *pg_bond_loop_reason (const pg_bond_loop *sweep);
 typedef struct {                                       /* of a sweep by transforms ("fft avx2") since it was made; all 0 of others */
     long   sums;                                       /* forces                                                         */
     long   forward, back;                              /* real transforms of the padded box                              */
     size_t blocks, bonds, cut;                         /* blocks of 32 sites, summed over forces; looked at bond by bond; with cut bonds */
     size_t gone;                                       /* points all whose bonds are dead, now                           */
-} pg_sweep_counts;
-void        pg_sweep_counted (const pg_sweep *sweep, pg_sweep_counts *out);
-void        pg_sweep_bytes  (const pg_sweep *sweep, double *per_bond, double *per_point);        /* of memory that a force sweep reads and writes */
+} pg_bond_loop_counts;
+void        pg_bond_loop_counted (const pg_bond_loop *sweep, pg_bond_loop_counts *out);
+void        pg_bond_loop_bytes  (const pg_bond_loop *sweep, double *per_bond, double *per_point);        /* of memory that a force sweep reads and writes */
 /* Brings the sweep's own bits in line with alive (entries of the family): all (changes NULL), or those that died. */
-void        pg_sweep_update (pg_sweep *sweep, const unsigned char *alive, const pg_changes *changes);
+void        pg_bond_loop_update (pg_bond_loop *sweep, const unsigned char *alive, const pg_changes *changes);
 /* f (n x dim, N) = force of the live bonds on every point at displacement u (n x dim, m): V_i L_i. Unless `broken` is NULL, bonds at or over their
  * limit are dead before they are summed and stay so; they are appended ascending, both directions. The same bits for any number of threads. */
-pg_status   pg_sweep_force  (pg_sweep *sweep, const double *u, double *f, pg_changes *broken);
+pg_status   pg_bond_loop_force  (pg_bond_loop *sweep, const double *u, double *f, pg_changes *broken);
 /* Stored energy of the live bonds, J. */
-double      pg_sweep_energy (pg_sweep *sweep, const double *u);
+double      pg_bond_loop_energy (pg_bond_loop *sweep, const double *u);
 /* W (n, J/m^3) = energy density of every point at displacement u: half the energy of each of its live bonds over its volume, W_i = 1/4 sum_j
- * c k beta g r s^2 V_j (theory B2); sum of W_i V_i = pg_sweep_energy to rounding. 0 where a point has no live bond. The same bits for any number of threads. */
-pg_status   pg_sweep_energies (pg_sweep *sweep, const double *u, double *W);
+ * c k beta g r s^2 V_j (theory B2); sum of W_i V_i = pg_bond_loop_energy to rounding. 0 where a point has no live bond. The same bits for any number of threads. */
+pg_status   pg_bond_loop_energies (pg_bond_loop *sweep, const double *u, double *W);
 /* State-based sums: dilatation of every point, theta_i = d / q_i sum_j w xi.eta V_j (1), and its q_i (m^2 times m^3 over the unit of w), both n or NULL (theta NULL: u is
  * not read); 0 where no bond counts. PG_E_USAGE: bonds alone have none. */
-pg_status   pg_sweep_dilatation (pg_sweep *sweep, const double *u, double *theta, double *q);
+pg_status   pg_bond_loop_dilatation (pg_bond_loop *sweep, const double *u, double *theta, double *q);
 #endif

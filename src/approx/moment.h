@@ -32,14 +32,14 @@ typedef struct {
     double  L[PG_BASIS_MAX * PG_BASIS_MAX];            /* Cholesky factor of A = sum w p p'                              */
     double  G[16];                                     /* generalised inverse of A                       (size x size)   */
     double  centre[3];                                 /* sum w z                                        (dim)           */
-} pg_star;
+} pg_neighbourhood;
 
 /* values (NULL: it has none): N alone, the same bits. What an approximation adds to the common loop: N (row) and dN (row x dim, 1/m), zero on entry, of a point with a full,
  * lowered or projected basis. about_node: a point that is a node expands about its own value (basis without 1, own node no neighbour). */
 typedef struct {
     int about_node;
-    void (*fill) (const pg_star *star, double *N, double *dN);
-    void (*values) (const pg_star *star, double *N);
+    void (*fill) (const pg_neighbourhood *star, double *N, double *dN);
+    void (*values) (const pg_neighbourhood *star, double *N);
 } pg_formula;
 
 /* The loop over points: live bonds, degenerate rule, formula. */
@@ -47,21 +47,21 @@ pg_status pg_moment_sweep (const pg_formula *formula, const pg_approx *a, const 
                     const unsigned char *alive, size_t count, const size_t *list, int threads);
 
 /* Chooses the basis (`order` or less), fills p and L or G; spacing h in m. Returns a PG_GRADE_... */
-int  pg_star_grade   (pg_star *star, int order, double h);
+int  pg_neighbourhood_grade   (pg_neighbourhood *star, int order, double h);
 /* Finds the directions of the linear basis that are left, fills p, G and centre; 0: none is. */
-int  pg_star_project (pg_star *star, double h);
+int  pg_neighbourhood_project (pg_neighbourhood *star, double h);
 /* M (dim x dim) = sum w (z - centre) (z - centre)', lower triangle */
-void pg_star_spread  (const pg_star *star, const double *centre, double *M);
+void pg_neighbourhood_spread  (const pg_neighbourhood *star, const double *centre, double *M);
 /* centre (dim) = sum w z */
-void pg_star_centre  (const pg_star *star, double *centre);
+void pg_neighbourhood_centre  (const pg_neighbourhood *star, double *centre);
 /* b = A^-1 b */
-void pg_star_invert  (const pg_star *star, double *b);
+void pg_neighbourhood_invert  (const pg_neighbourhood *star, double *b);
 /* b with A b = unit vector `row` of the basis, or p at the point itself for the row of the 1. */
-void pg_star_solve   (const pg_star *star, int row, double *b);
+void pg_neighbourhood_solve   (const pg_neighbourhood *star, int row, double *b);
 /* N_j = w_j p_j . b */
-void pg_star_shape   (const pg_star *star, const double *b, double *N);
+void pg_neighbourhood_shape   (const pg_neighbourhood *star, const double *b, double *N);
 /* dN_j = (1/a) e_k' A^-1 p_j w_j, e_k the row of z_k: theory E1 (with the 1), D1 (without). */
-void pg_star_differential (const pg_star *star, double *dN);
+void pg_neighbourhood_differential (const pg_neighbourhood *star, double *dN);
 /* d (b . p) / dz at z (dim), for a basis with the 1 */
-void pg_basis_slope  (const pg_star *star, const double *z, const double *b, double *slope);
+void pg_basis_slope  (const pg_neighbourhood *star, const double *z, const double *b, double *slope);
 #endif

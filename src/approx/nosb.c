@@ -5,14 +5,14 @@
 #include "entries.h"
 #include "moment.h"
 
-static void fill (const pg_star *s, double *N, double *dN)
+static void fill (const pg_neighbourhood *s, double *N, double *dN)
 {
     size_t dim = (size_t) s->dim;
-    pg_star_differential (s, dN);
+    pg_neighbourhood_differential (s, dN);
     if (s->constant) {
         double b[PG_BASIS_MAX];
-        pg_star_solve (s, 0, b);
-        pg_star_shape (s, b, N);
+        pg_neighbourhood_solve (s, 0, b);
+        pg_neighbourhood_shape (s, b, N);
         return;
     }
     N[s->own] = 1;

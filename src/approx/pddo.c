@@ -4,12 +4,12 @@
 #include "entries.h"
 #include "moment.h"
 
-static void fill (const pg_star *s, double *N, double *dN)
+static void fill (const pg_neighbourhood *s, double *N, double *dN)
 {
     double b[PG_BASIS_MAX];
-    pg_star_solve (s, 0, b);
-    pg_star_shape (s, b, N);
-    pg_star_differential (s, dN);
+    pg_neighbourhood_solve (s, 0, b);
+    pg_neighbourhood_shape (s, b, N);
+    pg_neighbourhood_differential (s, dN);
 }
 
 static const pg_formula formula = { .about_node = 0, .fill = fill };

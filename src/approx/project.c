@@ -27,12 +27,12 @@ static int invert_spread (int dim, double *M, double limit, double *inverse)
 }
 
 /* p = ([1] z - c); a second pass takes out the rounding of c, which M+ would enlarge where the weights are very uneven. */
-static void centred_basis (pg_star *s)
+static void centred_basis (pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim, one = (size_t) s->constant, size = dim + one;
     double rest[3] = { 0 };
     for (size_t k = 0; k < dim; k++) s->centre[k] = 0;
-    if (one) pg_star_centre (s, s->centre);
+    if (one) pg_neighbourhood_centre (s, s->centre);
     for (size_t j = 0; j < s->n; j++) {
         double *p = s->p + j * size;
         if (one) p[0] = 1;
@@ -47,13 +47,13 @@ static void centred_basis (pg_star *s)
     }
 }
 
-int pg_star_project (pg_star *s, double h)
+int pg_neighbourhood_project (pg_neighbourhood *s, double h)
 {
     int dim = s->dim, one = s->constant, size = s->size;
     double M[9], inverse[9];
     if (s->n < 2) return 0;
     centred_basis (s);
-    pg_star_spread (s, s->centre, M);
+    pg_neighbourhood_spread (s, s->centre, M);
     if (!invert_spread (dim, M, PG_THINNEST * (h / s->a) * (h / s->a), inverse)) return 0;
     for (int k = 0; k < size * size; k++) s->G[k] = k == 0;
     for (int k = 0; k < dim; k++)

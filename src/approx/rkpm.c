@@ -7,7 +7,7 @@
 #include "moment.h"
 
 /* a A,k b for all k: r (dim x size) */
-static void moment_rate (const pg_star *s, const double *b, double r[3][PG_BASIS_MAX])
+static void moment_rate (const pg_neighbourhood *s, const double *b, double r[3][PG_BASIS_MAX])
 {
     for (int k = 0; k < s->dim; k++) {
         for (int m = 0; m < s->size; m++) r[k][m] = 0;
@@ -25,13 +25,13 @@ static void moment_rate (const pg_star *s, const double *b, double r[3][PG_BASIS
     }
 }
 
-static void fill (const pg_star *s, double *N, double *dN)
+static void fill (const pg_neighbourhood *s, double *N, double *dN)
 {
     double b[PG_BASIS_MAX], r[3][PG_BASIS_MAX];
-    pg_star_solve (s, 0, b);
-    pg_star_shape (s, b, N);
+    pg_neighbourhood_solve (s, 0, b);
+    pg_neighbourhood_shape (s, b, N);
     moment_rate (s, b, r);
-    for (int k = 0; k < s->dim; k++) pg_star_invert (s, r[k]);                     /* r = -a b,k */
+    for (int k = 0; k < s->dim; k++) pg_neighbourhood_invert (s, r[k]);                     /* r = -a b,k */
     for (size_t j = 0; j < s->n; j++) {
         const double *p = s->p + j * (size_t) s->size, *slope = s->slope + j * (size_t) s->dim;
         double value = 0, rise[3];
@@ -45,11 +45,11 @@ static void fill (const pg_star *s, double *N, double *dN)
     }
 }
 
-static void values (const pg_star *s, double *N)
+static void values (const pg_neighbourhood *s, double *N)
 {
     double b[PG_BASIS_MAX];
-    pg_star_solve (s, 0, b);
-    pg_star_shape (s, b, N);
+    pg_neighbourhood_solve (s, 0, b);
+    pg_neighbourhood_shape (s, b, N);
 }
 
 static const pg_formula formula = { .about_node = 0, .fill = fill, .values = values };

@@ -11,7 +11,7 @@ typedef struct {
     pg_rows *rows;
     const unsigned char *alive;
     const size_t *list;
-    pg_star *star;                                     /* one per thread */
+    pg_neighbourhood *star;                                     /* one per thread */
 } sweep;
 
 /* Kernel at q (n), no further than 1: a closed family may hold bonds longer by rounding. */
@@ -22,7 +22,7 @@ static void kernel_at (const pg_kernel *kernel, size_t n, double *q, double *k, 
 }
 
 /* w (|z|) and a dw/dx = -w' z / |z| */
-static void radial (const pg_kernel *kernel, pg_star *s)
+static void radial (const pg_kernel *kernel, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim;
     for (size_t j = 0; j < s->n; j++) {
@@ -40,7 +40,7 @@ static void radial (const pg_kernel *kernel, pg_star *s)
 }
 
 /* prod_k w (|z_k|) and its slope */
-static void tensor (const pg_kernel *kernel, pg_star *s)
+static void tensor (const pg_kernel *kernel, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim;
     for (size_t i = 0; i < s->n * dim; i++) s->q[i] = s->ratio ? fabs (s->z[i]) * s->ratio[i / dim] : fabs (s->z[i]);
@@ -77,7 +77,7 @@ static int nearest_node (const sweep *g, size_t i)
 }
 
 /* Support and spacing at row i. */
-static void measure_place (const sweep *g, size_t i, pg_star *s)
+static void measure_place (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     int nearest = g->cloud->size ? nearest_node (g, i) : -1;
     double ratio = nearest < 0 ? 1 : pg_cloud_ratio (g->cloud, (size_t) nearest);
@@ -86,7 +86,7 @@ static void measure_place (const sweep *g, size_t i, pg_star *s)
 }
 
 /* Live bonds of row i into the star; the own node is none where the point expands about it. */
-static void gather (const sweep *g, size_t i, pg_star *s)
+static void gather (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     const pg_rows *rows = g->rows;
     size_t dim = (size_t) s->dim, first = rows->family.start[i], last = rows->family.start[i + 1];
@@ -108,7 +108,7 @@ static void gather (const sweep *g, size_t i, pg_star *s)
 }
 
 /* Influence of each bond into rows->w; keeps the bonds with a weight, scaled to the sum 1. */
-static void weigh (const sweep *g, size_t i, pg_star *s)
+static void weigh (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim, first = g->rows->family.start[i], kept = 0;
     (g->a->shape == PG_TENSOR ? tensor : radial) (g->a->kernel, s);
@@ -136,7 +136,7 @@ static void weigh (const sweep *g, size_t i, pg_star *s)
 
 /* Has the point lost bonds, and do those left enter its derivatives by more than PG_STEEPEST / a (intact: up to 3 / a)? They then hang on
  * influences near zero, whose own derivatives outgrow them: such a point would feed energy into the body instead of losing it. */
-static int wild (const pg_star *s, const double *dN)
+static int wild (const pg_neighbourhood *s, const double *dN)
 {
     double bound = (s->order == 2 ? PG_STEEPEST_QUADRATIC : PG_STEEPEST) / s->a;
     for (size_t j = 0; s->lost && j < s->n; j++) {
@@ -154,12 +154,12 @@ static void clear (pg_rows *rows, size_t first, size_t last)
     for (size_t e = first * dim; rows->dN && e < last * dim; e++) rows->dN[e] = 0;
 }
 
-/* Shape functions by the richest basis that the live bonds bear; returns its grade. What the rows have no room for is left out: derivatives
+/* Shape functions by the richest basis that the live bonds bear; returns its grade. What the rows have no workspace for is left out: derivatives
  * then only go to scratch where the rule for steep ones or the formula needs them. */
-static int fill (const sweep *g, pg_star *s, pg_rows *rows, size_t first, size_t last)
+static int fill (const sweep *g, pg_neighbourhood *s, pg_rows *rows, size_t first, size_t last)
 {
     for (int order = g->a->order; order >= 1; order--) {
-        int grade = pg_star_grade (s, order, s->h);
+        int grade = pg_neighbourhood_grade (s, order, s->h);
         double *dN = rows->dN ? rows->dN + first * (size_t) s->dim : s->q, *N = rows->N ? rows->N + first : s->k;
         if (grade > PG_GRADE_PROJECTED) return grade;
         if (rows->dN || s->lost || (rows->N && !g->formula->values)) g->formula->fill (s, N, dN);
@@ -170,7 +170,7 @@ static int fill (const sweep *g, pg_star *s, pg_rows *rows, size_t first, size_t
     return PG_GRADE_SHEPARD;
 }
 
-static void row (const sweep *g, size_t i, pg_star *s)
+static void row (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     pg_rows *rows = g->rows;
     size_t first = rows->family.start[i], last = rows->family.start[i + 1];
@@ -196,11 +196,11 @@ static void work (void *context, size_t first, size_t last, int thread)
 }
 
 /* Scratch for one thread: families of at most `most` nodes. */
-static pg_status star_create (pg_star *s, const pg_approx *a, const pg_cloud *cloud, int dim, size_t most)
+static pg_status star_create (pg_neighbourhood *s, const pg_approx *a, const pg_cloud *cloud, int dim, size_t most)
 {
     pg_status status = PG_OK;
     size_t vector = most * (size_t) dim;
-    *s = (pg_star) { .dim = dim, .a = a->horizon, .h = cloud->h, .project = a->projected, .extrapolates = a->extrapolates };
+    *s = (pg_neighbourhood) { .dim = dim, .a = a->horizon, .h = cloud->h, .project = a->projected, .extrapolates = a->extrapolates };
     PG_ALLOC (s->entry, most);
     if (cloud->size) PG_ALLOC (s->ratio, most);
     PG_ALLOC (s->z, 5 * vector + most * (1 + PG_BASIS_MAX));

@@ -17,7 +17,7 @@ typedef struct {
     double  whole;                                     /* volume of a whole cell                                         */
     one_facet *facet;  size_t nfacet, capacity;
     size_t  ncell, nnear, ncut;
-} maker;
+} builder;
 
 static size_t number_of (const pg_lattice *l, const int *i)
 {
@@ -35,10 +35,10 @@ static void box_of (const pg_lattice *l, const int *i, double *low, double *high
     for (int k = 0; k < l->dim; k++) low[k] = pg_lattice_at (l, k, i[k]), high[k] = pg_lattice_at (l, k, i[k] + 1);
 }
 
-static int is_knife (const maker *m, size_t k) { return m->cut->surface[m->near[k]].shape < 0; }
+static int is_knife (const builder *m, size_t k) { return m->cut->surface[m->near[k]].shape < 0; }
 
 /* The face of the cell on which a plane lies, -1: none. */
-static int face_of (const maker *m, const int *i, int surface)
+static int face_of (const builder *m, const int *i, int surface)
 {
     const cut_surface *s = &m->cut->surface[surface];
     if (s->axis < 0) return -1;
@@ -49,7 +49,7 @@ static int face_of (const maker *m, const int *i, int surface)
 }
 
 /* ---- which surfaces are near -------------------------------------------------------------------------------------------- */
-static int is_near (const maker *m, const cut_surface *s, const int *i)
+static int is_near (const builder *m, const cut_surface *s, const int *i)
 {
     double low[3], high[3], centre[3], half[3], all[3] = {1, 1, 1}, origin[3] = {0, 0, 0};
     box_of (m->l, i, low, high);
@@ -62,14 +62,14 @@ static int is_near (const maker *m, const cut_surface *s, const int *i)
 }
 
 /* Does the mesh end at the face of the cell on which this plane lies? */
-static int is_step (const maker *m, size_t number, const int *i)
+static int is_step (const builder *m, size_t number, const int *i)
 {
     int face = face_of (m, i, (int) number);
     return face >= 0 && pg_stairs_step (&m->cut->body.shape[m->cut->surface[number].shape], i, face);
 }
 
 /* Counts (near NULL), or writes from the end of each list on. */
-static void visit_near (maker *m, size_t number, int *near)
+static void visit_near (builder *m, size_t number, int *near)
 {
     const cut_surface *s = &m->cut->surface[number];
     const pg_lattice *l = m->l;
@@ -88,7 +88,7 @@ static void visit_near (maker *m, size_t number, int *near)
             }
 }
 
-static pg_status find_near (maker *m)
+static pg_status find_near (builder *m)
 {
     pg_status status = PG_OK;
     PG_ALLOC (m->start, m->n + 1);
@@ -103,7 +103,7 @@ done:
 }
 
 /* ---- cells ------------------------------------------------------------------------------------------------------------ */
-static pg_status into_cell (const maker *m, size_t c)
+static pg_status into_cell (const builder *m, size_t c)
 {
     double low[3], high[3];
     int i[3];
@@ -112,7 +112,7 @@ static pg_status into_cell (const maker *m, size_t c)
     return cut_work_cell (m->cut->work, low, high, m->start[c + 1] - m->start[c], m->near + m->start[c]);
 }
 
-static pg_status classify (maker *m, size_t c)
+static pg_status classify (builder *m, size_t c)
 {
     pg_status status = PG_OK;
     cut_piece piece;
@@ -137,7 +137,7 @@ done:
 
 /* ---- facets ----------------------------------------------------------------------------------------------------------- */
 /* What lies behind a face: NONE and WHOLE if that is the same all over it, else CUT. */
-static int beyond (const maker *m, const int *i, int face)
+static int beyond (const builder *m, const int *i, int face)
 {
     int at[3] = {i[0], i[1], i[2]};
     at[face / 2] += face % 2 ? 1 : -1;
@@ -146,7 +146,7 @@ static int beyond (const maker *m, const int *i, int face)
     return m->aligned[c] ? m->state[c] : CUT;
 }
 
-static pg_status put (maker *m, const one_facet *f)
+static pg_status put (builder *m, const one_facet *f)
 {
     pg_status status = PG_OK;
     for (size_t k = m->nfacet; f->face >= 0 && k-- > 0 && m->facet[k].cell == f->cell; )
@@ -158,7 +158,7 @@ done:
 }
 
 /* The parts of one surface in a cell that has been entered; one that covers a face is that face. */
-static pg_status find_parts (maker *m, one_facet f)
+static pg_status find_parts (builder *m, one_facet f)
 {
     pg_status status = PG_OK;
     int face = f.face, parts = 1 << cut_work_knives (m->cut->work);
@@ -173,7 +173,7 @@ done:
     return status;
 }
 
-static pg_status find_facets (maker *m, size_t c, int cell)
+static pg_status find_facets (builder *m, size_t c, int cell)
 {
     pg_status status = PG_OK;
     int i[3], entered = 0, parted = m->start[c + 1] > m->start[c] && is_knife (m, m->start[c + 1] - 1);
@@ -192,10 +192,10 @@ done:
     return status;
 }
 
-/* ---- from the maker to the cells ---------------------------------------------------------------------------------------- */
+/* ---- from the builder to the cells ---------------------------------------------------------------------------------------- */
 static const unsigned char corner[8][3] = {{0,0,0}, {1,0,0}, {1,1,0}, {0,1,0}, {0,0,1}, {1,0,1}, {1,1,1}, {0,1,1}};
 
-static void fill_cell (pg_cells *out, const maker *m, size_t c, size_t at)
+static void fill_cell (pg_cells *out, const builder *m, size_t c, size_t at)
 {
     static const pg_element kind[3] = {PG_BAR2, PG_QUAD4, PG_HEX8};
     size_t dim = (size_t) m->l->dim, corners = (size_t) 1 << dim, near = m->start[c + 1] - m->start[c];
@@ -211,7 +211,7 @@ static void fill_cell (pg_cells *out, const maker *m, size_t c, size_t at)
     memcpy (cut->near + cut->start[at], m->near + m->start[c], near * sizeof *cut->near);
 }
 
-static void fill_facet (pg_cells *out, const maker *m, const one_facet *f, size_t at)
+static void fill_facet (pg_cells *out, const builder *m, const one_facet *f, size_t at)
 {
     size_t dim = (size_t) out->dim;
     double *normal = out->normal + at * dim, size = 0;
@@ -230,7 +230,7 @@ static void fill_facet (pg_cells *out, const maker *m, const one_facet *f, size_
     }
 }
 
-static pg_status fill (pg_cells *out, maker *m, double thickness)
+static pg_status fill (pg_cells *out, builder *m, double thickness)
 {
     pg_status status = PG_OK;
     size_t corners = (size_t) 1 << m->l->dim, at = 0, whole = 0;
@@ -247,7 +247,7 @@ done:
     return status;
 }
 
-static pg_status prepare (maker *m, const pg_body *body, double thickness, size_t nray, const pg_ray *ray)
+static pg_status prepare (builder *m, const pg_body *body, double thickness, size_t nray, const pg_ray *ray)
 {
     pg_status status = PG_OK;
     m->n = (size_t) m->l->count[0] * (size_t) m->l->count[1] * (size_t) m->l->count[2];
@@ -267,7 +267,7 @@ done:
 pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness, size_t nray, const pg_ray *ray)
 {
     pg_status status = PG_OK;
-    maker m = {.l = lattice};
+    builder m = {.l = lattice};
     int cell = 0, other = 0;
     memset (out, 0, sizeof *out);
     if (lattice->dim == 0) return PG_OK;

@@ -210,7 +210,7 @@ static void split_solid (cut_slices *s, const cut_quadric *q, cut_level *out)
                 if (overlap (s, i, k) && overlap (s, j, k)) split_points (s, out, (cut_quadric[]) {q[i], q[j], q[k]}, (size_t[]) {i, j, k}, 3, x);
         }
     }
-    cut_quadric *face = s->level[1].q;                     /* room that the walk needs only later                        */
+    cut_quadric *face = s->level[1].q;                     /* workspace that the walk needs only later                        */
     for (int f = 0; f < 4; f++) {
         int across = f < 2 ? z : y, along = f < 2 ? y : z;
         s->at[across] = f % 2 ? 1 : -1;

@@ -65,7 +65,7 @@ cut_quadric cut_local (const cut_surface *s, int dim, const double *centre, cons
 }
 
 /* ---- surfaces of shapes ------------------------------------------------------------------------------------------------ */
-typedef struct { struct pg_cut *cut; size_t capacity; } maker;
+typedef struct { struct pg_cut *cut; size_t capacity; } builder;
 
 static int same (const cut_surface *a, const cut_surface *b, int dim)
 {
@@ -84,7 +84,7 @@ static int same (const cut_surface *a, const cut_surface *b, int dim)
     return fmin (plus, minus) < 1e-13;
 }
 
-static pg_status add (maker *m, const cut_surface *s)
+static pg_status add (builder *m, const cut_surface *s)
 {
     pg_status status = PG_OK;
     for (size_t i = 0; i < m->cut->n; i++) if (same (&m->cut->surface[i], s, m->cut->dim)) return PG_OK;
@@ -95,7 +95,7 @@ done:
 }
 
 /* A plane through a point, with a unit normal. */
-static pg_status add_plane (maker *m, cut_surface s, const double *point, const double *normal)
+static pg_status add_plane (builder *m, cut_surface s, const double *point, const double *normal)
 {
     s.flat = 1, s.axis = -1;
     memcpy (s.origin, point, (size_t) m->cut->dim * sizeof *point);
@@ -106,7 +106,7 @@ static pg_status add_plane (maker *m, cut_surface s, const double *point, const 
     return add (m, &s);
 }
 
-static pg_status add_box (maker *m, cut_surface s, const pg_shape *shape)
+static pg_status add_box (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
     memcpy (s.low, shape->low, sizeof s.low);
@@ -122,7 +122,7 @@ done:
 }
 
 /* Circle, sphere; cylinder: at right angles to its axis. */
-static pg_status add_round (maker *m, cut_surface s, const pg_shape *shape)
+static pg_status add_round (builder *m, cut_surface s, const pg_shape *shape)
 {
     double R = shape->radius;
     int cylinder = shape->kind == PG_CYLINDER;
@@ -135,7 +135,7 @@ static pg_status add_round (maker *m, cut_surface s, const pg_shape *shape)
     return add (m, &s);
 }
 
-static pg_status add_cylinder (maker *m, cut_surface s, const pg_shape *shape)
+static pg_status add_cylinder (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
     double far[3], back[3];
@@ -154,7 +154,7 @@ done:
     return status;
 }
 
-static pg_status add_polygon (maker *m, cut_surface s, const pg_shape *shape)
+static pg_status add_polygon (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
     cut_surface end = s;
@@ -191,7 +191,7 @@ static void bound (cut_surface *s, const pg_shape *shape, int dim)
 }
 
 /* From the centre on in one direction. */
-static pg_status add_knife (maker *m, const pg_ray *ray)
+static pg_status add_knife (builder *m, const pg_ray *ray)
 {
     const pg_body *body = &m->cut->body;
     cut_surface s = {.shape = -1, .axis = -1};
@@ -206,7 +206,7 @@ static pg_status add_knife (maker *m, const pg_ray *ray)
 }
 
 /* Planes of the lattice, of which cells see those at their steps (cut_cells.c). */
-static pg_status add_stairs (maker *m, cut_surface s, const pg_lattice *l)
+static pg_status add_stairs (builder *m, cut_surface s, const pg_lattice *l)
 {
     pg_status status = PG_OK;
     for (int k = 0; k < l->dim; k++)
@@ -243,7 +243,7 @@ done:
 pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattice *lattice, size_t nray, const pg_ray *ray)
 {
     pg_status status = PG_OK;
-    maker m = {cut, 0};
+    builder m = {cut, 0};
     cut->dim = body->dim, cut->body = *body;
     PG_TRY (own_shapes (cut, lattice));
     for (size_t i = 0; i < body->n; i++) {

@@ -9,7 +9,7 @@
 enum { ORDER = 5 };
 typedef struct {
     const pg_mesh *mesh;
-    pg_mesh_finder *finder;
+    pg_mesh_locator *locator;
     const pg_mesh_field *u;                            /* displacement, units of the file                                */
     int    dim;
     double unit;                                       /* m                                                              */
@@ -22,7 +22,7 @@ static pg_status sample (void *context, size_t n, const double *x, double *u, do
     for (size_t i = 0; i < n; i++) {
         double place[3] = { 0 }, xi[3], away, v[9], H[9];
         for (int k = 0; k < s->dim; k++) place[k] = x[i * (size_t) s->dim + (size_t) k] / s->unit;
-        long e = pg_finder_find (s->finder, place, xi, &away);
+        long e = pg_mesh_locator_find (s->locator, place, xi, &away);
         int known = e >= 0 && away < 0.5 && pg_mesh_gradient (s->mesh, s->u, (size_t) e, xi, H);
         if (known) pg_mesh_value (s->mesh, s->u, (size_t) e, xi, v);
         if (known && stress) pg_stress_of_gradient (s->material, s->dim, H, stress + 6*i);
@@ -90,7 +90,7 @@ static pg_status read_solution (solution *s, pg_mesh *mesh, size_t *nfield, pg_m
     if (p->dim == 2 && mesh->dim == 3) PG_TRY (pg_mesh_flatten (mesh, *nfield, *fields));
     if (mesh->dim != p->dim) PG_FAIL (PG_E_FILE, "%s: the elements are of dimension %d, the scene of %d", path, mesh->dim, p->dim);
     s->mesh = mesh, s->dim = p->dim, s->material = p->material;
-    PG_TRY (pg_finder_create (&s->finder, mesh));
+    PG_TRY (pg_mesh_locator_create (&s->locator, mesh));
 done:
     return status;
 }
@@ -120,7 +120,7 @@ int bench_fem_main (int argc, char **argv)
     trial_tell (&t);
 done:
     if (status != PG_OK) command_complain (status, pg_last_error ());
-    pg_finder_free (&s.finder);
+    pg_mesh_locator_free (&s.locator);
     pg_mesh_fields_clear (nfield, &fields);
     pg_mesh_clear (&mesh);
     pg_problem_free (&problem);

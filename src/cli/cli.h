@@ -25,7 +25,7 @@ typedef struct {
 } progress;
 void progress_start (progress *p, int quiet, const pg_solver_options *settled);
 /* within: between the rounds of a step that is not done yet, `step` so far. */
-void progress_show  (progress *p, const pg_progress *at, const pg_step *step, const pg_report *report, int within);
+void progress_show  (progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *report, int within);
 void progress_end   (progress *p);
 
 /* command.c: options shared by run and check */

@@ -51,7 +51,7 @@ static void print_box (const pg_problem *q, int width)
 
 void plan_doubts (const pg_problem *p, const pg_solver_options *o)
 {
-    pg_report doubts = { 0 };
+    pg_statistics doubts = { 0 };
     char note[400];
     pg_solver_doubts (&doubts, p, o);
     for (size_t k = 0; k < doubts.nwarning; k++) printf ("  warning: %s\n", doubts.warning[k]);

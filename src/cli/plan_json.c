@@ -116,7 +116,7 @@ static void first (pg_json *j, const plan *p)
 
 static void doubts (pg_json *j, const plan *p)
 {
-    pg_report report = { 0 };
+    pg_statistics report = { 0 };
     char note[400];
     pg_solver_doubts (&report, p->problem, p->options);
     pg_json_open (j, "warnings", '[');

@@ -42,7 +42,7 @@ static void add (char *line, const char *text)
 }
 
 /* What step: time steps, events, or load steps with the rounds of the one at hand. */
-static void add_step (char *line, const progress *p, const pg_progress *at, const pg_step *step, const pg_report *r, double now, int within)
+static void add_step (char *line, const progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *r, double now, int within)
 {
     char text[96];
     double passed = now - p->mark[0].at, pace = passed > 0.5 ? ((double) r->events - p->mark[0].events) / passed : 0;
@@ -67,7 +67,7 @@ static void add_time (char *line, const progress *p, const pg_progress *at, doub
 }
 
 /* full: 0 the least, FULL everything. */
-static void compose (char *line, int full, const progress *p, const pg_progress *at, const pg_step *step, const pg_report *r, double now, int within)
+static void compose (char *line, int full, const progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *r, double now, int within)
 {
     char text[96];
     snprintf (line, LINE, at->event ? "%5.1f %% of %s" : "%5.1f %%", 100 * at->share, at->end);
@@ -86,7 +86,7 @@ static size_t width_of_terminal (void)
     return ioctl (2, TIOCGWINSZ, &size) == 0 && size.ws_col >= NARROW ? size.ws_col : 80;
 }
 
-static void write_line (const progress *p, const pg_progress *at, const pg_step *step, const pg_report *r, double now, int within)
+static void write_line (const progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *r, double now, int within)
 {
     char line[LINE];
     size_t width = p->tty ? width_of_terminal () - 1 : LINE;
@@ -98,7 +98,7 @@ static void write_line (const progress *p, const pg_progress *at, const pg_step 
     if (p->tty) fflush (stderr);
 }
 
-void progress_show (progress *p, const pg_progress *at, const pg_step *step, const pg_report *report, int within)
+void progress_show (progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *report, int within)
 {
     double now = pg_seconds (), passed = now - p->start, pause = p->tty ? 0.2 : fmax (10, 0.02 * passed);
     int tenth = (int) (at->share * 10 * (1 + 1e-12));

@@ -19,7 +19,7 @@ static void settle_signals (void)
     signal (SIGXFSZ, SIG_IGN);
 }
 
-static void print_counts (const pg_report *r, const pg_solver_options *o)
+static void print_counts (const pg_statistics *r, const pg_solver_options *o)
 {
     if (o->marching) printf ("  %ld time steps in %ld rows of history.csv, %ld of them broke bonds, %ld bonds broken", r->iterations, r->steps, r->events, r->broken);
     else if (o->staged) printf ("  %ld %s, %ld iterations, %ld of them broke bonds, %ld bonds broken, largest imbalance %.2e", o->hold ? r->steps : r->iterations,
@@ -35,9 +35,9 @@ static void print_counts (const pg_report *r, const pg_solver_options *o)
 }
 
 /* Warnings that came on the way: the others stand above the progress. */
-static void print_warnings (const pg_report *r, const pg_problem *problem, const pg_solver_options *o)
+static void print_warnings (const pg_statistics *r, const pg_problem *problem, const pg_solver_options *o)
 {
-    pg_report before = { 0 };
+    pg_statistics before = { 0 };
     pg_solver_doubts (&before, problem, o);
     for (size_t k = 0; k < r->nwarning; k++) {
         size_t i = 0;
@@ -46,7 +46,7 @@ static void print_warnings (const pg_report *r, const pg_problem *problem, const
     }
 }
 
-static void print_summary (const pg_result *result, const pg_report *r, const pg_solver_options *o, const pg_problem *problem, double total)
+static void print_summary (const pg_result *result, const pg_statistics *r, const pg_solver_options *o, const pg_problem *problem, double total)
 {
     int nodal = problem->integration->at_nodes;
     print_counts (r, o);

@@ -76,7 +76,7 @@ static double cpu_now (void)
     return (double) (used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1e-6 * (double) (used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
-static void count (trial *t, const pg_problem *p, const pg_state *state, const pg_report *r)
+static void count (trial *t, const pg_problem *p, const pg_state *state, const pg_statistics *r)
 {
     static const int phase[PG_SECONDS_COUNT] = { TRIAL_SHAPE, TRIAL_ANALYSE, TRIAL_FACTOR, TRIAL_SOLVE, TRIAL_FORCE, TRIAL_BREAK, TRIAL_ASSEMBLE, TRIAL_UPDATE };
     for (int k = 0; k < PG_SECONDS_COUNT; k++) t->value[phase[k]] = r->seconds[k];

@@ -8,7 +8,7 @@
 
 struct pg_solid {
     pg_mesh_body part;                                 /* a mesh                                                         */
-    pg_mesh_finder *finder;
+    pg_mesh_locator *locator;
     pg_mesh_skin *skin;
     pg_lattice lattice;                                /* stairs: without in                                             */
     signed char *sign;                                 /* of the distance at the centre of each cell                     */
@@ -21,7 +21,7 @@ pg_status shape_mesh_read (pg_shape *s, int dim, const pg_scene *scene, const ch
     (void) dim;
     PG_ALLOC (s->solid, 1);
     PG_TRY (mesh_body_at (&s->solid->part, scene, at));
-    PG_TRY (pg_finder_create (&s->solid->finder, &s->solid->part.mesh));
+    PG_TRY (pg_mesh_locator_create (&s->solid->locator, &s->solid->part.mesh));
     PG_TRY (pg_skin_create (&s->solid->skin, &s->solid->part.mesh));
 done:
     if (status != PG_OK) shape_mesh_clear (s);
@@ -31,7 +31,7 @@ done:
 void shape_mesh_clear (pg_shape *s)
 {
     if (!s->solid) return;
-    pg_skin_free (&s->solid->skin), pg_finder_free (&s->solid->finder);
+    pg_skin_free (&s->solid->skin), pg_mesh_locator_free (&s->solid->locator);
     pg_mesh_body_clear (&s->solid->part);
     pg_free (s->solid->sign), pg_free (s->solid);
     s->solid = NULL;
@@ -42,11 +42,11 @@ double shape_mesh_distance (const pg_shape *s, int dim, const double *x, double 
     double near = 1000 * fabs (reach) / s->solid->part.smallest, xi[3];
     (void) dim;
     if (near < 0.1) {                                      /* most places are far from the surface                           */
-        double depth = pg_finder_depth (s->solid->finder, x, fmax (near, 1e-8));
+        double depth = pg_mesh_locator_depth (s->solid->locator, x, fmax (near, 1e-8));
         if (fabs (depth) >= fmax (near, 1e-8)) return depth > 0 ? -HUGE_VAL : HUGE_VAL;
     }
     double d = pg_skin_distance (s->solid->skin, x, reach, NULL);
-    return pg_finder_find (s->solid->finder, x, xi, NULL) >= 0 ? -d : d;
+    return pg_mesh_locator_find (s->solid->locator, x, xi, NULL) >= 0 ? -d : d;
 }
 
 void shape_mesh_box (const pg_shape *s, int dim, double *low, double *high)

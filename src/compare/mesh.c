@@ -10,7 +10,7 @@
 typedef struct {
     pg_mesh mesh;                                      /* places in m                                                    */
     pg_mesh_field u;                                   /* displacement, m                                                */
-    pg_mesh_finder *finder;
+    pg_mesh_locator *locator;
     const pg_problem *problem;
     pg_nearest *material;                              /* over evaluation points; NULL: one material                     */
     size_t  outside;  double away;                     /* places so far, beyond 1e-6; farthest, element sizes            */
@@ -21,7 +21,7 @@ static void free_fem (void *context)
     fem *f = context;
     if (!f) return;
     pg_nearest_free (&f->material);
-    pg_finder_free (&f->finder);
+    pg_mesh_locator_free (&f->locator);
     pg_mesh_clear (&f->mesh);
     pg_free (f->u.value);
     pg_free (f);
@@ -40,7 +40,7 @@ static pg_status sample_fem (void *context, size_t n, const double *x, double *u
     size_t dim = (size_t) f->mesh.dim;
     for (size_t i = 0; i < n; i++) {
         double xi[3], away = 0, H[9];
-        long e = pg_finder_find (f->finder, x + i * dim, xi, &away);
+        long e = pg_mesh_locator_find (f->locator, x + i * dim, xi, &away);
         int known = e >= 0 && away <= FARTHEST && (!stress || pg_mesh_gradient (&f->mesh, &f->u, (size_t) e, xi, H));
         u[3*i + 1] = u[3*i + 2] = 0;
         if (known) pg_mesh_value (&f->mesh, &f->u, (size_t) e, xi, u + 3*i);
@@ -83,7 +83,7 @@ pg_status pg_sampler_mesh (pg_sampler *out, const char *path, int step, double u
     PG_ALLOC (f, 1);
     f->problem = problem;
     PG_TRY (read_fields (f, path, step, unit));
-    PG_TRY (pg_finder_create (&f->finder, &f->mesh));
+    PG_TRY (pg_mesh_locator_create (&f->locator, &f->mesh));
     if (problem->nmaterial > 1) PG_TRY (pg_nearest_create (&f->material, problem->dim, problem->rows[bulk].n, problem->rows[bulk].x));
     *out = (pg_sampler) { f, problem->dim, (1 << problem->dim) - 1, problem->dim == 1 ? 1 : problem->dim == 2 ? 15 : 63, sample_fem, free_fem };
     f = NULL;

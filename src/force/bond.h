@@ -31,11 +31,11 @@ typedef struct {
     double   *shear, *bending, *shear_limit, *bending_limit;
     unsigned char *idle;                               /* points whose rotations nothing resists, C_t = 0; with shear (n) */
     pg_beam_law beams;                                 /* length: unknowns of rotations are this times the angle, m      */
-    pg_sweep_setting setting;                          /* what `sweep` was made from                                     */
-    pg_sweep *sweep;                                   /* forces, by the stretch of the rule                             */
-    pg_sums   small;  pg_sweep *tangent;               /* finite stretch: sums and sweep of the linear one, for K x; made when asked for */
+    pg_bond_loop_setting setting;                          /* what `sweep` was made from                                     */
+    pg_bond_loop *sweep;                                   /* forces, by the stretch of the rule                             */
+    pg_sums   small;  pg_bond_loop *tangent;               /* finite stretch: sums and sweep of the linear one, for K x; made when asked for */
     const unsigned char *alive;                        /* of the state of the last refresh, borrowed; NULL: all live     */
-    double   *room;                                    /* bonds of one point: threads x widest x (dim + 2)               */
+    double   *workspace;                                    /* bonds of one point: threads x widest x (dim + 2)               */
     double   *work;                                    /* ndof                                                           */
     pg_operator op;
     pg_sparse K;                                       /* row NULL until asked for                                       */
@@ -51,15 +51,15 @@ typedef struct {                                       /* the bonds of one point
     size_t  first, m;                                  /* their entries of the family                                    */
     const int *node;
     double *xi, *weight, *beta;                        /* m; k beta g; beta                                              */
-} bond_star;
-void   bond_star_at (const bond *b, size_t i, int thread, bond_star *out);
+} point_bonds;
+void   point_bonds_at (const bond *b, size_t i, int thread, point_bonds *out);
 /* Force on i = - own d_i - other d_j (stride x stride each; other NULL: not wanted), small displacements. pull: added to them, of a pull along the
  * bond with the constant `both`, N/m^6 */
-void   bond_pull    (const bond *b, size_t i, const bond_star *s, size_t e, double both, double *own, double *other);
-void   bond_beam    (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other);       /* with shear: the beam alone */
+void   bond_pull    (const bond *b, size_t i, const point_bonds *s, size_t e, double both, double *own, double *other);
+void   bond_beam    (const bond *b, size_t i, const point_bonds *s, size_t e, double *own, double *other);       /* with shear: the beam alone */
 /* As that; of a dilatation beside the beams what bonds alone that are at least as stiff would do. */
-void   bond_blocks  (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other);
-double bond_kappa   (const bond *b, size_t i, const bond_star *s, size_t e, double *r);      /* N/m^3; r (m) or NULL      */
+void   bond_blocks  (const bond *b, size_t i, const point_bonds *s, size_t e, double *own, double *other);
+double bond_kappa   (const bond *b, size_t i, const point_bonds *s, size_t e, double *r);      /* N/m^3; r (m) or NULL      */
 static inline int bond_lives (const bond *b, size_t entry) { return !b->alive || b->alive[entry]; }
 
 /* forces, breaking */
@@ -72,7 +72,7 @@ pg_status bond_mass (void *self, double *mass);
 const pg_operator *bond_operator (void *self);
 const pg_sparse *bond_basis (void *self);
 pg_status bond_impose (void *self, double t, double *d);
-pg_status bond_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out);
+pg_status bond_work_balance (void *self, double t, const double *d, const double *inertia, pg_work_balance *out);
 unsigned long bond_revision (const void *self);
 pg_status bond_march (void *self, double t, const double *d, double *residual, double *reference, pg_changes *broken);
 pg_status bond_external (void *self, double t, double *P);
@@ -80,7 +80,7 @@ pg_status bond_surface (void *self, const double *stress, double *P);
 /* matrix */
 void bond_apply    (void *context, const double *x, double *y);
 void bond_diagonal (void *context, double *d);
-pg_status bond_tangent_sweep (bond *b, pg_sweep **out);                /* forces by the linear stretch                   */
+pg_status bond_tangent_sweep (bond *b, pg_bond_loop **out);                /* forces by the linear stretch                   */
 pg_status bond_assemble (void *self);
 const pg_sparse *bond_matrix (void *self);
 int       bond_matrix_free (const void *self);                         /* 1: dilatations reach further than bonds do     */
@@ -110,11 +110,11 @@ pg_status lps_create (bond *b);                                        /* moduli
 pg_status lps_weigh  (bond *b);                                        /* q and stiff as they are now                    */
 void      lps_free   (bond *b);
 pg_status lps_look   (bond *b, const double *d, size_t *dying);         /* as bond_tiles_look, by the energies of all points */
-double    lps_weight (const bond *b, size_t i, const bond_star *s, size_t e);        /* k beta: dilatations know no factors of surfaces */
+double    lps_weight (const bond *b, size_t i, const point_bonds *s, size_t e);        /* k beta: dilatations know no factors of surfaces */
 /* C / q, C = B + d max (A, 0): bonds alone with constant C_i / q_i + C_j / q_j are at least as stiff as the state-based ones. */
-void      lps_own    (const bond *b, size_t i, const bond_star *s, double *D);           /* diagonal block of K         */
-double    lps_bound  (const bond *b, size_t i, const bond_star *s);    /* of omega^2 times density, whatever bonds die   */
-void      lps_virial (const bond *b, size_t i, const bond_star *s, const unsigned char *alive, const double *d, double *T);      /* sum t x xi V, Pa */
+void      lps_own    (const bond *b, size_t i, const point_bonds *s, double *D);           /* diagonal block of K         */
+double    lps_bound  (const bond *b, size_t i, const point_bonds *s);    /* of omega^2 times density, whatever bonds die   */
+void      lps_virial (const bond *b, size_t i, const point_bonds *s, const unsigned char *alive, const double *d, double *T);      /* sum t x xi V, Pa */
 pg_status lps_couplings (bond *b, pg_couplings *out);                  /* row, alike and lattice of these                */
 void      lps_rows_free (bond *b);
 /* bonds that bear shear */
@@ -130,7 +130,7 @@ const char *bond_refuses  (const pg_problem *problem, const char *kind);
 #define BOND_COMMON \
     .create = bond_create, .free = bond_free, .fields = bond_fields, .refresh = bond_refresh, .balance = bond_balance, .mass = bond_mass, \
     .operator_ = bond_operator, .basis = bond_basis, .impose = bond_impose, .utilisation = bond_utilisation, \
-    .ledger = bond_ledger, .field = bond_field, .overlap = bond_overlap, .census = bond_census, .revision = bond_revision, \
+    .work_balance = bond_work_balance, .field = bond_field, .overlap = bond_overlap, .census = bond_census, .revision = bond_revision, \
     .sample = bond_sample, .march = bond_march, .external = bond_external, .bound = bond_bound, \
     .row_sums = bond_row_sums, .describe = bond_describe, .refuses = bond_refuses, .couplings = bond_couplings, .surface = bond_surface
 #endif

@@ -46,8 +46,8 @@ double bond_energy_at (const bond *b, size_t i, int thread, const double *d)
     size_t dim = (size_t) b->dim;
     int finite = b->problem->sums->rule.finite;
     double sum = 0, r;
-    bond_star s;
-    bond_star_at (b, i, thread, &s);
+    point_bonds s;
+    point_bonds_at (b, i, thread, &s);
     for (size_t e = 0; e < s.m; e++) {
         if (!bond_lives (b, s.first + e)) continue;
         const double *xi = s.xi + e * dim, *far = d + (size_t) s.node[e] * dim;
@@ -111,7 +111,7 @@ pg_status bond_energy_kill (bond *b, const double *d, pg_changes *broken)
     memset (b->dying, 0, b->n);
     PG_TRY (status);
     pg_changes fresh = { broken->n - before, 0, broken->bond + before };
-    pg_sweep_update (b->sweep, b->alive, &fresh);
+    pg_bond_loop_update (b->sweep, b->alive, &fresh);
 done:
     return status;
 }
@@ -139,7 +139,7 @@ pg_status bond_energy_utilisation (bond *b, const pg_state *state, const double 
     pg_status status = PG_OK;
     sweep s = { b, state->alive, utilisation, factor, kind };
     PG_TRY (bond_energy_create (b));                   /* a plan asks of a problem whose criterion comes later           */
-    PG_TRY (pg_sweep_energies (b->sweep, d, b->density));
+    PG_TRY (pg_bond_loop_energies (b->sweep, d, b->density));
     for (size_t i = 0; i < b->n; i++) b->density[i] = sqrt (fmax (0, b->density[i] / b->critical[i]));
     pg_parallel (b->threads, b->n, spread_points, &s);
 done:

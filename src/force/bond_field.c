@@ -45,7 +45,7 @@ static void judge (const sweep *s, batch *all)
     all->n = 0;
 }
 
-static void add (const sweep *s, batch *all, size_t i, const bond_star *star, size_t e, int material, double ratio)
+static void add (const sweep *s, batch *all, size_t i, const point_bonds *star, size_t e, int material, double ratio)
 {
     size_t dim = (size_t) s->b->dim, m = (size_t) s->b->stride, j = (size_t) star->node[e], k = all->n++;
     memcpy (all->xi + k * dim, star->xi + e * dim, dim * sizeof *all->xi);
@@ -63,10 +63,10 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     const bond *b = s->b;
     const unsigned char *exempt = b->problem->exempt[PG_NODES];
     const int *material = b->problem->block[PG_NODES];
-    bond_star star;
+    point_bonds star;
     batch all = { .n = 0 };
     for (size_t i = first; i < last; i++) {
-        bond_star_at (b, i, thread, &star);
+        point_bonds_at (b, i, thread, &star);
         for (size_t e = 0; e < star.m; e++) {
             size_t j = (size_t) star.node[e], entry = star.first + e;
             if (s->utilisation) s->utilisation[entry] = 0;
@@ -93,19 +93,19 @@ pg_status bond_utilisation (void *self, const pg_state *state, const double *d, 
 
 /* ---- at points ----------------------------------------------------------------------------------------------------------------- */
 typedef struct { const bond *b; const unsigned char *alive; const double *d; double *value; void (*at) (const bond *b, const unsigned char *alive,
-                 const double *d, size_t i, const bond_star *s, double *out); size_t components; } painting;
+                 const double *d, size_t i, const point_bonds *s, double *out); size_t components; } painting;
 
 static void paint_points (void *context, size_t first, size_t last, int thread)
 {
     const painting *p = context;
-    bond_star s;
+    point_bonds s;
     for (size_t i = first; i < last; i++) {
-        bond_star_at (p->b, i, thread, &s);
+        point_bonds_at (p->b, i, thread, &s);
         p->at (p->b, p->alive, p->d, i, &s, p->value + i * p->components);
     }
 }
 
-static void damage_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const bond_star *s, double *out)
+static void damage_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const point_bonds *s, double *out)
 {
     double all = 0, dead = 0;
     (void) d, (void) i;
@@ -122,17 +122,17 @@ static void paint_damage (void *context, size_t first, size_t last, int thread)
 {
     const painting *p = context;
     const size_t *start = p->b->family->start;
-    bond_star s;
+    point_bonds s;
     for (size_t i = first; i < last; i++) {
         p->value[i] = 0;
         if (start[i + 1] == start[i] || !memchr (p->alive + start[i], 0, start[i + 1] - start[i])) continue;
-        bond_star_at (p->b, i, thread, &s);
+        point_bonds_at (p->b, i, thread, &s);
         damage_at (p->b, p->alive, p->d, i, &s, p->value + i);
     }
 }
 
 /* H[c * dim + k] = du_c/dx_k; 0 where the live bonds do not spread in all directions (design section 3) */
-static void gradient_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const bond_star *s, double *H)
+static void gradient_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const point_bonds *s, double *H)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     double M[9] = { 0 }, B[9] = { 0 }, lambda[3], sum = 0, h = pg_problem_spacing (b->problem, PG_NODES, i);
@@ -152,7 +152,7 @@ static void gradient_at (const bond *b, const unsigned char *alive, const double
     for (size_t a = 0; a < dim; a++) pg_dense_solve (b->dim, M, H + a * dim);
 }
 
-static void strain_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const bond_star *s, double *out)
+static void strain_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const point_bonds *s, double *out)
 {
     double H[9];
     gradient_at (b, alive, d, i, s, H);
@@ -162,7 +162,7 @@ static void strain_at (const bond *b, const unsigned char *alive, const double *
 }
 
 /* The same with shear */
-static void add_beam_virial (const bond *b, size_t i, const bond_star *s, size_t e, const double *d, double *T)
+static void add_beam_virial (const bond *b, size_t i, const point_bonds *s, size_t e, const double *d, double *T)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride, j = (size_t) s->node[e];
     double own[36], other[36];
@@ -175,7 +175,7 @@ static void add_beam_virial (const bond *b, size_t i, const bond_star *s, size_t
 }
 
 /* Of one bond, over V_i: force on i times 1/2 xi; T[a * dim + c] += f_a xi_c */
-static void add_virial (const bond *b, size_t i, const bond_star *s, size_t e, const double *d, double *T)
+static void add_virial (const bond *b, size_t i, const point_bonds *s, size_t e, const double *d, double *T)
 {
     size_t dim = (size_t) b->dim, j = (size_t) s->node[e];
     const double *xi = s->xi + e * dim;
@@ -195,7 +195,7 @@ static void add_virial (const bond *b, size_t i, const bond_star *s, size_t e, c
         for (size_t c = 0; c < dim; c++) T[a * dim + c] += 0.5 / b->problem->cloud.volume[i] * f[a] * xi[c];
 }
 
-static void stress_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const bond_star *s, double *out)
+static void stress_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const point_bonds *s, double *out)
 {
     double T[9] = { 0 };
     if (b->dilation) lps_virial (b, i, s, alive, d, T);
@@ -251,13 +251,13 @@ static int hidden (void *context, const double *place, size_t point)
 }
 
 /* First-order expansion about the nearest point on the same side of the pre-cracks; returns that point. */
-static size_t expand (bond *b, const unsigned char *alive, const double *d, const double *x, bond_star *s, double *u)
+static size_t expand (bond *b, const unsigned char *alive, const double *d, const double *x, point_bonds *s, double *u)
 {
     size_t dim = (size_t) b->dim;
     double H[9];
     long found = pg_nearest_find (b->near, x, b->problem->cracks.n ? hidden : NULL, b);
     size_t i = (size_t) (found >= 0 ? found : pg_nearest_find (b->near, x, NULL, NULL));
-    bond_star_at (b, i, 0, s);
+    point_bonds_at (b, i, 0, s);
     gradient_at (b, alive, d, i, s, H);
     memset (u, 0, 3 * sizeof *u);
     for (size_t a = 0; a < dim; a++) {
@@ -271,7 +271,7 @@ pg_status bond_sample (void *self, const pg_state *state, const double *d, size_
 {
     pg_status status = PG_OK;
     bond *b = self;
-    bond_star s;
+    point_bonds s;
     PG_TRY (make_near (b));
     for (size_t k = 0; k < n; k++) {
         double v[6], *out = stress ? stress + 6 * k : NULL;
@@ -297,13 +297,13 @@ static void closing_points (void *context, size_t first, size_t last, int thread
     const closing *w = context;
     const bond *b = w->b;
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
-    bond_star s;
+    point_bonds s;
     double H[9];
     for (size_t i = first; i < last; i++) {
         double limit = 1.5 * pg_problem_spacing (b->problem, PG_NODES, i);
         w->worst[i] = 0;
         if (!memchr (w->state->alive + b->family->start[i], 0, b->family->start[i + 1] - b->family->start[i])) continue;
-        bond_star_at (b, i, thread, &s);
+        point_bonds_at (b, i, thread, &s);
         gradient_at (b, w->state->alive, w->d, i, &s, H);
         for (size_t e = 0; e < s.m; e++) {
             const double *xi = s.xi + e * dim;

@@ -78,13 +78,13 @@ static void find_gains (void *context, size_t first, size_t last, int thread)
 {
     const bond *b = context;
     const bond_tiles *t = b->tiles;
-    bond_star s;
+    point_bonds s;
     double r;
     size_t i;
     for (size_t k = first; k < last; k++)
         for (place p = { t->start[k], 0 }; next_point (t, k, &p, &i);) {
             double sum = 0;
-            bond_star_at (b, i, thread, &s);
+            point_bonds_at (b, i, thread, &s);
             for (size_t e = 0; e < s.m; e++) {
                 double kappa = bond_kappa (b, i, &s, e, &r);
                 sum += kappa * r * r;
@@ -275,7 +275,7 @@ pg_status bond_tiles_look (bond *b, const double *d, size_t *dying)
     int all = !t->fresh || t->spent + open > b->n / DEAR;
     t->spent = all ? 0 : t->spent + open;
     if (all) {
-        PG_TRY (pg_sweep_energies (b->sweep, d, b->density));
+        PG_TRY (pg_bond_loop_energies (b->sweep, d, b->density));
         memcpy (t->d0, d, b->n * (size_t) t->dim * sizeof *d);
         t->fresh = 1;
     }

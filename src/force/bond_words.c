@@ -53,9 +53,9 @@ static void say_sums (const bond *b, char *text, size_t size)
 {
     static const char *const partial[] = { "none", "linear", "overlap" }, *const surface[] = { "none", "product", "volume" };
     const pg_sum_rule *rule = &b->problem->sums->rule;
-    const char *why = pg_sweep_reason (b->sweep);
+    const char *why = pg_bond_loop_reason (b->sweep);
     snprintf (text, size, "up to %zu a point, %s stretch; partial volumes: %s, surface correction: %s; summed by %s%s%s%s", b->widest,
-              rule->finite ? "finite" : "linear", partial[rule->partial], surface[rule->surface], pg_sweep_name (b->sweep),
+              rule->finite ? "finite" : "linear", partial[rule->partial], surface[rule->surface], pg_bond_loop_name (b->sweep),
               *why ? " (" : "", why, *why ? ")" : "");
 }
 

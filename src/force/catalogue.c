@@ -29,8 +29,8 @@ const char *pg_force_names (void)
     return names + 1;
 }
 
-void pg_ledger_clear (pg_ledger *ledger)
+void pg_work_balance_clear (pg_work_balance *work_balance)
 {
-    pg_free (ledger->force), pg_free (ledger->displacement), pg_free (ledger->reaction);
-    memset (ledger, 0, sizeof *ledger);
+    pg_free (work_balance->force), pg_free (work_balance->displacement), pg_free (work_balance->reaction);
+    memset (work_balance, 0, sizeof *work_balance);
 }

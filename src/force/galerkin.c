@@ -151,7 +151,7 @@ static pg_status galerkin_mass (void *self, double *mass)
 
 static unsigned long galerkin_revision (const void *self) { return ((const galerkin *) self)->revision; }
 static const pg_operator *galerkin_operator (void *self) { return &((galerkin *) self)->op; }
-static pg_status galerkin_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out)
+static pg_status galerkin_work_balance (void *self, double t, const double *d, const double *inertia, pg_work_balance *out)
 {
     pg_status status = PG_OK;
     galerkin *g = self;
@@ -170,7 +170,7 @@ static pg_status galerkin_ledger (void *self, double t, const double *d, const d
         PG_TRY (galerkin_balance (g, t, d, residual, &reference));
         for (size_t i = 0; inertia && i < g->n * (size_t) g->dim; i++) residual[i] += inertia[i];
     }
-    galerkin_basis_ledger (g, t, residual, out, galerkin_boundary_ledger (g, t, d, out));
+    galerkin_basis_work_balance (g, t, residual, out, galerkin_boundary_work_balance (g, t, d, out));
     out->strain = galerkin_bulk_energy (g, d) + galerkin_boundary_energy (g, t);
 done:
     pg_free (residual);
@@ -181,7 +181,7 @@ const pg_force_type pg_force_galerkin = {
     .name = "galerkin", .summary = "global stiffness from NOSB, PDDO or RKPM bonds (Cui 2022)",
     .create = galerkin_create, .free = galerkin_free, .fields = galerkin_fields, .refresh = galerkin_refresh, .balance = galerkin_balance,
     .mass = galerkin_mass, .operator_ = galerkin_operator, .matrix = galerkin_matrix, .basis = galerkin_basis, .impose = galerkin_impose,
-    .utilisation = galerkin_utilisation, .ledger = galerkin_ledger, .field = galerkin_field,
+    .utilisation = galerkin_utilisation, .work_balance = galerkin_work_balance, .field = galerkin_field,
     .overlap = galerkin_overlap, .census = galerkin_census, .revision = galerkin_revision, .assemble = galerkin_assemble,
     .mass_matrix = galerkin_mass_matrix, .sample = galerkin_sample, .estimate = galerkin_estimate, .surface = galerkin_surface
 };

@@ -118,14 +118,14 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y);
 void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external, double *reaction);
 double galerkin_boundary_energy (galerkin *g, double t);
 size_t galerkin_boundary_pairs (galerkin *g);
-size_t galerkin_boundary_ledger (galerkin *g, double t, const double *d, pg_ledger *out);
+size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, pg_work_balance *out);
 /* basis */
 pg_status galerkin_basis_create (galerkin *g);
 pg_status galerkin_basis_update (galerkin *g);
 void galerkin_basis_free (galerkin *g);
 const pg_sparse *galerkin_basis (void *self);
 pg_status galerkin_impose (void *self, double t, double *d);
-size_t galerkin_basis_ledger (galerkin *g, double t, const double *residual, pg_ledger *out, size_t at);
+size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residual, pg_work_balance *out, size_t at);
 /* bonds and fields */
 pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
 double galerkin_overlap (void *self, const pg_state *state, const double *d);

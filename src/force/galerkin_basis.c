@@ -234,7 +234,7 @@ pg_status galerkin_impose (void *self, double t, double *d)
 }
 
 /* Support forces: residual = -C' lambda on the slaves, lambda = -C_s^-T r_s. */
-size_t galerkin_basis_ledger (galerkin *g, double t, const double *residual, pg_ledger *out, size_t at)
+size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residual, pg_work_balance *out, size_t at)
 {
     size_t dim = (size_t) g->dim;
     for (size_t k = 0; k < dim; k++) {

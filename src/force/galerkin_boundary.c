@@ -354,7 +354,7 @@ double galerkin_boundary_energy (galerkin *g, double t)
     return sum;
 }
 
-/* ---- ledger ---------------------------------------------------------------------------------------------------------- */
+/* ---- work_balance ---------------------------------------------------------------------------------------------------------- */
 static void count_pair (void *context, int set, size_t point, int load, int k, double force, double displacement)
 {
     (void) set, (void) point, (void) load, (void) k, (void) force, (void) displacement;
@@ -369,7 +369,7 @@ size_t galerkin_boundary_pairs (galerkin *g)
     return n;
 }
 
-typedef struct { pg_ledger *out; size_t at; } writing;
+typedef struct { pg_work_balance *out; size_t at; } writing;
 
 static void write_pair (void *context, int set, size_t point, int load, int k, double force, double displacement)
 {
@@ -379,7 +379,7 @@ static void write_pair (void *context, int set, size_t point, int load, int k, d
     w->out->reaction[load * 3 + k] += force;
 }
 
-size_t galerkin_boundary_ledger (galerkin *g, double t, const double *d, pg_ledger *out)
+size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, pg_work_balance *out)
 {
     writing w = { out, 0 };
     (void) d;

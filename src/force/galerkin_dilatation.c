@@ -191,16 +191,16 @@ static pg_status rebuild (galerkin *g, const pg_state *state, size_t c)
     const pg_family *f = &d->family;
     galerkin_patch *patch = &d->patch[c];
     size_t one = (size_t) (g->dim + 1) * (f->start[c + 1] - f->start[c]) * (size_t) g->dim, pinned = d->facet_start[c + 1] > d->facet_start[c];
-    size_t room = pinned ? 2 * one : one;
+    size_t workspace = pinned ? 2 * one : one;
     int count;
     PG_TRY (divide (g, state, c, &count));
-    if ((size_t) count > patch->room) {
-        PG_GROW (patch->part, patch->room, (size_t) count);
-        PG_GROW (patch->g, patch->room_g, patch->room * room);
+    if ((size_t) count > patch->workspace) {
+        PG_GROW (patch->part, patch->workspace, (size_t) count);
+        PG_GROW (patch->g, patch->room_g, patch->workspace * workspace);
     }
     patch->n = (size_t) count;
     for (int k = 0; k < count; k++) {
-        patch->part[k].g = patch->g + (size_t) k * room;
+        patch->part[k].g = patch->g + (size_t) k * workspace;
         find_polynomials (g, c, k, &patch->part[k]);
         sum_rows (g, c, k, &patch->part[k]);
         patch->part[k].s = pinned ? patch->part[k].g + one : NULL;

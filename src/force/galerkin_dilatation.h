@@ -15,7 +15,7 @@ typedef struct {                                       /* points of a patch that
     double  gap[4];                                    /* c_m, galerkin_dilatation_facet.c                               */
 } galerkin_part;
 
-typedef struct { size_t n, room, room_g; galerkin_part *part; double *g; } galerkin_patch;
+typedef struct { size_t n, workspace, room_g; galerkin_part *part; double *g; } galerkin_patch;
 
 struct galerkin_dilatation {
     pg_material    *plain;                             /* of every material: D without lambda                            */

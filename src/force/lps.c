@@ -48,7 +48,7 @@ pg_status lps_weigh (bond *b)
 {
     pg_status status = PG_OK;
     if (!b->dilation || (b->weighed && (b->weighed == b->revision || !b->problem->sums->rule.follow))) return PG_OK;
-    PG_TRY (pg_sweep_dilatation (b->sweep, NULL, NULL, b->q));
+    PG_TRY (pg_bond_loop_dilatation (b->sweep, NULL, NULL, b->q));
     for (size_t i = 0; i < b->n; i++) b->stiff[i] = b->q[i] > 0 ? (b->deviation[i] + b->dim * fmax (b->dilation[i], 0)) / b->q[i] : 0;
     b->weighed = b->revision;
 done:
@@ -58,7 +58,7 @@ done:
 pg_status lps_look (bond *b, const double *d, size_t *dying)
 {
     pg_status status = PG_OK;
-    PG_TRY (pg_sweep_energies (b->sweep, d, b->density));
+    PG_TRY (pg_bond_loop_energies (b->sweep, d, b->density));
     *dying = 0;
     for (size_t i = 0; i < b->n; i++) *dying += b->dying[i] = b->density[i] >= b->critical[i];
 done:
@@ -66,7 +66,7 @@ done:
 }
 
 /* ---- one point ----------------------------------------------------------------------------------------------------------------- */
-double lps_weight (const bond *b, size_t i, const bond_star *s, size_t e)
+double lps_weight (const bond *b, size_t i, const point_bonds *s, size_t e)
 {
     const pg_sums *sums = b->problem->sums;
     const double *v = sums->family_volume;
@@ -75,7 +75,7 @@ double lps_weight (const bond *b, size_t i, const bond_star *s, size_t e)
     return s->weight[e] * (sums->rule.surface == PG_SURFACE_VOLUME ? 0.5 * (v[i] + v[j]) : sqrt (v[i] * v[j]));
 }
 
-static double weight_of (const bond *b, size_t i, const bond_star *s, size_t e, double *rr)
+static double weight_of (const bond *b, size_t i, const point_bonds *s, size_t e, double *rr)
 {
     size_t dim = (size_t) b->dim;
     *rr = 0;
@@ -86,7 +86,7 @@ static double weight_of (const bond *b, size_t i, const bond_star *s, size_t e, 
 static double over (double a, double q) { return q > 0 ? a / q : 0; }
 
 /* Second derivatives of the energy by u_i: of its own dilatation, of those of its neighbours, of the stretches. */
-void lps_own (const bond *b, size_t i, const bond_star *s, double *D)
+void lps_own (const bond *b, size_t i, const point_bonds *s, double *D)
 {
     size_t dim = (size_t) b->dim;
     const double *V = b->problem->cloud.volume, *q = b->q;
@@ -108,7 +108,7 @@ void lps_own (const bond *b, size_t i, const bond_star *s, double *D)
 }
 
 /* A q that follows shrinks as bonds die, yet never below what one live bond makes it: w r^2 V. */
-double lps_bound (const bond *b, size_t i, const bond_star *s)
+double lps_bound (const bond *b, size_t i, const point_bonds *s)
 {
     const double *V = b->problem->cloud.volume;
     double nearest = INFINITY, sum = 0, rr, far = b->dim;
@@ -122,7 +122,7 @@ double lps_bound (const bond *b, size_t i, const bond_star *s)
 }
 
 /* Stress of Silling and Lehoucq (2008) for uniform strain: its trace is d kappa theta whatever the family. */
-void lps_virial (const bond *b, size_t i, const bond_star *s, const unsigned char *alive, const double *d, double *T)
+void lps_virial (const bond *b, size_t i, const point_bonds *s, const unsigned char *alive, const double *d, double *T)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     const double *V = b->problem->cloud.volume;

@@ -176,7 +176,7 @@ static void add_dilatation (const bond *b, size_t i, size_t k, size_t n, const i
     }
 }
 
-static void pull_block (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other)
+static void pull_block (const bond *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
 {
     size_t mm = (size_t) (b->stride * b->stride);
     if (b->shear) bond_beam (b, i, s, e, own, other);
@@ -189,8 +189,8 @@ static size_t make_row (const bond *b, size_t i, int thread, int *node, double *
     const lps_rows *r = b->rows;
     size_t bb = (size_t) (b->stride * b->stride), m = 0;
     double own[MOST] = { 0 }, part[MOST];
-    bond_star s;
-    bond_star_at (b, i, thread, &s);
+    point_bonds s;
+    point_bonds_at (b, i, thread, &s);
     for (size_t e = 0; e < s.m; e++) {
         if (!bond_lives (b, s.first + e)) continue;
         pull_block (b, i, &s, e, part, value + m * bb);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Supports, loads and ledger of forces whose unknowns are the values of the points. Prescribed unknowns are left out, d = T q + g with T the
+ * Supports, loads and work_balance of forces whose unknowns are the values of the points. Prescribed unknowns are left out, d = T q + g with T the
  * selection of the others; loads are sums of forces on points, computed once where they are a pattern times a factor of t. */
 #include "nodal.h"
 #include <math.h>
@@ -159,8 +159,8 @@ double nodal_size (nodal *s, double t)
     return sqrt (sum);
 }
 
-/* ---- ledger -------------------------------------------------------------------------------------------------------------------- */
-pg_status nodal_ledger (nodal *s, double t, const double *d, const double *residual, pg_ledger *out)
+/* ---- work_balance -------------------------------------------------------------------------------------------------------------------- */
+pg_status nodal_work_balance (nodal *s, double t, const double *d, const double *residual, pg_work_balance *out)
 {
     pg_status status = PG_OK;
     size_t at = s->nsupport, count = s->nsupport;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private to the forces whose unknowns are the values of the points: supports by elimination, loads given to points, the ledger.
+ * Private to the forces whose unknowns are the values of the points: supports by elimination, loads given to points, the work balance.
  * Unknown k of point i is i * stride + k; the first dim of them are its displacement, further ones its rotations times a length, so that all unknowns
  * are lengths and what works on them are forces. */
 #ifndef PG_NODAL_H
@@ -45,5 +45,5 @@ double    nodal_size   (nodal *s, double t);                         /* norm of 
 const pg_sparse *nodal_basis (const nodal *s);                       /* NULL: nothing is prescribed                      */
 void      nodal_impose (const nodal *s, double t, double *d);
 /* Pairs and reactions; residual: loads less resistance (and inertia) at every unknown. Strain energy is left alone. */
-pg_status nodal_ledger (nodal *s, double t, const double *d, const double *residual, pg_ledger *out);
+pg_status nodal_work_balance (nodal *s, double t, const double *d, const double *residual, pg_work_balance *out);
 #endif

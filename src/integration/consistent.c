@@ -169,7 +169,7 @@ typedef struct {
     pg_rows *wide;
     const unsigned char *whole;
     const size_t *list;
-    double **room;                                     /* per thread: residual of the identity, POLYNOMIALS x dim per node, and N */
+    double **workspace;                                     /* per thread: residual of the identity, POLYNOMIALS x dim per node, and N */
 } job;
 
 /* rest (m x dim) += rate_k N */
@@ -244,7 +244,7 @@ static void correct (const job *j, const space *s, size_t cell, size_t m, const 
     }
 }
 
-static void treat (const job *j, size_t cell, double *room)
+static void treat (const job *j, size_t cell, double *workspace)
 {
     const pg_consistency *c = j->c;
     size_t dim = (size_t) j->points->dim, first = c->first[cell], last = c->first[cell + 1];
@@ -262,7 +262,7 @@ static void treat (const job *j, size_t cell, double *room)
     if (!j->whole[cell]) return;
     find_space (&s, j->points, first, last);
     if (s.n == 0) return;
-    double *rest = room, *N = room + m * dim * POLYNOMIALS;
+    double *rest = workspace, *N = workspace + m * dim * POLYNOMIALS;
     memset (rest, 0, m * dim * POLYNOMIALS * sizeof *rest);
     add_points (j, &s, cell, m, rest);
     add_faces (j, &s, cell, m, node, rest, N);
@@ -272,7 +272,7 @@ static void treat (const job *j, size_t cell, double *room)
 static void work (void *context, size_t first, size_t last, int thread)
 {
     const job *j = context;
-    for (size_t k = first; k < last; k++) treat (j, j->list ? j->list[k] : k, j->room[thread]);
+    for (size_t k = first; k < last; k++) treat (j, j->list ? j->list[k] : k, j->workspace[thread]);
 }
 
 pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, pg_rows *wide, const unsigned char *whole,
@@ -282,12 +282,12 @@ pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, 
     size_t most = 0, slots = threads < 1 ? 1 : (size_t) threads;
     job j = { c, points, wide, whole, list, NULL };
     for (size_t p = 0; p < points->n; p++) if (c->family.start[p + 1] - c->family.start[p] > most) most = c->family.start[p + 1] - c->family.start[p];
-    PG_ALLOC (j.room, slots);
-    for (size_t t = 0; t < slots; t++) PG_ALLOC (j.room[t], most * ((size_t) points->dim * POLYNOMIALS + 1));
+    PG_ALLOC (j.workspace, slots);
+    for (size_t t = 0; t < slots; t++) PG_ALLOC (j.workspace[t], most * ((size_t) points->dim * POLYNOMIALS + 1));
     pg_parallel (threads, list ? count : c->cells->n, work, &j);
 done:
-    for (size_t t = 0; j.room && t < slots; t++) pg_free (j.room[t]);
-    pg_free (j.room);
+    for (size_t t = 0; j.workspace && t < slots; t++) pg_free (j.workspace[t]);
+    pg_free (j.workspace);
     return status;
 }
 

@@ -23,16 +23,16 @@ size_t level_row (const level *l, size_t i, int thread, int *node, double *value
 }
 
 /* ---- diagonal --------------------------------------------------------------------------------------------------------------------- */
-typedef struct { int **node; double **value; } room;                   /* of a row, for each thread                      */
+typedef struct { int **node; double **value; } workspace;                   /* of a row, for each thread                      */
 
-static void room_free (room *r, int threads)
+static void room_free (workspace *r, int threads)
 {
     for (int t = 0; r->node && t < threads; t++) pg_free (r->node[t]);
     for (int t = 0; r->value && t < threads; t++) pg_free (r->value[t]);
     pg_free (r->node), pg_free (r->value);
 }
 
-static pg_status room_make (room *r, const level *l)
+static pg_status room_make (workspace *r, const level *l)
 {
     pg_status status = PG_OK;
     PG_ALLOC (r->node, (size_t) l->threads);
@@ -139,7 +139,7 @@ typedef struct {                                       /* sums of a cell like ma
     int   *row, *column;                               /* offsets of hats from the cell's first corner (x 3)             */
     double *sum;
 } pattern;
-typedef struct { level *c; const level *f; room room; summer *summer; const size_t *cell; pattern pattern; } galerkin;
+typedef struct { level *c; const level *f; workspace workspace; summer *summer; const size_t *cell; pattern pattern; } galerkin;
 
 static inline void add_scaled (size_t bb, double w, const double *restrict a, double *restrict out)
 {
@@ -397,8 +397,8 @@ static pg_status sum_nodes (galerkin *g, size_t cell, int thread)
     size_t m = f->cell_start[cell + 1] - f->cell_start[cell];
     PG_TRY (find_rows (s, f, node, m));
     for (size_t e = 0; e < m && s->nrow; e++) {
-        size_t i = (size_t) node[e], count = level_row (f, i, thread, g->room.node[thread], g->room.value[thread]);
-        PG_TRY (add_node (s, f, i, count, g->room.node[thread], g->room.value[thread]));
+        size_t i = (size_t) node[e], count = level_row (f, i, thread, g->workspace.node[thread], g->workspace.value[thread]);
+        PG_TRY (add_node (s, f, i, count, g->workspace.node[thread], g->workspace.value[thread]));
     }
 done:
     return status;
@@ -468,7 +468,7 @@ pg_status level_coarsen (level *c, const level *f)
     galerkin g = { .c = c, .f = f };
     c->dim = f->dim, c->block = f->block, c->threads = f->threads, c->n = f->nfunction, c->ndof = c->n * (size_t) c->block;
     PG_TRY (make_pattern (c, f));
-    PG_TRY (room_make (&g.room, f));
+    PG_TRY (room_make (&g.workspace, f));
     PG_ALLOC (g.summer, (size_t) f->threads);
     for (int t = 0; t < f->threads; t++) {
         PG_ALLOC (g.summer[t].where, c->n);
@@ -486,6 +486,6 @@ done:
     }
     pg_free (g.summer);
     pg_free (g.pattern.like), pg_free (g.pattern.row), pg_free (g.pattern.column), pg_free (g.pattern.sum);
-    room_free (&g.room, f->threads);
+    room_free (&g.workspace, f->threads);
     return status;
 }

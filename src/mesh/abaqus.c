@@ -285,7 +285,7 @@ static pg_status read_all (reader *r)
         else if (r->mode != ABAQUS_SKIP) PG_TRY (abaqus_data (r));
     }
     PG_TRY (finish_element (r));
-    if (r->data.maker->n == 0) PG_FAIL (PG_E_FILE, "%s: no *ELEMENT: there is no mesh in this file", r->file[0].bytes.path);
+    if (r->data.builder->n == 0) PG_FAIL (PG_E_FILE, "%s: no *ELEMENT: there is no mesh in this file", r->file[0].bytes.path);
 done:
     return status;
 }
@@ -300,7 +300,7 @@ static void reader_free (reader *r)
     pg_free (r);
 }
 
-static pg_status read_abaqus (pg_mesh_maker *m, const mesh_bytes *file)
+static pg_status read_abaqus (pg_mesh_builder *m, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
     reader *r = NULL;
@@ -308,7 +308,7 @@ static pg_status read_abaqus (pg_mesh_maker *m, const mesh_bytes *file)
     r->file[0].bytes = *file;
     r->file[0].c = mesh_begin (file);
     r->data.path = file->path;
-    r->data.maker = m;
+    r->data.builder = m;
     r->have = -1;
     PG_TRY (read_all (r));
     PG_TRY (abaqus_resolve (&r->data));

@@ -3,7 +3,7 @@
  * it), and the way from there into a mesh (abaqus_sets.c). */
 #ifndef MESH_ABAQUS_H
 #define MESH_ABAQUS_H
-#include "maker.h"
+#include "builder.h"
 #include "mesh_private.h"
 
 /* ---- abaqus_type.c -------------------------------------------------------------------------------------------------------- */
@@ -24,15 +24,15 @@ enum { ABAQUS_NAME = 64 };
 typedef struct { long first, last, step, line; } abaqus_range;     /* line: of entries that must exist, else 0 */
 /* step: of numbers first, first + step ... last; or one of these: all of set number `first`, the nodes of element set number `first`. */
 enum { ABAQUS_SET = 0, ABAQUS_NODES_OF = -1 };
-typedef struct { char name[ABAQUS_NAME]; size_t n, room; abaqus_range *range; int named; } abaqus_set;  /* named: by *ELEMENT: a block */
-typedef struct { size_t n, room; abaqus_set *set; } abaqus_sets;
+typedef struct { char name[ABAQUS_NAME]; size_t n, workspace; abaqus_range *range; int named; } abaqus_set;  /* named: by *ELEMENT: a block */
+typedef struct { size_t n, workspace; abaqus_set *set; } abaqus_sets;
 typedef struct { long element, line; int set; char face[8]; } abaqus_face;                           /* set -1: one element       */
-typedef struct { char name[ABAQUS_NAME]; size_t n, room; abaqus_face *face; } abaqus_surface;
+typedef struct { char name[ABAQUS_NAME]; size_t n, workspace; abaqus_face *face; } abaqus_surface;
 typedef struct {
-    pg_mesh_maker *maker;
+    pg_mesh_builder *builder;
     const char *path;
     int    included;                                   /* files by *INCLUDE so far                                       */
-    size_t room;  unsigned char *shell;                /* of every element of the maker                                  */
+    size_t workspace;  unsigned char *shell;                /* of every element of the builder                                  */
     abaqus_sets nset, elset;
     size_t nsection, section_room;  int *section;      /* element sets of *SOLID SECTION, in their order                 */
     size_t nsurface, surface_room;  abaqus_surface *surface;
@@ -71,5 +71,5 @@ int       abaqus_set_find (const abaqus_sets *sets, const char *name);          
 pg_status abaqus_set_get  (abaqus_sets *sets, const char *name, int *set);             /* made where there is none       */
 pg_status abaqus_set_add  (abaqus_set *set, abaqus_range range);
 void      abaqus_sets_free (abaqus_sets *sets);
-pg_status abaqus_resolve (abaqus *a);                  /* elements, blocks, sets and surfaces into the maker             */
+pg_status abaqus_resolve (abaqus *a);                  /* elements, blocks, sets and surfaces into the builder             */
 #endif

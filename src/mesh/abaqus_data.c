@@ -41,7 +41,7 @@ static pg_status node_line (reader *r)
         if (!mesh_real (&s, end, &x[a]) || !empty (s, end))
             PG_TRY (ABAQUS_WRONG (r, "coordinate %d of node %ld is '%.*s'", a + 1, id, (int) (end - before > 20 ? 20 : end - before), before));
     }
-    PG_TRY (pg_maker_node (r->data.maker, id, x));
+    PG_TRY (pg_mesh_builder_node (r->data.builder, id, x));
     if (r->set >= 0) PG_TRY (abaqus_set_add (&r->data.nset.set[r->set], (abaqus_range) { id, id, 1, 0 }));
 done:
     return status;
@@ -53,9 +53,9 @@ static pg_status add_element (reader *r)
     long node[PG_ELEMENT_NODES];
     abaqus *a = &r->data;
     for (int k = 0; k < r->type.nodes; k++) node[k] = r->node[r->order[k]];
-    PG_GROW (a->shell, a->room, a->maker->n + 1);
-    a->shell[a->maker->n] = (unsigned char) r->type.shell;
-    PG_TRY (pg_maker_element (a->maker, r->element, r->type.kind, node, r->set + 1, r->depth ? 0 : r->element_line));
+    PG_GROW (a->shell, a->workspace, a->builder->n + 1);
+    a->shell[a->builder->n] = (unsigned char) r->type.shell;
+    PG_TRY (pg_mesh_builder_element (a->builder, r->element, r->type.kind, node, r->set + 1, r->depth ? 0 : r->element_line));
     if (r->set >= 0) PG_TRY (abaqus_set_add (&a->elset.set[r->set], (abaqus_range) { r->element, r->element, 1, 0 }));
     r->have = -1;
 done:
@@ -153,7 +153,7 @@ static pg_status surface_line (reader *r)
         f.set = abaqus_set_find (&r->data.elset, word);
         if (f.set < 0) PG_TRY (ABAQUS_WRONG (r, "there is no element set '%.63s' before this line", word));
     }
-    PG_GROW (surface->face, surface->room, surface->n + 1);
+    PG_GROW (surface->face, surface->workspace, surface->n + 1);
     surface->face[surface->n++] = f;
 done:
     return status;

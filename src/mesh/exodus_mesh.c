@@ -16,7 +16,7 @@ typedef struct {
     const char *path;
     int    ncid, open;
     size_t nnode, n, nblock, bytes;
-    pg_mesh_maker *maker;
+    pg_mesh_builder *builder;
     unsigned char *shell;                              /* of each element: its sides 1, 2 are faces (n)                  */
 } reader;
 
@@ -141,7 +141,7 @@ static pg_status read_nodes (reader *r)
         if (one < 0) PG_FAIL (PG_E_FILE, "%.400s: no '%s'", r->path, name);
         NC_TRY (r, nc_get_var_double (r->ncid, one, x[a]));
     }
-    for (size_t i = 0; i < r->nnode; i++) PG_TRY (pg_maker_node (r->maker, (long) i + 1, (double[3]) { x[0][i], x[1][i], x[2][i] }));
+    for (size_t i = 0; i < r->nnode; i++) PG_TRY (pg_mesh_builder_node (r->builder, (long) i + 1, (double[3]) { x[0][i], x[1][i], x[2][i] }));
 done:
     for (size_t a = 0; a < 3; a++) pg_free (x[a]);
     pg_free (together);
@@ -205,12 +205,12 @@ static pg_status read_block (reader *r, size_t k, size_t *first)
     snprintf (name, sizeof name, "connect%zu", k + 1);
     PG_TRY (must (r, name, count * nodes, &connect));
     for (size_t e = 0; e < count; e++) {
-        PG_TRY (pg_maker_element (r->maker, (long) (*first + e) + 1, kind, connect + e * nodes, group, 0));
+        PG_TRY (pg_mesh_builder_element (r->builder, (long) (*first + e) + 1, kind, connect + e * nodes, group, 0));
         r->shell[*first + e] = (unsigned char) shell;
     }
     *first += count;
     name_of (r, "eb_names", k, name);
-    if (name[0]) PG_TRY (pg_maker_group (r->maker, pg_element_types[kind].dim, group, name));
+    if (name[0]) PG_TRY (pg_mesh_builder_group (r->builder, pg_element_types[kind].dim, group, name));
 done:
     pg_free (connect);
     return status;
@@ -220,7 +220,7 @@ done:
 static pg_status check_points (const reader *r)
 {
     pg_status status = PG_OK;
-    for (size_t e = 0; e < r->maker->n; e++) if (r->maker->kind[e] != PG_POINT1) goto done;
+    for (size_t e = 0; e < r->builder->n; e++) if (r->builder->kind[e] != PG_POINT1) goto done;
     PG_FAIL (PG_E_FILE, "%.400s: points without elements (SPHERE): a result of points is no mesh", r->path);
 done:
     return status;
@@ -238,11 +238,11 @@ static pg_status read_node_sets (reader *r)
         snprintf (name, sizeof name, "num_nod_ns%zu", k + 1);
         size_t m = length_of (r->ncid, name);
         name_of (r, "ns_names", k, name);
-        PG_TRY (pg_maker_nodeset (r->maker, name, id ? id[k] : (long) k + 1));
+        PG_TRY (pg_mesh_builder_nodeset (r->builder, name, id ? id[k] : (long) k + 1));
         if (m == 0) continue;
         snprintf (name, sizeof name, "node_ns%zu", k + 1);
         PG_TRY (must (r, name, m, &node));
-        for (size_t i = 0; i < m; i++) PG_TRY (pg_maker_nodeset_add (r->maker, node[i]));
+        for (size_t i = 0; i < m; i++) PG_TRY (pg_mesh_builder_nodeset_add (r->builder, node[i]));
         pg_free (node), node = NULL;
     }
 done:
@@ -258,7 +258,7 @@ static pg_status add_side (const reader *r, long element, long side)
     if (side < 1 || side > 6) PG_FAIL (PG_E_FILE, "%.400s: a side set has side %ld of element %ld", r->path, side, element);
     int first = r->shell[element - 1] ? 3 : 1;
     if (side < first) goto done;
-    PG_TRY (pg_maker_sideset_add (r->maker, element, (int) side - first));
+    PG_TRY (pg_mesh_builder_sideset_add (r->builder, element, (int) side - first));
 done:
     return status;
 }
@@ -275,7 +275,7 @@ static pg_status read_side_sets (reader *r)
         snprintf (name, sizeof name, "num_side_ss%zu", k + 1);
         size_t m = length_of (r->ncid, name);
         name_of (r, "ss_names", k, name);
-        PG_TRY (pg_maker_sideset (r->maker, name, id ? id[k] : (long) k + 1));
+        PG_TRY (pg_mesh_builder_sideset (r->builder, name, id ? id[k] : (long) k + 1));
         if (m == 0) continue;
         snprintf (name, sizeof name, "elem_ss%zu", k + 1);
         PG_TRY (must (r, name, m, &element));
@@ -293,11 +293,11 @@ done:
 static pg_status renumber (const reader *r)
 {
     pg_status status = PG_OK;
-    pg_mesh_maker *m = r->maker;
+    pg_mesh_builder *m = r->builder;
     long *node = NULL, *element = NULL;
     PG_TRY (whole_numbers (r, "node_num_map", r->nnode, &node));
     PG_TRY (whole_numbers (r, "elem_num_map", r->n, &element));
-    for (size_t i = 0; node && i < m->nlist; i++) if (m->list[i] < 1 || (size_t) m->list[i] > r->nnode) goto done;   /* the maker tells */
+    for (size_t i = 0; node && i < m->nlist; i++) if (m->list[i] < 1 || (size_t) m->list[i] > r->nnode) goto done;   /* the builder tells */
     for (size_t i = 0; node && i < m->nset_node; i++) if (m->set_node[i] < 1 || (size_t) m->set_node[i] > r->nnode) goto done;
     for (size_t i = 0; node && i < m->nnode; i++) m->node_id[i] = node[i];
     for (size_t i = 0; node && i < m->nlist; i++) m->list[i] = node[m->list[i] - 1];
@@ -309,10 +309,10 @@ done:
     return status;
 }
 
-static pg_status read_exodus (pg_mesh_maker *m, const mesh_bytes *file)
+static pg_status read_exodus (pg_mesh_builder *m, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
-    reader r = { .maker = m };
+    reader r = { .builder = m };
     size_t first = 0;
     PG_TRY (open_file (&r, file));
     if (r.n == 0) PG_FAIL (PG_E_FILE, "%.400s: no elements", r.path);

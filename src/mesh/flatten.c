@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A mesh one element thick between two planes of constant z, as CalculiX makes of plane elements, back to the plane mesh. */
-#include "maker.h"
+#include "builder.h"
 #include "element.h"
 #include <math.h>
 #include <string.h>
@@ -10,7 +10,7 @@ typedef struct {
     double  low, high;                                 /* z                                                              */
     signed char *level;                                /* of each node: 0 below, 1 between, 2 above                      */
     int    *twin;                                      /* of a node below: that above it, and back; -1                   */
-    pg_mesh_maker *maker;
+    pg_mesh_builder *builder;
 } plate;
 
 static pg_status find_levels (plate *p)
@@ -82,13 +82,13 @@ static pg_status add_elements (plate *p)
         long node[9];
         pg_element kind = PG_QUAD4;
         PG_TRY (pair_nodes (p, e, node, &kind));
-        PG_TRY (pg_maker_element (p->maker, m->element_id[e], kind, node, group_of (m, (size_t) m->block[e]), 0));
+        PG_TRY (pg_mesh_builder_element (p->builder, m->element_id[e], kind, node, group_of (m, (size_t) m->block[e]), 0));
     }
-    for (size_t b = 0; b < m->nblock; b++) PG_TRY (pg_maker_group (p->maker, 2, group_of (m, b), m->blocks[b].name));
+    for (size_t b = 0; b < m->nblock; b++) PG_TRY (pg_mesh_builder_group (p->builder, 2, group_of (m, b), m->blocks[b].name));
     for (size_t i = 0; i < m->nnode; i++) {
         if (p->level[i] != 0 || p->twin[i] < 0) continue;
         const double *a = m->x + 3 * i, *b = m->x + 3 * (size_t) p->twin[i];
-        PG_TRY (pg_maker_node (p->maker, m->node_id[i], (double[3]) { (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, 0 }));
+        PG_TRY (pg_mesh_builder_node (p->builder, m->node_id[i], (double[3]) { (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, 0 }));
     }
 done:
     return status;
@@ -116,11 +116,11 @@ static pg_status add_sets (plate *p)
     const pg_mesh *m = p->mesh;
     for (size_t s = 0; s < m->nnodes; s++) {
         const pg_mesh_nodes *set = &m->nodes[s];
-        PG_TRY (pg_maker_nodeset (p->maker, set->name, set->id));
+        PG_TRY (pg_mesh_builder_nodeset (p->builder, set->name, set->id));
         for (size_t k = 0; k < set->n; k++) {
             int i = set->node[k];
             if (p->level[i] == 2) i = p->twin[i];
-            if (i >= 0 && p->level[i] == 0) PG_TRY (pg_maker_nodeset_add (p->maker, m->node_id[i]));
+            if (i >= 0 && p->level[i] == 0) PG_TRY (pg_mesh_builder_nodeset_add (p->builder, m->node_id[i]));
         }
     }
     for (size_t s = 0; s < m->nsides; s++) {
@@ -128,8 +128,8 @@ static pg_status add_sets (plate *p)
         int begun = 0, side;
         for (size_t k = 0; k < set->n; k++) {
             if ((side = standing (p, (size_t) set->element[k], set->side[k])) < 0) continue;
-            if (!begun) PG_TRY (pg_maker_sideset (p->maker, set->name, set->id));
-            PG_TRY (pg_maker_sideset_add (p->maker, m->element_id[set->element[k]], side));
+            if (!begun) PG_TRY (pg_mesh_builder_sideset (p->builder, set->name, set->id));
+            PG_TRY (pg_mesh_builder_sideset_add (p->builder, m->element_id[set->element[k]], side));
             begun = 1;
         }
     }
@@ -175,17 +175,17 @@ pg_status pg_mesh_flatten (pg_mesh *mesh, size_t nfield, pg_mesh_field *fields)
     PG_ALLOC (p.level, mesh->nnode);
     PG_ALLOC (p.twin, mesh->nnode);
     PG_TRY (find_levels (&p));
-    PG_TRY (pg_maker_create (&p.maker, "the plane mesh"));
+    PG_TRY (pg_mesh_builder_create (&p.builder, "the plane mesh"));
     PG_TRY (add_elements (&p));
     PG_TRY (add_sets (&p));
-    PG_TRY (pg_maker_finish (p.maker, &flat));
+    PG_TRY (pg_mesh_builder_finish (p.builder, &flat));
     PG_TRY (flatten_fields (&p, &flat, nfield, fields));
     pg_mesh_clear (mesh);
     *mesh = flat;
     memset (&flat, 0, sizeof flat);
 done:
     pg_mesh_clear (&flat);
-    pg_maker_free (&p.maker);
+    pg_mesh_builder_free (&p.builder);
     pg_free (p.level), pg_free (p.twin);
     return status;
 }

@@ -19,8 +19,8 @@ typedef struct {
 typedef struct {
     mesh_cursor    c;
     const char    *first, *last;                       /* the line now                                                   */
-    pg_mesh_maker *maker;                              /* NULL: only the results count                                   */
-    size_t  nblock, room;
+    pg_mesh_builder *builder;                              /* NULL: only the results count                                   */
+    size_t  nblock, workspace;
     block  *block;
 } reader;
 
@@ -115,7 +115,7 @@ static pg_status binary_nodes (reader *r, long n, int format)
         const char *p = bytes (r, 4 + 3 * size);
         if (!p) MESH_FAIL (&r->c, "the file ends within node %ld of %ld", k + 1, n);
         double x[3] = { real_at (p + 4, format), real_at (p + 4 + size, format), real_at (p + 4 + 2 * size, format) };
-        if (r->maker) PG_TRY (pg_maker_node (r->maker, int_at (p), x));
+        if (r->builder) PG_TRY (pg_mesh_builder_node (r->builder, int_at (p), x));
     }
 done:
     return status;
@@ -134,10 +134,10 @@ static pg_status read_nodes (reader *r)
     }
     size_t width = id_width (format);
     for (; next (r) && !is_key (r, " -3"); count++) {
-        if (!r->maker) continue;
+        if (!r->builder) continue;
         if (!is_key (r, " -1") || !whole (r, 3, width, &id)) MESH_FAIL (&r->c, "is no line of a node");
         for (size_t a = 0; a < 3; a++) if (!real (r, 3 + width + 12 * a, 12, &x[a])) MESH_FAIL (&r->c, "node %ld: coordinate %zu is no number", id, a + 1);
-        PG_TRY (pg_maker_node (r->maker, id, x));
+        PG_TRY (pg_mesh_builder_node (r->builder, id, x));
     }
     if (count != n) MESH_FAIL (&r->c, "%ld nodes, but the block says %ld", count, n);
 done:
@@ -170,7 +170,7 @@ static pg_status binary_elements (reader *r, long n)
         int nodes = pg_element_types[kind].nodes;
         if (!(q = bytes (r, 4 * (size_t) nodes))) MESH_FAIL (&r->c, "the file ends within element %ld of %ld", k + 1, n);
         for (int i = 0; i < nodes; i++) node[i] = int_at (q + 4 * i);
-        if (r->maker) PG_TRY (pg_maker_element (r->maker, int_at (p), kind, node, int_at (p + 12), 0));
+        if (r->builder) PG_TRY (pg_mesh_builder_element (r->builder, int_at (p), kind, node, int_at (p + 12), 0));
     }
 done:
     return status;
@@ -190,7 +190,7 @@ static pg_status text_element (reader *r, int format)
         if (k % per_line == 0 && (!next (r) || !is_key (r, " -2"))) MESH_FAIL (&r->c, "element %ld has %zu of %zu nodes", id, k, nodes);
         if (!whole (r, 3 + width * (k % per_line), width, &node[k])) MESH_FAIL (&r->c, "element %ld has %zu of %zu nodes", id, k, nodes);
     }
-    PG_TRY (pg_maker_element (r->maker, id, kind, node, material, line));
+    PG_TRY (pg_mesh_builder_element (r->builder, id, kind, node, material, line));
 done:
     return status;
 }
@@ -205,8 +205,8 @@ static pg_status read_elements (reader *r)
         status = binary_elements (r, n);
         goto done;
     }
-    for (; next (r) && !is_key (r, " -3"); count++) if (r->maker) PG_TRY (text_element (r, format));
-    if (r->maker && count != n) MESH_FAIL (&r->c, "%ld elements, but the block says %ld", count, n);
+    for (; next (r) && !is_key (r, " -3"); count++) if (r->builder) PG_TRY (text_element (r, format));
+    if (r->builder && count != n) MESH_FAIL (&r->c, "%ld elements, but the block says %ld", count, n);
 done:
     return status;
 }
@@ -243,7 +243,7 @@ static pg_status read_block (reader *r)
     }
     b.data = r->c;
     PG_TRY (skip_values (r, &b));
-    PG_GROW (r->block, r->room, r->nblock + 1);
+    PG_GROW (r->block, r->workspace, r->nblock + 1);
     r->block[r->nblock++] = b;
 done:
     return status;
@@ -255,9 +255,9 @@ static pg_status read_material (reader *r)
     pg_status status = PG_OK;
     long n;
     char name[64];
-    if (!r->maker || !whole (r, 9, 5, &n)) goto done;
+    if (!r->builder || !whole (r, 9, 5, &n)) goto done;
     word (r, 14, 63, name, sizeof name);
-    for (int dim = 1; dim <= 3; dim++) PG_TRY (pg_maker_group (r->maker, dim, n, name));
+    for (int dim = 1; dim <= 3; dim++) PG_TRY (pg_mesh_builder_group (r->builder, dim, n, name));
 done:
     return status;
 }
@@ -281,9 +281,9 @@ static int knows_frd (const mesh_bytes *file)
     return file->size > 6 && (!memcmp (file->text, "    1C", 6) || !memcmp (file->text, "    2C", 6) || !memcmp (file->text, "    1U", 6));
 }
 
-static pg_status read_frd (pg_mesh_maker *m, const mesh_bytes *file)
+static pg_status read_frd (pg_mesh_builder *m, const mesh_bytes *file)
 {
-    reader r = { .c = mesh_begin (file), .maker = m };
+    reader r = { .c = mesh_begin (file), .builder = m };
     pg_status status = read_all (&r);
     pg_free (r.block);
     return status;

@@ -35,7 +35,7 @@ int gmsh_knows (const mesh_bytes *file, double *version)
     return find_header (&c) && mesh_line (&c, &first, &last) && mesh_real (&first, last, version);
 }
 
-pg_status gmsh_open (gmsh_reader *g, pg_mesh_maker *m, const mesh_bytes *file)
+pg_status gmsh_open (gmsh_reader *g, pg_mesh_builder *m, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
     const char *at, *last;
@@ -152,7 +152,7 @@ pg_status gmsh_names (gmsh_reader *g)
         if (stop - at < 2) GMSH_FAIL (g, "name %ld of %ld is not in quotes", k + 1, n);
         size_t length = (size_t) (stop - at - 2) < sizeof name - 1 ? (size_t) (stop - at - 2) : sizeof name - 1;
         memcpy (name, at + 1, length), name[length] = '\0';
-        PG_TRY (pg_maker_group (g->m, (int) dim, group, name));
+        PG_TRY (pg_mesh_builder_group (g->m, (int) dim, group, name));
     }
     PG_TRY (gmsh_end (g, "PhysicalNames"));
 done:
@@ -189,7 +189,7 @@ pg_status gmsh_element (gmsh_reader *g, const gmsh_type *type, long id, const lo
 {
     long sorted[PG_ELEMENT_NODES];
     for (int k = 0; k < pg_element_types[type->kind].nodes; k++) sorted[k] = node[type->order[k]];
-    return pg_maker_element (g->m, id, type->kind, sorted, group < 0 ? -group : group, line);
+    return pg_mesh_builder_element (g->m, id, type->kind, sorted, group < 0 ? -group : group, line);
 }
 
 /* ---- binary numbers --------------------------------------------------------------------------------------------------- */

@@ -7,7 +7,7 @@
 
 typedef struct {
     mesh_cursor    c;
-    pg_mesh_maker *m;
+    pg_mesh_builder *m;
     double         version;
     int            binary, swap;                       /* swap: the other byte order                                     */
 } gmsh_reader;
@@ -20,7 +20,7 @@ const char *gmsh_at (const gmsh_reader *g, char text[40]);
     PG_FAIL (PG_E_FILE, "%.400s, %s: %s", (g)->c.file->path, gmsh_at ((g), at_), why_); } while (0)
 
 int       gmsh_knows   (const mesh_bytes *file, double *version);
-pg_status gmsh_open    (gmsh_reader *g, pg_mesh_maker *m, const mesh_bytes *file);        /* up to and with $EndMeshFormat */
+pg_status gmsh_open    (gmsh_reader *g, pg_mesh_builder *m, const mesh_bytes *file);        /* up to and with $EndMeshFormat */
 int       gmsh_section (gmsh_reader *g, char name[64]);                                   /* next "$Name"; 0: end of file  */
 pg_status gmsh_skip    (gmsh_reader *g, const char *name);                                /* past "$EndName"               */
 pg_status gmsh_end     (gmsh_reader *g, const char *name);                                /* here must be "$EndName"       */

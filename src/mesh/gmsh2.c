@@ -14,7 +14,7 @@ static pg_status nodes_of_text (gmsh_reader *g, long n)
         PG_TRY (gmsh_line (g, "the last node", &at, &last));
         if (!mesh_whole (&at, last, &id)) GMSH_FAIL (g, "node %ld of %ld has no number", k + 1, n);
         PG_TRY (gmsh_place (g, &at, last, x));
-        PG_TRY (pg_maker_node (g->m, id, x));
+        PG_TRY (pg_mesh_builder_node (g->m, id, x));
     }
 done:
     return status;
@@ -64,7 +64,7 @@ static pg_status nodes_of_bytes (gmsh_reader *g, long n, int parametric)
         PG_TRY (gmsh_room (g, "a node", 1, parametric ? 36 : 28));
         int id = gmsh_int (g);
         for (int a = 0; a < 3; a++) x[a] = gmsh_double (g);
-        PG_TRY (pg_maker_node (g->m, id, x));
+        PG_TRY (pg_mesh_builder_node (g->m, id, x));
         if (!parametric) continue;
         int dim = gmsh_int (g), more = dim == 1 || dim == 2 ? dim : 0;
         gmsh_int (g);
@@ -129,7 +129,7 @@ done:
     return status;
 }
 
-static pg_status read (pg_mesh_maker *m, const mesh_bytes *file)
+static pg_status read (pg_mesh_builder *m, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
     gmsh_reader g;

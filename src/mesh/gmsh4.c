@@ -147,7 +147,7 @@ static pg_status nodes_of_text (gmsh_reader *g, long n)
         PG_TRY (gmsh_wholes (&number, "the number of a node", 1, &id));
         PG_TRY (gmsh_line (g, "the last node", &at, &last));
         PG_TRY (gmsh_place (g, &at, last, x));
-        PG_TRY (pg_maker_node (g->m, id, x));
+        PG_TRY (pg_mesh_builder_node (g->m, id, x));
     }
 done:
     return status;
@@ -164,7 +164,7 @@ static pg_status nodes_of_bytes (gmsh_reader *g, long n, size_t parameters)
         long id = gmsh_long (&number);
         for (int a = 0; a < 3; a++) x[a] = gmsh_double (g);
         g->c.at += 8 * parameters;
-        PG_TRY (pg_maker_node (g->m, id, x));
+        PG_TRY (pg_mesh_builder_node (g->m, id, x));
     }
 done:
     return status;
@@ -186,7 +186,7 @@ done:
 }
 
 /* ---- elements --------------------------------------------------------------------------------------------------------- */
-/* Once for each group of the entity: the maker knows twins. */
+/* Once for each group of the entity: the builder knows twins. */
 static pg_status add_element (reader *r, const entity *e, const gmsh_type *t, long id, const long *node, long line)
 {
     pg_status status = PG_OK;
@@ -266,7 +266,7 @@ done:
 }
 
 /* ---- file ------------------------------------------------------------------------------------------------------------- */
-static pg_status read (pg_mesh_maker *m, const mesh_bytes *file)
+static pg_status read (pg_mesh_builder *m, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
     reader r = { .nentity = 0 };

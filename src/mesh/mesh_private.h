@@ -10,7 +10,7 @@ typedef struct { const char *path, *text; size_t size; } mesh_bytes;
 typedef struct {
     const char *name;                                  /* "Gmsh 4.1"                                                     */
     int       (*knows) (const mesh_bytes *file);       /* told by content; text may hold the beginning of the file only  */
-    pg_status (*read)  (pg_mesh_maker *m, const mesh_bytes *file);
+    pg_status (*read)  (pg_mesh_builder *m, const mesh_bytes *file);
 } mesh_format;
 /* Mesh from bytes (pg_mesh_read after the file is in memory). */
 pg_status mesh_parse (pg_mesh *out, const mesh_bytes *file);

@@ -50,16 +50,16 @@ static pg_status unknown (const mesh_bytes *file)
 pg_status mesh_parse (pg_mesh *out, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
-    pg_mesh_maker *m = NULL;
+    pg_mesh_builder *m = NULL;
     size_t k = 0;
     memset (out, 0, sizeof *out);
     while (k < FORMATS && !formats[k]->knows (file)) k++;
     if (k == FORMATS) PG_TRY (unknown (file));
-    PG_TRY (pg_maker_create (&m, file->path));
+    PG_TRY (pg_mesh_builder_create (&m, file->path));
     PG_TRY (formats[k]->read (m, file));
-    PG_TRY (pg_maker_finish (m, out));
+    PG_TRY (pg_mesh_builder_finish (m, out));
 done:
-    pg_maker_free (&m);
+    pg_mesh_builder_free (&m);
     return status;
 }
 

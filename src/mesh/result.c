@@ -7,7 +7,7 @@
 pg_status fields_add (mesh_fields *f, size_t nnode, const char *name, int components, pg_mesh_field **field)
 {
     pg_status status = PG_OK;
-    PG_GROW (f->field, f->room, f->n + 1);
+    PG_GROW (f->field, f->workspace, f->n + 1);
     pg_mesh_field *new = &f->field[f->n];
     memset (new, 0, sizeof *new);
     snprintf (new->name, sizeof new->name, "%.31s", name);

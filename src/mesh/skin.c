@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The surface of a mesh as a mesh of faces, in a tree: distance to it, its box, its size. */
-#include "finder.h"
+#include "locator.h"
 #include <math.h>
 #include <string.h>
 
 struct pg_mesh_skin {
     pg_mesh faces;                                     /* dim of the space, elements of one less; x is borrowed          */
-    pg_mesh_finder *finder;
+    pg_mesh_locator *locator;
     int *element, *side;
 };
 
@@ -35,7 +35,7 @@ pg_status pg_skin_create (pg_mesh_skin **out, const pg_mesh *mesh)
     PG_ALLOC (f->start, f->n + 1);
     PG_ALLOC (f->node, 9 * f->n);
     fill (f, mesh, s->element, s->side);
-    PG_TRY (pg_finder_create (&s->finder, f));
+    PG_TRY (pg_mesh_locator_create (&s->locator, f));
     *out = s;
     s = NULL;
 done:
@@ -47,7 +47,7 @@ void pg_skin_free (pg_mesh_skin **skin)
 {
     pg_mesh_skin *s = *skin;
     if (!s) return;
-    pg_finder_free (&s->finder);
+    pg_mesh_locator_free (&s->locator);
     pg_free (s->faces.kind), pg_free (s->faces.start), pg_free (s->faces.node), pg_free (s->element), pg_free (s->side);
     pg_free (s);
     *skin = NULL;
@@ -59,7 +59,7 @@ double pg_skin_distance (const pg_mesh_skin *skin, const double *place, double r
     long k = -1;
     int real = 1;
     for (int a = 0; a < skin->faces.dim; a++) real &= isfinite (place[a]) != 0;
-    if (real) k = finder_nearest (skin->finder, place, reach, &d);
+    if (real) k = locator_nearest (skin->locator, place, reach, &d);
     if (face) *face = k;
     return d;
 }

@@ -83,9 +83,9 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;                  /* galerkin      */
     b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;                                        /* pg_consistency                 */
     b[PG_BYTES_SHAPES] += (4 + 8 * d * (d + 1)) * f->patched;                              /* galerkin_dilatation            */
-    if (f->direct) b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? (f->turns ? 25 + 8 * d : 7) : 0.25) * all + (100 + 16 * f->turns) * n + (factors ? 0 : 8 * f->dofs);       /* pg_sweep, bond */
+    if (f->direct) b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? (f->turns ? 25 + 8 * d : 7) : 0.25) * all + (100 + 16 * f->turns) * n + (factors ? 0 : 8 * f->dofs);       /* pg_bond_loop, bond */
     if (f->matrixless && f->turns) b[PG_BYTES_SHAPES] += (f->listed || f->by_list ? 9 : 0.25) * all + (120 + 40 * d) * n;         /* dilatations     */
-    b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;    /* states; breaker; factored      */
+    b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;    /* states; break_loop; factored      */
     b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
     if (f->matrixless && !f->explicit_ && !f->dynamic) b[PG_BYTES_VECTORS] += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));           /* lps_rows.c    */
     if (f->direct && !factors && !f->explicit_ && !f->dynamic)         /* the multilevel preconditioner: its finest level, its first coarse matrix */

@@ -50,7 +50,7 @@ typedef struct {
 
 typedef struct {
     const pg_problem *p;
-    pg_mesh_finder *finder;                            /* of a body that is a mesh                                       */
+    pg_mesh_locator *locator;                            /* of a body that is a mesh                                       */
     pg_nearest *near;
     double offset;                                     /* where the local spacing is the nominal one, m                  */
     extent *extent;                                    /* of each crack                                                  */
@@ -68,7 +68,7 @@ static int has_body (const surroundings *s, const double *x, double spacing)
     const pg_problem *p = s->p;
     double xi[3], d = 0;
     if (p->body.n) return pg_body_inside (&p->body, x, 0);
-    if (s->finder) return pg_finder_find (s->finder, x, xi, NULL) >= 0;
+    if (s->locator) return pg_mesh_locator_find (s->locator, x, xi, NULL) >= 0;
     long i = pg_nearest_find (s->near, x, NULL, NULL);
     for (int k = 0; i >= 0 && k < p->dim; k++) d = hypot (d, p->cloud.x[(size_t) i * (size_t) p->dim + (size_t) k] - x[k]);
     return i >= 0 && d <= (p->dim == 3 ? 0.87 : 0.71) * spacing;
@@ -88,7 +88,7 @@ static int is_tip (const surroundings *s, size_t crack, const double *x, const d
     const pg_problem *p = s->p;
     double h = spacing_at (s, x), place[3] = { 0, 0, 0 };
     if (meets_other (s, crack, x)) return 0;
-    for (int k = 0; k < p->dim; k++) place[k] = x[k] + (p->body.n || s->finder ? 0.5 : 1) * h * ahead[k];
+    for (int k = 0; k < p->dim; k++) place[k] = x[k] + (p->body.n || s->locator ? 0.5 : 1) * h * ahead[k];
     if (has_body (s, place, h)) return 1;
     s->extent[crack].open = 1;
     return 0;
@@ -280,7 +280,7 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     if (p->cracks.n == 0) return PG_OK;
     s.offset = offset_of (p, scene);
     if (p->direct && !(s.offset > 0)) return PG_OK;
-    if (p->part.mesh.n) PG_TRY (pg_finder_create (&s.finder, &p->part.mesh));
+    if (p->part.mesh.n) PG_TRY (pg_mesh_locator_create (&s.locator, &p->part.mesh));
     PG_TRY (pg_nearest_create (&s.near, p->dim, p->cloud.n, p->cloud.x));
     PG_ALLOC (made, p->cracks.n);
     PG_ALLOC (s.extent, p->cracks.n);
@@ -298,6 +298,6 @@ done:
     for (size_t k = 0; made && k < p->cracks.n; k++) pg_free (made[k]);
     pg_free (made), pg_free (out), pg_free (s.extent);
     pg_nearest_free (&s.near);
-    pg_finder_free (&s.finder);
+    pg_mesh_locator_free (&s.locator);
     return status;
 }

@@ -19,7 +19,7 @@ static void move_to (const pg_solver *s, pg_state *state, double factor)
 static pg_status look (pg_solver *s, pg_state *state, double factor, double *utilisation, double *top)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     double t0 = pg_seconds ();
     move_to (s, state, factor);
     PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, utilisation, b->kind, NULL));
@@ -33,7 +33,7 @@ done:
 /* Where the first chord reaches the limit: at `in` all bonds are below it (b->factor), at `out` some are not (b->utilisation). */
 static double first_chord (const pg_solver *s, const pg_state *state, double in, double out)
 {
-    const breaker *b = &s->breaker;
+    const break_loop *b = &s->break_loop;
     double share = 1;
     for (size_t i = 0; i < state->nbond; i++)
         if (b->utilisation[i] > 1) share = fmin (share, (1 - fmin (b->factor[i], 1)) / (b->utilisation[i] - fmin (b->factor[i], 1)));
@@ -44,7 +44,7 @@ static double first_chord (const pg_solver *s, const pg_state *state, double in,
 static pg_status way_out (pg_solver *s, pg_state *state, double in, double out, double *factor)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     double low, high, top;
     PG_TRY (look (s, state, in, b->factor, &low));
     PG_TRY (look (s, state, out, b->utilisation, &high));
@@ -78,10 +78,10 @@ static pg_status search (pg_solver *s, pg_state *state, double from, double *at,
     *found = 0;
     for (int k = 0; k < MOST_THIRDS && high - low > 1e-9 * from; k++) {
         double p = low + (high - low) / 3, q = high - (high - low) / 3;
-        PG_TRY (look (s, state, q, s->breaker.factor, &b));
+        PG_TRY (look (s, state, q, s->break_loop.factor, &b));
         if ((*found = b <= 1)) *at = q;
         if (*found) break;
-        PG_TRY (look (s, state, p, s->breaker.factor, &a));
+        PG_TRY (look (s, state, p, s->break_loop.factor, &a));
         if ((*found = a <= 1)) *at = p;
         if (*found) break;
         if (a < b) high = q; else low = p;
@@ -94,12 +94,12 @@ done:
 static pg_status choose (pg_solver *s, pg_state *state, double level, double *factor, int *breaks)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     double now = state->factor, top, there, in;
     int found = 1;
     *breaks = 0, *factor = state->step == 0 ? now : level;
     if (!s->problem->criterion->type || !b->system.force->utilisation) goto done;
-    PG_TRY (breaker_ready (b));
+    PG_TRY (break_loop_ready (b));
     PG_TRY (look (s, state, now, b->utilisation, &top));
     if (top <= 1 + close) {
         if (state->step == 0) goto done;
@@ -116,7 +116,7 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
     if (found) PG_TRY (way_out (s, state, in, now, factor));
     else {
         *factor = now;
-        if (!s->held++) pg_report_warn (&s->report, "at load factor %.6g, after event %ld, no lower factor lets the remaining bonds live: the constant loads drive the crack, which then runs "
+        if (!s->held++) pg_statistics_warn (&s->report, "at load factor %.6g, after event %ld, no lower factor lets the remaining bonds live: the constant loads drive the crack, which then runs "
                                         "at a held factor, bond by bond (in truth a dynamic event)", now, state->events);
         PG_TRY (look (s, state, now, b->utilisation, &top));
     }
@@ -128,7 +128,7 @@ pg_status affine_solve (pg_solver *s)
 {
     pg_status status = PG_OK;
     double first, second;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     PG_TRY (system_solve (sys, 0, s->base, NULL, &first));
     PG_TRY (system_solve (sys, 1, s->unit, NULL, &second));
     s->unit_residual = fmax (first, second);
@@ -140,26 +140,26 @@ done:
 static pg_status secant (pg_solver *s, double *out)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
-    pg_ledger zero = { 0 }, one = { 0 };
+    pg_system *sys = &s->break_loop.system;
+    pg_work_balance zero = { 0 }, one = { 0 };
     *out = 0;
-    if (!sys->force->ledger) return PG_OK;
-    PG_TRY (sys->force->ledger (sys->self, 0, s->base, NULL, &zero));
-    PG_TRY (sys->force->ledger (sys->self, 1, s->unit, NULL, &one));
+    if (!sys->force->work_balance) return PG_OK;
+    PG_TRY (sys->force->work_balance (sys->self, 0, s->base, NULL, &zero));
+    PG_TRY (sys->force->work_balance (sys->self, 1, s->unit, NULL, &one));
     for (size_t k = 0; k < one.npair; k++) *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
 done:
-    pg_ledger_clear (&zero), pg_ledger_clear (&one);
+    pg_work_balance_clear (&zero), pg_work_balance_clear (&one);
     return status;
 }
 
 static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     const pg_solver_options *o = &s->options;
     double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 0, now;
     for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
-    PG_TRY (breaker_kill (b, state, b->utilisation, (1 - width) * top, 1, factor));
+    PG_TRY (break_loop_kill (b, state, b->utilisation, (1 - width) * top, 1, factor));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
     state->events++, s->report.events++;
     double strain = s->report.energy_strain, work = b->work;
@@ -168,8 +168,8 @@ static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_st
     if (event_ended (s, state, factor, solved)) goto done;
     PG_TRY (solved);
     move_to (s, state, factor);
-    PG_TRY (breaker_account (b, factor, state->d, NULL, 1));
-    s->report.energy_strain = b->ledger.strain;
+    PG_TRY (break_loop_account (b, factor, state->d, NULL, 1));
+    s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (secant (s, &now));
     PG_TRY (event_stops (s, state, factor, now));
@@ -180,7 +180,7 @@ done:
 pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     double level = (double) s->next_level / (double) s->options.levels, factor;
     int breaks, start = state->step == 0;
     b->nbroken = 0;
@@ -190,13 +190,13 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     move_to (s, state, factor);
     state->factor = state->time = step->factor = step->time = factor;
     s->top_factor = fmax (s->top_factor, factor);
-    PG_TRY (breaker_account (b, factor, state->d, NULL, 1));
-    s->report.energy_strain = b->ledger.strain;
-    if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    PG_TRY (break_loop_account (b, factor, state->d, NULL, 1));
+    s->report.energy_strain = b->work_balance.strain;
+    if (b->work_balance.reaction) memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     if (start) PG_TRY (secant (s, &s->secant0));
     step->residual = s->unit_residual;
     if (s->problem->criterion->type && b->system.force->utilisation) {
-        long over = breaker_over (b, state, 1, &step->utilisation);
+        long over = break_loop_over (b, state, 1, &step->utilisation);
         if (!s->held || !breaks) s->report.bonds_over_limit += over;           /* at a held factor they are about to break      */
     }
     if (breaks) PG_TRY (break_here (s, state, factor, step));

@@ -13,7 +13,7 @@ static void offer (pg_progress *p, double share, const char *end, int even)
 void pg_solver_progress (const pg_solver *s, const pg_state *state, pg_progress *out)
 {
     const pg_solver_options *o = &s->options;
-    const breaker *b = &s->breaker;
+    const break_loop *b = &s->break_loop;
     *out = (pg_progress) { .event = o->event, .stiffness = NAN, .damage = NAN };
     if (o->stop_set && b->looked) out->damage = b->nearest;
     if (s->type->progress) offer (out, s->type->progress (s, state), o->marching ? "the time steps" : "the stages", 1);

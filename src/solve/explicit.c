@@ -44,7 +44,7 @@ static int has_springs (const pg_problem *p)
 pg_status explicit_create (pg_solver *s)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     const pg_force_type *force = sys->force;
     const pg_sparse *T = force->basis ? force->basis (sys->self) : NULL;
     motion *m = NULL;
@@ -56,7 +56,7 @@ pg_status explicit_create (pg_solver *s)
     PG_ALLOC (m->push, 2 * m->nheld);
     m->push0 = m->push + m->nheld;
     if (force->external && has_forces (s->problem)) PG_ALLOC (m->P, sys->ndof);
-    m->by_ledger = !force->external && force->ledger && (has_forces (s->problem) || has_springs (s->problem));
+    m->by_work_balance = !force->external && force->work_balance && (has_forces (s->problem) || has_springs (s->problem));
     m->nblock = (sys->ndof + BLOCK - 1) / BLOCK;
     PG_ALLOC (m->sum, m->nblock * SUMS);
     PG_ALLOC (m->inverse, sys->ndof);
@@ -85,7 +85,7 @@ static pg_status gather (pg_solver *s, double t, double *out)
 {
     pg_status status = PG_OK;
     const motion *m = s->motion;
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     if (m->nheld == 0) return PG_OK;
     PG_TRY (sys->force->impose (sys->self, t, sys->full));
     for (size_t k = 0; k < m->nheld; k++) out[k] = sys->full[m->held[k]];
@@ -97,7 +97,7 @@ pg_status explicit_follow (pg_solver *s, double before, double now, double next)
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     if (m->fresh) {                                    /* they come from the step before: one evaluation is enough       */
         double *first = m->before;
         m->before = m->goal, m->goal = m->next, m->next = first;
@@ -118,7 +118,7 @@ static pg_status find_bound (pg_solver *s)
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     int exact = !sys->force->bound && !sys->force->row_sums;
     if (!sys->force->bound) PG_TRY (system_refresh (sys, s->backup, NULL));
     PG_TRY (pg_force_bound (sys->force, sys->self, sys->ndof, sys->mass, sys->full, &m->omega, &m->from));
@@ -152,7 +152,7 @@ done:
 pg_status explicit_stable (pg_solver *s)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     motion *m = s->motion;
     for (size_t i = 0; i < sys->ndof; i++) {
         if (!(sys->mass[i] > 0)) PG_TRY (solver_fault (s, "solver.kind", "%s needs mass at every point: give the material a density", s->type->name));
@@ -176,13 +176,13 @@ double pg_solver_stable (const pg_solver *s, const char **from)
 static pg_status bury (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     const pg_force_type *force = b->system.force;
     char kind = s->problem->criterion->type->needs & PG_NEEDS_ENERGY ? 'e' : 't';
     for (size_t k = 0; k < b->changes.n; k++) {
         state->alive[b->changes.bond[k]] = 0;
         if (force->kind_of) kind = force->kind_of (b->system.self, state->d, b->changes.bond[k]);
-        PG_TRY (breaker_log (b, b->changes.bond[k], kind, NAN, t));
+        PG_TRY (break_loop_log (b, b->changes.bond[k], kind, NAN, t));
     }
     state->broken += (long) b->changes.n;
 done:
@@ -193,12 +193,12 @@ done:
 static pg_status break_by_sweep (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     double t0 = pg_seconds ();
-    PG_TRY (breaker_ready (b));
+    PG_TRY (break_loop_ready (b));
     PG_TRY (sys->force->utilisation (sys->self, state, state->d, b->utilisation, b->kind, NULL));
-    PG_TRY (breaker_kill (b, state, b->utilisation, 1, 1, t));
+    PG_TRY (break_loop_kill (b, state, b->utilisation, 1, 1, t));
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     if (b->changes.n) PG_TRY (system_refresh (sys, state, &b->changes));
 done:
@@ -208,7 +208,7 @@ done:
 pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking, double *reference)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     const pg_force_type *force = sys->force;
     double t0 = pg_seconds (), unused;
@@ -240,7 +240,7 @@ void explicit_total (const pg_solver *s, double *sum)
 pg_status explicit_lost (const pg_solver *s, const pg_state *state, double t)
 {
     const pg_problem *p = s->problem;
-    size_t i = 0, dim = (size_t) p->dim, components = (size_t) s->breaker.system.components;
+    size_t i = 0, dim = (size_t) p->dim, components = (size_t) s->break_loop.system.components;
     while (i + 1 < state->ndof && isfinite (state->d[i])) i++;
     const double *x = p->cloud.x + i / components * dim;
     return pg_error (PG_E_EQUILIBRIUM, PG_HERE, "the displacement of point %zu (%g, %g, %g) m is no longer finite at %s %.6g%s: loads or prescribed motions are too "
@@ -279,11 +279,11 @@ pg_status explicit_end (pg_solver *s, const pg_state *state, int last, const cha
 {
     pg_status status = PG_OK;
     int arrived;
-    PG_TRY (breaker_arrived (&s->breaker, state, state->d, &arrived));
+    PG_TRY (break_loop_arrived (&s->break_loop, state, state->d, &arrived));
     const char *unit = s->options.quasi_static ? "" : " s";
-    if (arrived) pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at %s %.6g%s", s->options.stop_set->name, what, t, unit);
+    if (arrived) pg_statistics_warn (&s->report, "the crack has arrived at %s: the run ends at %s %.6g%s", s->options.stop_set->name, what, t, unit);
     int many = state->events >= s->options.max_events && !last && s->options.max_events > 0;
-    if (many) pg_report_warn (&s->report, "stopped after solver.max_events = %ld events at %s %.6g%s", s->options.max_events, what, t, unit);
+    if (many) pg_statistics_warn (&s->report, "stopped after solver.max_events = %ld events at %s %.6g%s", s->options.max_events, what, t, unit);
     if (arrived || many || last) s->finished = 1;
 done:
     return status;

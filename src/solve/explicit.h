@@ -14,13 +14,13 @@ struct motion {
     double *inverse;                                   /* 1 / mass; 0: no mass                  (ndof)                   */
     double *sum;  size_t nblock;                       /* of every block of unknowns            (nblock x SUMS)          */
     double  most;                                      /* most external work so far, J                                   */
-    int     by_ledger;                                 /* work comes from the force's ledger, every time step            */
+    int     by_work_balance;                                 /* work comes from the force's work_balance, every time step            */
     int     fresh;                                     /* lists and P are those of t_n                                   */
     long    between;                                   /* time steps, or iterations, from look to look                   */
     double  omega, stable;  const char *from;          /* bound of the largest frequency, rad/s; 2 / omega, s             */
     double  damped, damped0;                           /* energy taken by damping, J; at the start of the step            */
     double  resist, resist0;                           /* m v_n v(n+1/2) where the last step was closed; as damped0       */
-    struct relaxing *relaxing;                         /* relax.h                                                        */
+    struct relaxation *relaxation;                         /* relax.h                                                        */
 };
 /* Work of loads over the half step before t_n and after; m v_n v before and after; m v v; not finite. */
 enum { LANES = 8 };                                   /* unknowns at once, a number the compiler knows              */

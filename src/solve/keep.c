@@ -19,7 +19,7 @@ done:
     return status;
 }
 
-/* A text of fixed room, ended whatever was read. */
+/* A text of fixed workspace, ended whatever was read. */
 static pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper *k)
 {
     pg_status status = k->bytes (k->context, name, size, text);
@@ -89,7 +89,7 @@ done:
 }
 
 /* Counts, numbers and texts of the report, seconds too: those of the run so far. */
-static pg_status keep_report (pg_report *r, const pg_keeper *k)
+static pg_status keep_report (pg_statistics *r, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     long *const word[9] = { &r->steps, &r->events, &r->iterations, &r->broken, &r->bonds_over_limit, &r->factorizations, &r->updates, &r->solves, &r->preconditioners };
@@ -135,7 +135,7 @@ done:
 }
 
 /* Bonds that died in the step at hand. */
-static pg_status keep_broken (breaker *b, const pg_problem *p, const pg_keeper *k)
+static pg_status keep_broken (break_loop *b, const pg_problem *p, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     long n = (long) b->nbroken;
@@ -151,7 +151,7 @@ done:
 }
 
 /* Forces and displacements of the last accounted states, between which work is summed. */
-static pg_status keep_ledger (pg_ledger *l, const char *name, size_t nload, long pairs, int reactions, const pg_keeper *k)
+static pg_status keep_work_balance (pg_work_balance *l, const char *name, size_t nload, long pairs, int reactions, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     char part[64];
@@ -162,7 +162,7 @@ static pg_status keep_ledger (pg_ledger *l, const char *name, size_t nload, long
     if (count[0] < 0) goto done;
     BOUND (k, part, count[1], reactions, 1);
     if (k->reading) {
-        pg_ledger_clear (l);
+        pg_work_balance_clear (l);
         l->npair = (size_t) count[0];
         PG_ALLOC (l->force, l->npair);
         PG_ALLOC (l->displacement, l->npair);
@@ -215,27 +215,27 @@ done:
     return status;
 }
 
-/* Entries of a ledger of this problem; -1: the force has none. */
+/* Entries of a work balance of this problem; -1: the force has none. */
 static pg_status count_pairs (pg_solver *s, long *pairs)
 {
     pg_status status = PG_OK;
-    const pg_system *sys = &s->breaker.system;
-    pg_ledger ledger = { 0 };
-    if (!sys->force->ledger) goto done;
-    PG_TRY (sys->force->ledger (sys->self, s->backup->time, s->backup->d, NULL, &ledger));
-    *pairs = (long) ledger.npair;
+    const pg_system *sys = &s->break_loop.system;
+    pg_work_balance work_balance = { 0 };
+    if (!sys->force->work_balance) goto done;
+    PG_TRY (sys->force->work_balance (sys->self, s->backup->time, s->backup->d, NULL, &work_balance));
+    *pairs = (long) work_balance.npair;
 done:
-    pg_ledger_clear (&ledger);
+    pg_work_balance_clear (&work_balance);
     return status;
 }
 
 static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     size_t nload = s->problem->nload;
     long pairs = -1;
-    long count[11] = { s->finished, s->overlap_told, s->energy_told, s->skips_told, s->next_level, (long) s->ended, s->ledger_fresh, b->round,
+    long count[11] = { s->finished, s->overlap_told, s->energy_told, s->skips_told, s->next_level, (long) s->ended, s->work_balance_fresh, b->round,
                        s->unit != NULL, s->force0 != NULL, s->spared_told };
     double number[5] = { s->unit_residual, s->secant0, b->work, b->work0, b->stored0 };
     PG_TRY (k->counts (k->context, "solver.counts", 11, count));
@@ -244,7 +244,7 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     BOUND (k, "the round", count[7], 0, most);
     BOUND (k, "the end of the run", count[5], 0, 63);
     s->finished = (int) count[0], s->overlap_told = (int) count[1], s->energy_told = (int) count[2], s->skips_told = (int) count[3];
-    s->next_level = count[4], s->ended = (pg_status) count[5], s->ledger_fresh = (int) count[6], b->round = count[7], s->spared_told = (int) count[10];
+    s->next_level = count[4], s->ended = (pg_status) count[5], s->work_balance_fresh = (int) count[6], b->round = count[7], s->spared_told = (int) count[10];
     s->unit_residual = number[0], s->secant0 = number[1], b->work = number[2], b->work0 = number[3], b->stored0 = number[4];
     PG_TRY (keep_text ("solver.why", sizeof s->why, s->why, k));
     PG_TRY (keep_report (&s->report, k));
@@ -257,8 +257,8 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     if (count[9] && s->force0) PG_TRY (k->numbers (k->context, "solver.force0", b->system.ndof, s->force0));
     PG_TRY (keep_broken (b, s->problem, k));
     if (k->reading) PG_TRY (count_pairs (s, &pairs));
-    PG_TRY (keep_ledger (&b->ledger, "ledger", nload, pairs, 1, k));
-    PG_TRY (keep_ledger (&b->before, "before", nload, pairs, 0, k));
+    PG_TRY (keep_work_balance (&b->work_balance, "work_balance", nload, pairs, 1, k));
+    PG_TRY (keep_work_balance (&b->before, "before", nload, pairs, 0, k));
 done:
     return status;
 }
@@ -267,8 +267,8 @@ done:
 static pg_status rebuild (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
-    pg_report counts = s->report;
+    pg_system *sys = &s->break_loop.system;
+    pg_statistics counts = s->report;
     int stale = sys->stale;
     unsigned char *alive = state->alive;
     double rent = sys->rent, pace = sys->pace;
@@ -302,7 +302,7 @@ pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
     PG_TRY (keep_state (state, "state", k));
     PG_TRY (keep_state (s->backup, "backup", k));
     PG_TRY (keep_solver (s, k));
-    PG_TRY (keep_system (&s->breaker.system, s->type->way == SOLVES, k));
+    PG_TRY (keep_system (&s->break_loop.system, s->type->way == SOLVES, k));
     if (s->type->keep) PG_TRY (s->type->keep (s, k));
     if (k->reading) PG_TRY (rebuild (s, state));
 done:

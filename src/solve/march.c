@@ -59,7 +59,7 @@ done:
 pg_status march_start (pg_solver *s, pg_state *state)
 {
     s->next_level = 1;
-    return system_refresh (&s->breaker.system, state, NULL);
+    return system_refresh (&s->break_loop.system, state, NULL);
 }
 
 static double time_at (const pg_solver *s, long n) { return n == s->options.time_steps ? s->options.end : (double) n * s->options.dt; }
@@ -95,14 +95,14 @@ static pg_status move (pg_solver *s, pg_state *state, sweep_range range, int set
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     double t0 = pg_seconds (), total[SUMS], c = s->options.rayleigh_mass, dt = s->options.dt;
     sweeping all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, dt, c, settle, launch }, range, sys->ndof, m->sum };
     if (launch && !settle) explicit_release (s, state);
     pg_parallel (s->problem->threads, m->nblock, work_on_blocks, &all);
     explicit_total (s, total);
     if (settle) {
-        if (!m->by_ledger) s->breaker.work += push_work (s, total[SUM_A], m->before, m->goal);
+        if (!m->by_work_balance) s->break_loop.work += push_work (s, total[SUM_A], m->before, m->goal);
         m->resist = total[SUM_D];
         m->damped += 0.5 * dt * c * total[SUM_C];
         s->report.energy_kinetic = 0.5 * total[SUM_K];
@@ -110,7 +110,7 @@ static pg_status move (pg_solver *s, pg_state *state, sweep_range range, int set
             s->report.energy_kinetic += 0.5 * sys->mass[m->held[k]] * (m->goal[k] - m->before[k]) * (m->next[k] - m->goal[k]) / (dt * dt);
     }
     if (launch) {
-        if (!m->by_ledger) s->breaker.work += push_work (s, total[SUM_B], m->goal, m->next);
+        if (!m->by_work_balance) s->break_loop.work += push_work (s, total[SUM_B], m->goal, m->next);
         m->damped += 0.5 * dt * c * m->resist;
         for (size_t k = 0; k < m->nheld; k++) state->d[m->held[k]] = m->next[k];
         total[SUM_BAD] += sweep_bad (m->next, 0, m->nheld);
@@ -137,7 +137,7 @@ static void show_held (const pg_solver *s, pg_state *state, int staggered)
 static void take_reactions (pg_solver *s)
 {
     motion *m = s->motion;
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     double dt = s->options.dt;
     for (size_t k = 0; k < m->nheld; k++) {
         size_t i = m->held[k];
@@ -158,11 +158,11 @@ done:
     return status;
 }
 
-/* ---- ledger ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- work_balance ---------------------------------------------------------------------------------------------------------------------- */
 /* What motion adds to the residual, for reactions. */
 static void inertia (pg_solver *s, const pg_state *state, int staggered, double *out)
 {
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     double c = s->options.rayleigh_mass, half = staggered ? 0.5 * s->options.dt : 0;
     for (size_t i = 0; i < sys->ndof; i++) out[i] = -sys->mass[i] * (state->a[i] + c * (state->v[i] - half * state->a[i]));
     for (size_t k = 0; c > 0 && k < s->motion->nheld; k++) out[s->motion->held[k]] = -sys->mass[s->motion->held[k]] * state->a[s->motion->held[k]];
@@ -171,14 +171,14 @@ static void inertia (pg_solver *s, const pg_state *state, int staggered, double 
 static pg_status account (pg_solver *s, pg_state *state, double t, int staggered, int book)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     double t0 = pg_seconds ();
-    if (!sys->force->ledger) return PG_OK;
+    if (!sys->force->work_balance) return PG_OK;
     inertia (s, state, staggered, sys->full);
-    PG_TRY (sys->force->ledger (sys->self, t, state->d, sys->full, &b->ledger));
-    if (book) PG_TRY (breaker_book (b, 1));
-    s->report.energy_strain = b->ledger.strain;
+    PG_TRY (sys->force->work_balance (sys->self, t, state->d, sys->full, &b->work_balance));
+    if (book) PG_TRY (break_loop_book (b, 1));
+    s->report.energy_strain = b->work_balance.strain;
 done:
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     return status;
@@ -190,7 +190,7 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     double dt = s->options.dt, c = s->options.rayleigh_mass, kinetic = 0;
     PG_TRY (explicit_follow (s, 0, 0, dt));
     for (size_t k = 0; k < m->nheld; k++) {
@@ -211,14 +211,14 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
     show_held (s, state, staggered);
     s->report.energy_kinetic = kinetic;
     PG_TRY (account (s, state, 0, staggered, 1));
-    s->breaker.work = s->report.energy_strain + kinetic;
+    s->break_loop.work = s->report.energy_strain + kinetic;
 done:
     return status;
 }
 
 static pg_status look (pg_solver *s, pg_state *state, pg_step *step, long n)
 {
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     step->nbroken = b->nbroken, step->broken = b->broken;
     step->time = time_at (s, n), step->iterations = b->round;
     b->stopped = 1;
@@ -233,8 +233,8 @@ static pg_status check_growth (pg_solver *s, double t)
     pg_status status = PG_OK;
     motion *m = s->motion;
     double stored = s->report.energy_strain + s->report.energy_kinetic;
-    m->most = fmax (m->most, fabs (s->breaker.work));
-    if ((s->problem->nload == 0 || s->breaker.system.force->ledger) && stored > 10 * m->most)
+    m->most = fmax (m->most, fabs (s->break_loop.work));
+    if ((s->problem->nload == 0 || s->break_loop.system.force->work_balance) && stored > 10 * m->most)
         PG_FAIL (PG_E_EQUILIBRIUM, "the energy of the body has grown to %.3g J at t = %.6g s, while %.3g J of work were done: breaking has made "
                  "parts of the body stiffer, which feeds energy into it or makes the time step unstable; try a smaller solver.dt, solver.kind: newmark, or "
                  "method.force: bond, whose bonds only ever soften it", stored, t, m->most);
@@ -245,15 +245,15 @@ done:
 static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long n, int staggered)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
-    const pg_report *r = &s->report;
+    break_loop *b = &s->break_loop;
+    const pg_statistics *r = &s->report;
     double t = time_at (s, n);
     int breaks = (b->system.force->march || b->system.force->utilisation) && s->problem->criterion->type;
-    if (!s->motion->by_ledger) PG_TRY (account (s, state, t, staggered, 0));
+    if (!s->motion->by_work_balance) PG_TRY (account (s, state, t, staggered, 0));
     s->report.energy_damping = s->motion->damped;
     PG_TRY (check_growth (s, t));
     step->dissipated = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0) - (s->motion->damped - s->motion->damped0);
-    if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (b->work_balance.reaction) memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     state->time = step->time = t;
     state->factor = step->factor = t / s->options.end;
     step->level = explicit_level (s, s->options.time_steps, n);
@@ -267,7 +267,7 @@ done:
 pg_status march_step (pg_solver *s, pg_state *state, pg_step *step, sweep_range range, int staggered)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     motion *m = s->motion;
     long n = state->iterations + b->round, last = explicit_row (s, s->options.time_steps, state->iterations);
     int settled = 1;
@@ -284,11 +284,11 @@ pg_status march_step (pg_solver *s, pg_state *state, pg_step *step, sweep_range 
         b->round = ++n - state->iterations;
         PG_TRY (arrive (s, state, n));
         int due = b->watch && n % m->between == 0 && n < last;
-        settled = n == last || due || m->by_ledger;
+        settled = n == last || due || m->by_work_balance;
         if (!settled) continue;
         PG_TRY (move (s, state, range, 1, 0));
         show_held (s, state, staggered);
-        if (m->by_ledger) PG_TRY (account (s, state, time_at (s, n), staggered, 1));
+        if (m->by_work_balance) PG_TRY (account (s, state, time_at (s, n), staggered, 1));
         if (due) PG_TRY (look (s, state, step, n));
     }
     step->iterations = b->round;
@@ -306,6 +306,6 @@ void march_refused (pg_solver *s)
     m->fresh = 0;
 }
 
-int march_done (const pg_solver *s, const pg_state *state) { return state->iterations + s->breaker.round >= s->options.time_steps; }
+int march_done (const pg_solver *s, const pg_state *state) { return state->iterations + s->break_loop.round >= s->options.time_steps; }
 
-double march_progress (const pg_solver *s, const pg_state *state) { return (double) (state->iterations + s->breaker.round) / (double) s->options.time_steps; }
+double march_progress (const pg_solver *s, const pg_state *state) { return (double) (state->iterations + s->break_loop.round) / (double) s->options.time_steps; }

@@ -54,7 +54,7 @@ static void predict (const course *m, double *d)
 static void add_inertia (void *context, const double *d, double *residual, double *reference)
 {
     const course *m = context;
-    pg_system *sys = &m->s->breaker.system;
+    pg_system *sys = &m->s->break_loop.system;
     const pg_state *f = m->from;
     double *v = m->s->work1, *a = m->s->work3, size = 0, parts = 0, alpha = m->s->options.alpha;
     rates (m, d, v, a);
@@ -81,7 +81,7 @@ static const dynamics *newmark_dynamics (pg_solver *s)
 static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     int last = state->step + 1 >= s->options.steps;
     course m = { s, s->backup, coefficients_of (&s->options), last ? s->options.end : (double) (state->step + 1) * s->options.dt };
     dynamics dyn = *newmark_dynamics (s);
@@ -93,15 +93,15 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     rates (&m, state->d, state->v, state->a);
     if (s->options.alpha != 0) PG_TRY (newmark_remember (s, t, state));
     s->report.energy_kinetic = newmark_kinetic (s, state->v);
-    s->report.energy_strain = b->ledger.strain;
+    s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (s->report.energy_strain + s->report.energy_kinetic - b->stored0);
-    if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (b->work_balance.reaction) memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     state->time = step->time = t;
     state->factor = step->factor = t / s->options.end;
     while ((double) s->next_level / (double) s->options.levels <= step->factor * (1 + 1e-12)) s->next_level++, step->level = 1;
     int arrived;
-    PG_TRY (breaker_arrived (b, state, state->d, &arrived));
-    if (arrived) pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at t = %.6g s", s->options.stop_set->name, t);
+    PG_TRY (break_loop_arrived (b, state, state->d, &arrived));
+    if (arrived) pg_statistics_warn (&s->report, "the crack has arrived at %s: the run ends at t = %.6g s", s->options.stop_set->name, t);
     if (arrived || last) s->finished = 1;
 done:
     return status;

@@ -13,7 +13,7 @@ static const pg_sparse *elimination (const pg_system *sys)
 /* residual -= C v */
 void newmark_damp (pg_solver *s, const double *v, double *residual)
 {
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     double *Kv = s->work2, cm = s->options.rayleigh_mass, ck = s->options.rayleigh_stiffness;
     system_add_mass (sys, -cm, v, residual);
     if (ck == 0) return;
@@ -25,14 +25,14 @@ void newmark_damp (pg_solver *s, const double *v, double *residual)
 void newmark_resist (pg_solver *s, const double *v, const double *a, double *residual)
 {
     newmark_damp (s, v, residual);
-    system_add_mass (&s->breaker.system, -1, a, residual);
+    system_add_mass (&s->break_loop.system, -1, a, residual);
 }
 
 /* force0 = P - F_int - C V at the state */
 pg_status newmark_remember (pg_solver *s, double t, const pg_state *state)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     double unused;
     PG_TRY (sys->force->balance (sys->self, t, state->d, s->force0, &unused));
     newmark_damp (s, state->v, s->force0);
@@ -42,7 +42,7 @@ done:
 
 double newmark_kinetic (pg_solver *s, const double *v)
 {
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     double sum = 0, *Mv = s->work2;
     memset (Mv, 0, sys->ndof * sizeof *Mv);
     system_add_mass (sys, 1, v, Mv);
@@ -54,7 +54,7 @@ double newmark_kinetic (pg_solver *s, const double *v)
 pg_status newmark_supports (pg_solver *s, double t, int start)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     double *z[3], e = s->options.dt / 16;
     s->support_updates = s->report.updates;
     if (!elimination (sys)) return PG_OK;
@@ -75,7 +75,7 @@ done:
 
 void newmark_follow (pg_solver *s, double t, double *v, double *a)
 {
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     if (!elimination (sys)) return;
     if (s->support_updates != s->report.updates) newmark_supports (s, t, 0);
     for (size_t k = 1; k < 3; k++) {
@@ -134,15 +134,15 @@ done:
 static pg_status first_account (pg_solver *s, const pg_state *state)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     s->report.energy_kinetic = newmark_kinetic (s, state->v);
-    if (!sys->force->ledger) goto done;
+    if (!sys->force->work_balance) goto done;
     memset (sys->full, 0, sys->ndof * sizeof *sys->full);
     newmark_resist (s, state->v, state->a, sys->full);
-    PG_TRY (sys->force->ledger (sys->self, state->time, state->d, sys->full, &b->ledger));
-    PG_TRY (breaker_book (b, 1));
-    s->report.energy_strain = b->ledger.strain;
+    PG_TRY (sys->force->work_balance (sys->self, state->time, state->d, sys->full, &b->work_balance));
+    PG_TRY (break_loop_book (b, 1));
+    s->report.energy_strain = b->work_balance.strain;
     b->work = s->report.energy_strain + s->report.energy_kinetic;
 done:
     return status;
@@ -151,7 +151,7 @@ done:
 pg_status newmark_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     size_t ndof = sys->ndof;
     double reference;
     PG_TRY (system_refresh (sys, state, NULL));

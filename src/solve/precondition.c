@@ -40,12 +40,12 @@ static void tell (pg_system *s)
 {
     pg_multilevel_info info;
     char *text = s->report->preconditioner;
-    size_t room = sizeof s->report->preconditioner, at = 0;
+    size_t workspace = sizeof s->report->preconditioner, at = 0;
     pg_multilevel_describe (s->multilevel, &info);
-    at = (size_t) snprintf (text, room, "multilevel, %d levels of", info.levels);
-    for (int k = 0; k < info.levels && k < 8 && at < room; k++)
-        at += (size_t) snprintf (text + at, room - at, "%s%zu", k ? ", " : " ", info.unknowns[k]);
-    if (at < room) snprintf (text + at, room - at, " unknowns");
+    at = (size_t) snprintf (text, workspace, "multilevel, %d levels of", info.levels);
+    for (int k = 0; k < info.levels && k < 8 && at < workspace; k++)
+        at += (size_t) snprintf (text + at, workspace - at, "%s%zu", k ? ", " : " ", info.unknowns[k]);
+    if (at < workspace) snprintf (text + at, workspace - at, " unknowns");
 }
 
 pg_status system_make_multilevel (pg_system *s)

@@ -19,7 +19,7 @@ typedef struct {
     const pg_force_type *force;
     void                *self;
     const pg_solver_options *options;
-    pg_report           *report;
+    pg_statistics           *report;
     int       components, stale, umfpack, mode, unshifted, all_weak;       /* all_weak: every unknown gets the shift (touched)  */
     unsigned long revision;                            /* of K when it was last factored or found stale                  */
     long      spared;                                  /* solves by the factor of an earlier K                           */
@@ -80,29 +80,29 @@ typedef struct {
     long       began;                                  /* round at which this call began                                 */
     pg_watch   watch; void *watching; int stopped;     /* the caller's look between rounds; 1: it ended the step         */
     double     work0, stored0;                         /* at the start of the step, J                                    */
-    pg_ledger  ledger, before;                         /* now; at the last accounted state                               */
+    pg_work_balance  work_balance, before;                         /* now; at the last accounted state                               */
     double     work;                                   /* external work, J                                               */
     double    *damage;                                 /* with stop.set (6 n)                                            */
     double     nearest, nearest0; int looked;          /* largest damage of stop.set: now, when it was first looked at   */
-} breaker;
-pg_status breaker_create (breaker *b);
-void      breaker_free   (breaker *b);
+} break_loop;
+pg_status break_loop_create (break_loop *b);
+void      break_loop_free   (break_loop *b);
 /* The arrays of a sweep of utilisation, when they are first needed. */
-pg_status breaker_ready  (breaker *b);
+pg_status break_loop_ready  (break_loop *b);
 /* Notes a bond that died at time (or load factor) t. */
-pg_status breaker_log    (breaker *b, size_t bond, char kind, double utilisation, double t);
+pg_status break_loop_log    (break_loop *b, size_t bond, char kind, double utilisation, double t);
 /* Kills the bonds with measure[i] >= cut, logs them with the given utilisation scale. */
-pg_status breaker_kill   (breaker *b, pg_state *state, const double *measure, double cut, double scale, double t);
+pg_status break_loop_kill   (break_loop *b, pg_state *state, const double *measure, double cut, double scale, double t);
 /* Solve, break, update, solve ... at time t until no bond is over its limit; d is left in equilibrium. */
-pg_status equilibrate    (breaker *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step);
+pg_status equilibrate    (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step);
 /* Live bonds over their limit (and its ties) in the last sweep, measured utilisation times scale; *top: the largest. */
-long      breaker_over   (const breaker *b, const pg_state *state, double scale, double *top);
-/* The ledger of (t, d), and with it the work done between the last accounted state and this one (loads scaled by `scale`). */
-pg_status breaker_account (breaker *b, double t, const double *d, const dynamics *dyn, double scale);
-/* The work alone, from the ledger at hand. */
-pg_status breaker_book    (breaker *b, double scale);
+long      break_loop_over   (const break_loop *b, const pg_state *state, double scale, double *top);
+/* The work_balance of (t, d), and with it the work done between the last accounted state and this one (loads scaled by `scale`). */
+pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale);
+/* The work alone, from the work balance at hand. */
+pg_status break_loop_book    (break_loop *b, double scale);
 /* Has the damage of a point of options.stop_set reached options.stop_damage? */
-pg_status breaker_arrived (breaker *b, const pg_state *state, const double *d, int *arrived);
+pg_status break_loop_arrived (break_loop *b, const pg_state *state, const double *d, int *arrived);
 
 /* ---- methods ---------------------------------------------------------------------------------------------------------------- */
 typedef struct {
@@ -127,8 +127,8 @@ struct pg_solver {
     const pg_solver_type *type;
     pg_solver_options options;
     const pg_problem *problem;
-    breaker   breaker;
-    pg_report report;
+    break_loop   break_loop;
+    pg_statistics report;
     int       started, finished, overlap_told, energy_told, skips_told, spared_told;
     long      next_level;                              /* next level to report: next_level / levels                      */
     double   *unit;                                    /* event stepping: displacement at load factor 1                  */
@@ -136,7 +136,7 @@ struct pg_solver {
     long      held;                                    /* affine loads: events at a held load factor                     */
     double    unit_residual;                           /* of `unit`                                                      */
     pg_status ended;  char why[1024];                  /* event stepping: why no step can follow, told by the next       */
-    int       ledger_fresh;                            /* the ledger is that of `unit`                                   */
+    int       work_balance_fresh;                            /* the work balance is that of `unit`                                   */
     double    secant0;                                 /* event stepping: first work per squared load factor             */
     double    secant, top_factor;                      /* event stepping: work per squared load factor over the first; largest load factor */
     pg_state *backup;                                  /* last accepted state, for refused steps                         */

@@ -45,7 +45,7 @@ static int recur (lanczos *l, double *T)
 pg_status pg_solver_fastest (pg_solver *s, const pg_state *state, double *omega)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     size_t n = sys->ndof;
     lanczos l = { .s = sys };
     double T[STEPS * STEPS] = { 0 }, small[STEPS * STEPS], lambda[STEPS];

@@ -207,7 +207,7 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
         if (s->problem->direct) PG_FAIL (PG_E_NOT_SPD, "%s; bonds leave parts of the body free to move: hold them, or set solver.linear: pcg", pg_last_error ());
         if (!automatic || s->umfpack) PG_FAIL (PG_E_NOT_SPD, "%s; with essential: nitsche raise method.nitsche_factor, or set solver.linear: umfpack",
                                                pg_last_error ());
-        pg_report_warn (s->report, "K is not positive definite: UMFPACK instead of Cholesky from step %ld on (with essential: nitsche, a larger "
+        pg_statistics_warn (s->report, "K is not positive definite: UMFPACK instead of Cholesky from step %ld on (with essential: nitsche, a larger "
                         "method.nitsche_factor may help)", s->report->steps);
         s->linear->free (&s->factor);
         s->linear = pg_linear_find ("umfpack");
@@ -287,14 +287,14 @@ static pg_status choose_mode (pg_system *s, const dynamics *dyn)
     int automatic = strcmp (linear, "auto") == 0;
     PG_TRY (system_can_precondition (s, dyn, &can));
     if (!can && strcmp (s->options->preconditioner, "multilevel") == 0)
-        pg_report_warn (s->report, "preconditioner: multilevel needs a body at rest and a force that tells the rows of K, with supports on points: the diagonal instead "
+        pg_statistics_warn (s->report, "preconditioner: multilevel needs a body at rest and a force that tells the rows of K, with supports on points: the diagonal instead "
                         "where there is no factor");
     s->mode = SYSTEM_FACTOR;
     if (!system_has_matrix (s) || (strcmp (linear, "pcg") == 0 && operator_of (s))) s->mode = SYSTEM_NO_FACTOR;
     else if (automatic && operator_of (s) && dyn) s->mode = SYSTEM_TRIAL;
     else if (automatic && operator_of (s) && by_sweeps (s, can)) {
         s->mode = SYSTEM_NO_FACTOR;
-        pg_report_skip (s->report, NAN, "stiffness matrix, analysis and factorization", "so many points: conjugate gradients with sums over the bonds are "
+        pg_statistics_skip (s->report, NAN, "stiffness matrix, analysis and factorization", "so many points: conjugate gradients with sums over the bonds are "
                         "cheaper by stored rates");
     } else if (automatic && operator_of (s) && s->problem->dim == 3 && s->ndof > 200000) s->mode = SYSTEM_NO_FACTOR;
 done:
@@ -307,7 +307,7 @@ static void tell_small_step (pg_system *s, size_t used)
 {
     char why[160];
     snprintf (why, sizeof why, "the time step is small, so that the mass dominates: %zu iterations of conjugate gradients did in the first step", used);
-    pg_report_skip (s->report, NAN, "stiffness matrix, analysis and factorization", why);
+    pg_statistics_skip (s->report, NAN, "stiffness matrix, analysis and factorization", why);
 }
 
 enum { LAST_TRY = 2000 };                              /* iterations by the diagonal where the better preconditioner failed: probably a loaded part has come loose */

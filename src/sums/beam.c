@@ -137,7 +137,7 @@ static double between (const double *c, size_t i, size_t j)
     return a == b ? a : a + b > 0 ? 2 * a * b / (a + b) : 0;
 }
 
-pg_beam pg_beam_between (const pg_sweep_setting *s, size_t i, size_t j, const double *xi, double weight)
+pg_beam pg_beam_between (const pg_bond_loop_setting *s, size_t i, size_t j, const double *xi, double weight)
 {
     const pg_cloud *cloud = s->sums->cloud;
     double rr = beam_dot (cloud->dim, xi, xi), r = sqrt (rr), all = weight * (cloud->volume[i] * cloud->volume[j]) / r, ratio = 1;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Micropolar bonds one by one, from a list: any points, any number of materials. Each point sums its own bonds. */
 #include "beam.h"
-#include "sweep.h"
+#include "bond_loop.h"
 #include <math.h>
 #include <string.h>
 
 enum { MAX_THREADS = 64 };
 typedef struct {
-    pg_sweep_setting setting;
+    pg_bond_loop_setting setting;
     pg_beam_law law;
     int      dim, m;
     double  *xi;                                       /* m      (bonds x dim)                                           */
@@ -20,7 +20,7 @@ typedef struct {
     pg_status  failed[MAX_THREADS];
 } list;
 
-static const char *refusal (const pg_sweep_setting *setting)
+static const char *refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite) return "stretch: finite is not for bonds that bear shear";
     return setting->sums->cloud->dim < 2 ? "bonds of a line bear no shear" : NULL;
@@ -70,7 +70,7 @@ done:
     return status;
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
     list *s = NULL;
@@ -206,7 +206,7 @@ static pg_status energies (void *self, const double *u, double *W)
     return PG_OK;
 }
 
-const pg_sweep_kind pg_sweep_beam_list = {
+const pg_bond_loop_kind pg_bond_loop_beam_list = {
     .name = "list", .state = 2, .plain = 1, .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = update, .force = force, .energy = energy,
     .energies = energies,
 };

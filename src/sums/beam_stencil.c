@@ -20,7 +20,7 @@ static int differs (const double *a, size_t n)
     return 0;
 }
 
-static const char *refusal (const pg_sweep_setting *setting)
+static const char *refusal (const pg_bond_loop_setting *setting)
 {
     const pg_beam_law *law = setting->beams;
     size_t n = setting->sums->cloud->n;
@@ -45,7 +45,7 @@ static void set_terms (beams *s)
 {
     stencil *b = &s->base;
     const pg_stencil *st = &b->setting.sums->stencil;
-    const pg_sweep_setting *set = &b->setting;
+    const pg_bond_loop_setting *set = &b->setting;
     double length = s->law.length, V = st->cell * set->sums->cloud->thickness;
     for (size_t j = 0; j < st->n; j++) {
         double *t = b->term + j * PG_TERMS, r = st->r[j], all = st->weight[j] * (V * V) / r, kt = 12 * s->law.shear[0] * all / (r * r);
@@ -58,7 +58,7 @@ static void set_terms (beams *s)
     }
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
     PG_TRY (stencil_create (self, setting, set, sizeof (beams)));
@@ -176,7 +176,7 @@ static pg_status energies (void *self, const double *u, double *W)
     return PG_OK;
 }
 
-const pg_sweep_kind pg_sweep_beam_stencil = {
+const pg_bond_loop_kind pg_bond_loop_beam_stencil = {
     .name = "stencil", .state = 2, .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = stencil_update, .force = force,
     .energy = energy, .energies = energies,
 };

@@ -33,7 +33,7 @@ typedef struct {
     int     pairs, threads;
     double *kernel;                                    /* transforms over the places' number: [columns / FFT_WIDE][T1/2 + 1][pair][T2/2 + 1][FFT_WIDE] */
     double *block, *field[FFT_MOST];                   /* complex [n2][T1][C] each                                       */
-    double *rooms;  size_t room;                       /* of each thread                                                 */
+    double *workspaces;  size_t workspace;                       /* of each thread                                                 */
     long    forward, back;                             /* transforms of the box so far                                   */
 } fft;
 
@@ -41,7 +41,7 @@ typedef struct {
 pg_status fft_create (fft *out, int dim, const size_t *sites, size_t n, const int *offset, double (*value) (const void *context, int pair, size_t entry),
                       const void *context, const fft_kernels *kernels, int threads, int measure);
 void      fft_clear  (fft *f);
-pg_status fft_fields (fft *f, int fields);             /* room for as many fields                                        */
+pg_status fft_fields (fft *f, int fields);             /* workspace for as many fields                                        */
 
 typedef struct {
     int in, out;                                       /* fields read and made                                           */

@@ -11,30 +11,30 @@ static double *level (double *x) { return (double *) (((uintptr_t) x + 63) / 64 
 static int pair_of (int dim, int a, int b) { return dim == 3 ? a * (5 - a) / 2 + b : dim == 2 ? a + b : 0; }
 
 /* ---- columns ------------------------------------------------------------------------------------------------------------------ */
-/* n places of a batch of columns, `stride` doubles apart, to the room; zeros up to T */
-static void gather (double *restrict room, const double *restrict from, size_t n, size_t stride, size_t T)
+/* n places of a batch of columns, `stride` doubles apart, to the workspace; zeros up to T */
+static void gather (double *restrict workspace, const double *restrict from, size_t n, size_t stride, size_t T)
 {
-    for (size_t k = 0; k < n; k++) memcpy (room + k * BATCH, from + k * stride, BATCH * sizeof *room);
-    if (T > n) memset (room + n * BATCH, 0, (T - n) * BATCH * sizeof *room);
+    for (size_t k = 0; k < n; k++) memcpy (workspace + k * BATCH, from + k * stride, BATCH * sizeof *workspace);
+    if (T > n) memset (workspace + n * BATCH, 0, (T - n) * BATCH * sizeof *workspace);
 }
 
-static void scatter (double *restrict to, const double *restrict room, size_t n, size_t stride)
+static void scatter (double *restrict to, const double *restrict workspace, size_t n, size_t stride)
 {
-    for (size_t k = 0; k < n; k++) memcpy (to + k * stride, room + k * BATCH, BATCH * sizeof *room);
+    for (size_t k = 0; k < n; k++) memcpy (to + k * stride, workspace + k * BATCH, BATCH * sizeof *workspace);
 }
 
 static void transform (fftw_plan plan, double *x) { if (plan) fftw_execute_dft (plan, (fftw_complex *) x, (fftw_complex *) x); }
 
 /* The columns of a plane along the middle axis, in place */
-static void middle_columns (const fft *f, double *plane, int back, double *room)
+static void middle_columns (const fft *f, double *plane, int back, double *workspace)
 {
     const fft_box *b = &f->box;
     if (b->T[1] == 1) return;
     size_t from = back ? b->T[1] : b->n[1], to = back ? b->n[1] : b->T[1], stride = 2 * b->C;
     for (size_t c = 0; c < b->C; c += FFT_WIDE) {
-        gather (room, plane + 2*c, from, stride, b->T[1]);
-        transform (b->middle[back], room);
-        scatter (plane + 2*c, room, to, stride);
+        gather (workspace, plane + 2*c, from, stride, b->T[1]);
+        transform (b->middle[back], workspace);
+        scatter (plane + 2*c, workspace, to, stride);
     }
 }
 
@@ -57,7 +57,7 @@ static inline void contract (int dim, const double *const *K, const double *sign
 /* ---- passes ------------------------------------------------------------------------------------------------------------------- */
 typedef struct { fft *f; const fft_job *job; } pass;
 
-static double *room_of (const fft *f, int thread) { return level (f->rooms) + (size_t) thread * f->room; }
+static double *room_of (const fft *f, int thread) { return level (f->workspaces) + (size_t) thread * f->workspace; }
 
 static void forward_slabs (void *context, size_t first, size_t last, int thread)
 {
@@ -114,14 +114,14 @@ static void backward_slabs (void *context, size_t first, size_t last, int thread
     const pass *p = context;
     const fft_box *b = &p->f->box;
     size_t length = (b->T[0] + 7) / 8 * 8;
-    double *room = room_of (p->f, thread), *x[3];
-    for (int a = 0; a < 3; a++) x[a] = room + (size_t) a * length;
+    double *workspace = room_of (p->f, thread), *x[3];
+    for (int a = 0; a < 3; a++) x[a] = workspace + (size_t) a * length;
     for (size_t l = first; l < last; l++) {
-        for (int a = 0; a < p->job->out; a++) middle_columns (p->f, p->f->field[a] + l * b->T[1] * b->C * 2, 1, room);
+        for (int a = 0; a < p->job->out; a++) middle_columns (p->f, p->f->field[a] + l * b->T[1] * b->C * 2, 1, workspace);
         for (size_t m = 0; m < b->n[1]; m++) {
             for (int a = 0; a < p->job->out; a++)
                 fftw_execute_dft_c2r (b->row[1], (fftw_complex *) (p->f->field[a] + (l * b->T[1] + m) * b->C * 2), x[a]);
-            p->job->take (p->job->context, l * b->n[1] + m, x, room + 3 * length);
+            p->job->take (p->job->context, l * b->n[1] + m, x, workspace + 3 * length);
         }
     }
 }
@@ -181,8 +181,8 @@ pg_status fft_create (fft *out, int dim, const size_t *sites, size_t n, const in
     size_t row = (b->T[0] + 7) / 8 * 8, most = (size_t) f->pairs * b->T[2] * BATCH;
     if (most < 8 * row) most = 8 * row;
     if (most < b->T[1] * BATCH) most = b->T[1] * BATCH;
-    f->room = (most + 7) / 8 * 8 + 64;
-    PG_ALLOC (f->rooms, (size_t) f->threads * f->room + 8);
+    f->workspace = (most + 7) / 8 * 8 + 64;
+    PG_ALLOC (f->workspaces, (size_t) f->threads * f->workspace + 8);
     PG_ALLOC (f->kernel, b->C * (b->T[1] / 2 + 1) * (b->T[2] / 2 + 1) * (size_t) f->pairs);
     PG_ALLOC (box, (b->T[0] + 2) * b->T[1] * b->T[2]);
     for (int p = 0; p < f->pairs; p++) PG_TRY (make_kernel (f, p, n, offset, value, context, box));
@@ -209,6 +209,6 @@ done:
 void fft_clear (fft *f)
 {
     fft_box_clear (&f->box);
-    pg_free (f->rooms), pg_free (f->kernel), pg_free (f->block);
+    pg_free (f->workspaces), pg_free (f->kernel), pg_free (f->block);
     memset (f, 0, sizeof *f);
 }

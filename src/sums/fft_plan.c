@@ -116,7 +116,7 @@ pg_status fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *
 {
     pg_status status = PG_OK;
     fft_box *b = out;
-    double *room = NULL;
+    double *workspace = NULL;
     size_t most = 0;
     *b = (fft_box) { .dim = dim, .n = { n[0], dim == 3 ? n[1] : 1, dim == 3 ? n[2] : dim == 2 ? n[1] : 1 }, .measured = measure };
     for (int k = 0; k < 3; k++) {
@@ -126,8 +126,8 @@ pg_status fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *
         most = b->T[k] > most ? b->T[k] : most;
     }
     b->C = (b->T[0] / 2 + 1 + FFT_WIDE - 1) / FFT_WIDE * FFT_WIDE;
-    PG_ALLOC (room, 4 * FFT_WIDE * (most + 8));
-    double *x = (double *) (((uintptr_t) room + 63) / 64 * 64), *y = x + 2 * FFT_WIDE * (most + 2);
+    PG_ALLOC (workspace, 4 * FFT_WIDE * (most + 8));
+    double *x = (double *) (((uintptr_t) workspace + 63) / 64 * 64), *y = x + 2 * FFT_WIDE * (most + 2);
     pthread_mutex_lock (&planner);
     char path[4096];
     copy theirs = { NULL, 0, 0 };
@@ -147,7 +147,7 @@ pg_status fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *
     pthread_mutex_unlock (&planner);
     if (!made) PG_FAIL (PG_E_MEMORY, "no memory for the plan of a transform");
 done:
-    pg_free (room);
+    pg_free (workspace);
     return status;
 }
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *fft_refusal (const pg_sweep_setting *setting)
+static const char *fft_refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite) return "finite stretch is not linear in the displacement";
     return stencil_refusal (setting);
@@ -499,12 +499,12 @@ done:
 }
 
 /* Timing plans takes about as long as twenty transforms of a hundred thousand places each: a second or less. */
-static int worth_timing (const pg_sweep_setting *setting)
+static int worth_timing (const pg_bond_loop_setting *setting)
 {
     return setting->sums->rule.sweeps * (double) setting->sums->cloud->n > 2e8;
 }
 
-static pg_status fft_create_sweep (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status fft_create_sweep (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const fft_kernels *const kernels[] = { &pg_fft_scalar, &pg_fft_avx2, &pg_fft_avx512 };
     pg_status status = PG_OK;
@@ -552,7 +552,7 @@ static void fft_bytes (const void *self, double *per_bond, double *per_point)
 
 /* From bench/sums_rate fcbm on one thread of an AMD EPYC (280^2 to 1024^2 and 50^3 to 140^3 places, AVX-512; plans between guessed and timed ones): a pair of
  * transforms takes 0.3 ns (in space 0.4) times places times their binary logarithm, all the rest 6 (15) ns a point and 20 us. */
-static double fft_time (const pg_sweep_setting *setting, pg_instructions set)
+static double fft_time (const pg_bond_loop_setting *setting, pg_instructions set)
 {
     const pg_sums *sums = setting->sums;
     int dim = sums->cloud->dim, reach[3] = { 0, 0, 0 };
@@ -568,14 +568,14 @@ static const char *fft_remark (const void *self)
     return ((const transformer *) self)->f.box.measured ? "plans of transforms timed or remembered" : "plans of transforms guessed";
 }
 
-static void fft_counts (const void *self, pg_sweep_counts *out)
+static void fft_counts (const void *self, pg_bond_loop_counts *out)
 {
     const transformer *t = self;
     *out = t->count;
     out->forward = t->f.forward, out->back = t->f.back, out->gone = t->gone;
 }
 
-const pg_sweep_kind pg_sweep_fft = {
+const pg_bond_loop_kind pg_bond_loop_fft = {
     .name = "fft", .refusal = fft_refusal, .create = fft_create_sweep, .free = fft_free, .bytes = fft_bytes, .update = fft_update, .force = fft_force,
     .energy = fft_energy, .energies = fft_energies, .counts = fft_counts, .time = fft_time, .remark = fft_remark,
 };

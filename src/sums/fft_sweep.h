@@ -35,7 +35,7 @@ typedef struct {
     size_t  room_edges;
     const double *u;                                   /* during a sum: displacements, forces or energies                */
     double *f_out, *f_own, *W, *ones;
-    pg_sweep_counts count;
+    pg_bond_loop_counts count;
 } transformer;
 
 static inline size_t fft_row_base (const transformer *t, size_t row)         /* padded place of a row's first site                 */

@@ -5,7 +5,7 @@
  * A record holds a point's place and displacement, {x, u} {x, y, u, v} {x, y, z, u, v, w, -, -}: one load brings a neighbour. */
 #ifndef PERIGAL_SUMS_LIST_H
 #define PERIGAL_SUMS_LIST_H
-#include "sweep.h"
+#include "bond_loop.h"
 #include <stdint.h>
 
 enum { LIST_LANES = 8 };
@@ -45,7 +45,7 @@ struct bond_list {
 };
 
 pg_status bond_list_order  (bond_list *list);           /* point, rank, before                                            */
-pg_status bond_list_fill   (bond_list *list, const pg_sweep_setting *setting);     /* slots and limits                   */
+pg_status bond_list_fill   (bond_list *list, const pg_bond_loop_setting *setting);     /* slots and limits                   */
 /* New number of the other end of bond `at` (8 slot + lane) of a slice. */
 static inline size_t bond_list_end (const bond_list *list, const bond_slots *slots, size_t slice, size_t at)
 {

@@ -6,7 +6,7 @@
 
 typedef struct {
     bond_list *list;
-    const pg_sweep_setting *setting;
+    const pg_bond_loop_setting *setting;
     size_t  most;                                      /* bonds of the largest family                                    */
     double *xi, *weight;                               /* of one family, for each thread     (threads x most x dim, x most) */
 } filler;
@@ -85,7 +85,7 @@ static void fill_slices (void *context, size_t first, size_t last, int thread)
     }
 }
 
-static double pair_limit (const bond_list *list, const pg_sweep_setting *setting, size_t p, size_t q)
+static double pair_limit (const bond_list *list, const pg_bond_loop_setting *setting, size_t p, size_t q)
 {
     size_t i = (size_t) list->point[p], j = (size_t) list->point[q];
     if (setting->exempt && (setting->exempt[i] || setting->exempt[j])) return INFINITY;
@@ -102,7 +102,7 @@ static int first_eight (const bond_list *list, double limit)
 }
 
 /* Limits of one slice: where all are the same, eight of them; most slices share those of the first one. */
-static pg_status fill_limits (bond_list *list, bond_slots *slots, const pg_sweep_setting *setting, size_t slice)
+static pg_status fill_limits (bond_list *list, bond_slots *slots, const pg_bond_loop_setting *setting, size_t slice)
 {
     pg_status status = PG_OK;
     size_t first = slots->start[slice], n = slots->start[slice + 1] - first, end = list->limits;
@@ -140,7 +140,7 @@ done:
     return status;
 }
 
-pg_status bond_list_fill (bond_list *list, const pg_sweep_setting *setting)
+pg_status bond_list_fill (bond_list *list, const pg_bond_loop_setting *setting)
 {
     pg_status status = PG_OK;
     filler g = { .list = list, .setting = setting };

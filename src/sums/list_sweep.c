@@ -49,7 +49,7 @@ static size_t chunk_size (size_t n)
     return (c + LIST_LANES - 1) / LIST_LANES * LIST_LANES;
 }
 
-static pg_status list_create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status list_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const bond_list_kernel (*const kernels[]) [2][2] = { bond_list_scalar, bond_list_avx2, bond_list_avx512 };
     pg_status status = PG_OK;
@@ -354,9 +354,9 @@ static void list_bytes (const void *self, double *per_bond, double *per_point)
                               + 2 * (2 * sizeof (size_t) + 1.0) / LIST_LANES : 0;
 }
 
-static const char *list_refusal (const pg_sweep_setting *setting) { (void) setting; return NULL; }
+static const char *list_refusal (const pg_bond_loop_setting *setting) { (void) setting; return NULL; }
 
-const pg_sweep_kind pg_sweep_list = {
+const pg_bond_loop_kind pg_bond_loop_list = {
     .name = "list", .refusal = list_refusal, .create = list_create, .free = list_free, .bytes = list_bytes, .update = list_update, .force = list_force,
     .energy = list_energy, .energies = list_energies
 };

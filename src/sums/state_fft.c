@@ -27,12 +27,12 @@ typedef struct {
     double  centre[3];                                 /* mean displacement, taken off, m                                */
     transformer bound;                                 /* no sums: what fft_bound.c looks at                             */
     int    *suspect;                                   /* blocks                                                         */
-    pg_sweep_counts count;
+    pg_bond_loop_counts count;
 } convolver;
 
 static int pair_of (int dim, int a, int b) { return a > b ? fft_pair (dim, b, a) : fft_pair (dim, a, b); }
 
-static const char *refusal (const pg_sweep_setting *setting) { return pg_sweep_state_stencil.refusal (setting); }
+static const char *refusal (const pg_bond_loop_setting *setting) { return pg_bond_loop_state_stencil.refusal (setting); }
 
 static void release (void *self)
 {
@@ -279,7 +279,7 @@ done:
     return status;
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const fft_kernels *const kernels[] = { &pg_fft_scalar, &pg_fft_avx2, &pg_fft_avx512 };
     pg_status status = PG_OK;
@@ -427,9 +427,9 @@ done:
     return status;
 }
 
-static void counts (const void *self, pg_sweep_counts *out) { *out = ((const convolver *) self)->count; }
+static void counts (const void *self, pg_bond_loop_counts *out) { *out = ((const convolver *) self)->count; }
 
-const pg_sweep_kind pg_sweep_state_fft = {
+const pg_bond_loop_kind pg_bond_loop_state_fft = {
     .name = "fft", .state = 1, .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = update, .force = force,
     .energy = state_energy, .energies = state_energies, .dilatation = state_dilatation,
     .counts = counts,

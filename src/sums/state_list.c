@@ -7,7 +7,7 @@
 
 enum { MAX_THREADS = 64, FEW = 1 << 15 };
 typedef struct {
-    pg_sweep_setting setting;
+    pg_bond_loop_setting setting;
     double *w;                                         /* k beta / r of each bond, 1/m       (entries)                   */
     unsigned char *alive;                              /* (entries)                                                      */
     double *q, *factor, *beta, *alpha;                 /* (n)                                                            */
@@ -114,7 +114,7 @@ static void find_weights (void *context, size_t first, size_t last, int thread)
     }
 }
 
-static pg_status list_create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status list_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
     (void) set;
@@ -149,7 +149,7 @@ typedef struct { list *s; const double *u; double *out; int check; } sweep;
 
 static int breaks (const list *s, size_t i, size_t j, double product_, double rr)
 {
-    const pg_sweep_setting *g = &s->setting;
+    const pg_bond_loop_setting *g = &s->setting;
     if (g->exempt && (g->exempt[i] || g->exempt[j])) return 0;
     return product_ >= fmin (g->limit[i], g->limit[j]) * rr;
 }
@@ -283,7 +283,7 @@ static pg_status list_dilatation (void *self, const double *u, double *theta, do
     return PG_OK;
 }
 
-const pg_sweep_kind pg_sweep_state_list = {
+const pg_bond_loop_kind pg_bond_loop_state_list = {
     .name = "list", .state = 1, .refusal = state_refusal, .create = list_create, .free = list_free, .bytes = list_bytes, .update = list_update,
     .force = list_force, .energy = list_energy, .energies = list_energies, .dilatation = list_dilatation,
 };

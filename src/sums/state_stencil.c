@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-const char *state_refusal (const pg_sweep_setting *setting)
+const char *state_refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite) return "state-based sums are linear in the displacement, and the stretch is to be finite";
     if (setting->sums->rule.surface != PG_SURFACE_NONE) return "state-based sums weigh families that are not whole by themselves: no surface correction";
@@ -13,7 +13,7 @@ const char *state_refusal (const pg_sweep_setting *setting)
     return NULL;
 }
 
-static const char *refusal (const pg_sweep_setting *setting)
+static const char *refusal (const pg_bond_loop_setting *setting)
 {
     const char *why = state_refusal (setting);
     return why ? why : stencil_refusal (setting);
@@ -80,7 +80,7 @@ static void set_terms (state *s)
     }
 }
 
-pg_status state_create (void **self, const pg_sweep_setting *setting, pg_instructions set, size_t bytes)
+pg_status state_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set, size_t bytes)
 {
     pg_status status = PG_OK;
     PG_TRY (stencil_create (self, setting, set, bytes));
@@ -101,7 +101,7 @@ done:
     return status;
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     return state_create (self, setting, set, sizeof (state));
 }
@@ -166,7 +166,7 @@ done:
     return status;
 }
 
-const pg_sweep_kind pg_sweep_state_stencil = {
+const pg_bond_loop_kind pg_bond_loop_state_stencil = {
     .name = "stencil", .state = 1, .refusal = refusal, .create = create, .free = state_free, .bytes = bytes, .update = state_update, .force = force,
     .energy = state_energy, .energies = state_energies, .dilatation = state_dilatation,
 };

@@ -12,12 +12,12 @@ typedef struct {
     double *factor, *beta, *alpha;                     /* padded                                                         */
 } state;
 
-/* Into room for `bytes`, of which the first are a state; freed by state_free, also after a failure. */
-pg_status state_create (void **self, const pg_sweep_setting *setting, pg_instructions set, size_t bytes);
+/* Into workspace for `bytes`, of which the first are a state; freed by state_free, also after a failure. */
+pg_status state_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set, size_t bytes);
 void      state_free   (void *self);
 void      state_update (void *self, const unsigned char *alive, const pg_changes *changes);
 stencil_lost state_lost (const stencil *s);            /* what a block that lost bonds needs; NULL: nothing               */
-/* As pg_sweep_energy and so on, bond by bond. */
+/* As pg_bond_loop_energy and so on, bond by bond. */
 double    state_energy (void *self, const double *u);
 pg_status state_energies (void *self, const double *u, double *W);
 pg_status state_dilatation (void *self, const double *u, double *theta, double *q);

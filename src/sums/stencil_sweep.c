@@ -6,7 +6,7 @@
 #include <string.h>
 
 
-const char *stencil_refusal (const pg_sweep_setting *setting)
+const char *stencil_refusal (const pg_bond_loop_setting *setting)
 {
     const pg_sums *sums = setting->sums;
     size_t n = sums->cloud->n;
@@ -229,7 +229,7 @@ done:
     return status;
 }
 
-pg_status stencil_create (void **self, const pg_sweep_setting *setting, pg_instructions set, size_t bytes)
+pg_status stencil_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set, size_t bytes)
 {
     static const pg_block_kernels *const kernels[] = { &pg_block_scalar, &pg_block_avx2, &pg_block_avx512 };
     pg_status status = PG_OK;
@@ -259,7 +259,7 @@ done:
     return status;
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     return stencil_create (self, setting, set, sizeof (stencil));
 }
@@ -430,14 +430,14 @@ static pg_status energies (void *self, const double *u, double *W)
 }
 
 /* Bonds a nanosecond by instruction set, in a plane and in space: bench/sums_rate bond, square_400_m6 and cube_64, one thread of an AMD EPYC. */
-static double time_of (const pg_sweep_setting *setting, pg_instructions set)
+static double time_of (const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const double rate[][2] = { { 1.7, 0.8 }, { 3.9, 2.1 }, { 7.3, 3.7 } };
     const pg_sums *sums = setting->sums;
     return (double) sums->cloud->n * (double) sums->stencil.n / rate[set][sums->cloud->dim == 3];
 }
 
-const pg_sweep_kind pg_sweep_stencil = {
+const pg_bond_loop_kind pg_bond_loop_stencil = {
     .name = "stencil", .refusal = stencil_refusal, .create = create, .free = stencil_free, .bytes = stencil_bytes, .update = stencil_update, .force = force, .energy = energy,
     .energies = energies, .time = time_of,
 };

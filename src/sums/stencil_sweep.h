@@ -4,11 +4,11 @@
 #ifndef PERIGAL_SUMS_STENCIL_SWEEP_H
 #define PERIGAL_SUMS_STENCIL_SWEEP_H
 #include "block.h"
-#include "sweep.h"
+#include "bond_loop.h"
 
 enum { MAX_THREADS = 64, FEW = 1 << 15 };              /* FEW directed bonds are not worth a second thread               */
 typedef struct {
-    pg_sweep_setting setting;
+    pg_bond_loop_setting setting;
     const pg_block_kernels *kernels;
     pg_block_job job;                                  /* points into what follows                                       */
     int        reach[3], left;                         /* halo in sites; padded places before a row                      */
@@ -26,9 +26,9 @@ typedef struct {
 } stencil;
 
 /* NULL: a stencil can be laid over these points; else why not. */
-const char *stencil_refusal (const pg_sweep_setting *setting);
-/* Into room for `bytes`, of which the first are a stencil; all its bonds live. What it allocated is freed by stencil_free, also after a failure. */
-pg_status stencil_create (void **self, const pg_sweep_setting *setting, pg_instructions set, size_t bytes);
+const char *stencil_refusal (const pg_bond_loop_setting *setting);
+/* Into workspace for `bytes`, of which the first are a stencil; all its bonds live. What it allocated is freed by stencil_free, also after a failure. */
+pg_status stencil_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set, size_t bytes);
 void      stencil_free   (void *self);
 void      stencil_update (void *self, const unsigned char *alive, const pg_changes *changes);
 void      stencil_bytes  (const void *self, double *per_bond, double *per_point);

@@ -196,14 +196,14 @@ static pg_status weigh (pg_symbol *s, box *b)
 {
     pg_status status = PG_OK;
     size_t m = (size_t) s->unknowns, ndof = b->problem->cloud.n * m;
-    double *mass = NULL, *room = NULL;
+    double *mass = NULL, *workspace = NULL;
     PG_ALLOC (mass, ndof);
-    PG_ALLOC (room, ndof);
+    PG_ALLOC (workspace, ndof);
     PG_TRY (b->force->mass (b->self, mass));
     for (size_t c = 0; c < m; c++) s->mass[c] = mass[b->middle * m + c];
-    PG_TRY (pg_force_bound (b->force, b->self, ndof, mass, room, &s->bound, &s->from));
+    PG_TRY (pg_force_bound (b->force, b->self, ndof, mass, workspace, &s->bound, &s->from));
 done:
-    pg_free (mass), pg_free (room);
+    pg_free (mass), pg_free (workspace);
     return status;
 }
 

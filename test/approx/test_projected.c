@@ -42,11 +42,11 @@ static void prescribed_weights_give_the_tabled_values (void **state)
     size_t entry[4] = { 0, 1, 2, 3 };
     for (int i = 0; i < 8; i++) z[i] = line[i] / 2;
     for (int j = 0; j < 4; j++) w[j] = given[j] / 3.5;
-    pg_star s = { .dim = 2, .constant = 1, .a = 2, .n = 4, .entry = entry, .z = z, .w = w, .p = p, .project = 1 };
-    assert_int_equal (pg_star_grade (&s, 1, 1), PG_GRADE_PROJECTED);
-    pg_star_solve (&s, 0, b);
-    pg_star_shape (&s, b, N);
-    pg_star_differential (&s, dN);
+    pg_neighbourhood s = { .dim = 2, .constant = 1, .a = 2, .n = 4, .entry = entry, .z = z, .w = w, .p = p, .project = 1 };
+    assert_int_equal (pg_neighbourhood_grade (&s, 1, 1), PG_GRADE_PROJECTED);
+    pg_neighbourhood_solve (&s, 0, b);
+    pg_neighbourhood_shape (&s, b, N);
+    pg_neighbourhood_differential (&s, dN);
     for (int j = 0; j < 4; j++) check_absolute (N[j], F4[j], 1e-8);
     for (int k = 0; k < 2; k++)
         for (int l = 0; l < 2; l++) {

@@ -197,7 +197,7 @@ static void an_operator_alone_gives_the_same (void **state)
         to_the_end (&a), to_the_end (&b);
         for (size_t i = 0; i < a.state->ndof; i++) check_scaled (b.state->d[i], a.state->d[i], 1e-8, fabs (deflection (1)));
         if (!by_springs) is_the_closed_form (&b, 1e-8);
-        const pg_report *report = pg_solver_report_now (b.solver);
+        const pg_statistics *report = pg_solver_report_now (b.solver);
         assert_true (report->cg_iterations > 10);
         assert_int_equal (report->factorizations, 0);
         assert_string_equal (report->solver, "cg");
@@ -256,7 +256,7 @@ static void missing_entries_are_not_missed (void **state)
                                                  : RICH "solver: {stepping: fixed, steps: 2, stop: {set: right}}\n");
             to_the_end (&r);
             is_the_closed_form (&r, 1e-5);
-            const pg_report *report = pg_solver_report (r.solver, r.state);
+            const pg_statistics *report = pg_solver_report (r.solver, r.state);
             assert_int_equal (report->broken, 0);
             assert_int_equal (report->nwarning, 0);
             assert_true (report->energy_strain == 0 && report->energy_external == 0);

@@ -186,15 +186,15 @@ static void test_reactions (void **unused)
         snprintf (text, sizeof text, BODY2 "method: {force: %s}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 7e-4}}]\n", forces[k]);
         bonded b = bonded_of (text);
         double *d = pg_calloc (b.ndof, sizeof *d), area = 0.2, exact = 10 * 1e-3 * area;
-        pg_ledger out = { 0 };
+        pg_work_balance out = { 0 };
         for (size_t i = 0; i < b.n; i++) d[i * b.stride] = -1e-3 / 3 * b.problem->cloud.x[2 * i], d[i * b.stride + 1] = 1e-3 * b.problem->cloud.x[2 * i + 1];
-        check_ok (b.force->ledger (b.self, 1, d, NULL, &out));
+        check_ok (b.force->work_balance (b.self, 1, d, NULL, &out));
         assert_true (out.reaction[4] > 0.1 * exact && out.reaction[4] < exact);      /* the outermost row of those that bear it                  */
         check_relative (out.reaction[1], -out.reaction[4], 1e-9);
         double work = 0;
         for (size_t i = 0; i < out.npair; i++) work += out.force[i] * out.displacement[i];
         check_relative (work, 7e-4 * out.reaction[4], 1e-9);
-        pg_ledger_clear (&out);
+        pg_work_balance_clear (&out);
         pg_free (d);
         unbonded (&b);
     }

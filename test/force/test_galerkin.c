@@ -108,13 +108,13 @@ static void a_broken_bond_opens_its_cell_and_those_beside (void **unused)
 static double energy_of (double nu, const char *stabilization)
 {
     char method[128];
-    pg_ledger ledger = { 0 };
+    pg_work_balance work_balance = { 0 };
     snprintf (method, sizeof method, "approximation: nosb, integration: nodal, stabilization: %s", stabilization);
     bonded b = plate (nu, method, "");
     double *d = random_vector (b.ndof, 11);
-    check_ok (b.force->ledger (b.self, 1, d, NULL, &ledger));
-    double energy = ledger.strain;
-    pg_ledger_clear (&ledger);
+    check_ok (b.force->work_balance (b.self, 1, d, NULL, &work_balance));
+    double energy = work_balance.strain;
+    pg_work_balance_clear (&work_balance);
     pg_free (d);
     unbonded (&b);
     return energy;
@@ -136,17 +136,17 @@ static void supports_bear_inertia (void **unused)
     for (int k = 0; k < 3; k++) {
         bonded b = plate (k ? 0.2 : 1.0 / 3, forces[k], "sets: {left_row: {where: x < 0.1}}\nboundary: [{set: left_row, displacement: {x: 0, y: 0}}]\n");
         double *d = random_vector (b.ndof, 5), *inertia = random_vector (b.ndof, 6), sum[2] = { 0 };
-        pg_ledger still = { 0 }, moving = { 0 };
+        pg_work_balance still = { 0 }, moving = { 0 };
         if (b.force->impose) check_ok (b.force->impose (b.self, 1, d));
         for (size_t i = 0; i < b.n; i++)
             for (size_t c = 0; c < 2; c++) {
                 if (b.problem->cloud.x[2*i] < 0.1) sum[c] += inertia[i * b.stride + c];
                 else inertia[i * b.stride + c] = 0;
             }
-        check_ok (b.force->ledger (b.self, 1, d, NULL, &still));
-        check_ok (b.force->ledger (b.self, 1, d, inertia, &moving));
+        check_ok (b.force->work_balance (b.self, 1, d, NULL, &still));
+        check_ok (b.force->work_balance (b.self, 1, d, inertia, &moving));
         for (int c = 0; c < 2; c++) check_scaled (moving.reaction[c] - still.reaction[c], -sum[c], 1e-9, fabs (still.reaction[c]));
-        pg_ledger_clear (&still), pg_ledger_clear (&moving);
+        pg_work_balance_clear (&still), pg_work_balance_clear (&moving);
         pg_free (d), pg_free (inertia);
         unbonded (&b);
     }

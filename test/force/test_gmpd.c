@@ -45,12 +45,12 @@ static void test_two_materials (void **unused)
     const pg_sparse *T = b.force->basis (b.self);
     assert_int_equal (T->ncol, b.ndof - b.n / 2);
     double *d = random_vector (b.ndof, 5), *f = pg_calloc (b.ndof, sizeof *f), work = 0, reference;
-    pg_ledger ledger = { 0 };
+    pg_work_balance work_balance = { 0 };
     check_ok (b.force->balance (b.self, 0, d, f, &reference));
     for (size_t i = 0; i < b.ndof; i++) work -= 0.5 * f[i] * d[i];
-    check_ok (b.force->ledger (b.self, 0, d, NULL, &ledger));
-    check_relative (ledger.strain, work, 1e-12);
-    pg_ledger_clear (&ledger), pg_free (d), pg_free (f);
+    check_ok (b.force->work_balance (b.self, 0, d, NULL, &work_balance));
+    check_relative (work_balance.strain, work, 1e-12);
+    pg_work_balance_clear (&work_balance), pg_free (d), pg_free (f);
     unbonded (&b);
 }
 
@@ -69,12 +69,12 @@ static void test_bending_ratio (void **unused)
             char text[600];
             snprintf (text, sizeof text, "%smethod: {force: gmpd, %s}\n", body[w], known[k].beam);
             bonded b = bonded_of (text);
-            pg_ledger ledger = { 0 };
+            pg_work_balance work_balance = { 0 };
             double *d = random_vector (b.ndof, 5);
             for (size_t i = 0; i < b.ndof; i++) if (i % b.stride < b.dim) d[i] = 0;
-            check_ok (b.force->ledger (b.self, 0, d, NULL, &ledger));
-            energy[k] = ledger.strain;
-            pg_ledger_clear (&ledger), pg_free (d);
+            check_ok (b.force->work_balance (b.self, 0, d, NULL, &work_balance));
+            energy[k] = work_balance.strain;
+            pg_work_balance_clear (&work_balance), pg_free (d);
             unbonded (&b);
         }
         assert_true (energy[1] > 1.2 * energy[0]);
@@ -279,7 +279,7 @@ static void test_breaking_graded (void **unused)
 #define BAR "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [2, 0.6]}}}]\nspacing: 0.1\nlattice: cells\nthickness: 0.2\n" \
     "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.2, density: 3}}\nsets: {l: {where: \"x < 0.3\"}, r: {where: \"x > 1.7\"}}\nmethod: {force: gmpd}\n"
 
-/* An end that turns about its middle: shear of both ends balances, moments too; by factor and by iteration, and by relaxing. */
+/* An end that turns about its middle: shear of both ends balances, moments too; by factor and by iteration, and by relaxation. */
 static void test_prescribed_rotation (void **unused)
 {
     (void) unused;
@@ -329,7 +329,7 @@ static void test_moment (void **unused)
     r = prepare (1, BAR "boundary:\n  - {set: l, displacement: {x: 0, y: 0}}\n  - {set: l, rotation: {z: 0}}\n  - {set: r, moment: {z: 2e-3}}\nsolver: {kind: static}\n");
     to_the_end (&r);
     check_relative (r.step.reaction[6], 2e-3, 1e-12);
-    const pg_report *report = pg_solver_report_now (r.solver);
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     check_relative (report->energy_strain, report->energy_external, 1e-10);
     assert_true (report->energy_strain > 0);
     /* about the origin: what the supports do, what the load does */
@@ -361,7 +361,7 @@ static void test_free_motion (void **unused)
         snprintf (text, sizeof text, "%sinitial: {velocity: {x: \"0.01 m/s * y / (1 m)\", y: \"0.02 m/s * x * x / (1 m2)\"}}\nsolver: {kind: %s, end: 20}\n", BAR, solvers[k]);
         r = prepare (1, text);
         to_the_end (&r);
-        const pg_report *report = pg_solver_report_now (r.solver);
+        const pg_statistics *report = pg_solver_report_now (r.solver);
         check_relative (report->energy_strain + report->energy_kinetic, report->energy_external, 2e-2);
         assert_true (report->energy_strain > 0.05 * report->energy_kinetic);
         clear (&r);

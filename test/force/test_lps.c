@@ -25,12 +25,12 @@ static void check_operator (bonded *b)
     double *x = random_vector (b->ndof, 7), *y = random_vector (b->ndof, 8), *Kx = pg_calloc (b->ndof, sizeof *x), *Ky = pg_calloc (b->ndof, sizeof *x);
     double *D = pg_calloc (b->ndof, sizeof *D), *sum = pg_calloc (b->ndof, sizeof *sum);
     const pg_operator *K = b->force->operator_ (b->self);
-    pg_ledger ledger = { 0 };
+    pg_work_balance work_balance = { 0 };
     K->apply (K->context, x, Kx), K->apply (K->context, y, Ky);
     double size = size_of (b->ndof, x) * size_of (b->ndof, Ky);
     check_scaled (product (b->ndof, x, Ky), product (b->ndof, y, Kx), 1e-13, size);
-    check_ok (b->force->ledger (b->self, 0, x, NULL, &ledger));
-    check_relative (ledger.strain, 0.5 * product (b->ndof, x, Kx), 1e-12);
+    check_ok (b->force->work_balance (b->self, 0, x, NULL, &work_balance));
+    check_relative (work_balance.strain, 0.5 * product (b->ndof, x, Kx), 1e-12);
     K->diagonal (K->context, D);
     for (size_t i = 0; i < b->ndof; i += 13) {
         memset (y, 0, b->ndof * sizeof *y);
@@ -49,7 +49,7 @@ static void check_operator (bonded *b)
     bound = 1;
     check_below (top, bound * (1 + 1e-9));
     assert_true (top > 0.3);
-    pg_ledger_clear (&ledger);
+    pg_work_balance_clear (&work_balance);
     pg_free (x), pg_free (y), pg_free (Kx), pg_free (Ky), pg_free (D), pg_free (sum);
 }
 
@@ -79,11 +79,11 @@ static double strained (bonded *b, const double *H, double *worst_stress)
     double *dilation = pg_calloc (b->n, sizeof *dilation), *deviation = pg_calloc (b->n, sizeof *deviation);
     const pg_material *m = b->problem->material;
     for (size_t i = 0; i < b->n; i++) pg_state_moduli (rule.mode, m->modulus, m->parameter[1], &dilation[i], &deviation[i]);
-    pg_sweep_setting setting = { .sums = b->problem->sums, .family = &b->problem->rows[PG_NODES].family, .dilation = dilation, .deviation = deviation, .threads = 1 };
-    pg_sweep *sweep;
-    check_ok (pg_sweep_create (&sweep, &setting));
-    check_ok (pg_sweep_energies (sweep, u, W));
-    pg_sweep_free (&sweep);
+    pg_bond_loop_setting setting = { .sums = b->problem->sums, .family = &b->problem->rows[PG_NODES].family, .dilation = dilation, .deviation = deviation, .threads = 1 };
+    pg_bond_loop *sweep;
+    check_ok (pg_bond_loop_create (&sweep, &setting));
+    check_ok (pg_bond_loop_energies (sweep, u, W));
+    pg_bond_loop_free (&sweep);
     check_ok (b->force->sample (b->self, b->state, u, 1, place, v, s));
     pg_stress_of_gradient (m, (int) b->dim, H, exact);
     for (size_t a = 0; a < b->dim; a++)

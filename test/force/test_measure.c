@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Strains and stresses are kept between calls and redone only where bonds died: residual, utilisation and ledger must equal, bit by
+ * Strains and stresses are kept between calls and redone only where bonds died: residual, utilisation and work_balance must equal, bit by
  * bit, those of a force made afresh from the same alive bits. */
 #include "check.h"
 #include "perigal.h"

@@ -116,19 +116,19 @@ static void the_force_is_the_derivative_of_the_energy (void **state)
             void *self;
             const pg_force_type *f = pg_solver_force (r.solver, &self);
             size_t n = r.state->ndof;
-            pg_ledger ledger = { 0 };
+            pg_work_balance work_balance = { 0 };
             double *d = pg_calloc (3 * n, sizeof *d), *e = d + n, *residual = d + 2 * n, reference, power = 0, E[2];
             for (size_t i = 0; i < n; i++) d[i] = random_number (), e[i] = random_number ();
             check_ok (f->balance (self, 1, d, residual, &reference));
             for (size_t i = 0; i < n; i++) power -= residual[i] * e[i];
             for (int side = 0; side < 2; side++) {     /* E is quadratic: the central difference is exact                 */
                 for (size_t i = 0; i < n; i++) residual[i] = d[i] + (side ? 0.5 : -0.5) * e[i];
-                check_ok (f->ledger (self, 1, residual, NULL, &ledger));
-                E[side] = ledger.strain;
+                check_ok (f->work_balance (self, 1, residual, NULL, &work_balance));
+                E[side] = work_balance.strain;
                 assert_true (E[side] > 0);
             }
             check_scaled (E[1] - E[0], power, 1e-10, E[0] + E[1]);
-            pg_ledger_clear (&ledger);
+            pg_work_balance_clear (&work_balance);
             pg_free (d);
             clear (&r);
         }

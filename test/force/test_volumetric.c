@@ -51,16 +51,16 @@ static void check_operator (bonded *b)
     double *x = random_vector (b->ndof, 7), *y = random_vector (b->ndof, 8), *Kx = pg_calloc (b->ndof, sizeof *x), *Ky = pg_calloc (b->ndof, sizeof *x);
     double *D = pg_calloc (b->ndof, sizeof *D), *sum = pg_calloc (b->ndof, sizeof *sum), top = 0, up[2], W, *shifted = pg_calloc (b->ndof, sizeof *shifted);
     const pg_operator *K = b->force->operator_ (b->self);
-    pg_ledger ledger = { 0 };
+    pg_work_balance work_balance = { 0 };
     K->apply (K->context, x, Kx), K->apply (K->context, y, Ky);
     check_scaled (product (b->ndof, x, Ky), product (b->ndof, y, Kx), 1e-13, size_of (b->ndof, x) * size_of (b->ndof, Ky));
-    check_ok (b->force->ledger (b->self, 0, x, NULL, &ledger));
-    W = ledger.strain;
+    check_ok (b->force->work_balance (b->self, 0, x, NULL, &work_balance));
+    W = work_balance.strain;
     check_relative (W, 0.5 * product (b->ndof, x, Kx), 1e-12);
     for (int k = 0; k < 2; k++) {
         for (size_t i = 0; i < b->ndof; i++) shifted[i] = x[i] + (k ? -1e-3 : 1e-3) * y[i];
-        check_ok (b->force->ledger (b->self, 0, shifted, NULL, &ledger));
-        up[k] = ledger.strain;
+        check_ok (b->force->work_balance (b->self, 0, shifted, NULL, &work_balance));
+        up[k] = work_balance.strain;
     }
     check_scaled ((up[0] - up[1]) / 2e-3, product (b->ndof, y, Kx), 1e-8, W);
     K->diagonal (K->context, D);
@@ -78,7 +78,7 @@ static void check_operator (bonded *b)
         for (size_t i = 0; i < b->ndof; i++) x[i] = Kx[i] / top;
     }
     check_below (top, 1 + 1e-9);
-    pg_ledger_clear (&ledger);
+    pg_work_balance_clear (&work_balance);
     pg_free (x), pg_free (y), pg_free (Kx), pg_free (Ky), pg_free (D), pg_free (sum), pg_free (shifted);
 }
 
@@ -185,14 +185,14 @@ static void test_positive (void **unused)
 }
 
 /* ---- uniform strain ------------------------------------------------------------------------------------------------------------ */
-static pg_sweep *sweep_of (const bonded *b, double **room)
+static pg_bond_loop *sweep_of (const bonded *b, double **room)
 {
     const pg_problem *p = b->problem;
     const pg_sum_rule *rule = &p->sums->rule;
     double *c = *room = pg_calloc (5 * b->n, sizeof *c), E, nu, A;
     static pg_beam_law law;
     pg_beam_sums sums;
-    pg_sweep *sweep;
+    pg_bond_loop *sweep;
     check_ok (pg_beam_measure (&sums, p->sums));
     for (size_t i = 0; i < b->n; i++) {
         pg_problem_beams (p, 0, &E, &nu, &A);
@@ -201,8 +201,8 @@ static pg_sweep *sweep_of (const bonded *b, double **room)
         c[2 * b->n + i] = p->bending * c[b->n + i], c[3 * b->n + i] = A;
     }
     law = (pg_beam_law) { .shear = c + b->n, .bending = c + 2 * b->n, .length = p->cloud.h };
-    pg_sweep_setting s = { .sums = p->sums, .family = &p->rows[PG_NODES].family, .modulus = c, .dilation = c + 3 * b->n, .deviation = c + 4 * b->n, .beams = &law, .threads = 1 };
-    check_ok (pg_sweep_create (&sweep, &s));
+    pg_bond_loop_setting s = { .sums = p->sums, .family = &p->rows[PG_NODES].family, .modulus = c, .dilation = c + 3 * b->n, .deviation = c + 4 * b->n, .beams = &law, .threads = 1 };
+    check_ok (pg_bond_loop_create (&sweep, &s));
     return sweep;
 }
 
@@ -212,7 +212,7 @@ static double strained (bonded *b, const double *H, double *worst)
     static const int voigt[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } };
     double *u = linear_field (b, H), *room, *W = pg_calloc (b->n, sizeof *W), energy = 0, largest = 0, v[3], s[6], exact[6];
     const pg_cloud *cloud = &b->problem->cloud;
-    pg_sweep *sweep = sweep_of (b, &room);
+    pg_bond_loop *sweep = sweep_of (b, &room);
     size_t middle = 0;
     for (size_t i = 0; i < b->n; i++) {
         double far[2] = { 0 };
@@ -220,7 +220,7 @@ static double strained (bonded *b, const double *H, double *worst)
             for (size_t a = 0; a < b->dim; a++) far[k] = fmax (far[k], fabs (cloud->x[(k ? middle : i) * b->dim + a] - 0.5 * (cloud->low[a] + cloud->high[a])));
         if (far[0] < far[1] - 1e-9 * cloud->h) middle = i;
     }
-    check_ok (pg_sweep_energies (sweep, u, W));
+    check_ok (pg_bond_loop_energies (sweep, u, W));
     check_ok (b->force->sample (b->self, b->state, u, 1, cloud->x + middle * b->dim, v, s));
     pg_stress_of_gradient (b->problem->material, (int) b->dim, H, exact);
     for (size_t a = 0; a < b->dim; a++)
@@ -229,7 +229,7 @@ static double strained (bonded *b, const double *H, double *worst)
     for (int c = 0; c < 6; c++) largest = fmax (largest, fabs (exact[c]));
     for (int c = 0; c < 6; c++) *worst = fmax (*worst, fabs (s[c] - exact[c]) / largest);
     double ratio = W[middle] / energy;
-    pg_sweep_free (&sweep);
+    pg_bond_loop_free (&sweep);
     pg_free (u), pg_free (room), pg_free (W);
     return ratio;
 }
@@ -280,16 +280,16 @@ static void test_nothing_left (void **unused)
             b[k] = bonded_of (text);
             double *d = random_vector (b[k].ndof, 3);
             pg_changes c = kill_some (&b[k], 7);
-            pg_ledger ledger = { 0 };
+            pg_work_balance work_balance = { 0 };
             f[k] = pg_calloc (b[k].ndof, sizeof **f);
             check_ok (b[k].force->balance (b[k].self, 0, d, f[k], NULL));
-            check_ok (b[k].force->ledger (b[k].self, 0, d, NULL, &ledger));
+            check_ok (b[k].force->work_balance (b[k].self, 0, d, NULL, &work_balance));
             check_ok (b[k].force->bound (b[k].self, &bound[k]));
-            energy[k] = ledger.strain;
+            energy[k] = work_balance.strain;
             assert_memory_equal (f[k], f[0], b[k].ndof * sizeof **f);
             assert_true (energy[k] == energy[0] && bound[k] == bound[0]);
             assert_memory_equal (b[k].problem->criterion->parameter, b[0].problem->criterion->parameter, 4 * sizeof (double));
-            pg_ledger_clear (&ledger), pg_free (d), pg_free (c.bond);
+            pg_work_balance_clear (&work_balance), pg_free (d), pg_free (c.bond);
         }
         for (int k = 0; k < 3; k++) pg_free (f[k]), unbonded (&b[k]);
     }
@@ -303,10 +303,10 @@ static double cut_energy (const bonded *b, int axis, double s)
     const pg_family *f = &p->rows[PG_NODES].family;
     const double *x = p->cloud.x, h = p->cloud.h;
     double E, nu, A, axial, shear, sum = 0, weight[400], *all = pg_calloc (400 * 3, sizeof *all), *q = pg_calloc (b->n, sizeof *q), *room;
-    pg_sweep *sweep = sweep_of (b, &room);
+    pg_bond_loop *sweep = sweep_of (b, &room);
     pg_problem_beams (p, 0, &E, &nu, &A);
     check_ok (pg_beam_moduli (&axial, &shear, p->mode, p->sums->rule.kernel, p->sums->rule.horizon, E, nu, p->cloud.thickness));
-    check_ok (pg_sweep_dilatation (sweep, NULL, NULL, q));
+    check_ok (pg_bond_loop_dilatation (sweep, NULL, NULL, q));
     for (size_t i = 0; i < b->n; i++) {
         int column = 1;
         double beyond = 0;
@@ -329,7 +329,7 @@ static double cut_energy (const bonded *b, int axis, double s)
         sum += 0.5 * A / p->dim * theta * theta * p->cloud.volume[i];
     }
     double area = p->cloud.volume[0] / h;
-    pg_sweep_free (&sweep);
+    pg_bond_loop_free (&sweep);
     pg_free (all), pg_free (q), pg_free (room);
     return sum / area;
 }
@@ -463,7 +463,7 @@ static void test_runs (void **unused)
                 r[threads - 1] = prepare (threads, text);
                 to_the_end (&r[threads - 1]);
             }
-            const pg_report *report = pg_solver_report (r[0].solver, r[0].state);
+            const pg_statistics *report = pg_solver_report (r[0].solver, r[0].state);
             print_message ("%dD, %s: %zu bonds broken, residual %.2g\n", dim, k == 0 ? "events" : k == 1 ? "fixed steps" : "motion", (size_t) r[0].state->broken, report->residual_max);
             assert_true (r[0].state->broken > 30);
             if (k < 2) check_below (report->residual_max, 1e-8);

@@ -39,14 +39,14 @@ static void check_mesh (const pg_mesh *m)
 
 static void check_search (const pg_mesh *m)
 {
-    pg_mesh_finder *f = NULL;
+    pg_mesh_locator *f = NULL;
     double xi[3], away;
-    FUZZ_EXPECT (pg_finder_create (&f, m) == PG_OK);
+    FUZZ_EXPECT (pg_mesh_locator_create (&f, m) == PG_OK);
     for (size_t i = 0; i < m->nnode && i < 20; i++) {
-        long e = pg_finder_find (f, m->x + 3 * i, xi, &away);
+        long e = pg_mesh_locator_find (f, m->x + 3 * i, xi, &away);
         FUZZ_EXPECT (e >= -1 && e < (long) m->n);
     }
-    pg_finder_free (&f);
+    pg_mesh_locator_free (&f);
 }
 
 static void check_result (const mesh_bytes *file)

@@ -2,7 +2,7 @@
  * Any bytes as a scene: an answer always, each fault with its place, no memory lost. A right scene with a small body is built, too,
  * and passes all that `perigal check` asks of it. */
 #include "fuzz.h"
-#include "perigal/report.h"
+#include "perigal/results.h"
 #include "scene/document.h"
 #include <math.h>
 

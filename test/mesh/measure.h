@@ -70,13 +70,13 @@ static inline pg_mesh block_mesh (pg_element kind, int n, void (*map) (double *x
     static const pg_element linear[9] = { [2] = PG_BAR2, [3] = PG_TRI3, [6] = PG_WEDGE6, [8] = PG_HEX8 };
     int dim = pg_element_types[kind].dim, corners = pg_element_types[kind].corners, width = 2 * n + 1, cells = 1, id = 1;
     pg_element parent = corners == 4 ? (dim == 2 ? PG_QUAD4 : PG_TET4) : linear[corners];
-    pg_mesh_maker *m = NULL;
+    pg_mesh_builder *m = NULL;
     pg_mesh mesh;
-    check_ok (pg_maker_create (&m, "block"));
+    check_ok (pg_mesh_builder_create (&m, "block"));
     for (int k = 0; k < (dim > 1 ? width : 1) * (dim > 2 ? width : 1) * width; k++) {
         double x[3] = { (double) (k % width) / n - 1, dim > 1 ? (double) (k / width % width) / n - 1 : 0, dim > 2 ? (double) (k / width / width) / n - 1 : 0 };
         if (map) map (x);
-        check_ok (pg_maker_node (m, k, x));
+        check_ok (pg_mesh_builder_node (m, k, x));
     }
     for (int a = 0; a < dim; a++) cells *= n;
     for (int c = 0; c < cells; c++)
@@ -90,10 +90,10 @@ static inline pg_mesh block_mesh (pg_element kind, int n, void (*map) (double *x
                 for (int i = 0; i < corners; i++) for (int a = 0; a < dim; a++) at[a] += 2 * N[i] * (low[a] + corner[list[i]][a]);
                 node[k] = lround (at[0]) + width * (lround (at[1]) + width * lround (at[2]));
             }
-            check_ok (pg_maker_element (m, id++, kind, node, 0, 0));
+            check_ok (pg_mesh_builder_element (m, id++, kind, node, 0, 0));
         }
-    check_ok (pg_maker_finish (m, &mesh));
-    pg_maker_free (&m);
+    check_ok (pg_mesh_builder_finish (m, &mesh));
+    pg_mesh_builder_free (&m);
     return mesh;
 }
 #endif

@@ -22,10 +22,10 @@ static void bend_line (double *x) { x[0] += 0.2 * x[0] * x[0]; }
 
 static pg_mesh curved (pg_element kind, int n) { return block_mesh (kind, n, pg_element_types[kind].dim == 1 ? bend_line : bend); }
 
-static pg_mesh_finder *finder_of (const pg_mesh *m)
+static pg_mesh_locator *locator_of (const pg_mesh *m)
 {
-    pg_mesh_finder *f = NULL;
-    check_ok (pg_finder_create (&f, m));
+    pg_mesh_locator *f = NULL;
+    check_ok (pg_mesh_locator_create (&f, m));
     return f;
 }
 
@@ -50,16 +50,16 @@ static void every_place_inside_is_found (void **state)
     (void) state;
     for (int k = 0; k < SOLIDS; k++) {
         pg_mesh m = curved (solid[k], 3);
-        pg_mesh_finder *f = finder_of (&m);
+        pg_mesh_locator *f = locator_of (&m);
         for (size_t e = 0; e < m.n; e++)
             for (unsigned s = 0; s < 5; s++) {
                 double xi[3], place[3], found[3], away = 1;
                 place_in (&m, e, 100 * (unsigned) e + s, xi, place);
-                assert_int_equal (pg_finder_find (f, place, found, &away), e);
+                assert_int_equal (pg_mesh_locator_find (f, place, found, &away), e);
                 assert_true (away == 0);
                 for (int a = 0; a < m.dim; a++) check_absolute (found[a], xi[a], 1e-10);
             }
-        pg_finder_free (&f);
+        pg_mesh_locator_free (&f);
         assert_null (f);
         pg_mesh_clear (&m);
     }
@@ -71,15 +71,15 @@ static void the_lowest_of_several_elements_is_taken (void **state)
     (void) state;
     for (int k = 0; k < SOLIDS; k++) {
         pg_mesh m = curved (solid[k], 3);
-        pg_mesh_finder *f = finder_of (&m);
+        pg_mesh_locator *f = locator_of (&m);
         for (size_t i = 0; i < m.nnode; i++) {
             double xi[3], away;
             size_t lowest = m.n;
             for (size_t e = m.n; e-- > 0; )
                 for (size_t j = m.start[e]; j < m.start[e + 1]; j++) if ((size_t) m.node[j] == i) lowest = e;
-            assert_int_equal (pg_finder_find (f, m.x + 3 * i, xi, &away), lowest);
+            assert_int_equal (pg_mesh_locator_find (f, m.x + 3 * i, xi, &away), lowest);
         }
-        pg_finder_free (&f), pg_mesh_clear (&m);
+        pg_mesh_locator_free (&f), pg_mesh_clear (&m);
     }
 }
 
@@ -89,7 +89,7 @@ static void places_outside_give_the_nearest_inside (void **state)
     (void) state;
     for (int k = 2; k < SOLIDS; k++) {
         pg_mesh m = block_mesh (solid[k], 4, NULL);
-        pg_mesh_finder *f = finder_of (&m);
+        pg_mesh_locator *f = locator_of (&m);
         int dim = m.dim;
         for (unsigned s = 0; s < 40; s++) {
             double place[3], near[3], xi[3], x[81], at[3], away, d = 0;
@@ -98,7 +98,7 @@ static void places_outside_give_the_nearest_inside (void **state)
                 near[a] = fmax (-1, fmin (1, place[a]));
                 d += (place[a] - near[a]) * (place[a] - near[a]);
             }
-            long e = pg_finder_find (f, place, xi, &away);
+            long e = pg_mesh_locator_find (f, place, xi, &away);
             if (sqrt (d) > 0.5 * (1 + 1e-12)) {
                 assert_int_equal (e, -1);
                 continue;
@@ -109,9 +109,9 @@ static void places_outside_give_the_nearest_inside (void **state)
             pg_element_map (solid[k], dim, x, xi, at, NULL);
             for (int a = 0; a < dim; a++) check_absolute (at[a], near[a], 1e-9);
             check_below (pg_element_outside (solid[k], xi), 1e-9);
-            assert_int_equal (pg_finder_find (f, place, xi, NULL), d > 0 ? -1 : e);
+            assert_int_equal (pg_mesh_locator_find (f, place, xi, NULL), d > 0 ? -1 : e);
         }
-        pg_finder_free (&f), pg_mesh_clear (&m);
+        pg_mesh_locator_free (&f), pg_mesh_clear (&m);
     }
 }
 
@@ -122,7 +122,7 @@ static void nearest_on_a_curved_boundary (void **state)
     static const pg_element kinds[] = { PG_TRI6, PG_QUAD8, PG_QUAD9 };
     for (int k = 0; k < 3; k++) {
         pg_mesh m = curved (kinds[k], 3);
-        pg_mesh_finder *f = finder_of (&m);
+        pg_mesh_locator *f = locator_of (&m);
         size_t n;
         int *element, *side;
         check_ok (pg_mesh_surface (&m, &n, &element, &side));
@@ -133,7 +133,7 @@ static void nearest_on_a_curved_boundary (void **state)
             element_places (&m, (size_t) element[j], 3, node, x);
             pg_element_map (face, 2, x, (double[1]) { 0.3 }, foot, normal);
             for (int a = 0; a < 2; a++) place[a] = foot[a] + 0.05 * normal[a];
-            long e = pg_finder_find (f, place, xi, &away);
+            long e = pg_mesh_locator_find (f, place, xi, &away);
             assert_true (e >= 0);
             element_places (&m, (size_t) e, pg_element_types[kinds[k]].nodes, NULL, all);
             pg_element_map (kinds[k], 2, all, xi, at, NULL);
@@ -148,7 +148,7 @@ static void nearest_on_a_curved_boundary (void **state)
             check_below (hypot (at[0] - place[0], at[1] - place[1]), least * (1 + 1e-9));
         }
         pg_free (element), pg_free (side);
-        pg_finder_free (&f), pg_mesh_clear (&m);
+        pg_mesh_locator_free (&f), pg_mesh_clear (&m);
     }
 }
 
@@ -160,14 +160,14 @@ static void graded_and_far_meshes_are_searched (void **state)
     pg_mesh m = block_mesh (PG_QUAD4, 30, grade);
     for (int far = 0; far < 2; far++) {
         for (size_t i = 0; far && i < m.nnode; i++) m.x[3 * i] += 1e3, m.x[3 * i + 1] -= 2e3;
-        pg_mesh_finder *f = finder_of (&m);
+        pg_mesh_locator *f = locator_of (&m);
         for (size_t e = 0; e < m.n; e++) {
             double xi[3], place[3], found[3], away;
             place_in (&m, e, (unsigned) e, xi, place);
             if (far && e < m.n / 2) continue;                /* the smallest elements are lost in rounding there               */
-            assert_int_equal (pg_finder_find (f, place, found, &away), e);
+            assert_int_equal (pg_mesh_locator_find (f, place, found, &away), e);
         }
-        pg_finder_free (&f);
+        pg_mesh_locator_free (&f);
     }
     pg_mesh_clear (&m);
 }
@@ -176,18 +176,18 @@ static void what_is_no_place_is_nowhere (void **state)
 {
     (void) state;
     pg_mesh m = block_mesh (PG_TRI3, 1, NULL), none = { .dim = 2 };
-    pg_mesh_finder *f = finder_of (&m);
+    pg_mesh_locator *f = locator_of (&m);
     double xi[3], away;
-    assert_int_equal (pg_finder_find (f, (double[2]) { NAN, 0 }, xi, &away), -1);
-    assert_int_equal (pg_finder_find (f, (double[2]) { HUGE_VAL, 0 }, xi, &away), -1);
-    assert_int_equal (pg_finder_find (f, (double[2]) { 1e300, 0 }, xi, &away), -1);
-    pg_finder_free (&f);
-    pg_finder_free (&f);
-    check_fails (pg_finder_create (&f, &none), PG_E_USAGE);
+    assert_int_equal (pg_mesh_locator_find (f, (double[2]) { NAN, 0 }, xi, &away), -1);
+    assert_int_equal (pg_mesh_locator_find (f, (double[2]) { HUGE_VAL, 0 }, xi, &away), -1);
+    assert_int_equal (pg_mesh_locator_find (f, (double[2]) { 1e300, 0 }, xi, &away), -1);
+    pg_mesh_locator_free (&f);
+    pg_mesh_locator_free (&f);
+    check_fails (pg_mesh_locator_create (&f, &none), PG_E_USAGE);
     size_t used = pg_memory_used ();
     for (size_t k = 1; k < 7; k++) {
         pg_memory_fail_at (k);
-        check_fails (pg_finder_create (&f, &m), PG_E_MEMORY);
+        check_fails (pg_mesh_locator_create (&f, &m), PG_E_MEMORY);
         assert_int_equal (pg_memory_used (), used);
     }
     pg_memory_fail_at (0);

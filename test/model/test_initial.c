@@ -51,7 +51,7 @@ static void a_spinning_body_is_at_rest_in_itself (void **state)
             "solver: {kind: %s, dt: 0.1 us, time_steps: 50}\n", dim, dim == 2 ? "plane: stress\nthickness: 1 mm\n" : "", dim == 2 ? "[-5 mm, -4 mm]" : "[-3 mm, -4 mm, -2 mm]",
             dim == 2 ? "[5 mm, 4 mm]" : "[3 mm, 4 mm, 2 mm]", dim == 2 ? "" : " + 100 / s * z, z: -100 / s * y", kinds[k % 3]);
         to_the_end (&r);
-        const pg_report *p = pg_solver_report_now (r.solver);
+        const pg_statistics *p = pg_solver_report_now (r.solver);
         assert_true (p->energy_kinetic > 0);
         check_below (p->energy_strain, (k % 3 == 2 ? 1e-12 : 1e-18) * p->energy_kinetic);
         size_t m = (size_t) (r.problem->dim + r.problem->turns);

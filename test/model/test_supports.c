@@ -51,7 +51,7 @@ static void sets_that_share_a_corner (void **state)
     char text[2048];
     for (int m = 0; m < 4; m++) {
         run r = scene_of (1, PLATE "%sboundary:\n - {set: left, displacement: {x: 0, y: 0}}\n - {set: top, displacement: {x: 1 mm}}\n", methods[m]);
-        const pg_report *report = pg_solver_report_now (r.solver);
+        const pg_statistics *report = pg_solver_report_now (r.solver);
         int told = 0;
         for (size_t k = 0; k < report->nwarning; k++)
             told |= strcmp (report->warning[k], "1 point of top, such as (0, 1) m, belongs to left too, which moves them by 0 m, not 0.001: boundary[0].displacement.x comes first and holds them") == 0;
@@ -59,7 +59,7 @@ static void sets_that_share_a_corner (void **state)
         clear (&r);
     }
     run weak = scene_of (1, PLATE "sets: {strip: {where: y > 0.85 m}}\nboundary:\n - {set: left, displacement: {x: 0, y: 0}}\n - {set: strip, essential: penalty, displacement: {x: 1 mm}}\n");
-    const pg_report *now = pg_solver_report_now (weak.solver);     /* the face is held weakly: its corner goes with the points */
+    const pg_statistics *now = pg_solver_report_now (weak.solver);     /* the face is held weakly: its corner goes with the points */
     for (size_t k = 0; k < now->nwarning; k++) assert_null (strstr (now->warning[k], "belong to left too"));
     clear (&weak);
     snprintf (text, sizeof text, PLATE "sets: {pin: {where: x < 0.01 m and y > 0.99 m}}\nboundary:\n - {set: left, displacement: {x: 0}}\n - {set: pin, displacement: {x: 1 mm}}\n");
@@ -139,7 +139,7 @@ static void grips_held_by_their_facets_only_are_told (void **state)
     for (int k = 0; k < 4; k++) {
         run r = scene_of (1, PLATE "sets: {low: {where: y < 0.35}}\nboundary: [{name: grip, set: low, displacement: {x: 0, y: 0}%s}, {set: top, displacement: {y: 1 mm}, essential: nitsche}]\n",
                           hows[k]);
-        const pg_report *report = pg_solver_report_now (r.solver);
+        const pg_statistics *report = pg_solver_report_now (r.solver);
         int told = 0;
         for (size_t w = 0; w < report->nwarning; w++)
             told += strncmp (report->warning[w], "grip: essential: nitsche holds the 16 facets of low and leaves free 27 of its points", 84) == 0;
@@ -155,7 +155,7 @@ static void a_body_held_everywhere_is_told (void **state)
                                          "{set: all, displacement: {x: 1e-3*x}}, {set: bottom, displacement: {y: 0}}" };
     for (int k = 0; k < 4; k++) {
         run r = scene_of (1, PLATE "sets: {skin: {boundary: all}}\nboundary: [%s]\n", loads[k]);
-        const pg_report *report = pg_solver_report_now (r.solver);
+        const pg_statistics *report = pg_solver_report_now (r.solver);
         int told = 0;
         for (size_t w = 0; w < report->nwarning; w++) told |= strstr (report->warning[w], "nothing is left to solve") != NULL;
         assert_int_equal (told, k == 0);

@@ -17,7 +17,7 @@ static void test_panel (void **unused)
             for (int a = 0; a < 2; a++) low[a] = fmin (low[a], x[a]), high[a] = fmax (high[a], x[a]);
         }
     }
-    const pg_report *report = pg_solver_report (r.solver, r.state);
+    const pg_statistics *report = pg_solver_report (r.solver, r.state);
     assert_int_equal (report->nwarning, 1);
     check_contains (report->warning[0], "the crack has arrived");
     check_below (hypot (first[0] - 0.25, first[1] - 0.25), 0.05);

@@ -56,7 +56,7 @@ static void loads_arrive (void **unused)
         check_scaled (r.step.reaction[4], cases[k].y, 1e-9, 1);
         check_scaled (r.step.reaction[0], -cases[k].x, 1e-7, 1);
         check_scaled (r.step.reaction[1], -cases[k].y, 1e-7, 1);
-        const pg_report *report = pg_solver_report (r.solver, r.state);
+        const pg_statistics *report = pg_solver_report (r.solver, r.state);
         if (!strstr (cases[k].load, "ramp")) check_relative (report->energy_external, report->energy_strain, 1e-7);
         clear (&r);
     }
@@ -134,7 +134,7 @@ static void crack_in_time (void **unused)
         advance (&r);
         check_below (r.step.residual, 1e-8);
     }
-    const pg_report *report = pg_solver_report (r.solver, r.state);
+    const pg_statistics *report = pg_solver_report (r.solver, r.state);
     assert_true (report->broken > 100 && report->energy_dissipated > 0);
     clear (&r);
 }

@@ -158,7 +158,7 @@ static void a_refused_step_leaves_the_last_accepted_state (void **state)
  * fields with one node less), and such a point may be stiffer than before. Here the first break raises K by 0.25 %, which a fresh
  * assembly confirms (test_broken_bonds.c). A theorem for the sum there is none either; that it is positive is checked, and that a
  * broken node-node bond, which is not in K, takes and gives nothing. */
-static void check_dissipation (const run *r, const pg_report *report)
+static void check_dissipation (const run *r, const pg_statistics *report)
 {
     int in_K = 0;
     for (size_t k = 0; k < r->step.nbroken; k++) in_K |= r->step.broken[k].set != PG_NODES;
@@ -174,7 +174,7 @@ static void energies_balance_event_by_event (void **state)
         run r = plate (essentials[m], "stepping: event, break: worst, max_events: 80");
         double work = 0, last = 0, sum = 0, U = 0.7e-3;
         int negative = 0;
-        const pg_report *report = pg_solver_report_now (r.solver);
+        const pg_statistics *report = pg_solver_report_now (r.solver);
         while (!pg_solver_done (r.solver, r.state)) {
             double before = report->energy_external, strain = report->energy_strain;
             advance (&r);
@@ -201,7 +201,7 @@ static void energies_balance_in_fixed_steps (void **state)
 {
     (void) state;
     run r = plate ("nitsche", "stepping: fixed, steps: 20, break: worst");
-    const pg_report *report = pg_solver_report_now (r.solver);
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     double sum = 0;
     while (!pg_solver_done (r.solver, r.state)) {
         advance (&r);

@@ -37,7 +37,7 @@ static void the_shallower_the_crack_the_larger_the_load (void **state)
     for (int k = 0; k < 3; k++) {
         run r = coarse (scene[k], 2, sets);
         load[k] = until_broken (&r, 0.01);
-        const pg_report *report = pg_solver_report (r.solver, r.state);
+        const pg_statistics *report = pg_solver_report (r.solver, r.state);
         print_message ("%s: %.1f N when 1 %% is broken, %ld steps, %ld rounds, %zu iterations\n", scene[k], load[k], report->steps, report->iterations,
                        report->cg_iterations);
         assert_int_equal (report->factorizations, 0);
@@ -81,7 +81,7 @@ static void a_through_crack_is_symmetric (void **state)
     static const char *const sets[] = { "spacing=5 mm", "sets.platens.angle=[[80 deg, 100 deg], [260 deg, 280 deg]]" };
     run r = coarse ("data/cui_disk_10/scene.yaml", 2, sets);
     until_broken (&r, 0.01);
-    const pg_report *report = pg_solver_report (r.solver, r.state);
+    const pg_statistics *report = pg_solver_report (r.solver, r.state);
     print_message ("%ld steps, %ld rounds, %zu iterations\n", report->steps, report->iterations, report->cg_iterations);
     assert_int_equal (report->factorizations, 0);
     assert_int_equal (report->bonds_over_limit, 0);
@@ -117,7 +117,7 @@ static void the_plate_parts_near_the_middle_of_the_mouth (void **state)
         int back = x[2] < 0.1;
         if (damage[i] > 0.2) height[back] += damage[i] * x[1], weight[back] += damage[i];
     }
-    const pg_report *report = pg_solver_report (r.solver, r.state);
+    const pg_statistics *report = pg_solver_report (r.solver, r.state);
     print_message ("ends at t = %g s, %ld bonds, %ld rounds, %ld factorizations, %zu iterations\n", r.state->time, report->broken, report->iterations,
                    report->factorizations, report->cg_iterations);
     assert_true (weight[0] > 0 && weight[1] > 0);

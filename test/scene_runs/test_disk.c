@@ -67,7 +67,7 @@ static int start (void **unused)
     }
     disk.after = field_of (r, NULL, "damage", NULL);
     disk.wing[0] = centre_line (1), disk.wing[1] = centre_line (-1);
-    const pg_report *report = pg_solver_report_now (r->solver);
+    const pg_statistics *report = pg_solver_report_now (r->solver);
     print_message ("# %ld events, %ld bonds broken, load factor %.9g\n", report->events, report->broken, r->state->factor);
     for (size_t k = 0; k < disk.wing[0].n; k++) print_message ("#   centre line %.3f %.3f mm\n", disk.wing[0].at[k].x / mm, disk.wing[0].at[k].y / mm);
     return 0;

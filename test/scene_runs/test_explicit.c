@@ -20,7 +20,7 @@ static void what_breaking_takes_is_never_given_back (void **state)
         long broken = 0;
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
-            const pg_report *p = pg_solver_report_now (r.solver);
+            const pg_statistics *p = pg_solver_report_now (r.solver);
             assert_true (p->energy_dissipated >= taken - 1e-12 * p->energy_external);
             assert_true (r.step.nbroken > 0 || p->energy_dissipated <= taken + 1e-12 * p->energy_external);
             check_scaled (r.step.dissipated, p->energy_dissipated - taken, 1e-9, p->energy_external);
@@ -167,7 +167,7 @@ static void stages_are_raised_where_the_load_alone_would_break_bonds (void **sta
     (void) state;
     run r = scene_of (1, NOTCHED "failure: {criterion: stretch, critical_stretch: 1e-6}\n"
                       "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 100 MPa}}]\nsolver: {kind: relax, stages: 1}\n");
-    const pg_report *report = pg_solver_report_now (r.solver);
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     assert_true (pg_solver_settled (r.solver)->stages > 1);
     assert_int_equal (report->nwarning, 1);
     check_contains (report->warning[0], "instead of 1");
@@ -188,7 +188,7 @@ static void a_run_ends_when_the_crack_arrives (void **state)
     clear (&r);
 }
 
-/* With shape functions the supports act by Nitsche's terms; their work comes from the ledger. */
+/* With shape functions the supports act by Nitsche's terms; their work comes from the work balance. */
 static void galerkin_forces_march_too (void **state)
 {
     (void) state;
@@ -198,7 +198,7 @@ static void galerkin_forces_march_too (void **state)
     double most = 0;
     while (!pg_solver_done (r.solver, r.state)) {
         advance (&r);
-        const pg_report *p = pg_solver_report_now (r.solver);
+        const pg_statistics *p = pg_solver_report_now (r.solver);
         most = fmax (most, p->energy_strain);
         check_scaled (p->energy_dissipated, 0, 1e-3, most);
     }

@@ -32,7 +32,7 @@ static void test_forces (void **unused)
                               "sets.far.where=x <= 0.06 m" };
         run r = loaded ("data/l_panel/scene.yaml", sizeof set / sizeof *set, set);
         crack c = broken_by (&r, 4);
-        const pg_report *report = pg_solver_report (r.solver, r.state);
+        const pg_statistics *report = pg_solver_report (r.solver, r.state);
         print_message ("%s: %.4g kN at %.4g mm, x from %.3g m, y %.3g to %.3g m\n", force[k], c.load / 1e3, c.shift, c.low[0], c.low[1], c.high[1]);
         int arrived = 0;
         for (size_t w = 0; w < report->nwarning; w++) arrived |= strstr (report->warning[w], "the crack has arrived") != NULL;

@@ -55,7 +55,7 @@ static void a_cut_out_square_is_counted_and_stays (void **state)
     for (int m = 0; m < METHODS; m++) for (int stepping = FIXED; stepping <= EVENT; stepping++) {
         run r = plate (m, stepping, square, "");
         to_the_end (&r);
-        const pg_report *report = pg_solver_report (r.solver, r.state);
+        const pg_statistics *report = pg_solver_report (r.solver, r.state);
         if (stepping == FIXED) assert_int_equal (report->fragments, 1);        /* breaking may make more                 */
         assert_true (report->fragments >= 1);
         check_below (report->residual_max, 1e-8);
@@ -86,7 +86,7 @@ static void a_loaded_square_is_refused_and_named (void **state)
 /* How many warnings a run has before its first step that begin so. */
 static int told (const run *r, const char *words)
 {
-    pg_report now = { 0 };
+    pg_statistics now = { 0 };
     int count = 0;
     pg_solver_doubts (&now, r->problem, &r->options);
     for (size_t k = 0; k < now.nwarning; k++) count += strncmp (now.warning[k], words, strlen (words)) == 0;
@@ -101,7 +101,7 @@ static void an_isolated_node_is_counted_and_stays (void **state)
         size_t n = r.problem->cloud.n, found = 0;
         assert_int_equal (told (&r, "the cracks leave 1 point without a bond, such as that at (0.5, 0.5) m"), 1);
         to_the_end (&r);
-        const pg_report *report = pg_solver_report (r.solver, r.state);
+        const pg_statistics *report = pg_solver_report (r.solver, r.state);
         double *u = field_of (&r, NULL, "displacement", NULL), *s = field_of (&r, NULL, "stress", NULL);
         assert_true (isfinite (largest_of (u, 2 * n)) && isfinite (largest_of (s, 3 * n)));
         for (size_t i = 0; i < n; i++) {
@@ -131,7 +131,7 @@ static void nodes_on_a_crack_are_eroded (void **state)
     to_the_end (&r);
     assert_int_equal (told (&r, "5 points lie on a pre-crack"), 1);        /* the run warns, and report.json with it         */
     assert_int_equal (told (&r, "the cracks leave"), 0);                   /* said once                                      */
-    const pg_report *report = pg_solver_report (r.solver, r.state);
+    const pg_statistics *report = pg_solver_report (r.solver, r.state);
     assert_int_equal (report->isolated_nodes, 5);
     double *s = field_of (&r, NULL, "stress", NULL);
     assert_true (isfinite (largest_of (s, 3 * r.problem->cloud.n)));

@@ -56,7 +56,7 @@ static void a_bond_breaks_at_its_limits (void **state)
             if (isinf (trials[k].breaks_at)) assert_true (isinf (at));
             else check_relative (at, trials[k].breaks_at, trials[k].breaks_at < 1 ? 1e-6 : 1e-5);
             if (kind != trials[k].kind && trials[k].breaks_at < 1) print_error ("%s\n", trials[k].name), assert_int_equal (kind, trials[k].kind);
-            const pg_report *report = pg_solver_report (r.solver, r.state);
+            const pg_statistics *report = pg_solver_report (r.solver, r.state);
             check_scaled (report->energy_strain + report->energy_dissipated, report->energy_external, 1e-12, report->energy_external);
             if (trials[k].breaks_at < 1) {                 /* what it takes is what it held: four times that of half its limit */
                 trial half = trials[k];
@@ -239,7 +239,7 @@ static void newmark_keeps_energy (void **state)
     double given = NAN, worst = 0;
     while (!pg_solver_done (r.solver, r.state)) {
         advance (&r);
-        const pg_report *p = pg_solver_report_now (r.solver);
+        const pg_statistics *p = pg_solver_report_now (r.solver);
         if (r.state->time < 10.6e-3) continue;
         double all = p->energy_strain + p->energy_kinetic;
         if (isnan (given)) given = all;
@@ -259,7 +259,7 @@ static void work_of_a_turning_end (void **state)
         run r = scene_of (1, BAR "boundary: [{set: l, displacement: {x: 0, y: 0}}, {set: l, rotation: {z: 0}}, {set: r, rotation: {z: '1e-3 * (1 - cos (100 * t / (1 s))) / 2'}, ramp: constant}]\n"
             "solver: {kind: %s, end: 50 ms}\noutput: {at: {levels: 1}}\n", solvers[k]);
         to_the_end (&r);
-        const pg_report *p = pg_solver_report_now (r.solver);
+        const pg_statistics *p = pg_solver_report_now (r.solver);
         assert_true (p->energy_kinetic > 0 && p->energy_strain > 0);
         assert_true (fabs (r.step.reaction[8]) + fabs (r.step.reaction[6]) > 0);
         check_relative (p->energy_strain + p->energy_kinetic, p->energy_external, 1e-9);
@@ -279,7 +279,7 @@ static void what_breaking_takes_stays_taken (void **state)
             double taken = 0;
             while (!pg_solver_done (r.solver, r.state)) {
                 advance (&r);
-                const pg_report *p = pg_solver_report_now (r.solver);
+                const pg_statistics *p = pg_solver_report_now (r.solver);
                 assert_true (p->energy_dissipated >= taken - 1e-12 * p->energy_external);
                 if (r.step.nbroken == 0) check_scaled (p->energy_dissipated, taken, 1e-12, p->energy_external);
                 taken = p->energy_dissipated;

@@ -175,7 +175,7 @@ static void too_wrong_is_refused (void **state)
     pg_scene *scene = scene_for (&accepted, 1, "");
     pg_problem *p = NULL;
     pg_solver_options o;
-    pg_report doubts = { 0 };
+    pg_statistics doubts = { 0 };
     check_ok (pg_problem_build (&p, scene, 1));
     check_ok (pg_patch_probe (p));
     check_ok (pg_patch_refuse (p, scene));
@@ -193,7 +193,7 @@ static void remark (const char *more, const char *expected)
     pg_scene *scene = NULL;
     pg_problem *p = NULL;
     pg_solver_options o;
-    pg_report doubts = { 0 };
+    pg_statistics doubts = { 0 };
     char text[2048];
     snprintf (text, sizeof text, "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\n%s"
               "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa}}]\nsolver: {kind: static}\n", more);

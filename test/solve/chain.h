@@ -84,7 +84,7 @@ static pg_status chain_impose (void *self, double t, double *d)
     if (the.lead) d[0] = ((chain *) self)->lead (t);
     return PG_OK;
 }
-static pg_status chain_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out)
+static pg_status chain_work_balance (void *self, double t, const double *d, const double *inertia, pg_work_balance *out)
 {
     pg_status status = PG_OK;
     const chain *c = self;
@@ -119,7 +119,7 @@ static pg_status chain_row_sums (void *self, double *sum)
 }
 static const pg_force_type chain_type = {
     .name = "chain", .create = chain_create, .free = chain_free, .fields = chain_fields, .balance = chain_balance, .mass = chain_mass,
-    .operator_ = chain_operator, .matrix = chain_matrix, .basis = chain_basis, .impose = chain_impose, .ledger = chain_ledger,
+    .operator_ = chain_operator, .matrix = chain_matrix, .basis = chain_basis, .impose = chain_impose, .work_balance = chain_work_balance,
     .external = chain_external, .row_sums = chain_row_sums };
 
 /* ---- a problem around it ---------------------------------------------------------------------------------------------------- */

@@ -125,7 +125,7 @@ static void a_constant_part_that_drives_the_crack_is_told (void **state)
     advance (&r);
     assert_true (r.state->factor == 0 && r.step.nbroken > 0);
     while (!pg_solver_done (r.solver, r.state)) advance (&r);
-    const pg_report *report = pg_solver_report_now (r.solver);
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     int told = 0;
     for (size_t k = 0; k < report->nwarning; k++) told |= strstr (report->warning[k], "the constant loads drive the crack") != NULL;
     assert_true (told);

@@ -12,7 +12,7 @@
 #define PULL3 "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 10 um}}]\nmethod: {force: bond}\n"
 #define ONCE "solver: {stepping: fixed, steps: 1, %s}\noutput: {at: {levels: 1}}\n"
 
-static const pg_report *report_of (run *r) { return pg_solver_report (r->solver, r->state); }
+static const pg_statistics *report_of (run *r) { return pg_solver_report (r->solver, r->state); }
 static double difference (const run *a, const run *b)
 {
     return largest_difference (a->state->d, b->state->d, a->state->ndof) / largest_of (b->state->d, b->state->ndof);
@@ -81,7 +81,7 @@ static void cascades_are_the_same (void **state)
         check_relative (a.step.factor, b.step.factor, 1e-7);
         check_below (a.step.residual, 1e-8);
     }
-    const pg_report *r = report_of (&a);
+    const pg_statistics *r = report_of (&a);
     print_message ("%ld events, %ld bonds, %zu iterations in %ld solves, %ld preconditioners\n", r->events, r->broken, r->cg_iterations, r->solves, r->preconditioners);
     assert_true (r->events >= 25 && r->preconditioners >= 1 && r->preconditioners < r->events / 4 && r->factorizations == 0);
     assert_true (r->cg_iterations < 20 * (size_t) r->solves);

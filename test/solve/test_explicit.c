@@ -130,7 +130,7 @@ static void energy_stays_over_ten_thousand_steps (void **state)
         double first = 0;
         while (!pg_solver_done (l.solver, l.state)) {
             check_ok (pg_solver_step (l.solver, l.state, &step));
-            const pg_report *r = pg_solver_report_now (l.solver);
+            const pg_statistics *r = pg_solver_report_now (l.solver);
             if (first == 0) first = r->energy_strain + r->energy_kinetic;
             assert_true (first > 0);
             check_relative (r->energy_strain + r->energy_kinetic, first, 1e-11);
@@ -156,7 +156,7 @@ static void damping_and_loads_close_the_balance (void **state)
             o.rayleigh_mass = 4, o.rows = 7;
             link_up (&l, &o, &chain_type);
             run_all (&l);
-            const pg_report *r = pg_solver_report_now (l.solver);
+            const pg_statistics *r = pg_solver_report_now (l.solver);
             assert_true (r->energy_damping > 0.01 * fabs (r->energy_external));
             check_scaled (r->energy_dissipated, 0, 1e-11, fabs (r->energy_external));
             unlink_all (&l);
@@ -321,7 +321,7 @@ static void final_state (const char *kind, long rows, int threads, int stops, do
     }
     memcpy (out, l.state->d, the.n * sizeof *out);
     memcpy (out + the.n, l.state->v, the.n * sizeof *out);
-    const pg_report *r = pg_solver_report_now (l.solver);
+    const pg_statistics *r = pg_solver_report_now (l.solver);
     out[2 * the.n] = r->energy_external, out[2 * the.n + 1] = r->energy_damping, out[2 * the.n + 2] = r->energy_kinetic;
     unlink_all (&l);
 }

@@ -106,7 +106,7 @@ static void what_cannot_be_is_refused (void **state)
         { "solver.broken.bonds", 0, nbond, "a broken bond is" }, { "solver.broken.bonds", 0, -1, "a broken bond is -1" },
         { "solver.broken.bonds", 1, PG_BOND_SETS, "the set of a broken bond is" }, { "solver.broken.bonds", 1, -1, "the set of a broken bond is -1" },
         { "solver.broken.bonds", 2, 128, "the kind of a broken bond is 128" }, { "solver.broken_count", 0, -1, "the number of broken bonds is -1" },
-        { "solver.broken_count", 0, nbond + 1, "the number of broken bonds is" }, { "ledger.counts", 0, 1L << 20, "ledger.counts is 1048576" }, { "ledger.counts", 1, 2, "ledger.counts is 2" },
+        { "solver.broken_count", 0, nbond + 1, "the number of broken bonds is" }, { "work_balance.counts", 0, 1L << 20, "work_balance.counts is 1048576" }, { "work_balance.counts", 1, 2, "work_balance.counts is 2" },
         { "solver.counts", 4, 5, "the next level is 5, not from 0 to 4" }, { "solver.counts", 5, 64, "the end of the run is 64" }, { "solver.counts", 7, -1, "the round is -1" },
         { "report.counts", 0, -1, "a count of the report is -1" }, { "report.counts", 13, 1000, "the number of skipped things is 1000" },
         { "report.counts", 14, 1000, "the number of warnings is 1000" }, { "system.counts", 0, 99, "the way to solve is 99" }, { "system.counts", 4, 2, "a kept factor is 2" },
@@ -128,7 +128,7 @@ static void texts_end_whatever_was_read (void **state)
 {
     (void) state;
     run a = broken (solvers[0]), b = plate (solvers[0]);
-    memory m = { .wrong = "report.solver", .at = sizeof ((pg_report *) NULL)->solver - 1, .to = 'x' };
+    memory m = { .wrong = "report.solver", .at = sizeof ((pg_statistics *) NULL)->solver - 1, .to = 'x' };
     check_ok (walk (&m, &a, 0));
     check_ok (walk (&m, &b, 1));
     assert_int_equal (pg_solver_report_now (b.solver)->solver[m.at], 0);

@@ -83,7 +83,7 @@ static void energy_stays (dynamic *r)
     double first = 0, told = 0;
     for (int k = 0; k < 201; k++) {
         advance (r);
-        const pg_report *report = pg_solver_report_now (r->solver);
+        const pg_statistics *report = pg_solver_report_now (r->solver);
         if (k == 0) first = energy (r), told = report->energy_strain + report->energy_kinetic;
         assert_true (first > 0);
         check_relative (energy (r), first, 1e-9);
@@ -207,7 +207,7 @@ static void pull (const char *load, int power, double tolerance_work)
     while (!pg_solver_done (r.solver, r.state)) {
         pg_step step = advance (&r);
         double t = step.time, v = power * U * pow (t, power - 1), a = power * (power - 1) * U * pow (t, power - 2);
-        const pg_report *report = pg_solver_report_now (r.solver);
+        const pg_statistics *report = pg_solver_report_now (r.solver);
         check_scaled (r.state->d[r.n - 1], U * pow (t, power), 1e-9, 1e-12);
         check_scaled (r.state->v[r.n - 1], v, 1e-6, U);
         check_scaled (r.state->a[r.n - 1], a, 1e-3, U);
@@ -265,7 +265,7 @@ static void nothing_is_lost_without_damping (void **state)
         if (k / 3 == 0) first_mode (&r, 1e-3);
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
-            const pg_report *report = pg_solver_report_now (r.solver);
+            const pg_statistics *report = pg_solver_report_now (r.solver);
             assert_true (report->energy_external > 0);
             check_below (fabs (report->energy_dissipated), 1e-9 * report->energy_external);
         }

@@ -74,7 +74,7 @@ static void energy_stays_with_consistent_mass (void **state)
     (void) state;
     dynamic r = bar (0.05, 5e-3, 4, "consistent", 0);
     free_end (&r, 3);
-    const pg_report *report = pg_solver_report_now (r.solver);
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     double energy = report->energy_strain + report->energy_kinetic;
     assert_true (energy > 0);
     check_scaled (report->energy_dissipated, 0, 1e-8, energy);
@@ -108,7 +108,7 @@ static void numerical_damping_takes_what_the_step_cannot_resolve (void **state)
         for (int m = 0; m < 2; m++) {
             dynamic r = bar (0.05, 0.1, 20, "lumped", a ? -0.3 : 0);
             free_end (&r, m ? 31 : 1);
-            const pg_report *report = pg_solver_report_now (r.solver);
+            const pg_statistics *report = pg_solver_report_now (r.solver);
             kept[a][m] = (report->energy_strain + report->energy_kinetic) / (report->energy_external);
             close_run (&r);
         }

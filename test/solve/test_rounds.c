@@ -66,7 +66,7 @@ static void a_run_ends_when_the_crack_arrives (void **state)
             before = damage_ahead (&r);
         }
         assert_true (before >= 0.3);
-        const pg_report *report = pg_solver_report_now (r.solver);
+        const pg_statistics *report = pg_solver_report_now (r.solver);
         for (size_t k = 0; k < report->nwarning; k++) told |= strstr (report->warning[k], "the crack has arrived at ahead") != NULL;
         assert_true (told);
         clear (&r);
@@ -117,7 +117,7 @@ static void a_body_in_pieces_ends_the_run (void **state)
     run r = scene_of (1, PLATE "solver: {stepping: event, stop: {stiffness: 20 %%}}\n");
     int told = 0, events = 0;
     while (!pg_solver_done (r.solver, r.state) && events++ < 400) advance (&r);
-    const pg_report *report = pg_solver_report_now (r.solver);
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     for (size_t k = 0; k < report->nwarning; k++) told |= strstr (report->warning[k], "the body is apart") != NULL;
     assert_true (told && events < 400);
     clear (&r);

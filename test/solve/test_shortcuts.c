@@ -29,7 +29,7 @@ static void a_small_step_factors_nothing_and_says_so (void **state)
     (void) state;
     run a = scene_of (1, BLOCK PULLED SMALL, "auto"), b = scene_of (1, BLOCK PULLED SMALL, "cholmod");
     compare (&a, &b, 18, 1e-9);
-    const pg_report *r = pg_solver_report (a.solver, a.state), *plain = pg_solver_report (b.solver, b.state);
+    const pg_statistics *r = pg_solver_report (a.solver, a.state), *plain = pg_solver_report (b.solver, b.state);
     print_message ("%ld bonds broken, %zu iterations in %ld solves; plain: %ld factorizations\n", r->broken, r->cg_iterations, r->solves, plain->factorizations);
     assert_true (r->broken > 5);
     assert_int_equal (r->factorizations, 0);
@@ -47,7 +47,7 @@ static void a_large_step_factors (void **state)
                       "materials: {rock: {youngs_modulus: 30 GPa, poissons_ratio: 0.2, density: 2500}}\n" PULLED
                       "solver: {kind: newmark, dt: 1 ms, end: 10 ms}\n");
     advance (&a);
-    const pg_report *r = pg_solver_report (a.solver, a.state);
+    const pg_statistics *r = pg_solver_report (a.solver, a.state);
     assert_true (r->factorizations >= 1);
     assert_int_equal (r->nskipped, 0);
     clear (&a);
@@ -65,7 +65,7 @@ static void a_kept_factor_gives_the_same_crack (void **state)
     static const char solver[] = STRIP "solver: {stepping: fixed, steps: 40, tolerance: 1e-11, break: fraction, break_fraction: 10 %%, linear: %s}\n";
     run a = scene_of (1, solver, "auto"), b = scene_of (1, solver, "cholmod");
     compare (&a, &b, 14, 1e-9);
-    const pg_report *r = pg_solver_report (a.solver, a.state), *plain = pg_solver_report (b.solver, b.state);
+    const pg_statistics *r = pg_solver_report (a.solver, a.state), *plain = pg_solver_report (b.solver, b.state);
     print_message ("%ld bonds broken, %ld factorizations, %zu iterations; plain: %ld\n", r->broken, r->factorizations, r->cg_iterations, plain->factorizations);
     assert_true (r->broken > 5);
     assert_true (r->factorizations < plain->factorizations);

@@ -98,7 +98,7 @@ static void external_work_is_strain_energy (void **state)
                 run r = scene_of (1, PLATE "boundary: [%s]\nmethod: {essential: %s}\nsolver: {%s}\n", cases[c], ways[w], steppings[s]);
                 while (!pg_solver_done (r.solver, r.state)) {
                     advance (&r);
-                    const pg_report *report = pg_solver_report_now (r.solver);
+                    const pg_statistics *report = pg_solver_report_now (r.solver);
                     assert_true (report->energy_external > 0);
                     check_relative (report->energy_strain, report->energy_external, 1e-8);
                     check_scaled (report->energy_dissipated, 0, 1e-8, report->energy_external);
@@ -168,7 +168,7 @@ static void a_soft_nitsche_support_falls_back_on_umfpack (void **state)
     run r = scene_of (1, PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa}}]\n"
                       "method: {essential: nitsche, nitsche_factor: 0.05}\n");
     to_the_end (&r);
-    const pg_report *report = pg_solver_report_now (r.solver);
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     int told = 0;
     for (size_t k = 0; k < report->nwarning; k++) told |= strstr (report->warning[k], "not positive definite") && strstr (report->warning[k], "nitsche_factor");
     assert_true (told);

@@ -47,7 +47,7 @@ static void unloading_to_nothing_and_through_it_is_solved (void **state)
                     check_below (r.step.residual, 1e-8);
                 }
                 assert_true (top > 0);
-                const pg_report *report = pg_solver_report_now (r.solver);
+                const pg_statistics *report = pg_solver_report_now (r.solver);
                 for (size_t k = 0; k < report->nwarning; k++) assert_null (strstr (report->warning[k], "nothing loads the body"));
                 clear (&r);
             }
@@ -122,7 +122,7 @@ static void a_free_rotation_is_told (void **state)
         run r = scene_of (1, "%smaterials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\nsets: {pin: {where: 'abs(x) < 1e-6 and abs(y) < 1e-6 and abs(z) < 1e-6'}, far: {where: 'x > 0.79 and "
                           "abs(y) < 1e-6 and abs(z) < 1e-6'}, edge: {where: 'abs(x) < 1e-6 and abs(y) < 1e-6'}}\nboundary: [%s, {set: right, traction: {x: 1 MPa}}]\n", bodies[held[k].dim - 2],
                           held[k].supports);
-        const pg_report *report = pg_solver_report_now (r.solver);
+        const pg_statistics *report = pg_solver_report_now (r.solver);
         int told = 0;
         for (size_t w = 0; w < report->nwarning; w++) told |= strstr (report->warning[w], "nothing keeps the body from turning") != NULL;
         if (told != held[k].turns) print_error ("%s\n", held[k].supports);

@@ -152,7 +152,7 @@ static void test_unlike_ends (void **unused)
     pg_cloud cloud = { .dim = 2, .n = 2, .h = 0.1, .thickness = 1, .x = x, .volume = volume };
     pg_sums sums = { .cloud = &cloud };
     pg_beam_law law = { .shear = shear, .bending = bending, .length = 0.7 };
-    pg_sweep_setting s = { .sums = &sums, .modulus = modulus, .beams = &law };
+    pg_bond_loop_setting s = { .sums = &sums, .modulus = modulus, .beams = &law };
     for (int graded = 0; graded < 2; graded++) {
         cloud.size = graded ? size : NULL;
         double all = 6 * 0.02 * 0.05 / 0.5, wide = all * (graded ? 4 : 1), xi[3] = { 0.3, 0.4, 0 };
@@ -168,7 +168,7 @@ static void test_unlike_ends (void **unused)
 }
 
 /* ---- lattices ------------------------------------------------------------------------------------------------------------------ */
-typedef struct { pg_cloud cloud; pg_sums *sums; pg_family family; pg_sweep *sweep; double *modulus, *shear, *bending; pg_beam_law law; double *d, *f, *W; int m; } field;
+typedef struct { pg_cloud cloud; pg_sums *sums; pg_family family; pg_bond_loop *sweep; double *modulus, *shear, *bending; pg_beam_law law; double *d, *f, *W; int m; } field;
 
 static void field_create (field *b, int dim, int side, double scatter, double turned, pg_sum_rule rule, double nu, double ratio, const char *instructions)
 {
@@ -200,15 +200,15 @@ static void field_create (field *b, int dim, int side, double scatter, double tu
         b->modulus[i] *= b->sums->calibration, b->shear[i] *= sums.calibration, b->bending[i] = ratio * b->shear[i];
     }
     b->law = (pg_beam_law) { .shear = b->shear, .bending = b->bending, .length = 0.7 };
-    pg_sweep_setting s = { .sums = b->sums, .family = &b->family, .modulus = b->modulus, .beams = &b->law, .threads = 1, .instructions = instructions };
-    if (!instructions) check_ok (pg_sweep_create (&b->sweep, &s));
-    else if (pg_sweep_create (&b->sweep, &s) != PG_OK) b->sweep = NULL, assert_string_not_equal (instructions, "scalar");
+    pg_bond_loop_setting s = { .sums = b->sums, .family = &b->family, .modulus = b->modulus, .beams = &b->law, .threads = 1, .instructions = instructions };
+    if (!instructions) check_ok (pg_bond_loop_create (&b->sweep, &s));
+    else if (pg_bond_loop_create (&b->sweep, &s) != PG_OK) b->sweep = NULL, assert_string_not_equal (instructions, "scalar");
     b->d = pg_calloc (c->n * (size_t) b->m, sizeof *b->d), b->f = pg_calloc (c->n * (size_t) b->m, sizeof *b->f), b->W = pg_calloc (c->n, sizeof *b->W);
 }
 
 static void field_free (field *b)
 {
-    pg_sweep_free (&b->sweep), pg_family_clear (&b->family), pg_sums_free (&b->sums);
+    pg_bond_loop_free (&b->sweep), pg_family_clear (&b->family), pg_sums_free (&b->sums);
     void *all[] = { b->cloud.x, b->cloud.volume, b->modulus, b->shear, b->bending, b->d, b->f, b->W };
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) pg_free (all[k]);
 }
@@ -227,7 +227,7 @@ static double energy_at_centre (field *b, const double *e)
             b->d[i * (size_t) b->m + (size_t) a] = 0;
             for (int k = 0; k < dim; k++) b->d[i * (size_t) b->m + (size_t) a] += e[a * dim + k] * b->cloud.x[i * (size_t) dim + (size_t) k];
         }
-    check_ok (pg_sweep_energies (b->sweep, b->d, b->W));
+    check_ok (pg_bond_loop_energies (b->sweep, b->d, b->W));
     return b->W[b->cloud.n / 2];
 }
 
@@ -240,13 +240,13 @@ static void test_lattice (void **unused)
     field b;
     for (int list = 0; list < 2; list++) {
         field_create (&b, 3, 7, 0, 0, rule_of (PG_SOLID, PG_PARTIAL_NONE, 0, list ? PG_EVALUATE_LIST : PG_EVALUATE_STENCIL), nu, 1, NULL);
-        assert_string_equal (list ? "list" : "stencil", strncmp (pg_sweep_name (b.sweep), "list", 4) ? "stencil" : "list");
+        assert_string_equal (list ? "list" : "stencil", strncmp (pg_bond_loop_name (b.sweep), "list", 4) ? "stencil" : "list");
         check_absolute (energy_at_centre (&b, uniaxial) / (0.5 * lambda + mu), 1.03055, 1e-5);
         check_absolute (energy_at_centre (&b, hydro) / (4.5 * lambda + 3 * mu), 1.09871, 1e-5);
         check_absolute (energy_at_centre (&b, shear) / (0.5 * mu), 1.15530, 1e-5);
         memset (b.d, 0, b.cloud.n * 6 * sizeof *b.d);
         for (size_t i = 0; i < b.cloud.n; i++) b.d[6 * i + 3] = b.law.length;          /* all points turn alike         */
-        check_ok (pg_sweep_force (b.sweep, b.d, b.f, NULL));
+        check_ok (pg_bond_loop_force (b.sweep, b.d, b.f, NULL));
         check_absolute (-b.f[6 * (b.cloud.n / 2) + 3] * b.law.length, 0.5532, 1e-4);
         field_free (&b);
     }
@@ -298,10 +298,10 @@ static void test_loops (void **unused)
         for (size_t i = 0; i < ndof; i++) list.d[i] = any (&seed);
         for (size_t i = 0; i < list.cloud.n; i++)
             for (size_t e = list.family.start[i]; e < list.family.start[i + 1]; e++) alive[e] = (i * (size_t) list.family.node[e] + i + (size_t) list.family.node[e]) % 5 != 0;
-        pg_sweep_update (list.sweep, alive, NULL);
-        check_ok (pg_sweep_force (list.sweep, list.d, list.f, NULL));
-        check_ok (pg_sweep_energies (list.sweep, list.d, list.W));
-        double size = 0, E = pg_sweep_energy (list.sweep, list.d), work = 0;
+        pg_bond_loop_update (list.sweep, alive, NULL);
+        check_ok (pg_bond_loop_force (list.sweep, list.d, list.f, NULL));
+        check_ok (pg_bond_loop_energies (list.sweep, list.d, list.W));
+        double size = 0, E = pg_bond_loop_energy (list.sweep, list.d), work = 0;
         for (size_t i = 0; i < ndof; i++) size = fmax (size, fabs (list.f[i])), work -= 0.5 * list.f[i] * list.d[i];
         check_relative (E, work, 1e-12);               /* forces are those of the energy                                 */
         for (int k = 0; k < 3; k++) {
@@ -310,13 +310,13 @@ static void test_loops (void **unused)
                 field_free (&b);
                 continue;
             }
-            check_contains (pg_sweep_name (b.sweep), "stencil");
-            pg_sweep_update (b.sweep, alive, NULL);
-            check_ok (pg_sweep_force (b.sweep, list.d, b.f, NULL));
+            check_contains (pg_bond_loop_name (b.sweep), "stencil");
+            pg_bond_loop_update (b.sweep, alive, NULL);
+            check_ok (pg_bond_loop_force (b.sweep, list.d, b.f, NULL));
             for (size_t i = 0; i < ndof; i++) check_scaled (b.f[i], list.f[i], 1e-13, size);
-            check_ok (pg_sweep_energies (b.sweep, list.d, b.W));
+            check_ok (pg_bond_loop_energies (b.sweep, list.d, b.W));
             for (size_t i = 0; i < b.cloud.n; i++) check_relative (b.W[i], list.W[i], 1e-12);
-            check_relative (pg_sweep_energy (b.sweep, list.d), E, 1e-12);
+            check_relative (pg_bond_loop_energy (b.sweep, list.d), E, 1e-12);
             field_free (&b);
         }
         pg_free (alive);
@@ -342,9 +342,9 @@ static void test_turned (void **unused)
             v[0] = c * u[0] - s * u[1], v[1] = s * u[0] + c * u[1];
             if (dim == 3) v[3] = c * u[3] - s * u[4], v[4] = s * u[3] + c * u[4];
         }
-        check_relative (pg_sweep_energy (a.sweep, a.d), pg_sweep_energy (b.sweep, b.d), 1e-11);
-        check_ok (pg_sweep_force (a.sweep, a.d, a.f, NULL));
-        check_ok (pg_sweep_force (b.sweep, b.d, b.f, NULL));
+        check_relative (pg_bond_loop_energy (a.sweep, a.d), pg_bond_loop_energy (b.sweep, b.d), 1e-11);
+        check_ok (pg_bond_loop_force (a.sweep, a.d, a.f, NULL));
+        check_ok (pg_bond_loop_force (b.sweep, b.d, b.f, NULL));
         for (size_t i = 0; i < a.cloud.n * (size_t) a.m; i++) size = fmax (size, fabs (a.f[i]));
         for (size_t i = 0; i < a.cloud.n; i++) {
             const double *u = a.f + i * (size_t) a.m, *v = b.f + i * (size_t) a.m;

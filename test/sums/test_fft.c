@@ -3,7 +3,7 @@
  * that break, on bodies with holes, cut volumes, cracks, dead points; any number of threads gives the same bits. */
 #include "sweeps.h"
 
-static int make_as (pg_sweep **out, const body *b, pg_evaluation evaluation, const char *set, int threads, int breaks, int exempt)
+static int make_as (pg_bond_loop **out, const body *b, pg_evaluation evaluation, const char *set, int threads, int breaks, int exempt)
 {
     b->sums->rule.evaluation = evaluation;
     return make_sweep (out, b, set, threads, breaks, exempt);
@@ -61,26 +61,26 @@ static void forces_and_energies_equal_the_plain_loop (void **state)
             double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g), *first = pg_calloc (values, sizeof *first), *W = pg_calloc (values, sizeof *W);
             double energy = body_plain (&b, 0, g, NULL);
             for (int threads = 1; threads <= 3; threads++) {
-                pg_sweep *s = NULL;
+                pg_bond_loop *s = NULL;
                 make_as (&s, &b, PG_EVALUATE_FFT, NULL, threads, 0, 0);
-                check_contains (pg_sweep_name (s), "fft");
-                pg_sweep_update (s, b.alive, NULL);
+                check_contains (pg_bond_loop_name (s), "fft");
+                pg_bond_loop_update (s, b.alive, NULL);
                 memset (f, 0x7f, values * sizeof *f);
-                check_ok (pg_sweep_force (s, b.u, f, NULL));
+                check_ok (pg_bond_loop_force (s, b.u, f, NULL));
                 check_below (difference (f, g, values), 1e-13);
                 if (threads == 1) memcpy (first, f, values * sizeof *f);
                 assert_memory_equal (f, first, values * sizeof *f);
-                check_scaled (pg_sweep_energy (s, b.u), energy, 1e-12, 1e-300);
+                check_scaled (pg_bond_loop_energy (s, b.u), energy, 1e-12, 1e-300);
                 memset (f, 0x7f, values * sizeof *f);
-                check_ok (pg_sweep_energies (s, b.u, f));
+                check_ok (pg_bond_loop_energies (s, b.u, f));
                 check_below (difference (f, b.W, b.cloud.n), 1e-13);
                 if (threads == 1) memcpy (W, f, b.cloud.n * sizeof *W);
                 assert_memory_equal (f, W, b.cloud.n * sizeof *W);
-                pg_sweep_counts count;
-                pg_sweep_counted (s, &count);
+                pg_bond_loop_counts count;
+                pg_bond_loop_counted (s, &count);
                 if (w < 2 && v < 3) assert_true (count.cut < count.blocks && (count.cut > 0) == (v > 0));      /* both ways were gone */
                 if (v == 3) assert_true (count.cut == 0 && (w > 7 || count.gone > 0));
-                pg_sweep_free (&s);
+                pg_bond_loop_free (&s);
                 assert_null (s);
             }
             pg_free (f), pg_free (g), pg_free (first), pg_free (W);
@@ -100,7 +100,7 @@ static void bonds_break_as_by_the_stencil (void **state)
             double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g), *noise = pg_calloc (values, sizeof *noise);
             for (size_t i = 0; exempt && i < b.cloud.n; i++) b.exempt[i] = body_random (&b) < 0.2;
             for (size_t k = 0; k < values; k++) noise[k] = 1e-7 * cell_side * (body_random (&b) - 0.5);
-            pg_sweep *s = NULL, *t = NULL;
+            pg_bond_loop *s = NULL, *t = NULL;
             pg_changes broken = { 0 }, torn = { 0 };
             make_as (&s, &b, PG_EVALUATE_FFT, NULL, 2, 1, exempt), make_as (&t, &b, PG_EVALUATE_STENCIL, NULL, 1, 1, exempt);
             for (int step = 0; step < 12; step++) {
@@ -115,18 +115,18 @@ static void bonds_break_as_by_the_stencil (void **state)
                     if (dim > 1) b.u[i*dim] -= 0.5 * x[1], b.u[i*dim + 1] += 0.5 * x[0];
                 }
                 size_t had = broken.n;
-                check_ok (pg_sweep_force (s, b.u, f, &broken));
-                check_ok (pg_sweep_force (t, b.u, g, &torn));
+                check_ok (pg_bond_loop_force (s, b.u, f, &broken));
+                check_ok (pg_bond_loop_force (t, b.u, g, &torn));
                 assert_int_equal (broken.n, torn.n);
                 if (torn.n) assert_memory_equal (broken.bond, torn.bond, torn.n * sizeof *torn.bond);
                 check_below (difference (f, g, values), 1e-11);
                 total += broken.n - had;
             }
-            pg_sweep_counts count;
-            pg_sweep_counted (s, &count);
+            pg_bond_loop_counts count;
+            pg_bond_loop_counted (s, &count);
             if (w < 12) assert_true (total > 10 && total < b.nbond / 4);
             if (w == 1) assert_true (count.cut > 0 && count.bonds < count.blocks / 2);
-            pg_sweep_free (&s), pg_sweep_free (&t);
+            pg_bond_loop_free (&s), pg_bond_loop_free (&t);
             pg_free (f), pg_free (g), pg_free (noise), pg_free (broken.bond), pg_free (torn.bond);
             body_free (&b);
         }
@@ -141,24 +141,24 @@ static void rigid_motions_cost_no_digits (void **state)
         body_create (&b, &wishes[w], 9);
         size_t dim = (size_t) b.cloud.dim, values = b.cloud.n * dim;
         double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g), *W = pg_calloc (b.cloud.n, sizeof *W);
-        pg_sweep *s = NULL;
+        pg_bond_loop *s = NULL;
         make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
         for (size_t i = 0; i < b.cloud.n; i++)
             for (size_t d = 0; d < dim; d++) b.u[i*dim + d] = 1e-6 * b.cloud.x[i*dim + d] * (1 + 0.1 * sin (b.cloud.x[i*dim] / cell_side));
         body_plain (&b, 0, g, NULL);
-        double energy = pg_sweep_energy (s, b.u);
+        double energy = pg_bond_loop_energy (s, b.u);
         for (size_t i = 0; i < b.cloud.n; i++) {
             double x = b.cloud.x[i*dim], y = b.cloud.x[i*dim + 1];
             b.u[i*dim] += 1 - 0.25 * y, b.u[i*dim + 1] += -0.5 + 0.25 * x;
         }
-        check_relative (pg_sweep_energy (s, b.u), energy, 1e-8);
+        check_relative (pg_bond_loop_energy (s, b.u), energy, 1e-8);
         energy = body_plain (&b, 0, g, NULL);          /* of what is left of u: 1e-16 of 1 m in the 1e-9 m that a bond gets longer */
-        check_ok (pg_sweep_force (s, b.u, f, NULL));
-        check_ok (pg_sweep_energies (s, b.u, W));
-        check_relative (pg_sweep_energy (s, b.u), energy, 1e-9);
+        check_ok (pg_bond_loop_force (s, b.u, f, NULL));
+        check_ok (pg_bond_loop_energies (s, b.u, W));
+        check_relative (pg_bond_loop_energy (s, b.u), energy, 1e-9);
         check_below (difference (f, g, values), 1e-9);
         check_below (difference (W, b.W, b.cloud.n), 1e-9);
-        pg_sweep_free (&s);
+        pg_bond_loop_free (&s);
         pg_free (f), pg_free (g), pg_free (W);
         body_free (&b);
     }
@@ -183,10 +183,10 @@ static void uniform_strain_costs_no_digits (void **state)
             for (size_t i = 0; i < b.cloud.n; i++)
                 for (size_t d = 0; d < dim; d++)       /* 1e-6 m a step, nothing rounded                    */
                     for (size_t k = 0; k < dim; k++) b.u[i*dim + d] += ldexp ((d == k ? 3 : 1 + (double) k) * nearbyint (b.cloud.x[i*dim + k] / cell_side - 0.5), -20);
-            pg_sweep *s = NULL;
+            pg_bond_loop *s = NULL;
             make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
-            pg_sweep_update (s, b.alive, NULL);
-            check_ok (pg_sweep_force (s, b.u, f, NULL));
+            pg_bond_loop_update (s, b.alive, NULL);
+            check_ok (pg_bond_loop_force (s, b.u, f, NULL));
             body_plain (&b, 0, g, NULL);
             for (size_t i = 0; i < b.cloud.n; i++) {
                 int whole = b.family.start[i + 1] - b.family.start[i] == b.sums->stencil.n && b.sums->rule.surface == PG_SURFACE_NONE;
@@ -205,7 +205,7 @@ static void uniform_strain_costs_no_digits (void **state)
             check_below (difference (f, g, values), 1e-14);
             check_below (off, rough ? 1e-13 * within : 1e-24 * most);
             if (which[w] < 2) assert_true (inside > 10);
-            pg_sweep_free (&s);
+            pg_bond_loop_free (&s);
             pg_free (f), pg_free (g), pg_free (own);
             body_free (&b);
         }
@@ -221,30 +221,30 @@ static void transforms_are_as_few_as_theory_has_them (void **state)
         body_create (&b, &wishes[of[k].wish], 9);
         size_t values = b.cloud.n * (size_t) b.cloud.dim;
         double *f = pg_calloc (values, sizeof *f);
-        pg_sweep *s = NULL;
-        pg_sweep_counts count;
+        pg_bond_loop *s = NULL;
+        pg_bond_loop_counts count;
         long all = of[k].forward;
         make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
-        pg_sweep_counted (s, &count);
+        pg_bond_loop_counted (s, &count);
         assert_int_equal (count.forward + count.back + count.sums, 0);
         for (int step = 1; step <= 3; step++) {
-            check_ok (pg_sweep_force (s, b.u, f, NULL));
-            pg_sweep_counted (s, &count);
+            check_ok (pg_bond_loop_force (s, b.u, f, NULL));
+            pg_bond_loop_counted (s, &count);
             assert_int_equal (count.sums, step);
             assert_int_equal (count.forward, step * of[k].forward);
             assert_int_equal (count.back, step * of[k].back);
         }
-        check_ok (pg_sweep_energies (s, b.u, f));                     /* q, and the squares: as many as pairs of axes, one back */
-        pg_sweep_counted (s, &count);
+        check_ok (pg_bond_loop_energies (s, b.u, f));                     /* q, and the squares: as many as pairs of axes, one back */
+        pg_bond_loop_counted (s, &count);
         assert_int_equal (count.forward, 4 * all + all * (all + 1) / 2);
         assert_int_equal (count.back, 4 * all + 1);
         for (size_t e = 0; e < b.nbond; e++) b.alive[e] = 1;
         wound (&b, 2, 0.5, 0);
-        pg_sweep_update (s, b.alive, NULL);
-        check_ok (pg_sweep_force (s, b.u, f, NULL));
-        pg_sweep_counted (s, &count);
+        pg_bond_loop_update (s, b.alive, NULL);
+        check_ok (pg_bond_loop_force (s, b.u, f, NULL));
+        pg_bond_loop_counted (s, &count);
         assert_int_equal (count.back, 4 * all + 1);
-        pg_sweep_free (&s);
+        pg_bond_loop_free (&s);
         pg_free (f);
         body_free (&b);
     }
@@ -261,30 +261,30 @@ static void only_what_is_cut_counts (void **state)
         double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g), *whole = pg_calloc (values, sizeof *whole);
         unsigned char *before = pg_calloc (b.nbond, 1);
         pg_changes changes = { .bond = pg_calloc (b.nbond, sizeof *changes.bond) };
-        pg_sweep *s = NULL, *t = NULL;
+        pg_bond_loop *s = NULL, *t = NULL;
         make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
-        check_ok (pg_sweep_force (s, b.u, whole, NULL));
+        check_ok (pg_bond_loop_force (s, b.u, whole, NULL));
         for (int round = 0; round < 3; round++) {
             memcpy (before, b.alive, b.nbond);
             wound (&b, 0.2, 0.02, 0.03);
             changes.n = 0;
             for (size_t e = 0; e < b.nbond; e++) if (before[e] && !b.alive[e]) changes.bond[changes.n++] = e;
-            pg_sweep_update (s, b.alive, &changes);
-            check_ok (pg_sweep_force (s, b.u, f, NULL));
+            pg_bond_loop_update (s, b.alive, &changes);
+            check_ok (pg_bond_loop_force (s, b.u, f, NULL));
             make_as (&t, &b, PG_EVALUATE_FFT, NULL, 2, 0, 0);
-            pg_sweep_update (t, b.alive, NULL);
-            check_ok (pg_sweep_force (t, b.u, g, NULL));
+            pg_bond_loop_update (t, b.alive, NULL);
+            check_ok (pg_bond_loop_force (t, b.u, g, NULL));
             assert_memory_equal (f, g, values * sizeof *f);
-            pg_sweep_counts one, other;
-            pg_sweep_counted (s, &one), pg_sweep_counted (t, &other);
+            pg_bond_loop_counts one, other;
+            pg_bond_loop_counted (s, &one), pg_bond_loop_counted (t, &other);
             assert_int_equal (one.gone, other.gone);
-            pg_sweep_free (&t);
+            pg_bond_loop_free (&t);
         }
         memset (b.alive, 1, b.nbond);
-        pg_sweep_update (s, b.alive, NULL);
-        check_ok (pg_sweep_force (s, b.u, f, NULL));
+        pg_bond_loop_update (s, b.alive, NULL);
+        check_ok (pg_bond_loop_force (s, b.u, f, NULL));
         assert_memory_equal (f, whole, values * sizeof *f);
-        pg_sweep_free (&s);
+        pg_bond_loop_free (&s);
         pg_free (f), pg_free (g), pg_free (whole), pg_free (before), pg_free (changes.bond);
         body_free (&b);
     }
@@ -299,23 +299,23 @@ static void breaking_equals_starting_anew (void **state)
     size_t values = b.cloud.n * 2;
     double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g);
     pg_changes broken = { 0 };
-    pg_sweep *s = NULL, *t = NULL;
+    pg_bond_loop *s = NULL, *t = NULL;
     make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 1, 0);
     for (size_t i = 0; i < b.cloud.n; i++) {
         const double *x = b.cloud.x + 2*i;
         double y[2] = { x[0] - 40 * cell_side, x[1] - 20 * cell_side }, far = (y[0] * y[0] + y[1] * y[1]) / pow (6 * cell_side, 2);
         for (int d = 0; d < 2; d++) b.u[2*i + (size_t) d] = 5e-3 * y[d] * exp (-far * far);
     }
-    check_ok (pg_sweep_force (s, b.u, f, &broken));
+    check_ok (pg_bond_loop_force (s, b.u, f, &broken));
     for (size_t c = 0; c < broken.n; c++) b.alive[broken.bond[c]] = 0;
     make_as (&t, &b, PG_EVALUATE_FFT, NULL, 2, 0, 0);
-    pg_sweep_update (t, b.alive, NULL);
-    check_ok (pg_sweep_force (t, b.u, g, NULL));
-    pg_sweep_counts count;
-    pg_sweep_counted (t, &count);
+    pg_bond_loop_update (t, b.alive, NULL);
+    check_ok (pg_bond_loop_force (t, b.u, g, NULL));
+    pg_bond_loop_counts count;
+    pg_bond_loop_counted (t, &count);
     assert_true (broken.n > 40 && count.gone > 0 && count.cut > 0 && count.cut < count.blocks / 4);
     assert_memory_equal (f, g, values * sizeof *f);
-    pg_sweep_free (&s), pg_sweep_free (&t);
+    pg_bond_loop_free (&s), pg_bond_loop_free (&t);
     pg_free (f), pg_free (g), pg_free (broken.bond);
     body_free (&b);
 }
@@ -332,16 +332,16 @@ static void work_decides_between_stencil_and_transforms (void **state)
     };
     for (size_t k = 0; k < 4; k++) {
         body b;
-        pg_sweep *s = NULL;
+        pg_bond_loop *s = NULL;
         body_create (&b, &cases[k].wish, 3);
         make_as (&s, &b, PG_EVALUATE_AUTO, NULL, 1, 0, 0);
-        check_contains (pg_sweep_name (s), cases[k].fast ? "fft" : "stencil");
-        if (!cases[k].wish.finite) check_contains (pg_sweep_reason (s), "auto: about");
-        if (cases[k].fast) check_contains (pg_sweep_reason (s), "guessed");
-        pg_sweep_free (&s);
+        check_contains (pg_bond_loop_name (s), cases[k].fast ? "fft" : "stencil");
+        if (!cases[k].wish.finite) check_contains (pg_bond_loop_reason (s), "auto: about");
+        if (cases[k].fast) check_contains (pg_bond_loop_reason (s), "guessed");
+        pg_bond_loop_free (&s);
         make_as (&s, &b, PG_EVALUATE_STENCIL, NULL, 1, 0, 0);
-        assert_string_equal (pg_sweep_reason (s), "asked for");
-        pg_sweep_free (&s);
+        assert_string_equal (pg_bond_loop_reason (s), "asked for");
+        pg_bond_loop_free (&s);
         body_free (&b);
     }
 }
@@ -359,14 +359,14 @@ static void timed_plans_are_kept (void **state)
     body_plain (&b, 0, plain, NULL);
     b.sums->rule.sweeps = 1e9;
     for (int round = 0; round < 3; round++) {
-        pg_sweep *s = NULL;
+        pg_bond_loop *s = NULL;
         setenv ("XDG_CACHE_HOME", round < 2 ? folder : "/dev/null/nowhere", 1);
         make_as (&s, &b, PG_EVALUATE_FFT, NULL, 1, 0, 0);
-        check_contains (pg_sweep_reason (s), "timed");
-        check_ok (pg_sweep_force (s, b.u, round ? f : g, NULL));
+        check_contains (pg_bond_loop_reason (s), "timed");
+        check_ok (pg_bond_loop_force (s, b.u, round ? f : g, NULL));
         check_below (difference (round ? f : g, plain, values), 1e-13);
         if (round == 1) assert_memory_equal (f, g, values * sizeof *f);
-        pg_sweep_free (&s);
+        pg_bond_loop_free (&s);
     }
     snprintf (path, sizeof path, "%s/perigal/fftw_wisdom", folder);
     assert_int_equal (remove (path), 0);               /* it was there */
@@ -389,9 +389,9 @@ static void what_transforms_cannot_is_refused (void **state)
         body b;
         body_create_as (&b, &wish, cases[k].scatter, 0, 3);
         if (k == 3) b.modulus[7] *= 2;
-        pg_sweep *s = NULL;
-        pg_sweep_setting setting = { .sums = b.sums, .family = &b.family, .modulus = b.modulus, .threads = 1 };
-        check_fails (pg_sweep_create (&s, &setting), PG_E_USAGE);
+        pg_bond_loop *s = NULL;
+        pg_bond_loop_setting setting = { .sums = b.sums, .family = &b.family, .modulus = b.modulus, .threads = 1 };
+        check_fails (pg_bond_loop_create (&s, &setting), PG_E_USAGE);
         check_contains (pg_last_error (), "evaluation fft");
         check_contains (pg_last_error (), cases[k].why);
         assert_null (s);
@@ -405,12 +405,12 @@ static void lack_of_memory_is_reported (void **state)
     body b;
     body_create (&b, &wishes[3], 3);
     size_t before = pg_memory_used (), k = 1;
-    pg_sweep *s = NULL;
-    pg_sweep_setting setting = { .sums = b.sums, .family = &b.family, .modulus = b.modulus, .limit = b.limit, .exempt = b.exempt, .threads = 1 };
+    pg_bond_loop *s = NULL;
+    pg_bond_loop_setting setting = { .sums = b.sums, .family = &b.family, .modulus = b.modulus, .limit = b.limit, .exempt = b.exempt, .threads = 1 };
     b.sums->rule.evaluation = PG_EVALUATE_FFT;
     for (pg_status status = PG_E_MEMORY; status != PG_OK; k++) {
         pg_memory_fail_at (k);
-        status = pg_sweep_create (&s, &setting);
+        status = pg_bond_loop_create (&s, &setting);
         pg_memory_fail_at (0);
         if (status == PG_OK) break;
         assert_int_equal (status, PG_E_MEMORY);
@@ -422,18 +422,18 @@ static void lack_of_memory_is_reported (void **state)
     double *f = pg_calloc (b.cloud.n * 2, sizeof *f), *W = pg_calloc (b.cloud.n, sizeof *W);
     for (k = 1; k < 3; k++) {                          /* energies make room when first asked for */
         pg_memory_fail_at (k);
-        check_fails (pg_sweep_energies (s, b.u, W), PG_E_MEMORY);
+        check_fails (pg_bond_loop_energies (s, b.u, W), PG_E_MEMORY);
         pg_memory_fail_at (0);
     }
     body_plain (&b, 0, f, NULL);
-    check_ok (pg_sweep_energies (s, b.u, W));
+    check_ok (pg_bond_loop_energies (s, b.u, W));
     check_below (difference (W, b.W, b.cloud.n), 1e-13);
     size_t calls = pg_memory_calls ();
     pg_changes broken = { 0 };
-    check_ok (pg_sweep_force (s, b.u, f, &broken));
-    check_ok (pg_sweep_energies (s, b.u, W));
+    check_ok (pg_bond_loop_force (s, b.u, f, &broken));
+    check_ok (pg_bond_loop_energies (s, b.u, W));
     assert_int_equal (pg_memory_calls () - calls, broken.n > 0);
-    pg_sweep_free (&s);
+    pg_bond_loop_free (&s);
     pg_free (f), pg_free (W), pg_free (broken.bond);
     body_free (&b);
     assert_true (pg_memory_used () < before);

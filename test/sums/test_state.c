@@ -6,7 +6,7 @@
 typedef struct {
     body b;
     double *dilation, *deviation;
-    pg_sweep_setting setting;
+    pg_bond_loop_setting setting;
     unsigned char *counted;
 } solid;
 
@@ -22,7 +22,7 @@ static void solid_create (solid *s, const body_wish *wish, double scatter, int m
         int other = mixed && s->b.cloud.x[i * (size_t) s->b.cloud.dim] > 0.5 * (s->b.cloud.low[0] + s->b.cloud.high[0]);
         pg_state_moduli (rule->mode, other ? 200e9 : 72e9, other ? 0.1 : nu, &s->dilation[i], &s->deviation[i]);
     }
-    s->setting = (pg_sweep_setting) { .sums = s->b.sums, .family = &s->b.family, .dilation = s->dilation, .deviation = s->deviation, .threads = 1 };
+    s->setting = (pg_bond_loop_setting) { .sums = s->b.sums, .family = &s->b.family, .dilation = s->dilation, .deviation = s->deviation, .threads = 1 };
 }
 
 static void solid_free (solid *s)
@@ -84,18 +84,18 @@ static void compare (solid *s, pg_evaluation evaluation, const char *instruction
     size_t n = s->b.cloud.n, ndof = n * (size_t) s->b.cloud.dim;
     double *f = pg_calloc (ndof, sizeof *f), *g = pg_calloc (ndof, sizeof *g), *W = pg_calloc (n, sizeof *W), *Y = pg_calloc (n, sizeof *Y);
     double *theta = pg_calloc (n, sizeof *theta), *tau = pg_calloc (n, sizeof *tau), E = plain (s, f, W, theta);
-    pg_sweep *sweep;
+    pg_bond_loop *sweep;
     s->b.sums->rule.evaluation = evaluation, s->setting.instructions = instructions;
-    check_ok (pg_sweep_create (&sweep, &s->setting));
-    pg_sweep_update (sweep, s->b.alive, NULL);
-    check_ok (pg_sweep_force (sweep, s->b.u, g, NULL));
+    check_ok (pg_bond_loop_create (&sweep, &s->setting));
+    pg_bond_loop_update (sweep, s->b.alive, NULL);
+    check_ok (pg_bond_loop_force (sweep, s->b.u, g, NULL));
     check_near (ndof, g, f, 1e-13);
-    check_ok (pg_sweep_energies (sweep, s->b.u, Y));
+    check_ok (pg_bond_loop_energies (sweep, s->b.u, Y));
     check_near (n, Y, W, 1e-13);
-    check_scaled (pg_sweep_energy (sweep, s->b.u), E, 1e-13, E);
-    check_ok (pg_sweep_dilatation (sweep, s->b.u, tau, NULL));
+    check_scaled (pg_bond_loop_energy (sweep, s->b.u), E, 1e-13, E);
+    check_ok (pg_bond_loop_dilatation (sweep, s->b.u, tau, NULL));
     check_near (n, tau, theta, 1e-13);
-    pg_sweep_free (&sweep);
+    pg_bond_loop_free (&sweep);
     pg_free (f), pg_free (g), pg_free (W), pg_free (Y), pg_free (theta), pg_free (tau);
 }
 
@@ -111,11 +111,11 @@ static const char *const sets[] = { "scalar", "avx2", "avx512", NULL };
 static int have (const char *set)
 {
     solid s;
-    pg_sweep *sweep = NULL;
+    pg_bond_loop *sweep = NULL;
     solid_create (&s, &wishes[1], 0, 0, 0, 0.3, 1);
     s.setting.instructions = set;
-    int yes = pg_sweep_create (&sweep, &s.setting) == PG_OK;
-    pg_sweep_free (&sweep);
+    int yes = pg_bond_loop_create (&sweep, &s.setting) == PG_OK;
+    pg_bond_loop_free (&sweep);
     solid_free (&s);
     return yes;
 }
@@ -162,16 +162,16 @@ static void test_transforms (void **unused)
                 compare (&s, PG_EVALUATE_FFT, NULL);
                 size_t ndof = s.b.cloud.n * (size_t) s.b.cloud.dim;
                 double *f = pg_calloc (ndof, sizeof *f), *g = pg_calloc (ndof, sizeof *g);
-                pg_sweep *sweep;
-                check_ok (pg_sweep_create (&sweep, &s.setting));
-                check_contains (pg_sweep_name (sweep), "fft");
-                pg_sweep_update (sweep, s.b.alive, NULL);
+                pg_bond_loop *sweep;
+                check_ok (pg_bond_loop_create (&sweep, &s.setting));
+                check_contains (pg_bond_loop_name (sweep), "fft");
+                pg_bond_loop_update (sweep, s.b.alive, NULL);
                 for (size_t i = 0; i < ndof; i++) s.b.u[i] = ldexp (round (ldexp (s.b.u[i], 50)), -50);       /* exact after a shift by 1 */
-                check_ok (pg_sweep_force (sweep, s.b.u, f, NULL));
+                check_ok (pg_bond_loop_force (sweep, s.b.u, f, NULL));
                 for (size_t i = 0; i < ndof; i++) s.b.u[i] += 1;
-                check_ok (pg_sweep_force (sweep, s.b.u, g, NULL));
+                check_ok (pg_bond_loop_force (sweep, s.b.u, g, NULL));
                 check_near (ndof, g, f, 1e-8);         /* displacements of 1e-6 m, 2^-50 m of rounding in their mean     */
-                pg_sweep_free (&sweep);
+                pg_bond_loop_free (&sweep);
                 pg_free (f), pg_free (g);
                 solid_free (&s);
             }
@@ -187,20 +187,20 @@ static void test_breaking (void **unused)
             solid_create (&s, &wishes[k], 0, 0, follow, 0.3, 9);
             size_t ndof = s.b.cloud.n * (size_t) s.b.cloud.dim, total = 0;
             double *f[6], *u = pg_calloc (ndof, sizeof *u);
-            pg_sweep *sweep[6];
+            pg_bond_loop *sweep[6];
             pg_changes lost[6] = { { 0 } };
             for (size_t i = 0; i < s.b.cloud.n; i += 7) s.b.exempt[i] = 1;
             s.setting.limit = s.b.limit, s.setting.exempt = s.b.exempt;
             for (int w = 0; w < 6; w++) {
                 f[w] = pg_calloc (ndof, sizeof *f[w]);
                 s.b.sums->rule.evaluation = w < 2 ? PG_EVALUATE_STENCIL : w < 4 ? PG_EVALUATE_LIST : PG_EVALUATE_FFT, s.setting.threads = w % 2 ? 3 : 1;
-                check_ok (pg_sweep_create (&sweep[w], &s.setting));
+                check_ok (pg_bond_loop_create (&sweep[w], &s.setting));
             }
             for (int step = 0; step < 4; step++) {
                 for (size_t i = 0; i < ndof; i++) u[i] = s.b.u[i] * (2 + step);
                 for (int w = 0; w < 6; w++) {
                     lost[w].n = 0;
-                    check_ok (pg_sweep_force (sweep[w], u, f[w], &lost[w]));
+                    check_ok (pg_bond_loop_force (sweep[w], u, f[w], &lost[w]));
                 }
                 for (int w = 1; w < 6; w++) {
                     assert_int_equal (lost[w].n, lost[0].n);
@@ -219,7 +219,7 @@ static void test_breaking (void **unused)
                 s.b.u = own;
             }
             assert_true (total > 100 && total < s.b.nbond / 2);
-            for (int w = 0; w < 6; w++) pg_sweep_free (&sweep[w]), pg_free (f[w]), pg_free (lost[w].bond);
+            for (int w = 0; w < 6; w++) pg_bond_loop_free (&sweep[w]), pg_free (f[w]), pg_free (lost[w].bond);
             pg_free (u);
             solid_free (&s);
         }
@@ -232,16 +232,16 @@ static void test_motions (void **unused)
     for (int k = 0; k < WISHES; k++)
         for (int list = 0; list < 2; list++) {
             solid s;
-            pg_sweep *sweep;
+            pg_bond_loop *sweep;
             body_wish wish = wishes[k];
             if (list) wish.partial = PG_PARTIAL_LINEAR;
             solid_create (&s, &wish, list ? 0.2 : 0, list, 1, 0.45, 77);
             body_wound (&s.b, 0.2);
             size_t n = s.b.cloud.n, dim = (size_t) s.b.cloud.dim;
             double *f = pg_calloc (n * dim, sizeof *f), *theta = pg_calloc (n, sizeof *theta), sum[6] = { 0 }, size = 0;
-            check_ok (pg_sweep_create (&sweep, &s.setting));
-            pg_sweep_update (sweep, s.b.alive, NULL);
-            check_ok (pg_sweep_force (sweep, s.b.u, f, NULL));
+            check_ok (pg_bond_loop_create (&sweep, &s.setting));
+            pg_bond_loop_update (sweep, s.b.alive, NULL);
+            check_ok (pg_bond_loop_force (sweep, s.b.u, f, NULL));
             double strained = size_of (n * dim, f), largest = size_of (n * dim, s.b.u);
             for (size_t i = 0; i < n; i++) {
                 const double *x = s.b.cloud.x + i*dim, *F = f + i*dim;
@@ -255,11 +255,11 @@ static void test_motions (void **unused)
                 s.b.u[i*dim] = largest - x[1] / cell_side * largest, s.b.u[i*dim + 1] = x[0] / cell_side * largest;
                 if (dim == 3) s.b.u[i*dim + 2] = 0.5 * largest;
             }
-            check_ok (pg_sweep_force (sweep, s.b.u, f, NULL));
+            check_ok (pg_bond_loop_force (sweep, s.b.u, f, NULL));
             for (size_t i = 0; i < n * dim; i++) check_below (fabs (f[i]), 1e-12 * strained);
-            check_ok (pg_sweep_dilatation (sweep, s.b.u, theta, NULL));
+            check_ok (pg_bond_loop_dilatation (sweep, s.b.u, theta, NULL));
             for (size_t i = 0; i < n; i++) check_below (fabs (theta[i]), 1e-12 * largest / cell_side);
-            pg_sweep_free (&sweep);
+            pg_bond_loop_free (&sweep);
             pg_free (f), pg_free (theta);
             solid_free (&s);
         }
@@ -272,16 +272,16 @@ static void test_bonds (void **unused)
     for (int k = 0; k < 2; k++) {
         body_wish wish = { .count = { 17, 17, k ? 17 : 1 }, .dim = k ? 3 : 2, .m = 3.015, .partial = PG_PARTIAL_OVERLAP };
         solid s;
-        pg_sweep *state, *bonds;
+        pg_bond_loop *state, *bonds;
         solid_create (&s, &wish, 0, 0, 0, k ? 0.25 : 1.0 / 3, 3);
         size_t n = s.b.cloud.n, dim = (size_t) s.b.cloud.dim;
         double *f = pg_calloc (n * dim, sizeof *f), *g = pg_calloc (n * dim, sizeof *g);
-        check_ok (pg_sweep_create (&state, &s.setting));
-        check_ok (pg_sweep_force (state, s.b.u, f, NULL));
+        check_ok (pg_bond_loop_create (&state, &s.setting));
+        check_ok (pg_bond_loop_force (state, s.b.u, f, NULL));
         s.b.sums->rule.state = 0;
-        pg_sweep_setting plain_setting = { .sums = s.b.sums, .family = &s.b.family, .modulus = s.b.modulus, .threads = 1 };
-        check_ok (pg_sweep_create (&bonds, &plain_setting));
-        check_ok (pg_sweep_force (bonds, s.b.u, g, NULL));
+        pg_bond_loop_setting plain_setting = { .sums = s.b.sums, .family = &s.b.family, .modulus = s.b.modulus, .threads = 1 };
+        check_ok (pg_bond_loop_create (&bonds, &plain_setting));
+        check_ok (pg_bond_loop_force (bonds, s.b.u, g, NULL));
         double size = size_of (n * dim, g);
         size_t inside = 0;
         for (size_t i = 0; i < n; i++) {
@@ -291,7 +291,7 @@ static void test_bonds (void **unused)
             inside += (size_t) deep;
         }
         assert_true (inside >= 25);
-        pg_sweep_free (&state), pg_sweep_free (&bonds);
+        pg_bond_loop_free (&state), pg_bond_loop_free (&bonds);
         pg_free (f), pg_free (g);
         solid_free (&s);
     }
@@ -305,13 +305,13 @@ static void test_refusals (void **unused)
     const body_wish *const bad[] = { &line, &product, &finite };
     for (int k = 0; k < 3; k++) {
         solid s;
-        pg_sweep *sweep = NULL;
+        pg_bond_loop *sweep = NULL;
         solid_create (&s, bad[k], 0, 0, 0, 0.3, 1);
-        assert_int_equal (pg_sweep_create (&sweep, &s.setting), PG_E_USAGE);
+        assert_int_equal (pg_bond_loop_create (&sweep, &s.setting), PG_E_USAGE);
         solid_free (&s);
     }
     solid s;
-    pg_sweep *sweep = NULL;
+    pg_bond_loop *sweep = NULL;
     for (int list = 0; list < 3; list++) {
         solid_create (&s, &wishes[3], 0, 0, 0, 0.3, 1);
         s.b.sums->rule.evaluation = list == 2 ? PG_EVALUATE_FFT : list ? PG_EVALUATE_LIST : PG_EVALUATE_STENCIL;
@@ -319,12 +319,12 @@ static void test_refusals (void **unused)
         for (size_t k = 1; now == PG_E_MEMORY; k++) {
             assert_true (k < 200);
             pg_memory_fail_at (k);
-            now = pg_sweep_create (&sweep, &s.setting);
+            now = pg_bond_loop_create (&sweep, &s.setting);
             if (now != PG_OK) assert_null (sweep);
         }
         pg_memory_fail_at (0);
         assert_int_equal (now, PG_OK);
-        pg_sweep_free (&sweep);
+        pg_bond_loop_free (&sweep);
         solid_free (&s);
     }
 }

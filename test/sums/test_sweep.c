@@ -38,17 +38,17 @@ static void nothing_breaks_unasked (void **state)
     double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g);
     for (size_t i = 0; i < values; i++) b.u[i] *= 1e3;
     body_plain (&b, 0, g, NULL);
-    pg_sweep *s = NULL;
+    pg_bond_loop *s = NULL;
     pg_changes broken = { 0 };
     make_sweep (&s, &b, NULL, 1, 1, 0);
-    check_ok (pg_sweep_force (s, b.u, f, NULL));
+    check_ok (pg_bond_loop_force (s, b.u, f, NULL));
     close_to (f, g, values, 1e-13);
-    pg_sweep_free (&s);
+    pg_bond_loop_free (&s);
     make_sweep (&s, &b, NULL, 1, 0, 0);
-    check_ok (pg_sweep_force (s, b.u, f, &broken));
+    check_ok (pg_bond_loop_force (s, b.u, f, &broken));
     assert_int_equal (broken.n, 0);
     close_to (f, g, values, 1e-13);
-    pg_sweep_free (&s);
+    pg_bond_loop_free (&s);
     pg_free (f), pg_free (g);
     body_free (&b);
 }
@@ -65,16 +65,16 @@ static void ties_break_together (void **state)
             for (size_t i = 0; i < b.cloud.n; i++) b.u[2*i] = (b.cloud.x[2*i] > 22 * cell_side) * 1e-6, b.u[2*i + 1] = 0;
             double *f = pg_calloc (b.cloud.n * 2, sizeof *f);
             pg_changes broken = { 0 };
-            pg_sweep *s = NULL;
+            pg_bond_loop *s = NULL;
             if (make_sweep (&s, &b, sets[k], 2, 1, 0)) {
-                check_ok (pg_sweep_force (s, b.u, f, &broken));
+                check_ok (pg_bond_loop_force (s, b.u, f, &broken));
                 /* the bond of one step across the middle is stretched by 1e-3, its limit: nine rows, two directions */
                 assert_int_equal (broken.n, 18);
                 for (size_t c = 0; c < broken.n; c++) b.alive[broken.bond[c]] = 0;
                 for (size_t i = 0; i < b.cloud.n; i++)
                     for (size_t e = b.family.start[i]; e < b.family.start[i + 1]; e++) assert_int_equal (b.alive[e], b.alive[body_reverse (&b, i, e)]);
             }
-            pg_sweep_free (&s);
+            pg_bond_loop_free (&s);
             pg_free (broken.bond), pg_free (f);
             body_free (&b);
         }
@@ -91,10 +91,10 @@ static void rounding_decides_alike_everywhere (void **state)
         for (size_t i = 0; i < b.cloud.n * 2; i++) b.u[i] = 1e-3 * b.cloud.x[i];
         double *f = pg_calloc (b.cloud.n * 2, sizeof *f), *xi = pg_calloc (b.cloud.n, sizeof *xi);
         pg_changes broken = { 0 };
-        pg_sweep *s = NULL;
+        pg_bond_loop *s = NULL;
         size_t at = 0, live = 0, differ = 0;
         if (make_sweep (&s, &b, sets[k], 1, 1, 0)) {
-            check_ok (pg_sweep_force (s, b.u, f, &broken));
+            check_ok (pg_bond_loop_force (s, b.u, f, &broken));
             for (size_t i = 0; i < b.cloud.n; i++) {
                 pg_sums_bonds (b.sums, &b.family, i, xi, NULL, NULL);
                 for (size_t e = b.family.start[i]; e < b.family.start[i + 1]; e++) {
@@ -115,7 +115,7 @@ static void rounding_decides_alike_everywhere (void **state)
             for (size_t i = 0; i < b.cloud.n; i++)
                 for (size_t e = b.family.start[i]; e < b.family.start[i + 1]; e++) assert_int_equal (b.alive[e], b.alive[body_reverse (&b, i, e)]);
         }
-        pg_sweep_free (&s);
+        pg_bond_loop_free (&s);
         pg_free (broken.bond), pg_free (f), pg_free (xi);
         body_free (&b);
     }
@@ -130,9 +130,9 @@ static void rigid_motions_pull_at_nothing (void **state)
         body_create (&b, &wishes[w], 3);
         size_t values = b.cloud.n * 2;
         double *f = pg_calloc (values, sizeof *f), angle = wishes[w].finite ? 1.1 : 0, sum[2] = { 0, 0 };
-        pg_sweep *s = NULL;
+        pg_bond_loop *s = NULL;
         make_sweep (&s, &b, NULL, 1, 0, 0);
-        check_ok (pg_sweep_force (s, b.u, f, NULL));
+        check_ok (pg_bond_loop_force (s, b.u, f, NULL));
         double size = largest (f, values);
         for (size_t i = 0; i < values; i++) sum[i % 2] += f[i];
         for (int d = 0; d < 2; d++) check_scaled (sum[d], 0, 1e-12, size);
@@ -140,9 +140,9 @@ static void rigid_motions_pull_at_nothing (void **state)
             const double *x = b.cloud.x + 2*i;
             b.u[2*i] = 0.25 + cos (angle) * x[0] - sin (angle) * x[1] - x[0], b.u[2*i + 1] = 0.5 + sin (angle) * x[0] + cos (angle) * x[1] - x[1];
         }
-        check_ok (pg_sweep_force (s, b.u, f, NULL));
+        check_ok (pg_bond_loop_force (s, b.u, f, NULL));
         check_below (largest (f, values), 1e-9 * size);
-        pg_sweep_free (&s);
+        pg_bond_loop_free (&s);
         pg_free (f);
         body_free (&b);
     }
@@ -153,24 +153,24 @@ static void wrong_wishes_are_refused (void **state)
     (void) state;
     body b;
     body_create (&b, &wishes[0], 3);
-    pg_sweep *s = NULL;
-    pg_sweep_setting setting = { .sums = b.sums, .family = &b.family, .modulus = b.modulus, .limit = b.limit, .threads = 1, .instructions = "neon" };
-    check_fails (pg_sweep_create (&s, &setting), PG_E_USAGE);
+    pg_bond_loop *s = NULL;
+    pg_bond_loop_setting setting = { .sums = b.sums, .family = &b.family, .modulus = b.modulus, .limit = b.limit, .threads = 1, .instructions = "neon" };
+    check_fails (pg_bond_loop_create (&s, &setting), PG_E_USAGE);
     check_contains (pg_last_error (), "neon");
     assert_null (s);
     setting.instructions = NULL;
     b.modulus[7] *= 2;
-    check_fails (pg_sweep_create (&s, &setting), PG_E_USAGE);
+    check_fails (pg_bond_loop_create (&s, &setting), PG_E_USAGE);
     check_contains (pg_last_error (), "several moduli");
     b.modulus[7] = b.modulus[0], b.limit[3] *= 2;
-    check_fails (pg_sweep_create (&s, &setting), PG_E_USAGE);
+    check_fails (pg_bond_loop_create (&s, &setting), PG_E_USAGE);
     check_contains (pg_last_error (), "several critical stretches");
     body_free (&b);
     body_wish wish = wishes[0];
     wish.surface = PG_SURFACE_VOLUME;
     body_create (&b, &wish, 3);
-    setting = (pg_sweep_setting) { .sums = b.sums, .family = &b.family, .modulus = b.modulus, .threads = 1 };
-    check_fails (pg_sweep_create (&s, &setting), PG_E_USAGE);
+    setting = (pg_bond_loop_setting) { .sums = b.sums, .family = &b.family, .modulus = b.modulus, .threads = 1 };
+    check_fails (pg_bond_loop_create (&s, &setting), PG_E_USAGE);
     check_contains (pg_last_error (), "volume");
     body_free (&b);
 }
@@ -181,16 +181,16 @@ static void lack_of_memory_is_reported (void **state)
     body b;
     body_create (&b, &wishes[4], 3);
     b.exempt[0] = 1;
-    pg_sweep *s = NULL;
+    pg_bond_loop *s = NULL;
     creation_survives_lack_of_memory (&s, &b, 50);
     /* ... and when bonds break */
     double *f = pg_calloc (b.cloud.n * 2, sizeof *f);
     pg_changes broken = { 0 };
     for (size_t i = 0; i < b.cloud.n * 2; i++) b.u[i] *= 100;
     pg_memory_fail_at (1);
-    check_fails (pg_sweep_force (s, b.u, f, &broken), PG_E_MEMORY);
+    check_fails (pg_bond_loop_force (s, b.u, f, &broken), PG_E_MEMORY);
     pg_memory_fail_at (0);
-    pg_sweep_free (&s);
+    pg_bond_loop_free (&s);
     pg_free (f), pg_free (broken.bond);
     body_free (&b);
 }
@@ -209,5 +209,5 @@ int main (void)
         cmocka_unit_test (lack_of_memory_is_reported),
         cmocka_unit_test (steady_sums_allocate_nothing),
     };
-    return cmocka_run_group_tests_name ("sums/sweep", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("sums/bond_loop", tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Stages of a load, each brought to rest by damped motion (Kilic and Madenci 2010; Shen 2016; theory B4, C). While a stage is held, bonds do
  * not break before its load has come to act, for the jolt of the load's arrival is not part of a quasi-static path. */
-#include "relaxing.h"
+#include "relaxation.h"
 #include <math.h>
 #include <string.h>
 
@@ -11,21 +11,21 @@ static const double memory[2] = { 0.98, 0.9 };         /* hold: off, on: of Rayl
 static const double share = 0.5;                       /* hold: off: least damping, of the critical one of the shape that the loads give the body */
 static const double arrival = 1e-2;                    /* imbalance at which the load of a stage has come to act         */
 
-pg_status relaxing_create (pg_solver *s)
+pg_status relaxation_create (pg_solver *s)
 {
     pg_status status = PG_OK;
-    struct relaxing *x = NULL;
+    struct relaxation *x = NULL;
     PG_TRY (explicit_create (s));
-    PG_ALLOC (s->motion->relaxing, 1);
-    x = s->motion->relaxing;
-    PG_ALLOC (x->mass, s->breaker.system.ndof);
+    PG_ALLOC (s->motion->relaxation, 1);
+    x = s->motion->relaxation;
+    PG_ALLOC (x->mass, s->break_loop.system.ndof);
 done:
     return status;
 }
 
-void relaxing_free (pg_solver *s)
+void relaxation_free (pg_solver *s)
 {
-    struct relaxing *x = s->motion ? s->motion->relaxing : NULL;
+    struct relaxation *x = s->motion ? s->motion->relaxation : NULL;
     if (x) pg_free (x->mass), pg_free (x->rate);
     pg_free (x);
     explicit_free (s);
@@ -33,7 +33,7 @@ void relaxing_free (pg_solver *s)
 
 static int breaks (const pg_solver *s)
 {
-    const pg_force_type *force = s->breaker.system.force;
+    const pg_force_type *force = s->break_loop.system.force;
     return (force->march || force->utilisation) && s->problem->criterion->type;
 }
 
@@ -58,25 +58,25 @@ static pg_status limit_stages (pg_solver *s)
     pg_status status = PG_OK;
     motion *m = s->motion;
     pg_solver_options *o = &s->options;
-    const struct relaxing *x = m->relaxing;
+    const struct relaxation *x = m->relaxation;
     double most = 0;
     if (!m->P || !breaks (s)) goto done;
     double s0 = smallest_stretch (s->problem);
     if (!isfinite (s0)) goto done;
-    PG_TRY (s->breaker.system.force->external (s->breaker.system.self, 1, m->P));
-    for (size_t i = 0; i < s->breaker.system.ndof; i++) if (x->mass[i] > 0) most = fmax (most, fabs (m->P[i]) / x->mass[i]);
+    PG_TRY (s->break_loop.system.force->external (s->break_loop.system.self, 1, m->P));
+    for (size_t i = 0; i < s->break_loop.system.ndof; i++) if (x->mass[i] > 0) most = fmax (most, fabs (m->P[i]) / x->mass[i]);
     double needed = ceil (most * x->dt * x->dt / (2 * s0 * s->problem->cloud.h) * (1 - 1e-12));
     if (needed > 1e9)
         PG_TRY (solver_fault (s, "solver.stages", "the load would need %g stages so that its mere arrival breaks no bond: it is too large for these limits", needed));
     if (needed > (double) o->stages) {
-        pg_report_warn (&s->report, "the load comes in %.0f stages instead of %ld, so that its mere arrival breaks no bond (Shen 2016 eq (22))", needed, o->stages);
+        pg_statistics_warn (&s->report, "the load comes in %.0f stages instead of %ld, so that its mere arrival breaks no bond (Shen 2016 eq (22))", needed, o->stages);
         o->stages = (long) needed;
     }
 done:
     return status;
 }
 
-pg_status relaxing_stages (pg_solver *s)
+pg_status relaxation_stages (pg_solver *s)
 {
     pg_status status = PG_OK;
     pg_solver_options *o = &s->options;
@@ -89,13 +89,13 @@ done:
     return status;
 }
 
-pg_status relaxing_start (pg_solver *s, pg_state *state)
+pg_status relaxation_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
-    struct relaxing *x = s->motion->relaxing;
+    struct relaxation *x = s->motion->relaxation;
     s->next_level = 1;
     x->resting = 1;
-    PG_TRY (system_refresh (&s->breaker.system, state, NULL));
+    PG_TRY (system_refresh (&s->break_loop.system, state, NULL));
     if (x->weigh) PG_TRY (x->weigh (s));
 done:
     return status;
@@ -104,7 +104,7 @@ done:
 static double factor_at (const pg_solver *s, long stage) { return stage == s->options.stages ? 1 : (double) stage / (double) s->options.stages; }
 
 /* ---- one iteration ----------------------------------------------------------------------------------------------------------------- */
-typedef struct { const struct relaxing *x; double *d, *v, *a; const double *r, *inverse; double *sum, c; size_t ndof; int resting; } iterating;
+typedef struct { const struct relaxation *x; double *d, *v, *a; const double *r, *inverse; double *sum, c; size_t ndof; int resting; } iterating;
 
 /* r r; v K v dt = v (r' - r), r' the last residual; v M v */
 static void measure (void *context, size_t first, size_t last, int thread)
@@ -151,12 +151,12 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
-    struct relaxing *x = m->relaxing;
-    pg_system *sys = &s->breaker.system;
+    struct relaxation *x = m->relaxation;
+    pg_system *sys = &s->break_loop.system;
     const pg_solver_options *o = &s->options;
     double reference = 0, total[SUMS];
     PG_TRY (explicit_force (s, state, t, breaking, &reference));
-    x->broke = breaking && s->breaker.changes.n > 0;
+    x->broke = breaking && s->break_loop.changes.n > 0;
     if (x->broke && x->weigh) PG_TRY (x->weigh (s));
     double t0 = pg_seconds ();
     for (size_t k = 0; k < m->nheld; k++) m->push[k] = -sys->residual[m->held[k]], sys->residual[m->held[k]] = 0;
@@ -183,8 +183,8 @@ done:
 static void iterate (pg_solver *s, pg_state *state)
 {
     motion *m = s->motion;
-    struct relaxing *x = m->relaxing;
-    const pg_system *sys = &s->breaker.system;
+    struct relaxation *x = m->relaxation;
+    const pg_system *sys = &s->break_loop.system;
     double t0 = pg_seconds ();
     iterating all = { x, state->d, state->v, state->a, sys->residual, m->inverse, m->sum, x->c, sys->ndof, x->resting };
     pg_parallel (s->problem->threads, m->nblock, move, &all);
@@ -202,11 +202,11 @@ static void impose (const pg_solver *s, pg_state *state)
 /* Under proportional loads the last balanced state times the ratio of loads is the next one, until bonds break. */
 static void open_stage (pg_solver *s, pg_state *state)
 {
-    struct relaxing *x = s->motion->relaxing;
+    struct relaxation *x = s->motion->relaxation;
     double ratio = state->step > 0 && pg_problem_proportional (s->problem) ? (double) (state->step + 1) / (double) state->step : 1;
     for (size_t i = 0; i < state->ndof; i++) state->d[i] *= ratio, state->v[i] = state->a[i] = 0;
     x->resting = 1, x->armed = x->pending = 0;
-    s->breaker.nbroken = 0;
+    s->break_loop.nbroken = 0;
     impose (s, state);
 }
 
@@ -214,11 +214,11 @@ static void open_stage (pg_solver *s, pg_state *state)
 static pg_status arm (pg_solver *s, const pg_state *state, double t, int breaking)
 {
     pg_status status = PG_OK;
-    struct relaxing *x = s->motion->relaxing;
-    pg_system *sys = &s->breaker.system;
+    struct relaxation *x = s->motion->relaxation;
+    pg_system *sys = &s->break_loop.system;
     x->armed = 1;
-    if (!sys->force->ledger || !breaking) return PG_OK;
-    PG_TRY (sys->force->ledger (sys->self, t, state->d, NULL, &s->breaker.ledger));
+    if (!sys->force->work_balance || !breaking) return PG_OK;
+    PG_TRY (sys->force->work_balance (sys->self, t, state->d, NULL, &s->break_loop.work_balance));
     x->pending = 1;
 done:
     return status;
@@ -226,34 +226,34 @@ done:
 
 static pg_status book_pending (pg_solver *s)
 {
-    struct relaxing *x = s->motion->relaxing;
+    struct relaxation *x = s->motion->relaxation;
     if (!x->pending) return PG_OK;
     x->pending = 0;
-    return breaker_book (&s->breaker, 1);
+    return break_loop_book (&s->break_loop, 1);
 }
 
 /* Balanced: break what is over its limit as options.break_mode has it; *died: how many did. */
 static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_step *step, size_t *died)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     const pg_solver_options *o = &s->options;
     double top = 0, t0 = pg_seconds ();
     b->changes.n = 0;
     if (o->break_mode == PG_BREAK_PASSING || (o->break_mode == PG_BREAK_ALL && sys->force->march)) PG_TRY (examine (s, state, t, 1));
     else {
-        PG_TRY (breaker_ready (b));
+        PG_TRY (break_loop_ready (b));
         PG_TRY (sys->force->utilisation (sys->self, state, state->d, b->utilisation, b->kind, NULL));
         for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
         step->utilisation = top;
         double cut = o->break_mode == PG_BREAK_ALL ? 1 : top * (1 - (o->break_mode == PG_BREAK_WORST ? o->tie : fmax (o->break_fraction, o->tie)));
         if (o->break_mode != PG_BREAK_WORST) cut = fmax (cut, 1);
-        if (top > 1) PG_TRY (breaker_kill (b, state, b->utilisation, cut, 1, t));
+        if (top > 1) PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
         s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
         if (b->changes.n) {
             PG_TRY (system_refresh (sys, state, &b->changes));
-            if (s->motion->relaxing->weigh) PG_TRY (s->motion->relaxing->weigh (s));
+            if (s->motion->relaxation->weigh) PG_TRY (s->motion->relaxation->weigh (s));
             state->events++, s->report.events++;
         }
     }
@@ -265,19 +265,19 @@ done:
 static pg_status too_long (const pg_solver *s, const pg_state *state, long iterations)
 {
     const pg_problem *p = s->problem;
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     size_t worst = 0, dim = (size_t) p->dim;
     for (size_t i = 1; i < state->ndof; i++) if (fabs (sys->residual[i]) > fabs (sys->residual[worst])) worst = i;
     const double *x = p->cloud.x + worst / (size_t) sys->components * dim;
     return pg_error (PG_E_EQUILIBRIUM, PG_HERE, "no balance after %ld iterations: the out-of-balance force is %.3g of the loads (allowed %.3g), largest at point %zu "
                      "(%g, %g, %g) m: probably a loaded part has come loose; try prescribed displacements or more solver.stages, else raise "
-                     "solver.max_iterations or solver.imbalance", iterations, s->motion->relaxing->imbalance, s->options.imbalance,
+                     "solver.max_iterations or solver.imbalance", iterations, s->motion->relaxation->imbalance, s->options.imbalance,
                      worst / (size_t) sys->components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0);
 }
 
 static pg_status look (pg_solver *s, pg_state *state, pg_step *step)
 {
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     step->nbroken = b->nbroken, step->broken = b->broken, step->iterations = b->round;
     b->stopped = 1;
     pg_status status = b->watch (b->watching, state, step);
@@ -289,8 +289,8 @@ static pg_status look (pg_solver *s, pg_state *state, pg_step *step)
 static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
-    struct relaxing *x = s->motion->relaxing;
+    break_loop *b = &s->break_loop;
+    struct relaxation *x = s->motion->relaxation;
     const pg_solver_options *o = &s->options;
     int can = breaks (s), passing = can && o->break_mode == PG_BREAK_PASSING;
     for (;; b->round++) {
@@ -321,17 +321,17 @@ done:
 static pg_status step_held (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     double t = factor_at (s, state->step + 1);
     s->motion->fresh = 0;
     PG_TRY (explicit_follow (s, t, t, t));
     if (b->round == 0) open_stage (s, state);
     PG_TRY (hold (s, state, t, step));
-    PG_TRY (breaker_account (b, t, state->d, NULL, 1));
+    PG_TRY (break_loop_account (b, t, state->d, NULL, 1));
     memset (state->v, 0, state->ndof * sizeof *state->v);
     memset (state->a, 0, state->ndof * sizeof *state->a);
     b->round = 0;
-    step->residual = s->motion->relaxing->imbalance;
+    step->residual = s->motion->relaxation->imbalance;
     state->factor = t;
     while ((double) s->next_level / (double) s->options.levels <= t * (1 + 1e-12)) s->next_level++, step->level = 1;
     PG_TRY (explicit_end (s, state, state->step + 1 >= s->options.stages, "load factor", t));
@@ -345,8 +345,8 @@ done:
 static double steady_damping (const pg_solver *s, const pg_state *state)
 {
     const motion *m = s->motion;
-    const pg_system *sys = &s->breaker.system;
-    const double *d = state->d, *mass = m->relaxing->mass;
+    const pg_system *sys = &s->break_loop.system;
+    const double *d = state->d, *mass = m->relaxation->mass;
     double stiff = 0, heavy = 0;
     for (size_t i = 0; i < sys->ndof; i++) stiff += d[i] * ((m->P ? m->P[i] : 0) - sys->residual[i]);
     for (size_t k = 0; k < m->nheld; k++) stiff += d[m->held[k]] * m->push[k];
@@ -363,8 +363,8 @@ static int is_due (long n) { return n % 64 == 0 || (n < 64 && (n & (n - 1)) == 0
 static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
-    struct relaxing *x = s->motion->relaxing;
+    break_loop *b = &s->break_loop;
+    struct relaxation *x = s->motion->relaxation;
     long n = state->iterations + b->round, last = explicit_row (s, s->options.stages, state->iterations);
     if (b->round == 0) b->nbroken = 0, x->worst = 0;
     explicit_release (s, state);
@@ -386,54 +386,54 @@ static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
     }
     step->iterations = b->round;
     double t = factor_at (s, n);
-    PG_TRY (breaker_account (b, t, state->d, NULL, 1));
+    PG_TRY (break_loop_account (b, t, state->d, NULL, 1));
     b->round = 0;
     step->residual = x->worst;
     state->factor = t;
     step->level = explicit_level (s, s->options.stages, n);
     PG_TRY (explicit_end (s, state, n == s->options.stages, "load factor", t));
     if (s->finished)
-        pg_report_warn (&s->report, "hold: off takes one iteration a stage: its states are not in equilibrium, the out-of-balance force is up to %.2g of the loads",
+        pg_statistics_warn (&s->report, "hold: off takes one iteration a stage: its states are not in equilibrium, the out-of-balance force is up to %.2g of the loads",
                         fmax (x->worst, s->report.residual_max));
 done:
     return status;
 }
 
-pg_status relaxing_step (pg_solver *s, pg_state *state, pg_step *step)
+pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     PG_TRY (s->options.hold ? step_held (s, state, step) : step_on (s, state, step));
-    s->report.energy_strain = b->ledger.strain;
-    step->dissipated = b->work - b->work0 - (b->ledger.strain - b->stored0);
+    s->report.energy_strain = b->work_balance.strain;
+    step->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);
     state->time = step->time = step->factor = state->factor;
     step->nbroken = b->nbroken, step->broken = b->broken;
-    if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (b->work_balance.reaction) memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
 done:
     return status;
 }
 
-int relaxing_done (const pg_solver *s, const pg_state *state) { return (s->options.hold ? state->step : state->iterations) >= s->options.stages; }
+int relaxation_done (const pg_solver *s, const pg_state *state) { return (s->options.hold ? state->step : state->iterations) >= s->options.stages; }
 
-double relaxing_progress (const pg_solver *s, const pg_state *state)
+double relaxation_progress (const pg_solver *s, const pg_state *state)
 {
-    return (double) (s->options.hold ? state->step : state->iterations + s->breaker.round) / (double) s->options.stages;
+    return (double) (s->options.hold ? state->step : state->iterations + s->break_loop.round) / (double) s->options.stages;
 }
 
-void relaxing_refused (pg_solver *s)
+void relaxation_refused (pg_solver *s)
 {
-    struct relaxing *x = s->motion->relaxing;
+    struct relaxation *x = s->motion->relaxation;
     x->resting = 1, x->armed = x->pending = 0;
 }
 
-pg_status relaxing_keep (pg_solver *s, const pg_keeper *k)
+pg_status relaxation_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    struct relaxing *x = s->motion->relaxing;
+    struct relaxation *x = s->motion->relaxation;
     double number[7] = { x->c, x->imbalance, x->worst, x->most, x->stiff, x->heavy, x->floor };
     long count[4] = { x->armed, x->resting, x->pending, x->broke };
-    PG_TRY (k->numbers (k->context, "relaxing.numbers", 7, number));
-    PG_TRY (k->counts (k->context, "relaxing.counts", 4, count));
+    PG_TRY (k->numbers (k->context, "relaxation.numbers", 7, number));
+    PG_TRY (k->counts (k->context, "relaxation.counts", 4, count));
     x->c = number[0], x->imbalance = number[1], x->worst = number[2], x->most = number[3], x->stiff = number[4], x->heavy = number[5], x->floor = number[6];
     x->armed = (int) count[0], x->resting = (int) count[1], x->pending = (int) count[2], x->broke = (int) count[3];
 done:

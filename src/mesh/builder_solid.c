@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * From the numbers of a file to a mesh: nodes found, solid elements told from those that only name a set, turned outside out. */
-#include "maker.h"
+#include "builder.h"
 #include "element.h"
 #include <math.h>
 #include <stdint.h>
@@ -8,14 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int dimension (const pg_mesh_maker *m, size_t e) { return pg_element_types[m->kind[e]].dim; }
-static size_t length (const pg_mesh_maker *m, size_t e) { return m->start[e + 1] - m->start[e]; }
+static int dimension (const pg_mesh_builder *m, size_t e) { return pg_element_types[m->kind[e]].dim; }
+static size_t length (const pg_mesh_builder *m, size_t e) { return m->start[e + 1] - m->start[e]; }
 
-#define ELEMENT_FAIL(m, e, ...) do { char at_[512], why_[400]; maker_where ((m), (e), at_, sizeof at_); \
+#define ELEMENT_FAIL(m, e, ...) do { char at_[512], why_[400]; builder_where ((m), (e), at_, sizeof at_); \
     snprintf (why_, sizeof why_, __VA_ARGS__); PG_FAIL (PG_E_FILE, "%s (%s): %s", at_, pg_element_types[(m)->kind[e]].name, why_); } while (0)
 
 /* ---- numbers to places ------------------------------------------------------------------------------------------------ */
-static pg_status find_nodes (pg_mesh_maker *m)
+static pg_status find_nodes (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     PG_ALLOC (m->index, m->nlist);
@@ -37,7 +37,7 @@ static int by_int (const void *p, const void *q)
     return (a > b) - (a < b);
 }
 
-static int same_nodes (const pg_mesh_maker *m, size_t e, size_t f)
+static int same_nodes (const pg_mesh_builder *m, size_t e, size_t f)
 {
     int a[PG_ELEMENT_NODES], b[PG_ELEMENT_NODES];
     size_t n = length (m, e);
@@ -55,7 +55,7 @@ static uint64_t mix (uint64_t h)
 }
 
 /* Files that write an element once for each group it belongs to: the first is the element, its twins only join a set. */
-static pg_status number_solids (pg_mesh_maker *m)
+static pg_status number_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     size_t slots = 16;
@@ -80,7 +80,7 @@ done:
     return status;
 }
 
-pg_status maker_resolve (pg_mesh_maker *m)
+pg_status builder_resolve (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     size_t twice;
@@ -97,7 +97,7 @@ done:
 }
 
 /* ---- nodes in use ----------------------------------------------------------------------------------------------------- */
-static pg_status keep_nodes (pg_mesh_maker *m)
+static pg_status keep_nodes (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     pg_mesh *out = m->out;
@@ -117,7 +117,7 @@ done:
 }
 
 /* A mesh of lines lies on the x axis or parallel to it, one of triangles parallel to the plane x, y. */
-static pg_status check_plane (pg_mesh_maker *m)
+static pg_status check_plane (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     const pg_mesh *out = m->out;
@@ -136,7 +136,7 @@ done:
 }
 
 /* ---- solid elements --------------------------------------------------------------------------------------------------- */
-static pg_status fill_solids (pg_mesh_maker *m)
+static pg_status fill_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     pg_mesh *out = m->out;
@@ -177,7 +177,7 @@ static double centre_size (const pg_mesh *out, size_t e, int *flat)
     return size;
 }
 
-static pg_status turn_outside_out (pg_mesh_maker *m)
+static pg_status turn_outside_out (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     pg_mesh *out = m->out;
@@ -207,7 +207,7 @@ static int by_long (const void *p, const void *q)
 }
 
 /* Numbers of the groups of solid elements, ascending. */
-static pg_status list_groups (const pg_mesh_maker *m, size_t *n, long **group)
+static pg_status list_groups (const pg_mesh_builder *m, size_t *n, long **group)
 {
     pg_status status = PG_OK;
     size_t cap = 0, k = 0;
@@ -223,7 +223,7 @@ done:
     return status;
 }
 
-static pg_status make_blocks (pg_mesh_maker *m)
+static pg_status make_blocks (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     pg_mesh *out = m->out;
@@ -234,7 +234,7 @@ static pg_status make_blocks (pg_mesh_maker *m)
     out->nblock = n;
     for (size_t b = 0; b < n; b++) {
         out->blocks[b].id = (int) group[b];
-        maker_name (m, m->dim, group[b], out->blocks[b].name);
+        builder_name (m, m->dim, group[b], out->blocks[b].name);
     }
     for (size_t e = 0, b = 0; e < m->n; e++) {
         if (m->solid[e] < 0) continue;
@@ -247,7 +247,7 @@ done:
     return status;
 }
 
-pg_status maker_solids (pg_mesh_maker *m)
+pg_status builder_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     PG_TRY (keep_nodes (m));

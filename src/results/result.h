@@ -2,7 +2,7 @@
  * Private: the open result folder. */
 #ifndef PG_RESULT_PRIVATE_H
 #define PG_RESULT_PRIVATE_H
-#include "perigal/report.h"
+#include "perigal/results.h"
 
 enum { MOST_FIELDS = 16, MOST_PICTURES = 32 };
 /* How far the files are, and what they depend on, at the end of a step or in its middle. */

@@ -95,7 +95,7 @@ pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step
     const pg_problem *p = r->problem;
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    const pg_report *report = pg_solver_report_now (r->solver);
+    const pg_statistics *report = pg_solver_report_now (r->solver);
     size_t n = 0;
     double x = 0, y = 0;                               /* of the load-displacement curve                                 */
     int components;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void seconds_block (pg_json *j, const pg_result *res, const pg_report *r, double search, double total)
+static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics *r, double search, double total)
 {
     const pg_estimate *e = pg_result_estimate (res);
     pg_json_open (j, "seconds", '{');
@@ -26,7 +26,7 @@ static void seconds_block (pg_json *j, const pg_result *res, const pg_report *r,
     pg_json_shut (j);
 }
 
-static void run_block (pg_json *j, const pg_result *res, const pg_report *r, const pg_state *state)
+static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r, const pg_state *state)
 {
     const pg_problem *p = res->problem;
     pg_json_count (j, "points", p->cloud.n);
@@ -137,7 +137,7 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
     pg_status status = PG_OK;
     pg_json *j = NULL;
     char path[4096], note[400];
-    const pg_report *r = pg_solver_report (res->solver, state);
+    const pg_statistics *r = pg_solver_report (res->solver, state);
     snprintf (path, sizeof path, "%s/report.json", res->folder);
     PG_TRY (pg_json_create (&j, path));
     pg_json_open (j, NULL, '{');

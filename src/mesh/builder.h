@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * maker.h: a mesh under construction: what the readers gave, in the numbers of the file. */
+ * builder.h: a mesh under construction: what the readers gave, in the numbers of the file. */
 #ifndef MESH_MAKER_H
 #define MESH_MAKER_H
 #include "perigal/mesh.h"
@@ -10,7 +10,7 @@ typedef struct { char name[64]; long id; size_t first, end; } mesh_list;   /* a 
 /* Numbers of a file, found again: direct where they are dense, else by hash. */
 typedef struct { long low; size_t range, n; int *direct; const long *id; unsigned mask; } id_table;
 
-struct pg_mesh_maker {
+struct pg_mesh_builder {
     char      *path;
     size_t     nnode, node_cap;
     long      *node_id;
@@ -45,12 +45,12 @@ pg_status id_table_build (id_table *t, size_t n, const long *id, size_t *twice);
 long      id_table_find  (const id_table *t, long id);     /* place; -1: not there                                       */
 void      id_table_clear (id_table *t);
 
-/* Steps of pg_maker_finish, in this order. */
-pg_status maker_resolve (pg_mesh_maker *m);            /* ids to places; dimension; twins                                 */
-pg_status maker_solids  (pg_mesh_maker *m);            /* solid elements, nodes in use, blocks, orientation              */
-pg_status maker_sets    (pg_mesh_maker *m);            /* node sets, side sets                                           */
+/* Steps of pg_mesh_builder_finish, in this order. */
+pg_status builder_resolve (pg_mesh_builder *m);            /* ids to places; dimension; twins                                 */
+pg_status builder_solids  (pg_mesh_builder *m);            /* solid elements, nodes in use, blocks, orientation              */
+pg_status builder_sets    (pg_mesh_builder *m);            /* node sets, side sets                                           */
 /* "path, line 7: element 12" of element e. */
-void      maker_where   (const pg_mesh_maker *m, size_t e, char *text, size_t size);
+void      builder_where   (const pg_mesh_builder *m, size_t e, char *text, size_t size);
 /* Name of group (dim, group): the one given, else its number. */
-void      maker_name    (const pg_mesh_maker *m, int dim, long group, char name[64]);
+void      builder_name    (const pg_mesh_builder *m, int dim, long group, char name[64]);
 #endif

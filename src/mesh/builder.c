@@ -1,29 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A mesh under construction: the readers hand over nodes, elements and sets in the numbers of their file. */
-#include "maker.h"
+#include "builder.h"
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-pg_status pg_maker_create (pg_mesh_maker **out, const char *path)
+pg_status pg_mesh_builder_create (pg_mesh_builder **out, const char *path)
 {
     pg_status status = PG_OK;
-    pg_mesh_maker *m = NULL;
+    pg_mesh_builder *m = NULL;
     PG_ALLOC (m, 1);
     PG_GROW (m->start, m->start_cap, 1);
     m->path = pg_strdup (path);
     if (!m->path) PG_FAIL (PG_E_MEMORY, "no memory for the name of a file");
 done:
-    if (status != PG_OK) pg_maker_free (&m);
+    if (status != PG_OK) pg_mesh_builder_free (&m);
     *out = m;
     return status;
 }
 
-void pg_maker_free (pg_mesh_maker **maker)
+void pg_mesh_builder_free (pg_mesh_builder **builder)
 {
-    pg_mesh_maker *m = *maker;
+    pg_mesh_builder *m = *builder;
     if (!m) return;
     pg_free (m->path), pg_free (m->node_id), pg_free (m->x);
     pg_free (m->element_id), pg_free (m->group), pg_free (m->line), pg_free (m->kind), pg_free (m->start), pg_free (m->list);
@@ -31,10 +31,10 @@ void pg_maker_free (pg_mesh_maker **maker)
     pg_free (m->index), pg_free (m->solid), pg_free (m->turned), pg_free (m->kept);
     id_table_clear (&m->nodes);
     pg_free (m);
-    *maker = NULL;
+    *builder = NULL;
 }
 
-pg_status pg_maker_node (pg_mesh_maker *m, long id, const double *x)
+pg_status pg_mesh_builder_node (pg_mesh_builder *m, long id, const double *x)
 {
     enum { EXPONENT = 100 };                               /* 1e100: its cube is still a number                          */
     pg_status status = PG_OK;
@@ -50,7 +50,7 @@ done:
     return status;
 }
 
-pg_status pg_maker_element (pg_mesh_maker *m, long id, pg_element kind, const long *node, long group, long line)
+pg_status pg_mesh_builder_element (pg_mesh_builder *m, long id, pg_element kind, const long *node, long group, long line)
 {
     pg_status status = PG_OK;
     if ((unsigned) kind >= PG_ELEMENTS) PG_FAIL (PG_E_USAGE, "%s: element %ld: there is no kind %d", m->path, id, (int) kind);
@@ -78,7 +78,7 @@ static void copy_name (char to[64], const char *name)
     to[n] = '\0';
 }
 
-pg_status pg_maker_group (pg_mesh_maker *m, int dim, long group, const char *name)
+pg_status pg_mesh_builder_group (pg_mesh_builder *m, int dim, long group, const char *name)
 {
     pg_status status = PG_OK;
     if (!*name) return PG_OK;
@@ -98,7 +98,7 @@ static void name_list (mesh_list *l, const char *name, long id, size_t first)
     else snprintf (l->name, sizeof l->name, "%ld", id);
 }
 
-pg_status pg_maker_nodeset (pg_mesh_maker *m, const char *name, long id)
+pg_status pg_mesh_builder_nodeset (pg_mesh_builder *m, const char *name, long id)
 {
     pg_status status = PG_OK;
     PG_GROW (m->sets, m->set_cap, m->nset + 1);
@@ -107,7 +107,7 @@ done:
     return status;
 }
 
-pg_status pg_maker_nodeset_add (pg_mesh_maker *m, long node)
+pg_status pg_mesh_builder_nodeset_add (pg_mesh_builder *m, long node)
 {
     pg_status status = PG_OK;
     if (m->nset == 0) PG_FAIL (PG_E_USAGE, "%s: a node is added to a set before there is one", m->path);
@@ -118,7 +118,7 @@ done:
     return status;
 }
 
-pg_status pg_maker_sideset (pg_mesh_maker *m, const char *name, long id)
+pg_status pg_mesh_builder_sideset (pg_mesh_builder *m, const char *name, long id)
 {
     pg_status status = PG_OK;
     PG_GROW (m->side_sets, m->side_set_cap, m->nside_set + 1);
@@ -127,7 +127,7 @@ done:
     return status;
 }
 
-pg_status pg_maker_sideset_add (pg_mesh_maker *m, long element, int side)
+pg_status pg_mesh_builder_sideset_add (pg_mesh_builder *m, long element, int side)
 {
     pg_status status = PG_OK;
     if (m->nside_set == 0) PG_FAIL (PG_E_USAGE, "%s: a side is added to a set before there is one", m->path);
@@ -139,7 +139,7 @@ done:
     return status;
 }
 
-void maker_where (const pg_mesh_maker *m, size_t e, char *text, size_t size)
+void builder_where (const pg_mesh_builder *m, size_t e, char *text, size_t size)
 {
     if (m->line[e] > 0) snprintf (text, size, "%.400s, line %ld: element %ld", m->path, m->line[e], m->element_id[e]);
     else snprintf (text, size, "%.400s: element %ld", m->path, m->element_id[e]);
@@ -158,7 +158,7 @@ static int by_group_and_name (const void *p, const void *q)
     return c ? c : strcmp (((const mesh_group *) p)->name, ((const mesh_group *) q)->name);
 }
 
-void maker_name (const pg_mesh_maker *m, int dim, long group, char name[64])
+void builder_name (const pg_mesh_builder *m, int dim, long group, char name[64])
 {
     snprintf (name, 64, "%ld", group);
     mesh_group key = { .dim = dim, .group = group }, *g = group && m->ngroup ? bsearch (&key, m->groups, m->ngroup, sizeof key, by_group) : NULL;
@@ -166,15 +166,15 @@ void maker_name (const pg_mesh_maker *m, int dim, long group, char name[64])
     if (g) memcpy (name, g->name, 64);
 }
 
-pg_status pg_maker_finish (pg_mesh_maker *m, pg_mesh *out)
+pg_status pg_mesh_builder_finish (pg_mesh_builder *m, pg_mesh *out)
 {
     pg_status status = PG_OK;
     memset (out, 0, sizeof *out);
     m->out = out;
     if (m->ngroup) qsort (m->groups, m->ngroup, sizeof *m->groups, by_group_and_name);
-    PG_TRY (maker_resolve (m));
-    PG_TRY (maker_solids (m));
-    PG_TRY (maker_sets (m));
+    PG_TRY (builder_resolve (m));
+    PG_TRY (builder_solids (m));
+    PG_TRY (builder_sets (m));
 done:
     if (status != PG_OK) pg_mesh_clear (out);
     return status;

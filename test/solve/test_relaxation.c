@@ -31,7 +31,7 @@ static void equilibrium_under_a_load (void **state)
             run_all (&l);
             for (size_t i = 0; i < the.n; i++) check_relative (l.state->d[i], 7e-4 * (double) (i + 1), 1e-8);
             for (size_t i = 0; i < the.n; i++) assert_true (l.state->v[i] == 0 && l.state->a[i] == 0);
-            const pg_report *r = pg_solver_report_now (l.solver);
+            const pg_statistics *r = pg_solver_report_now (l.solver);
             check_relative (r->energy_external, 0.5 * 7 * 7e-4 * 60, 1e-7);
             check_scaled (r->energy_dissipated, 0, 1e-7, r->energy_external);
             assert_true (r->energy_kinetic == 0 && r->residual_max <= 1e-11);
@@ -165,7 +165,7 @@ static void one_iteration_a_stage_follows_slow_loads (void **state)
             link_up (&l, &o, &chain_type);
             while (!pg_solver_done (l.solver, l.state)) check_ok (pg_solver_step (l.solver, l.state, &step));
             error[fine] = fabs (l.state->d[19] / 0.1 - 1);
-            const pg_report *r = pg_solver_report_now (l.solver);
+            const pg_statistics *r = pg_solver_report_now (l.solver);
             assert_int_equal (r->iterations, fine ? 8000 : 1000);
             assert_int_equal (r->steps, 30);
             assert_true (r->residual_max > 0);
@@ -201,7 +201,7 @@ static void final_state (const char *kind, int hold, int threads, int stops, dou
     }
     assert_int_equal (stopped, stops >= 0);
     memcpy (out, l.state->d, the.n * sizeof *out);
-    const pg_report *r = pg_solver_report_now (l.solver);
+    const pg_statistics *r = pg_solver_report_now (l.solver);
     out[the.n] = r->energy_external, out[the.n + 1] = (double) r->iterations, out[the.n + 2] = r->residual_max;
     unlink_all (&l);
 }
@@ -276,5 +276,5 @@ int main (void)
         cmocka_unit_test (options_that_cannot_be_are_refused),
         cmocka_unit_test (every_allocation_may_fail),
     };
-    return cmocka_run_group_tests_name ("solve/relaxing", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("solve/relaxation", tests, NULL, NULL);
 }

@@ -2,11 +2,11 @@
  * Private: equilibrium by damped motion (theory B4 as corrected, C), for adr and relax. One iteration, with masses m, a time step dt and damping c:
  *   v(n+1/2) = ((2 - c dt) v(n-1/2) + 2 dt r_n / m) / (2 + c dt),  u_n+1 = u_n + dt v(n+1/2);  from rest v(1/2) = dt r_0 / (2 m).
  * Between iterations state->v is v(n-1/2), state->a the last residual (N); a balanced state shows both as 0. */
-#ifndef PG_RELAXING_H
-#define PG_RELAXING_H
+#ifndef PG_RELAXATION_H
+#define PG_RELAXATION_H
 #include "explicit.h"
 
-struct relaxing {
+struct relaxation {
     double *mass;                                      /* of every unknown                      (ndof)                   */
     pg_status (*weigh) (pg_solver *s);                 /* masses anew where bonds that broke may have stiffened the body; NULL: never */
     double *rate;                                      /* given damping, 1/s; NULL: c           (ndof)                   */
@@ -15,16 +15,16 @@ struct relaxing {
     double floor;                                      /* hold: off: least c, 1/s                                        */
     double imbalance, worst;                           /* of the last residual; hold: off: the largest                   */
     double most;                                       /* largest reference of a state that the load has come to, N       */
-    int    armed, resting, pending, broke;             /* bonds may break; the next iteration starts from rest; the ledger at hand is that
+    int    armed, resting, pending, broke;             /* bonds may break; the next iteration starts from rest; the work balance at hand is that
                                                           before the first break of the stage and not booked; bonds broke at the last residual */
 };
-pg_status relaxing_create  (pg_solver *s);             /* s->motion with it; masses and dt are the caller's              */
-pg_status relaxing_stages  (pg_solver *s);             /* limit (22), number of steps; after masses and dt               */
-void      relaxing_free    (pg_solver *s);
-pg_status relaxing_start   (pg_solver *s, pg_state *state);
-pg_status relaxing_step    (pg_solver *s, pg_state *state, pg_step *step);
-int       relaxing_done    (const pg_solver *s, const pg_state *state);
-double    relaxing_progress (const pg_solver *s, const pg_state *state);
-void      relaxing_refused (pg_solver *s);
-pg_status relaxing_keep    (pg_solver *s, const pg_keeper *keeper);
+pg_status relaxation_create  (pg_solver *s);             /* s->motion with it; masses and dt are the caller's              */
+pg_status relaxation_stages  (pg_solver *s);             /* limit (22), number of steps; after masses and dt               */
+void      relaxation_free    (pg_solver *s);
+pg_status relaxation_start   (pg_solver *s, pg_state *state);
+pg_status relaxation_step    (pg_solver *s, pg_state *state, pg_step *step);
+int       relaxation_done    (const pg_solver *s, const pg_state *state);
+double    relaxation_progress (const pg_solver *s, const pg_state *state);
+void      relaxation_refused (pg_solver *s);
+pg_status relaxation_keep    (pg_solver *s, const pg_keeper *keeper);
 #endif

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Which loop sums the bonds: the first kind that can, or transforms where these are faster, with the best instructions that this machine has. */
-#include "sweep.h"
+#include "bond_loop.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-struct pg_sweep {
-    const pg_sweep_kind *kind;
+struct pg_bond_loop {
+    const pg_bond_loop_kind *kind;
     void *self;
     char  name[32], reason[160];
 };
 
-static const pg_sweep_kind *const kinds[] = { &pg_sweep_stencil, &pg_sweep_list, &pg_sweep_fft, &pg_sweep_state_stencil, &pg_sweep_state_list, &pg_sweep_state_fft, &pg_sweep_beam_stencil, &pg_sweep_beam_list, &pg_sweep_beam_volume };
+static const pg_bond_loop_kind *const kinds[] = { &pg_bond_loop_stencil, &pg_bond_loop_list, &pg_bond_loop_fft, &pg_bond_loop_state_stencil, &pg_bond_loop_state_list, &pg_bond_loop_state_fft, &pg_bond_loop_beam_stencil, &pg_bond_loop_beam_list, &pg_bond_loop_beam_volume };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 static const char *const set_name[PG_INSTRUCTION_SETS] = { "scalar", "avx2", "avx512" };
 
@@ -47,15 +47,15 @@ done:
 }
 
 /* Transforms, where they save at least a fifth of the stencil's time: cracks will cost some of it. */
-static void compare_transforms (const pg_sweep_kind **kind, const pg_sweep_setting *setting, pg_instructions set, char *reason, size_t size)
+static void compare_transforms (const pg_bond_loop_kind **kind, const pg_bond_loop_setting *setting, pg_instructions set, char *reason, size_t size)
 {
-    if (*kind != &pg_sweep_stencil || pg_sweep_fft.refusal (setting)) return;
-    double n = (double) setting->sums->cloud->n, direct = pg_sweep_stencil.time (setting, set) / n, fast = pg_sweep_fft.time (setting, set) / n;
-    if (fast < 0.8 * direct) *kind = &pg_sweep_fft;
+    if (*kind != &pg_bond_loop_stencil || pg_bond_loop_fft.refusal (setting)) return;
+    double n = (double) setting->sums->cloud->n, direct = pg_bond_loop_stencil.time (setting, set) / n, fast = pg_bond_loop_fft.time (setting, set) / n;
+    if (fast < 0.8 * direct) *kind = &pg_bond_loop_fft;
     snprintf (reason, size, "auto: about %.2g ns a point by transforms, %.2g by stencil", fast, direct);
 }
 
-static pg_status choose_kind (const pg_sweep_kind **out, const pg_sweep_setting *setting)
+static pg_status choose_kind (const pg_bond_loop_kind **out, const pg_bond_loop_setting *setting)
 {
     static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL, [PG_EVALUATE_STENCIL] = "stencil", [PG_EVALUATE_LIST] = "list", [PG_EVALUATE_FFT] = "fft" };
     pg_status status = PG_OK;
@@ -72,10 +72,10 @@ done:
     return status;
 }
 
-pg_status pg_sweep_create (pg_sweep **out, const pg_sweep_setting *setting)
+pg_status pg_bond_loop_create (pg_bond_loop **out, const pg_bond_loop_setting *setting)
 {
     pg_status status = PG_OK;
-    pg_sweep *s = NULL;
+    pg_bond_loop *s = NULL;
     pg_instructions set = PG_SCALAR;
     *out = NULL;
     PG_ALLOC (s, 1);
@@ -92,11 +92,11 @@ pg_status pg_sweep_create (pg_sweep **out, const pg_sweep_setting *setting)
     }
     *out = s, s = NULL;
 done:
-    pg_sweep_free (&s);
+    pg_bond_loop_free (&s);
     return status;
 }
 
-void pg_sweep_free (pg_sweep **sweep)
+void pg_bond_loop_free (pg_bond_loop **sweep)
 {
     if (!sweep || !*sweep) return;
     if ((*sweep)->kind) (*sweep)->kind->free ((*sweep)->self);
@@ -104,33 +104,33 @@ void pg_sweep_free (pg_sweep **sweep)
     *sweep = NULL;
 }
 
-const char *pg_sweep_name (const pg_sweep *sweep) { return sweep->name; }
+const char *pg_bond_loop_name (const pg_bond_loop *sweep) { return sweep->name; }
 
-const char *pg_sweep_reason (const pg_sweep *sweep) { return sweep->reason; }
+const char *pg_bond_loop_reason (const pg_bond_loop *sweep) { return sweep->reason; }
 
-void pg_sweep_counted (const pg_sweep *sweep, pg_sweep_counts *out)
+void pg_bond_loop_counted (const pg_bond_loop *sweep, pg_bond_loop_counts *out)
 {
-    *out = (pg_sweep_counts) { 0 };
+    *out = (pg_bond_loop_counts) { 0 };
     if (sweep->kind->counts) sweep->kind->counts (sweep->self, out);
 }
 
-void pg_sweep_bytes (const pg_sweep *sweep, double *per_bond, double *per_point) { sweep->kind->bytes (sweep->self, per_bond, per_point); }
+void pg_bond_loop_bytes (const pg_bond_loop *sweep, double *per_bond, double *per_point) { sweep->kind->bytes (sweep->self, per_bond, per_point); }
 
-void pg_sweep_update (pg_sweep *sweep, const unsigned char *alive, const pg_changes *changes)
+void pg_bond_loop_update (pg_bond_loop *sweep, const unsigned char *alive, const pg_changes *changes)
 {
     sweep->kind->update (sweep->self, alive, changes);
 }
 
-pg_status pg_sweep_force (pg_sweep *sweep, const double *u, double *f, pg_changes *broken)
+pg_status pg_bond_loop_force (pg_bond_loop *sweep, const double *u, double *f, pg_changes *broken)
 {
     return sweep->kind->force (sweep->self, u, f, broken);
 }
 
-double pg_sweep_energy (pg_sweep *sweep, const double *u) { return sweep->kind->energy (sweep->self, u); }
+double pg_bond_loop_energy (pg_bond_loop *sweep, const double *u) { return sweep->kind->energy (sweep->self, u); }
 
-pg_status pg_sweep_energies (pg_sweep *sweep, const double *u, double *W) { return sweep->kind->energies (sweep->self, u, W); }
+pg_status pg_bond_loop_energies (pg_bond_loop *sweep, const double *u, double *W) { return sweep->kind->energies (sweep->self, u, W); }
 
-pg_status pg_sweep_dilatation (pg_sweep *sweep, const double *u, double *theta, double *q)
+pg_status pg_bond_loop_dilatation (pg_bond_loop *sweep, const double *u, double *theta, double *q)
 {
     if (!sweep->kind->dilatation) return pg_error (PG_E_USAGE, PG_HERE, "a dilatation is known to state-based sums only");
     return sweep->kind->dilatation (sweep->self, u, theta, q);

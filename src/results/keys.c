@@ -32,4 +32,4 @@ static const pg_key keys[] = {
     { "output.tips[].damage", PG_NUMBER, "1", "(0, 1]", "35 %", NULL, NULL, NULL, "The tip is the farthest point of the crack with at least this damage, the crack being all such points that hang together with those nearest to from; beside a straight crack damage is about 0.4 (horizon of 3 spacings)." },
     { "output.tips[].where", PG_EXPRESSION, "bool", NULL, "", NULL, NULL, NULL, "Only points where this condition in x, y, z, r, angle holds: y > 0 for the upper of two branches." },
 };
-const pg_key_table pg_keys_report = { "report", keys, sizeof keys / sizeof *keys };
+const pg_key_table pg_keys_results = { "results", keys, sizeof keys / sizeof *keys };

@@ -212,7 +212,7 @@ static void the_report_tells_what_happened (void **state)
 {
     (void) state;
     char *text = slurp (inside (folder, "report.json"));
-    const pg_report *report = pg_solver_report_now (r.solver);
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     check_relative (json_number (text, NULL, "points"), 121, 0);
     check_relative (json_number (text, NULL, "dofs"), 242, 0);
     check_relative (json_number (text, NULL, "bonds"), (double) r.problem->first_bond[PG_BOND_SETS], 0);

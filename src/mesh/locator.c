@@ -2,7 +2,7 @@
  * Search for the element that holds a place: a tree of boxes, halved by the middle of the centres. A mesh may be as graded as it likes.
  * Of several elements that hold a place (on a face between them) the lowest is taken, so that the shape of the tree does not matter. */
 #include "closest.h"
-#include "finder.h"
+#include "locator.h"
 #include "element.h"
 #include <float.h>
 #include <limits.h>
@@ -13,7 +13,7 @@ enum { LEAF = 4, DEPTH = 64 };
 static const double inside = 1e-9;                     /* reference units: no gaps between neighbours by rounding        */
 typedef struct { double low[3], high[3]; } box;
 typedef struct { box box; int first, n, right; } tree_node;   /* leaf: n elements from `first`; else n = 0, left child is the next node */
-struct pg_mesh_finder {
+struct pg_mesh_locator {
     const pg_mesh *mesh;
     int        dim;
     tree_node *tree;
@@ -24,7 +24,7 @@ struct pg_mesh_finder {
     double     largest;                                /* element size                                                   */
 };
 
-static pg_element nodes_of (const pg_mesh_finder *f, size_t e, double x[3 * PG_ELEMENT_NODES])
+static pg_element nodes_of (const pg_mesh_locator *f, size_t e, double x[3 * PG_ELEMENT_NODES])
 {
     const pg_mesh *m = f->mesh;
     int dim = f->dim, k = 0;
@@ -36,7 +36,7 @@ static pg_element nodes_of (const pg_mesh_finder *f, size_t e, double x[3 * PG_E
 /* ---- boxes ------------------------------------------------------------------------------------------------------------ */
 /* Corners bound linear elements. Other nodes move it by their distance d from the linear map; the sum of |N| of those nodes is below 3
  * in every element of the table (hex20: (1 - x^2) + (1 - y^2) + (1 - z^2)), so 3 d to each side bounds the curved one. */
-static box box_of (const pg_mesh_finder *f, size_t e, double *size)
+static box box_of (const pg_mesh_locator *f, size_t e, double *size)
 {
     static const pg_element linear[PG_ELEMENTS] = { PG_POINT1, PG_BAR2, PG_BAR2, PG_TRI3, PG_TRI3, PG_QUAD4, PG_QUAD4, PG_QUAD4, PG_TET4, PG_TET4,
                                                     PG_HEX8, PG_HEX8, PG_HEX8, PG_WEDGE6, PG_WEDGE6 };
@@ -88,14 +88,14 @@ static double distance (const box *b, const double *place, int dim)
 }
 
 /* ---- tree ------------------------------------------------------------------------------------------------------------- */
-static int before (const pg_mesh_finder *f, int p, int q, int axis)
+static int before (const pg_mesh_locator *f, int p, int q, int axis)
 {
     double a = f->centre[(size_t) p * (size_t) f->dim + (size_t) axis], b = f->centre[(size_t) q * (size_t) f->dim + (size_t) axis];
     return a < b || (a == b && p < q);
 }
 
 /* Puts the k smallest of the n items from `first` on first (Hoare's selection; equal centres by number). */
-static void halve (pg_mesh_finder *f, int first, int n, int k, int axis)
+static void halve (pg_mesh_locator *f, int first, int n, int k, int axis)
 {
     int *v = f->item + first, low = 0, high = n - 1;
     while (low < high) {
@@ -111,7 +111,7 @@ static void halve (pg_mesh_finder *f, int first, int n, int k, int axis)
     }
 }
 
-static int longest_axis (const pg_mesh_finder *f, int first, int n)
+static int longest_axis (const pg_mesh_locator *f, int first, int n)
 {
     int best = 0;
     double length = -1;
@@ -127,7 +127,7 @@ static int longest_axis (const pg_mesh_finder *f, int first, int n)
 }
 
 /* Nodes in the order of a walk: a node, its left half, its right half. boxes: of elements, by their number. */
-static int build (pg_mesh_finder *f, const box *boxes, int first, int n)
+static int build (pg_mesh_locator *f, const box *boxes, int first, int n)
 {
     int k = (int) f->ntree++;
     if (n > LEAF) {
@@ -145,10 +145,10 @@ static int build (pg_mesh_finder *f, const box *boxes, int first, int n)
     return k;
 }
 
-pg_status pg_finder_create (pg_mesh_finder **out, const pg_mesh *mesh)
+pg_status pg_mesh_locator_create (pg_mesh_locator **out, const pg_mesh *mesh)
 {
     pg_status status = PG_OK;
-    pg_mesh_finder *f = NULL;
+    pg_mesh_locator *f = NULL;
     box *boxes = NULL;
     *out = NULL;
     if (mesh->dim < 1 || mesh->dim > 3 || mesh->n == 0 || mesh->n > INT_MAX) PG_FAIL (PG_E_USAGE, "no elements to search in a mesh of %zu elements and dimension %d", mesh->n, mesh->dim);
@@ -173,17 +173,17 @@ pg_status pg_finder_create (pg_mesh_finder **out, const pg_mesh *mesh)
     f = NULL;
 done:
     pg_free (boxes);
-    pg_finder_free (&f);
+    pg_mesh_locator_free (&f);
     return status;
 }
 
-void pg_finder_free (pg_mesh_finder **finder)
+void pg_mesh_locator_free (pg_mesh_locator **locator)
 {
-    pg_mesh_finder *f = *finder;
+    pg_mesh_locator *f = *locator;
     if (!f) return;
     pg_free (f->tree), pg_free (f->item), pg_free (f->box), pg_free (f->centre);
     pg_free (f);
-    *finder = NULL;
+    *locator = NULL;
 }
 
 /* Triangles and tetrahedra with straight sides, without Newton's method; 0: flat. */
@@ -216,7 +216,7 @@ static int invert (pg_element kind, int dim, const double *x, const double *plac
 }
 
 /* ---- questions -------------------------------------------------------------------------------------------------------- */
-static long find_inside (const pg_mesh_finder *f, const double *place, double *xi)
+static long find_inside (const pg_mesh_locator *f, const double *place, double *xi)
 {
     int todo[DEPTH], n = 0, dim = f->dim;
     long best = LONG_MAX;
@@ -240,7 +240,7 @@ static long find_inside (const pg_mesh_finder *f, const double *place, double *x
     return best == LONG_MAX ? -1 : best;
 }
 
-double pg_finder_depth (const pg_mesh_finder *f, const double *place, double enough)
+double pg_mesh_locator_depth (const pg_mesh_locator *f, const double *place, double enough)
 {
     int todo[DEPTH], n = 0, dim = f->dim;
     double depth = -HUGE_VAL;
@@ -265,7 +265,7 @@ double pg_finder_depth (const pg_mesh_finder *f, const double *place, double eno
 /* The nearest so far; d: its distance. Elements as near as that to nine digits: the lowest. */
 typedef struct { long element; double d, away, xi[3]; int far; } nearest;      /* far: more than its own size away counts too  */
 
-static void consider (const pg_mesh_finder *f, const double *place, int k, nearest *best)
+static void consider (const pg_mesh_locator *f, const double *place, int k, nearest *best)
 {
     double x[3 * PG_ELEMENT_NODES], xi[3], size;
     size_t e = (size_t) f->item[k];
@@ -278,7 +278,7 @@ static void consider (const pg_mesh_finder *f, const double *place, int k, neare
     memcpy (best->xi, xi, (size_t) f->dim * sizeof *xi);
 }
 
-static void find_nearest (const pg_mesh_finder *f, const double *place, nearest *best)
+static void find_nearest (const pg_mesh_locator *f, const double *place, nearest *best)
 {
     int todo[DEPTH], n = 0;
     todo[n++] = 0;
@@ -296,7 +296,7 @@ static void find_nearest (const pg_mesh_finder *f, const double *place, nearest 
     }
 }
 
-long finder_nearest (const pg_mesh_finder *f, const double *place, double reach, double *d)
+long locator_nearest (const pg_mesh_locator *f, const double *place, double reach, double *d)
 {
     nearest best = { .element = -1, .d = reach, .far = 1 };
     find_nearest (f, place, &best);
@@ -304,7 +304,7 @@ long finder_nearest (const pg_mesh_finder *f, const double *place, double reach,
     return best.element;
 }
 
-long pg_finder_find (const pg_mesh_finder *f, const double *place, double *xi, double *away)
+long pg_mesh_locator_find (const pg_mesh_locator *f, const double *place, double *xi, double *away)
 {
     for (int a = 0; a < f->dim; a++) if (!isfinite (place[a])) return -1;
     long e = find_inside (f, place, xi);

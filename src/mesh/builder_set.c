@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Node sets and side sets of a mesh: those of the file, those that elements of lower dimension name, the nodes of every side set.
  * Sets of equal name are one. Members are gathered as pairs (set, member) in one sorted list. */
-#include "maker.h"
+#include "builder.h"
 #include "element.h"
 #include <stdint.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@ typedef struct { char name[64]; long id; size_t place; int sides; } named;   /* 
 typedef struct { int dim; long group; size_t set; } source;      /* a group that names a set                                 */
 typedef struct { size_t n, cap; uint64_t *pair; } pairs;       /* (set, node), or (set, element, side)                     */
 typedef struct {
-    pg_mesh_maker *m;
+    pg_mesh_builder *m;
     size_t  n, cap;                                    /* sets before equal names are one                                */
     named  *set;
     size_t *final;                                     /* number of the set in the mesh (n)                              */
@@ -71,7 +71,7 @@ static int by_source (const void *p, const void *q)    /* solid twins first, the
 }
 
 /* Elements that do no more than name a set. */
-static int names_a_set (const pg_mesh_maker *m, size_t e)
+static int names_a_set (const pg_mesh_builder *m, size_t e)
 {
     return m->group[e] && m->solid[e] < 0;
 }
@@ -79,7 +79,7 @@ static int names_a_set (const pg_mesh_maker *m, size_t e)
 static pg_status add_sources (builder *b)
 {
     pg_status status = PG_OK;
-    const pg_mesh_maker *m = b->m;
+    const pg_mesh_builder *m = b->m;
     size_t n = 0;
     for (size_t e = 0; e < m->n; e++) {
         source s = { pg_element_types[m->kind[e]].dim, m->group[e], 0 };
@@ -93,7 +93,7 @@ static pg_status add_sources (builder *b)
     b->nsource = n;
     for (size_t k = 0; k < n; k++) {
         char name[64];
-        maker_name (m, b->source[k].dim, b->source[k].group, name);
+        builder_name (m, b->source[k].dim, b->source[k].group, name);
         b->source[k].set = b->n;
         PG_TRY (add_name (b, name, b->source[k].group, 0));
     }
@@ -138,7 +138,7 @@ done:
 static pg_status collect_names (builder *b)
 {
     pg_status status = PG_OK;
-    pg_mesh_maker *m = b->m;
+    pg_mesh_builder *m = b->m;
     for (size_t k = 0; k < m->nset; k++) PG_TRY (add_name (b, m->sets[k].name, m->sets[k].id, 0));
     for (size_t k = 0; k < m->nside_set; k++) PG_TRY (add_name (b, m->side_sets[k].name, m->side_sets[k].id, 1));
     PG_TRY (add_sources (b));
@@ -151,7 +151,7 @@ done:
 static pg_status add_node_sets (builder *b)
 {
     pg_status status = PG_OK;
-    const pg_mesh_maker *m = b->m;
+    const pg_mesh_builder *m = b->m;
     for (size_t s = 0; s < m->nset; s++)
         for (size_t k = m->sets[s].first; k < m->sets[s].end; k++) {
             long at = id_table_find (&m->nodes, m->set_node[k]);
@@ -178,7 +178,7 @@ static int mirrored_side (pg_element kind, int side)
 static pg_status add_side_sets (builder *b, const id_table *elements)
 {
     pg_status status = PG_OK;
-    const pg_mesh_maker *m = b->m;
+    const pg_mesh_builder *m = b->m;
     for (size_t s = 0; s < m->nside_set; s++)
         for (size_t k = m->side_sets[s].first; k < m->side_sets[s].end; k++) {
             const char *name = m->side_sets[s].name;
@@ -204,7 +204,7 @@ static size_t set_of (const builder *b, size_t e)
 static pg_status add_lower_nodes (builder *b)
 {
     pg_status status = PG_OK;
-    const pg_mesh_maker *m = b->m;
+    const pg_mesh_builder *m = b->m;
     for (size_t e = 0; e < m->n; e++) {
         if (!names_a_set (m, e)) continue;
         size_t set = set_of (b, e);
@@ -234,7 +234,7 @@ static int by_corners_and_set (const void *p, const void *q)
 static pg_status list_lower (const builder *b, size_t *n, lower **list, unsigned char *mark)
 {
     pg_status status = PG_OK;
-    const pg_mesh_maker *m = b->m;
+    const pg_mesh_builder *m = b->m;
     size_t cap = 0;
     for (size_t e = 0; e < m->n; e++) {
         const pg_element_type *type = &pg_element_types[m->kind[e]];
@@ -353,7 +353,7 @@ done:
     return status;
 }
 
-static pg_status check_ids (const pg_mesh_maker *m, id_table *elements)
+static pg_status check_ids (const pg_mesh_builder *m, id_table *elements)
 {
     pg_status status = PG_OK;
     size_t twice;
@@ -363,7 +363,7 @@ done:
     return status;
 }
 
-pg_status maker_sets (pg_mesh_maker *m)
+pg_status builder_sets (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     builder b = { .m = m };
