@@ -10,8 +10,9 @@
  *     PG_TRY (pg_state_create (&state, problem, pg_solver_components (solver)));
  *     while (!pg_solver_done (solver, state)) PG_TRY (pg_solver_step (solver, state, &step));
  *
- * What comes out through **out is yours (free it with its _free); what comes back through const * is borrowed. Nothing is kept
- * from the scene. SI units throughout; Voigt order xx yy zz xy yz zx with engineering shears. */
+ * What comes out through **out is yours (free it with its _free); what comes back through const * is
+ * borrowed. Nothing is kept from the scene. SI units throughout; Voigt order xx yy zz xy yz zx with
+ * engineering shears. */
 #ifndef PERIGAL_H
 #define PERIGAL_H
 #include "perigal/base.h"

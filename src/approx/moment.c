@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Basis p (z) = [1] z_k [z_k z_l], moment matrix A = sum w p p' = L L', and what is left of the basis where too few bonds
- * live. Theory E1, D1; degenerate rule: approx.h. */
+ * Basis p (z) = [1] z_k [z_k z_l], moment matrix A = sum w p p' = L L', and what is left of the basis where
+ * too few bonds live. Theory E1, D1; degenerate rule: approx.h. */
 #include "moment.h"
 #include <string.h>
 
@@ -46,7 +46,7 @@ static int factor (pg_neighbourhood *s, double tiny)
     for (size_t j = 0; j < s->n; j++) {
         double *p = s->p + j * (size_t) size, w = s->w[j];
         basis (s, s->z + j * (size_t) s->dim, p);
-        if (size == 6) add_moment (6, w, p, A);        /* the usual ones, their loops known                              */
+        if (size == 6) add_moment (6, w, p, A);        /* the usual ones, their loops known */
         else if (size == 10) add_moment (10, w, p, A);
         else if (size == 4) add_moment (4, w, p, A);
         else add_moment (size, w, p, A);
@@ -74,7 +74,8 @@ void pg_neighbourhood_spread (const pg_neighbourhood *s, const double *centre, d
     }
 }
 
-/* Is the smallest eigenvalue of the centred second moment below 1e-3 h^2? It is not where M - 1e-3 h^2 I has a factor. */
+/* Is the smallest eigenvalue of the centred second moment below 1e-3 h^2? It is not where M - 1e-3 h^2 I has
+ * a factor. */
 static int flat (const pg_neighbourhood *s, double h)
 {
     int dim = s->dim;
@@ -99,7 +100,8 @@ int pg_neighbourhood_grade (pg_neighbourhood *s, int order, double h)
 {
     s->projected = 0;
     if (s->n == 0) return PG_GRADE_DEAD;
-    if (s->n < (size_t) s->dim + 1 || ((s->lost || !s->extrapolates) && flat (s, h))) return left_over (s, order, h);
+    if (s->n < (size_t) s->dim + 1 || ((s->lost || !s->extrapolates) && flat (s, h)))
+        return left_over (s, order, h);
     for (s->order = order; s->order >= 1; s->order--) {
         s->size = basis_size (s->dim, s->order, s->constant);
         if (s->n >= (size_t) s->size && factor (s, s->order == 2 ? 1e-10 : 1e-8))
@@ -136,7 +138,8 @@ static double dot (int n, const double *a, const double *b)
 
 void pg_neighbourhood_shape (const pg_neighbourhood *s, const double *b, double *N)
 {
-    for (size_t j = 0; j < s->n; j++) N[s->entry[j]] = s->w[j] * dot (s->size, b, s->p + j * (size_t) s->size);
+    for (size_t j = 0; j < s->n; j++)
+        N[s->entry[j]] = s->w[j] * dot (s->size, b, s->p + j * (size_t) s->size);
 }
 
 void pg_neighbourhood_differential (const pg_neighbourhood *s, double *dN)
@@ -146,6 +149,7 @@ void pg_neighbourhood_differential (const pg_neighbourhood *s, double *dN)
     for (int k = 0; k < s->dim; k++) {
         pg_neighbourhood_solve (s, s->constant + k, b);
         for (size_t j = 0; j < s->n; j++)
-            dN[s->entry[j] * dim + (size_t) k] = s->w[j] * dot (s->size, b, s->p + j * (size_t) s->size) / s->a;
+            dN[s->entry[j] * dim + (size_t) k] = s->w[j] * dot (s->size, b, s->p + j * (size_t) s->size)
+                                                 / s->a;
     }
 }

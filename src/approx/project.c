@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a linear basis still can do where the neighbours of a point lie on a line or a plane (theory F3 item 3). About their centre
- * c the basis is p = (1, z - c), A = diag (1, M), M = sum w (z - c)(z - c)', and with M+ the inverse on the directions that are left
- * G = diag (1, M+). With P the projector on these directions
+ * What a linear basis still can do where the neighbours of a point lie on a line or a plane (theory F3 item
+ * 3). About their centre c the basis is p = (1, z - c), A = diag (1, M), M = sum w (z - c)(z - c)', and with
+ * M+ the inverse on the directions that are left G = diag (1, M+). With P the projector on these directions
  *     A G p (0) = (1, -P c) = p (foot of the point on the line or plane),     A G e_k = P e_k:
- * shape functions sum to 1 and their derivatives to 0 for any point. (The Moore-Penrose inverse of A about the point itself agrees
+ * shape functions sum to 1 and their derivatives to 0 for any point. (The Moore-Penrose inverse of A about
+ *     the point itself agrees
  * where the point is on the line or plane; beside it p (0) leaves the range of A, and both sums are lost.)
  * About a node of nosb c = 0: M is A itself, and the lines and planes pass through the node. */
 #include "moment.h"
 
-/* M+ of the symmetric M (lower triangle): eigenvalues below the limit are dropped. Returns the number of those kept. */
+/* M+ of the symmetric M (lower triangle): eigenvalues below the limit are dropped. Returns the number of
+ * those kept. */
 static int invert_spread (int dim, double *M, double limit, double *inverse)
 {
     int kept = 0;
@@ -26,7 +28,8 @@ static int invert_spread (int dim, double *M, double limit, double *inverse)
     return kept;
 }
 
-/* p = ([1] z - c); a second pass takes out the rounding of c, which M+ would enlarge where the weights are very uneven. */
+/* p = ([1] z - c); a second pass takes out the rounding of c, which M+ would enlarge where the weights are
+ * very uneven. */
 static void centred_basis (pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim, one = (size_t) s->constant, size = dim + one;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- quadrics -------------------------------------------------------------------------------------------------------- */
+/* ---- quadrics ------------------------------------------------------------------------------------------ */
 double cut_value (const cut_quadric *q, const double *x)
 {
     double v = q->c;
@@ -64,7 +64,7 @@ cut_quadric cut_local (const cut_surface *s, int dim, const double *centre, cons
     return q;
 }
 
-/* ---- surfaces of shapes ------------------------------------------------------------------------------------------------ */
+/* ---- surfaces of shapes -------------------------------------------------------------------------------- */
 typedef struct { struct pg_cut *cut; size_t capacity; } builder;
 
 static int same (const cut_surface *a, const cut_surface *b, int dim)
@@ -79,7 +79,8 @@ static int same (const cut_surface *a, const cut_surface *b, int dim)
     plus = fabs (p.c + q.c), minus = fabs (p.c - q.c);
     for (int i = 0; i < dim; i++) {
         plus += fabs (p.b[i] + q.b[i]), minus += fabs (p.b[i] - q.b[i]);
-        for (int k = 0; k < dim; k++) plus += fabs (p.A[i][k] + q.A[i][k]), minus += fabs (p.A[i][k] - q.A[i][k]);
+        for (int k = 0; k < dim; k++)
+            plus += fabs (p.A[i][k] + q.A[i][k]), minus += fabs (p.A[i][k] - q.A[i][k]);
     }
     return fmin (plus, minus) < 1e-13;
 }
@@ -139,7 +140,8 @@ static pg_status add_cylinder (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
     double far[3], back[3];
-    for (int k = 0; k < 3; k++) far[k] = shape->centre[k] + shape->length * shape->axis[k], back[k] = -shape->axis[k];
+    for (int k = 0; k < 3; k++)
+        far[k] = shape->centre[k] + shape->length * shape->axis[k], back[k] = -shape->axis[k];
     PG_TRY (add_round (m, s, shape));
     s.end = s.part = 1;
     for (int k = 0; k < 3; k++) {
@@ -160,7 +162,8 @@ static pg_status add_polygon (builder *m, cut_surface s, const pg_shape *shape)
     cut_surface end = s;
     for (size_t i = 0, j = shape->nvertex - 1; i < shape->nvertex; j = i++) {
         const double *a = shape->vertex + 2 * j, *b = shape->vertex + 2 * i;
-        double length = hypot (b[0] - a[0], b[1] - a[1]), n[3] = {(b[1] - a[1]) / length, (a[0] - b[0]) / length, 0};
+        double length = hypot (b[0] - a[0], b[1] - a[1]),
+               n[3] = { (b[1] - a[1]) / length, (a[0] - b[0]) / length, 0 };
         double point[3] = {a[0], a[1], 0};
         for (int k = 0; k < 2; k++) s.low[k] = fmin (a[k], b[k]), s.high[k] = fmax (a[k], b[k]);
         s.part = (int) j;
@@ -180,9 +183,11 @@ static void bound (cut_surface *s, const pg_shape *shape, int dim)
 {
     for (int k = 0; k < dim; k++) {
         double a = shape->centre[k], b = a, wide = shape->radius;
-        if (shape->kind == PG_CYLINDER) b += shape->length * shape->axis[k], wide *= sqrt (fmax (0, 1 - shape->axis[k] * shape->axis[k]));
+        if (shape->kind == PG_CYLINDER)
+            b += shape->length * shape->axis[k], wide *= sqrt (fmax (0, 1 - shape->axis[k] * shape->axis[k]));
         s->low[k] = fmin (a, b) - wide, s->high[k] = fmax (a, b) + wide;
-        if (shape->kind == PG_BOX || shape->kind == PG_PRISM) s->low[k] = shape->low[k], s->high[k] = shape->high[k];
+        if (shape->kind == PG_BOX || shape->kind == PG_PRISM)
+            s->low[k] = shape->low[k], s->high[k] = shape->high[k];
         for (size_t i = 0; k < 2 && i < shape->nvertex; i++) {
             double v = shape->vertex[2 * i + (size_t) k];
             s->low[k] = i ? fmin (s->low[k], v) : v, s->high[k] = i ? fmax (s->high[k], v) : v;
@@ -240,7 +245,8 @@ done:
     return status;
 }
 
-pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattice *lattice, size_t nray, const pg_ray *ray)
+pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattice *lattice, size_t nray,
+                        const pg_ray *ray)
 {
     pg_status status = PG_OK;
     builder m = {cut, 0};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A finite element result measured against the reference of a scene, by the norms that Perigal's own results are measured with: over its
- * own elements (5 Gauss points a direction), stresses from the gradient of its displacement; on the lines of the reference. */
+ * A finite element result measured against the reference of a scene, by the norms that Perigal's own results
+ * are measured with: over its own elements (5 Gauss points a direction), stresses from the gradient of its
+ * displacement; on the lines of the reference. */
 #include "cli.h"
 #include "bench.h"
 #include <math.h>
@@ -10,9 +11,9 @@ enum { ORDER = 5 };
 typedef struct {
     const pg_mesh *mesh;
     pg_mesh_locator *locator;
-    const pg_mesh_field *u;                            /* displacement, units of the file                                */
+    const pg_mesh_field *u;                            /* displacement, units of the file */
     int    dim;
-    double unit;                                       /* m                                                              */
+    double unit;                                       /* m */
     const pg_material *material;
 } solution;
 
@@ -42,10 +43,13 @@ static pg_status places_of (pg_quadrature *q, const solution *s, double thicknes
     for (size_t e = 0; e < m->n; e++) {
         double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS], x[3 * PG_ELEMENT_NODES], place[3];
         for (size_t i = 0; i < m->start[e + 1] - m->start[e]; i++)
-            for (size_t k = 0; k < dim; k++) x[i * dim + k] = m->x[3 * (size_t) m->node[m->start[e] + i] + k] * s->unit;
+            for (size_t k = 0; k < dim; k++)
+                x[i * dim + k] = m->x[3 * (size_t) m->node[m->start[e] + i] + k] * s->unit;
         int n = pg_element_rule (m->kind[e], ORDER, xi, w);
         for (int g = 0; g < n; g++) {
-            q->weight[q->n] = w[g] * thickness * fabs (pg_element_map (m->kind[e], s->dim, x, xi + (size_t) g * dim, place, NULL));
+            q->weight[q->n] = w[g] * thickness
+                              * fabs (
+                                  pg_element_map (m->kind[e], s->dim, x, xi + (size_t) g * dim, place, NULL));
             memcpy (q->x + dim * q->n++, place, dim * sizeof *place);
         }
     }
@@ -57,14 +61,17 @@ static pg_status measure (trial *t, solution *s, const pg_scene *scene, const pg
 {
     pg_status status = PG_OK;
     pg_reference *reference = NULL;
-    pg_sampler exact = { 0 }, value = { .context = s, .dim = s->dim, .displacement = (1 << s->dim) - 1, .stress = 63, .sample = sample };
+    pg_sampler exact = { 0 }, value = {
+        .context = s, .dim = s->dim, .displacement = (1 << s->dim) - 1, .stress = 63, .sample = sample
+    };
     pg_quadrature q = { 0 };
     pg_errors e = { 0 };
     pg_norm_options options = { .material = problem->material };
     PG_TRY (pg_reference_read (&reference, scene, problem));
     PG_TRY (pg_scene_verdict (scene));
     if (!reference) PG_FAIL (PG_E_SCENE, "%s: the scene has no reference", pg_scene_file (scene));
-    PG_TRY (pg_errors_measure (&e, reference, problem, &value, 1));      /* lines; the norms are those over its own elements */
+    /* lines; the norms are those over its own elements */
+    PG_TRY (pg_errors_measure (&e, reference, problem, &value, 1));
     PG_TRY (pg_reference_sampler (&exact, reference, 1));
     if (exact.displacement) {
         PG_TRY (places_of (&q, s, problem->dim == 2 ? problem->cloud.thickness : 1));
@@ -79,7 +86,8 @@ done:
     return status;
 }
 
-static pg_status read_solution (solution *s, pg_mesh *mesh, size_t *nfield, pg_mesh_field **fields, const char *path, const pg_problem *p)
+static pg_status read_solution (solution *s, pg_mesh *mesh, size_t *nfield, pg_mesh_field **fields,
+                                const char *path, const pg_problem *p)
 {
     pg_status status = PG_OK;
     double time;
@@ -88,7 +96,8 @@ static pg_status read_solution (solution *s, pg_mesh *mesh, size_t *nfield, pg_m
         if (strcmp ((*fields)[k].name, "displacement") == 0) s->u = &(*fields)[k];
     if (!s->u || s->u->components < p->dim) PG_FAIL (PG_E_FILE, "%s has no displacement", path);
     if (p->dim == 2 && mesh->dim == 3) PG_TRY (pg_mesh_flatten (mesh, *nfield, *fields));
-    if (mesh->dim != p->dim) PG_FAIL (PG_E_FILE, "%s: the elements are of dimension %d, the scene of %d", path, mesh->dim, p->dim);
+    if (mesh->dim != p->dim)
+        PG_FAIL (PG_E_FILE, "%s: the elements are of dimension %d, the scene of %d", path, mesh->dim, p->dim);
     s->mesh = mesh, s->dim = p->dim, s->material = p->material;
     PG_TRY (pg_mesh_locator_create (&s->locator, mesh));
 done:

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Bond-based peridynamics: forces straight between points, by the sweeps of direct sums (Silling 2000; Silling and Askari 2005; theory A). */
+ * Bond-based peridynamics: forces straight between points, by the sweeps of direct sums (Silling 2000;
+ * Silling and Askari 2005; theory A). */
 #include "bond.h"
 #include <math.h>
 #include <string.h>
 
 static size_t ndof (const bond *b) { return b->n * (size_t) b->stride; }
 
-/* ---- one point ----------------------------------------------------------------------------------------------------------------- */
+/* ---- one point ----------------------------------------------------------------------------------------- */
 void point_bonds_at (const bond *b, size_t i, int thread, point_bonds *s)
 {
     double *workspace = b->workspace + (size_t) thread * b->widest * (size_t) (b->dim + 2);
@@ -31,16 +32,22 @@ double bond_kappa (const bond *b, size_t i, const point_bonds *s, size_t e, doub
 {
     size_t j = (size_t) s->node[e];
     const double *c = b->modulus;
-    return kappa_of (b, i, s, e, b->stiff ? b->stiff[i] + b->stiff[j] : c[i] == c[j] ? c[i] : 2 * c[i] * c[j] / (c[i] + c[j]), r);
+    return kappa_of (b, i, s, e,
+                     b->stiff       ? b->stiff[i] + b->stiff[j]
+                     : c[i] == c[j] ? c[i]
+                                    : 2 * c[i] * c[j] / (c[i] + c[j]),
+                     r);
 }
 
-void bond_pull (const bond *b, size_t i, const point_bonds *s, size_t e, double both, double *own, double *other)
+void bond_pull (const bond *b, size_t i, const point_bonds *s, size_t e, double both, double *own,
+                double *other)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     const double *xi = s->xi + e * dim;
     double kappa = kappa_of (b, i, s, e, both, NULL);
     for (size_t a = 0; a < dim; a++)
-        for (size_t c = 0; c < dim; c++) own[a * m + c] += kappa * xi[a] * xi[c], other[a * m + c] -= kappa * xi[a] * xi[c];
+        for (size_t c = 0; c < dim; c++)
+            own[a * m + c] += kappa * xi[a] * xi[c], other[a * m + c] -= kappa * xi[a] * xi[c];
 }
 
 void bond_beam (const bond *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
@@ -66,7 +73,7 @@ void bond_blocks (const bond *b, size_t i, const point_bonds *s, size_t e, doubl
     for (size_t k = 0; other && k < dim * dim; k++) other[k] = -own[k];
 }
 
-/* ---- life ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- life ---------------------------------------------------------------------------------------------- */
 void bond_free (void **self)
 {
     bond *b = *self;
@@ -76,12 +83,14 @@ void bond_free (void **self)
     nodal_free (&b->nodal);
     pg_sparse_clear (&b->K);
     pg_nearest_free (&b->near);
-    pg_free (b->modulus), pg_free (b->limit), pg_free (b->workspace), pg_free (b->work), pg_free (b->stale), pg_free (b->diagonal), pg_free (b->whole);
+    pg_free (b->modulus), pg_free (b->limit), pg_free (b->workspace), pg_free (b->work), pg_free (b->stale),
+        pg_free (b->diagonal), pg_free (b->whole);
     pg_free (b);
     *self = NULL;
 }
 
-/* The stretch at which a bond of two points like this one breaks: the criterion's own answer for a bond of unit stretch. */
+/* The stretch at which a bond of two points like this one breaks: the criterion's own answer for a bond of
+ * unit stretch. */
 static double limit_at (const pg_criterion *c, double ratio)
 {
     double one = 1, factor = 0;
@@ -102,7 +111,9 @@ static pg_status make_constants (bond *b)
         size_t block = (size_t) p->block[PG_NODES][i];
         double E = p->material[block].modulus;
         if (i > 0 && block == (size_t) p->block[PG_NODES][i - 1]) b->modulus[i] = b->modulus[i - 1];
-        else b->modulus[i] = p->sums->calibration * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);
+        else
+            b->modulus[i] = p->sums->calibration
+                            * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);
     }
     PG_TRY (bond_energy_create (b));
     if (!p->criterion->type || b->critical || b->limit) goto done;
@@ -117,8 +128,16 @@ done:
 
 static pg_status make_sweep (bond *b, pg_bond_loop **out, const pg_sums *sums, const double *limit)
 {
-    pg_bond_loop_setting s = { .sums = sums, .family = b->family, .modulus = b->modulus, .dilation = b->dilation, .deviation = b->deviation, .counted = b->counted,
-                           .limit = limit, .exempt = b->problem->exempt[PG_NODES], .beams = b->shear ? &b->beams : NULL, .threads = b->threads };
+    pg_bond_loop_setting s = { .sums = sums,
+                               .family = b->family,
+                               .modulus = b->modulus,
+                               .dilation = b->dilation,
+                               .deviation = b->deviation,
+                               .counted = b->counted,
+                               .limit = limit,
+                               .exempt = b->problem->exempt[PG_NODES],
+                               .beams = b->shear ? &b->beams : NULL,
+                               .threads = b->threads };
     b->setting = s;
     return pg_bond_loop_create (out, &s);
 }
@@ -176,7 +195,7 @@ size_t bond_fields (const void *self, size_t max, pg_field *out)
     return b->shear ? 2 : 1;
 }
 
-/* ---- breaking ------------------------------------------------------------------------------------------------------------------ */
+/* ---- breaking ------------------------------------------------------------------------------------------ */
 static void mark_stale (bond *b, const pg_changes *changes)
 {
     for (size_t c = 0; c < changes->n; c++) {
@@ -218,7 +237,8 @@ done:
     return status;
 }
 
-pg_status bond_march (void *self, double t, const double *d, double *residual, double *reference, pg_changes *broken)
+pg_status bond_march (void *self, double t, const double *d, double *residual, double *reference,
+                      pg_changes *broken)
 {
     pg_status status = PG_OK;
     bond *b = self;
@@ -249,7 +269,7 @@ pg_status bond_surface (void *self, const double *stress, double *P)
     return b->problem->nload ? nodal_surface (&b->nodal, 0, stress, P) : PG_OK;
 }
 
-/* ---- the rest ------------------------------------------------------------------------------------------------------------------ */
+/* ---- the rest ------------------------------------------------------------------------------------------ */
 pg_status bond_mass (void *self, double *mass)
 {
     const bond *b = self;
@@ -257,13 +277,14 @@ pg_status bond_mass (void *self, double *mass)
     for (size_t i = 0; i < b->n; i++) {
         double own = p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i], across = 0;
         if (b->shear) across = pg_problem_spacing (p, PG_NODES, i) / b->beams.length;
-        for (size_t k = 0; k < (size_t) b->stride; k++)                /* a cube of the spacing's size turns: theory G4       */
+        for (size_t k = 0; k < (size_t) b->stride; k++)  /* a cube of the spacing's size turns: theory G4 */
             mass[i * (size_t) b->stride + k] = k < (size_t) b->dim ? own : own * across * across / 6;
     }
     return PG_OK;
 }
 
-pg_status bond_work_balance (void *self, double t, const double *d, const double *inertia, pg_work_balance *out)
+pg_status bond_work_balance (void *self, double t, const double *d, const double *inertia,
+                             pg_work_balance *out)
 {
     pg_status status = PG_OK;
     bond *b = self;
@@ -285,4 +306,8 @@ pg_status bond_impose (void *self, double t, double *d)
     return PG_OK;
 }
 
-const pg_force_type pg_force_bond = { .name = "bond", .summary = "bond-based peridynamics: pair forces between points (Silling 2000)", BOND_ENTRIES };
+const pg_force_type pg_force_bond = {
+    .name = "bond",
+    .summary = "bond-based peridynamics: pair forces between points (Silling 2000)",
+    BOND_ENTRIES
+};

@@ -3,7 +3,8 @@
 #include "perigal/force.h"
 #include <math.h>
 
-pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass, double *workspace, double *omega, const char **from)
+pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass,
+                          double *workspace, double *omega, const char **from)
 {
     pg_status status = PG_OK;
     double top = 0;

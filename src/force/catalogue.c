@@ -15,7 +15,8 @@ static const pg_force_type *const entries[] = {
 
 const pg_force_type *pg_force_find (const char *name)
 {
-    for (size_t i = 0; i < sizeof entries / sizeof *entries; i++) if (strcmp (entries[i]->name, name) == 0) return entries[i];
+    for (size_t i = 0; i < sizeof entries / sizeof *entries; i++)
+        if (strcmp (entries[i]->name, name) == 0) return entries[i];
     return NULL;
 }
 

@@ -26,8 +26,10 @@ void pg_mesh_builder_free (pg_mesh_builder **builder)
     pg_mesh_builder *m = *builder;
     if (!m) return;
     pg_free (m->path), pg_free (m->node_id), pg_free (m->x);
-    pg_free (m->element_id), pg_free (m->group), pg_free (m->line), pg_free (m->kind), pg_free (m->start), pg_free (m->list);
-    pg_free (m->groups), pg_free (m->sets), pg_free (m->side_sets), pg_free (m->set_node), pg_free (m->side_element), pg_free (m->side);
+    pg_free (m->element_id), pg_free (m->group), pg_free (m->line), pg_free (m->kind), pg_free (m->start),
+        pg_free (m->list);
+    pg_free (m->groups), pg_free (m->sets), pg_free (m->side_sets), pg_free (m->set_node),
+        pg_free (m->side_element), pg_free (m->side);
     pg_free (m->index), pg_free (m->solid), pg_free (m->turned), pg_free (m->kept);
     id_table_clear (&m->nodes);
     pg_free (m);
@@ -36,10 +38,12 @@ void pg_mesh_builder_free (pg_mesh_builder **builder)
 
 pg_status pg_mesh_builder_node (pg_mesh_builder *m, long id, const double *x)
 {
-    enum { EXPONENT = 100 };                               /* 1e100: its cube is still a number                          */
+    enum { EXPONENT = 100 };                               /* 1e100: its cube is still a number */
     pg_status status = PG_OK;
     for (int a = 0; a < 3; a++)
-        if (!(fabs (x[a]) <= pow (10, EXPONENT))) PG_FAIL (PG_E_FILE, "%s: node %ld: coordinate %d is %g; it must be a number below 1e%d", m->path, id, a + 1, x[a], EXPONENT);
+        if (!(fabs (x[a]) <= pow (10, EXPONENT)))
+            PG_FAIL (PG_E_FILE, "%s: node %ld: coordinate %d is %g; it must be a number below 1e%d", m->path,
+                     id, a + 1, x[a], EXPONENT);
     if (m->nnode >= INT_MAX) PG_FAIL (PG_E_LIMIT, "%s: more than %d nodes", m->path, INT_MAX);
     PG_GROW (m->node_id, m->node_cap, m->nnode + 1);
     PG_GROW (m->x, m->x_cap, 3 * (m->nnode + 1));
@@ -50,10 +54,12 @@ done:
     return status;
 }
 
-pg_status pg_mesh_builder_element (pg_mesh_builder *m, long id, pg_element kind, const long *node, long group, long line)
+pg_status pg_mesh_builder_element (pg_mesh_builder *m, long id, pg_element kind, const long *node, long group,
+                                   long line)
 {
     pg_status status = PG_OK;
-    if ((unsigned) kind >= PG_ELEMENTS) PG_FAIL (PG_E_USAGE, "%s: element %ld: there is no kind %d", m->path, id, (int) kind);
+    if ((unsigned) kind >= PG_ELEMENTS)
+        PG_FAIL (PG_E_USAGE, "%s: element %ld: there is no kind %d", m->path, id, (int) kind);
     if (m->n >= INT_MAX) PG_FAIL (PG_E_LIMIT, "%s: more than %d elements", m->path, INT_MAX);
     size_t nodes = (size_t) pg_element_types[kind].nodes, first = m->start[m->n];
     PG_GROW (m->element_id, m->element_cap, m->n + 1);
@@ -62,14 +68,16 @@ pg_status pg_mesh_builder_element (pg_mesh_builder *m, long id, pg_element kind,
     PG_GROW (m->kind, m->kind_cap, m->n + 1);
     PG_GROW (m->start, m->start_cap, m->n + 2);
     PG_GROW (m->list, m->list_cap, first + nodes);
-    m->element_id[m->n] = id, m->group[m->n] = group, m->line[m->n] = line, m->kind[m->n] = (unsigned char) kind;
+    m->element_id[m->n] = id, m->group[m->n] = group, m->line[m->n] = line,
+    m->kind[m->n] = (unsigned char) kind;
     memcpy (m->list + first, node, nodes * sizeof *node);
     m->start[++m->n] = m->nlist = first + nodes;
 done:
     return status;
 }
 
-/* Letters that cannot be written in one line become _; what is too long is cut between characters of UTF-8. */
+/* Letters that cannot be written in one line become _; what is too long is cut between characters of
+ * UTF-8. */
 static void copy_name (char to[64], const char *name)
 {
     size_t n = strlen (name);
@@ -141,7 +149,8 @@ done:
 
 void builder_where (const pg_mesh_builder *m, size_t e, char *text, size_t size)
 {
-    if (m->line[e] > 0) snprintf (text, size, "%.400s, line %ld: element %ld", m->path, m->line[e], m->element_id[e]);
+    if (m->line[e] > 0)
+        snprintf (text, size, "%.400s, line %ld: element %ld", m->path, m->line[e], m->element_id[e]);
     else snprintf (text, size, "%.400s: element %ld", m->path, m->element_id[e]);
 }
 
@@ -161,7 +170,8 @@ static int by_group_and_name (const void *p, const void *q)
 void builder_name (const pg_mesh_builder *m, int dim, long group, char name[64])
 {
     snprintf (name, 64, "%ld", group);
-    mesh_group key = { .dim = dim, .group = group }, *g = group && m->ngroup ? bsearch (&key, m->groups, m->ngroup, sizeof key, by_group) : NULL;
+    mesh_group key = { .dim = dim, .group = group },
+               *g = group && m->ngroup ? bsearch (&key, m->groups, m->ngroup, sizeof key, by_group) : NULL;
     while (g && g > m->groups && by_group (g - 1, &key) == 0) g--;
     if (g) memcpy (name, g->name, 64);
 }

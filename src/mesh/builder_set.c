@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Node sets and side sets of a mesh: those of the file, those that elements of lower dimension name, the nodes of every side set.
- * Sets of equal name are one. Members are gathered as pairs (set, member) in one sorted list. */
+ * Node sets and side sets of a mesh: those of the file, those that elements of lower dimension name, the
+ * nodes of every side set. Sets of equal name are one. Members are gathered as pairs (set, member) in one
+ * sorted list. */
 #include "builder.h"
 #include "element.h"
 #include <stdint.h>
@@ -8,14 +9,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct { char name[64]; long id; size_t place; int sides; } named;   /* place: order of appearance; sides: also a side set */
-typedef struct { int dim; long group; size_t set; } source;      /* a group that names a set                                 */
-typedef struct { size_t n, cap; uint64_t *pair; } pairs;       /* (set, node), or (set, element, side)                     */
+/* place: order of appearance; sides: also a side set */
+typedef struct { char name[64]; long id; size_t place; int sides; } named;
+typedef struct { int dim; long group; size_t set; } source;      /* a group that names a set */
+typedef struct { size_t n, cap; uint64_t *pair; } pairs;       /* (set, node), or (set, element, side) */
 typedef struct {
     pg_mesh_builder *m;
-    size_t  n, cap;                                    /* sets before equal names are one                                */
+    size_t  n, cap;                                    /* sets before equal names are one */
     named  *set;
-    size_t *final;                                     /* number of the set in the mesh (n)                              */
+    size_t *final;                                     /* number of the set in the mesh (n) */
     size_t  nfinal;
     size_t  nsource, source_cap;
     source *source;
@@ -49,7 +51,7 @@ done:
     return status;
 }
 
-/* ---- names ------------------------------------------------------------------------------------------------------------ */
+/* ---- names --------------------------------------------------------------------------------------------- */
 static pg_status add_name (builder *b, const char *name, long id, int sides)
 {
     pg_status status = PG_OK;
@@ -63,7 +65,7 @@ done:
     return status;
 }
 
-static int by_source (const void *p, const void *q)    /* solid twins first, then faces, lines, points                   */
+static int by_source (const void *p, const void *q)    /* solid twins first, then faces, lines, points */
 {
     const source *a = p, *b = q;
     if (a->dim != b->dim) return a->dim > b->dim ? -1 : 1;
@@ -123,11 +125,13 @@ static pg_status unite (builder *b)
     PG_ALLOC (b->final, b->n);
     if (b->n) qsort (b->set, b->n, sizeof *b->set, by_name);
     for (size_t k = 0; k < b->n; k++)
-        first[b->set[k].place] = k > 0 && !strcmp (b->set[k].name, b->set[k - 1].name) ? first[b->set[k - 1].place] : b->set[k].place;
+        first[b->set[k].place] = k > 0 && !strcmp (b->set[k].name, b->set[k - 1].name)
+                                     ? first[b->set[k - 1].place]
+                                     : b->set[k].place;
     if (b->n) qsort (b->set, b->n, sizeof *b->set, by_place);
     for (size_t k = 0; k < b->n; k++) {
         b->final[k] = first[k] == k ? b->nfinal++ : b->final[first[k]];
-        b->set[b->final[k]].sides |= b->set[k].sides;      /* final[k] <= k: nothing is lost                               */
+        b->set[b->final[k]].sides |= b->set[k].sides;      /* final[k] <= k: nothing is lost */
         if (first[k] == k) b->set[b->final[k]] = b->set[k];
     }
 done:
@@ -140,14 +144,15 @@ static pg_status collect_names (builder *b)
     pg_status status = PG_OK;
     pg_mesh_builder *m = b->m;
     for (size_t k = 0; k < m->nset; k++) PG_TRY (add_name (b, m->sets[k].name, m->sets[k].id, 0));
-    for (size_t k = 0; k < m->nside_set; k++) PG_TRY (add_name (b, m->side_sets[k].name, m->side_sets[k].id, 1));
+    for (size_t k = 0; k < m->nside_set; k++)
+        PG_TRY (add_name (b, m->side_sets[k].name, m->side_sets[k].id, 1));
     PG_TRY (add_sources (b));
     PG_TRY (unite (b));
 done:
     return status;
 }
 
-/* ---- sets of the file ------------------------------------------------------------------------------------------------- */
+/* ---- sets of the file ---------------------------------------------------------------------------------- */
 static pg_status add_node_sets (builder *b)
 {
     pg_status status = PG_OK;
@@ -155,7 +160,9 @@ static pg_status add_node_sets (builder *b)
     for (size_t s = 0; s < m->nset; s++)
         for (size_t k = m->sets[s].first; k < m->sets[s].end; k++) {
             long at = id_table_find (&m->nodes, m->set_node[k]);
-            if (at < 0) PG_FAIL (PG_E_FILE, "%s: node set '%s': node %ld is not in the file", m->path, m->sets[s].name, m->set_node[k]);
+            if (at < 0)
+                PG_FAIL (PG_E_FILE, "%s: node set '%s': node %ld is not in the file", m->path,
+                         m->sets[s].name, m->set_node[k]);
             PG_TRY (add_node (b, s, m->kept[at]));
         }
 done:
@@ -183,18 +190,23 @@ static pg_status add_side_sets (builder *b, const id_table *elements)
         for (size_t k = m->side_sets[s].first; k < m->side_sets[s].end; k++) {
             const char *name = m->side_sets[s].name;
             long e = id_table_find (elements, m->side_element[k]);
-            if (e < 0) PG_FAIL (PG_E_FILE, "%s: side set '%s': element %ld is none of the solid elements", m->path, name, m->side_element[k]);
+            if (e < 0)
+                PG_FAIL (PG_E_FILE, "%s: side set '%s': element %ld is none of the solid elements", m->path,
+                         name, m->side_element[k]);
             pg_element kind = m->out->kind[e];
             if (m->side[k] < 0 || m->side[k] >= pg_element_types[kind].faces)
-                PG_FAIL (PG_E_FILE, "%s: side set '%s': element %ld (%s) has no side %d; its sides are 1 to %d", m->path, name, m->side_element[k],
-                         pg_element_types[kind].name, m->side[k] + 1, pg_element_types[kind].faces);
-            PG_TRY (add_side (b, m->nset + s, (size_t) e, m->turned[e] ? mirrored_side (kind, m->side[k]) : m->side[k]));
+                PG_FAIL (PG_E_FILE,
+                         "%s: side set '%s': element %ld (%s) has no side %d; its sides are 1 to %d", m->path,
+                         name, m->side_element[k], pg_element_types[kind].name, m->side[k] + 1,
+                         pg_element_types[kind].faces);
+            PG_TRY (add_side (b, m->nset + s, (size_t) e,
+                              m->turned[e] ? mirrored_side (kind, m->side[k]) : m->side[k]));
         }
 done:
     return status;
 }
 
-/* ---- sets by elements of lower dimension ------------------------------------------------------------------------------ */
+/* ---- sets by elements of lower dimension --------------------------------------------------------------- */
 static size_t set_of (const builder *b, size_t e)
 {
     source key = { pg_element_types[b->m->kind[e]].dim, b->m->group[e], 0 };
@@ -208,7 +220,8 @@ static pg_status add_lower_nodes (builder *b)
     for (size_t e = 0; e < m->n; e++) {
         if (!names_a_set (m, e)) continue;
         size_t set = set_of (b, e);
-        for (size_t k = m->start[e]; k < m->start[e + 1]; k++) PG_TRY (add_node (b, set, m->kept[m->index[k]]));
+        for (size_t k = m->start[e]; k < m->start[e + 1]; k++)
+            PG_TRY (add_node (b, set, m->kept[m->index[k]]));
     }
 done:
     return status;
@@ -290,7 +303,7 @@ done:
     return status;
 }
 
-/* ---- sorted, into the mesh -------------------------------------------------------------------------------------------- */
+/* ---- sorted, into the mesh ----------------------------------------------------------------------------- */
 static int by_pair (const void *p, const void *q)
 {
     uint64_t a = *(const uint64_t *) p, b = *(const uint64_t *) q;
@@ -358,7 +371,8 @@ static pg_status check_ids (const pg_mesh_builder *m, id_table *elements)
     pg_status status = PG_OK;
     size_t twice;
     PG_TRY (id_table_build (elements, m->out->n, m->out->element_id, &twice));
-    if (twice < m->out->n) PG_FAIL (PG_E_FILE, "%s: element %ld is there twice", m->path, m->out->element_id[twice]);
+    if (twice < m->out->n)
+        PG_FAIL (PG_E_FILE, "%s: element %ld is there twice", m->path, m->out->element_id[twice]);
 done:
     return status;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * From the numbers of a file to a mesh: nodes found, solid elements told from those that only name a set, turned outside out. */
+ * From the numbers of a file to a mesh: nodes found, solid elements told from those that only name a set,
+ * turned outside out. */
 #include "builder.h"
 #include "element.h"
 #include <math.h>
@@ -11,10 +12,15 @@
 static int dimension (const pg_mesh_builder *m, size_t e) { return pg_element_types[m->kind[e]].dim; }
 static size_t length (const pg_mesh_builder *m, size_t e) { return m->start[e + 1] - m->start[e]; }
 
-#define ELEMENT_FAIL(m, e, ...) do { char at_[512], why_[400]; builder_where ((m), (e), at_, sizeof at_); \
-    snprintf (why_, sizeof why_, __VA_ARGS__); PG_FAIL (PG_E_FILE, "%s (%s): %s", at_, pg_element_types[(m)->kind[e]].name, why_); } while (0)
+#define ELEMENT_FAIL(m, e, ...) \
+    do { \
+        char at_[512], why_[400]; \
+        builder_where ((m), (e), at_, sizeof at_); \
+        snprintf (why_, sizeof why_, __VA_ARGS__); \
+        PG_FAIL (PG_E_FILE, "%s (%s): %s", at_, pg_element_types[(m)->kind[e]].name, why_); \
+    } while (0)
 
-/* ---- numbers to places ------------------------------------------------------------------------------------------------ */
+/* ---- numbers to places --------------------------------------------------------------------------------- */
 static pg_status find_nodes (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -25,7 +31,10 @@ static pg_status find_nodes (pg_mesh_builder *m)
             if (m->index[k] < 0) ELEMENT_FAIL (m, e, "node %ld is not in the file", m->list[k]);
             for (size_t l = m->start[e]; dimension (m, e) == m->dim && l < k; l++)
                 if (m->index[l] == m->index[k])
-                    ELEMENT_FAIL (m, e, "node %ld is named twice; write collapsed elements as triangles, tetrahedra or wedges", m->list[k]);
+                    ELEMENT_FAIL (m, e,
+                                  "node %ld is named twice; write collapsed elements as triangles, "
+                                  "tetrahedra or wedges",
+                                  m->list[k]);
         }
 done:
     return status;
@@ -54,7 +63,8 @@ static uint64_t mix (uint64_t h)
     return h ^ (h >> 33);
 }
 
-/* Files that write an element once for each group it belongs to: the first is the element, its twins only join a set. */
+/* Files that write an element once for each group it belongs to: the first is the element, its twins only
+ * join a set. */
 static pg_status number_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -70,7 +80,8 @@ static pg_status number_solids (pg_mesh_builder *m)
         if (dimension (m, e) < m->dim) continue;
         for (size_t k = m->start[e]; k < m->start[e + 1]; k++) hash[e] += mix ((uint64_t) m->index[k] + 1);
         size_t s = (size_t) mix (hash[e]) & (slots - 1);
-        while (table[s] && !(hash[table[s] - 1] == hash[e] && same_nodes (m, e, (size_t) table[s] - 1))) s = (s + 1) & (slots - 1);
+        while (table[s] && !(hash[table[s] - 1] == hash[e] && same_nodes (m, e, (size_t) table[s] - 1)))
+            s = (s + 1) & (slots - 1);
         m->solid[e] = table[s] ? -2 : n++;
         if (!table[s]) table[s] = (int) e + 1;
     }
@@ -86,7 +97,11 @@ pg_status builder_resolve (pg_mesh_builder *m)
     size_t twice;
     for (size_t e = 0; e < m->n; e++) if (dimension (m, e) > m->dim) m->dim = dimension (m, e);
     if (m->nnode == 0) PG_FAIL (PG_E_FILE, "%s: there are no nodes", m->path);
-    if (m->dim == 0) PG_FAIL (PG_E_FILE, "%s: points without elements: a mesh needs lines, triangles, quadrilaterals, tetrahedra, hexahedra or wedges", m->path);
+    if (m->dim == 0)
+        PG_FAIL (PG_E_FILE,
+                 "%s: points without elements: a mesh needs lines, triangles, quadrilaterals, tetrahedra, "
+                 "hexahedra or wedges",
+                 m->path);
     PG_TRY (id_table_build (&m->nodes, m->nnode, m->node_id, &twice));
     if (twice < m->nnode) PG_FAIL (PG_E_FILE, "%s: node %ld is there twice", m->path, m->node_id[twice]);
     PG_TRY (find_nodes (m));
@@ -96,7 +111,7 @@ done:
     return status;
 }
 
-/* ---- nodes in use ----------------------------------------------------------------------------------------------------- */
+/* ---- nodes in use -------------------------------------------------------------------------------------- */
 static pg_status keep_nodes (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -124,18 +139,23 @@ static pg_status check_plane (pg_mesh_builder *m)
     double low[3], high[3], size = 0;
     for (int a = 0; a < 3; a++) {
         low[a] = high[a] = out->x[a];
-        for (size_t k = 0; k < out->nnode; k++) low[a] = fmin (low[a], out->x[3 * k + (size_t) a]), high[a] = fmax (high[a], out->x[3 * k + (size_t) a]);
+        for (size_t k = 0; k < out->nnode; k++)
+            low[a] = fmin (low[a], out->x[3 * k + (size_t) a]),
+            high[a] = fmax (high[a], out->x[3 * k + (size_t) a]);
         size = fmax (size, high[a] - low[a]);
     }
     for (int a = out->dim; a < 3; a++)
         if (high[a] - low[a] > 1e-9 * size)
-            PG_FAIL (PG_E_FILE, "%s: the elements are %s, but %c goes from %g to %g; a mesh in %dD lies in %s (was a body of higher dimension to be meshed?)", m->path,
-                     out->dim == 1 ? "lines" : "triangles and quadrilaterals", 'x' + a, low[a], high[a], out->dim, out->dim == 1 ? "y, z = constant" : "z = constant");
+            PG_FAIL (PG_E_FILE,
+                     "%s: the elements are %s, but %c goes from %g to %g; a mesh in %dD lies in %s (was a "
+                     "body of higher dimension to be meshed?)",
+                     m->path, out->dim == 1 ? "lines" : "triangles and quadrilaterals", 'x' + a, low[a],
+                     high[a], out->dim, out->dim == 1 ? "y, z = constant" : "z = constant");
 done:
     return status;
 }
 
-/* ---- solid elements --------------------------------------------------------------------------------------------------- */
+/* ---- solid elements ------------------------------------------------------------------------------------ */
 static pg_status fill_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -187,7 +207,11 @@ static pg_status turn_outside_out (pg_mesh_builder *m)
         size_t s = (size_t) m->solid[e];
         if (m->solid[e] < 0) continue;
         double size = centre_size (out, s, &flat);
-        if (flat) ELEMENT_FAIL (m, e, "is flat: it has no %s", out->dim == 3 ? "volume" : out->dim == 2 ? "area" : "length");
+        if (flat)
+            ELEMENT_FAIL (m, e, "is flat: it has no %s",
+                          out->dim == 3   ? "volume"
+                          : out->dim == 2 ? "area"
+                                          : "length");
         if (size > 0) continue;
         size_t n = length (m, e);
         const signed char *mirror = element_mirror (m->kind[e]);
@@ -199,7 +223,7 @@ done:
     return status;
 }
 
-/* ---- blocks ----------------------------------------------------------------------------------------------------------- */
+/* ---- blocks -------------------------------------------------------------------------------------------- */
 static int by_long (const void *p, const void *q)
 {
     long a = *(const long *) p, b = *(const long *) q;
@@ -238,7 +262,8 @@ static pg_status make_blocks (pg_mesh_builder *m)
     }
     for (size_t e = 0, b = 0; e < m->n; e++) {
         if (m->solid[e] < 0) continue;
-        if (group[b] != m->group[e]) b = (size_t) ((long *) bsearch (&m->group[e], group, n, sizeof *group, by_long) - group);
+        if (group[b] != m->group[e])
+            b = (size_t) ((long *) bsearch (&m->group[e], group, n, sizeof *group, by_long) - group);
         out->block[m->solid[e]] = (int) b;
         out->blocks[b].n++;
     }

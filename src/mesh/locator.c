@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Search for the element that holds a place: a tree of boxes, halved by the middle of the centres. A mesh may be as graded as it likes.
- * Of several elements that hold a place (on a face between them) the lowest is taken, so that the shape of the tree does not matter. */
+ * Search for the element that holds a place: a tree of boxes, halved by the middle of the centres. A mesh may
+ * be as graded as it likes. Of several elements that hold a place (on a face between them) the lowest is
+ * taken, so that the shape of the tree does not matter. */
 #include "closest.h"
 #include "locator.h"
 #include "element.h"
@@ -10,18 +11,19 @@
 #include <string.h>
 
 enum { LEAF = 4, DEPTH = 64 };
-static const double inside = 1e-9;                     /* reference units: no gaps between neighbours by rounding        */
+static const double inside = 1e-9;  /* reference units: no gaps between neighbours by rounding */
 typedef struct { double low[3], high[3]; } box;
-typedef struct { box box; int first, n, right; } tree_node;   /* leaf: n elements from `first`; else n = 0, left child is the next node */
+/* leaf: n elements from `first`; else n = 0, left child is the next node */
+typedef struct { box box; int first, n, right; } tree_node;
 struct pg_mesh_locator {
     const pg_mesh *mesh;
     int        dim;
     tree_node *tree;
     size_t     ntree;
-    int       *item;                                   /* elements in the order of the leaves                            */
-    box       *box;                                    /* of item k                                                      */
-    double    *centre;                                 /* while building (n x dim)                                       */
-    double     largest;                                /* element size                                                   */
+    int       *item;                                   /* elements in the order of the leaves */
+    box       *box;                                    /* of item k */
+    double    *centre;                                 /* while building (n x dim) */
+    double     largest;                                /* element size */
 };
 
 static pg_element nodes_of (const pg_mesh_locator *f, size_t e, double x[3 * PG_ELEMENT_NODES])
@@ -33,20 +35,23 @@ static pg_element nodes_of (const pg_mesh_locator *f, size_t e, double x[3 * PG_
     return (pg_element) m->kind[e];
 }
 
-/* ---- boxes ------------------------------------------------------------------------------------------------------------ */
-/* Corners bound linear elements. Other nodes move it by their distance d from the linear map; the sum of |N| of those nodes is below 3
- * in every element of the table (hex20: (1 - x^2) + (1 - y^2) + (1 - z^2)), so 3 d to each side bounds the curved one. */
+/* ---- boxes --------------------------------------------------------------------------------------------- */
+/* Corners bound linear elements. Other nodes move it by their distance d from the linear map; the sum of |N|
+ * of those nodes is below 3 in every element of the table (hex20: (1 - x^2) + (1 - y^2) + (1 - z^2)), so 3 d
+ * to each side bounds the curved one. */
 static box box_of (const pg_mesh_locator *f, size_t e, double *size)
 {
-    static const pg_element linear[PG_ELEMENTS] = { PG_POINT1, PG_BAR2, PG_BAR2, PG_TRI3, PG_TRI3, PG_QUAD4, PG_QUAD4, PG_QUAD4, PG_TET4, PG_TET4,
-                                                    PG_HEX8, PG_HEX8, PG_HEX8, PG_WEDGE6, PG_WEDGE6 };
+    static const pg_element linear[PG_ELEMENTS] = { PG_POINT1, PG_BAR2,  PG_BAR2,  PG_TRI3,   PG_TRI3,
+                                                    PG_QUAD4,  PG_QUAD4, PG_QUAD4, PG_TET4,   PG_TET4,
+                                                    PG_HEX8,   PG_HEX8,  PG_HEX8,  PG_WEDGE6, PG_WEDGE6 };
     double x[3 * PG_ELEMENT_NODES], xi[3], N[PG_ELEMENT_NODES], off[3] = { 0 };
     pg_element kind = nodes_of (f, e, x);
     int dim = f->dim, corners = pg_element_types[kind].corners;
     box b = { { 0 }, { 0 } };
     for (int a = 0; a < dim; a++) {
         b.low[a] = b.high[a] = x[a];
-        for (int i = 1; i < corners; i++) b.low[a] = fmin (b.low[a], x[i * dim + a]), b.high[a] = fmax (b.high[a], x[i * dim + a]);
+        for (int i = 1; i < corners; i++)
+            b.low[a] = fmin (b.low[a], x[i * dim + a]), b.high[a] = fmax (b.high[a], x[i * dim + a]);
     }
     for (int k = corners; k < pg_element_types[kind].nodes; k++) {
         pg_element_node (kind, k, xi);
@@ -60,7 +65,8 @@ static box box_of (const pg_mesh_locator *f, size_t e, double *size)
     *size = 0;
     for (int a = 0; a < dim; a++) *size = fmax (*size, b.high[a] - b.low[a]);
     for (int a = 0; a < dim; a++) {
-        double grow = 3 * off[a] + 10 * inside * *size + 4 * DBL_EPSILON * fmax (fabs (b.low[a]), fabs (b.high[a]));
+        double grow = 3 * off[a] + 10 * inside * *size
+                      + 4 * DBL_EPSILON * fmax (fabs (b.low[a]), fabs (b.high[a]));
         b.low[a] -= grow, b.high[a] += grow;
     }
     return b;
@@ -68,7 +74,8 @@ static box box_of (const pg_mesh_locator *f, size_t e, double *size)
 
 static void unite (box *a, const box *b, int dim)
 {
-    for (int k = 0; k < dim; k++) a->low[k] = fmin (a->low[k], b->low[k]), a->high[k] = fmax (a->high[k], b->high[k]);
+    for (int k = 0; k < dim; k++)
+        a->low[k] = fmin (a->low[k], b->low[k]), a->high[k] = fmax (a->high[k], b->high[k]);
 }
 
 static int holds (const box *b, const double *place, int dim)
@@ -87,10 +94,11 @@ static double distance (const box *b, const double *place, int dim)
     return sqrt (square);
 }
 
-/* ---- tree ------------------------------------------------------------------------------------------------------------- */
+/* ---- tree ---------------------------------------------------------------------------------------------- */
 static int before (const pg_mesh_locator *f, int p, int q, int axis)
 {
-    double a = f->centre[(size_t) p * (size_t) f->dim + (size_t) axis], b = f->centre[(size_t) q * (size_t) f->dim + (size_t) axis];
+    double a = f->centre[(size_t) p * (size_t) f->dim + (size_t) axis],
+           b = f->centre[(size_t) q * (size_t) f->dim + (size_t) axis];
     return a < b || (a == b && p < q);
 }
 
@@ -126,7 +134,8 @@ static int longest_axis (const pg_mesh_locator *f, int first, int n)
     return best;
 }
 
-/* Nodes in the order of a walk: a node, its left half, its right half. boxes: of elements, by their number. */
+/* Nodes in the order of a walk: a node, its left half, its right half. boxes: of elements, by their
+ * number. */
 static int build (pg_mesh_locator *f, const box *boxes, int first, int n)
 {
     int k = (int) f->ntree++;
@@ -151,7 +160,9 @@ pg_status pg_mesh_locator_create (pg_mesh_locator **out, const pg_mesh *mesh)
     pg_mesh_locator *f = NULL;
     box *boxes = NULL;
     *out = NULL;
-    if (mesh->dim < 1 || mesh->dim > 3 || mesh->n == 0 || mesh->n > INT_MAX) PG_FAIL (PG_E_USAGE, "no elements to search in a mesh of %zu elements and dimension %d", mesh->n, mesh->dim);
+    if (mesh->dim < 1 || mesh->dim > 3 || mesh->n == 0 || mesh->n > INT_MAX)
+        PG_FAIL (PG_E_USAGE, "no elements to search in a mesh of %zu elements and dimension %d", mesh->n,
+                 mesh->dim);
     PG_ALLOC (f, 1);
     f->mesh = mesh, f->dim = mesh->dim;
     size_t dim = (size_t) mesh->dim;
@@ -159,7 +170,7 @@ pg_status pg_mesh_locator_create (pg_mesh_locator **out, const pg_mesh *mesh)
     PG_ALLOC (f->item, mesh->n);
     PG_ALLOC (f->box, mesh->n);
     PG_ALLOC (f->centre, mesh->n * dim);
-    PG_ALLOC (f->tree, mesh->n);                           /* at least 2 items a leaf where there is more than one leaf      */
+    PG_ALLOC (f->tree, mesh->n);  /* at least 2 items a leaf where there is more than one leaf */
     for (size_t e = 0; e < mesh->n; e++) {
         double size;
         boxes[e] = box_of (f, e, &size);
@@ -199,7 +210,7 @@ static int invert_simplex (int dim, const double *x, const double *p, double *xi
         xi[0] = (r[0] * e[1][1] - r[1] * e[1][0]) / det, xi[1] = (e[0][0] * r[1] - e[0][1] * r[0]) / det;
         return det != 0;
     }
-    double n[3][3], det = 0;                               /* n[k]: product of the other two edges                           */
+    double n[3][3], det = 0;                               /* n[k]: product of the other two edges */
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++) {
             const double *u = e[(k + 1) % 3], *v = e[(k + 2) % 3];
@@ -212,10 +223,11 @@ static int invert_simplex (int dim, const double *x, const double *p, double *xi
 
 static int invert (pg_element kind, int dim, const double *x, const double *place, double *xi)
 {
-    return kind == PG_TRI3 || kind == PG_TET4 ? invert_simplex (dim, x, place, xi) : pg_element_invert (kind, x, place, xi);
+    return kind == PG_TRI3 || kind == PG_TET4 ? invert_simplex (dim, x, place, xi)
+                                              : pg_element_invert (kind, x, place, xi);
 }
 
-/* ---- questions -------------------------------------------------------------------------------------------------------- */
+/* ---- questions ----------------------------------------------------------------------------------------- */
 static long find_inside (const pg_mesh_locator *f, const double *place, double *xi)
 {
     int todo[DEPTH], n = 0, dim = f->dim;
@@ -263,7 +275,8 @@ double pg_mesh_locator_depth (const pg_mesh_locator *f, const double *place, dou
 }
 
 /* The nearest so far; d: its distance. Elements as near as that to nine digits: the lowest. */
-typedef struct { long element; double d, away, xi[3]; int far; } nearest;      /* far: more than its own size away counts too  */
+/* far: more than its own size away counts too */
+typedef struct { long element; double d, away, xi[3]; int far; } nearest;
 
 static void consider (const pg_mesh_locator *f, const double *place, int k, nearest *best)
 {
@@ -287,7 +300,8 @@ static void find_nearest (const pg_mesh_locator *f, const double *place, nearest
         if (!(distance (&t->box, place, f->dim) <= best->d * (1 + 1e-9))) continue;
         if (t->n == 0) {
             int left = (int) (t - f->tree) + 1, right = t->right;
-            int near_left = distance (&f->tree[left].box, place, f->dim) <= distance (&f->tree[right].box, place, f->dim);
+            int near_left = distance (&f->tree[left].box, place, f->dim)
+                            <= distance (&f->tree[right].box, place, f->dim);
             todo[n++] = near_left ? right : left;
             todo[n++] = near_left ? left : right;
         }

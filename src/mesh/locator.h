@@ -3,6 +3,7 @@
 #ifndef MESH_FINDER_H
 #define MESH_FINDER_H
 #include "perigal/mesh.h"
-/* The element (of any dimension up to that of the space) nearest to a place, at most `reach` away; d: how far. -1, HUGE_VAL: none. */
+/* The element (of any dimension up to that of the space) nearest to a place, at most `reach` away; d: how
+ * far. -1, HUGE_VAL: none. */
 long locator_nearest (const pg_mesh_locator *f, const double *place, double reach, double *d);
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * result.h: formats that hold fields beside a mesh (pg_mesh_result). A format: `knows` and `read` as of mesh_format, and `fields`. */
+ * result.h: formats that hold fields beside a mesh (pg_mesh_result). A format: `knows` and `read` as of
+ * mesh_format, and `fields`. */
 #ifndef MESH_RESULT_H
 #define MESH_RESULT_H
 #include "builder.h"

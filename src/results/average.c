@@ -1,22 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * output.averages: the mean of one component of a field over the points of a set, a column of history.csv each. */
+ * output.averages: the mean of one component of a field over the points of a set, a column of history.csv
+ * each. */
 #include "result.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const char *const fixed_columns = "step|time|load_factor|energy_strain|energy_kinetic|energy_external|energy_dissipated|broken|"
-                                         "iterations|residual|utilisation|event|level";
+static const char *const fixed_columns =
+    "step|time|load_factor|energy_strain|energy_kinetic|energy_external|energy_dissipated|broken|"
+    "iterations|residual|utilisation|event|level";
 
-/* "damage|displacement.x|...|stress.xx|...": every component there is in this dimension; turns: rotations of a point. */
+/* "damage|displacement.x|...|stress.xx|...": every component there is in this dimension; turns: rotations of
+ * a point. */
 static void component_names (int dim, int turns, char *out, size_t size)
 {
-    static const char *const vector[] = { "displacement", "velocity" }, *const tensor[] = { "stress", "strain" };
+    static const char *const vector[] = { "displacement", "velocity" }, *const tensor[] = { "stress",
+                                                                                            "strain" };
     size_t at = (size_t) snprintf (out, size, "damage");
     for (int f = 0; f < 2; f++)
-        for (int k = 0; k < dim; k++) at += (size_t) snprintf (out + at, size - at, "|%s.%c", vector[f], "xyz"[k]);
+        for (int k = 0; k < dim; k++)
+            at += (size_t) snprintf (out + at, size - at, "|%s.%c", vector[f], "xyz"[k]);
     for (int f = 0; f < 2; f++)
-        for (int k = 0; k < pg_voigt_size (dim); k++) at += (size_t) snprintf (out + at, size - at, "|%s.%s", tensor[f], result_voigt (dim, k));
+        for (int k = 0; k < pg_voigt_size (dim); k++)
+            at += (size_t) snprintf (out + at, size - at, "|%s.%s", tensor[f], result_voigt (dim, k));
     if (turns) snprintf (out + at, size - at, turns == 3 ? "|rotation.x|rotation.y|rotation.z" : "|rotation");
 }
 
@@ -32,7 +38,7 @@ static int place_in (const char *names, const char *name)
     }
 }
 
-/* ---- checks --------------------------------------------------------------------------------------------------------------- */
+/* ---- checks -------------------------------------------------------------------------------------------- */
 static void check_field (const pg_scene *scene, const char *path, const char *field, int dim, int turns)
 {
     char names[400], listed[600];
@@ -45,11 +51,14 @@ static void check_field (const pg_scene *scene, const char *path, const char *fi
     }
     listed[n] = '\0';
     const char *near = pg_nearest_name (field, names);
-    if (near) pg_scene_fault (scene, path, "must be one component of a field in %dD: %s; did you mean %s?", dim, listed, near);
+    if (near)
+        pg_scene_fault (scene, path, "must be one component of a field in %dD: %s; did you mean %s?", dim,
+                        listed, near);
     else pg_scene_fault (scene, path, "must be one component of a field in %dD: %s", dim, listed);
 }
 
-/* Columns the user names, averages, gauges and tips, must differ from each other and from those that are always there. */
+/* Columns the user names, averages, gauges and tips, must differ from each other and from those that are
+ * always there. */
 static void check_names (const pg_scene *scene)
 {
     static const char *const list[] = { "output.gauges", "output.averages", "output.tips" };
@@ -59,8 +68,10 @@ static void check_names (const pg_scene *scene)
             const char *name = pg_scene_text (scene, "%s[%zu].name", list[a], i);
             snprintf (path, sizeof path, "%s[%zu].name", list[a], i);
             if (!*name || strlen (name) > 31 || strpbrk (name, "[]\",\n\r"))
-                pg_scene_fault (scene, path, "a column's name has 1 to 31 characters without [ ] \" and comma");
-            if (place_in (fixed_columns, name) >= 0) pg_scene_fault (scene, path, "history.csv has a column of this name anyway");
+                pg_scene_fault (scene, path,
+                                "a column's name has 1 to 31 characters without [ ] \" and comma");
+            if (place_in (fixed_columns, name) >= 0)
+                pg_scene_fault (scene, path, "history.csv has a column of this name anyway");
             for (size_t b = 0; b <= a; b++)
                 for (size_t k = 0; k < (b < a ? pg_scene_count (scene, "%s", list[b]) : i); k++)
                     if (strcmp (pg_scene_text (scene, "%s[%zu].name", list[b], k), name) == 0)
@@ -81,7 +92,7 @@ void result_averages_check (const pg_scene *scene, const pg_problem *problem)
     }
 }
 
-/* ---- columns and rows ------------------------------------------------------------------------------------------------------- */
+/* ---- columns and rows ---------------------------------------------------------------------------------- */
 pg_status result_averages_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -89,14 +100,20 @@ pg_status result_averages_read (pg_result *r, const pg_scene *scene)
     PG_ALLOC (r->average, r->naverage);
     for (size_t i = 0; i < r->naverage; i++) {
         result_average *a = &r->average[i];
-        const char *field = pg_scene_text (scene, "output.averages[%zu].field", i), *dot = strchr (field, '.');
+        const char *field = pg_scene_text (scene, "output.averages[%zu].field", i),
+                   *dot = strchr (field, '.');
         int dim = r->problem->dim;
         snprintf (a->name, sizeof a->name, "%s", pg_scene_text (scene, "output.averages[%zu].name", i));
         snprintf (a->field, sizeof a->field, "%.*s", (int) (dot ? dot - field : 31), field);
         a->set = pg_sets_find (&r->problem->sets, pg_scene_text (scene, "output.averages[%zu].set", i));
-        a->unit = strcmp (a->field, "stress") == 0 ? "Pa" : a->field[0] == 'v' ? "m/s" : strcmp (a->field, "displacement") == 0 ? "m" : strcmp (a->field, "rotation") == 0 ? "rad" : "1";
+        a->unit = strcmp (a->field, "stress") == 0         ? "Pa"
+                  : a->field[0] == 'v'                     ? "m/s"
+                  : strcmp (a->field, "displacement") == 0 ? "m"
+                  : strcmp (a->field, "rotation") == 0     ? "rad"
+                                                           : "1";
         if (dot && !dot[2]) a->component = dot[1] - 'x';
-        for (int k = 0; dot && dot[2] && k < pg_voigt_size (dim); k++) if (strcmp (dot + 1, result_voigt (dim, k)) == 0) a->component = k;
+        for (int k = 0; dot && dot[2] && k < pg_voigt_size (dim); k++)
+            if (strcmp (dot + 1, result_voigt (dim, k)) == 0) a->component = k;
     }
 done:
     return status;
@@ -110,7 +127,8 @@ void result_average_column (const pg_result *r, size_t i, char *out, size_t size
 static double mean_of (const result_average *a, const double *value, int components)
 {
     double sum = 0;
-    for (size_t i = 0; i < a->set->npoint; i++) sum += value[(size_t) a->set->point[i] * (size_t) components + (size_t) a->component];
+    for (size_t i = 0; i < a->set->npoint; i++)
+        sum += value[(size_t) a->set->point[i] * (size_t) components + (size_t) a->component];
     return sum / (double) a->set->npoint;
 }
 
@@ -129,7 +147,8 @@ pg_status result_averages_row (pg_result *r, const pg_state *state, double *row,
         if (first < i || !force->field) continue;
         PG_TRY (force->field (self, state, state->d, r->average[i].field, &components, &unit, work));
         for (size_t k = i; k < r->naverage && components > 0; k++)
-            if (strcmp (r->average[k].field, r->average[i].field) == 0) row[k] = mean_of (&r->average[k], work, components);
+            if (strcmp (r->average[k].field, r->average[i].field) == 0)
+                row[k] = mean_of (&r->average[k], work, components);
     }
 done:
     return status;

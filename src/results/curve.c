@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The load-displacement curve of a run: force with its sign over the mean displacement of what is loaded, its picture, its peak, its
- * stiffness. Event stepping: the envelope of pg_envelope is the line, the path of events is pale behind it. */
+ * The load-displacement curve of a run: force with its sign over the mean displacement of what is loaded, its
+ * picture, its peak, its stiffness. Event stepping: the envelope of pg_envelope is the line, the path of
+ * events is pale behind it. */
 #include "result.h"
 #include <math.h>
 #include <stdio.h>
@@ -30,7 +31,10 @@ void result_curve_choose (pg_result *r)
             if (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_turns (load)) continue;
             double end = load->kind == PG_VELOCITY ? 1e-9 : 1, size = 0;
             for (size_t i = 0; i < load->set->npoint; i++)
-                size = fmax (size, fabs (pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, end)));
+                size = fmax (size,
+                             fabs (pg_load_value (load, k, p->dim,
+                                                  p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim,
+                                                  end)));
             if (size > most) most = size, r->curve_load = (int) l, r->curve_component = k;
         }
     for (size_t l = 0; l < p->nload && r->curve_load < 0; l++)
@@ -39,7 +43,7 @@ void result_curve_choose (pg_result *r)
 }
 
 
-/* ---- rows ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- rows ---------------------------------------------------------------------------------------------- */
 pg_status result_curve_row (pg_result *r, double x, double y, const double *gauges, const pg_step *step)
 {
     pg_status status = PG_OK;
@@ -71,26 +75,32 @@ done:
     return status;
 }
 
-/* ---- what it says ---------------------------------------------------------------------------------------------------------------- */
-/* Does nothing load the body at the start? Then the curve begins at the origin. (A velocity has moved nothing yet.) */
+/* ---- what it says -------------------------------------------------------------------------------------- */
+/* Does nothing load the body at the start? Then the curve begins at the origin. (A velocity has moved nothing
+ * yet.) */
 static int from_rest (const pg_problem *p)
 {
     for (size_t l = 0; l < p->nload; l++)
         for (int k = 0; p->load[l].kind != PG_VELOCITY && k < pg_load_components (&p->load[l], p->dim); k++)
             for (size_t i = 0; i < p->load[l].set->npoint; i++)
-                if (pg_load_value (&p->load[l], k, p->dim, p->cloud.x + (size_t) p->load[l].set->point[i] * (size_t) p->dim, 0) != 0) return 0;
+                if (pg_load_value (&p->load[l], k, p->dim,
+                                   p->cloud.x + (size_t) p->load[l].set->point[i] * (size_t) p->dim, 0)
+                    != 0)
+                    return 0;
     return 1;
 }
 
 static int by_events (const pg_result *r) { return pg_solver_settled (r->solver)->event; }
 
-/* Slope through the origin of the rows up to the peak that carry at most 40 % of it, by least squares; of the first row where there are none,
- * and under event stepping, whose first row is the unbroken body at any load and whose later ones have lost bonds at every load. */
+/* Slope through the origin of the rows up to the peak that carry at most 40 % of it, by least squares; of the
+ * first row where there are none, and under event stepping, whose first row is the unbroken body at any load
+ * and whose later ones have lost bonds at every load. */
 static double initial_stiffness (const pg_result *r, size_t peak)
 {
     double xy = 0, xx = 0;
     for (size_t i = 0; i <= peak && !by_events (r); i++)
-        if (fabs (r->curve_y[i]) <= 0.4 * fabs (r->curve_y[peak])) xy += r->curve_x[i] * r->curve_y[i], xx += r->curve_x[i] * r->curve_x[i];
+        if (fabs (r->curve_y[i]) <= 0.4 * fabs (r->curve_y[peak]))
+            xy += r->curve_x[i] * r->curve_y[i], xx += r->curve_x[i] * r->curve_x[i];
     if (xx > 0 && xy != 0) return xy / xx;
     return r->curve_x[0] != 0 ? r->curve_y[0] / r->curve_x[0] : NAN;
 }
@@ -111,7 +121,8 @@ pg_status result_curve_read (pg_result *r)
         for (row = 0; row + 1 < n && (r->curve_x[row] != x[top] || r->curve_y[row] != y[top]); row++);
     }
     const double *more = r->curve_more + row * (FIRST_GAUGE + r->problem->ngauge);
-    r->peak = (result_peak) { 1, row, r->curve_y[row], r->curve_x[row], more[STEP], more[TIME], more[FACTOR], NAN, NAN };
+    r->peak = (result_peak){ 1,   row, r->curve_y[row], r->curve_x[row], more[STEP], more[TIME], more[FACTOR],
+                             NAN, NAN };
     if (!from_rest (r->problem)) goto done;
     r->peak.initial = initial_stiffness (r, row);
     if (r->peak.displacement != 0) r->peak.secant = r->peak.force / r->peak.displacement;
@@ -152,9 +163,10 @@ static void tell_peak (const pg_result *r, char *out, size_t size)
     pg_picture_quantity (k->force, "N", force, sizeof force);
     pg_picture_quantity (k->displacement, "m", place, sizeof place);
     pg_picture_time (k->time, time, sizeof time);
-    int n = snprintf (out, size, "peak load: %s (force of %s along %c) at displacement %s (step %.0f, ", force, p->load[r->curve_load].name,
-                      "xyz"[r->curve_component], place, k->step);
-    n += r->dynamic ? snprintf (out + n, size - (size_t) n, "time %s)", time) : snprintf (out + n, size - (size_t) n, "load factor %.4g)", k->factor);
+    int n = snprintf (out, size, "peak load: %s (force of %s along %c) at displacement %s (step %.0f, ",
+                      force, p->load[r->curve_load].name, "xyz"[r->curve_component], place, k -> step);
+    n += r->dynamic ? snprintf (out + n, size - (size_t) n, "time %s)", time)
+                    : snprintf (out + n, size - (size_t) n, "load factor %.4g)", k->factor);
     for (size_t g = 0; g < p->ngauge && (size_t) n < size; g++) {
         pg_picture_quantity (gauge[g], "m", place, sizeof place);
         n += snprintf (out + n, size - (size_t) n, ", %s %s", p->gauge[g].name, place);
@@ -165,10 +177,13 @@ static void tell_crack (const pg_result *r, char *out, size_t size)
 {
     const result_crack *c = &r->crack;
     char length[48], spent[48];
-    pg_picture_quantity (r->problem->dim == 2 ? c->length : c->area, r->problem->dim == 2 ? "m" : "m2", length, sizeof length);
+    pg_picture_quantity (r->problem->dim == 2 ? c->length : c->area, r->problem->dim == 2 ? "m" : "m2",
+                         length, sizeof length);
     pg_picture_quantity (c->dissipated, "J/m2", spent, sizeof spent);
-    snprintf (out, size, "new crack by the count of broken bonds (an estimate): %s %s; dissipated energy per area of it %s",
-              r->problem->dim == 2 ? "length" : "area", length, spent);
+    snprintf (
+        out, size,
+        "new crack by the count of broken bonds (an estimate): %s %s; dissipated energy per area of it %s",
+        r->problem->dim == 2 ? "length" : "area", length, spent);
 }
 
 int pg_result_words (const pg_result *r, size_t k, char *out, size_t size)
@@ -186,7 +201,7 @@ int pg_result_words (const pg_result *r, size_t k, char *out, size_t size)
     return out[0] != 0;
 }
 
-/* ---- its picture ------------------------------------------------------------------------------------------------------------------ */
+/* ---- its picture --------------------------------------------------------------------------------------- */
 pg_status result_curve_picture (pg_result *r)
 {
     pg_status status = PG_OK;
@@ -196,21 +211,31 @@ pg_status result_curve_picture (pg_result *r)
     int events = by_events (r), rest = from_rest (r->problem);
     size_t n = 0, peak = 0;
     snprintf (ylabel, sizeof ylabel, "force of %s along %c (N)", load->name, "xyz"[r->curve_component]);
-    snprintf (xlabel, sizeof xlabel, "mean displacement of %s along %c (m)", load->name, "xyz"[r->curve_component]);
+    snprintf (xlabel, sizeof xlabel, "mean displacement of %s along %c (m)", load->name,
+              "xyz"[r->curve_component]);
     PG_ALLOC (x, 2 * r->npoint + 2);
     PG_ALLOC (y, 2 * r->npoint + 2);
-    if (events) n = pg_envelope (r->npoint, r->curve_x, r->curve_y, rest && pg_problem_proportional (r->problem), x, y, &peak);
+    if (events)
+        n = pg_envelope (r->npoint, r->curve_x, r->curve_y, rest && pg_problem_proportional (r->problem), x,
+                         y, &peak);
     else {
-        n = (size_t) rest;                             /* the origin                                                     */
+        n = (size_t) rest;                             /* the origin */
         for (size_t i = 0; i < r->npoint; i++) x[n] = r->curve_x[i], y[n++] = r->curve_y[i];
     }
     pg_picture_quantity (r->peak.force, "N", force, sizeof force);
     pg_picture_quantity (r->peak.displacement, "m", place, sizeof place);
     snprintf (note, sizeof note, "peak %s at %s", force, place);
-    pg_curve curve = { "at rising displacement", n, x, y, PG_CURVE_LINE }, path_of_events = { "path of events", r->npoint, r->curve_x, r->curve_y, PG_CURVE_LINE };
+    pg_curve curve = { "at rising displacement", n, x, y, PG_CURVE_LINE },
+             path_of_events = { "path of events", r->npoint, r->curve_x, r->curve_y, PG_CURVE_LINE };
     pg_chart_mark mark = { 0, r->peak.displacement, r->peak.force, note };
-    pg_chart_style style = { .title = r->problem->title, .xlabel = xlabel, .ylabel = ylabel, .npale = events && r->npoint > 1, .pale = &path_of_events,
-                             .nmark = (size_t) r->peak.found, .marks = &mark, .zero = 1 };
+    pg_chart_style style = { .title = r->problem->title,
+                             .xlabel = xlabel,
+                             .ylabel = ylabel,
+                             .npale = events && r->npoint > 1,
+                             .pale = &path_of_events,
+                             .nmark = (size_t) r->peak.found,
+                             .marks = &mark,
+                             .zero = 1 };
     snprintf (path, sizeof path, "%s/load_displacement.png", r->folder);
     PG_TRY (pg_picture_chart (path, 1, &curve, &style));
     memcpy (r->written[r->nwritten++], path, sizeof path);

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics *r, double search, double total)
+static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics *r, double search,
+                           double total)
 {
     const pg_estimate *e = pg_result_estimate (res);
     pg_json_open (j, "seconds", '{');
@@ -132,7 +133,8 @@ static void criteria (pg_json *j, const pg_problem *p)
     if (p->nmaterial > 1) pg_json_shut (j);
 }
 
-pg_status result_json (pg_result *res, const pg_state *state, const char *failure, double search, double total)
+pg_status result_json (pg_result *res, const pg_state *state, const char *failure, double search,
+                       double total)
 {
     pg_status status = PG_OK;
     pg_json *j = NULL;
@@ -174,7 +176,9 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
     for (size_t k = 0; k < r->nwarning; k++) pg_json_text (j, NULL, r->warning[k]);
     pg_json_shut (j);
     pg_json_open (j, "notes", '[');
-    for (size_t k = 0; pg_solver_note (res->problem, pg_solver_settled (res->solver), k, note, sizeof note); k++) pg_json_text (j, NULL, note);
+    for (size_t k = 0; pg_solver_note (res->problem, pg_solver_settled (res->solver), k, note, sizeof note);
+         k++)
+        pg_json_text (j, NULL, note);
     pg_json_shut (j);
     pg_json_shut (j);
     PG_TRY (pg_json_close (&j));

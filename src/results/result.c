@@ -12,26 +12,36 @@ static pg_status read_wishes (pg_result *r, const pg_scene *scene)
     const char *name;
     int with_u = 0;
     r->magnify = pg_scene_number (scene, "output.magnify");
-    r->estimating = pg_scene_bool (scene, "output.estimate") && strcmp (pg_scene_text (scene, "solver.kind"), "static") == 0;
+    r->estimating = pg_scene_bool (scene, "output.estimate")
+                    && strcmp (pg_scene_text (scene, "solver.kind"), "static") == 0;
     r->interval = pg_scene_number (scene, "output.checkpoint");
     r->every = pg_scene_has (scene, "output.at.events") ? pg_scene_integer (scene, "output.at.events") : 0;
-    r->broken_share = pg_scene_has (scene, "output.at.broken") ? pg_scene_number (scene, "output.at.broken") : 0;
+    r->broken_share = pg_scene_has (scene, "output.at.broken") ? pg_scene_number (scene, "output.at.broken")
+                                                               : 0;
     for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")) && r->nfield < MOST_FIELDS; k++) {
         pg_field_view *f = &r->field[r->nfield++];
         snprintf (f->name, sizeof f->name, "%s", name);
         with_u |= strcmp (name, "displacement") == 0;
     }
-    /* shape functions that do not interpolate: the field between points is that of the coefficients                     */
+    /* shape functions that do not interpolate: the field between points is that of the coefficients */
     if (with_u && r->nfield < MOST_FIELDS && strcmp (r->problem->approx.type->name, "nosb") != 0)
         snprintf (r->field[r->nfield++].name, sizeof r->field[0].name, "coefficient");
     PG_TRY (result_views_read (r, scene));
     for (size_t k = 0; k < r->nfield; k++) {
         pg_field_view *f = &r->field[k];
-        int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0 || strcmp (f->name, "coefficient") == 0;
+        int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0
+                     || strcmp (f->name, "coefficient") == 0;
         PG_ALLOC (r->value[k], 6 * r->problem->cloud.n);
         int turns = strcmp (f->name, "rotation") == 0;
-        f->components = turns ? r->problem->turns : strcmp (f->name, "damage") == 0 || strcmp (f->name, "error_estimate") == 0 ? 1 : vector ? r->problem->dim : pg_voigt_size (r->problem->dim);
-        snprintf (f->unit, sizeof f->unit, "%s", strcmp (f->name, "stress") == 0 || *f->name == 'e' ? "Pa" : !vector ? "" : f->name[0] == 'v' ? "m/s" : "m");
+        f->components = turns ? r->problem->turns
+                        : strcmp (f->name, "damage") == 0 || strcmp (f->name, "error_estimate") == 0 ? 1
+                        : vector ? r->problem->dim
+                                 : pg_voigt_size (r->problem->dim);
+        snprintf (f->unit, sizeof f->unit, "%s",
+                  strcmp (f->name, "stress") == 0 || *f->name == 'e' ? "Pa"
+                  : !vector                                          ? ""
+                  : f->name[0] == 'v'                                ? "m/s"
+                                                                     : "m");
         if (turns) snprintf (f->unit, sizeof f->unit, "rad");
         f->value = r->value[k];
     }
@@ -44,13 +54,15 @@ pg_status result_remove (const pg_result *r, const char *name)
     pg_status status = PG_OK;
     char path[4096];
     snprintf (path, sizeof path, "%s/%s", r->folder, name);
-    if (remove (path) != 0 && errno != ENOENT) PG_FAIL (PG_E_FILE, "cannot remove %s: %s", path, strerror (errno));
+    if (remove (path) != 0 && errno != ENOENT)
+        PG_FAIL (PG_E_FILE, "cannot remove %s: %s", path, strerror (errno));
 done:
     return status;
 }
 
 /* What new and resumed results have in common; leaves the folder as it is. */
-pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver)
+pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem,
+                          pg_solver *solver)
 {
     pg_status status = PG_OK;
     r->problem = problem, r->solver = solver;
@@ -72,7 +84,8 @@ done:
 }
 
 /* Nothing of an earlier run may be taken for this one's: its report goes first. */
-pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver)
+pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *scene,
+                          const pg_problem *problem, pg_solver *solver)
 {
     pg_status status = PG_OK;
     pg_result *r = NULL;
@@ -100,7 +113,10 @@ done:
 
 result_marks result_marks_now (const pg_result *r)
 {
-    result_marks m = { pg_table_rows (r->history), pg_table_rows (r->events), 0, 0, r->next_broken, (long) r->npoint, r->last_written, r->stamp, r->time };
+    result_marks m = {
+        pg_table_rows (r->history), pg_table_rows (r->events), 0,        0,      r->next_broken,
+        (long) r->npoint,           r->last_written,           r->stamp, r->time
+    };
     pg_exodus_size (r->file, &m.steps, &m.bytes);
     return m;
 }
@@ -128,13 +144,19 @@ done:
 /* Has another share of the bonds broken? */
 static int share_has_broken (pg_result *r, const pg_state *state)
 {
-    if (!(r->broken_share > 0) || (double) state->broken < r->broken_share * (double) r->next_broken * (double) state->nbond) return 0;
+    if (!(r->broken_share > 0)
+        || (double) state->broken < r->broken_share * (double) r->next_broken * (double) state->nbond)
+        return 0;
     r->next_broken = (long) ((double) state->broken / (r->broken_share * (double) state->nbond)) + 1;
     return 1;
 }
 
-/* Within a step there is no time: its rounds stand for it, from the last step's towards the end of this one's. */
-static double time_within (const pg_result *r) { return r->stamp + r->length * (double) r->rounds / ((double) r->rounds + 100); }
+/* Within a step there is no time: its rounds stand for it, from the last step's towards the end of this
+ * one's. */
+static double time_within (const pg_result *r)
+{
+    return r->stamp + r->length * (double) r->rounds / ((double) r->rounds + 100);
+}
 
 pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *so_far)
 {
@@ -154,7 +176,8 @@ pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *s
 void pg_result_refused (pg_result *r)
 {
     r->rounds = 0;
-    r->last_written = r->done.last_written || r->time > r->stamp;      /* stages of the refused step stay the last          */
+    /* stages of the refused step stay the last */
+    r->last_written = r->done.last_written || r->time > r->stamp;
 }
 
 pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *step)
@@ -191,7 +214,8 @@ static pg_status estimate (pg_result *r, const pg_state *state)
 
 const pg_estimate *pg_result_estimate (const pg_result *r) { return r->estimated ? &r->estimate : NULL; }
 
-pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *failure, double search, double total)
+pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *failure, double search,
+                            double total)
 {
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
@@ -204,7 +228,8 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     if (!failure) PG_TRY (estimate (r, state));
 done:
     r->seconds += pg_seconds () - t0;
-    pg_status written = result_json (r, state, failure, search, r->earlier + total);    /* the report comes also without pictures */
+    /* the report comes also without pictures */
+    pg_status written = result_json (r, state, failure, search, r->earlier + total);
     if (status == PG_OK) status = written;
     if (status == PG_OK && !failure) status = result_remove (r, "checkpoint.nc");
     return status;
@@ -223,7 +248,8 @@ void pg_result_free (pg_result **result)
     pg_reference_free (&r->reference);
     pg_errors_clear (&r->errors);
     result_tips_free (r);
-    pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve_x), pg_free (r->curve_y), pg_free (r->curve_more);
+    pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve_x), pg_free (r->curve_y),
+        pg_free (r->curve_more);
     pg_free (r);
     *result = NULL;
 }
@@ -231,4 +257,7 @@ void pg_result_free (pg_result **result)
 const pg_errors *pg_result_errors (const pg_result *r) { return r->measured ? &r->errors : NULL; }
 const char *pg_result_folder (const pg_result *r) { return r->folder; }
 size_t pg_result_pictures (const pg_result *r) { return r->nwritten; }
-const char *pg_result_picture (const pg_result *r, size_t i) { return i < r->nwritten ? r->written[i] : NULL; }
+const char *pg_result_picture (const pg_result *r, size_t i)
+{
+    return i < r->nwritten ? r->written[i] : NULL;
+}

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * checkpoint.nc of a result folder: the marks of its files, what the result remembers, a step that could not be written, and all
- * that the solver keeps. Reading it back cuts the files to their marks, so that what a killed run has added since does not count. */
+ * checkpoint.nc of a result folder: the marks of its files, what the result remembers, a step that could not
+ * be written, and all that the solver keeps. Reading it back cuts the files to their marks, so that what a
+ * killed run has added since does not count. */
 #include "result.h"
 #include <errno.h>
 #include <stdint.h>
@@ -14,11 +15,11 @@ typedef struct {
     pg_result *r;
     pg_state  *state;
     const char *path;
-    result_marks now;                                  /* where the files are to be cut                                  */
+    result_marks now;                                  /* where the files are to be cut */
     long       rounds, is_pending, threads;
-    double     seconds;                                /* of the run so far                                              */
+    double     seconds;                                /* of the run so far */
     pg_step    pending;
-    pg_broken *broken;  double *reaction;              /* of the pending step, when read back                            */
+    pg_broken *broken;  double *reaction;              /* of the pending step, when read back */
 } memory;
 
 static uint64_t print_of (uint64_t hash, const void *data, size_t bytes)
@@ -31,7 +32,8 @@ static uint64_t print_of (uint64_t hash, const void *data, size_t bytes)
 /* Places, volumes and blocks: also of files that the scene does not name itself. */
 static long fingerprint (const pg_cloud *cloud)
 {
-    uint64_t hash = print_of (14695981039346656037u, cloud->x, cloud->n * (size_t) cloud->dim * sizeof *cloud->x);
+    uint64_t hash = print_of (14695981039346656037u, cloud->x,
+                              cloud->n * (size_t) cloud->dim * sizeof *cloud->x);
     hash = print_of (hash, cloud->volume, cloud->n * sizeof *cloud->volume);
     return (long) (print_of (hash, cloud->block, cloud->n * sizeof *cloud->block) >> 1);
 }
@@ -47,7 +49,10 @@ static pg_status keep_files (memory *m, const pg_keeper *k)
     PG_TRY (k->bytes (k->context, "files.sha256", r->nnamed * WORD, hash));
     for (size_t i = 0; i < r->nnamed; i++)
         if (memcmp (hash[i], r->named[i].hash, WORD) != 0)
-            PG_FAIL (PG_E_USAGE, "%s (%s of the scene) has changed since %s was written: bring back what it was, or begin anew with --force", r->named[i].path, r->named[i].key, m->path);
+            PG_FAIL (PG_E_USAGE,
+                     "%s (%s of the scene) has changed since %s was written: bring back what it was, or "
+                     "begin anew with --force",
+                     r->named[i].path, r->named[i].key, m->path);
 done:
     pg_free (hash);
     return status;
@@ -59,23 +64,32 @@ static pg_status keep_identity (memory *m, const pg_keeper *k)
     pg_status status = PG_OK;
     const pg_problem *p = m->r->problem;
     char version[WORD] = PG_VERSION, hash[WORD + 1] = "";
-    long size[] = { (long) p->cloud.n, (long) p->first_bond[PG_BOND_SETS], (long) m->state->ndof, (long) p->nload, fingerprint (&p->cloud), (long) m->r->ntip };
+    long size[] = { (long) p->cloud.n,       (long) p->first_bond[PG_BOND_SETS],
+                    (long) m->state->ndof,   (long) p->nload,
+                    fingerprint (&p->cloud), (long) m->r->ntip };
     enum { SIZES = sizeof size / sizeof *size };
     long found[SIZES];
     memcpy (hash, m->r->hash, WORD);
     memcpy (found, size, sizeof size);
     PG_TRY (k->bytes (k->context, "version", WORD, version));
     version[WORD - 1] = 0;
-    if (strcmp (version, PG_VERSION) != 0) PG_FAIL (PG_E_USAGE, "%s was written by perigal %s, this is %s: run without --resume", m->path, version, PG_VERSION);
+    if (strcmp (version, PG_VERSION) != 0)
+        PG_FAIL (PG_E_USAGE, "%s was written by perigal %s, this is %s: run without --resume", m->path,
+                 version, PG_VERSION);
     PG_TRY (k->bytes (k->context, "scene_sha256", WORD, hash));
     if (strncmp (hash, m->r->hash, WORD) != 0)
-        PG_FAIL (PG_E_USAGE, "%s is of another scene (sha256 %.12s..., now %.12s...): the scene or its --set options have changed since; "
-                 "%s/scene.yaml has those it was made with", m->path, hash, m->r->hash, m->r->folder);
+        PG_FAIL (PG_E_USAGE,
+                 "%s is of another scene (sha256 %.12s..., now %.12s...): the scene or its --set options "
+                 "have changed since; "
+                 "%s/scene.yaml has those it was made with",
+                 m->path, hash, m->r->hash, m->r->folder);
     PG_TRY (keep_files (m, k));
     PG_TRY (k->counts (k->context, "sizes", SIZES, found));
     if (memcmp (found, size, sizeof size) != 0)
-        PG_FAIL (PG_E_USAGE, "%s is of other points or bonds (%ld points, %ld bonds, %ld unknowns; now %ld, %ld, %ld): run without --resume", m->path,
-                 found[0], found[1], found[2], size[0], size[1], size[2]);
+        PG_FAIL (PG_E_USAGE,
+                 "%s is of other points or bonds (%ld points, %ld bonds, %ld unknowns; now %ld, %ld, %ld): "
+                 "run without --resume",
+                 m->path, found[0], found[1], found[2], size[0], size[1], size[2]);
     PG_TRY (k->counts (k->context, "threads", 1, &m->threads));
 done:
     return status;
@@ -90,9 +104,14 @@ static pg_status check_marks (const memory *m, const char *name, const long *cou
     snprintf (path, sizeof path, "%s/history.csv", m->r->folder);
     if (stat (path, &s) != 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
     for (int i = 0; i < 7; i++)
-        if (count[i] < 0 || count[i] > 1L << 50) PG_FAIL (PG_E_FILE, "%s is not of this run: mark %d of %s is %ld", m->path, i, name, count[i]);
-    if (count[0] > s.st_size) PG_FAIL (PG_E_FILE, "%s has %ld bytes, not %ld rows: it was changed since", path, (long) s.st_size, count[0]);
-    if (count[5] > count[0]) PG_FAIL (PG_E_FILE, "%s is not of this run: %ld points of the curve of %ld rows", m->path, count[5], count[0]);
+        if (count[i] < 0 || count[i] > 1L << 50)
+            PG_FAIL (PG_E_FILE, "%s is not of this run: mark %d of %s is %ld", m->path, i, name, count[i]);
+    if (count[0] > s.st_size)
+        PG_FAIL (PG_E_FILE, "%s has %ld bytes, not %ld rows: it was changed since", path, (long) s.st_size,
+                 count[0]);
+    if (count[5] > count[0])
+        PG_FAIL (PG_E_FILE, "%s is not of this run: %ld points of the curve of %ld rows", m->path, count[5],
+                 count[0]);
 done:
     return status;
 }
@@ -108,7 +127,8 @@ static pg_status keep_marks (const memory *of, result_marks *m, const char *name
     snprintf (part, sizeof part, "%s.numbers", name);
     PG_TRY (k->numbers (k->context, part, 2, number));
     if (k->reading) PG_TRY (check_marks (of, name, count));
-    *m = (result_marks) { count[0], count[1], count[2], count[3], count[4], count[5], count[6], number[0], number[1] };
+    *m = (result_marks){ count[0], count[1], count[2],  count[3], count[4],
+                         count[5], count[6], number[0], number[1] };
 done:
     return status;
 }
@@ -125,12 +145,23 @@ static pg_status keep_pending (memory *m, const pg_keeper *k)
     PG_TRY (k->counts (k->context, "pending.counts", 5, count));
     PG_TRY (k->numbers (k->context, "pending.numbers", 6, number));
     if (k->reading) {
-        if (count[4] < 0 || count[4] > (long) m->r->problem->first_bond[PG_BOND_SETS]) PG_FAIL (PG_E_FILE, "%s is not of this run: %ld bonds broken in a step", m->path, count[4]);
+        if (count[4] < 0 || count[4] > (long) m->r->problem->first_bond[PG_BOND_SETS])
+            PG_FAIL (PG_E_FILE, "%s is not of this run: %ld bonds broken in a step", m->path, count[4]);
         PG_ALLOC (m->broken, (size_t) count[4]);
         PG_ALLOC (m->reaction, 3 * nload);
-        *s = (pg_step) { .number = count[0], .iterations = count[1], .level = (int) count[2], .event = (int) count[3], .nbroken = (size_t) count[4],
-                         .broken = m->broken, .reaction = m->reaction, .stamp = number[0], .time = number[1], .factor = number[2],
-                         .residual = number[3], .utilisation = number[4], .dissipated = number[5] };
+        *s = (pg_step){ .number = count[0],
+                        .iterations = count[1],
+                        .level = (int) count[2],
+                        .event = (int) count[3],
+                        .nbroken = (size_t) count[4],
+                        .broken = m->broken,
+                        .reaction = m->reaction,
+                        .stamp = number[0],
+                        .time = number[1],
+                        .factor = number[2],
+                        .residual = number[3],
+                        .utilisation = number[4],
+                        .dissipated = number[5] };
     }
     PG_TRY (pg_broken_keep (m->r->problem, "pending.broken", s->nbroken, (pg_broken *) s->broken, k));
     PG_TRY (k->numbers (k->context, "pending.reaction", s->reaction ? 3 * nload : 0, (double *) s->reaction));
@@ -148,7 +179,8 @@ static pg_status keep_all (void *context, const pg_keeper *k)
     PG_TRY (keep_identity (m, k));
     PG_TRY (k->counts (k->context, "result.counts", 2, flag));
     PG_TRY (k->numbers (k->context, "result.seconds", 2, seconds));
-    if (flag[0] < 0 || flag[0] > 1L << 50) PG_FAIL (PG_E_FILE, "%s is not of this run: %ld rounds of a step", m->path, flag[0]);
+    if (flag[0] < 0 || flag[0] > 1L << 50)
+        PG_FAIL (PG_E_FILE, "%s is not of this run: %ld rounds of a step", m->path, flag[0]);
     m->rounds = flag[0], m->is_pending = flag[1], m->seconds = seconds[0];
     if (k->reading) r->seconds = seconds[1];
     PG_TRY (keep_marks (m, &m->now, "now", k));
@@ -161,11 +193,18 @@ done:
     return status;
 }
 
-/* ---- writing ---------------------------------------------------------------------------------------------------------------- */
+/* ---- writing ------------------------------------------------------------------------------------------- */
 static memory memory_of (pg_result *r, pg_state *state, const char *path)
 {
-    return (memory) { .r = r, .state = state, .path = path, .now = r->rounds > 0 ? r->now : r->done, .rounds = r->rounds,
-                      .is_pending = r->is_pending, .threads = r->problem->threads, .seconds = r->earlier + pg_seconds () - r->opened, .pending = r->pending };
+    return (memory){ .r = r,
+                     .state = state,
+                     .path = path,
+                     .now = r->rounds > 0 ? r->now : r->done,
+                     .rounds = r->rounds,
+                     .is_pending = r->is_pending,
+                     .threads = r->problem->threads,
+                     .seconds = r->earlier + pg_seconds () - r->opened,
+                     .pending = r->pending };
 }
 
 pg_status pg_result_keep (pg_result *r, pg_state *state, const pg_keeper *keeper)
@@ -199,7 +238,7 @@ int pg_result_due (const pg_result *r)
     return r->interval > 0 && passed >= r->interval && passed >= 10 * r->checkpoint_cost;
 }
 
-/* ---- going on --------------------------------------------------------------------------------------------------------------- */
+/* ---- going on ------------------------------------------------------------------------------------------ */
 static pg_status open_files (pg_result *r, const result_marks *at)
 {
     pg_status status = PG_OK;
@@ -208,7 +247,8 @@ static pg_status open_files (pg_result *r, const result_marks *at)
     snprintf (path, sizeof path, "%s/result.e", r->folder);
     PG_TRY (pg_exodus_open (&r->file, path, &r->problem->cloud, r->nfield, r->field, at->steps, at->bytes));
     r->exodus_steps = at->steps;
-    r->next_broken = at->next_broken, r->last_written = (int) at->last_written, r->stamp = at->stamp, r->time = at->time;
+    r->next_broken = at->next_broken, r->last_written = (int) at->last_written, r->stamp = at->stamp,
+    r->time = at->time;
 done:
     return status;
 }
@@ -228,8 +268,8 @@ done:
     return status;
 }
 
-pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver,
-                            pg_state *state, pg_resumed *from)
+pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene *scene,
+                            const pg_problem *problem, pg_solver *solver, pg_state *state, pg_resumed *from)
 {
     pg_status status = PG_OK;
     pg_result *r = NULL;
@@ -238,7 +278,8 @@ pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene 
     snprintf (path, sizeof path, "%s/checkpoint.nc", folder);
     m.path = path;
     PG_TRY (pg_result_check (scene, problem));
-    if (access (path, F_OK) != 0) PG_FAIL (PG_E_USAGE, "there is no %s to go on from: run without --resume", path);
+    if (access (path, F_OK) != 0)
+        PG_FAIL (PG_E_USAGE, "there is no %s to go on from: run without --resume", path);
     PG_ALLOC (r, 1);
     m.r = r;
     PG_TRY (result_prepare (r, folder, scene, problem, solver));

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * output.tips: how far a crack has come along a direction, a column of history.csv each; pictures of length and speed, and their
- * summary for report.json. */
+ * output.tips: how far a crack has come along a direction, a column of history.csv each; pictures of length
+ * and speed, and their summary for report.json. */
 #include "result.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* ---- from the scene ----------------------------------------------------------------------------------------------------------- */
+/* ---- from the scene ------------------------------------------------------------------------------------ */
 /* The points in question, and how far along they lie; none behind `from`. */
 static pg_status find_points (result_tip *tip, const pg_problem *p, const pg_expression *where)
 {
@@ -65,7 +65,9 @@ static pg_status check_tip (const pg_scene *scene, size_t i, const pg_problem *p
     if (turns && timeless) {
         PG_TRY (read_tip (&tip, scene, i, p));
         for (size_t k = 0; k < p->cloud.n; k++) any |= tip.along[k] > 0;
-        if (!any) pg_scene_fault (scene, path, "no point of the body lies that way%s", where && *where ? " where the condition holds" : "");
+        if (!any)
+            pg_scene_fault (scene, path, "no point of the body lies that way%s",
+                            where && *where ? " where the condition holds" : "");
     }
 done:
     pg_expression_free (&e);
@@ -78,7 +80,8 @@ pg_status result_tips_check (const pg_scene *scene, const pg_problem *problem)
     pg_status status = PG_OK;
     size_t n = pg_scene_count (scene, "output.tips");
     for (size_t i = 0; i < n; i++) PG_TRY (check_tip (scene, i, problem));
-    if (n > 0 && problem->criterion->type == NULL) pg_scene_fault (scene, "output.tips", "nothing can break: there is no failure criterion");
+    if (n > 0 && problem->criterion->type == NULL)
+        pg_scene_fault (scene, "output.tips", "nothing can break: there is no failure criterion");
 done:
     return status;
 }
@@ -100,7 +103,7 @@ void result_tips_free (pg_result *r)
     pg_free (r->tip), pg_free (r->tip_time);
 }
 
-/* ---- rows ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- rows ---------------------------------------------------------------------------------------------- */
 static double distance (const pg_problem *p, size_t i, const double *x)
 {
     double s = 0;
@@ -108,23 +111,30 @@ static double distance (const pg_problem *p, size_t i, const double *x)
     return s;
 }
 
-/* The damaged points of the crack: those nearest to `from` (all within a spacing more), and all that hang together with them, each no further than
- * REACH spacings from the next, so that no whole point lies between. queue: their numbers (n); seen: n, zeroed. */
-static size_t follow (const result_tip *tip, const pg_problem *p, const double *damage, int *queue, unsigned char *seen)
+/* The damaged points of the crack: those nearest to `from` (all within a spacing more), and all that hang
+ * together with them, each no further than REACH spacings from the next, so that no whole point lies between.
+ * queue: their numbers (n); seen: n, zeroed. */
+static size_t follow (const result_tip *tip, const pg_problem *p, const double *damage, int *queue,
+                      unsigned char *seen)
 {
     const double REACH = 1.9;
     const pg_family *f = &p->rows[PG_NODES].family;
     double nearest = INFINITY;
     size_t n = 0;
-    for (size_t i = 0; i < p->cloud.n; i++) if (damage[i] >= tip->damage) nearest = fmin (nearest, distance (p, i, tip->from));
     for (size_t i = 0; i < p->cloud.n; i++)
-        if (damage[i] >= tip->damage && distance (p, i, tip->from) <= nearest + pg_problem_spacing (p, PG_NODES, i)) seen[i] = 1, queue[n++] = (int) i;
+        if (damage[i] >= tip->damage) nearest = fmin (nearest, distance (p, i, tip->from));
+    for (size_t i = 0; i < p->cloud.n; i++)
+        if (damage[i] >= tip->damage
+            && distance (p, i, tip->from) <= nearest + pg_problem_spacing (p, PG_NODES, i))
+            seen[i] = 1, queue[n++] = (int) i;
     for (size_t at = 0; at < n; at++) {
         size_t i = (size_t) queue[at];
         double reach = REACH * pg_problem_spacing (p, PG_NODES, i);
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e];
-            if (seen[j] || !(damage[j] >= tip->damage) || distance (p, j, p->cloud.x + i * (size_t) p->dim) > reach) continue;
+            if (seen[j] || !(damage[j] >= tip->damage)
+                || distance (p, j, p->cloud.x + i * (size_t) p->dim) > reach)
+                continue;
             seen[j] = 1, queue[n++] = (int) j;
         }
     }
@@ -146,7 +156,8 @@ done:
     return status;
 }
 
-pg_status result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row, double *work)
+pg_status result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row,
+                           double *work)
 {
     pg_status status = PG_OK;
     void *self;
@@ -188,15 +199,17 @@ done:
     return status;
 }
 
-/* ---- speeds ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- speeds -------------------------------------------------------------------------------------------- */
 double result_tips_rayleigh (const pg_result *r)
 {
     double speed = 0;
-    for (size_t m = 0; m < r->problem->nmaterial; m++) speed = fmax (speed, pg_material_waves (&r->problem->material[m]).rayleigh);
+    for (size_t m = 0; m < r->problem->nmaterial; m++)
+        speed = fmax (speed, pg_material_waves (&r->problem->material[m]).rayleigh);
     return speed;
 }
 
-/* Length is known in steps of the spacing: the slope of the straight line that fits it best within `half` s to both sides, and within two rows. */
+/* Length is known in steps of the spacing: the slope of the straight line that fits it best within `half` s
+ * to both sides, and within two rows. */
 static double slope (const result_tip *tip, const double *time, size_t first, size_t n, size_t i, double half)
 {
     size_t a = i, b = i;
@@ -205,7 +218,8 @@ static double slope (const result_tip *tip, const double *time, size_t first, si
     while (b + 1 < n && (time[b + 1] - time[i] <= half || b - i < 2)) b++;
     for (size_t k = a; k <= b; k++) t += time[k], s += tip->length[k];
     t /= (double) (b - a + 1), s /= (double) (b - a + 1);
-    for (size_t k = a; k <= b; k++) tt += (time[k] - t) * (time[k] - t), ts += (time[k] - t) * (tip->length[k] - s);
+    for (size_t k = a; k <= b; k++)
+        tt += (time[k] - t) * (time[k] - t), ts += (time[k] - t) * (tip->length[k] - s);
     return tt > 0 ? ts / tt : 0;
 }
 
@@ -230,12 +244,15 @@ void result_tips_run (const pg_result *r, size_t i, result_tip_run *out, double 
     if (stop > start) out->mean = (tip->length[stop] - tip->length[start]) / (time[stop] - time[start]);
 }
 
-/* ---- pictures, report ------------------------------------------------------------------------------------------------------------ */
-static pg_status chart (pg_result *r, const char *name, size_t ncurve, const pg_curve *curve, const char *ylabel)
+/* ---- pictures, report ---------------------------------------------------------------------------------- */
+static pg_status chart (pg_result *r, const char *name, size_t ncurve, const pg_curve *curve,
+                        const char *ylabel)
 {
     pg_status status = PG_OK;
     char path[4096];
-    pg_chart_style style = { .title = r->problem->title, .xlabel = r->dynamic ? "time (s)" : "load factor", .ylabel = ylabel };
+    pg_chart_style style = { .title = r->problem->title,
+                             .xlabel = r->dynamic ? "time (s)" : "load factor",
+                             .ylabel = ylabel };
     snprintf (path, sizeof path, "%s/%s.png", r->folder, name);
     PG_TRY (pg_picture_chart (path, ncurve, curve, &style));
     memcpy (r->written[r->nwritten++], path, sizeof path);
@@ -243,10 +260,12 @@ done:
     return status;
 }
 
-/* Tips that move alike to the last bit would hide each other: the first of them stands for all, under all their names. */
+/* Tips that move alike to the last bit would hide each other: the first of them stands for all, under all
+ * their names. */
 static int like_an_earlier (const pg_result *r, size_t i)
 {
-    for (size_t k = 0; k < i; k++) if (memcmp (r->tip[k].length, r->tip[i].length, r->tips * sizeof *r->tip->length) == 0) return 1;
+    for (size_t k = 0; k < i; k++)
+        if (memcmp (r->tip[k].length, r->tip[i].length, r->tips * sizeof *r->tip->length) == 0) return 1;
     return 0;
 }
 
@@ -254,7 +273,8 @@ static void write_names (const pg_result *r, size_t i, char *out, size_t size)
 {
     int used = snprintf (out, size, "%s", r->tip[i].name);
     for (size_t k = i + 1; k < r->ntip && used < (int) size; k++)
-        if (memcmp (r->tip[k].length, r->tip[i].length, r->tips * sizeof *r->tip->length) == 0) used += snprintf (out + used, size - (size_t) used, " = %s", r->tip[k].name);
+        if (memcmp (r->tip[k].length, r->tip[i].length, r->tips * sizeof *r->tip->length) == 0)
+            used += snprintf (out + used, size - (size_t) used, " = %s", r->tip[k].name);
 }
 
 pg_status result_tips_pictures (pg_result *r)
@@ -264,7 +284,8 @@ pg_status result_tips_pictures (pg_result *r)
     size_t n = r->tips, alone = 0, moving = 0;
     pg_curve *curve = NULL, *fast = NULL;
     char *names = NULL;
-    double *speed = NULL, limit[2] = { result_tips_rayleigh (r), result_tips_rayleigh (r) }, ends[2] = { 0, 0 };
+    double *speed = NULL, limit[2] = { result_tips_rayleigh (r), result_tips_rayleigh (r) },
+           ends[2] = { 0, 0 };
     result_tip_run run;
     if (r->ntip == 0 || n < 2) return PG_OK;
     PG_ALLOC (curve, r->ntip);
@@ -277,7 +298,9 @@ pg_status result_tips_pictures (pg_result *r)
         write_names (r, i, names + i * ROOM, ROOM);
         curve[alone++] = (pg_curve) { names + i * ROOM, n, r->tip_time, r->tip[i].length, 0 };
         result_tips_run (r, i, &run, v);
-        if (run.moved && r->dynamic) fast[moving++] = (pg_curve) { names + i * ROOM, n - run.first, r->tip_time + run.first, v + run.first, 0 };
+        if (run.moved && r->dynamic)
+            fast[moving++] = (pg_curve){ names + i * ROOM, n - run.first, r->tip_time + run.first,
+                                         v + run.first, 0 };
     }
     PG_TRY (chart (r, "tip", alone, curve, "length of the crack (m)"));
     ends[0] = r->tip_time[0], ends[1] = r->tip_time[n - 1];
@@ -289,7 +312,8 @@ done:
     return status;
 }
 
-/* "crack right: 4.95 to 15.95 mm long; runs from 6.20 us to the end, at 1520 m/s = 0.55 c_R on average, 1870 m/s = 0.68 c_R at most (at 9.52 us, 9.35 mm)" */
+/* "crack right: 4.95 to 15.95 mm long; runs from 6.20 us to the end, at 1520 m/s = 0.55 c_R on average, 1870
+ * m/s = 0.68 c_R at most (at 9.52 us, 9.35 mm)" */
 int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
 {
     double rayleigh = result_tips_rayleigh (r);
@@ -300,21 +324,31 @@ int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
     result_tips_run (r, i, &run, NULL);
     int used = snprintf (out, size, "%s: ", tip->name);
     out += used, size -= (size_t) used;
-    if (!run.moved) return snprintf (out, size, "%s", tip->length[r->tips - 1] > 0 ? "does not run" : "there is none"), 1;
-    used = snprintf (out, size, "%.4g to %.4g mm", 1e3 * tip->length[run.first], 1e3 * tip->length[r->tips - 1]);
+    if (!run.moved)
+        return snprintf (out, size, "%s", tip->length[r->tips - 1] > 0 ? "does not run" : "there is none"), 1;
+    used = snprintf (out, size, "%.4g to %.4g mm", 1e3 * tip->length[run.first],
+                     1e3 * tip->length[r->tips - 1]);
     out += used, size -= (size_t) used;
-    if (!r->dynamic) return snprintf (out, size, ", from load factor %.4g to %.4g", r->tip_time[run.start], r->tip_time[run.stop]), 1;
+    if (!r->dynamic)
+        return snprintf (out, size, ", from load factor %.4g to %.4g", r->tip_time[run.start],
+                         r->tip_time[run.stop]),
+               1;
     if (run.stop + 2 < r->tips) snprintf (until, sizeof until, "%.4g us", 1e6 * r->tip_time[run.stop]);
-    used = snprintf (out, size, ", from %.4g us to %s, %.4g m/s on average, %.4g m/s at most (at %.4g mm, %.4g us)", 1e6 * r->tip_time[run.start], until, run.mean,
-                     run.largest, 1e3 * tip->length[run.fastest], 1e6 * r->tip_time[run.fastest]);
-    if (rayleigh > 0) snprintf (out + used, size - (size_t) used, ": %.2f and %.2f of c_R", run.mean / rayleigh, run.largest / rayleigh);
+    used = snprintf (out, size,
+                     ", from %.4g us to %s, %.4g m/s on average, %.4g m/s at most (at %.4g mm, %.4g us)",
+                     1e6 * r->tip_time[run.start], until, run.mean, run.largest,
+                     1e3 * tip->length[run.fastest], 1e6 * r->tip_time[run.fastest]);
+    if (rayleigh > 0)
+        snprintf (out + used, size - (size_t) used, ": %.2f and %.2f of c_R", run.mean / rayleigh,
+                  run.largest / rayleigh);
     return 1;
 }
 
 void result_tips_json (pg_json *j, const pg_result *r)
 {
     double rayleigh = result_tips_rayleigh (r);
-    const char *when[2] = { r->dynamic ? "started" : "started_at_factor", r->dynamic ? "stopped" : "stopped_at_factor" };
+    const char *when[2] = { r->dynamic ? "started" : "started_at_factor",
+                            r->dynamic ? "stopped" : "stopped_at_factor" };
     if (r->ntip == 0) return;
     pg_json_open (j, "tips", '[');
     for (size_t i = 0; i < r->ntip; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Adaptive dynamic relaxation (Kilic and Madenci 2010; theory B4): dt = 1 and masses D_ii = 1/4 sum_j |K_ij|, with which
- * the largest frequency is at most 2; damping from Rayleigh's quotient at every iteration. */
+ * Adaptive dynamic relaxation (Kilic and Madenci 2010; theory B4): dt = 1 and masses D_ii = 1/4 sum_j |K_ij|,
+ * with which the largest frequency is at most 2; damping from Rayleigh's quotient at every iteration. */
 #include "relaxation.h"
 #include <math.h>
 #include <string.h>
@@ -12,7 +12,11 @@ static const double margin = 1.02;
 static pg_status sum_rows (pg_system *sys, double *sum)
 {
     pg_status status = PG_OK;
-    if (!sys->force->matrix) PG_FAIL (PG_E_USAGE, "adr needs the rows of the stiffness, and the force %s tells neither them nor their sums: use relax", sys->force->name);
+    if (!sys->force->matrix)
+        PG_FAIL (PG_E_USAGE,
+                 "adr needs the rows of the stiffness, and the force %s tells neither them nor their sums: "
+                 "use relax",
+                 sys->force->name);
     if (sys->force->assemble) PG_TRY (sys->force->assemble (sys->self));
     const pg_sparse *K = sys->force->matrix (sys->self);
     for (size_t j = 0; j < K->ncol; j++)
@@ -40,7 +44,8 @@ done:
     return status;
 }
 
-/* Forces that tell the sums of their rows only soften when bonds break; others may stiffen what is left, and are weighed anew. */
+/* Forces that tell the sums of their rows only soften when bonds break; others may stiffen what is left, and
+ * are weighed anew. */
 static pg_status prepare (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -56,6 +61,14 @@ done:
     return status;
 }
 
-const pg_solver_type pg_solver_adr = {
-    "adr", "quasi-static stages by adaptive dynamic relaxation", relaxation_start, relaxation_step, relaxation_done, relaxation_free, .way = RELAXES,
-    .prepare = prepare, .refused = relaxation_refused, .keep = relaxation_keep, .progress = relaxation_progress };
+const pg_solver_type pg_solver_adr = { "adr",
+                                       "quasi-static stages by adaptive dynamic relaxation",
+                                       relaxation_start,
+                                       relaxation_step,
+                                       relaxation_done,
+                                       relaxation_free,
+                                       .way = RELAXES,
+                                       .prepare = prepare,
+                                       .refused = relaxation_refused,
+                                       .keep = relaxation_keep,
+                                       .progress = relaxation_progress };

@@ -1,18 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Event stepping under loads that are a constant part and factor lambda times another: between breaks d = d_0 + lambda (d_1 - d_0), with two equilibria, at
- * lambda = 0 and 1. Every utilisation is convex in lambda (a length, the largest eigenvalue, an energy of something affine), so that what a bond admits is an interval of
- * lambda: from a place that all bonds admit there is one way out to each side, found by chords of every bond and then by regula falsi on the largest. After a break
- * no place at or below the present factor may be left: then the constant part drives the crack, the factor is held and the worst bonds break one after the other. */
+ * Event stepping under loads that are a constant part and factor lambda times another: between breaks d = d_0
+ * + lambda (d_1 - d_0), with two equilibria, at lambda = 0 and 1. Every utilisation is convex in lambda (a
+ * length, the largest eigenvalue, an energy of something affine), so that what a bond admits is an interval
+ * of lambda: from a place that all bonds admit there is one way out to each side, found by chords of every
+ * bond and then by regula falsi on the largest. After a break no place at or below the present factor may be
+ * left: then the constant part drives the crack, the factor is held and the worst bonds break one after the
+ * other. */
 #include "solve.h"
 #include <math.h>
 #include <string.h>
 
-static const double close = 1e-12;                     /* of utilisation to its limit                                     */
+static const double close = 1e-12;                     /* of utilisation to its limit */
 enum { MOST_LOOKS = 80, MOST_THIRDS = 40 };
 
 static void move_to (const pg_solver *s, pg_state *state, double factor)
 {
-    for (size_t i = 0; i < state->ndof; i++) state->d[i] = factor == 1 ? s->unit[i] : s->base[i] + factor * (s->unit[i] - s->base[i]);
+    for (size_t i = 0; i < state->ndof; i++)
+        state->d[i] = factor == 1 ? s->unit[i] : s->base[i] + factor * (s->unit[i] - s->base[i]);
 }
 
 /* Utilisation of every bond at this factor; *top the largest. */
@@ -30,17 +34,20 @@ done:
     return status;
 }
 
-/* Where the first chord reaches the limit: at `in` all bonds are below it (b->factor), at `out` some are not (b->utilisation). */
+/* Where the first chord reaches the limit: at `in` all bonds are below it (b->factor), at `out` some are not
+ * (b->utilisation). */
 static double first_chord (const pg_solver *s, const pg_state *state, double in, double out)
 {
     const break_loop *b = &s->break_loop;
     double share = 1;
     for (size_t i = 0; i < state->nbond; i++)
-        if (b->utilisation[i] > 1) share = fmin (share, (1 - fmin (b->factor[i], 1)) / (b->utilisation[i] - fmin (b->factor[i], 1)));
+        if (b->utilisation[i] > 1)
+            share = fmin (share, (1 - fmin (b->factor[i], 1)) / (b->utilisation[i] - fmin (b->factor[i], 1)));
     return in + share * (out - in);
 }
 
-/* The way out between a factor that all bonds admit and one that some do not; b->utilisation is that of *factor. Regula falsi after Illinois. */
+/* The way out between a factor that all bonds admit and one that some do not; b->utilisation is that of
+ * *factor. Regula falsi after Illinois. */
 static pg_status way_out (pg_solver *s, pg_state *state, double in, double out, double *factor)
 {
     pg_status status = PG_OK;
@@ -70,7 +77,8 @@ done:
     return status;
 }
 
-/* A factor below `from` that all bonds admit, though zero is none: thirds of a convex function. *found 0: there is none. */
+/* A factor below `from` that all bonds admit, though zero is none: thirds of a convex function. *found 0:
+ * there is none. */
 static pg_status search (pg_solver *s, pg_state *state, double from, double *at, int *found)
 {
     pg_status status = PG_OK;
@@ -90,7 +98,8 @@ done:
     return status;
 }
 
-/* Where the next bonds break, or the next level; *breaks: something breaks there. b->utilisation is that of *factor. */
+/* Where the next bonds break, or the next level; *breaks: something breaks there. b->utilisation is that of
+ * *factor. */
 static pg_status choose (pg_solver *s, pg_state *state, double level, double *factor, int *breaks)
 {
     pg_status status = PG_OK;
@@ -116,8 +125,12 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
     if (found) PG_TRY (way_out (s, state, in, now, factor));
     else {
         *factor = now;
-        if (!s->held++) pg_statistics_warn (&s->report, "at load factor %.6g, after event %ld, no lower factor lets the remaining bonds live: the constant loads drive the crack, which then runs "
-                                        "at a held factor, bond by bond (in truth a dynamic event)", now, state->events);
+        if (!s->held++)
+            pg_statistics_warn (&s->report,
+                                "at load factor %.6g, after event %ld, no lower factor lets the remaining "
+                                "bonds live: the constant loads drive the crack, which then runs "
+                                "at a held factor, bond by bond (in truth a dynamic event)",
+                                now, state->events);
         PG_TRY (look (s, state, now, b->utilisation, &top));
     }
 done:
@@ -146,7 +159,8 @@ static pg_status secant (pg_solver *s, double *out)
     if (!sys->force->work_balance) return PG_OK;
     PG_TRY (sys->force->work_balance (sys->self, 0, s->base, NULL, &zero));
     PG_TRY (sys->force->work_balance (sys->self, 1, s->unit, NULL, &one));
-    for (size_t k = 0; k < one.npair; k++) *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
+    for (size_t k = 0; k < one.npair; k++)
+        *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
 done:
     pg_work_balance_clear (&zero), pg_work_balance_clear (&one);
     return status;
@@ -157,7 +171,8 @@ static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_st
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     const pg_solver_options *o = &s->options;
-    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 0, now;
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 0,
+           now;
     for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
     PG_TRY (break_loop_kill (b, state, b->utilisation, (1 - width) * top, 1, factor));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
@@ -192,12 +207,14 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     s->top_factor = fmax (s->top_factor, factor);
     PG_TRY (break_loop_account (b, factor, state->d, NULL, 1));
     s->report.energy_strain = b->work_balance.strain;
-    if (b->work_balance.reaction) memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (b->work_balance.reaction)
+        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     if (start) PG_TRY (secant (s, &s->secant0));
     step->residual = s->unit_residual;
     if (s->problem->criterion->type && b->system.force->utilisation) {
         long over = break_loop_over (b, state, 1, &step->utilisation);
-        if (!s->held || !breaks) s->report.bonds_over_limit += over;           /* at a held factor they are about to break      */
+        /* at a held factor they are about to break */
+        if (!s->held || !breaks) s->report.bonds_over_limit += over;
     }
     if (breaks) PG_TRY (break_here (s, state, factor, step));
     if (start) step->level = 1;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The break loop (Cui 2022 section 3.2, corrected in theory F5): solve, break the bonds over their limit, update what they touched,
- * solve again, until no bond is over its limit and the residual is small. Shared by static and newmark. */
+ * The break loop (Cui 2022 section 3.2, corrected in theory F5): solve, break the bonds over their limit,
+ * update what they touched, solve again, until no bond is over its limit and the residual is small. Shared by
+ * static and newmark. */
 #include "solve.h"
 #include <math.h>
 #include <string.h>
@@ -55,7 +56,8 @@ done:
     return status;
 }
 
-pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure, double cut, double scale, double t)
+pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure, double cut, double scale,
+                           double t)
 {
     pg_status status = PG_OK;
     b->changes.n = 0;
@@ -91,7 +93,8 @@ long break_loop_over (const break_loop *b, const pg_state *state, double scale, 
     return over;
 }
 
-pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step)
+pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn,
+                       pg_step *step)
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
@@ -106,7 +109,8 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
             b->stopped = 0;
         }
         PG_TRY (system_solve (s, t, d, dyn, &step->residual));
-        if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));     /* later rounds: loads and goals stay      */
+        /* later rounds: loads and goals stay */
+        if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
         if (!s->force->utilisation || !s->problem->criterion->type) break;
         double t0 = pg_seconds ();
         PG_TRY (break_loop_ready (b));
@@ -118,9 +122,15 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
             break;
         }
         if (step->iterations >= o->max_iterations)
-            PG_FAIL (PG_E_EQUILIBRIUM, "bonds still break after %ld rounds (%zu in this step, worst utilisation %.6g): raise solver.max_iterations "
-                     "or take smaller steps", step->iterations, b->nbroken, top);
-        double cut = o->break_mode == PG_BREAK_ALL ? 1 : top * (1 - (o->break_mode == PG_BREAK_WORST ? o->tie : fmax (o->break_fraction, o->tie)));
+            PG_FAIL (PG_E_EQUILIBRIUM,
+                     "bonds still break after %ld rounds (%zu in this step, worst utilisation %.6g): raise "
+                     "solver.max_iterations "
+                     "or take smaller steps",
+                     step->iterations, b->nbroken, top);
+        double cut =
+            o->break_mode == PG_BREAK_ALL
+                ? 1
+                : top * (1 - (o->break_mode == PG_BREAK_WORST ? o->tie : fmax (o->break_fraction, o->tie)));
         if (o->break_mode != PG_BREAK_WORST) cut = fmax (cut, 1);
         PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
         PG_TRY (system_refresh (s, state, &b->changes));
@@ -152,7 +162,7 @@ done:
 pg_status break_loop_book (break_loop *b, double scale)
 {
     pg_status status = PG_OK;
-    if (!b->before.force) {                            /* the first state is reached from rest                           */
+    if (!b->before.force) {                            /* the first state is reached from rest */
         PG_ALLOC (b->before.force, b->work_balance.npair);
         PG_ALLOC (b->before.displacement, b->work_balance.npair);
         b->before.npair = b->work_balance.npair;
@@ -178,7 +188,8 @@ pg_status break_loop_arrived (break_loop *b, const pg_state *state, const double
     if (!b->damage) PG_ALLOC (b->damage, 6 * s->problem->cloud.n);
     PG_TRY (s->force->field (s->self, state, d, "damage", &components, &unit, b->damage));
     b->nearest = 0;
-    for (size_t i = 0; components == 1 && i < set->npoint; i++) b->nearest = fmax (b->nearest, b->damage[set->point[i]]);
+    for (size_t i = 0; components == 1 && i < set->npoint; i++)
+        b->nearest = fmax (b->nearest, b->damage[set->point[i]]);
     if (!b->looked) b->nearest0 = b->nearest, b->looked = 1;
     *arrived = set->npoint && b->nearest >= s->options->stop_damage;
 done:

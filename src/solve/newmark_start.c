@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Newmark's method: where it starts, and nodes whose motion is prescribed by elimination, d = T q + z (t). Their V = T q' + z' and
- * A = T q'' + z'' follow from z: Newmark's own recursion would turn any error in them into an oscillation that never dies.
- * Start: d, V as given but for the supports; T' M T q'' = T' (P - F_int - C V - M z''). */
+ * Newmark's method: where it starts, and nodes whose motion is prescribed by elimination, d = T q + z (t).
+ * Their V = T q' + z' and A = T q'' + z'' follow from z: Newmark's own recursion would turn any error in them
+ * into an oscillation that never dies. Start: d, V as given but for the supports; T' M T q'' = T' (P - F_int
+ * - C V - M z''). */
 #include "solve.h"
 #include <string.h>
 
@@ -80,12 +81,12 @@ void newmark_follow (pg_solver *s, double t, double *v, double *a)
     if (s->support_updates != s->report.updates) newmark_supports (s, t, 0);
     for (size_t k = 1; k < 3; k++) {
         double *w = k == 1 ? v : a;
-        sys->force->impose (sys->self, t, w);          /* prescribed nodes: T q + z                                      */
+        sys->force->impose (sys->self, t, w);          /* prescribed nodes: T q + z */
         for (size_t i = 0; i < sys->ndof; i++) w[i] += s->support[k * sys->ndof + i] - s->support[i];
     }
 }
 
-/* ---- start -------------------------------------------------------------------------------------------------------------- */
+/* ---- start --------------------------------------------------------------------------------------------- */
 static void apply_mass (void *context, const double *x, double *y)
 {
     const pg_system *sys = context;
@@ -163,7 +164,8 @@ pg_status newmark_start (pg_solver *s, pg_state *state)
     if (s->options.alpha != 0 && !s->force0) PG_ALLOC (s->force0, ndof);
     if (state->step > 0) goto done;
     for (size_t i = 0; i < ndof; i++)
-        if (!(sys->mass[i] > 0)) PG_FAIL (PG_E_USAGE, "newmark needs mass at every point: give the material a density");
+        if (!(sys->mass[i] > 0))
+            PG_FAIL (PG_E_USAGE, "newmark needs mass at every point: give the material a density");
     memset (state->a, 0, ndof * sizeof *state->a);
     if (elimination (sys)) {
         PG_TRY (sys->force->impose (sys->self, state->time, state->d));

@@ -23,7 +23,8 @@ const char *pg_solver_names (void)
     size_t at = 0;
     if (names[0]) return names;
     char text[256];
-    for (size_t i = 0; i < COUNT; i++) at += (size_t) snprintf (text + at, sizeof text - at, "%s%s", i ? "|" : "", entries[i]->name);
+    for (size_t i = 0; i < COUNT; i++)
+        at += (size_t) snprintf (text + at, sizeof text - at, "%s%s", i ? "|" : "", entries[i]->name);
     memcpy (names, text, sizeof names);
     return names;
 }
@@ -59,7 +60,8 @@ pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg
     return pg_solver_create_with (out, problem, options, force);
 }
 
-pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, const pg_solver_options *options, const pg_force_type *force)
+pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, const pg_solver_options *options,
+                                 const pg_force_type *force)
 {
     pg_status status = PG_OK;
     pg_solver *s = NULL;
@@ -80,9 +82,11 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     PG_ALLOC (s->work2, sys->ndof);
     PG_TRY (pg_state_create (&s->backup, problem, sys->components));
     if (s->type->prepare) PG_TRY (s->type->prepare (s));
-    s->options.scene = NULL;                               /* may be gone from here on                                   */
+    s->options.scene = NULL;                               /* may be gone from here on */
     if (options->break_mode == PG_BREAK_ALL && problem->criterion->type)
-        pg_statistics_warn (&s->report, "break: all breaks every bond over its limit at once: the peak load depends on the increment");
+        pg_statistics_warn (
+            &s->report,
+            "break: all breaks every bond over its limit at once: the peak load depends on the increment");
     *out = s;
     s = NULL;
 done:
@@ -96,7 +100,8 @@ void pg_solver_free (pg_solver **solver)
     if (!s) return;
     if (s->type && s->type->free) s->type->free (s);
     break_loop_free (&s->break_loop);
-    pg_free (s->unit), pg_free (s->base), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2), pg_free (s->work3), pg_free (s->work4), pg_free (s->support), pg_free (s->force0);
+    pg_free (s->unit), pg_free (s->base), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2),
+        pg_free (s->work3), pg_free (s->work4), pg_free (s->support), pg_free (s->force0);
     pg_state_free (&s->backup);
     pg_free (s);
     *solver = NULL;
@@ -118,7 +123,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     s->started = 1;
     break_loop *b = &s->break_loop;
     b->began = b->round, b->stopped = 0;
-    if (b->round == 0) {                               /* else the step goes on where it was stopped                     */
+    if (b->round == 0) {                               /* else the step goes on where it was stopped */
         PG_TRY (pg_state_copy (s->backup, state));
         b->work0 = b->work, b->stored0 = s->report.energy_strain + s->report.energy_kinetic;
     }
@@ -134,7 +139,8 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     r->residual_max = fmax (r->residual_max, step->residual);
     r->utilisation_max = fmax (r->utilisation_max, step->utilisation);
     if (step->level && s->break_loop.system.force->overlap)
-        r->overlap_max = fmax (r->overlap_max, s->break_loop.system.force->overlap (s->break_loop.system.self, state, state->d));
+        r->overlap_max = fmax (r->overlap_max, s->break_loop.system.force->overlap (s->break_loop.system.self,
+                                                                                    state, state->d));
     r->energy_external = s->break_loop.work;
     r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping;
 done:
@@ -142,20 +148,29 @@ done:
         char text[2048];
         int quasi = s->options.quasi_static;
         snprintf (text, sizeof text, "%s", pg_last_error ());
-        system_refresh (&s->break_loop.system, s->backup, NULL);      /* fields asked for now are those of the accepted state       */
-        pg_multilevel_free (&s->break_loop.system.multilevel);        /* bonds live again that it does not know                     */
+        /* fields asked for now are those of the accepted state */
+        system_refresh (&s->break_loop.system, s->backup, NULL);
+        pg_multilevel_free (&s->break_loop.system.multilevel);  /* bonds live again that it does not know */
         s->break_loop.work = s->backup->work, s->break_loop.round = 0;
         if (s->type->refused) s->type->refused (s);
-        if (status != PG_E_MEMORY) pg_error (status, PG_HERE, "step %ld after %s %.6g%s is refused: %s", s->backup->step + 1, quasi ? "load factor" : "t =",
-                                            quasi ? s->backup->factor : s->backup->time, quasi ? "" : " s", text);
+        if (status != PG_E_MEMORY)
+            pg_error (status, PG_HERE, "step %ld after %s %.6g%s is refused: %s", s->backup->step + 1,
+                      quasi ? "load factor" : "t =", quasi ? s->backup->factor : s->backup->time,
+                      quasi ? "" : " s", text);
         pg_state_copy (state, s->backup);
     }
     return status;
 }
 
-void pg_solver_watch (pg_solver *s, pg_watch watch, void *context) { s->break_loop.watch = watch, s->break_loop.watching = context; }
+void pg_solver_watch (pg_solver *s, pg_watch watch, void *context)
+{
+    s->break_loop.watch = watch, s->break_loop.watching = context;
+}
 
-int pg_solver_done (const pg_solver *s, const pg_state *state) { return s->finished || (s->type->done && s->type->done (s, state)); }
+int pg_solver_done (const pg_solver *s, const pg_state *state)
+{
+    return s->finished || (s->type->done && s->type->done (s, state));
+}
 
 static double largest_displacement (const pg_solver *s, const pg_state *state)
 {
@@ -167,36 +182,56 @@ static double largest_displacement (const pg_solver *s, const pg_state *state)
 const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
 {
     pg_system *sys = &s->break_loop.system;
-    if (sys->force->census) sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes, &s->report.fragments);
-    if (sys->force->overlap) s->report.overlap_max = fmax (s->report.overlap_max, sys->force->overlap (sys->self, state, state->d));
+    if (sys->force->census)
+        sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
+                            &s->report.fragments);
+    if (sys->force->overlap)
+        s->report.overlap_max = fmax (s->report.overlap_max,
+                                      sys->force->overlap (sys->self, state, state->d));
     if (sys->kept && !s->skips_told && s->report.factorizations) {
         char what[96];
         snprintf (what, sizeof what, "factorization after %ld break rounds", sys->kept);
-        pg_statistics_skip (&s->report, (double) sys->kept * s->report.seconds[PG_SECONDS_FACTOR] / (double) s->report.factorizations, what,
-                        "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
+        pg_statistics_skip (&s->report,
+                            (double) sys->kept * s->report.seconds[PG_SECONDS_FACTOR]
+                                / (double) s->report.factorizations,
+                            what,
+                            "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
         s->skips_told = 1;
     }
     if (sys->spared && !s->spared_told && s->report.preconditioners) {
         char what[96];
         snprintf (what, sizeof what, "preconditioner in %ld solves after a break", sys->spared);
-        pg_statistics_skip (&s->report, (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR] / (double) s->report.preconditioners, what,
-                        "that of an earlier K serves until the iterations it costs would have paid for another (their time is not taken off)");
+        pg_statistics_skip (&s->report,
+                            (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR]
+                                / (double) s->report.preconditioners,
+                            what,
+                            "that of an earlier K serves until the iterations it costs would have paid for "
+                            "another (their time is not taken off)");
         s->spared_told = 1;
     }
     if (sys->spared && !s->spared_told && s->report.factorizations) {
         char what[96];
         snprintf (what, sizeof what, "factorization in %ld solves after a break", sys->spared);
-        pg_statistics_skip (&s->report, (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR] / (double) s->report.factorizations, what,
-                        "the factor of an earlier K preconditions conjugate gradients until a new one would pay (their time is not taken off)");
+        pg_statistics_skip (&s->report,
+                            (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR]
+                                / (double) s->report.factorizations,
+                            what,
+                            "the factor of an earlier K preconditions conjugate gradients until a new one "
+                            "would pay (their time is not taken off)");
         s->spared_told = 1;
     }
-    if (!s->energy_told && s->report.broken > 0 && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
-        pg_statistics_warn (&s->report, "breaking has fed %.3g J into the body instead of dissipating energy (external work %.3g J): single bonds are not an "
-                        "objective measure of fracture", -s->report.energy_dissipated, s->report.energy_external);
+    if (!s->energy_told && s->report.broken > 0
+        && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
+        pg_statistics_warn (&s->report,
+                            "breaking has fed %.3g J into the body instead of dissipating energy (external "
+                            "work %.3g J): single bonds are not an "
+                            "objective measure of fracture",
+                            -s->report.energy_dissipated, s->report.energy_external);
         s->energy_told = 1;
     }
     if (!s->overlap_told && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {
-        pg_statistics_warn (&s->report, "crack faces overlap by up to %.3g m (contact is not modelled)", s->report.overlap_max);
+        pg_statistics_warn (&s->report, "crack faces overlap by up to %.3g m (contact is not modelled)",
+                            s->report.overlap_max);
         s->overlap_told = 1;
     }
     return &s->report;

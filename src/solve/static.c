@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Quasi-static loading. fixed: equal load steps, each with the break loop. event: between breaks everything is linear in the load
- * factor, so d = lambda d_1 and the factor of the next break follows in closed form (theory F6): go there, break the bonds
- * that reach their limit (ties included), solve for the new d_1, and so on; user levels are reported as they are passed. */
+ * Quasi-static loading. fixed: equal load steps, each with the break loop. event: between breaks everything
+ * is linear in the load factor, so d = lambda d_1 and the factor of the next break follows in closed form
+ * (theory F6): go there, break the bonds that reach their limit (ties included), solve for the new d_1, and
+ * so on; user levels are reported as they are passed. */
 #include "solve.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static double level_factor (const pg_solver *s, long level) { return (double) level / (double) s->options.levels; }
+static double level_factor (const pg_solver *s, long level)
+{
+    return (double) level / (double) s->options.levels;
+}
 
 static pg_status static_start (pg_solver *s, pg_state *state)
 {
@@ -23,7 +27,8 @@ static pg_status static_start (pg_solver *s, pg_state *state)
         PG_TRY (affine_solve (s));
     } else if (s->options.event) {
         PG_ALLOC (s->unit, state->ndof);
-        for (size_t i = 0; state->factor != 0 && i < state->ndof; i++) s->unit[i] = state->d[i] / state->factor;
+        for (size_t i = 0; state->factor != 0 && i < state->ndof; i++)
+            s->unit[i] = state->d[i] / state->factor;
         PG_TRY (system_solve (&s->break_loop.system, 1, s->unit, NULL, &residual));
         s->unit_residual = residual;
     }
@@ -31,7 +36,7 @@ done:
     return status;
 }
 
-/* ---- fixed ---------------------------------------------------------------------------------------------------------------- */
+/* ---- fixed --------------------------------------------------------------------------------------------- */
 static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -46,13 +51,15 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     while (level_factor (s, s->next_level) <= t * (1 + 1e-12)) s->next_level++, step->level = 1;
     int arrived;
     PG_TRY (break_loop_arrived (b, state, state->d, &arrived));
-    if (arrived) pg_statistics_warn (&s->report, "the crack has arrived at %s: the run ends at load factor %.6g", s->options.stop_set->name, t);
+    if (arrived)
+        pg_statistics_warn (&s->report, "the crack has arrived at %s: the run ends at load factor %.6g",
+                            s->options.stop_set->name, t);
     if (arrived || state->step + 1 >= s->options.steps) s->finished = 1;
 done:
     return status;
 }
 
-/* ---- event ------------------------------------------------------------------------------------------------------------------ */
+/* ---- event --------------------------------------------------------------------------------------------- */
 static double smallest (const double *a, size_t n)
 {
     double low = INFINITY;
@@ -78,7 +85,8 @@ done:
 static double secant (const break_loop *b)
 {
     double sum = 0;
-    for (size_t k = 0; k < b->work_balance.npair; k++) sum += b->work_balance.force[k] * b->work_balance.displacement[k];
+    for (size_t k = 0; k < b->work_balance.npair; k++)
+        sum += b->work_balance.force[k] * b->work_balance.displacement[k];
     return sum;
 }
 
@@ -86,7 +94,8 @@ int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status n
 {
     if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD && now != PG_E_SINGULAR) return 0;
     s->ended = now;
-    snprintf (s->why, sizeof s->why, "after event %ld at load factor %.6g: %s", state->events, factor, pg_last_error ());
+    snprintf (s->why, sizeof s->why, "after event %ld at load factor %.6g: %s", state->events, factor,
+              pg_last_error ());
     return 1;
 }
 
@@ -97,12 +106,15 @@ pg_status event_stops (pg_solver *s, const pg_state *state, double factor, doubl
     int arrived;
     PG_TRY (break_loop_arrived (&s->break_loop, state, state->d, &arrived));
     if (arrived) {
-        pg_statistics_warn (&s->report, "the crack has arrived at %s: the run ends at event %ld, load factor %.6g", o->stop_set->name, state->events, factor);
+        pg_statistics_warn (&s->report,
+                            "the crack has arrived at %s: the run ends at event %ld, load factor %.6g",
+                            o->stop_set->name, state->events, factor);
         s->finished = 1;
     }
     double share = s->secant = secant / s->secant0;
     if (s->problem->nload && (share < o->stop_stiffness || share > 1 / fmax (o->stop_stiffness, 1e-12))) {
-        pg_statistics_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g", state->events, factor);
+        pg_statistics_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g",
+                            state->events, factor);
         s->finished = 1;
     }
 done:
@@ -112,18 +124,21 @@ done:
 void event_limit (pg_solver *s, const pg_state *state, double factor)
 {
     if (state->events < s->options.max_events) return;
-    pg_statistics_warn (&s->report, "stopped after solver.max_events = %ld events at load factor %.6g", state->events, factor);
+    pg_statistics_warn (&s->report, "stopped after solver.max_events = %ld events at load factor %.6g",
+                        state->events, factor);
     s->finished = 1;
 }
 
-/* Breaks what reaches its limit at `factor` and finds the next unit displacement; where there is none the next step is refused. */
+/* Breaks what reaches its limit at `factor` and finds the next unit displacement; where there is none the
+ * next step is refused. */
 static pg_status break_at (pg_solver *s, pg_state *state, double factor, double scale, pg_step *step)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     const pg_solver_options *o = &s->options;
     double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, residual;
-    for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;   /* utilisation here */
+    /* utilisation here */
+    for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;
     PG_TRY (break_loop_kill (b, state, b->factor, 1 - width, scale, factor));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
     state->events++, s->report.events++;
@@ -141,8 +156,9 @@ done:
     return status;
 }
 
-/* Utilisation of the accepted state, from the sweep of the unit displacement: independent of the closed form that gave the factor. Where
- * a measure is not linear (finite stretch) and seems over its limit, the state itself is measured. *scale belongs to the sweep kept. */
+/* Utilisation of the accepted state, from the sweep of the unit displacement: independent of the closed form
+ * that gave the factor. Where a measure is not linear (finite stretch) and seems over its limit, the state
+ * itself is measured. *scale belongs to the sweep kept. */
 static pg_status look_over (pg_solver *s, const pg_state *state, double factor, double *scale, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -152,7 +168,8 @@ static pg_status look_over (pg_solver *s, const pg_state *state, double factor, 
     long over = break_loop_over (b, state, *scale, &step->utilisation);
     if (over) {
         *scale = 1;
-        PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
+        PG_TRY (
+            b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
         over = break_loop_over (b, state, *scale, &step->utilisation);
     }
     s->report.bonds_over_limit += over;
@@ -169,14 +186,16 @@ static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
     step->iterations = 1;
     if (s->problem->criterion->type && b->system.force->utilisation) {
         PG_TRY (break_loop_ready (b));
-        PG_TRY (b->system.force->utilisation (b->system.self, state, s->unit, b->utilisation, b->kind, b->factor));
+        PG_TRY (b->system.force->utilisation (b->system.self, state, s->unit, b->utilisation, b->kind,
+                                              b->factor));
         next = smallest (b->factor, state->nbond);
     }
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     double factor = next < level ? next : level;
     PG_TRY (settle (s, state, factor));
     s->top_factor = fmax (s->top_factor, factor);
-    if (b->work_balance.reaction) memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (b->work_balance.reaction)
+        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     if (s->secant0 == 0) s->secant0 = secant (b);
     step->factor = step->time = factor;
     step->residual = s->unit_residual;
@@ -187,8 +206,10 @@ static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
         if (s->next_level++ >= s->options.levels) {
             s->finished = 1;
             if (state->events == 0 && s->options.levels > 1)
-                pg_statistics_skip (&s->report, (double) (s->options.levels - 1) * s->report.seconds[PG_SECONDS_SOLVE],
-                                "solves of all levels but one", "no bond broke: the answer is linear in the load factor");
+                pg_statistics_skip (&s->report,
+                                    (double) (s->options.levels - 1) * s->report.seconds[PG_SECONDS_SOLVE],
+                                    "solves of all levels but one",
+                                    "no bond broke: the answer is linear in the load factor");
         }
     }
     event_limit (s, state, factor);
@@ -200,10 +221,15 @@ done:
 static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     if (s->ended != PG_OK) return pg_error (s->ended, PG_HERE, "%s", s->why);
-    pg_status status = !s->options.event ? step_fixed (s, state, step) : s->options.affine ? affine_step (s, state, step) : step_event (s, state, step);
+    pg_status status = !s->options.event   ? step_fixed (s, state, step)
+                       : s->options.affine ? affine_step (s, state, step)
+                                           : step_event (s, state, step);
     if (status == PG_OK && !s->options.event && s->break_loop.work_balance.reaction)
-        memcpy (s->reaction, s->break_loop.work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+        memcpy (s->reaction, s->break_loop.work_balance.reaction,
+                3 * s->problem->nload * sizeof *s->reaction);
     return status;
 }
 
-const pg_solver_type pg_solver_static_ = { "static", "quasi-static equilibrium, event by event or in fixed load steps", static_start, static_step, .way = SOLVES };
+const pg_solver_type pg_solver_static_ = { "static",
+                                           "quasi-static equilibrium, event by event or in fixed load steps",
+                                           static_start, static_step, .way = SOLVES };

@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Micropolar bonds and the energy of the dilatation beside them, (kappa - kappa_b) theta^2 / 2 per volume (theory G3): a sweep of beams, which breaks
- * bonds, and a state-based one of the displacements alone with deviation 0, which is told of them. */
+ * Micropolar bonds and the energy of the dilatation beside them, (kappa - kappa_b) theta^2 / 2 per volume
+ * (theory G3): a sweep of beams, which breaks bonds, and a state-based one of the displacements alone with
+ * deviation 0, which is told of them. */
 #include "bond_loop.h"
 #include <stdio.h>
 #include <string.h>
 
 typedef struct {
-    pg_sums   plain, bulk;                             /* the sums by the rule of each; what they point to is borrowed   */
+    pg_sums   plain, bulk;  /* the sums by the rule of each; what they point to is borrowed */
     pg_bond_loop *beams, *volume;
-    size_t    n, dim, m;                               /* m: unknowns of a point                                         */
+    size_t    n, dim, m;                               /* m: unknowns of a point */
     int       threads;
-    double   *u, *f;                                   /* displacements alone, m; forces of the dilatation, N (n x dim)  */
-    double   *W;                                       /* J/m^3 (n)                                                      */
+    double   *u, *f;  /* displacements alone, m; forces of the dilatation, N (n x dim) */
+    double   *W;                                       /* J/m^3 (n) */
     char      remark[96];
 } both;
 
 static const char *refusal (const pg_bond_loop_setting *setting)
 {
-    (void) setting;                                    /* either part says it itself                                     */
+    (void) setting;                                    /* either part says it itself */
     return NULL;
 }
 
@@ -38,7 +39,8 @@ static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_in
     pg_bond_loop_setting bonds = *setting, state = *setting;
     PG_ALLOC (s, 1);
     *self = s;
-    s->n = setting->sums->cloud->n, s->dim = (size_t) setting->sums->cloud->dim, s->m = s->dim == 2 ? 3 : 6, s->threads = setting->threads;
+    s->n = setting->sums->cloud->n, s->dim = (size_t) setting->sums->cloud->dim, s->m = s->dim == 2 ? 3 : 6,
+    s->threads = setting->threads;
     s->plain = s->bulk = *setting->sums;
     s->plain.rule.state = s->plain.rule.follow = 0;
     s->bulk.rule.beams = 0, s->bulk.rule.surface = PG_SURFACE_NONE, s->bulk.family_volume = NULL;
@@ -50,7 +52,8 @@ static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_in
     PG_ALLOC (s->u, s->n * s->dim);
     PG_ALLOC (s->f, s->n * s->dim);
     PG_ALLOC (s->W, s->n);
-    snprintf (s->remark, sizeof s->remark, "bonds by %s, dilatations by %s", pg_bond_loop_name (s->beams), pg_bond_loop_name (s->volume));
+    snprintf (s->remark, sizeof s->remark, "bonds by %s, dilatations by %s", pg_bond_loop_name (s->beams),
+              pg_bond_loop_name (s->volume));
 done:
     return status;
 }
@@ -73,7 +76,7 @@ static void update (void *self, const unsigned char *alive, const pg_changes *ch
     pg_bond_loop_update (s->volume, alive, changes);
 }
 
-/* ---- sums --------------------------------------------------------------------------------------------------------------------- */
+/* ---- sums ---------------------------------------------------------------------------------------------- */
 typedef struct { both *s; const double *d; double *f; } pass;
 
 static void take_points (void *context, size_t first, size_t last, int thread)
@@ -93,7 +96,10 @@ static void add_points (void *context, size_t first, size_t last, int thread)
         for (size_t k = 0; k < s->dim; k++) p->f[i * s->m + k] += s->f[i * s->dim + k];
 }
 
-static void take (both *s, const double *d) { pg_parallel (s->threads, s->n, take_points, &(pass) { s, d, NULL }); }
+static void take (both *s, const double *d)
+{
+    pg_parallel (s->threads, s->n, take_points, &(pass){ s, d, NULL });
+}
 
 static pg_status force (void *self, const double *d, double *f, pg_changes *broken)
 {
@@ -101,7 +107,8 @@ static pg_status force (void *self, const double *d, double *f, pg_changes *brok
     both *s = self;
     size_t before = broken ? broken->n : 0;
     PG_TRY (pg_bond_loop_force (s->beams, d, f, broken));
-    if (broken && broken->n > before) pg_bond_loop_update (s->volume, NULL, &(pg_changes) { broken->n - before, 0, broken->bond + before });
+    if (broken && broken->n > before)
+        pg_bond_loop_update (s->volume, NULL, &(pg_changes){ broken->n - before, 0, broken->bond + before });
     take (s, d);
     PG_TRY (pg_bond_loop_force (s->volume, s->u, s->f, NULL));
     pg_parallel (s->threads, s->n, add_points, &(pass) { s, NULL, f });
@@ -136,6 +143,17 @@ static pg_status dilatation (void *self, const double *d, double *theta, double 
 }
 
 const pg_bond_loop_kind pg_bond_loop_beam_volume = {
-    .name = "beams and dilatation", .state = 3, .plain = 1, .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = update,
-    .force = force, .energy = energy, .energies = energies, .remark = remark, .dilatation = dilatation,
+    .name = "beams and dilatation",
+    .state = 3,
+    .plain = 1,
+    .refusal = refusal,
+    .create = create,
+    .free = release,
+    .bytes = bytes,
+    .update = update,
+    .force = force,
+    .energy = energy,
+    .energies = energies,
+    .remark = remark,
+    .dilatation = dilatation,
 };

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which loop sums the bonds: the first kind that can, or transforms where these are faster, with the best instructions that this machine has. */
+ * Which loop sums the bonds: the first kind that can, or transforms where these are faster, with the best
+ * instructions that this machine has. */
 #include "bond_loop.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +12,11 @@ struct pg_bond_loop {
     char  name[32], reason[160];
 };
 
-static const pg_bond_loop_kind *const kinds[] = { &pg_bond_loop_stencil, &pg_bond_loop_list, &pg_bond_loop_fft, &pg_bond_loop_state_stencil, &pg_bond_loop_state_list, &pg_bond_loop_state_fft, &pg_bond_loop_beam_stencil, &pg_bond_loop_beam_list, &pg_bond_loop_beam_volume };
+static const pg_bond_loop_kind *const kinds[] = { &pg_bond_loop_stencil,      &pg_bond_loop_list,
+                                                  &pg_bond_loop_fft,          &pg_bond_loop_state_stencil,
+                                                  &pg_bond_loop_state_list,   &pg_bond_loop_state_fft,
+                                                  &pg_bond_loop_beam_stencil, &pg_bond_loop_beam_list,
+                                                  &pg_bond_loop_beam_volume };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 static const char *const set_name[PG_INSTRUCTION_SETS] = { "scalar", "avx2", "avx512" };
 
@@ -23,8 +28,8 @@ int pg_instructions_here (pg_instructions set)
 #ifdef __x86_64__
     int avx2 = __builtin_cpu_supports ("avx2") && __builtin_cpu_supports ("fma");
     if (set == PG_AVX2) return avx2;
-    return avx2 && __builtin_cpu_supports ("avx512f") && __builtin_cpu_supports ("avx512bw") && __builtin_cpu_supports ("avx512dq")
-        && __builtin_cpu_supports ("avx512vl");
+    return avx2 && __builtin_cpu_supports ("avx512f") && __builtin_cpu_supports ("avx512bw")
+           && __builtin_cpu_supports ("avx512dq") && __builtin_cpu_supports ("avx512vl");
 #else
     return 0;
 #endif
@@ -39,7 +44,9 @@ static pg_status choose_instructions (pg_instructions *out, const char *name)
     } else {
         while (set >= 0 && strcmp (name, set_name[set]) != 0) set--;
         if (set < 0) PG_FAIL (PG_E_USAGE, "instructions %s: unknown; there are scalar, avx2, avx512", name);
-        if (!pg_instructions_here (set)) PG_FAIL (PG_E_USAGE, "instructions %s: this machine has none; leave the choice to the program", name);
+        if (!pg_instructions_here (set))
+            PG_FAIL (PG_E_USAGE, "instructions %s: this machine has none; leave the choice to the program",
+                     name);
     }
     *out = (pg_instructions) set;
 done:
@@ -47,17 +54,22 @@ done:
 }
 
 /* Transforms, where they save at least a fifth of the stencil's time: cracks will cost some of it. */
-static void compare_transforms (const pg_bond_loop_kind **kind, const pg_bond_loop_setting *setting, pg_instructions set, char *reason, size_t size)
+static void compare_transforms (const pg_bond_loop_kind **kind, const pg_bond_loop_setting *setting,
+                                pg_instructions set, char *reason, size_t size)
 {
     if (*kind != &pg_bond_loop_stencil || pg_bond_loop_fft.refusal (setting)) return;
-    double n = (double) setting->sums->cloud->n, direct = pg_bond_loop_stencil.time (setting, set) / n, fast = pg_bond_loop_fft.time (setting, set) / n;
+    double n = (double) setting->sums->cloud->n, direct = pg_bond_loop_stencil.time (setting, set) / n,
+           fast = pg_bond_loop_fft.time (setting, set) / n;
     if (fast < 0.8 * direct) *kind = &pg_bond_loop_fft;
     snprintf (reason, size, "auto: about %.2g ns a point by transforms, %.2g by stencil", fast, direct);
 }
 
 static pg_status choose_kind (const pg_bond_loop_kind **out, const pg_bond_loop_setting *setting)
 {
-    static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL, [PG_EVALUATE_STENCIL] = "stencil", [PG_EVALUATE_LIST] = "list", [PG_EVALUATE_FFT] = "fft" };
+    static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL,
+                                         [PG_EVALUATE_STENCIL] = "stencil",
+                                         [PG_EVALUATE_LIST] = "list",
+                                         [PG_EVALUATE_FFT] = "fft" };
     pg_status status = PG_OK;
     const char *only = asked[setting->sums->rule.evaluation], *why = "there is no such loop";
     int theory = (setting->beams ? 2 : 0) + (setting->sums->rule.state != 0);
@@ -67,7 +79,9 @@ static pg_status choose_kind (const pg_bond_loop_kind **out, const pg_bond_loop_
         why = kinds[k]->refusal (setting);
         if (!why) *out = kinds[k];
     }
-    if (!*out) PG_FAIL (PG_E_USAGE, "evaluation %s cannot sum these bonds: %s; try evaluation: auto", only ? only : "auto", why);
+    if (!*out)
+        PG_FAIL (PG_E_USAGE, "evaluation %s cannot sum these bonds: %s; try evaluation: auto",
+                 only ? only : "auto", why);
 done:
     return status;
 }
@@ -88,7 +102,8 @@ pg_status pg_bond_loop_create (pg_bond_loop **out, const pg_bond_loop_setting *s
     PG_TRY (s->kind->create (&s->self, setting, set));
     if (s->kind->remark) {
         size_t used = strlen (s->reason);
-        snprintf (s->reason + used, sizeof s->reason - used, "%s%s", used ? "; " : "", s->kind->remark (s->self));
+        snprintf (s->reason + used, sizeof s->reason - used, "%s%s", used ? "; " : "",
+                  s->kind->remark (s->self));
     }
     *out = s, s = NULL;
 done:
@@ -114,7 +129,10 @@ void pg_bond_loop_counted (const pg_bond_loop *sweep, pg_bond_loop_counts *out)
     if (sweep->kind->counts) sweep->kind->counts (sweep->self, out);
 }
 
-void pg_bond_loop_bytes (const pg_bond_loop *sweep, double *per_bond, double *per_point) { sweep->kind->bytes (sweep->self, per_bond, per_point); }
+void pg_bond_loop_bytes (const pg_bond_loop *sweep, double *per_bond, double *per_point)
+{
+    sweep->kind->bytes (sweep->self, per_bond, per_point);
+}
 
 void pg_bond_loop_update (pg_bond_loop *sweep, const unsigned char *alive, const pg_changes *changes)
 {
@@ -126,13 +144,20 @@ pg_status pg_bond_loop_force (pg_bond_loop *sweep, const double *u, double *f, p
     return sweep->kind->force (sweep->self, u, f, broken);
 }
 
-double pg_bond_loop_energy (pg_bond_loop *sweep, const double *u) { return sweep->kind->energy (sweep->self, u); }
+double pg_bond_loop_energy (pg_bond_loop *sweep, const double *u)
+{
+    return sweep->kind->energy (sweep->self, u);
+}
 
-pg_status pg_bond_loop_energies (pg_bond_loop *sweep, const double *u, double *W) { return sweep->kind->energies (sweep->self, u, W); }
+pg_status pg_bond_loop_energies (pg_bond_loop *sweep, const double *u, double *W)
+{
+    return sweep->kind->energies (sweep->self, u, W);
+}
 
 pg_status pg_bond_loop_dilatation (pg_bond_loop *sweep, const double *u, double *theta, double *q)
 {
-    if (!sweep->kind->dilatation) return pg_error (PG_E_USAGE, PG_HERE, "a dilatation is known to state-based sums only");
+    if (!sweep->kind->dilatation)
+        return pg_error (PG_E_USAGE, PG_HERE, "a dilatation is known to state-based sums only");
     return sweep->kind->dilatation (sweep->self, u, theta, q);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Search: every place inside curved meshes of every kind of element is found, ties, places outside, graded meshes; fields between nodes. */
+ * Search: every place inside curved meshes of every kind of element is found, ties, places outside, graded
+ * meshes; fields between nodes. */
 #include "check.h"
 #include "measure.h"
 
@@ -9,7 +10,8 @@ static double noise (unsigned k)
     return (double) k / 4294967296.0;
 }
 
-static const pg_element solid[] = { PG_BAR2, PG_BAR3, PG_TRI3, PG_TRI6, PG_QUAD4, PG_QUAD8, PG_QUAD9, PG_TET4, PG_TET10, PG_WEDGE6, PG_WEDGE15, PG_HEX8, PG_HEX20, PG_HEX27 };
+static const pg_element solid[] = { PG_BAR2, PG_BAR3,  PG_TRI3,   PG_TRI6,    PG_QUAD4, PG_QUAD8, PG_QUAD9,
+                                    PG_TET4, PG_TET10, PG_WEDGE6, PG_WEDGE15, PG_HEX8,  PG_HEX20, PG_HEX27 };
 enum { SOLIDS = sizeof solid / sizeof *solid };
 
 static void bend (double *x)
@@ -20,7 +22,10 @@ static void bend (double *x)
 
 static void bend_line (double *x) { x[0] += 0.2 * x[0] * x[0]; }
 
-static pg_mesh curved (pg_element kind, int n) { return block_mesh (kind, n, pg_element_types[kind].dim == 1 ? bend_line : bend); }
+static pg_mesh curved (pg_element kind, int n)
+{
+    return block_mesh (kind, n, pg_element_types[kind].dim == 1 ? bend_line : bend);
+}
 
 static pg_mesh_locator *locator_of (const pg_mesh *m)
 {
@@ -152,7 +157,10 @@ static void nearest_on_a_curved_boundary (void **state)
     }
 }
 
-static void grade (double *x) { for (int a = 0; a < 2; a++) x[a] = (exp (12 * (x[a] + 1) / 2) - 1) / (exp (12.0) - 1); }
+static void grade (double *x)
+{
+    for (int a = 0; a < 2; a++) x[a] = (exp (12 * (x[a] + 1) / 2) - 1) / (exp (12.0) - 1);
+}
 
 static void graded_and_far_meshes_are_searched (void **state)
 {
@@ -164,7 +172,7 @@ static void graded_and_far_meshes_are_searched (void **state)
         for (size_t e = 0; e < m.n; e++) {
             double xi[3], place[3], found[3], away;
             place_in (&m, e, (unsigned) e, xi, place);
-            if (far && e < m.n / 2) continue;                /* the smallest elements are lost in rounding there               */
+            if (far && e < m.n / 2) continue;  /* the smallest elements are lost in rounding there */
             assert_int_equal (pg_mesh_locator_find (f, place, found, &away), e);
         }
         pg_mesh_locator_free (&f);
@@ -194,8 +202,12 @@ static void what_is_no_place_is_nowhere (void **state)
     pg_mesh_clear (&m);
 }
 
-/* ---- fields ----------------------------------------------------------------------------------------------------------- */
-static double quadratic (const double *x) { return 1 + x[0] - 2 * x[1] + 0.5 * x[2] + x[0] * x[0] - x[0] * x[1] + 3 * x[1] * x[1] + x[2] * x[0] - x[2] * x[2]; }
+/* ---- fields -------------------------------------------------------------------------------------------- */
+static double quadratic (const double *x)
+{
+    return 1 + x[0] - 2 * x[1] + 0.5 * x[2] + x[0] * x[0] - x[0] * x[1] + 3 * x[1] * x[1] + x[2] * x[0]
+           - x[2] * x[2];
+}
 
 static void slope (const double *x, double *g)
 {
@@ -233,7 +245,9 @@ static void skew (double *x)
 static void quadratic_fields_are_exact_on_straight_elements (void **state)
 {
     (void) state;
-    static const pg_element kinds[] = { PG_TRI6, PG_QUAD8, PG_QUAD9, PG_TET10, PG_WEDGE15, PG_HEX20, PG_HEX27 };
+    static const pg_element kinds[] = {
+        PG_TRI6, PG_QUAD8, PG_QUAD9, PG_TET10, PG_WEDGE15, PG_HEX20, PG_HEX27
+    };
     for (int k = 0; k < 7; k++) {
         double value, gradient;
         errors (kinds[k], 2, skew, &value, &gradient);
@@ -251,7 +265,8 @@ static void fields_converge_on_curved_elements (void **state)
         int order = pg_element_types[solid[k]].order;
         errors (solid[k], 4, bend, &v[0], &g[0]);
         errors (solid[k], 8, bend, &v[1], &g[1]);
-        if (!(log2 (v[0] / v[1]) > order + 0.8) || !(log2 (g[0] / g[1]) > order - 0.2)) print_error ("%s: %g %g, %g %g\n", pg_element_types[solid[k]].name, v[0], v[1], g[0], g[1]);
+        if (!(log2 (v[0] / v[1]) > order + 0.8) || !(log2 (g[0] / g[1]) > order - 0.2))
+            print_error ("%s: %g %g, %g %g\n", pg_element_types[solid[k]].name, v[0], v[1], g[0], g[1]);
         assert_true (log2 (v[0] / v[1]) > order + 0.8);
         assert_true (log2 (g[0] / g[1]) > order - 0.2);
     }

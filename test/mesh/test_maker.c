@@ -11,7 +11,8 @@ static pg_mesh_builder *begin (size_t n, const long *id, const double (*x)[3])
     return m;
 }
 
-#define ELEMENT(m, id, kind, group, ...) pg_mesh_builder_element ((m), (id), (kind), (long[]) { __VA_ARGS__ }, (group), 7)
+#define ELEMENT(m, id, kind, group, ...) \
+    pg_mesh_builder_element ((m), (id), (kind), (long[]){ __VA_ARGS__ }, (group), 7)
 
 /* Two unit squares side by side, the second one clockwise, and a node of no use. */
 static const long id7[7] = { 10, 20, 30, 4000000000, -5, 60, 70 };
@@ -48,10 +49,10 @@ static void numbers_of_any_kind_become_places (void **state)
     (void) state;
     pg_mesh mesh = finished (two_squares ());
     assert_int_equal (mesh.dim, 2);
-    assert_int_equal (mesh.nnode, 6);                      /* the seventh is dropped                                     */
+    assert_int_equal (mesh.nnode, 6);                      /* the seventh is dropped */
     assert_int_equal (mesh.n, 2);
     assert_int_equal (mesh.node_id[3], 4000000000);
-    const int want[8] = { 0, 1, 4, 3, 1, 2, 5, 4 };        /* the second one turned                                      */
+    const int want[8] = { 0, 1, 4, 3, 1, 2, 5, 4 };        /* the second one turned */
     assert_memory_equal (mesh.node, want, sizeof want);
     assert_int_equal (mesh.element_id[1], 200);
     pg_mesh_clear (&mesh);
@@ -78,12 +79,12 @@ static void lines_become_side_sets_and_node_sets (void **state)
 {
     (void) state;
     pg_mesh_builder *m = two_squares ();
-    check_ok (ELEMENT (m, 1, PG_BAR2, 5, 30, 60));         /* right side of the turned square                            */
+    check_ok (ELEMENT (m, 1, PG_BAR2, 5, 30, 60));         /* right side of the turned square */
     check_ok (ELEMENT (m, 2, PG_BAR2, 5, 20, 10));
-    check_ok (ELEMENT (m, 3, PG_BAR2, 6, 10, 60));         /* no face                                                    */
-    check_ok (ELEMENT (m, 4, PG_POINT1, 9, 70));           /* a node that was dropped                                    */
+    check_ok (ELEMENT (m, 3, PG_BAR2, 6, 10, 60));         /* no face */
+    check_ok (ELEMENT (m, 4, PG_POINT1, 9, 70));           /* a node that was dropped */
     check_ok (ELEMENT (m, 4, PG_POINT1, 8, -5));
-    check_ok (ELEMENT (m, 5, PG_BAR2, 4, -5, 20));         /* between the two                                            */
+    check_ok (ELEMENT (m, 5, PG_BAR2, 4, -5, 20));         /* between the two */
     check_ok (pg_mesh_builder_group (m, 1, 5, "rim"));
     check_ok (pg_mesh_builder_group (m, 0, 8, "rim"));
     pg_mesh mesh = finished (m);
@@ -119,7 +120,7 @@ static void sets_of_the_file_follow_turned_elements (void **state)
     check_ok (pg_mesh_builder_nodeset_add (m, 10));
     check_ok (pg_mesh_builder_nodeset_add (m, 10));
     check_ok (pg_mesh_builder_sideset (m, "", 12));
-    check_ok (pg_mesh_builder_sideset_add (m, 200, 2));           /* 60-30 as it was given                                     */
+    check_ok (pg_mesh_builder_sideset_add (m, 200, 2));           /* 60-30 as it was given */
     check_ok (pg_mesh_builder_sideset_add (m, 100, 3));
     check_ok (pg_mesh_builder_sideset (m, "empty", 13));
     pg_mesh mesh = finished (m);
@@ -127,7 +128,7 @@ static void sets_of_the_file_follow_turned_elements (void **state)
     assert_string_equal (mesh.sides[0].name, "12");
     assert_int_equal (mesh.sides[0].side[0], 3);
     assert_int_equal (mesh.sides[0].element[1], 1);
-    assert_int_equal (mesh.sides[0].side[1], 1);           /* 2-5, the places of 30 and 60                               */
+    assert_int_equal (mesh.sides[0].side[1], 1);           /* 2-5, the places of 30 and 60 */
     assert_int_equal (mesh.sides[1].n, 0);
     assert_int_equal (mesh.nodes[0].n, 2);
     assert_int_equal (mesh.nodes[0].node[1], 5);
@@ -205,16 +206,20 @@ static void numbers_that_are_none_are_refused (void **state)
     pg_mesh_builder_free (&m);
 }
 
-/* ---- surface ---------------------------------------------------------------------------------------------------------- */
+/* ---- surface ------------------------------------------------------------------------------------------- */
 /* n^3 hexes in the unit cube; a fan of n triangles around one node. */
 static pg_mesh cube (long n)
 {
     pg_mesh_builder *m = begin (0, id7, x7);
     for (long k = 0; k < (n + 1) * (n + 1) * (n + 1); k++)
-        check_ok (pg_mesh_builder_node (m, k, (double[3]) { (double) (k % (n + 1)) / (double) n, (double) (k / (n + 1) % (n + 1)) / (double) n, (double) (k / (n + 1) / (n + 1)) / (double) n }));
+        check_ok (pg_mesh_builder_node (m, k,
+                                        (double[3]){ (double) (k % (n + 1)) / (double) n,
+                                                     (double) (k / (n + 1) % (n + 1)) / (double) n,
+                                                     (double) (k / (n + 1) / (n + 1)) / (double) n }));
     for (long e = 0; e < n * n * n; e++) {
         long d = n + 1, c = e % n + e / n % n * d + e / n / n * d * d;
-        check_ok (ELEMENT (m, e, PG_HEX8, 0, c, c + 1, c + 1 + d, c + d, c + d * d, c + 1 + d * d, c + 1 + d + d * d, c + d + d * d));
+        check_ok (ELEMENT (m, e, PG_HEX8, 0, c, c + 1, c + 1 + d, c + d, c + d * d, c + 1 + d * d,
+                           c + 1 + d + d * d, c + d + d * d));
     }
     return finished (m);
 }
@@ -236,7 +241,9 @@ static void the_surface_of_a_cube_is_its_six_sides (void **state)
             same += sum < 1e-12 || sum > 4 - 1e-12;
         }
         assert_int_equal (same, 1);
-        if (k > 0) assert_true (element[k] > element[k - 1] || (element[k] == element[k - 1] && side[k] > side[k - 1]));
+        if (k > 0)
+            assert_true (element[k] > element[k - 1]
+                         || (element[k] == element[k - 1] && side[k] > side[k - 1]));
     }
     pg_free (element), pg_free (side);
     pg_mesh_clear (&mesh);
@@ -247,7 +254,9 @@ static void a_fan_around_one_node_has_an_open_rim (void **state)
     (void) state;
     enum { N = 3000 };
     pg_mesh_builder *m = begin (1, id7, x7);
-    for (long k = 0; k < N; k++) check_ok (pg_mesh_builder_node (m, 100 + k, (double[3]) { cos (2e-3 * (double) k), sin (2e-3 * (double) k), 0 }));
+    for (long k = 0; k < N; k++)
+        check_ok (pg_mesh_builder_node (m, 100 + k,
+                                        (double[3]){ cos (2e-3 * (double) k), sin (2e-3 * (double) k), 0 }));
     for (long k = 0; k + 1 < N; k++) check_ok (ELEMENT (m, k, PG_TRI3, 0, 10, 100 + k, 101 + k));
     pg_mesh mesh = finished (m);
     size_t n;
@@ -283,11 +292,16 @@ static void every_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (numbers_of_any_kind_become_places), cmocka_unit_test (groups_become_blocks_in_ascending_order),
-        cmocka_unit_test (lines_become_side_sets_and_node_sets), cmocka_unit_test (sets_of_the_file_follow_turned_elements),
-        cmocka_unit_test (an_element_in_two_groups_is_one_element), cmocka_unit_test (faults_say_where),
-        cmocka_unit_test (numbers_that_are_none_are_refused), cmocka_unit_test (the_surface_of_a_cube_is_its_six_sides),
-        cmocka_unit_test (a_fan_around_one_node_has_an_open_rim), cmocka_unit_test (every_allocation_may_fail),
+        cmocka_unit_test (numbers_of_any_kind_become_places),
+        cmocka_unit_test (groups_become_blocks_in_ascending_order),
+        cmocka_unit_test (lines_become_side_sets_and_node_sets),
+        cmocka_unit_test (sets_of_the_file_follow_turned_elements),
+        cmocka_unit_test (an_element_in_two_groups_is_one_element),
+        cmocka_unit_test (faults_say_where),
+        cmocka_unit_test (numbers_that_are_none_are_refused),
+        cmocka_unit_test (the_surface_of_a_cube_is_its_six_sides),
+        cmocka_unit_test (a_fan_around_one_node_has_an_open_rim),
+        cmocka_unit_test (every_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("mesh/builder", tests, NULL, NULL);
 }

@@ -4,23 +4,38 @@
 #define PERIGAL_TEST_AGAIN_H
 #include "folder.h"
 
-#define BODY "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.6, 0.5]}}}]\nspacing: 0.1\n" \
-    "cracks: [{from: [-0.1, 0.25], to: [0.15, 0.25]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2, density: 2000}}\n" \
+#define BODY \
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.6, 0.5]}}}]\nspacing: 0.1\n" \
+    "cracks: [{from: [-0.1, 0.25], to: [0.15, 0.25]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, " \
+    "poissons_ratio: 0.2, density: 2000}}\n" \
     "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\n"
-#define PULL "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: top, displacement: {y: 2 mm}}]\n"
-static const struct { const char *name, *text; } scenes[] = {
-    { "event", BODY PULL "solver: {stepping: event}\noutput: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
-    { "fixed", BODY PULL "solver: {stepping: fixed, steps: 3}\noutput: {pictures: [], at: {levels: 2, broken: 4 %}}\n" },
-    { "transformation", BODY PULL "method: {essential: transformation}\nsolver: {stepping: fixed, steps: 3, stop: {set: right}}\noutput: {pictures: [], at: {broken: 4 %}}\n" },
-    { "nodal", BODY PULL "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty}\n"
-      "solver: {stepping: fixed, steps: 3, break: fraction, break_fraction: 5 %}\noutput: {pictures: [], at: {broken: 4 %}}\n" },
-    { "newmark", BODY "boundary: [{set: bottom, velocity: {x: 0, y: -4 m/s}}, {set: top, velocity: {y: 4 m/s}, table: [[0, 0], [1e-3, 1]]}]\n"
-      "method: {essential: transformation}\nsolver: {kind: newmark, dt: 0.1 ms, end: 1 ms, rayleigh: {stiffness: 1 us}, break: fraction, break_fraction: 5 %}\n"
-      "output: {pictures: [], at: {levels: 5, broken: 4 %}}\n" },
-    { "multilevel", "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.8, 0.9]}}}]\nspacing: 0.1\n"
-      "materials: {rock: {youngs_modulus: 1e9, poissons_ratio: 0.3333, density: 2500}}\ncracks: [{from: [-0.1, 0.45], to: [0.22, 0.45]}]\n"
-      "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\nmethod: {force: bond}\n" PULL
-      "solver: {stepping: event, linear: pcg, max_events: 16}\noutput: {at: {levels: 4, broken: 2 %}, pictures: []}\n" },
+#define PULL \
+    "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: top, " \
+    "displacement: {y: 2 mm}}]\n"
+static const struct { const char *name, *text;
+} scenes[] = {
+    { "event", BODY PULL
+      "solver: {stepping: event}\noutput: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
+    { "fixed", BODY PULL
+      "solver: {stepping: fixed, steps: 3}\noutput: {pictures: [], at: {levels: 2, broken: 4 %}}\n" },
+    { "transformation", BODY PULL "method: {essential: transformation}\nsolver: {stepping: fixed, steps: 3, "
+                                  "stop: {set: right}}\noutput: {pictures: [], at: {broken: 4 %}}\n" },
+    { "nodal", BODY PULL
+      "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty}\n"
+      "solver: {stepping: fixed, steps: 3, break: fraction, break_fraction: 5 %}\noutput: {pictures: [], at: "
+      "{broken: 4 %}}\n" },
+    { "newmark", BODY "boundary: [{set: bottom, velocity: {x: 0, y: -4 m/s}}, {set: top, velocity: {y: 4 "
+                      "m/s}, table: [[0, 0], [1e-3, 1]]}]\n"
+                      "method: {essential: transformation}\nsolver: {kind: newmark, dt: 0.1 ms, end: 1 ms, "
+                      "rayleigh: {stiffness: 1 us}, break: fraction, break_fraction: 5 %}\n"
+                      "output: {pictures: [], at: {levels: 5, broken: 4 %}}\n" },
+    { "multilevel",
+      "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.8, 0.9]}}}]\nspacing: 0.1\n"
+      "materials: {rock: {youngs_modulus: 1e9, poissons_ratio: 0.3333, density: 2500}}\ncracks: [{from: "
+      "[-0.1, 0.45], to: [0.22, 0.45]}]\n"
+      "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\nmethod: {force: "
+      "bond}\n" PULL "solver: {stepping: event, linear: pcg, max_events: 16}\noutput: {at: {levels: 4, "
+                     "broken: 2 %}, pictures: []}\n" },
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -31,7 +46,8 @@ static inline pg_status look (void *context, const pg_state *state, const pg_ste
 {
     visit *v = context;
     pg_status status = pg_result_stage (v->result, state, so_far);
-    if (status == PG_OK && v->left > 0 && --v->left == 0) v->within = 1, status = pg_error (PG_E_INTERRUPTED, PG_HERE, "a test");
+    if (status == PG_OK && v->left > 0 && --v->left == 0)
+        v->within = 1, status = pg_error (PG_E_INTERRUPTED, PG_HERE, "a test");
     return status;
 }
 
@@ -51,7 +67,8 @@ static inline int go (run *r, visit *v)
     return 0;
 }
 
-/* Stops at the k-th look, leaves a checkpoint and a little more than it knows of. 0: the run was over before. */
+/* Stops at the k-th look, leaves a checkpoint and a little more than it knows of. 0: the run was over
+ * before. */
 static inline int stop_at (const char *text, const char *where, long k)
 {
     run r = prepare (1, text);

@@ -32,7 +32,7 @@ static inline long size_of (const char *path)
     return stat (path, &s) == 0 ? (long) s.st_size : -1;
 }
 
-static inline char *slurp (const char *path)           /* to be freed with pg_free                                       */
+static inline char *slurp (const char *path)           /* to be freed with pg_free */
 {
     FILE *file = fopen (path, "r");
     if (!file) print_error ("no file %s\n", path);
@@ -43,7 +43,7 @@ static inline char *slurp (const char *path)           /* to be freed with pg_fr
     return text;
 }
 
-/* ---- CSV: row 0 is the header --------------------------------------------------------------------------------------------- */
+/* ---- CSV: row 0 is the header -------------------------------------------------------------------------- */
 static inline size_t count_lines (const char *text)
 {
     size_t n = 0;
@@ -70,9 +70,12 @@ static inline size_t column_of (const char *text, const char *name)
     return 0;
 }
 
-static inline double number_at (const char *text, size_t row, const char *column) { return strtod (cell (text, row, column_of (text, column)), NULL); }
+static inline double number_at (const char *text, size_t row, const char *column)
+{
+    return strtod (cell (text, row, column_of (text, column)), NULL);
+}
 
-/* ---- JSON: where the value of a key starts; the keys are unique in their map, map NULL: at the top ----------------------- */
+/* ---- JSON: where the value of a key starts; the keys are unique in their map, map NULL: at the top ----- */
 static inline const char *json_value (const char *text, const char *map, const char *key)
 {
     char quoted[80];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a power cut may cost: a checkpoint reaches the disk after all that it counts on, before it takes the place of the old one, and its folder
- * after that. fsync and rename of this program stand before those of the C library and write down what they are asked for. */
+ * What a power cut may cost: a checkpoint reaches the disk after all that it counts on, before it takes the
+ * place of the old one, and its folder after that. fsync and rename of this program stand before those of the
+ * C library and write down what they are asked for. */
 #include "folder.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -10,7 +11,7 @@
 enum { MOST = 32 };
 static char done[MOST][80];
 static size_t ndone;
-static int refused = -1;                               /* the call that fails; -1: none                                  */
+static int refused = -1;                               /* the call that fails; -1: none */
 
 static void note (const char *what, const char *path)
 {
@@ -39,8 +40,10 @@ int rename (const char *from, const char *to)
     return renameat (AT_FDCWD, from, AT_FDCWD, to);
 }
 
-#define SCENE "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.4, 0.3]}}}]\nspacing: 0.1\n" \
-    "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 1 mm}}]\n" \
+#define SCENE \
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.4, 0.3]}}}]\nspacing: 0.1\n" \
+    "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\nboundary: [{set: bottom, " \
+    "displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 1 mm}}]\n" \
     "solver: {stepping: fixed, steps: 3}\noutput: {pictures: []}\n"
 
 static size_t place_of (const char *what)
@@ -54,7 +57,8 @@ static size_t place_of (const char *what)
 static void a_checkpoint_is_on_the_disk (void **state)
 {
     (void) state;
-    static const char *const before[] = { "sync history.csv", "sync events.csv", "sync result.e", "sync checkpoint.nc.new" };
+    static const char *const before[] = { "sync history.csv", "sync events.csv", "sync result.e",
+                                          "sync checkpoint.nc.new" };
     char where[64], own[80];
     pg_result *result;
     make_folder (where);
@@ -85,5 +89,5 @@ static void a_checkpoint_is_on_the_disk (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (a_checkpoint_is_on_the_disk) };
-    return cmocka_run_group_tests_name ("report/durable", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("results/durable", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Who may write into a result folder: one run at a time, also of processes that were killed and of other hosts; nothing through links; not over
- * what a run left for later, nor over the user's own scene. */
+ * Who may write into a result folder: one run at a time, also of processes that were killed and of other
+ * hosts; nothing through links; not over what a run left for later, nor over the user's own scene. */
 #include "folder.h"
 #include <fcntl.h>
 #include <signal.h>
@@ -8,8 +8,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define SCENE "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.4, 0.3]}}}]\nspacing: 0.1\n" \
-    "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 1 mm}}]\n" \
+#define SCENE \
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.4, 0.3]}}}]\nspacing: 0.1\n" \
+    "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\nboundary: [{set: bottom, " \
+    "displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 1 mm}}]\n" \
     "solver: {stepping: fixed, steps: 3}\noutput: {pictures: []}\n"
 
 static char where[64];
@@ -39,7 +41,10 @@ static void write_text (const char *name, const char *text)
     assert_int_equal (fclose (f), 0);
 }
 
-static pg_status open_result (pg_result **result) { return pg_result_open (result, where, r.scene, r.problem, r.solver); }
+static pg_status open_result (pg_result **result)
+{
+    return pg_result_open (result, where, r.scene, r.problem, r.solver);
+}
 
 static void one_run_at_a_time (void **state)
 {
@@ -95,7 +100,7 @@ static void a_lock_of_another_host_is_asked_about (void **state)
     check_contains (pg_last_error (), "process 4711 on node17.of.another.cluster");
     check_contains (pg_last_error (), "run.lock");
     remove (inside (where, "run.lock"));
-    write_text ("run.lock", "no owner");               /* cut off by a crash                                             */
+    write_text ("run.lock", "no owner");               /* cut off by a crash */
     check_ok (open_result (&result));
     pg_result_free (&result);
 }
@@ -104,14 +109,16 @@ static void a_lock_of_another_host_is_asked_about (void **state)
 static void nothing_is_written_through_links (void **state)
 {
     (void) state;
-    static const char *const name[] = { "history.csv", "events.csv", "result.e", "report.json", "report.json.tmp", "scene.yaml", "checkpoint.nc.new", "load_displacement.png" };
+    static const char *const name[] = { "history.csv",       "events.csv",           "result.e",
+                                        "report.json",       "report.json.tmp",      "scene.yaml",
+                                        "checkpoint.nc.new", "load_displacement.png" };
     char target[256];
     pg_result *result;
     snprintf (target, sizeof target, "%s", inside (where, "precious"));
     write_text ("precious", "a day's work\n");
     for (size_t k = 0; k < sizeof name / sizeof *name; k++) {
         remove (inside (where, name[k]));
-        if (k == 5) write_text (name[k], "# copied by perigal run from x\n");          /* a run's own                       */
+        if (k == 5) write_text (name[k], "# copied by perigal run from x\n");          /* a run's own */
         else assert_int_equal (symlink (target, inside (where, name[k])), 0);
     }
     check_ok (open_result (&result));
@@ -136,10 +143,10 @@ static void rows_of_another_scene_are_kept (void **state)
     check_ok (open_result (&result));
     advance (&same);
     check_ok (pg_result_step (result, same.state, &same.step));
-    pg_result_free (&result);                          /* killed: rows, neither a report nor a checkpoint                 */
+    pg_result_free (&result);                          /* killed: rows, neither a report nor a checkpoint */
     check_fails (pg_result_open (&result, where, other.scene, other.problem, other.solver), PG_E_USAGE);
     check_contains (pg_last_error (), "1 rows of history.csv of another run");
-    check_ok (open_result (&result));                  /* the same again loses nothing                                   */
+    check_ok (open_result (&result));                  /* the same again loses nothing */
     check_ok (pg_result_step (result, same.state, &same.step));
     pg_result_free (&result);
     check_ok (pg_result_discard (where));
@@ -147,7 +154,7 @@ static void rows_of_another_scene_are_kept (void **state)
     check_ok (pg_result_step (result, other.state, &same.step));
     check_ok (pg_result_finish (result, other.state, NULL, 0, 1));
     pg_result_free (&result);
-    check_ok (open_result (&result));                  /* over a finished run, as ever                                   */
+    check_ok (open_result (&result));                  /* over a finished run, as ever */
     pg_result_free (&result);
     clear (&other), clear (&same);
 }
@@ -162,7 +169,7 @@ static void the_users_scene_stays (void **state)
     snprintf (path, sizeof path, "%s/scene.yaml", mine);
     FILE *f = fopen (path, "w");
     assert_true (f && fputs (SCENE, f) >= 0 && fclose (f) == 0);
-    for (size_t n = 0; n < 2; n++) {                   /* in its own folder: without a note of --set                      */
+    for (size_t n = 0; n < 2; n++) {                   /* in its own folder: without a note of --set */
         run own = loaded (path, n, set);
         if (n) check_fails (pg_result_open (&result, mine, own.scene, own.problem, own.solver), PG_E_USAGE);
         else check_ok (pg_result_open (&result, mine, own.scene, own.problem, own.solver));
@@ -195,9 +202,13 @@ static void a_file_is_no_folder (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (one_run_at_a_time), cmocka_unit_test (the_lock_of_a_killed_run_is_none), cmocka_unit_test (a_lock_of_another_host_is_asked_about),
-        cmocka_unit_test (nothing_is_written_through_links), cmocka_unit_test (rows_of_another_scene_are_kept), cmocka_unit_test (the_users_scene_stays),
+        cmocka_unit_test (one_run_at_a_time),
+        cmocka_unit_test (the_lock_of_a_killed_run_is_none),
+        cmocka_unit_test (a_lock_of_another_host_is_asked_about),
+        cmocka_unit_test (nothing_is_written_through_links),
+        cmocka_unit_test (rows_of_another_scene_are_kept),
+        cmocka_unit_test (the_users_scene_stays),
         cmocka_unit_test (a_file_is_no_folder),
     };
-    return cmocka_run_group_tests_name ("report/folder", tests, open_all, close_all);
+    return cmocka_run_group_tests_name ("results/folder", tests, open_all, close_all);
 }

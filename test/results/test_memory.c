@@ -1,21 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * No memory, anywhere: each allocation of whole runs with breaking bonds fails once (problem, solver, state, steps), then each of
- * the result folder. Nothing crashes, nothing is lost, the status says so, and a refused step leaves the state as it was. */
+ * No memory, anywhere: each allocation of whole runs with breaking bonds fails once (problem, solver, state,
+ * steps), then each of the result folder. Nothing crashes, nothing is lost, the status says so, and a refused
+ * step leaves the state as it was. */
 #include "folder.h"
 #include "output/fonts.h"
 
-#define BODY "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.6, 0.5]}}}]\nspacing: 0.1\n" \
-    "cracks: [{from: [-0.1, 0.25], to: [0.18, 0.25]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2, density: 2000}}\n" \
+#define BODY \
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.6, 0.5]}}}]\nspacing: 0.1\n" \
+    "cracks: [{from: [-0.1, 0.25], to: [0.18, 0.25]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, " \
+    "poissons_ratio: 0.2, density: 2000}}\n" \
     "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\n"
 #define PULL "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 2 mm}}]\n"
-static const struct { const char *name, *text; } scenes[] = {
+static const struct { const char *name, *text;
+} scenes[] = {
     { "event", BODY PULL "solver: {stepping: event}\n" },
-    { "fixed", BODY PULL "method: {essential: transformation}\nsolver: {stepping: fixed, steps: 3, stop: {set: right}}\n" },
-    { "nosb", BODY PULL "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty}\nsolver: {stepping: fixed, steps: 3, break: all}\n" },
-    { "newmark", BODY "boundary: [{set: bottom, velocity: {x: 0, y: -4 m/s}}, {set: top, velocity: {y: 4 m/s}, table: [[0, 0], [1e-3, 1]]}]\n"
-      "method: {essential: transformation}\nsolver: {kind: newmark, dt: 0.5 ms, end: 5 ms, rayleigh: {stiffness: 1 us}}\n" },
+    { "fixed", BODY PULL
+      "method: {essential: transformation}\nsolver: {stepping: fixed, steps: 3, stop: {set: right}}\n" },
+    { "nosb", BODY PULL "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: "
+                        "penalty}\nsolver: {stepping: fixed, steps: 3, break: all}\n" },
+    { "newmark", BODY "boundary: [{set: bottom, velocity: {x: 0, y: -4 m/s}}, {set: top, velocity: {y: 4 "
+                      "m/s}, table: [[0, 0], [1e-3, 1]]}]\n"
+                      "method: {essential: transformation}\nsolver: {kind: newmark, dt: 0.5 ms, end: 5 ms, "
+                      "rayleigh: {stiffness: 1 us}}\n" },
     { "pcg", BODY PULL "solver: {stepping: fixed, steps: 3, linear: pcg}\n" },
-    { "volumetric", BODY PULL "method: {force: gmpd, volumetric: on, bond_poisson: 0.1}\nsolver: {stepping: event}\noutput: {at: {levels: 3}}\n" },
+    { "volumetric", BODY PULL "method: {force: gmpd, volumetric: on, bond_poisson: 0.1}\nsolver: {stepping: "
+                              "event}\noutput: {at: {levels: 3}}\n" },
     { "umfpack", BODY PULL "solver: {stepping: event, linear: umfpack}\n" },
 };
 enum { SCENES = sizeof scenes / sizeof *scenes, STEPS = 3 };
@@ -57,7 +66,8 @@ static void sweep (const char *name, const char *text, size_t dense, size_t most
         status = make_run (scene, &broken, &step);
         pg_memory_fail_at (0);
         if (status != PG_E_MEMORY || pg_memory_used () != used)
-            print_error ("%s: allocation %zu of %zu (step %d): '%s', %zu bytes lost\n", name, k, calls, step, pg_status_text (status), pg_memory_used () - used);
+            print_error ("%s: allocation %zu of %zu (step %d): '%s', %zu bytes lost\n", name, k, calls, step,
+                         pg_status_text (status), pg_memory_used () - used);
         assert_int_equal (status, PG_E_MEMORY);
         assert_int_equal (pg_memory_used (), used);
     }
@@ -67,8 +77,10 @@ static void sweep (const char *name, const char *text, size_t dense, size_t most
 static void every_allocation_of_a_run_may_fail (void **state)
 {
     (void) state;
-    const char *size = getenv ("PERIGAL_TEST_SIZE");   /* long: every one; else the first 60, then about 25 of the rest */
-    for (int i = 0; i < SCENES; i++) sweep (scenes[i].name, scenes[i].text, size && strcmp (size, "long") == 0 ? 1000000 : 60, 25);
+    /* long: every one; else the first 60, then about 25 of the rest */
+    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    for (int i = 0; i < SCENES; i++)
+        sweep (scenes[i].name, scenes[i].text, size && strcmp (size, "long") == 0 ? 1000000 : 60, 25);
 }
 
 static void the_scene_too (void **state)
@@ -83,7 +95,8 @@ static void the_scene_too (void **state)
         pg_memory_fail_at (k);
         pg_status status = pg_scene_parse (&scene, scenes[0].text, "sweep.yaml");
         pg_memory_fail_at (0);
-        if (status != PG_E_MEMORY) print_error ("allocation %zu of %zu: '%s'\n", k, calls, pg_status_text (status));
+        if (status != PG_E_MEMORY)
+            print_error ("allocation %zu of %zu: '%s'\n", k, calls, pg_status_text (status));
         assert_int_equal (status, PG_E_MEMORY);
         assert_null (scene);
         assert_int_equal (pg_memory_used (), used);
@@ -117,16 +130,20 @@ static void every_allocation_of_a_result_may_fail (void **state)
     check_ok (write_result (where, &r, 0));
     size_t opened = pg_memory_calls () - start;
     check_ok (write_result (where, &r, 1));
-    size_t calls = pg_memory_calls () - start - opened, stride = 1 + (calls - opened) / 25;     /* pictures take their time */
+    /* pictures take their time */
+    size_t calls = pg_memory_calls () - start - opened, stride = 1 + (calls - opened) / 25;
     assert_true (opened > 20 && calls > opened);
     for (size_t k = 1; k <= calls; k += k < opened ? 1 : stride, tried++) {
         pg_memory_fail_at (k);
         pg_status status = write_result (where, &r, k > opened);
         pg_memory_fail_at (0);
-        if (status != PG_OK && status != PG_E_MEMORY) print_error ("allocation %zu of %zu: '%s'\n", k, calls, pg_last_error ());
-        assert_true (status == PG_E_MEMORY || status == PG_OK);        /* the census of the report is worth no failure    */
+        if (status != PG_OK && status != PG_E_MEMORY)
+            print_error ("allocation %zu of %zu: '%s'\n", k, calls, pg_last_error ());
+        /* the census of the report is worth no failure */
+        assert_true (status == PG_E_MEMORY || status == PG_OK);
         reported += status == PG_E_MEMORY;
-        if (pg_memory_used () != used) print_error ("allocation %zu of %zu: %zu bytes lost\n", k, calls, pg_memory_used () - used);
+        if (pg_memory_used () != used)
+            print_error ("allocation %zu of %zu: %zu bytes lost\n", k, calls, pg_memory_used () - used);
         assert_int_equal (pg_memory_used (), used);
     }
     assert_true (reported + 6 > tried);
@@ -143,7 +160,7 @@ static pg_status write_and_resume (const char *where, const char *text)
     pg_result *result = NULL;
     advance (&r), advance (&r);
     again = scene_of (1, "%s", text);
-    check_ok (pg_result_discard (where));              /* of the life before                                             */
+    check_ok (pg_result_discard (where));              /* of the life before */
     pg_memory_fail_at (fail_at);
     PG_TRY (pg_result_open (&result, where, r.scene, r.problem, r.solver));
     PG_TRY (pg_result_step (result, r.state, &r.step));
@@ -170,11 +187,15 @@ static void every_allocation_of_a_checkpoint_and_its_resumption_may_fail (void *
         snprintf (text, sizeof text, "%soutput: {pictures: []}\n", scenes[i].text);
         size_t used = pg_memory_used (), failed = 0;
         pg_status status = PG_E_MEMORY;
-        for (fail_at = 1; status != PG_OK; fail_at += size && strcmp (size, "long") == 0 ? 1 : 1 + fail_at / 20, failed++) {
+        for (fail_at = 1; status != PG_OK;
+             fail_at += size && strcmp (size, "long") == 0 ? 1 : 1 + fail_at / 20, failed++) {
             status = write_and_resume (where, text);
-            if (status != PG_OK && status != PG_E_MEMORY) print_error ("%s: allocation %zu: '%s'\n", scenes[i].name, fail_at, pg_last_error ());
+            if (status != PG_OK && status != PG_E_MEMORY)
+                print_error ("%s: allocation %zu: '%s'\n", scenes[i].name, fail_at, pg_last_error ());
             assert_true (status == PG_OK || status == PG_E_MEMORY);
-            if (pg_memory_used () != used) print_error ("%s: allocation %zu: %zu bytes lost\n", scenes[i].name, fail_at, pg_memory_used () - used);
+            if (pg_memory_used () != used)
+                print_error ("%s: allocation %zu: %zu bytes lost\n", scenes[i].name, fail_at,
+                             pg_memory_used () - used);
             assert_int_equal (pg_memory_used (), used);
         }
         assert_true (failed > 40);
@@ -205,7 +226,8 @@ static void a_step_refused_for_memory_can_be_repeated (void **state)
             assert_true (refused > 0 || scenes[i].text == scenes[0].text);
             assert_int_equal (tried.state->broken, plain.state->broken);
             assert_memory_equal (tried.state->alive, plain.state->alive, plain.state->nbond);
-            check_below (largest_difference (tried.state->d, plain.state->d, plain.state->ndof), 1e-9 * largest_of (plain.state->d, plain.state->ndof));
+            check_below (largest_difference (tried.state->d, plain.state->d, plain.state->ndof),
+                         1e-9 * largest_of (plain.state->d, plain.state->ndof));
         }
         clear (&plain), clear (&tried);
     }
@@ -220,5 +242,5 @@ int main (void)
         cmocka_unit_test (every_allocation_of_a_checkpoint_and_its_resumption_may_fail),
         cmocka_unit_test (a_step_refused_for_memory_can_be_repeated),
     };
-    return cmocka_run_group_tests_name ("report/memory", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("results/memory", tests, NULL, NULL);
 }

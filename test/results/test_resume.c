@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Going on from a checkpoint: from every break round and every step of small runs the files come out as if nothing had happened; what
- * was written after the checkpoint is cut off; a disk that is full for a while. */
+ * Going on from a checkpoint: from every break round and every step of small runs the files come out as if
+ * nothing had happened; what was written after the checkpoint is cut off; a disk that is full for a while. */
 #include "again.h"
 #include "output/fonts.h"
 #include <signal.h>
@@ -55,8 +55,9 @@ static void from_every_moment (int i, long some)
     assert_int_equal (stop_at (text, plain, 0), 0);
     for (long k = 1; k <= 3 && stop_at (text, where, -k); k++) from_moment (text, plain, where, &within);
     assert_int_equal (within, 0);
-    for (long k = 1; stop_at (text, where, k); k += stride, moments++) from_moment (text, plain, where, &within);
-    assert_true (moments > 3 && (within == 0) == (i == 0 || i == 5));            /* an event is a step of its own                   */
+    for (long k = 1; stop_at (text, where, k); k += stride, moments++)
+        from_moment (text, plain, where, &within);
+    assert_true (moments > 3 && (within == 0) == (i == 0 || i == 5));  /* an event is a step of its own */
     remove_folder (plain), remove_folder (where);
 }
 static void from_every_event (void **state) { (void) state; from_every_moment (0, 5); }
@@ -64,9 +65,13 @@ static void from_every_round_of_load_steps (void **state) { (void) state; from_e
 static void from_every_round_with_elimination (void **state) { (void) state; from_every_moment (2, 9); }
 static void from_every_round_of_nodal_integration (void **state) { (void) state; from_every_moment (3, 5); }
 static void from_every_round_of_time_steps (void **state) { (void) state; from_every_moment (4, 13); }
-static void from_every_event_with_an_old_preconditioner (void **state) { (void) state; from_every_moment (5, 5); }
+static void from_every_event_with_an_old_preconditioner (void **state)
+{
+    (void) state;
+    from_every_moment (5, 5);
+}
 
-/* ---- stages, full disks ------------------------------------------------------------------------------------------------------- */
+/* ---- stages, full disks -------------------------------------------------------------------------------- */
 static void stages_within_a_step_ascend_in_time (void **state)
 {
     (void) state;
@@ -107,7 +112,8 @@ static pg_status go_on_a_small_disk (run *r, visit *v, long limit)
     return status;
 }
 
-/* Wherever the disk is full first - a table, a stage, fields at the end of a step - a checkpoint then goes on to the same files. */
+/* Wherever the disk is full first - a table, a stage, fields at the end of a step - a checkpoint then goes on
+ * to the same files. */
 static void a_disk_that_was_full_costs_nothing (void **state)
 {
     (void) state;
@@ -144,10 +150,14 @@ static void a_disk_that_was_full_costs_nothing (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (from_every_event), cmocka_unit_test (from_every_round_of_load_steps), cmocka_unit_test (from_every_round_with_elimination),
-        cmocka_unit_test (from_every_round_of_nodal_integration), cmocka_unit_test (from_every_round_of_time_steps),
-        cmocka_unit_test (from_every_event_with_an_old_preconditioner), cmocka_unit_test (stages_within_a_step_ascend_in_time),
+        cmocka_unit_test (from_every_event),
+        cmocka_unit_test (from_every_round_of_load_steps),
+        cmocka_unit_test (from_every_round_with_elimination),
+        cmocka_unit_test (from_every_round_of_nodal_integration),
+        cmocka_unit_test (from_every_round_of_time_steps),
+        cmocka_unit_test (from_every_event_with_an_old_preconditioner),
+        cmocka_unit_test (stages_within_a_step_ascend_in_time),
         cmocka_unit_test (a_disk_that_was_full_costs_nothing),
     };
-    return cmocka_run_group_tests_name ("report/resume", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("results/resume", tests, NULL, NULL);
 }

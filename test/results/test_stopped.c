@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a run that was stopped leaves behind is not gone on with by another one: another scene, other points, changed files, lost rows; nor written over. */
+ * What a run that was stopped leaves behind is not gone on with by another one: another scene, other points,
+ * changed files, lost rows; nor written over. */
 #include "again.h"
 #include <unistd.h>
 
@@ -33,32 +34,45 @@ static void write_file (const char *path, const char *head, double volume, const
     FILE *f = fopen (path, "w");
     assert_non_null (f);
     fputs (head, f);
-    for (int i = 0; volume > 0 && i < 42; i++) fprintf (f, "%g,%g,%.17g,0\n", 0.1 * (i % 7), 0.1 * (i / 7), (i == 17 ? volume : 1) * 1e-3);
+    for (int i = 0; volume > 0 && i < 42; i++)
+        fprintf (f, "%g,%g,%.17g,0\n", 0.1 * (i % 7), 0.1 * (i / 7), (i == 17 ? volume : 1) * 1e-3);
     fputs (tail, f);
     assert_int_equal (fclose (f), 0);
 }
 
-/* Points and tables in files beside the scene: another volume at one point, another value, refuse the checkpoint and name the file. */
+/* Points and tables in files beside the scene: another volume at one point, another value, refuse the
+ * checkpoint and name the file. */
 static void files_of_the_scene_are_part_of_it (void **state)
 {
     (void) state;
-    static const char scene[] = "dimension: 2\nthickness: 0.1\npoints: points.csv\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
-        "failure: {criterion: stretch, critical_stretch: 1e-3}\nmethod: {force: bond}\nsets: {low: {where: y < 0.15}, high: {where: y > 0.35}}\n"
-        "boundary: [{name: foot, set: low, displacement: {x: 0, y: 0}}, {name: head, set: high, displacement: {y: 2 mm}}]\n"
-        "reference: {lines: [{file: line.csv}]}\nsolver: {stepping: fixed, steps: 6}\noutput: {pictures: []}\n";
-    static const char *const wrong[] = { "points.csv (points of the scene) has changed", "line.csv (reference.lines[0].file of the scene) has changed" };
+    static const char scene[] = "dimension: 2\nthickness: 0.1\npoints: points.csv\nmaterials: {rock: "
+                                "{youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
+                                "failure: {criterion: stretch, critical_stretch: 1e-3}\nmethod: {force: "
+                                "bond}\nsets: {low: {where: y < 0.15}, high: {where: y > 0.35}}\n"
+                                "boundary: [{name: foot, set: low, displacement: {x: 0, y: 0}}, {name: head, "
+                                "set: high, displacement: {y: 2 mm}}]\n"
+                                "reference: {lines: [{file: line.csv}]}\nsolver: {stepping: fixed, steps: "
+                                "6}\noutput: {pictures: []}\n";
+    static const char *const wrong[] = { "points.csv (points of the scene) has changed",
+                                         "line.csv (reference.lines[0].file of the scene) has changed" };
     char beside[64], where[64], path[3][128], whole[4200];
     pg_resumed from;
     make_folder (beside), make_folder (where);
-    for (int k = 0; k < 3; k++) snprintf (path[k], sizeof path[k], "%s/%s", beside, k == 0 ? "points.csv" : k == 1 ? "line.csv" : "scene.yaml");
-    write_file (path[0], "x,y,volume,block\n", 1, ""), write_file (path[1], "x [m],y [m],u_y [m]\n0.3,0.2,1e-3\n", 0, ""), write_file (path[2], scene, 0, "");
+    for (int k = 0; k < 3; k++)
+        snprintf (path[k], sizeof path[k], "%s/%s", beside,
+                  k == 0   ? "points.csv"
+                  : k == 1 ? "line.csv"
+                           : "scene.yaml");
+    write_file (path[0], "x,y,volume,block\n", 1, ""),
+        write_file (path[1], "x [m],y [m],u_y [m]\n0.3,0.2,1e-3\n", 0, ""),
+        write_file (path[2], scene, 0, "");
     run r = loaded (path[2], 0, NULL);
     visit v = { .left = -2 };
     check_ok (pg_result_open (&v.result, where, r.scene, r.problem, r.solver));
     assert_int_equal (go (&r, &v), 1);
     check_ok (pg_result_checkpoint (v.result, r.state));
     pg_result_free (&v.result);
-    char *copy = slurp (inside (where, "scene.yaml"));  /* with what the files were                                        */
+    char *copy = slurp (inside (where, "scene.yaml"));  /* with what the files were */
     check_contains (copy, "\n# with points = ");
     check_contains (copy, "\n# with reference.lines[0].file = ");
     check_contains (strstr (copy, "# with points"), "points.csv, sha256 ");
@@ -66,7 +80,9 @@ static void files_of_the_scene_are_part_of_it (void **state)
     clear (&r);
     for (int k = 0; k < 3; k++) {
         if (k == 0) write_file (path[0], "x,y,volume,block\n", 1.5, "");
-        if (k == 1) write_file (path[0], "x,y,volume,block\n", 1, ""), write_file (path[1], "x [m],y [m],u_y [m]\n0.3,0.2,2e-3\n", 0, "");
+        if (k == 1)
+            write_file (path[0], "x,y,volume,block\n", 1, ""),
+                write_file (path[1], "x [m],y [m],u_y [m]\n0.3,0.2,2e-3\n", 0, "");
         if (k == 2) write_file (path[1], "x [m],y [m],u_y [m]\n0.3,0.2,1e-3\n", 0, "");
         r = loaded (path[2], 0, NULL);
         pg_status status = pg_result_resume (&v.result, where, r.scene, r.problem, r.solver, r.state, &from);
@@ -96,20 +112,31 @@ static void files_of_the_scene_are_part_of_it (void **state)
 static void points_of_files_that_files_include_are_part_of_it (void **state)
 {
     (void) state;
-    static const char scene[] = "dimension: 2\nthickness: 0.1\nmesh: {file: mesh.inp}\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
-        "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 2 mm}}]\nsolver: {stepping: fixed, steps: 3}\noutput: {pictures: []}\n";
-    char beside[64], where[64], path[3][128], elements[2048] = "*INCLUDE, INPUT=nodes.inp\n*ELEMENT, TYPE=CPS4\n", nodes[2048];
+    static const char scene[] =
+        "dimension: 2\nthickness: 0.1\nmesh: {file: mesh.inp}\nmaterials: {rock: {youngs_modulus: 1 GPa, "
+        "poissons_ratio: 0.2}}\n"
+        "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 2 mm}}]\nsolver: "
+        "{stepping: fixed, steps: 3}\noutput: {pictures: []}\n";
+    char beside[64], where[64], path[3][128],
+        elements[2048] = "*INCLUDE, INPUT=nodes.inp\n*ELEMENT, TYPE=CPS4\n", nodes[2048];
     pg_resumed from;
     make_folder (beside), make_folder (where);
-    for (int k = 0; k < 3; k++) snprintf (path[k], sizeof path[k], "%s/%s", beside, k == 0 ? "nodes.inp" : k == 1 ? "mesh.inp" : "scene.yaml");
+    for (int k = 0; k < 3; k++)
+        snprintf (path[k], sizeof path[k], "%s/%s", beside,
+                  k == 0   ? "nodes.inp"
+                  : k == 1 ? "mesh.inp"
+                           : "scene.yaml");
     for (int e = 0, n = (int) strlen (elements); e < 20; e++) {
         int first = e / 5 * 6 + e % 5 + 1;
-        n += snprintf (elements + n, sizeof elements - (size_t) n, "%d, %d, %d, %d, %d\n", e + 1, first, first + 1, first + 7, first + 6);
+        n += snprintf (elements + n, sizeof elements - (size_t) n, "%d, %d, %d, %d, %d\n", e + 1, first,
+                       first + 1, first + 7, first + 6);
     }
     write_file (path[1], elements, 0, ""), write_file (path[2], scene, 0, "");
-    for (int k = 0; k < 3; k++) {                      /* as it was, one node moved, as it was                            */
+    for (int k = 0; k < 3; k++) {                      /* as it was, one node moved, as it was */
         int n = snprintf (nodes, sizeof nodes, "*NODE\n");
-        for (int i = 0; i < 30; i++) n += snprintf (nodes + n, sizeof nodes - (size_t) n, "%d, %.17g, %.17g\n", i + 1, 0.1 * (i % 6) + (k == 1 && i == 14 ? 1e-10 : 0), 0.1 * (i / 6));
+        for (int i = 0; i < 30; i++)
+            n += snprintf (nodes + n, sizeof nodes - (size_t) n, "%d, %.17g, %.17g\n", i + 1,
+                           0.1 * (i % 6) + (k == 1 && i == 14 ? 1e-10 : 0), 0.1 * (i / 6));
         write_file (path[0], nodes, 0, "");
         run r = loaded (path[2], 0, NULL);
         visit v = { .left = -2 };
@@ -118,9 +145,11 @@ static void points_of_files_that_files_include_are_part_of_it (void **state)
             assert_int_equal (go (&r, &v), 1);
             check_ok (pg_result_checkpoint (v.result, r.state));
         } else {
-            pg_status status = pg_result_resume (&v.result, where, r.scene, r.problem, r.solver, r.state, &from);
+            pg_status status = pg_result_resume (&v.result, where, r.scene, r.problem, r.solver, r.state,
+                                                 &from);
             assert_int_equal (status, k == 1 ? PG_E_USAGE : PG_OK);
-            if (k == 1) check_contains (pg_last_error (), "checkpoint.nc is of other points or bonds (30 points, ");
+            if (k == 1)
+                check_contains (pg_last_error (), "checkpoint.nc is of other points or bonds (30 points, ");
             else assert_int_equal (go (&r, &v), 0);
         }
         pg_result_free (&v.result);
@@ -130,10 +159,25 @@ static void points_of_files_that_files_include_are_part_of_it (void **state)
 }
 
 /* A checkpoint whose checksum is right, but one count of which is not. */
-typedef struct { const pg_keeper *inner; run *r; pg_result *result; const char *name; size_t at; long to; } forger;
+typedef struct {
+    const pg_keeper *inner;
+    run *r;
+    pg_result *result;
+    const char *name;
+    size_t at;
+    long to;
+} forger;
 
-static pg_status pass_numbers (void *c, const char *name, size_t n, double *v) { const pg_keeper *k = ((forger *) c)->inner; return k->numbers (k->context, name, n, v); }
-static pg_status pass_bytes (void *c, const char *name, size_t n, void *v) { const pg_keeper *k = ((forger *) c)->inner; return k->bytes (k->context, name, n, v); }
+static pg_status pass_numbers (void *c, const char *name, size_t n, double *v)
+{
+    const pg_keeper *k = ((forger *) c)->inner;
+    return k->numbers (k->context, name, n, v);
+}
+static pg_status pass_bytes (void *c, const char *name, size_t n, void *v)
+{
+    const pg_keeper *k = ((forger *) c)->inner;
+    return k->bytes (k->context, name, n, v);
+}
 static pg_status forge_counts (void *c, const char *name, size_t n, long *v)
 {
     const forger *f = c;
@@ -147,7 +191,9 @@ static pg_status forge_counts (void *c, const char *name, size_t n, long *v)
 static pg_status forge (void *context, const pg_keeper *k)
 {
     forger *f = context;
-    const pg_keeper mine = { .context = f, .reading = 0, .numbers = pass_numbers, .counts = forge_counts, .bytes = pass_bytes };
+    const pg_keeper mine = {
+        .context = f, .reading = 0, .numbers = pass_numbers, .counts = forge_counts, .bytes = pass_bytes
+    };
     f->inner = k;
     return pg_result_keep (f->result, f->r->state, &mine);
 }
@@ -155,9 +201,15 @@ static pg_status forge (void *context, const pg_keeper *k)
 static void marks_that_cannot_be_are_refused (void **state)
 {
     (void) state;
-    static const struct { const char *name; size_t at; long to; const char *words; } wrong[] = {
-        { "none", 0, 0, "" }, { "now.counts", 0, -1, "mark 0 of now is -1" }, { "now.counts", 6, 1L << 60, "mark 6 of now is" }, { "now.counts", 0, 1L << 40, "it was changed since" },
-        { "now.counts", 5, 1L << 20, "1048576 points of the curve of" }, { "done.counts", 5, 1L << 20, "1048576 points of the curve of" }, { "result.counts", 0, -1, "-1 rounds of a step" },
+    static const struct { const char *name; size_t at; long to; const char *words;
+    } wrong[] = {
+        { "none", 0, 0, "" },
+        { "now.counts", 0, -1, "mark 0 of now is -1" },
+        { "now.counts", 6, 1L << 60, "mark 6 of now is" },
+        { "now.counts", 0, 1L << 40, "it was changed since" },
+        { "now.counts", 5, 1L << 20, "1048576 points of the curve of" },
+        { "done.counts", 5, 1L << 20, "1048576 points of the curve of" },
+        { "result.counts", 0, -1, "-1 rounds of a step" },
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         char where[64], path[128];
@@ -168,7 +220,9 @@ static void marks_that_cannot_be_are_refused (void **state)
         snprintf (path, sizeof path, "%s/checkpoint.nc", where);
         check_ok (pg_result_open (&v.result, where, r.scene, r.problem, r.solver));
         assert_int_equal (go (&r, &v), 1);
-        forger f = { .r = &r, .result = v.result, .name = wrong[k].name, .at = wrong[k].at, .to = wrong[k].to };
+        forger f = {
+            .r = &r, .result = v.result, .name = wrong[k].name, .at = wrong[k].at, .to = wrong[k].to
+        };
         check_ok (pg_checkpoint_write (path, forge, &f));
         pg_result_free (&v.result);
         pg_status status = resume (scenes[1].text, where, &again, &w, &from);
@@ -237,10 +291,13 @@ static void a_file_that_lost_rows_is_refused (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (what_is_not_of_this_run_is_refused), cmocka_unit_test (files_of_the_scene_are_part_of_it),
-        cmocka_unit_test (points_of_files_that_files_include_are_part_of_it), cmocka_unit_test (marks_that_cannot_be_are_refused),
+        cmocka_unit_test (what_is_not_of_this_run_is_refused),
+        cmocka_unit_test (files_of_the_scene_are_part_of_it),
+        cmocka_unit_test (points_of_files_that_files_include_are_part_of_it),
+        cmocka_unit_test (marks_that_cannot_be_are_refused),
         cmocka_unit_test (finished_is_told_from_interrupted),
-        cmocka_unit_test (a_new_run_leaves_no_old_checkpoint_or_report), cmocka_unit_test (a_file_that_lost_rows_is_refused),
+        cmocka_unit_test (a_new_run_leaves_no_old_checkpoint_or_report),
+        cmocka_unit_test (a_file_that_lost_rows_is_refused),
     };
-    return cmocka_run_group_tests_name ("report/stopped", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("results/stopped", tests, NULL, NULL);
 }

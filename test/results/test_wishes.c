@@ -1,12 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * output.fields and output.pictures: what a body of each dimension can show, and the words for what it cannot. */
+ * output.fields and output.pictures: what a body of each dimension can show, and the words for what it
+ * cannot. */
 #include "folder.h"
 #include "output/fonts.h"
 
-static const char *const bodies[] = { "",
-    "dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.2\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0}}\n",
-    "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.25\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0}}\n",
-    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\nspacing: 0.25\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0}}\n" };
+static const char *const bodies[] = {
+    "",
+    "dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.2\nmaterials: {m: "
+    "{youngs_modulus: 1, poissons_ratio: 0}}\n",
+    "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.25\nmaterials: {m: "
+    "{youngs_modulus: 1, poissons_ratio: 0}}\n",
+    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\nspacing: 0.25\nmaterials: {m: "
+    "{youngs_modulus: 1, poissons_ratio: 0}}\n"
+};
 
 static pg_status check_wishes (int dim, const char *wishes)
 {
@@ -19,15 +25,23 @@ static pg_status check_wishes (int dim, const char *wishes)
 static void every_part_of_every_field_has_a_picture (void **state)
 {
     (void) state;
-    static const char *const good[] = { "",
-        "damage, displacement, displacement.x, velocity, velocity.x, stress, stress.xx, strain, strain.xx, error_estimate",
-        "damage, displacement, displacement.x, displacement.y, velocity.y, stress.xx, stress.yy, stress.xy, strain.xx, strain.yy, strain.xy, error_estimate",
-        "damage, displacement, displacement.z, velocity.z, stress.xx, stress.yy, stress.zz, stress.xy, stress.yz, stress.zx, strain.zx, error_estimate" };
+    static const char *const good[] = {
+        "",
+        "damage, displacement, displacement.x, velocity, velocity.x, stress, stress.xx, strain, strain.xx, "
+        "error_estimate",
+        "damage, displacement, displacement.x, displacement.y, velocity.y, stress.xx, stress.yy, stress.xy, "
+        "strain.xx, strain.yy, strain.xy, error_estimate",
+        "damage, displacement, displacement.z, velocity.z, stress.xx, stress.yy, stress.zz, stress.xy, "
+        "stress.yz, stress.zx, strain.zx, error_estimate"
+    };
     for (int dim = 1; dim <= 3; dim++) {
         char where[64], rest[400];
         pg_result *result = NULL;
         make_folder (where);
-        snprintf (rest, sizeof rest, "boundary: [{set: left, displacement: {x: 0}}, {set: right, displacement: {x: 0.01}}]\noutput: {fields: [damage, velocity, strain], pictures: [%s]}\n", good[dim]);
+        snprintf (rest, sizeof rest,
+                  "boundary: [{set: left, displacement: {x: 0}}, {set: right, displacement: {x: "
+                  "0.01}}]\noutput: {fields: [damage, velocity, strain], pictures: [%s]}\n",
+                  good[dim]);
         run r = scene_of (1, "%s%s", bodies[dim], rest);
         pg_solver_options o = r.options;
         assert_int_equal (o.levels, 20);
@@ -48,12 +62,20 @@ static void every_part_of_every_field_has_a_picture (void **state)
 static void the_error_estimate_is_reported (void **state)
 {
     (void) state;
-    static const struct { const char *output, *failure; int there; } turn[] = { { "fields: [error_estimate]", NULL, 1 }, { "estimate: off", NULL, 0 }, { "pictures: []", "it broke", 0 } };
+    static const struct {
+        const char *output, *failure;
+        int there;
+    } turn[] = { { "fields: [error_estimate]", NULL, 1 },
+                 { "estimate: off", NULL, 0 },
+                 { "pictures: []", "it broke", 0 } };
     for (int k = 0; k < 3; k++) {
         char where[64], unit[16];
         pg_result *result = NULL;
         make_folder (where);
-        run r = scene_of (1, "%sboundary: [{set: left, displacement: {x: 0}}, {set: right, displacement: {x: 0.01}}]\noutput: {%s}\n", bodies[2], turn[k].output);
+        run r = scene_of (1,
+                          "%sboundary: [{set: left, displacement: {x: 0}}, {set: right, displacement: {x: "
+                          "0.01}}]\noutput: {%s}\n",
+                          bodies[2], turn[k].output);
         check_ok (pg_result_open (&result, where, r.scene, r.problem, r.solver));
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
@@ -70,7 +92,8 @@ static void the_error_estimate_is_reported (void **state)
             int components;
             check_contains (text, "\"kind\": \"estimate\"");
             assert_true (e->norm > 0 && e->relative >= 0 && e->relative < 1 && e->points > 0);
-            check_ok (pg_exodus_read (inside (where, "result.e"), "error_estimate", -1, &n, &components, &value));
+            check_ok (
+                pg_exodus_read (inside (where, "result.e"), "error_estimate", -1, &n, &components, &value));
             check_ok (pg_exodus_unit (inside (where, "result.e"), "error_estimate", unit));
             assert_int_equal (components, 1);
             assert_string_equal (unit, "Pa");
@@ -88,10 +111,13 @@ static void another_name_is_a_fault_with_the_list (void **state)
     (void) state;
     check_fails (check_wishes (2, "pictures: [damage, strss.xx]"), PG_E_SCENE);
     check_contains (pg_last_error (), "test.yaml:5:");
-    check_contains (pg_last_error (), "output.pictures[1] = strss.xx: there is no such picture; did you mean stress.xx?");
+    check_contains (pg_last_error (),
+                    "output.pictures[1] = strss.xx: there is no such picture; did you mean stress.xx?");
     check_contains (pg_last_error (), "damage, displacement, displacement.x, displacement.y, velocity");
     check_fails (check_wishes (2, "pictures: temperature"), PG_E_SCENE);
-    check_contains (pg_last_error (), "output.pictures[0] = temperature: there is no such picture: one of damage, displacement");
+    check_contains (
+        pg_last_error (),
+        "output.pictures[0] = temperature: there is no such picture: one of damage, displacement");
 }
 
 static void parts_depend_on_the_dimension (void **state)
@@ -101,7 +127,7 @@ static void parts_depend_on_the_dimension (void **state)
     check_fails (check_wishes (2, "pictures: [displacement.z]"), PG_E_SCENE);
     check_fails (check_wishes (2, "pictures: [stress.zz]"), PG_E_SCENE);
     check_fails (check_wishes (1, "pictures: [stress.yy]"), PG_E_SCENE);
-    check_fails (check_wishes (2, "pictures: [stress]"), PG_E_SCENE);  /* which part?                                     */
+    check_fails (check_wishes (2, "pictures: [stress]"), PG_E_SCENE);  /* which part? */
     check_fails (check_wishes (2, "pictures: [stress.]"), PG_E_SCENE);
     check_fails (check_wishes (2, "pictures: ['']"), PG_E_SCENE);
     check_fails (check_wishes (2, "pictures: ['damage|displacement']"), PG_E_SCENE);
@@ -122,7 +148,8 @@ static void a_result_is_not_opened_with_such_names (void **state)
     (void) state;
     run r = scene_of (1, "%soutput: {pictures: [temperature]}\n", bodies[2]);
     pg_result *result = NULL;
-    check_fails (pg_result_open (&result, "/tmp/perigal_test_never_made", r.scene, r.problem, r.solver), PG_E_SCENE);
+    check_fails (pg_result_open (&result, "/tmp/perigal_test_never_made", r.scene, r.problem, r.solver),
+                 PG_E_SCENE);
     assert_null (result);
     assert_int_equal (size_of ("/tmp/perigal_test_never_made"), -1);
     clear (&r);
@@ -134,8 +161,12 @@ static void a_share_of_broken_bonds_writes_fields (void **state)
     char where[64];
     pg_result *result = NULL;
     make_folder (where);
-    run r = scene_of (1, "%sboundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 0.01}}]\n"
-                      "failure: {criterion: stretch, critical_stretch: 1e-3}\nsolver: {max_events: 30}\noutput: {at: {levels: 1, broken: 1 %%}, pictures: []}\n", bodies[2]);
+    run r = scene_of (
+        1,
+        "%sboundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 0.01}}]\n"
+        "failure: {criterion: stretch, critical_stretch: 1e-3}\nsolver: {max_events: 30}\noutput: {at: "
+        "{levels: 1, broken: 1 %%}, pictures: []}\n",
+        bodies[2]);
     check_ok (pg_result_open (&result, where, r.scene, r.problem, r.solver));
     size_t expected = 0, share = 0;
     int last = 0;
@@ -164,11 +195,12 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (every_part_of_every_field_has_a_picture),
-        cmocka_unit_test (the_error_estimate_is_reported), cmocka_unit_test (another_name_is_a_fault_with_the_list),
+        cmocka_unit_test (the_error_estimate_is_reported),
+        cmocka_unit_test (another_name_is_a_fault_with_the_list),
         cmocka_unit_test (parts_depend_on_the_dimension),
         cmocka_unit_test (names_come_once),
         cmocka_unit_test (a_result_is_not_opened_with_such_names),
         cmocka_unit_test (a_share_of_broken_bonds_writes_fields),
     };
-    return cmocka_run_group_tests_name ("report/wishes", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("results/wishes", tests, NULL, NULL);
 }

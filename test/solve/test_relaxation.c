@@ -1,13 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * adr and relax on chains of masses: they end in equilibrium, with the work of a static path; stages, imbalance, refusals (theory B4, C, ADR-1). */
+ * adr and relax on chains of masses: they end in equilibrium, with the work of a static path; stages,
+ * imbalance, refusals (theory B4, C, ADR-1). */
 #include "chain.h"
 
 static const char *const kinds[2] = { "adr", "relax" };
 
 static pg_solver_options options_of (const char *kind, long stages, double imbalance)
 {
-    pg_solver_options o = { .linear = "auto", .tolerance = 1e-8, .stages = stages, .hold = 1, .imbalance = imbalance, .levels = 1, .max_iterations = 100000,
-                            .max_events = 1000000, .break_mode = PG_BREAK_PASSING };
+    pg_solver_options o = { .linear = "auto",
+                            .tolerance = 1e-8,
+                            .stages = stages,
+                            .hold = 1,
+                            .imbalance = imbalance,
+                            .levels = 1,
+                            .max_iterations = 100000,
+                            .max_events = 1000000,
+                            .break_mode = PG_BREAK_PASSING };
     strcpy (o.kind, kind);
     return o;
 }
@@ -52,11 +60,13 @@ static void equilibrium_of_a_moved_support (void **state)
         for (int k = 1; k <= 5; k++) {
             check_ok (pg_solver_step (l.solver, l.state, &step));
             check_relative (step.factor, 0.2 * k, 1e-15);
-            for (size_t i = 0; i < the.n; i++) check_relative (l.state->d[i], 0.2 * k * (0.1 + 7e-4 * (double) i), 1e-8);
+            for (size_t i = 0; i < the.n; i++)
+                check_relative (l.state->d[i], 0.2 * k * (0.1 + 7e-4 * (double) i), 1e-8);
             check_relative (step.reaction[0], -7 * 0.2 * k, 1e-8);
         }
         assert_true (pg_solver_done (l.solver, l.state));
-        check_relative (pg_solver_report_now (l.solver)->energy_external, pg_solver_report_now (l.solver)->energy_strain, 1e-7);
+        check_relative (pg_solver_report_now (l.solver)->energy_external,
+                        pg_solver_report_now (l.solver)->energy_strain, 1e-7);
         unlink_all (&l);
     }
 }
@@ -75,8 +85,10 @@ static void sums_of_rows_may_be_left_to_the_matrix (void **state)
     for (int k = 1; k <= 5; k++) {
         check_ok (pg_solver_step (a.solver, a.state, &one));
         check_ok (pg_solver_step (b.solver, b.state, &other));
-        for (size_t i = 1; i < the.n; i++) check_relative (b.state->d[i], 0.2 * k * (0.1 + 7e-4 * (double) i), 1e-8);
-        assert_true (other.iterations <= 2 * one.iterations + 50 && one.iterations <= 2 * other.iterations + 50);
+        for (size_t i = 1; i < the.n; i++)
+            check_relative (b.state->d[i], 0.2 * k * (0.1 + 7e-4 * (double) i), 1e-8);
+        assert_true (other.iterations <= 2 * one.iterations + 50
+                     && one.iterations <= 2 * other.iterations + 50);
     }
     unlink_all (&a), unlink_all (&b);
 }
@@ -202,7 +214,8 @@ static void final_state (const char *kind, int hold, int threads, int stops, dou
     assert_int_equal (stopped, stops >= 0);
     memcpy (out, l.state->d, the.n * sizeof *out);
     const pg_statistics *r = pg_solver_report_now (l.solver);
-    out[the.n] = r->energy_external, out[the.n + 1] = (double) r->iterations, out[the.n + 2] = r->residual_max;
+    out[the.n] = r->energy_external, out[the.n + 1] = (double) r->iterations,
+    out[the.n + 2] = r->residual_max;
     unlink_all (&l);
 }
 
@@ -241,7 +254,7 @@ static void options_that_cannot_be_are_refused (void **state)
     check_fails (try_link (&l, &o, &blind), PG_E_USAGE);
     check_contains (pg_last_error (), "use relax");
     unlink_all (&l);
-    blind.matrix = chain_matrix;                       /* row sums from the matrix are the same                            */
+    blind.matrix = chain_matrix;                       /* row sums from the matrix are the same */
     for (int k = 0; k < 2; k++) {
         link_up (&l, &o, k ? &blind : &chain_type);
         unlink_all (&l);
@@ -266,7 +279,8 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (equilibrium_under_a_load),
-        cmocka_unit_test (equilibrium_of_a_moved_support), cmocka_unit_test (sums_of_rows_may_be_left_to_the_matrix),
+        cmocka_unit_test (equilibrium_of_a_moved_support),
+        cmocka_unit_test (sums_of_rows_may_be_left_to_the_matrix),
         cmocka_unit_test (loads_need_not_be_proportional),
         cmocka_unit_test (proportional_stages_take_no_iterations),
         cmocka_unit_test (nothing_to_do_is_balance),

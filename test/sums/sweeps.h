@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * sweeps.h: what every way of summing bonds is held to, over bodies, sets of instructions and threads: the plain loop's forces, energies and
- * broken bonds, the same bits; an update by changes is one of all. */
+ * sweeps.h: what every way of summing bonds is held to, over bodies, sets of instructions and threads: the
+ * plain loop's forces, energies and broken bonds, the same bits; an update by changes is one of all. */
 #ifndef PERIGAL_TEST_SWEEPS_H
 #define PERIGAL_TEST_SWEEPS_H
 #include "lattice_body.h"
@@ -8,16 +8,22 @@
 static const char *const sets[] = { "scalar", "avx2", "avx512" };
 enum { SETS = sizeof sets / sizeof *sets };
 typedef struct {
-    const char *name;                                  /* in that of the sweep                                           */
-    void (*create) (body *b, size_t w, uint64_t seed);  size_t n;     /* makes the one of number w < n                    */
-    int apart;                                         /* 1: sets that fuse products and sums have bits of their own     */
+    const char *name;                                  /* in that of the sweep */
+    void (*create) (body *b, size_t w, uint64_t seed);  size_t n;     /* makes the one of number w < n */
+    int apart;  /* 1: sets that fuse products and sums have bits of their own */
 } swept;
 
 /* 1: made; 0: this machine lacks the instructions */
-static inline int make_sweep (pg_bond_loop **out, const body *b, const char *set, int threads, int breaks, int exempt)
+static inline int make_sweep (pg_bond_loop **out, const body *b, const char *set, int threads, int breaks,
+                              int exempt)
 {
-    pg_bond_loop_setting setting = { .sums = b->sums, .family = &b->family, .modulus = b->modulus, .limit = breaks ? b->limit : NULL,
-                                 .exempt = exempt ? b->exempt : NULL, .threads = threads, .instructions = set };
+    pg_bond_loop_setting setting = { .sums = b->sums,
+                                     .family = &b->family,
+                                     .modulus = b->modulus,
+                                     .limit = breaks ? b->limit : NULL,
+                                     .exempt = exempt ? b->exempt : NULL,
+                                     .threads = threads,
+                                     .instructions = set };
     pg_status status = pg_bond_loop_create (out, &setting);
     if (status == PG_E_USAGE && set && strstr (pg_last_error (), "this machine has none")) return 0;
     check_ok (status);
@@ -44,7 +50,8 @@ static inline void sums_equal_the_plain_loop (const swept *c)
         c->create (&b, w, 11 + w);
         body_wound (&b, 0.2);
         size_t values = b.cloud.n * (size_t) b.cloud.dim;
-        double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g), *first = pg_calloc (values, sizeof *first), energy = body_plain (&b, 0, g, NULL), stored = 0;
+        double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g),
+               *first = pg_calloc (values, sizeof *first), energy = body_plain (&b, 0, g, NULL), stored = 0;
         for (int k = 0; k < SETS; k++)
             for (int threads = 1; threads <= 3; threads++) {
                 pg_bond_loop *s = NULL;
@@ -73,7 +80,8 @@ static inline void sums_equal_the_plain_loop (const swept *c)
     }
 }
 
-/* Rounds that move the points a little more each: the bonds that break, in the order of the list, and the forces after that. */
+/* Rounds that move the points a little more each: the bonds that break, in the order of the list, and the
+ * forces after that. */
 static inline void rounds_break_as_the_plain_loop (body *b, pg_bond_loop *s)
 {
     size_t values = b->cloud.n * (size_t) b->cloud.dim, total = 0;
@@ -85,7 +93,7 @@ static inline void rounds_break_as_the_plain_loop (body *b, pg_bond_loop *s)
         for (size_t i = 0; i < values; i++) b->u[i] *= 1.4;
         memset (dead, 0, b->nbond);
         body_plain (b, 1, g, dead);
-        size_t had = broken.n, at = had;               /* told behind those before                                       */
+        size_t had = broken.n, at = had;               /* told behind those before */
         check_ok (pg_bond_loop_force (s, b->u, f, &broken));
         for (size_t e = 0; e < b->nbond; e++) {
             if (!dead[e]) continue;
@@ -110,7 +118,8 @@ static inline void breaking_equals_the_plain_loop (const swept *c)
             c->create (&b, w, 100 + w);
             body_wound (&b, 0.1);
             for (size_t i = 0; exempt && i < b.cloud.n; i++) b.exempt[i] = body_random (&b) < 0.2;
-            if (make_sweep (&s, &b, sets[k % SETS], 1 + k % 2, 1, exempt)) rounds_break_as_the_plain_loop (&b, s);
+            if (make_sweep (&s, &b, sets[k % SETS], 1 + k % 2, 1, exempt))
+                rounds_break_as_the_plain_loop (&b, s);
             pg_bond_loop_free (&s);
             body_free (&b);
         }
@@ -149,11 +158,17 @@ static inline void updates_by_changes_equal_whole_ones (const swept *c)
     }
 }
 
-/* Each allocation of pg_bond_loop_create fails once: nothing is left. Then the sweep; `most`: allocations at the most. */
+/* Each allocation of pg_bond_loop_create fails once: nothing is left. Then the sweep; `most`: allocations at
+ * the most. */
 static inline void creation_survives_lack_of_memory (pg_bond_loop **s, const body *b, size_t most)
 {
     size_t before = pg_memory_used (), k = 1;
-    pg_bond_loop_setting setting = { .sums = b->sums, .family = &b->family, .modulus = b->modulus, .limit = b->limit, .exempt = b->exempt, .threads = 1 };
+    pg_bond_loop_setting setting = { .sums = b->sums,
+                                     .family = &b->family,
+                                     .modulus = b->modulus,
+                                     .limit = b->limit,
+                                     .exempt = b->exempt,
+                                     .threads = 1 };
     for (;; k++) {
         pg_memory_fail_at (k);
         pg_status status = pg_bond_loop_create (s, &setting);
@@ -167,7 +182,8 @@ static inline void creation_survives_lack_of_memory (pg_bond_loop **s, const bod
     assert_true (k > 8);
 }
 
-/* Sums in which nothing breaks allocate nothing. bytes: per bond more than the first, less than the second; points cost 60 to 140. */
+/* Sums in which nothing breaks allocate nothing. bytes: per bond more than the first, less than the second;
+ * points cost 60 to 140. */
 static inline void steady_sums_cost_what_is_said (const swept *c, int threads, double least, double most)
 {
     body b;
