@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Figures 1 to 3 of Cui 2022 section 2.4 in the folder given (default out/cui_1d), each as CSV and PNG:
  *   fig1: u and u' of the field y = x between 11 nodes, errors and the derivatives of one shape function;
- *   fig2: force imbalance under constant stress against the number of Gauss points per cell (0: at the nodes);
+ *   fig2: force imbalance under constant stress against the number of Gauss points per cell (0: at the
+ *     nodes);
  *   fig3: relative L2 error of -u'' = 1 against the number of cells, one picture per support. */
 #include "cui_1d.h"
 #include "perigal/output.h"
@@ -20,13 +21,15 @@ static pg_status make_folders (const char *folder)
     for (size_t i = 1; i < sizeof path && folder[i - 1]; i++) {
         if (folder[i] != '/' && folder[i] != '\0') continue;
         snprintf (path, sizeof path, "%.*s", (int) i, folder);
-        if (mkdir (path, 0777) != 0 && errno != EEXIST) return pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
+        if (mkdir (path, 0777) != 0 && errno != EEXIST)
+            return pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
     }
     return PG_OK;
 }
 
 /* CSV of columns: value is ncolumn x nrow */
-static pg_status write_table (const char *folder, const char *name, size_t ncolumn, const char *const *columns, size_t nrow, const double *value)
+static pg_status write_table (const char *folder, const char *name, size_t ncolumn,
+                              const char *const *columns, size_t nrow, const double *value)
 {
     pg_status status = PG_OK;
     pg_table *table = NULL;
@@ -43,7 +46,8 @@ done:
     return status;
 }
 
-static pg_status draw (const char *folder, const char *name, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
+static pg_status draw (const char *folder, const char *name, size_t ncurve, const pg_curve *curves,
+                       const pg_chart_style *style)
 {
     char path[512];
     snprintf (path, sizeof path, "%s/%s.png", folder, name);
@@ -52,9 +56,10 @@ static pg_status draw (const char *folder, const char *name, size_t ncurve, cons
     return status;
 }
 
-/* ---- figure 1 ------------------------------------------------------------------------------------------------------------- */
+/* ---- figure 1 ------------------------------------------------------------------------------------------ */
 /* Errors of u and u' of y = x, and N,x of the middle node, at PLACES places of 11 nodes, D = 1 */
-static pg_status sample (const char *type, double a, const double *x, double *error, double *slope_error, double *slope)
+static pg_status sample (const char *type, double a, const double *x, double *error, double *slope_error,
+                         double *slope)
 {
     pg_status status = PG_OK;
     bar b = { 0 };
@@ -89,8 +94,14 @@ static pg_status figure_1 (const char *folder)
         double *at = v + (1 + 3*k) * PLACES;
         PG_TRY (sample (approximation[k % 2], support[k / 2], v, at, at + PLACES, at + 2 * PLACES));
         for (size_t c = 0; c < 3; c++) {
-            snprintf (names[3*k + c], sizeof *names, "%s %s a=%.1fD [%s]", c == 0 ? "error u" : c == 1 ? "error u'" : "N5_x", label[k % 2],
-                      support[k / 2], c == 0 ? "m" : c == 1 ? "1" : "1/m");
+            snprintf (names[3 * k + c], sizeof *names, "%s %s a=%.1fD [%s]",
+                      c == 0   ? "error u"
+                      : c == 1 ? "error u'"
+                               : "N5_x",
+                      label[k % 2], support[k / 2],
+                      c == 0   ? "m"
+                      : c == 1 ? "1"
+                               : "1/m");
             columns[1 + 3*k + c] = names[3*k + c];
         }
         if (k < 2 || k > 5) continue;
@@ -99,14 +110,16 @@ static pg_status figure_1 (const char *folder)
         curves[k - 2] = (pg_curve) { legend[k - 2], PLACES, v, at + 2 * PLACES, 0 };
     }
     PG_TRY (write_table (folder, "fig1", 25, columns, PLACES, v));
-    PG_TRY (draw (folder, "fig1", 4, curves, &(pg_chart_style) { .title = "Derivative of one shape function (node at x = 5, D = 1)",
-                  .xlabel = "x / D", .ylabel = "D N_{,x}" }));
+    PG_TRY (draw (folder, "fig1", 4, curves,
+                  &(pg_chart_style){ .title = "Derivative of one shape function (node at x = 5, D = 1)",
+                                     .xlabel = "x / D",
+                                     .ylabel = "D N_{,x}" }));
 done:
     pg_free (v);
     return status;
 }
 
-/* ---- figure 2 ------------------------------------------------------------------------------------------------------------- */
+/* ---- figure 2 ------------------------------------------------------------------------------------------ */
 static pg_status figure_2 (const char *folder)
 {
     pg_status status = PG_OK;
@@ -128,14 +141,18 @@ static pg_status figure_2 (const char *folder)
         curves[k] = (pg_curve) { names[k], RULES, v[0], v[1 + k], 1 };
     }
     PG_TRY (write_table (folder, "fig2", 7, columns, RULES, &v[0][0]));
-    PG_TRY (draw (folder, "fig2", 6, curves, &(pg_chart_style) { .title = "Force imbalance of a bar under stress 1 (10 cells)",
-                  .xlabel = "Gauss points per cell (0: nodal integration)", .ylabel = "max |f_{int} - f_{ext}|", .logy = 1 }));
+    PG_TRY (draw (folder, "fig2", 6, curves,
+                  &(pg_chart_style){ .title = "Force imbalance of a bar under stress 1 (10 cells)",
+                                     .xlabel = "Gauss points per cell (0: nodal integration)",
+                                     .ylabel = "max |f_{int} - f_{ext}|",
+                                     .logy = 1 }));
 done:
     return status;
 }
 
-/* ---- figure 3 ------------------------------------------------------------------------------------------------------------- */
-/* One chart per support; columns of the table: RKPM nodal, PDDO nodal, RKPM 2-point, PDDO 2-point for each support. */
+/* ---- figure 3 ------------------------------------------------------------------------------------------ */
+/* One chart per support; columns of the table: RKPM nodal, PDDO nodal, RKPM 2-point, PDDO 2-point for each
+ * support. */
 static pg_status figure_3 (const char *folder)
 {
     pg_status status = PG_OK;
@@ -154,7 +171,8 @@ static pg_status figure_3 (const char *folder)
             bar_clear (&b);
             PG_TRY (now);
         }
-        snprintf (names[k], sizeof *names, "%s, %s, a = %.1f D", label[k % 2], points ? "2-point" : "nodal", a);
+        snprintf (names[k], sizeof *names, "%s, %s, a = %.1f D", label[k % 2], points ? "2-point" : "nodal",
+                  a);
         columns[1 + k] = names[k];
         static char legend[4][24];
         snprintf (legend[k % 4], sizeof *legend, "%s, %s", label[k % 2], points ? "2-point" : "nodal");
@@ -162,7 +180,12 @@ static pg_status figure_3 (const char *folder)
         if (k % 4 != 3) continue;
         snprintf (title, sizeof title, "-u'' = 1, a = %.1f D", a);
         snprintf (name, sizeof name, "fig3_a%.1f", a);
-        PG_TRY (draw (folder, name, 4, curves, &(pg_chart_style) { .title = title, .xlabel = "cells", .ylabel = "relative L_{2} error", .logx = 1, .logy = 1 }));
+        PG_TRY (draw (folder, name, 4, curves,
+                      &(pg_chart_style){ .title = title,
+                                         .xlabel = "cells",
+                                         .ylabel = "relative L_{2} error",
+                                         .logx = 1,
+                                         .logy = 1 }));
     }
     PG_TRY (write_table (folder, "fig3", SCHEMES + 1, columns, SIZES, &v[0][0]));
 done:

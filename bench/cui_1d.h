@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * cui_1d.h: the bar of Cui 2022 figures 1 to 3 on the library's own rows: n cells of size D on [0, L], nodes at their ends,
- * shape functions of a linear basis with the cubic spline kernel, V_j = 1 (theory E4). Included by the test and by the bench. */
+ * cui_1d.h: the bar of Cui 2022 figures 1 to 3 on the library's own rows: n cells of size D on [0, L], nodes
+ * at their ends, shape functions of a linear basis with the cubic spline kernel, V_j = 1 (theory E4).
+ * Included by the test and by the bench. */
 #ifndef PERIGAL_BENCH_CUI_1D_H
 #define PERIGAL_BENCH_CUI_1D_H
 #include "perigal/approx.h"
@@ -9,12 +10,17 @@
 
 typedef struct { size_t cells; double L, D; pg_cloud cloud; pg_approx approx; } bar;
 
-static inline pg_status bar_create (bar *out, const char *approximation, size_t cells, double L, double a_over_D)
+static inline pg_status bar_create (bar *out, const char *approximation, size_t cells, double L,
+                                    double a_over_D)
 {
     pg_status status = PG_OK;
     double D = L / (double) cells;
-    *out = (bar) { cells, L, D, { .dim = 1, .n = cells + 1, .h = D, .step = { D }, .thickness = 1 },
-                   { pg_approx_find (approximation), pg_kernel_find ("cubic_spline"), 1, PG_RADIAL, 0, a_over_D * D, 0, 0 } };
+    *out = (bar){ cells,
+                  L,
+                  D,
+                  { .dim = 1, .n = cells + 1, .h = D, .step = { D }, .thickness = 1 },
+                  { pg_approx_find (approximation), pg_kernel_find ("cubic_spline"), 1, PG_RADIAL, 0,
+                    a_over_D * D, 0, 0 } };
     PG_ALLOC (out->cloud.x, cells + 1);
     PG_ALLOC (out->cloud.volume, cells + 1);
     for (size_t i = 0; i <= cells; i++) {
@@ -28,7 +34,8 @@ done:
 static inline void bar_clear (bar *b) { pg_free (b->cloud.x), pg_free (b->cloud.volume); }
 
 /* Rows at n places x; weight may be NULL. */
-static inline pg_status bar_rows_at (pg_rows *out, const bar *b, size_t n, const double *x, const double *weight)
+static inline pg_status bar_rows_at (pg_rows *out, const bar *b, size_t n, const double *x,
+                                     const double *weight)
 {
     pg_status status = PG_OK;
     PG_TRY (pg_rows_create (out, &b->approx, &b->cloud, n, x, weight, NULL, NULL));
@@ -68,9 +75,11 @@ static inline pg_status bar_imbalance (const bar *b, int points, double *out)
     PG_TRY (bar_rows (&inside, b, points));
     PG_TRY (bar_rows_at (&end, b, 2, ends, NULL));
     for (size_t q = 0; q < inside.n; q++)
-        for (size_t e = inside.family.start[q]; e < inside.family.start[q + 1]; e++) f[inside.family.node[e]] += inside.weight[q] * inside.dN[e];
+        for (size_t e = inside.family.start[q]; e < inside.family.start[q + 1]; e++)
+            f[inside.family.node[e]] += inside.weight[q] * inside.dN[e];
     for (size_t q = 0; q < 2; q++)
-        for (size_t e = end.family.start[q]; e < end.family.start[q + 1]; e++) f[end.family.node[e]] -= (q ? 1 : -1) * end.N[e];
+        for (size_t e = end.family.start[q]; e < end.family.start[q + 1]; e++)
+            f[end.family.node[e]] -= (q ? 1 : -1) * end.N[e];
     *out = 0;
     for (size_t i = 0; i < b->cloud.n; i++) *out = fmax (*out, fabs (f[i]));
 done:
@@ -102,9 +111,11 @@ static inline int bar_eliminate (size_t n, double *A, double *b)
     return 1;
 }
 
-static inline double bar_exact (const bar *b, double x) { return x * (b->L - 0.5 * x); }        /* -u'' = 1, u (0) = 0, u' (L) = 0 */
+/* -u'' = 1, u (0) = 0, u' (L) = 0 */
+static inline double bar_exact (const bar *b, double x) { return x * (b->L - 0.5 * x); }
 
-/* Coefficients (cloud.n + 1, the last is the multiplier) of -u'' = 1 with u (0) = 0 by a Lagrange multiplier. */
+/* Coefficients (cloud.n + 1, the last is the multiplier) of -u'' = 1 with u (0) = 0 by a Lagrange
+ * multiplier. */
 static inline pg_status bar_solve (const bar *b, int points, double *d)
 {
     pg_status status = PG_OK;
@@ -120,7 +131,8 @@ static inline pg_status bar_solve (const bar *b, int points, double *d)
         for (size_t e = f->start[q]; e < f->start[q + 1]; e++) {
             size_t i = (size_t) f->node[e];
             d[i] += inside.weight[q] * inside.N[e];
-            for (size_t g = f->start[q]; g < f->start[q + 1]; g++) A[i*m + (size_t) f->node[g]] += inside.weight[q] * inside.dN[e] * inside.dN[g];
+            for (size_t g = f->start[q]; g < f->start[q + 1]; g++)
+                A[i * m + (size_t) f->node[g]] += inside.weight[q] * inside.dN[e] * inside.dN[g];
         }
     }
     for (size_t e = 0; e < end.family.start[1]; e++) {
@@ -143,7 +155,8 @@ static inline pg_status bar_error_of (const bar *b, const double *d, double *out
     PG_TRY (bar_rows (&fine, b, 5));
     for (size_t q = 0; q < fine.n; q++) {
         double u = 0, exact = bar_exact (b, fine.x[q]);
-        for (size_t e = fine.family.start[q]; e < fine.family.start[q + 1]; e++) u += fine.N[e] * d[fine.family.node[e]];
+        for (size_t e = fine.family.start[q]; e < fine.family.start[q + 1]; e++)
+            u += fine.N[e] * d[fine.family.node[e]];
         off += fine.weight[q] * (u - exact) * (u - exact), size += fine.weight[q] * exact * exact;
     }
     *out = sqrt (off / size);

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Equilibrium of bodies of bonds: plate with a hole, the same with a crack through most of it, cantilever, points off a lattice, cube; of micropolar ones
- * the same plate and the cube with a penny-shaped flaw of data/chen_cube. One CSV row per body, size and way to solve: conjugate gradients with the multilevel
- * preconditioner and with the diagonal, the factorization of K.
- * equilibrium [BODY [POINTS ALONG]]; without: all. Seconds are processor time of all threads (min of 3 set-ups and solves), wall: of the solve; relative
- * residual 1e-8; error: largest difference to the factorization over the largest displacement, where that was made.
- * PERIGAL_BENCH_THREADS: threads (1). The factorization only up to 4e4 unknowns in 2D and 15e3 in 3D, the diagonal up to 5e5. */
+ * Equilibrium of bodies of bonds: plate with a hole, the same with a crack through most of it, cantilever,
+ * points off a lattice, cube; of micropolar ones the same plate and the cube with a penny-shaped flaw of
+ * data/chen_cube. One CSV row per body, size and way to solve: conjugate gradients with the multilevel
+ * preconditioner and with the diagonal, the factorization of K. equilibrium [BODY [POINTS ALONG]]; without:
+ * all. Seconds are processor time of all threads (min of 3 set-ups and solves), wall: of the solve; relative
+ * residual 1e-8; error: largest difference to the factorization over the largest displacement, where that was
+ * made. PERIGAL_BENCH_THREADS: threads (1). The factorization only up to 4e4 unknowns in 2D and 15e3 in 3D,
+ * the diagonal up to 5e5. */
 #include "perigal/force.h"
 #include "perigal/scene.h"
 #include <math.h>
@@ -23,29 +25,67 @@ static double processor (void)
     return (double) t.tv_sec + 1e-9 * (double) t.tv_nsec;
 }
 
-/* ---- bodies ------------------------------------------------------------------------------------------------------------------------ */
-#define ROCK2 "thickness: 1\nmaterials: {rock: {youngs_modulus: 10, poissons_ratio: 0.333333333333, density: 3}}\n"
-#define HOLE "body: [{add: {box: {low: [0, 0], high: [1, 1]}}}, {subtract: {disk: {center: [0.5, 0.5], diameter: 0.2}}}]\ncells: staircase\n"
-#define PULL2 "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {x: 0, y: 0.01}}]\n"
+/* ---- bodies -------------------------------------------------------------------------------------------- */
+#define ROCK2 \
+    "thickness: 1\nmaterials: {rock: {youngs_modulus: 10, poissons_ratio: 0.333333333333, density: 3}}\n"
+#define HOLE \
+    "body: [{add: {box: {low: [0, 0], high: [1, 1]}}}, {subtract: {disk: {center: [0.5, 0.5], diameter: " \
+    "0.2}}}]\ncells: staircase\n"
+#define PULL2 \
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {x: 0, y: 0.01}}]\n"
 typedef struct { const char *name; int dim; double length; size_t sizes[5]; const char *text; } body;
 static const body bodies[] = {
-    { "hole",       2, 1,  { 100, 200, 400, 1000 }, "dimension: 2\nlattice: cells\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n" ROCK2 HOLE PULL2 },
-    { "crack",      2, 1,  { 100, 200, 400 },       "dimension: 2\nlattice: cells\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n" ROCK2 HOLE PULL2
-      "cracks: [{from: [0.1, 0.7003], to: [0.9, 0.7503]}]\n" },
-    { "cantilever", 2, 10, { 500, 1000, 2000 },     "dimension: 2\nlattice: cells\nmethod: {force: bond, kernel: quadratic, horizon: 3.015 spacing}\n" ROCK2
-      "body: [{add: {box: {low: [0, 0], high: [10, 1]}}}]\nboundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {y: -0.01}}]\n" },
-    { "irregular",  2, 1,  { 100, 200, 400 },       "dimension: 2\nperturb: {amount: 0.2}\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n" ROCK2 HOLE PULL2 },
-    { "cube",       3, 1,  { 16, 32, 64 },          "dimension: 3\nlattice: cells\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n"
-      "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.25, density: 3}}\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\n"
+    { "hole",
+      2,
+      1,
+      { 100, 200, 400, 1000 },
+      "dimension: 2\nlattice: cells\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n" ROCK2
+          HOLE PULL2 },
+    { "crack",
+      2,
+      1,
+      { 100, 200, 400 },
+      "dimension: 2\nlattice: cells\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n" ROCK2
+          HOLE PULL2 "cracks: [{from: [0.1, 0.7003], to: [0.9, 0.7503]}]\n" },
+    { "cantilever",
+      2,
+      10,
+      { 500, 1000, 2000 },
+      "dimension: 2\nlattice: cells\nmethod: {force: bond, kernel: quadratic, horizon: 3.015 spacing}\n" ROCK2
+      "body: [{add: {box: {low: [0, 0], high: [10, 1]}}}]\nboundary: [{set: left, displacement: {x: 0, y: "
+      "0}}, {set: right, traction: {y: -0.01}}]\n" },
+    { "irregular",
+      2,
+      1,
+      { 100, 200, 400 },
+      "dimension: 2\nperturb: {amount: 0.2}\nmethod: {force: bond, kernel: constant, horizon: 3.015 "
+      "spacing}\n" ROCK2 HOLE PULL2 },
+    { "cube",
+      3,
+      1,
+      { 16, 32, 64 },
+      "dimension: 3\nlattice: cells\nmethod: {force: bond, kernel: constant, horizon: 3.015 spacing}\n"
+      "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.25, density: 3}}\nbody: [{add: {box: {low: "
+      "[0, 0, 0], high: [1, 1, 1]}}}]\n"
       "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 0.01}}]\n" },
-    { "beams",      2, 1,  { 100, 400 },            "dimension: 2\nlattice: cells\nmethod: {force: gmpd, horizon: 3 spacing}\n"
+    { "beams",
+      2,
+      1,
+      { 100, 400 },
+      "dimension: 2\nlattice: cells\nmethod: {force: gmpd, horizon: 3 spacing}\n"
       "thickness: 1\nmaterials: {rock: {youngs_modulus: 10, poissons_ratio: 0.2, density: 3}}\n" HOLE PULL2 },
-    { "flaw",       3, 0.04, { 10, 20, 40 },        "dimension: 3\nlattice: cells\nmethod: {force: gmpd, horizon: 3 spacing}\n"
+    { "flaw",
+      3,
+      0.04,
+      { 10, 20, 40 },
+      "dimension: 3\nlattice: cells\nmethod: {force: gmpd, horizon: 3 spacing}\n"
       "materials: {resin: {youngs_modulus: 3.81 GPa, poissons_ratio: 0.2, density: 1210 kg/m3}}\n"
       "body: [{add: {box: {low: [-20 mm, -20 mm, -20 mm], high: [20 mm, 20 mm, 20 mm]}}}]\n"
-      "layers: [{name: foot, side: bottom, thickness: 3 spacing}, {name: head, side: top, thickness: 3 spacing}]\n"
+      "layers: [{name: foot, side: bottom, thickness: 3 spacing}, {name: head, side: top, thickness: 3 "
+      "spacing}]\n"
       "cracks: [{disc: {center: [0, 0, 0], normal: [-0.5, 0.8660254, 0], radius: 5 mm}}]\n"
-      "boundary: [{set: foot, displacement: {x: 0, y: 0.348 mm, z: 0}}, {set: head, displacement: {x: 0, y: -0.348 mm, z: 0}}]\n" },
+      "boundary: [{set: foot, displacement: {x: 0, y: 0.348 mm, z: 0}}, {set: head, displacement: {x: 0, y: "
+      "-0.348 mm, z: 0}}]\n" },
 };
 enum { BODIES = sizeof bodies / sizeof *bodies };
 
@@ -55,9 +95,9 @@ typedef struct {
     const pg_force_type *force;  void *self;
     const pg_operator *K;
     unsigned char *fixed;
-    double *r, *x, *exact;                             /* exact: by the factor, NULL: not made                           */
+    double *r, *x, *exact;                             /* exact: by the factor, NULL: not made */
     size_t n;
-    int components;                                    /* unknowns of a point                                            */
+    int components;                                    /* unknowns of a point */
 } job;
 
 static pg_status start (job *j, const body *b, size_t along, int threads)
@@ -66,7 +106,8 @@ static pg_status start (job *j, const body *b, size_t along, int threads)
     char text[2000];
     double reference;
     pg_field field[2];
-    snprintf (text, sizeof text, "%sspacing: %.17g\nsolver: {kind: static}\n", b->text, b->length / (double) along);
+    snprintf (text, sizeof text, "%sspacing: %.17g\nsolver: {kind: static}\n", b->text,
+              b->length / (double) along);
     *j = (job) { .name = b->name };
     PG_TRY (pg_scene_parse (&j->scene, text, b->name));
     PG_TRY (pg_problem_build (&j->problem, j->scene, threads));
@@ -106,12 +147,15 @@ static void apply (void *context, const double *x, double *y)
 
 static void diagonal (void *context, double *d) { const job *j = context; j->K->diagonal (j->K->context, d); }
 
-/* ---- ways -------------------------------------------------------------------------------------------------------------------------- */
-static void row (const job *j, const char *way, const char *levels, size_t iterations, double set_up, double solve, double wall)
+/* ---- ways ---------------------------------------------------------------------------------------------- */
+static void row (const job *j, const char *way, const char *levels, size_t iterations, double set_up,
+                 double solve, double wall)
 {
     double worst = 0, top = 0;
-    for (size_t i = 0; j->exact && i < j->n; i++) worst = fmax (worst, fabs (j->x[i] - j->exact[i])), top = fmax (top, fabs (j->exact[i]));
-    printf ("%s,%zu,%zu,%d,%s,%s,%zu,%.4f,%.4f,%.4f,", j->name, j->problem->cloud.n, j->n, j->problem->threads, way, levels, iterations, set_up, solve, wall);
+    for (size_t i = 0; j->exact && i < j->n; i++)
+        worst = fmax (worst, fabs (j->x[i] - j->exact[i])), top = fmax (top, fabs (j->exact[i]));
+    printf ("%s,%zu,%zu,%d,%s,%s,%zu,%.4f,%.4f,%.4f,", j->name, j->problem->cloud.n, j->n,
+            j->problem->threads, way, levels, iterations, set_up, solve, wall);
     if (j->exact) printf ("%.2e\n", worst / top);
     else puts ("");
     fflush (stdout);
@@ -150,8 +194,13 @@ done:
 static pg_status by_gradients (job *j, int multilevel)
 {
     pg_status status = PG_OK;
-    pg_multilevel_setting s = { .dim = j->problem->dim, .block = j->components, .threads = j->problem->threads, .n = j->problem->cloud.n,
-                                .x = j->problem->cloud.x, .fixed = j->fixed, .A = j->K };
+    pg_multilevel_setting s = { .dim = j->problem->dim,
+                                .block = j->components,
+                                .threads = j->problem->threads,
+                                .n = j->problem->cloud.n,
+                                .x = j->problem->cloud.x,
+                                .fixed = j->fixed,
+                                .A = j->K };
     pg_operator A = { j->n, j, apply, diagonal };
     pg_multilevel *m = NULL;
     pg_multilevel_info info = { 0 };
@@ -168,10 +217,12 @@ static pg_status by_gradients (job *j, int multilevel)
         if (m) P = pg_multilevel_preconditioner (m);
         memset (j->x, 0, j->n * sizeof *j->x);
         PG_TRY (pg_conjugate_gradients_with (&A, m ? &P : NULL, j->r, j->x, tolerance, 100000, &used));
-        set_up = fmin (set_up, t1 - t0), solve = fmin (solve, processor () - t1), wall = fmin (wall, pg_seconds () - w1);
+        set_up = fmin (set_up, t1 - t0), solve = fmin (solve, processor () - t1),
+        wall = fmin (wall, pg_seconds () - w1);
     }
     if (m) pg_multilevel_describe (m, &info);
-    for (int k = 0, at = 0; k < info.levels; k++) at += snprintf (levels + at, sizeof levels - (size_t) at, "%s%zu", k ? " " : "", info.unknowns[k]);
+    for (int k = 0, at = 0; k < info.levels; k++)
+        at += snprintf (levels + at, sizeof levels - (size_t) at, "%s%zu", k ? " " : "", info.unknowns[k]);
     row (j, m ? "multilevel" : "diagonal", levels, used, set_up, solve, wall);
 done:
     pg_multilevel_free (&m);

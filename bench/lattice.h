@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * lattice.h: a plate or block of points on a lattice and its bonds, for benches: created with room for displacements and forces, then given bonds. */
+ * lattice.h: a plate or block of points on a lattice and its bonds, for benches: created with room for
+ * displacements and forces, then given bonds. */
 #ifndef PERIGAL_BENCH_LATTICE_H
 #define PERIGAL_BENCH_LATTICE_H
 #include "perigal/sums.h"
@@ -8,15 +9,16 @@
 #include <time.h>
 
 typedef struct {
-    int       m;                                       /* unknowns of a point                                            */
-    pg_cloud  cloud;                                   /* the first point at the origin                                  */
+    int       m;                                       /* unknowns of a point */
+    pg_cloud  cloud;                                   /* the first point at the origin */
     pg_sums  *sums;
     pg_family family;
-    double   *u, *f, *plain;                           /* displacements, forces, forces to compare with      (n x m)     */
-    unsigned char *alive;                              /*                                                     (bonds)    */
+    double   *u, *f, *plain;  /* displacements, forces, forces to compare with (n x m) */
+    unsigned char *alive;                              /* (bonds) */
 } lattice_body;
 
-/* Of one thread its own time, which other programs on the machine do not lengthen; of several that of the clock */
+/* Of one thread its own time, which other programs on the machine do not lengthen; of several that of the
+ * clock */
 static inline double lattice_seconds (int threads)
 {
     struct timespec t;
@@ -27,7 +29,8 @@ static inline double lattice_seconds (int threads)
 static inline pg_status lattice_create (lattice_body *b, int dim_, const int *count, double h, int m)
 {
     pg_status status = PG_OK;
-    size_t dim = (size_t) dim_, nx = (size_t) count[0], ny = (size_t) count[1], n = nx * ny * (size_t) (dim == 3 ? count[2] : 1);
+    size_t dim = (size_t) dim_, nx = (size_t) count[0], ny = (size_t) count[1],
+           n = nx * ny * (size_t) (dim == 3 ? count[2] : 1);
     pg_cloud *c = &b->cloud;
     *b = (lattice_body) { .m = m, .cloud = { .dim = dim_, .n = n, .h = h, .thickness = 1 } };
     PG_ALLOC (c->x, n * dim);
@@ -71,7 +74,8 @@ static inline void lattice_clear (lattice_body *b)
 static inline double lattice_apart (const lattice_body *b, const double *a, const double *right)
 {
     double most = 0, off = 0;
-    for (size_t k = 0; k < b->cloud.n * (size_t) b->m; k++) most = fmax (most, fabs (right[k])), off = fmax (off, fabs (a[k] - right[k]));
+    for (size_t k = 0; k < b->cloud.n * (size_t) b->m; k++)
+        most = fmax (most, fabs (right[k])), off = fmax (off, fabs (a[k] - right[k]));
     return off / most;
 }
 #endif

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The same bond-based plate and block with LAMMPS' package PERI and with Perigal, one thread each: directed bonds per second of the loops that sum
- * forces (law: finite stretch, broken bonds looked for), and by how much the displacements differ after a few hundred steps of velocity Verlet.
- * Runs bench/lammps/block.in with the program that LAMMPS names (default lmp); without one only Perigal's rows are printed.
- * PERI scales a neighbour's volume by (horizon + step/2 - r) / step where r > horizon - step/2, but has no bonds beyond the horizon: the sums called
- * `peri` here do the same; `linear` are Perigal's own, with bonds up to horizon + step/2. Stiffness: under equal stretches, over that of a body without
- * gaps; it is why the two move apart. Seconds are those of the processor. */
+ * The same bond-based plate and block with LAMMPS' package PERI and with Perigal, one thread each: directed
+ * bonds per second of the loops that sum forces (law: finite stretch, broken bonds looked for), and by how
+ * much the displacements differ after a few hundred steps of velocity Verlet. Runs bench/lammps/block.in with
+ * the program that LAMMPS names (default lmp); without one only Perigal's rows are printed. PERI scales a
+ * neighbour's volume by (horizon + step/2 - r) / step where r > horizon - step/2, but has no bonds beyond the
+ * horizon: the sums called `peri` here do the same; `linear` are Perigal's own, with bonds up to horizon +
+ * step/2. Stiffness: under equal stretches, over that of a body without gaps; it is why the two move apart.
+ * Seconds are those of the processor. */
 #include "lattice.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,11 +14,12 @@
 
 typedef struct { const char *name; int dim, count, steps; double dt; } shape;
 static const shape shapes[] = { { "plate_400", 2, 400, 200, 2e-7 }, { "block_40", 3, 40, 100, 1e-7 } };
-static const double step = 1e-3, ratio = 3.015, E = 72e9, rho = 2440, speed = 1, wave = 40;        /* m, -, Pa, kg/m^3, m/s, 1/m */
+/* m, -, Pa, kg/m^3, m/s, 1/m */
+static const double step = 1e-3, ratio = 3.015, E = 72e9, rho = 2440, speed = 1, wave = 40;
 
 typedef struct {
     const shape *shape;
-    lattice_body body;                                 /* plain: LAMMPS' displacements                                   */
+    lattice_body body;                                 /* plain: LAMMPS' displacements */
     double modulus, *moduli, *limit, *v;
 } runner;
 
@@ -34,7 +37,8 @@ static void start (runner *r)
     for (size_t i = 0; i < b->cloud.n; i++) {
         const double *x = b->cloud.x + i * dim;
         for (size_t d = 0; d < dim; d++) b->u[i*dim + d] = r->v[i*dim + d] = 0;
-        r->v[i*dim] = speed * sin (wave * (x[0] + 2 * x[1])), r->v[i*dim + 1] = speed * cos (wave * (2 * x[0] - x[1]));
+        r->v[i * dim] = speed * sin (wave * (x[0] + 2 * x[1])),
+                 r->v[i * dim + 1] = speed * cos (wave * (2 * x[0] - x[1]));
     }
 }
 
@@ -50,11 +54,16 @@ static pg_status build (runner *r, const shape *s, int peri, pg_evaluation evalu
     PG_ALLOC (r->v, n * (size_t) s->dim);
     if (s->dim == 2) b->cloud.thickness = step;
     for (size_t i = 0; i < n; i++) b->cloud.volume[i] = step * step * step;
-    pg_sum_rule rule = { .mode = s->dim == 2 ? PG_PLANE_STRESS : PG_SOLID, .kernel = pg_kernel_find ("constant"), .horizon = ratio * step,
-                         .partial = peri ? PG_PARTIAL_NONE : PG_PARTIAL_LINEAR, .finite = 1, .evaluation = evaluation };
+    pg_sum_rule rule = { .mode = s->dim == 2 ? PG_PLANE_STRESS : PG_SOLID,
+                         .kernel = pg_kernel_find ("constant"),
+                         .horizon = ratio * step,
+                         .partial = peri ? PG_PARTIAL_NONE : PG_PARTIAL_LINEAR,
+                         .finite = 1,
+                         .evaluation = evaluation };
     PG_TRY (lattice_bond (b, &rule, 0));
     pg_stencil *t = &b->sums->stencil;
-    for (size_t k = 0; peri && k < t->n; k++) t->beta[k] = t->weight[k] = fmin (1, (rule.horizon + step / 2 - t->r[k]) / step);
+    for (size_t k = 0; peri && k < t->n; k++)
+        t->beta[k] = t->weight[k] = fmin (1, (rule.horizon + step / 2 - t->r[k]) / step);
     r->modulus = pg_bond_modulus (rule.mode, rule.kernel, rule.horizon, E, b->cloud.thickness);
     for (size_t i = 0; i < n; i++) r->moduli[i] = r->modulus, r->limit[i] = 1;
     start (r);
@@ -69,23 +78,29 @@ static pg_status go (runner *r, const char *set, char *name, double *best)
     lattice_body *b = &r->body;
     size_t values = b->cloud.n * (size_t) b->cloud.dim;
     double half = r->shape->dt / 2 / (rho * b->cloud.volume[0]);
-    pg_sweep *sweep = NULL;
+    pg_bond_loop *sweep = NULL;
     pg_changes broken = { 0 };
-    pg_sweep_setting setting = { .sums = b->sums, .family = &b->family, .modulus = r->moduli, .limit = r->limit, .threads = 1, .instructions = set };
-    PG_TRY (pg_sweep_create (&sweep, &setting));
-    strcpy (name, pg_sweep_name (sweep));
+    pg_bond_loop_setting setting = { .sums = b->sums,
+                                     .family = &b->family,
+                                     .modulus = r->moduli,
+                                     .limit = r->limit,
+                                     .threads = 1,
+                                     .instructions = set };
+    PG_TRY (pg_bond_loop_create (&sweep, &setting));
+    strcpy (name, pg_bond_loop_name (sweep));
     start (r);
     *best = INFINITY;
     for (int k = 0; k <= r->shape->steps; k++) {
         double now = lattice_seconds (1);
-        PG_TRY (pg_sweep_force (sweep, b->u, b->f, &broken));
+        PG_TRY (pg_bond_loop_force (sweep, b->u, b->f, &broken));
         *best = fmin (*best, lattice_seconds (1) - now);
         for (size_t i = 0; k > 0 && i < values; i++) r->v[i] += half * b->f[i];
-        for (size_t i = 0; k < r->shape->steps && i < values; i++) r->v[i] += half * b->f[i], b->u[i] += r->shape->dt * r->v[i];
+        for (size_t i = 0; k < r->shape->steps && i < values; i++)
+            r->v[i] += half * b->f[i], b->u[i] += r->shape->dt * r->v[i];
     }
     if (broken.n > 0) PG_FAIL (PG_E_EQUILIBRIUM, "%zu bonds broke", broken.n);
 done:
-    pg_sweep_free (&sweep);
+    pg_bond_loop_free (&sweep);
     pg_free (broken.bond);
     return status;
 }
@@ -114,7 +129,7 @@ done:
     return status;
 }
 
-typedef struct { double bonds, pair, loop; } rival;    /* seconds of the processor, all steps                            */
+typedef struct { double bonds, pair, loop; } rival;    /* seconds of the processor, all steps */
 
 /* LAMMPS on this body, one process, one thread; bonds = 0: there is no LAMMPS. */
 static pg_status run_lammps (runner *b, rival *r)
@@ -130,9 +145,13 @@ static pg_status run_lammps (runner *b, rival *r)
     int temporary = mkstemp (path);
     if (temporary < 0) PG_FAIL (PG_E_FILE, "no temporary file in /tmp");
     close (temporary);
-    snprintf (command, sizeof command, "OMP_NUM_THREADS=1 '%s' -in bench/lammps/block.in -log none -var dim %d -var count %d -var step %.17g -var horizon %.17g"
-              " -var c %.17g -var rho %.17g -var dt %.17g -var velocity %.17g -var wave %.17g -var steps %d -var final %s", program ? program : "lmp",
-              b->shape->dim, b->shape->count, step, ratio * step, b->modulus, rho, b->shape->dt, speed, wave, b->shape->steps, path);
+    snprintf (command, sizeof command,
+              "OMP_NUM_THREADS=1 '%s' -in bench/lammps/block.in -log none -var dim %d -var count %d -var "
+              "step %.17g -var horizon %.17g"
+              " -var c %.17g -var rho %.17g -var dt %.17g -var velocity %.17g -var wave %.17g -var steps %d "
+              "-var final %s",
+              program ? program : "lmp", b->shape->dim, b->shape->count, step, ratio * step, b->modulus, rho,
+              b->shape->dt, speed, wave, b->shape->steps, path);
     if (!(pipe = popen (command, "r"))) PG_FAIL (PG_E_FILE, "LAMMPS could not be started");
     while (fgets (line, sizeof line, pipe)) {
         sscanf (line, " total # of bonds = %lf", &r->bonds);
@@ -149,11 +168,13 @@ done:
     return status;
 }
 
-static void row (const runner *b, const char *program, const char *sums, double bonds, double time, const rival *r, double off)
+static void row (const runner *b, const char *program, const char *sums, double bonds, double time,
+                 const rival *r, double off)
 {
     const pg_sums *of = b->body.sums;
     double rate = bonds / time, pair = r->bonds * b->shape->steps / r->pair;
-    printf ("%s,%zu,%.0f,%s,%s,%d,%.4f,%.4f,", b->shape->name, b->body.cloud.n, bonds, program, sums, b->shape->steps, time * 1e3, rate * 1e-9);
+    printf ("%s,%zu,%.0f,%s,%s,%d,%.4f,%.4f,", b->shape->name, b->body.cloud.n, bonds, program, sums,
+            b->shape->steps, time * 1e3, rate * 1e-9);
     printf ("%.4f,", 1 / pg_stencil_calibration (&of->stencil, &of->rule));
     if (r->bonds > 0) printf ("%.1f,%.3g\n", rate / pair, off);
     else printf (",\n");
@@ -162,9 +183,12 @@ static void row (const runner *b, const char *program, const char *sums, double 
 
 static pg_status race (const shape *s)
 {
-    static const struct { pg_evaluation evaluation; int peri; const char *set; } runs[] = {
-        { PG_EVALUATE_LIST, 1, NULL }, { PG_EVALUATE_LIST, 1, "avx2" }, { PG_EVALUATE_LIST, 1, "scalar" }, { PG_EVALUATE_STENCIL, 1, NULL },
-        { PG_EVALUATE_STENCIL, 1, "avx2" }, { PG_EVALUATE_STENCIL, 1, "scalar" }, { PG_EVALUATE_LIST, 0, NULL }, { PG_EVALUATE_STENCIL, 0, NULL },
+    static const struct { pg_evaluation evaluation; int peri; const char *set;
+    } runs[] = {
+        { PG_EVALUATE_LIST, 1, NULL },      { PG_EVALUATE_LIST, 1, "avx2" },
+        { PG_EVALUATE_LIST, 1, "scalar" },  { PG_EVALUATE_STENCIL, 1, NULL },
+        { PG_EVALUATE_STENCIL, 1, "avx2" }, { PG_EVALUATE_STENCIL, 1, "scalar" },
+        { PG_EVALUATE_LIST, 0, NULL },      { PG_EVALUATE_STENCIL, 0, NULL },
     };
     pg_status status = PG_OK;
     runner b = { 0 };
@@ -184,7 +208,9 @@ static pg_status race (const shape *s)
             }
         }
         status = go (&b, runs[k].set, name, &best);
-        if (status == PG_OK) row (&b, name, runs[k].peri ? "peri" : "linear", (double) b.body.family.start[b.body.cloud.n], best, &r, lattice_apart (&b.body, b.body.u, other));
+        if (status == PG_OK)
+            row (&b, name, runs[k].peri ? "peri" : "linear", (double) b.body.family.start[b.body.cloud.n],
+                 best, &r, lattice_apart (&b.body, b.body.u, other));
         else if (status != PG_E_USAGE) goto done;      /* usage: instructions that this machine lacks */
         status = PG_OK;
         clear (&b);
@@ -197,7 +223,8 @@ done:
 
 int main (void)
 {
-    printf ("body,points,directed_bonds,program,sums,steps,ms_per_sweep,Gbonds_per_s,stiffness,times_lammps,displacement_difference\n");
+    printf ("body,points,directed_bonds,program,sums,steps,ms_per_sweep,Gbonds_per_s,stiffness,times_lammps,"
+            "displacement_difference\n");
     fflush (stdout);
     for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
         if (race (&shapes[k]) != PG_OK) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal.h: everything. Read in this order: scene, model, solve, report; then the catalogues.
+ * perigal.h: everything. Read in this order: scene, model, solve, results; then the catalogues.
  *
  *     pg_scene *scene = NULL; pg_problem *problem = NULL; pg_solver *solver = NULL; pg_state *state = NULL;
  *     pg_solver_options options; pg_step step;
@@ -10,8 +10,9 @@
  *     PG_TRY (pg_state_create (&state, problem, pg_solver_components (solver)));
  *     while (!pg_solver_done (solver, state)) PG_TRY (pg_solver_step (solver, state, &step));
  *
- * What comes out through **out is yours (free it with its _free); what comes back through const * is borrowed. Nothing is kept
- * from the scene. SI units throughout; Voigt order xx yy zz xy yz zx with engineering shears. */
+ * What comes out through **out is yours (free it with its _free); what comes back through const * is
+ * borrowed. Nothing is kept from the scene. SI units throughout; Voigt order xx yy zz xy yz zx with
+ * engineering shears. */
 #ifndef PERIGAL_H
 #define PERIGAL_H
 #include "perigal/base.h"
@@ -33,5 +34,5 @@
 #include "perigal/solve.h"
 #include "perigal/output.h"
 #include "perigal/compare.h"
-#include "perigal/report.h"
+#include "perigal/results.h"
 #endif

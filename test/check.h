@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * check.h: cmocka with comparisons of doubles that print both numbers; every test program includes this first. */
+ * check.h: cmocka with comparisons of doubles that print both numbers; every test program includes this
+ * first. */
 #ifndef PERIGAL_TEST_CHECK_H
 #define PERIGAL_TEST_CHECK_H
 #include <stdarg.h>
@@ -13,21 +14,37 @@
 #include "perigal/base.h"
 
 /* |a - b| <= tolerance * max (|b|, scale); never true for NaN */
-static inline void check_near_at (double a, double b, double tolerance, double scale, const char *what, const char *file, int line)
+static inline void check_near_at (double a, double b, double tolerance, double scale, const char *what,
+                                  const char *file, int line)
 {
     double size = fabs (b) > scale ? fabs (b) : scale;
     if (fabs (a - b) <= tolerance * size) return;
-    print_error ("%s = %.17g, expected %.17g, off by %.3g of %.3g (allowed %.3g)\n", what, a, b, fabs (a - b), size, tolerance);
+    print_error ("%s = %.17g, expected %.17g, off by %.3g of %.3g (allowed %.3g)\n", what, a, b, fabs (a - b),
+                 size, tolerance);
     _fail (file, line);
 }
-#define check_relative(a, b, tolerance)        check_near_at ((a), (b), (tolerance), 0, #a, __FILE__, __LINE__)
-#define check_absolute(a, b, tolerance)        check_near_at ((a), (b), (tolerance), 1, #a, __FILE__, __LINE__)
-#define check_scaled(a, b, tolerance, scale)   check_near_at ((a), (b), (tolerance), (scale), #a, __FILE__, __LINE__)
+#define check_relative(a, b, tolerance) check_near_at ((a), (b), (tolerance), 0, #a, __FILE__, __LINE__)
+#define check_absolute(a, b, tolerance) check_near_at ((a), (b), (tolerance), 1, #a, __FILE__, __LINE__)
+#define check_scaled(a, b, tolerance, scale) \
+    check_near_at ((a), (b), (tolerance), (scale), #a, __FILE__, __LINE__)
 /* (small numbers: check_absolute compares |a - b| with tolerance * max (1, |b|)) */
-#define check_ok(call) do { pg_status s_ = (call); if (s_ != PG_OK) { \
-    print_error ("%s: %s: %s\n", #call, pg_status_text (s_), pg_last_error ()); _fail (__FILE__, __LINE__); } } while (0)
-#define check_fails(call, code) do { pg_status s_ = (call); if (s_ != (code)) { \
-    print_error ("%s gave '%s', expected '%s'\n", #call, pg_status_text (s_), pg_status_text (code)); _fail (__FILE__, __LINE__); } } while (0)
+#define check_ok(call) \
+    do { \
+        pg_status s_ = (call); \
+        if (s_ != PG_OK) { \
+            print_error ("%s: %s: %s\n", #call, pg_status_text (s_), pg_last_error ()); \
+            _fail (__FILE__, __LINE__); \
+        } \
+    } while (0)
+#define check_fails(call, code) \
+    do { \
+        pg_status s_ = (call); \
+        if (s_ != (code)) { \
+            print_error ("%s gave '%s', expected '%s'\n", #call, pg_status_text (s_), \
+                         pg_status_text (code)); \
+            _fail (__FILE__, __LINE__); \
+        } \
+    } while (0)
 #define check_below(a, limit) do { double a_ = (a), l_ = (limit); if (!(a_ <= l_)) { \
     print_error ("%s = %.6g, must be <= %.6g\n", #a, a_, l_); _fail (__FILE__, __LINE__); } } while (0)
 #define check_contains(text, part) do { if (!strstr ((text), (part))) { \

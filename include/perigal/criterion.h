@@ -5,69 +5,84 @@
 #define PERIGAL_CRITERION_H
 #include "perigal/material.h"
 
-enum { PG_NEEDS_STRETCH = 1, PG_NEEDS_STRESS = 2, PG_NEEDS_ENERGY = 4, PG_NEEDS_BEAMS = 8, PG_MOST_LIMITS = 4 };
+enum {
+    PG_NEEDS_STRETCH = 1,
+    PG_NEEDS_STRESS = 2,
+    PG_NEEDS_ENERGY = 4,
+    PG_NEEDS_BEAMS = 8,
+    PG_MOST_LIMITS = 4
+};
 
 typedef struct pg_criterion_type pg_criterion_type;
 typedef struct {
     const pg_criterion_type *type;
-    int    single;                                     /* beam_limits: any one of the limits breaks a bond, not all together */
-    int    never;                                      /* 1: bonds that end in this material never break                 */
-    double parameter[8];                               /* of the type                                                    */
+    int    single;  /* beam_limits: any one of the limits breaks a bond, not all together */
+    int    never;                                      /* 1: bonds that end in this material never break */
+    double parameter[8];                               /* of the type */
 } pg_criterion;
 
-/* What a batch of bonds shows, or of points with PG_NEEDS_ENERGY; arrays the criterion did not ask for are NULL. */
+/* What a batch of bonds shows, or of points with PG_NEEDS_ENERGY; arrays the criterion did not ask for are
+ * NULL. */
 typedef struct {
     size_t n;
     int    dim;
-    const double *xi;                                  /* reference bond vector, m   (n x dim)                           */
-    const double *eta;                                 /* relative displacement, m   (n x dim)                           */
-    const double *reach;                               /* support of the bond or point over the horizon of the setting; NULL: 1 (n) */
-    const double *s1, *s3;                             /* largest, smallest principal stress, mean of both ends, Pa (n)  */
-    const double *shear, *bending;                     /* gamma (1) and kappa (rad) of bonds that bear shear (n): perigal/sums.h */
-    const double *energy;                              /* stored by a point, J/m^3 (n): at its limit all its bonds break  */
+    const double *xi;                                  /* reference bond vector, m (n x dim) */
+    const double *eta;                                 /* relative displacement, m (n x dim) */
+    const double *reach;  /* support of the bond or point over the horizon of the setting; NULL: 1 (n) */
+    const double *s1, *s3;  /* largest, smallest principal stress, mean of both ends, Pa (n) */
+    /* gamma (1) and kappa (rad) of bonds that bear shear (n): perigal/sums.h */
+    const double *shear, *bending;
+    const double *energy;  /* stored by a point, J/m^3 (n): at its limit all its bonds break */
 } pg_bond_measures;
 
-typedef struct {                                       /* what the criterion may need to derive its constants            */
+typedef struct {  /* what the criterion may need to derive its constants */
     pg_mode mode;
-    double  horizon;                                   /* m                                                              */
-    double  modulus, poisson;                          /* Pa, 1                                                          */
-    double  thickness;                                 /* m; 1D: cross-section, m^2                                      */
+    double  horizon;                                   /* m */
+    double  modulus, poisson;                          /* Pa, 1 */
+    double  thickness;                                 /* m; 1D: cross-section, m^2 */
     const char *kernel;
-    const char *material;                              /* its name in the scene; NULL: limits of `failure` only          */
-    int     graded;                                    /* 1: spacings differ, the horizon is that of the nominal one     */
-    double  toughness;                                 /* energy of a unit of crack over that of theory at the same stretch; 0: not known, 1 */
-    const char *stretch;                               /* "linear", "finite": as the force measures it; NULL: as failure.stretch says */
-    int     state;                                     /* 1: state-based forces; 0: those of bonds alone                  */
-    double  beam[3];                                   /* bonds that bear shear: energy of a straight cut (J/m^2) whose bonds all have s = 1, gamma = 1, kappa = 1 */
-    const char *usual;                                 /* criterion where the scene has `failure` without one; NULL: it must say */
+    const char *material;  /* its name in the scene; NULL: limits of `failure` only */
+    int     graded;  /* 1: spacings differ, the horizon is that of the nominal one */
+    /* energy of a unit of crack over that of theory at the same stretch; 0: not known, 1 */
+    double  toughness;
+    const char *stretch;  /* "linear", "finite": as the force measures it; NULL: as failure.stretch says */
+    int     state;                                     /* 1: state-based forces; 0: those of bonds alone */
+    /* bonds that bear shear: energy of a straight cut (J/m^2) whose bonds all have s = 1, gamma = 1, kappa =
+     * 1 */
+    double  beam[3];
+    const char *usual;  /* criterion where the scene has `failure` without one; NULL: it must say */
 } pg_criterion_setting;
 
 struct pg_criterion_type {
     const char *name, *summary;
-    int needs;                                         /* PG_NEEDS_...                                                   */
-    const char *limit[PG_MOST_LIMITS];                 /* keys of failure that it needs: "a", or "a or b" for either      */
-    const char *option;                                /* one more that it takes; NULL                                   */
+    int needs;                                         /* PG_NEEDS_... */
+    const char *limit[PG_MOST_LIMITS];  /* keys of failure that it needs: "a", or "a or b" for either */
+    const char *option;                                /* one more that it takes; NULL */
     /* Fills c from the limits of the setting's material; what is wrong becomes a fault of the scene. */
     pg_status (*read) (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting);
     /* utilisation (n); kind (n or NULL): 't' tension, 's' shear */
     void (*utilisation) (const pg_criterion *c, const pg_bond_measures *m, double *utilisation, char *kind);
-    /* Load factor (> 0; INFINITY: never) at which each bond reaches its limit when the measures are those of load factor 1
-     * and all loads are proportional (events, section 4). */
+    /* Load factor (> 0; INFINITY: never) at which each bond reaches its limit when the measures are those of
+     * load factor 1 and all loads are proportional (events, section 4). */
     void (*factor) (const pg_criterion *c, const pg_bond_measures *m, double *factor);
     /* One line for logs and reports: constants given and derived. */
     void (*describe) (const pg_criterion *c, char *text, size_t size);
 };
 const pg_criterion_type *pg_criterion_find (const char *name);
 const char *pg_criterion_names (void);
-/* The criterion of `failure` in the scene for each of n materials, with the limits of materials.NAME.failure before those of failure.
- * All have one type; it is NULL when nothing breaks. Faults: keys they lack or would ignore. */
-pg_status pg_criterion_read (pg_criterion *out, size_t n, const pg_scene *scene, const pg_criterion_setting *setting /* n */);
+/* The criterion of `failure` in the scene for each of n materials, with the limits of materials.NAME.failure
+ * before those of failure. All have one type; it is NULL when nothing breaks. Faults: keys they lack or would
+ * ignore. */
+pg_status pg_criterion_read (pg_criterion *out, size_t n, const pg_scene *scene,
+                             const pg_criterion_setting *setting /* n */);
 /* One line for logs and reports. */
 void      pg_criterion_describe (const pg_criterion *c, char *text, size_t size);
-/* Critical stretch from fracture energy G0 (J/m^2) and back: theory A1, by quadrature of the kernel moments. */
+/* Critical stretch from fracture energy G0 (J/m^2) and back: theory A1, by quadrature of the kernel
+ * moments. */
 double pg_stretch_from_energy (const pg_criterion_setting *setting, double G0);
-/* Energy (J/m^2) of state-based theory when all bonds across a plane have stretch s0 and no other is stretched: with I (z) = the part of q of a point
- * z from the plane that lies beyond it, G = s0^2 int_0^horizon [A d (I/q)^2 + B I/q] dz (pg_state_moduli). With A = 0 that of bonds alone. */
+/* Energy (J/m^2) of state-based theory when all bonds across a plane have stretch s0 and no other is
+ * stretched: with I (z) = the part of q of a point z from the plane that lies beyond it, G = s0^2
+ * int_0^horizon [A d (I/q)^2 + B I/q] dz (pg_state_moduli). With A = 0 that of bonds alone. */
 double pg_state_fracture_energy (const pg_criterion_setting *setting, double s0);
 /* That integral over horizon, Pa, with A and B (Pa) as given; 0: no such kernel. */
 double pg_state_cut_share (pg_mode mode, const char *kernel, double A, double B);

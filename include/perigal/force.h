@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * force.h: out-of-balance force of a displacement, and what solvers need of it. Catalogue: src/force/<name>.c + list.h.
- * A force owns its fields (displacement; with micropolar models also rotation) and its caches; dofs are numbered node by node. */
+ * force.h: out-of-balance force of a displacement, and what solvers need of it. Catalogue: src/force/<name>.c
+ * + list.h. A force owns its fields (displacement; with micropolar models also rotation) and its caches; dofs
+ * are numbered node by node. */
 #ifndef PERIGAL_FORCE_H
 #define PERIGAL_FORCE_H
 #include "perigal/linalg.h"
@@ -8,24 +9,26 @@
 
 typedef struct { const char *name, *unit; int components; } pg_field;
 
-/* What the boundary does: pairs of generalised force and displacement whose product is work, and sums per load. */
+/* What the boundary does: pairs of generalised force and displacement whose product is work, and sums per
+ * load. */
 typedef struct {
     size_t  npair;
-    double *force, *displacement;                      /* N, m (npair)                                                   */
-    double *reaction;                                  /* on the body per load and component, N; of rotations, moments: N m (nload x 3) */
-    double  strain;                                    /* stored energy: strain, stabilisation, boundary terms, J        */
-} pg_ledger;
+    double *force, *displacement;                      /* N, m (npair) */
+    double *reaction;  /* on the body per load and component, N; of rotations, moments: N m (nload x 3) */
+    double  strain;  /* stored energy: strain, stabilisation, boundary terms, J */
+} pg_work_balance;
 
-/* Estimated error of the stress s against the recovered stress s*; norms: sqrt (int s C s dV), C = compliance, so their squares are
- * twice an energy. */
+/* Estimated error of the stress s against the recovered stress s*; norms: sqrt (int s C s dV), C =
+ * compliance, so their squares are twice an energy. */
 typedef struct {
-    double error, norm;                                /* of s* - s, of s; sqrt (J)                                      */
-    double relative;                                   /* error / sqrt (norm^2 + error^2)                                */
+    double error, norm;                                /* of s* - s, of s; sqrt (J) */
+    double relative;                                   /* error / sqrt (norm^2 + error^2) */
     double seconds;
-    size_t points, left_out;                           /* of evaluation: taken part; degenerate, or without a patch      */
+    size_t points, left_out;  /* of evaluation: taken part; degenerate, or without a patch */
 } pg_estimate;
 
-/* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest may be NULL. */
+/* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest
+ * may be NULL. */
 typedef struct {
     const char *name, *summary;
     pg_status (*create)  (void **self, const pg_problem *problem);
@@ -33,67 +36,88 @@ typedef struct {
     size_t    (*fields)  (const void *self, size_t max, pg_field *out);
     /* Brings the caches in line with state->alive: all of them (changes NULL), or what the changes touch. */
     pg_status (*refresh) (void *self, const pg_state *state, const pg_changes *changes);
-    /* residual = loads (t) - internal force (d), boundary terms included; reference: the size it is measured against, N. */
+    /* residual = loads (t) - internal force (d), boundary terms included; reference: the size it is measured
+     * against, N. */
     pg_status (*balance) (void *self, double t, const double *d, double *residual, double *reference);
-    pg_status (*mass)    (void *self, double *mass);                       /* lumped, per dof, kg                         */
-    const pg_operator *(*operator_) (void *self);                          /* K x, or NULL                                */
-    const pg_sparse   *(*matrix)    (void *self);                          /* K after assemble; or no such entry: matrix-free */
+    pg_status (*mass)    (void *self, double *mass);                       /* lumped, per dof, kg */
+    const pg_operator *(*operator_) (void *self);                          /* K x, or NULL */
+    const pg_sparse   *(*matrix)    (void *self);  /* K after assemble; or no such entry: matrix-free */
     /* Essential conditions by elimination: d = T q + g. NULL entries or T NULL: none. */
     const pg_sparse   *(*basis)     (void *self);
-    pg_status (*impose)  (void *self, double t, double *d);                /* makes d satisfy them                        */
-    /* Utilisation of every bond (NULL entry: nothing can break); factor: load factor of its limit, d being that of factor 1. Dead ones: 0, INFINITY. */
-    pg_status (*utilisation) (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
-    /* inertia: what motion adds to the residual, - M a - C v (NULL: static); out is sized on the first call.             */
-    pg_status (*ledger)  (void *self, double t, const double *d, const double *inertia, pg_ledger *out);
-    /* A field at the nodes: "displacement" (m), "coefficient" (of the shape functions, m), "strain", "stress" (Pa), "damage", "error_estimate"
-     * (Pa); *components 0: unknown name. value: n x 6. */
-    pg_status (*field)   (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
+    pg_status (*impose)  (void *self, double t, double *d);                /* makes d satisfy them */
+    /* Utilisation of every bond (NULL entry: nothing can break); factor: load factor of its limit, d being
+     * that of factor 1. Dead ones: 0, INFINITY. */
+    pg_status (*utilisation) (void *self, const pg_state *state, const double *d, double *utilisation,
+                              char *kind, double *factor);
+    /* inertia: what motion adds to the residual, - M a - C v (NULL: static); out is sized on the first
+     * call. */
+    pg_status (*work_balance) (void *self, double t, const double *d, const double *inertia,
+                               pg_work_balance *out);
+    /* A field at the nodes: "displacement" (m), "coefficient" (of the shape functions, m), "strain", "stress"
+     * (Pa), "damage", "error_estimate" (Pa); *components 0: unknown name. value: n x 6. */
+    pg_status (*field) (void *self, const pg_state *state, const double *d, const char *name, int *components,
+                        const char **unit, double *value);
     /* The largest overlap of broken bonds (m). */
     double    (*overlap) (void *self, const pg_state *state, const double *d);
     void      (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
-    /* Changes whenever refresh changed K or the basis: an old factor may serve until then (NULL: every refresh changes them). */
+    /* Changes whenever refresh changed K or the basis: an old factor may serve until then (NULL: every
+     * refresh changes them). */
     unsigned long (*revision) (const void *self);
-    /* Brings the matrix in line with the last refresh; before it, or after another refresh, matrix is not asked for. NULL: refresh does it. */
+    /* Brings the matrix in line with the last refresh; before it, or after another refresh, matrix is not
+     * asked for. NULL: refresh does it. */
     pg_status (*assemble) (void *self);
-    /* Consistent mass, kg: one number for each pair of nodes (upper triangle, n x n), the same for every component. It is that of the bonds
-     * alive when it is first asked for, and stays: breaking moves no mass. NULL: lumped mass only. */
+    /* Consistent mass, kg: one number for each pair of nodes (upper triangle, n x n), the same for every
+     * component. It is that of the bonds alive when it is first asked for, and stays: breaking moves no mass.
+     * NULL: lumped mass only. */
     pg_status (*mass_matrix) (void *self, const pg_sparse **M);
-    /* Displacement (m) and stress (Pa; NULL: not wanted) at any n places by the force's own shape functions, the bonds being those of the last
-     * refresh: places on the two sides of a crack keep their own values. x: n x dim; u: n x 3, 0 beyond dim; stress: n x 6, always xx yy zz xy
-     * yz zx (2D: zz as the mode has it). Outside the body: continued from the nearest point. NULL: least squares (perigal/compare.h). */
-    pg_status (*sample)  (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress);
-    /* NULL: none. value: NULL, or the root of E times the mean of (s* - s) C (s* - s) around each node, Pa (n). */
+    /* Displacement (m) and stress (Pa; NULL: not wanted) at any n places by the force's own shape functions,
+     * the bonds being those of the last refresh: places on the two sides of a crack keep their own values. x:
+     * n x dim; u: n x 3, 0 beyond dim; stress: n x 6, always xx yy zz xy yz zx (2D: zz as the mode has it).
+     * Outside the body: continued from the nearest point. NULL: least squares (perigal/compare.h). */
+    pg_status (*sample) (void *self, const pg_state *state, const double *d, size_t n, const double *x,
+                         double *u, double *stress);
+    /* NULL: none. value: NULL, or the root of E times the mean of (s* - s) C (s* - s) around each node, Pa
+     * (n). */
     pg_status (*estimate) (void *self, const double *d, pg_estimate *out, double *value);
-    /* Explicit methods: as balance at (t, d), but bonds at or over their limit at d are dead in it and in the caches from now on; they are appended
-     * to `broken`, ascending; the caller clears their alive bits and does not refresh. reference may be NULL. NULL entry: utilisation, refresh,
-     * balance do. */
-    pg_status (*march)   (void *self, double t, const double *d, double *residual, double *reference, pg_changes *broken);
+    /* Explicit methods: as balance at (t, d), but bonds at or over their limit at d are dead in it and in the
+     * caches from now on; they are appended to `broken`, ascending; the caller clears their alive bits and
+     * does not refresh. reference may be NULL. NULL entry: utilisation, refresh, balance do. */
+    pg_status (*march) (void *self, double t, const double *d, double *residual, double *reference,
+                        pg_changes *broken);
     /* Loads at t as nodal forces, N (ndof); supports are not among them. NULL: balance at d = 0 tells. */
     pg_status (*external) (void *self, double t, double *P);
-    /* An upper bound, in closed form, of the largest eigenfrequency of K x = omega^2 M x, rad/s, intact bonds. NULL: from row_sums. */
+    /* An upper bound, in closed form, of the largest eigenfrequency of K x = omega^2 M x, rad/s, intact
+     * bonds. NULL: from row_sums. */
     pg_status (*bound)   (void *self, double *omega);
     /* sum_j |K_ij| of every dof, N/m (Gershgorin; adaptive dynamic relaxation). NULL: from the matrix. */
     pg_status (*row_sums) (void *self, double *sum);
-    /* Constants and choices in words, one line each, for plans and reports; returns 0 past the last line. NULL: nothing to say. */
+    /* Constants and choices in words, one line each, for plans and reports; returns 0 past the last line.
+     * NULL: nothing to say. */
     int       (*describe) (const void *self, size_t line, char *text, size_t size);
     /* 1: has no matrix all the same, for what it was created with. NULL: as matrix says. */
     int       (*matrix_free) (const void *self);
-    /* NULL, or why this force does not go with that solver kind (a sentence for the user; static text). NULL entry: goes with all. */
+    /* NULL, or why this force does not go with that solver kind (a sentence for the user; static text). NULL
+     * entry: goes with all. */
     const char *(*refuses) (const pg_problem *problem, const char *solver_kind);
-    /* Rows of K at the last refresh, by points, for preconditioners of the operator. NULL: none can be had. */
+    /* Rows of K at the last refresh, by points, for preconditioners of the operator. NULL: none can be
+     * had. */
     pg_status (*couplings) (void *self, pg_couplings *out);
-    /* What the bond breaks of at d: 't' tension, 's' shear, 'b' bending ... NULL: tension, or energy with criteria of energies. */
+    /* What the bond breaks of at d: 't' tension, 's' shear, 'b' bending ... NULL: tension, or energy with
+     * criteria of energies. */
     char      (*kind_of) (void *self, const double *d, size_t bond);
-    /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy xy of a plane, Pa) on all facets
-     * that this force bears loads on: of pg_problem_bare the whole surface. NULL: not known. */
+    /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy
+     * xy of a plane, Pa) on all facets that this force bears loads on: of pg_problem_bare the whole surface.
+     * NULL: not known. */
     pg_status (*surface) (void *self, const double *stress, double *P);
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);
-/* The upper bound of the largest eigenfrequency that explicit methods take, rad/s: the force's own, or from row sums at its last refresh (room: one
- * number for each dof, as mass is). NAN: the force has neither. *from: which, in words. */
-pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass, double *room, double *omega, const char **from);
+/* The upper bound of the largest eigenfrequency that explicit methods take, rad/s: the force's own, or from
+ * row sums at its last refresh (workspace: one number for each dof, as mass is). NAN: the force has neither.
+ * *from: which, in words. */
+pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass,
+                          double *workspace, double *omega, const char **from);
 const pg_force_type *pg_force_find  (const char *name);
 const char          *pg_force_names (void);
-void pg_ledger_clear (pg_ledger *ledger);
+void pg_work_balance_clear (pg_work_balance *work_balance);
 #endif

@@ -6,54 +6,61 @@
 #include "perigal/base.h"
 #include "perigal/scene.h"
 
-typedef enum { PG_LINE, PG_PLANE_STRESS, PG_PLANE_STRAIN, PG_SOLID } pg_mode;   /* 1D bar, 2D, 2D, 3D                     */
-int pg_voigt_size (int dim);                           /* 1, 3, 6                                                        */
+typedef enum { PG_LINE, PG_PLANE_STRESS, PG_PLANE_STRAIN, PG_SOLID } pg_mode;   /* 1D bar, 2D, 2D, 3D */
+int pg_voigt_size (int dim);                           /* 1, 3, 6 */
 
 typedef struct pg_material_type pg_material_type;
 typedef struct {
     const pg_material_type *type;
-    char    name[64];                                  /* as in the scene                                                */
+    char    name[64];                                  /* as in the scene */
     pg_mode mode;
-    double  density;                                   /* kg/m^3                                                         */
-    double  parameter[8];                              /* of the type: elastic {E Pa, nu}                                */
-    double  D[36];                                     /* tangent, nv x nv row-major, Pa                                 */
-    double  out_of_plane[6];                           /* sigma_zz = out_of_plane . strain (plane strain), Pa            */
-    double  lambda;                                    /* Pa: stress = lambda (trace of strain) 1 + what the rest of D and of out_of_plane makes of the
-                                                          strain, the rest positive definite; 0: no such part is told (plane stress, a bar) */
-    double  modulus;                                   /* Young's modulus, the scale of stiffness, Pa                    */
+    double  density;                                   /* kg/m^3 */
+    double  parameter[8];                              /* of the type: elastic {E Pa, nu} */
+    double  D[36];                                     /* tangent, nv x nv row-major, Pa */
+    double  out_of_plane[6];  /* sigma_zz = out_of_plane . strain (plane strain), Pa */
+    /* Pa: stress = lambda (trace of strain) 1 + what the rest of D and of out_of_plane makes of the strain,
+     * the rest positive definite; 0: no such part is told (plane stress, a bar) */
+    double  lambda;
+    double  modulus;                                   /* Young's modulus, the scale of stiffness, Pa */
 } pg_material;
 
 struct pg_material_type {
     const char *name, *summary;
-    const char *keys;                                  /* of materials.<name> that it reads, beside model and density: "youngs_modulus poissons_ratio" */
-    int isotropic;                                     /* 1: E and nu (parameter[0], [1]) say all; 0: only the tangent D does, which not every force can carry */
+    /* of materials.<name> that it reads, beside model and density: "youngs_modulus poissons_ratio" */
+    const char *keys;
+    /* 1: E and nu (parameter[0], [1]) say all; 0: only the tangent D does, which not every force can carry */
+    int isotropic;
     /* Fills `m` (mode set by the caller) from materials.<name>; faults go to the scene. */
     pg_status (*read) (pg_material *m, const pg_scene *scene);
     /* n strains (n x nv) -> stresses (n x nv, Pa) and, unless NULL, sigma_zz (n; 0 in plane stress). */
     void (*stress) (const pg_material *m, size_t n, const double *strain, double *stress, double *zz);
 };
 const pg_material_type *pg_material_find (const char *name);
-const char *pg_material_names (void);                  /* "elastic|..."                                                  */
-/* Adds a material of the calling program to the catalogue, under a name of its own, before any scene is read; `type` is borrowed for good.
- * PG_E_USAGE: the name is taken, or 8 were added. Not for several threads at a time. */
+const char *pg_material_names (void);                  /* "elastic|..." */
+/* Adds a material of the calling program to the catalogue, under a name of its own, before any scene is read;
+ * `type` is borrowed for good. PG_E_USAGE: the name is taken, or 8 were added. Not for several threads at a
+ * time. */
 pg_status pg_material_add (const pg_material_type *type);
-/* The material materials.<name> of the scene, for a mode. A key that its model does not read is a fault of the scene. */
+/* The material materials.<name> of the scene, for a mode. A key that its model does not read is a fault of
+ * the scene. */
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode);
 /* Isotropic tangent for a mode (theory section 0). D is nv x nv. */
 void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D);
-/* Of state-based peridynamics (Silling et al. 2007; theory B6), Pa: A = d kappa - (d + 2) mu and B = d (d + 2) mu, kappa the bulk modulus in d dimensions:
- * plane stress E / (2 (1 - nu)), plane strain lambda + mu, solid lambda + 2/3 mu. Energy of a point, J/m^3, with w = k / r and q = sum w r^2 V:
- * 1/2 [A theta^2 / d + B / q sum w (e.eta)^2 V]. A line has A = 0, B = E. */
+/* Of state-based peridynamics (Silling et al. 2007; theory B6), Pa: A = d kappa - (d + 2) mu and B = d (d +
+ * 2) mu, kappa the bulk modulus in d dimensions: plane stress E / (2 (1 - nu)), plane strain lambda + mu,
+ * solid lambda + 2/3 mu. Energy of a point, J/m^3, with w = k / r and q = sum w r^2 V: 1/2 [A theta^2 / d + B
+ * / q sum w (e.eta)^2 V]. A line has A = 0, B = E. */
 void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation);
 /* Of the mode (plane stress: waves in a thin plate). */
 typedef struct {
-    double lambda, mu;                                 /* Pa                                                             */
-    double pressure, shear, rayleigh;                  /* speeds, m/s; 0: no density, or no such wave                    */
+    double lambda, mu;                                 /* Pa */
+    double pressure, shear, rayleigh;                  /* speeds, m/s; 0: no density, or no such wave */
 } pg_waves;
 pg_waves pg_material_waves (const pg_material *material);
-/* Speed of the surface wave, the root of (2 - x^2)^2 = 4 sqrt ((1 - x^2) (1 - x^2 shear^2 / pressure^2)), x = c / shear (Rayleigh 1885),
- * to rounding; 0 unless 0 < shear < pressure. */
+/* Speed of the surface wave, the root of (2 - x^2)^2 = 4 sqrt ((1 - x^2) (1 - x^2 shear^2 / pressure^2)), x =
+ * c / shear (Rayleigh 1885), to rounding; 0 unless 0 < shear < pressure. */
 double pg_rayleigh_speed (double pressure, double shear);
-/* sigma_1 >= sigma_2 >= sigma_3 of n stresses (n x nv) with out-of-plane zz (n or NULL = 0). principal is n x 3. */
+/* sigma_1 >= sigma_2 >= sigma_3 of n stresses (n x nv) with out-of-plane zz (n or NULL = 0). principal is n x
+ * 3. */
 void pg_principal (int dim, size_t n, const double *stress, const double *zz, double *principal);
 #endif

@@ -9,183 +9,230 @@
 #include "perigal/integration.h"
 #include "perigal/sums.h"
 
-/* ---- loads and supports ------------------------------------------------------------------------------------------------ */
-typedef enum { PG_DISPLACEMENT, PG_VELOCITY, PG_TRACTION, PG_PRESSURE, PG_POINT_FORCE, PG_BODY_FORCE, PG_ROTATION, PG_MOMENT } pg_load_kind;
+/* ---- loads and supports -------------------------------------------------------------------------------- */
+typedef enum {
+    PG_DISPLACEMENT,
+    PG_VELOCITY,
+    PG_TRACTION,
+    PG_PRESSURE,
+    PG_POINT_FORCE,
+    PG_BODY_FORCE,
+    PG_ROTATION,
+    PG_MOMENT
+} pg_load_kind;
 typedef enum { PG_ESSENTIAL_NITSCHE, PG_ESSENTIAL_TRANSFORMATION, PG_ESSENTIAL_PENALTY } pg_essential;
 typedef struct {
     char           name[64];
     pg_load_kind   kind;
     const pg_set  *set;
-    pg_expression *value[3];                           /* per component, NULL: free; m, m/s, Pa, N, N/m^3, rad, N m; 2D rotation, moment: about z, the first */
-    pg_expression *ramp;                               /* factor of t; NULL: from the table                              */
-    double        *table; size_t ntable;               /* ntable x 2: t (s), factor                                      */
-    int            proportional;                       /* factor is t itself                                             */
-    double         depth;                              /* m: tractions, pressure of direct forces act on points so far below the surface; 0: the outermost */
-    pg_essential   essential;                          /* how PG_DISPLACEMENT and PG_VELOCITY are imposed                */
-    double         penalty;                            /* its factor of E / h, h the local spacing, for PG_ESSENTIAL_PENALTY */
+    /* per component, NULL: free; m, m/s, Pa, N, N/m^3, rad, N m; 2D rotation, moment: about z, the first */
+    pg_expression *value[3];
+    pg_expression *ramp;                               /* factor of t; NULL: from the table */
+    double        *table; size_t ntable;               /* ntable x 2: t (s), factor */
+    int            proportional;                       /* factor is t itself */
+    /* m: tractions, pressure of direct forces act on points so far below the surface; 0: the outermost */
+    double         depth;
+    pg_essential   essential;                          /* how PG_DISPLACEMENT and PG_VELOCITY are imposed */
+    double         penalty;  /* its factor of E / h, h the local spacing, for PG_ESSENTIAL_PENALTY */
 } pg_load;
-#define PG_MOST_ELIMINATED 6000                         /* points per direction by PG_ESSENTIAL_TRANSFORMATION: full matrices below 300 MB each */
+/* points per direction by PG_ESSENTIAL_TRANSFORMATION: full matrices below 300 MB each */
+#define PG_MOST_ELIMINATED 6000
 /* Component k of the load at place x and time t (s; static: load factor). */
 double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t);
-/* 1: the load is one pattern in space times a factor of t alone; pg_load_value is then the product of these two, bit by bit. */
+/* 1: the load is one pattern in space times a factor of t alone; pg_load_value is then the product of these
+ * two, bit by bit. */
 int    pg_load_separates (const pg_load *load);
 double pg_load_factor  (const pg_load *load, double t);
 double pg_load_pattern (const pg_load *load, int k, int dim, const double *x);
-pg_place pg_place_of (int dim, const double *x, double t);             /* what expressions see at x                      */
-int    pg_load_prescribes (const pg_load *load);       /* displacement, velocity or rotation                             */
-int    pg_load_turns (const pg_load *load);            /* rotation or moment                                             */
-int    pg_load_components (const pg_load *load, int dim);              /* dim; of a rotation or moment 1 in 2D, 3 in 3D  */
-char   pg_load_axis (const pg_load *load, int dim, int k);             /* 'x', 'y', 'z' of component k                    */
+pg_place pg_place_of (int dim, const double *x, double t);             /* what expressions see at x */
+int    pg_load_prescribes (const pg_load *load);       /* displacement, velocity or rotation */
+int    pg_load_turns (const pg_load *load);            /* rotation or moment */
+int    pg_load_components (const pg_load *load, int dim);  /* dim; of a rotation or moment 1 in 2D, 3 in 3D */
+char   pg_load_axis (const pg_load *load, int dim, int k);             /* 'x', 'y', 'z' of component k */
 
-/* ---- problem ----------------------------------------------------------------------------------------------------------- */
-/* Bond sets, each a list of points and the nodes they see (style: one array of alive bits per set, all in state). */
+/* ---- problem ------------------------------------------------------------------------------------------- */
+/* Bond sets, each a list of points and the nodes they see (style: one array of alive bits per set, all in
+ * state). */
 enum { PG_NODES, PG_POINTS, PG_FACETS, PG_BOND_SETS };
-/* The patch test of a discretisation: the body without cracks and supports, of one material, under the tractions of a uniform stress on its
- * whole surface; exactly, its displacement is linear. Of the worst state of stress, but for the counts. */
+/* The patch test of a discretisation: the body without cracks and supports, of one material, under the
+ * tractions of a uniform stress on its whole surface; exactly, its displacement is linear. Of the worst state
+ * of stress, but for the counts. */
 typedef struct {
-    int    measured;                                   /* 0: not (yet) measured: the numbers below are NAN               */
-    double error;                                      /* of the displacement, relative: its root of mean square, or of that of the loaded surface (compliance) if that is more */
-    double compliance;                                 /* work of the tractions over the exact one, less 1: > 0 too soft */
-    int    state;                                      /* which stress: 0.. of pg_voigt order                            */
-    int    held;                                       /* 1: no facets: the outermost points are held in the linear field instead, compliance is NAN */
-    int    settled;                                    /* 0: iterations ended early: at least so much                    */
-    double softness;                                   /* energy that rough forces of unit size put into the body, over their number: about 1; of
-                                                          small bodies 10; 1e9 and more: next to nothing resists some motion */
-    size_t iterations;                                 /* of conjugate gradients, all states                             */
-    size_t points, degenerate, isolated, fragments;    /* of evaluation; of these without a strain; points without a bond; parts beside the largest */
+    int    measured;                                   /* 0: not (yet) measured: the numbers below are NAN */
+    /* of the displacement, relative: its root of mean square, or of that of the loaded surface (compliance)
+     * if that is more */
+    double error;
+    double compliance;  /* work of the tractions over the exact one, less 1: > 0 too soft */
+    int    state;                                      /* which stress: 0.. of pg_voigt order */
+    /* 1: no facets: the outermost points are held in the linear field instead, compliance is NAN */
+    int    held;
+    int    settled;                                    /* 0: iterations ended early: at least so much */
+    /* energy that rough forces of unit size put into the body, over their number: about 1; of small bodies
+     * 10; 1e9 and more: next to nothing resists some motion */
+    double softness;
+    size_t iterations;                                 /* of conjugate gradients, all states */
+    /* of evaluation; of these without a strain; points without a bond; parts beside the largest */
+    size_t points, degenerate, isolated, fragments;
     double seconds;
 } pg_patch;
-typedef struct { char name[32]; double from[3], to[3]; } pg_gauge;      /* opening along from -> to, m                     */
+typedef struct { char name[32]; double from[3], to[3]; } pg_gauge;      /* opening along from -> to, m */
 typedef struct {
-    char     title[256], name[64];                     /* name: of the scene's folder or file                            */
+    char     title[256], name[64];                     /* name: of the scene's folder or file */
     int      dim, threads;
     pg_mode  mode;
-    pg_body  body;  pg_mesh_body part;                 /* one of them, or none: points of a file                         */
+    pg_body  body;  pg_mesh_body part;                 /* one of them, or none: points of a file */
     pg_lattice lattice;  pg_cloud cloud;  pg_cells cells;  pg_sets sets;  pg_cracks cracks;
     pg_material  *material;  size_t nmaterial;
-    pg_criterion *criterion;                           /* per material, all of one type; type NULL: nothing breaks       */
-    int          *block[PG_BOND_SETS];                 /* material of every point of a bond set                          */
+    pg_criterion *criterion;  /* per material, all of one type; type NULL: nothing breaks */
+    int          *block[PG_BOND_SETS];                 /* material of every point of a bond set */
     pg_approx     approx;
     const pg_integration_type *integration;
-    pg_consistency *consistency;                       /* integration: consistent; else NULL                             */
-    pg_patches *patches;                               /* dilatation of patches where Poisson's ratio is near 1/2; NULL: at the points everywhere */
+    pg_consistency *consistency;                       /* integration: consistent; else NULL */
+    /* dilatation of patches where Poisson's ratio is near 1/2; NULL: at the points everywhere */
+    pg_patches *patches;
     char     force[32];
-    int      direct;                                   /* 1: bonds between points carry the force themselves (bond, fcbm, lps, later gmpd):
-                                                          rows[PG_NODES] come from `sums` without the own point, PG_POINTS and PG_FACETS are empty */
-    pg_sums *sums;                                     /* direct; else NULL                                              */
-    int      turns;                                    /* rotations of every point: gmpd 1 in 2D, 3 in 3D; else 0        */
-    double   bending;                                  /* gmpd: B / C_t                                                  */
-    double   bond_poisson;                             /* gmpd with volumetric: on: Poisson's ratio that was asked of the bonds; NAN: usual */
-    double   silling;                                  /* Gs; 0: no stabilisation                                        */
-    double   nitsche, penalty;                         /* factors of E / h, h the local spacing                          */
+    /* 1: bonds between points carry the force themselves (bond, fcbm, lps, later gmpd): rows[PG_NODES] come
+     * from `sums` without the own point, PG_POINTS and PG_FACETS are empty */
+    int      direct;
+    pg_sums *sums;                                     /* direct; else NULL */
+    int      turns;  /* rotations of every point: gmpd 1 in 2D, 3 in 3D; else 0 */
+    double   bending;                                  /* gmpd: B / C_t */
+    /* gmpd with volumetric: on: Poisson's ratio that was asked of the bonds; NAN: usual */
+    double   bond_poisson;
+    double   silling;                                  /* Gs; 0: no stabilisation */
+    double   nitsche, penalty;                         /* factors of E / h, h the local spacing */
     pg_load *load;   size_t nload;
     pg_gauge *gauge; size_t ngauge;
-    pg_expression *initial[3];                         /* velocity at the start per component, m/s; NULL: at rest        */
-    pg_rows  rows[PG_BOND_SETS];                       /* geometry only: N, dN, w, grade are NULL                        */
-    double  *facet_normal;                             /* outward unit normal at the points of PG_FACETS (n x dim)        */
-    size_t   first_bond[PG_BOND_SETS + 1];             /* bond b of set k is alive[first_bond[k] + b]                    */
-    double  *spacing[PG_BOND_SETS];                    /* local spacing of every point (its nearest node's), m; NULL: h  */
-    unsigned char *exempt[PG_BOND_SETS];               /* per point: its bonds never break (failure: exclude, never)     */
-    int      facet_order;                              /* points per direction of a boundary facet                       */
-    int      thickness_assumed;                        /* 1: cloud.thickness is not that of the scene, but 1           */
-    int      accept_inexact;                           /* method.accept_inexact: no measured patch error is too large    */
-    pg_patch patch;                                    /* how well the discretisation carries uniform stress             */
-    unsigned char *borne;                              /* bare: per facet, bit k: a support on points bears component k (pg_patch_probe); else NULL */
-    size_t   eroded;                                   /* points that lie on a pre-crack                                 */
-    char     note[16][224];  size_t nnote;             /* what the plan says: keys without meaning, constants taken otherwise */
+    pg_expression *initial[3];  /* velocity at the start per component, m/s; NULL: at rest */
+    pg_rows  rows[PG_BOND_SETS];                       /* geometry only: N, dN, w, grade are NULL */
+    double  *facet_normal;  /* outward unit normal at the points of PG_FACETS (n x dim) */
+    size_t   first_bond[PG_BOND_SETS + 1];             /* bond b of set k is alive[first_bond[k] + b] */
+    double  *spacing[PG_BOND_SETS];  /* local spacing of every point (its nearest node's), m; NULL: h */
+    unsigned char *exempt[PG_BOND_SETS];  /* per point: its bonds never break (failure: exclude, never) */
+    int      facet_order;                              /* points per direction of a boundary facet */
+    int      thickness_assumed;  /* 1: cloud.thickness is not that of the scene, but 1 */
+    int      accept_inexact;  /* method.accept_inexact: no measured patch error is too large */
+    pg_patch patch;  /* how well the discretisation carries uniform stress */
+    /* bare: per facet, bit k: a support on points bears component k (pg_patch_probe); else NULL */
+    unsigned char *borne;
+    size_t   eroded;                                   /* points that lie on a pre-crack */
+    /* what the plan says: keys without meaning, constants taken otherwise */
+    char     note[16][224];  size_t nnote;
 } pg_problem;
-/* A remark on the scene, as printf. One that begins with PG_WARNING counts among the warnings of the run (pg_solver_doubts), others
- * among its notes (pg_solver_note). At most 16 are kept. */
+/* A remark on the scene, as printf. One that begins with PG_WARNING counts among the warnings of the run
+ * (pg_solver_doubts), others among its notes (pg_solver_note). At most 16 are kept. */
 #define PG_WARNING "warning: "
-void      pg_problem_note  (pg_problem *problem, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
+void pg_problem_note (pg_problem *problem, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
 pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads);
-/* The same in two halves, so that faults of solver and output can be found beside those of the problem. prepare: all but the bonds, also of a
- * scene with faults that do not keep it from that (they are passed by, pg_scene_pass; *out then serves to look for more of them only).
- * complete: PG_E_SCENE with all faults if there are any, else the bonds. */
+/* The same in two halves, so that faults of solver and output can be found beside those of the problem.
+ * prepare: all but the bonds, also of a scene with faults that do not keep it from that (they are passed by,
+ * pg_scene_pass; *out then serves to look for more of them only). complete: PG_E_SCENE with all faults if
+ * there are any, else the bonds. */
 pg_status pg_problem_prepare  (pg_problem **out, const pg_scene *scene, int threads);
 pg_status pg_problem_complete (pg_problem *problem, const pg_scene *scene);
 void      pg_problem_free  (pg_problem **problem);
-/* The same discretisation without loads, supports, cracks and failure, all of its material with the largest Poisson's ratio; the one load left is
- * a traction of zero on all facets, and PG_FACETS are points on all of them (none for direct forces). It borrows from `problem`. */
+/* The same discretisation without loads, supports, cracks and failure, all of its material with the largest
+ * Poisson's ratio; the one load left is a traction of zero on all facets, and PG_FACETS are points on all of
+ * them (none for direct forces). It borrows from `problem`. */
 pg_status pg_problem_bare  (pg_problem **out, const pg_problem *problem);
 void      pg_problem_bare_free (pg_problem **bare);
 /* The bond set and the point of that set that own a bond (an index into state->alive). */
 void      pg_problem_locate (const pg_problem *problem, size_t bond, int *set, size_t *point);
-/* gmpd: Young's modulus (Pa) and Poisson's ratio of what the bonds of a material make alone; dilation (Pa): A of the dilatation beside them
- * (pg_beam_split), 0 without volumetric: on. */
-void      pg_problem_beams (const pg_problem *problem, size_t material, double *E, double *nu, double *dilation);
+/* gmpd: Young's modulus (Pa) and Poisson's ratio of what the bonds of a material make alone; dilation (Pa): A
+ * of the dilatation beside them (pg_beam_split), 0 without volumetric: on. */
+void pg_problem_beams (const pg_problem *problem, size_t material, double *E, double *nu, double *dilation);
 /* The box of the body, m (dim each); of points of a file or mesh: of the points. */
 void      pg_problem_box (const pg_problem *problem, double *low, double *high);
-double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);   /* local, m                            */
-/* 1: entry `e` of the family of a point of a set has no length: its node is the point itself, or lies within PG_NO_LENGTH of the local spacing
- * of it (an evaluation point in the middle of a cell of `lattice: cells`). It has no direction and no stretch: no criterion judges it, it never
- * breaks, and damage does not count it. */
+double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);   /* local, m */
+/* 1: entry `e` of the family of a point of a set has no length: its node is the point itself, or lies within
+ * PG_NO_LENGTH of the local spacing of it (an evaluation point in the middle of a cell of `lattice: cells`).
+ * It has no direction and no stretch: no criterion judges it, it never breaks, and damage does not count
+ * it. */
 int       pg_problem_no_bond (const pg_problem *problem, int set, size_t point, size_t e);
 /* solver.kind: 1: the t of loads is the load factor, 0 to 1 (static, adr, relax); 0: seconds. */
 int       pg_kind_quasi_static (const char *kind);
-int       pg_kind_marches (const char *kind);          /* 1: by steps or iterations without linear systems, which stiff springs would shorten */
-int       pg_problem_proportional (const pg_problem *problem);   /* every load is a constant pattern times t               */
-int       pg_problem_affine (const pg_problem *problem);         /* every load is a constant pattern and t times another, t from 0 to 1 */
+/* 1: by steps or iterations without linear systems, which stiff springs would shorten */
+int       pg_kind_marches (const char *kind);
+int       pg_problem_proportional (const pg_problem *problem);  /* every load is a constant pattern times t */
+/* every load is a constant pattern and t times another, t from 0 to 1 */
+int       pg_problem_affine (const pg_problem *problem);
 
-/* ---- state: one block, copyable, comparable, savable ---------------------------------------------------------------------- */
+/* ---- state: one block, copyable, comparable, savable --------------------------------------------------- */
 typedef struct {
     size_t  ndof, nbond, bytes;
-    double  time;                                      /* s; static: load factor of the last report                      */
-    double  factor;                                    /* load factor (static)                                           */
+    double  time;                                      /* s; static: load factor of the last report */
+    double  factor;                                    /* load factor (static) */
     long    step, events, iterations, broken, history_rows;
-    double  work;                                      /* external work so far, J                                        */
-    double *d, *v, *a;                                 /* coefficients, velocity, acceleration (ndof): m, m/s, m/s^2      */
-    unsigned char *alive;                              /* 1: the bond lives  (nbond)                                     */
+    double  work;                                      /* external work so far, J */
+    double *d, *v, *a;  /* coefficients, velocity, acceleration (ndof): m, m/s, m/s^2 */
+    unsigned char *alive;                              /* 1: the bond lives (nbond) */
 } pg_state;
 /* At rest, or with the problem's initial velocity; pre-cracks cut. */
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components /* dofs per node */);
 pg_status pg_state_copy   (pg_state *to, const pg_state *from);
 void      pg_state_free   (pg_state **state);
 
-/* ---- forecast: sizes and memory of a run before anything large is allocated ------------------------------------------------ */
-enum { PG_BYTES_PROGRAM, PG_BYTES_POINTS, PG_BYTES_BONDS, PG_BYTES_SHAPES, PG_BYTES_BREAKING, PG_BYTES_MATRIX, PG_BYTES_FACTOR,
-       PG_BYTES_VECTORS, PG_BYTES_RESULTS, PG_BYTES_COUNT };
+/* ---- forecast: sizes and memory of a run before anything large is allocated ---------------------------- */
+enum {
+    PG_BYTES_PROGRAM,
+    PG_BYTES_POINTS,
+    PG_BYTES_BONDS,
+    PG_BYTES_SHAPES,
+    PG_BYTES_BREAKING,
+    PG_BYTES_MATRIX,
+    PG_BYTES_FACTOR,
+    PG_BYTES_VECTORS,
+    PG_BYTES_RESULTS,
+    PG_BYTES_COUNT
+};
 typedef struct {
-    int    dim, nodal, breaks, pictures;               /* nodal: the points of evaluation are the nodes; breaks: with a criterion */
-    int    matrixless;                                 /* 1: the force has no matrix (state-based)                       */
-    int    turns;                                      /* rotations of a point                                           */
-    int    direct, listed, explicit_;                  /* pg_problem.direct; its points are no lattice; no linear systems at all */
-    int    by_list;                                    /* direct: bonds are summed by lists of neighbours, on a lattice or off it */
-    int    counted, analysed;                          /* 1: the counts, the factor are exact, not estimates             */
-    char   linear[16];                                 /* what will solve: "cholmod", "umfpack", "cg" (no matrix at all)  */
-    int    automatic, dynamic;                         /* solver.linear: auto; newmark                                   */
-    double weight;                                     /* dynamic: beta (2 c_p dt)^2, m^2: K against M at spacing 1      */
-    char   ordering[16];                               /* of an analysed factor                                          */
-    double spacing, step[3], horizon;                  /* m                                                              */
-    double points, cells, evaluation, facets;          /* evaluation: Gauss points, 0 if nodal; facets: their points     */
+    /* nodal: the points of evaluation are the nodes; breaks: with a criterion */
+    int    dim, nodal, breaks, pictures;
+    int    matrixless;                                 /* 1: the force has no matrix (state-based) */
+    int    turns;                                      /* rotations of a point */
+    /* pg_problem.direct; its points are no lattice; no linear systems at all */
+    int    direct, listed, explicit_;
+    int    by_list;  /* direct: bonds are summed by lists of neighbours, on a lattice or off it */
+    int    counted, analysed;  /* 1: the counts, the factor are exact, not estimates */
+    char   linear[16];  /* what will solve: "cholmod", "umfpack", "cg" (no matrix at all) */
+    int    automatic, dynamic;                         /* solver.linear: auto; newmark */
+    double weight;  /* dynamic: beta (2 c_p dt)^2, m^2: K against M at spacing 1 */
+    char   ordering[16];                               /* of an analysed factor */
+    double spacing, step[3], horizon;                  /* m */
+    /* evaluation: Gauss points, 0 if nodal; facets: their points */
+    double points, cells, evaluation, facets;
     double bonds[PG_BOND_SETS], dofs;
-    double slaves, eliminated;                         /* essential: transformation: unknowns, entries of its matrices   */
-    double summed;                                     /* consistent integration: what its points and faces see; else 0  */
-    double patched;                                    /* nodes of all patches of the dilatation, once the problem is built  */
-    double pairs;                                      /* nodes I <= J that share a point of evaluation                  */
-    double edge[3], width;                             /* nodes along the body, of a separator (nested dissection)       */
-    double fields;                                     /* of result.e                                                    */
-    double matrix_entries, factor_entries, factor_flops;                              /* upper triangle; of L            */
+    double slaves, eliminated;  /* essential: transformation: unknowns, entries of its matrices */
+    double summed;  /* consistent integration: what its points and faces see; else 0 */
+    double patched;  /* nodes of all patches of the dilatation, once the problem is built */
+    double pairs;                                      /* nodes I <= J that share a point of evaluation */
+    double edge[3], width;  /* nodes along the body, of a separator (nested dissection) */
+    double fields;                                     /* of result.e */
+    double matrix_entries, factor_entries, factor_flops;  /* upper triangle; of L */
     double bytes[PG_BYTES_COUNT], peak;
 } pg_forecast;
-/* 1: static systems of so many unknowns of direct forces are cheaper by conjugate gradients with the sweep than by a factor: by stored rates
- * (bench/equilibrium.c). told: the force tells the rows of K, so that the multilevel preconditioner can be made. */
+/* 1: static systems of so many unknowns of direct forces are cheaper by conjugate gradients with the sweep
+ * than by a factor: by stored rates (bench/equilibrium.c). told: the force tells the rows of K, so that the
+ * multilevel preconditioner can be made. */
 int         pg_direct_large (int told, int dim, double dofs);
-/* From the scene alone: points and bonds by counting on its lattice (a coarser one when it has more than 4e6 cells), the factor by the
- * law of nested dissection. PG_E_SCENE: the scene has faults, which were added to it. */
+/* From the scene alone: points and bonds by counting on its lattice (a coarser one when it has more than 4e6
+ * cells), the factor by the law of nested dissection. PG_E_SCENE: the scene has faults, which were added to
+ * it. */
 pg_status pg_forecast_scene   (pg_forecast *out, const pg_scene *scene);
 /* Replaces counts by those of the problem built from that scene. */
 pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *problem);
 /* Replaces pairs and factor by those of an analysis (pg_stiffness_graph, pg_linear_forecast). */
-void      pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, double entries, double flops);
-/* The same body at another spacing, by scaling; another linear solver or integration: set linear, nodal and sum anew. */
+void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, double entries, double flops);
+/* The same body at another spacing, by scaling; another linear solver or integration: set linear, nodal and
+ * sum anew. */
 pg_forecast pg_forecast_at    (const pg_forecast *f, double spacing);
-void        pg_forecast_sum   (pg_forecast *f);        /* bytes and peak from the counts                                 */
-double      pg_forecast_fitting (const pg_forecast *f, double available);      /* smallest spacing (m, 2 digits) that fits */
+void        pg_forecast_sum   (pg_forecast *f);        /* bytes and peak from the counts */
+/* smallest spacing (m, 2 digits) that fits */
+double      pg_forecast_fitting (const pg_forecast *f, double available);
 /* PG_E_LIMIT with needs, means and ways out when the peak exceeds `available` bytes. */
 pg_status   pg_forecast_afford (const pg_forecast *f, double available);
-const char *pg_forecast_item  (int item);              /* "bonds", ...                                                   */
-/* Bytes that this process may still take: least of free memory, control groups (v2, v1) and RLIMIT_AS. root: "" (tests: a folder
- * that holds proc and sys). */
+const char *pg_forecast_item  (int item);              /* "bonds", ... */
+/* Bytes that this process may still take: least of free memory, control groups (v2, v1) and RLIMIT_AS. root:
+ * "" (tests: a folder that holds proc and sys). */
 double      pg_available_memory (const char *root);
 #endif

@@ -30,10 +30,12 @@ static int is (const pg_scene *scene, const char *key, const char *value)
     return text && strcmp (text, value) == 0;
 }
 
-/* Forces straight between points: the values at points are the unknowns, no shape functions; other defaults. */
+/* Forces straight between points: the values at points are the unknowns, no shape functions; other
+ * defaults. */
 static void use_direct (pg_approx *a, const pg_scene *scene, double spacing)
 {
-    a->type = pg_approx_find ("nosb"), a->use_volume = 1, a->order = 1, a->shape = PG_RADIAL, a->projected = 0;
+    a->type = pg_approx_find ("nosb"), a->use_volume = 1, a->order = 1, a->shape = PG_RADIAL,
+    a->projected = 0;
     if (!pg_scene_given (scene, "method.kernel")) a->kernel = pg_kernel_find ("constant");
     if (!pg_scene_given (scene, "method.horizon")) a->horizon = 3.015 * spacing;
 }
@@ -44,7 +46,8 @@ pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing)
     *out = (pg_approx) { 0 };
     const pg_approx_type *type = pg_approx_find (pg_scene_text (scene, "method.approximation"));
     const pg_kernel *kernel = pg_kernel_find (pg_scene_text (scene, "method.kernel"));
-    if (!type || !kernel) PG_FAIL (PG_E_USAGE, "method.approximation or method.kernel names nothing in this library");
+    if (!type || !kernel)
+        PG_FAIL (PG_E_USAGE, "method.approximation or method.kernel names nothing in this library");
     pg_approx a = { .type = type, .kernel = kernel, .use_volume = type->use_volume };
     a.order = is (scene, "method.basis", "quadratic") ? 2 : 1;
     a.shape = is (scene, "method.support", "tensor") ? PG_TENSOR : PG_RADIAL;
@@ -54,7 +57,8 @@ pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing)
     a.horizon = pg_scene_length (scene, spacing, "method.horizon");
     if (!is (scene, "method.force", "galerkin")) use_direct (&a, scene, spacing);
     if (!(a.horizon >= spacing * (1 - 1e-9))) {
-        pg_scene_fault (scene, "method.horizon", "is %.4g spacings: a point would see no neighbour (use 1.5 or more)",
+        pg_scene_fault (scene, "method.horizon",
+                        "is %.4g spacings: a point would see no neighbour (use 1.5 or more)",
                         a.horizon / spacing);
         PG_TRY (pg_scene_verdict (scene));
     }

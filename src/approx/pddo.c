@@ -4,22 +4,25 @@
 #include "entries.h"
 #include "moment.h"
 
-static void fill (const pg_star *s, double *N, double *dN)
+static void fill (const pg_neighbourhood *s, double *N, double *dN)
 {
     double b[PG_BASIS_MAX];
-    pg_star_solve (s, 0, b);
-    pg_star_shape (s, b, N);
-    pg_star_differential (s, dN);
+    pg_neighbourhood_solve (s, 0, b);
+    pg_neighbourhood_shape (s, b, N);
+    pg_neighbourhood_differential (s, dN);
 }
 
 static const pg_formula formula = { .about_node = 0, .fill = fill };
 
-static pg_status evaluate (const pg_approx *a, const pg_cloud *cloud, pg_rows *rows, const unsigned char *alive,
-                           size_t count, const size_t *list, int threads)
+static pg_status evaluate (const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
+                           const unsigned char *alive, size_t count, const size_t *list, int threads)
 {
     return pg_moment_sweep (&formula, a, cloud, rows, alive, count, list, threads);
 }
 
 const pg_approx_type pg_approx_pddo = {
-    .name = "pddo", .summary = "peridynamic differential operator: derivatives by weighted least squares", .use_volume = 1,
-    .evaluate = evaluate };
+    .name = "pddo",
+    .summary = "peridynamic differential operator: derivatives by weighted least squares",
+    .use_volume = 1,
+    .evaluate = evaluate
+};

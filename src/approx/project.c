@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a linear basis still can do where the neighbours of a point lie on a line or a plane (theory F3 item 3). About their centre
- * c the basis is p = (1, z - c), A = diag (1, M), M = sum w (z - c)(z - c)', and with M+ the inverse on the directions that are left
- * G = diag (1, M+). With P the projector on these directions
+ * What a linear basis still can do where the neighbours of a point lie on a line or a plane (theory F3 item
+ * 3). About their centre c the basis is p = (1, z - c), A = diag (1, M), M = sum w (z - c)(z - c)', and with
+ * M+ the inverse on the directions that are left G = diag (1, M+). With P the projector on these directions
  *     A G p (0) = (1, -P c) = p (foot of the point on the line or plane),     A G e_k = P e_k:
- * shape functions sum to 1 and their derivatives to 0 for any point. (The Moore-Penrose inverse of A about the point itself agrees
+ * shape functions sum to 1 and their derivatives to 0 for any point. (The Moore-Penrose inverse of A about
+ *     the point itself agrees
  * where the point is on the line or plane; beside it p (0) leaves the range of A, and both sums are lost.)
  * About a node of nosb c = 0: M is A itself, and the lines and planes pass through the node. */
 #include "moment.h"
 
-/* M+ of the symmetric M (lower triangle): eigenvalues below the limit are dropped. Returns the number of those kept. */
+/* M+ of the symmetric M (lower triangle): eigenvalues below the limit are dropped. Returns the number of
+ * those kept. */
 static int invert_spread (int dim, double *M, double limit, double *inverse)
 {
     int kept = 0;
@@ -26,13 +28,14 @@ static int invert_spread (int dim, double *M, double limit, double *inverse)
     return kept;
 }
 
-/* p = ([1] z - c); a second pass takes out the rounding of c, which M+ would enlarge where the weights are very uneven. */
-static void centred_basis (pg_star *s)
+/* p = ([1] z - c); a second pass takes out the rounding of c, which M+ would enlarge where the weights are
+ * very uneven. */
+static void centred_basis (pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim, one = (size_t) s->constant, size = dim + one;
     double rest[3] = { 0 };
     for (size_t k = 0; k < dim; k++) s->centre[k] = 0;
-    if (one) pg_star_centre (s, s->centre);
+    if (one) pg_neighbourhood_centre (s, s->centre);
     for (size_t j = 0; j < s->n; j++) {
         double *p = s->p + j * size;
         if (one) p[0] = 1;
@@ -47,13 +50,13 @@ static void centred_basis (pg_star *s)
     }
 }
 
-int pg_star_project (pg_star *s, double h)
+int pg_neighbourhood_project (pg_neighbourhood *s, double h)
 {
     int dim = s->dim, one = s->constant, size = s->size;
     double M[9], inverse[9];
     if (s->n < 2) return 0;
     centred_basis (s);
-    pg_star_spread (s, s->centre, M);
+    pg_neighbourhood_spread (s, s->centre, M);
     if (!invert_spread (dim, M, PG_THINNEST * (h / s->a) * (h / s->a), inverse)) return 0;
     for (int k = 0; k < size * size; k++) s->G[k] = k == 0;
     for (int k = 0; k < dim; k++)

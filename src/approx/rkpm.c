@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Reproducing kernel: N_j = b.p_j w_j, b = A^-1 p (0), with its exact derivative (theory E2, Cui 2022 eq (19)):
+ * Reproducing kernel: N_j = b.p_j w_j, b = A^-1 p (0), with its exact derivative (theory E2, Cui 2022 eq
+ * (19)):
  *     N_j,k = b,k.p_j w_j + b.p_j,k w_j + b.p_j w_j,k,     A b,k = -A,k b.
- * A,k b = sum_j p_j (w_j,k b.p_j + w_j b.p_j,k) + sum_j w_j (b.p_j) p_j,k, and the last sum is sum_j N_j p_j,k = -e_k / a:
+ * A,k b = sum_j p_j (w_j,k b.p_j + w_j b.p_j,k) + sum_j w_j (b.p_j) p_j,k, and the last sum is sum_j N_j
+ *     p_j,k = -e_k / a:
  * the derivative of a basis function is itself reproduced. */
 #include "entries.h"
 #include "moment.h"
 
 /* a A,k b for all k: r (dim x size) */
-static void moment_rate (const pg_star *s, const double *b, double r[3][PG_BASIS_MAX])
+static void moment_rate (const pg_neighbourhood *s, const double *b, double r[3][PG_BASIS_MAX])
 {
     for (int k = 0; k < s->dim; k++) {
         for (int m = 0; m < s->size; m++) r[k][m] = 0;
@@ -25,13 +27,13 @@ static void moment_rate (const pg_star *s, const double *b, double r[3][PG_BASIS
     }
 }
 
-static void fill (const pg_star *s, double *N, double *dN)
+static void fill (const pg_neighbourhood *s, double *N, double *dN)
 {
     double b[PG_BASIS_MAX], r[3][PG_BASIS_MAX];
-    pg_star_solve (s, 0, b);
-    pg_star_shape (s, b, N);
+    pg_neighbourhood_solve (s, 0, b);
+    pg_neighbourhood_shape (s, b, N);
     moment_rate (s, b, r);
-    for (int k = 0; k < s->dim; k++) pg_star_invert (s, r[k]);                     /* r = -a b,k */
+    for (int k = 0; k < s->dim; k++) pg_neighbourhood_invert (s, r[k]);                     /* r = -a b,k */
     for (size_t j = 0; j < s->n; j++) {
         const double *p = s->p + j * (size_t) s->size, *slope = s->slope + j * (size_t) s->dim;
         double value = 0, rise[3];
@@ -40,26 +42,30 @@ static void fill (const pg_star *s, double *N, double *dN)
         for (int k = 0; k < s->dim; k++) {
             double rate = 0;
             for (int m = 0; m < s->size; m++) rate += r[k][m] * p[m];
-            dN[s->entry[j] * (size_t) s->dim + (size_t) k] = (slope[k] * value - s->w[j] * (rise[k] + rate)) / s->a;
+            dN[s->entry[j] * (size_t) s->dim + (size_t) k] = (slope[k] * value - s->w[j] * (rise[k] + rate))
+                                                             / s->a;
         }
     }
 }
 
-static void values (const pg_star *s, double *N)
+static void values (const pg_neighbourhood *s, double *N)
 {
     double b[PG_BASIS_MAX];
-    pg_star_solve (s, 0, b);
-    pg_star_shape (s, b, N);
+    pg_neighbourhood_solve (s, 0, b);
+    pg_neighbourhood_shape (s, b, N);
 }
 
 static const pg_formula formula = { .about_node = 0, .fill = fill, .values = values };
 
-static pg_status evaluate (const pg_approx *a, const pg_cloud *cloud, pg_rows *rows, const unsigned char *alive,
-                           size_t count, const size_t *list, int threads)
+static pg_status evaluate (const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
+                           const unsigned char *alive, size_t count, const size_t *list, int threads)
 {
     return pg_moment_sweep (&formula, a, cloud, rows, alive, count, list, threads);
 }
 
 const pg_approx_type pg_approx_rkpm = {
-    .name = "rkpm", .summary = "reproducing kernel particle method: exact derivatives of the shape functions", .use_volume = 0,
-    .evaluate = evaluate };
+    .name = "rkpm",
+    .summary = "reproducing kernel particle method: exact derivatives of the shape functions",
+    .use_volume = 0,
+    .evaluate = evaluate
+};

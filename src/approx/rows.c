@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Evaluation points with their families and room for their shape functions. */
+ * Evaluation points with their families and workspace for their shape functions. */
 #include "perigal/approx.h"
 #include <string.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The loop over evaluation points shared by all approximations: gather the live bonds, weigh them, apply the degenerate rule,
- * call the formula. A row depends on nothing but its own bonds: any list, order or number of threads gives the same bits. */
+ * The loop over evaluation points shared by all approximations: gather the live bonds, weigh them, apply the
+ * degenerate rule, call the formula. A row depends on nothing but its own bonds: any list, order or number of
+ * threads gives the same bits. */
 #include "moment.h"
 #include <math.h>
 
@@ -11,7 +12,7 @@ typedef struct {
     pg_rows *rows;
     const unsigned char *alive;
     const size_t *list;
-    pg_star *star;                                     /* one per thread */
+    pg_neighbourhood *star;                                     /* one per thread */
 } sweep;
 
 /* Kernel at q (n), no further than 1: a closed family may hold bonds longer by rounding. */
@@ -22,7 +23,7 @@ static void kernel_at (const pg_kernel *kernel, size_t n, double *q, double *k, 
 }
 
 /* w (|z|) and a dw/dx = -w' z / |z| */
-static void radial (const pg_kernel *kernel, pg_star *s)
+static void radial (const pg_kernel *kernel, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim;
     for (size_t j = 0; j < s->n; j++) {
@@ -40,10 +41,11 @@ static void radial (const pg_kernel *kernel, pg_star *s)
 }
 
 /* prod_k w (|z_k|) and its slope */
-static void tensor (const pg_kernel *kernel, pg_star *s)
+static void tensor (const pg_kernel *kernel, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim;
-    for (size_t i = 0; i < s->n * dim; i++) s->q[i] = s->ratio ? fabs (s->z[i]) * s->ratio[i / dim] : fabs (s->z[i]);
+    for (size_t i = 0; i < s->n * dim; i++)
+        s->q[i] = s->ratio ? fabs (s->z[i]) * s->ratio[i / dim] : fabs (s->z[i]);
     kernel_at (kernel, s->n * dim, s->q, s->k, s->dk);
     for (size_t j = 0; j < s->n; j++) {
         const double *z = s->z + j * dim, *w = s->k + j * dim, *dw = s->dk + j * dim;
@@ -77,7 +79,7 @@ static int nearest_node (const sweep *g, size_t i)
 }
 
 /* Support and spacing at row i. */
-static void measure_place (const sweep *g, size_t i, pg_star *s)
+static void measure_place (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     int nearest = g->cloud->size ? nearest_node (g, i) : -1;
     double ratio = nearest < 0 ? 1 : pg_cloud_ratio (g->cloud, (size_t) nearest);
@@ -86,7 +88,7 @@ static void measure_place (const sweep *g, size_t i, pg_star *s)
 }
 
 /* Live bonds of row i into the star; the own node is none where the point expands about it. */
-static void gather (const sweep *g, size_t i, pg_star *s)
+static void gather (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     const pg_rows *rows = g->rows;
     size_t dim = (size_t) s->dim, first = rows->family.start[i], last = rows->family.start[i + 1];
@@ -108,14 +110,15 @@ static void gather (const sweep *g, size_t i, pg_star *s)
 }
 
 /* Influence of each bond into rows->w; keeps the bonds with a weight, scaled to the sum 1. */
-static void weigh (const sweep *g, size_t i, pg_star *s)
+static void weigh (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim, first = g->rows->family.start[i], kept = 0;
     (g->a->shape == PG_TENSOR ? tensor : radial) (g->a->kernel, s);
     double total = 0;
     for (size_t j = 0; j < s->n; j++) {
         size_t e = first + s->entry[j];
-        double V = g->cloud->volume[g->rows->family.node[e]], scale = g->a->use_volume ? V : 1, w = s->w[j] * scale;
+        double V = g->cloud->volume[g->rows->family.node[e]], scale = g->a->use_volume ? V : 1,
+               w = s->w[j] * scale;
         if (g->rows->w) g->rows->w[e] = s->w[j] * V;
         if (!(w > 0)) continue;
         s->entry[kept] = s->entry[j];
@@ -134,14 +137,16 @@ static void weigh (const sweep *g, size_t i, pg_star *s)
     }
 }
 
-/* Has the point lost bonds, and do those left enter its derivatives by more than PG_STEEPEST / a (intact: up to 3 / a)? They then hang on
- * influences near zero, whose own derivatives outgrow them: such a point would feed energy into the body instead of losing it. */
-static int wild (const pg_star *s, const double *dN)
+/* Has the point lost bonds, and do those left enter its derivatives by more than PG_STEEPEST / a (intact: up
+ * to 3 / a)? They then hang on influences near zero, whose own derivatives outgrow them: such a point would
+ * feed energy into the body instead of losing it. */
+static int wild (const pg_neighbourhood *s, const double *dN)
 {
     double bound = (s->order == 2 ? PG_STEEPEST_QUADRATIC : PG_STEEPEST) / s->a;
     for (size_t j = 0; s->lost && j < s->n; j++) {
         double sum = 0;
-        for (size_t k = 0; k < (size_t) s->dim; k++) sum += dN[s->entry[j] * (size_t) s->dim + k] * dN[s->entry[j] * (size_t) s->dim + k];
+        for (size_t k = 0; k < (size_t) s->dim; k++)
+            sum += dN[s->entry[j] * (size_t) s->dim + k] * dN[s->entry[j] * (size_t) s->dim + k];
         if (!(sum <= bound * bound)) return 1;
     }
     return 0;
@@ -154,13 +159,15 @@ static void clear (pg_rows *rows, size_t first, size_t last)
     for (size_t e = first * dim; rows->dN && e < last * dim; e++) rows->dN[e] = 0;
 }
 
-/* Shape functions by the richest basis that the live bonds bear; returns its grade. What the rows have no room for is left out: derivatives
- * then only go to scratch where the rule for steep ones or the formula needs them. */
-static int fill (const sweep *g, pg_star *s, pg_rows *rows, size_t first, size_t last)
+/* Shape functions by the richest basis that the live bonds bear; returns its grade. What the rows have no
+ * workspace for is left out: derivatives then only go to scratch where the rule for steep ones or the formula
+ * needs them. */
+static int fill (const sweep *g, pg_neighbourhood *s, pg_rows *rows, size_t first, size_t last)
 {
     for (int order = g->a->order; order >= 1; order--) {
-        int grade = pg_star_grade (s, order, s->h);
-        double *dN = rows->dN ? rows->dN + first * (size_t) s->dim : s->q, *N = rows->N ? rows->N + first : s->k;
+        int grade = pg_neighbourhood_grade (s, order, s->h);
+        double *dN = rows->dN ? rows->dN + first * (size_t) s->dim : s->q,
+               *N = rows->N ? rows->N + first : s->k;
         if (grade > PG_GRADE_PROJECTED) return grade;
         if (rows->dN || s->lost || (rows->N && !g->formula->values)) g->formula->fill (s, N, dN);
         else if (rows->N) g->formula->values (s, N);
@@ -170,7 +177,7 @@ static int fill (const sweep *g, pg_star *s, pg_rows *rows, size_t first, size_t
     return PG_GRADE_SHEPARD;
 }
 
-static void row (const sweep *g, size_t i, pg_star *s)
+static void row (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     pg_rows *rows = g->rows;
     size_t first = rows->family.start[i], last = rows->family.start[i + 1];
@@ -182,7 +189,8 @@ static void row (const sweep *g, size_t i, pg_star *s)
     double *N = rows->N ? rows->N + first : s->k;
     int grade = fill (g, s, rows, first, last);
     if (grade > PG_GRADE_PROJECTED && s->constant) for (size_t j = 0; j < s->n; j++) N[s->entry[j]] = s->w[j];
-    if (grade > PG_GRADE_PROJECTED && !s->constant) {  /* a node keeps its own displacement, whatever it lost */
+    /* a node keeps its own displacement, whatever it lost */
+    if (grade > PG_GRADE_PROJECTED && !s->constant) {
         N[s->own] = 1;
         grade = PG_GRADE_SHEPARD;
     }
@@ -196,11 +204,14 @@ static void work (void *context, size_t first, size_t last, int thread)
 }
 
 /* Scratch for one thread: families of at most `most` nodes. */
-static pg_status star_create (pg_star *s, const pg_approx *a, const pg_cloud *cloud, int dim, size_t most)
+static pg_status star_create (pg_neighbourhood *s, const pg_approx *a, const pg_cloud *cloud, int dim,
+                              size_t most)
 {
     pg_status status = PG_OK;
     size_t vector = most * (size_t) dim;
-    *s = (pg_star) { .dim = dim, .a = a->horizon, .h = cloud->h, .project = a->projected, .extrapolates = a->extrapolates };
+    *s = (pg_neighbourhood){
+        .dim = dim, .a = a->horizon, .h = cloud->h, .project = a->projected, .extrapolates = a->extrapolates
+    };
     PG_ALLOC (s->entry, most);
     if (cloud->size) PG_ALLOC (s->ratio, most);
     PG_ALLOC (s->z, 5 * vector + most * (1 + PG_BASIS_MAX));
@@ -214,15 +225,17 @@ done:
     return status;
 }
 
-pg_status pg_moment_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
-                    const unsigned char *alive, size_t count, const size_t *list, int threads)
+pg_status pg_moment_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud,
+                           pg_rows *rows, const unsigned char *alive, size_t count, const size_t *list,
+                           int threads)
 {
     pg_status status = PG_OK;
     size_t slots = threads < 1 ? 1 : (size_t) threads, most = 0;
     sweep g = { formula, a, cloud, rows, alive, list, NULL };
     int dim = rows->dim;
     if (dim < 1 || dim > 3 || a->order < 1 || a->order > 2 || !(a->horizon > 0))
-        PG_FAIL (PG_E_USAGE, "approximation of order %d in %d dimensions with horizon %g m", a->order, dim, a->horizon);
+        PG_FAIL (PG_E_USAGE, "approximation of order %d in %d dimensions with horizon %g m", a->order, dim,
+                 a->horizon);
     for (size_t k = 0; k < count; k++) {
         size_t i = list ? list[k] : k, n = rows->family.start[i + 1] - rows->family.start[i];
         if (n > most) most = n;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Small dense algebra for moment matrices, shape tensors and principal stresses: A = L L', x = A \ b, A = V diag(lambda) V'. */
+ * Small dense algebra for moment matrices, shape tensors and principal stresses: A = L L', x = A \ b, A = V
+ * diag(lambda) V'. */
 #include "perigal/base.h"
 #include <math.h>
 
@@ -88,5 +89,6 @@ double pg_dense_det (int n, const double *A)
 {
     if (n == 1) return A[0];
     if (n == 2) return A[0] * A[3] - A[1] * A[2];
-    return A[0] * (A[4] * A[8] - A[5] * A[7]) - A[1] * (A[3] * A[8] - A[5] * A[6]) + A[2] * (A[3] * A[7] - A[4] * A[6]);
+    return A[0] * (A[4] * A[8] - A[5] * A[7]) - A[1] * (A[3] * A[8] - A[5] * A[6])
+           + A[2] * (A[3] * A[7] - A[4] * A[6]);
 }

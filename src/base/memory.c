@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The only file that calls malloc: zero-filled, counted, overflow-checked blocks, and a switch that makes one fail. */
+ * The only file that calls malloc: zero-filled, counted, overflow-checked blocks, and a switch that makes one
+ * fail. */
 #include "perigal/base.h"
 #include <stdatomic.h>
 #include <stdint.h>
@@ -7,7 +8,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
-#define HEAD 64                                        /* bytes in front of each block: its size; keeps 64-byte alignment */
+#define HEAD 64  /* bytes in front of each block: its size; keeps 64-byte alignment */
 
 static atomic_size_t used, peak, calls, fail_at;
 

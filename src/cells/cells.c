@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Background cells of the kept lattice cells, and the facets between a kept cell and none, with outward normals. */
+ * Background cells of the kept lattice cells, and the facets between a kept cell and none, with outward
+ * normals. */
 #include "cut.h"
 #include <limits.h>
 #include <string.h>
 
 /* Corners in Exodus order as steps along x, y, z. */
-static const unsigned char corner[8][3] = {{0,0,0}, {1,0,0}, {1,1,0}, {0,1,0}, {0,0,1}, {1,0,1}, {1,1,1}, {0,1,1}};
+static const unsigned char corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+                                            { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
 /* Corners of the faces -x +x -y +y -z +z, by dimension, counter-clockwise seen from outside. */
 static const unsigned char face[3][6][4] = {
     {{0}, {1}},
@@ -16,7 +18,8 @@ static const unsigned char face[3][6][4] = {
 static int kept (const pg_lattice *l, const int *i)
 {
     for (int k = 0; k < 3; k++) if (i[k] < 0 || i[k] >= l->count[k]) return 0;
-    return l->in[((size_t) i[2] * (size_t) l->count[1] + (size_t) i[1]) * (size_t) l->count[0] + (size_t) i[0]];
+    return l
+        ->in[((size_t) i[2] * (size_t) l->count[1] + (size_t) i[1]) * (size_t) l->count[0] + (size_t) i[0]];
 }
 
 static int open_face (const pg_lattice *l, const int *i, int f)
@@ -59,9 +62,11 @@ void cells_put_face (pg_cells *out, size_t at, int f, const double *step)
     static const pg_element kind[3] = {PG_POINT1, PG_BAR2, PG_QUAD4};
     size_t dim = (size_t) out->dim, corners = (size_t) 1 << (dim - 1);
     const double *cell = out->x + out->start[out->facet_cell[at]] * dim;
-    double *x = out->facet_x + out->facet_start[at] * dim, *centre = out->facet_centre + at * dim, area = out->thickness;
+    double *x = out->facet_x + out->facet_start[at] * dim, *centre = out->facet_centre + at * dim,
+           area = out->thickness;
     for (int k = 0; k < out->dim; k++) if (k != f / 2) area *= step[k];
-    for (size_t c = 0; c < corners; c++) memcpy (x + c * dim, cell + face[dim - 1][f][c] * dim, dim * sizeof *x);
+    for (size_t c = 0; c < corners; c++)
+        memcpy (x + c * dim, cell + face[dim - 1][f][c] * dim, dim * sizeof *x);
     for (size_t k = 0; k < dim; k++) {
         for (size_t c = 0; c < corners; c++) centre[k] += x[c * dim + k];
         centre[k] /= (double) corners;
@@ -93,12 +98,14 @@ static void fill (pg_cells *out, const pg_lattice *l)
             }
 }
 
-pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, size_t nx, size_t nfacet, size_t nfx)
+pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, size_t nx, size_t nfacet,
+                            size_t nfx)
 {
     pg_status status = PG_OK;
     size_t d = (size_t) dim;
     memset (out, 0, sizeof *out);
-    if (n > INT_MAX || nfacet > INT_MAX) PG_FAIL (PG_E_LIMIT, "%zu cells with %zu facets are too many", n, nfacet);
+    if (n > INT_MAX || nfacet > INT_MAX)
+        PG_FAIL (PG_E_LIMIT, "%zu cells with %zu facets are too many", n, nfacet);
     PG_ALLOC (out->kind, n);
     PG_ALLOC (out->start, n + 1);
     PG_ALLOC (out->x, nx * d);
@@ -125,7 +132,8 @@ pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, doubl
     memset (out, 0, sizeof *out);
     if (lattice->dim == 0) return PG_OK;                   /* points from a file: no cells */
     count (&n, &nfacet, lattice);
-    pg_status status = pg_cells_reserve (out, lattice->dim, thickness, n, n * corners, nfacet, nfacet * corners / 2);
+    pg_status status = pg_cells_reserve (out, lattice->dim, thickness, n, n * corners, nfacet,
+                                         nfacet * corners / 2);
     if (status == PG_OK) fill (out, lattice);
     return status;
 }
@@ -135,7 +143,8 @@ void pg_cells_clear (pg_cells *c)
     pg_free (c->kind), pg_free (c->start), pg_free (c->x), pg_free (c->volume), pg_free (c->block);
     pg_free (c->facet_kind), pg_free (c->facet_start), pg_free (c->facet_x), pg_free (c->facet_centre);
     cut_free ((struct pg_cut *) c->cut);
-    pg_free (c->normal), pg_free (c->area), pg_free (c->facet_cell), pg_free (c->facet_surface), pg_free (c->facet_point);
+    pg_free (c->normal), pg_free (c->area), pg_free (c->facet_cell), pg_free (c->facet_surface),
+        pg_free (c->facet_point);
     for (size_t i = 0; i < c->ngiven; i++) pg_free (c->given[i].point), pg_free (c->given[i].facet);
     pg_free (c->given);
     memset (c, 0, sizeof *c);

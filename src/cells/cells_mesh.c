@@ -5,21 +5,23 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- names ------------------------------------------------------------------------------------------------------------ */
+/* ---- names --------------------------------------------------------------------------------------------- */
 void pg_set_name (char out[57], const char *name)
 {
     size_t n = 0;
     for (; name[n] && n < 56; n++) {
         unsigned char c = (unsigned char) name[n];
-        int plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c >= 0x80;
+        int plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'
+                    || c == '-' || c >= 0x80;
         out[n] = plain ? name[n] : '_';
     }
-    while (n > 0 && name[n] && ((unsigned char) name[n] & 0xC0) == 0x80) n--;      /* not within a letter                 */
+    while (n > 0 && name[n] && ((unsigned char) name[n] & 0xC0) == 0x80) n--;      /* not within a letter */
     out[n] = '\0';
-    if (!n || !strcmp (out, "all")) snprintf (out, 57, "mesh_%s", n ? "all" : "set");   /* all stays everything           */
+    /* all stays everything */
+    if (!n || !strcmp (out, "all")) snprintf (out, 57, "mesh_%s", n ? "all" : "set");
 }
 
-/* ---- cells and facets ------------------------------------------------------------------------------------------------- */
+/* ---- cells and facets ---------------------------------------------------------------------------------- */
 typedef struct { const pg_mesh_body *body; size_t nfacet; int *element, *side; } source;
 
 static pg_element face_of (const pg_mesh *m, int e, int side, int node[9])
@@ -29,7 +31,10 @@ static pg_element face_of (const pg_mesh *m, int e, int side, int node[9])
     return kind;
 }
 
-static void put_place (double *to, const pg_mesh *m, int node) { memcpy (to, m->x + 3 * (size_t) node, (size_t) m->dim * sizeof *to); }
+static void put_place (double *to, const pg_mesh *m, int node)
+{
+    memcpy (to, m->x + 3 * (size_t) node, (size_t) m->dim * sizeof *to);
+}
 
 static void put_cells (pg_cells *out, const pg_mesh_body *b)
 {
@@ -47,22 +52,28 @@ static void measure_facet (pg_cells *out, size_t f)
     enum { ORDER = 4 };
     size_t dim = (size_t) out->dim;
     pg_element kind = (pg_element) out->facet_kind[f];
-    double xi[2 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS], area = 0, centre[3] = { 0 }, mean[3] = { 0 }, size = 0;
+    double xi[2 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS], area = 0, centre[3] = { 0 }, mean[3] = { 0 },
+                                                                 size = 0;
     int n = pg_element_rule (kind, ORDER, xi, weight);
     for (int q = 0; q < n; q++) {
-        double at[3], normal[3], w = weight[q] * pg_element_map (kind, out->dim, out->facet_x + out->facet_start[f] * dim, xi + q * ((int) dim - 1), at, normal);
+        double at[3], normal[3],
+            w = weight[q]
+                * pg_element_map (kind, out->dim, out->facet_x + out->facet_start[f] * dim,
+                                  xi + q * ((int) dim - 1), at, normal);
         area += w;
         for (size_t k = 0; k < dim; k++) centre[k] += w * at[k], mean[k] += w * normal[k];
     }
     for (size_t k = 0; k < dim; k++) size += mean[k] * mean[k];
-    for (size_t k = 0; k < dim; k++) out->facet_centre[f * dim + k] = centre[k] / area, out->normal[f * dim + k] = mean[k] / sqrt (size);
+    for (size_t k = 0; k < dim; k++)
+        out->facet_centre[f * dim + k] = centre[k] / area, out->normal[f * dim + k] = mean[k] / sqrt (size);
     out->area[f] = area * out->thickness;
 }
 
 /* A point that ends a line has the direction away from the line for its normal. */
 static void point_normal (pg_cells *out, size_t f, const pg_mesh *m, int e)
 {
-    double middle = 0.5 * (m->x[3 * (size_t) m->node[m->start[e]]] + m->x[3 * (size_t) m->node[m->start[e] + 1]]);
+    double middle = 0.5
+                    * (m->x[3 * (size_t) m->node[m->start[e]]] + m->x[3 * (size_t) m->node[m->start[e] + 1]]);
     out->facet_centre[f] = out->facet_x[out->facet_start[f]];
     out->normal[f] = out->facet_centre[f] > middle ? 1 : -1;
     out->area[f] = out->thickness;
@@ -79,14 +90,15 @@ static void put_facets (pg_cells *out, const source *s)
             put_place (out->facet_x + (first + (size_t) k) * (size_t) m->dim, m, node[k]);
             out->facet_point[first + (size_t) k] = s->body->point[node[k]];
         }
-        out->facet_kind[f] = (unsigned char) kind, out->facet_start[f + 1] = first + (size_t) pg_element_types[kind].nodes;
+        out->facet_kind[f] = (unsigned char) kind,
+        out->facet_start[f + 1] = first + (size_t) pg_element_types[kind].nodes;
         out->facet_cell[f] = s->element[f], out->facet_surface[f] = -1;
         if (m->dim == 1) point_normal (out, f, m, s->element[f]);
         else measure_facet (out, f);
     }
 }
 
-/* ---- sets ------------------------------------------------------------------------------------------------------------- */
+/* ---- sets ---------------------------------------------------------------------------------------------- */
 typedef struct { const source *s; size_t npoint, *first; unsigned char *node, *point, *facet; } marks;
 
 static pg_status pick (int **out, size_t *n, const unsigned char *mark, size_t all)
@@ -108,7 +120,8 @@ static int same_name (const char *name, const char *of_mesh)
     return !strcmp (clean, name);
 }
 
-/* Marks what the side sets of that name hold; faces inside the body are left out. Returns how many such sets there are. */
+/* Marks what the side sets of that name hold; faces inside the body are left out. Returns how many such sets
+ * there are. */
 static int mark_sides (marks *k, const char *name)
 {
     const pg_mesh *m = &k->s->body->mesh;
@@ -118,7 +131,8 @@ static int mark_sides (marks *k, const char *name)
         found++;
         for (size_t j = 0; j < m->sides[i].n; j++) {
             int e = m->sides[i].element[j], node[9];
-            for (size_t f = k->first[e]; f < k->first[e + 1]; f++) if (k->s->side[f] == m->sides[i].side[j]) k->facet[f] = 1;
+            for (size_t f = k->first[e]; f < k->first[e + 1]; f++)
+                if (k->s->side[f] == m->sides[i].side[j]) k->facet[f] = 1;
             int n = pg_element_types[face_of (m, e, m->sides[i].side[j], node)].nodes;
             for (int a = 0; a < n; a++) k->node[node[a]] = 1;
         }
@@ -147,9 +161,11 @@ static pg_status add_given (pg_cells *out, size_t *capacity, marks *k, const cha
     memset (k->node, 0, m->nnode), memset (k->point, 0, k->npoint), memset (k->facet, 0, k->s->nfacet);
     int sides = mark_sides (k, name);
     for (size_t i = 0; i < m->nnodes; i++)
-        for (size_t j = 0; same_name (name, m->nodes[i].name) && j < m->nodes[i].n; j++) k->node[m->nodes[i].node[j]] = 1;
+        for (size_t j = 0; same_name (name, m->nodes[i].name) && j < m->nodes[i].n; j++)
+            k->node[m->nodes[i].node[j]] = 1;
     if (!sides) mark_whole_facets (k);
-    for (size_t i = 0; i < m->nnode; i++) if (k->node[i] && k->s->body->point[i] >= 0) k->point[k->s->body->point[i]] = 1;
+    for (size_t i = 0; i < m->nnode; i++)
+        if (k->node[i] && k->s->body->point[i] >= 0) k->point[k->s->body->point[i]] = 1;
     PG_GROW (out->given, *capacity, out->ngiven + 1);
     pg_set *set = &out->given[out->ngiven];
     memset (set, 0, sizeof *set);
@@ -191,7 +207,9 @@ pg_status pg_cells_from_mesh (pg_cells *out, const pg_mesh_body *body, double th
     PG_TRY (pg_mesh_surface (m, &s.nfacet, &s.element, &s.side));
     for (size_t f = 0; f < s.nfacet; f++) {
         int node[9];
-        nodes += (size_t) pg_element_types[pg_element_face ((pg_element) m->kind[s.element[f]], s.side[f], node)].nodes;
+        nodes += (size_t)
+                     pg_element_types[pg_element_face ((pg_element) m->kind[s.element[f]], s.side[f], node)]
+                         .nodes;
     }
     PG_TRY (pg_cells_reserve (out, m->dim, thickness, m->n, m->start[m->n], s.nfacet, nodes));
     PG_ALLOC (out->facet_point, nodes);

@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The cells of a lattice over the exact body: whole, cut or none; and their facets, one for each cell and surface. */
+ * The cells of a lattice over the exact body: whole, cut or none; and their facets, one for each cell and
+ * surface. */
 #include "cut.h"
 #include <math.h>
 #include <string.h>
 
-static const double least_share = 1e-13;               /* of a cell's volume; less is no cell                            */
+static const double least_share = 1e-13;               /* of a cell's volume; less is no cell */
 enum { NONE, WHOLE, CUT };
-typedef struct { int cell, surface, face, part; cut_piece piece; } one_facet;       /* face: of the lattice cell, -1: a piece      */
+/* face: of the lattice cell, -1: a piece */
+typedef struct { int cell, surface, face, part; cut_piece piece; } one_facet;
 typedef struct {
     const pg_lattice *l;
     struct pg_cut *cut;
-    size_t  n;                                         /* lattice cells                                                  */
-    size_t *start;  int *near;                         /* surfaces near each (CSR)                                       */
-    unsigned char *state, *aligned;                    /* aligned: near surfaces only lie on its faces                   */
-    double *volume;                                    /* m^3                                                            */
-    double  whole;                                     /* volume of a whole cell                                         */
+    size_t  n;                                         /* lattice cells */
+    size_t *start;  int *near;                         /* surfaces near each (CSR) */
+    unsigned char *state, *aligned;                    /* aligned: near surfaces only lie on its faces */
+    double *volume;                                    /* m^3 */
+    double  whole;                                     /* volume of a whole cell */
     one_facet *facet;  size_t nfacet, capacity;
     size_t  ncell, nnear, ncut;
-} maker;
+} builder;
 
 static size_t number_of (const pg_lattice *l, const int *i)
 {
@@ -32,24 +34,26 @@ static void index_of (const pg_lattice *l, size_t c, int *i)
 
 static void box_of (const pg_lattice *l, const int *i, double *low, double *high)
 {
-    for (int k = 0; k < l->dim; k++) low[k] = pg_lattice_at (l, k, i[k]), high[k] = pg_lattice_at (l, k, i[k] + 1);
+    for (int k = 0; k < l->dim; k++)
+        low[k] = pg_lattice_at (l, k, i[k]), high[k] = pg_lattice_at (l, k, i[k] + 1);
 }
 
-static int is_knife (const maker *m, size_t k) { return m->cut->surface[m->near[k]].shape < 0; }
+static int is_knife (const builder *m, size_t k) { return m->cut->surface[m->near[k]].shape < 0; }
 
 /* The face of the cell on which a plane lies, -1: none. */
-static int face_of (const maker *m, const int *i, int surface)
+static int face_of (const builder *m, const int *i, int surface)
 {
     const cut_surface *s = &m->cut->surface[surface];
     if (s->axis < 0) return -1;
     double at = s->origin[s->axis], tolerance = 0.5 * cut_snap * m->l->step[s->axis];
     for (int side = 0; side < 2; side++)
-        if (fabs (at - pg_lattice_at (m->l, s->axis, i[s->axis] + side)) <= tolerance) return 2 * s->axis + side;
+        if (fabs (at - pg_lattice_at (m->l, s->axis, i[s->axis] + side)) <= tolerance)
+            return 2 * s->axis + side;
     return -1;
 }
 
-/* ---- which surfaces are near -------------------------------------------------------------------------------------------- */
-static int is_near (const maker *m, const cut_surface *s, const int *i)
+/* ---- which surfaces are near --------------------------------------------------------------------------- */
+static int is_near (const builder *m, const cut_surface *s, const int *i)
 {
     double low[3], high[3], centre[3], half[3], all[3] = {1, 1, 1}, origin[3] = {0, 0, 0};
     box_of (m->l, i, low, high);
@@ -62,21 +66,24 @@ static int is_near (const maker *m, const cut_surface *s, const int *i)
 }
 
 /* Does the mesh end at the face of the cell on which this plane lies? */
-static int is_step (const maker *m, size_t number, const int *i)
+static int is_step (const builder *m, size_t number, const int *i)
 {
     int face = face_of (m, i, (int) number);
     return face >= 0 && pg_stairs_step (&m->cut->body.shape[m->cut->surface[number].shape], i, face);
 }
 
 /* Counts (near NULL), or writes from the end of each list on. */
-static void visit_near (maker *m, size_t number, int *near)
+static void visit_near (builder *m, size_t number, int *near)
 {
     const cut_surface *s = &m->cut->surface[number];
     const pg_lattice *l = m->l;
-    int first[3] = {0, 0, 0}, last[3] = {0, 0, 0}, i[3], stairs = s->shape >= 0 && m->cut->body.shape[s->shape].kind == PG_STAIRS;
+    int first[3] = { 0, 0, 0 }, last[3] = { 0, 0, 0 }, i[3],
+        stairs = s->shape >= 0 && m->cut->body.shape[s->shape].kind == PG_STAIRS;
     for (int k = 0; k < l->dim; k++) {
-        double a = floor ((s->low[k] - l->origin[k]) / l->step[k]) - 1, b = floor ((s->high[k] - l->origin[k]) / l->step[k]) + 1;
-        first[k] = a > 0 ? (int) fmin (a, l->count[k]) : 0, last[k] = b < l->count[k] - 1 ? (int) fmax (b, -1) : l->count[k] - 1;
+        double a = floor ((s->low[k] - l->origin[k]) / l->step[k]) - 1,
+               b = floor ((s->high[k] - l->origin[k]) / l->step[k]) + 1;
+        first[k] = a > 0 ? (int) fmin (a, l->count[k]) : 0,
+        last[k] = b < l->count[k] - 1 ? (int) fmax (b, -1) : l->count[k] - 1;
     }
     for (i[2] = first[2]; i[2] <= last[2]; i[2]++)
         for (i[1] = first[1]; i[1] <= last[1]; i[1]++)
@@ -88,7 +95,7 @@ static void visit_near (maker *m, size_t number, int *near)
             }
 }
 
-static pg_status find_near (maker *m)
+static pg_status find_near (builder *m)
 {
     pg_status status = PG_OK;
     PG_ALLOC (m->start, m->n + 1);
@@ -102,8 +109,8 @@ done:
     return status;
 }
 
-/* ---- cells ------------------------------------------------------------------------------------------------------------ */
-static pg_status into_cell (const maker *m, size_t c)
+/* ---- cells --------------------------------------------------------------------------------------------- */
+static pg_status into_cell (const builder *m, size_t c)
 {
     double low[3], high[3];
     int i[3];
@@ -112,13 +119,14 @@ static pg_status into_cell (const maker *m, size_t c)
     return cut_work_cell (m->cut->work, low, high, m->start[c + 1] - m->start[c], m->near + m->start[c]);
 }
 
-static pg_status classify (maker *m, size_t c)
+static pg_status classify (builder *m, size_t c)
 {
     pg_status status = PG_OK;
     cut_piece piece;
     int i[3], aligned = 1;
     index_of (m->l, c, i);
-    for (size_t k = m->start[c]; k < m->start[c + 1]; k++) aligned &= is_knife (m, k) || face_of (m, i, m->near[k]) >= 0;
+    for (size_t k = m->start[c]; k < m->start[c + 1]; k++)
+        aligned &= is_knife (m, k) || face_of (m, i, m->near[k]) >= 0;
     m->aligned[c] = (unsigned char) aligned;
     if (aligned) m->state[c] = m->l->in[c] ? WHOLE : NONE;
     else {
@@ -135,9 +143,9 @@ done:
     return status;
 }
 
-/* ---- facets ----------------------------------------------------------------------------------------------------------- */
+/* ---- facets -------------------------------------------------------------------------------------------- */
 /* What lies behind a face: NONE and WHOLE if that is the same all over it, else CUT. */
-static int beyond (const maker *m, const int *i, int face)
+static int beyond (const builder *m, const int *i, int face)
 {
     int at[3] = {i[0], i[1], i[2]};
     at[face / 2] += face % 2 ? 1 : -1;
@@ -146,11 +154,11 @@ static int beyond (const maker *m, const int *i, int face)
     return m->aligned[c] ? m->state[c] : CUT;
 }
 
-static pg_status put (maker *m, const one_facet *f)
+static pg_status put (builder *m, const one_facet *f)
 {
     pg_status status = PG_OK;
     for (size_t k = m->nfacet; f->face >= 0 && k-- > 0 && m->facet[k].cell == f->cell; )
-        if (m->facet[k].face == f->face) return PG_OK;         /* two shapes have the same side                          */
+        if (m->facet[k].face == f->face) return PG_OK;         /* two shapes have the same side */
     PG_GROW (m->facet, m->capacity, m->nfacet + 1);
     m->facet[m->nfacet++] = *f;
 done:
@@ -158,7 +166,7 @@ done:
 }
 
 /* The parts of one surface in a cell that has been entered; one that covers a face is that face. */
-static pg_status find_parts (maker *m, one_facet f)
+static pg_status find_parts (builder *m, one_facet f)
 {
     pg_status status = PG_OK;
     int face = f.face, parts = 1 << cut_work_knives (m->cut->work);
@@ -173,7 +181,7 @@ done:
     return status;
 }
 
-static pg_status find_facets (maker *m, size_t c, int cell)
+static pg_status find_facets (builder *m, size_t c, int cell)
 {
     pg_status status = PG_OK;
     int i[3], entered = 0, parted = m->start[c + 1] > m->start[c] && is_knife (m, m->start[c + 1] - 1);
@@ -192,10 +200,11 @@ done:
     return status;
 }
 
-/* ---- from the maker to the cells ---------------------------------------------------------------------------------------- */
-static const unsigned char corner[8][3] = {{0,0,0}, {1,0,0}, {1,1,0}, {0,1,0}, {0,0,1}, {1,0,1}, {1,1,1}, {0,1,1}};
+/* ---- from the builder to the cells --------------------------------------------------------------------- */
+static const unsigned char corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+                                            { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
 
-static void fill_cell (pg_cells *out, const maker *m, size_t c, size_t at)
+static void fill_cell (pg_cells *out, const builder *m, size_t c, size_t at)
 {
     static const pg_element kind[3] = {PG_BAR2, PG_QUAD4, PG_HEX8};
     size_t dim = (size_t) m->l->dim, corners = (size_t) 1 << dim, near = m->start[c + 1] - m->start[c];
@@ -203,7 +212,8 @@ static void fill_cell (pg_cells *out, const maker *m, size_t c, size_t at)
     int i[3];
     index_of (m->l, c, i);
     for (size_t e = 0; e < corners; e++)
-        for (size_t k = 0; k < dim; k++) out->x[(at * corners + e) * dim + k] = pg_lattice_at (m->l, (int) k, i[k] + corner[e][k]);
+        for (size_t k = 0; k < dim; k++)
+            out->x[(at * corners + e) * dim + k] = pg_lattice_at (m->l, (int) k, i[k] + corner[e][k]);
     out->kind[at] = m->state[c] == CUT ? PG_CUT : (unsigned char) kind[dim - 1];
     out->start[at + 1] = (at + 1) * corners;
     out->volume[at] = m->volume[c];
@@ -211,7 +221,7 @@ static void fill_cell (pg_cells *out, const maker *m, size_t c, size_t at)
     memcpy (cut->near + cut->start[at], m->near + m->start[c], near * sizeof *cut->near);
 }
 
-static void fill_facet (pg_cells *out, const maker *m, const one_facet *f, size_t at)
+static void fill_facet (pg_cells *out, const builder *m, const one_facet *f, size_t at)
 {
     size_t dim = (size_t) out->dim;
     double *normal = out->normal + at * dim, size = 0;
@@ -230,7 +240,7 @@ static void fill_facet (pg_cells *out, const maker *m, const one_facet *f, size_
     }
 }
 
-static pg_status fill (pg_cells *out, maker *m, double thickness)
+static pg_status fill (pg_cells *out, builder *m, double thickness)
 {
     pg_status status = PG_OK;
     size_t corners = (size_t) 1 << m->l->dim, at = 0, whole = 0;
@@ -238,16 +248,18 @@ static pg_status fill (pg_cells *out, maker *m, double thickness)
     PG_ALLOC (m->cut->start, m->ncell + 1);
     PG_ALLOC (m->cut->near, m->nnear);
     PG_ALLOC (m->cut->part, m->nfacet);
-    PG_TRY (pg_cells_reserve (out, m->l->dim, thickness, m->ncell, m->ncell * corners, m->nfacet, whole * corners / 2));
+    PG_TRY (pg_cells_reserve (out, m->l->dim, thickness, m->ncell, m->ncell * corners, m->nfacet,
+                              whole * corners / 2));
     for (size_t c = 0; c < m->n; c++) if (m->state[c] != NONE) fill_cell (out, m, c, at++);
-    for (size_t f = 0; f < m->nfacet; f++) fill_facet (out, m, &m->facet[f], f), m->cut->part[f] = m->facet[f].part;
+    for (size_t f = 0; f < m->nfacet; f++)
+        fill_facet (out, m, &m->facet[f], f), m->cut->part[f] = m->facet[f].part;
     out->cut = m->cut;
     m->cut = NULL;
 done:
     return status;
 }
 
-static pg_status prepare (maker *m, const pg_body *body, double thickness, size_t nray, const pg_ray *ray)
+static pg_status prepare (builder *m, const pg_body *body, double thickness, size_t nray, const pg_ray *ray)
 {
     pg_status status = PG_OK;
     m->n = (size_t) m->l->count[0] * (size_t) m->l->count[1] * (size_t) m->l->count[2];
@@ -264,10 +276,11 @@ done:
     return status;
 }
 
-pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness, size_t nray, const pg_ray *ray)
+pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness,
+                        size_t nray, const pg_ray *ray)
 {
     pg_status status = PG_OK;
-    maker m = {.l = lattice};
+    builder m = {.l = lattice};
     int cell = 0, other = 0;
     memset (out, 0, sizeof *out);
     if (lattice->dim == 0) return PG_OK;
@@ -280,7 +293,8 @@ pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *la
     else status = fill (out, &m, thickness);
 done:
     cut_free (m.cut);
-    pg_free (m.start), pg_free (m.near), pg_free (m.state), pg_free (m.aligned), pg_free (m.volume), pg_free (m.facet);
+    pg_free (m.start), pg_free (m.near), pg_free (m.state), pg_free (m.aligned), pg_free (m.volume),
+        pg_free (m.facet);
     return status;
 }
 
@@ -288,22 +302,27 @@ void cut_free (struct pg_cut *cut)
 {
     if (!cut) return;
     cut_work_free (&cut->work);
-    for (size_t i = 0; cut->own && i < cut->body.n; i++) if (cut->own[i].kind == PG_STAIRS) pg_stairs_clear (&cut->own[i]);
+    for (size_t i = 0; cut->own && i < cut->body.n; i++)
+        if (cut->own[i].kind == PG_STAIRS) pg_stairs_clear (&cut->own[i]);
     pg_free (cut->own);
     pg_free (cut->surface), pg_free (cut->start), pg_free (cut->near), pg_free (cut->part);
     pg_free (cut);
 }
 
-/* ---- use -------------------------------------------------------------------------------------------------------------- */
+/* ---- use ----------------------------------------------------------------------------------------------- */
 static pg_status enter (const pg_cells *cells, size_t cell)
 {
     const struct pg_cut *cut = cells->cut;
-    size_t dim = (size_t) cells->dim, far = dim == 3 ? 6 : dim == 2 ? 2 : 1;           /* the corner across             */
+    size_t dim = (size_t) cells->dim, far = dim == 3 ? 6 : dim == 2 ? 2 : 1;           /* the corner across */
     const double *x = cells->x + cells->start[cell] * dim;
-    return cut_work_cell (cut->work, x, x + far * dim, cut->start[cell + 1] - cut->start[cell], cut->near + cut->start[cell]);
+    return cut_work_cell (cut->work, x, x + far * dim, cut->start[cell + 1] - cut->start[cell],
+                          cut->near + cut->start[cell]);
 }
 
-static int finer (const pg_cells *cells, int order) { return order > cells->cut_order ? order : cells->cut_order; }
+static int finer (const pg_cells *cells, int order)
+{
+    return order > cells->cut_order ? order : cells->cut_order;
+}
 
 pg_status pg_cut_cell (pg_cut_points *out, const pg_cells *cells, size_t cell, int order)
 {
@@ -314,7 +333,9 @@ pg_status pg_cut_cell (pg_cut_points *out, const pg_cells *cells, size_t cell, i
 pg_status pg_cut_facet (pg_cut_points *out, const pg_cells *cells, size_t facet, int order)
 {
     pg_status status = enter (cells, (size_t) cells->facet_cell[facet]);
-    return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet], cells->cut->part[facet], finer (cells, order), out) : status;
+    return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet],
+                                              cells->cut->part[facet], finer (cells, order), out)
+                           : status;
 }
 
 pg_status pg_cut_face (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order)

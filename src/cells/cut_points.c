@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Quadrature in a cell and on the surfaces in it, by dimension reduction (in the manner of Saye 2015): slices along the outermost axis, lines
- * in the slices, pieces of the lines that lie in the body; Gauss points on every interval between splits, all weights positive. Where heights
- * begin like square roots at e, x = e +- s^2 takes the root away. */
+ * Quadrature in a cell and on the surfaces in it, by dimension reduction (in the manner of Saye 2015): slices
+ * along the outermost axis, lines in the slices, pieces of the lines that lie in the body; Gauss points on
+ * every interval between splits, all weights positive. Where heights begin like square roots at e, x = e +-
+ * s^2 takes the root away. */
 #include "cut.h"
 #include <math.h>
 #include <string.h>
 
 enum { RULE = 40 };
-static const double beyond = 2e-7;                     /* just off a face (local)                                        */
+static const double beyond = 2e-7;                     /* just off a face (local) */
 struct cut_work {
     const struct pg_cut *cut;
     double thickness, centre[3], half[3];
     cut_slices slices;
-    double *node;  int *owner;                         /* roots along a line (2 n + 2), and whose                        */
-    int    surface, order, face, part;                 /* of this walk; index into slices.number, or -1; a face, or -1   */
-    size_t real, all;                                  /* surfaces of the cell without and with knives                   */
+    double *node;  int *owner;                         /* roots along a line (2 n + 2), and whose */
+    int    surface, order, face, part;  /* of this walk; index into slices.number, or -1; a face, or -1 */
+    size_t real, all;                                  /* surfaces of the cell without and with knives */
     pg_cut_points *out;
-    double *x, *w;                                     /* Gauss rules of RULE points at most, by order                   */
+    double *x, *w;                                     /* Gauss rules of RULE points at most, by order */
 };
 
 void pg_cut_points_clear (pg_cut_points *p)
@@ -25,11 +26,11 @@ void pg_cut_points_clear (pg_cut_points *p)
     memset (p, 0, sizeof *p);
 }
 
-/* ---- rules ------------------------------------------------------------------------------------------------------------ */
+/* ---- rules --------------------------------------------------------------------------------------------- */
 static const double *rule_x (const cut_work *w, int n) { return w->x + n * (n - 1) / 2; }
 static const double *rule_w (const cut_work *w, int n) { return w->w + n * (n - 1) / 2; }
 
-/* ---- life cycle -------------------------------------------------------------------------------------------------------- */
+/* ---- life cycle ---------------------------------------------------------------------------------------- */
 pg_status cut_work_create (cut_work **out, const struct pg_cut *cut, double thickness)
 {
     pg_status status = PG_OK;
@@ -50,7 +51,9 @@ void cut_work_free (cut_work **work)
 {
     cut_work *w = *work;
     if (!w) return;
-    for (int k = 0; k < 3; k++) pg_free (w->slices.level[k].hard.at), pg_free (w->slices.level[k].soft.at), pg_free (w->slices.level[k].q);
+    for (int k = 0; k < 3; k++)
+        pg_free (w->slices.level[k].hard.at), pg_free (w->slices.level[k].soft.at),
+            pg_free (w->slices.level[k].q);
     pg_free (w->slices.number), pg_free (w->slices.low), pg_free (w->slices.high);
     pg_free (w->node), pg_free (w->owner), pg_free (w->x), pg_free (w->w);
     pg_free (w);
@@ -82,8 +85,9 @@ pg_status cut_work_cell (cut_work *w, const double *low, const double *high, siz
     if (status != PG_OK) return status;
     s->dim = w->cut->dim, s->n = n, s->status = PG_OK;
     w->all = w->real = n;
-    while (w->real > 0 && w->cut->surface[near[w->real - 1]].shape < 0) w->real--;         /* knives come last           */
-    for (int k = 0; k < s->dim; k++) w->centre[k] = 0.5 * (low[k] + high[k]), w->half[k] = 0.5 * (high[k] - low[k]);
+    while (w->real > 0 && w->cut->surface[near[w->real - 1]].shape < 0) w->real--;  /* knives come last */
+    for (int k = 0; k < s->dim; k++)
+        w->centre[k] = 0.5 * (low[k] + high[k]), w->half[k] = 0.5 * (high[k] - low[k]);
     for (size_t i = 0; i < n; i++) {
         const cut_surface *f = &w->cut->surface[near[i]];
         s->number[i] = near[i];
@@ -96,13 +100,14 @@ pg_status cut_work_cell (cut_work *w, const double *low, const double *high, siz
     return PG_OK;
 }
 
-/* ---- lines ------------------------------------------------------------------------------------------------------------ */
+/* ---- lines --------------------------------------------------------------------------------------------- */
 /* Is the place on the present line at height z in the body? */
 static int inside (const cut_work *w, double z)
 {
     const cut_slices *s = &w->slices;
     double x[3] = {0, 0, 0};
-    for (int k = 0; k < s->dim; k++) x[k] = w->centre[k] + w->half[k] * (k == s->axis[s->dim - 1] ? z : s->at[k]);
+    for (int k = 0; k < s->dim; k++)
+        x[k] = w->centre[k] + w->half[k] * (k == s->axis[s->dim - 1] ? z : s->at[k]);
     if (w->face < 0) return pg_body_inside (&w->cut->body, x, 0);
     double *across = &x[w->face / 2], at = *across, step = beyond * w->half[w->face / 2];
     *across = at - step;
@@ -115,7 +120,8 @@ static int inside (const cut_work *w, double z)
 static int side_of_knives (const cut_work *w, const double *at)
 {
     int part = 0;
-    for (size_t i = w->real; i < w->all && i < w->real + CUT_KNIVES; i++) part |= (cut_value (&w->slices.level[0].q[i], at) > 1e-9) << (i - w->real);
+    for (size_t i = w->real; i < w->all && i < w->real + CUT_KNIVES; i++)
+        part |= (cut_value (&w->slices.level[0].q[i], at) > 1e-9) << (i - w->real);
     return part;
 }
 
@@ -143,7 +149,8 @@ done:
     if (status != PG_OK) s->status = status;
 }
 
-/* Roots of all surfaces along the line, sorted, those next to the ends moved onto them; node[0] and node[m + 1] are -1 and 1. */
+/* Roots of all surfaces along the line, sorted, those next to the ends moved onto them; node[0] and node[m +
+ * 1] are -1 and 1. */
 static int line_roots (cut_work *w, const cut_quadric *q)
 {
     const cut_slices *s = &w->slices;
@@ -154,7 +161,8 @@ static int line_roots (cut_work *w, const cut_quadric *q)
         for (int r = 0; r < n; r++) {
             double t = fabs (root[r]) >= 1 - cut_snap ? copysign (1, root[r]) : root[r];
             int k = ++m;
-            for (; k > 1 && w->node[k - 1] > t; k--) w->node[k] = w->node[k - 1], w->owner[k] = w->owner[k - 1];
+            for (; k > 1 && w->node[k - 1] > t; k--)
+                w->node[k] = w->node[k - 1], w->owner[k] = w->owner[k - 1];
             w->node[k] = t, w->owner[k] = (int) i;
         }
     }
@@ -165,7 +173,8 @@ static int line_roots (cut_work *w, const cut_quadric *q)
 static void fill_piece (cut_work *w, double from, double to, double weight)
 {
     for (int g = 0; to > from && g < w->order; g++)
-        emit (w, from + (to - from) * rule_x (w, w->order)[g], weight * (to - from) * rule_w (w, w->order)[g], NULL);
+        emit (w, from + (to - from) * rule_x (w, w->order)[g], weight * (to - from) * rule_w (w, w->order)[g],
+              NULL);
 }
 
 /* Neighbouring pieces in the body are one: no surface of the body lies between them. */
@@ -191,8 +200,10 @@ static int owned (cut_work *w, int k, int m)
     if (w->owner[k] != w->surface) return 0;
     s->at[z] = w->node[k];
     if (!cut_within (s, (size_t) w->surface)) return 0;
-    for (int i = k; i-- > 1 && w->node[k] - w->node[i] < 1e-13; ) if (w->owner[i] < w->surface && cut_within (s, (size_t) w->owner[i])) return 0;
-    for (int i = k + 1; i <= m && w->node[i] - w->node[k] < 1e-13; i++) if (w->owner[i] < w->surface && cut_within (s, (size_t) w->owner[i])) return 0;
+    for (int i = k; i-- > 1 && w->node[k] - w->node[i] < 1e-13;)
+        if (w->owner[i] < w->surface && cut_within (s, (size_t) w->owner[i])) return 0;
+    for (int i = k + 1; i <= m && w->node[i] - w->node[k] < 1e-13; i++)
+        if (w->owner[i] < w->surface && cut_within (s, (size_t) w->owner[i])) return 0;
     return 1;
 }
 
@@ -214,7 +225,8 @@ static void line_surface (cut_work *w, const cut_quadric *q, double weight)
         at[z] = t[k];
         if (side_of_knives (w, at) != w->part) continue;
         cut_gradient (&s->level[0].q[w->surface], at, n);
-        double steep = fabs (n[z]) / w->half[z], sign = (n[z] > 0) == under ? 1 : -1, scale = weight * w->thickness;
+        double steep = fabs (n[z]) / w->half[z], sign = (n[z] > 0) == under ? 1 : -1,
+               scale = weight * w->thickness;
         for (int i = 0; i < s->dim; i++) {
             n[i] *= sign / w->half[i], size += n[i] * n[i];
             if (i != z) scale *= w->half[i];
@@ -226,7 +238,7 @@ static void line_surface (cut_work *w, const cut_quadric *q, double weight)
     }
 }
 
-/* ---- the walk ---------------------------------------------------------------------------------------------------------- */
+/* ---- the walk ------------------------------------------------------------------------------------------ */
 static void walk (cut_work *w, int k, double weight);
 
 static void go_on (cut_work *w, int k, double at, double weight)
@@ -246,7 +258,8 @@ static void interval (cut_work *w, int k, double a, double b, double root, doubl
     int order = w->order, rooted = !isnan (root), up = rooted && root <= a;
     if (rooted) order = order + 1 + order / 2;
     if (order > RULE) order = RULE;
-    double from = !rooted ? a : sqrt (fmax (0, up ? a - root : root - b)), to = !rooted ? b : sqrt (up ? b - root : root - a);
+    double from = !rooted ? a : sqrt (fmax (0, up ? a - root : root - b)),
+           to = !rooted ? b : sqrt (up ? b - root : root - a);
     for (int g = 0; g < order; g++) {
         double t = from + (to - from) * rule_x (w, order)[g], v = weight * (to - from) * rule_w (w, order)[g];
         if (!rooted) go_on (w, k, t, v);
@@ -254,7 +267,8 @@ static void interval (cut_work *w, int k, double a, double b, double root, doubl
     }
 }
 
-/* The nearest root at or before a (or at or behind b) that matters for an interval of this length, NAN: none. */
+/* The nearest root at or before a (or at or behind b) that matters for an interval of this length, NAN:
+ * none. */
 static double nearest (const cut_list *soft, double at, int before, double length)
 {
     double best = NAN;
@@ -293,7 +307,8 @@ static void walk (cut_work *w, int k, double weight)
     for (size_t i = 0; i <= s->level[k].hard.n; i++) {
         double b = i < s->level[k].hard.n ? s->level[k].hard.at[i] : 1;
         if (b - a < 1e-12) continue;
-        double left = nearest (&s->level[k].soft, a, 1, b - a), right = nearest (&s->level[k].soft, b, 0, b - a), middle = 0.5 * (a + b);
+        double left = nearest (&s->level[k].soft, a, 1, b - a),
+               right = nearest (&s->level[k].soft, b, 0, b - a), middle = 0.5 * (a + b);
         if (!isnan (left) && !isnan (right)) {
             interval (w, k, a, middle, left, weight);
             interval (w, k, middle, b, right, weight);
@@ -322,7 +337,10 @@ static void choose_axes (cut_work *w)
         }
 }
 
-size_t cut_work_knives (const cut_work *w) { return w->all - w->real < CUT_KNIVES ? w->all - w->real : CUT_KNIVES; }
+size_t cut_work_knives (const cut_work *w)
+{
+    return w->all - w->real < CUT_KNIVES ? w->all - w->real : CUT_KNIVES;
+}
 
 pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut_points *out)
 {
@@ -336,7 +354,8 @@ pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut
     return s->status;
 }
 
-/* The height of the walk within a face is steepest there; the place is in the body when it is on both sides of the face. */
+/* The height of the walk within a face is steepest there; the place is in the body when it is on both sides
+ * of the face. */
 pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
 {
     cut_slices *s = &w->slices;
@@ -353,7 +372,7 @@ pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
     return s->status;
 }
 
-/* ---- to rounding -------------------------------------------------------------------------------------------------------- */
+/* ---- to rounding --------------------------------------------------------------------------------------- */
 static cut_piece sum_up (const pg_cut_points *p, size_t dim)
 {
     cut_piece s = {0, {0, 0, 0}, {0, 0, 0}};
@@ -375,7 +394,10 @@ pg_status cut_work_piece (cut_work *w, int surface, int part, cut_piece *piece)
     pg_cut_points p = {0};
     double whole = w->thickness, before = NAN;
     for (int k = 0; k < w->cut->dim; k++) whole *= 2 * w->half[k];
-    if (surface >= 0) whole /= 2 * fmin (w->half[0], fmin (w->cut->dim > 1 ? w->half[1] : INFINITY, w->cut->dim > 2 ? w->half[2] : INFINITY));
+    if (surface >= 0)
+        whole /= 2
+                 * fmin (w->half[0], fmin (w->cut->dim > 1 ? w->half[1] : INFINITY,
+                                           w->cut->dim > 2 ? w->half[2] : INFINITY));
     for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
         p.n = 0;
         PG_TRY (cut_work_points (w, surface, part, orders[i], &p));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Real roots of polynomials of low degree: between the roots of the derivative the polynomial is monotone. Gauss rules. */
+ * Real roots of polynomials of low degree: between the roots of the derivative the polynomial is monotone.
+ * Gauss rules. */
 #include "cut.h"
 #include <math.h>
 
@@ -60,9 +61,11 @@ static int wider (int degree, const double *c, double low, double high, double t
         double p = value (degree, c, turn[i]), q = value (degree, c, turn[i + 1]);
         if (fabs (p) <= touch) {
             if (n == 0 || root[n - 1] < turn[i]) root[n++] = turn[i];
-        } else if (fabs (q) > touch && (p > 0) != (q > 0)) root[n++] = between (degree, c, turn[i], turn[i + 1]);
+        } else if (fabs (q) > touch && (p > 0) != (q > 0))
+            root[n++] = between (degree, c, turn[i], turn[i + 1]);
     }
-    if (fabs (value (degree, c, high)) <= touch && n < degree && (n == 0 || root[n - 1] < high)) root[n++] = high;
+    if (fabs (value (degree, c, high)) <= touch && n < degree && (n == 0 || root[n - 1] < high))
+        root[n++] = high;
     return n < degree ? n : degree;
 }
 

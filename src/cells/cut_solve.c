@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where three quadrics meet in a cube: boxes are halved and thrown away where one of them has no zero; Newton in those that are left. */
+ * Where three quadrics meet in a cube: boxes are halved and thrown away where one of them has no zero; Newton
+ * in those that are left. */
 #include "cut.h"
 #include <math.h>
 #include <string.h>
 
-enum { BOXES = 4000 };                                 /* curves of solutions would have no end                          */
+enum { BOXES = 4000 };                                 /* curves of solutions would have no end */
 typedef struct { const cut_quadric *q; double *x, reach; int n, boxes; } search;
 
 static int newton (const cut_quadric *q, double *x, double reach)

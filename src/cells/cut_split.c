@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where slices of a cell change: between the values found here the surfaces keep their number and order along the height. Hard values
- * end intervals of the quadrature; at soft ones, also beyond the cell, heights begin like square roots (a tangent along the height). */
+ * Where slices of a cell change: between the values found here the surfaces keep their number and order along
+ * the height. Hard values end intervals of the quadrature; at soft ones, also beyond the cell, heights begin
+ * like square roots (a tangent along the height). */
 #include "cut.h"
 #include <math.h>
 
@@ -19,7 +20,8 @@ done:
 int cut_within (const cut_slices *s, size_t i)
 {
     for (int k = 0; k < s->dim; k++)
-        if (s->at[k] < s->low[3*i + (size_t) k] - 1e-7 || s->at[k] > s->high[3*i + (size_t) k] + 1e-7) return 0;
+        if (s->at[k] < s->low[3 * i + (size_t) k] - 1e-7 || s->at[k] > s->high[3 * i + (size_t) k] + 1e-7)
+            return 0;
     return 1;
 }
 
@@ -30,7 +32,7 @@ static int overlap (const cut_slices *s, size_t i, size_t j)
     return 1;
 }
 
-/* ---- slices: psi = a z^2 + B (y) z + C (y) --------------------------------------------------------------------------------- */
+/* ---- slices: psi = a z^2 + B (y) z + C (y) ------------------------------------------------------------- */
 typedef struct { double a, B[2], C[3]; } conic;
 
 static conic conic_of (const cut_quadric *q, int y, int z)
@@ -59,7 +61,8 @@ static void split_turns (cut_slices *s, cut_level *out, const conic *p)
 {
     double root[2];
     if (fabs (p->a) < flat) return;
-    double D[3] = {p->B[0] * p->B[0] - 4 * p->a * p->C[0], 2 * p->B[0] * p->B[1] - 4 * p->a * p->C[1], p->B[1] * p->B[1] - 4 * p->a * p->C[2]};
+    double D[3] = { p->B[0] * p->B[0] - 4 * p->a * p->C[0], 2 * p->B[0] * p->B[1] - 4 * p->a * p->C[1],
+                    p->B[1] * p->B[1] - 4 * p->a * p->C[2] };
     int n = cut_roots (2, D, -3, 3, root);
     for (int r = 0; r < n; r++) {
         double z = -at_B (p, root[r]) / (2 * p->a);
@@ -76,7 +79,8 @@ static int resultant (const conic *p, const conic *q, double *R)
     if (fabs (p->a) < fabs (q->a)) { const conic *t = p; p = q, q = t; }
     if (fabs (p->a) < flat) {
         for (int k = 0; k < 4; k++) R[k] = 0;
-        for (int i = 0; i < 2; i++) for (int k = 0; k < 3; k++) R[i + k] += p->B[i] * q->C[k] - q->B[i] * p->C[k];
+        for (int i = 0; i < 2; i++)
+            for (int k = 0; k < 3; k++) R[i + k] += p->B[i] * q->C[k] - q->B[i] * p->C[k];
         return 3;
     }
     for (int k = 0; k < 2; k++) {
@@ -88,7 +92,7 @@ static int resultant (const conic *p, const conic *q, double *R)
         C[k] = fabs (u - v) <= 1e-14 * (fabs (u) + fabs (v)) ? 0 : u - v;
         scale = fmax (scale, fabs (C[k]));
     }
-    if (fabs (B[0]) + fabs (B[1]) <= flat * scale) {       /* mirror images: every z is common                           */
+    if (fabs (B[0]) + fabs (B[1]) <= flat * scale) {       /* mirror images: every z is common */
         for (int k = 0; k < 3; k++) R[k] = C[k];
         return 2;
     }
@@ -105,12 +109,14 @@ static int heights (const conic *p, double y, double *z)
 {
     double c[3] = {at_C (p, y), at_B (p, y), p->a};
     int n = cut_roots (2, c, -1 - 1e-6, 1 + 1e-6, z);
-    if (n == 0 && fabs (p->a) > flat && fabs (at_B (p, y) / (2 * p->a)) < 1 && fabs (c[1] * c[1] - 4 * p->a * c[0]) < 1e-9)
-        z[0] = -c[1] / (2 * p->a), n = 1;                  /* a tangent, missed by rounding                              */
+    if (n == 0 && fabs (p->a) > flat && fabs (at_B (p, y) / (2 * p->a)) < 1
+        && fabs (c[1] * c[1] - 4 * p->a * c[0]) < 1e-9)
+        z[0] = -c[1] / (2 * p->a), n = 1;                  /* a tangent, missed by rounding */
     return n;
 }
 
-static void split_pair (cut_slices *s, cut_level *out, size_t i, size_t j, const conic *p, const conic *q, int y, int z)
+static void split_pair (cut_slices *s, cut_level *out, size_t i, size_t j, const conic *p, const conic *q,
+                        int y, int z)
 {
     double R[5], root[CUT_DEGREE + 2], at[2];
     int n = cut_roots (resultant (p, q, R), R, -1, 1, root);
@@ -118,7 +124,8 @@ static void split_pair (cut_slices *s, cut_level *out, size_t i, size_t j, const
         int m = heights (p, root[r], at), meet = 0;
         for (int k = 0; k < m; k++) {
             s->at[y] = root[r], s->at[z] = at[k];
-            meet |= fabs (at_C (q, root[r]) + at[k] * (at_B (q, root[r]) + at[k] * q->a)) < 1e-6 && cut_within (s, i) && cut_within (s, j);
+            meet |= fabs (at_C (q, root[r]) + at[k] * (at_B (q, root[r]) + at[k] * q->a)) < 1e-6
+                    && cut_within (s, i) && cut_within (s, j);
         }
         if (meet) push (s, &out->hard, root[r]);
     }
@@ -137,7 +144,7 @@ static void split_slice (cut_slices *s, const cut_quadric *surface, cut_level *o
     }
 }
 
-/* ---- solids ---------------------------------------------------------------------------------------------------------- */
+/* ---- solids -------------------------------------------------------------------------------------------- */
 /* Where a surface has its ends along x inside the cell: psi_y = psi_z = 0. */
 static void split_ends (cut_slices *s, cut_level *out, const cut_quadric *q, int x, int y, int z)
 {
@@ -160,7 +167,8 @@ static void split_ends (cut_slices *s, cut_level *out, const cut_quadric *q, int
 }
 
 /* Where three surfaces meet, or (number 2) where the curve of two has its ends along x. */
-static void split_points (cut_slices *s, cut_level *out, const cut_quadric *three, const size_t *which, int number, int x)
+static void split_points (cut_slices *s, cut_level *out, const cut_quadric *three, const size_t *which,
+                          int number, int x)
 {
     double at[3 * CUT_MEETINGS];
     int n = cut_solve (three, number == 2 ? 1.6 : 1, at);
@@ -184,7 +192,8 @@ static cut_quadric jacobian (const cut_quadric *p, const cut_quadric *q, int y, 
         J.c += sign * u->b[y] * v->b[z];
         for (int i = 0; i < 3; i++) {
             J.b[i] += sign * 2 * (u->A[y][i] * v->b[z] + u->b[y] * v->A[z][i]);
-            for (int k = 0; k < 3; k++) J.A[i][k] += sign * 2 * (u->A[y][i] * v->A[z][k] + u->A[y][k] * v->A[z][i]);
+            for (int k = 0; k < 3; k++)
+                J.A[i][k] += sign * 2 * (u->A[y][i] * v->A[z][k] + u->A[y][k] * v->A[z][i]);
         }
     }
     return J;
@@ -205,12 +214,14 @@ static void split_solid (cut_slices *s, const cut_quadric *q, cut_level *out)
         for (size_t j = 0; j < i; j++) {
             if (!overlap (s, i, j)) continue;
             if (!straight (&q[i]) || !straight (&q[j]))
-                split_points (s, out, (cut_quadric[]) {q[i], q[j], jacobian (&q[i], &q[j], y, z)}, (size_t[]) {i, j}, 2, x);
+                split_points (s, out, (cut_quadric[]){ q[i], q[j], jacobian (&q[i], &q[j], y, z) },
+                              (size_t[]){ i, j }, 2, x);
             for (size_t k = 0; k < j; k++)
-                if (overlap (s, i, k) && overlap (s, j, k)) split_points (s, out, (cut_quadric[]) {q[i], q[j], q[k]}, (size_t[]) {i, j, k}, 3, x);
+                if (overlap (s, i, k) && overlap (s, j, k))
+                    split_points (s, out, (cut_quadric[]){ q[i], q[j], q[k] }, (size_t[]){ i, j, k }, 3, x);
         }
     }
-    cut_quadric *face = s->level[1].q;                     /* room that the walk needs only later                        */
+    cut_quadric *face = s->level[1].q;                     /* workspace that the walk needs only later */
     for (int f = 0; f < 4; f++) {
         int across = f < 2 ? z : y, along = f < 2 ? y : z;
         s->at[across] = f % 2 ? 1 : -1;

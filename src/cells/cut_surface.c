@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- quadrics -------------------------------------------------------------------------------------------------------- */
+/* ---- quadrics ------------------------------------------------------------------------------------------ */
 double cut_value (const cut_quadric *q, const double *x)
 {
     double v = q->c;
@@ -64,8 +64,8 @@ cut_quadric cut_local (const cut_surface *s, int dim, const double *centre, cons
     return q;
 }
 
-/* ---- surfaces of shapes ------------------------------------------------------------------------------------------------ */
-typedef struct { struct pg_cut *cut; size_t capacity; } maker;
+/* ---- surfaces of shapes -------------------------------------------------------------------------------- */
+typedef struct { struct pg_cut *cut; size_t capacity; } builder;
 
 static int same (const cut_surface *a, const cut_surface *b, int dim)
 {
@@ -79,12 +79,13 @@ static int same (const cut_surface *a, const cut_surface *b, int dim)
     plus = fabs (p.c + q.c), minus = fabs (p.c - q.c);
     for (int i = 0; i < dim; i++) {
         plus += fabs (p.b[i] + q.b[i]), minus += fabs (p.b[i] - q.b[i]);
-        for (int k = 0; k < dim; k++) plus += fabs (p.A[i][k] + q.A[i][k]), minus += fabs (p.A[i][k] - q.A[i][k]);
+        for (int k = 0; k < dim; k++)
+            plus += fabs (p.A[i][k] + q.A[i][k]), minus += fabs (p.A[i][k] - q.A[i][k]);
     }
     return fmin (plus, minus) < 1e-13;
 }
 
-static pg_status add (maker *m, const cut_surface *s)
+static pg_status add (builder *m, const cut_surface *s)
 {
     pg_status status = PG_OK;
     for (size_t i = 0; i < m->cut->n; i++) if (same (&m->cut->surface[i], s, m->cut->dim)) return PG_OK;
@@ -95,7 +96,7 @@ done:
 }
 
 /* A plane through a point, with a unit normal. */
-static pg_status add_plane (maker *m, cut_surface s, const double *point, const double *normal)
+static pg_status add_plane (builder *m, cut_surface s, const double *point, const double *normal)
 {
     s.flat = 1, s.axis = -1;
     memcpy (s.origin, point, (size_t) m->cut->dim * sizeof *point);
@@ -106,7 +107,7 @@ static pg_status add_plane (maker *m, cut_surface s, const double *point, const 
     return add (m, &s);
 }
 
-static pg_status add_box (maker *m, cut_surface s, const pg_shape *shape)
+static pg_status add_box (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
     memcpy (s.low, shape->low, sizeof s.low);
@@ -122,7 +123,7 @@ done:
 }
 
 /* Circle, sphere; cylinder: at right angles to its axis. */
-static pg_status add_round (maker *m, cut_surface s, const pg_shape *shape)
+static pg_status add_round (builder *m, cut_surface s, const pg_shape *shape)
 {
     double R = shape->radius;
     int cylinder = shape->kind == PG_CYLINDER;
@@ -135,11 +136,12 @@ static pg_status add_round (maker *m, cut_surface s, const pg_shape *shape)
     return add (m, &s);
 }
 
-static pg_status add_cylinder (maker *m, cut_surface s, const pg_shape *shape)
+static pg_status add_cylinder (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
     double far[3], back[3];
-    for (int k = 0; k < 3; k++) far[k] = shape->centre[k] + shape->length * shape->axis[k], back[k] = -shape->axis[k];
+    for (int k = 0; k < 3; k++)
+        far[k] = shape->centre[k] + shape->length * shape->axis[k], back[k] = -shape->axis[k];
     PG_TRY (add_round (m, s, shape));
     s.end = s.part = 1;
     for (int k = 0; k < 3; k++) {
@@ -154,13 +156,14 @@ done:
     return status;
 }
 
-static pg_status add_polygon (maker *m, cut_surface s, const pg_shape *shape)
+static pg_status add_polygon (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
     cut_surface end = s;
     for (size_t i = 0, j = shape->nvertex - 1; i < shape->nvertex; j = i++) {
         const double *a = shape->vertex + 2 * j, *b = shape->vertex + 2 * i;
-        double length = hypot (b[0] - a[0], b[1] - a[1]), n[3] = {(b[1] - a[1]) / length, (a[0] - b[0]) / length, 0};
+        double length = hypot (b[0] - a[0], b[1] - a[1]),
+               n[3] = { (b[1] - a[1]) / length, (a[0] - b[0]) / length, 0 };
         double point[3] = {a[0], a[1], 0};
         for (int k = 0; k < 2; k++) s.low[k] = fmin (a[k], b[k]), s.high[k] = fmax (a[k], b[k]);
         s.part = (int) j;
@@ -180,9 +183,11 @@ static void bound (cut_surface *s, const pg_shape *shape, int dim)
 {
     for (int k = 0; k < dim; k++) {
         double a = shape->centre[k], b = a, wide = shape->radius;
-        if (shape->kind == PG_CYLINDER) b += shape->length * shape->axis[k], wide *= sqrt (fmax (0, 1 - shape->axis[k] * shape->axis[k]));
+        if (shape->kind == PG_CYLINDER)
+            b += shape->length * shape->axis[k], wide *= sqrt (fmax (0, 1 - shape->axis[k] * shape->axis[k]));
         s->low[k] = fmin (a, b) - wide, s->high[k] = fmax (a, b) + wide;
-        if (shape->kind == PG_BOX || shape->kind == PG_PRISM) s->low[k] = shape->low[k], s->high[k] = shape->high[k];
+        if (shape->kind == PG_BOX || shape->kind == PG_PRISM)
+            s->low[k] = shape->low[k], s->high[k] = shape->high[k];
         for (size_t i = 0; k < 2 && i < shape->nvertex; i++) {
             double v = shape->vertex[2 * i + (size_t) k];
             s->low[k] = i ? fmin (s->low[k], v) : v, s->high[k] = i ? fmax (s->high[k], v) : v;
@@ -191,7 +196,7 @@ static void bound (cut_surface *s, const pg_shape *shape, int dim)
 }
 
 /* From the centre on in one direction. */
-static pg_status add_knife (maker *m, const pg_ray *ray)
+static pg_status add_knife (builder *m, const pg_ray *ray)
 {
     const pg_body *body = &m->cut->body;
     cut_surface s = {.shape = -1, .axis = -1};
@@ -206,7 +211,7 @@ static pg_status add_knife (maker *m, const pg_ray *ray)
 }
 
 /* Planes of the lattice, of which cells see those at their steps (cut_cells.c). */
-static pg_status add_stairs (maker *m, cut_surface s, const pg_lattice *l)
+static pg_status add_stairs (builder *m, cut_surface s, const pg_lattice *l)
 {
     pg_status status = PG_OK;
     for (int k = 0; k < l->dim; k++)
@@ -240,10 +245,11 @@ done:
     return status;
 }
 
-pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattice *lattice, size_t nray, const pg_ray *ray)
+pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattice *lattice, size_t nray,
+                        const pg_ray *ray)
 {
     pg_status status = PG_OK;
-    maker m = {cut, 0};
+    builder m = {cut, 0};
     cut->dim = body->dim, cut->body = *body;
     PG_TRY (own_shapes (cut, lattice));
     for (size_t i = 0; i < body->n; i++) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points and facets lie on the surface of a shape, or bear a name that the mesh brought? (sides of the box: sides.c; parts of shapes: parts.c) */
+ * Which points and facets lie on the surface of a shape, or bear a name that the mesh brought? (sides of the
+ * box: sides.c; parts of shapes: parts.c) */
 #include "cut.h"
 #include "mark.h"
 #include "sites.h"
@@ -8,14 +9,17 @@
 
 const char *const pg_side_names[PG_SIDES] = {"left", "right", "bottom", "top", "back", "front"};
 
-/* ---- points of facets ------------------------------------------------------------------------------------------------ */
+/* ---- points of facets ---------------------------------------------------------------------------------- */
 /* A piece of a face of the cell: only the points of that face count, if there are any. */
 static int on_the_face (const pg_marks *m, size_t f, int n, int *point)
 {
-    const cut_surface *s = m->cells->cut && m->cells->facet_surface[f] >= 0 ? &m->cells->cut->surface[m->cells->facet_surface[f]] : NULL;
+    const cut_surface *s = m->cells->cut && m->cells->facet_surface[f] >= 0
+                               ? &m->cells->cut->surface[m->cells->facet_surface[f]]
+                               : NULL;
     int kept = 0, some[PG_ELEMENT_NODES];
     for (int k = 0; s && s->axis >= 0 && k < n; k++) {
-        double off = m->cloud->x[(size_t) point[k] * (size_t) m->cells->dim + (size_t) s->axis] - s->origin[s->axis];
+        double off = m->cloud->x[(size_t) point[k] * (size_t) m->cells->dim + (size_t) s->axis]
+                     - s->origin[s->axis];
         if (fabs (off) <= 1e-9 * m->cloud->step[s->axis]) some[kept++] = point[k];
     }
     if (kept) memcpy (point, some, (size_t) kept * sizeof *point);
@@ -44,7 +48,8 @@ static int points_of (const pg_marks *m, const cells_sites *s, size_t f, int *po
     const pg_cells *c = m->cells;
     int n = 0;
     if (s) return lattice_points (m, s, f, point);
-    for (size_t k = c->facet_start[f]; k < c->facet_start[f + 1]; k++) if (c->facet_point[k] >= 0) point[n++] = c->facet_point[k];
+    for (size_t k = c->facet_start[f]; k < c->facet_start[f + 1]; k++)
+        if (c->facet_point[k] >= 0) point[n++] = c->facet_point[k];
     return n;
 }
 
@@ -56,7 +61,8 @@ static pg_status link_facets (pg_marks *m)
     int point[PG_ELEMENT_NODES];
     if (s) PG_TRY (cells_sites_create (s, m->lattice, m->cloud));
     PG_ALLOC (m->facet_first, c->nfacet + 1);
-    for (size_t f = 0; f < c->nfacet; f++) m->facet_first[f + 1] = m->facet_first[f] + (size_t) points_of (m, s, f, point);
+    for (size_t f = 0; f < c->nfacet; f++)
+        m->facet_first[f + 1] = m->facet_first[f] + (size_t) points_of (m, s, f, point);
     PG_ALLOC (m->facet_point, m->facet_first[c->nfacet]);
     for (size_t f = 0; f < c->nfacet; f++) {
         int n = points_of (m, s, f, point);
@@ -74,15 +80,17 @@ static pg_status find_shapes (pg_marks *m)
     PG_ALLOC (m->facet_shape, m->cells->nfacet);
     for (size_t f = 0; f < m->cells->nfacet; f++) {
         int surface = m->cells->cut ? m->cells->facet_surface[f] : -1;
-        m->facet_shape[f] = surface >= 0 ? pg_cut_shape (m->cells->cut, surface)
-                                         : (int) pg_body_nearest (m->body, m->cells->facet_centre + f * dim, NULL);
+        m->facet_shape[f] = surface >= 0
+                                ? pg_cut_shape (m->cells->cut, surface)
+                                : (int) pg_body_nearest (m->body, m->cells->facet_centre + f * dim, NULL);
     }
 done:
     return status;
 }
 
-/* ---- life cycle ------------------------------------------------------------------------------------------------------ */
-pg_status pg_marks_create (pg_marks *m, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud, const pg_cells *cells)
+/* ---- life cycle ---------------------------------------------------------------------------------------- */
+pg_status pg_marks_create (pg_marks *m, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud,
+                           const pg_cells *cells)
 {
     pg_status status = PG_OK;
     memset (m, 0, sizeof *m);
@@ -121,7 +129,7 @@ void pg_marks_fill (pg_marks *m, int value)
     memset (m->facet, value, m->cells->nfacet);
 }
 
-/* ---- boundary ------------------------------------------------------------------------------------------------------- */
+/* ---- boundary ------------------------------------------------------------------------------------------ */
 static int side_named (int dim, const char *name)
 {
     for (int s = 0; s < 2 * dim; s++) if (!strcmp (name, pg_side_names[s])) return s;
@@ -140,7 +148,8 @@ int cells_is_end (const pg_marks *m, size_t f)
     const pg_shape *s = &m->body->shape[m->facet_shape[f]];
     const double *x = m->cells->facet_centre + 3 * f, *n = m->cells->normal + 3 * f;
     double along = 0, turn = 0, length = 0, step = 0;
-    if (m->cells->cut && m->cells->facet_surface[f] >= 0) return !strcmp (s->boundary, "rim") && pg_cut_is_end (m->cells->cut, m->cells->facet_surface[f]);
+    if (m->cells->cut && m->cells->facet_surface[f] >= 0)
+        return !strcmp (s->boundary, "rim") && pg_cut_is_end (m->cells->cut, m->cells->facet_surface[f]);
     if (s->kind != PG_CYLINDER || strcmp (s->boundary, "rim")) return 0;
     for (int k = 0; k < 3; k++) length += s->axis[k] * s->axis[k];
     length = sqrt (length);
@@ -156,7 +165,9 @@ int cells_is_end (const pg_marks *m, size_t f)
 static int is_of_shape (const pg_marks *m, size_t f, const char *name)
 {
     const pg_shape *s = &m->body->shape[m->facet_shape[f]];
-    return !strcmp (s->boundary, name) || (s->kind == PG_MESH && pg_shape_on_side (s, m->cells->facet_centre + f * (size_t) m->cells->dim, name));
+    return !strcmp (s->boundary, name)
+           || (s->kind == PG_MESH
+               && pg_shape_on_side (s, m->cells->facet_centre + f * (size_t) m->cells->dim, name));
 }
 
 static int mark_shape (pg_marks *m, const char *name)
@@ -164,8 +175,10 @@ static int mark_shape (pg_marks *m, const char *name)
     int known = 0, side = !strcmp (name, "side");
     for (size_t i = 0; i < m->body->n && m->cells->nfacet > 0; i++) {
         const pg_shape *s = &m->body->shape[i];
-        for (size_t k = 0; s->kind == PG_MESH && pg_shape_side (s, k); k++) known |= !strcmp (pg_shape_side (s, k), name);
-        known |= !strcmp (s->boundary, name) || (side && s->kind == PG_CYLINDER && !strcmp (s->boundary, "rim"));
+        for (size_t k = 0; s->kind == PG_MESH && pg_shape_side (s, k); k++)
+            known |= !strcmp (pg_shape_side (s, k), name);
+        known |= !strcmp (s->boundary, name)
+                 || (side && s->kind == PG_CYLINDER && !strcmp (s->boundary, "rim"));
     }
     for (size_t f = 0; known && f < m->cells->nfacet; f++)
         if (cells_is_end (m, f) ? side : is_of_shape (m, f, name)) cells_mark_facet (m, f);
@@ -190,14 +203,15 @@ int pg_marks_boundary (pg_marks *m, const char *name)
     if (mark_given (m, name)) return 1;
     int side = side_named (m->cloud->dim, name), all = !strcmp (name, "all");
     if (side < 0 && !all) return mark_shape (m, name) || cells_mark_part (m, name);
-    for (size_t f = 0; f < m->cells->nfacet; f++) if (all || cells_facet_on_side (m, f, side)) cells_mark_facet (m, f);
+    for (size_t f = 0; f < m->cells->nfacet; f++)
+        if (all || cells_facet_on_side (m, f, side)) cells_mark_facet (m, f);
     for (size_t i = 0; m->cells->nfacet == 0 && i < m->cloud->n; i++)      /* points from a file */
         for (int s = 0; s < 2 * m->cloud->dim; s++)
             if ((all || s == side) && cells_point_on_side (m, i, s)) m->point[i] = 1;
     return 1;
 }
 
-/* ---- tests ---------------------------------------------------------------------------------------------------------- */
+/* ---- tests --------------------------------------------------------------------------------------------- */
 int pg_marks_beyond (const pg_marks *m, int side, const double *x)
 {
     double d = x[side / 2] - m->centre[side / 2];

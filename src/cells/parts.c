@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Named parts of the surfaces of shapes, SHAPE.PART: disk.rim, box.right, polygon.edge 3, bore.rim. SHAPE is the name that the scene gives it, or what it is;
- * PART is rim (disk, sphere, cylinder), start or end (cylinder: flat, at its center and at the far end of its axis), left right bottom top back front (box),
+ * Named parts of the surfaces of shapes, SHAPE.PART: disk.rim, box.right, polygon.edge 3, bore.rim. SHAPE is
+ * the name that the scene gives it, or what it is; PART is rim (disk, sphere, cylinder), start or end
+ * (cylinder: flat, at its center and at the far end of its axis), left right bottom top back front (box),
  * edge 1, edge 2 ... (polygon, prism: from that vertex to the next), back or front (prism: the ends of z). */
 #include "cut.h"
 #include "mark.h"
@@ -9,9 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int is_round (const pg_shape *s) { return s->kind == PG_DISK || s->kind == PG_SPHERE || s->kind == PG_CYLINDER; }
+static int is_round (const pg_shape *s)
+{
+    return s->kind == PG_DISK || s->kind == PG_SPHERE || s->kind == PG_CYLINDER;
+}
 
-/* ---- names ------------------------------------------------------------------------------------------------------------ */
+/* ---- names --------------------------------------------------------------------------------------------- */
 static int side_named (const char *part, int first, int dim)
 {
     for (int k = first; k < 2 * dim; k++) if (!strcmp (part, pg_side_names[k])) return k;
@@ -45,8 +49,14 @@ int cells_part_named (const pg_shape *s, int dim, const char *part)
 /* Those of one shape in words, behind its name. */
 static const char *parts_of (const pg_shape *s, int dim)
 {
-    return s->kind == PG_BOX ? dim == 1 ? "{left, right}" : dim == 2 ? "{left, right, bottom, top}" : "{left, right, bottom, top, back, front}" : s->kind == PG_POLYGON ? "edge 1 ..."
-         : s->kind == PG_PRISM ? "{edge 1 ..., back, front}" : s->kind == PG_CYLINDER ? "{rim, start, end}" : is_round (s) ? "rim" : NULL;
+    return s->kind == PG_BOX        ? dim == 1   ? "{left, right}"
+                                      : dim == 2 ? "{left, right, bottom, top}"
+                                                 : "{left, right, bottom, top, back, front}"
+           : s->kind == PG_POLYGON  ? "edge 1 ..."
+           : s->kind == PG_PRISM    ? "{edge 1 ..., back, front}"
+           : s->kind == PG_CYLINDER ? "{rim, start, end}"
+           : is_round (s)           ? "rim"
+                                    : NULL;
 }
 
 /* 1: the shape is called so. Layers only by their own names. */
@@ -64,22 +74,27 @@ void cells_parts_list (const pg_body *body, char *out, size_t size)
     *out = '\0';
     for (size_t i = 0; i + body->nlayer < body->n && used + 80 < size; i++) {
         const pg_shape *s = &body->shape[i];
-        const char *generic[] = {"rim", "side", "hole"}, *name = s->boundary, *parts = parts_of (s, body->dim);
+        const char *generic[] = { "rim", "side", "hole" }, *name = s->boundary,
+                   *parts = parts_of (s, body->dim);
         int told = 0;
-        for (int k = 0; k < 3; k++) if (!strcmp (name, generic[k]) && !(k == 2 && s->kind != PG_MESH)) name = pg_shape_kind (s);
-        for (size_t j = 0; j < i; j++) told |= body->shape[j].kind == s->kind && !strcmp (body->shape[j].boundary, s->boundary);
-        if (parts && !told) used += (size_t) snprintf (out + used, size - used, "%s%s.%s", used ? ", " : "", name, parts);
+        for (int k = 0; k < 3; k++)
+            if (!strcmp (name, generic[k]) && !(k == 2 && s->kind != PG_MESH)) name = pg_shape_kind (s);
+        for (size_t j = 0; j < i; j++)
+            told |= body->shape[j].kind == s->kind && !strcmp (body->shape[j].boundary, s->boundary);
+        if (parts && !told)
+            used += (size_t) snprintf (out + used, size - used, "%s%s.%s", used ? ", " : "", name, parts);
     }
 }
 
-/* ---- facets ----------------------------------------------------------------------------------------------------------- */
+/* ---- facets -------------------------------------------------------------------------------------------- */
 /* The edge of the polygon that is nearest to x among those that look where the facet does. */
 static int nearest_edge (const pg_shape *s, const double *x, const double *n)
 {
     int best = -1;
     double least = INFINITY, area = 0;
-    for (size_t i = 0, j = s->nvertex - 1; i < s->nvertex; j = i++) area += s->vertex[2*j] * s->vertex[2*i + 1] - s->vertex[2*i] * s->vertex[2*j + 1];
-    double out = (area > 0) == (s->add != 0) ? 1 : -1;     /* the outward normal is that of the body                     */
+    for (size_t i = 0, j = s->nvertex - 1; i < s->nvertex; j = i++)
+        area += s->vertex[2 * j] * s->vertex[2 * i + 1] - s->vertex[2 * i] * s->vertex[2 * j + 1];
+    double out = (area > 0) == (s->add != 0) ? 1 : -1;     /* the outward normal is that of the body */
     for (size_t j = 0; j < s->nvertex; j++) {
         const double *a = s->vertex + 2 * j, *b = s->vertex + 2 * ((j + 1) % s->nvertex);
         double t[2] = {b[0] - a[0], b[1] - a[1]}, size = t[0] * t[0] + t[1] * t[1];
@@ -94,7 +109,8 @@ static int nearest_edge (const pg_shape *s, const double *x, const double *n)
 /* Of the face of a lattice cell that stands for the surface of this shape. */
 static int part_of_stair (const pg_marks *m, const pg_shape *s, size_t f)
 {
-    const double *x = m->cells->facet_centre + f * (size_t) m->cells->dim, *n = m->cells->normal + f * (size_t) m->cells->dim;
+    const double *x = m->cells->facet_centre + f * (size_t) m->cells->dim,
+                 *n = m->cells->normal + f * (size_t) m->cells->dim;
     int axis = 0, dim = m->cells->dim;
     for (int k = 1; k < dim; k++) if (fabs (n[k]) > fabs (n[axis])) axis = k;
     int side = 2 * axis + ((n[axis] > 0) == (s->add != 0));
@@ -107,7 +123,8 @@ static int part_of_stair (const pg_marks *m, const pg_shape *s, size_t f)
     return along < 0.5 * s->length ? 1 : 2;
 }
 
-/* At the last point, before the number of an edge: "disk.rim", "left.edge 2". Returns the length of SHAPE; 0: no such form. */
+/* At the last point, before the number of an edge: "disk.rim", "left.edge 2". Returns the length of SHAPE; 0:
+ * no such form. */
 static size_t split (const char *name, const char **part)
 {
     const char *dot = strchr (name, '.');
@@ -122,12 +139,15 @@ int cells_mark_part (pg_marks *m, const char *name)
     const pg_cells *c = m->cells;
     int known = 0;
     for (size_t i = 0; length && c->nfacet > 0 && !c->facet_point && i < m->body->n; i++) {
-        int number = is_called (m->body, i, name, length) ? cells_part_named (&m->body->shape[i], c->dim, part) : -1;
+        int number = is_called (m->body, i, name, length)
+                         ? cells_part_named (&m->body->shape[i], c->dim, part)
+                         : -1;
         if (number < 0) continue;
         known = 1;
         for (size_t f = 0; f < c->nfacet; f++) {
             if (m->facet_shape[f] != (int) i) continue;
-            const cut_surface *s = c->cut && c->facet_surface[f] >= 0 ? &c->cut->surface[c->facet_surface[f]] : NULL;
+            const cut_surface *s = c->cut && c->facet_surface[f] >= 0 ? &c->cut->surface[c->facet_surface[f]]
+                                                                      : NULL;
             if (number == (s ? s->part : part_of_stair (m, &m->body->shape[i], f))) cells_mark_facet (m, f);
         }
     }

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Named sets: the sides of the bounding box and all, layers, then those of the scene; each with its parts NAME.left, NAME.top, ... */
+ * Named sets: the sides of the bounding box and all, layers, then those of the scene; each with its parts
+ * NAME.left, NAME.top, ... */
 #include "mark.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-typedef struct { pg_sets *out; size_t capacity; pg_marks marks; const pg_scene *scene; int faces; } builder;     /* faces: the marks are those of faces      */
+/* faces: the marks are those of faces */
+typedef struct { pg_sets *out; size_t capacity; pg_marks marks; const pg_scene *scene; int faces; } builder;
 
-/* ---- from marks to sets ----------------------------------------------------------------------------------------------- */
+/* ---- from marks to sets -------------------------------------------------------------------------------- */
 /* Indices of marked items; side >= 0: only those beyond the centre on that side. */
-static pg_status gather (int **out, size_t *n, const pg_marks *m, const unsigned char *mark, size_t all, const double *x, int side)
+static pg_status gather (int **out, size_t *n, const pg_marks *m, const unsigned char *mark, size_t all,
+                         const double *x, int side)
 {
     pg_status status = PG_OK;
     size_t dim = (size_t) m->cloud->dim, k = 0;
@@ -30,7 +33,8 @@ static pg_status gather_inner (pg_set *s, const pg_marks *m)
     if (s->nfacet == 0 || s->npoint == 0) return PG_OK;
     PG_ALLOC (reached, m->cloud->n);
     for (size_t k = 0; k < s->nfacet; k++)
-        for (size_t q = m->facet_first[s->facet[k]]; q < m->facet_first[s->facet[k] + 1]; q++) reached[m->facet_point[q]] = 1;
+        for (size_t q = m->facet_first[s->facet[k]]; q < m->facet_first[s->facet[k] + 1]; q++)
+            reached[m->facet_point[q]] = 1;
     for (size_t k = 0; k < s->npoint; k++) s->ninner += !reached[s->point[k]];
     if (s->ninner == 0) goto done;
     PG_ALLOC (s->inner, s->ninner);
@@ -49,7 +53,8 @@ static pg_status add_one (builder *b, const char *name, int side)
     pg_set *s = &b->out->set[b->out->n];
     memset (s, 0, sizeof *s);
     b->out->n++;                                           /* from here on cleared with the rest */
-    snprintf (s->name, sizeof s->name, "%.56s%s%s", name, side < 0 ? "" : ".", side < 0 ? "" : pg_side_names[side]);
+    snprintf (s->name, sizeof s->name, "%.56s%s%s", name, side < 0 ? "" : ".",
+              side < 0 ? "" : pg_side_names[side]);
     PG_TRY (gather (&s->point, &s->npoint, m, m->point, m->cloud->n, m->cloud->x, side));
     PG_TRY (gather (&s->facet, &s->nfacet, m, m->facet, m->cells->nfacet, m->cells->facet_centre, side));
     if (!b->faces) PG_TRY (gather_inner (s, m));
@@ -88,7 +93,8 @@ done:
     return status;
 }
 
-/* Points of a layer: of nodes those beyond the body's face (half a step tells them from its own, also where they are moved). */
+/* Points of a layer: of nodes those beyond the body's face (half a step tells them from its own, also where
+ * they are moved). */
 static pg_status add_layers (builder *b)
 {
     pg_status status = PG_OK;
@@ -97,7 +103,8 @@ static pg_status add_layers (builder *b)
     const char *kind = pg_scene_text (b->scene, "lattice");
     size_t dim = (size_t) c->dim;
     for (size_t i = 0; i < body->nlayer; i++) {
-        double step = b->marks.cloud->step[body->layer[i].side / 2], margin = kind && !strcmp (kind, "cells") ? 0 : 0.5 * step;
+        double step = b->marks.cloud->step[body->layer[i].side / 2],
+               margin = kind && !strcmp (kind, "cells") ? 0 : 0.5 * step;
         pg_marks_fill (&b->marks, 0);
         for (size_t p = 0; p < b->marks.cloud->n; p++)
             b->marks.point[p] = pg_body_layer (body, b->marks.cloud->x + p * dim, margin) == (long) i;
@@ -114,7 +121,7 @@ done:
     return status;
 }
 
-/* ---- conditions ----------------------------------------------------------------------------------------------------- */
+/* ---- conditions ---------------------------------------------------------------------------------------- */
 static double angle_of (double y, double x)
 {
     double a = atan2 (y, x);
@@ -132,7 +139,7 @@ static int holds (const pg_marks *m, const double *x, const void *context)
     return pg_expression_value (context, &at) != 0;
 }
 
-typedef struct { size_t n; double *range; } ranges;        /* n x {from, span}                                               */
+typedef struct { size_t n; double *range; } ranges;        /* n x {from, span} */
 
 /* No point at the centre itself has an angle. Ends count, to 1e-9 rad. */
 static int in_ranges (const pg_marks *m, const double *x, const void *context)
@@ -157,7 +164,8 @@ pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg
     for (size_t i = 0; body->dim > 1 && (name = pg_scene_name (scene, i, "sets")); i++)
         for (size_t k = 0; k < pg_scene_count (scene, "sets.%s.angle", name); k++) {
             double v[2] = {0, 0};
-            if (pg_scene_count (scene, "sets.%s.angle[%zu]", name, k) != 2) continue;      /* a fault, found later       */
+            /* a fault, found later */
+            if (pg_scene_count (scene, "sets.%s.angle[%zu]", name, k) != 2) continue;
             pg_scene_vector (scene, 2, v, "sets.%s.angle[%zu]", name, k);
             PG_GROW (*out, capacity, *n + 2);
             for (int e = 0; e < 2; e++) {
@@ -217,12 +225,14 @@ static void describe_empty (pg_sets *out, const builder *b)
 {
     const pg_marks *m = &b->marks;
     cells_parts_list (m->body, out->parts, sizeof out->parts);
-    for (int side = 0; side < 2 * m->cloud->dim; side++) out->plane[side] = side % 2 ? m->high[side / 2] : m->low[side / 2];
+    for (int side = 0; side < 2 * m->cloud->dim; side++)
+        out->plane[side] = side % 2 ? m->high[side / 2] : m->low[side / 2];
 }
 
 static int side_of (const pg_sets *sets, const char *name)
 {
-    for (int side = 0; side < PG_SIDES; side++) if (!strcmp (name, pg_side_names[side])) return sets->plane[side] == sets->plane[side] ? side : -1;
+    for (int side = 0; side < PG_SIDES; side++)
+        if (!strcmp (name, pg_side_names[side])) return sets->plane[side] == sets->plane[side] ? side : -1;
     return -1;
 }
 
@@ -234,9 +244,13 @@ int pg_sets_empty_side (const pg_sets *sets, const pg_set *set)
 static void fault_empty_side (const pg_sets *sets, const pg_scene *scene, const char *path, const char *name)
 {
     int side = side_of (sets, name);
-    pg_scene_fault (scene, path, "%s is the part of the surface in the plane %c = %.6g m of the bounding box, where the body has no face: a round or slanted body "
-                    "touches it only. Name the part that is meant, by sets: {NAME: {boundary: all, angle: [[80 deg, 100 deg]]}} or {NAME: {boundary: SHAPE.PART}}%s%s%s",
-                    name, "xyz"[side / 2], sets->plane[side], *sets->parts ? " (here: " : "", sets->parts, *sets->parts ? ")" : "");
+    pg_scene_fault (scene, path,
+                    "%s is the part of the surface in the plane %c = %.6g m of the bounding box, where the "
+                    "body has no face: a round or slanted body "
+                    "touches it only. Name the part that is meant, by sets: {NAME: {boundary: all, angle: "
+                    "[[80 deg, 100 deg]]}} or {NAME: {boundary: SHAPE.PART}}%s%s%s",
+                    name, "xyz"[side / 2], sets -> plane[side], *sets -> parts ? " (here: " : "", sets->parts,
+                    *sets->parts ? ")" : "");
 }
 
 static void unknown_boundary (const builder *b, const char *at, const char *name)
@@ -244,24 +258,30 @@ static void unknown_boundary (const builder *b, const char *at, const char *name
     char names[800] = "";
     size_t used = 0;
     const pg_body *body = b->marks.body;
-    for (int s = 0; s < 2 * b->marks.cloud->dim; s++) used += (size_t) snprintf (names + used, sizeof names - used, "%s|", pg_side_names[s]);
+    for (int s = 0; s < 2 * b->marks.cloud->dim; s++)
+        used += (size_t) snprintf (names + used, sizeof names - used, "%s|", pg_side_names[s]);
     used += (size_t) snprintf (names + used, sizeof names - used, "all");
     for (size_t i = 0; b->marks.cells->nfacet > 0 && i < body->n && used + 34 < 400; i++) {
         size_t k = 0;
         const char *side;
-        while (body->shape[i].kind == PG_MESH && (side = pg_shape_side (&body->shape[i], k)) && used + 100 < 400)
+        while (body->shape[i].kind == PG_MESH && (side = pg_shape_side (&body->shape[i], k))
+               && used + 100 < 400)
             used += (size_t) snprintf (names + used, sizeof names - used, "|%s", side), k++;
         k = 0;
         while (k < i && strcmp (body->shape[k].boundary, body->shape[i].boundary)) k++;
-        if (k == i) used += (size_t) snprintf (names + used, sizeof names - used, "|%s", body->shape[i].boundary);
+        if (k == i)
+            used += (size_t) snprintf (names + used, sizeof names - used, "|%s", body->shape[i].boundary);
     }
     for (size_t i = 0; i < b->marks.cells->ngiven && used + 60 < 400; i++)
         used += (size_t) snprintf (names + used, sizeof names - used, "|%s", b->marks.cells->given[i].name);
-    if (*b->out->parts && used + 2 < sizeof names) snprintf (names + used, sizeof names - used, "; parts of shapes: %s", b->out->parts);
+    if (*b->out->parts && used + 2 < sizeof names)
+        snprintf (names + used, sizeof names - used, "; parts of shapes: %s", b->out->parts);
     char list[400];
     snprintf (list, sizeof list, "%.*s", (int) used, names);
     const char *near = pg_nearest_name (name, list);
-    if (near) pg_scene_fault (b->scene, at, "no boundary is called '%.40s'; did you mean %s? (%s)", name, near, names);
+    if (near)
+        pg_scene_fault (b->scene, at, "no boundary is called '%.40s'; did you mean %s? (%s)", name, near,
+                        names);
     else pg_scene_fault (b->scene, at, "no boundary is called '%.40s'; there are %s", name, names);
 }
 
@@ -283,7 +303,7 @@ static int mark_boundaries (builder *b, const char *name)
     return known;
 }
 
-/* ---- sets of the scene ------------------------------------------------------------------------------------------------- */
+/* ---- sets of the scene --------------------------------------------------------------------------------- */
 static int marked (const unsigned char *mark, size_t n) { return n > 0 && memchr (mark, 1, n) != NULL; }
 
 /* What is wrong becomes a fault; the other sets are looked at all the same. */
@@ -292,17 +312,26 @@ static pg_status add_named (builder *b, const char *name)
     pg_status status = PG_OK;
     const pg_scene *s = b->scene;
     char at[96];
-    int boundary = pg_scene_given (s, "sets.%s.boundary", name), angle = pg_scene_given (s, "sets.%s.angle", name);
+    int boundary = pg_scene_given (s, "sets.%s.boundary", name),
+        angle = pg_scene_given (s, "sets.%s.angle", name);
     int where = pg_scene_given (s, "sets.%s.where", name), known = 1;
-    const char *why = strlen (name) > 56 ? "at most 56 letters in the name of a set" : !boundary && !angle && !where ? "give boundary, angle or where"
-                    : pg_sets_find (b->out, name) ? b->marks.cells->ngiven ? "this set is always there or comes with the mesh, choose another name"
-                    : b->marks.body->nlayer ? "this set is always there or is a layer, choose another name"
-                    : "this set is always there, choose another name" : NULL;
+    const char *why = strlen (name) > 56              ? "at most 56 letters in the name of a set"
+                      : !boundary && !angle && !where ? "give boundary, angle or where"
+                      : pg_sets_find (b->out, name)
+                          ? b->marks.cells->ngiven
+                                ? "this set is always there or comes with the mesh, choose another name"
+                            : b->marks.body->nlayer
+                                ? "this set is always there or is a layer, choose another name"
+                                : "this set is always there, choose another name"
+                          : NULL;
     snprintf (at, sizeof at, "sets.%.80s", name);
     if (why) {
         int side = b->marks.cells->ngiven ? -1 : side_of (b->out, name);
-        if (side >= 0) pg_scene_fault (s, at, "%s is always there, the part of the surface in the plane %c = %.6g m, and would have two meanings: choose another name", name, "xyz"[side / 2],
-                                       b->out->plane[side]);
+        if (side >= 0)
+            pg_scene_fault (s, at,
+                            "%s is always there, the part of the surface in the plane %c = %.6g m, and would "
+                            "have two meanings: choose another name",
+                            name, "xyz"[side / 2], b -> out -> plane[side]);
         else pg_scene_fault (s, at, "%s", why);
         pg_marks_fill (&b->marks, 0);
         return pg_sets_find (b->out, name) || strlen (name) > 56 ? PG_OK : add_set (b, name);
@@ -312,7 +341,8 @@ static pg_status add_named (builder *b, const char *name)
     if (boundary) known = mark_boundaries (b, name);
     if (angle) PG_TRY (keep_angles (b, name));
     if (where) PG_TRY (keep_where (b, name));
-    if (known && !marked (b->marks.point, b->marks.cloud->n) && !marked (b->marks.facet, b->marks.cells->nfacet))
+    if (known && !marked (b->marks.point, b->marks.cloud->n)
+        && !marked (b->marks.facet, b->marks.cells->nfacet))
         pg_scene_fault (s, at, "the set is empty: no point and no boundary facet meets its conditions");
     PG_TRY (add_set (b, name));
 done:
@@ -343,8 +373,10 @@ static pg_status add_parts (builder *b)
 {
     pg_status status = PG_OK;
     const pg_scene *s = b->scene;
-    for (size_t i = 0; i < pg_scene_count (s, "boundary"); i++) PG_TRY (add_part (b, pg_scene_text (s, "boundary[%zu].set", i)));
-    for (size_t i = 0; i < pg_scene_count (s, "output.averages"); i++) PG_TRY (add_part (b, pg_scene_text (s, "output.averages[%zu].set", i)));
+    for (size_t i = 0; i < pg_scene_count (s, "boundary"); i++)
+        PG_TRY (add_part (b, pg_scene_text (s, "boundary[%zu].set", i)));
+    for (size_t i = 0; i < pg_scene_count (s, "output.averages"); i++)
+        PG_TRY (add_part (b, pg_scene_text (s, "output.averages[%zu].set", i)));
     const char *name;
     for (size_t i = 0; (name = pg_scene_name (s, i, "failure.exclude")); i++) PG_TRY (add_part (b, name));
     PG_TRY (add_part (b, pg_scene_text (s, "solver.stop.set")));
@@ -352,7 +384,8 @@ done:
     return status;
 }
 
-pg_status pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud, const pg_cells *cells)
+pg_status pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *body, const pg_lattice *lattice,
+                         const pg_cloud *cloud, const pg_cells *cells)
 {
     pg_status status = PG_OK;
     builder b = {.out = out, .scene = scene};
@@ -388,7 +421,8 @@ const pg_set *pg_sets_named (const pg_sets *sets, const pg_scene *scene, const c
     for (size_t s = 0; s < sets->n && at < sizeof names - 70; s++)
         at += (size_t) snprintf (names + at, sizeof names - at, "%s%s", at ? "|" : "", sets->set[s].name);
     const char *near = pg_nearest_name (name, names);
-    pg_scene_fault (scene, path, "there is no set of this name%s%s%s", near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+    pg_scene_fault (scene, path, "there is no set of this name%s%s%s", near ? " (did you mean " : "",
+                    near ? near : "", near ? "?)" : "");
     return NULL;
 }
 

@@ -15,7 +15,8 @@ static int is_found (void *context, const double *place, size_t point)
     return 0;
 }
 
-/* The nearest points, those within a millionth of a spacing alike: mirror images of a body get mirror images of volumes. */
+/* The nearest points, those within a millionth of a spacing alike: mirror images of a body get mirror images
+ * of volumes. */
 static void find_nearest (found *f, const pg_cloud *cloud, const pg_nearest *nearest, const double *place)
 {
     double first = 0;
@@ -24,7 +25,8 @@ static void find_nearest (found *f, const pg_cloud *cloud, const pg_nearest *nea
         long j = pg_nearest_find (nearest, place, is_found, f);
         double away = 0;
         if (j < 0) return;
-        for (int k = 0; k < cloud->dim; k++) away = hypot (away, cloud->x[(size_t) j * (size_t) cloud->dim + (size_t) k] - place[k]);
+        for (int k = 0; k < cloud->dim; k++)
+            away = hypot (away, cloud->x[(size_t) j * (size_t) cloud->dim + (size_t) k] - place[k]);
         if (f->n == 0) first = away;
         if (away > first + 1e-6 * cloud->h) return;
         f->point[f->n++] = (int) j;
@@ -37,12 +39,16 @@ pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_latti
     cells_sites sites = {0};
     pg_nearest *nearest = NULL;
     size_t dim = (size_t) cells->dim;
-    if (!cells->cut) return PG_OK;                         /* the lattice's own volumes are exact                        */
+    if (!cells->cut) return PG_OK;                         /* the lattice's own volumes are exact */
     PG_TRY (cells_sites_create (&sites, lattice, cloud));
     PG_TRY (pg_nearest_create (&nearest, cloud->dim, cloud->n, cloud->x));
     memset (cloud->volume, 0, cloud->n * sizeof *cloud->volume);
     for (size_t c = 0; c < cells->n; c++) {
-        const double *low = cells->x + cells->start[c] * dim, *high = low + (dim == 3 ? 6 : dim == 2 ? 2 : 1) * dim;
+        const double *low = cells->x + cells->start[c] * dim, *high = low
+                                                                      + (dim == 3   ? 6
+                                                                         : dim == 2 ? 2
+                                                                                    : 1)
+                                                                            * dim;
         int i[3];
         double middle[3];
         found of;

@@ -1,20 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which facets lie in the planes of the bounding box: left right bottom top back front. Those of the exact surface by the surface itself; of a
- * mesh by their nodes; stairs (cells: staircase, a mesh laid over a lattice) stand for the surface within half a step where the body ends in that plane. */
+ * Which facets lie in the planes of the bounding box: left right bottom top back front. Those of the exact
+ * surface by the surface itself; of a mesh by their nodes; stairs (cells: staircase, a mesh laid over a
+ * lattice) stand for the surface within half a step where the body ends in that plane. */
 #include "cut.h"
 #include "mark.h"
 #include <float.h>
 #include <math.h>
 
-static double plane_of (const pg_marks *m, int side) { return side % 2 ? m->high[side / 2] : m->low[side / 2]; }
+static double plane_of (const pg_marks *m, int side)
+{
+    return side % 2 ? m->high[side / 2] : m->low[side / 2];
+}
 
 /* Relative to the size of the body, and rounding far from the origin. */
-static double slack (const pg_marks *m, double face) { return 1e-9 * m->size + 8 * DBL_EPSILON * fabs (face); }
+static double slack (const pg_marks *m, double face)
+{
+    return 1e-9 * m->size + 8 * DBL_EPSILON * fabs (face);
+}
 
 static int surface_lies_in (const pg_marks *m, const cut_surface *s, int side)
 {
     double face = plane_of (m, side), tolerance = slack (m, face);
-    return s->flat && fabs (s->low[side / 2] - face) <= tolerance && fabs (s->high[side / 2] - face) <= tolerance;
+    return s->flat && fabs (s->low[side / 2] - face) <= tolerance
+           && fabs (s->high[side / 2] - face) <= tolerance;
 }
 
 /* Files of meshes round coordinates to six or seven digits. */
@@ -22,18 +30,20 @@ static int nodes_lie_in (const pg_marks *m, size_t f, int side)
 {
     const pg_cells *c = m->cells;
     for (size_t k = c->facet_start[f]; k < c->facet_start[f + 1]; k++)
-        if (fabs (c->facet_x[k * (size_t) c->dim + (size_t) side / 2] - plane_of (m, side)) > 1e-6 * m->size) return 0;
+        if (fabs (c->facet_x[k * (size_t) c->dim + (size_t) side / 2] - plane_of (m, side)) > 1e-6 * m->size)
+            return 0;
     return 1;
 }
 
-/* Does the body reach the plane over the face of a lattice cell, not only touch it? At its centre, and at a place a quarter step aside at least (on both sides
- * of a place where it touches it does not; at the end of a flat side it does on one). */
+/* Does the body reach the plane over the face of a lattice cell, not only touch it? At its centre, and at a
+ * place a quarter step aside at least (on both sides of a place where it touches it does not; at the end of a
+ * flat side it does on one). */
 static int body_reaches (const pg_marks *m, size_t f, int side)
 {
     size_t dim = (size_t) m->cells->dim;
     int axis = side / 2, aside = dim > 1 ? 1 << (dim - 1) : 0, reached = aside == 0;
     double face = plane_of (m, side), depth = pg_body_meshes (m->body) ? 1e-6 * m->size : slack (m, face);
-    for (int q = 0; q <= aside; q++) {                     /* the last: the centre                                        */
+    for (int q = 0; q <= aside; q++) {                     /* the last: the centre */
         double x[3] = {0};
         int bit = 0;
         for (int k = 0; k < (int) dim; k++) {
@@ -56,7 +66,8 @@ int cells_facet_on_side (const pg_marks *m, size_t f, int side)
     if (!(outward > 0.5)) return 0;
     if (c->facet_point) return nodes_lie_in (m, f, side);
     const cut_surface *s = c->cut && c->facet_surface[f] >= 0 ? &c->cut->surface[c->facet_surface[f]] : NULL;
-    if (s && !(s->shape >= 0 && c->cut->body.shape[s->shape].kind == PG_STAIRS)) return surface_lies_in (m, s, side);
+    if (s && !(s->shape >= 0 && c->cut->body.shape[s->shape].kind == PG_STAIRS))
+        return surface_lies_in (m, s, side);
     double off = fabs (c->facet_centre[at] - plane_of (m, side));
     return off <= 0.5 * m->cloud->step[side / 2] * (1 + 1e-9) && body_reaches (m, f, side);
 }
@@ -64,5 +75,6 @@ int cells_facet_on_side (const pg_marks *m, size_t f, int side)
 int cells_point_on_side (const pg_marks *m, size_t i, int side)
 {
     double x = m->cloud->x[i * (size_t) m->cloud->dim + (size_t) side / 2];
-    return fabs (x - plane_of (m, side)) <= 0.5 * pg_cloud_ratio (m->cloud, i) * m->cloud->step[side / 2] * (1 + 1e-9);
+    return fabs (x - plane_of (m, side))
+           <= 0.5 * pg_cloud_ratio (m->cloud, i) * m->cloud->step[side / 2] * (1 + 1e-9);
 }

@@ -22,7 +22,8 @@ static void count (cells_sites *s)
                 if (!*in++) continue;
                 for (int z = 0; z <= far[2]; z++)
                     for (int y = 0; y <= far[1]; y++)
-                        for (int x = 0; x <= far[0]; x++) s->around[site_at (s, (int[]) {i[0] + x, i[1] + y, i[2] + z})]++;
+                        for (int x = 0; x <= far[0]; x++)
+                            s->around[site_at (s, (int[]){ i[0] + x, i[1] + y, i[2] + z })]++;
             }
 }
 
@@ -34,7 +35,8 @@ pg_status cells_sites_create (cells_sites *s, const pg_lattice *l, const pg_clou
     memset (s, 0, sizeof *s);
     for (size_t c = 0; c < cells; c++) kept += l->in[c] != 0;
     s->l = l, s->centred = kept == cloud->n;               /* there are more vertices than cells */
-    for (int k = 0; k < 3; k++) s->size[k] = l->count[k] + (k < l->dim && !s->centred), n *= (size_t) s->size[k];
+    for (int k = 0; k < 3; k++)
+        s->size[k] = l->count[k] + (k < l->dim && !s->centred), n *= (size_t) s->size[k];
     PG_ALLOC (s->number, n);
     PG_ALLOC (s->around, n);
     count (s);
@@ -52,7 +54,8 @@ void cells_sites_clear (cells_sites *s)
 
 void cells_sites_cell (const cells_sites *s, const double *low, int *i)
 {
-    for (int k = 0; k < 3; k++) i[k] = k < s->l->dim ? (int) lround ((low[k] - s->l->origin[k]) / s->l->step[k]) : 0;
+    for (int k = 0; k < 3; k++)
+        i[k] = k < s->l->dim ? (int) lround ((low[k] - s->l->origin[k]) / s->l->step[k]) : 0;
 }
 
 int cells_sites_at (const cells_sites *s, const double *x)

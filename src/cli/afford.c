@@ -18,7 +18,8 @@ double afford_size (const char *text)
     double v = strtod (text, &end);
     if (end == text || !(v > 0) || !isfinite (v)) return NAN;
     while (*end == ' ') end++;
-    for (size_t k = 0; k < sizeof units / sizeof *units; k++) if (strcmp (end, units[k].unit) == 0) return v * units[k].size;
+    for (size_t k = 0; k < sizeof units / sizeof *units; k++)
+        if (strcmp (end, units[k].unit) == 0) return v * units[k].size;
     return NAN;
 }
 
@@ -29,7 +30,8 @@ int afford_tiny (const pg_scene *scene)
     char *path = NULL;
     struct stat s;
     if (!pg_scene_given (scene, "mesh.file")) return 0;
-    int tiny = pg_scene_beside (&path, scene, pg_scene_text (scene, "mesh.file")) == PG_OK && stat (path, &s) == 0 && s.st_size < 300000;
+    int tiny = pg_scene_beside (&path, scene, pg_scene_text (scene, "mesh.file")) == PG_OK
+               && stat (path, &s) == 0 && s.st_size < 300000;
     pg_free (path);
     return tiny;
 }
@@ -42,7 +44,7 @@ pg_status afford_scene (const command *c, pg_forecast *f)
     memset (f, 0, sizeof *f);
     PG_TRY (command_scene (c, &scene));
     status = pg_forecast_scene (f, scene);
-    if (pg_scene_partial (scene)) {                    /* its geometry is built to look for more faults, if it is small  */
+    if (pg_scene_partial (scene)) {  /* its geometry is built to look for more faults, if it is small */
         if (f->points > 3e5) status = pg_scene_conclude (scene);
         else status = PG_OK;
         memset (f, 0, sizeof *f);
@@ -66,16 +68,19 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
     pg_status status = PG_OK;
     pg_sparse G = { 0 };
     pg_linear_info info;
-    const pg_family *seen[3] = { p->consistency ? &p->consistency->cell_family : &p->rows[f->nodal ? PG_NODES : PG_POINTS].family, &p->rows[PG_FACETS].family };
+    const pg_family *seen[3] = { p->consistency ? &p->consistency->cell_family
+                                                : &p->rows[f->nodal ? PG_NODES : PG_POINTS].family,
+                                 &p->rows[PG_FACETS].family };
     size_t pinned = 0, n = 1;
-    for (size_t l = 0; l < p->nload; l++) pinned += pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
+    for (size_t l = 0; l < p->nload; l++)
+        pinned += pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
     n += pinned > 0;
     if (p->patches) seen[n++] = &p->patches->family;
     if (p->direct) PG_TRY (pg_stiffness_graph_direct (&G, &p->rows[PG_NODES].family));
     else PG_TRY (pg_stiffness_graph (&G, p->cloud.n, n, seen));
     PG_TRY (pg_linear_forecast (&G, p->dim + p->turns, &info));
     pg_forecast_analysed (f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
-    if (f->slaves > 0) f->analysed = 0;                /* elimination joins the masters: a little more                   */
+    if (f->slaves > 0) f->analysed = 0;                /* elimination joins the masters: a little more */
 done:
     pg_sparse_clear (&G);
     return status;
@@ -83,12 +88,13 @@ done:
 
 pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p, int thorough)
 {
-    static const double most = 3e5;                    /* points whose graph is analysed: some ten seconds               */
+    static const double most = 3e5;                    /* points whose graph is analysed: some ten seconds */
     pg_status status = PG_OK;
     double available = afford_available (c);
     PG_TRY (pg_forecast_problem (f, p));
     int close = f->peak > 0.5 * available;
-    if ((thorough || close) && f->points <= most && strcmp (f->linear, "cholmod") == 0) PG_TRY (analyse (f, p));
+    if ((thorough || close) && f->points <= most && strcmp (f->linear, "cholmod") == 0)
+        PG_TRY (analyse (f, p));
     PG_TRY (pg_forecast_afford (f, available));
 done:
     return status;

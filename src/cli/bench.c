@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal bench: scenes x methods x sizes, each run a process of its own, repeated, measured against the scene's reference. */
+ * perigal bench: scenes x methods x sizes, each run a process of its own, repeated, measured against the
+ * scene's reference. */
 #include "cli.h"
 #include "spawn.h"
 #include "bench.h"
@@ -20,7 +21,7 @@ int bench_split (bench_words *out, const char *text)
     }
 }
 
-/* ---- command line ---------------------------------------------------------------------------------------------------------- */
+/* ---- command line -------------------------------------------------------------------------------------- */
 static const char basis_names[] = "linear|quadratic", cell_names[] = "cut|staircase";
 static const char *bases (void) { return basis_names; }
 static const char *cell_kinds (void) { return cell_names; }
@@ -30,19 +31,23 @@ typedef struct { const char *option; bench_words *words; const char *(*names) (v
 static int is_one_of (const char *word, const char *names)
 {
     size_t n = strlen (word);
-    for (const char *s = names; *s; s += strcspn (s, "|"), s += *s == '|') if (strcspn (s, "|") == n && strncmp (s, word, n) == 0) return 1;
+    for (const char *s = names; *s; s += strcspn (s, "|"), s += *s == '|')
+        if (strcspn (s, "|") == n && strncmp (s, word, n) == 0) return 1;
     return 0;
 }
 
 static pg_status read_list (const list_option *o, const char *value)
 {
     pg_status status = PG_OK;
-    if (!bench_split (o->words, value)) PG_FAIL (PG_E_USAGE, "%s %s: expected words separated by commas, at most %d", o->option, value, BENCH_WORDS);
+    if (!bench_split (o->words, value))
+        PG_FAIL (PG_E_USAGE, "%s %s: expected words separated by commas, at most %d", o->option, value,
+                 BENCH_WORDS);
     for (size_t k = 0; o->names && k < o->words->n; k++) {
         const char *word = o->words->word[k], *near;
         if (is_one_of (word, o->names ())) continue;
         near = pg_nearest_name (word, o->names ());
-        PG_FAIL (PG_E_USAGE, "%s %s: there is no such entry%s%s%s", o->option, word, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+        PG_FAIL (PG_E_USAGE, "%s %s: there is no such entry%s%s%s", o->option, word,
+                 near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     }
 done:
     return status;
@@ -53,7 +58,8 @@ static pg_status read_count (int *out, const char *name, const char *text, long 
     pg_status status = PG_OK;
     char *end;
     long n = strtol (text, &end, 10);
-    if (end == text || *end || n < 1 || n > most) PG_FAIL (PG_E_USAGE, "%s %s: a number from 1 to %ld is needed", name, text, most);
+    if (end == text || *end || n < 1 || n > most)
+        PG_FAIL (PG_E_USAGE, "%s %s: a number from 1 to %ld is needed", name, text, most);
     *out = (int) n;
 done:
     return status;
@@ -63,10 +69,13 @@ static pg_status read_option (bench_request *q, const char *name, const char *va
 {
     pg_status status = PG_OK;
     const list_option lists[] = {
-        { "--force", &q->force, pg_force_names }, { "--approximation", &q->approximation, pg_approx_names }, { "--basis", &q->basis, bases },
-        { "--integration", &q->integration, pg_integration_names }, { "--cells", &q->cells, cell_kinds }, { "--spacing", &q->spacing, NULL },
-        { "--perturb", &q->perturb, NULL }, { "--horizon", &q->horizon, NULL }, { "--fem-element", &q->element, NULL }, { "--fem-size", &q->size, NULL },
-        { "--mesh-size", &q->mesh, NULL } };
+        { "--force", &q->force, pg_force_names }, { "--approximation", &q->approximation, pg_approx_names },
+        { "--basis", &q->basis, bases },          { "--integration", &q->integration, pg_integration_names },
+        { "--cells", &q->cells, cell_kinds },     { "--spacing", &q->spacing, NULL },
+        { "--perturb", &q->perturb, NULL },       { "--horizon", &q->horizon, NULL },
+        { "--fem-element", &q->element, NULL },   { "--fem-size", &q->size, NULL },
+        { "--mesh-size", &q->mesh, NULL }
+    };
     char all[512] = "--set|--repeat|--out|--threads|--fem|--quiet";
     for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) {
         size_t n = strlen (all);
@@ -78,7 +87,8 @@ static pg_status read_option (bench_request *q, const char *name, const char *va
     }
     if (!is_one_of (name, all)) {
         const char *near = pg_nearest_name (name, all);
-        PG_FAIL (PG_E_USAGE, "there is no option %s%s%s%s", name, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+        PG_FAIL (PG_E_USAGE, "there is no option %s%s%s%s", name, near ? " (did you mean " : "",
+                 near ? near : "", near ? "?)" : "");
     }
     if (!value) PG_FAIL (PG_E_USAGE, "%s needs a value", name);
     if (strcmp (name, "--out") == 0) q->folder = value;
@@ -99,7 +109,10 @@ static pg_status read_arguments (bench_request *q, int argc, char **argv)
     char unquoted[1200];
     if (command_unquoted (unquoted, sizeof unquoted, argc, argv)) PG_FAIL (PG_E_USAGE, "%s", unquoted);
     for (int k = 1; k < argc; k++) {
-        const char *name = strcmp (argv[k], "-o") == 0 ? "--out" : strcmp (argv[k], "-s") == 0 ? "--set" : strcmp (argv[k], "-q") == 0 ? "--quiet" : argv[k];
+        const char *name = strcmp (argv[k], "-o") == 0   ? "--out"
+                           : strcmp (argv[k], "-s") == 0 ? "--set"
+                           : strcmp (argv[k], "-q") == 0 ? "--quiet"
+                                                         : argv[k];
         if (strcmp (name, "--fem") == 0) q->fem = 1;
         else if (strcmp (name, "--quiet") == 0) q->quiet = 1;
         else if (name[0] == '-') {
@@ -113,7 +126,7 @@ done:
     return status;
 }
 
-/* ---- runs ------------------------------------------------------------------------------------------------------------------- */
+/* ---- runs ---------------------------------------------------------------------------------------------- */
 static pg_status make_folders (const bench_request *q)
 {
     char path[4096];
@@ -170,8 +183,10 @@ static pg_status run_all (bench_cases *cases, const bench_request *q)
             pg_status outcome = c->fem ? bench_fem_run (c, q) : run_once (c, q, &t);
             if (outcome == PG_E_INTERRUPTED) PG_TRY (outcome);
             if (outcome != PG_OK) {
-                snprintf (c->trouble, sizeof c->trouble, "%s: %s", outcome == PG_E_SCENE ? "skipped" : "failed", pg_last_error ());
-                for (size_t i = k + 1; outcome == PG_E_SCENE && i < cases->n && cases->at[i].curve == c->curve; i++)
+                snprintf (c->trouble, sizeof c->trouble, "%s: %s",
+                          outcome == PG_E_SCENE ? "skipped" : "failed", pg_last_error ());
+                for (size_t i = k + 1;
+                     outcome == PG_E_SCENE && i < cases->n && cases->at[i].curve == c->curve; i++)
                     snprintf (cases->at[i].trouble, sizeof c->trouble, "skipped: see the size before");
             } else if (!c->fem && (!c->runs++ || t.value[TRIAL_CPU] < c->best.value[TRIAL_CPU])) c->best = t;
             if (!q->quiet && r == 0) tell (c);
@@ -188,7 +203,8 @@ int pg_cli_bench (int argc, char **argv)
     if (argc > 1 && strcmp (argv[1], "--row") == 0) return trial_main (argc - 1, argv + 1);
     if (argc > 1 && strcmp (argv[1], "--fem-row") == 0) return bench_fem_main (argc - 1, argv + 1);
     for (int k = 1; k < argc; k++)
-        if (strcmp (argv[k], "--help") == 0 || strcmp (argv[k], "-h") == 0) return command_usage (stdout, "bench") ? EXIT_DONE : EXIT_USAGE;
+        if (strcmp (argv[k], "--help") == 0 || strcmp (argv[k], "-h") == 0)
+            return command_usage (stdout, "bench") ? EXIT_DONE : EXIT_USAGE;
     PG_ALLOC (q, 1);
     PG_TRY (read_arguments (q, argc, argv));
     PG_TRY (make_folders (q));

@@ -10,7 +10,8 @@ static void name_of (const char *path, char *name, size_t size)
 {
     const char *file = strrchr (path, '/'), *folder = path;
     file = file ? file + 1 : path;
-    int rest = (int) strlen (file), dot = rest > 5 && strcmp (file + rest - 5, ".yaml") == 0 ? rest - 5 : rest;
+    int rest = (int) strlen (file),
+        dot = rest > 5 && strcmp (file + rest - 5, ".yaml") == 0 ? rest - 5 : rest;
     if (file > path) for (const char *p = path; p + 1 < file; p++) if (*p == '/') folder = p + 1;
     if (file == path || strncmp (file, "scene", 5) != 0) snprintf (name, size, "%.*s", dot, file);
     else snprintf (name, size, "%.*s%.*s", (int) (file - 1 - folder), folder, dot - 5, file + 5);
@@ -55,7 +56,8 @@ static void put (bench_case *c, const char *key, const char *value)
     if (value) snprintf (c->set[c->nset++], sizeof *c->set, "%s=%s", key, value);
 }
 
-/* The horizon follows the basis where only the basis is asked to change: 2 spacings for the linear one, 2.5 for the quadratic one. */
+/* The horizon follows the basis where only the basis is asked to change: 2 spacings for the linear one, 2.5
+ * for the quadratic one. */
 static const char *horizon_for (const bench_base *b, const bench_request *q, const char *basis)
 {
     for (size_t k = 0; k < q->nset; k++) if (strncmp (q->set[k], "method.horizon=", 15) == 0) return NULL;
@@ -66,7 +68,8 @@ static const char *horizon_for (const bench_base *b, const bench_request *q, con
 
 typedef struct { const char *force, *approximation, *integration, *basis, *cells, *perturb, *horizon; } mix;
 
-static pg_status add_curve (bench_cases *out, const bench_request *q, size_t s, const bench_base *b, const mix *m)
+static pg_status add_curve (bench_cases *out, const bench_request *q, size_t s, const bench_base *b,
+                            const mix *m)
 {
     pg_status status = PG_OK;
     static const double factor[3] = { 2, 1, 0.5 };
@@ -84,16 +87,22 @@ static pg_status add_curve (bench_cases *out, const bench_request *q, size_t s, 
         snprintf (c->group, sizeof c->group, "%s", body ? body->group : b->name);
         snprintf (c->perturb, sizeof c->perturb, "%s", m->perturb ? m->perturb : "");
         snprintf (c->cells, sizeof c->cells, "%s", m->cells ? m->cells : "");
-        const char *shape = m->approximation ? m->approximation : "", *where = m->integration ? m->integration : "", *basis = m->basis ? m->basis : "";
+        const char *shape = m->approximation ? m->approximation : "",
+                   *where = m->integration ? m->integration : "", *basis = m->basis ? m->basis : "";
         int named = q->force.n > 1 || !m->basis, shaped = m->basis != NULL;
-        snprintf (c->method, sizeof c->method, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s", named ? m->force : "", named && shaped ? " " : "", shape, shaped ? " " : "",
-                  where, shaped ? " " : "", basis, m->horizon ? " " : "", m->horizon ? m->horizon : "", m->perturb && strcmp (m->perturb, "0") != 0 ? " perturbed " : "",
-                  m->perturb && strcmp (m->perturb, "0") != 0 ? m->perturb : "", m->cells ? " " : "", m->cells ? m->cells : "", b->mesh ? " mesh" : "");
-        put (c, "method.force", m->force), put (c, "method.approximation", m->approximation), put (c, "method.integration", m->integration);
+        snprintf (c->method, sizeof c->method, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s", named ? m->force : "",
+                  named && shaped ? " " : "", shape, shaped ? " " : "", where, shaped ? " " : "", basis,
+                  m->horizon ? " " : "", m->horizon ? m->horizon : "",
+                  m->perturb && strcmp (m->perturb, "0") != 0 ? " perturbed " : "",
+                  m->perturb && strcmp (m->perturb, "0") != 0 ? m->perturb : "", m->cells ? " " : "",
+                  m->cells ? m->cells : "", b->mesh ? " mesh" : "");
+        put (c, "method.force", m->force), put (c, "method.approximation", m->approximation),
+            put (c, "method.integration", m->integration);
         put (c, "method.basis", m->basis), put (c, "cells", m->cells), put (c, "perturb.amount", m->perturb);
         put (c, "method.horizon", m->horizon || !m->basis ? m->horizon : horizon_for (b, q, m->basis));
         snprintf (number, sizeof number, "%.15g", b->spacing * factor[k < 3 ? k : 2]);
-        if (meshed) snprintf (c->element, sizeof c->element, "CPS8"), c->size = strtol (q->mesh.word[k], NULL, 10);
+        if (meshed)
+            snprintf (c->element, sizeof c->element, "CPS8"), c->size = strtol (q->mesh.word[k], NULL, 10);
         if (b->mesh) continue;
         if (q->spacing.n) put (c, "spacing", q->spacing.word[k]);
         else if (b->spacing > 0) put (c, "spacing", number);
@@ -103,13 +112,17 @@ done:
     return status;
 }
 
-static const char *word_of (const bench_words *w, size_t k, size_t of) { return w->n ? w->word[k / of % w->n] : NULL; }
+static const char *word_of (const bench_words *w, size_t k, size_t of)
+{
+    return w->n ? w->word[k / of % w->n] : NULL;
+}
 
 /* Scenes of one group share the runs of CalculiX. */
 static int has_fem (const bench_cases *cases, const char *name)
 {
     const bench_body *body = bench_body_find (name);
-    for (size_t i = 0; body && i < cases->n; i++) if (cases->at[i].fem && strcmp (cases->at[i].group, body->group) == 0) return 1;
+    for (size_t i = 0; body && i < cases->n; i++)
+        if (cases->at[i].fem && strcmp (cases->at[i].group, body->group) == 0) return 1;
     return 0;
 }
 
@@ -119,7 +132,8 @@ pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
     bench_request *q = NULL;
     PG_ALLOC (q, 1);
     *q = *asked;
-    fill (&q->force, "galerkin"), fill (&q->approximation, pg_approx_names ()), fill (&q->integration, pg_integration_names ());
+    fill (&q->force, "galerkin"), fill (&q->approximation, pg_approx_names ()),
+        fill (&q->integration, pg_integration_names ());
     fill (&q->basis, "linear|quadratic");
     if (!q->mesh.n) q->mesh = q->size;
     else if (!q->size.n) q->size = q->mesh;
@@ -127,14 +141,16 @@ pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
     count_spacings (&q->horizon);
     for (size_t s = 0; s < q->nscene; s++) {
         bench_base b;
-        const bench_words *list[7] = { &q->force, &q->approximation, &q->integration, &q->basis, &q->cells, &q->perturb, &q->horizon };
+        const bench_words *list[7] = { &q->force, &q->approximation, &q->integration, &q->basis,
+                                       &q->cells, &q->perturb,       &q->horizon };
         size_t of[7], all = 1;
         PG_TRY (bench_look (&b, q->scene[s], q->nset, q->set));
         for (int k = 6; k >= 0; k--) of[k] = all, all *= list[k]->n ? list[k]->n : 1;
         for (size_t k = 0; k < all; k++) {
-            mix m = { word_of (list[0], k, of[0]), word_of (list[1], k, of[1]), word_of (list[2], k, of[2]), word_of (list[3], k, of[3]),
-                      word_of (list[4], k, of[4]), word_of (list[5], k, of[5]), word_of (list[6], k, of[6]) };
-            if (strcmp (m.force, "galerkin") != 0) {       /* once: it has no shape functions to choose among              */
+            mix m = { word_of (list[0], k, of[0]), word_of (list[1], k, of[1]), word_of (list[2], k, of[2]),
+                      word_of (list[3], k, of[3]), word_of (list[4], k, of[4]), word_of (list[5], k, of[5]),
+                      word_of (list[6], k, of[6]) };
+            if (strcmp (m.force, "galerkin") != 0) {  /* once: it has no shape functions to choose among */
                 if (k / of[1] % list[1]->n || k / of[2] % list[2]->n || k / of[3] % list[3]->n) continue;
                 m.approximation = m.integration = m.basis = NULL;
             }

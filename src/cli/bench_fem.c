@@ -10,7 +10,9 @@
 
 static const char *missing (const char *path, const char *scene)
 {
-    return bench_body_find (scene) && !spawn_finds ("ccx") ? "ccx is not installed (Debian package calculix-ccx)" : bench_mesh_missing (path, scene);
+    return bench_body_find (scene) && !spawn_finds ("ccx")
+               ? "ccx is not installed (Debian package calculix-ccx)"
+               : bench_mesh_missing (path, scene);
 }
 
 pg_status bench_fem_add (bench_cases *out, const bench_request *q, size_t s, const char *name)
@@ -31,7 +33,8 @@ pg_status bench_fem_add (bench_cases *out, const bench_request *q, size_t s, con
             trial_read (&c->best, "");
             snprintf (c->name, sizeof c->name, "%s", name);
             snprintf (c->group, sizeof c->group, "%s", body ? body->group : name);
-            snprintf (c->element, sizeof c->element, "%.15s", q->element.n ? q->element.word[e] : usual[solid][e]);
+            snprintf (c->element, sizeof c->element, "%.15s",
+                      q->element.n ? q->element.word[e] : usual[solid][e]);
             snprintf (c->method, sizeof c->method, "ccx %s", why ? "" : c->element);
             c->size = strtol (q->size.n ? q->size.word[k] : sizes[solid][k], NULL, 10);
             if (why) snprintf (c->trouble, sizeof c->trouble, "skipped: %s", why);
@@ -46,7 +49,9 @@ static pg_status measure (trial *t, const bench_case *c, const bench_request *q,
     pg_status status = PG_OK;
     spawned *child = NULL;
     char result[4200], log[4200], text[512];
-    char *argv[2 * TRIAL_SETS + 16] = { "perigal", "bench", "--fem-row", (char *) q->scene[c->scene], result, (char *) bench_body_find (c->name)->unit };
+    char *argv[2 * TRIAL_SETS + 16] = { "perigal",   "bench",
+                                        "--fem-row", (char *) q->scene[c->scene],
+                                        result,      (char *) bench_body_find (c->name)->unit };
     size_t n = 6;
     PG_ALLOC (child, 1);
     snprintf (result, sizeof result, "%s.frd", job);
@@ -54,9 +59,11 @@ static pg_status measure (trial *t, const bench_case *c, const bench_request *q,
     for (size_t k = 0; k < q->nset; k++) argv[n++] = "--set", argv[n++] = (char *) q->set[k];
     PG_TRY (spawn_run (child, NULL, argv, NULL, log, 1));
     spawn_complaint (log, text, sizeof text);
-    if (child->code != 0) PG_FAIL (PG_E_FILE, "%s", text[0] ? text : "the result of ccx could not be measured");
+    if (child->code != 0)
+        PG_FAIL (PG_E_FILE, "%s", text[0] ? text : "the result of ccx could not be measured");
     trial_read (t, child->text);
-    if (strchr (c->element, 'I')) t->value[TRIAL_ENERGY] = NAN;        /* its strains hold modes that its displacement lacks */
+    /* its strains hold modes that its displacement lacks */
+    if (strchr (c->element, 'I')) t->value[TRIAL_ENERGY] = NAN;
 done:
     pg_free (child);
     return status;
@@ -77,11 +84,13 @@ pg_status bench_fem_run (bench_case *c, const bench_request *q)
     PG_TRY (bench_mesh_make (c, q));
     PG_TRY (spawn_run (child, "ccx", argv, folder, NULL, 1));
     snprintf (log, sizeof log, "%s.frd", job);
-    if (child->code != 0 || stat (log, &made) != 0 || made.st_size == 0) PG_FAIL (PG_E_EQUILIBRIUM, "ccx %s ended with code %d and without a result", name, child->code);
+    if (child->code != 0 || stat (log, &made) != 0 || made.st_size == 0)
+        PG_FAIL (PG_E_EQUILIBRIUM, "ccx %s ended with code %d and without a result", name, child->code);
     if (c->runs == 0) PG_TRY (measure (&c->best, c, q, job));
     t = c->best;
     if (!c->runs++ || child->cpu < c->best.value[TRIAL_CPU]) {
-        t.value[TRIAL_CPU] = child->cpu, t.value[TRIAL_WALL] = child->wall, t.value[TRIAL_PEAK] = (double) child->peak;
+        t.value[TRIAL_CPU] = child->cpu, t.value[TRIAL_WALL] = child->wall,
+        t.value[TRIAL_PEAK] = (double) child->peak;
         c->best = t;
     }
 done:

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A finite element result measured against the reference of a scene, by the norms that Perigal's own results are measured with: over its
- * own elements (5 Gauss points a direction), stresses from the gradient of its displacement; on the lines of the reference. */
+ * A finite element result measured against the reference of a scene, by the norms that Perigal's own results
+ * are measured with: over its own elements (5 Gauss points a direction), stresses from the gradient of its
+ * displacement; on the lines of the reference. */
 #include "cli.h"
 #include "bench.h"
 #include <math.h>
@@ -9,10 +10,10 @@
 enum { ORDER = 5 };
 typedef struct {
     const pg_mesh *mesh;
-    pg_mesh_finder *finder;
-    const pg_mesh_field *u;                            /* displacement, units of the file                                */
+    pg_mesh_locator *locator;
+    const pg_mesh_field *u;                            /* displacement, units of the file */
     int    dim;
-    double unit;                                       /* m                                                              */
+    double unit;                                       /* m */
     const pg_material *material;
 } solution;
 
@@ -22,7 +23,7 @@ static pg_status sample (void *context, size_t n, const double *x, double *u, do
     for (size_t i = 0; i < n; i++) {
         double place[3] = { 0 }, xi[3], away, v[9], H[9];
         for (int k = 0; k < s->dim; k++) place[k] = x[i * (size_t) s->dim + (size_t) k] / s->unit;
-        long e = pg_finder_find (s->finder, place, xi, &away);
+        long e = pg_mesh_locator_find (s->locator, place, xi, &away);
         int known = e >= 0 && away < 0.5 && pg_mesh_gradient (s->mesh, s->u, (size_t) e, xi, H);
         if (known) pg_mesh_value (s->mesh, s->u, (size_t) e, xi, v);
         if (known && stress) pg_stress_of_gradient (s->material, s->dim, H, stress + 6*i);
@@ -42,10 +43,13 @@ static pg_status places_of (pg_quadrature *q, const solution *s, double thicknes
     for (size_t e = 0; e < m->n; e++) {
         double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS], x[3 * PG_ELEMENT_NODES], place[3];
         for (size_t i = 0; i < m->start[e + 1] - m->start[e]; i++)
-            for (size_t k = 0; k < dim; k++) x[i * dim + k] = m->x[3 * (size_t) m->node[m->start[e] + i] + k] * s->unit;
+            for (size_t k = 0; k < dim; k++)
+                x[i * dim + k] = m->x[3 * (size_t) m->node[m->start[e] + i] + k] * s->unit;
         int n = pg_element_rule (m->kind[e], ORDER, xi, w);
         for (int g = 0; g < n; g++) {
-            q->weight[q->n] = w[g] * thickness * fabs (pg_element_map (m->kind[e], s->dim, x, xi + (size_t) g * dim, place, NULL));
+            q->weight[q->n] = w[g] * thickness
+                              * fabs (
+                                  pg_element_map (m->kind[e], s->dim, x, xi + (size_t) g * dim, place, NULL));
             memcpy (q->x + dim * q->n++, place, dim * sizeof *place);
         }
     }
@@ -57,14 +61,17 @@ static pg_status measure (trial *t, solution *s, const pg_scene *scene, const pg
 {
     pg_status status = PG_OK;
     pg_reference *reference = NULL;
-    pg_sampler exact = { 0 }, value = { .context = s, .dim = s->dim, .displacement = (1 << s->dim) - 1, .stress = 63, .sample = sample };
+    pg_sampler exact = { 0 }, value = {
+        .context = s, .dim = s->dim, .displacement = (1 << s->dim) - 1, .stress = 63, .sample = sample
+    };
     pg_quadrature q = { 0 };
     pg_errors e = { 0 };
     pg_norm_options options = { .material = problem->material };
     PG_TRY (pg_reference_read (&reference, scene, problem));
     PG_TRY (pg_scene_verdict (scene));
     if (!reference) PG_FAIL (PG_E_SCENE, "%s: the scene has no reference", pg_scene_file (scene));
-    PG_TRY (pg_errors_measure (&e, reference, problem, &value, 1));      /* lines; the norms are those over its own elements */
+    /* lines; the norms are those over its own elements */
+    PG_TRY (pg_errors_measure (&e, reference, problem, &value, 1));
     PG_TRY (pg_reference_sampler (&exact, reference, 1));
     if (exact.displacement) {
         PG_TRY (places_of (&q, s, problem->dim == 2 ? problem->cloud.thickness : 1));
@@ -79,7 +86,8 @@ done:
     return status;
 }
 
-static pg_status read_solution (solution *s, pg_mesh *mesh, size_t *nfield, pg_mesh_field **fields, const char *path, const pg_problem *p)
+static pg_status read_solution (solution *s, pg_mesh *mesh, size_t *nfield, pg_mesh_field **fields,
+                                const char *path, const pg_problem *p)
 {
     pg_status status = PG_OK;
     double time;
@@ -88,9 +96,10 @@ static pg_status read_solution (solution *s, pg_mesh *mesh, size_t *nfield, pg_m
         if (strcmp ((*fields)[k].name, "displacement") == 0) s->u = &(*fields)[k];
     if (!s->u || s->u->components < p->dim) PG_FAIL (PG_E_FILE, "%s has no displacement", path);
     if (p->dim == 2 && mesh->dim == 3) PG_TRY (pg_mesh_flatten (mesh, *nfield, *fields));
-    if (mesh->dim != p->dim) PG_FAIL (PG_E_FILE, "%s: the elements are of dimension %d, the scene of %d", path, mesh->dim, p->dim);
+    if (mesh->dim != p->dim)
+        PG_FAIL (PG_E_FILE, "%s: the elements are of dimension %d, the scene of %d", path, mesh->dim, p->dim);
     s->mesh = mesh, s->dim = p->dim, s->material = p->material;
-    PG_TRY (pg_finder_create (&s->finder, mesh));
+    PG_TRY (pg_mesh_locator_create (&s->locator, mesh));
 done:
     return status;
 }
@@ -120,7 +129,7 @@ int bench_fem_main (int argc, char **argv)
     trial_tell (&t);
 done:
     if (status != PG_OK) command_complain (status, pg_last_error ());
-    pg_finder_free (&s.finder);
+    pg_mesh_locator_free (&s.locator);
     pg_mesh_fields_clear (nfield, &fields);
     pg_mesh_clear (&mesh);
     pg_problem_free (&problem);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Meshes of data/calculix/make_mesh.py: the body of CalculiX, and of scenes that take the same mesh. Made once, before anything is timed. */
+ * Meshes of data/calculix/make_mesh.py: the body of CalculiX, and of scenes that take the same mesh. Made
+ * once, before anything is timed. */
 #include "cli.h"
 #include "spawn.h"
 #include "bench.h"
@@ -11,17 +12,23 @@
 #include <unistd.h>
 
 static const bench_body known[] = {
-    { "textbook_cantilever", "textbook_cantilever", "cantilever", "m", 2, 0 }, { "kirsch", "kirsch", "kirsch", "m", 2, 0 },
-    { "kirsch_mesh", "kirsch", "kirsch", "m", 2, 1 }, { "lame_cylinder", "lame_cylinder", "lame", "m", 2, 0 },
-    { "lame_cylinder_strain", "lame_cylinder_strain", "lame_strain", "m", 2, 0 }, { "plate_hole", "plate_hole", "plate_clamped", "mm", 2, 0 },
-    { "plate_hole_sliding", "plate_hole_sliding", "plate_sliding", "mm", 2, 0 }, { "plate_hole_mesh", "plate_hole", "plate_clamped", "mm", 2, 1 },
-    { "plate_hole_mesh_sliding", "plate_hole_sliding", "plate_sliding", "mm", 2, 1 }, { "bending_3d", "bending_3d", "bending_3d", "m", 3, 0 },
+    { "textbook_cantilever", "textbook_cantilever", "cantilever", "m", 2, 0 },
+    { "kirsch", "kirsch", "kirsch", "m", 2, 0 },
+    { "kirsch_mesh", "kirsch", "kirsch", "m", 2, 1 },
+    { "lame_cylinder", "lame_cylinder", "lame", "m", 2, 0 },
+    { "lame_cylinder_strain", "lame_cylinder_strain", "lame_strain", "m", 2, 0 },
+    { "plate_hole", "plate_hole", "plate_clamped", "mm", 2, 0 },
+    { "plate_hole_sliding", "plate_hole_sliding", "plate_sliding", "mm", 2, 0 },
+    { "plate_hole_mesh", "plate_hole", "plate_clamped", "mm", 2, 1 },
+    { "plate_hole_mesh_sliding", "plate_hole_sliding", "plate_sliding", "mm", 2, 1 },
+    { "bending_3d", "bending_3d", "bending_3d", "m", 3, 0 },
     { "cantilever_3d", "cantilever_3d", "cantilever_3d", "m", 3, 0 },
 };
 
 const bench_body *bench_body_find (const char *scene)
 {
-    for (size_t k = 0; k < sizeof known / sizeof *known; k++) if (strcmp (known[k].scene, scene) == 0) return &known[k];
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+        if (strcmp (known[k].scene, scene) == 0) return &known[k];
     return NULL;
 }
 
@@ -52,16 +59,19 @@ pg_status bench_mesh_make (const bench_case *c, const bench_request *q)
     pg_status status = PG_OK;
     spawned *child = NULL;
     char script[4096], number[24], name[64], folder[4096], input[4200], log[4200], text[512];
-    char *argv[] = { "python3", script, (char *) bench_body_find (c->name)->mesh, (char *) c->element, number, input, NULL };
+    char *argv[] = { "python3", script, (char *) bench_body_find (c->name)->mesh, (char *) c->element, number,
+                     input,     NULL };
     PG_ALLOC (child, 1);
     bench_mesh_name (c, name, sizeof name);
     snprintf (folder, sizeof folder, "%s/fem", q->folder);
-    if (mkdir (folder, 0777) != 0 && errno != EEXIST) PG_FAIL (PG_E_FILE, "cannot make the folder %s: %s", folder, strerror (errno));
+    if (mkdir (folder, 0777) != 0 && errno != EEXIST)
+        PG_FAIL (PG_E_FILE, "cannot make the folder %s: %s", folder, strerror (errno));
     snprintf (number, sizeof number, "%ld", c->size);
     snprintf (input, sizeof input, "%s/%s.inp", folder, name);
     snprintf (log, sizeof log, "%s/%s.log", folder, name);
     if (access (input, R_OK) == 0 && c->runs) goto done;
-    if (!script_of (q->scene[c->scene], script, sizeof script)) PG_FAIL (PG_E_SCENE, "data/calculix/make_mesh.py is not there");
+    if (!script_of (q->scene[c->scene], script, sizeof script))
+        PG_FAIL (PG_E_SCENE, "data/calculix/make_mesh.py is not there");
     PG_TRY (spawn_run (child, "python3", argv, NULL, log, 1));
     if (child->code == 0) goto done;
     spawn_complaint (log, text, sizeof text);
@@ -81,7 +91,8 @@ pg_status bench_mesh_set (bench_case *c, const bench_request *q)
     snprintf (path, sizeof path, "%s/fem", q->folder);
     if (!realpath (path, folder)) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
     int n = snprintf (c->mesh, sizeof c->mesh, "mesh.file=%s/%s.inp", folder, name);
-    if (n < 0 || (size_t) n >= sizeof c->mesh) PG_FAIL (PG_E_FILE, "%s: the path of the folder is too long", path);
+    if (n < 0 || (size_t) n >= sizeof c->mesh)
+        PG_FAIL (PG_E_FILE, "%s: the path of the folder is too long", path);
 done:
     return status;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a benchmark leaves: bench.csv, pictures of error over CPU seconds and over unknowns, ratios at equal error. */
+ * What a benchmark leaves: bench.csv, pictures of error over CPU seconds and over unknowns, ratios at equal
+ * error. */
 #include "cli.h"
 #include "bench.h"
 #include <math.h>
@@ -17,22 +18,29 @@ static double error_of (const bench_case *c)
 static pg_status write_table (const bench_cases *cases, const bench_request *q)
 {
     pg_status status = PG_OK;
-    static const char *const first[FIRST] = { "case", "method", "approximation", "integration", "basis", "perturb", "cells", "fem" };
-    static const char *const key[FIRST] = { NULL, NULL, "method.approximation=", "method.integration=", "method.basis=", NULL, NULL, NULL };
+    static const char *const first[FIRST] = { "case",  "method",  "approximation", "integration",
+                                              "basis", "perturb", "cells",         "fem" };
+    static const char *const key[FIRST] = {
+        NULL, NULL, "method.approximation=", "method.integration=", "method.basis=", NULL, NULL, NULL
+    };
     char title[COLUMNS][64], number[TRIAL_COUNT + 1][32], path[4096];
     const char *column[COLUMNS], *cell[COLUMNS];
     pg_table *table = NULL;
     for (int k = 0; k < COLUMNS; k++) column[k] = title[k];
     for (int k = 0; k < FIRST; k++) snprintf (title[k], sizeof *title, "%s [name]", first[k]);
-    for (int k = 0; k < TRIAL_COUNT; k++) snprintf (title[FIRST + k], sizeof *title, "%s [%s]", trial_name[k], trial_unit[k]);
-    snprintf (title[COLUMNS - 2], sizeof *title, "runs [1]"), snprintf (title[COLUMNS - 1], sizeof *title, "outcome [name]");
+    for (int k = 0; k < TRIAL_COUNT; k++)
+        snprintf (title[FIRST + k], sizeof *title, "%s [%s]", trial_name[k], trial_unit[k]);
+    snprintf (title[COLUMNS - 2], sizeof *title, "runs [1]"),
+        snprintf (title[COLUMNS - 1], sizeof *title, "outcome [name]");
     snprintf (path, sizeof path, "%s/bench.csv", q->folder);
     PG_TRY (pg_table_create (&table, path, COLUMNS, column));
     for (size_t i = 0; i < cases->n; i++) {
         const bench_case *c = &cases->at[i];
-        const char *text[FIRST] = { c->name, c->method, "", "", "", c->perturb, c->cells, c->fem ? c->element : "" };
+        const char *text[FIRST] = { c->name, c->method,  "",       "",
+                                    "",      c->perturb, c->cells, c->fem ? c->element : "" };
         for (int k = 0; k < FIRST; k++)
-            for (size_t s = 0; key[k] && s < c->nset; s++) if (strncmp (c->set[s], key[k], strlen (key[k])) == 0) text[k] = c->set[s] + strlen (key[k]);
+            for (size_t s = 0; key[k] && s < c->nset; s++)
+                if (strncmp (c->set[s], key[k], strlen (key[k])) == 0) text[k] = c->set[s] + strlen (key[k]);
         for (int k = 0; k < FIRST; k++) cell[k] = text[k];
         for (int k = 0; k < TRIAL_COUNT; k++) {
             snprintf (number[k], sizeof *number, "%.8g", c->best.value[k]);
@@ -47,7 +55,7 @@ done:
     return status;
 }
 
-/* ---- curves ------------------------------------------------------------------------------------------------------------------ */
+/* ---- curves -------------------------------------------------------------------------------------------- */
 typedef struct { size_t n, cap; double *x, *y; const char *name; int fem; } curve;
 
 /* Cases of a curve that came to an end with an error > 0, over what; in their order. */
@@ -58,7 +66,9 @@ static pg_status curve_of (curve *out, const bench_cases *cases, const char *gro
     memset (out, 0, sizeof *out);
     for (size_t i = 0; i < cases->n; i++) {
         const bench_case *c = &cases->at[i];
-        if (strcmp (c->group, group) != 0 || c->curve != id || !c->runs || !(error_of (c) > 0) || !(c->best.value[over] > 0)) continue;
+        if (strcmp (c->group, group) != 0 || c->curve != id || !c->runs || !(error_of (c) > 0)
+            || !(c->best.value[over] > 0))
+            continue;
         PG_GROW (out->x, out->cap, out->n + 1);
         PG_GROW (out->y, cap, out->n + 1);
         out->x[out->n] = c->best.value[over], out->y[out->n++] = error_of (c);
@@ -87,7 +97,8 @@ done:
     return status;
 }
 
-/* Leaves the curves of CalculiX and those of the least error times seconds (or unknowns), so many as can be told apart. */
+/* Leaves the curves of CalculiX and those of the least error times seconds (or unknowns), so many as can be
+ * told apart. */
 static void thin_out (curve *list, size_t *n, size_t most)
 {
     while (*n > most) {
@@ -104,17 +115,22 @@ static void thin_out (curve *list, size_t *n, size_t most)
     }
 }
 
-static pg_status draw (const bench_cases *cases, const bench_request *q, const char *name, int alone, int over)
+static pg_status draw (const bench_cases *cases, const bench_request *q, const char *name, int alone,
+                       int over)
 {
     pg_status status = PG_OK;
     curve *list = NULL;
     pg_curve *lines = NULL;
     size_t n = 0, all;
     char path[4096], suffix[80] = "", title[128];
-    pg_chart_style style = { .title = title, .xlabel = over == TRIAL_CPU ? "CPU seconds" : "unknowns", .logx = 1, .logy = 1 };
+    pg_chart_style style = {
+        .title = title, .xlabel = over == TRIAL_CPU ? "CPU seconds" : "unknowns", .logx = 1, .logy = 1
+    };
     style.ylabel = "relative L^{2} error of the displacement";
     for (size_t i = 0; i < cases->n; i++)
-        if (strcmp (cases->at[i].group, name) == 0 && cases->at[i].runs && isnan (cases->at[i].best.value[TRIAL_L2])) style.ylabel = "relative error of the displacement on the lines";
+        if (strcmp (cases->at[i].group, name) == 0 && cases->at[i].runs
+            && isnan (cases->at[i].best.value[TRIAL_L2]))
+            style.ylabel = "relative error of the displacement on the lines";
     if (!alone) snprintf (suffix, sizeof suffix, "_%s", name);
     PG_TRY (curves_of (&list, &n, cases, name, over));
     if (!n) goto done;
@@ -123,8 +139,12 @@ static pg_status draw (const bench_cases *cases, const bench_request *q, const c
     snprintf (title, sizeof title, "%s", name);
     if (n < all) snprintf (title, sizeof title, "%s, the best %zu of %zu curves", name, n, all);
     PG_ALLOC (lines, n);
-    for (size_t k = 0; k < n; k++) lines[k] = (pg_curve) { .name = list[k].name, .n = list[k].n, .x = list[k].x, .y = list[k].y, .points = PG_CURVE_BOTH };
-    snprintf (path, sizeof path, "%s/%s%s.png", q->folder, over == TRIAL_CPU ? "time_error" : "dofs_error", suffix);
+    for (size_t k = 0; k < n; k++)
+        lines[k] = (pg_curve){
+            .name = list[k].name, .n = list[k].n, .x = list[k].x, .y = list[k].y, .points = PG_CURVE_BOTH
+        };
+    snprintf (path, sizeof path, "%s/%s%s.png", q->folder, over == TRIAL_CPU ? "time_error" : "dofs_error",
+              suffix);
     PG_TRY (pg_picture_chart (path, n, lines, &style));
     if (!q->quiet) printf ("  picture %s\n", path);
 done:
@@ -140,7 +160,8 @@ static double cheapest (const curve *list, size_t n, int fem, double error, cons
     for (size_t k = 0; k < n; k++) {
         if (list[k].fem != fem) continue;
         double s = pg_loglog_at (list[k].n, list[k].y, list[k].x, error);
-        for (size_t i = 0; i < list[k].n; i++) if (list[k].y[i] <= error && !(s <= list[k].x[i])) s = list[k].x[i];
+        for (size_t i = 0; i < list[k].n; i++)
+            if (list[k].y[i] <= error && !(s <= list[k].x[i])) s = list[k].x[i];
         if (s < least) least = s, *name = list[k].name;
     }
     return least;
@@ -174,7 +195,8 @@ static const char *group_of (const bench_cases *cases, size_t scene)
 {
     const char *name = NULL;
     for (size_t i = 0; i < cases->n && !name; i++) if (cases->at[i].scene == scene) name = cases->at[i].group;
-    for (size_t i = 0; i < cases->n && name; i++) if (cases->at[i].scene < scene && strcmp (cases->at[i].group, name) == 0) name = NULL;
+    for (size_t i = 0; i < cases->n && name; i++)
+        if (cases->at[i].scene < scene && strcmp (cases->at[i].group, name) == 0) name = NULL;
     return name;
 }
 

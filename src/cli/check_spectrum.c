@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal check --spectrum: the plane waves of the scene's lattice in words, as JSON, as a table and as a picture. */
+ * perigal check --spectrum: the plane waves of the scene's lattice in words, as JSON, as a table and as a
+ * picture. */
 #include "cli.h"
 #include <math.h>
 #include <string.h>
@@ -19,7 +20,7 @@ done:
 
 void spectrum_free (spectrum *s) { pg_symbol_free (&s->symbol); }
 
-/* ---- words ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- words --------------------------------------------------------------------------------------------- */
 static void print_motion (const pg_motion *m, const pg_symbol *s)
 {
     char where[64];
@@ -35,13 +36,16 @@ static void print_tangent (const spectrum *x)
     int dim = x->symbol->dim, nv = pg_voigt_size (dim), alike = 1;
     for (int a = 1; a < dim; a++) alike &= fabs (x->symbol->step[a] / x->symbol->step[0] - 1) < 1e-9;
     printf ("  %-18s  over those of the material:", "long waves");
-    for (int a = 0; a < (alike ? 1 : dim); a++) printf ("%s D_%c%c %.5g", a ? "," : "", "xyz"[a], "xyz"[a], T[a * nv + a]);
+    for (int a = 0; a < (alike ? 1 : dim); a++)
+        printf ("%s D_%c%c %.5g", a ? "," : "", "xyz"[a], "xyz"[a], T[a * nv + a]);
     if (dim > 1) printf (", D_xy %.5g, shear %.5g", T[1], T[(dim == 2 ? 2 : 3) * nv + (dim == 2 ? 2 : 3)]);
     printf ("\n");
     for (int d = 0; d < dim; d++) {
-        printf ("  %-18s  20 spacings along %s: longitudinal %.5g", d ? "" : "wave speeds", x->survey.wave[d].along, x->survey.wave[d].longitudinal);
+        printf ("  %-18s  20 spacings along %s: longitudinal %.5g", d ? "" : "wave speeds",
+                x->survey.wave[d].along, x->survey.wave[d].longitudinal);
         if (dim > 1) printf (", shear %.5g", x->survey.wave[d].shear[0]);
-        if (x->survey.wave[d].shear[1] - x->survey.wave[d].shear[0] > 1e-5) printf (" and %.5g", x->survey.wave[d].shear[1]);
+        if (x->survey.wave[d].shear[1] - x->survey.wave[d].shear[0] > 1e-5)
+            printf (" and %.5g", x->survey.wave[d].shear[1]);
         printf ("%s\n", d ? "" : " of the continuum's");
     }
 }
@@ -53,20 +57,27 @@ void spectrum_print (const spectrum *x, const pg_problem *p)
     const pg_symbol *s = x->symbol;
     const pg_survey *v = &x->survey;
     double speed = pg_material_waves (&s->material).pressure / s->h;
-    printf ("  %-18s  %s%s: %zu wave vectors, grid of %d along each axis; a point answers %zu others (measured in a box of %zu points)\n", "spectrum",
-            s->material.name, p->nmaterial > 1 ? " (the first material)" : "", v->vectors, v->grid, s->n - 1, s->points);
-    printf ("  %-18s  %.4g to %.4g E V / h^2, in the shortest waves %.4g to %.4g\n", "eigenvalues", v->smallest.value, v->largest, v->shortest[0], v->shortest[1]);
+    printf ("  %-18s  %s%s: %zu wave vectors, grid of %d along each axis; a point answers %zu others "
+            "(measured in a box of %zu points)\n",
+            "spectrum", s->material.name, p->nmaterial > 1 ? " (the first material)" : "", v->vectors,
+            v->grid, s->n - 1, s->points);
+    printf ("  %-18s  %.4g to %.4g E V / h^2, in the shortest waves %.4g to %.4g\n", "eigenvalues",
+            v->smallest.value, v->largest, v->shortest[0], v->shortest[1]);
     printf ("  %-18s  %.4g, ", "smallest", v->smallest.value), print_motion (&v->smallest, s);
     printf ("  %-18s  %.4g of a continuum's, ", "softest", v->softest.value), print_motion (&v->softest, s);
-    if (!isnan (v->turning[0])) printf ("  %-18s  %.5g E V where all points turn alike, at least %.5g\n", "rotations", v->turning[0], v->turning[1]);
+    if (!isnan (v->turning[0]))
+        printf ("  %-18s  %.5g E V where all points turn alike, at least %.5g\n", "rotations", v->turning[0],
+                v->turning[1]);
     if (s->unknowns > s->dim && s->held[s->dim]) printf ("  %-18s  without stiffness: held\n", "rotations");
-    printf ("  %-18s  %zu, without energy %zu (beside rigid translation), below 0.01 of a continuum's %zu\n", "gaining energy", v->negative, v->zero, v->weak);
+    printf ("  %-18s  %zu, without energy %zu (beside rigid translation), below 0.01 of a continuum's %zu\n",
+            "gaining energy", v->negative, v->zero, v->weak);
     if (v->zero) printf ("  %-18s  ", "without energy"), print_motion (&v->first, s);
     print_tangent (x);
     printf ("  %-18s  %.5g c_p / h", "largest frequency", v->fastest.value / speed);
     if (s->dense) printf (" = %.5g rad/s", v->fastest.value);
     printf (", "), print_motion (&v->fastest, s);
-    printf ("  %-18s  far from surfaces stable up to %.4g h / c_p", "explicit steps", 2 / v->fastest.value * speed);
+    printf ("  %-18s  far from surfaces stable up to %.4g h / c_p", "explicit steps",
+            2 / v->fastest.value * speed);
     if (s->dense) printf (" = %.4g s", seconds (x, v->fastest.value));
     if (isnan (s->bound)) printf ("; explicit solvers measure it\n");
     else {
@@ -77,7 +88,7 @@ void spectrum_print (const spectrum *x, const pg_problem *p)
     printf ("  %-18s  %s\n", "verdict", x->verdict);
 }
 
-/* ---- JSON ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- JSON ---------------------------------------------------------------------------------------------- */
 static void put_motion (pg_json *j, const char *key, const pg_motion *m, const pg_symbol *s)
 {
     char where[64];
@@ -131,8 +142,9 @@ void spectrum_json (pg_json *j, const spectrum *x)
     pg_json_shut (j);
 }
 
-/* ---- table and picture ------------------------------------------------------------------------------------------------------------ */
-typedef struct { size_t n, m; double *x, *k, *continuum, *branch; } course;                    /* branch: m x n; continuum: 2 x n        */
+/* ---- table and picture --------------------------------------------------------------------------------- */
+/* branch: m x n; continuum: 2 x n */
+typedef struct { size_t n, m; double *x, *k, *continuum, *branch; } course;
 
 static pg_status follow (course *c, const pg_symbol *s)
 {
@@ -154,7 +166,8 @@ static pg_status follow (course *c, const pg_symbol *s)
         c->x[i] = length * s->h / pi;
         pg_symbol_solve (s, k, 1, &modes);
         for (size_t b = 0; b < c->m; b++) c->branch[b * c->n + i] = modes.value[b] * s->h / w.pressure;
-        c->continuum[i] = sqrt (size) * s->h, c->continuum[c->n + i] = sqrt (size) * s->h * w.shear / w.pressure;
+        c->continuum[i] = sqrt (size) * s->h,
+        c->continuum[c->n + i] = sqrt (size) * s->h * w.shear / w.pressure;
     }
 done:
     return status;
@@ -163,15 +176,18 @@ done:
 static pg_status write_table (const course *c, const pg_symbol *s, const char *folder)
 {
     pg_status status = PG_OK;
-    static const char *const columns[] = { "path [pi/h]", "k_x [pi/step]", "k_y [pi/step]", "k_z [pi/step]", "continuum_p [c_p/h]", "continuum_s [c_p/h]",
-        "omega_1 [c_p/h]", "omega_2 [c_p/h]", "omega_3 [c_p/h]", "omega_4 [c_p/h]", "omega_5 [c_p/h]", "omega_6 [c_p/h]" };
+    static const char *const columns[] = { "path [pi/h]",     "k_x [pi/step]",       "k_y [pi/step]",
+                                           "k_z [pi/step]",   "continuum_p [c_p/h]", "continuum_s [c_p/h]",
+                                           "omega_1 [c_p/h]", "omega_2 [c_p/h]",     "omega_3 [c_p/h]",
+                                           "omega_4 [c_p/h]", "omega_5 [c_p/h]",     "omega_6 [c_p/h]" };
     char path[4096];
     pg_table *table = NULL;
     snprintf (path, sizeof path, "%s/spectrum.csv", folder);
     PG_TRY (pg_table_create (&table, path, 6 + c->m, columns));
     for (size_t i = 0; i < c->n; i++) {
         double row[12] = { c->x[i], 0, 0, 0, c->continuum[i], s->dim > 1 ? c->continuum[c->n + i] : NAN };
-        for (int a = 0; a < 3; a++) row[1 + a] = a < s->dim ? c->k[3 * i + (size_t) a] * s->step[a] / pi : NAN;
+        for (int a = 0; a < 3; a++)
+            row[1 + a] = a < s->dim ? c->k[3 * i + (size_t) a] * s->step[a] / pi : NAN;
         for (size_t b = 0; b < c->m; b++) row[6 + b] = c->branch[b * c->n + i];
         PG_TRY (pg_table_row (table, row));
     }
@@ -192,15 +208,23 @@ static pg_status draw (const course *c, const spectrum *x, const pg_problem *p, 
         curve[n++] = (pg_curve) { .name = name[b], .n = c->n, .x = c->x, .y = c->branch + b * c->n };
     }
     for (size_t b = 0; b < c->m * c->n; b++) top = fmax (top, c->branch[b]);
-    for (size_t q = 0; q < half; q++) {                /* to the height of the branches                                       */
+    for (size_t q = 0; q < half; q++) {                /* to the height of the branches */
         const double *y = c->continuum + q * c->n;
         size_t end = 2;
         while (end <= LEG && y[end] <= top) end++;
-        curve[n++] = (pg_curve) { .name = q ? "continuum, shear" : "continuum, longitudinal", .n = end, .x = c->x, .y = y };
+        curve[n++] = (pg_curve){
+            .name = q ? "continuum, shear" : "continuum, longitudinal", .n = end, .x = c->x, .y = y
+        };
     }
-    snprintf (title, sizeof title, "%s: %s", p->title, x->symbol->dim == 1 ? "Gamma - X" : x->symbol->dim == 2 ? "Gamma - X - M - Gamma" : "Gamma - X - M - R - Gamma");
+    snprintf (title, sizeof title, "%s: %s", p->title,
+              x->symbol->dim == 1   ? "Gamma - X"
+              : x->symbol->dim == 2 ? "Gamma - X - M - Gamma"
+                                    : "Gamma - X - M - R - Gamma");
     snprintf (path, sizeof path, "%s/spectrum.png", folder);
-    pg_chart_style style = { .title = title, .xlabel = "path through the zone (pi / h)", .ylabel = "frequency (c_{p} / h)", .beside = 1 };
+    pg_chart_style style = { .title = title,
+                             .xlabel = "path through the zone (pi / h)",
+                             .ylabel = "frequency (c_{p} / h)",
+                             .beside = 1 };
     PG_TRY (pg_picture_chart (path, n, curve, &style));
 done:
     return status;

@@ -6,59 +6,94 @@
 #include <string.h>
 #include <unistd.h>
 
-static const struct { const char *name, *text; } usages[] = {
-    { "run", "perigal run SCENE.yaml [-o DIR] [--resume | --force] [--threads N] [--memory SIZE] [--set KEY=VALUE]... [--quiet]\n"
-             "  -o, --out DIR        result folder, made if need be; default out/NAME, NAME from the scene's folder or file\n"
-             "      --resume         goes on from DIR/checkpoint.nc of an interrupted run, with the same scene and --set\n"
-             "      --force          begins anew in a folder with an interrupted run, whose checkpoint and rows are lost\n"
-             "      --threads N      0 (the default): one per processor\n"
-             "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A run that needs more is refused\n"
-             "  -s, --set KEY=VALUE  replaces or adds one value of the scene, such as method.horizon='2.5 spacing'\n"
-             "  -q, --quiet          neither progress nor summary; warnings are in DIR/report.json\n"
-             "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) leaves a checkpoint after the break round at hand; a second one ends at once.\n" },
-    { "check", "perigal check SCENE.yaml [--json] [--solve] [--spectrum [-o DIR]] [--memory SIZE] [--set KEY=VALUE]... [--quiet]\n"
-               "  All faults of the scene with line and column, or what it amounts to: points, bonds, unknowns, memory, constants,\n"
+static const struct { const char *name, *text;
+} usages[] = {
+    { "run",
+      "perigal run SCENE.yaml [-o DIR] [--resume | --force] [--threads N] [--memory SIZE] [--set "
+      "KEY=VALUE]... [--quiet]\n"
+      "  -o, --out DIR        result folder, made if need be; default out/NAME, NAME from the scene's folder "
+      "or file\n"
+      "      --resume         goes on from DIR/checkpoint.nc of an interrupted run, with the same scene and "
+      "--set\n"
+      "      --force          begins anew in a folder with an interrupted run, whose checkpoint and rows are "
+      "lost\n"
+      "      --threads N      0 (the default): one per processor\n"
+      "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A run that needs "
+      "more is refused\n"
+      "  -s, --set KEY=VALUE  replaces or adds one value of the scene, such as method.horizon='2.5 spacing'\n"
+      "  -q, --quiet          neither progress nor summary; warnings are in DIR/report.json\n"
+      "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) leaves a checkpoint after the break round at hand; a second one "
+      "ends at once.\n" },
+    { "check", "perigal check SCENE.yaml [--json] [--solve] [--spectrum [-o DIR]] [--memory SIZE] [--set "
+               "KEY=VALUE]... [--quiet]\n"
+               "  All faults of the scene with line and column, or what it amounts to: points, bonds, "
+               "unknowns, memory, constants,\n"
                "  time steps, and what the run will skip.\n"
-               "      --solve          solves once: the load at which the first bond breaks, and where; the stable time step\n"
-               "      --spectrum       plane waves of the lattice: is every motion resisted, how fast are long waves, which time step is stable;\n"
-               "                       with -o DIR: DIR/spectrum.csv, spectrum.png: frequencies along the edges of the zone\n"
+               "      --solve          solves once: the load at which the first bond breaks, and where; the "
+               "stable time step\n"
+               "      --spectrum       plane waves of the lattice: is every motion resisted, how fast are "
+               "long waves, which time step is stable;\n"
+               "                       with -o DIR: DIR/spectrum.csv, spectrum.png: frequencies along the "
+               "edges of the zone\n"
                "      --json           the same for programs\n"
-               "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A scene that needs more is refused\n" },
-    { "plot", "perigal plot DIR [--field damage|stress.yy|displacement.x ...] [--step N|all | --steps N,N,...] [--view SIDE|iso|crack] [--section CUT] ...\n"
+               "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A scene "
+               "that needs more is refused\n" },
+    { "plot", "perigal plot DIR [--field damage|stress.yy|displacement.x ...] [--step N|all | --steps "
+              "N,N,...] [--view SIDE|iso|crack] [--section CUT] ...\n"
               "perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
-              "  A field of DIR/result.e (damage, last step), or two columns of DIR/history.csv, as PNG or SVG; all options: perigal plot --help.\n" },
-    { "compare", "perigal compare DIR [REFERENCE] [--step N] [--field NAME] [--unit mm] [--shift X,Y,Z] [--scale S] [--out FILE.png] [--json] [--quiet]\n"
-                 "  Norms of the difference of the result in DIR and a reference: that of its scene, or REFERENCE: a table (.csv: x [mm], y [mm],\n"
-                 "  u_x [mm], s_xx [MPa] ...), another result folder, a finite element result (CalculiX .frd, Exodus). Writes DIR/compare.csv,\n"
-                 "  compare.json, compare.png.\n"
-                 "      --step N         of DIR/result.e, the last if not given;  --reference-step N: of the reference\n"
-                 "      --field NAME     of the picture: displacement, stress, displacement.x, stress.xx ...\n"
-                 "      --unit mm        length unit of a finite element result, and of a table's columns that name none\n"
-                 "      --shift X,Y,Z    moves the reference, m if no unit is given;  --scale S: multiplies its values\n" },
-    { "bench", "perigal bench [SCENE.yaml]... [--approximation A,B] [--integration A,B] [--basis A,B] [--spacing A,B] [--perturb 0,0.2] ...\n"
-               "  Runs every combination, each in a process of its own, and measures it against the scene's reference: DIR/bench.csv, time_error.png,\n"
-               "  dofs_error.png. What is not listed: all the catalogue has, and twice, once and half the spacing of the scene.\n"
-               "      --force, --approximation, --integration, --basis LIST   of the catalogues (perigal list)\n"
-               "      --spacing, --horizon, --perturb, --cells LIST           such as --spacing '1 mm,0.5 mm' --horizon 2,2.5 (spacings)\n"
-               "      --fem            the same bodies by CalculiX (ccx, one thread); also --fem-element CPS4,CPS8 --fem-size 8,16,32\n"
-               "      --mesh-size LIST sizes of scenes on a mesh of data/calculix/make_mesh.py, such as data/kirsch_mesh; 8,16,32 unless --fem-size is given\n"
-               "      --repeat N       every run N times, one after the other; the least CPU seconds count\n"
-               "      --threads N      of each run, 1 unless given\n"
-               "  -o, --out DIR        default out/bench\n"
-               "  -s, --set KEY=VALUE  for every run\n"
-               "  -q, --quiet          only the files\n" },
-    { "converge", "perigal converge SCENE.yaml [--spacing 4] [--ratio 2] [--horizon 2,2.5,3] [--delta | --m] [-o DIR] [--set KEY=VALUE]... [--threads N]\n"
-               "  The scene at falling sizes, and of every number it gives (errors, reactions, displacements, gauges, averages, energies): the order of\n"
-               "  convergence, Richardson's value and the estimated error. Table on the screen and in DIR/convergence.csv, picture DIR/convergence.png.\n"
-               "      --spacing N      sizes: the scene's spacing and N - 1 smaller ones; 4 unless given (3 with --m)\n"
-               "      --ratio R        of a spacing to the next, 2 unless given\n"
-               "      --horizon LIST   in spacings; a study for each; the scene's unless given\n"
-               "      --delta          horizon / spacing is kept: both go to 0 (the default)\n"
-               "      --m              the horizon is kept, that of the first spacing: more and more neighbours\n"
-               "  -o, --out DIR        default out/converge\n"
-               "  -q, --quiet          only the files\n" },
+              "  A field of DIR/result.e (damage, last step), or two columns of DIR/history.csv, as PNG or "
+              "SVG; all options: perigal plot --help.\n" },
+    { "compare",
+      "perigal compare DIR [REFERENCE] [--step N] [--field NAME] [--unit mm] [--shift X,Y,Z] [--scale S] "
+      "[--out FILE.png] [--json] [--quiet]\n"
+      "  Norms of the difference of the result in DIR and a reference: that of its scene, or REFERENCE: a "
+      "table (.csv: x [mm], y [mm],\n"
+      "  u_x [mm], s_xx [MPa] ...), another result folder, a finite element result (CalculiX .frd, Exodus). "
+      "Writes DIR/compare.csv,\n"
+      "  compare.json, compare.png.\n"
+      "      --step N         of DIR/result.e, the last if not given;  --reference-step N: of the reference\n"
+      "      --field NAME     of the picture: displacement, stress, displacement.x, stress.xx ...\n"
+      "      --unit mm        length unit of a finite element result, and of a table's columns that name "
+      "none\n"
+      "      --shift X,Y,Z    moves the reference, m if no unit is given;  --scale S: multiplies its "
+      "values\n" },
+    { "bench",
+      "perigal bench [SCENE.yaml]... [--approximation A,B] [--integration A,B] [--basis A,B] [--spacing A,B] "
+      "[--perturb 0,0.2] ...\n"
+      "  Runs every combination, each in a process of its own, and measures it against the scene's "
+      "reference: DIR/bench.csv, time_error.png,\n"
+      "  dofs_error.png. What is not listed: all the catalogue has, and twice, once and half the spacing of "
+      "the scene.\n"
+      "      --force, --approximation, --integration, --basis LIST   of the catalogues (perigal list)\n"
+      "      --spacing, --horizon, --perturb, --cells LIST           such as --spacing '1 mm,0.5 mm' "
+      "--horizon 2,2.5 (spacings)\n"
+      "      --fem            the same bodies by CalculiX (ccx, one thread); also --fem-element CPS4,CPS8 "
+      "--fem-size 8,16,32\n"
+      "      --mesh-size LIST sizes of scenes on a mesh of data/calculix/make_mesh.py, such as "
+      "data/kirsch_mesh; 8,16,32 unless --fem-size is given\n"
+      "      --repeat N       every run N times, one after the other; the least CPU seconds count\n"
+      "      --threads N      of each run, 1 unless given\n"
+      "  -o, --out DIR        default out/bench\n"
+      "  -s, --set KEY=VALUE  for every run\n"
+      "  -q, --quiet          only the files\n" },
+    { "converge",
+      "perigal converge SCENE.yaml [--spacing 4] [--ratio 2] [--horizon 2,2.5,3] [--delta | --m] [-o DIR] "
+      "[--set KEY=VALUE]... [--threads N]\n"
+      "  The scene at falling sizes, and of every number it gives (errors, reactions, displacements, gauges, "
+      "averages, energies): the order of\n"
+      "  convergence, Richardson's value and the estimated error. Table on the screen and in "
+      "DIR/convergence.csv, picture DIR/convergence.png.\n"
+      "      --spacing N      sizes: the scene's spacing and N - 1 smaller ones; 4 unless given (3 with "
+      "--m)\n"
+      "      --ratio R        of a spacing to the next, 2 unless given\n"
+      "      --horizon LIST   in spacings; a study for each; the scene's unless given\n"
+      "      --delta          horizon / spacing is kept: both go to 0 (the default)\n"
+      "      --m              the horizon is kept, that of the first spacing: more and more neighbours\n"
+      "  -o, --out DIR        default out/converge\n"
+      "  -q, --quiet          only the files\n" },
     { "list", "perigal list\n  Methods, kernels, criteria, solvers of this build, one line each.\n" },
-    { "help", "perigal help [KEY | COMMAND | --manual]\n  All keys of the scene file; one key; one command; or all keys as markdown.\n" },
+    { "help", "perigal help [KEY | COMMAND | --manual]\n  All keys of the scene file; one key; one command; "
+              "or all keys as markdown.\n" },
 };
 
 int command_usage (FILE *to, const char *name)
@@ -91,7 +126,8 @@ static int read_memory (command *c, const char *text)
 static int read_set (command *c, const char *text)
 {
     if (c->nset >= sizeof c->set / sizeof *c->set || !strchr (text, '=')) {
-        fprintf (stderr, "perigal: --set %s: KEY=VALUE is needed, at most %zu times\n", text, sizeof c->set / sizeof *c->set);
+        fprintf (stderr, "perigal: --set %s: KEY=VALUE is needed, at most %zu times\n", text,
+                 sizeof c->set / sizeof *c->set);
         return EXIT_USAGE;
     }
     c->set[c->nset++] = text;
@@ -102,9 +138,13 @@ static int refuse (const char *name, int option, const char *argument)
 {
     if (option == ':') fprintf (stderr, "perigal %s: %s needs a value\n", name, argument);
     else {
-        const char *near = pg_nearest_name (argument, strcmp (name, "check") == 0 ? "--json|--solve|--spectrum|--out|--threads|--memory|--set|--quiet|--help"
-                                                                                   : "--out|--resume|--force|--threads|--memory|--set|--quiet|--help");
-        fprintf (stderr, "perigal %s: there is no option %s%s%s%s\n", name, argument, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+        const char *near =
+            pg_nearest_name (argument,
+                             strcmp (name, "check") == 0
+                                 ? "--json|--solve|--spectrum|--out|--threads|--memory|--set|--quiet|--help"
+                                 : "--out|--resume|--force|--threads|--memory|--set|--quiet|--help");
+        fprintf (stderr, "perigal %s: there is no option %s%s%s%s\n", name, argument,
+                 near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     }
     command_usage (stderr, name);
     return EXIT_USAGE;
@@ -116,17 +156,22 @@ static int is_scene (const char *word)
     return access (word, F_OK) == 0 || (dot && (strcmp (dot, ".yaml") == 0 || strcmp (dot, ".yml") == 0));
 }
 
-/* Words that follow the value of a --set and are no options: a value with blanks that lost its quotes. 0: there are none. */
+/* Words that follow the value of a --set and are no options: a value with blanks that lost its quotes. 0:
+ * there are none. */
 int command_unquoted (char *out, size_t size, int argc, char **argv)
 {
     for (int k = 1; k + 1 < argc; k++) {
-        int joined = strncmp (argv[k], "--set=", 6) == 0, apart = strcmp (argv[k], "--set") == 0 || strcmp (argv[k], "-s") == 0;
+        int joined = strncmp (argv[k], "--set=", 6) == 0,
+            apart = strcmp (argv[k], "--set") == 0 || strcmp (argv[k], "-s") == 0;
         int first = k + 1 + apart, last = first;
         if (!joined && !apart) continue;
         while (last < argc && argv[last][0] != '-' && !is_scene (argv[last])) last++;
         if (first >= argc || last == first) continue;
-        size_t n = (size_t) snprintf (out, size, "'%.60s' is no file: a value with blanks needs quotes: --set '%.200s", argv[first], joined ? argv[k] + 6 : argv[k + 1]);
-        for (int i = first; i < last && n < size; i++) n += (size_t) snprintf (out + n, size - n, " %.100s", argv[i]);
+        size_t n = (size_t) snprintf (out, size,
+                                      "'%.60s' is no file: a value with blanks needs quotes: --set '%.200s",
+                                      argv[first], joined ? argv[k] + 6 : argv[k + 1]);
+        for (int i = first; i < last && n < size; i++)
+            n += (size_t) snprintf (out + n, size - n, " %.100s", argv[i]);
         if (n < size) snprintf (out + n, size - n, "'");
         return 1;
     }
@@ -136,11 +181,16 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
 int command_parse (command *c, int argc, char **argv)
 {
     static const struct option options[] = {
-        { "out", required_argument, NULL, 'o' }, { "threads", required_argument, NULL, 't' }, { "set", required_argument, NULL, 's' },
-        { "resume", no_argument, NULL, 'r' }, { "force", no_argument, NULL, 'f' }, { "memory", required_argument, NULL, 'm' }, { "json", no_argument, NULL, 'j' },
-        { "solve", no_argument, NULL, 'v' }, { "spectrum", no_argument, NULL, 'w' }, { "quiet", no_argument, NULL, 'q' }, { "help", no_argument, NULL, 'h' }, { NULL, 0, NULL, 0 } };
+        { "out", required_argument, NULL, 'o' }, { "threads", required_argument, NULL, 't' },
+        { "set", required_argument, NULL, 's' }, { "resume", no_argument, NULL, 'r' },
+        { "force", no_argument, NULL, 'f' },     { "memory", required_argument, NULL, 'm' },
+        { "json", no_argument, NULL, 'j' },      { "solve", no_argument, NULL, 'v' },
+        { "spectrum", no_argument, NULL, 'w' },  { "quiet", no_argument, NULL, 'q' },
+        { "help", no_argument, NULL, 'h' },      { NULL, 0, NULL, 0 }
+    };
     char unquoted[1200];
-    int checks = strcmp (argv[0], "check") == 0, lost = command_unquoted (unquoted, sizeof unquoted, argc, argv);
+    int checks = strcmp (argv[0], "check") == 0,
+        lost = command_unquoted (unquoted, sizeof unquoted, argc, argv);
     memset (c, 0, sizeof *c);
     optind = 1, opterr = 0;
     for (int k, wrong = -1; (k = getopt_long (argc, argv, ":o:qs:h", options, NULL)) != -1;) {
@@ -183,7 +233,8 @@ pg_status command_scene (const command *c, pg_scene **scene)
 }
 
 /* Faults of one do not keep the others from being looked for. */
-pg_status command_problem (const command *c, const pg_scene *scene, pg_problem **problem, pg_solver_options *o)
+pg_status command_problem (const command *c, const pg_scene *scene, pg_problem **problem,
+                           pg_solver_options *o)
 {
     pg_status status = PG_OK;
     if (pg_scene_partial (scene)) pg_result_check_names (scene);

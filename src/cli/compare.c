@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal compare DIR [REFERENCE]: a result against its scene's reference, a table, another result or a finite element result. */
+ * perigal compare DIR [REFERENCE]: a result against its scene's reference, a table, another result or a
+ * finite element result. */
 #include "cli.h"
 #include "compare.h"
 #include <getopt.h>
@@ -72,14 +73,31 @@ static int read_option (compare_request *q, int option, const char *text)
 {
     double threads = 0;
     switch (option) {
-    case 'n': return read_step (text, &q->step) ? -1 : complain ("--step %s: expected 0, 1, 2 ... or -1 (the last)", text);
-    case 'm': return read_step (text, &q->other_step) ? -1 : complain ("--reference-step %s: expected 0, 1, 2 ... or -1 (the last)", text);
-    case 'f': return read_field (text, &q->column) ? -1 : complain ("--field %s: displacement, stress, or a part such as displacement.x, stress.xx", text);
-    case 'u': return read_unit (text, &q->unit) ? -1 : complain ("--unit %s: a unit of length is needed, such as mm", text);
-    case 'd': return read_shift (text, q->shift) ? -1 : complain ("--shift %s: up to three lengths are needed, such as 0,-5mm", text);
+    case 'n':
+        return read_step (text, &q->step)
+                   ? -1
+                   : complain ("--step %s: expected 0, 1, 2 ... or -1 (the last)", text);
+    case 'm':
+        return read_step (text, &q->other_step)
+                   ? -1
+                   : complain ("--reference-step %s: expected 0, 1, 2 ... or -1 (the last)", text);
+    case 'f':
+        return read_field (text, &q->column)
+                   ? -1
+                   : complain (
+                       "--field %s: displacement, stress, or a part such as displacement.x, stress.xx", text);
+    case 'u':
+        return read_unit (text, &q->unit)
+                   ? -1
+                   : complain ("--unit %s: a unit of length is needed, such as mm", text);
+    case 'd':
+        return read_shift (text, q->shift)
+                   ? -1
+                   : complain ("--shift %s: up to three lengths are needed, such as 0,-5mm", text);
     case 'c': return read_number (text, &q->scale) ? -1 : complain ("--scale %s: a number is needed", text);
     case 't':
-        if (!read_number (text, &threads) || threads < 0 || threads > 64) return complain ("--threads %s: a number from 0 (all) to 64 is needed", text);
+        if (!read_number (text, &threads) || threads < 0 || threads > 64)
+            return complain ("--threads %s: a number from 0 (all) to 64 is needed", text);
         q->threads = (int) threads;
         return -1;
     case 'o': q->out = text; return -1;
@@ -91,10 +109,13 @@ static int read_option (compare_request *q, int option, const char *text)
 static int parse (compare_request *q, int argc, char **argv)
 {
     static const struct option options[] = {
-        { "step", required_argument, NULL, 'n' }, { "reference-step", required_argument, NULL, 'm' }, { "field", required_argument, NULL, 'f' },
-        { "unit", required_argument, NULL, 'u' }, { "shift", required_argument, NULL, 'd' }, { "scale", required_argument, NULL, 'c' },
-        { "threads", required_argument, NULL, 't' }, { "out", required_argument, NULL, 'o' }, { "json", no_argument, NULL, 'j' },
-        { "quiet", no_argument, NULL, 'q' }, { "help", no_argument, NULL, 'h' }, { NULL, 0, NULL, 0 } };
+        { "step", required_argument, NULL, 'n' },    { "reference-step", required_argument, NULL, 'm' },
+        { "field", required_argument, NULL, 'f' },   { "unit", required_argument, NULL, 'u' },
+        { "shift", required_argument, NULL, 'd' },   { "scale", required_argument, NULL, 'c' },
+        { "threads", required_argument, NULL, 't' }, { "out", required_argument, NULL, 'o' },
+        { "json", no_argument, NULL, 'j' },          { "quiet", no_argument, NULL, 'q' },
+        { "help", no_argument, NULL, 'h' },          { NULL, 0, NULL, 0 }
+    };
     *q = (compare_request) { .step = -1, .other_step = -1, .unit = 1, .scale = 1, .column = -1 };
     optind = 1, opterr = 0;
     for (int k, wrong = -1; (k = getopt_long (argc, argv, ":o:qh", options, NULL)) != -1;) {
@@ -118,7 +139,8 @@ static int parse (compare_request *q, int argc, char **argv)
 static void print_rows (const comparison *c, const compare_request *q)
 {
     char row[400];
-    printf ("%s, step %d, against %s\n  %s", q->folder, c->own->step, q->reference ? q->reference : "its scene's reference", c->own->how);
+    printf ("%s, step %d, against %s\n  %s", q->folder, c->own->step,
+            q->reference ? q->reference : "its scene's reference", c->own->how);
     if (c->note[0]) printf ("\n  %s", c->note);
     printf ("\n");
     for (size_t k = 0; pg_errors_row (&c->errors, k, row, sizeof row); k++) printf ("  %s\n", row);

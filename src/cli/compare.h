@@ -5,17 +5,17 @@
 #include "perigal.h"
 
 typedef struct {
-    const char *folder, *reference, *field, *out;      /* reference NULL: the scene's own                                */
+    const char *folder, *reference, *field, *out;      /* reference NULL: the scene's own */
     int    step, other_step, threads, json, quiet;
     double unit, shift[3], scale;
-    int    column;                                     /* of the picture: 0..8, PG_COMPARE_U, PG_COMPARE_S               */
+    int    column;                                     /* of the picture: 0..8, PG_COMPARE_U, PG_COMPARE_S */
 } compare_request;
 typedef struct {
-    pg_stored *own, *other;                            /* other: a result to compare with                                */
-    pg_sampler fem;                                    /* borrowed view of a finite element reference; sample NULL: none */
-    pg_sampler reference;                              /* no bits: tables only                                           */
-    pg_line    line;                                   /* of the command line                                            */
-    pg_reference *scene;                               /* the scene's own                                                */
+    pg_stored *own, *other;                            /* other: a result to compare with */
+    pg_sampler fem;  /* borrowed view of a finite element reference; sample NULL: none */
+    pg_sampler reference;                              /* no bits: tables only */
+    pg_line    line;                                   /* of the command line */
+    pg_reference *scene;                               /* the scene's own */
     pg_errors  errors;
     char       note[600];
 } comparison;

@@ -8,13 +8,15 @@
 
 static const pg_problem *finer (const comparison *c)
 {
-    return c->other && c->other->problem->cloud.h < c->own->problem->cloud.h ? c->other->problem : c->own->problem;
+    return c->other && c->other->problem->cloud.h < c->own->problem->cloud.h ? c->other->problem
+                                                                             : c->own->problem;
 }
 
-/* ---- pictures --------------------------------------------------------------------------------------------------------- */
+/* ---- pictures ------------------------------------------------------------------------------------------ */
 static void name_difference (int column, char *label, size_t size)
 {
-    if (column >= PG_COMPARE_U) snprintf (label, size, column == PG_COMPARE_U ? "|u - u_{ref}| (m)" : "|stress - reference| (Pa)");
+    if (column >= PG_COMPARE_U)
+        snprintf (label, size, column == PG_COMPARE_U ? "|u - u_{ref}| (m)" : "|stress - reference| (Pa)");
     else snprintf (label, size, "%s - reference (%s)", pg_column_name (column), pg_column_unit (column));
 }
 
@@ -29,11 +31,14 @@ static pg_status field_picture (const comparison *c, const compare_request *q, c
     PG_ALLOC (value, p->cloud.n);
     PG_TRY (pg_compare_field (value, &p->cloud, column, &c->own->sampler, &c->reference));
     PG_TRY (pg_picture_range (p->cloud.n, value, 0, &low, &high, &found));
-    if (!found) PG_FAIL (PG_E_USAGE, "there is no difference of this field to draw: one side does not know it");
+    if (!found)
+        PG_FAIL (PG_E_USAGE, "there is no difference of this field to draw: one side does not know it");
     name_difference (column, label, sizeof label);
     snprintf (title, sizeof title, "%s: difference from the reference", c->own->problem->title);
     double most = fmax (fabs (low), fabs (high));
-    pg_picture_style style = { .title = title, .label = label, .cracks = &p->cracks, .diverging = column < PG_COMPARE_U };
+    pg_picture_style style = {
+        .title = title, .label = label, .cracks = &p->cracks, .diverging = column < PG_COMPARE_U
+    };
     if (style.diverging && most > 0) style.low = -most, style.high = most;
     PG_TRY (pg_picture_field (path, &p->cloud, value, &style));
 done:
@@ -42,7 +47,8 @@ done:
 }
 
 /* |u - u_ref| on the elements of a finite element reference. */
-static pg_status mesh_picture (const comparison *c, const compare_request *q, const pg_mesh *mesh, const char *path)
+static pg_status mesh_picture (const comparison *c, const compare_request *q, const pg_mesh *mesh,
+                               const char *path)
 {
     pg_status status = PG_OK;
     size_t n = mesh->nnode, dim = (size_t) mesh->dim;
@@ -56,8 +62,11 @@ static pg_status mesh_picture (const comparison *c, const compare_request *q, co
         for (size_t k = 0; k < dim; k++) nodes.x[i * dim + k] = mesh->x[3*i + k] + q->shift[k];
     PG_TRY (pg_compare_field (value, &nodes, column, &c->own->sampler, &c->reference));
     name_difference (column, label, sizeof label);
-    snprintf (title, sizeof title, "%s: difference from the reference, on its elements", c->own->problem->title);
-    pg_picture_style style = { .title = title, .label = label, .diverging = column < PG_COMPARE_U, .length = 1 };
+    snprintf (title, sizeof title, "%s: difference from the reference, on its elements",
+              c->own->problem->title);
+    pg_picture_style style = {
+        .title = title, .label = label, .diverging = column < PG_COMPARE_U, .length = 1
+    };
     PG_TRY (pg_picture_mesh (path, mesh, value, &style));
 done:
     pg_free (nodes.x), pg_free (value);
@@ -71,14 +80,17 @@ static int main_axis (const pg_line *l)
     double most = -1;
     for (int k = 0; k < l->dim; k++) {
         double low = INFINITY, high = -INFINITY;
-        for (size_t i = 0; i < l->n; i++) low = fmin (low, l->x[i * (size_t) l->dim + (size_t) k]), high = fmax (high, l->x[i * (size_t) l->dim + (size_t) k]);
+        for (size_t i = 0; i < l->n; i++)
+            low = fmin (low, l->x[i * (size_t) l->dim + (size_t) k]),
+            high = fmax (high, l->x[i * (size_t) l->dim + (size_t) k]);
         if (high - low > most) most = high - low, best = k;
     }
     return best;
 }
 
 /* Both sides of the columns of one kind: that of --field, else displacements if there are any. */
-static pg_status line_picture (const comparison *c, const compare_request *q, const pg_line *l, const char *path)
+static pg_status line_picture (const comparison *c, const compare_request *q, const pg_line *l,
+                               const char *path)
 {
     pg_status status = PG_OK;
     double *x = NULL, *u = NULL, *y = NULL;
@@ -92,7 +104,8 @@ static pg_status line_picture (const comparison *c, const compare_request *q, co
     PG_TRY (pg_line_sample (l, &c->own->sampler, u, u + 3 * l->n));
     for (size_t i = 0; i < l->n; i++) x[i] = l->x[i * (size_t) l->dim + (size_t) axis];
     for (size_t k = 0; k < l->ncolumn; k++) {
-        int column = l->column[k], wanted = q->column >= 0 && q->column < 9 ? column == q->column : (column >= 3) == stresses;
+        int column = l->column[k],
+            wanted = q->column >= 0 && q->column < 9 ? column == q->column : (column >= 3) == stresses;
         if (!wanted) continue;
         for (size_t i = 0; i < l->n; i++) {
             y[n * l->n + i] = column < 3 ? u[3*i + (size_t) column] : u[3 * l->n + 6*i + (size_t) column - 3];
@@ -107,14 +120,16 @@ static pg_status line_picture (const comparison *c, const compare_request *q, co
     if (!n) PG_FAIL (PG_E_USAGE, "%s has no column of the field asked for", l->name);
     snprintf (xlabel, sizeof xlabel, "%c (m)", "xyz"[axis]);
     int shown = q->column >= 0 && q->column < 9 ? q->column >= 3 : stresses;
-    pg_chart_style style = { .title = c->own->problem->title, .xlabel = xlabel, .ylabel = shown ? "stress (Pa)" : "displacement (m)" };
+    pg_chart_style style = { .title = c->own->problem->title,
+                             .xlabel = xlabel,
+                             .ylabel = shown ? "stress (Pa)" : "displacement (m)" };
     PG_TRY (pg_picture_chart (path, n, curve, &style));
 done:
     pg_free (x), pg_free (u), pg_free (y);
     return status;
 }
 
-/* ---- files ------------------------------------------------------------------------------------------------------------ */
+/* ---- files --------------------------------------------------------------------------------------------- */
 static pg_status json_file (const comparison *c, const compare_request *q, const char *path)
 {
     pg_status status = PG_OK;
@@ -154,7 +169,8 @@ static void tell (const compare_request *q, const char *what, const char *path)
 }
 
 /* The tables of the scene follow its field: compare_2.csv ... */
-static pg_status table_files (const comparison *c, const compare_request *q, const pg_line *line, size_t n, size_t before)
+static pg_status table_files (const comparison *c, const compare_request *q, const pg_line *line, size_t n,
+                              size_t before)
 {
     pg_status status = PG_OK;
     char path[4096];

@@ -38,15 +38,19 @@ static pg_status against_result (comparison *c, const compare_request *q, const 
     PG_TRY (pg_stored_open (&c->other, folder, q->other_step, q->threads));
     const pg_stored *a = c->own, *b = c->other;
     if (a->problem->dim != b->problem->dim)
-        PG_FAIL (PG_E_USAGE, "%s is of a %dD body, %s of a %dD one", q->folder, a->problem->dim, folder, b->problem->dim);
+        PG_FAIL (PG_E_USAGE, "%s is of a %dD body, %s of a %dD one", q->folder, a->problem->dim, folder,
+                 b->problem->dim);
     snprintf (c->note, sizeof c->note, "the reference, step %d, %s", b->step, b->how);
     plain = c->other->sampler;
     memset (&c->other->sampler, 0, sizeof plain);
     PG_TRY (pg_sampler_moved (&c->reference, &plain, q->shift, q->scale));
     const pg_stored *finer = b->problem->cloud.h < a->problem->cloud.h ? b : a;
-    PG_TRY (pg_errors_against (&c->errors, finer->problem, pg_norm_order (finer->scene, finer->problem), NULL, &a->sampler, &c->reference));
+    PG_TRY (pg_errors_against (&c->errors, finer->problem, pg_norm_order (finer->scene, finer->problem), NULL,
+                               &a->sampler, &c->reference));
     if (!c->errors.norms.places)
-        PG_FAIL (PG_E_USAGE, "%s and %s have no place in common: the bodies lie apart (--shift moves the reference)", q->folder, folder);
+        PG_FAIL (PG_E_USAGE,
+                 "%s and %s have no place in common: the bodies lie apart (--shift moves the reference)",
+                 q->folder, folder);
 done:
     pg_sampler_clear (&plain);
     return status;
@@ -58,12 +62,15 @@ static pg_status against_table (comparison *c, const compare_request *q)
     static const double origin[3] = { 0 };
     size_t known = 0;
     PG_TRY (pg_line_read (&c->line, q->reference, c->own->problem->dim, q->unit, q->scale, origin));
-    for (size_t i = 0; i < c->line.n * (size_t) c->line.dim; i++) c->line.x[i] += q->shift[i % (size_t) c->line.dim];
+    for (size_t i = 0; i < c->line.n * (size_t) c->line.dim; i++)
+        c->line.x[i] += q->shift[i % (size_t) c->line.dim];
     PG_ALLOC (c->errors.line, c->line.ncolumn);
     PG_TRY (pg_line_measure (c->errors.line, &c->line, &c->own->sampler));
     c->errors.nline = c->line.ncolumn;
     for (size_t k = 0; k < c->line.ncolumn; k++) known += c->errors.line[k].rows;
-    if (!known) PG_FAIL (PG_E_USAGE, "%s: none of its %zu places lies in the body of %s (--unit, --shift)", q->reference, c->line.n, q->folder);
+    if (!known)
+        PG_FAIL (PG_E_USAGE, "%s: none of its %zu places lies in the body of %s (--unit, --shift)",
+                 q->reference, c->line.n, q->folder);
 done:
     return status;
 }
@@ -72,7 +79,9 @@ static pg_status against_scene (comparison *c, const compare_request *q)
 {
     pg_status status = PG_OK;
     PG_TRY (pg_reference_read (&c->scene, c->own->scene, c->own->problem));
-    if (!c->scene) PG_FAIL (PG_E_USAGE, "the scene of %s has no reference: name one, perigal compare %s REFERENCE", q->folder, q->folder);
+    if (!c->scene)
+        PG_FAIL (PG_E_USAGE, "the scene of %s has no reference: name one, perigal compare %s REFERENCE",
+                 q->folder, q->folder);
     PG_TRY (pg_errors_measure (&c->errors, c->scene, c->own->problem, &c->own->sampler, c->own->t));
     PG_TRY (pg_reference_sampler (&c->reference, c->scene, c->own->t));
 done:
@@ -89,16 +98,23 @@ static pg_status against_mesh (comparison *c, const compare_request *q)
     pg_sampler plain = { 0 };
     PG_TRY (pg_sampler_mesh (&plain, q->reference, q->other_step, q->unit, a->problem));
     c->fem = plain;
-    c->fem.free = NULL;                                /* owned by the moved one; asked for its mesh                     */
+    c->fem.free = NULL;                                /* owned by the moved one; asked for its mesh */
     const pg_mesh *mesh = pg_sampler_mesh_of (&plain, NULL, NULL);
     size_t elements = mesh->n, nodes = mesh->nnode;
     PG_TRY (pg_sampler_moved (&c->reference, &plain, q->shift, q->scale));
-    PG_TRY (pg_errors_against (&c->errors, a->problem, pg_norm_order (a->scene, a->problem), NULL, &a->sampler, &c->reference));
+    PG_TRY (pg_errors_against (&c->errors, a->problem, pg_norm_order (a->scene, a->problem), NULL,
+                               &a->sampler, &c->reference));
     if (!c->errors.norms.places)
-        PG_FAIL (PG_E_USAGE, "%s and %s have no place in common: the bodies lie apart (--unit, --shift move the reference)", q->folder, q->reference);
+        PG_FAIL (
+            PG_E_USAGE,
+            "%s and %s have no place in common: the bodies lie apart (--unit, --shift move the reference)",
+            q->folder, q->reference);
     pg_sampler_mesh_of (&c->fem, &outside, &away);
     int n = snprintf (c->note, sizeof c->note, "the reference: %zu elements, %zu nodes", elements, nodes);
-    if (outside) snprintf (c->note + n, sizeof c->note - (size_t) n, "; %zu places outside its elements, up to %.2g element sizes, took the nearest one", outside, away);
+    if (outside)
+        snprintf (c->note + n, sizeof c->note - (size_t) n,
+                  "; %zu places outside its elements, up to %.2g element sizes, took the nearest one",
+                  outside, away);
 done:
     pg_sampler_clear (&plain);
     return status;

@@ -12,7 +12,7 @@ typedef struct {
     size_t      nset, sizes;
     double      ratio, horizon[CONVERGE_STUDIES];
     size_t      nhorizon;
-    int         fixed, quiet, threads;                 /* fixed: the horizon stays                                       */
+    int         fixed, quiet, threads;                 /* fixed: the horizon stays */
 } request;
 
 static pg_status read_number (double *out, const char *name, const char *text, double low, double high)
@@ -20,7 +20,8 @@ static pg_status read_number (double *out, const char *name, const char *text, d
     pg_status status = PG_OK;
     char *end;
     *out = strtod (text, &end);
-    if (end == text || *end || !(*out >= low && *out <= high)) PG_FAIL (PG_E_USAGE, "%s %s: a number from %g to %g is needed", name, text, low, high);
+    if (end == text || *end || !(*out >= low && *out <= high))
+        PG_FAIL (PG_E_USAGE, "%s %s: a number from %g to %g is needed", name, text, low, high);
 done:
     return status;
 }
@@ -30,8 +31,10 @@ static pg_status read_horizons (request *q, const char *value)
     pg_status status = PG_OK;
     bench_words *words = NULL;
     PG_ALLOC (words, 1);
-    if (!bench_split (words, value) || words->n > CONVERGE_STUDIES) PG_FAIL (PG_E_USAGE, "--horizon %s: at most %d numbers separated by commas", value, CONVERGE_STUDIES);
-    for (q->nhorizon = 0; q->nhorizon < words->n; q->nhorizon++) PG_TRY (read_number (&q->horizon[q->nhorizon], "--horizon", words->word[q->nhorizon], 1, 50));
+    if (!bench_split (words, value) || words->n > CONVERGE_STUDIES)
+        PG_FAIL (PG_E_USAGE, "--horizon %s: at most %d numbers separated by commas", value, CONVERGE_STUDIES);
+    for (q->nhorizon = 0; q->nhorizon < words->n; q->nhorizon++)
+        PG_TRY (read_number (&q->horizon[q->nhorizon], "--horizon", words->word[q->nhorizon], 1, 50));
 done:
     pg_free (words);
     return status;
@@ -47,7 +50,8 @@ static pg_status read_option (request *q, const char *name, const char *value)
     while (k < sizeof known / sizeof *known && strcmp (known[k], name) != 0) k++;
     if (k == sizeof known / sizeof *known) {
         const char *near = pg_nearest_name (name, names);
-        PG_FAIL (PG_E_USAGE, "there is no option %s%s%s%s", name, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+        PG_FAIL (PG_E_USAGE, "there is no option %s%s%s%s", name, near ? " (did you mean " : "",
+                 near ? near : "", near ? "?)" : "");
     }
     if (!value) PG_FAIL (PG_E_USAGE, "%s needs a value", name);
     if (k == 0) {
@@ -75,7 +79,10 @@ static pg_status read_arguments (request *q, int argc, char **argv)
     char unquoted[1200];
     if (command_unquoted (unquoted, sizeof unquoted, argc, argv)) PG_FAIL (PG_E_USAGE, "%s", unquoted);
     for (int k = 1; k < argc; k++) {
-        const char *name = strcmp (argv[k], "-o") == 0 ? "--out" : strcmp (argv[k], "-s") == 0 ? "--set" : strcmp (argv[k], "-q") == 0 ? "--quiet" : argv[k];
+        const char *name = strcmp (argv[k], "-o") == 0   ? "--out"
+                           : strcmp (argv[k], "-s") == 0 ? "--set"
+                           : strcmp (argv[k], "-q") == 0 ? "--quiet"
+                                                         : argv[k];
         if (strcmp (name, "--m") == 0) q->fixed = 1;
         else if (strcmp (name, "--delta") == 0) delta = 1;
         else if (strcmp (name, "--quiet") == 0) q->quiet = 1;
@@ -92,12 +99,15 @@ done:
     return status;
 }
 
-/* ---- runs ------------------------------------------------------------------------------------------------------------------- */
+/* ---- runs ---------------------------------------------------------------------------------------------- */
 static pg_status take_errors (study *s, size_t k, const trial *t)
 {
     pg_status status = PG_OK;
-    static const struct { int id; const char *name; } errors[] = {
-        { TRIAL_L2, "L2 error" }, { TRIAL_ENERGY, "energy error" }, { TRIAL_MAXIMUM, "maximum error" }, { TRIAL_LINES, "error on lines" } };
+    static const struct { int id; const char *name;
+    } errors[] = { { TRIAL_L2, "L2 error" },
+                   { TRIAL_ENERGY, "energy error" },
+                   { TRIAL_MAXIMUM, "maximum error" },
+                   { TRIAL_LINES, "error on lines" } };
     for (size_t e = 0; e < sizeof errors / sizeof *errors; e++) {
         if (isnan (t->value[errors[e].id])) continue;
         quantity *q = study_quantity (s, errors[e].name, "1");
@@ -121,14 +131,20 @@ static pg_status run_study (study *s, const request *q, const bench_base *b)
         if (q->fixed) snprintf (horizon, sizeof horizon, "method.horizon=%.15g m", s->horizon * b->spacing);
         else snprintf (horizon, sizeof horizon, "method.horizon=%.15g spacing", s->horizon);
         for (size_t i = 0; i < q->nset; i++) run.set[run.nset++] = q->set[i];
-        run.set[run.nset++] = spacing, run.set[run.nset++] = horizon;              /* the later one counts            */
+        run.set[run.nset++] = spacing, run.set[run.nset++] = horizon;              /* the later one counts */
         PG_TRY (trial_run (&t, &run));
         if (k && !(t.value[TRIAL_SPACING] < s->h[k - 1]))
-            PG_FAIL (PG_E_SCENE, "%s: spacing %g m is no smaller than the one before: does the scene take its points from a file?", q->scene, t.value[TRIAL_SPACING]);
+            PG_FAIL (PG_E_SCENE,
+                     "%s: spacing %g m is no smaller than the one before: does the scene take its points "
+                     "from a file?",
+                     q->scene, t.value[TRIAL_SPACING]);
         s->h[k] = t.value[TRIAL_SPACING], s->n = k + 1;
         PG_TRY (take_errors (s, k, &t));
         PG_TRY (converge_history (s, k, folder));
-        if (!q->quiet) printf ("  horizon %g, spacing %.6g m: %.0f points, %.2f s CPU\n", s->horizon, s->h[k], t.value[TRIAL_POINTS], t.value[TRIAL_CPU]), fflush (stdout);
+        if (!q->quiet)
+            printf ("  horizon %g, spacing %.6g m: %.0f points, %.2f s CPU\n", s->horizon, s->h[k],
+                    t.value[TRIAL_POINTS], t.value[TRIAL_CPU]),
+                fflush (stdout);
     }
 done:
     return status;
@@ -139,7 +155,10 @@ static pg_status study_all (study *list, request *q)
     pg_status status = PG_OK;
     bench_base b;
     PG_TRY (bench_look (&b, q->scene, q->nset, q->set));
-    if (!(b.spacing > 0)) PG_FAIL (PG_E_SCENE, "%s: converge changes the spacing, and this scene has none: it needs a body and spacing", q->scene);
+    if (!(b.spacing > 0))
+        PG_FAIL (PG_E_SCENE,
+                 "%s: converge changes the spacing, and this scene has none: it needs a body and spacing",
+                 q->scene);
     if (!q->nhorizon) q->horizon[q->nhorizon++] = b.horizon;
     PG_TRY (pg_folder_make (q->folder));
     for (size_t k = 0; k < q->nhorizon; k++) {
@@ -150,7 +169,9 @@ static pg_status study_all (study *list, request *q)
     PG_TRY (converge_table (list, q->nhorizon, q->folder));
     int drawn = 0;
     PG_TRY (converge_picture (list, q->nhorizon, q->folder, b.name, &drawn));
-    if (!q->quiet) printf ("  table %s/convergence.csv%s%s%s\n", q->folder, drawn ? ", picture " : "", drawn ? q->folder : "", drawn ? "/convergence.png" : "");
+    if (!q->quiet)
+        printf ("  table %s/convergence.csv%s%s%s\n", q->folder, drawn ? ", picture " : "",
+                drawn ? q->folder : "", drawn ? "/convergence.png" : "");
 done:
     return status;
 }
@@ -161,7 +182,8 @@ int pg_cli_converge (int argc, char **argv)
     request q;
     study *list = NULL;
     for (int k = 1; k < argc; k++)
-        if (strcmp (argv[k], "--help") == 0 || strcmp (argv[k], "-h") == 0) return command_usage (stdout, "converge") ? EXIT_DONE : EXIT_USAGE;
+        if (strcmp (argv[k], "--help") == 0 || strcmp (argv[k], "-h") == 0)
+            return command_usage (stdout, "converge") ? EXIT_DONE : EXIT_USAGE;
     PG_TRY (read_arguments (&q, argc, argv));
     PG_ALLOC (list, CONVERGE_STUDIES);
     PG_TRY (study_all (list, &q));

@@ -49,8 +49,10 @@ static int cut_cell (char **s, char **cell)
 /* Counts and flags say nothing about convergence. */
 static int wanted (const char *name)
 {
-    static const char *const not_these[] = { "step", "time", "load_factor", "broken", "iterations", "residual", "utilisation", "event", "level" };
-    for (size_t k = 0; k < sizeof not_these / sizeof *not_these; k++) if (strcmp (name, not_these[k]) == 0) return 0;
+    static const char *const not_these[] = { "step",     "time",        "load_factor", "broken", "iterations",
+                                             "residual", "utilisation", "event",       "level" };
+    for (size_t k = 0; k < sizeof not_these / sizeof *not_these; k++)
+        if (strcmp (name, not_these[k]) == 0) return 0;
     return 1;
 }
 
@@ -84,10 +86,11 @@ pg_status converge_history (study *s, size_t k, const char *folder)
     for (at = header; n < COLUMNS && cut_cell (&at, &cell); n++) name[n] = cell, last[n] = NAN, peak[n] = 0;
     for (; getline (&row, &width[1], f) > 0; rows++) {
         at = row;
-        for (size_t c = 0; c < n && cut_cell (&at, &cell); c++) last[c] = *cell ? strtod (cell, NULL) : NAN, peak[c] = fmax (peak[c], fabs (last[c]));
+        for (size_t c = 0; c < n && cut_cell (&at, &cell); c++)
+            last[c] = *cell ? strtod (cell, NULL) : NAN, peak[c] = fmax (peak[c], fabs (last[c]));
     }
     for (size_t c = 0; rows && c < n; c++) {
-        if (isnan (last[c])) continue;                 /* empty: not measured                                            */
+        if (isnan (last[c])) continue;                 /* empty: not measured */
         PG_TRY (put (s, k, "", name[c], last[c]));
         if (rows > 1 && strstr (name[c], ".force_")) PG_TRY (put (s, k, "peak ", name[c], peak[c]));
     }

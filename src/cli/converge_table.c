@@ -5,7 +5,7 @@
 #include <string.h>
 
 enum { CURVES = 12 };
-static const double noise = 1e-9;                      /* of the largest of the same unit: nothing but rounding          */
+static const double noise = 1e-9;  /* of the largest of the same unit: nothing but rounding */
 
 pg_observed study_order (const study *s, const quantity *q, size_t n)
 {
@@ -22,11 +22,14 @@ static double size_of (const study *s, const quantity *q)
 static double largest (const study *s, const char *unit)
 {
     double most = 0;
-    for (size_t k = 0; k < s->nquantity; k++) if (!s->list[k].error && strcmp (s->list[k].unit, unit) == 0) most = fmax (most, size_of (s, &s->list[k]));
+    for (size_t k = 0; k < s->nquantity; k++)
+        if (!s->list[k].error && strcmp (s->list[k].unit, unit) == 0)
+            most = fmax (most, size_of (s, &s->list[k]));
     return most;
 }
 
-/* Zero but for rounding, such as a reaction across: beside those of its unit; forces also beside energy by displacement. */
+/* Zero but for rounding, such as a reaction across: beside those of its unit; forces also beside energy by
+ * displacement. */
 static int is_noise (const study *s, const quantity *q)
 {
     double most = largest (s, q->unit), way = largest (s, "m");
@@ -37,14 +40,16 @@ static int is_noise (const study *s, const quantity *q)
 
 void converge_print (const study *s, int fixed)
 {
-    printf ("horizon %g %s\n  %-30s", s->horizon, fixed ? "first spacings, kept (m-convergence)" : "spacings (delta-convergence)", "spacing, m");
+    printf ("horizon %g %s\n  %-30s", s->horizon,
+            fixed ? "first spacings, kept (m-convergence)" : "spacings (delta-convergence)", "spacing, m");
     for (size_t k = 0; k < s->n; k++) printf (" %12.6g", s->h[k]);
     printf ("    order        limit   error est.\n");
     for (size_t i = 0; i < s->nquantity; i++) {
         const quantity *q = &s->list[i];
         char label[192];
         if (is_noise (s, q)) continue;
-        snprintf (label, sizeof label, "%s%s%s", q->name, strcmp (q->unit, "1") == 0 ? "" : ", ", strcmp (q->unit, "1") == 0 ? "" : q->unit);
+        snprintf (label, sizeof label, "%s%s%s", q->name, strcmp (q->unit, "1") == 0 ? "" : ", ",
+                  strcmp (q->unit, "1") == 0 ? "" : q->unit);
         printf ("  %-30s", label);
         for (size_t k = 0; k < s->n; k++) printf (" %12.6g", q->value[k]);
         pg_observed o = study_order (s, q, s->n);
@@ -64,8 +69,9 @@ static void number (char *cell, size_t size, double value)
 pg_status converge_table (const study *list, size_t n, const char *folder)
 {
     pg_status status = PG_OK;
-    static const char *const columns[] = { "horizon [1]", "quantity [name]", "unit [name]", "spacing [m]", "value [unit]", "order [1]", "limit [unit]",
-                                           "error [unit]", "remark [name]" };
+    static const char *const columns[] = { "horizon [1]",  "quantity [name]", "unit [name]",
+                                           "spacing [m]",  "value [unit]",    "order [1]",
+                                           "limit [unit]", "error [unit]",    "remark [name]" };
     enum { MOST = sizeof columns / sizeof *columns };
     char path[4096], cell[MOST][CONVERGE_NAME];
     const char *row[MOST];
@@ -79,9 +85,13 @@ pg_status converge_table (const study *list, size_t n, const char *folder)
             if (is_noise (&list[s], q)) continue;
             for (size_t k = 0; k < list[s].n; k++) {
                 pg_observed o = study_order (&list[s], q, k + 1);
-                number (cell[0], sizeof *cell, list[s].horizon), number (cell[3], sizeof *cell, list[s].h[k]), number (cell[4], sizeof *cell, q->value[k]);
-                number (cell[5], sizeof *cell, o.order), number (cell[6], sizeof *cell, q->error ? NAN : o.limit), number (cell[7], sizeof *cell, o.error);
-                snprintf (cell[1], sizeof *cell, "%s", q->name), snprintf (cell[2], sizeof *cell, "%s", q->unit);
+                number (cell[0], sizeof *cell, list[s].horizon), number (cell[3], sizeof *cell, list[s].h[k]),
+                    number (cell[4], sizeof *cell, q->value[k]);
+                number (cell[5], sizeof *cell, o.order),
+                    number (cell[6], sizeof *cell, q->error ? NAN : o.limit),
+                    number (cell[7], sizeof *cell, o.error);
+                snprintf (cell[1], sizeof *cell, "%s", q->name),
+                    snprintf (cell[2], sizeof *cell, "%s", q->unit);
                 snprintf (cell[8], sizeof *cell, "%s", o.why ? o.why : "");
                 PG_TRY (pg_table_line (table, row));
             }
@@ -91,8 +101,14 @@ done:
     return status;
 }
 
-/* ---- picture ------------------------------------------------------------------------------------------------------------------- */
-typedef struct { char name[CURVES][CONVERGE_NAME + 32]; double y[CURVES][CONVERGE_SIZES]; pg_curve curve[CURVES]; size_t n; double order; } chart;
+/* ---- picture ------------------------------------------------------------------------------------------- */
+typedef struct {
+    char name[CURVES][CONVERGE_NAME + 32];
+    double y[CURVES][CONVERGE_SIZES];
+    pg_curve curve[CURVES];
+    size_t n;
+    double order;
+} chart;
 
 /* Errors; or of values with an order, the distance from Richardson's value in shares of it. */
 static void add_curve (chart *c, const study *s, const quantity *q, int several)
@@ -103,7 +119,9 @@ static void add_curve (chart *c, const study *s, const quantity *q, int several)
     for (size_t k = 0; k < s->n; k++) c->y[c->n][k] = fabs (q->value[k] - (q->error ? 0 : o.limit)) / scale;
     if (several) snprintf (c->name[c->n], sizeof *c->name, "%s, horizon %g", q->name, s->horizon);
     else snprintf (c->name[c->n], sizeof *c->name, "%s", q->name);
-    c->curve[c->n] = (pg_curve) { .name = c->name[c->n], .n = s->n, .x = s->h, .y = c->y[c->n], .points = PG_CURVE_BOTH };
+    c->curve[c->n] = (pg_curve){
+        .name = c->name[c->n], .n = s->n, .x = s->h, .y = c->y[c->n], .points = PG_CURVE_BOTH
+    };
     if (c->n == 0) c->order = o.order;
     c->n++;
 }
@@ -118,12 +136,19 @@ pg_status converge_picture (const study *list, size_t n, const char *folder, con
     for (size_t s = 0; s < n; s++)
         for (size_t i = 0; i < list[s].nquantity; i++) measured |= list[s].list[i].error;
     for (size_t s = 0; s < n; s++)
-        for (size_t i = 0; i < list[s].nquantity; i++) if (list[s].list[i].error == measured) add_curve (c, &list[s], &list[s].list[i], n > 1);
+        for (size_t i = 0; i < list[s].nquantity; i++)
+            if (list[s].list[i].error == measured) add_curve (c, &list[s], &list[s].list[i], n > 1);
     *drawn = c->n > 0;
     if (!c->n) goto done;
     pg_chart_slope slope = { .order = round (2 * c->order) / 2, .curve = 0 };
-    pg_chart_style style = { .title = title, .xlabel = "spacing (m)", .ylabel = measured ? "relative error" : "relative distance from Richardson's value",
-                             .logx = 1, .logy = 1, .nslope = c->order > 0.2 ? 1 : 0, .slopes = &slope };
+    pg_chart_style style = { .title = title,
+                             .xlabel = "spacing (m)",
+                             .ylabel = measured ? "relative error"
+                                                : "relative distance from Richardson's value",
+                             .logx = 1,
+                             .logy = 1,
+                             .nslope = c->order > 0.2 ? 1 : 0,
+                             .slopes = &slope };
     snprintf (path, sizeof path, "%s/convergence.png", folder);
     PG_TRY (pg_picture_chart (path, c->n, c->curve, &style));
 done:

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Why does no bond break? One static solve at load factor 1 in which nothing may break, then the criterion on what it shows: the load factor
- * and the place of the first break. Also the largest frequency, which bounds explicit time steps. */
+ * Why does no bond break? One static solve at load factor 1 in which nothing may break, then the criterion on
+ * what it shows: the load factor and the place of the first break. Also the largest frequency, which bounds
+ * explicit time steps. */
 #include "cli.h"
 #include <math.h>
 #include <string.h>
@@ -9,7 +10,8 @@
 static size_t worst_bond (const first_break *b, size_t n, const double *factor, const double *utilisation)
 {
     size_t worst = 0;
-    for (size_t i = 1; i < n; i++) if (b->proportional ? factor[i] < factor[worst] : utilisation[i] > utilisation[worst]) worst = i;
+    for (size_t i = 1; i < n; i++)
+        if (b->proportional ? factor[i] < factor[worst] : utilisation[i] > utilisation[worst]) worst = i;
     return worst;
 }
 
@@ -53,7 +55,7 @@ static int all_dense (const pg_problem *p)
 pg_status first_break_find (first_break *b, const pg_problem *p, const pg_solver_options *o)
 {
     pg_status status = PG_OK;
-    pg_problem bare = *p;                              /* the same body, of which nothing breaks while it is solved      */
+    pg_problem bare = *p;  /* the same body, of which nothing breaks while it is solved */
     pg_criterion *none = NULL;
     pg_solver_options once = *o;
     pg_solver *solver = NULL;

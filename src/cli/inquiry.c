@@ -4,20 +4,57 @@
 #include <string.h>
 
 typedef const char *(*summary_of) (const char *name);
-static const char *of_force       (const char *n) { const pg_force_type *t = pg_force_find (n);             return t ? t->summary : ""; }
-static const char *of_approx      (const char *n) { const pg_approx_type *t = pg_approx_find (n);           return t ? t->summary : ""; }
-static const char *of_integration (const char *n) { const pg_integration_type *t = pg_integration_find (n); return t ? t->summary : ""; }
-static const char *of_kernel      (const char *n) { const pg_kernel *t = pg_kernel_find (n);                return t ? t->summary : ""; }
-static const char *of_material    (const char *n) { const pg_material_type *t = pg_material_find (n);       return t ? t->summary : ""; }
-static const char *of_criterion   (const char *n) { const pg_criterion_type *t = pg_criterion_find (n);     return t ? t->summary : ""; }
-static const char *of_linear      (const char *n) { const pg_linear_type *t = pg_linear_find (n);           return t ? t->summary : "chosen by the matrix"; }
-static const char *of_solver      (const char *n) { const char *text = pg_solver_summary (n);                return text ? text : ""; }
+static const char *of_force (const char *n)
+{
+    const pg_force_type *t = pg_force_find (n);
+    return t ? t->summary : "";
+}
+static const char *of_approx (const char *n)
+{
+    const pg_approx_type *t = pg_approx_find (n);
+    return t ? t->summary : "";
+}
+static const char *of_integration (const char *n)
+{
+    const pg_integration_type *t = pg_integration_find (n);
+    return t ? t->summary : "";
+}
+static const char *of_kernel (const char *n)
+{
+    const pg_kernel *t = pg_kernel_find (n);
+    return t ? t->summary : "";
+}
+static const char *of_material (const char *n)
+{
+    const pg_material_type *t = pg_material_find (n);
+    return t ? t->summary : "";
+}
+static const char *of_criterion (const char *n)
+{
+    const pg_criterion_type *t = pg_criterion_find (n);
+    return t ? t->summary : "";
+}
+static const char *of_linear (const char *n)
+{
+    const pg_linear_type *t = pg_linear_find (n);
+    return t ? t->summary : "chosen by the matrix";
+}
+static const char *of_solver (const char *n)
+{
+    const char *text = pg_solver_summary (n);
+    return text ? text : "";
+}
 
-static const struct { const char *key; const char *(*names) (void); summary_of summary; } catalogues[] = {
-    { "method.force", pg_force_names, of_force },           { "method.approximation", pg_approx_names, of_approx },
-    { "method.integration", pg_integration_names, of_integration }, { "method.kernel", pg_kernel_names, of_kernel },
-    { "materials.{}.model", pg_material_names, of_material }, { "failure.criterion", pg_criterion_names, of_criterion },
-    { "solver.kind", pg_solver_names, of_solver },          { "solver.linear", pg_linear_names, of_linear },
+static const struct { const char *key; const char *(*names) (void); summary_of summary;
+} catalogues[] = {
+    { "method.force", pg_force_names, of_force },
+    { "method.approximation", pg_approx_names, of_approx },
+    { "method.integration", pg_integration_names, of_integration },
+    { "method.kernel", pg_kernel_names, of_kernel },
+    { "materials.{}.model", pg_material_names, of_material },
+    { "failure.criterion", pg_criterion_names, of_criterion },
+    { "solver.kind", pg_solver_names, of_solver },
+    { "solver.linear", pg_linear_names, of_linear },
 };
 
 int pg_cli_list (int argc, char **argv)
@@ -55,7 +92,11 @@ int pg_cli_help (int argc, char **argv)
     else if (strcmp (argv[1], "--manual") == 0) status = pg_scene_manual (stdout);
     else if (command_usage (stdout, argv[1])) return EXIT_DONE;
     else status = pg_scene_help (stdout, argv[1]);
-    const char *near = status == PG_E_USAGE ? pg_nearest_name (argv[1], "run|check|plot|compare|bench|converge|list|help") : NULL;
-    if (status != PG_OK) fprintf (stderr, "perigal: %s%s%s%s\n", pg_last_error (), near ? "; or the command " : "", near ? near : "", near ? "?" : "");
+    const char *near = status == PG_E_USAGE
+                           ? pg_nearest_name (argv[1], "run|check|plot|compare|bench|converge|list|help")
+                           : NULL;
+    if (status != PG_OK)
+        fprintf (stderr, "perigal: %s%s%s%s\n", pg_last_error (), near ? "; or the command " : "",
+                 near ? near : "", near ? "?" : "");
     return exit_code (status);
 }

@@ -1,42 +1,54 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal: the command line. Sets the thread environment of the libraries before they start (their limits are read once). */
+ * perigal: the command line. Sets the thread environment of the libraries before they start (their limits are
+ * read once). */
 #include "cli.h"
 #include "plot.h"
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-static const struct { const char *name; int (*run) (int, char **); const char *summary; } commands[] = {
-    { "run",   pg_cli_run,   "run SCENE.yaml [-o DIR] [--set KEY=VALUE]  solve, leave a folder of results" },
-    { "check", pg_cli_check, "check SCENE.yaml [--set KEY=VALUE]         what is wrong with a scene, or what it amounts to" },
-    { "plot",  pg_cli_plot,  "plot DIR [--field NAME] [--step N]         pictures from a folder of results" },
-    { "compare", pg_cli_compare, "compare DIR [REFERENCE]                    a result against a closed form, a table, another result" },
-    { "bench", pg_cli_bench, "bench [SCENE...] [--fem]                   error and cost of methods and sizes, beside CalculiX" },
-    { "converge", pg_cli_converge, "converge SCENE.yaml [--m]                  order of convergence of every quantity of a scene" },
-    { "list",  pg_cli_list,  "list                                       methods, kernels, criteria ... of this build" },
-    { "help",  pg_cli_help,  "help [KEY | COMMAND | --manual]            the keys of the scene file" },
+static const struct { const char *name; int (*run) (int, char **); const char *summary;
+} commands[] = {
+    { "run", pg_cli_run, "run SCENE.yaml [-o DIR] [--set KEY=VALUE]  solve, leave a folder of results" },
+    { "check", pg_cli_check,
+      "check SCENE.yaml [--set KEY=VALUE]         what is wrong with a scene, or what it amounts to" },
+    { "plot", pg_cli_plot, "plot DIR [--field NAME] [--step N]         pictures from a folder of results" },
+    { "compare", pg_cli_compare,
+      "compare DIR [REFERENCE]                    a result against a closed form, a table, another result" },
+    { "bench", pg_cli_bench,
+      "bench [SCENE...] [--fem]                   error and cost of methods and sizes, beside CalculiX" },
+    { "converge", pg_cli_converge,
+      "converge SCENE.yaml [--m]                  order of convergence of every quantity of a scene" },
+    { "list", pg_cli_list,
+      "list                                       methods, kernels, criteria ... of this build" },
+    { "help", pg_cli_help, "help [KEY | COMMAND | --manual]            the keys of the scene file" },
 };
 
 static void usage (FILE *to)
 {
-    fprintf (to, "Perigal " PG_VERSION ": peridynamic Galerkin solver for brittle and quasi-brittle fracture\n\nusage:\n");
-    for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) fprintf (to, "  perigal %s\n", commands[k].summary);
-    fprintf (to, "\nexit codes: 0 done, 64 usage, 65 scene wrong, 70 failed (numerics, memory, files), 130 interrupted\n");
+    fprintf (to, "Perigal " PG_VERSION
+                 ": peridynamic Galerkin solver for brittle and quasi-brittle fracture\n\nusage:\n");
+    for (size_t k = 0; k < sizeof commands / sizeof *commands; k++)
+        fprintf (to, "  perigal %s\n", commands[k].summary);
+    fprintf (to, "\nexit codes: 0 done, 64 usage, 65 scene wrong, 70 failed (numerics, memory, files), 130 "
+                 "interrupted\n");
 }
 
-/* CHOLMOD's OpenMP threads only slow it down beside a threaded BLAS, and only the environment at process start caps them. */
+/* CHOLMOD's OpenMP threads only slow it down beside a threaded BLAS, and only the environment at process
+ * start caps them. */
 static void settle_threads (int argc, char **argv)
 {
     char count[16];
     long n = sysconf (_SC_NPROCESSORS_ONLN);
     if (getenv ("OMP_THREAD_LIMIT")) return;
-    for (int k = 1; k + 1 < argc; k++) if (strcmp (argv[k], "--threads") == 0 && atol (argv[k + 1]) > 0) n = atol (argv[k + 1]);
+    for (int k = 1; k + 1 < argc; k++)
+        if (strcmp (argv[k], "--threads") == 0 && atol (argv[k + 1]) > 0) n = atol (argv[k + 1]);
     snprintf (count, sizeof count, "%ld", n < 1 ? 1 : n > 64 ? 64 : n);
     setenv ("OMP_THREAD_LIMIT", "1", 1);
     setenv ("OMP_WAIT_POLICY", "passive", 1);
     setenv ("OPENBLAS_NUM_THREADS", count, 0);
     memory_large_pages ();
-    execv ("/proc/self/exe", argv);                    /* goes on below where this fails                                 */
+    execv ("/proc/self/exe", argv);                    /* goes on below where this fails */
 }
 
 int main (int argc, char **argv)
@@ -59,8 +71,10 @@ int main (int argc, char **argv)
             memory_keep ();
             return commands[k].run (argc - 1, argv + 1);
         }
-    const char *near = pg_nearest_name (argv[1], "run|check|plot|compare|bench|converge|list|help|--version|--help");
-    fprintf (stderr, "perigal: there is no %s %s%s%s%s\n", argv[1][0] == '-' ? "option" : "command", argv[1], near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+    const char *near = pg_nearest_name (argv[1],
+                                        "run|check|plot|compare|bench|converge|list|help|--version|--help");
+    fprintf (stderr, "perigal: there is no %s %s%s%s%s\n", argv[1][0] == '-' ? "option" : "command", argv[1],
+             near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     usage (stderr);
     return EXIT_USAGE;
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How glibc hands out memory. A run takes and returns large arrays all the time; by glibc's habit each comes from the system anew and is
- * cleared page by page, which costs up to 40 % of a short run. Kept in the process, and in large pages where the system grants them on request
- * (transparent huge pages: madvise), they are cleared once. Results do not depend on it. */
+ * How glibc hands out memory. A run takes and returns large arrays all the time; by glibc's habit each comes
+ * from the system anew and is cleared page by page, which costs up to 40 % of a short run. Kept in the
+ * process, and in large pages where the system grants them on request (transparent huge pages: madvise), they
+ * are cleared once. Results do not depend on it. */
 #include "cli.h"
 #include <stdlib.h>
 #include <string.h>

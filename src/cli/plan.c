@@ -21,8 +21,8 @@ static void describe (const pg_problem *p, int width)
         for (size_t i = 0; i < p->cloud.n; i++) points += p->block[PG_NODES][i] == (int) m;
         for (size_t i = 0; i < p->rows[PG_POINTS].n; i++) inside += p->block[PG_POINTS][i] == (int) m;
         pg_criterion_describe (&p->criterion[m], text, sizeof text);
-        printf ("  %-*s %s: %zu points, %zu evaluation points; criterion %s\n", width, "material", p->material[m].name, points,
-                p->rows[PG_POINTS].n ? inside : points, text);
+        printf ("  %-*s %s: %zu points, %zu evaluation points; criterion %s\n", width, "material",
+                p->material[m].name, points, p->rows[PG_POINTS].n ? inside : points, text);
     }
 }
 
@@ -34,7 +34,8 @@ static void print_direct (const pg_problem *p)
     char text[400];
     printf ("  %-18s  force %s, %s kernel\n", "method", p->force, p->approx.kernel->name);
     if (!force || !force->describe || force->create (&self, p) != PG_OK) return;
-    for (size_t line = 0; force->describe (self, line, text, sizeof text); line++) printf ("  %-18s  %s\n", line ? "" : "bonds", text);
+    for (size_t line = 0; force->describe (self, line, text, sizeof text); line++)
+        printf ("  %-18s  %s\n", line ? "" : "bonds", text);
     force->free (&self);
 }
 
@@ -44,14 +45,17 @@ static void print_box (const pg_problem *q, int width)
     double low[3], high[3];
     pg_problem_box (q, low, high);
     printf ("  %-*s", width, q->lattice.dim ? "body" : "points within");
-    for (int k = 0; k < q->dim; k++) printf ("%s%c %.6g to %.6g m", k ? ", " : " ", "xyz"[k], low[k], high[k]);
-    if (q->dim < 3) printf ("; %s %.6g m%s%s", q->dim == 2 ? "thickness" : "cross section", q->cloud.thickness, q->dim == 2 ? "" : "^2", q->thickness_assumed ? " (the scene gives none)" : "");
+    for (int k = 0; k < q->dim; k++)
+        printf ("%s%c %.6g to %.6g m", k ? ", " : " ", "xyz"[k], low[k], high[k]);
+    if (q->dim < 3)
+        printf ("; %s %.6g m%s%s", q->dim == 2 ? "thickness" : "cross section", q->cloud.thickness,
+                q->dim == 2 ? "" : "^2", q->thickness_assumed ? " (the scene gives none)" : "");
     printf ("\n");
 }
 
 void plan_doubts (const pg_problem *p, const pg_solver_options *o)
 {
-    pg_report doubts = { 0 };
+    pg_statistics doubts = { 0 };
     char note[400];
     pg_solver_doubts (&doubts, p, o);
     for (size_t k = 0; k < doubts.nwarning; k++) printf ("  warning: %s\n", doubts.warning[k]);
@@ -62,11 +66,16 @@ void plan_print (const pg_problem *p, const pg_solver_options *o)
 {
     printf ("%s\n", p->title);
     print_box (p, 0);
-    printf ("  %zu points, spacing %.6g m, %zu evaluation points, %zu bonds, %zu unknowns\n", p->cloud.n, p->cloud.h,
-            p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n, p->first_bond[PG_BOND_SETS], p->cloud.n * (size_t) (p->dim + p->turns));
-    if (p->direct) printf ("  force %s (%s kernel, horizon %.6g m)\n", p->force, p->approx.kernel->name, p->approx.horizon);
-    else printf ("  %s (%s basis, %s kernel, horizon %.6g m), %s integration\n", p->approx.type->name, p->approx.order == 2 ? "quadratic" : "linear",
-                 p->approx.kernel->name, p->approx.horizon, p->integration->name);
+    printf ("  %zu points, spacing %.6g m, %zu evaluation points, %zu bonds, %zu unknowns\n", p->cloud.n,
+            p->cloud.h, p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n, p->first_bond[PG_BOND_SETS],
+            p->cloud.n * (size_t) (p->dim + p->turns));
+    if (p->direct)
+        printf ("  force %s (%s kernel, horizon %.6g m)\n", p->force, p->approx.kernel->name,
+                p->approx.horizon);
+    else
+        printf ("  %s (%s basis, %s kernel, horizon %.6g m), %s integration\n", p->approx.type->name,
+                p->approx.order == 2 ? "quadratic" : "linear", p->approx.kernel->name, p->approx.horizon,
+                p->integration->name);
     describe (p, 9);
     printf ("  solver %s%s\n", o->kind, stepping (o));
     plan_doubts (p, o);
@@ -86,15 +95,17 @@ void plan_settled (const pg_solver *solver)
     fflush (stdout);
 }
 
-/* ---- at length -------------------------------------------------------------------------------------------------------------- */
-/* Unless measured: 2 c_p / h inside, and where Nitsche's terms (beta = nitsche E / h) stiffen boundary points omega^2 = 2 nitsche E / (rho h^2). */
+/* ---- at length ----------------------------------------------------------------------------------------- */
+/* Unless measured: 2 c_p / h inside, and where Nitsche's terms (beta = nitsche E / h) stiffen boundary points
+ * omega^2 = 2 nitsche E / (rho h^2). */
 plan_times plan_times_of (const plan *p)
 {
     const pg_problem *q = p->problem;
     plan_times t = { 0, 0, 0, 0 };
     double speed = 0, stiff = 0;
     int nitsche = 0;
-    for (size_t l = 0; l < q->nload; l++) nitsche |= pg_load_prescribes (&q->load[l]) && q->load[l].essential == PG_ESSENTIAL_NITSCHE;
+    for (size_t l = 0; l < q->nload; l++)
+        nitsche |= pg_load_prescribes (&q->load[l]) && q->load[l].essential == PG_ESSENTIAL_NITSCHE;
     for (size_t m = 0; m < q->nmaterial; m++) {
         if (!(q->material[m].density > 0)) return t;
         speed = fmax (speed, pg_material_waves (&q->material[m]).pressure);
@@ -108,7 +119,9 @@ plan_times plan_times_of (const plan *p)
     }
     if (p->first->omega > 0) t.omega = p->first->omega, t.measured = 1;
     t.dt = 2 / t.omega;
-    t.courant = !p->options->quasi_static && p->options->dt > 0 ? speed * p->options->dt / pg_cloud_finest (&q->cloud) : 0;
+    t.courant = !p->options->quasi_static && p->options->dt > 0
+                    ? speed * p->options->dt / pg_cloud_finest (&q->cloud)
+                    : 0;
     return t;
 }
 
@@ -123,24 +136,33 @@ static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, c
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
 {
     const pg_solver_options *o = p->options;
-    int is_static = o->quasi_static, breaks = p->problem->criterion->type != NULL, none = strcmp (p->forecast->linear, "cg") == 0;
+    int is_static = o->quasi_static, breaks = p->problem->criterion->type != NULL,
+        none = strcmp (p->forecast->linear, "cg") == 0;
     size_t n = 0;
     if (o->marching || o->staged) {
         if (!breaks) add_skip (skip, &n, most, "bond sweeps", "there is no failure criterion");
-        add_skip (skip, &n, most, "stiffness matrix and factorization", o->marching ? "explicit time steps need neither" : "relaxation needs neither");
+        add_skip (skip, &n, most, "stiffness matrix and factorization",
+                  o->marching ? "explicit time steps need neither" : "relaxation needs neither");
         return n;
     }
     if (!breaks) add_skip (skip, &n, most, "bond sweeps", "there is no failure criterion");
     if (!breaks && o->event)
-        add_skip (skip, &n, most, "all solves but one", "nothing can break: the answer is linear in the load factor");
+        add_skip (skip, &n, most, "all solves but one",
+                  "nothing can break: the answer is linear in the load factor");
     if (breaks && o->event)
-        add_skip (skip, &n, most, "load increments in which nothing breaks", "event stepping goes from break to break in closed form");
+        add_skip (skip, &n, most, "load increments in which nothing breaks",
+                  "event stepping goes from break to break in closed form");
     if (none && !is_static)
-        add_skip (skip, &n, most, "stiffness matrix and factorization", "small time step: the mass dominates, conjugate gradients need few rounds");
-    if (none && is_static) add_skip (skip, &n, most, "stiffness matrix and factorization", "conjugate gradients need neither");
-    if (!none && !is_static && !breaks) add_skip (skip, &n, most, "all factorizations but one", "the time step is constant and nothing breaks");
+        add_skip (skip, &n, most, "stiffness matrix and factorization",
+                  "small time step: the mass dominates, conjugate gradients need few rounds");
+    if (none && is_static)
+        add_skip (skip, &n, most, "stiffness matrix and factorization", "conjugate gradients need neither");
+    if (!none && !is_static && !breaks)
+        add_skip (skip, &n, most, "all factorizations but one",
+                  "the time step is constant and nothing breaks");
     if (!none && breaks && !p->forecast->nodal)
-        add_skip (skip, &n, most, "factorization where only node-node bonds broke", "they do not enter K under Gauss integration");
+        add_skip (skip, &n, most, "factorization where only node-node bonds broke",
+                  "they do not enter K under Gauss integration");
     return n;
 }
 
@@ -152,7 +174,8 @@ static void print_cut (const pg_problem *q)
     for (size_t f = 0; f < q->cells.nfacet; f++) area += q->cells.area[f];
     printf ("  %-18s  volume %.10g m^3, surface %.10g m^2", "", volume, area);
     if (pg_body_measure (&q->body, &exact_volume, &exact_area))
-        printf ("; exact %.10g m^3, %.10g m^2", exact_volume * q->cells.thickness, exact_area * q->cells.thickness);
+        printf ("; exact %.10g m^3, %.10g m^2", exact_volume * q->cells.thickness,
+                exact_area * q->cells.thickness);
     printf ("\n");
 }
 
@@ -162,8 +185,9 @@ static void print_layers (const pg_problem *q)
     for (size_t i = 0; i < q->body.nlayer; i++) {
         const pg_layer *l = &q->body.layer[i];
         const pg_set *set = pg_sets_find (&q->sets, l->name);
-        printf ("  layer %-12s  %s, %d row%s of cells, %.6g m beyond %c = %.6g m, %zu points\n", l->name, sides[l->side], l->rows, l->rows > 1 ? "s" : "",
-                l->rows * q->cloud.step[l->side / 2], "xyz"[l->side / 2], l->face, set ? set->npoint : 0);
+        printf ("  layer %-12s  %s, %d row%s of cells, %.6g m beyond %c = %.6g m, %zu points\n", l->name,
+                sides[l->side], l->rows, l->rows > 1 ? "s" : "", l->rows * q->cloud.step[l->side / 2],
+                "xyz"[l->side / 2], l -> face, set ? set -> npoint : 0);
     }
 }
 
@@ -185,12 +209,16 @@ static void print_counts (const plan *p)
     if (cut) printf (", of which %zu are cut by the surface", cut);
     printf (", boundary facets %zu\n", q->cells.nfacet);
     if (q->cells.cut) print_cut (q);
-    if (pg_body_meshes (&q->body)) printf ("  %-18s  the surface of %s is a staircase of cells\n", "", pg_body_meshes (&q->body) > 1 ? "the meshes" : "the mesh");
-    printf ("  %-18s  %zu, on the boundary %zu\n", "evaluation points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n,
-            q->rows[PG_FACETS].n);
-    printf ("  %-18s  node-node %zu, point-node %zu, facet-node %zu\n", "bonds", first[1], first[2] - first[1], first[3] - first[2]);
-    printf ("  %-18s  %zu\n  %-18s  %.6g m = %.4g spacings, mean family %.3g points\n", "unknowns", q->cloud.n * (size_t) (q->dim + q->turns), "horizon",
-            q->approx.horizon, q->approx.horizon / q->cloud.h, (double) first[1] / (double) q->cloud.n);
+    if (pg_body_meshes (&q->body))
+        printf ("  %-18s  the surface of %s is a staircase of cells\n", "",
+                pg_body_meshes (&q->body) > 1 ? "the meshes" : "the mesh");
+    printf ("  %-18s  %zu, on the boundary %zu\n", "evaluation points",
+            q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n, q->rows[PG_FACETS].n);
+    printf ("  %-18s  node-node %zu, point-node %zu, facet-node %zu\n", "bonds", first[1],
+            first[2] - first[1], first[3] - first[2]);
+    printf ("  %-18s  %zu\n  %-18s  %.6g m = %.4g spacings, mean family %.3g points\n", "unknowns",
+            q->cloud.n * (size_t) (q->dim + q->turns), "horizon", q->approx.horizon,
+            q->approx.horizon / q->cloud.h, (double) first[1] / (double) q->cloud.n);
 }
 
 static void print_materials (const pg_problem *p)
@@ -199,7 +227,9 @@ static void print_materials (const pg_problem *p)
         const pg_material *m = &p->material[k];
         pg_waves w = pg_material_waves (m);
         printf ("  constants %-9s E %.6g Pa, nu %.6g", m->name, m->modulus, m->parameter[1]);
-        if (p->dim > 1) printf (", lambda %.6g Pa, mu %.6g Pa%s", w.lambda, w.mu, p->mode == PG_PLANE_STRESS ? " (plane stress)" : "");
+        if (p->dim > 1)
+            printf (", lambda %.6g Pa, mu %.6g Pa%s", w.lambda, w.mu,
+                    p->mode == PG_PLANE_STRESS ? " (plane stress)" : "");
         if (m->density > 0) printf (", density %.6g kg/m3, c_p %.5g m/s", m->density, w.pressure);
         if (m->density > 0 && p->dim > 1) printf (", c_s %.5g m/s, c_R %.5g m/s", w.shear, w.rayleigh);
         printf ("\n");
@@ -211,23 +241,33 @@ static void print_times (const plan *p)
     plan_times t = plan_times_of (p);
     const pg_solver_options *o = p->options;
     if (o->staged) printf ("  %-18s  %ld\n", "stages", o->stages);
-    else if (!o->quasi_static && !(o->time_steps && o->dt > 0)) printf ("  %-18s  0.9 of the stable one\n", "time steps");
+    else if (!o->quasi_static && !(o->time_steps && o->dt > 0))
+        printf ("  %-18s  0.9 of the stable one\n", "time steps");
     else if (!o->quasi_static) {
         printf ("  %-18s  %ld of %.6g s", "time steps", o->time_steps ? o->time_steps : o->steps, o->dt);
         if (t.courant > 0) printf (", c_p dt / h = %.4g", t.courant);
         printf ("\n");
     }
-    if (t.omega > 0 && (!p->problem->direct || t.measured)) printf ("  %-18s  stable up to %.3g s (%s)\n", "explicit steps", t.dt,
-                             t.measured == 2 ? p->from : t.measured ? "2 / largest frequency" : "estimate; measured by --solve");
+    if (t.omega > 0 && (!p->problem->direct || t.measured))
+        printf ("  %-18s  stable up to %.3g s (%s)\n", "explicit steps", t.dt,
+                t.measured == 2 ? p->from
+                : t.measured    ? "2 / largest frequency"
+                                : "estimate; measured by --solve");
 }
 
 static void print_factor (const pg_forecast *f)
 {
-    printf ("  %-18s  %s", "linear solver", strcmp (f->linear, "cg") == 0 ? f->direct && !f->dynamic ? "conjugate gradients, no matrix, preconditioned on several grids\n" : "conjugate gradients, no matrix\n" : f->linear);
+    printf ("  %-18s  %s", "linear solver",
+            strcmp (f->linear, "cg") == 0
+                ? f->direct && !f->dynamic
+                      ? "conjugate gradients, no matrix, preconditioned on several grids\n"
+                      : "conjugate gradients, no matrix\n"
+                : f->linear);
     if (strcmp (f->linear, "cg") == 0) return;
     printf (", %.4g entries in the upper triangle of K\n", f->matrix_entries);
-    printf ("  %-18s  %.4g entries, %.3g operations, about %.2g s each at 20 GFLOP/s (%s%s)\n", "factor", f->factor_entries, f->factor_flops,
-            f->factor_flops / 20e9, f->analysed ? "analysed: " : "estimate", f->analysed ? f->ordering : "");
+    printf ("  %-18s  %.4g entries, %.3g operations, about %.2g s each at 20 GFLOP/s (%s%s)\n", "factor",
+            f->factor_entries, f->factor_flops, f->factor_flops / 20e9,
+            f->analysed ? "analysed: " : "estimate", f->analysed ? f->ordering : "");
 }
 
 static void print_bytes (double bytes)
@@ -257,21 +297,29 @@ static void print_first_break (const plan *p)
     if (!b->asked) return;
     if (!b->is_static) printf ("  %-18s  only for static scenes\n", "first break");
     if (!b->solved) return;
-    printf ("  %-18s  largest displacement %.4g m, residual %.1e\n", "load factor 1", b->displacement, b->residual);
+    printf ("  %-18s  largest displacement %.4g m, residual %.1e\n", "load factor 1", b->displacement,
+            b->residual);
     if (!p->problem->criterion->type) {
         printf ("  %-18s  none: there is no failure criterion\n", "first break");
         return;
     }
     if (!isfinite (b->factor)) {
-        printf ("  warning: no bond can break under these loads, however large: nothing that may break is stretched or sheared (see failure.exclude)\n");
+        printf ("  warning: no bond can break under these loads, however large: nothing that may break is "
+                "stretched or sheared (see failure.exclude)\n");
         return;
     }
     if (b->proportional) printf ("  %-18s  at load factor %.5g", "first break", b->factor);
     else printf ("  %-18s  largest utilisation %.5g at load factor 1", "first break", b->utilisation);
-    printf (", a %s bond %s at (%.4g", sets[b->set], b->kind == 's' ? "in shear" : b->kind == 'e' ? "by the energy of an end" : "in tension", b->place[0]);
+    printf (", a %s bond %s at (%.4g", sets[b->set],
+            b->kind == 's'   ? "in shear"
+            : b->kind == 'e' ? "by the energy of an end"
+                             : "in tension",
+            b->place[0]);
     for (int k = 1; k < p->problem->dim; k++) printf (", %.4g", b->place[k]);
     printf (") m\n");
-    if (b->factor > 1) printf ("  warning: nothing breaks up to load factor 1: the first bond needs %.4g times this load\n", b->factor);
+    if (b->factor > 1)
+        printf ("  warning: nothing breaks up to load factor 1: the first bond needs %.4g times this load\n",
+                b->factor);
 }
 
 static void print_patch (const pg_problem *p)
@@ -279,7 +327,8 @@ static void print_patch (const pg_problem *p)
     char words[240];
     if (!p->patch.measured) return;
     pg_patch_words (p, words, sizeof words);
-    printf ("  %-18s  %s (%s)\n", "patch test", words, p->patch.held ? "the outermost points held" : "tractions on the whole surface");
+    printf ("  %-18s  %s (%s)\n", "patch test", words,
+            p->patch.held ? "the outermost points held" : "tractions on the whole surface");
 }
 
 void plan_print_long (const plan *p)
@@ -290,8 +339,9 @@ void plan_print_long (const plan *p)
     print_counts (p);
     plan_mesh (q);
     if (q->direct) print_direct (q);
-    else printf ("  %-18s  %s, %s basis, %s kernel, %s integration\n", "method", q->approx.type->name, q->approx.order == 2 ? "quadratic" : "linear",
-                 q->approx.kernel->name, q->integration->name);
+    else
+        printf ("  %-18s  %s, %s basis, %s kernel, %s integration\n", "method", q->approx.type->name,
+                q->approx.order == 2 ? "quadratic" : "linear", q->approx.kernel->name, q->integration->name);
     print_patch (q);
     describe (q, 19);
     print_materials (q);
@@ -299,8 +349,11 @@ void plan_print_long (const plan *p)
     print_times (p);
     if (!p->options->marching && !p->options->staged) print_factor (p->forecast);
     for (size_t s = 0; s < q->nload; s++)
-        printf ("  boundary %-9s  %zu points, %zu facets\n", q->load[s].name, q->load[s].set->npoint, q->load[s].set->nfacet);
-    if (q->eroded) printf ("  %-18s  %zu points lie on a pre-crack and lose their bonds to both sides\n", "eroded", q->eroded);
+        printf ("  boundary %-9s  %zu points, %zu facets\n", q->load[s].name, q->load[s].set->npoint,
+                q->load[s].set->nfacet);
+    if (q->eroded)
+        printf ("  %-18s  %zu points lie on a pre-crack and lose their bonds to both sides\n", "eroded",
+                q->eroded);
     for (size_t k = 0; k < nskip; k++) printf ("  %-18s  %s (%s)\n", "skipped", skip[k].what, skip[k].why);
     print_memory (p);
     plan_doubts (q, p->options);

@@ -26,7 +26,8 @@ static void counts (pg_json *j, const plan *p)
     pg_json_count (j, "evaluation_points", q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n);
     pg_json_count (j, "boundary_points", q->rows[PG_FACETS].n);
     pg_json_open (j, "bonds", '{');
-    for (int s = 0; s < PG_BOND_SETS; s++) pg_json_count (j, sets[s], q->first_bond[s + 1] - q->first_bond[s]);
+    for (int s = 0; s < PG_BOND_SETS; s++)
+        pg_json_count (j, sets[s], q->first_bond[s + 1] - q->first_bond[s]);
     pg_json_shut (j);
     pg_json_count (j, "dofs", q->cloud.n * (size_t) (q->dim + q->turns));
     pg_json_count (j, "eroded_points", q->eroded);
@@ -68,11 +69,16 @@ static void steps (pg_json *j, const plan *p)
     else if (p->options->quasi_static) pg_json_text (j, "stepping", p->options->event ? "event" : "fixed");
     else {
         pg_json_number (j, "dt", p->options->dt);
-        pg_json_count (j, "steps", (size_t) (p->options->marching ? p->options->time_steps : p->options->steps));
+        pg_json_count (j, "steps",
+                       (size_t) (p->options->marching ? p->options->time_steps : p->options->steps));
         pg_json_number (j, "courant", t.courant);
     }
     pg_json_number (j, "explicit_dt", t.omega > 0 ? t.dt : NAN);
-    pg_json_text (j, "explicit_dt_from", t.omega > 0 ? t.measured == 2 ? p->from : t.measured ? "measured" : "estimate" : "no density");
+    pg_json_text (j, "explicit_dt_from",
+                  t.omega > 0 ? t.measured == 2 ? p->from
+                                : t.measured    ? "measured"
+                                                : "estimate"
+                              : "no density");
 }
 
 static void memory (pg_json *j, const plan *p)
@@ -116,14 +122,15 @@ static void first (pg_json *j, const plan *p)
 
 static void doubts (pg_json *j, const plan *p)
 {
-    pg_report report = { 0 };
+    pg_statistics report = { 0 };
     char note[400];
     pg_solver_doubts (&report, p->problem, p->options);
     pg_json_open (j, "warnings", '[');
     for (size_t k = 0; k < report.nwarning; k++) pg_json_text (j, NULL, report.warning[k]);
     pg_json_shut (j);
     pg_json_open (j, "notes", '[');
-    for (size_t k = 0; pg_solver_note (p->problem, p->options, k, note, sizeof note); k++) pg_json_text (j, NULL, note);
+    for (size_t k = 0; pg_solver_note (p->problem, p->options, k, note, sizeof note); k++)
+        pg_json_text (j, NULL, note);
     pg_json_shut (j);
 }
 

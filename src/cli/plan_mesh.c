@@ -3,7 +3,7 @@
 #include "cli.h"
 #include <string.h>
 
-enum { MOST = 12 };                                    /* blocks and sets listed                                         */
+enum { MOST = 12 };                                    /* blocks and sets listed */
 
 static size_t of_kind (const pg_mesh *m, int kind)
 {
@@ -29,7 +29,8 @@ static void print_elements (const pg_mesh_body *b)
         if (n) printf ("%s%zu %s", joint, n, pg_element_types[k].name);
     }
     printf ("\n");
-    for (size_t k = 0; k < m->nblock && k < MOST; k++) printf ("  block %-12s  %zu elements\n", m->blocks[k].name, of_block (m, k));
+    for (size_t k = 0; k < m->nblock && k < MOST; k++)
+        printf ("  block %-12s  %zu elements\n", m->blocks[k].name, of_block (m, k));
     if (m->nblock > MOST) printf ("  %-18s  and %zu more\n", "blocks", m->nblock - MOST);
 }
 
@@ -42,7 +43,8 @@ static void print_renamed (const pg_mesh *m)
         int twice = 0;
         pg_set_name (clean, name);
         for (size_t k = 0; i >= m->nsides && k < m->nsides; k++) twice |= !strcmp (m->sides[k].name, name);
-        if (strcmp (clean, name) && !twice) printf ("  %-18s  '%s' of the mesh is called %s here\n", "set", name, clean);
+        if (strcmp (clean, name) && !twice)
+            printf ("  %-18s  '%s' of the mesh is called %s here\n", "set", name, clean);
     }
 }
 
@@ -54,14 +56,15 @@ void plan_mesh (const pg_problem *p)
     if (b->mesh.n == 0) return;
     print_elements (b);
     for (size_t k = 0; k < c->ngiven && k < MOST; k++)
-        printf ("  set %-14s  %zu points, %zu facets\n", c->given[k].name, c->given[k].npoint, c->given[k].nfacet);
+        printf ("  set %-14s  %zu points, %zu facets\n", c->given[k].name, c->given[k].npoint,
+                c->given[k].nfacet);
     if (c->ngiven > MOST) printf ("  %-18s  and %zu more\n", "sets", c->ngiven - MOST);
     print_renamed (&b->mesh);
     for (size_t e = 0; e < c->n; e++) volume += c->volume[e];
     for (size_t f = 0; f < c->nfacet; f++) area += c->area[f];
     printf ("  %-18s  %.8g m3, surface %.8g m2\n", "volume", volume, area);
-    printf ("  %-18s  %.4g to %.4g m, worst quality %.3g (scaled Jacobian, element %ld)\n", "elements", b->smallest, b->largest, b->quality,
-            b->mesh.element_id[b->worst]);
+    printf ("  %-18s  %.4g to %.4g m, worst quality %.3g (scaled Jacobian, element %ld)\n", "elements",
+            b->smallest, b->largest, b->quality, b->mesh.element_id[b->worst]);
 }
 
 void plan_mesh_json (pg_json *j, const pg_problem *p)
@@ -77,13 +80,15 @@ void plan_mesh_json (pg_json *j, const pg_problem *p)
     pg_json_number (j, "unit", b->unit);
     pg_json_count (j, "nodes", m->nnode);
     pg_json_open (j, "elements", '{');
-    for (int k = 0; k < PG_ELEMENTS; k++) if (of_kind (m, k)) pg_json_count (j, pg_element_types[k].name, of_kind (m, k));
+    for (int k = 0; k < PG_ELEMENTS; k++)
+        if (of_kind (m, k)) pg_json_count (j, pg_element_types[k].name, of_kind (m, k));
     pg_json_shut (j);
     pg_json_open (j, "blocks", '{');
     for (size_t k = 0; k < m->nblock; k++) pg_json_count (j, m->blocks[k].name, of_block (m, k));
     pg_json_shut (j);
     pg_json_open (j, "sets", '{');
-    for (size_t k = 0; k < p->cells.ngiven; k++) pg_json_count (j, p->cells.given[k].name, p->cells.given[k].npoint);
+    for (size_t k = 0; k < p->cells.ngiven; k++)
+        pg_json_count (j, p->cells.given[k].name, p->cells.given[k].npoint);
     pg_json_shut (j);
     pg_json_number (j, "volume", volume);
     pg_json_number (j, "surface", area);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal plot DIR|FILE: a mesh, one field of DIR/result.e, or with --curve columns of DIR/history.csv, as PNG or SVG. */
+ * perigal plot DIR|FILE: a mesh, one field of DIR/result.e, or with --curve columns of DIR/history.csv, as
+ * PNG or SVG. */
 #include "plot.h"
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +11,8 @@
 enum { EXIT_USAGE = 64, EXIT_FAILED = 70 };
 
 static const char usage[] =
-    "usage: perigal plot DIR [--field NAME[.x|.xx|.magnitude]] [--component NUMBER|x|xx|magnitude] [--step N|all | --steps N,N,...]\n"
+    "usage: perigal plot DIR [--field NAME[.x|.xx|.magnitude]] [--component NUMBER|x|xx|magnitude] [--step "
+    "N|all | --steps N,N,...]\n"
     "                        [--view front|back|left|right|top|bottom|iso|crack | --section 'z = 5 mm']\n"
     "                        [--direction X,Y,Z] [--above VALUE] [--range LOW,HIGH] [--magnify FACTOR]\n"
     "                        [--columns N] [--out FILE.png|FILE.svg]\n"
@@ -18,12 +20,15 @@ static const char usage[] =
     "       perigal plot FILE [--sets | --field NAME ...] [--unit mm] [options as above]\n"
     "       perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
     "Draws a field of DIR/result.e (damage, last step) or two columns of DIR/history.csv,\n"
-    "or a mesh (.msh, .inp) or result of finite elements (.frd, .e): blocks, --sets or a field at its nodes.\n"
+    "or a mesh (.msh, .inp) or result of finite elements (.frd, .e): blocks, --sets or a field at its "
+    "nodes.\n"
     "  --field       such as damage, stress.yy (or stress --component yy): DIR/stress.yy.png\n"
     "  --list        the steps that DIR/result.e holds: their numbers, loads or times\n"
-    "  --step all    one picture a step;  --steps 2,5,8: one picture with a panel a step, --columns of them in a row;\n"
+    "  --step all    one picture a step;  --steps 2,5,8: one picture with a panel a step, --columns of them "
+    "in a row;\n"
     "                -1 is the last step, -2 the one before\n"
-    "  --view        3D: the side of that name (front is the face of largest z), or obliquely: iso; crack: points of\n"
+    "  --view        3D: the side of that name (front is the face of largest z), or obliquely: iso; crack: "
+    "points of\n"
     "                damage 0.35 and more\n"
     "  --section     3D: AXIS = PLACE, or NORMAL = DISTANCE along it: '1, 0, 1 = 5 mm'\n"
     "  --direction   of view iso and crack: from the body to the eye\n"
@@ -46,7 +51,7 @@ static int place_of (const char *word, const char *names)
     return -1;
 }
 
-/* ---- options ----------------------------------------------------------------------------------------------------------------- */
+/* ---- options ------------------------------------------------------------------------------------------- */
 static pg_status read_number (const char *name, const char *text, double low, double *out)
 {
     pg_status status = PG_OK;
@@ -65,7 +70,8 @@ static pg_status read_steps (plot_request *q, const char *name, const char *text
     for (;; s++) {
         char *end;
         long k = strtol (s, &end, 10);
-        if (end == s || k < -1000000000 || k > 1000000000 || (*end && *end != ',')) PG_FAIL (PG_E_USAGE, "%s %s: expected 0, 1, 2 ..., or from the end -1, -2 ...", name, text);
+        if (end == s || k < -1000000000 || k > 1000000000 || (*end && *end != ','))
+            PG_FAIL (PG_E_USAGE, "%s %s: expected 0, 1, 2 ..., or from the end -1, -2 ...", name, text);
         if (q->steps == most) PG_FAIL (PG_E_USAGE, "%s %s: at most %d", name, text, most);
         q->step[q->steps++] = (int) k;
         s = end;
@@ -93,7 +99,9 @@ static pg_status read_view (plot_request *q, const char *text)
     const char *views = strchr (pg_view_names, '|') + 1, *near = pg_nearest_name (text, views);
     if (q->style.section) PG_FAIL (PG_E_USAGE, "--view and --section exclude each other");
     int view = place_of (text, views);
-    if (view < 0) PG_FAIL (PG_E_USAGE, "--view %s: %s%s%sone of %s", text, near ? "did you mean " : "", near ? near : "", near ? "? " : "", views);
+    if (view < 0)
+        PG_FAIL (PG_E_USAGE, "--view %s: %s%s%sone of %s", text, near ? "did you mean " : "",
+                 near ? near : "", near ? "? " : "", views);
     q->style.view = view + 1, q->look = text;
 done:
     return status;
@@ -104,7 +112,10 @@ static pg_status read_section (plot_request *q, const char *text)
     pg_status status = PG_OK;
     if (q->style.view) PG_FAIL (PG_E_USAGE, "--view and --section exclude each other");
     if (pg_picture_section (&q->style, text) != PG_OK)
-        PG_FAIL (PG_E_USAGE, "--section %s: expected AXIS=VALUE, such as z=0.005 or 'z = 5 mm', or a normal: '1, 0, 1 = 5 mm'", text);
+        PG_FAIL (
+            PG_E_USAGE,
+            "--section %s: expected AXIS=VALUE, such as z=0.005 or 'z = 5 mm', or a normal: '1, 0, 1 = 5 mm'",
+            text);
     q->look = text;
 done:
     return status;
@@ -113,7 +124,8 @@ done:
 static pg_status read_direction (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
-    if (pg_picture_direction (q->style.direction, text) != PG_OK) PG_FAIL (PG_E_USAGE, "--direction %s: expected X,Y,Z, such as 1,0.5,2", text);
+    if (pg_picture_direction (q->style.direction, text) != PG_OK)
+        PG_FAIL (PG_E_USAGE, "--direction %s: expected X,Y,Z, such as 1,0.5,2", text);
 done:
     return status;
 }
@@ -136,14 +148,18 @@ done:
     return status;
 }
 
-static pg_status read_magnify (plot_request *q, const char *text) { return read_number ("--magnify", text, -INFINITY, &q->style.magnify); }
+static pg_status read_magnify (plot_request *q, const char *text)
+{
+    return read_number ("--magnify", text, -INFINITY, &q->style.magnify);
+}
 
 static pg_status read_columns (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
     double n;
     PG_TRY (read_number ("--columns", text, 1, &n));
-    if (n != floor (n) || n > PLOT_STEPS) PG_FAIL (PG_E_USAGE, "--columns %s: expected 1 to %d", text, PLOT_STEPS);
+    if (n != floor (n) || n > PLOT_STEPS)
+        PG_FAIL (PG_E_USAGE, "--columns %s: expected 1 to %d", text, PLOT_STEPS);
     q->columns = (int) n;
 done:
     return status;
@@ -154,7 +170,8 @@ static pg_status read_unit (plot_request *q, const char *text)
     pg_status status = PG_OK;
     char one[64];
     snprintf (one, sizeof one, "1 %.40s", text);
-    if (pg_unit_parse (&q->length, one, "m") != PG_OK || !(q->length > 0)) PG_FAIL (PG_E_USAGE, "--unit %s: expected a unit of length, such as mm", text);
+    if (pg_unit_parse (&q->length, one, "m") != PG_OK || !(q->length > 0))
+        PG_FAIL (PG_E_USAGE, "--unit %s: expected a unit of length, such as mm", text);
 done:
     return status;
 }
@@ -167,7 +184,8 @@ static pg_status read_field (plot_request *q, const char *text)
 {
     const char *dot = strrchr (text, '.');
     q->field = text;
-    if (!dot || dot == text || place_of (dot + 1, "x|y|z|xx|yy|zz|xy|yz|zx|magnitude|mises") < 0) return PG_OK;
+    if (!dot || dot == text || place_of (dot + 1, "x|y|z|xx|yy|zz|xy|yz|zx|magnitude|mises") < 0)
+        return PG_OK;
     snprintf (q->name, sizeof q->name, "%.*s", (int) (dot - text), text);
     q->field = q->name, q->part = dot + 1;
     return PG_OK;
@@ -176,10 +194,14 @@ static pg_status read_field (plot_request *q, const char *text)
 static pg_status read_component (plot_request *q, const char *text) { q->component = text; return PG_OK; }
 static pg_status read_out (plot_request *q, const char *text) { q->out = text; return PG_OK; }
 
-static const struct { const char *name; pg_status (*read) (plot_request *q, const char *text); } options[] = {
-    { "--field", read_field }, { "--component", read_component }, { "--step", read_step }, { "--steps", read_panels }, { "--columns", read_columns },
-    { "--view", read_view }, { "--section", read_section }, { "--direction", read_direction }, { "--above", read_above }, { "--range", read_range },
-    { "--magnify", read_magnify }, { "--out", read_out }, { "--unit", read_unit }, { "--sets", read_sets }, { "--log", read_log }, { "--list", read_list },
+static const struct { const char *name; pg_status (*read) (plot_request *q, const char *text);
+} options[] = {
+    { "--field", read_field },     { "--component", read_component }, { "--step", read_step },
+    { "--steps", read_panels },    { "--columns", read_columns },     { "--view", read_view },
+    { "--section", read_section }, { "--direction", read_direction }, { "--above", read_above },
+    { "--range", read_range },     { "--magnify", read_magnify },     { "--out", read_out },
+    { "--unit", read_unit },       { "--sets", read_sets },           { "--log", read_log },
+    { "--list", read_list },
 };
 
 /* used: 1 when the value was. */
@@ -216,12 +238,15 @@ static pg_status read_arguments (plot_request *q, int argc, char **argv)
         if (argv[k][0] == '-' && argv[k][1]) {
             PG_TRY (read_option (q, argv[k], k + 1 < argc ? argv[k + 1] : NULL, &used));
             k += used;
-        } else if (q->directory) PG_FAIL (PG_E_USAGE, "one directory at a time: %s, %s", q->directory, argv[k]);
+        } else if (q->directory)
+            PG_FAIL (PG_E_USAGE, "one directory at a time: %s, %s", q->directory, argv[k]);
         else q->directory = argv[k];
     }
     if (!q->directory) PG_FAIL (PG_E_USAGE, "no directory given");
     if (strlen (q->directory) > PLOT_PATH / 2) PG_FAIL (PG_E_USAGE, "the path is too long");
-    if (q->part && q->component && strcmp (q->part, q->component) != 0) PG_FAIL (PG_E_USAGE, "--field %s.%s and --component %s: which part?", q->field, q->part, q->component);
+    if (q->part && q->component && strcmp (q->part, q->component) != 0)
+        PG_FAIL (PG_E_USAGE, "--field %s.%s and --component %s: which part?", q->field, q->part,
+                 q->component);
     if (q->part) q->component = q->part;
     if (q->all && q->panels) PG_FAIL (PG_E_USAGE, "--step all and --steps exclude each other");
     cut_result (q->directory);
@@ -235,7 +260,8 @@ int pg_cli_plot (int argc, char **argv)
 {
     pg_status status = PG_OK;
     plot_request q;
-    for (int k = 1; k < argc; k++) if (strcmp (argv[k], "--curve") == 0) return pg_cli_plot_curve (argc, argv);
+    for (int k = 1; k < argc; k++)
+        if (strcmp (argv[k], "--curve") == 0) return pg_cli_plot_curve (argc, argv);
     for (int k = 1; k < argc; k++)
         if (strcmp (argv[k], "--help") == 0 || strcmp (argv[k], "-h") == 0) {
             fputs (usage, stdout);
@@ -244,7 +270,8 @@ int pg_cli_plot (int argc, char **argv)
     PG_TRY (read_arguments (&q, argc, argv));
     if (pg_plot_is_file (q.directory)) PG_TRY (pg_plot_mesh (&q));
     else {
-        if (q.sets || q.length > 0) PG_FAIL (PG_E_USAGE, "--sets and --unit are for mesh files; %s is none", q.directory);
+        if (q.sets || q.length > 0)
+            PG_FAIL (PG_E_USAGE, "--sets and --unit are for mesh files; %s is none", q.directory);
         if (!q.field) q.field = "damage";
         PG_TRY (q.list ? pg_plot_list (&q) : pg_plot_field (&q));
     }

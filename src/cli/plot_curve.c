@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs, or of other tables, as a chart. */
+ * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs, or of other tables,
+ * as a chart. */
 #include "plot.h"
 #include "perigal/compare.h"
 #include "perigal/model.h"
@@ -14,43 +15,48 @@ enum { CELL = 256, LIST = 4096, MOST = 24, EXIT_USAGE = 64, EXIT_FAILED = 70 };
 
 typedef struct {
     const char *directory[MOST], *x, *y, *out;
-    char   *labels;                                    /* cut in place                                                   */
+    char   *labels;                                    /* cut in place */
     size_t  n;
-    int     markers, log[2];                           /* log: of x, of y                                                */
-    enum { AS_IT_IS, NEGATED, ABSOLUTE } sign[2];      /* of x, of y                                                     */
+    int     markers, log[2];                           /* log: of x, of y */
+    enum { AS_IT_IS, NEGATED, ABSOLUTE } sign[2];      /* of x, of y */
 } request;
 
 /* What the scene of a run says of two of its columns. */
 typedef struct {
-    int at_rest;                                       /* the run starts unloaded: both columns at 0                     */
-    int events;                                        /* static, both proportional to the load: a path of events has an envelope */
-    int linear;                                        /* all loads grow in proportion                                   */
+    int at_rest;                                       /* the run starts unloaded: both columns at 0 */
+    int events;  /* static, both proportional to the load: a path of events has an envelope */
+    int linear;                                        /* all loads grow in proportion */
 } run_kind;
 
 typedef struct {
     size_t  n;
-    double *at[2], *factor;                                     /* x, y, load factor of each row                                  */
-    char    column[2][CELL], name[CELL];               /* "name (unit)"; name in the legend                              */
+    double *at[2], *factor;                                     /* x, y, load factor of each row */
+    char    column[2][CELL], name[CELL];               /* "name (unit)"; name in the legend */
     run_kind kind;
-    size_t  nline, peak;                               /* of the line drawn: the rows, or their envelope                 */
+    size_t  nline, peak;                               /* of the line drawn: the rows, or their envelope */
     double *line[2];
 } run_curve;
 
 static const char usage[] =
-    "usage: perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--abs [x|y|xy]] [--log x|y|xy] [--markers]\n"
+    "usage: perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--abs [x|y|xy]] "
+    "[--log x|y|xy] [--markers]\n"
     "                    [--out FILE.png|FILE.svg]\n"
-    "Draws columns X and Y of every DIR/history.csv (of DIR itself if it is a .csv file) in one picture. --negate turns the sign of Y\n"
-    "(--negate x: of X, --negate xy: of both), --abs drops it in the same way; step, time and load_factor stay as they are. Of event\n"
+    "Draws columns X and Y of every DIR/history.csv (of DIR itself if it is a .csv file) in one picture. "
+    "--negate turns the sign of Y\n"
+    "(--negate x: of X, --negate xy: of both), --abs drops it in the same way; step, time and load_factor "
+    "stay as they are. Of event\n"
     "stepping the line is the envelope and the path of events thin behind it; peaks are ringed. The\n"
-    "legend shows --labels, else the names of the folders. --markers: a marker on every row, and no envelope.\n";
+    "legend shows --labels, else the names of the folders. --markers: a marker on every row, and no "
+    "envelope.\n";
 
-static int is_table (const char *path)                 /* a file of its own, not a folder with history.csv               */
+static int is_table (const char *path)                 /* a file of its own, not a folder with history.csv */
 {
     size_t n = strlen (path);
     return n > 4 && strcmp (path + n - 4, ".csv") == 0;
 }
 
-/* Reads one cell of a CSV row at *s (RFC 4180, cut to size) and steps over the comma; 0 at the end of the row. */
+/* Reads one cell of a CSV row at *s (RFC 4180, cut to size) and steps over the comma; 0 at the end of the
+ * row. */
 static int next_cell (const char **s, char *cell, size_t size)
 {
     const char *p = *s;
@@ -80,7 +86,8 @@ static int is_column (const char *column, const char *wanted)
 }
 
 /* Column of the header and its label, "name (unit)". */
-static pg_status find_column (const char *path, const char *header, const char *wanted, int *column, char *label)
+static pg_status find_column (const char *path, const char *header, const char *wanted, int *column,
+                              char *label)
 {
     pg_status status = PG_OK;
     char cell[CELL], all[LIST] = "";
@@ -89,7 +96,9 @@ static pg_status find_column (const char *path, const char *header, const char *
     for (int k = 0; next_cell (&s, cell, sizeof cell); k++) {
         size_t name = strcspn (cell, "[");
         while (name > 0 && cell[name - 1] == ' ') name--;
-        if (used + name + 2 < sizeof all) used += (size_t) snprintf (all + used, sizeof all - used, "%s%.*s", k ? "|" : "", (int) name, cell);
+        if (used + name + 2 < sizeof all)
+            used += (size_t) snprintf (all + used, sizeof all - used, "%s%.*s", k ? "|" : "", (int) name,
+                                       cell);
         if (!is_column (cell, wanted)) continue;
         snprintf (label, CELL, "%s", cell);
         char *open = strrchr (label, '['), *close = strrchr (label, ']');
@@ -99,8 +108,8 @@ static pg_status find_column (const char *path, const char *header, const char *
         goto done;
     }
     const char *near = pg_nearest_name (wanted, all);
-    PG_FAIL (PG_E_USAGE, "%s has no column '%s'%s%s%s; it has %s", path, wanted, near ? " (did you mean '" : "", near ? near : "",
-             near ? "'?)" : "", all);
+    PG_FAIL (PG_E_USAGE, "%s has no column '%s'%s%s%s; it has %s", path, wanted,
+             near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "", all);
 done:
     return status;
 }
@@ -114,7 +123,7 @@ static double cell_of (const char *row, int column)
     return end == cell ? NAN : value;
 }
 
-/* ---- what the scene says ---------------------------------------------------------------------------------------------------- */
+/* ---- what the scene says ------------------------------------------------------------------------------- */
 /* Is the column one of a list, by its name? */
 static int is_one_of (const char *column, const char *list)
 {
@@ -131,7 +140,9 @@ static int starts_elsewhere (const pg_scene *scene, const char *column)
     for (size_t i = 0; i < pg_scene_count (scene, "output.tips"); i++)
         if (is_one_of (column, pg_scene_text (scene, "output.tips[%zu].name", i))) return 1;
     for (size_t i = 0; i < pg_scene_count (scene, "output.averages"); i++)
-        if (is_one_of (column, pg_scene_text (scene, "output.averages[%zu].name", i)) && strncmp (pg_scene_text (scene, "output.averages[%zu].field", i), "damage", 6) == 0) return 1;
+        if (is_one_of (column, pg_scene_text (scene, "output.averages[%zu].name", i))
+            && strncmp (pg_scene_text (scene, "output.averages[%zu].field", i), "damage", 6) == 0)
+            return 1;
     return is_one_of (column, "iterations|residual|event|level");
 }
 
@@ -140,21 +151,27 @@ static void read_kind (run_kind *out, const char *directory, const char *const *
     char path[LIST];
     pg_scene *scene = NULL;
     snprintf (path, sizeof path, "%s/scene.yaml", directory);
-    if (is_table (directory) || access (path, R_OK) != 0 || pg_stored_scene (&scene, directory) != PG_OK) return;
+    if (is_table (directory) || access (path, R_OK) != 0 || pg_stored_scene (&scene, directory) != PG_OK)
+        return;
     const char *kind = pg_scene_text (scene, "solver.kind");
     out->linear = 1;
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++)
-        if (pg_scene_given (scene, "boundary[%zu].ramp", i) || pg_scene_given (scene, "boundary[%zu].table", i)) out->linear = 0;
+        if (pg_scene_given (scene, "boundary[%zu].ramp", i)
+            || pg_scene_given (scene, "boundary[%zu].table", i))
+            out->linear = 0;
     out->at_rest = pg_kind_quasi_static (kind) && out->linear;
     out->events = strcmp (kind, "static") == 0;
     for (int k = 0; k < 2; k++) {
         if (starts_elsewhere (scene, wanted[k])) out->at_rest = out->events = 0;
-        if (is_one_of (wanted[k], "step|energy_strain|energy_kinetic|energy_external|energy_dissipated|broken|utilisation")) out->events = 0;
+        if (is_one_of (
+                wanted[k],
+                "step|energy_strain|energy_kinetic|energy_external|energy_dissipated|broken|utilisation"))
+            out->events = 0;
     }
     pg_scene_free (&scene);
 }
 
-/* ---- one run -------------------------------------------------------------------------------------------------------------- */
+/* ---- one run ------------------------------------------------------------------------------------------- */
 static pg_status read_rows (run_curve *c, const char *directory, const char *const *wanted)
 {
     pg_status status = PG_OK;
@@ -183,7 +200,8 @@ done:
     return status;
 }
 
-/* The line drawn: the rows, from the origin where the run starts unloaded; of a path of events, on which the load falls and rises, its envelope. */
+/* The line drawn: the rows, from the origin where the run starts unloaded; of a path of events, on which the
+ * load falls and rises, its envelope. */
 static pg_status choose_line (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -196,7 +214,8 @@ static pg_status choose_line (const request *q, run_curve *c)
         goto done;
     }
     c->nline = (size_t) (c->kind.at_rest && !q->markers);
-    for (size_t i = 0; i < c->n; i++) c->line[0][c->nline] = c->at[0][i], c->line[1][c->nline++] = c->at[1][i];
+    for (size_t i = 0; i < c->n; i++)
+        c->line[0][c->nline] = c->at[0][i], c->line[1][c->nline++] = c->at[1][i];
     for (size_t i = 0; i < c->nline; i++) if (fabs (c->line[1][i]) > fabs (c->line[1][c->peak])) c->peak = i;
 done:
     return status;
@@ -206,7 +225,8 @@ done:
 static int has_peak (const char *column)
 {
     size_t n = strlen (column);
-    for (const char *u = "(N)\0(N m)\0(Pa)\0"; *u; u += strlen (u) + 1) if (n > strlen (u) && strcmp (column + n - strlen (u), u) == 0) return 1;
+    for (const char *u = "(N)\0(N m)\0(Pa)\0"; *u; u += strlen (u) + 1)
+        if (n > strlen (u) && strcmp (column + n - strlen (u), u) == 0) return 1;
     return 0;
 }
 
@@ -230,7 +250,8 @@ static void name_of_folder (const char *path, char *out, size_t size)
     snprintf (out, size, "%.*s", (int) (end - start), path + start);
 }
 
-/* Names in the legend: the labels, one a folder, or the folders themselves (the whole path where two are called alike). */
+/* Names in the legend: the labels, one a folder, or the folders themselves (the whole path where two are
+ * called alike). */
 static pg_status name_curves (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -247,7 +268,8 @@ static pg_status name_curves (const request *q, run_curve *c)
     }
     for (size_t i = 0; i < q->n && !q->labels; i++)
         for (size_t k = 0; k < q->n; k++)
-            if (k != i && strcmp (c[k].name, c[i].name) == 0) snprintf (c[i].name, sizeof c[i].name, "%s", q->directory[i]);
+            if (k != i && strcmp (c[k].name, c[i].name) == 0)
+                snprintf (c[i].name, sizeof c[i].name, "%s", q->directory[i]);
 done:
     return status;
 }
@@ -255,20 +277,25 @@ done:
 static void change_signs (const request *q, run_curve *c)
 {
     for (int k = 0; k < 2; k++) {
-        if (is_column (c->column[k], "step") || strncmp (c->column[k], "time (", 6) == 0 || is_column (c->column[k], "load_factor")) continue;
+        if (is_column (c->column[k], "step") || strncmp (c->column[k], "time (", 6) == 0
+            || is_column (c->column[k], "load_factor"))
+            continue;
         if (q->sign[k] == AS_IT_IS) continue;
-        for (size_t i = 0; i < c->n; i++) c->at[k][i] = q->sign[k] == NEGATED ? 0 - c->at[k][i] : fabs (c->at[k][i]);
+        for (size_t i = 0; i < c->n; i++)
+            c->at[k][i] = q->sign[k] == NEGATED ? 0 - c->at[k][i] : fabs (c->at[k][i]);
         char plain[CELL];
         memcpy (plain, c->column[k], sizeof plain);
         size_t n = strcspn (plain, "("), end = n;
         while (end > 0 && plain[end - 1] == ' ') end--;
         const char *gap = plain[n] ? " " : "";
         const char *bar = q->sign[k] == ABSOLUTE ? "|" : "";
-        snprintf (c->column[k], sizeof c->column[k], "%s%.*s%s%s%.60s", q->sign[k] == NEGATED ? "\xE2\x88\x92" : bar, (int) (end < 180 ? end : 180), plain, bar, gap, plain + n);
+        snprintf (c->column[k], sizeof c->column[k], "%s%.*s%s%s%.60s",
+                  q->sign[k] == NEGATED ? "\xE2\x88\x92" : bar, (int) (end < 180 ? end : 180), plain, bar,
+                  gap, plain + n);
     }
 }
 
-/* ---- the picture ------------------------------------------------------------------------------------------------------------ */
+/* ---- the picture --------------------------------------------------------------------------------------- */
 /* DIR/Y-X.png with what is no letter, digit, - or _ turned into _ */
 static void name_picture (const request *q, char *path, size_t size)
 {
@@ -305,7 +332,8 @@ static pg_status read_all (const request *q, run_curve *c)
         PG_TRY (read_rows (&c[i], q->directory[i], wanted));
         for (int k = 0; k < 2; k++)
             if (strcmp (c[i].column[k], c[0].column[k]) != 0)
-                PG_FAIL (PG_E_USAGE, "%s has %s and %s has %s: one picture needs one unit", q->directory[0], c[0].column[k], q->directory[i], c[i].column[k]);
+                PG_FAIL (PG_E_USAGE, "%s has %s and %s has %s: one picture needs one unit", q->directory[0],
+                         c[0].column[k], q->directory[i], c[i].column[k]);
         read_kind (&c[i].kind, q->directory[i], wanted);
     }
 done:
@@ -325,24 +353,42 @@ static pg_status draw (const request *q, const char *path)
     for (size_t i = 0; i < q->n; i++) {
         change_signs (q, &c[i]);
         PG_TRY (choose_line (q, &c[i]));
-        curve[i] = (pg_curve) { .name = c[i].name, .n = c[i].nline, .x = c[i].line[0], .y = c[i].line[1], .points = c[i].n < 3 ? PG_CURVE_MARKERS : q->markers ? PG_CURVE_BOTH : PG_CURVE_LINE };
+        curve[i] = (pg_curve){ .name = c[i].name,
+                               .n = c[i].nline,
+                               .x = c[i].line[0],
+                               .y = c[i].line[1],
+                               .points = c[i].n < 3   ? PG_CURVE_MARKERS
+                                         : q->markers ? PG_CURVE_BOTH
+                                                      : PG_CURVE_LINE };
         if (!c[i].kind.events) continue;
         pale[i] = (pg_curve) { .n = c[i].n, .x = c[i].at[0], .y = c[i].at[1] };
         pale[0].name = "path of events", paths = q->n;
     }
     int peaks = has_peak (c[0].column[1]);
     if (peaks) mark_peaks (q, c, mark, note, sizeof note);
-    pg_chart_style style = { .xlabel = c[0].column[0], .ylabel = c[0].column[1], .logx = q->log[0], .logy = q->log[1], .zero = 1,
-                             .npale = paths, .pale = pale, .nmark = peaks ? q->n : 0, .marks = mark };
+    pg_chart_style style = { .xlabel = c[0].column[0],
+                             .ylabel = c[0].column[1],
+                             .logx = q->log[0],
+                             .logy = q->log[1],
+                             .zero = 1,
+                             .npale = paths,
+                             .pale = pale,
+                             .nmark = peaks ? q->n : 0,
+                             .marks = mark };
     PG_TRY (pg_picture_chart (path, q->n, curve, &style));
 done:
-    for (size_t i = 0; c && i < q->n; i++) pg_free (c[i].at[0]), pg_free (c[i].at[1]), pg_free (c[i].factor), pg_free (c[i].line[0]), pg_free (c[i].line[1]);
+    for (size_t i = 0; c && i < q->n; i++)
+        pg_free (c[i].at[0]), pg_free (c[i].at[1]), pg_free (c[i].factor), pg_free (c[i].line[0]),
+            pg_free (c[i].line[1]);
     pg_free (c);
     return status;
 }
 
-/* ---- command line ----------------------------------------------------------------------------------------------------------- */
-static int is_axes (const char *text) { return text && (strcmp (text, "x") == 0 || strcmp (text, "y") == 0 || strcmp (text, "xy") == 0); }
+/* ---- command line -------------------------------------------------------------------------------------- */
+static int is_axes (const char *text)
+{
+    return text && (strcmp (text, "x") == 0 || strcmp (text, "y") == 0 || strcmp (text, "xy") == 0);
+}
 
 /* --negate, --abs: of y, unless axes follow. */
 static pg_status read_sign (request *q, const char *name, const char *axes)
@@ -351,7 +397,8 @@ static pg_status read_sign (request *q, const char *name, const char *axes)
     int sign = strcmp (name, "--negate") == 0 ? NEGATED : ABSOLUTE;
     for (int k = 0; k < 2; k++) {
         if (!strchr (axes, "xy"[k])) continue;
-        if (q->sign[k] != AS_IT_IS && (int) q->sign[k] != sign) PG_FAIL (PG_E_USAGE, "--negate and --abs exclude each other on the same axis, %c", "xy"[k]);
+        if (q->sign[k] != AS_IT_IS && (int) q->sign[k] != sign)
+            PG_FAIL (PG_E_USAGE, "--negate and --abs exclude each other on the same axis, %c", "xy"[k]);
         if (sign == NEGATED) q->sign[k] = NEGATED;
         else q->sign[k] = ABSOLUTE;
     }
@@ -363,12 +410,15 @@ static pg_status read_option (request *q, const char *name, char **value, int le
 {
     static const char names[] = "--curve|--labels|--negate|--abs|--log|--markers|--out";
     pg_status status = PG_OK;
-    int curve = strcmp (name, "--curve") == 0, label = strcmp (name, "--labels") == 0, out = strcmp (name, "--out") == 0;
-    int sign = strcmp (name, "--negate") == 0 || strcmp (name, "--abs") == 0, axes = sign && left > 0 && is_axes (value[0]);
+    int curve = strcmp (name, "--curve") == 0, label = strcmp (name, "--labels") == 0,
+        out = strcmp (name, "--out") == 0;
+    int sign = strcmp (name, "--negate") == 0 || strcmp (name, "--abs") == 0,
+        axes = sign && left > 0 && is_axes (value[0]);
     int logs = strcmp (name, "--log") == 0, markers = strcmp (name, "--markers") == 0;
     if (!curve && !label && !out && !sign && !logs && !markers) {
         const char *near = pg_nearest_name (name, names);
-        PG_FAIL (PG_E_USAGE, "unknown option %s beside --curve%s%s", name, near ? "; did you mean " : "", near ? near : "");
+        PG_FAIL (PG_E_USAGE, "unknown option %s beside --curve%s%s", name, near ? "; did you mean " : "",
+                 near ? near : "");
     }
     *used = 1 + label + out + logs + axes + 2 * curve;
     if (left < *used - 1) PG_FAIL (PG_E_USAGE, "%s needs %s", name, curve ? "two column names" : "a value");
@@ -388,7 +438,8 @@ static pg_status read_arguments (request *q, int argc, char **argv)
     pg_status status = PG_OK;
     for (int k = 1, used; k < argc; k += used) {
         used = 1;
-        if (argv[k][0] == '-' && argv[k][1]) PG_TRY (read_option (q, argv[k], argv + k + 1, argc - k - 1, &used));
+        if (argv[k][0] == '-' && argv[k][1])
+            PG_TRY (read_option (q, argv[k], argv + k + 1, argc - k - 1, &used));
         else if (q->n == MOST) PG_FAIL (PG_E_USAGE, "at most %d folders in one picture", MOST);
         else q->directory[q->n++] = argv[k];
     }

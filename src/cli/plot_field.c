@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields of a result as pictures: reads steps of DIR/result.e, chooses component and points, names files, titles panels. */
+ * Fields of a result as pictures: reads steps of DIR/result.e, chooses component and points, names files,
+ * titles panels. */
 #include "plot.h"
 #include "perigal/compare.h"
 #include <math.h>
@@ -10,23 +11,23 @@
 
 typedef struct {
     pg_cloud cloud;
-    pg_scene *scene;                                   /* the copy the run left, NULL when there is none                 */
+    pg_scene *scene;                                   /* the copy the run left, NULL when there is none */
     pg_cracks cracks;
-    pg_body  body;                                     /* its shapes, its lattice where the scene has cells: staircase  */
+    pg_body  body;  /* its shapes, its lattice where the scene has cells: staircase */
     pg_lattice lattice;
     pg_outline outline;
-    int      damaged;                                  /* the file has damage                                            */
-    pg_mesh_body part;                                 /* the mesh whose nodes the points are, if it is still there      */
-    int      whole;                                    /* nothing of it broke                                            */
+    int      damaged;                                  /* the file has damage */
+    pg_mesh_body part;  /* the mesh whose nodes the points are, if it is still there */
+    int      whole;                                    /* nothing of it broke */
     size_t   nstep;
     double  *time;
-    int      component, components, norm;              /* of the field; norm: its size                                   */
-    char     name[128], unit[16];                      /* on the colour bar                                              */
+    int      component, components, norm;              /* of the field; norm: its size */
+    char     name[128], unit[16];                      /* on the colour bar */
 } source;
 
-typedef struct { double *value, *u, *select, *damage; char title[64]; } stage; /* n, n x dim, n, n                       */
+typedef struct { double *value, *u, *select, *damage; char title[64]; } stage; /* n, n x dim, n, n */
 
-/* ---- components ---------------------------------------------------------------------------------------------------------------- */
+/* ---- components ---------------------------------------------------------------------------------------- */
 int pg_plot_index (const char *word, const char *list)
 {
     int k = 0;
@@ -63,7 +64,9 @@ static pg_status choose_component (const plot_request *q, source *s)
         k = pg_plot_index (wanted, names);
         if (k < 0) k = number_of (wanted, m);
         if (k < 0 && m == 1) PG_FAIL (PG_E_USAGE, "field %s has one component", q->field);
-        if (k < 0) PG_FAIL (PG_E_USAGE, "field %s has no component %s: 0 to %d%s%s or magnitude", q->field, wanted, m - 1, names[0] ? ", " : "", names);
+        if (k < 0)
+            PG_FAIL (PG_E_USAGE, "field %s has no component %s: 0 to %d%s%s or magnitude", q->field, wanted,
+                     m - 1, names[0] ? ", " : "", names);
     }
     s->component = k;
     if (s->norm) snprintf (s->name, sizeof s->name, "|%.31s|", q->field);
@@ -84,7 +87,7 @@ static double magnitude (const double *v, int dim, int m, double shear)
     return sqrt (sum);
 }
 
-/* ---- reading ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- reading ------------------------------------------------------------------------------------------- */
 /* Where the body is, by the scene: not where its points come from files. */
 static void read_outline (source *s)
 {
@@ -92,7 +95,8 @@ static void read_outline (source *s)
     if (pg_scene_given (s->scene, "points") || pg_scene_given (s->scene, "mesh") || s->cloud.dim < 2) return;
     if (pg_body_read (&s->body, s->scene) != PG_OK) s->body = (pg_body) { 0 };
     int stairs = strcmp (pg_scene_text (s->scene, "cells"), "staircase") == 0;
-    if (stairs && s->body.n && pg_cloud_build (&cloud, &s->lattice, &s->body, s->scene) != PG_OK) s->lattice = (pg_lattice) { 0 };
+    if (stairs && s->body.n && pg_cloud_build (&cloud, &s->lattice, &s->body, s->scene) != PG_OK)
+        s->lattice = (pg_lattice){ 0 };
     pg_cloud_clear (&cloud);
     if (s->body.n) s->outline = (pg_outline) { .body = &s->body, .lattice = &s->lattice };
 }
@@ -114,13 +118,15 @@ static void read_scene (const plot_request *q, source *s)
 {
     char path[PLOT_PATH];
     snprintf (path, sizeof path, "%.2100s/scene.yaml", q->directory);
-    if (access (path, R_OK) != 0 || (pg_stored_scene (&s->scene, q->directory) != PG_OK && pg_scene_load (&s->scene, path) != PG_OK)) return;
+    if (access (path, R_OK) != 0
+        || (pg_stored_scene (&s->scene, q->directory) != PG_OK && pg_scene_load (&s->scene, path) != PG_OK))
+        return;
     if (pg_cracks_read (&s->cracks, s->scene) != PG_OK) s->cracks = (pg_cracks) { 0 };
     read_outline (s);
 }
 
-/* The mesh of the run, unless it is gone or no longer that of the points: where the body is. Fields are drawn on its elements (whole) unless
- * something broke: they would hide the crack. */
+/* The mesh of the run, unless it is gone or no longer that of the points: where the body is. Fields are drawn
+ * on its elements (whole) unless something broke: they would hide the crack. */
 static pg_status read_part (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -130,7 +136,8 @@ static pg_status read_part (const plot_request *q, source *s)
     size_t n, known = s->cloud.n * (size_t) s->cloud.dim;
     int m, same = 0, whole = !q->panels && strcmp (q->field, "damage") != 0;
     if (!s->scene || !pg_scene_given (s->scene, "mesh")) return PG_OK;
-    if (pg_stored_scene (&scene, q->directory) == PG_OK && pg_mesh_body_read (&s->part, scene) == PG_OK && pg_mesh_body_cloud (&cloud, &s->part, scene) == PG_OK)
+    if (pg_stored_scene (&scene, q->directory) == PG_OK && pg_mesh_body_read (&s->part, scene) == PG_OK
+        && pg_mesh_body_cloud (&cloud, &s->part, scene) == PG_OK)
         same = cloud.n == s->cloud.n && cloud.dim == s->cloud.dim;
     for (size_t i = 0; same && i < known; i++) same = fabs (cloud.x[i] - s->cloud.x[i]) <= 1e-6 * cloud.h;
     for (int k = 0; same && whole && k < (int) s->nstep; k++) {
@@ -158,8 +165,11 @@ static pg_status open_source (const plot_request *q, source *s)
     PG_TRY (pg_exodus_points (q->result, &s->cloud, &s->nstep, &s->time));
     PG_TRY (pg_exodus_read (q->result, q->field, 0, &n, &s->components, &field));
     PG_TRY (pg_exodus_unit (q->result, q->field, s->unit));
-    if (s->cloud.dim != 3 && (q->style.section || q->style.view || q->limited || q->style.direction[0] != 0 || q->style.direction[1] != 0 || q->style.direction[2] != 0))
-        PG_FAIL (PG_E_USAGE, "--section, --view, --direction and --above are for 3D results; %s is %dD", q->result, s->cloud.dim);
+    if (s->cloud.dim != 3
+        && (q->style.section || q->style.view || q->limited || q->style.direction[0] != 0
+            || q->style.direction[1] != 0 || q->style.direction[2] != 0))
+        PG_FAIL (PG_E_USAGE, "--section, --view, --direction and --above are for 3D results; %s is %dD",
+                 q->result, s->cloud.dim);
     PG_TRY (choose_component (q, s));
     read_scene (q, s);
     s->damaged = is_stored (q, "damage");
@@ -181,11 +191,14 @@ static void close_source (source *s)
 /* "time 2 ms", "load factor 0.5"; by event stepping "event 12, load factor 0.5". */
 static void name_stage (const plot_request *q, const source *s, int step, char *text, size_t size)
 {
-    const char *kind = s->scene ? pg_scene_text (s->scene, "solver.kind") : "", *stepping = s->scene ? pg_scene_text (s->scene, "solver.stepping") : "";
+    const char *kind = s->scene ? pg_scene_text (s->scene, "solver.kind") : "",
+               *stepping = s->scene ? pg_scene_text (s->scene, "solver.stepping") : "";
     double time = s->time[step], last = s->time[s->nstep - 1], factor;
     long events;
-    int event = strcmp (stepping, "event") == 0 || (strcmp (stepping, "auto") == 0 && last > 1);        /* load factors end at 1 */
-    if (*kind && !pg_kind_quasi_static (kind)) pg_picture_time (time, text + snprintf (text, size, "time "), size - 5);
+    /* load factors end at 1 */
+    int event = strcmp (stepping, "event") == 0 || (strcmp (stepping, "auto") == 0 && last > 1);
+    if (*kind && !pg_kind_quasi_static (kind))
+        pg_picture_time (time, text + snprintf (text, size, "time "), size - 5);
     else if (!*kind) snprintf (text, size, "step %d, time %.6g", step, time);
     else if (!event || strcmp (kind, "static") != 0) snprintf (text, size, "load factor %.4g", time);
     else if (!pg_plot_event (q->directory, time, &events, &factor)) snprintf (text, size, "step %.0f", time);
@@ -210,7 +223,8 @@ static pg_status read_stage (const plot_request *q, const source *s, int step, s
         if (m != s->cloud.dim) PG_FAIL (PG_E_FILE, "%s: displacement has %d components", q->result, m);
         if (s->damaged) PG_TRY (pg_exodus_read (q->result, "damage", step, &n, &m, &g->damage));
     }
-    if (q->style.view == PG_VIEW_CRACK && !q->limited) PG_TRY (pg_exodus_read (q->result, "damage", step, &n, &m, &g->select));
+    if (q->style.view == PG_VIEW_CRACK && !q->limited)
+        PG_TRY (pg_exodus_read (q->result, "damage", step, &n, &m, &g->select));
     name_stage (q, s, step < 0 ? (int) s->nstep - 1 : step, g->title, sizeof g->title);
 done:
     pg_free (field);
@@ -223,7 +237,7 @@ static void drop_stage (stage *g)
     *g = (stage) { 0 };
 }
 
-/* ---- drawing ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- drawing ------------------------------------------------------------------------------------------- */
 /* DIR/FIELD.COMPONENT_VIEW_0007.png, as in output.pictures, or --out with the number before its ending. */
 static void name_picture (const plot_request *q, int number, char *path, size_t size)
 {
@@ -243,14 +257,17 @@ static void name_picture (const plot_request *q, int number, char *path, size_t 
 }
 
 /* One colour bar for all pictures of a series; blue to red where both signs occur. */
-static pg_status widen_range (const plot_request *q, const source *s, const stage *g, pg_picture_style *style, int *any)
+static pg_status widen_range (const plot_request *q, const source *s, const stage *g, pg_picture_style *style,
+                              int *any)
 {
     pg_status status = PG_OK;
     double low, high;
     int found;
     PG_TRY (pg_picture_range (s->cloud.n, g->value, style->clip ? 2 : 0, &low, &high, &found));
     if (q->limited) low = fmax (low, fmin (q->style.above, high));
-    if (found) style->low = *any ? fmin (style->low, low) : low, style->high = *any ? fmax (style->high, high) : high;
+    if (found)
+        style->low = *any ? fmin (style->low, low) : low,
+        style->high = *any ? fmax (style->high, high) : high;
     *any |= found;
 done:
     return status;
@@ -258,14 +275,18 @@ done:
 
 static void settle_range (const plot_request *q, pg_picture_style *style)
 {
-    style->diverging = fmin (-style->low, style->high) > 0.02 * fmax (-style->low, style->high);       /* not for a trace of the other sign */
+    /* not for a trace of the other sign */
+    style->diverging = fmin (-style->low, style->high) > 0.02 * fmax (-style->low, style->high);
     if (style->diverging) style->high = fmax (-style->low, style->high), style->low = -style->high;
     if (strcmp (q->field, "damage") == 0 && !style->log) style->low = 0, style->high = 1;
     if (style->log) style->low = style->high = 0;
-    if (q->ranged) style->low = q->style.low, style->high = q->style.high, style->diverging &= style->low == -style->high;
+    if (q->ranged)
+        style->low = q->style.low, style->high = q->style.high,
+        style->diverging &= style->low == -style->high;
 }
 
-static pg_status draw (const plot_request *q, const source *s, size_t n, const stage *g, const pg_picture_style *given, int number)
+static pg_status draw (const plot_request *q, const source *s, size_t n, const stage *g,
+                       const pg_picture_style *given, int number)
 {
     pg_status status = PG_OK;
     char title[256], label[160], path[PLOT_PATH];
@@ -274,20 +295,28 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
     int crack = style.view == PG_VIEW_CRACK;
     PG_ALLOC (panel, n);
     for (size_t k = 0; k < n; k++)
-        panel[k] = (pg_panel) { n > 1 || s->cloud.dim == 1 ? g[k].title : NULL, g[k].value, g[k].u, q->limited ? g[k].value : g[k].select, g[k].damage };
+        panel[k] = (pg_panel){ n > 1 || s->cloud.dim == 1 ? g[k].title : NULL, g[k].value, g[k].u,
+                               q->limited ? g[k].value : g[k].select, g[k].damage };
     if (crack && !q->limited) style.above = PG_CRACK_DAMAGE;
     style.by_depth = crack && strcmp (q->field, "damage") == 0;
-    int used = snprintf (title, sizeof title, "%s%s%.60s", s->name, q->look ? ", " : "", q->look ? q->look : "");
-    if (crack || q->limited) used += snprintf (title + used, sizeof title - (size_t) used, " (%s\xe2\x89\xa5 %.4g%s%s)", q->limited ? "" : "damage ", style.above,
-        q->limited && s->unit[0] ? " " : "", q->limited ? s->unit : "");
+    int used = snprintf (title, sizeof title, "%s%s%.60s", s->name, q->look ? ", " : "",
+                         q->look ? q->look : "");
+    if (crack || q->limited)
+        used += snprintf (title + used, sizeof title - (size_t) used, " (%s\xe2\x89\xa5 %.4g%s%s)",
+                          q->limited ? "" : "damage ", style.above, q->limited && s->unit[0] ? " " : "",
+                          q->limited ? s->unit : "");
     if (n == 1) used += snprintf (title + used, sizeof title - (size_t) used, ", %s", g->title);
-    if (style.magnify != 0) snprintf (title + used, sizeof title - (size_t) used, ", displacements \xc3\x97 %g", style.magnify);
+    if (style.magnify != 0)
+        snprintf (title + used, sizeof title - (size_t) used, ", displacements \xc3\x97 %g", style.magnify);
     const char *bar = style.log && !s->norm ? "|" : "";
-    snprintf (label, sizeof label, "%s%s%s%s%s%s", bar, s->name, bar, s->unit[0] ? " (" : "", s->unit, s->unit[0] ? ")" : "");
-    style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL, style.outline = s->outline.body || s->outline.mesh ? &s->outline : NULL;
+    snprintf (label, sizeof label, "%s%s%s%s%s%s", bar, s->name, bar, s->unit[0] ? " (" : "", s->unit,
+              s->unit[0] ? ")" : "");
+    style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL,
+    style.outline = s->outline.body || s->outline.mesh ? &s->outline : NULL;
     name_picture (q, number, path, sizeof path);
     style.u = panel->u, style.select = panel->select;
-    if (n == 1 && s->whole && s->part.mesh.n && pg_picture_on_elements (&s->part, &style)) PG_TRY (pg_picture_body (path, &s->part, &s->cloud, panel->value, &style));
+    if (n == 1 && s->whole && s->part.mesh.n && pg_picture_on_elements (&s->part, &style))
+        PG_TRY (pg_picture_body (path, &s->part, &s->cloud, panel->value, &style));
     else PG_TRY (pg_picture_panels (path, &s->cloud, n, panel, q->columns, &style));
     puts (path);
 done:
@@ -331,7 +360,7 @@ static pg_status draw_together (const plot_request *q, const source *s)
         PG_TRY (widen_range (q, s, &g[k], &style, &found));
     }
     settle_range (q, &style);
-    if (!q->ranged && strcmp (q->field, "damage") != 0) style.low = style.high = 0;      /* of what is shown */
+    if (!q->ranged && strcmp (q->field, "damage") != 0) style.low = style.high = 0;  /* of what is shown */
     PG_TRY (draw (q, s, (size_t) q->steps, g, &style, -1));
 done:
     for (int k = 0; g && k < q->steps; k++) drop_stage (&g[k]);
@@ -347,7 +376,10 @@ static pg_status count_steps (plot_request *q, const source *s)
     if (n == 0) PG_FAIL (PG_E_USAGE, "%s holds no step yet", q->result);
     for (int k = 0; k < q->steps && !q->all; k++) {
         if (q->step[k] >= n || q->step[k] < -n)
-            PG_FAIL (PG_E_USAGE, "%s has no step %d; its steps are 0 to %d (-1 is the last; perigal plot %s --list tells what they are)", q->result, q->step[k], n - 1, q->directory);
+            PG_FAIL (PG_E_USAGE,
+                     "%s has no step %d; its steps are 0 to %d (-1 is the last; perigal plot %s --list tells "
+                     "what they are)",
+                     q->result, q->step[k], n - 1, q->directory);
         if (q->step[k] < 0) q->step[k] += n;
     }
 done:

@@ -11,7 +11,7 @@ typedef struct {
     size_t  nfield;
     pg_mesh_field *field;
     double  time;
-    double *value, *u;                                 /* nnode, nnode x dim                                             */
+    double *value, *u;                                 /* nnode, nnode x dim */
     char    label[96];
 } fem;
 
@@ -37,12 +37,13 @@ static pg_status need_field (const plot_request *q, const fem *f, const char *na
     for (size_t k = 0, at = 0; k < f->nfield && at < sizeof names; k++)
         at += (size_t) snprintf (names + at, sizeof names - at, "%s%s", k ? "|" : "", f->field[k].name);
     const char *near = pg_nearest_name (name, names);
-    PG_FAIL (PG_E_USAGE, "%s has no field %s%s%s%s; it has %s", q->directory, name, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "", names);
+    PG_FAIL (PG_E_USAGE, "%s has no field %s%s%s%s; it has %s", q->directory, name,
+             near ? " (did you mean " : "", near ? near : "", near ? "?)" : "", names);
 done:
     return status;
 }
 
-/* ---- values ----------------------------------------------------------------------------------------------------------------- */
+/* ---- values -------------------------------------------------------------------------------------------- */
 static double mises (const double *s)
 {
     double d = (s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) + (s[2] - s[0]) * (s[2] - s[0]);
@@ -62,17 +63,27 @@ static pg_status choose_value (const plot_request *q, fem *f)
     const pg_mesh_field *field;
     PG_TRY (need_field (q, f, q->field, &field));
     int m = field->components, tensor = m == 6, k = 0;
-    const char *names = tensor ? "xx|yy|zz|xy|yz|zx" : m == 3 ? "x|y|z" : m == 2 ? "x|y" : "", *wanted = q->component ? q->component : tensor ? "xx" : "magnitude";
+    const char *names = tensor   ? "xx|yy|zz|xy|yz|zx"
+                        : m == 3 ? "x|y|z"
+                        : m == 2 ? "x|y"
+                                 : "",
+               *wanted = q->component ? q->component
+                         : tensor     ? "xx"
+                                      : "magnitude";
     int norm = m > 1 && strcmp (wanted, "magnitude") == 0, equal = tensor && strcmp (wanted, "mises") == 0;
     if (m > 1 && !norm && !equal) k = pg_plot_index (wanted, names);
-    if (k < 0) PG_FAIL (PG_E_USAGE, "field %s has no component %s: one of %s%s, magnitude", q->field, wanted, names, tensor ? "|mises" : "");
+    if (k < 0)
+        PG_FAIL (PG_E_USAGE, "field %s has no component %s: one of %s%s, magnitude", q->field, wanted, names,
+                 tensor ? "|mises" : "");
     PG_ALLOC (f->value, f->mesh.nnode);
     for (size_t i = 0; i < f->mesh.nnode; i++) {
         const double *v = field->value + i * (size_t) m;
         f->value[i] = norm ? size_of (v, m) : equal ? mises (v) : v[k];
     }
     if (norm) snprintf (f->label, sizeof f->label, "|%.31s|", q->field);
-    else snprintf (f->label, sizeof f->label, m > 1 ? "%s%.31s_{%.10s}%s" : "%s%.31s%.0s%s", q->style.log ? "|" : "", q->field, wanted, q->style.log ? "|" : "");
+    else
+        snprintf (f->label, sizeof f->label, m > 1 ? "%s%.31s_{%.10s}%s" : "%s%.31s%.0s%s",
+                  q->style.log ? "|" : "", q->field, wanted, q->style.log ? "|" : "");
 done:
     return status;
 }
@@ -83,7 +94,8 @@ static pg_status choose_displacement (const plot_request *q, fem *f)
     const pg_mesh_field *field;
     size_t dim = (size_t) f->mesh.dim;
     PG_TRY (need_field (q, f, "displacement", &field));
-    if ((size_t) field->components < dim) PG_FAIL (PG_E_FILE, "%s: displacement has %d components", q->directory, field->components);
+    if ((size_t) field->components < dim)
+        PG_FAIL (PG_E_FILE, "%s: displacement has %d components", q->directory, field->components);
     PG_ALLOC (f->u, f->mesh.nnode * dim);
     for (size_t i = 0; i < f->mesh.nnode; i++)
         for (size_t k = 0; k < dim; k++) f->u[i * dim + k] = field->value[i * (size_t) field->components + k];
@@ -91,15 +103,20 @@ done:
     return status;
 }
 
-/* ---- the picture ---------------------------------------------------------------------------------------------------------------- */
+/* ---- the picture --------------------------------------------------------------------------------------- */
 /* Beside the file: its name without the ending, and what is drawn. */
 static void name_picture (const plot_request *q, char *path, size_t size)
 {
     const char *dot = strrchr (q->directory, '.'), *slash = strrchr (q->directory, '/');
     size_t n = dot && (!slash || dot > slash + 1) ? (size_t) (dot - q->directory) : strlen (q->directory);
     if (q->out) snprintf (path, size, "%s", q->out);
-    else snprintf (path, size, "%.*s%s%.40s%s%.40s%s%s.png", (int) n, q->directory, q->sets ? "_sets" : q->field ? "_" : "", q->field && !q->sets ? q->field : "",
-                   q->component ? "." : "", q->component ? q->component : "", q->style.view ? "_" : "", q->style.view ? q->look : "");
+    else
+        snprintf (path, size, "%.*s%s%.40s%s%.40s%s%s.png", (int) n, q->directory,
+                  q->sets    ? "_sets"
+                  : q->field ? "_"
+                             : "",
+                  q->field && !q->sets ? q->field : "", q->component ? "." : "",
+                  q->component ? q->component : "", q->style.view ? "_" : "", q->style.view ? q->look : "");
 }
 
 static pg_status draw (const plot_request *q, const fem *f)
@@ -111,10 +128,13 @@ static pg_status draw (const plot_request *q, const fem *f)
     const char *slash = strrchr (q->directory, '/');
     int used = snprintf (title, sizeof title, "%.100s", slash ? slash + 1 : q->directory);
     if (f->nfield) used += snprintf (title + used, sizeof title - (size_t) used, ", time %.4g", f->time);
-    if (f->u) snprintf (title + used, sizeof title - (size_t) used, ", displacements \xc3\x97 %g", style.magnify);
-    for (size_t i = 0; f->value && i < f->mesh.nnode; i++) low = fmin (low, f->value[i]), high = fmax (high, f->value[i]);
+    if (f->u)
+        snprintf (title + used, sizeof title - (size_t) used, ", displacements \xc3\x97 %g", style.magnify);
+    for (size_t i = 0; f->value && i < f->mesh.nnode; i++)
+        low = fmin (low, f->value[i]), high = fmax (high, f->value[i]);
     style.diverging = q->ranged ? style.low == -style.high && style.high > 0 : low < 0 && high > 0;
-    style.title = title, style.label = f->label, style.u = f->u, style.length = q->length, style.sets = q->sets;
+    style.title = title, style.label = f->label, style.u = f->u, style.length = q->length,
+    style.sets = q->sets;
     name_picture (q, path, sizeof path);
     PG_TRY (pg_picture_mesh (path, &f->mesh, f->value, &style));
     puts (path);
@@ -126,10 +146,13 @@ pg_status pg_plot_mesh (const plot_request *q)
 {
     pg_status status = PG_OK;
     fem f = { 0 };
-    if (q->all || q->steps > 1 || q->limited) PG_FAIL (PG_E_USAGE, "--step all, --steps and --above are for result folders; %s is a file", q->directory);
+    if (q->all || q->steps > 1 || q->limited)
+        PG_FAIL (PG_E_USAGE, "--step all, --steps and --above are for result folders; %s is a file",
+                 q->directory);
     if (q->field && q->sets) PG_FAIL (PG_E_USAGE, "--field and --sets exclude each other");
     if (q->component && !q->field) PG_FAIL (PG_E_USAGE, "--component needs --field");
-    if (q->field || q->style.magnify != 0) PG_TRY (pg_mesh_result (&f.mesh, q->directory, q->step[0], &f.nfield, &f.field, &f.time));
+    if (q->field || q->style.magnify != 0)
+        PG_TRY (pg_mesh_result (&f.mesh, q->directory, q->step[0], &f.nfield, &f.field, &f.time));
     else PG_TRY (pg_mesh_read (&f.mesh, q->directory));
     if (q->field) PG_TRY (choose_value (q, &f));
     if (q->style.magnify != 0) PG_TRY (choose_displacement (q, &f));

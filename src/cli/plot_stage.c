@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * When a step of a result was: event stepping writes the number of its step, and history.csv says which event and load factor that is. */
+ * When a step of a result was: event stepping writes the number of its step, and history.csv says which event
+ * and load factor that is. */
 #include "plot.h"
 #include <math.h>
 #include <stdio.h>
@@ -30,13 +31,14 @@ int pg_plot_event (const char *folder, double step, long *events, double *factor
     if (!file) return 0;
     *events = 0;
     if (getline (&row, &width, file) > 0)
-        for (int k = 0; k < 3; k++) column[k] = column_of (row, (const char *const[]) { "step", "load_factor", "event" }[k]);
+        for (int k = 0; k < 3; k++)
+            column[k] = column_of (row, (const char *const[]){ "step", "load_factor", "event" }[k]);
     while (column[0] >= 0 && column[1] >= 0 && column[2] >= 0 && !found && getline (&row, &width, file) > 0) {
         *events += cell_of (row, column[2]) > 0;
         *factor = cell_of (row, column[1]);
         found = fabs (cell_of (row, column[0]) - step) < 0.5;
     }
-    free (row);                                        /* of getline                                                     */
+    free (row);                                        /* of getline */
     fclose (file);
     return found;
 }

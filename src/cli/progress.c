@@ -11,11 +11,17 @@ enum { LINE = 400, NARROW = 20, FULL = 3 };
 void progress_start (progress *p, int quiet, const pg_solver_options *o)
 {
     double now = pg_seconds ();
-    *p = (progress) { .start = now, .last = now, .tty = isatty (2), .quiet = quiet, .marching = o->marching, .staged = o->staged };
+    *p = (progress){ .start = now,
+                     .last = now,
+                     .tty = isatty (2),
+                     .quiet = quiet,
+                     .marching = o->marching,
+                     .staged = o->staged };
     p->mark[0].at = p->mark[1].at = now;
 }
 
-/* The pace is taken over the last third to two thirds of the time: what was easy at the start does not count for ever. */
+/* The pace is taken over the last third to two thirds of the time: what was easy at the start does not count
+ * for ever. */
 static void keep_pace (progress *p, double now, double share, double events)
 {
     if (!p->begun) {
@@ -42,12 +48,18 @@ static void add (char *line, const char *text)
 }
 
 /* What step: time steps, events, or load steps with the rounds of the one at hand. */
-static void add_step (char *line, const progress *p, const pg_progress *at, const pg_step *step, const pg_report *r, double now, int within)
+static void add_step (char *line, const progress *p, const pg_progress *at, const pg_step *step,
+                      const pg_statistics *r, double now, int within)
 {
     char text[96];
-    double passed = now - p->mark[0].at, pace = passed > 0.5 ? ((double) r->events - p->mark[0].events) / passed : 0;
-    if (p->marching) snprintf (text, sizeof text, "step %ld, %.4g s", r->iterations + (within ? step->iterations : 0), step->time);
-    else if (!at->event && within) snprintf (text, sizeof text, "step %ld, %s %ld", step->number, p->staged ? "iteration" : "round", step->iterations);
+    double passed = now - p->mark[0].at,
+           pace = passed > 0.5 ? ((double) r->events - p->mark[0].events) / passed : 0;
+    if (p->marching)
+        snprintf (text, sizeof text, "step %ld, %.4g s", r->iterations + (within ? step->iterations : 0),
+                  step->time);
+    else if (!at->event && within)
+        snprintf (text, sizeof text, "step %ld, %s %ld", step->number, p->staged ? "iteration" : "round",
+                  step->iterations);
     else if (!at->event) snprintf (text, sizeof text, "step %ld", step->number);
     else if (r->events && pace > 0) snprintf (text, sizeof text, "%ld events (%.3g/s)", r->events, pace);
     else snprintf (text, sizeof text, "%ld event%s", r->events, r->events == 1 ? "" : "s");
@@ -62,22 +74,31 @@ static void add_time (char *line, const progress *p, const pg_progress *at, doub
     add (line, word);
     if (!at->even || breaking || !(gained > 0) || at->share >= 1 || passed < 1) return;
     put_time (word, sizeof word, since * (1 - at->share) / gained);
-    snprintf (text, sizeof text, "%s%s left", at->event && p->mark[0].events + p->mark[1].events > 0 ? "at most " : "about ", word);
+    snprintf (text, sizeof text, "%s%s left",
+              at->event && p->mark[0].events + p->mark[1].events > 0 ? "at most " : "about ", word);
     add (line, text);
 }
 
 /* full: 0 the least, FULL everything. */
-static void compose (char *line, int full, const progress *p, const pg_progress *at, const pg_step *step, const pg_report *r, double now, int within)
+static void compose (char *line, int full, const progress *p, const pg_progress *at, const pg_step *step,
+                     const pg_statistics *r, double now, int within)
 {
     char text[96];
     snprintf (line, LINE, at->event ? "%5.1f %% of %s" : "%5.1f %%", 100 * at->share, at->end);
     add_step (line, p, at, step, r, now, within);
-    if (full > 0 && !p->marching && !within) snprintf (text, sizeof text, "load factor %.4g", step->factor), add (line, text);
-    if (full > 2 && at->event && isfinite (at->stiffness)) snprintf (text, sizeof text, "stiffness %.3g of the first", at->stiffness), add (line, text);
-    if (full > 2 && isfinite (at->damage)) snprintf (text, sizeof text, "damage in stop.set %.2g", at->damage), add (line, text);
-    if (full > 1) snprintf (text, sizeof text, "%ld bonds broken", r->broken + (within ? (long) step->nbroken : 0)), add (line, text);
-    if (full > 2 && !p->marching) snprintf (text, sizeof text, "residual %.1e", r->residual_max), add (line, text);
-    add_time (line, p, at, now, within && step->nbroken && !p->marching);     /* nobody knows how many rounds will follow  */
+    if (full > 0 && !p->marching && !within)
+        snprintf (text, sizeof text, "load factor %.4g", step->factor), add (line, text);
+    if (full > 2 && at->event && isfinite (at->stiffness))
+        snprintf (text, sizeof text, "stiffness %.3g of the first", at->stiffness), add (line, text);
+    if (full > 2 && isfinite (at->damage))
+        snprintf (text, sizeof text, "damage in stop.set %.2g", at->damage), add (line, text);
+    if (full > 1)
+        snprintf (text, sizeof text, "%ld bonds broken", r->broken + (within ? (long) step->nbroken : 0)),
+            add (line, text);
+    if (full > 2 && !p->marching)
+        snprintf (text, sizeof text, "residual %.1e", r->residual_max), add (line, text);
+    /* nobody knows how many rounds will follow */
+    add_time (line, p, at, now, within && step->nbroken && !p->marching);
 }
 
 static size_t width_of_terminal (void)
@@ -86,7 +107,8 @@ static size_t width_of_terminal (void)
     return ioctl (2, TIOCGWINSZ, &size) == 0 && size.ws_col >= NARROW ? size.ws_col : 80;
 }
 
-static void write_line (const progress *p, const pg_progress *at, const pg_step *step, const pg_report *r, double now, int within)
+static void write_line (const progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *r,
+                        double now, int within)
 {
     char line[LINE];
     size_t width = p->tty ? width_of_terminal () - 1 : LINE;
@@ -98,7 +120,8 @@ static void write_line (const progress *p, const pg_progress *at, const pg_step 
     if (p->tty) fflush (stderr);
 }
 
-void progress_show (progress *p, const pg_progress *at, const pg_step *step, const pg_report *report, int within)
+void progress_show (progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *report,
+                    int within)
 {
     double now = pg_seconds (), passed = now - p->start, pause = p->tty ? 0.2 : fmax (10, 0.02 * passed);
     int tenth = (int) (at->share * 10 * (1 + 1e-12));

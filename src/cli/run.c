@@ -7,7 +7,8 @@
 static volatile sig_atomic_t asked_to_stop;
 static void on_signal (int number) { asked_to_stop = number; }
 
-/* The first signal asks for a checkpoint, the second of its kind ends the program; a full disk is an error, no signal. */
+/* The first signal asks for a checkpoint, the second of its kind ends the program; a full disk is an error,
+ * no signal. */
 static void settle_signals (void)
 {
     static const int asking[] = { SIGINT, SIGTERM, SIGHUP };
@@ -15,29 +16,42 @@ static void settle_signals (void)
     act.sa_handler = on_signal;
     act.sa_flags = SA_RESTART | (int) SA_RESETHAND;
     for (size_t k = 0; k < sizeof asking / sizeof *asking; k++)
-        if (sigaction (asking[k], NULL, &before) == 0 && (before.sa_handler != SIG_IGN || asking[k] == SIGINT)) sigaction (asking[k], &act, NULL);
+        if (sigaction (asking[k], NULL, &before) == 0
+            && (before.sa_handler != SIG_IGN || asking[k] == SIGINT))
+            sigaction (asking[k], &act, NULL);
     signal (SIGXFSZ, SIG_IGN);
 }
 
-static void print_counts (const pg_report *r, const pg_solver_options *o)
+static void print_counts (const pg_statistics *r, const pg_solver_options *o)
 {
-    if (o->marching) printf ("  %ld time steps in %ld rows of history.csv, %ld of them broke bonds, %ld bonds broken", r->iterations, r->steps, r->events, r->broken);
-    else if (o->staged) printf ("  %ld %s, %ld iterations, %ld of them broke bonds, %ld bonds broken, largest imbalance %.2e", o->hold ? r->steps : r->iterations,
-                                "stages", r->iterations, r->events, r->broken, r->residual_max);
-    else printf ("  %ld steps, %ld events, %ld break rounds, %ld bonds broken, %ld factorizations, %ld solves\n  largest residual %.2e, largest utilisation "
-                 "of an accepted state %.6f", r->steps, r->events, r->iterations, r->broken, r->factorizations, r->solves, r->residual_max, r->utilisation_max);
+    if (o->marching)
+        printf ("  %ld time steps in %ld rows of history.csv, %ld of them broke bonds, %ld bonds broken",
+                r->iterations, r->steps, r->events, r->broken);
+    else if (o->staged)
+        printf ("  %ld %s, %ld iterations, %ld of them broke bonds, %ld bonds broken, largest imbalance %.2e",
+                o->hold ? r->steps : r->iterations, "stages", r->iterations, r->events, r->broken,
+                r->residual_max);
+    else
+        printf ("  %ld steps, %ld events, %ld break rounds, %ld bonds broken, %ld factorizations, %ld "
+                "solves\n  largest residual %.2e, largest utilisation "
+                "of an accepted state %.6f",
+                r->steps, r->events, r->iterations, r->broken, r->factorizations, r->solves, r->residual_max,
+                r->utilisation_max);
     printf (", %zu degenerate points, %zu fragments\n", r->degenerate_points, r->fragments);
     if (r->cg_iterations && !o->marching && !o->staged)
-        printf ("  %zu iterations of conjugate gradients%s%s%s\n", r->cg_iterations, *r->preconditioner ? ", preconditioner " : "", r->preconditioner,
+        printf ("  %zu iterations of conjugate gradients%s%s%s\n", r->cg_iterations,
+                *r->preconditioner ? ", preconditioner " : "", r->preconditioner,
                 r->preconditioners > 1 ? ", made anew as bonds broke" : "");
-    if (o->marching) printf ("  energy: external work %.4g J = strain %.4g + kinetic %.4g + damping %.4g + breaking %.4g J\n", r->energy_external, r->energy_strain,
-                             r->energy_kinetic, r->energy_damping, r->energy_dissipated);
+    if (o->marching)
+        printf (
+            "  energy: external work %.4g J = strain %.4g + kinetic %.4g + damping %.4g + breaking %.4g J\n",
+            r->energy_external, r->energy_strain, r->energy_kinetic, r->energy_damping, r->energy_dissipated);
 }
 
 /* Warnings that came on the way: the others stand above the progress. */
-static void print_warnings (const pg_report *r, const pg_problem *problem, const pg_solver_options *o)
+static void print_warnings (const pg_statistics *r, const pg_problem *problem, const pg_solver_options *o)
 {
-    pg_report before = { 0 };
+    pg_statistics before = { 0 };
     pg_solver_doubts (&before, problem, o);
     for (size_t k = 0; k < r->nwarning; k++) {
         size_t i = 0;
@@ -46,34 +60,52 @@ static void print_warnings (const pg_report *r, const pg_problem *problem, const
     }
 }
 
-static void print_summary (const pg_result *result, const pg_report *r, const pg_solver_options *o, const pg_problem *problem, double total)
+static void print_summary (const pg_result *result, const pg_statistics *r, const pg_solver_options *o,
+                           const pg_problem *problem, double total)
 {
     int nodal = problem->integration->at_nodes;
     print_counts (r, o);
     char row[400];
     for (size_t k = 0; pg_result_words (result, k, row, sizeof row); k++) printf ("  %s\n", row);
     const pg_estimate *e = pg_result_estimate (result);
-    if (e) printf ("  estimated error of the stress: %s%.2g %% in the energy norm, %zu of %zu points left out (%.2g s)\n", nodal ? "more than " : "",
-                   100 * e->relative, e->left_out, e->points + e->left_out, e->seconds);
-    printf ("  %.2f s: shape functions and assembly %.2f, analysis %.2f, factorization %.2f, solve %.2f, forces %.2f, bond sweep %.2f; peak memory %.0f MB\n",
-            total, r->seconds[PG_SECONDS_SHAPE] + r->seconds[PG_SECONDS_ASSEMBLE] + r->seconds[PG_SECONDS_UPDATE],
+    if (e)
+        printf ("  estimated error of the stress: %s%.2g %% in the energy norm, %zu of %zu points left out "
+                "(%.2g s)\n",
+                nodal ? "more than " : "", 100 * e->relative, e->left_out, e->points + e->left_out,
+                e->seconds);
+    printf ("  %.2f s: shape functions and assembly %.2f, analysis %.2f, factorization %.2f, solve %.2f, "
+            "forces %.2f, bond sweep %.2f; peak memory %.0f MB\n",
+            total,
+            r->seconds[PG_SECONDS_SHAPE] + r->seconds[PG_SECONDS_ASSEMBLE] + r->seconds[PG_SECONDS_UPDATE],
             r->seconds[PG_SECONDS_ANALYSE], r->seconds[PG_SECONDS_FACTOR], r->seconds[PG_SECONDS_SOLVE],
-            r->seconds[PG_SECONDS_FORCE], r->seconds[PG_SECONDS_BREAK], (double) pg_memory_process_peak () * 1e-6);
-    for (size_t k = 0; pg_result_errors (result) && pg_errors_row (pg_result_errors (result), k, row, sizeof row); k++)
+            r->seconds[PG_SECONDS_FORCE], r->seconds[PG_SECONDS_BREAK],
+            (double) pg_memory_process_peak () * 1e-6);
+    for (size_t k = 0;
+         pg_result_errors (result) && pg_errors_row (pg_result_errors (result), k, row, sizeof row); k++)
         printf ("  %s%s\n", k ? "" : "against the reference: ", row);
     for (size_t k = 0; pg_result_tip (result, k, row, sizeof row); k++) printf ("  crack %s\n", row);
-    for (size_t k = 0; k < r->nskipped; k++) printf ("  skipped: %s (%s)\n", r->skipped[k].what, r->skipped[k].why);
+    for (size_t k = 0; k < r->nskipped; k++)
+        printf ("  skipped: %s (%s)\n", r->skipped[k].what, r->skipped[k].why);
     print_warnings (r, problem, o);
     printf ("  results in %s: result.e history.csv events.csv report.json\n", pg_result_folder (result));
-    for (size_t k = 0; k < pg_result_pictures (result); k++) printf ("  picture %s\n", pg_result_picture (result, k));
+    for (size_t k = 0; k < pg_result_pictures (result); k++)
+        printf ("  picture %s\n", pg_result_picture (result, k));
 }
 
-typedef struct { pg_result *result; pg_state *state; const pg_problem *problem; const pg_solver *solver; progress shown; int within; } watched;
+typedef struct {
+    pg_result *result;
+    pg_state *state;
+    const pg_problem *problem;
+    const pg_solver *solver;
+    progress shown;
+    int within;
+} watched;
 
 /* An old checkpoint is better than no run: one that cannot be written ends nothing. */
 static void keep_now (const watched *w)
 {
-    if (pg_result_checkpoint (w->result, w->state) != PG_OK) fprintf (stderr, "perigal: no checkpoint: %s\n", pg_last_error ());
+    if (pg_result_checkpoint (w->result, w->state) != PG_OK)
+        fprintf (stderr, "perigal: no checkpoint: %s\n", pg_last_error ());
 }
 
 static void show (watched *w, const pg_step *step)
@@ -91,9 +123,11 @@ static pg_status look (void *context, const pg_state *state, const pg_step *so_f
     w->within = 1;
     PG_TRY (pg_result_stage (w->result, state, so_far));
     show (w, so_far);
-    if (asked_to_stop) PG_FAIL (PG_E_INTERRUPTED, "interrupted in step %ld after %ld break rounds", so_far->number, so_far->iterations);
+    if (asked_to_stop)
+        PG_FAIL (PG_E_INTERRUPTED, "interrupted in step %ld after %ld break rounds", so_far->number,
+                 so_far->iterations);
     if (pg_result_due (w->result)) keep_now (w);
-    w->within = 0;                                     /* set: it was this look that has ended the step                  */
+    w->within = 0;                                     /* set: it was this look that has ended the step */
 done:
     return status;
 }
@@ -107,7 +141,9 @@ static pg_status advance (pg_solver *solver, watched *w, int quiet)
     progress_start (&w->shown, quiet, pg_solver_settled (solver));
     pg_solver_watch (solver, look, w);
     while (!pg_solver_done (solver, state)) {
-        if (asked_to_stop) PG_FAIL (PG_E_INTERRUPTED, "interrupted after step %ld, load factor %.6g", state->step, state->factor);
+        if (asked_to_stop)
+            PG_FAIL (PG_E_INTERRUPTED, "interrupted after step %ld, load factor %.6g", state->step,
+                     state->factor);
         status = pg_solver_step (solver, state, &step);
         if (status != PG_OK && !w->within) pg_result_refused (w->result);
         PG_TRY (status);
@@ -120,14 +156,16 @@ done:
     return status;
 }
 
-/* The end of a run that did not come to its end: what it takes to go on is written first. 1: there is a checkpoint to go on from. */
+/* The end of a run that did not come to its end: what it takes to go on is written first. 1: there is a
+ * checkpoint to go on from. */
 static int keep_for_later (const watched *w)
 {
-    if (w->state->step == 0 && !w->within) return 0;   /* nothing has been done yet                                      */
+    if (w->state->step == 0 && !w->within) return 0;   /* nothing has been done yet */
     return pg_result_checkpoint (w->result, w->state) == PG_OK;
 }
 
-static pg_status open_result (const command *c, const char *folder, const pg_scene *scene, const pg_problem *problem, pg_solver *solver, watched *w)
+static pg_status open_result (const command *c, const char *folder, const pg_scene *scene,
+                              const pg_problem *problem, pg_solver *solver, watched *w)
 {
     pg_status status = PG_OK;
     pg_resumed from;
@@ -135,15 +173,22 @@ static pg_status open_result (const command *c, const char *folder, const pg_sce
     if (!c->resume) return pg_result_open (&w->result, folder, scene, problem, solver);
     PG_TRY (pg_result_resume (&w->result, folder, scene, problem, solver, w->state, &from));
     if (from.threads != problem->threads)
-        fprintf (stderr, "perigal: the checkpoint was written with %d threads, now there are %d: the last digits may differ\n", from.threads, problem->threads);
-    if (!c->quiet) printf ("  going on after step %ld%s, %.0f s after the start\n", from.step, from.rounds ? " in the middle of the next" : "", from.seconds);
+        fprintf (stderr,
+                 "perigal: the checkpoint was written with %d threads, now there are %d: the last digits may "
+                 "differ\n",
+                 from.threads, problem->threads);
+    if (!c->quiet)
+        printf ("  going on after step %ld%s, %.0f s after the start\n", from.step,
+                from.rounds ? " in the middle of the next" : "", from.seconds);
 done:
     return status;
 }
 
-void openblas_set_num_threads (int threads);           /* of OpenBLAS; its header is not everywhere in the same place     */
+/* of OpenBLAS; its header is not everywhere in the same place */
+void openblas_set_num_threads (int threads);
 
-/* Two BLAS threads gain 7 % of a factorization at 4 000 unknowns on an idle machine, and lose half the speed on a busy one. */
+/* Two BLAS threads gain 7 % of a factorization at 4 000 unknowns on an idle machine, and lose half the speed
+ * on a busy one. */
 static void settle_blas (const pg_problem *p)
 {
     size_t unknowns = p->cloud.n * (size_t) (p->dim + p->turns), enough = p->dim == 3 ? 10000 : 50000;
@@ -160,13 +205,19 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
         snprintf (failure, sizeof failure, "%s", pg_last_error ());
         kept = keep_for_later (w);
     }
-    status = pg_result_finish (w->result, w->state, outcome == PG_OK ? NULL : failure, search, pg_seconds () - start);
+    status = pg_result_finish (w->result, w->state, outcome == PG_OK ? NULL : failure, search,
+                               pg_seconds () - start);
     snprintf (last, sizeof last, "%s", pg_last_error ());
     if (status != PG_OK && outcome == PG_OK) kept = keep_for_later (w);
-    if (status == PG_OK && !c->quiet) print_summary (w->result, pg_solver_report_now (solver), pg_solver_settled (solver), w->problem, pg_seconds () - start);
+    if (status == PG_OK && !c->quiet)
+        print_summary (w->result, pg_solver_report_now (solver), pg_solver_settled (solver), w->problem,
+                       pg_seconds () - start);
     if (outcome != PG_OK) command_complain (outcome, failure);
     if (status != PG_OK && (outcome == PG_OK || strcmp (failure, last) != 0)) command_complain (status, last);
-    if (kept && (outcome == PG_OK || outcome == PG_E_INTERRUPTED || outcome == PG_E_FILE || outcome == PG_E_MEMORY)) command_again (c);
+    if (kept
+        && (outcome == PG_OK || outcome == PG_E_INTERRUPTED || outcome == PG_E_FILE
+            || outcome == PG_E_MEMORY))
+        command_again (c);
     return outcome != PG_OK ? outcome : status;
 }
 
@@ -186,7 +237,8 @@ int pg_cli_run (int argc, char **argv)
     if (wrong >= 0) return wrong;
     settle_signals ();
     PG_TRY (command_scene (&c, &scene));
-    if (c.folder && !c.resume && !c.force) PG_TRY (pg_result_may_open (c.folder, scene));      /* before the long work           */
+    /* before the long work */
+    if (c.folder && !c.resume && !c.force) PG_TRY (pg_result_may_open (c.folder, scene));
     PG_TRY (afford_scene (&c, &forecast));
     PG_TRY (command_problem (&c, scene, &problem, &options));
     PG_TRY (afford_problem (&c, &forecast, problem, 0));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Processes with their own seconds and memory. */
-#define _DEFAULT_SOURCE                                /* wait4                                                          */
+#define _DEFAULT_SOURCE                                /* wait4 */
 #include "cli.h"
 #include "spawn.h"
 #include <errno.h>
@@ -15,7 +15,9 @@
 
 static void settle_environment (int threads)
 {
-    static const char *const counts[] = { "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "CCX_NPROC_EQUATION_SOLVER", "CCX_NPROC_RESULTS", "CCX_NPROC_STIFFNESS" };
+    static const char *const counts[] = { "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS",
+                                          "CCX_NPROC_EQUATION_SOLVER", "CCX_NPROC_RESULTS",
+                                          "CCX_NPROC_STIFFNESS" };
     char text[16];
     snprintf (text, sizeof text, "%d", threads < 1 ? 1 : threads);
     for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) setenv (counts[k], text, 1);
@@ -24,11 +26,14 @@ static void settle_environment (int threads)
 }
 
 /* In the new process: never returns. */
-static void become (const char *program, char *const argv[], const char *folder, const char *log, int to, int threads)
+static void become (const char *program, char *const argv[], const char *folder, const char *log, int to,
+                    int threads)
 {
-    int errors = open (log ? log : "/dev/null", O_WRONLY | O_CREAT | O_TRUNC, 0666), nothing = open ("/dev/null", O_RDONLY);
+    int errors = open (log ? log : "/dev/null", O_WRONLY | O_CREAT | O_TRUNC, 0666),
+        nothing = open ("/dev/null", O_RDONLY);
     settle_environment (threads);
-    if (dup2 (nothing, 0) < 0 || dup2 (to, 1) < 0 || dup2 (errors, 2) < 0 || (folder && chdir (folder) != 0)) _exit (127);
+    if (dup2 (nothing, 0) < 0 || dup2 (to, 1) < 0 || dup2 (errors, 2) < 0 || (folder && chdir (folder) != 0))
+        _exit (127);
     if (!program) memory_large_pages ();
     if (program) execvp (program, argv);
     else execv ("/proc/self/exe", argv);
@@ -52,7 +57,8 @@ static size_t drain (int from, char *text, size_t size)
 
 static double seconds_of (const struct timeval *t) { return (double) t->tv_sec + 1e-6 * (double) t->tv_usec; }
 
-pg_status spawn_run (spawned *out, const char *program, char *const argv[], const char *folder, const char *log, int threads)
+pg_status spawn_run (spawned *out, const char *program, char *const argv[], const char *folder,
+                     const char *log, int threads)
 {
     pg_status status = PG_OK;
     int ends[2] = { -1, -1 }, how = 0;

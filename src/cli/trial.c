@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * One run in a process of its own: started and read here (trial_run), and what that process does (trial_main). */
+ * One run in a process of its own: started and read here (trial_run), and what that process does
+ * (trial_main). */
 #include "cli.h"
 #include "spawn.h"
 #include "trial.h"
@@ -15,7 +16,7 @@ const char *const trial_name[TRIAL_COUNT] = { TRIAL_LIST (X) };
 const char *const trial_unit[TRIAL_COUNT] = { TRIAL_LIST (X) };
 #undef X
 
-/* ---- this side ---------------------------------------------------------------------------------------------------------- */
+/* ---- this side ----------------------------------------------------------------------------------------- */
 void trial_read (trial *out, const char *text)
 {
     for (size_t k = 0; k < TRIAL_COUNT; k++) {
@@ -28,7 +29,8 @@ void trial_read (trial *out, const char *text)
 
 void trial_tell (const trial *t)
 {
-    for (size_t k = 0; k < TRIAL_COUNT; k++) if (!isnan (t->value[k])) printf ("%s %.17g\n", trial_name[k], t->value[k]);
+    for (size_t k = 0; k < TRIAL_COUNT; k++)
+        if (!isnan (t->value[k])) printf ("%s %.17g\n", trial_name[k], t->value[k]);
 }
 
 pg_status trial_run (trial *out, const trial_request *q)
@@ -36,18 +38,25 @@ pg_status trial_run (trial *out, const trial_request *q)
     pg_status status = PG_OK;
     spawned *child = NULL;
     char threads[16], log[4096], complaint[2048];
-    char *argv[2 * TRIAL_SETS + 16] = { "perigal", "bench", "--row", (char *) q->scene, "-o", (char *) q->folder, "--threads", threads, "--quiet" };
+    char *argv[2 * TRIAL_SETS + 16] = { "perigal",          "bench",     "--row", (char *) q->scene, "-o",
+                                        (char *) q->folder, "--threads", threads, "--quiet" };
     size_t n = 9;
     trial_read (out, "");
     PG_ALLOC (child, 1);
     snprintf (threads, sizeof threads, "%d", q->threads);
     snprintf (log, sizeof log, "%s.log", q->folder);
-    for (size_t k = 0; k < q->nset && k < TRIAL_SETS; k++) argv[n++] = "--set", argv[n++] = (char *) q->set[k];
+    for (size_t k = 0; k < q->nset && k < TRIAL_SETS; k++)
+        argv[n++] = "--set", argv[n++] = (char *) q->set[k];
     PG_TRY (spawn_run (child, NULL, argv, NULL, log, q->threads));
     if (child->code != EXIT_DONE) {
         spawn_complaint (log, complaint, sizeof complaint);
-        PG_FAIL (child->code == EXIT_SCENE ? PG_E_SCENE : child->code == EXIT_INTERRUPTED ? PG_E_INTERRUPTED : PG_E_EQUILIBRIUM,
-                 "%s", complaint[0] ? complaint : child->code >= 128 ? "killed by a signal" : "the run failed without a message");
+        PG_FAIL (child->code == EXIT_SCENE         ? PG_E_SCENE
+                 : child->code == EXIT_INTERRUPTED ? PG_E_INTERRUPTED
+                                                   : PG_E_EQUILIBRIUM,
+                 "%s",
+                 complaint[0]         ? complaint
+                 : child->code >= 128 ? "killed by a signal"
+                                      : "the run failed without a message");
     }
     trial_read (out, child->text);
     remove (log);
@@ -56,7 +65,7 @@ done:
     return status;
 }
 
-/* ---- the other side ------------------------------------------------------------------------------------------------------ */
+/* ---- the other side ------------------------------------------------------------------------------------ */
 /* High water mark of this program alone; that of getrusage also counts what the process was before. */
 static double peak_now (void)
 {
@@ -64,7 +73,8 @@ static double peak_now (void)
     double kilobytes = NAN;
     FILE *f = fopen ("/proc/self/status", "r");
     if (!f) return (double) pg_memory_process_peak ();
-    while (fgets (line, sizeof line, f)) if (strncmp (line, "VmHWM:", 6) == 0) kilobytes = strtod (line + 6, NULL);
+    while (fgets (line, sizeof line, f))
+        if (strncmp (line, "VmHWM:", 6) == 0) kilobytes = strtod (line + 6, NULL);
     fclose (f);
     return isnan (kilobytes) ? (double) pg_memory_process_peak () : 1024 * kilobytes;
 }
@@ -73,18 +83,21 @@ static double cpu_now (void)
 {
     struct rusage used;
     if (getrusage (RUSAGE_SELF, &used) != 0) return NAN;
-    return (double) (used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1e-6 * (double) (used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+    return (double) (used.ru_utime.tv_sec + used.ru_stime.tv_sec)
+           + 1e-6 * (double) (used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
-static void count (trial *t, const pg_problem *p, const pg_state *state, const pg_report *r)
+static void count (trial *t, const pg_problem *p, const pg_state *state, const pg_statistics *r)
 {
-    static const int phase[PG_SECONDS_COUNT] = { TRIAL_SHAPE, TRIAL_ANALYSE, TRIAL_FACTOR, TRIAL_SOLVE, TRIAL_FORCE, TRIAL_BREAK, TRIAL_ASSEMBLE, TRIAL_UPDATE };
+    static const int phase[PG_SECONDS_COUNT] = { TRIAL_SHAPE, TRIAL_ANALYSE, TRIAL_FACTOR,   TRIAL_SOLVE,
+                                                 TRIAL_FORCE, TRIAL_BREAK,   TRIAL_ASSEMBLE, TRIAL_UPDATE };
     for (int k = 0; k < PG_SECONDS_COUNT; k++) t->value[phase[k]] = r->seconds[k];
     t->value[TRIAL_SPACING] = p->cloud.h, t->value[TRIAL_HORIZON] = p->approx.horizon;
     t->value[TRIAL_POINTS] = (double) p->cloud.n, t->value[TRIAL_DOFS] = (double) state->ndof;
 }
 
-static pg_status solve_and_measure (const command *c, const pg_scene *scene, const pg_problem *problem, trial *t, double start)
+static pg_status solve_and_measure (const command *c, const pg_scene *scene, const pg_problem *problem,
+                                    trial *t, double start)
 {
     pg_status status = PG_OK;
     pg_solver *solver = NULL;
@@ -103,7 +116,8 @@ static pg_status solve_and_measure (const command *c, const pg_scene *scene, con
         PG_TRY (pg_result_step (result, state, &step));
     }
     count (t, problem, state, pg_solver_report_now (solver));
-    t->value[TRIAL_WALL] = pg_seconds () - start, t->value[TRIAL_CPU] = cpu_now (), t->value[TRIAL_PEAK] = peak_now ();
+    t->value[TRIAL_WALL] = pg_seconds () - start, t->value[TRIAL_CPU] = cpu_now (),
+    t->value[TRIAL_PEAK] = peak_now ();
     PG_TRY (trial_errors (t, scene, problem, solver, state, !options.quasi_static));
 done:
     pg_result_free (&result);

@@ -3,26 +3,30 @@
 #include "trial.h"
 #include <math.h>
 
-/* Of all tables together: root of the summed squares over that of the reference; displacements only, as they have one unit. */
+/* Of all tables together: root of the summed squares over that of the reference; displacements only, as they
+ * have one unit. */
 static double of_lines (const pg_errors *e)
 {
     double difference = 0, reference = 0;
     for (size_t k = 0; k < e->nline; k++) {
         const pg_line_norms *line = &e->line[k];
         if (line->column > 2) continue;
-        difference += line->l2.difference * line->l2.difference, reference += line->l2.reference * line->l2.reference;
+        difference += line->l2.difference * line->l2.difference,
+            reference += line->l2.reference * line->l2.reference;
     }
     return reference > 0 ? sqrt (difference / reference) : NAN;
 }
 
 void trial_take (trial *t, const pg_errors *e)
 {
-    if (e->norms.displacement) t->value[TRIAL_L2] = e->norms.l2.relative, t->value[TRIAL_MAXIMUM] = e->norms.maximum.relative;
+    if (e->norms.displacement)
+        t->value[TRIAL_L2] = e->norms.l2.relative, t->value[TRIAL_MAXIMUM] = e->norms.maximum.relative;
     if (e->norms.stress) t->value[TRIAL_ENERGY] = e->norms.energy.relative;
     if (e->nline) t->value[TRIAL_LINES] = of_lines (e);
 }
 
-pg_status trial_errors (trial *t, const pg_scene *scene, const pg_problem *problem, pg_solver *solver, const pg_state *state, int dynamic)
+pg_status trial_errors (trial *t, const pg_scene *scene, const pg_problem *problem, pg_solver *solver,
+                        const pg_state *state, int dynamic)
 {
     pg_status status = PG_OK;
     pg_reference *reference = NULL;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body: shapes added and subtracted in the order of the scene. A point on a surface belongs to the body. */
+ * The body: shapes added and subtracted in the order of the scene. A point on a surface belongs to the
+ * body. */
 #include "shape.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +13,8 @@ static void name_boundary (pg_shape *s, const pg_scene *scene, size_t i)
     snprintf (at, sizeof at, "body[%zu].name", i);
     if (pg_scene_given (scene, "%s", at)) name = pg_scene_text (scene, "%s", at);
     if (pg_layers_taken (name)) pg_scene_fault (scene, at, "'%s' already names a side of the body", name);
-    if (strlen (name) >= sizeof s->boundary) pg_scene_fault (scene, at, "at most %zu letters", sizeof s->boundary - 1);
+    if (strlen (name) >= sizeof s->boundary)
+        pg_scene_fault (scene, at, "at most %zu letters", sizeof s->boundary - 1);
     snprintf (s->boundary, sizeof s->boundary, "%.31s", name);
 }
 
@@ -21,7 +23,8 @@ static pg_status read_shape (pg_shape *s, int dim, const pg_scene *scene, size_t
     char at[96];
     s->add = pg_scene_given (scene, "body[%zu].add", i);
     for (s->kind = 0; s->kind < PG_SHAPES; s->kind++) {
-        snprintf (at, sizeof at, "body[%zu].%s.%s", i, s->add ? "add" : "subtract", pg_shape_types[s->kind].name);
+        snprintf (at, sizeof at, "body[%zu].%s.%s", i, s->add ? "add" : "subtract",
+                  pg_shape_types[s->kind].name);
         if (pg_scene_given (scene, "%s", at)) break;
     }
     if (s->kind == PG_SHAPES) {
@@ -58,7 +61,8 @@ pg_status pg_body_read (pg_body *out, const pg_scene *scene)
     memset (out, 0, sizeof *out);
     out->dim = (int) pg_scene_integer (scene, "dimension");
     if (n == 0 && !pg_scene_given (scene, "points") && !pg_scene_given (scene, "mesh"))
-        pg_scene_fault (scene, "body", "is missing: give body (a list of shapes), points (a file) or mesh (a file)");
+        pg_scene_fault (scene, "body",
+                        "is missing: give body (a list of shapes), points (a file) or mesh (a file)");
     PG_ALLOC (out->shape, n + pg_scene_count (scene, "layers"));
     out->n = n;
     for (size_t i = 0; i < n; i++) {
@@ -71,7 +75,10 @@ pg_status pg_body_read (pg_body *out, const pg_scene *scene)
     for (int k = 0; k < out->dim && n > 0; k++) {
         double width = out->high[k] - out->low[k], far = fmax (fabs (out->low[k]), fabs (out->high[k]));
         if (!(width > 1e-9 * far)) {
-            pg_scene_fault (scene, "body", "lies %.3g m away from the origin along %c and is %.3g m wide: its size is lost in rounding; move it nearer", far, "xyz"[k], width);
+            pg_scene_fault (scene, "body",
+                            "lies %.3g m away from the origin along %c and is %.3g m wide: its size is lost "
+                            "in rounding; move it nearer",
+                            far, "xyz"[k], width);
             break;
         }
     }
@@ -84,7 +91,8 @@ done:
 
 void pg_body_clear (pg_body *body)
 {
-    for (size_t i = 0; body->shape && i < body->n; i++) pg_free (body->shape[i].vertex), shape_mesh_clear (&body->shape[i]);
+    for (size_t i = 0; body->shape && i < body->n; i++)
+        pg_free (body->shape[i].vertex), shape_mesh_clear (&body->shape[i]);
     pg_free (body->shape), pg_free (body->layer);
     memset (body, 0, sizeof *body);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which bonds does a crack cut? The part of the bond within the tolerance of the crack's line or plane is compared there with
- * the crack, grown by the tolerance: one rule for crossing, touching and lying in the crack. */
+ * Which bonds does a crack cut? The part of the bond within the tolerance of the crack's line or plane is
+ * compared there with the crack, grown by the tolerance: one rule for crossing, touching and lying in the
+ * crack. */
 #include "perigal/cloud.h"
 #include "polygon.h"
 #include <math.h>
@@ -18,8 +19,9 @@ static void point_at (int dim, const double *a, const double *b, double s, doubl
     for (int k = 0; k < dim; k++) out[k] = s == 1 ? b[k] : a[k] + s * (b[k] - a[k]);
 }
 
-/* ---- distances ------------------------------------------------------------------------------------------------------ */
-static double distance_point (int dim, const double *p, const double *a, const double *b)      /* of p from segment a b  */
+/* ---- distances ----------------------------------------------------------------------------------------- */
+/* of p from segment a b */
+static double distance_point (int dim, const double *p, const double *a, const double *b)
 {
     double u[3] = { 0 }, w[3] = { 0 };
     for (int k = 0; k < dim; k++) u[k] = b[k] - a[k], w[k] = p[k] - a[k];
@@ -29,7 +31,8 @@ static double distance_point (int dim, const double *p, const double *a, const d
     return sqrt (dot (dim, w, w));
 }
 
-/* Segments a b and c d: least of the distances of the ends and, if the lines are nearest inside both, of the lines. */
+/* Segments a b and c d: least of the distances of the ends and, if the lines are nearest inside both, of the
+ * lines. */
 static double distance_segments (const double *a, const double *b, const double *c, const double *d)
 {
     double u[3], v[3], w[3];
@@ -38,13 +41,14 @@ static double distance_segments (const double *a, const double *b, const double 
     for (int k = 0; k < 3; k++) u[k] = b[k] - a[k], v[k] = d[k] - c[k], w[k] = c[k] - a[k];
     double uu = dot (3, u, u), vv = dot (3, v, v), uv = dot (3, u, v), det = uu*vv - uv*uv;
     if (!(det > 1e-14 * uu * vv)) return least;
-    double s = (dot (3, u, w) * vv - dot (3, v, w) * uv) / det, t = (dot (3, u, w) * uv - dot (3, v, w) * uu) / det;
+    double s = (dot (3, u, w) * vv - dot (3, v, w) * uv) / det,
+           t = (dot (3, u, w) * uv - dot (3, v, w) * uu) / det;
     if (s < 0 || s > 1 || t < 0 || t > 1) return least;
     for (int k = 0; k < 3; k++) w[k] += t * v[k] - s * u[k];
     return fmin (least, sqrt (dot (3, w, w)));
 }
 
-/* ---- in the line or plane of the crack --------------------------------------------------------------------------------- */
+/* ---- in the line or plane of the crack ----------------------------------------------------------------- */
 static int meets_segment (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
     const double *p = c->vertex, *q = p + 2, t[2] = {c->normal[1], -c->normal[0]};
@@ -75,10 +79,13 @@ static int in_polygon (const pg_crack *c, const double *p)
     return in;
 }
 
-/* ---- a polygon less the strips along its fronts -------------------------------------------------------------------------- */
-typedef struct { const double *a, *b, *from, *to; } chord;             /* of a bond, in the plane; an edge                */
+/* ---- a polygon less the strips along its fronts -------------------------------------------------------- */
+typedef struct { const double *a, *b, *from, *to; } chord;             /* of a bond, in the plane; an edge */
 
-static void along (const chord *h, double t, double *out) { for (int k = 0; k < 3; k++) out[k] = h->a[k] + t * (h->b[k] - h->a[k]); }
+static void along (const chord *h, double t, double *out)
+{
+    for (int k = 0; k < 3; k++) out[k] = h->a[k] + t * (h->b[k] - h->a[k]);
+}
 
 static double away (const chord *h, double t)
 {
@@ -99,7 +106,8 @@ static double nearest (const chord *h)
     return 0.5 * (low + high);
 }
 
-/* Where it comes to within d of the edge, between a place `far` that is further away and one `near` that is not: at least d away. */
+/* Where it comes to within d of the edge, between a place `far` that is further away and one `near` that is
+ * not: at least d away. */
 static double crossing (const chord *h, double d, double far, double near)
 {
     for (int i = 0; i < 60; i++) {
@@ -121,7 +129,8 @@ static int in_what_is_left (const pg_crack *c, const double *p, double tolerance
     return in;
 }
 
-/* Along the chord what is left of the polygon begins and ends at its ends, at an edge, or where it comes near to a front. */
+/* Along the chord what is left of the polygon begins and ends at its ends, at an edge, or where it comes near
+ * to a front. */
 static int meets_what_is_left (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
     double length = 0;
@@ -131,7 +140,8 @@ static int meets_what_is_left (const pg_crack *c, const double *a, const double 
     for (size_t m = 0; m < c->nvertex; m++) {
         chord h = { a, b, c->vertex + 3*m, c->vertex + 3*((m + 1) % c->nvertex) };
         double t = nearest (&h), d = c->retreat[m], x[3];
-        double place[3] = { t, away (&h, t) < d && away (&h, 0) > d ? crossing (&h, d, 0, t) : t, away (&h, t) < d && away (&h, 1) > d ? crossing (&h, d, 1, t) : t };
+        double place[3] = { t, away (&h, t) < d && away (&h, 0) > d ? crossing (&h, d, 0, t) : t,
+                            away (&h, t) < d && away (&h, 1) > d ? crossing (&h, d, 1, t) : t };
         for (int k = 0; k < 3; k++) {
             along (&h, place[k], x);
             if (in_what_is_left (c, x, tolerance)) return 1;
@@ -149,12 +159,13 @@ static int meets_polygon (const pg_crack *c, const double *a, const double *b, d
     return 0;
 }
 
-/* ---- the bond ------------------------------------------------------------------------------------------------------- */
+/* ---- the bond ------------------------------------------------------------------------------------------ */
 static int (*const meets[]) (const pg_crack *, const double *, const double *, double) = {
     [PG_CRACK_SEGMENT] = meets_segment, [PG_CRACK_POLYGON] = meets_polygon, [PG_CRACK_DISC] = meets_disc,
 };
 
-static int after (int dim, const double *x, const double *y)       /* order of the ends, so that x - y and y - x agree   */
+/* order of the ends, so that x - y and y - x agree */
+static int after (int dim, const double *x, const double *y)
 {
     for (int k = 0; k < dim; k++)
         if (x[k] != y[k]) return x[k] > y[k];
@@ -169,7 +180,8 @@ int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double
         const double *swap = x;
         x = y, y = swap;
     }
-    for (int k = 0; k < dim; k++) d += crack->normal[k] * (x[k] - p[k]), e += crack->normal[k] * (y[k] - p[k]);
+    for (int k = 0; k < dim; k++)
+        d += crack->normal[k] * (x[k] - p[k]), e += crack->normal[k] * (y[k] - p[k]);
     if ((d > tolerance && e > tolerance) || (d < -tolerance && e < -tolerance)) return 0;
     if (fabs (d) > tolerance) s = (copysign (tolerance, d) - d) / (e - d);
     if (fabs (e) > tolerance) t = (copysign (tolerance, e) - d) / (e - d);
@@ -185,7 +197,8 @@ int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double to
 
 void pg_cracks_clear (pg_cracks *cracks)
 {
-    for (size_t i = 0; cracks->crack && i < cracks->n; i++) pg_free (cracks->crack[i].vertex), pg_free (cracks->crack[i].retreat);
+    for (size_t i = 0; cracks->crack && i < cracks->n; i++)
+        pg_free (cracks->crack[i].vertex), pg_free (cracks->crack[i].retreat);
     pg_free (cracks->crack);
     memset (cracks, 0, sizeof *cracks);
 }

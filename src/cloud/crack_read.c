@@ -15,8 +15,9 @@ static double length (int dim, const double *a)
     return sqrt (s);
 }
 
-/* ---- does it meet the body? ----------------------------------------------------------------------------------------- */
-/* 0 only when the triangle certainly lies outside: a ball around a piece misses the body, or all parts of the piece do. */
+/* ---- does it meet the body? ---------------------------------------------------------------------------- */
+/* 0 only when the triangle certainly lies outside: a ball around a piece misses the body, or all parts of the
+ * piece do. */
 static int may_meet (const pg_body *body, const double *a, const double *b, const double *c, int depth)
 {
     double m[3] = {0, 0, 0}, ab[3] = {0, 0, 0}, bc[3] = {0, 0, 0}, ca[3] = {0, 0, 0}, radius = 0;
@@ -45,7 +46,7 @@ static int crack_may_meet (const pg_body *body, const pg_crack *c)
     return 0;
 }
 
-/* ---- kinds ---------------------------------------------------------------------------------------------------------- */
+/* ---- kinds --------------------------------------------------------------------------------------------- */
 static pg_status read_segment (pg_crack *c, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -86,7 +87,8 @@ static const char *polygon_fault (const pg_crack *c, double *flat)
     int k = 0;
     for (size_t i = 0; i < c->nvertex; i++) {
         double r[3], d = 0;
-        for (int m = 0; m < 3; m++) r[m] = c->vertex[3*i + (size_t) m] - c->vertex[m], d += r[m] * c->normal[m];
+        for (int m = 0; m < 3; m++)
+            r[m] = c->vertex[3 * i + (size_t) m] - c->vertex[m], d += r[m] * c->normal[m];
         size = fmax (size, length (3, r));
         off = fmax (off, fabs (d));
     }
@@ -140,7 +142,8 @@ static pg_status read_disc (pg_crack *c, const pg_scene *scene, const char *at)
     for (int k = 0; k < 3; k++) f[k] = n[(k + 1) % 3] * e[(k + 2) % 3] - n[(k + 2) % 3] * e[(k + 1) % 3];
     for (size_t i = 0; i < DISC_CORNERS; i++) {
         double angle = 2 * acos (-1) * (double) i / DISC_CORNERS;
-        for (size_t k = 0; k < 3; k++) c->vertex[3*i + k] = c->centre[k] + c->radius * (cos (angle) * e[k] + sin (angle) * f[k]);
+        for (size_t k = 0; k < 3; k++)
+            c->vertex[3 * i + k] = c->centre[k] + c->radius * (cos (angle) * e[k] + sin (angle) * f[k]);
     }
 done:
     return status;
@@ -153,8 +156,10 @@ static pg_status read_crack (pg_crack *c, int dim, const pg_scene *scene, size_t
     int segment = pg_scene_given (scene, "%s.from", at);
     c->kind = PG_CRACK_SEGMENT;
     if (dim == 1) pg_scene_fault (scene, at, "a crack needs dimension 2 or 3");
-    else if (segment != (dim == 2)) pg_scene_fault (scene, at, dim == 2 ? "in 2D give from and to" : "in 3D give a polygon or a disc");
-    else if (!segment && pg_scene_given (scene, "%s.to", at)) pg_scene_fault (scene, at, "to belongs to from, in 2D");
+    else if (segment != (dim == 2))
+        pg_scene_fault (scene, at, dim == 2 ? "in 2D give from and to" : "in 3D give a polygon or a disc");
+    else if (!segment && pg_scene_given (scene, "%s.to", at))
+        pg_scene_fault (scene, at, "to belongs to from, in 2D");
     else if (segment) return read_segment (c, scene, at);
     else if (pg_scene_given (scene, "%s.disc", at)) return read_disc (c, scene, at);
     else return read_polygon (c, scene, at);
@@ -165,7 +170,9 @@ static void fault_outside (const pg_scene *scene, const char *at, const pg_body 
 {
     char text[128];
     int n = 0;
-    for (int k = 0; k < dim; k++) n += snprintf (text + n, sizeof text - (size_t) n, "%s%c %.5g to %.5g m", k ? ", " : "", "xyz"[k], body->low[k], body->high[k]);
+    for (int k = 0; k < dim; k++)
+        n += snprintf (text + n, sizeof text - (size_t) n, "%s%c %.5g to %.5g m", k ? ", " : "", "xyz"[k],
+                       body -> low[k], body -> high[k]);
     pg_scene_fault (scene, at, "lies outside the body, which fills %s", text);
 }
 

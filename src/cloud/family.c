@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Families { j : |x_j - c_i| <= reach } in O(n): the centres are sorted into grid cells; the points then visit, in ascending
- * order, the cells near them, so that each family comes out sorted. Where every point has its own reach the centres are sorted
- * into a tree instead: O(n log n) however crowded some places are. */
+ * Families { j : |x_j - c_i| <= reach } in O(n): the centres are sorted into grid cells; the points then
+ * visit, in ascending order, the cells near them, so that each family comes out sorted. Where every point has
+ * its own reach the centres are sorted into a tree instead: O(n log n) however crowded some places are. */
 #include "perigal/cloud.h"
 #include "tree.h"
 #include <math.h>
@@ -10,8 +10,8 @@
 typedef struct {
     int     dim;
     size_t  count[3];
-    double  low[3], inverse[3];                        /* m, 1/m: cell = (x - low) * inverse                             */
-    size_t *start, *item;                              /* centres of each cell                                           */
+    double  low[3], inverse[3];                        /* m, 1/m: cell = (x - low) * inverse */
+    size_t *start, *item;                              /* centres of each cell */
 } grid;
 
 static size_t cell_along (const grid *g, int k, double x)
@@ -77,13 +77,13 @@ done:
 
 typedef struct {
     const grid *g;
-    const pg_tree *tree;                               /* in place of g where reaches differ                             */
+    const pg_tree *tree;                               /* in place of g where reaches differ */
     int dim;
     const double *centre;
-    double reach, limit;                               /* search width; largest distance (radial: squared)               */
+    double reach, limit;                               /* search width; largest distance (radial: squared) */
     int shape, closed;
-    size_t *next;                                      /* per centre: counts up                                          */
-    int *node;                                         /* NULL in the counting pass                                      */
+    size_t *next;                                      /* per centre: counts up */
+    int *node;                                         /* NULL in the counting pass */
 } search;
 
 static int belongs (const search *s, int dim, const double *c, const double *x)
@@ -153,24 +153,30 @@ static void visit_points (const search *all, const pg_cloud *cloud, double reach
 static pg_status check_input (const pg_cloud *cloud, size_t n, const double *centre, double reach)
 {
     pg_status status = PG_OK;
-    if (!(reach >= 0) || !isfinite (reach)) PG_FAIL (PG_E_USAGE, "reach %g m of a family must be finite and not negative", reach);
+    if (!(reach >= 0) || !isfinite (reach))
+        PG_FAIL (PG_E_USAGE, "reach %g m of a family must be finite and not negative", reach);
     for (size_t i = 0; i < n * (size_t) cloud->dim; i++)
-        if (!isfinite (centre[i])) PG_FAIL (PG_E_USAGE, "centre %zu of a family is not a finite position", i / (size_t) cloud->dim);
+        if (!isfinite (centre[i]))
+            PG_FAIL (PG_E_USAGE, "centre %zu of a family is not a finite position", i / (size_t) cloud->dim);
     for (size_t i = 0; i < cloud->n * (size_t) cloud->dim; i++)
-        if (!isfinite (cloud->x[i])) PG_FAIL (PG_E_USAGE, "point %zu has no finite position", i / (size_t) cloud->dim);
+        if (!isfinite (cloud->x[i]))
+            PG_FAIL (PG_E_USAGE, "point %zu has no finite position", i / (size_t) cloud->dim);
     for (size_t i = 0; cloud->size && i < cloud->n; i++)
-        if (!(cloud->size[i] > 0) || !isfinite (cloud->size[i])) PG_FAIL (PG_E_USAGE, "point %zu has the spacing %g m", i, cloud->size[i]);
+        if (!(cloud->size[i] > 0) || !isfinite (cloud->size[i]))
+            PG_FAIL (PG_E_USAGE, "point %zu has the spacing %g m", i, cloud->size[i]);
 done:
     return status;
 }
 
-pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, const double *centre, double reach, int shape, int closed)
+pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, const double *centre,
+                           double reach, int shape, int closed)
 {
     pg_status status = PG_OK;
     grid g = {0};
     pg_tree tree = {0};
     double far = reach * (closed ? 1 + 1e-9 : 1 - 1e-9);
-    search s = {&g, &tree, cloud->dim, centre, reach * (1 + 1e-8), shape == PG_RADIAL ? far * far : far, shape, closed, NULL, NULL};
+    search s = { &g,    &tree,  cloud->dim, centre, reach * (1 + 1e-8), shape == PG_RADIAL ? far * far : far,
+                 shape, closed, NULL,       NULL };
     memset (out, 0, sizeof *out);
     PG_TRY (check_input (cloud, n, centre, reach));
     if (cloud->size) PG_TRY (pg_tree_build (&tree, cloud->dim, n, centre));

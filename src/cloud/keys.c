@@ -4,95 +4,235 @@
 
 #define LENGTH "(0, inf)"
 #define ROUND(at) \
-    { .path = at ".diameter", .kind = PG_NUMBER, .unit = "m", .range = LENGTH, .fallback = "", .group = "size:one", .doc = "Diameter." }, \
-    { .path = at ".radius",   .kind = PG_NUMBER, .unit = "m", .range = LENGTH, .fallback = "", .group = "size:one", .doc = "Radius." }
+    { .path = at ".diameter", \
+      .kind = PG_NUMBER, \
+      .unit = "m", \
+      .range = LENGTH, \
+      .fallback = "", \
+      .group = "size:one", \
+      .doc = "Diameter." }, \
+    { \
+        .path = at ".radius", .kind = PG_NUMBER, .unit = "m", .range = LENGTH, .fallback = "", \
+        .group = "size:one", .doc = "Radius." \
+    }
 #define SHAPE(at, word) { .path = at, .kind = PG_MAP, .fallback = "", .group = "shape:one", .doc = word }
 /* The shapes are the same under add: and subtract: */
 #define SHAPES(op) \
     SHAPE (op ".box", "Box along the axes: an interval, a rectangle or a cuboid."), \
-    { .path = op ".box.low",  .kind = PG_VECTOR, .unit = "m", .doc = "Corner with the smallest coordinates." }, \
-    { .path = op ".box.high", .kind = PG_VECTOR, .unit = "m", .doc = "Corner with the largest coordinates." }, \
-    SHAPE (op ".disk", "Disk, in two dimensions."), \
-    { .path = op ".disk.center", .kind = PG_VECTOR, .unit = "m", .doc = "Centre." }, \
-    ROUND (op ".disk"), \
-    SHAPE (op ".cylinder", "Cylinder, in three dimensions."), \
-    { .path = op ".cylinder.center", .kind = PG_VECTOR, .unit = "m", .doc = "Middle of the end face where the axis starts." }, \
-    { .path = op ".cylinder.axis",   .kind = PG_VECTOR, .unit = "1", .fallback = "[0, 0, 1]", \
-      .doc = "Direction of the axis; its length does not matter." }, \
-    { .path = op ".cylinder.length", .kind = PG_NUMBER, .unit = "m", .range = LENGTH, .doc = "Length along the axis." }, \
-    ROUND (op ".cylinder"), \
-    SHAPE (op ".sphere", "Ball, in three dimensions."), \
-    { .path = op ".sphere.center", .kind = PG_VECTOR, .unit = "m", .doc = "Centre." }, \
-    ROUND (op ".sphere"), \
-    SHAPE (op ".polygon", "Polygon, in two dimensions."), \
-    { .path = op ".polygon.vertices",   .kind = PG_LIST, .doc = "Vertices in order; the last is joined to the first." }, \
-    { .path = op ".polygon.vertices[]", .kind = PG_NUMBERS, .unit = "m", .fallback = "", .doc = "One vertex [x, y]." }, \
-    SHAPE (op ".prism", "Prism along z over a polygon, in three dimensions."), \
-    { .path = op ".prism.vertices",   .kind = PG_LIST, .doc = "Vertices of the base in order; the last is joined to the first." }, \
-    { .path = op ".prism.vertices[]", .kind = PG_NUMBERS, .unit = "m", .fallback = "", .doc = "One vertex [x, y] of the base." }, \
-    { .path = op ".prism.low",  .kind = PG_NUMBER, .unit = "m", .doc = "Smallest z." }, \
-    { .path = op ".prism.high", .kind = PG_NUMBER, .unit = "m", .doc = "Largest z." }, \
-    SHAPE (op ".mesh", "What the elements of a mesh fill, in two and three dimensions; its surface is that of the cells it leaves (a staircase, also with cells: cut)."), \
-    { .path = op ".mesh.file", .kind = PG_FILE, .doc = "Mesh file, next to the scene file: formats as under mesh.file. Its side sets are names for sets: {NAME: {boundary: ...}}." }, \
-    { .path = op ".mesh.unit", .kind = PG_TEXT, .fallback = "m", .doc = "Unit of length in the file: m, mm, inch, or a length such as 25.4 mm." }, \
-    { .path = op ".mesh.blocks", .kind = PG_NAMES, .fallback = "", .doc = "Only these blocks of the mesh, by name or number; default all." }
+        { .path = op ".box.low", \
+          .kind = PG_VECTOR, \
+          .unit = "m", \
+          .doc = "Corner with the smallest coordinates." }, \
+        { .path = op ".box.high", \
+          .kind = PG_VECTOR, \
+          .unit = "m", \
+          .doc = "Corner with the largest coordinates." }, \
+        SHAPE (op ".disk", "Disk, in two dimensions."), \
+        { .path = op ".disk.center", .kind = PG_VECTOR, .unit = "m", .doc = "Centre." }, ROUND (op ".disk"), \
+        SHAPE (op ".cylinder", "Cylinder, in three dimensions."), \
+        { .path = op ".cylinder.center", \
+          .kind = PG_VECTOR, \
+          .unit = "m", \
+          .doc = "Middle of the end face where the axis starts." }, \
+        { .path = op ".cylinder.axis", \
+          .kind = PG_VECTOR, \
+          .unit = "1", \
+          .fallback = "[0, 0, 1]", \
+          .doc = "Direction of the axis; its length does not matter." }, \
+        { .path = op ".cylinder.length", \
+          .kind = PG_NUMBER, \
+          .unit = "m", \
+          .range = LENGTH, \
+          .doc = "Length along the axis." }, \
+        ROUND (op ".cylinder"), SHAPE (op ".sphere", "Ball, in three dimensions."), \
+        { .path = op ".sphere.center", .kind = PG_VECTOR, .unit = "m", .doc = "Centre." }, \
+        ROUND (op ".sphere"), SHAPE (op ".polygon", "Polygon, in two dimensions."), \
+        { .path = op ".polygon.vertices", \
+          .kind = PG_LIST, \
+          .doc = "Vertices in order; the last is joined to the first." }, \
+        { .path = op ".polygon.vertices[]", \
+          .kind = PG_NUMBERS, \
+          .unit = "m", \
+          .fallback = "", \
+          .doc = "One vertex [x, y]." }, \
+        SHAPE (op ".prism", "Prism along z over a polygon, in three dimensions."), \
+        { .path = op ".prism.vertices", \
+          .kind = PG_LIST, \
+          .doc = "Vertices of the base in order; the last is joined to the first." }, \
+        { .path = op ".prism.vertices[]", \
+          .kind = PG_NUMBERS, \
+          .unit = "m", \
+          .fallback = "", \
+          .doc = "One vertex [x, y] of the base." }, \
+        { .path = op ".prism.low", .kind = PG_NUMBER, .unit = "m", .doc = "Smallest z." }, \
+        { .path = op ".prism.high", .kind = PG_NUMBER, .unit = "m", .doc = "Largest z." }, \
+        SHAPE (op ".mesh", "What the elements of a mesh fill, in two and three dimensions; its surface is " \
+                           "that of the cells it leaves (a staircase, also with cells: cut)."), \
+        { .path = op ".mesh.file", \
+          .kind = PG_FILE, \
+          .doc = "Mesh file, next to the scene file: formats as under mesh.file. Its side sets are names " \
+                 "for sets: {NAME: {boundary: ...}}." }, \
+        { .path = op ".mesh.unit", \
+          .kind = PG_TEXT, \
+          .fallback = "m", \
+          .doc = "Unit of length in the file: m, mm, inch, or a length such as 25.4 mm." }, \
+    { \
+        .path = op ".mesh.blocks", .kind = PG_NAMES, .fallback = "", \
+        .doc = "Only these blocks of the mesh, by name or number; default all." \
+    }
 
 static const pg_key keys[] = {
-    { .path = "body", .kind = PG_LIST, .fallback = "", .group = "origin:most",
-      .doc = "The body as shapes, added and subtracted one after the other; needed unless points or a mesh are read from a file." },
-    { .path = "body[].name", .kind = PG_TEXT, .fallback = "",
-      .doc = "Name of the surface of this shape for sets; unless given: rim (round), side (straight, also the flat ends of a cylinder), hole (subtracted)." },
-    { .path = "body[].add", .kind = PG_MAP, .fallback = "", .group = "op:one", .doc = "The shape becomes part of the body." },
+    { .path = "body",
+      .kind = PG_LIST,
+      .fallback = "",
+      .group = "origin:most",
+      .doc = "The body as shapes, added and subtracted one after the other; needed unless points or a mesh "
+             "are read from a file." },
+    { .path = "body[].name",
+      .kind = PG_TEXT,
+      .fallback = "",
+      .doc = "Name of the surface of this shape for sets; unless given: rim (round), side (straight, also "
+             "the flat ends of a cylinder), hole (subtracted)." },
+    { .path = "body[].add",
+      .kind = PG_MAP,
+      .fallback = "",
+      .group = "op:one",
+      .doc = "The shape becomes part of the body." },
     SHAPES ("body[].add"),
-    { .path = "body[].subtract", .kind = PG_MAP, .fallback = "", .group = "op:one", .doc = "The shape is cut out of the body." },
+    { .path = "body[].subtract",
+      .kind = PG_MAP,
+      .fallback = "",
+      .group = "op:one",
+      .doc = "The shape is cut out of the body." },
     SHAPES ("body[].subtract"),
-    { .path = "layers", .kind = PG_LIST, .fallback = "",
-      .doc = "Fictitious boundary layers outside of a body of shapes: the body grows by a box over one face of its bounding box."
+    { .path = "layers",
+      .kind = PG_LIST,
+      .fallback = "",
+      .doc = "Fictitious boundary layers outside of a body of shapes: the body grows by a box over one face "
+             "of its bounding box."
              " The spacing is that of the body without them." },
-    { .path = "layers[].name", .kind = PG_TEXT,
-      .doc = "Name of the set that holds the points of the layer (without those on the body's own face) and the facets of its cells; boundary, failure.exclude ... take it." },
-    { .path = "layers[].side", .kind = PG_NAME, .choices = "left|right|bottom|top|back|front", .doc = "On which side of the body; one layer each." },
-    { .path = "layers[].thickness", .kind = PG_NUMBER, .unit = "m|spacing", .range = LENGTH,
+    { .path = "layers[].name",
+      .kind = PG_TEXT,
+      .doc = "Name of the set that holds the points of the layer (without those on the body's own face) and "
+             "the facets of its cells; boundary, failure.exclude ... take it." },
+    { .path = "layers[].side",
+      .kind = PG_NAME,
+      .choices = "left|right|bottom|top|back|front",
+      .doc = "On which side of the body; one layer each." },
+    { .path = "layers[].thickness",
+      .kind = PG_NUMBER,
+      .unit = "m|spacing",
+      .range = LENGTH,
       .doc = "Thickness, rounded to whole cells of the lattice." },
-    { .path = "layers[].over", .kind = PG_NAME, .choices = "box|body", .fallback = "box",
-      .doc = "Over the whole face of the bounding box, or only over the part where the body is: from the first to the last place along the face with the body half a"
+    { .path = "layers[].over",
+      .kind = PG_NAME,
+      .choices = "box|body",
+      .fallback = "box",
+      .doc = "Over the whole face of the bounding box, or only over the part where the body is: from the "
+             "first to the last place along the face with the body half a"
              " cell below it (the foot of an L; one box, also across a notch)." },
-    { .path = "points", .kind = PG_FILE, .fallback = "", .group = "origin:most",
-      .doc = "CSV file of points in place of a body, next to the scene file; columns x [y [z]] volume [block] [spacing] in m and m3. A header may name them in"
+    { .path = "points",
+      .kind = PG_FILE,
+      .fallback = "",
+      .group = "origin:most",
+      .doc = "CSV file of points in place of a body, next to the scene file; columns x [y [z]] volume "
+             "[block] [spacing] in m and m3. A header may name them in"
              " another order and in other units: x [mm], y [mm], volume [mm3]."
              " With a spacing (distance to the neighbours) the support of each point follows it." },
-    { .path = "mesh", .kind = PG_MAP, .fallback = "", .group = "origin:most",
-      .doc = "Mesh in place of a body: its elements are the background cells, its nodes the points, its sets are sets." },
-    { .path = "mesh.file", .kind = PG_FILE,
-      .doc = "Mesh file, next to the scene file: Gmsh .msh, Abaqus or CalculiX .inp, Exodus .e, CalculiX .frd, told by content." },
-    { .path = "mesh.unit", .kind = PG_TEXT, .fallback = "m", .doc = "Unit of length in the file: m, mm, inch, or a length such as 25.4 mm." },
-    { .path = "mesh.blocks", .kind = PG_NAMES, .fallback = "", .doc = "Only these blocks of the mesh, by name or number; default all." },
-    { .path = "mesh.points", .kind = PG_NAME, .fallback = "nodes", .choices = "nodes|corners",
+    { .path = "mesh",
+      .kind = PG_MAP,
+      .fallback = "",
+      .group = "origin:most",
+      .doc = "Mesh in place of a body: its elements are the background cells, its nodes the points, its sets "
+             "are sets." },
+    { .path = "mesh.file",
+      .kind = PG_FILE,
+      .doc = "Mesh file, next to the scene file: Gmsh .msh, Abaqus or CalculiX .inp, Exodus .e, CalculiX "
+             ".frd, told by content." },
+    { .path = "mesh.unit",
+      .kind = PG_TEXT,
+      .fallback = "m",
+      .doc = "Unit of length in the file: m, mm, inch, or a length such as 25.4 mm." },
+    { .path = "mesh.blocks",
+      .kind = PG_NAMES,
+      .fallback = "",
+      .doc = "Only these blocks of the mesh, by name or number; default all." },
+    { .path = "mesh.points",
+      .kind = PG_NAME,
+      .fallback = "nodes",
+      .choices = "nodes|corners",
       .doc = "Points at all nodes, or at the corners of the elements only." },
-    { .path = "mesh.support", .kind = PG_NAME, .fallback = "local", .choices = "local|equal",
-      .doc = "Support of a point: horizon in units of the local spacing, or of the mean spacing everywhere." },
-    { .path = "spacing", .kind = PG_NUMBER, .unit = "m", .range = LENGTH, .fallback = "",
-      .doc = "Wanted distance of points; adapted per axis so that a whole number of cells fills the bounding box. Needed with body." },
-    { .path = "lattice", .kind = PG_NAME, .fallback = "nodes", .choices = "nodes|cells",
+    { .path = "mesh.support",
+      .kind = PG_NAME,
+      .fallback = "local",
+      .choices = "local|equal",
+      .doc =
+          "Support of a point: horizon in units of the local spacing, or of the mean spacing everywhere." },
+    { .path = "spacing",
+      .kind = PG_NUMBER,
+      .unit = "m",
+      .range = LENGTH,
+      .fallback = "",
+      .doc = "Wanted distance of points; adapted per axis so that a whole number of cells fills the bounding "
+             "box. Needed with body." },
+    { .path = "lattice",
+      .kind = PG_NAME,
+      .fallback = "nodes",
+      .choices = "nodes|cells",
       .doc = "Points at the vertices of the cells, so that some lie on the boundary, or at their centres." },
-    { .path = "lattice_offset", .kind = PG_VECTOR, .unit = "1", .range = "[-1, 1]", .fallback = "",
+    { .path = "lattice_offset",
+      .kind = PG_VECTOR,
+      .unit = "1",
+      .range = "[-1, 1]",
+      .fallback = "",
       .doc = "Shift of the lattice against the bounding box, in steps of the lattice." },
-    { .path = "perturb", .kind = PG_MAP, .fallback = "",
-      .doc = "Moves points away from the lattice (of a mesh: from its nodes) at random, reproducibly; boundary points and cells stay." },
-    { .path = "perturb.amount", .kind = PG_NUMBER, .unit = "1", .range = "[0, 0.45]", .fallback = "0",
+    { .path = "perturb",
+      .kind = PG_MAP,
+      .fallback = "",
+      .doc = "Moves points away from the lattice (of a mesh: from its nodes) at random, reproducibly; "
+             "boundary points and cells stay." },
+    { .path = "perturb.amount",
+      .kind = PG_NUMBER,
+      .unit = "1",
+      .range = "[0, 0.45]",
+      .fallback = "0",
       .doc = "Largest shift along each axis, in steps of the lattice or local spacings of the mesh." },
-    { .path = "perturb.seed", .kind = PG_INTEGER, .range = "[0, inf)", .fallback = "1", .doc = "Another seed, another arrangement." },
-    { .path = "cracks", .kind = PG_LIST, .fallback = "",
+    { .path = "perturb.seed",
+      .kind = PG_INTEGER,
+      .range = "[0, inf)",
+      .fallback = "1",
+      .doc = "Another seed, another arrangement." },
+    { .path = "cracks",
+      .kind = PG_LIST,
+      .fallback = "",
       .doc = "Cracks present before loading: bonds that meet one are broken from the start." },
-    { .path = "cracks[].from", .kind = PG_VECTOR, .unit = "m", .fallback = "", .group = "kind:one",
+    { .path = "cracks[].from",
+      .kind = PG_VECTOR,
+      .unit = "m",
+      .fallback = "",
+      .group = "kind:one",
       .doc = "One end of a straight crack in two dimensions." },
-    { .path = "cracks[].to",   .kind = PG_VECTOR, .unit = "m", .fallback = "", .doc = "The other end." },
-    { .path = "cracks[].polygon", .kind = PG_LIST, .fallback = "", .group = "kind:one",
+    { .path = "cracks[].to", .kind = PG_VECTOR, .unit = "m", .fallback = "", .doc = "The other end." },
+    { .path = "cracks[].polygon",
+      .kind = PG_LIST,
+      .fallback = "",
+      .group = "kind:one",
       .doc = "Plane polygon in three dimensions: vertices in order." },
-    { .path = "cracks[].polygon[]", .kind = PG_VECTOR, .unit = "m", .fallback = "", .doc = "One vertex [x, y, z]." },
-    { .path = "cracks[].disc", .kind = PG_MAP, .fallback = "", .group = "kind:one", .doc = "Penny-shaped crack in three dimensions." },
+    { .path = "cracks[].polygon[]",
+      .kind = PG_VECTOR,
+      .unit = "m",
+      .fallback = "",
+      .doc = "One vertex [x, y, z]." },
+    { .path = "cracks[].disc",
+      .kind = PG_MAP,
+      .fallback = "",
+      .group = "kind:one",
+      .doc = "Penny-shaped crack in three dimensions." },
     { .path = "cracks[].disc.center", .kind = PG_VECTOR, .unit = "m", .doc = "Centre." },
-    { .path = "cracks[].disc.normal", .kind = PG_VECTOR, .unit = "1", .doc = "Direction across the crack; its length does not matter." },
+    { .path = "cracks[].disc.normal",
+      .kind = PG_VECTOR,
+      .unit = "1",
+      .doc = "Direction across the crack; its length does not matter." },
     { .path = "cracks[].disc.radius", .kind = PG_NUMBER, .unit = "m", .range = LENGTH, .doc = "Radius." },
 };
 const pg_key_table pg_keys_cloud = { "cloud", keys, sizeof keys / sizeof *keys };

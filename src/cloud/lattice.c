@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Background lattice: round (L / spacing) equal cells per axis over the bounding box, and whole ones in the layers outside of it; a cell is
- * kept when its centre lies in the body. A centre on the surface counts as inside (to 1e-9 of a step), whichever side it is seen from, so symmetry is kept. */
+ * Background lattice: round (L / spacing) equal cells per axis over the bounding box, and whole ones in the
+ * layers outside of it; a cell is kept when its centre lies in the body. A centre on the surface counts as
+ * inside (to 1e-9 of a step), whichever side it is seen from, so symmetry is kept. */
 #include "perigal/cloud.h"
 #include <float.h>
 #include <limits.h>
@@ -14,16 +15,18 @@ double pg_lattice_tolerance (const pg_lattice *l)
         step = fmin (step, l->step[k]);
         size = fmax (size, fmax (fabs (l->origin[k]), fabs (l->high[k])));
     }
-    return 1e-9 * step + 8 * DBL_EPSILON * size;           /* far from the origin rounding is coarser than 1e-9 step */
+    return 1e-9 * step + 8 * DBL_EPSILON * size;  /* far from the origin rounding is coarser than 1e-9 step */
 }
 
 /* Cells of the body without its layers, in [low, high], and of the layers on the two sides of that. */
-static double cells_along (const pg_body *body, int k, double spacing, double *low, double *high, double *more)
+static double cells_along (const pg_body *body, int k, double spacing, double *low, double *high,
+                           double *more)
 {
     *low = body->low[k], *high = body->high[k], *more = 0;
     for (size_t i = 0; i < body->nlayer; i++)
         if (body->layer[i].side / 2 == k) *(body->layer[i].side % 2 ? high : low) = body->layer[i].face;
-    double cells = fmax (1, floor ((*high - *low) / spacing + 0.5)), outside = *low - body->low[k] + (body->high[k] - *high);
+    double cells = fmax (1, floor ((*high - *low) / spacing + 0.5)),
+           outside = *low - body->low[k] + (body->high[k] - *high);
     if (outside > 0) *more = fmax (0, floor (outside / ((*high - *low) / cells) + 0.5));
     return cells;
 }
@@ -37,7 +40,8 @@ static pg_status fit_axes (pg_lattice *l, const pg_body *body, double spacing, c
         double low, high, more, cells = cells_along (body, k, spacing, &low, &high, &more);
         double shift = offset ? offset[k] - ceil (offset[k]) : 0;                  /* in (-1, 0] */
         vertices *= cells + more + 2;
-        if (!(vertices < INT_MAX)) PG_FAIL (PG_E_LIMIT, "spacing %g m gives more than %d cells", spacing, INT_MAX);
+        if (!(vertices < INT_MAX))
+            PG_FAIL (PG_E_LIMIT, "spacing %g m gives more than %d cells", spacing, INT_MAX);
         l->step[k]   = (high - low) / cells;
         l->count[k]  = (int) (cells + more) + (shift < 0);
         l->origin[k] = body->low[k] + shift * l->step[k];
@@ -54,7 +58,8 @@ pg_status pg_lattice_fit (pg_lattice *out, const pg_body *body, double spacing, 
     out->dim = body->dim;
     if (!(spacing > 0) || !isfinite (spacing)) PG_FAIL (PG_E_USAGE, "spacing %g m must be positive", spacing);
     for (int k = 0; k < body->dim; k++)
-        if (!(body->high[k] > body->low[k]) || !isfinite (body->high[k] - body->low[k])) PG_FAIL (PG_E_USAGE, "the body has no size");
+        if (!(body->high[k] > body->low[k]) || !isfinite (body->high[k] - body->low[k]))
+            PG_FAIL (PG_E_USAGE, "the body has no size");
     PG_TRY (fit_axes (out, body, spacing, offset));
     PG_ALLOC (out->in, (size_t) out->count[0] * (size_t) out->count[1] * (size_t) out->count[2]);
     double tolerance = pg_lattice_tolerance (out);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fictitious boundary layers: boxes of whole lattice cells outside the bounding box of the shapes (theory B3). */
+ * Fictitious boundary layers: boxes of whole lattice cells outside the bounding box of the shapes (theory
+ * B3). */
 #include "shape.h"
 #include <limits.h>
 #include <math.h>
@@ -20,10 +21,13 @@ static void read_name (pg_layer *layer, const pg_body *body, const pg_scene *sce
     const char *name = pg_scene_text (scene, "layers[%zu].name", i);
     char at[64];
     snprintf (at, sizeof at, "layers[%zu].name", i);
-    if (strlen (name) >= sizeof layer->name) pg_scene_fault (scene, at, "at most %zu letters", sizeof layer->name - 1);
-    else if (!*name || strpbrk (name, ".[]{}= ")) pg_scene_fault (scene, at, "a name has at least one letter and no space . [ ] { } =");
-    else if (pg_layers_taken (name)) pg_scene_fault (scene, at, "'%s' already names a side of the body", name);
-    for (size_t k = 0; k < body->n; k++)                   /* those of the layers before it among them                    */
+    if (strlen (name) >= sizeof layer->name)
+        pg_scene_fault (scene, at, "at most %zu letters", sizeof layer->name - 1);
+    else if (!*name || strpbrk (name, ".[]{}= "))
+        pg_scene_fault (scene, at, "a name has at least one letter and no space . [ ] { } =");
+    else if (pg_layers_taken (name))
+        pg_scene_fault (scene, at, "'%s' already names a side of the body", name);
+    for (size_t k = 0; k < body->n; k++)                   /* those of the layers before it among them */
         if (!strcmp (name, body->shape[k].boundary)) {
             pg_scene_fault (scene, at, "'%s' already names the surface of a shape, or another layer", name);
             break;
@@ -40,16 +44,20 @@ static int read_side (const pg_body *body, const pg_scene *scene, size_t i)
     while (number < 5 && strcmp (side, sides[number])) number++;
     if (number >= 2 * body->dim) pg_scene_fault (scene, at, "a %dD body has no such side", body->dim);
     for (size_t k = 0; k < i; k++)
-        if (body->layer[k].side == number) pg_scene_fault (scene, at, "layer %s is on this side already", body->layer[k].name);
+        if (body->layer[k].side == number)
+            pg_scene_fault (scene, at, "layer %s is on this side already", body->layer[k].name);
     return number;
 }
 
 /* Whole cells of the lattice over low..high, the box of the body without layers. */
-static void read_thickness (pg_layer *layer, const double *low, const double *high, const pg_scene *scene, size_t i, double *reach)
+static void read_thickness (pg_layer *layer, const double *low, const double *high, const pg_scene *scene,
+                            size_t i, double *reach)
 {
     int k = layer->side / 2;
-    double length = high[k] - low[k], step = length / fmax (1, floor (length / pg_scene_number (scene, "spacing") + 0.5));
-    double thickness = pg_scene_length (scene, step, "layers[%zu].thickness", i), rows = floor (thickness / step + 0.5);
+    double length = high[k] - low[k],
+           step = length / fmax (1, floor (length / pg_scene_number (scene, "spacing") + 0.5));
+    double thickness = pg_scene_length (scene, step, "layers[%zu].thickness", i),
+           rows = floor (thickness / step + 0.5);
     char at[64];
     snprintf (at, sizeof at, "layers[%zu].thickness", i);
     if (!(rows >= 1)) pg_scene_fault (scene, at, "less than half a cell (%.6g m): no row of points", step);
@@ -84,11 +92,13 @@ static double edge_of (const pg_body *body, const double *x, int axis, double to
     return inside;
 }
 
-enum { MOST_LOOKS = 4096 };                                /* along an axis                                              */
+enum { MOST_LOOKS = 4096 };                                /* along an axis */
 
-/* Shrinks the box of a layer to the part of the face below which, half a cell deep, the body lies: from the first cell to the last one along
- * every axis, and there to the body's own edge. body: without layers. 0: it lies below none. */
-static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, const double *low, const double *high, double spacing)
+/* Shrinks the box of a layer to the part of the face below which, half a cell deep, the body lies: from the
+ * first cell to the last one along every axis, and there to the body's own edge. body: without layers. 0: it
+ * lies below none. */
+static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, const double *low,
+                   const double *high, double spacing)
 {
     int normal = layer->side / 2, found = 0, i[3] = { 0 }, count[3] = { 1, 1, 1 };
     double step[3] = { 0 }, first[3], last[3];
@@ -108,8 +118,10 @@ static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, co
                 found = 1;
                 for (int k = 0; k < body->dim; k++) {
                     if (k == normal) continue;
-                    if (x[k] - step[k] < first[k]) first[k] = fmin (first[k], edge_of (body, x, k, fmax (low[k], x[k] - step[k])));
-                    if (x[k] + step[k] > last[k]) last[k] = fmax (last[k], edge_of (body, x, k, fmin (high[k], x[k] + step[k])));
+                    if (x[k] - step[k] < first[k])
+                        first[k] = fmin (first[k], edge_of (body, x, k, fmax (low[k], x[k] - step[k])));
+                    if (x[k] + step[k] > last[k])
+                        last[k] = fmax (last[k], edge_of (body, x, k, fmin (high[k], x[k] + step[k])));
                 }
             }
     for (int k = 0; k < body->dim; k++) if (k != normal) box->low[k] = first[k], box->high[k] = last[k];
@@ -118,9 +130,18 @@ static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, co
 
 static void refuse (const pg_scene *scene)
 {
-    const char *origin = pg_scene_given (scene, "mesh") ? "a mesh" : pg_scene_given (scene, "points") ? "a file of points" : NULL;
-    if (origin) pg_scene_fault (scene, "layers", "are cells of a lattice, and %s has none: give the layer's own points in the file, and a set for them", origin);
-    if (pg_scene_given (scene, "lattice_offset")) pg_scene_fault (scene, "layers", "are whole cells outside the body, which lattice_offset would cut: leave one of the two out");
+    const char *origin = pg_scene_given (scene, "mesh")     ? "a mesh"
+                         : pg_scene_given (scene, "points") ? "a file of points"
+                                                            : NULL;
+    if (origin)
+        pg_scene_fault (scene, "layers",
+                        "are cells of a lattice, and %s has none: give the layer's own points in the file, "
+                        "and a set for them",
+                        origin);
+    if (pg_scene_given (scene, "lattice_offset"))
+        pg_scene_fault (
+            scene, "layers",
+            "are whole cells outside the body, which lattice_offset would cut: leave one of the two out");
 }
 
 pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
@@ -132,10 +153,10 @@ pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
     if (n == 0) return PG_OK;
     refuse (scene);
     PG_TRY (pg_scene_verdict (scene));
-    if (body->n == 0 || !(pg_scene_number (scene, "spacing") > 0)) return PG_OK;           /* a fault, found later           */
+    if (body->n == 0 || !(pg_scene_number (scene, "spacing") > 0)) return PG_OK;  /* a fault, found later */
     memcpy (low, body->low, sizeof low), memcpy (high, body->high, sizeof high);
     PG_ALLOC (body->layer, n);
-    const pg_body bare = *body;                            /* without layers                                             */
+    const pg_body bare = *body;                            /* without layers */
     for (size_t i = 0; i < n; i++) {
         pg_layer *layer = &body->layer[i];
         double reach;
@@ -146,9 +167,12 @@ pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
         read_thickness (layer, low, high, scene, i, &reach);
         lay (&body->shape[body->n], layer, body->dim, low, high, reach);
         int whole = strcmp (pg_scene_text (scene, "layers[%zu].over", i), "body") != 0;
-        if (!whole && !shrink (&body->shape[body->n], layer, &bare, low, high, pg_scene_number (scene, "spacing"))) {
+        if (!whole
+            && !shrink (&body->shape[body->n], layer, &bare, low, high, pg_scene_number (scene, "spacing"))) {
             snprintf (at, sizeof at, "layers[%zu].over", i);
-            pg_scene_fault (scene, at, "half a cell below this side there is no body: it meets the side in a corner only");
+            pg_scene_fault (
+                scene, at,
+                "half a cell below this side there is no body: it meets the side in a corner only");
         }
         if (layer->side % 2) body->high[layer->side / 2] = body->shape[body->n].high[layer->side / 2];
         else body->low[layer->side / 2] = body->shape[body->n].low[layer->side / 2];

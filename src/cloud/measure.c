@@ -19,8 +19,13 @@ int pg_body_measure (const pg_body *body, double *volume, double *surface)
     if (body->n != 1) return 0;
     switch (s->kind) {
     case PG_DISK:     *volume = pi * s->radius * s->radius, *surface = 2 * pi * s->radius; return 1;
-    case PG_SPHERE:   *volume = 4 * pi * pow (s->radius, 3) / 3, *surface = 4 * pi * s->radius * s->radius; return 1;
-    case PG_CYLINDER: *volume = pi * s->radius * s->radius * s->length, *surface = 2 * pi * s->radius * (s->radius + s->length); return 1;
+    case PG_SPHERE:
+        *volume = 4 * pi * pow (s->radius, 3) / 3, *surface = 4 * pi * s->radius * s->radius;
+        return 1;
+    case PG_CYLINDER:
+        *volume = pi * s->radius * s->radius * s->length,
+        *surface = 2 * pi * s->radius * (s->radius + s->length);
+        return 1;
     case PG_POLYGON:  of_polygon (s, volume, surface); return 1;
     case PG_MESH:     *volume = shape_mesh_volume (s, surface); return 1;
     case PG_PRISM:
@@ -28,7 +33,7 @@ int pg_body_measure (const pg_body *body, double *volume, double *surface)
         height = s->high[2] - s->low[2], *volume = area * height, *surface = 2 * area + outline * height;
         return 1;
     }
-    *volume = 1, *surface = 0;                             /* box                                                        */
+    *volume = 1, *surface = 0;                             /* box */
     for (int k = 0; k < body->dim; k++) *volume *= s->high[k] - s->low[k];
     for (int k = 0; k < body->dim; k++) *surface += 2 * *volume / (s->high[k] - s->low[k]);
     return 1;

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- file and unit ---------------------------------------------------------------------------------------------------- */
+/* ---- file and unit ------------------------------------------------------------------------------------- */
 static pg_status read_file (pg_mesh_body *b, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -23,7 +23,8 @@ static pg_status read_file (pg_mesh_body *b, const pg_scene *scene, const char *
     }
     int dim = (int) pg_scene_integer (scene, "dimension");
     if (b->mesh.dim != dim) {
-        pg_scene_fault (scene, key, "its elements are of dimension %d, and dimension is %d", b->mesh.dim, dim);
+        pg_scene_fault (scene, key, "its elements are of dimension %d, and dimension is %d", b->mesh.dim,
+                        dim);
         PG_TRY (pg_scene_verdict (scene));
     }
 done:
@@ -41,7 +42,8 @@ static pg_status scale (pg_mesh_body *b, const pg_scene *scene, const char *at)
     int number = strchr ("+-.0123456789", text[0]) != NULL;
     snprintf (one, sizeof one, "%s%.50s", number ? "" : "1 ", text);
     if (pg_unit_parse (&b->unit, one, "m") != PG_OK || !(b->unit > 0) || !isfinite (b->unit)) {
-        pg_scene_fault (scene, key, "is no unit of length: write m, mm, um, inch, or a length such as 25.4 mm");
+        pg_scene_fault (scene, key,
+                        "is no unit of length: write m, mm, um, inch, or a length such as 25.4 mm");
         PG_TRY (pg_scene_verdict (scene));
     }
     for (size_t k = 0; k < 3 * b->mesh.nnode; k++) b->mesh.x[k] *= b->unit;
@@ -49,7 +51,7 @@ done:
     return status;
 }
 
-/* ---- blocks ----------------------------------------------------------------------------------------------------------- */
+/* ---- blocks -------------------------------------------------------------------------------------------- */
 int pg_mesh_body_block (const pg_mesh *m, const char *name)
 {
     char number[24];
@@ -83,7 +85,8 @@ static pg_status keep_elements (pg_mesh *m, const unsigned char *keep)
         size_t first = m->start[e], count = m->start[e + 1] - first;
         for (size_t k = 0; k < count; k++) node[m->node[first + k]] = 1;
         memmove (m->node + at, m->node + first, count * sizeof *m->node);
-        m->kind[n] = m->kind[e], m->block[n] = m->block[e], m->element_id[n] = m->element_id[e], m->start[n++] = at;
+        m->kind[n] = m->kind[e], m->block[n] = m->block[e], m->element_id[n] = m->element_id[e],
+        m->start[n++] = at;
         at += count;
     }
     m->start[n] = at, m->n = n;
@@ -98,14 +101,16 @@ static pg_status keep_elements (pg_mesh *m, const unsigned char *keep)
     for (size_t k = 0; k < at; k++) m->node[k] = node[m->node[k]];
     for (size_t s = 0; s < m->nnodes; s++) {
         size_t left = 0;
-        for (size_t k = 0; k < m->nodes[s].n; k++) if (node[m->nodes[s].node[k]] >= 0) m->nodes[s].node[left++] = node[m->nodes[s].node[k]];
+        for (size_t k = 0; k < m->nodes[s].n; k++)
+            if (node[m->nodes[s].node[k]] >= 0) m->nodes[s].node[left++] = node[m->nodes[s].node[k]];
         m->nodes[s].n = left;
     }
     for (size_t s = 0; s < m->nsides; s++) {
         size_t left = 0;
         for (size_t k = 0; k < m->sides[s].n; k++) {
             if (element[m->sides[s].element[k]] < 0) continue;
-            m->sides[s].side[left] = m->sides[s].side[k], m->sides[s].element[left++] = element[m->sides[s].element[k]];
+            m->sides[s].side[left] = m->sides[s].side[k],
+            m->sides[s].element[left++] = element[m->sides[s].element[k]];
         }
         m->sides[s].n = left;
     }
@@ -152,7 +157,7 @@ done:
     return status;
 }
 
-/* ---- elements --------------------------------------------------------------------------------------------------------- */
+/* ---- elements ------------------------------------------------------------------------------------------ */
 void pg_mesh_body_nodes (const pg_mesh *m, size_t e, double *x)
 {
     size_t dim = (size_t) m->dim, first = m->start[e];
@@ -160,11 +165,14 @@ void pg_mesh_body_nodes (const pg_mesh *m, size_t e, double *x)
         for (size_t a = 0; a < dim; a++) x[(k - first) * dim + a] = m->x[3 * (size_t) m->node[k] + a];
 }
 
-/* |det| of the unit vectors along the edges at a corner, over that of the regular element; least of all corners. */
+/* |det| of the unit vectors along the edges at a corner, over that of the regular element; least of all
+ * corners. */
 static double scaled_jacobian (pg_element kind, int dim, const double *x)
 {
     const pg_element_type *t = &pg_element_types[kind];
-    static const double best[4][9] = { [2] = { [3] = 0.86602540378443865, [4] = 1 }, [3] = { [4] = 0.70710678118654752, [6] = 0.86602540378443865, [8] = 1 } };
+    static const double best[4][9] = { [2] = { [3] = 0.86602540378443865, [4] = 1 },
+                                       [3] = {
+                                           [4] = 0.70710678118654752, [6] = 0.86602540378443865, [8] = 1 } };
     double least = 1;
     if (dim == 1) return 1;
     for (int c = 0; c < t->corners; c++) {
@@ -176,13 +184,15 @@ static double scaled_jacobian (pg_element kind, int dim, const double *x)
             if (end[0] != c && end[1] != c) continue;
             int other = end[0] == c ? end[1] : end[0];
             double size = 0;
-            for (int a = 0; a < dim; a++) v[n][a] = x[other * dim + a] - x[c * dim + a], size += v[n][a] * v[n][a];
+            for (int a = 0; a < dim; a++)
+                v[n][a] = x[other * dim + a] - x[c * dim + a], size += v[n][a] * v[n][a];
             for (int a = 0; a < dim && size > 0; a++) v[n][a] /= sqrt (size);
             n++;
         }
         double det = dim == 2 ? v[0][0] * v[1][1] - v[0][1] * v[1][0]
-                   : v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) - v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0])
-                   + v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+                              : v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1])
+                                    - v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0])
+                                    + v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
         least = fmin (least, fabs (det) / best[dim][t->corners]);
     }
     return least;
@@ -191,7 +201,8 @@ static double scaled_jacobian (pg_element kind, int dim, const double *x)
 /* Volume of element e; the least Jacobian, at its nodes and points of quadrature, over the mean. */
 static double measure (const pg_mesh *m, size_t e, double *least)
 {
-    double x[3 * PG_ELEMENT_NODES], xi[3 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS], volume = 0, low = INFINITY, reference = 0;
+    double x[3 * PG_ELEMENT_NODES], xi[3 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS],
+        volume = 0, low = INFINITY, reference = 0;
     pg_element kind = (pg_element) m->kind[e];
     pg_mesh_body_nodes (m, e, x);
     int n = pg_element_rule (kind, PG_MESH_BODY_ORDER, xi, weight);
@@ -219,12 +230,16 @@ static pg_status check_elements (pg_mesh_body *b, const pg_scene *scene, const c
         double x[3 * PG_ELEMENT_NODES], least;
         b->volume[e] = measure (m, e, &least);
         if (!(least > 0)) {
-            pg_scene_fault (scene, key, "element %ld (%s) turns inside out: its Jacobian falls to %.2g of the mean; move its nodes, "
-                            "or mesh with straight edges", m->element_id[e], pg_element_types[m->kind[e]].name, least);
+            pg_scene_fault (
+                scene, key,
+                "element %ld (%s) turns inside out: its Jacobian falls to %.2g of the mean; move its nodes, "
+                "or mesh with straight edges",
+                m->element_id[e], pg_element_types[m->kind[e]].name, least);
             PG_TRY (pg_scene_verdict (scene));
         }
         pg_mesh_body_nodes (m, e, x);
-        double quality = scaled_jacobian ((pg_element) m->kind[e], m->dim, x), size = pow (b->volume[e], 1.0 / m->dim);
+        double quality = scaled_jacobian ((pg_element) m->kind[e], m->dim, x),
+               size = pow (b->volume[e], 1.0 / m->dim);
         if (quality < b->quality) b->quality = quality, b->worst = e;
         b->smallest = fmin (b->smallest, size), b->largest = fmax (b->largest, size);
     }
@@ -237,10 +252,13 @@ static pg_status check_place (const pg_mesh *m, const pg_scene *scene, const cha
 {
     for (int k = 0; k < m->dim; k++) {
         double low = INFINITY, high = -INFINITY;
-        for (size_t i = 0; i < m->nnode; i++) low = fmin (low, m->x[3 * i + (size_t) k]), high = fmax (high, m->x[3 * i + (size_t) k]);
+        for (size_t i = 0; i < m->nnode; i++)
+            low = fmin (low, m->x[3 * i + (size_t) k]), high = fmax (high, m->x[3 * i + (size_t) k]);
         double far = fmax (fabs (low), fabs (high));
         if (high - low > 1e-9 * far) continue;
-        pg_scene_fault (scene, key, "lies %.3g m away from the origin along %c and is %.3g m wide: its size is lost in rounding; move it nearer",
+        pg_scene_fault (scene, key,
+                        "lies %.3g m away from the origin along %c and is %.3g m wide: its size is lost in "
+                        "rounding; move it nearer",
                         far, "xyz"[k], high - low);
         break;
     }
@@ -263,7 +281,10 @@ done:
     return status;
 }
 
-pg_status pg_mesh_body_read (pg_mesh_body *out, const pg_scene *scene) { return mesh_body_at (out, scene, "mesh"); }
+pg_status pg_mesh_body_read (pg_mesh_body *out, const pg_scene *scene)
+{
+    return mesh_body_at (out, scene, "mesh");
+}
 
 void pg_mesh_body_clear (pg_mesh_body *body)
 {

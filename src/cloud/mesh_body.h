@@ -4,7 +4,7 @@
 #define PERIGAL_CLOUD_MESH_BODY_H
 #include "perigal/cloud.h"
 
-enum { PG_MESH_BODY_ORDER = 4 };                       /* of the rule for volumes: curved elements too                   */
+enum { PG_MESH_BODY_ORDER = 4 };                       /* of the rule for volumes: curved elements too */
 /* Places of the nodes of element e (nodes x dim). */
 void pg_mesh_body_nodes (const pg_mesh *mesh, size_t e, double *x);
 /* pg_mesh_body_read for the map at this path: "mesh", "body[0].add.mesh". */

@@ -24,12 +24,13 @@ int pg_mesh_body_halved (const pg_mesh_body *b)
     return 0;
 }
 
-/* ---- volumes ---------------------------------------------------------------------------------------------------------- */
+/* ---- volumes ------------------------------------------------------------------------------------------- */
 /* Share of the volume for each node of `shape`, which has its own N on the same reference element. */
 static void share_of (const pg_mesh *m, size_t e, pg_element shape, double volume, double *share)
 {
     double x[3 * PG_ELEMENT_NODES], xi[3 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS], N[PG_ELEMENT_NODES];
-    double row[PG_ELEMENT_NODES] = { 0 }, square[PG_ELEMENT_NODES] = { 0 }, rows = 0, squares = 0, least = INFINITY;
+    double row[PG_ELEMENT_NODES] = { 0 }, square[PG_ELEMENT_NODES] = { 0 }, rows = 0, squares = 0,
+           least = INFINITY;
     pg_element kind = (pg_element) m->kind[e];
     int n = pg_element_rule (kind, PG_MESH_BODY_ORDER, xi, weight), nodes = pg_element_types[shape].nodes;
     pg_mesh_body_nodes (m, e, x);
@@ -39,7 +40,8 @@ static void share_of (const pg_mesh *m, size_t e, pg_element shape, double volum
         for (int i = 0; i < nodes; i++) row[i] += w * N[i], square[i] += w * N[i] * N[i];
     }
     for (int i = 0; i < nodes; i++) rows += row[i], squares += square[i], least = fmin (least, row[i]);
-    int scaled = least < 0.01 * volume / nodes;        /* tri6: 0 at corners; tet10, quad8, hex20, wedge15: negative      */
+    /* tri6: 0 at corners; tet10, quad8, hex20, wedge15: negative */
+    int scaled = least < 0.01 * volume / nodes;
     for (int i = 0; i < nodes; i++) share[i] = volume * (scaled ? square[i] / squares : row[i] / rows);
 }
 
@@ -59,7 +61,7 @@ static void place_volumes (pg_cloud *c, const pg_mesh_body *b, int corners)
     }
 }
 
-/* ---- spacings --------------------------------------------------------------------------------------------------------- */
+/* ---- spacings ------------------------------------------------------------------------------------------ */
 typedef struct { double sum, longest; size_t n; } edges;
 
 static void add_edge (edges *at, double length)
@@ -68,7 +70,8 @@ static void add_edge (edges *at, double length)
     at->longest = fmax (at->longest, length);
 }
 
-/* Lengths between neighbouring points: to the corners of each edge, and of all edges to the nodes that are no corners. */
+/* Lengths between neighbouring points: to the corners of each edge, and of all edges to the nodes that are no
+ * corners. */
 static void collect (edges *at, const pg_mesh_body *b, int corners)
 {
     const pg_mesh *m = &b->mesh;
@@ -79,7 +82,10 @@ static void collect (edges *at, const pg_mesh_body *b, int corners)
             int end[2];
             double length = 0;
             pg_element_edge ((pg_element) m->kind[e], k, end);
-            for (int a = 0; a < m->dim; a++) length += pow (m->x[3 * (size_t) node[end[0]] + (size_t) a] - m->x[3 * (size_t) node[end[1]] + (size_t) a], 2);
+            for (int a = 0; a < m->dim; a++)
+                length += pow (m->x[3 * (size_t) node[end[0]] + (size_t) a]
+                                   - m->x[3 * (size_t) node[end[1]] + (size_t) a],
+                               2);
             length = sqrt (length) * (t->order == 2 && !corners ? 0.5 : 1);
             for (int i = 0; i < 2; i++) add_edge (&at[b->point[node[end[i]]]], length);
             for (int i = t->corners; i < t->nodes && !corners; i++) add_edge (&at[b->point[node[i]]], length);
@@ -89,7 +95,7 @@ static void collect (edges *at, const pg_mesh_body *b, int corners)
 
 static pg_status place_sizes (pg_cloud *c, const pg_mesh_body *b, int corners, int local)
 {
-    static const double reach = 0.6;                   /* of the longest edge at a node: 1.7 times it passes the other end */
+    static const double reach = 0.6;  /* of the longest edge at a node: 1.7 times it passes the other end */
     pg_status status = PG_OK;
     edges *at = NULL;
     double sum = 0;
@@ -108,7 +114,7 @@ done:
     return status;
 }
 
-/* ---- the cloud -------------------------------------------------------------------------------------------------------- */
+/* ---- the cloud ----------------------------------------------------------------------------------------- */
 /* Moves the points inside the body; the cells stay. */
 static pg_status perturb (pg_cloud *c, const pg_mesh_body *b, double amount, uint64_t seed)
 {
@@ -121,7 +127,8 @@ static pg_status perturb (pg_cloud *c, const pg_mesh_body *b, double amount, uin
     PG_ALLOC (outside, c->n);
     PG_TRY (pg_mesh_surface (m, &n, &element, &side));
     for (size_t f = 0; f < n; f++) {
-        int node[9], count = pg_element_types[pg_element_face ((pg_element) m->kind[element[f]], side[f], node)].nodes;
+        int node[9],
+            count = pg_element_types[pg_element_face ((pg_element) m->kind[element[f]], side[f], node)].nodes;
         for (int k = 0; k < count; k++) {
             int p = b->point[m->node[m->start[element[f]] + (size_t) node[k]]];
             if (p >= 0) outside[p] = 1;
@@ -157,7 +164,8 @@ pg_status pg_mesh_body_cloud (pg_cloud *out, pg_mesh_body *body, const pg_scene 
     pg_status status = PG_OK;
     const pg_mesh *m = &body->mesh;
     size_t dim = (size_t) m->dim;
-    int corners = !strcmp (pg_scene_text (scene, "mesh.points"), "corners"), local = !strcmp (pg_scene_text (scene, "mesh.support"), "local");
+    int corners = !strcmp (pg_scene_text (scene, "mesh.points"), "corners"),
+        local = !strcmp (pg_scene_text (scene, "mesh.support"), "local");
     memset (out, 0, sizeof *out);
     out->dim = m->dim;
     out->thickness = m->dim == 3 ? 1 : pg_scene_number (scene, m->dim == 2 ? "thickness" : "cross_section");
@@ -166,10 +174,12 @@ pg_status pg_mesh_body_cloud (pg_cloud *out, pg_mesh_body *body, const pg_scene 
     PG_ALLOC (out->volume, out->n);
     PG_ALLOC (out->block, out->n);
     for (size_t i = 0; i < m->nnode; i++)
-        if (body->point[i] >= 0) memcpy (out->x + (size_t) body->point[i] * dim, m->x + 3 * i, dim * sizeof *out->x);
+        if (body->point[i] >= 0)
+            memcpy (out->x + (size_t) body->point[i] * dim, m->x + 3 * i, dim * sizeof *out->x);
     place_volumes (out, body, corners);
     PG_TRY (place_sizes (out, body, corners, local));
-    PG_TRY (perturb (out, body, pg_scene_number (scene, "perturb.amount"), (uint64_t) pg_scene_integer (scene, "perturb.seed")));
+    PG_TRY (perturb (out, body, pg_scene_number (scene, "perturb.amount"),
+                     (uint64_t) pg_scene_integer (scene, "perturb.seed")));
     pg_place_bounds (out);
 done:
     if (status != PG_OK) pg_cloud_clear (out);

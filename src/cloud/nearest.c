@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Nearest point of a set: a grid of cells over the points, searched in shells about the place until the next shell lies farther away than
- * the best found. Of equally near points the one with the lowest number: no answer depends on the grid. */
+ * Nearest point of a set: a grid of cells over the points, searched in shells about the place until the next
+ * shell lies farther away than the best found. Of equally near points the one with the lowest number: no
+ * answer depends on the grid. */
 #include "perigal/cloud.h"
 #include <limits.h>
 #include <math.h>
@@ -12,9 +13,9 @@ struct pg_nearest {
     size_t  n;
     const double *x;
     long    count[3];
-    double  low[3], width[3];                          /* m                                                              */
+    double  low[3], width[3];                          /* m */
     size_t *start;
-    int    *item;                                      /* points of each cell, ascending                                 */
+    int    *item;                                      /* points of each cell, ascending */
 };
 
 static long cell_along (const pg_nearest *g, int k, double x)
@@ -94,7 +95,7 @@ typedef struct {
     const double *place;
     pg_refuse refuse;  void *context;
     long   found;
-    double best;                                       /* squared; m^2                                                   */
+    double best;                                       /* squared; m^2 */
 } query;
 
 static void look (const pg_nearest *g, query *q, size_t cell)
@@ -139,7 +140,10 @@ long pg_nearest_find (const pg_nearest *g, const double *place, pg_refuse refuse
                     long far = labs (x - at[0]);
                     if (labs (y - at[1]) > far) far = labs (y - at[1]);
                     if (labs (z - at[2]) > far) far = labs (z - at[2]);
-                    if (far == shell) look (g, &q, ((size_t) z * (size_t) g->count[1] + (size_t) y) * (size_t) g->count[0] + (size_t) x);
+                    if (far == shell)
+                        look (g, &q,
+                              ((size_t) z * (size_t) g->count[1] + (size_t) y) * (size_t) g->count[0]
+                                  + (size_t) x);
                 }
         double rest = beyond (g, place, at, shell);
         if (rest < 0 || (q.found >= 0 && rest * rest > q.best * (1 + 1e-12))) return q.found;

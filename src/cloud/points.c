@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Points of the body with their volumes: vertices or centres of the kept lattice cells, x fastest, then y, then z; or from a file. */
+ * Points of the body with their volumes: vertices or centres of the kept lattice cells, x fastest, then y,
+ * then z; or from a file. */
 #include "perigal/cloud.h"
 #include "place.h"
 #include "points_file.h"
@@ -9,15 +10,16 @@
 #include <string.h>
 
 typedef struct {
-    size_t size[3];                                    /* sites (vertices or cells) per axis                             */
-    size_t n;                                          /* all of them                                                    */
-    double shift;                                      /* coordinate index of site 0: 0 vertex, 0.5 centre               */
-    int    whole;                                      /* cells around a site that may move                              */
-    unsigned char *around;                             /* kept cells around each site; 0: no point there                 */
+    size_t size[3];                                    /* sites (vertices or cells) per axis */
+    size_t n;                                          /* all of them */
+    double shift;                                      /* coordinate index of site 0: 0 vertex, 0.5 centre */
+    int    whole;                                      /* cells around a site that may move */
+    unsigned char *around;                             /* kept cells around each site; 0: no point there */
 } sites;
 
-/* ---- sites ---------------------------------------------------------------------------------------------------------- */
-/* Adds one to all sites around cell (a, b, c): its vertices (reach 0..1), or the cell and its neighbours (reach -1..1). */
+/* ---- sites --------------------------------------------------------------------------------------------- */
+/* Adds one to all sites around cell (a, b, c): its vertices (reach 0..1), or the cell and its neighbours
+ * (reach -1..1). */
 static void spread (sites *s, const pg_lattice *l, const int *cell, int first)
 {
     int i[3], low[3], high[3];
@@ -55,8 +57,8 @@ done:
     return status;
 }
 
-/* ---- random shifts ----------------------------------------------------------------------------------------------------- */
-static uint64_t mix (uint64_t z)                       /* a bijection that spreads every bit                             */
+/* ---- random shifts ------------------------------------------------------------------------------------- */
+static uint64_t mix (uint64_t z)                       /* a bijection that spreads every bit */
 {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -69,7 +71,7 @@ double pg_place_shift (uint64_t seed, uint64_t site, int axis)
     return ldexp ((double) (z >> 11), -52) - 1;
 }
 
-/* ---- the cloud ------------------------------------------------------------------------------------------------------ */
+/* ---- the cloud ----------------------------------------------------------------------------------------- */
 static pg_status place_points (pg_cloud *c, const pg_lattice *l, const sites *s, double amount, uint64_t seed)
 {
     pg_status status = PG_OK;
@@ -87,7 +89,8 @@ static pg_status place_points (pg_cloud *c, const pg_lattice *l, const sites *s,
         for (size_t k = 0; k < dim; k++, rest /= s->size[k - 1]) {
             double *x = &c->x[p*dim + k];
             *x = pg_lattice_at (l, (int) k, (double) (rest % s->size[k]) + s->shift);
-            if (amount > 0 && s->around[i] == s->whole) *x += amount * l->step[k] * pg_place_shift (seed, i, (int) k);
+            if (amount > 0 && s->around[i] == s->whole)
+                *x += amount * l->step[k] * pg_place_shift (seed, i, (int) k);
         }
         c->volume[p++] = s->shift > 0 ? cell : s->around[i] * (cell / s->whole);
     }
@@ -127,14 +130,16 @@ static pg_status fit (pg_lattice *l, const pg_body *body, const pg_scene *scene,
     if (status == PG_E_LIMIT) {
         double cells = 1;
         for (int k = 0; k < body->dim; k++) cells *= (body->high[k] - body->low[k]) / spacing;
-        pg_scene_fault (scene, "spacing", "too fine for this body: %.3g cells, and %d are possible (%.2g m or more)", cells, INT_MAX,
-                        1.01 * spacing * pow (cells / INT_MAX, 1.0 / body->dim));
+        pg_scene_fault (scene, "spacing",
+                        "too fine for this body: %.3g cells, and %d are possible (%.2g m or more)", cells,
+                        INT_MAX, 1.01 * spacing * pow (cells / INT_MAX, 1.0 / body->dim));
         return pg_scene_verdict (scene);
     }
     if (status != PG_OK) return status;
     size_t n = (size_t) l->count[0] * (size_t) l->count[1] * (size_t) l->count[2];
     if (memchr (l->in, 1, n)) return PG_OK;
-    pg_scene_fault (scene, "spacing", "no point: none of the %d x %d x %d lattice cells has its centre in the body",
+    pg_scene_fault (scene, "spacing",
+                    "no point: none of the %d x %d x %d lattice cells has its centre in the body",
                     l->count[0], l->count[1], l->count[2]);
     return pg_scene_verdict (scene);
 }
@@ -153,7 +158,8 @@ static pg_status from_lattice (pg_cloud *c, pg_lattice *l, const pg_body *body, 
     for (int k = 0; k < c->dim; k++) c->step[k] = l->step[k], cell *= l->step[k];
     c->h = c->dim == 1 ? cell : c->dim == 2 ? sqrt (cell) : cbrt (cell);
     PG_TRY (count_around (&s, l, kind && !strcmp (kind, "cells")));
-    PG_TRY (place_points (c, l, &s, pg_scene_number (scene, "perturb.amount"), (uint64_t) pg_scene_integer (scene, "perturb.seed")));
+    PG_TRY (place_points (c, l, &s, pg_scene_number (scene, "perturb.amount"),
+                          (uint64_t) pg_scene_integer (scene, "perturb.seed")));
 done:
     pg_free (s.around);
     return status;
@@ -165,7 +171,8 @@ pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *bod
     memset (out, 0, sizeof *out);
     memset (lattice, 0, sizeof *lattice);
     out->dim = body->dim;
-    out->thickness = out->dim == 3 ? 1 : pg_scene_number (scene, out->dim == 2 ? "thickness" : "cross_section");
+    out->thickness = out->dim == 3 ? 1
+                                   : pg_scene_number (scene, out->dim == 2 ? "thickness" : "cross_section");
     if (pg_scene_given (scene, "points")) PG_TRY (from_file (out, scene));
     else PG_TRY (from_lattice (out, lattice, body, scene));
     pg_place_bounds (out);
@@ -177,7 +184,10 @@ done:
     return status;
 }
 
-double pg_cloud_ratio (const pg_cloud *cloud, size_t i) { return cloud->size ? cloud->size[i] / cloud->h : 1; }
+double pg_cloud_ratio (const pg_cloud *cloud, size_t i)
+{
+    return cloud->size ? cloud->size[i] / cloud->h : 1;
+}
 
 double pg_cloud_finest (const pg_cloud *cloud)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * points: FILE. One point a line, x [y [z]] volume [block] [spacing], by commas or blanks; '#' starts a comment. One header line may
- * lead: it names the columns, in any order, with their units in brackets (and must, for a spacing without a block). */
+ * points: FILE. One point a line, x [y [z]] volume [block] [spacing], by commas or blanks; '#' starts a
+ * comment. One header line may lead: it names the columns, in any order, with their units in brackets (and
+ * must, for a spacing without a block). */
 #include "points_file.h"
 #include "place.h"
 #include <errno.h>
@@ -13,21 +14,21 @@
 #include <strings.h>
 
 enum { MOST_FIELDS = 16 };
-enum { X, VOLUME = 3, BLOCK, SPACING, ROLES };         /* X + k: coordinate k                                            */
+enum { X, VOLUME = 3, BLOCK, SPACING, ROLES };         /* X + k: coordinate k */
 static const struct { const char *name, *unit; } role[ROLES] = {
     { "x", "m" }, { "y", "m" }, { "z", "m" }, { "volume", "m3" }, { "block", "1" }, { "spacing", "m" } };
 
 typedef struct {
     const pg_scene *scene;
-    const char *name;                                  /* as the user wrote it                                           */
+    const char *name;                                  /* as the user wrote it */
     char   *text;
-    size_t  line;                                      /* being read, from 1                                             */
-    size_t  columns;                                   /* of all lines, 0: not known yet                                 */
-    size_t  column[ROLES];                             /* that holds it, from 1; 0: none does                            */
-    double  scale[ROLES];                              /* SI units a unit of that column                                 */
-    int     headed;                                    /* a header has named the columns                                 */
+    size_t  line;                                      /* being read, from 1 */
+    size_t  columns;                                   /* of all lines, 0: not known yet */
+    size_t  column[ROLES];                             /* that holds it, from 1; 0: none does */
+    double  scale[ROLES];                              /* SI units a unit of that column */
+    int     headed;                                    /* a header has named the columns */
     size_t  capacity;
-    size_t *line_of;                                   /* line of each point                                             */
+    size_t *line_of;                                   /* line of each point */
 } reader;
 
 #define WRONG(r, ...) wrong_at ((r)->scene, (r)->name, (r)->line, __VA_ARGS__)
@@ -44,7 +45,7 @@ wrong_at (const pg_scene *scene, const char *name, size_t line, const char *form
     return pg_scene_verdict (scene);
 }
 
-/* ---- the file ------------------------------------------------------------------------------------------------------- */
+/* ---- the file ------------------------------------------------------------------------------------------ */
 static pg_status load (reader *r)
 {
     pg_status status = PG_OK;
@@ -68,8 +69,9 @@ done:
     return status;
 }
 
-/* ---- a line --------------------------------------------------------------------------------------------------------- */
-/* Cuts a line into fields in place; with a comma anywhere only commas separate. Counts also those that do not fit. */
+/* ---- a line -------------------------------------------------------------------------------------------- */
+/* Cuts a line into fields in place; with a comma anywhere only commas separate. Counts also those that do not
+ * fit. */
 static size_t split (char *line, char *field[MOST_FIELDS])
 {
     int comma = strchr (line, ',') != NULL;
@@ -96,7 +98,7 @@ static int number (const char *text, double *value)
     return end != text && !*end && isfinite (*value);
 }
 
-/* ---- header ---------------------------------------------------------------------------------------------------------- */
+/* ---- header -------------------------------------------------------------------------------------------- */
 /* Nothing in it is a number. */
 static int is_header (size_t n, char *const *field)
 {
@@ -125,7 +127,8 @@ static const char *names_of (size_t dim, const char *between)
     static _Thread_local char text[64];
     size_t n = 0;
     for (size_t k = 0; k < ROLES; k++)
-        if (k < dim || k >= VOLUME) n += (size_t) snprintf (text + n, sizeof text - n, "%s%s", n ? between : "", role[k].name);
+        if (k < dim || k >= VOLUME)
+            n += (size_t) snprintf (text + n, sizeof text - n, "%s%s", n ? between : "", role[k].name);
     return text;
 }
 
@@ -136,15 +139,21 @@ static pg_status read_name (reader *r, size_t k, char *cell, size_t dim)
     size_t what = 0;
     snprintf (given, sizeof given, "%.60s", cell);
     int closed = pg_column_cut (cell, &unit) == PG_OK;
-    while (what < ROLES && (strcasecmp (cell, role[what].name) != 0 || (what >= dim && what < VOLUME))) what++;
+    while (what < ROLES && (strcasecmp (cell, role[what].name) != 0 || (what >= dim && what < VOLUME)))
+        what++;
     if (what == ROLES) {
         near = pg_nearest_name (cell, names_of (dim, "|"));
-        return WRONG (r, "column %zu of the header is called '%.40s'%s%s%s: the columns of a %zuD body are %s, in any order, with their units: x [mm], volume [mm3]",
-                      k + 1, cell, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "", dim, names_of (dim, ", "));
+        return WRONG (r,
+                      "column %zu of the header is called '%.40s'%s%s%s: the columns of a %zuD body are %s, "
+                      "in any order, with their units: x [mm], volume [mm3]",
+                      k + 1, cell, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "", dim,
+                      names_of (dim, ", "));
     }
     if (!closed || pg_column_scale (&r->scale[what], unit, role[what].unit) != PG_OK)
         return WRONG (r, "column %zu of the header, '%.60s': %s", k + 1, given, pg_last_error ());
-    if (r->column[what]) return WRONG (r, "columns %zu and %zu of the header are both called '%s'", r->column[what], k + 1, role[what].name);
+    if (r->column[what])
+        return WRONG (r, "columns %zu and %zu of the header are both called '%s'", r->column[what], k + 1,
+                      role[what].name);
     r->column[what] = k + 1;
     return PG_OK;
 }
@@ -153,17 +162,22 @@ static pg_status read_header (reader *r, size_t n, char **field, size_t dim)
 {
     pg_status status = PG_OK;
     n = join_units (n, field);
-    if (n > MOST_FIELDS) PG_TRY (WRONG (r, "%zu columns in the header; those of a %zuD body are %s", n, dim, names_of (dim, ", ")));
+    if (n > MOST_FIELDS)
+        PG_TRY (WRONG (r, "%zu columns in the header; those of a %zuD body are %s", n, dim,
+                       names_of (dim, ", ")));
     for (size_t k = 0; k < n; k++) PG_TRY (read_name (r, k, field[k], dim));
     for (size_t k = 0; k <= VOLUME; k++)
         if ((k < dim || k == VOLUME) && !r->column[k])
-            PG_TRY (WRONG (r, "the header has no column '%s': coordinates and a volume are needed, a block and a spacing may be", role[k].name));
+            PG_TRY (WRONG (r,
+                           "the header has no column '%s': coordinates and a volume are needed, a block and "
+                           "a spacing may be",
+                           role[k].name));
     r->columns = n, r->headed = 1;
 done:
     return status;
 }
 
-/* ---- points ---------------------------------------------------------------------------------------------------------- */
+/* ---- points -------------------------------------------------------------------------------------------- */
 static pg_status add_point (reader *r, pg_cloud *c, const double *value)
 {
     pg_status status = PG_OK;
@@ -191,9 +205,13 @@ done:
 static pg_status settle_columns (reader *r, size_t n, size_t dim)
 {
     if (n < dim + 1 || n > dim + 3)
-        return WRONG (r, "%zu columns; in %zuD a line has %zu (coordinates, volume), %zu (and block) or %zu (and spacing)", n, dim, dim + 1, dim + 2, dim + 3);
+        return WRONG (
+            r,
+            "%zu columns; in %zuD a line has %zu (coordinates, volume), %zu (and block) or %zu (and spacing)",
+            n, dim, dim + 1, dim + 2, dim + 3);
     for (size_t k = 0; k < dim; k++) r->column[X + k] = k + 1;
-    r->column[VOLUME] = dim + 1, r->column[BLOCK] = n > dim + 1 ? dim + 2 : 0, r->column[SPACING] = n > dim + 2 ? dim + 3 : 0;
+    r->column[VOLUME] = dim + 1, r->column[BLOCK] = n > dim + 1 ? dim + 2 : 0,
+    r->column[SPACING] = n > dim + 2 ? dim + 3 : 0;
     for (size_t k = 0; k < ROLES; k++) r->scale[k] = 1;
     r->columns = n;
     return PG_OK;
@@ -202,9 +220,12 @@ static pg_status settle_columns (reader *r, size_t n, size_t dim)
 /* A value that cannot be: what it was taken for, and why. */
 static pg_status refuse_value (reader *r, size_t what, double value, const char *must, size_t dim)
 {
-    return WRONG (r, "the %s %g must be %s: it stands in column %zu%s%s%s", role[what].name, value, must, r->column[what],
-                  r->headed ? "" : "; without a header the columns are ", r->headed ? "" : names_of (dim, ", "),
-                  r->headed ? "" : " (a header such as x [mm], y [mm], volume [mm3] may give another order, and units)");
+    return WRONG (r, "the %s %g must be %s: it stands in column %zu%s%s%s", role[what].name, value, must,
+                  r->column[what], r->headed ? "" : "; without a header the columns are ",
+                  r->headed ? "" : names_of (dim, ", "),
+                  r->headed
+                      ? ""
+                      : " (a header such as x [mm], y [mm], volume [mm3] may give another order, and units)");
 }
 
 static pg_status read_line (reader *r, pg_cloud *c, char *line)
@@ -217,24 +238,29 @@ static pg_status read_line (reader *r, pg_cloud *c, char *line)
     if (!line[strspn (line, " \t")]) return PG_OK;
     size_t n = split (line, field);
     if (c->n == 0 && r->columns == 0 && is_header (n, field)) return read_header (r, n, field, dim);
-    if (r->columns && n != r->columns) return WRONG (r, "%zu columns, %s %zu", n, r->headed && c->n == 0 ? "the header has" : "the lines before have", r->columns);
+    if (r->columns && n != r->columns)
+        return WRONG (r, "%zu columns, %s %zu", n,
+                      r->headed && c->n == 0 ? "the header has" : "the lines before have", r->columns);
     if (!r->columns) PG_TRY (settle_columns (r, n, dim));
     for (size_t what = 0; what < ROLES; what++) {
         size_t k = r->column[what];
         if (!k) continue;
         if (!number (field[k - 1], &value[what]))
-            PG_TRY (WRONG (r, "'%.40s' in column %zu (%s) is not a finite number", field[k - 1], k, role[what].name));
+            PG_TRY (WRONG (r, "'%.40s' in column %zu (%s) is not a finite number", field[k - 1], k,
+                           role[what].name));
         double given = value[what];
         value[what] = pg_column_value (given, r->scale[what]);
-        if ((what == VOLUME || what == SPACING) && !(value[what] > 0)) PG_TRY (refuse_value (r, what, given, "positive", dim));
-        if (what == BLOCK && !(given >= 0 && given <= INT_MAX && given == floor (given))) PG_TRY (refuse_value (r, what, given, "a whole number from 0", dim));
+        if ((what == VOLUME || what == SPACING) && !(value[what] > 0))
+            PG_TRY (refuse_value (r, what, given, "positive", dim));
+        if (what == BLOCK && !(given >= 0 && given <= INT_MAX && given == floor (given)))
+            PG_TRY (refuse_value (r, what, given, "a whole number from 0", dim));
     }
     PG_TRY (add_point (r, c, value));
 done:
     return status;
 }
 
-/* ---- duplicates ----------------------------------------------------------------------------------------------------- */
+/* ---- duplicates ---------------------------------------------------------------------------------------- */
 typedef struct { double x[3]; size_t line; } place;
 
 static int by_place (const void *p, const void *q)
@@ -257,7 +283,8 @@ static pg_status find_twins (reader *r, const pg_cloud *c)
     PG_ALLOC (p, c->n);
     for (size_t i = 0; i < c->n; i++) {
         p[i].line = r->line_of[i];
-        for (size_t k = 0; k < dim; k++) p[i].x[k] = grain > 0 ? rint ((c->x[i*dim + k] - c->x[k]) / grain) : 0;
+        for (size_t k = 0; k < dim; k++)
+            p[i].x[k] = grain > 0 ? rint ((c->x[i * dim + k] - c->x[k]) / grain) : 0;
     }
     qsort (p, c->n, sizeof *p, by_place);
     for (size_t i = 1; i < c->n; i++) {

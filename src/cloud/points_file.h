@@ -4,7 +4,8 @@
 #define PERIGAL_CLOUD_POINTS_FILE_H
 #include "perigal/cloud.h"
 
-/* Fills x, volume, block, n of a cloud whose dim is set. What is wrong with the file becomes a fault at `points`. */
+/* Fills x, volume, block, n of a cloud whose dim is set. What is wrong with the file becomes a fault at
+ * `points`. */
 pg_status pg_points_read  (pg_cloud *cloud, const pg_scene *scene);
 /* The same from memory: `text` stands for the content of the file. */
 pg_status pg_points_parse (pg_cloud *cloud, const pg_scene *scene, const char *text, size_t size);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Plane polygons: A = 1/2 sum (x_i y_i+1 - x_i+1 y_i), inside by crossing number, signed distance, is it simple? */
+ * Plane polygons: A = 1/2 sum (x_i y_i+1 - x_i+1 y_i), inside by crossing number, signed distance, is it
+ * simple? */
 #include "polygon.h"
 #include <math.h>
 
@@ -49,16 +50,18 @@ static int side (const double *a, const double *b, const double *c)
     return (s > 0) - (s < 0);
 }
 
-static int within (const double *a, const double *b, const double *c)      /* c on line a b: between a and b?            */
+static int within (const double *a, const double *b, const double *c)  /* c on line a b: between a and b? */
 {
-    return fmin (a[0], b[0]) <= c[0] && c[0] <= fmax (a[0], b[0]) && fmin (a[1], b[1]) <= c[1] && c[1] <= fmax (a[1], b[1]);
+    return fmin (a[0], b[0]) <= c[0] && c[0] <= fmax (a[0], b[0]) && fmin (a[1], b[1]) <= c[1]
+           && c[1] <= fmax (a[1], b[1]);
 }
 
 static int edges_meet (const double *a, const double *b, const double *c, const double *d)
 {
     int p = side (a, b, c), q = side (a, b, d), r = side (c, d, a), s = side (c, d, b);
     if (p * q < 0 && r * s < 0) return 1;
-    return (!p && within (a, b, c)) || (!q && within (a, b, d)) || (!r && within (c, d, a)) || (!s && within (c, d, b));
+    return (!p && within (a, b, c)) || (!q && within (a, b, d)) || (!r && within (c, d, a))
+           || (!s && within (c, d, b));
 }
 
 const char *pg_polygon_fault (size_t n, const double *v)
@@ -73,7 +76,8 @@ const char *pg_polygon_fault (size_t n, const double *v)
     for (size_t i = 0; i < n; i++)
         for (size_t j = i + 2; j < n; j++) {
             if (i == 0 && j == n - 1) continue;            /* neighbours share a vertex */
-            if (edges_meet (v + 2*i, v + 2*(i + 1), v + 2*j, v + 2*((j + 1) % n))) return "touches or crosses itself";
+            if (edges_meet (v + 2 * i, v + 2 * (i + 1), v + 2 * j, v + 2 * ((j + 1) % n)))
+                return "touches or crosses itself";
         }
     double size = fmax (high[0] - low[0], high[1] - low[1]);
     return fabs (pg_polygon_area (n, v)) > 1e-9 * size * size ? NULL : "has no area";

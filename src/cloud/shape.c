@@ -18,14 +18,15 @@ static double both (double p, double q)
     return sqrt (p*p + q*q);
 }
 
-/* ---- box ------------------------------------------------------------------------------------------------------------ */
+/* ---- box ----------------------------------------------------------------------------------------------- */
 static pg_status read_box (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     pg_scene_vector (scene, 3, s->low, "%s.low", at);
     pg_scene_vector (scene, 3, s->high, "%s.high", at);
     for (int k = 0; k < dim; k++)
         if (!(s->low[k] < s->high[k])) {
-            pg_scene_fault (scene, at, "low must lie below high, but %c runs from %g to %g m", "xyz"[k], s->low[k], s->high[k]);
+            pg_scene_fault (scene, at, "low must lie below high, but %c runs from %g to %g m", "xyz"[k],
+                            s -> low[k], s -> high[k]);
             break;
         }
     return PG_OK;
@@ -48,7 +49,7 @@ static void box_box (const pg_shape *s, int dim, double *low, double *high)
     for (int k = 0; k < dim; k++) low[k] = s->low[k], high[k] = s->high[k];
 }
 
-/* ---- disk, sphere ---------------------------------------------------------------------------------------------------- */
+/* ---- disk, sphere -------------------------------------------------------------------------------------- */
 static void read_radius (pg_shape *s, const pg_scene *scene, const char *at)
 {
     s->radius = pg_scene_given (scene, "%s.diameter", at) ? 0.5 * pg_scene_number (scene, "%s.diameter", at)
@@ -76,7 +77,7 @@ static void box_ball (const pg_shape *s, int dim, double *low, double *high)
     for (int k = 0; k < dim; k++) low[k] = s->centre[k] - s->radius, high[k] = s->centre[k] + s->radius;
 }
 
-/* ---- cylinder --------------------------------------------------------------------------------------------------------- */
+/* ---- cylinder ------------------------------------------------------------------------------------------ */
 static pg_status read_cylinder (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     read_ball (s, dim, scene, at);
@@ -100,13 +101,14 @@ static double distance_cylinder (const pg_shape *s, int dim, const double *x, do
 static void box_cylinder (const pg_shape *s, int dim, double *low, double *high)
 {
     for (int k = 0; k < dim; k++) {
-        double end = s->centre[k] + s->length * s->axis[k], wide = s->radius * sqrt (fmax (0, 1 - s->axis[k]*s->axis[k]));
+        double end = s->centre[k] + s->length * s->axis[k],
+               wide = s->radius * sqrt (fmax (0, 1 - s->axis[k] * s->axis[k]));
         low[k]  = fmin (s->centre[k], end) - wide;
         high[k] = fmax (s->centre[k], end) + wide;
     }
 }
 
-/* ---- polygon, prism --------------------------------------------------------------------------------------------------- */
+/* ---- polygon, prism ------------------------------------------------------------------------------------ */
 static pg_status read_polygon (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -120,7 +122,8 @@ static pg_status read_polygon (pg_shape *s, int dim, const pg_scene *scene, cons
             pg_scene_fault (scene, at, "vertex %zu must be a pair [x, y]", i + 1);
         s->vertex[2*i] = v[0], s->vertex[2*i + 1] = v[1];
     }
-    if (n > 1 && s->vertex[0] == s->vertex[2*n - 2] && s->vertex[1] == s->vertex[2*n - 1]) s->nvertex = n - 1;   /* closed by hand */
+    /* closed by hand */
+    if (n > 1 && s->vertex[0] == s->vertex[2*n - 2] && s->vertex[1] == s->vertex[2*n - 1]) s->nvertex = n - 1;
     const char *why = pg_polygon_fault (s->nvertex, s->vertex);
     if (why) pg_scene_fault (scene, at, "the polygon %s", why);
 done:
@@ -131,7 +134,9 @@ static pg_status read_prism (pg_shape *s, int dim, const pg_scene *scene, const 
 {
     s->low[2]  = pg_scene_number (scene, "%s.low", at);
     s->high[2] = pg_scene_number (scene, "%s.high", at);
-    if (!(s->low[2] < s->high[2])) pg_scene_fault (scene, at, "low must lie below high, but z runs from %g to %g m", s->low[2], s->high[2]);
+    if (!(s->low[2] < s->high[2]))
+        pg_scene_fault (scene, at, "low must lie below high, but z runs from %g to %g m", s->low[2],
+                        s->high[2]);
     return read_polygon (s, dim, scene, at);
 }
 
@@ -152,7 +157,8 @@ static void box_polygon (const pg_shape *s, int dim, double *low, double *high)
     (void) dim;
     for (int k = 0; k < 2; k++) {
         low[k] = INFINITY, high[k] = -INFINITY;
-        for (size_t i = 0; i < s->nvertex; i++) low[k] = fmin (low[k], s->vertex[2*i + k]), high[k] = fmax (high[k], s->vertex[2*i + k]);
+        for (size_t i = 0; i < s->nvertex; i++)
+            low[k] = fmin (low[k], s->vertex[2 * i + k]), high[k] = fmax (high[k], s->vertex[2 * i + k]);
     }
 }
 

@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A mesh as a shape: inside where an element holds the place, the distance that to the nearest face of its surface. And as a lattice sees it:
- * stairs, every cell of the lattice as its centre. */
+ * A mesh as a shape: inside where an element holds the place, the distance that to the nearest face of its
+ * surface. And as a lattice sees it: stairs, every cell of the lattice as its centre. */
 #include "mesh_body.h"
 #include "shape.h"
 #include <math.h>
 #include <string.h>
 
 struct pg_solid {
-    pg_mesh_body part;                                 /* a mesh                                                         */
-    pg_mesh_finder *finder;
+    pg_mesh_body part;                                 /* a mesh */
+    pg_mesh_locator *locator;
     pg_mesh_skin *skin;
-    pg_lattice lattice;                                /* stairs: without in                                             */
-    signed char *sign;                                 /* of the distance at the centre of each cell                     */
+    pg_lattice lattice;                                /* stairs: without in */
+    signed char *sign;                                 /* of the distance at the centre of each cell */
 };
 
-/* ---- mesh --------------------------------------------------------------------------------------------------------------- */
+/* ---- mesh ---------------------------------------------------------------------------------------------- */
 pg_status shape_mesh_read (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
     (void) dim;
     PG_ALLOC (s->solid, 1);
     PG_TRY (mesh_body_at (&s->solid->part, scene, at));
-    PG_TRY (pg_finder_create (&s->solid->finder, &s->solid->part.mesh));
+    PG_TRY (pg_mesh_locator_create (&s->solid->locator, &s->solid->part.mesh));
     PG_TRY (pg_skin_create (&s->solid->skin, &s->solid->part.mesh));
 done:
     if (status != PG_OK) shape_mesh_clear (s);
@@ -31,7 +31,7 @@ done:
 void shape_mesh_clear (pg_shape *s)
 {
     if (!s->solid) return;
-    pg_skin_free (&s->solid->skin), pg_finder_free (&s->solid->finder);
+    pg_skin_free (&s->solid->skin), pg_mesh_locator_free (&s->solid->locator);
     pg_mesh_body_clear (&s->solid->part);
     pg_free (s->solid->sign), pg_free (s->solid);
     s->solid = NULL;
@@ -41,12 +41,12 @@ double shape_mesh_distance (const pg_shape *s, int dim, const double *x, double 
 {
     double near = 1000 * fabs (reach) / s->solid->part.smallest, xi[3];
     (void) dim;
-    if (near < 0.1) {                                      /* most places are far from the surface                           */
-        double depth = pg_finder_depth (s->solid->finder, x, fmax (near, 1e-8));
+    if (near < 0.1) {                                      /* most places are far from the surface */
+        double depth = pg_mesh_locator_depth (s->solid->locator, x, fmax (near, 1e-8));
         if (fabs (depth) >= fmax (near, 1e-8)) return depth > 0 ? -HUGE_VAL : HUGE_VAL;
     }
     double d = pg_skin_distance (s->solid->skin, x, reach, NULL);
-    return pg_finder_find (s->solid->finder, x, xi, NULL) >= 0 ? -d : d;
+    return pg_mesh_locator_find (s->solid->locator, x, xi, NULL) >= 0 ? -d : d;
 }
 
 void shape_mesh_box (const pg_shape *s, int dim, double *low, double *high)
@@ -70,7 +70,7 @@ size_t pg_body_meshes (const pg_body *body)
     return n;
 }
 
-/* ---- side sets ---------------------------------------------------------------------------------------------------------- */
+/* ---- side sets ----------------------------------------------------------------------------------------- */
 const char *pg_shape_side (const pg_shape *s, size_t k)
 {
     const pg_mesh *m = &s->solid->part.mesh;
@@ -91,7 +91,7 @@ int pg_shape_on_side (const pg_shape *s, const double *x, const char *side)
     return 0;
 }
 
-/* ---- stairs ------------------------------------------------------------------------------------------------------------- */
+/* ---- stairs -------------------------------------------------------------------------------------------- */
 pg_status pg_stairs_create (pg_shape *out, const pg_shape *mesh, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;
@@ -100,7 +100,8 @@ pg_status pg_stairs_create (pg_shape *out, const pg_shape *mesh, const pg_lattic
     out->kind = PG_STAIRS, out->solid = NULL;
     PG_ALLOC (out->solid, 1);
     out->solid->lattice = *lattice, out->solid->lattice.in = NULL;
-    PG_ALLOC (out->solid->sign, (size_t) lattice->count[0] * (size_t) lattice->count[1] * (size_t) lattice->count[2]);
+    PG_ALLOC (out->solid->sign,
+              (size_t) lattice->count[0] * (size_t) lattice->count[1] * (size_t) lattice->count[2]);
     signed char *sign = out->solid->sign;
     for (int c = 0; c < lattice->count[2]; c++)
         for (int b = 0; b < lattice->count[1]; b++)
@@ -140,7 +141,8 @@ double shape_stairs_distance (const pg_shape *s, int dim, const double *x, doubl
 
 int pg_stairs_step (const pg_shape *stairs, const int *i, int face)
 {
-    int beside[3] = {i[0], i[1], i[2]}, on = stairs->add ? 0 : -1;     /* a centre on the surface belongs to the body    */
+    /* a centre on the surface belongs to the body */
+    int beside[3] = {i[0], i[1], i[2]}, on = stairs->add ? 0 : -1;
     beside[face / 2] += face % 2 ? 1 : -1;
     return (sign_at (stairs->solid, i) <= on) != (sign_at (stairs->solid, beside) <= on);
 }

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A balanced tree without pointers: the middle item of a range parts it along one axis, the axes take turns. */
+ * A balanced tree without pointers: the middle item of a range parts it along one axis, the axes take
+ * turns. */
 #include "tree.h"
 #include <string.h>
 
 enum { LEAF = 8 };
 
-static double along (const pg_tree *t, size_t place, int axis) { return t->x[t->item[place] * (size_t) t->dim + (size_t) axis]; }
+static double along (const pg_tree *t, size_t place, int axis)
+{
+    return t->x[t->item[place] * (size_t) t->dim + (size_t) axis];
+}
 
 static void swap (size_t *a, size_t *b)
 {
@@ -13,7 +17,8 @@ static void swap (size_t *a, size_t *b)
     *a = *b, *b = c;
 }
 
-/* Puts the item at `middle` that a sorted range first..last - 1 would have there, smaller ones before it, larger ones behind. */
+/* Puts the item at `middle` that a sorted range first..last - 1 would have there, smaller ones before it,
+ * larger ones behind. */
 static void part (pg_tree *t, size_t first, size_t last, size_t middle, int axis)
 {
     while (last - first > 1) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A state against all that the scene's reference says: norms over the body, tables, the difference at the points. */
+ * A state against all that the scene's reference says: norms over the body, tables, the difference at the
+ * points. */
 #include "compare.h"
 #include <math.h>
 #include <stdio.h>
@@ -30,14 +31,16 @@ pg_status compare_materials (const pg_problem *p, const pg_quadrature *q, int **
     if (p->nmaterial < 2) return PG_OK;
     PG_ALLOC (*which, q->n);
     PG_TRY (pg_nearest_create (&near, p->dim, p->rows[bulk].n, p->rows[bulk].x));
-    for (size_t i = 0; i < q->n; i++) (*which)[i] = p->block[bulk][pg_nearest_find (near, q->x + i * (size_t) p->dim, NULL, NULL)];
+    for (size_t i = 0; i < q->n; i++)
+        (*which)[i] = p->block[bulk][pg_nearest_find (near, q->x + i * (size_t) p->dim, NULL, NULL)];
 done:
     pg_nearest_free (&near);
     return status;
 }
 
 /* |u - u_ref| at the points, which also take part in the maximum. */
-static pg_status at_points (pg_errors *out, const pg_problem *p, const pg_sampler *value, const pg_sampler *reference, const pg_expression *where)
+static pg_status at_points (pg_errors *out, const pg_problem *p, const pg_sampler *value,
+                            const pg_sampler *reference, const pg_expression *where)
 {
     pg_status status = PG_OK;
     pg_norm *most = &out->norms.maximum;
@@ -53,7 +56,10 @@ static pg_status at_points (pg_errors *out, const pg_problem *p, const pg_sample
     for (size_t i = 0; i < n; i++) {
         double d2 = 0, r2 = 0;
         pg_place at = pg_place_of (p->dim, p->cloud.x + i * dim, 0);
-        for (size_t k = 0; k < dim; k++) if (bits >> k & 1) d2 += (u[3*i + k] - v[3*i + k]) * (u[3*i + k] - v[3*i + k]), r2 += v[3*i + k] * v[3*i + k];
+        for (size_t k = 0; k < dim; k++)
+            if (bits >> k & 1)
+                d2 += (u[3 * i + k] - v[3 * i + k]) * (u[3 * i + k] - v[3 * i + k]),
+                    r2 += v[3 * i + k] * v[3 * i + k];
         out->difference[i] = where && pg_expression_value (where, &at) == 0 ? NAN : sqrt (d2);
         if (!isfinite (out->difference[i])) continue;
         most->reference = fmax (most->reference, sqrt (r2));
@@ -61,7 +67,9 @@ static pg_status at_points (pg_errors *out, const pg_problem *p, const pg_sample
         most->difference = out->difference[i];
         for (size_t k = 0; k < dim; k++) most->place[k] = p->cloud.x[i * dim + k];
     }
-    most->relative = most->difference == 0 ? 0 : most->reference > 0 ? most->difference / most->reference : INFINITY;
+    most->relative = most->difference == 0 ? 0
+                     : most->reference > 0 ? most->difference / most->reference
+                                           : INFINITY;
 done:
     pg_free (u), pg_free (v);
     return status;
@@ -81,7 +89,8 @@ done:
     return status;
 }
 
-pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int order, const pg_expression *where, const pg_sampler *value, const pg_sampler *reference)
+pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int order, const pg_expression *where,
+                             const pg_sampler *value, const pg_sampler *reference)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
@@ -104,7 +113,8 @@ done:
     return status;
 }
 
-pg_status pg_errors_measure (pg_errors *out, const pg_reference *reference, const pg_problem *problem, const pg_sampler *value, double t)
+pg_status pg_errors_measure (pg_errors *out, const pg_reference *reference, const pg_problem *problem,
+                             const pg_sampler *value, double t)
 {
     pg_status status = PG_OK;
     pg_sampler field = { 0 };
@@ -126,7 +136,7 @@ void pg_errors_clear (pg_errors *errors)
     memset (errors, 0, sizeof *errors);
 }
 
-/* ---- reports ---------------------------------------------------------------------------------------------------------- */
+/* ---- reports ------------------------------------------------------------------------------------------- */
 static void json_norm (pg_json *j, const char *key, const pg_norm *n, int place)
 {
     pg_json_open (j, key, '{');
@@ -164,8 +174,10 @@ void pg_errors_json (pg_json *j, const pg_errors *e)
     pg_json_count (j, "places", n->places);
     pg_json_count (j, "skipped", n->skipped);
     pg_json_number (j, "volume", n->volume);
-    if (n->displacement) json_norm (j, "displacement_l2", &n->l2, 0), json_norm (j, "displacement_maximum", &n->maximum, 1);
-    if (n->stress) json_norm (j, "energy", &n->energy, 0), json_norm (j, "stress_maximum", &n->stress_maximum, 1);
+    if (n->displacement)
+        json_norm (j, "displacement_l2", &n->l2, 0), json_norm (j, "displacement_maximum", &n->maximum, 1);
+    if (n->stress)
+        json_norm (j, "energy", &n->energy, 0), json_norm (j, "stress_maximum", &n->stress_maximum, 1);
     pg_json_open (j, "lines", '[');
     for (size_t i = 0; i < e->nline; i++) json_line (j, &e->line[i]);
     pg_json_shut (j);
@@ -176,14 +188,23 @@ int pg_errors_row (const pg_errors *e, size_t i, char *text, size_t size)
     const pg_norms *n = &e->norms;
     const double *u = n->maximum.place, *s = n->stress_maximum.place;
     if (n->displacement && i-- == 0)
-        return snprintf (text, size, "displacement: L2 %.3e, largest %.3e at [%.4g, %.4g, %.4g] m", n->l2.relative, n->maximum.relative, u[0], u[1], u[2]) > 0;
+        return snprintf (text, size, "displacement: L2 %.3e, largest %.3e at [%.4g, %.4g, %.4g] m",
+                         n->l2.relative, n->maximum.relative, u[0], u[1], u[2])
+               > 0;
     if (n->stress && i-- == 0)
-        return snprintf (text, size, "stress: energy norm %.3e, largest %.3e at [%.4g, %.4g, %.4g] m", n->energy.relative, n->stress_maximum.relative,
-                         s[0], s[1], s[2]) > 0;
-    if (n->skipped && i-- == 0) return snprintf (text, size, "left out: %zu of %zu places (where, or no finite value)", n->skipped, n->skipped + n->places) > 0;
+        return snprintf (text, size, "stress: energy norm %.3e, largest %.3e at [%.4g, %.4g, %.4g] m",
+                         n->energy.relative, n->stress_maximum.relative, s[0], s[1], s[2])
+               > 0;
+    if (n->skipped && i-- == 0)
+        return snprintf (text, size, "left out: %zu of %zu places (where, or no finite value)", n->skipped,
+                         n->skipped + n->places)
+               > 0;
     if (i >= e->nline) return 0;
     const pg_line_norms *l = &e->line[i];
-    return snprintf (text, size, "%s %s: L2 %.3e, largest %.3e at [%.4g, %.4g, %.4g] m, pointwise %.3e, %zu rows%s", l->file, pg_column_name (l->column),
-                     l->l2.relative, l->maximum.relative, l->maximum.place[0], l->maximum.place[1], l->maximum.place[2], l->pointwise, l->rows,
-                     l->missed ? ", some without a value" : "") > 0;
+    return snprintf (text, size,
+                     "%s %s: L2 %.3e, largest %.3e at [%.4g, %.4g, %.4g] m, pointwise %.3e, %zu rows%s",
+                     l->file, pg_column_name (l->column), l->l2.relative, l->maximum.relative,
+                     l->maximum.place[0], l->maximum.place[1], l->maximum.place[2], l->pointwise, l->rows,
+                     l->missed ? ", some without a value" : "")
+           > 0;
 }

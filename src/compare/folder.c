@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a result folder says about its run: the scene it was made with, and the row of history.csv that belongs to a step of result.e. */
+ * What a result folder says about its run: the scene it was made with, and the row of history.csv that
+ * belongs to a step of result.e. */
 #include "compare.h"
 #include <errno.h>
 #include <math.h>
@@ -30,7 +31,7 @@ done:
     return status;
 }
 
-/* ---- scene ------------------------------------------------------------------------------------------------------------ */
+/* ---- scene --------------------------------------------------------------------------------------------- */
 /* Value of a text key of report.json; "" when there is none. */
 static pg_status report_text (const char *folder, const char *key, char *out, size_t size)
 {
@@ -60,11 +61,12 @@ static char *cut_line (char *text, const char *mark)
     while (start > 0 && text[start - 1] != '\n') start--;
     if (strncmp (text + start, mark, strlen (mark)) != 0) return NULL;
     text[length] = 0;
-    text[start] = 0;                                   /* the line before ends here                                      */
+    text[start] = 0;                                   /* the line before ends here */
     return text + start + strlen (mark);
 }
 
-/* Takes what a run added off its copy of a scene: where that was (NULL: not said), settings in the order of the file. */
+/* Takes what a run added off its copy of a scene: where that was (NULL: not said), settings in the order of
+ * the file. */
 static size_t cut_settings (char *text, char **set, const char **from)
 {
     size_t n = 0;
@@ -72,7 +74,7 @@ static size_t cut_settings (char *text, char **set, const char **from)
     while (cut_line (text, "# with ")) continue;
     if ((*from = cut_line (text, "# copied by perigal run from "))) {
         size_t length = strlen (text);
-        if (length) text[length - 1] = 0;              /* the line end before the mark                                   */
+        if (length) text[length - 1] = 0;              /* the line end before the mark */
     }
     for (size_t k = 0; k < n / 2; k++) {
         char *other = set[k];
@@ -91,13 +93,17 @@ pg_status pg_stored_scene (pg_scene **out, const char *folder)
     PG_TRY (compare_load_text (path, &text));
     PG_TRY (report_text (folder, "scene", name, sizeof name));
     size_t n = cut_settings (text, set, &from);
-    PG_TRY (pg_scene_parse_with (out, text, from ? from : name[0] ? name : path, n, (const char *const *) set));
+    PG_TRY (pg_scene_parse_with (out, text,
+                                 from      ? from
+                                 : name[0] ? name
+                                           : path,
+                                 n, (const char *const *) set));
 done:
     pg_free (text);
     return status;
 }
 
-/* ---- history ---------------------------------------------------------------------------------------------------------- */
+/* ---- history ------------------------------------------------------------------------------------------- */
 static const char *cell_of (const char *row, size_t column)
 {
     for (; column > 0; column--) {
@@ -118,7 +124,8 @@ static long column_of (const char *header, const char *name)
     }
 }
 
-pg_status compare_history (const char *folder, const char *key, double stamp, double *load_factor, double *time, double *broken)
+pg_status compare_history (const char *folder, const char *key, double stamp, double *load_factor,
+                           double *time, double *broken)
 {
     pg_status status = PG_OK;
     char path[4096], *text = NULL;

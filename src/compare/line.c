@@ -1,26 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Tables of places with values, as pg_table writes them: a first row of names with units in brackets, then numbers. Empty cells and nan
- * are missing values; columns of other names are passed over; '#' starts a comment. */
+ * Tables of places with values, as pg_table writes them: a first row of names with units in brackets, then
+ * numbers. Empty cells and nan are missing values; columns of other names are passed over; '#' starts a
+ * comment. */
 #include "compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_COLUMNS = 64, PLACE = 16 };                /* PLACE + k: coordinate k                                        */
+enum { MOST_COLUMNS = 64, PLACE = 16 };                /* PLACE + k: coordinate k */
 
 static const char *const names[9] = { "u_x", "u_y", "u_z", "s_xx", "s_yy", "s_zz", "s_xy", "s_yz", "s_zx" };
-static const char *const longer[9] = { "displacement_x", "displacement_y", "displacement_z", "stress_xx", "stress_yy", "stress_zz", "stress_xy",
-                                       "stress_yz", "stress_zx" };
+static const char *const longer[9] = { "displacement_x", "displacement_y", "displacement_z",
+                                       "stress_xx",      "stress_yy",      "stress_zz",
+                                       "stress_xy",      "stress_yz",      "stress_zx" };
 const char *pg_column_name (int column) { return column >= 0 && column < 9 ? names[column] : ""; }
 const char *pg_column_unit (int column) { return column < 3 ? "m" : "Pa"; }
 
 typedef struct {
     const char *path;
     pg_line *line;
-    int    meaning[MOST_COLUMNS];                      /* column of pg_line's list, PLACE + k, -1: passed over            */
+    int    meaning[MOST_COLUMNS];  /* column of pg_line's list, PLACE + k, -1: passed over */
     double scale[MOST_COLUMNS];
-    size_t columns, at, cap_x, cap_value;              /* at: line of the file, from 1                                   */
+    size_t columns, at, cap_x, cap_value;              /* at: line of the file, from 1 */
     double unit, factor;
     const double *along;
 } reader;
@@ -58,12 +60,15 @@ static pg_status read_name (reader *r, size_t k, char *cell)
     pg_status status = PG_OK;
     const char *text;
     int closed = pg_column_cut (cell, &text) == PG_OK, what = r->meaning[k] = meaning_of (cell, r->line->dim);
-    if (what >= 0 && !closed) PG_FAIL (PG_E_FILE, "%s:%zu: column %zu, %s: %s", r->path, r->at, k + 1, cell, pg_last_error ());
+    if (what >= 0 && !closed)
+        PG_FAIL (PG_E_FILE, "%s:%zu: column %zu, %s: %s", r->path, r->at, k + 1, cell, pg_last_error ());
     r->scale[k] = what < 0 || (what >= 3 && what < PLACE) ? 1 : r->unit;
-    if (what >= 0 && *text && pg_column_scale (&r->scale[k], text, what >= PLACE ? "m" : pg_column_unit (what)) != PG_OK)
+    if (what >= 0 && *text
+        && pg_column_scale (&r->scale[k], text, what >= PLACE ? "m" : pg_column_unit (what)) != PG_OK)
         PG_FAIL (PG_E_FILE, "%s:%zu: column %s: %s", r->path, r->at, cell, pg_last_error ());
     for (size_t j = 0; j < k; j++)
-        if (what >= 0 && r->meaning[j] == what) PG_FAIL (PG_E_FILE, "%s:%zu: there are two columns %s", r->path, r->at, cell);
+        if (what >= 0 && r->meaning[j] == what)
+            PG_FAIL (PG_E_FILE, "%s:%zu: there are two columns %s", r->path, r->at, cell);
     if (what >= 0 && what < PLACE) r->line->column[r->line->ncolumn++] = what, r->scale[k] *= r->factor;
 done:
     return status;
@@ -75,14 +80,24 @@ static pg_status read_header (reader *r, char *row)
     char *cell[MOST_COLUMNS];
     int places = 0;
     r->columns = split (row, cell);
-    if (r->columns > MOST_COLUMNS) PG_FAIL (PG_E_FILE, "%s:%zu: more than %d columns", r->path, r->at, MOST_COLUMNS);
+    if (r->columns > MOST_COLUMNS)
+        PG_FAIL (PG_E_FILE, "%s:%zu: more than %d columns", r->path, r->at, MOST_COLUMNS);
     for (size_t k = 0; k < r->columns; k++) {
         PG_TRY (read_name (r, k, cell[k]));
         places += r->meaning[k] >= PLACE;
     }
-    if (!places) PG_FAIL (PG_E_FILE, "%s:%zu: no column x%s: the first row names the columns, such as x [mm], u_x [mm], s_xx [MPa]", r->path, r->at,
-                          r->line->dim == 1 ? "" : r->line->dim == 2 ? ", y" : ", y, z");
-    if (!r->line->ncolumn) PG_FAIL (PG_E_FILE, "%s:%zu: no column of values: u_x, u_y ..., s_xx, s_yy, s_xy ... with units in brackets", r->path, r->at);
+    if (!places)
+        PG_FAIL (
+            PG_E_FILE,
+            "%s:%zu: no column x%s: the first row names the columns, such as x [mm], u_x [mm], s_xx [MPa]",
+            r->path, r->at,
+            r->line->dim == 1   ? ""
+            : r->line->dim == 2 ? ", y"
+                                : ", y, z");
+    if (!r->line->ncolumn)
+        PG_FAIL (PG_E_FILE,
+                 "%s:%zu: no column of values: u_x, u_y ..., s_xx, s_yy, s_xy ... with units in brackets",
+                 r->path, r->at);
 done:
     return status;
 }
@@ -94,7 +109,8 @@ static pg_status read_number (const reader *r, const char *cell, size_t k, doubl
     *out = NAN;
     if (!*cell) return PG_OK;
     *out = strtod (cell, &end);
-    if (end == cell || *end) PG_FAIL (PG_E_FILE, "%s:%zu: '%.40s' in column %zu is not a number", r->path, r->at, cell, k + 1);
+    if (end == cell || *end)
+        PG_FAIL (PG_E_FILE, "%s:%zu: '%.40s' in column %zu is not a number", r->path, r->at, cell, k + 1);
     *out = pg_column_value (*out, r->scale[k]);
 done:
     return status;
@@ -106,7 +122,8 @@ static pg_status read_row (reader *r, char *row)
     char *cell[MOST_COLUMNS];
     pg_line *l = r->line;
     size_t n = split (row, cell), dim = (size_t) l->dim, c = 0;
-    if (n != r->columns) PG_FAIL (PG_E_FILE, "%s:%zu: %zu columns, the first row names %zu", r->path, r->at, n, r->columns);
+    if (n != r->columns)
+        PG_FAIL (PG_E_FILE, "%s:%zu: %zu columns, the first row names %zu", r->path, r->at, n, r->columns);
     PG_GROW (l->x, r->cap_x, (l->n + 1) * dim);
     PG_GROW (l->value, r->cap_value, (l->n + 1) * l->ncolumn);
     for (size_t k = 0; k < dim; k++) l->x[l->n * dim + k] = r->along[k];
@@ -115,7 +132,8 @@ static pg_status read_row (reader *r, char *row)
         int what = r->meaning[k];
         if (what < 0) continue;
         PG_TRY (read_number (r, cell[k], k, &v));
-        if (what >= PLACE && !isfinite (v)) PG_FAIL (PG_E_FILE, "%s:%zu: the place has no %c", r->path, r->at, "xyz"[what - PLACE]);
+        if (what >= PLACE && !isfinite (v))
+            PG_FAIL (PG_E_FILE, "%s:%zu: the place has no %c", r->path, r->at, "xyz"[what - PLACE]);
         if (what >= PLACE) l->x[l->n * dim + (size_t) (what - PLACE)] = v;
         else l->value[l->n * l->ncolumn + c++] = v;
     }
@@ -124,7 +142,8 @@ done:
     return status;
 }
 
-pg_status pg_line_read (pg_line *out, const char *path, int dim, double unit, double factor, const double *along)
+pg_status pg_line_read (pg_line *out, const char *path, int dim, double unit, double factor,
+                        const double *along)
 {
     pg_status status = PG_OK;
     reader r = { .path = path, .line = out, .unit = unit, .factor = factor, .along = along };

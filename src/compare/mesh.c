@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A finite element result as a sampler: displacement by its shape functions, stress from their gradients and the scene's materials. */
+ * A finite element result as a sampler: displacement by its shape functions, stress from their gradients and
+ * the scene's materials. */
 #include "compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define FARTHEST 0.25                                  /* a place so far outside, in element sizes, still takes the nearest element */
+#define FARTHEST 0.25  /* a place so far outside, in element sizes, still takes the nearest element */
 
 typedef struct {
-    pg_mesh mesh;                                      /* places in m                                                    */
-    pg_mesh_field u;                                   /* displacement, m                                                */
-    pg_mesh_finder *finder;
+    pg_mesh mesh;                                      /* places in m */
+    pg_mesh_field u;                                   /* displacement, m */
+    pg_mesh_locator *locator;
     const pg_problem *problem;
-    pg_nearest *material;                              /* over evaluation points; NULL: one material                     */
-    size_t  outside;  double away;                     /* places so far, beyond 1e-6; farthest, element sizes            */
+    pg_nearest *material;                              /* over evaluation points; NULL: one material */
+    size_t  outside;  double away;  /* places so far, beyond 1e-6; farthest, element sizes */
 } fem;
 
 static void free_fem (void *context)
@@ -21,7 +22,7 @@ static void free_fem (void *context)
     fem *f = context;
     if (!f) return;
     pg_nearest_free (&f->material);
-    pg_finder_free (&f->finder);
+    pg_mesh_locator_free (&f->locator);
     pg_mesh_clear (&f->mesh);
     pg_free (f->u.value);
     pg_free (f);
@@ -31,7 +32,8 @@ static const pg_material *law_at (const fem *f, const double *x)
 {
     const pg_problem *p = f->problem;
     if (!f->material) return &p->material[0];
-    return &p->material[p->block[p->integration->at_nodes ? PG_NODES : PG_POINTS][pg_nearest_find (f->material, x, NULL, NULL)]];
+    return &p->material[p->block[p->integration->at_nodes ? PG_NODES : PG_POINTS]
+                                [pg_nearest_find (f->material, x, NULL, NULL)]];
 }
 
 static pg_status sample_fem (void *context, size_t n, const double *x, double *u, double *stress)
@@ -40,8 +42,9 @@ static pg_status sample_fem (void *context, size_t n, const double *x, double *u
     size_t dim = (size_t) f->mesh.dim;
     for (size_t i = 0; i < n; i++) {
         double xi[3], away = 0, H[9];
-        long e = pg_finder_find (f->finder, x + i * dim, xi, &away);
-        int known = e >= 0 && away <= FARTHEST && (!stress || pg_mesh_gradient (&f->mesh, &f->u, (size_t) e, xi, H));
+        long e = pg_mesh_locator_find (f->locator, x + i * dim, xi, &away);
+        int known = e >= 0 && away <= FARTHEST
+                    && (!stress || pg_mesh_gradient (&f->mesh, &f->u, (size_t) e, xi, H));
         u[3*i + 1] = u[3*i + 2] = 0;
         if (known) pg_mesh_value (&f->mesh, &f->u, (size_t) e, xi, u + 3*i);
         if (known && away > 1e-6) f->outside++, f->away = fmax (f->away, away);
@@ -61,20 +64,27 @@ static pg_status read_fields (fem *f, const char *path, int step, double unit)
     double time;
     PG_TRY (pg_mesh_result (&f->mesh, path, step, &n, &fields, &time));
     if (f->mesh.dim == 3 && dim == 2) PG_TRY (pg_mesh_flatten (&f->mesh, n, fields));
-    if ((size_t) f->mesh.dim != dim) PG_FAIL (PG_E_FILE, "%s is of a %dD body, the result of a %zuD one", path, f->mesh.dim, dim);
+    if ((size_t) f->mesh.dim != dim)
+        PG_FAIL (PG_E_FILE, "%s is of a %dD body, the result of a %zuD one", path, f->mesh.dim, dim);
     for (size_t k = 0; k < n; k++) if (strcmp (fields[k].name, "displacement") == 0) u = &fields[k];
-    if (!u || u->components < (int) dim) PG_FAIL (PG_E_FILE, "%s has no displacement: ask for U in its *NODE FILE, or a nodal variable displacement_x ...", path);
+    if (!u || u->components < (int) dim)
+        PG_FAIL (
+            PG_E_FILE,
+            "%s has no displacement: ask for U in its *NODE FILE, or a nodal variable displacement_x ...",
+            path);
     f->u = (pg_mesh_field) { .name = "displacement", .components = (int) dim };
     PG_ALLOC (f->u.value, f->mesh.nnode * dim);
     for (size_t i = 0; i < f->mesh.nnode; i++)
-        for (size_t c = 0; c < dim; c++) f->u.value[i * dim + c] = unit * u->value[i * (size_t) u->components + c];
+        for (size_t c = 0; c < dim; c++)
+            f->u.value[i * dim + c] = unit * u->value[i * (size_t) u->components + c];
     for (size_t i = 0; i < 3 * f->mesh.nnode; i++) f->mesh.x[i] *= unit;
 done:
     pg_mesh_fields_clear (n, &fields);
     return status;
 }
 
-pg_status pg_sampler_mesh (pg_sampler *out, const char *path, int step, double unit, const pg_problem *problem)
+pg_status pg_sampler_mesh (pg_sampler *out, const char *path, int step, double unit,
+                           const pg_problem *problem)
 {
     pg_status status = PG_OK;
     fem *f = NULL;
@@ -83,9 +93,15 @@ pg_status pg_sampler_mesh (pg_sampler *out, const char *path, int step, double u
     PG_ALLOC (f, 1);
     f->problem = problem;
     PG_TRY (read_fields (f, path, step, unit));
-    PG_TRY (pg_finder_create (&f->finder, &f->mesh));
-    if (problem->nmaterial > 1) PG_TRY (pg_nearest_create (&f->material, problem->dim, problem->rows[bulk].n, problem->rows[bulk].x));
-    *out = (pg_sampler) { f, problem->dim, (1 << problem->dim) - 1, problem->dim == 1 ? 1 : problem->dim == 2 ? 15 : 63, sample_fem, free_fem };
+    PG_TRY (pg_mesh_locator_create (&f->locator, &f->mesh));
+    if (problem->nmaterial > 1)
+        PG_TRY (pg_nearest_create (&f->material, problem->dim, problem->rows[bulk].n, problem->rows[bulk].x));
+    *out = (pg_sampler){ f,
+                         problem->dim,
+                         (1 << problem->dim) - 1,
+                         problem->dim == 1 ? 1 : problem->dim == 2 ? 15 : 63,
+                         sample_fem,
+                         free_fem };
     f = NULL;
 done:
     free_fem (f);
@@ -106,7 +122,8 @@ pg_status pg_mesh_quadrature (pg_quadrature *out, const pg_mesh *mesh, double th
     size_t dim = (size_t) mesh->dim, n = 0;
     double xi[3 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS], x[3 * PG_ELEMENT_NODES];
     memset (out, 0, sizeof *out);
-    for (size_t e = 0; e < mesh->n; e++) n += (size_t) pg_element_rule ((pg_element) mesh->kind[e], order, xi, weight);
+    for (size_t e = 0; e < mesh->n; e++)
+        n += (size_t) pg_element_rule ((pg_element) mesh->kind[e], order, xi, weight);
     PG_ALLOC (out->x, n * dim);
     PG_ALLOC (out->weight, n);
     PG_ALLOC (out->cell, n);
@@ -114,9 +131,11 @@ pg_status pg_mesh_quadrature (pg_quadrature *out, const pg_mesh *mesh, double th
         size_t nodes = mesh->start[e + 1] - mesh->start[e];
         int points = pg_element_rule ((pg_element) mesh->kind[e], order, xi, weight);
         for (size_t a = 0; a < nodes; a++)
-            for (size_t k = 0; k < dim; k++) x[a*dim + k] = mesh->x[3 * (size_t) mesh->node[mesh->start[e] + a] + k];
+            for (size_t k = 0; k < dim; k++)
+                x[a * dim + k] = mesh->x[3 * (size_t) mesh->node[mesh->start[e] + a] + k];
         for (int q = 0; q < points; q++, out->n++) {
-            double size = pg_element_map ((pg_element) mesh->kind[e], mesh->dim, x, xi + (size_t) q * dim, out->x + out->n * dim, NULL);
+            double size = pg_element_map ((pg_element) mesh->kind[e], mesh->dim, x, xi + (size_t) q * dim,
+                                          out->x + out->n * dim, NULL);
             out->weight[out->n] = weight[q] * fabs (size) * (mesh->dim == 3 ? 1 : thickness);
             out->cell[out->n] = (int) e;
         }
@@ -126,7 +145,8 @@ done:
     return status;
 }
 
-pg_status pg_errors_mesh (pg_errors *out, const pg_reference *reference, const pg_problem *problem, const char *path, int step, double unit, double t)
+pg_status pg_errors_mesh (pg_errors *out, const pg_reference *reference, const pg_problem *problem,
+                          const char *path, int step, double unit, double t)
 {
     pg_status status = PG_OK;
     pg_sampler value = { 0 }, field = { 0 };

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Norms of the difference of two samplers. Sums run over the places in their order, whatever the number of threads. */
+ * Norms of the difference of two samplers. Sums run over the places in their order, whatever the number of
+ * threads. */
 #include "perigal/compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { CHUNK = 16384 };                                /* places at a time                                               */
+enum { CHUNK = 16384 };                                /* places at a time */
 
 typedef struct {
-    int     dim, nv, u, stress;                        /* u: bits of the components compared                             */
-    int     part[6];                                   /* Voigt component of the mode -> of six                          */
-    double *L;                                         /* Cholesky factors of D per material (36 each)                   */
+    int     dim, nv, u, stress;                        /* u: bits of the components compared */
+    int     part[6];                                   /* Voigt component of the mode -> of six */
+    double *L;                                         /* Cholesky factors of D per material (36 each) */
     const pg_norm_options *options;
-    double *v, *w, *s, *t;                             /* samples: u of value and reference, stresses                    */
-    double  sum[4], top_u, top_s;                      /* squares; largest of the references                             */
+    double *v, *w, *s, *t;                             /* samples: u of value and reference, stresses */
+    double  sum[4], top_u, top_s;                      /* squares; largest of the references */
     pg_norms *out;
 } measuring;
 
@@ -48,21 +49,24 @@ static void largest (pg_norm *n, double size, int dim, const double *x)
 static void add_displacement (measuring *m, const double *x, const double *v, const double *w, double weight)
 {
     double d2 = 0, r2 = 0;
-    for (int k = 0; k < m->dim; k++) if (m->u >> k & 1) d2 += (v[k] - w[k]) * (v[k] - w[k]), r2 += w[k] * w[k];
+    for (int k = 0; k < m->dim; k++)
+        if (m->u >> k & 1) d2 += (v[k] - w[k]) * (v[k] - w[k]), r2 += w[k] * w[k];
     m->sum[0] += weight * d2, m->sum[1] += weight * r2;
     largest (&m->out->maximum, sqrt (d2), m->dim, x);
     m->top_u = fmax (m->top_u, sqrt (r2));
 }
 
-static void add_stress (measuring *m, const double *x, const double *s, const double *t, double weight, size_t material)
+static void add_stress (measuring *m, const double *x, const double *s, const double *t, double weight,
+                        size_t material)
 {
     double d[6], r[6], d2 = 0, r2 = 0;
     for (int k = 0; k < m->nv; k++) {
         d[k] = s[m->part[k]] - t[m->part[k]], r[k] = t[m->part[k]];
-        double twice = k < m->dim ? 1 : 2;             /* shears stand for two components                                */
+        double twice = k < m->dim ? 1 : 2;             /* shears stand for two components */
         d2 += twice * d[k] * d[k], r2 += twice * r[k] * r[k];
     }
-    m->sum[2] += weight * complementary (m, material, d), m->sum[3] += weight * complementary (m, material, r);
+    m->sum[2] += weight * complementary (m, material, d),
+        m->sum[3] += weight * complementary (m, material, r);
     largest (&m->out->stress_maximum, sqrt (d2), m->dim, x);
     m->top_s = fmax (m->top_s, sqrt (r2));
 }
@@ -81,19 +85,22 @@ done:
     return status;
 }
 
-static pg_status prepare (measuring *m, const pg_quadrature *q, const pg_sampler *value, const pg_sampler *reference)
+static pg_status prepare (measuring *m, const pg_quadrature *q, const pg_sampler *value,
+                          const pg_sampler *reference)
 {
     static const int part[4][6] = { { 0 }, { 0 }, { 0, 1, 3 }, { 0, 1, 2, 3, 4, 5 } };
     pg_status status = PG_OK;
     int needed = 0;
     size_t laws = 1;
-    if (value->dim != reference->dim) PG_FAIL (PG_E_USAGE, "a %dD result is compared with a %dD one", value->dim, reference->dim);
+    if (value->dim != reference->dim)
+        PG_FAIL (PG_E_USAGE, "a %dD result is compared with a %dD one", value->dim, reference->dim);
     m->dim = value->dim, m->nv = pg_voigt_size (m->dim);
     memcpy (m->part, part[m->dim], sizeof m->part);
     m->u = value->displacement & reference->displacement;
     for (int k = 0; k < m->nv; k++) needed |= 1 << m->part[k];
     m->stress = m->options->material && (value->stress & reference->stress & needed) == needed;
-    for (size_t i = 0; m->options->which && i < q->n; i++) if ((size_t) m->options->which[i] >= laws) laws = (size_t) m->options->which[i] + 1;
+    for (size_t i = 0; m->options->which && i < q->n; i++)
+        if ((size_t) m->options->which[i] >= laws) laws = (size_t) m->options->which[i] + 1;
     if (m->stress) PG_TRY (factor_laws (m, laws));
     PG_ALLOC (m->v, 18 * CHUNK);
     m->w = m->v + 3 * CHUNK, m->s = m->w + 3 * CHUNK, m->t = m->s + 6 * CHUNK;
@@ -115,18 +122,22 @@ static void add_chunk (measuring *m, const pg_quadrature *q, size_t first, size_
         const double *v = m->v + 3*i, *w = m->w + 3*i, *s = m->s + 6*i, *t = m->t + 6*i;
         int bits = 0;
         for (int k = 0; k < m->nv; k++) bits |= 1 << m->part[k];
-        if (excluded (m->options->where, m->dim, x) || !finite_all (w, m->dim, m->u) || !finite_all (v, m->dim, m->u)
+        if (excluded (m->options->where, m->dim, x) || !finite_all (w, m->dim, m->u)
+            || !finite_all (v, m->dim, m->u)
             || (m->stress && (!finite_all (t, 6, bits) || !finite_all (s, 6, bits)))) {
             m->out->skipped++;
             continue;
         }
         m->out->places++, m->out->volume += q->weight[first + i];
         if (m->u) add_displacement (m, x, v, w, q->weight[first + i]);
-        if (m->stress) add_stress (m, x, s, t, q->weight[first + i], m->options->which ? (size_t) m->options->which[first + i] : 0);
+        if (m->stress)
+            add_stress (m, x, s, t, q->weight[first + i],
+                        m->options->which ? (size_t) m->options->which[first + i] : 0);
     }
 }
 
-pg_status pg_norms_measure (pg_norms *out, const pg_quadrature *q, const pg_sampler *value, const pg_sampler *reference, const pg_norm_options *options)
+pg_status pg_norms_measure (pg_norms *out, const pg_quadrature *q, const pg_sampler *value,
+                            const pg_sampler *reference, const pg_norm_options *options)
 {
     pg_status status = PG_OK;
     measuring m = { .options = options, .out = out };
@@ -143,14 +154,16 @@ pg_status pg_norms_measure (pg_norms *out, const pg_quadrature *q, const pg_samp
     out->l2.difference = sqrt (m.sum[0]), out->l2.reference = sqrt (m.sum[1]);
     out->energy.difference = sqrt (m.sum[2]), out->energy.reference = sqrt (m.sum[3]);
     out->maximum.reference = m.top_u, out->stress_maximum.reference = m.top_s;
-    close_norm (&out->l2), close_norm (&out->maximum), close_norm (&out->energy), close_norm (&out->stress_maximum);
+    close_norm (&out->l2), close_norm (&out->maximum), close_norm (&out->energy),
+        close_norm (&out->stress_maximum);
 done:
     pg_free (m.L), pg_free (m.v);
     return status;
 }
 
-/* ---- tables ----------------------------------------------------------------------------------------------------------- */
-static void measure_column (pg_line_norms *out, const pg_line *line, size_t k, const double *u, const double *s)
+/* ---- tables -------------------------------------------------------------------------------------------- */
+static void measure_column (pg_line_norms *out, const pg_line *line, size_t k, const double *u,
+                            const double *s)
 {
     double sum = 0, ref = 0, top = 0, worst = 0;
     size_t dim = (size_t) line->dim;
@@ -161,7 +174,8 @@ static void measure_column (pg_line_norms *out, const pg_line *line, size_t k, c
         if (isfinite (r)) top = fmax (top, fabs (r));
     }
     for (size_t i = 0; i < line->n; i++) {
-        double r = line->value[i * line->ncolumn + k], v = out->column < 3 ? u[3*i + (size_t) out->column] : s[6*i + (size_t) out->column - 3];
+        double r = line->value[i * line->ncolumn + k],
+               v = out->column < 3 ? u[3 * i + (size_t) out->column] : s[6 * i + (size_t) out->column - 3];
         if (!isfinite (r) || !isfinite (v)) {
             out->missed++;
             continue;
@@ -184,7 +198,9 @@ pg_status pg_line_measure (pg_line_norms *out, const pg_line *line, const pg_sam
 {
     pg_status status = PG_OK;
     double *u = NULL, *s = NULL;
-    if (value->dim != line->dim) PG_FAIL (PG_E_USAGE, "%s: a table of a %dD body is compared with a %dD result", line->name, line->dim, value->dim);
+    if (value->dim != line->dim)
+        PG_FAIL (PG_E_USAGE, "%s: a table of a %dD body is compared with a %dD result", line->name, line->dim,
+                 value->dim);
     PG_ALLOC (u, 3 * line->n);
     PG_ALLOC (s, 6 * line->n);
     PG_TRY (pg_line_sample (line, value, u, s));

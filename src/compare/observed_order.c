@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Observed order of convergence and Richardson's value, from values or from errors at falling sizes.
- * Roache 1998, Verification and validation in computational science and engineering, chapter 5 (unequal ratios of sizes included). */
+ * Observed order of convergence and Richardson's value, from values or from errors at falling sizes. Roache
+ * 1998, Verification and validation in computational science and engineering, chapter 5 (unequal ratios of
+ * sizes included). */
 #include "perigal/compare.h"
 #include <math.h>
 
@@ -30,11 +31,13 @@ pg_observed pg_observed_of_values (size_t n, const double *h, const double *valu
 {
     if (n < 3) return none (NAN, NAN, "three sizes are needed");
     const double *s = h + n - 3, *v = value + n - 3;
-    double first = v[0] - v[1], second = v[1] - v[2], scale = fmax (fmax (fabs (v[0]), fabs (v[1])), fabs (v[2]));
+    double first = v[0] - v[1], second = v[1] - v[2],
+           scale = fmax (fmax (fabs (v[0]), fabs (v[1])), fabs (v[2]));
     double low = 0, high = highest;
     if (!falling (3, s)) return none (NAN, NAN, "the sizes do not fall");
     if (!isfinite (first) || !isfinite (second)) return none (NAN, NAN, "a value is missing");
-    if (fabs (second) <= same * scale) return none (v[2], 0, fabs (first) <= same * scale ? "always the same" : "no longer changes");
+    if (fabs (second) <= same * scale)
+        return none (v[2], 0, fabs (first) <= same * scale ? "always the same" : "no longer changes");
     if (first / second <= 0) return none (NAN, fmax (fabs (first), fabs (second)), "oscillates");
     if (first / second <= ratio (s, 0)) return none (NAN, NAN, "diverges");
     if (first / second > ratio (s, highest)) return none (v[2], fabs (second), "last change too small");

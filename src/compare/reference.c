@@ -10,7 +10,8 @@ static const char *const voigt[6] = { "xx", "yy", "zz", "xy", "yz", "zx" };
 /* Which of xx yy zz xy yz zx a body of this dimension has. */
 static int has_stress (int dim, int k) { return dim == 3 || k == 0 || (dim == 2 && (k == 1 || k == 3)); }
 
-static pg_status read_expression (pg_expression **out, const pg_scene *scene, const char *path, const char *unit)
+static pg_status read_expression (pg_expression **out, const pg_scene *scene, const char *path,
+                                  const char *unit)
 {
     pg_status status = PG_OK;
     const char *text = pg_scene_text (scene, "%s", path);
@@ -34,12 +35,17 @@ static pg_status read_forms (pg_reference *r, const pg_scene *scene)
         snprintf (path, sizeof path, "reference.stress.%s", voigt[k]);
         PG_TRY (read_expression (&r->s[k], scene, path, "Pa"));
         needed += has_stress (r->dim, k), stresses += r->s[k] && has_stress (r->dim, k);
-        if (r->s[k] && !has_stress (r->dim, k)) pg_scene_fault (scene, path, "is not compared in %dD", r->dim);
+        if (r->s[k] && !has_stress (r->dim, k))
+            pg_scene_fault (scene, path, "is not compared in %dD", r->dim);
     }
     if (stresses && stresses < needed)
-        pg_scene_fault (scene, "reference.stress", "needs %s: the energy norm takes all of them", r->dim == 1 ? "xx" : r->dim == 2 ? "xx, yy, xy" : "xx, yy, zz, xy, yz, zx");
+        pg_scene_fault (scene, "reference.stress", "needs %s: the energy norm takes all of them",
+                        r->dim == 1   ? "xx"
+                        : r->dim == 2 ? "xx, yy, xy"
+                                      : "xx, yy, zz, xy, yz, zx");
     PG_TRY (read_expression (&r->where, scene, "reference.where", "bool"));
-    if (r->where && pg_expression_uses (r->where, 't')) pg_scene_fault (scene, "reference.where", "does not change with t");
+    if (r->where && pg_expression_uses (r->where, 't'))
+        pg_scene_fault (scene, "reference.where", "does not change with t");
 done:
     return status;
 }
@@ -60,7 +66,8 @@ static pg_status read_line (pg_reference *r, const pg_scene *scene, size_t i)
     char key[64], *path = NULL;
     double unit, along[3] = { 0 };
     snprintf (key, sizeof key, "reference.lines[%zu].unit", i);
-    if (!length_unit (pg_scene_text (scene, "%s", key), &unit)) pg_scene_fault (scene, key, "must be a unit of length, such as mm");
+    if (!length_unit (pg_scene_text (scene, "%s", key), &unit))
+        pg_scene_fault (scene, key, "must be a unit of length, such as mm");
     for (int k = 0; k < 3; k++) {
         snprintf (key, sizeof key, "reference.lines[%zu].along.%c", i, "xyz"[k]);
         if (!pg_scene_given (scene, "%s", key)) continue;
@@ -70,14 +77,16 @@ static pg_status read_line (pg_reference *r, const pg_scene *scene, size_t i)
     PG_TRY (pg_scene_verdict (scene));
     snprintf (key, sizeof key, "reference.lines[%zu].file", i);
     PG_TRY (pg_scene_beside (&path, scene, pg_scene_text (scene, "%s", key)));
-    status = pg_line_read (&r->line[i], path, r->dim, unit, pg_scene_number (scene, "reference.lines[%zu].factor", i), along);
+    status = pg_line_read (&r->line[i], path, r->dim, unit,
+                           pg_scene_number (scene, "reference.lines[%zu].factor", i), along);
     if (status == PG_E_FILE) {
         pg_scene_fault (scene, key, "%s", pg_last_error ());
         status = pg_scene_verdict (scene);
     }
     PG_TRY (status);
     r->line[i].relative = pg_scene_given (scene, "reference.lines[%zu].datum", i);
-    if (r->line[i].relative) pg_scene_vector (scene, r->dim, r->line[i].datum, "reference.lines[%zu].datum", i);
+    if (r->line[i].relative)
+        pg_scene_vector (scene, r->dim, r->line[i].datum, "reference.lines[%zu].datum", i);
 done:
     pg_free (path);
     return status;
@@ -85,7 +94,9 @@ done:
 
 int pg_norm_order (const pg_scene *scene, const pg_problem *problem)
 {
-    int own = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : problem->approx.order + 1;
+    int own = pg_scene_given (scene, "method.gauss_points")
+                  ? (int) pg_scene_integer (scene, "method.gauss_points")
+                  : problem->approx.order + 1;
     return own + 2 > 5 ? 5 : own + 2;
 }
 
@@ -95,9 +106,13 @@ static pg_status read_mesh (pg_reference *r, const pg_scene *scene, const pg_pro
     char *path = NULL;
     double unit, shift[3] = { 0 };
     pg_sampler plain = { 0 };
-    int step = pg_scene_given (scene, "reference.mesh.step") ? (int) pg_scene_integer (scene, "reference.mesh.step") : -1;
-    if (r->u[0] || r->u[1] || r->u[2]) pg_scene_fault (scene, "reference.mesh", "and reference.displacement exclude each other");
-    if (!length_unit (pg_scene_text (scene, "reference.mesh.unit"), &unit)) pg_scene_fault (scene, "reference.mesh.unit", "must be a unit of length, such as mm");
+    int step = pg_scene_given (scene, "reference.mesh.step")
+                   ? (int) pg_scene_integer (scene, "reference.mesh.step")
+                   : -1;
+    if (r->u[0] || r->u[1] || r->u[2])
+        pg_scene_fault (scene, "reference.mesh", "and reference.displacement exclude each other");
+    if (!length_unit (pg_scene_text (scene, "reference.mesh.unit"), &unit))
+        pg_scene_fault (scene, "reference.mesh.unit", "must be a unit of length, such as mm");
     pg_scene_vector (scene, 3, shift, "reference.mesh.shift");
     PG_TRY (pg_scene_verdict (scene));
     PG_TRY (pg_scene_beside (&path, scene, pg_scene_text (scene, "reference.mesh.file")));
@@ -156,7 +171,7 @@ void pg_reference_free (pg_reference **reference)
     *reference = NULL;
 }
 
-/* ---- closed forms as a sampler -------------------------------------------------------------------------------------------- */
+/* ---- closed forms as a sampler ------------------------------------------------------------------------- */
 typedef struct { const pg_reference *r; double t; } forms;
 typedef struct { const forms *f; const double *x; double *u, *stress; } sampling;
 
@@ -167,8 +182,10 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
     (void) thread;
     for (size_t i = first; i < last; i++) {
         pg_place at = pg_place_of (r->dim, s->x + i * (size_t) r->dim, s->f->t);
-        for (int k = 0; k < 3; k++) s->u[3*i + (size_t) k] = k >= r->dim ? 0 : r->u[k] ? pg_expression_value (r->u[k], &at) : NAN;
-        for (int k = 0; s->stress && k < 6; k++) s->stress[6*i + (size_t) k] = r->s[k] ? pg_expression_value (r->s[k], &at) : NAN;
+        for (int k = 0; k < 3; k++)
+            s->u[3 * i + (size_t) k] = k >= r->dim ? 0 : r->u[k] ? pg_expression_value (r->u[k], &at) : NAN;
+        for (int k = 0; s->stress && k < 6; k++)
+            s->stress[6 * i + (size_t) k] = r->s[k] ? pg_expression_value (r->s[k], &at) : NAN;
     }
 }
 
@@ -187,7 +204,7 @@ pg_status pg_reference_sampler (pg_sampler *out, const pg_reference *r, double t
     memset (out, 0, sizeof *out);
     if (r->mesh.sample) {
         *out = r->mesh;
-        out->free = NULL;                              /* the reference keeps it                                         */
+        out->free = NULL;                              /* the reference keeps it */
         return PG_OK;
     }
     PG_ALLOC (f, 1);

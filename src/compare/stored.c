@@ -48,14 +48,16 @@ static pg_status bound (pg_sampler *out, const pg_problem *problem, pg_sampler *
     b->problem = problem, b->field = *field;
     memset (field, 0, sizeof *field);
     PG_TRY (pg_nearest_create (&b->points, problem->dim, problem->cloud.n, problem->cloud.x));
-    *out = (pg_sampler) { b, problem->dim, b->field.displacement, b->field.stress, sample_bounded, free_bounded };
+    *out = (pg_sampler){
+        b, problem->dim, b->field.displacement, b->field.stress, sample_bounded, free_bounded
+    };
     b = NULL;
 done:
     free_bounded (b);
     return status;
 }
 
-/* ---- fields ----------------------------------------------------------------------------------------------------------- */
+/* ---- fields -------------------------------------------------------------------------------------------- */
 /* The points of result.e must be those of the scene. */
 static pg_status check_points (const pg_stored *s, const char *path, size_t *nstep, double **time)
 {
@@ -64,8 +66,13 @@ static pg_status check_points (const pg_stored *s, const char *path, size_t *nst
     const pg_cloud *own = &s->problem->cloud;
     PG_TRY (pg_exodus_points (path, &cloud, nstep, time));
     int same = cloud.n == own->n && cloud.dim == own->dim;
-    for (size_t i = 0; same && i < own->n * (size_t) own->dim; i++) same = fabs (cloud.x[i] - own->x[i]) <= 1e-9 * own->h;
-    if (!same) PG_FAIL (PG_E_FILE, "%s: its points are not those that its scene makes now: files of the scene, or the program, have changed since", path);
+    for (size_t i = 0; same && i < own->n * (size_t) own->dim; i++)
+        same = fabs (cloud.x[i] - own->x[i]) <= 1e-9 * own->h;
+    if (!same)
+        PG_FAIL (PG_E_FILE,
+                 "%s: its points are not those that its scene makes now: files of the scene, or the program, "
+                 "have changed since",
+                 path);
 done:
     pg_cloud_clear (&cloud);
     return status;
@@ -84,13 +91,15 @@ done:
     return status;
 }
 
-static pg_status read_field (const pg_stored *s, const char *path, const char *name, int components, double **value)
+static pg_status read_field (const pg_stored *s, const char *path, const char *name, int components,
+                             double **value)
 {
     pg_status status = PG_OK;
     size_t n;
     int found;
     PG_TRY (pg_exodus_read (path, name, s->step, &n, &found, value));
-    if (n != s->problem->cloud.n || found != components) PG_FAIL (PG_E_FILE, "%s: field %s has %d components, expected %d", path, name, found, components);
+    if (n != s->problem->cloud.n || found != components)
+        PG_FAIL (PG_E_FILE, "%s: field %s has %d components, expected %d", path, name, found, components);
 done:
     return status;
 }
@@ -105,13 +114,19 @@ static pg_status find_torn (pg_stored *s, const char *path, unsigned char **torn
     size_t n = s->problem->cloud.n, count = 0;
     PG_TRY (has_field (path, "damage", &found));
     if (!found)
-        PG_FAIL (PG_E_USAGE, "%s: bonds have broken, and it has no field damage that would say where: add damage to output.fields and run again", path);
+        PG_FAIL (PG_E_USAGE,
+                 "%s: bonds have broken, and it has no field damage that would say where: add damage to "
+                 "output.fields and run again",
+                 path);
     PG_TRY (read_field (s, path, "damage", 1, &now));
     PG_ALLOC (first, n);
     PG_ALLOC (*torn, n);
     PG_TRY (s->force->field (s->self, s->state, s->state->d, "damage", &components, &unit, first));
     for (size_t i = 0; i < n; i++) count += (*torn)[i] = now[i] > first[i] + 1e-9;
-    snprintf (s->how, sizeof s->how, "by least squares through its points: bonds had broken; near %zu torn points the displacement of the nearest point, no stress", count);
+    snprintf (s->how, sizeof s->how,
+              "by least squares through its points: bonds had broken; near %zu torn points the displacement "
+              "of the nearest point, no stress",
+              count);
 done:
     pg_free (now), pg_free (first);
     return status;
@@ -129,7 +144,8 @@ static pg_status read_unknowns (pg_stored *s, const char *path, const char *name
     for (size_t i = 0; i < p->cloud.n; i++)
         for (size_t k = 0; k < stride; k++) {
             int turn = k >= count[0];
-            s->state->d[i * stride + k] = part[turn][i * count[turn] + k - (turn ? count[0] : 0)] * (turn ? p->cloud.h : 1);
+            s->state->d[i * stride + k] = part[turn][i * count[turn] + k - (turn ? count[0] : 0)]
+                                          * (turn ? p->cloud.h : 1);
         }
 done:
     pg_free (part[0]), pg_free (part[1]);
@@ -142,18 +158,22 @@ static pg_status read_step (pg_stored *s, const char *path, double broken)
     double *u = NULL;
     unsigned char *torn = NULL;
     pg_sampler field = { 0 };
-    int nosb = strcmp (s->problem->approx.type->name, "nosb") == 0, coefficients, displacements, rotations = 1;
+    int nosb = strcmp (s->problem->approx.type->name, "nosb") == 0, coefficients, displacements,
+        rotations = 1;
     PG_TRY (has_field (path, "coefficient", &coefficients));
     PG_TRY (has_field (path, "displacement", &displacements));
     if (s->problem->turns) PG_TRY (has_field (path, "rotation", &rotations));
     if (broken == 0 && rotations && (coefficients || (nosb && displacements))) {
         PG_TRY (read_unknowns (s, path, coefficients ? "coefficient" : "displacement"));
         PG_TRY (pg_sampler_solution (&field, s->problem, s->force, s->self, s->state));
-        snprintf (s->how, sizeof s->how, s->force->sample ? "by its own shape functions" : "by least squares through its points");
+        snprintf (s->how, sizeof s->how,
+                  s->force->sample ? "by its own shape functions" : "by least squares through its points");
     } else {
-        if (!displacements) PG_FAIL (PG_E_USAGE, "%s has no field displacement: add it to output.fields and run again", path);
+        if (!displacements)
+            PG_FAIL (PG_E_USAGE, "%s has no field displacement: add it to output.fields and run again", path);
         PG_TRY (read_field (s, path, "displacement", s->problem->dim, &u));
-        snprintf (s->how, sizeof s->how, "by least squares through its points: it has no field %s", rotations ? "coefficient" : "rotation");
+        snprintf (s->how, sizeof s->how, "by least squares through its points: it has no field %s",
+                  rotations ? "coefficient" : "rotation");
         if (broken > 0) PG_TRY (find_torn (s, path, &torn));
         PG_TRY (pg_sampler_points (&field, s->problem, u, torn));
     }
@@ -164,7 +184,7 @@ done:
     return status;
 }
 
-/* ---- folder ----------------------------------------------------------------------------------------------------------- */
+/* ---- folder -------------------------------------------------------------------------------------------- */
 static pg_status find_step (pg_stored *s, const char *folder, const char *path, int step, double *broken)
 {
     pg_status status = PG_OK;
@@ -174,11 +194,16 @@ static pg_status find_step (pg_stored *s, const char *folder, const char *path, 
     PG_TRY (pg_solver_options_read (&o, s->problem, s->scene));
     PG_TRY (check_points (s, path, &nstep, &time));
     if (nstep == 0) PG_FAIL (PG_E_FILE, "%s holds no step yet", path);
-    if (step < -1 || step >= (int) nstep) PG_FAIL (PG_E_USAGE, "%s has no step %d; its steps are 0 to %zu", path, step, nstep - 1);
+    if (step < -1 || step >= (int) nstep)
+        PG_FAIL (PG_E_USAGE, "%s has no step %d; its steps are 0 to %zu", path, step, nstep - 1);
     s->step = step < 0 ? (int) nstep - 1 : step;
     s->stamp = time[s->step];
     int dynamic = !o.quasi_static;
-    PG_TRY (compare_history (folder, dynamic ? "time" : o.event ? "step" : "load_factor", s->stamp, &factor, &second, broken));
+    PG_TRY (compare_history (folder,
+                             dynamic   ? "time"
+                             : o.event ? "step"
+                                       : "load_factor",
+                             s->stamp, &factor, &second, broken));
     s->t = dynamic ? s->stamp : o.event ? factor : s->stamp;
     s->state->time = s->t, s->state->factor = factor;
 done:
@@ -195,7 +220,8 @@ pg_status pg_stored_open (pg_stored **out, const char *folder, int step, int thr
     double broken = 0;
     *out = NULL;
     PG_ALLOC (s, 1);
-    if ((size_t) snprintf (path, sizeof path, "%s/result.e", folder) >= sizeof path - 16) PG_FAIL (PG_E_USAGE, "the path is too long");
+    if ((size_t) snprintf (path, sizeof path, "%s/result.e", folder) >= sizeof path - 16)
+        PG_FAIL (PG_E_USAGE, "the path is too long");
     PG_TRY (pg_stored_scene (&s->scene, folder));
     PG_TRY (pg_problem_build (&s->problem, s->scene, threads));
     s->force = pg_force_find (s->problem->force);

@@ -19,7 +19,9 @@ static pg_status create (pg_table **out, const char *path, const pairs *p)
     for (int k = 0; k < p->dim; k++) snprintf (name[n++], sizeof *name, "%c [m]", "xyz"[k]);
     for (size_t c = 0; c < p->ncolumn; c++) {
         static const char *const what[3] = { "", "reference_", "difference_" };
-        for (int k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s%s [%s]", what[k], pg_column_name (p->column[c]), pg_column_unit (p->column[c]));
+        for (int k = 0; k < 3; k++)
+            snprintf (name[n++], sizeof *name, "%s%s [%s]", what[k], pg_column_name (p->column[c]),
+                      pg_column_unit (p->column[c]));
     }
     for (size_t k = 0; k < n; k++) column[k] = name[k];
     return pg_table_create (out, path, n, column);
@@ -30,7 +32,8 @@ static pg_status sample_both (pairs *p, const pg_sampler *value, const pg_sample
     pg_status status = PG_OK;
     PG_ALLOC (p->u, 18 * p->n);
     p->v = p->u + 3 * p->n, p->s = p->v + 3 * p->n, p->t = p->s + 6 * p->n;
-    if (value->dim != reference->dim) PG_FAIL (PG_E_USAGE, "a %dD result is compared with a %dD one", value->dim, reference->dim);
+    if (value->dim != reference->dim)
+        PG_FAIL (PG_E_USAGE, "a %dD result is compared with a %dD one", value->dim, reference->dim);
     PG_TRY (value->sample (value->context, p->n, p->x, p->u, p->s));
     PG_TRY (reference->sample (reference->context, p->n, p->x, p->v, p->t));
     for (int c = 0; c < 9; c++) {
@@ -41,7 +44,8 @@ done:
     return status;
 }
 
-pg_status pg_compare_points (const char *path, const pg_cloud *cloud, const pg_sampler *value, const pg_sampler *reference)
+pg_status pg_compare_points (const char *path, const pg_cloud *cloud, const pg_sampler *value,
+                             const pg_sampler *reference)
 {
     pg_status status = PG_OK;
     pg_table *table = NULL;
@@ -90,7 +94,8 @@ done:
     return status;
 }
 
-pg_status pg_compare_field (double *out, const pg_cloud *cloud, int column, const pg_sampler *value, const pg_sampler *reference)
+pg_status pg_compare_field (double *out, const pg_cloud *cloud, int column, const pg_sampler *value,
+                            const pg_sampler *reference)
 {
     pg_status status = PG_OK;
     pairs p = { .n = cloud->n, .dim = cloud->dim, .x = cloud->x };
@@ -101,7 +106,8 @@ pg_status pg_compare_field (double *out, const pg_cloud *cloud, int column, cons
         for (size_t c = 0; c < p.ncolumn; c++) {
             double d = part (p.u, p.s, i, p.column[c]) - part (p.v, p.t, i, p.column[c]);
             if (p.column[c] == column) out[i] = d;
-            if ((column == PG_COMPARE_U && p.column[c] < 3) || (column == PG_COMPARE_S && p.column[c] >= 3)) sum += (p.column[c] > 5 ? 2 : 1) * d * d;
+            if ((column == PG_COMPARE_U && p.column[c] < 3) || (column == PG_COMPARE_S && p.column[c] >= 3))
+                sum += (p.column[c] > 5 ? 2 : 1) * d * d;
         }
         if (column >= PG_COMPARE_U) out[i] = sqrt (sum);
     }

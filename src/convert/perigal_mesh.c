@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal-mesh: anything that Gmsh opens (.geo, .step, .iges, .brep, .stl, .msh, .unv, .med ...) to a .msh file that Perigal reads. A program of
- * its own, built where Gmsh's library is installed (Debian: libgmsh-dev), because loading that library takes longer than many a run. */
+ * perigal-mesh: anything that Gmsh opens (.geo, .step, .iges, .brep, .stl, .msh, .unv, .med ...) to a .msh
+ * file that Perigal reads. A program of its own, built where Gmsh's library is installed (Debian:
+ * libgmsh-dev), because loading that library takes longer than many a run. */
 #include "perigal/mesh.h"
 #include <gmshc.h>
 #include <stdio.h>
@@ -8,13 +9,16 @@
 #include <string.h>
 
 typedef struct { const char *input, *output; double size; int order, dim; } wishes;
-typedef struct { int *pair; size_t n; } entities;                /* n numbers: dimension, tag, dimension, tag ...            */
+typedef struct { int *pair; size_t n; } entities;  /* n numbers: dimension, tag, dimension, tag ... */
 
 static const char usage[] =
     "usage: perigal-mesh INPUT OUTPUT.msh [--size H] [--order 1|2] [--dim 2|3]\n"
-    "Meshes a geometry (.geo, .step, .iges, .brep, .stl), or takes the elements of a mesh file, and writes Gmsh .msh 4.1.\n"
-    "  --size H    length of the edges of elements, in the unit of the file (default: what the file says, else a tenth of the body)\n"
-    "  --order N   1: straight elements, 2: with nodes on the middle of edges (default: as the file has them; 1 for a geometry)\n"
+    "Meshes a geometry (.geo, .step, .iges, .brep, .stl), or takes the elements of a mesh file, and writes "
+    "Gmsh .msh 4.1.\n"
+    "  --size H    length of the edges of elements, in the unit of the file (default: what the file says, "
+    "else a tenth of the body)\n"
+    "  --order N   1: straight elements, 2: with nodes on the middle of edges (default: as the file has "
+    "them; 1 for a geometry)\n"
     "  --dim N     dimension of the mesh (default: that of the body; 3 for a closed surface .stl)\n"
     "Physical groups become blocks and sets; a body without any gets part_N (blocks) and side_N (sets).\n";
 
@@ -24,12 +28,13 @@ static int failed (const char *what, const char *path)
     char *text = NULL;
     int e;
     gmshLoggerGetLastError (&text, &e);
-    fprintf (stderr, "perigal-mesh: %s: %s%s%s\n", path, what, text && *text ? ": Gmsh says: " : "", text && *text ? text : "");
+    fprintf (stderr, "perigal-mesh: %s: %s%s%s\n", path, what, text && *text ? ": Gmsh says: " : "",
+             text && *text ? text : "");
     gmshFree (text);
     return 1;
 }
 
-/* ---- arguments -------------------------------------------------------------------------------------------------------- */
+/* ---- arguments ----------------------------------------------------------------------------------------- */
 static int number_of (const char *text, double low, double high, double *value)
 {
     char *end;
@@ -42,11 +47,24 @@ static int read_arguments (wishes *w, int argc, char **argv)
 {
     for (int k = 1; k < argc; k++) {
         double v;
-        int size = !strcmp (argv[k], "--size"), order = !strcmp (argv[k], "--order"), dim = !strcmp (argv[k], "--dim");
+        int size = !strcmp (argv[k], "--size"), order = !strcmp (argv[k], "--order"),
+            dim = !strcmp (argv[k], "--dim");
         if (!strcmp (argv[k], "--help") || !strcmp (argv[k], "-h")) return -1;
         if (size || order || dim) {
-            if (k + 1 == argc || !number_of (argv[k + 1], size ? 1e-300 : order ? 1 : 2, size ? 1e300 : order ? 2 : 3, &v) || (!size && v != (int) v)) {
-                fprintf (stderr, "perigal-mesh: %s needs %s\n", argv[k], size ? "a positive length" : order ? "1 or 2" : "2 or 3");
+            if (k + 1 == argc
+                || !number_of (argv[k + 1],
+                               size    ? 1e-300
+                               : order ? 1
+                                       : 2,
+                               size    ? 1e300
+                               : order ? 2
+                                       : 3,
+                               &v)
+                || (!size && v != (int) v)) {
+                fprintf (stderr, "perigal-mesh: %s needs %s\n", argv[k],
+                         size    ? "a positive length"
+                         : order ? "1 or 2"
+                                 : "2 or 3");
                 return 2;
             }
             if (size) w->size = v;
@@ -66,7 +84,7 @@ static int read_arguments (wishes *w, int argc, char **argv)
     return n ? 0 : 2;
 }
 
-/* ---- meshing ---------------------------------------------------------------------------------------------------------- */
+/* ---- meshing ------------------------------------------------------------------------------------------- */
 static int elements_of (int dim)
 {
     int *type = NULL, e;
@@ -115,13 +133,17 @@ static int make_mesh (const wishes *w)
     int has_mesh = dim > 0 && elements_of (dim), want = w->dim ? w->dim : stl ? 3 : dim;
     if (dim < 1) return failed ("there is no body and no mesh in it", w->input);
     if (want > dim && !stl) {
-        fprintf (stderr, "perigal-mesh: %s: the body has dimension %d; a mesh of dimension %d cannot be made\n", w->input, dim, want);
+        fprintf (stderr,
+                 "perigal-mesh: %s: the body has dimension %d; a mesh of dimension %d cannot be made\n",
+                 w->input, dim, want);
         return 1;
     }
     if (stl && want == 3 && fill_surface (w)) return 1;
     if (w->size > 0) {
-        gmshOptionSetNumber ("Mesh.MeshSizeMin", 0.5 * w->size, &e), gmshOptionSetNumber ("Mesh.MeshSizeMax", w->size, &e);
-        if (has_mesh && !stl) fprintf (stderr, "perigal-mesh: %s: has elements already; --size is not used\n", w->input);
+        gmshOptionSetNumber ("Mesh.MeshSizeMin", 0.5 * w->size, &e),
+            gmshOptionSetNumber ("Mesh.MeshSizeMax", w->size, &e);
+        if (has_mesh && !stl)
+            fprintf (stderr, "perigal-mesh: %s: has elements already; --size is not used\n", w->input);
     }
     if (!has_mesh || (stl && want == 3)) {
         gmshModelMeshGenerate (want, &e);
@@ -131,7 +153,7 @@ static int make_mesh (const wishes *w)
     return w->order && e ? failed ("the order of the elements could not be changed", w->input) : 0;
 }
 
-/* ---- groups ----------------------------------------------------------------------------------------------------------- */
+/* ---- groups -------------------------------------------------------------------------------------------- */
 static void name_entities (int dim, const char *stem)
 {
     entities list = entities_of (dim);
@@ -175,7 +197,8 @@ static int look_at (const wishes *w)
     }
     for (size_t k = 0; k < mesh.n; k++) count[mesh.kind[k]]++;
     printf ("%s: %dD, %zu nodes", w->output, mesh.dim, mesh.nnode);
-    for (int k = 0; k < PG_ELEMENTS; k++) if (count[k]) printf (", %zu %s", count[k], pg_element_types[k].name);
+    for (int k = 0; k < PG_ELEMENTS; k++)
+        if (count[k]) printf (", %zu %s", count[k], pg_element_types[k].name);
     printf ("\nblocks:");
     for (size_t k = 0; k < mesh.nblock; k++) printf (" %s", mesh.blocks[k].name);
     printf ("\nsets:");

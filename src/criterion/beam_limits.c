@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A bond that bears shear breaks by the energy that a straight cut through such bonds would take: with s0, gamma0, kappa0 the stretch, shear and
- * bending that alone would consume G0 (Chen 2022 eq (14), corrected in theory G5),
- *   together: (max (s, 0) / s0)^2 + (gamma / gamma0)^2 + (kappa / kappa0)^2 >= 1;   single (the source's rule): any one of the three at its limit.
+ * A bond that bears shear breaks by the energy that a straight cut through such bonds would take: with s0,
+ * gamma0, kappa0 the stretch, shear and bending that alone would consume G0 (Chen 2022 eq (14), corrected in
+ * theory G5),
+ *   together: (max (s, 0) / s0)^2 + (gamma / gamma0)^2 + (kappa / kappa0)^2 >= 1; single (the source's rule):
+ *       any one of the three at its limit.
  * Shortening never breaks a bond. Where spacings differ all limits go with horizon^(-1/2). */
 #include "entries.h"
 #include <math.h>
@@ -14,21 +16,24 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
 {
     double G0 = c->parameter[ENERGY] = pg_criterion_limit (scene, setting, "fracture_energy");
     c->single = strcmp (pg_scene_text (scene, "failure.modes"), "single") == 0;
-    for (int k = 0; k < 3; k++) c->parameter[k] = setting->beam[k] > 0 ? sqrt (G0 / setting->beam[k]) : INFINITY;
+    for (int k = 0; k < 3; k++)
+        c->parameter[k] = setting->beam[k] > 0 ? sqrt (G0 / setting->beam[k]) : INFINITY;
     return PG_OK;
 }
 
 static double stretch_of (const pg_bond_measures *m, size_t b)
 {
     double rr = 0, re = 0;
-    for (size_t k = b * (size_t) m->dim; k < (b + 1) * (size_t) m->dim; k++) rr += m->xi[k] * m->xi[k], re += m->xi[k] * m->eta[k];
+    for (size_t k = b * (size_t) m->dim; k < (b + 1) * (size_t) m->dim; k++)
+        rr += m->xi[k] * m->xi[k], re += m->xi[k] * m->eta[k];
     return re / rr;
 }
 
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
     for (size_t b = 0; b < m->n; b++) {
-        double s = fmax (stretch_of (m, b), 0) / c->parameter[STRETCH], g = m->shear[b] / c->parameter[SHEAR], k = m->bending[b] / c->parameter[BENDING];
+        double s = fmax (stretch_of (m, b), 0) / c->parameter[STRETCH], g = m->shear[b] / c->parameter[SHEAR],
+               k = m->bending[b] / c->parameter[BENDING];
         double most = fmax (s, fmax (g, k));
         u[b] = (c->single ? most : sqrt (s * s + g * g + k * k)) * (m->reach ? sqrt (m->reach[b]) : 1);
         if (kind) kind[b] = most == s ? 't' : most == g ? 's' : 'b';
@@ -43,11 +48,21 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
-    snprintf (text, size, "bonds as beams: stretch %.6g, shear %.6g, bending %.6g rad, %s; fracture energy %.6g J/m2 (given)", c->parameter[STRETCH], c->parameter[SHEAR],
-              c->parameter[BENDING], c->single ? "any one of them" : "together by energy", c->parameter[ENERGY]);
+    snprintf (
+        text, size,
+        "bonds as beams: stretch %.6g, shear %.6g, bending %.6g rad, %s; fracture energy %.6g J/m2 (given)",
+        c->parameter[STRETCH], c->parameter[SHEAR], c->parameter[BENDING],
+        c->single ? "any one of them" : "together by energy", c->parameter[ENERGY]);
 }
 
 const pg_criterion_type pg_criterion_beam_limits = {
-    .name = "beam_limits", .summary = "stretch, shear and bending of a bond (gmpd), each by fracture energy, together or singly", .needs = PG_NEEDS_BEAMS,
-    .limit = { "fracture_energy" }, .option = "modes",
-    .read = read, .utilisation = utilisation, .factor = factor, .describe = describe };
+    .name = "beam_limits",
+    .summary = "stretch, shear and bending of a bond (gmpd), each by fracture energy, together or singly",
+    .needs = PG_NEEDS_BEAMS,
+    .limit = { "fracture_energy" },
+    .option = "modes",
+    .read = read,
+    .utilisation = utilisation,
+    .factor = factor,
+    .describe = describe
+};

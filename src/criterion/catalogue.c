@@ -25,14 +25,17 @@ const pg_criterion_type *pg_criterion_find (const char *name)
 
 const char *pg_criterion_names (void) { return names + 1; }
 
-pg_status pg_criterion_read (pg_criterion *out, size_t n, const pg_scene *scene, const pg_criterion_setting *setting)
+pg_status pg_criterion_read (pg_criterion *out, size_t n, const pg_scene *scene,
+                             const pg_criterion_setting *setting)
 {
     pg_status status = PG_OK;
-    int given = pg_scene_given (scene, "failure"), silent = given && !pg_scene_given (scene, "failure.criterion");
+    int given = pg_scene_given (scene, "failure"),
+        silent = given && !pg_scene_given (scene, "failure.criterion");
     const char *name = silent ? setting->usual : given ? pg_scene_text (scene, "failure.criterion") : NULL;
     const pg_criterion_type *type = !name || strcmp (name, "none") == 0 ? NULL : pg_criterion_find (name);
     memset (out, 0, n * sizeof *out);
-    if (name && !type && strcmp (name, "none")) PG_FAIL (PG_E_USAGE, "failure.criterion = %s: this library has no such criterion", name);
+    if (name && !type && strcmp (name, "none"))
+        PG_FAIL (PG_E_USAGE, "failure.criterion = %s: this library has no such criterion", name);
     if (silent && !name) pg_scene_fault (scene, "failure.criterion", "is missing: when a bond breaks");
     pg_criterion_check (scene, type, n, setting);
     for (size_t i = 0; type && i < n; i++) {

@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Critical stretch s0 and fracture energy G0 of bond-based theory: s0^2 = a G0 m_n / (E m_{n+1}) with the kernel's moments
- * m_n = int_0^horizon k(r) r^n dr (theory A1). n and a: bar 1, 2; plane stress 2, pi/3; plane strain 2, 5 pi/16; solid 3, 2/3. */
+ * Critical stretch s0 and fracture energy G0 of bond-based theory: s0^2 = a G0 m_n / (E m_{n+1}) with the
+ * kernel's moments m_n = int_0^horizon k(r) r^n dr (theory A1). n and a: bar 1, 2; plane stress 2, pi/3;
+ * plane strain 2, 5 pi/16; solid 3, 2/3. */
 #include "perigal/criterion.h"
 #include "perigal/kernel.h"
 #include <math.h>
 
-/* ---- state-based ---------------------------------------------------------------------------------------------------------------- */
+/* ---- state-based --------------------------------------------------------------------------------------- */
 enum { PANELS = 24 };
-static double point_of (int k, double *weight)         /* of 3 Gauss points on each of the panels of [0, 1]              */
+static double point_of (int k, double *weight)         /* of 3 Gauss points on each of the panels of [0, 1] */
 {
     static const double place[3] = { -0.774596669241483377035853, 0, 0.774596669241483377035853 };
     *weight = (k % 3 == 1 ? 8.0 : 5.0) / 18 / PANELS;
     return (k / 3 + (1 + place[k % 3]) / 2) / PANELS;
 }
 
-/* Of q, over horizon^(d + 1): what lies further than z along one axis; r = z + (1 - z) t^2 is smooth where the cap begins */
+/* Of q, over horizon^(d + 1): what lies further than z along one axis; r = z + (1 - z) t^2 is smooth where
+ * the cap begins */
 static double beyond (const pg_kernel *kernel, pg_mode mode, double z)
 {
     static const double pi = 3.14159265358979323846;
@@ -45,22 +47,28 @@ double pg_state_fracture_energy (const pg_criterion_setting *s, double s0)
 {
     double A, B;
     pg_state_moduli (s->mode, s->modulus, s->poisson, &A, &B);
-    return s->horizon * s0 * s0 * pg_state_cut_share (s->mode, s->kernel, A, B) * (s->toughness > 0 ? s->toughness : 1);
+    return s->horizon * s0 * s0 * pg_state_cut_share (s->mode, s->kernel, A, B)
+           * (s->toughness > 0 ? s->toughness : 1);
 }
 
-/* ---- bonds alone ---------------------------------------------------------------------------------------------------------------- */
+/* ---- bonds alone --------------------------------------------------------------------------------------- */
 /* s0^2 = ratio * G0 */
 static double ratio (const pg_criterion_setting *s)
 {
     static const double pi = 3.14159265358979323846;
-    const double a[] = { [PG_LINE] = 2, [PG_PLANE_STRESS] = pi / 3, [PG_PLANE_STRAIN] = 5 * pi / 16, [PG_SOLID] = 2.0 / 3 };
-    static const int order[] = { [PG_LINE] = 1, [PG_PLANE_STRESS] = 2, [PG_PLANE_STRAIN] = 2, [PG_SOLID] = 3 };
+    const double a[] = {
+        [PG_LINE] = 2, [PG_PLANE_STRESS] = pi / 3, [PG_PLANE_STRAIN] = 5 * pi / 16, [PG_SOLID] = 2.0 / 3
+    };
+    static const int order[] = {
+        [PG_LINE] = 1, [PG_PLANE_STRESS] = 2, [PG_PLANE_STRAIN] = 2, [PG_SOLID] = 3
+    };
     const pg_kernel *kernel = pg_kernel_find (s->kernel);
     if (!kernel) return 0;
     if (s->state) return 1 / pg_state_fracture_energy (s, 1);
     int n = order[s->mode];
-    double tough = s->toughness > 0 ? s->toughness : 1;        /* of a lattice (theory A2)                                */
-    return a[s->mode] * pg_kernel_moment (kernel, n) / (pg_kernel_moment (kernel, n + 1) * s->horizon * s->modulus * tough);
+    double tough = s->toughness > 0 ? s->toughness : 1;        /* of a lattice (theory A2) */
+    return a[s->mode] * pg_kernel_moment (kernel, n)
+           / (pg_kernel_moment (kernel, n + 1) * s->horizon * s->modulus * tough);
 }
 
 double pg_stretch_from_energy (const pg_criterion_setting *setting, double G0)

@@ -7,12 +7,16 @@
 #include "list.h"
 #undef PG_CRITERION
 
-enum { PG_LIMITS = 96 };                               /* bytes of a path such as materials.NAME.failure                 */
-/* The map that gives a need ("limit", or "limit or other") to the setting's material: its own, else `failure`; returns 0: neither. */
-int    pg_criterion_holder (char map[PG_LIMITS], const pg_scene *scene, const pg_criterion_setting *setting, const char *need);
+enum { PG_LIMITS = 96 };                               /* bytes of a path such as materials.NAME.failure */
+/* The map that gives a need ("limit", or "limit or other") to the setting's material: its own, else
+ * `failure`; returns 0: neither. */
+int pg_criterion_holder (char map[PG_LIMITS], const pg_scene *scene, const pg_criterion_setting *setting,
+                         const char *need);
 /* A limit of the setting's material, SI; 0 when it is missing. */
 double pg_criterion_limit  (const pg_scene *scene, const pg_criterion_setting *setting, const char *limit);
 int    pg_criterion_never  (const pg_scene *scene, const pg_criterion_setting *setting);
-/* Faults for limits that the materials lack and for those that would be ignored. type NULL: nothing breaks. */
-void   pg_criterion_check  (const pg_scene *scene, const pg_criterion_type *type, size_t n, const pg_criterion_setting *setting);
+/* Faults for limits that the materials lack and for those that would be ignored. type NULL: nothing
+ * breaks. */
+void pg_criterion_check (const pg_scene *scene, const pg_criterion_type *type, size_t n,
+                         const pg_criterion_setting *setting);
 #endif

@@ -1,14 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The limits of a criterion: those of materials.NAME.failure before those of failure; which are missing, which would be ignored. */
+ * The limits of a criterion: those of materials.NAME.failure before those of failure; which are missing,
+ * which would be ignored. */
 #include "entries.h"
 #include <stdio.h>
 #include <string.h>
 
-static const char *const limits[] = { "critical_stretch", "fracture_energy", "wc_factor", "stretch", "modes", "tensile_strength", "cohesion", "friction_angle" };
+static const char *const limits[] = { "critical_stretch", "fracture_energy", "wc_factor",
+                                      "stretch",          "modes",           "tensile_strength",
+                                      "cohesion",         "friction_angle" };
 enum { NLIMIT = sizeof limits / sizeof *limits, WORD = 32 };
 
 /* The words of a need, "a" or "a or b". */
-static int words_of (const char *need, char word[2][WORD]) { return sscanf (need, "%31s or %31s", word[0], word[1]); }
+static int words_of (const char *need, char word[2][WORD])
+{
+    return sscanf (need, "%31s or %31s", word[0], word[1]);
+}
 
 static int given_in (const pg_scene *scene, const char *map, const char *need)
 {
@@ -18,9 +24,13 @@ static int given_in (const pg_scene *scene, const char *map, const char *need)
     return found;
 }
 
-static void own_map (char *map, const char *material) { snprintf (map, PG_LIMITS, "materials.%.63s.failure", material); }
+static void own_map (char *map, const char *material)
+{
+    snprintf (map, PG_LIMITS, "materials.%.63s.failure", material);
+}
 
-int pg_criterion_holder (char map[PG_LIMITS], const pg_scene *scene, const pg_criterion_setting *setting, const char *need)
+int pg_criterion_holder (char map[PG_LIMITS], const pg_scene *scene, const pg_criterion_setting *setting,
+                         const char *need)
 {
     if (setting->material) {
         own_map (map, setting->material);
@@ -33,7 +43,8 @@ int pg_criterion_holder (char map[PG_LIMITS], const pg_scene *scene, const pg_cr
 double pg_criterion_limit (const pg_scene *scene, const pg_criterion_setting *setting, const char *limit)
 {
     char map[PG_LIMITS];
-    return pg_criterion_holder (map, scene, setting, limit) ? pg_scene_number (scene, "%s.%s", map, limit) : 0;
+    return pg_criterion_holder (map, scene, setting, limit) ? pg_scene_number (scene, "%s.%s", map, limit)
+                                                            : 0;
 }
 
 int pg_criterion_never (const pg_scene *scene, const pg_criterion_setting *setting)
@@ -58,7 +69,8 @@ static void superfluous (const pg_scene *scene, const pg_criterion_type *type, c
         snprintf (path, sizeof path, "%s.%s", map, limits[k]);
         if (!pg_scene_given (scene, "%s", path)) continue;
         if (never) pg_scene_fault (scene, path, "has no effect: bonds of this material never break");
-        else if (!takes (type, limits[k])) pg_scene_fault (scene, path, "has no effect with the criterion %s", type->name);
+        else if (!takes (type, limits[k]))
+            pg_scene_fault (scene, path, "has no effect with the criterion %s", type->name);
     }
 }
 
@@ -71,7 +83,8 @@ static void spell (char *text, size_t size, const char *need)
 }
 
 /* A limit that all lack is one fault, else each material that lacks it is one. */
-static void missing (const pg_scene *scene, const pg_criterion_type *type, const char *need, size_t n, const pg_criterion_setting *setting)
+static void missing (const pg_scene *scene, const pg_criterion_type *type, const char *need, size_t n,
+                     const pg_criterion_setting *setting)
 {
     char map[PG_LIMITS], path[PG_LIMITS], text[3 * WORD];
     size_t lacking = 0, judged = 0;
@@ -81,15 +94,18 @@ static void missing (const pg_scene *scene, const pg_criterion_type *type, const
         lacking += !pg_criterion_holder (map, scene, &setting[i], need);
     }
     spell (text, sizeof text, need);
-    if (lacking && lacking == judged) pg_scene_fault (scene, "failure.criterion", "%s needs %s", type->name, text);
+    if (lacking && lacking == judged)
+        pg_scene_fault (scene, "failure.criterion", "%s needs %s", type->name, text);
     for (size_t i = 0; lacking < judged && i < n; i++) {
-        if (pg_criterion_never (scene, &setting[i]) || pg_criterion_holder (map, scene, &setting[i], need)) continue;
+        if (pg_criterion_never (scene, &setting[i]) || pg_criterion_holder (map, scene, &setting[i], need))
+            continue;
         snprintf (path, sizeof path, "materials.%.63s", setting[i].material);
         pg_scene_fault (scene, path, "%s needs %s, or the same in %s.failure", type->name, text, path);
     }
 }
 
-void pg_criterion_check (const pg_scene *scene, const pg_criterion_type *type, size_t n, const pg_criterion_setting *setting)
+void pg_criterion_check (const pg_scene *scene, const pg_criterion_type *type, size_t n,
+                         const pg_criterion_setting *setting)
 {
     char map[PG_LIMITS];
     if (type) superfluous (scene, type, "failure", 0);
@@ -100,5 +116,6 @@ void pg_criterion_check (const pg_scene *scene, const pg_criterion_type *type, s
         else if (pg_scene_given (scene, "%s", map) && !pg_scene_given (scene, "failure"))
             pg_scene_fault (scene, map, "has no effect without failure.criterion, which all materials share");
     }
-    for (size_t k = 0; type && k < PG_MOST_LIMITS && type->limit[k]; k++) missing (scene, type, type->limit[k], n, setting);
+    for (size_t k = 0; type && k < PG_MOST_LIMITS && type->limit[k]; k++)
+        missing (scene, type, type->limit[k], n, setting);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Mohr-Coulomb with tension cut-off on the mean of both ends (Cui 2022 section 1.1, theory F2). Utilisations, both of degree 1:
- * tension sigma_1 / T;  shear ((sigma_1 - sigma_3)/2 + (sigma_1 + sigma_3)/2 sin phi) / (c cos phi). */
+ * Mohr-Coulomb with tension cut-off on the mean of both ends (Cui 2022 section 1.1, theory F2). Utilisations,
+ * both of degree 1: tension sigma_1 / T; shear ((sigma_1 - sigma_3)/2 + (sigma_1 + sigma_3)/2 sin phi) / (c
+ * cos phi). */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
@@ -42,6 +43,12 @@ static void describe (const pg_criterion *c, char *text, size_t size)
 }
 
 const pg_criterion_type pg_criterion_mohr_coulomb = {
-    .name = "mohr_coulomb", .summary = "shear strength of Mohr-Coulomb with a tension cut-off", .needs = PG_NEEDS_STRESS,
+    .name = "mohr_coulomb",
+    .summary = "shear strength of Mohr-Coulomb with a tension cut-off",
+    .needs = PG_NEEDS_STRESS,
     .limit = { "tensile_strength", "cohesion", "friction_angle" },
-    .read = read, .utilisation = utilisation, .factor = factor, .describe = describe };
+    .read = read,
+    .utilisation = utilisation,
+    .factor = factor,
+    .describe = describe
+};

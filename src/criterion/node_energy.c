@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A point dies when its stored energy density W reaches W_c = wc_factor G0 / horizon, and all its bonds with it, for good (Jafarzadeh et al. 2022;
- * theory B2). Utilisation sqrt (W / W_c): of degree 1 in the displacement, as that of the other criteria. Where spacings differ W_c is that of the
- * point's own horizon. */
+ * A point dies when its stored energy density W reaches W_c = wc_factor G0 / horizon, and all its bonds with
+ * it, for good (Jafarzadeh et al. 2022; theory B2). Utilisation sqrt (W / W_c): of degree 1 in the
+ * displacement, as that of the other criteria. Where spacings differ W_c is that of the point's own
+ * horizon. */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,20 +13,23 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
 {
     char map[PG_LIMITS];
     c->parameter[ENERGY] = pg_criterion_limit (scene, setting, "fracture_energy");
-    if (!(c->parameter[ENERGY] > 0)) return PG_OK;     /* missing: told already                                          */
+    if (!(c->parameter[ENERGY] > 0)) return PG_OK;     /* missing: told already */
     pg_criterion_holder (map, scene, setting, "wc_factor");
     c->parameter[FACTOR] = pg_scene_number (scene, "%s.wc_factor", map);
     c->parameter[LIMIT] = c->parameter[FACTOR] * c->parameter[ENERGY] / setting->horizon;
     if (!(c->parameter[LIMIT] > 0) || !isfinite (c->parameter[LIMIT]))
-        pg_scene_fault (scene, "failure.criterion", "node_energy: fracture_energy %g J/m2, wc_factor %g and horizon %g m give no limit of energy",
-                        c->parameter[ENERGY], c->parameter[FACTOR], setting->horizon);
+        pg_scene_fault (
+            scene, "failure.criterion",
+            "node_energy: fracture_energy %g J/m2, wc_factor %g and horizon %g m give no limit of energy",
+            c->parameter[ENERGY], c->parameter[FACTOR], setting->horizon);
     return PG_OK;
 }
 
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
     for (size_t i = 0; i < m->n; i++) {
-        u[i] = m->energy[i] > 0 ? sqrt (m->energy[i] * (m->reach ? m->reach[i] : 1) / c->parameter[LIMIT]) : 0;
+        u[i] = m->energy[i] > 0 ? sqrt (m->energy[i] * (m->reach ? m->reach[i] : 1) / c->parameter[LIMIT])
+                                : 0;
         if (kind) kind[i] = 'e';
     }
 }
@@ -38,11 +42,21 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
-    snprintf (text, size, "node energy >= %.6g J/m3 (%g G0 / horizon, fracture energy G0 = %.6g J/m2 given): the point dies with all its bonds",
+    snprintf (text, size,
+              "node energy >= %.6g J/m3 (%g G0 / horizon, fracture energy G0 = %.6g J/m2 given): the point "
+              "dies with all its bonds",
               c->parameter[LIMIT], c->parameter[FACTOR], c->parameter[ENERGY]);
 }
 
 const pg_criterion_type pg_criterion_node_energy = {
-    .name = "node_energy", .summary = "stored energy of a point reaches a share of fracture energy over horizon: all its bonds break", .needs = PG_NEEDS_ENERGY,
-    .limit = { "fracture_energy" }, .option = "wc_factor",
-    .read = read, .utilisation = utilisation, .factor = factor, .describe = describe };
+    .name = "node_energy",
+    .summary =
+        "stored energy of a point reaches a share of fracture energy over horizon: all its bonds break",
+    .needs = PG_NEEDS_ENERGY,
+    .limit = { "fracture_energy" },
+    .option = "wc_factor",
+    .read = read,
+    .utilisation = utilisation,
+    .factor = factor,
+    .describe = describe
+};

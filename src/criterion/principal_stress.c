@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A bond breaks when sigma_1, the mean of its two ends, reaches the tensile strength T (Cui 2022 section 1.1). */
+ * A bond breaks when sigma_1, the mean of its two ends, reaches the tensile strength T (Cui 2022 section
+ * 1.1). */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
@@ -31,6 +32,12 @@ static void describe (const pg_criterion *c, char *text, size_t size)
 }
 
 const pg_criterion_type pg_criterion_principal_stress = {
-    .name = "principal_stress", .summary = "largest principal stress reaches the tensile strength", .needs = PG_NEEDS_STRESS,
+    .name = "principal_stress",
+    .summary = "largest principal stress reaches the tensile strength",
+    .needs = PG_NEEDS_STRESS,
     .limit = { "tensile_strength" },
-    .read = read, .utilisation = utilisation, .factor = factor, .describe = describe };
+    .read = read,
+    .utilisation = utilisation,
+    .factor = factor,
+    .describe = describe
+};

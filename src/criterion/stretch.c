@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A bond breaks when its stretch reaches the critical one; shortening never breaks it.
- * From a fracture energy s0 ~ horizon^(-1/2): where spacings differ every bond has the limit of its own support.
- * linear: s = xi . eta / |xi|^2; finite: s = (|xi + eta| - |xi|) / |xi|. theory F6. */
+ * A bond breaks when its stretch reaches the critical one; shortening never breaks it. From a fracture energy
+ * s0 ~ horizon^(-1/2): where spacings differ every bond has the limit of its own support. linear: s = xi .
+ * eta / |xi|^2; finite: s = (|xi + eta| - |xi|) / |xi|. theory F6. */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
@@ -17,8 +17,10 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     if (!pg_criterion_holder (map, scene, setting, EITHER)) return PG_OK;
     int energy = pg_scene_given (scene, "%s.fracture_energy", map);
     const char *measure = pg_scene_text (scene, "failure.stretch");
-    if (setting->stretch && pg_scene_given (scene, "failure.stretch") && strcmp (measure, setting->stretch) != 0)
-        pg_scene_fault (scene, "failure.stretch", "must be that of the forces: method.stretch is %s", setting->stretch);
+    if (setting->stretch && pg_scene_given (scene, "failure.stretch")
+        && strcmp (measure, setting->stretch) != 0)
+        pg_scene_fault (scene, "failure.stretch", "must be that of the forces: method.stretch is %s",
+                        setting->stretch);
     c->parameter[FINITE] = strcmp (setting->stretch ? setting->stretch : measure, "finite") == 0;
     c->parameter[FROM_ENERGY] = energy;
     c->parameter[GRADED] = setting->graded;
@@ -90,12 +92,25 @@ static void describe (const pg_criterion *c, char *text, size_t size)
 {
     int energy = c->parameter[FROM_ENERGY] > 0;
     snprintf (text, size, "%s stretch >= %.6g (%s%s), fracture energy %.6g J/m2 (%s)",
-              c->parameter[FINITE] > 0 ? "finite" : "linear", c->parameter[LIMIT], energy ? "derived" : "given",
-              c->parameter[GRADED] > 0 && energy ? " at the mean spacing h; elsewhere times sqrt (h / local spacing)" : "",
-              c->parameter[ENERGY], energy ? "given" : c->parameter[EXACT] > 0 ? "derived" : "derived: estimate of bond-based theory");
+              c->parameter[FINITE] > 0 ? "finite" : "linear", c->parameter[LIMIT],
+              energy ? "derived" : "given",
+              c->parameter[GRADED] > 0 && energy
+                  ? " at the mean spacing h; elsewhere times sqrt (h / local spacing)"
+                  : "",
+              c->parameter[ENERGY],
+              energy                    ? "given"
+              : c->parameter[EXACT] > 0 ? "derived"
+                                        : "derived: estimate of bond-based theory");
 }
 
 const pg_criterion_type pg_criterion_stretch = {
-    .name = "stretch", .summary = "elongation of the bond reaches the critical stretch", .needs = PG_NEEDS_STRETCH,
-    .limit = { EITHER }, .option = "stretch",
-    .read = read, .utilisation = utilisation, .factor = factor, .describe = describe };
+    .name = "stretch",
+    .summary = "elongation of the bond reaches the critical stretch",
+    .needs = PG_NEEDS_STRETCH,
+    .limit = { EITHER },
+    .option = "stretch",
+    .read = read,
+    .utilisation = utilisation,
+    .factor = factor,
+    .describe = describe
+};

@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Bond-based peridynamics: forces straight between points, by the sweeps of direct sums (Silling 2000; Silling and Askari 2005; theory A). */
+ * Bond-based peridynamics: forces straight between points, by the sweeps of direct sums (Silling 2000;
+ * Silling and Askari 2005; theory A). */
 #include "bond.h"
 #include <math.h>
 #include <string.h>
 
 static size_t ndof (const bond *b) { return b->n * (size_t) b->stride; }
 
-/* ---- one point ----------------------------------------------------------------------------------------------------------------- */
-void bond_star_at (const bond *b, size_t i, int thread, bond_star *s)
+/* ---- one point ----------------------------------------------------------------------------------------- */
+void point_bonds_at (const bond *b, size_t i, int thread, point_bonds *s)
 {
-    double *room = b->room + (size_t) thread * b->widest * (size_t) (b->dim + 2);
+    double *workspace = b->workspace + (size_t) thread * b->widest * (size_t) (b->dim + 2);
     s->first = b->family->start[i], s->m = b->family->start[i + 1] - s->first;
     s->node = b->family->node + s->first;
-    s->xi = room, s->weight = room + b->widest * (size_t) b->dim, s->beta = s->weight + b->widest;
+    s->xi = workspace, s->weight = workspace + b->widest * (size_t) b->dim, s->beta = s->weight + b->widest;
     pg_sums_bonds (b->problem->sums, b->family, i, s->xi, s->weight, s->beta);
 }
 
 /* N/m^3, of a bond whose constant is `both` */
-static double kappa_of (const bond *b, size_t i, const bond_star *s, size_t e, double both, double *r)
+static double kappa_of (const bond *b, size_t i, const point_bonds *s, size_t e, double both, double *r)
 {
     size_t j = (size_t) s->node[e];
     const double *V = b->problem->cloud.volume, *xi = s->xi + e * (size_t) b->dim;
@@ -27,30 +28,36 @@ static double kappa_of (const bond *b, size_t i, const bond_star *s, size_t e, d
     return both * (b->stiff ? lps_weight (b, i, s, e) : s->weight[e]) * (V[i] * V[j]) / (rr * sqrt (rr));
 }
 
-double bond_kappa (const bond *b, size_t i, const bond_star *s, size_t e, double *r)
+double bond_kappa (const bond *b, size_t i, const point_bonds *s, size_t e, double *r)
 {
     size_t j = (size_t) s->node[e];
     const double *c = b->modulus;
-    return kappa_of (b, i, s, e, b->stiff ? b->stiff[i] + b->stiff[j] : c[i] == c[j] ? c[i] : 2 * c[i] * c[j] / (c[i] + c[j]), r);
+    return kappa_of (b, i, s, e,
+                     b->stiff       ? b->stiff[i] + b->stiff[j]
+                     : c[i] == c[j] ? c[i]
+                                    : 2 * c[i] * c[j] / (c[i] + c[j]),
+                     r);
 }
 
-void bond_pull (const bond *b, size_t i, const bond_star *s, size_t e, double both, double *own, double *other)
+void bond_pull (const bond *b, size_t i, const point_bonds *s, size_t e, double both, double *own,
+                double *other)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     const double *xi = s->xi + e * dim;
     double kappa = kappa_of (b, i, s, e, both, NULL);
     for (size_t a = 0; a < dim; a++)
-        for (size_t c = 0; c < dim; c++) own[a * m + c] += kappa * xi[a] * xi[c], other[a * m + c] -= kappa * xi[a] * xi[c];
+        for (size_t c = 0; c < dim; c++)
+            own[a * m + c] += kappa * xi[a] * xi[c], other[a * m + c] -= kappa * xi[a] * xi[c];
 }
 
-void bond_beam (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other)
+void bond_beam (const bond *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
 {
     const double *xi = s->xi + e * (size_t) b->dim;
     pg_beam beam = pg_beam_between (&b->setting, i, (size_t) s->node[e], xi, s->weight[e]);
     pg_beam_blocks (b->dim, xi, &beam, b->beams.length, own, other);
 }
 
-void bond_blocks (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other)
+void bond_blocks (const bond *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
 {
     size_t dim = (size_t) b->dim;
     const double *xi = s->xi + e * dim;
@@ -66,22 +73,24 @@ void bond_blocks (const bond *b, size_t i, const bond_star *s, size_t e, double 
     for (size_t k = 0; other && k < dim * dim; k++) other[k] = -own[k];
 }
 
-/* ---- life ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- life ---------------------------------------------------------------------------------------------- */
 void bond_free (void **self)
 {
     bond *b = *self;
     if (!b) return;
-    pg_sweep_free (&b->sweep), pg_sweep_free (&b->tangent);
+    pg_bond_loop_free (&b->sweep), pg_bond_loop_free (&b->tangent);
     bond_energy_free (b), lps_free (b), lps_rows_free (b), gmpd_free (b);
     nodal_free (&b->nodal);
     pg_sparse_clear (&b->K);
     pg_nearest_free (&b->near);
-    pg_free (b->modulus), pg_free (b->limit), pg_free (b->room), pg_free (b->work), pg_free (b->stale), pg_free (b->diagonal), pg_free (b->whole);
+    pg_free (b->modulus), pg_free (b->limit), pg_free (b->workspace), pg_free (b->work), pg_free (b->stale),
+        pg_free (b->diagonal), pg_free (b->whole);
     pg_free (b);
     *self = NULL;
 }
 
-/* The stretch at which a bond of two points like this one breaks: the criterion's own answer for a bond of unit stretch. */
+/* The stretch at which a bond of two points like this one breaks: the criterion's own answer for a bond of
+ * unit stretch. */
 static double limit_at (const pg_criterion *c, double ratio)
 {
     double one = 1, factor = 0;
@@ -102,7 +111,9 @@ static pg_status make_constants (bond *b)
         size_t block = (size_t) p->block[PG_NODES][i];
         double E = p->material[block].modulus;
         if (i > 0 && block == (size_t) p->block[PG_NODES][i - 1]) b->modulus[i] = b->modulus[i - 1];
-        else b->modulus[i] = p->sums->calibration * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);
+        else
+            b->modulus[i] = p->sums->calibration
+                            * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);
     }
     PG_TRY (bond_energy_create (b));
     if (!p->criterion->type || b->critical || b->limit) goto done;
@@ -115,12 +126,20 @@ done:
     return status;
 }
 
-static pg_status make_sweep (bond *b, pg_sweep **out, const pg_sums *sums, const double *limit)
+static pg_status make_sweep (bond *b, pg_bond_loop **out, const pg_sums *sums, const double *limit)
 {
-    pg_sweep_setting s = { .sums = sums, .family = b->family, .modulus = b->modulus, .dilation = b->dilation, .deviation = b->deviation, .counted = b->counted,
-                           .limit = limit, .exempt = b->problem->exempt[PG_NODES], .beams = b->shear ? &b->beams : NULL, .threads = b->threads };
+    pg_bond_loop_setting s = { .sums = sums,
+                               .family = b->family,
+                               .modulus = b->modulus,
+                               .dilation = b->dilation,
+                               .deviation = b->deviation,
+                               .counted = b->counted,
+                               .limit = limit,
+                               .exempt = b->problem->exempt[PG_NODES],
+                               .beams = b->shear ? &b->beams : NULL,
+                               .threads = b->threads };
     b->setting = s;
-    return pg_sweep_create (out, &s);
+    return pg_bond_loop_create (out, &s);
 }
 
 pg_status bond_create (void **self, const pg_problem *problem)
@@ -140,7 +159,7 @@ pg_status bond_create (void **self, const pg_problem *problem)
         size_t m = b->family->start[i + 1] - b->family->start[i];
         b->widest = m > b->widest ? m : b->widest;
     }
-    PG_ALLOC (b->room, (size_t) b->threads * b->widest * (size_t) (b->dim + 2));
+    PG_ALLOC (b->workspace, (size_t) b->threads * b->widest * (size_t) (b->dim + 2));
     PG_ALLOC (b->work, ndof (b));
     PG_ALLOC (b->stale, b->n);
     PG_TRY (make_constants (b));
@@ -152,7 +171,7 @@ done:
     return status;
 }
 
-pg_status bond_tangent_sweep (bond *b, pg_sweep **out)
+pg_status bond_tangent_sweep (bond *b, pg_bond_loop **out)
 {
     pg_status status = PG_OK;
     *out = b->sweep;
@@ -161,7 +180,7 @@ pg_status bond_tangent_sweep (bond *b, pg_sweep **out)
         b->small = *b->problem->sums;
         b->small.rule.finite = 0;
         PG_TRY (make_sweep (b, &b->tangent, &b->small, NULL));
-        if (b->alive) pg_sweep_update (b->tangent, b->alive, NULL);
+        if (b->alive) pg_bond_loop_update (b->tangent, b->alive, NULL);
     }
     *out = b->tangent;
 done:
@@ -176,7 +195,7 @@ size_t bond_fields (const void *self, size_t max, pg_field *out)
     return b->shear ? 2 : 1;
 }
 
-/* ---- breaking ------------------------------------------------------------------------------------------------------------------ */
+/* ---- breaking ------------------------------------------------------------------------------------------ */
 static void mark_stale (bond *b, const pg_changes *changes)
 {
     for (size_t c = 0; c < changes->n; c++) {
@@ -192,8 +211,8 @@ pg_status bond_refresh (void *self, const pg_state *state, const pg_changes *cha
 {
     bond *b = self;
     b->alive = state->alive;
-    pg_sweep_update (b->sweep, state->alive, changes);
-    if (b->tangent) pg_sweep_update (b->tangent, state->alive, changes);
+    pg_bond_loop_update (b->sweep, state->alive, changes);
+    if (b->tangent) pg_bond_loop_update (b->tangent, state->alive, changes);
     if (changes) mark_stale (b, changes);
     else b->all_stale = 1, b->revision++, bond_tiles_forget (b);
     return PG_OK;
@@ -212,22 +231,23 @@ pg_status bond_balance (void *self, double t, const double *d, double *residual,
 {
     pg_status status = PG_OK;
     bond *b = self;
-    PG_TRY (pg_sweep_force (b->sweep, d, residual, NULL));
+    PG_TRY (pg_bond_loop_force (b->sweep, d, residual, NULL));
     finish (b, t, residual, reference);
 done:
     return status;
 }
 
-pg_status bond_march (void *self, double t, const double *d, double *residual, double *reference, pg_changes *broken)
+pg_status bond_march (void *self, double t, const double *d, double *residual, double *reference,
+                      pg_changes *broken)
 {
     pg_status status = PG_OK;
     bond *b = self;
     size_t before = broken->n;
     if (b->critical) PG_TRY (bond_energy_kill (b, d, broken));
-    PG_TRY (pg_sweep_force (b->sweep, d, residual, b->limit ? broken : NULL));
+    PG_TRY (pg_bond_loop_force (b->sweep, d, residual, b->limit ? broken : NULL));
     if (broken->n > before) {
         pg_changes fresh = { broken->n - before, 0, broken->bond + before };
-        if (b->tangent) pg_sweep_update (b->tangent, b->alive, &fresh);
+        if (b->tangent) pg_bond_loop_update (b->tangent, b->alive, &fresh);
         mark_stale (b, &fresh);
     }
     finish (b, t, residual, reference);
@@ -249,7 +269,7 @@ pg_status bond_surface (void *self, const double *stress, double *P)
     return b->problem->nload ? nodal_surface (&b->nodal, 0, stress, P) : PG_OK;
 }
 
-/* ---- the rest ------------------------------------------------------------------------------------------------------------------ */
+/* ---- the rest ------------------------------------------------------------------------------------------ */
 pg_status bond_mass (void *self, double *mass)
 {
     const bond *b = self;
@@ -257,20 +277,21 @@ pg_status bond_mass (void *self, double *mass)
     for (size_t i = 0; i < b->n; i++) {
         double own = p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i], across = 0;
         if (b->shear) across = pg_problem_spacing (p, PG_NODES, i) / b->beams.length;
-        for (size_t k = 0; k < (size_t) b->stride; k++)                /* a cube of the spacing's size turns: theory G4       */
+        for (size_t k = 0; k < (size_t) b->stride; k++)  /* a cube of the spacing's size turns: theory G4 */
             mass[i * (size_t) b->stride + k] = k < (size_t) b->dim ? own : own * across * across / 6;
     }
     return PG_OK;
 }
 
-pg_status bond_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out)
+pg_status bond_work_balance (void *self, double t, const double *d, const double *inertia,
+                             pg_work_balance *out)
 {
     pg_status status = PG_OK;
     bond *b = self;
     PG_TRY (bond_balance (b, t, d, b->work, NULL));
     for (size_t i = 0; inertia && i < ndof (b); i++) b->work[i] += inertia[i];
-    PG_TRY (nodal_ledger (&b->nodal, t, d, b->work, out));
-    out->strain = pg_sweep_energy (b->sweep, d);
+    PG_TRY (nodal_work_balance (&b->nodal, t, d, b->work, out));
+    out->strain = pg_bond_loop_energy (b->sweep, d);
 done:
     return status;
 }
@@ -285,4 +306,8 @@ pg_status bond_impose (void *self, double t, double *d)
     return PG_OK;
 }
 
-const pg_force_type pg_force_bond = { .name = "bond", .summary = "bond-based peridynamics: pair forces between points (Silling 2000)", BOND_ENTRIES };
+const pg_force_type pg_force_bond = {
+    .name = "bond",
+    .summary = "bond-based peridynamics: pair forces between points (Silling 2000)",
+    BOND_ENTRIES
+};

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Points that die by their energy (theory B2): at or over its limit a point loses all its bonds, for good. Bits of bonds are the only memory: a
- * dead point stores nothing and has none left to lose. The energy that decides is always the plain sum over the point's own bonds: it does not
- * depend on how sums are evaluated, and neither on which points are looked at (bond_tiles.c leaves out those that cannot have reached
- * their limit). */
+ * Points that die by their energy (theory B2): at or over its limit a point loses all its bonds, for good.
+ * Bits of bonds are the only memory: a dead point stores nothing and has none left to lose. The energy that
+ * decides is always the plain sum over the point's own bonds: it does not depend on how sums are evaluated,
+ * and neither on which points are looked at (bond_tiles.c leaves out those that cannot have reached their
+ * limit). */
 #include "bond.h"
 #include <math.h>
 #include <stdlib.h>
@@ -27,7 +28,8 @@ pg_status bond_energy_create (bond *b)
     PG_ALLOC (b->critical, b->n);
     for (size_t i = 0; i < b->n; i++) {
         const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];
-        b->critical[i] = c->never || p->exempt[PG_NODES][i] ? INFINITY : limit_at (c, pg_cloud_ratio (&p->cloud, i));
+        b->critical[i] = c->never || p->exempt[PG_NODES][i] ? INFINITY
+                                                            : limit_at (c, pg_cloud_ratio (&p->cloud, i));
     }
 done:
     return status;
@@ -39,15 +41,16 @@ void bond_energy_free (bond *b)
     pg_free (b->critical), pg_free (b->density), pg_free (b->dying);
 }
 
-/* ---- energy of a point --------------------------------------------------------------------------------------------------------- */
-/* Half the energy of each live bond: linear 1/4 kappa (xi . eta)^2, finite 1/4 kappa r^2 (|xi + eta| - r)^2. */
+/* ---- energy of a point --------------------------------------------------------------------------------- */
+/* Half the energy of each live bond: linear 1/4 kappa (xi . eta)^2, finite 1/4 kappa r^2 (|xi + eta| -
+ * r)^2. */
 double bond_energy_at (const bond *b, size_t i, int thread, const double *d)
 {
     size_t dim = (size_t) b->dim;
     int finite = b->problem->sums->rule.finite;
     double sum = 0, r;
-    bond_star s;
-    bond_star_at (b, i, thread, &s);
+    point_bonds s;
+    point_bonds_at (b, i, thread, &s);
     for (size_t e = 0; e < s.m; e++) {
         if (!bond_lives (b, s.first + e)) continue;
         const double *xi = s.xi + e * dim, *far = d + (size_t) s.node[e] * dim;
@@ -56,13 +59,14 @@ double bond_energy_at (const bond *b, size_t i, int thread, const double *d)
             double eta = far[a] - d[i * dim + a];
             along += xi[a] * eta, square += eta * eta;
         }
-        double grown = 2 * along + square, longer = finite ? r * grown / (sqrt (fmax (0, r * r + grown)) + r) : along;
+        double grown = 2 * along + square,
+               longer = finite ? r * grown / (sqrt (fmax (0, r * r + grown)) + r) : along;
         sum += kappa * (longer * longer);
     }
     return sum / (4 * b->problem->cloud.volume[i]);
 }
 
-/* ---- breaking ------------------------------------------------------------------------------------------------------------------ */
+/* ---- breaking ------------------------------------------------------------------------------------------ */
 static size_t back_of (const pg_family *f, size_t i, size_t j)
 {
     size_t low = f->start[j], high = f->start[j + 1];
@@ -111,12 +115,12 @@ pg_status bond_energy_kill (bond *b, const double *d, pg_changes *broken)
     memset (b->dying, 0, b->n);
     PG_TRY (status);
     pg_changes fresh = { broken->n - before, 0, broken->bond + before };
-    pg_sweep_update (b->sweep, b->alive, &fresh);
+    pg_bond_loop_update (b->sweep, b->alive, &fresh);
 done:
     return status;
 }
 
-/* ---- utilisation --------------------------------------------------------------------------------------------------------------- */
+/* ---- utilisation --------------------------------------------------------------------------------------- */
 typedef struct { const bond *b; const unsigned char *alive; double *utilisation, *factor; char *kind; } sweep;
 
 static void spread_points (void *context, size_t first, size_t last, int thread)
@@ -134,12 +138,13 @@ static void spread_points (void *context, size_t first, size_t last, int thread)
         }
 }
 
-pg_status bond_energy_utilisation (bond *b, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor)
+pg_status bond_energy_utilisation (bond *b, const pg_state *state, const double *d, double *utilisation,
+                                   char *kind, double *factor)
 {
     pg_status status = PG_OK;
     sweep s = { b, state->alive, utilisation, factor, kind };
-    PG_TRY (bond_energy_create (b));                   /* a plan asks of a problem whose criterion comes later           */
-    PG_TRY (pg_sweep_energies (b->sweep, d, b->density));
+    PG_TRY (bond_energy_create (b));  /* a plan asks of a problem whose criterion comes later */
+    PG_TRY (pg_bond_loop_energies (b->sweep, d, b->density));
     for (size_t i = 0; i < b->n; i++) b->density[i] = sqrt (fmax (0, b->density[i] / b->critical[i]));
     pg_parallel (b->threads, b->n, spread_points, &s);
 done:

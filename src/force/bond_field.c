@@ -1,16 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What bonds show: how far each is to its limit; at points damage (share of the family's partial volume that is lost), strain (linear
- * fit of the displacements over live bonds), stress (virial of their forces, 1/2 sum f x xi V_j); displacement and stress at any place; overlap
- * of broken bonds; fragments. */
+ * What bonds show: how far each is to its limit; at points damage (share of the family's partial volume that
+ * is lost), strain (linear fit of the displacements over live bonds), stress (virial of their forces, 1/2 sum
+ * f x xi V_j); displacement and stress at any place; overlap of broken bonds; fragments. */
 #include "bond.h"
 #include <math.h>
 #include <string.h>
 
 enum { BATCH = 128 };
 
-/* ---- limits -------------------------------------------------------------------------------------------------------------------- */
-typedef struct { const bond *b; const pg_state *state; const double *d; double *utilisation, *factor; char *kind; } sweep;
-typedef struct { size_t n, entry[BATCH]; double xi[3 * BATCH], eta[3 * BATCH], reach[BATCH], shear[BATCH], bending[BATCH]; int material[BATCH]; } batch;
+/* ---- limits -------------------------------------------------------------------------------------------- */
+typedef struct {
+    const bond *b;
+    const pg_state *state;
+    const double *d;
+    double *utilisation, *factor;
+    char *kind;
+} sweep;
+typedef struct {
+    size_t n, entry[BATCH];
+    double xi[3 * BATCH], eta[3 * BATCH], reach[BATCH], shear[BATCH], bending[BATCH];
+    int material[BATCH];
+} batch;
 
 /* Those of a batch whose law is that of the material; the weaker of two laws decides. */
 static void judge_by (const sweep *s, const batch *all, int material)
@@ -22,7 +32,8 @@ static void judge_by (const sweep *s, const batch *all, int material)
     char kind[BATCH];
     for (size_t k = 0; k < all->n; k++) {
         if (all->material[k] != material) continue;
-        memcpy (xi + n * dim, all->xi + k * dim, dim * sizeof *xi), memcpy (eta + n * dim, all->eta + k * dim, dim * sizeof *eta);
+        memcpy (xi + n * dim, all->xi + k * dim, dim * sizeof *xi),
+            memcpy (eta + n * dim, all->eta + k * dim, dim * sizeof *eta);
         shear[n] = all->shear[k], bending[n] = all->bending[k];
         reach[n] = all->reach[k], some[n++] = all->entry[k];
     }
@@ -36,7 +47,8 @@ static void judge_by (const sweep *s, const batch *all, int material)
         if (s->kind) s->kind[some[k]] = kind[k];
     }
     if (s->factor) c->type->factor (c, &m, out);
-    for (size_t k = 0; s->factor && k < n; k++) if (!(out[k] > s->factor[some[k]])) s->factor[some[k]] = out[k];
+    for (size_t k = 0; s->factor && k < n; k++)
+        if (!(out[k] > s->factor[some[k]])) s->factor[some[k]] = out[k];
 }
 
 static void judge (const sweep *s, batch *all)
@@ -45,13 +57,16 @@ static void judge (const sweep *s, batch *all)
     all->n = 0;
 }
 
-static void add (const sweep *s, batch *all, size_t i, const bond_star *star, size_t e, int material, double ratio)
+static void add (const sweep *s, batch *all, size_t i, const point_bonds *star, size_t e, int material,
+                 double ratio)
 {
     size_t dim = (size_t) s->b->dim, m = (size_t) s->b->stride, j = (size_t) star->node[e], k = all->n++;
     memcpy (all->xi + k * dim, star->xi + e * dim, dim * sizeof *all->xi);
     for (size_t a = 0; a < dim; a++) all->eta[k * dim + a] = s->d[j * m + a] - s->d[i * m + a];
     all->shear[k] = all->bending[k] = 0;
-    if (s->b->shear) pg_beam_strain (s->b->dim, star->xi + e * dim, s->b->beams.length, s->d + i * m, s->d + j * m, &all->shear[k], &all->bending[k]);
+    if (s->b->shear)
+        pg_beam_strain (s->b->dim, star->xi + e * dim, s->b->beams.length, s->d + i * m, s->d + j * m,
+                        &all->shear[k], &all->bending[k]);
     all->reach[k] = ratio;
     all->entry[k] = star->first + e, all->material[k] = material;
     if (all->n == BATCH) judge (s, all);
@@ -63,49 +78,62 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     const bond *b = s->b;
     const unsigned char *exempt = b->problem->exempt[PG_NODES];
     const int *material = b->problem->block[PG_NODES];
-    bond_star star;
+    point_bonds star;
     batch all = { .n = 0 };
     for (size_t i = first; i < last; i++) {
-        bond_star_at (b, i, thread, &star);
+        point_bonds_at (b, i, thread, &star);
         for (size_t e = 0; e < star.m; e++) {
             size_t j = (size_t) star.node[e], entry = star.first + e;
             if (s->utilisation) s->utilisation[entry] = 0;
             if (s->factor) s->factor[entry] = INFINITY;
             if (!s->state->alive[entry] || exempt[i] || exempt[j]) continue;
-            double near = pg_cloud_ratio (&b->problem->cloud, i), far = pg_cloud_ratio (&b->problem->cloud, j);
+            double near = pg_cloud_ratio (&b->problem->cloud, i),
+                   far = pg_cloud_ratio (&b->problem->cloud, j);
             int alike = material[j] == material[i];
-            add (s, &all, i, &star, e, material[i], alike ? fmax (near, far) : near);      /* the weaker end decides        */
+            /* the weaker end decides */
+            add (s, &all, i, &star, e, material[i], alike ? fmax (near, far) : near);
             if (!alike) add (s, &all, i, &star, e, material[j], far);
         }
     }
     judge (s, &all);
 }
 
-pg_status bond_utilisation (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor)
+pg_status bond_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
+                            char *kind, double *factor)
 {
     bond *b = self;
     sweep s = { b, state, d, utilisation, factor, kind };
-    if (!b->problem->criterion->type) return pg_error (PG_E_USAGE, PG_HERE, "there is no failure criterion, and so no utilisation");
-    if (b->problem->criterion->type->needs & PG_NEEDS_ENERGY) return bond_energy_utilisation (b, state, d, utilisation, kind, factor);
+    if (!b->problem->criterion->type)
+        return pg_error (PG_E_USAGE, PG_HERE, "there is no failure criterion, and so no utilisation");
+    if (b->problem->criterion->type->needs & PG_NEEDS_ENERGY)
+        return bond_energy_utilisation (b, state, d, utilisation, kind, factor);
     pg_parallel (b->threads, b->n, judge_points, &s);
     return PG_OK;
 }
 
-/* ---- at points ----------------------------------------------------------------------------------------------------------------- */
-typedef struct { const bond *b; const unsigned char *alive; const double *d; double *value; void (*at) (const bond *b, const unsigned char *alive,
-                 const double *d, size_t i, const bond_star *s, double *out); size_t components; } painting;
+/* ---- at points ----------------------------------------------------------------------------------------- */
+typedef struct {
+    const bond *b;
+    const unsigned char *alive;
+    const double *d;
+    double *value;
+    void (*at) (const bond *b, const unsigned char *alive, const double *d, size_t i, const point_bonds *s,
+                double *out);
+    size_t components;
+} painting;
 
 static void paint_points (void *context, size_t first, size_t last, int thread)
 {
     const painting *p = context;
-    bond_star s;
+    point_bonds s;
     for (size_t i = first; i < last; i++) {
-        bond_star_at (p->b, i, thread, &s);
+        point_bonds_at (p->b, i, thread, &s);
         p->at (p->b, p->alive, p->d, i, &s, p->value + i * p->components);
     }
 }
 
-static void damage_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const bond_star *s, double *out)
+static void damage_at (const bond *b, const unsigned char *alive, const double *d, size_t i,
+                       const point_bonds *s, double *out)
 {
     double all = 0, dead = 0;
     (void) d, (void) i;
@@ -122,17 +150,18 @@ static void paint_damage (void *context, size_t first, size_t last, int thread)
 {
     const painting *p = context;
     const size_t *start = p->b->family->start;
-    bond_star s;
+    point_bonds s;
     for (size_t i = first; i < last; i++) {
         p->value[i] = 0;
         if (start[i + 1] == start[i] || !memchr (p->alive + start[i], 0, start[i + 1] - start[i])) continue;
-        bond_star_at (p->b, i, thread, &s);
+        point_bonds_at (p->b, i, thread, &s);
         damage_at (p->b, p->alive, p->d, i, &s, p->value + i);
     }
 }
 
 /* H[c * dim + k] = du_c/dx_k; 0 where the live bonds do not spread in all directions (design section 3) */
-static void gradient_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const bond_star *s, double *H)
+static void gradient_at (const bond *b, const unsigned char *alive, const double *d, size_t i,
+                         const point_bonds *s, double *H)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     double M[9] = { 0 }, B[9] = { 0 }, lambda[3], sum = 0, h = pg_problem_spacing (b->problem, PG_NODES, i);
@@ -144,7 +173,9 @@ static void gradient_at (const bond *b, const unsigned char *alive, const double
         double w = s->beta[e] * b->problem->cloud.volume[j];
         sum += w;
         for (size_t a = 0; a < dim; a++)
-            for (size_t c = 0; c < dim; c++) M[a * dim + c] += w * xi[a] * xi[c], B[a * dim + c] += w * (d[j * m + a] - d[i * m + a]) * xi[c];
+            for (size_t c = 0; c < dim; c++)
+                M[a * dim + c] += w * xi[a] * xi[c],
+                    B[a * dim + c] += w * (d[j * m + a] - d[i * m + a]) * xi[c];
     }
     pg_dense_eigen (b->dim, M, lambda, NULL);
     if (!(lambda[dim - 1] > 1e-3 * h * h * sum) || pg_dense_cholesky (b->dim, M, 1e-12)) return;
@@ -152,17 +183,20 @@ static void gradient_at (const bond *b, const unsigned char *alive, const double
     for (size_t a = 0; a < dim; a++) pg_dense_solve (b->dim, M, H + a * dim);
 }
 
-static void strain_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const bond_star *s, double *out)
+static void strain_at (const bond *b, const unsigned char *alive, const double *d, size_t i,
+                       const point_bonds *s, double *out)
 {
     double H[9];
     gradient_at (b, alive, d, i, s, H);
     out[0] = H[0];
     if (b->dim == 2) out[1] = H[3], out[2] = H[1] + H[2];
-    if (b->dim == 3) out[1] = H[4], out[2] = H[8], out[3] = H[1] + H[3], out[4] = H[5] + H[7], out[5] = H[2] + H[6];
+    if (b->dim == 3)
+        out[1] = H[4], out[2] = H[8], out[3] = H[1] + H[3], out[4] = H[5] + H[7], out[5] = H[2] + H[6];
 }
 
 /* The same with shear */
-static void add_beam_virial (const bond *b, size_t i, const bond_star *s, size_t e, const double *d, double *T)
+static void add_beam_virial (const bond *b, size_t i, const point_bonds *s, size_t e, const double *d,
+                             double *T)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride, j = (size_t) s->node[e];
     double own[36], other[36];
@@ -170,12 +204,13 @@ static void add_beam_virial (const bond *b, size_t i, const bond_star *s, size_t
     for (size_t a = 0; a < dim; a++) {
         double f = 0;
         for (size_t k = 0; k < m; k++) f -= own[a * m + k] * d[i * m + k] + other[a * m + k] * d[j * m + k];
-        for (size_t c = 0; c < dim; c++) T[a * dim + c] += 0.5 / b->problem->cloud.volume[i] * f * s->xi[e * dim + c];
+        for (size_t c = 0; c < dim; c++)
+            T[a * dim + c] += 0.5 / b->problem->cloud.volume[i] * f * s->xi[e * dim + c];
     }
 }
 
 /* Of one bond, over V_i: force on i times 1/2 xi; T[a * dim + c] += f_a xi_c */
-static void add_virial (const bond *b, size_t i, const bond_star *s, size_t e, const double *d, double *T)
+static void add_virial (const bond *b, size_t i, const point_bonds *s, size_t e, const double *d, double *T)
 {
     size_t dim = (size_t) b->dim, j = (size_t) s->node[e];
     const double *xi = s->xi + e * dim;
@@ -195,27 +230,35 @@ static void add_virial (const bond *b, size_t i, const bond_star *s, size_t e, c
         for (size_t c = 0; c < dim; c++) T[a * dim + c] += 0.5 / b->problem->cloud.volume[i] * f[a] * xi[c];
 }
 
-static void stress_at (const bond *b, const unsigned char *alive, const double *d, size_t i, const bond_star *s, double *out)
+static void stress_at (const bond *b, const unsigned char *alive, const double *d, size_t i,
+                       const point_bonds *s, double *out)
 {
     double T[9] = { 0 };
     if (b->dilation) lps_virial (b, i, s, alive, d, T);
-    for (size_t e = 0; (b->shear || !b->dilation) && e < s->m; e++) if (!alive || alive[s->first + e]) add_virial (b, i, s, e, d, T);
+    for (size_t e = 0; (b->shear || !b->dilation) && e < s->m; e++)
+        if (!alive || alive[s->first + e]) add_virial (b, i, s, e, d, T);
     out[0] = T[0];
     if (b->dim == 2) out[1] = T[3], out[2] = 0.5 * (T[1] + T[2]);
-    if (b->dim == 3) out[1] = T[4], out[2] = T[8], out[3] = 0.5 * (T[1] + T[3]), out[4] = 0.5 * (T[5] + T[7]), out[5] = 0.5 * (T[2] + T[6]);
+    if (b->dim == 3)
+        out[1] = T[4], out[2] = T[8], out[3] = 0.5 * (T[1] + T[3]), out[4] = 0.5 * (T[5] + T[7]),
+        out[5] = 0.5 * (T[2] + T[6]);
 }
 
 static void take_parts (const bond *b, const double *d, int first, int count, double scale, double *value)
 {
     for (size_t i = 0; i < b->n; i++)
-        for (size_t k = 0; k < (size_t) count; k++) value[i * (size_t) count + k] = scale * d[i * (size_t) b->stride + (size_t) first + k];
+        for (size_t k = 0; k < (size_t) count; k++)
+            value[i * (size_t) count + k] = scale * d[i * (size_t) b->stride + (size_t) first + k];
 }
 
-pg_status bond_field (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value)
+pg_status bond_field (void *self, const pg_state *state, const double *d, const char *name, int *components,
+                      const char **unit, double *value)
 {
     bond *b = self;
     painting p = { b, state->alive, d, value, NULL, 1 };
-    int vector = !strcmp (name, "displacement") || !strcmp (name, "coefficient") || !strcmp (name, "velocity"), strain = !strcmp (name, "strain");
+    int vector = !strcmp (name, "displacement") || !strcmp (name, "coefficient")
+                 || !strcmp (name, "velocity"),
+        strain = !strcmp (name, "strain");
     *components = 0, *unit = "";
     if (vector) {
         *components = b->dim, *unit = *name == 'v' ? "m/s" : "m";
@@ -228,7 +271,9 @@ pg_status bond_field (void *self, const pg_state *state, const double *d, const 
         return PG_OK;
     }
     if (strcmp (name, "damage") == 0) *components = 1, p.at = damage_at;
-    else if (strain || strcmp (name, "stress") == 0) *components = pg_voigt_size (b->dim), *unit = strain ? "" : "Pa", p.at = strain ? strain_at : stress_at;
+    else if (strain || strcmp (name, "stress") == 0)
+        *components = pg_voigt_size (b->dim), *unit = strain ? "" : "Pa",
+        p.at = strain ? strain_at : stress_at;
     else return PG_OK;
     p.components = (size_t) *components;
     if (p.at == stress_at && lps_weigh (b) != PG_OK) return PG_E_MEMORY;
@@ -236,7 +281,7 @@ pg_status bond_field (void *self, const pg_state *state, const double *d, const 
     return PG_OK;
 }
 
-/* ---- at any place -------------------------------------------------------------------------------------------------------------- */
+/* ---- at any place -------------------------------------------------------------------------------------- */
 static pg_status make_near (bond *b)
 {
     return b->near ? PG_OK : pg_nearest_create (&b->near, b->dim, b->n, b->problem->cloud.x);
@@ -246,18 +291,21 @@ static int hidden (void *context, const double *place, size_t point)
 {
     const pg_problem *p = ((const bond *) context)->problem;
     for (size_t c = 0; c < p->cracks.n; c++)
-        if (pg_crack_cuts (&p->cracks.crack[c], p->dim, place, p->cloud.x + point * (size_t) p->dim, 1e-9 * p->cloud.h)) return 1;
+        if (pg_crack_cuts (&p->cracks.crack[c], p->dim, place, p->cloud.x + point * (size_t) p->dim,
+                           1e-9 * p->cloud.h))
+            return 1;
     return 0;
 }
 
 /* First-order expansion about the nearest point on the same side of the pre-cracks; returns that point. */
-static size_t expand (bond *b, const unsigned char *alive, const double *d, const double *x, bond_star *s, double *u)
+static size_t expand (bond *b, const unsigned char *alive, const double *d, const double *x, point_bonds *s,
+                      double *u)
 {
     size_t dim = (size_t) b->dim;
     double H[9];
     long found = pg_nearest_find (b->near, x, b->problem->cracks.n ? hidden : NULL, b);
     size_t i = (size_t) (found >= 0 ? found : pg_nearest_find (b->near, x, NULL, NULL));
-    bond_star_at (b, i, 0, s);
+    point_bonds_at (b, i, 0, s);
     gradient_at (b, alive, d, i, s, H);
     memset (u, 0, 3 * sizeof *u);
     for (size_t a = 0; a < dim; a++) {
@@ -267,11 +315,12 @@ static size_t expand (bond *b, const unsigned char *alive, const double *d, cons
     return i;
 }
 
-pg_status bond_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress)
+pg_status bond_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
+                       double *u, double *stress)
 {
     pg_status status = PG_OK;
     bond *b = self;
-    bond_star s;
+    point_bonds s;
     PG_TRY (make_near (b));
     for (size_t k = 0; k < n; k++) {
         double v[6], *out = stress ? stress + 6 * k : NULL;
@@ -282,28 +331,31 @@ pg_status bond_sample (void *self, const pg_state *state, const double *d, size_
         if (b->dim == 3) memcpy (out, v, sizeof v);
         else out[0] = v[0];
         if (b->dim == 2) out[1] = v[1], out[3] = v[2];
-        if (b->problem->mode == PG_PLANE_STRAIN) out[2] = b->problem->material[b->problem->block[PG_NODES][i]].parameter[1] * (v[0] + v[1]);
+        if (b->problem->mode == PG_PLANE_STRAIN)
+            out[2] = b->problem->material[b->problem->block[PG_NODES][i]].parameter[1] * (v[0] + v[1]);
     }
 done:
     return status;
 }
 
-/* ---- broken bonds -------------------------------------------------------------------------------------------------------------- */
+/* ---- broken bonds -------------------------------------------------------------------------------------- */
 typedef struct { bond *b; const pg_state *state; const double *d; double *worst; } closing;
 
-/* Approach of the ends of short dead bonds beyond the shortening of the material about point i, largest (m). */
+/* Approach of the ends of short dead bonds beyond the shortening of the material about point i, largest
+ * (m). */
 static void closing_points (void *context, size_t first, size_t last, int thread)
 {
     const closing *w = context;
     const bond *b = w->b;
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
-    bond_star s;
+    point_bonds s;
     double H[9];
     for (size_t i = first; i < last; i++) {
         double limit = 1.5 * pg_problem_spacing (b->problem, PG_NODES, i);
         w->worst[i] = 0;
-        if (!memchr (w->state->alive + b->family->start[i], 0, b->family->start[i + 1] - b->family->start[i])) continue;
-        bond_star_at (b, i, thread, &s);
+        if (!memchr (w->state->alive + b->family->start[i], 0, b->family->start[i + 1] - b->family->start[i]))
+            continue;
+        point_bonds_at (b, i, thread, &s);
         gradient_at (b, w->state->alive, w->d, i, &s, H);
         for (size_t e = 0; e < s.m; e++) {
             const double *xi = s.xi + e * dim;
@@ -314,7 +366,8 @@ static void closing_points (void *context, size_t first, size_t last, int thread
                 approach -= xi[a] * (w->d[(size_t) s.node[e] * m + a] - w->d[i * m + a]);
                 for (size_t c = 0; c < dim; c++) elastic -= xi[a] * H[a * dim + c] * xi[c];
             }
-            if (rr <= limit * limit) w->worst[i] = fmax (w->worst[i], (approach - fmax (elastic, 0)) / sqrt (rr));
+            if (rr <= limit * limit)
+                w->worst[i] = fmax (w->worst[i], (approach - fmax (elastic, 0)) / sqrt (rr));
         }
     }
 }
@@ -343,11 +396,12 @@ void bond_census (void *self, size_t *degenerate, size_t *isolated, size_t *frag
     if (parent && size) {
         for (size_t i = 0; i < b->n; i++) parent[i] = (int) i;
         for (size_t i = 0; i < b->n; i++)
-            for (size_t e = b->family->start[i]; e < b->family->start[i + 1] && (size_t) b->family->node[e] < i; e++)
+            for (size_t e = b->family->start[i];
+                 e < b->family->start[i + 1] && (size_t) b->family->node[e] < i; e++)
                 if (bond_lives (b, e)) parent[root (parent, b->family->node[e])] = root (parent, (int) i);
         for (size_t i = 0; i < b->n; i++) size[root (parent, (int) i)]++;
         for (size_t i = 0; i < b->n; i++) *isolated += size[i] == 1, *fragments += size[i] > 1;
-        if (*fragments) --*fragments;                  /* the body itself is none                                        */
+        if (*fragments) --*fragments;                  /* the body itself is none */
     }
     pg_free (parent), pg_free (size);
 }

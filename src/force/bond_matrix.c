@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K of the bonds for small displacements: K_ij = - kappa xi x xi, K_ii = sum_j kappa xi x xi over live bonds, as a product by the sweep, as a
- * sparse matrix whose columns are made again when a bond of their point breaks, its diagonal and row sums, and the bound
- * omega^2 <= 2 lambda_max (P_i) / rho_i, P_i = sum_j kappa xi x xi / V_i (theory A4). */
+ * K of the bonds for small displacements: K_ij = - kappa xi x xi, K_ii = sum_j kappa xi x xi over live bonds,
+ * as a product by the sweep, as a sparse matrix whose columns are made again when a bond of their point
+ * breaks, its diagonal and row sums, and the bound omega^2 <= 2 lambda_max (P_i) / rho_i, P_i = sum_j kappa
+ * xi x xi / V_i (theory A4). */
 #include "bond.h"
 #include <math.h>
 #include <stdint.h>
@@ -17,21 +18,23 @@ static void negate (void *context, size_t first, size_t last, int thread)
     else for (size_t i = first; i < last; i++) y[i] = -y[i];
 }
 
-/* K x = - forces at displacement x. A sweep does not fail without breaking; making that of finite stretch may: then K x is not a number. */
+/* K x = - forces at displacement x. A sweep does not fail without breaking; making that of finite stretch
+ * may: then K x is not a number. */
 void bond_apply (void *context, const double *x, double *y)
 {
     bond *b = context;
-    pg_sweep *sweep;
+    pg_bond_loop *sweep;
     size_t ndof = b->n * (size_t) b->stride;
-    int failed = bond_tangent_sweep (b, &sweep) != PG_OK || pg_sweep_force (sweep, x, y, NULL) != PG_OK;
+    int failed = bond_tangent_sweep (b, &sweep) != PG_OK || pg_bond_loop_force (sweep, x, y, NULL) != PG_OK;
     negation w = { y, failed };
     pg_parallel (b->threads, ndof, negate, &w);
 }
 
-enum { MOST = 36 };                                    /* numbers of a block                                             */
+enum { MOST = 36 };                                    /* numbers of a block */
 
-/* Sum of the bonds' own blocks over the live (or all) bonds of a point; exact: of a dilatation beside beams nothing */
-static void own_block (const bond *b, size_t i, const bond_star *s, int all, int exact, double *D)
+/* Sum of the bonds' own blocks over the live (or all) bonds of a point; exact: of a dilatation beside beams
+ * nothing */
+static void own_block (const bond *b, size_t i, const point_bonds *s, int all, int exact, double *D)
 {
     size_t bb = (size_t) (b->stride * b->stride);
     double own[MOST], other[MOST];
@@ -44,8 +47,8 @@ static void own_block (const bond *b, size_t i, const bond_star *s, int all, int
     }
 }
 
-/* ---- rows of points that have all their bonds ----------------------------------------------------------------------------------- */
-static size_t row_of_star (const bond *b, size_t i, const bond_star *s, int all, int *node, double *value)
+/* ---- rows of points that have all their bonds ---------------------------------------------------------- */
+static size_t row_of_star (const bond *b, size_t i, const point_bonds *s, int all, int *node, double *value)
 {
     size_t bb = (size_t) (b->stride * b->stride), m = 0;
     double own[MOST] = { 0 }, part[MOST];
@@ -63,8 +66,8 @@ static size_t row_of_star (const bond *b, size_t i, const bond_star *s, int all,
 
 static size_t family_size (const bond *b, size_t i) { return b->family->start[i + 1] - b->family->start[i]; }
 
-/* On a lattice without shares of volume, factors of surfaces or several moduli one row serves all whole points; where there is no room for it
- * every row is made by itself. */
+/* On a lattice without shares of volume, factors of surfaces or several moduli one row serves all whole
+ * points; where there is no workspace for it every row is made by itself. */
 static void find_whole (bond *b)
 {
     const pg_sums *sums = b->problem->sums;
@@ -72,11 +75,12 @@ static void find_whole (bond *b)
     if (b->searched) return;
     b->searched = 1;
     if (b->dilation || !n || !sums->ordered || sums->share || sums->family_volume) return;
-    for (size_t k = 1; k < b->n; k++) if (b->modulus[k] != b->modulus[0] || (b->shear && b->shear[k] != b->shear[0])) return;
+    for (size_t k = 1; k < b->n; k++)
+        if (b->modulus[k] != b->modulus[0] || (b->shear && b->shear[k] != b->shear[0])) return;
     while (i < b->n && family_size (b, i) != n) i++;
     if (i == b->n) return;
-    bond_star s;
-    bond_star_at (b, i, 0, &s);
+    point_bonds s;
+    point_bonds_at (b, i, 0, &s);
     b->whole = pg_calloc ((n + 1) * bb, sizeof *b->whole);
     if (b->whole) row_of_star (b, i, &s, 1, NULL, b->whole);
 }
@@ -91,7 +95,7 @@ static int is_whole (void *context, size_t i)
 typedef struct { const bond *b; double *out; const double *mass; } job;
 
 /* State-based: what the dilatations add to the own block, that of beams beside them included */
-static void exact_block (const bond *b, size_t i, const bond_star *s, double *D)
+static void exact_block (const bond *b, size_t i, const point_bonds *s, double *D)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     double state[9];
@@ -106,13 +110,13 @@ static void diagonal_points (void *context, size_t first, size_t last, int threa
 {
     const job *w = context;
     size_t dim = (size_t) w->b->stride;
-    bond_star s;
+    point_bonds s;
     double D[MOST];
     for (size_t i = first; i < last; i++) {
         const double *own = D;
         if (is_whole ((void *) (uintptr_t) w->b, i)) own = w->b->whole + family_size (w->b, i) * dim * dim;
         else {
-            bond_star_at (w->b, i, thread, &s);
+            point_bonds_at (w->b, i, thread, &s);
             if (!w->b->dilation) own_block (w->b, i, &s, 0, 0, D);
             else exact_block (w->b, i, &s, D);
         }
@@ -132,7 +136,7 @@ void bond_diagonal (void *context, double *d)
     find_whole (b);
     lps_weigh (b);
     pg_parallel (b->threads, b->n, diagonal_points, &w);
-    if (!b->diagonal) b->diagonal = pg_calloc (ndof, sizeof *d);       /* kept where there is room for it                */
+    if (!b->diagonal) b->diagonal = pg_calloc (ndof, sizeof *d);  /* kept where there is workspace for it */
     if (b->diagonal) memcpy (b->diagonal, d, ndof * sizeof *d), b->diagonal_of = b->revision;
 }
 
@@ -146,10 +150,10 @@ static void row_sum_points (void *context, size_t first, size_t last, int thread
 {
     const job *w = context;
     size_t m = (size_t) w->b->stride;
-    bond_star s;
+    point_bonds s;
     double D[MOST], own[MOST], other[MOST];
     for (size_t i = first; i < last; i++) {
-        bond_star_at (w->b, i, thread, &s);
+        point_bonds_at (w->b, i, thread, &s);
         own_block (w->b, i, &s, 0, 0, D);
         memset (w->out + i * m, 0, m * sizeof *w->out);
         add_sizes (m, D, w->out + i * m);
@@ -176,7 +180,8 @@ static size_t couplings_of (void *context, size_t i, int thread, int *node, doub
     const bond *b = context;
     size_t bb = (size_t) (b->stride * b->stride), m = 0;
     if (!value) {
-        for (size_t e = b->family->start[i]; e < b->family->start[i + 1]; e++) if (bond_lives (b, e)) node[m++] = b->family->node[e];
+        for (size_t e = b->family->start[i]; e < b->family->start[i + 1]; e++)
+            if (bond_lives (b, e)) node[m++] = b->family->node[e];
         node[m++] = (int) i;
         return m;
     }
@@ -187,8 +192,8 @@ static size_t couplings_of (void *context, size_t i, int thread, int *node, doub
         node[m] = (int) i;
         return m + 1;
     }
-    bond_star s;
-    bond_star_at (b, i, thread, &s);
+    point_bonds s;
+    point_bonds_at (b, i, thread, &s);
     return row_of_star (b, i, &s, 0, node, value);
 }
 
@@ -231,17 +236,18 @@ done:
     return status;
 }
 
-/* Of every bond d.K d <= 2 (d_i.own d_i + d_j.own d_j), for none has negative energy: M^-1/2 D M^-1/2 of every point alone */
+/* Of every bond d.K d <= 2 (d_i.own d_i + d_j.own d_j), for none has negative energy: M^-1/2 D M^-1/2 of
+ * every point alone */
 static void bound_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
     const pg_problem *p = w->b->problem;
     size_t m = (size_t) w->b->stride;
-    bond_star s;
+    point_bonds s;
     double P[MOST], lambda[6];
     for (size_t i = first; i < last; i++) {
         const double *mass = w->mass + i * m;
-        bond_star_at (w->b, i, thread, &s);
+        point_bonds_at (w->b, i, thread, &s);
         int grows = w->b->dilation && p->sums->rule.follow && (w->b->limit || w->b->critical);
         double state = grows ? lps_bound (w->b, i, &s) * p->cloud.volume[i] / mass[0] : 0;
         w->out[i] = state;
@@ -260,7 +266,8 @@ pg_status bond_bound (void *self, double *omega)
     double top = 0, *mass = NULL;
     for (size_t m = 0; m < b->problem->nmaterial; m++)
         if (!(b->problem->material[m].density > 0))
-            return pg_error (PG_E_USAGE, PG_HERE, "material %s has no density: there is no frequency", b->problem->material[m].name);
+            return pg_error (PG_E_USAGE, PG_HERE, "material %s has no density: there is no frequency",
+                             b->problem->material[m].name);
     PG_ALLOC (mass, b->n * (size_t) b->stride);
     PG_TRY (bond_mass (b, mass));
     pg_parallel (b->threads, b->n, bound_points, &(job) { b, b->work, mass });
@@ -271,7 +278,7 @@ done:
     return status;
 }
 
-/* ---- the matrix ---------------------------------------------------------------------------------------------------------------- */
+/* ---- the matrix ---------------------------------------------------------------------------------------- */
 /* Bonds of point i to points before it. */
 static size_t lower (const bond *b, size_t i)
 {
@@ -308,21 +315,24 @@ static void make_columns (void *context, size_t first, size_t last, int thread)
     const job *w = context;
     const bond *b = w->b;
     size_t m = (size_t) b->stride;
-    bond_star s;
+    point_bonds s;
     double D[MOST], own[MOST], other[MOST];
     for (size_t i = first; i < last; i++) {
         if (!b->all_stale && !b->stale[i]) continue;
-        bond_star_at (b, i, thread, &s);
+        point_bonds_at (b, i, thread, &s);
         own_block (b, i, &s, 0, 0, D);
         size_t below = lower (b, i);
-        for (size_t e = 0; e < below; e++) {               /* the block of row i, column node: its transpose stands above      */
+        /* the block of row i, column node: its transpose stands above */
+        for (size_t e = 0; e < below; e++) {
             memset (other, 0, sizeof other);
             if (bond_lives (b, s.first + e)) bond_blocks (b, i, &s, e, own, other);
             for (size_t c = 0; c < m; c++)
-                for (size_t a = 0; a < m; a++) b->K.value[b->K.start[i * m + c] + (long) (e * m + a)] = other[c * m + a];
+                for (size_t a = 0; a < m; a++)
+                    b->K.value[b->K.start[i * m + c] + (long) (e * m + a)] = other[c * m + a];
         }
         for (size_t c = 0; c < m; c++)
-            for (size_t a = 0; a <= c; a++) b->K.value[b->K.start[i * m + c] + (long) (below * m + a)] = D[a * m + c];
+            for (size_t a = 0; a <= c; a++)
+                b->K.value[b->K.start[i * m + c] + (long) (below * m + a)] = D[a * m + c];
     }
 }
 

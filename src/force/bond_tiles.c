@@ -1,51 +1,58 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points may have reached their limit of energy. sqrt (W_i) is a norm of the relative displacements of a point's bonds (finite stretch: it
- * changes by no more than one), so that since a displacement d0 at which all energies were known
- *     sqrt (W_i (d)) <= sqrt (W_i (d0)) + sqrt (A_i) max_j |delta_j - delta_i|,   delta = d - d0,   A_i = 1/4 sum_j kappa r^2 / V_i,
- * and bonds that died meanwhile only lower it. Points lie in square tiles wider than any bond: the box of delta over a tile and those around it
- * bounds the last factor. Points that this does not clear are looked at one by one; when these have cost as much as a sweep, it tells all energies again.
+ * Which points may have reached their limit of energy. sqrt (W_i) is a norm of the relative displacements of
+ * a point's bonds (finite stretch: it changes by no more than one), so that since a displacement d0 at which
+ * all energies were known
+ *     sqrt (W_i (d)) <= sqrt (W_i (d0)) + sqrt (A_i) max_j |delta_j - delta_i|, delta = d - d0, A_i = 1/4
+ *         sum_j kappa r^2 / V_i,
+ * and bonds that died meanwhile only lower it. Points lie in square tiles wider than any bond: the box of
+ *     delta over a tile and those around it
+ * bounds the last factor. Points that this does not clear are looked at one by one; when these have cost as
+ *     much as a sweep, it tells all energies again.
  * What is decided does not depend on any of this. */
 #include "bond.h"
 #include <math.h>
 #include <string.h>
 
-static const double margin = 1e-6;                     /* of the limit: far more than rounding of any sweep              */
-enum { EDGE = 8, DEAR = 3, LANES = 8 };                /* spacings of a tile; a point alone costs as much as so many in a sweep */
+static const double margin = 1e-6;                     /* of the limit: far more than rounding of any sweep */
+/* spacings of a tile; a point alone costs as much as so many in a sweep */
+enum { EDGE = 8, DEAR = 3, LANES = 8 };
 
-typedef struct { size_t first, n; } run;               /* points one after the other                                     */
+typedef struct { size_t first, n; } run;               /* points one after the other */
 struct bond_tiles {
     int     dim, count[3];
-    size_t  n;                                         /* tiles                                                          */
-    size_t *start;  run *run;                          /* runs of each, ascending                (n + 1; of all)         */
-    double *box;                                       /* low, high of delta                     (n x 2 dim)             */
-    double *known;                                     /* largest sqrt (W / W_c) at d0           (n)                     */
-    double *gain;                                      /* largest sqrt (A / W_c), 1/m            (n)                     */
-    double *reach;                                     /* gain times width of delta around       (n)                     */
-    double *near;                                      /* sqrt (W / W_c) of each point at d0     (points)                */
-    size_t *open;                                      /* points that may have reached theirs    (n)                     */
-    double *d0;                                        /* m                                      (ndof)                  */
-    int     fresh;                                     /* 1: known, near and d0 are there                                */
-    size_t  spent;                                     /* points looked at one by one since then                         */
+    size_t  n;                                         /* tiles */
+    size_t *start;  run *run;                          /* runs of each, ascending (n + 1; of all) */
+    double *box;                                       /* low, high of delta (n x 2 dim) */
+    double *known;                                     /* largest sqrt (W / W_c) at d0 (n) */
+    double *gain;                                      /* largest sqrt (A / W_c), 1/m (n) */
+    double *reach;                                     /* gain times width of delta around (n) */
+    double *near;                                      /* sqrt (W / W_c) of each point at d0 (points) */
+    size_t *open;                                      /* points that may have reached theirs (n) */
+    double *d0;                                        /* m (ndof) */
+    int     fresh;                                     /* 1: known, near and d0 are there */
+    size_t  spent;                                     /* points looked at one by one since then */
 };
 
 void bond_tiles_free (bond_tiles **tiles)
 {
     bond_tiles *t = *tiles;
     if (!t) return;
-    pg_free (t->start), pg_free (t->run), pg_free (t->box), pg_free (t->known), pg_free (t->gain), pg_free (t->reach), pg_free (t->near);
+    pg_free (t->start), pg_free (t->run), pg_free (t->box), pg_free (t->known), pg_free (t->gain),
+        pg_free (t->reach), pg_free (t->near);
     pg_free (t->open), pg_free (t->d0);
     pg_free (t);
     *tiles = NULL;
 }
 
-/* ---- building ------------------------------------------------------------------------------------------------------------------ */
+/* ---- building ------------------------------------------------------------------------------------------ */
 static double longest_bond (const bond *b)
 {
     size_t dim = (size_t) b->dim;
     double top = 0;
     for (size_t i = 0; i < b->n; i++)
         for (size_t e = b->family->start[i]; e < b->family->start[i + 1]; e++) {
-            const double *x = b->problem->cloud.x + i * dim, *y = b->problem->cloud.x + (size_t) b->family->node[e] * dim;
+            const double *x = b->problem->cloud.x + i * dim,
+                         *y = b->problem->cloud.x + (size_t) b->family->node[e] * dim;
             double rr = 0;
             for (size_t k = 0; k < dim; k++) rr += (y[k] - x[k]) * (y[k] - x[k]);
             top = fmax (top, rr);
@@ -67,7 +74,8 @@ typedef struct { size_t run, next; } place;
 /* The next point of a tile; where: { start of the tile, 0 } at first. */
 static int next_point (const bond_tiles *t, size_t tile, place *where, size_t *i)
 {
-    while (where->run < t->start[tile + 1] && where->next == t->run[where->run].n) where->run++, where->next = 0;
+    while (where->run < t->start[tile + 1] && where->next == t->run[where->run].n)
+        where->run++, where->next = 0;
     if (where->run == t->start[tile + 1]) return 0;
     *i = t->run[where->run].first + where->next++;
     return 1;
@@ -78,13 +86,13 @@ static void find_gains (void *context, size_t first, size_t last, int thread)
 {
     const bond *b = context;
     const bond_tiles *t = b->tiles;
-    bond_star s;
+    point_bonds s;
     double r;
     size_t i;
     for (size_t k = first; k < last; k++)
         for (place p = { t->start[k], 0 }; next_point (t, k, &p, &i);) {
             double sum = 0;
-            bond_star_at (b, i, thread, &s);
+            point_bonds_at (b, i, thread, &s);
             for (size_t e = 0; e < s.m; e++) {
                 double kappa = bond_kappa (b, i, &s, e, &r);
                 sum += kappa * r * r;
@@ -99,7 +107,8 @@ static pg_status fill (bond_tiles *t, const pg_cloud *cloud, double edge)
     pg_status status = PG_OK;
     size_t *next = NULL, last = t->n;
     PG_ALLOC (next, t->n + 1);
-    for (size_t i = 0, tile; i < cloud->n; i++, last = tile) if ((tile = tile_of (t, cloud, edge, i)) != last) t->start[tile + 1]++;
+    for (size_t i = 0, tile; i < cloud->n; i++, last = tile)
+        if ((tile = tile_of (t, cloud, edge, i)) != last) t->start[tile + 1]++;
     for (size_t k = 0; k < t->n; k++) t->start[k + 1] += t->start[k], next[k] = t->start[k];
     PG_ALLOC (t->run, t->start[t->n]);
     last = t->n;
@@ -118,10 +127,12 @@ static pg_status create (bond *b)
     pg_status status = PG_OK;
     bond_tiles *t = NULL;
     const pg_cloud *cloud = &b->problem->cloud;
-    double edge = fmax (EDGE * cloud->h, longest_bond (b) * (1 + 1e-9)), most = pow ((double) b->n, 1.0 / b->dim) + 1;
+    double edge = fmax (EDGE * cloud->h, longest_bond (b) * (1 + 1e-9)),
+           most = pow ((double) b->n, 1.0 / b->dim) + 1;
     PG_ALLOC (t, 1);
     t->dim = b->dim, t->n = 1;
-    for (int k = 0; k < t->dim; k++) edge = fmax (edge, (cloud->high[k] - cloud->low[k]) / most);   /* scattered bodies     */
+    /* scattered bodies */
+    for (int k = 0; k < t->dim; k++) edge = fmax (edge, (cloud->high[k] - cloud->low[k]) / most);
     for (int k = 0; k < t->dim; k++) {
         t->count[k] = 1 + (int) ((cloud->high[k] - cloud->low[k]) / edge);
         t->n *= (size_t) t->count[k];
@@ -142,7 +153,7 @@ done:
     return status;
 }
 
-/* ---- what may have happened -------------------------------------------------------------------------------------------------------- */
+/* ---- what may have happened ---------------------------------------------------------------------------- */
 typedef struct { bond *b; const double *d; } looking;
 
 /* Lane l belongs to component l modulo dim: LANES and LANES - LANES % 3 are whole numbers of points. */
@@ -176,7 +187,8 @@ static void box_tiles (void *context, size_t first, size_t last, int thread)
         }
         for (size_t a = 0; a < dim; a++) {
             box[a] = INFINITY, box[dim + a] = -INFINITY;
-            for (size_t l = a; l < LANES; l += dim) box[a] = fmin (box[a], low[l]), box[dim + a] = fmax (box[dim + a], high[l]);
+            for (size_t l = a; l < LANES; l += dim)
+                box[a] = fmin (box[a], low[l]), box[dim + a] = fmax (box[dim + a], high[l]);
         }
     }
 }
@@ -184,7 +196,8 @@ static void box_tiles (void *context, size_t first, size_t last, int thread)
 /* Diagonal of the box of delta over a tile and those around it. */
 static double width_around (const bond_tiles *t, size_t tile)
 {
-    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY }, square = 0;
+    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY },
+           square = 0;
     int at[3] = { 0 }, from[3] = { 0 }, to[3] = { 0 };
     size_t rest = tile, dim = (size_t) t->dim;
     for (int k = 0; k < t->dim; k++) {
@@ -194,7 +207,9 @@ static double width_around (const bond_tiles *t, size_t tile)
     for (int z = from[2]; z <= to[2]; z++)
         for (int y = from[1]; y <= to[1]; y++)
             for (int x = from[0]; x <= to[0]; x++) {
-                size_t near = ((size_t) z * (size_t) (dim > 1 ? t->count[1] : 1) + (size_t) y) * (size_t) t->count[0] + (size_t) x;
+                size_t near = ((size_t) z * (size_t) (dim > 1 ? t->count[1] : 1) + (size_t) y)
+                                  * (size_t) t->count[0]
+                              + (size_t) x;
                 const double *box = t->box + near * 2 * dim;
                 for (size_t a = 0; a < dim && t->start[near + 1] > t->start[near]; a++) {
                     low[a] = fmin (low[a], box[a]), high[a] = fmax (high[a], box[dim + a]);
@@ -205,7 +220,10 @@ static double width_around (const bond_tiles *t, size_t tile)
 }
 
 /* A point is open when sqrt (W / W_c) at d0 and what may have come since reach 1. */
-static int is_open (const bond_tiles *t, size_t tile, double at_d0) { return !(at_d0 + t->reach[tile] < 1 - margin); }
+static int is_open (const bond_tiles *t, size_t tile, double at_d0)
+{
+    return !(at_d0 + t->reach[tile] < 1 - margin);
+}
 
 static void clear_tiles (void *context, size_t first, size_t last, int thread)
 {
@@ -218,11 +236,12 @@ static void clear_tiles (void *context, size_t first, size_t last, int thread)
         if (!(t->gain[k] > 0)) continue;
         t->reach[k] = t->gain[k] * width_around (t, k);
         if (!is_open (t, k, t->known[k])) continue;
-        for (place p = { t->start[k], 0 }; next_point (t, k, &p, &i);) t->open[k] += is_open (t, k, t->near[i]);
+        for (place p = { t->start[k], 0 }; next_point (t, k, &p, &i);)
+            t->open[k] += is_open (t, k, t->near[i]);
     }
 }
 
-/* ---- looking --------------------------------------------------------------------------------------------------------------------- */
+/* ---- looking ------------------------------------------------------------------------------------------- */
 static int dies (const bond *b, size_t i, int thread, const double *d)
 {
     return isfinite (b->critical[i]) && bond_energy_at (b, i, thread, d) >= b->critical[i];
@@ -275,13 +294,14 @@ pg_status bond_tiles_look (bond *b, const double *d, size_t *dying)
     int all = !t->fresh || t->spent + open > b->n / DEAR;
     t->spent = all ? 0 : t->spent + open;
     if (all) {
-        PG_TRY (pg_sweep_energies (b->sweep, d, b->density));
+        PG_TRY (pg_bond_loop_energies (b->sweep, d, b->density));
         memcpy (t->d0, d, b->n * (size_t) t->dim * sizeof *d);
         t->fresh = 1;
     }
     pg_parallel_heavy (b->threads, t->n, all ? look_at_all : look_at_open, &w);
     for (size_t k = 0; k < t->n; k++)
-        for (place p = { t->start[k], 0 }; (all || t->open[k]) && next_point (t, k, &p, &i);) *dying += b->dying[i];
+        for (place p = { t->start[k], 0 }; (all || t->open[k]) && next_point (t, k, &p, &i);)
+            *dying += b->dying[i];
 done:
     return status;
 }

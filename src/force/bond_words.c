@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a plan says about bonds: constants, how they are summed, the largest explicit time step; which solvers they do not go with. */
+ * What a plan says about bonds: constants, how they are summed, the largest explicit time step; which solvers
+ * they do not go with. */
 #include "bond.h"
 #include <math.h>
 #include <stdio.h>
@@ -14,14 +15,23 @@ static void say_beams (const bond *b, size_t m, char *text, size_t size)
     int used = 0;
     pg_problem_beams (p, m, &E, &nu, &dilation);
     if (p->nmaterial > 1) used = snprintf (text, size, "material %.60s: ", a->name);
-    if (pg_beam_moduli (&axial, &shear, p->mode, p->sums->rule.kernel, p->sums->rule.horizon, E, nu, p->cloud.thickness) != PG_OK
-        || pg_beam_measure (&sums, p->sums) != PG_OK) return;
-    used += snprintf (text + used, size - (size_t) used, "C_N %.6g N/m^6, C_t %.6g N/m^4, bending %.6g C_t", axial, shear, p->bending);
+    if (pg_beam_moduli (&axial, &shear, p->mode, p->sums->rule.kernel, p->sums->rule.horizon, E, nu,
+                        p->cloud.thickness)
+            != PG_OK
+        || pg_beam_measure (&sums, p->sums) != PG_OK)
+        return;
+    used += snprintf (text + used, size - (size_t) used, "C_N %.6g N/m^6, C_t %.6g N/m^4, bending %.6g C_t",
+                      axial, shear, p->bending);
     if (p->sums->rule.calibrate && (size_t) used < size)
-        used += snprintf (text + used, size - (size_t) used, ", times %.6g and %.6g for these points (calibrated)", p->sums->calibration, sums.calibration);
-    if (shear == 0 && (size_t) used < size) used += snprintf (text + used, size - (size_t) used, "; nothing resists rotations: they are held");
+        used += snprintf (text + used, size - (size_t) used,
+                          ", times %.6g and %.6g for these points (calibrated)", p->sums->calibration,
+                          sums.calibration);
+    if (shear == 0 && (size_t) used < size)
+        used += snprintf (text + used, size - (size_t) used, "; nothing resists rotations: they are held");
     if (p->sums->rule.state && (size_t) used < size)
-        snprintf (text + used, size - (size_t) used, "; bonds make Poisson's ratio %.4g, dilatation bears %.6g Pa more (weighted volumes of %s)", nu, dilation / p->dim,
+        snprintf (text + used, size - (size_t) used,
+                  "; bonds make Poisson's ratio %.4g, dilatation bears %.6g Pa more (weighted volumes of %s)",
+                  nu, dilation / p->dim,
                   p->sums->rule.follow ? "the bonds that live" : "the bonds of the start");
 }
 
@@ -33,41 +43,60 @@ static void say_constant (const bond *b, size_t m, char *text, size_t size)
         const pg_material *a = &p->material[m];
         double E = a->modulus, nu = a->parameter[1], A, B, d = p->dim;
         pg_state_moduli (p->mode, E, nu, &A, &B);
-        snprintf (text, size, "%s%s%slinear peridynamic solid, bulk modulus %.6g Pa%s, shear modulus %.6g Pa; weighted volumes of %s", p->nmaterial > 1 ? "material " : "",
-                  p->nmaterial > 1 ? a->name : "", p->nmaterial > 1 ? ": " : "", (A + B / d) / d, p->dim == 2 ? " (of the plane)" : "", B / (d * (d + 2)),
-                  rule->follow ? "the bonds that live" : "the bonds of the start");
+        snprintf (text, size,
+                  "%s%s%slinear peridynamic solid, bulk modulus %.6g Pa%s, shear modulus %.6g Pa; weighted "
+                  "volumes of %s",
+                  p->nmaterial > 1 ? "material " : "", p->nmaterial > 1 ? a->name : "",
+                  p->nmaterial > 1 ? ": " : "", (A + B / d) / d, p->dim == 2 ? " (of the plane)" : "",
+                  B / (d * (d + 2)), rule->follow ? "the bonds that live" : "the bonds of the start");
         return;
     }
     if (b->shear) {
         say_beams (b, m, text, size);
         return;
     }
-    double c = pg_bond_modulus (p->mode, rule->kernel, rule->horizon, p->material[m].modulus, p->cloud.thickness);
-    int used = snprintf (text, size, "%s%s%sconstant %.6g N/m^6, Poisson's ratio %.4g", p->nmaterial > 1 ? "material " : "",
-                         p->nmaterial > 1 ? p->material[m].name : "", p->nmaterial > 1 ? ": " : "", c, pg_bond_poisson (p->mode));
+    double c = pg_bond_modulus (p->mode, rule->kernel, rule->horizon, p->material[m].modulus,
+                                p->cloud.thickness);
+    int used = snprintf (text, size, "%s%s%sconstant %.6g N/m^6, Poisson's ratio %.4g",
+                         p->nmaterial > 1 ? "material " : "", p->nmaterial > 1 ? p->material[m].name : "",
+                         p->nmaterial > 1 ? ": " : "", c, pg_bond_poisson (p->mode));
     if (rule->calibrate && used > 0 && (size_t) used < size)
-        snprintf (text + used, size - (size_t) used, ", times %.6g for these points (calibrated: energy of hydrostatic strain)", p->sums->calibration);
+        snprintf (text + used, size - (size_t) used,
+                  ", times %.6g for these points (calibrated: energy of hydrostatic strain)",
+                  p->sums->calibration);
 }
 
 static void say_sums (const bond *b, char *text, size_t size)
 {
-    static const char *const partial[] = { "none", "linear", "overlap" }, *const surface[] = { "none", "product", "volume" };
+    static const char *const partial[] = { "none", "linear", "overlap" }, *const surface[] = { "none",
+                                                                                               "product",
+                                                                                               "volume" };
     const pg_sum_rule *rule = &b->problem->sums->rule;
-    const char *why = pg_sweep_reason (b->sweep);
-    snprintf (text, size, "up to %zu a point, %s stretch; partial volumes: %s, surface correction: %s; summed by %s%s%s%s", b->widest,
-              rule->finite ? "finite" : "linear", partial[rule->partial], surface[rule->surface], pg_sweep_name (b->sweep),
-              *why ? " (" : "", why, *why ? ")" : "");
+    const char *why = pg_bond_loop_reason (b->sweep);
+    snprintf (
+        text, size,
+        "up to %zu a point, %s stretch; partial volumes: %s, surface correction: %s; summed by %s%s%s%s",
+        b->widest, rule->finite ? "finite" : "linear", partial[rule->partial], surface[rule->surface],
+        pg_bond_loop_name (b->sweep), *why ? " (" : "", why, *why ? ")" : "");
 }
 
 static void say_toughness (const bond *b, char *text, size_t size)
 {
     const pg_sums *s = b->problem->sums;
     if (b->critical)
-        snprintf (text, size, "energy of points is looked at in every step; a crack kills points over a width of about the horizon, which costs more than G0 at "
+        snprintf (text, size,
+                  "energy of points is looked at in every step; a crack kills points over a width of about "
+                  "the horizon, which costs more than G0 at "
                   "wc_factor 1 (see doc/method.md)");
-    else if (s->stencil.n) snprintf (text, size, "a straight crack along the lattice consumes %.5g of theory's energy at the same stretch%s", pg_sums_toughness (s, b->problem->material->modulus, b->problem->material->parameter[1]),
-                                s->rule.calibrate ? ": allowed for where one follows from the other" : "");
-    else snprintf (text, size, "critical stretch and fracture energy are those of theory: points without a lattice are not calibrated for them");
+    else if (s->stencil.n)
+        snprintf (text, size,
+                  "a straight crack along the lattice consumes %.5g of theory's energy at the same stretch%s",
+                  pg_sums_toughness (s, b->problem->material->modulus, b->problem->material->parameter[1]),
+                  s->rule.calibrate ? ": allowed for where one follows from the other" : "");
+    else
+        snprintf (text, size,
+                  "critical stretch and fracture energy are those of theory: points without a lattice are "
+                  "not calibrated for them");
 }
 
 static int say_step (const bond *b, char *text, size_t size)
@@ -94,7 +123,8 @@ const char *bond_refuses (const pg_problem *problem, const char *kind)
 {
     int implicit = strcmp (kind, "static") == 0 || strcmp (kind, "newmark") == 0;
     if (implicit && problem->sums && problem->sums->rule.finite)
-        return "method.stretch: finite makes forces that are not linear in the displacement; static and newmark need linear ones: use stretch: linear, or verlet, "
+        return "method.stretch: finite makes forces that are not linear in the displacement; static and "
+               "newmark need linear ones: use stretch: linear, or verlet, "
                "central, adr or relax";
     return NULL;
 }

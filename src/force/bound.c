@@ -3,7 +3,8 @@
 #include "perigal/force.h"
 #include <math.h>
 
-pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass, double *room, double *omega, const char **from)
+pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass,
+                          double *workspace, double *omega, const char **from)
 {
     pg_status status = PG_OK;
     double top = 0;
@@ -13,8 +14,8 @@ pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, c
         PG_TRY (force->bound (self, omega));
     } else if (force->row_sums) {
         *from = "bound by row sums";
-        PG_TRY (force->row_sums (self, room));
-        for (size_t i = 0; i < ndof; i++) top = fmax (top, room[i] / mass[i]);
+        PG_TRY (force->row_sums (self, workspace));
+        for (size_t i = 0; i < ndof; i++) top = fmax (top, workspace[i] / mass[i]);
         *omega = sqrt (top);
     }
 done:

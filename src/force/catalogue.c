@@ -15,7 +15,8 @@ static const pg_force_type *const entries[] = {
 
 const pg_force_type *pg_force_find (const char *name)
 {
-    for (size_t i = 0; i < sizeof entries / sizeof *entries; i++) if (strcmp (entries[i]->name, name) == 0) return entries[i];
+    for (size_t i = 0; i < sizeof entries / sizeof *entries; i++)
+        if (strcmp (entries[i]->name, name) == 0) return entries[i];
     return NULL;
 }
 
@@ -29,8 +30,8 @@ const char *pg_force_names (void)
     return names + 1;
 }
 
-void pg_ledger_clear (pg_ledger *ledger)
+void pg_work_balance_clear (pg_work_balance *work_balance)
 {
-    pg_free (ledger->force), pg_free (ledger->displacement), pg_free (ledger->reaction);
-    memset (ledger, 0, sizeof *ledger);
+    pg_free (work_balance->force), pg_free (work_balance->displacement), pg_free (work_balance->reaction);
+    memset (work_balance, 0, sizeof *work_balance);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The Galerkin force: R = P - sum_p w_p B_p' sigma_p on live bonds, K = sum_p w_p B_p' D B_p (Cui 2022 section 3; theory F).
- * After a break only the rows of touched points and of the nodes they see are redone. */
+ * The Galerkin force: R = P - sum_p w_p B_p' sigma_p on live bonds, K = sum_p w_p B_p' D B_p (Cui 2022
+ * section 3; theory F). After a break only the rows of touched points and of the nodes they see are
+ * redone. */
 #include "galerkin.h"
 #include <math.h>
 #include <string.h>
@@ -68,7 +69,8 @@ static pg_status galerkin_create (void **self, const pg_problem *problem)
     galerkin *g = NULL;
     PG_ALLOC (g, 1);
     *self = g;
-    g->problem = problem, g->dim = problem->dim, g->nv = pg_voigt_size (problem->dim), g->threads = problem->threads, g->n = problem->cloud.n;
+    g->problem = problem, g->dim = problem->dim, g->nv = pg_voigt_size (problem->dim),
+    g->threads = problem->threads, g->n = problem->cloud.n;
     g->bulk = problem->integration->at_nodes ? PG_NODES : PG_POINTS;
     for (int s = 0; s < PG_BOND_SETS; s++) PG_TRY (create_set (g, s));
     PG_TRY (galerkin_consistent_create (g));
@@ -83,7 +85,7 @@ done:
     return status;
 }
 
-/* ---- refresh ---------------------------------------------------------------------------------------------------------- */
+/* ---- refresh ------------------------------------------------------------------------------------------- */
 /* Touched points of each set (ascending, once each) from the dead bonds. */
 static void touched_points (const galerkin *g, const pg_changes *changes, size_t *count)
 {
@@ -92,7 +94,8 @@ static void touched_points (const galerkin *g, const pg_changes *changes, size_t
         int s;
         size_t point;
         pg_problem_locate (g->problem, changes->bond[c], &s, &point);
-        if (count[s] == 0 || g->list[s][count[s] - 1] != point) g->list[s][count[s]++] = point;    /* changes are ascending     */
+        /* changes are ascending */
+        if (count[s] == 0 || g->list[s][count[s] - 1] != point) g->list[s][count[s]++] = point;
     }
 }
 
@@ -105,10 +108,12 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
     if (changes) touched_points (g, changes, count);
     for (int s = 0; s < PG_BOND_SETS; s++) {
         size_t n = changes ? count[s] : g->rows[s].n;
-        int known = changes && g->fresh[s] && !g->dilatation;  /* pressures of patches reach further             */
+        int known = changes && g->fresh[s] && !g->dilatation;  /* pressures of patches reach further */
         g->fresh[s] = 0;
-        if (n) PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &g->rows[s], state->alive + p->first_bond[s], n,
-                                                 changes ? g->list[s] : NULL, g->threads));
+        if (n)
+            PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &g->rows[s],
+                                              state->alive + p->first_bond[s], n, changes ? g->list[s] : NULL,
+                                              g->threads));
         if (s == g->bulk && g->whole) PG_TRY (galerkin_consistent_update (g, state, !changes, &n));
         count[s] = n;
         g->fresh[s] = known;
@@ -125,14 +130,15 @@ done:
     return status;
 }
 
-/* ---- balance ---------------------------------------------------------------------------------------------------------- */
+/* ---- balance ------------------------------------------------------------------------------------------- */
 static pg_status galerkin_balance (void *self, double t, const double *d, double *residual, double *reference)
 {
     galerkin *g = self;
     size_t ndof = g->n * (size_t) g->dim;
     double inside = 0, external = 0, reaction = 0;
     memset (residual, 0, ndof * sizeof *residual);
-    for (int s = 0; s < PG_BOND_SETS; s++) if (s == g->bulk || s == PG_FACETS || g->npeg || g->problem->nload) galerkin_measure (g, s, d);
+    for (int s = 0; s < PG_BOND_SETS; s++)
+        if (s == g->bulk || s == PG_FACETS || g->npeg || g->problem->nload) galerkin_measure (g, s, d);
     galerkin_bulk_force (g, d, residual);
     for (size_t i = 0; i < ndof; i++) inside += residual[i] * residual[i], residual[i] = -residual[i];
     galerkin_boundary_force (g, t, d, residual, &external, &reaction);
@@ -145,13 +151,15 @@ static pg_status galerkin_mass (void *self, double *mass)
     galerkin *g = self;
     for (size_t i = 0; i < g->n; i++)
         for (int k = 0; k < g->dim; k++)
-            mass[i * (size_t) g->dim + (size_t) k] = galerkin_material (g, PG_NODES, i)->density * g->problem->cloud.volume[i];
+            mass[i * (size_t) g->dim + (size_t) k] = galerkin_material (g, PG_NODES, i)->density
+                                                     * g->problem->cloud.volume[i];
     return PG_OK;
 }
 
 static unsigned long galerkin_revision (const void *self) { return ((const galerkin *) self)->revision; }
 static const pg_operator *galerkin_operator (void *self) { return &((galerkin *) self)->op; }
-static pg_status galerkin_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out)
+static pg_status galerkin_work_balance (void *self, double t, const double *d, const double *inertia,
+                                        pg_work_balance *out)
 {
     pg_status status = PG_OK;
     galerkin *g = self;
@@ -170,7 +178,7 @@ static pg_status galerkin_ledger (void *self, double t, const double *d, const d
         PG_TRY (galerkin_balance (g, t, d, residual, &reference));
         for (size_t i = 0; inertia && i < g->n * (size_t) g->dim; i++) residual[i] += inertia[i];
     }
-    galerkin_basis_ledger (g, t, residual, out, galerkin_boundary_ledger (g, t, d, out));
+    galerkin_basis_work_balance (g, t, residual, out, galerkin_boundary_work_balance (g, t, d, out));
     out->strain = galerkin_bulk_energy (g, d) + galerkin_boundary_energy (g, t);
 done:
     pg_free (residual);
@@ -178,10 +186,27 @@ done:
 }
 
 const pg_force_type pg_force_galerkin = {
-    .name = "galerkin", .summary = "global stiffness from NOSB, PDDO or RKPM bonds (Cui 2022)",
-    .create = galerkin_create, .free = galerkin_free, .fields = galerkin_fields, .refresh = galerkin_refresh, .balance = galerkin_balance,
-    .mass = galerkin_mass, .operator_ = galerkin_operator, .matrix = galerkin_matrix, .basis = galerkin_basis, .impose = galerkin_impose,
-    .utilisation = galerkin_utilisation, .ledger = galerkin_ledger, .field = galerkin_field,
-    .overlap = galerkin_overlap, .census = galerkin_census, .revision = galerkin_revision, .assemble = galerkin_assemble,
-    .mass_matrix = galerkin_mass_matrix, .sample = galerkin_sample, .estimate = galerkin_estimate, .surface = galerkin_surface
+    .name = "galerkin",
+    .summary = "global stiffness from NOSB, PDDO or RKPM bonds (Cui 2022)",
+    .create = galerkin_create,
+    .free = galerkin_free,
+    .fields = galerkin_fields,
+    .refresh = galerkin_refresh,
+    .balance = galerkin_balance,
+    .mass = galerkin_mass,
+    .operator_ = galerkin_operator,
+    .matrix = galerkin_matrix,
+    .basis = galerkin_basis,
+    .impose = galerkin_impose,
+    .utilisation = galerkin_utilisation,
+    .work_balance = galerkin_work_balance,
+    .field = galerkin_field,
+    .overlap = galerkin_overlap,
+    .census = galerkin_census,
+    .revision = galerkin_revision,
+    .assemble = galerkin_assemble,
+    .mass_matrix = galerkin_mass_matrix,
+    .sample = galerkin_sample,
+    .estimate = galerkin_estimate,
+    .surface = galerkin_surface
 };

@@ -1,74 +1,81 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress, blocks, energy),
- * galerkin_boundary.c (Nitsche, penalty, loads), galerkin_basis.c (elimination), galerkin_bonds.c (utilisation, overlap, census),
- * galerkin_dilatation.c, galerkin_dilatation_facet.c (near Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_field.c (fields), galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
+ * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress,
+ * blocks, energy), galerkin_boundary.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
+ * galerkin_bonds.c (utilisation, overlap, census), galerkin_dilatation.c, galerkin_dilatation_facet.c (near
+ * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_field.c (fields),
+ * galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
 #include "perigal/force.h"
 #include "perigal/stiffness.h"
 
-typedef struct {                                       /* a prescribed component at a facet point                        */
+typedef struct {                                       /* a prescribed component at a facet point */
     size_t point;
     int    load, component;
 } pin;
 
-typedef struct {                                       /* one component's elimination: C_s d_s = g - C_m d_m             */
+typedef struct {  /* one component's elimination: C_s d_s = g - C_m d_m */
     int     component;
     size_t  n, nmaster;
-    int    *slave, *load;                              /* nodes, ascending, and the load that prescribes each            */
-    int    *master;                                    /* nodes coupled to the slaves, not slaves, ascending             */
-    double *inverse;                                   /* C_s^-1 (n x n); NULL: identity                                 */
-    double *X;                                         /* C_s^-1 C_m (n x nmaster)                                       */
+    int    *slave, *load;  /* nodes, ascending, and the load that prescribes each */
+    int    *master;  /* nodes coupled to the slaves, not slaves, ascending */
+    double *inverse;                                   /* C_s^-1 (n x n); NULL: identity */
+    double *X;                                         /* C_s^-1 C_m (n x nmaster) */
 } elimination;
 
-typedef struct galerkin_slices galerkin_slices;         /* galerkin_sum.c                                                 */
-typedef struct galerkin_dilatation galerkin_dilatation; /* galerkin_dilatation.c                                          */
+typedef struct galerkin_slices galerkin_slices;         /* galerkin_sum.c */
+typedef struct galerkin_dilatation galerkin_dilatation; /* galerkin_dilatation.c */
 
 typedef struct {
     const pg_problem *problem;
-    int      dim, nv, threads, bulk;                   /* bulk: PG_NODES or PG_POINTS                                    */
-    size_t   n;                                        /* nodes                                                          */
-    pg_rows  rows[PG_BOND_SETS];                       /* geometry borrowed from the problem, values owned               */
-    pg_rows  sums;                                     /* evaluation points in stiffness and force: those of the bulk, or with
-                                                          consistent integration wider ones with corrected derivatives   */
-    unsigned char *whole;                              /* cells whose derivatives are corrected; NULL: not consistent    */
-    const int *material[PG_BOND_SETS];                 /* per point; the problem's                                       */
-    double  *strain[PG_BOND_SETS], *stress[PG_BOND_SETS], *zz[PG_BOND_SETS], *u[PG_BOND_SETS];   /* of the last measure  */
+    int      dim, nv, threads, bulk;                   /* bulk: PG_NODES or PG_POINTS */
+    size_t   n;                                        /* nodes */
+    pg_rows  rows[PG_BOND_SETS];                       /* geometry borrowed from the problem, values owned */
+    /* evaluation points in stiffness and force: those of the bulk, or with consistent integration wider ones
+     * with corrected derivatives */
+    pg_rows  sums;
+    unsigned char *whole;  /* cells whose derivatives are corrected; NULL: not consistent */
+    const int *material[PG_BOND_SETS];                 /* per point; the problem's */
+    /* of the last measure */
+    double  *strain[PG_BOND_SETS], *stress[PG_BOND_SETS], *zz[PG_BOND_SETS], *u[PG_BOND_SETS];
     double  *s1[PG_BOND_SETS], *s3[PG_BOND_SETS];
-    double  *seen[PG_BOND_SETS];                       /* the displacement of the last measure (ndof)                    */
-    int      fresh[PG_BOND_SETS];                      /* the measure is that of `seen` and of the rows as they are      */
+    double  *seen[PG_BOND_SETS];                       /* the displacement of the last measure (ndof) */
+    int      fresh[PG_BOND_SETS];  /* the measure is that of `seen` and of the rows as they are */
     galerkin_slices *slices;
-    galerkin_dilatation *dilatation;                   /* NULL: at the points everywhere                                 */
-    pg_stiffness *K;                                   /* NULL until someone asks for the matrix                         */
-    pg_stiffness *M;                                   /* consistent mass, NULL until asked for                          */
-    int      all_stale;                                /* rows of K to be gathered again: all, or those marked           */
+    galerkin_dilatation *dilatation;                   /* NULL: at the points everywhere */
+    pg_stiffness *K;                                   /* NULL until someone asks for the matrix */
+    pg_stiffness *M;                                   /* consistent mass, NULL until asked for */
+    int      all_stale;  /* rows of K to be gathered again: all, or those marked */
     unsigned char *stale;
     pg_operator   op;
-    double  *wide;                                     /* scratch: one row of blocks                                     */
-    double  *diagonal;                                 /* of K; known as long as diagonal_of is the revision             */
+    double  *wide;                                     /* scratch: one row of blocks */
+    double  *diagonal;  /* of K; known as long as diagonal_of is the revision */
     unsigned long diagonal_of;
-    pin     *pin;  size_t npin;                        /* Nitsche, ascending by point                                    */
-    size_t  *pin_start;                                /* facet point -> pins                                            */
-    pin     *peg;  size_t npeg;                        /* penalty: point = index into peg_node                           */
-    int     *peg_node; size_t npegnode; size_t *peg_start;     /* pegs of a node: peg_start[k]..peg_start[k + 1]                */
-    pg_family peg_family;                              /* constrained nodes -> nodes (copy of the node rows' families)   */
+    pin     *pin;  size_t npin;                        /* Nitsche, ascending by point */
+    size_t  *pin_start;                                /* facet point -> pins */
+    pin     *peg;  size_t npeg;                        /* penalty: point = index into peg_node */
+    /* pegs of a node: peg_start[k]..peg_start[k + 1] */
+    int     *peg_node; size_t npegnode; size_t *peg_start;
+    pg_family peg_family;  /* constrained nodes -> nodes (copy of the node rows' families) */
     elimination side[3];
     pg_sparse T;
     int      has_T;
-    unsigned long revision;                            /* of K and T                                                     */
-    double  *work;                                     /* ndof                                                           */
-    const double *at_d;                                /* for workers                                                    */
-    size_t  *list[PG_BOND_SETS];                       /* touched points (scratch of refresh)                            */
-    pg_nearest *near_point, *near_node;                /* bulk points, nodes; NULL until a place is asked for            */
+    unsigned long revision;                            /* of K and T */
+    double  *work;                                     /* ndof */
+    const double *at_d;                                /* for workers */
+    size_t  *list[PG_BOND_SETS];                       /* touched points (scratch of refresh) */
+    pg_nearest *near_point, *near_node;  /* bulk points, nodes; NULL until a place is asked for */
 } galerkin;
 
 /* sum: the loops over points */
 pg_status galerkin_slices_create (galerkin *g);
 void galerkin_slices_free (galerkin *g);
-void galerkin_measure (galerkin *g, int set, const double *d);         /* u, strain, stress, zz of every point, unless known */
-void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list);   /* again, after a change of rows  */
-void galerkin_sum_stress  (galerkin *g, double *f);                    /* f += sum w B' sigma of the last measure           */
-void galerkin_sum_tangent (galerkin *g, const double *x, double *f);   /* f += sum w B' D B x                               */
+/* u, strain, stress, zz of every point, unless known */
+void galerkin_measure (galerkin *g, int set, const double *d);
+/* again, after a change of rows */
+void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list);
+void galerkin_sum_stress  (galerkin *g, double *f);  /* f += sum w B' sigma of the last measure */
+void galerkin_sum_tangent (galerkin *g, const double *x, double *f);   /* f += sum w B' D B x */
 /* operator: K x without K, and K */
 pg_status galerkin_operator_create (galerkin *g);
 void galerkin_apply (void *context, const double *x, double *y);
@@ -76,37 +83,45 @@ void galerkin_diagonal (void *context, double *d);
 pg_status galerkin_assemble (void *self);
 const pg_sparse *galerkin_matrix (void *self);
 pg_status galerkin_mass_matrix (void *self, const pg_sparse **M);
-void galerkin_mark_stale (galerkin *g, const size_t *count);           /* rows that the touched points of each set enter    */
+/* rows that the touched points of each set enter */
+void galerkin_mark_stale (galerkin *g, const size_t *count);
 /* consistent */
 pg_status galerkin_consistent_create (galerkin *g);
 void galerkin_consistent_free (galerkin *g);
-/* Brings `sums` in line with the rows of the bulk: all, or cells with the touched points of g->list[bulk], whose number grows to all points
- * of the cells that changed. */
+/* Brings `sums` in line with the rows of the bulk: all, or cells with the touched points of g->list[bulk],
+ * whose number grows to all points of the cells that changed. */
 pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int all, size_t *count);
 /* dilatation: only where g->dilatation is there, but for galerkin_plain, _gaps, _traction, _adjoint */
 pg_status galerkin_dilatation_create (galerkin *g);
 void galerkin_dilatation_free (galerkin *g);
-/* After the rows of all sets: all patches, or those with touched points of g->list (bulk, facets); marks the rows of K that they enter. */
+/* After the rows of all sets: all patches, or those with touched points of g->list (bulk, facets); marks the
+ * rows of K that they enter. */
 pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int all, const size_t *count);
 /* The material without the part of D that the projected dilatation carries. */
 const pg_material *galerkin_plain (const galerkin *g, int set, size_t p);
-void galerkin_dilatation_measure (galerkin *g, int set, const double *d);   /* adds the pressure of the patches to stresses of the plain materials */
-void galerkin_dilatation_apply (galerkin *g, const double *x, double *y);   /* y += K x of the patches                    */
+/* adds the pressure of the patches to stresses of the plain materials */
+void galerkin_dilatation_measure (galerkin *g, int set, const double *d);
+void galerkin_dilatation_apply (galerkin *g, const double *x, double *y);   /* y += K x of the patches */
 void galerkin_dilatation_diagonal (galerkin *g, double *d);
 void galerkin_dilatation_blocks (void *context, size_t patch, size_t a, size_t m, double *out);
-const double *galerkin_dilatation_of_nodes (galerkin *g, const double *d);  /* pressure of the patches at every node, Pa (n) */
-const pg_family *galerkin_dilatation_family (const galerkin *g);            /* nodes of the patches                       */
-void galerkin_dilatation_gaps (galerkin *g, double t);                      /* after the measure of the facets            */
-double galerkin_dilatation_traction (const galerkin *g, const pin *q);      /* what the flux through the gaps adds to a pin's traction, Pa */
-void galerkin_dilatation_adjoint (const galerkin *g, double *f);            /* f += work of the patches' pressures on the gaps, derived */
+/* pressure of the patches at every node, Pa (n) */
+const double *galerkin_dilatation_of_nodes (galerkin *g, const double *d);
+const pg_family *galerkin_dilatation_family (const galerkin *g);            /* nodes of the patches */
+void galerkin_dilatation_gaps (galerkin *g, double t);  /* after the measure of the facets */
+/* what the flux through the gaps adds to a pin's traction, Pa */
+double galerkin_dilatation_traction (const galerkin *g, const pin *q);
+/* f += work of the patches' pressures on the gaps, derived */
+void galerkin_dilatation_adjoint (const galerkin *g, double *f);
 /* bulk */
 void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out);
-void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out);        /* consistent: all points of a cell at once */
-void galerkin_bulk_force  (galerkin *g, const double *d, double *f);   /* f += internal force (after measure)             */
-void galerkin_bulk_apply  (galerkin *g, const double *x, double *y);   /* y += K x of the bulk                            */
+/* consistent: all points of a cell at once */
+void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out);
+/* f += internal force (after measure) */
+void galerkin_bulk_force  (galerkin *g, const double *d, double *f);
+void galerkin_bulk_apply  (galerkin *g, const double *x, double *y);   /* y += K x of the bulk */
 double galerkin_bulk_energy (const galerkin *g, const double *d);
 const pg_material *galerkin_material (const galerkin *g, int set, size_t p);
-void galerkin_B_transpose (int dim, const double *grad, const double *stress, double *f);       /* f = B' stress          */
+void galerkin_B_transpose (int dim, const double *grad, const double *stress, double *f);  /* f = B' stress */
 /* boundary */
 pg_status galerkin_boundary_create (galerkin *g);
 void galerkin_boundary_free (galerkin *g);
@@ -114,32 +129,39 @@ void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double 
 void galerkin_peg_blocks   (void *context, size_t p, size_t a, size_t m, double *out);
 /* y += what supports add to K x; facet points and constrained nodes only */
 void galerkin_boundary_apply (galerkin *g, const double *x, double *y);
-/* residual += loads and boundary terms (after measure); external and reaction: squared norms for the reference */
-void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external, double *reaction);
+/* residual += loads and boundary terms (after measure); external and reaction: squared norms for the
+ * reference */
+void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external,
+                              double *reaction);
 double galerkin_boundary_energy (galerkin *g, double t);
 size_t galerkin_boundary_pairs (galerkin *g);
-size_t galerkin_boundary_ledger (galerkin *g, double t, const double *d, pg_ledger *out);
+size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, pg_work_balance *out);
 /* basis */
 pg_status galerkin_basis_create (galerkin *g);
 pg_status galerkin_basis_update (galerkin *g);
 void galerkin_basis_free (galerkin *g);
 const pg_sparse *galerkin_basis (void *self);
 pg_status galerkin_impose (void *self, double t, double *d);
-size_t galerkin_basis_ledger (galerkin *g, double t, const double *residual, pg_ledger *out, size_t at);
+size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residual, pg_work_balance *out,
+                                    size_t at);
 /* bonds and fields */
-pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor);
+pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
+                                char *kind, double *factor);
 double galerkin_overlap (void *self, const pg_state *state, const double *d);
 void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
-pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value);
+pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,
+                          int *components, const char **unit, double *value);
 pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, double *value);
 /* surface */
 pg_status galerkin_surface (void *self, const double *stress, double *P);
-pg_status galerkin_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress);
+pg_status galerkin_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
+                           double *u, double *stress);
 
 /* Four numbers at a time; the same operations in the same order with and without AVX. */
 typedef double four __attribute__ ((vector_size (32), aligned (8)));
 /* not under the thread sanitizer: the choice is made before it has started */
-#if defined (__x86_64__) && defined (__GNUC__) && !defined (__clang__) && !defined (PG_DEBUG) && !defined (__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(PG_DEBUG) \
+    && !defined(__SANITIZE_THREAD__)
 #define WIDE __attribute__ ((target_clones ("avx2", "default")))
 #else
 #define WIDE

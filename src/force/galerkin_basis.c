@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Essential conditions by transformation (theory E6): at the prescribed nodes sum_J N_J(x_s) d_J = g, solved for the slaves,
- *   d_s = C_s^-1 (g - C_m d_m),   d = T d_m + ...,  T = [ -C_s^-1 C_m ; I ]  per component; K is reduced to T' K T. */
+ * Essential conditions by transformation (theory E6): at the prescribed nodes sum_J N_J(x_s) d_J = g, solved
+ * for the slaves,
+ *   d_s = C_s^-1 (g - C_m d_m), d = T d_m + ..., T = [ -C_s^-1 C_m ; I ] per component; K is reduced to T' K
+ *       T. */
 #include "galerkin.h"
 #include <string.h>
 
@@ -22,9 +24,10 @@ static pg_status find_slaves (galerkin *g, int k, int *role)
     size_t cap = 0, cap_load = 0;
     e->component = k;
     for (size_t i = 0; i < g->n; i++) role[i] = -1;
-    for (size_t l = p->nload; l-- > 0;) {              /* the first load wins                                            */
+    for (size_t l = p->nload; l-- > 0;) {              /* the first load wins */
         const pg_load *load = &p->load[l];
-        if (!pg_load_prescribes (load) || !load->value[k] || load->essential != PG_ESSENTIAL_TRANSFORMATION) continue;
+        if (!pg_load_prescribes (load) || !load->value[k] || load->essential != PG_ESSENTIAL_TRANSFORMATION)
+            continue;
         for (size_t i = 0; i < load->set->npoint; i++) role[load->set->point[i]] = (int) l;
     }
     for (size_t i = 0; i < g->n; i++) {
@@ -37,7 +40,8 @@ done:
     return status;
 }
 
-/* Nodes seen by slaves that are no slaves; none when N is the identity (NOSB). role: load index of slaves, else -1 / -2. */
+/* Nodes seen by slaves that are no slaves; none when N is the identity (NOSB). role: load index of slaves,
+ * else -1 / -2. */
 static pg_status find_masters (galerkin *g, int k, int *role)
 {
     pg_status status = PG_OK;
@@ -45,10 +49,14 @@ static pg_status find_masters (galerkin *g, int k, int *role)
     const pg_family *f = &g->rows[PG_NODES].family;
     size_t cap = 0;
     if (strcmp (g->problem->approx.type->name, "nosb") == 0) goto done;
-    if (e->n > PG_MOST_ELIMINATED) PG_FAIL (PG_E_LIMIT, "essential: transformation of %zu points in one direction needs too much memory (at most %d): use penalty",
-                                            e->n, PG_MOST_ELIMINATED);
+    if (e->n > PG_MOST_ELIMINATED)
+        PG_FAIL (PG_E_LIMIT,
+                 "essential: transformation of %zu points in one direction needs too much memory (at most "
+                 "%d): use penalty",
+                 e->n, PG_MOST_ELIMINATED);
     for (size_t s = 0; s < e->n; s++)
-        for (size_t q = f->start[e->slave[s]]; q < f->start[e->slave[s] + 1]; q++) if (role[f->node[q]] == -1) role[f->node[q]] = -2;
+        for (size_t q = f->start[e->slave[s]]; q < f->start[e->slave[s] + 1]; q++)
+            if (role[f->node[q]] == -1) role[f->node[q]] = -2;
     for (size_t i = 0; i < g->n; i++) {
         if (role[i] != -2) continue;
         PG_GROW (e->master, cap, e->nmaster + 1);
@@ -82,7 +90,8 @@ static pg_status make_T (galerkin *g)
         int is_master = 0;
         for (size_t m = 0; m < e->nmaster && !is_master; m++) is_master = (size_t) e->master[m] == i / dim;
         size_t s = 0;
-        for (; is_master && s < e->n && (size_t) e->slave[s] < i / dim; s++) g->T.row[at++] = (long) ((size_t) e->slave[s] * dim + i % dim);
+        for (; is_master && s < e->n && (size_t) e->slave[s] < i / dim; s++)
+            g->T.row[at++] = (long) ((size_t) e->slave[s] * dim + i % dim);
         g->T.value[at] = 1;
         g->T.row[at++] = (long) i;
         for (; is_master && s < e->n; s++) g->T.row[at++] = (long) ((size_t) e->slave[s] * dim + i % dim);
@@ -102,7 +111,8 @@ static void fill_T (galerkin *g)
         size_t k = (size_t) g->T.row[g->T.start[c]] % dim, m = 0, s = 0;
         const elimination *e = &g->side[k];
         long own = -1;
-        for (long q = g->T.start[c]; own < 0; q++) if (g->T.value[q] == 1) {     /* the unit entry: a master's own row   */
+        /* the unit entry: a master's own row */
+        for (long q = g->T.start[c]; own < 0; q++) if (g->T.value[q] == 1) {
             size_t node = (size_t) g->T.row[q] / dim;
             for (m = 0; m < e->nmaster && (size_t) e->master[m] != node; m++) continue;
             if (m < e->nmaster) own = q;
@@ -139,7 +149,7 @@ static pg_status slave_matrix (const galerkin *g, const elimination *e, const in
     for (size_t s = 0; s < e->n; s++) nnz += r->family.start[e->slave[s] + 1] - r->family.start[e->slave[s]];
     PG_TRY (pg_sparse_create (C, e->n, e->n, nnz, 0));
     nnz = 0;
-    for (size_t s = 0; s < e->n; s++) {                /* column s holds row s of C_s: this is C_s'                      */
+    for (size_t s = 0; s < e->n; s++) {                /* column s holds row s of C_s: this is C_s' */
         for (size_t q = r->family.start[e->slave[s]]; q < r->family.start[e->slave[s] + 1]; q++) {
             if (index[r->family.node[q]] < 0) continue;
             C->row[nnz] = index[r->family.node[q]];
@@ -166,7 +176,7 @@ static pg_status update_side (galerkin *g, elimination *e, int *index)
     PG_TRY (lu->analyse (&solver, &C, &(pg_linear_options) { 1, g->dim, g->threads, 0 }));
     PG_TRY (lu->factor (solver, &C));
     PG_ALLOC (unit, e->n);
-    for (size_t s = 0; s < e->n; s++) {                /* column s of C_s'^-1 is row s of C_s^-1                          */
+    for (size_t s = 0; s < e->n; s++) {                /* column s of C_s'^-1 is row s of C_s^-1 */
         unit[s] = 1;
         PG_TRY (lu->solve (solver, 1, unit, e->inverse + s * e->n));
         unit[s] = 0;
@@ -177,7 +187,8 @@ static pg_status update_side (galerkin *g, elimination *e, int *index)
         for (size_t q = r->family.start[e->slave[j]]; q < r->family.start[e->slave[j] + 1]; q++) {
             int at = index[r->family.node[q]] - (int) e->n;
             if (at < 0 || r->N[q] == 0) continue;
-            for (size_t s = 0; s < e->n; s++) e->X[s * e->nmaster + (size_t) at] += e->inverse[s * e->n + j] * r->N[q];
+            for (size_t s = 0; s < e->n; s++)
+                e->X[s * e->nmaster + (size_t) at] += e->inverse[s * e->n + j] * r->N[q];
         }
 done:
     if (solver) lu->free (&solver);
@@ -196,7 +207,9 @@ pg_status galerkin_basis_update (galerkin *g)
         status = update_side (g, &g->side[k], index);
         if (status == PG_E_MEMORY) goto done;
         if (status != PG_OK)
-            PG_FAIL (PG_E_SINGULAR, "essential: transformation of component %c failed (%s): use nitsche or penalty", "xyz"[k], pg_last_error ());
+            PG_FAIL (PG_E_SINGULAR,
+                     "essential: transformation of component %c failed (%s): use nitsche or penalty",
+                     "xyz"[k], pg_last_error ());
     }
     fill_T (g);
 done:
@@ -212,7 +225,8 @@ const pg_sparse *galerkin_basis (void *self)
 
 static double goal_of (const galerkin *g, const elimination *e, size_t s, double t)
 {
-    return pg_load_value (&g->problem->load[e->load[s]], e->component, g->dim, g->problem->cloud.x + (size_t) e->slave[s] * (size_t) g->dim, t);
+    return pg_load_value (&g->problem->load[e->load[s]], e->component, g->dim,
+                          g->problem->cloud.x + (size_t) e->slave[s] * (size_t) g->dim, t);
 }
 
 pg_status galerkin_impose (void *self, double t, double *d)
@@ -226,7 +240,8 @@ pg_status galerkin_impose (void *self, double t, double *d)
             double value = 0;
             if (!e->inverse) value = g->work[s];
             else for (size_t j = 0; j < e->n; j++) value += e->inverse[s * e->n + j] * g->work[j];
-            for (size_t m = 0; m < e->nmaster; m++) value -= e->X[s * e->nmaster + m] * d[(size_t) e->master[m] * dim + k];
+            for (size_t m = 0; m < e->nmaster; m++)
+                value -= e->X[s * e->nmaster + m] * d[(size_t) e->master[m] * dim + k];
             d[(size_t) e->slave[s] * dim + k] = value;
         }
     }
@@ -234,7 +249,8 @@ pg_status galerkin_impose (void *self, double t, double *d)
 }
 
 /* Support forces: residual = -C' lambda on the slaves, lambda = -C_s^-T r_s. */
-size_t galerkin_basis_ledger (galerkin *g, double t, const double *residual, pg_ledger *out, size_t at)
+size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residual, pg_work_balance *out,
+                                    size_t at)
 {
     size_t dim = (size_t) g->dim;
     for (size_t k = 0; k < dim; k++) {
@@ -242,7 +258,9 @@ size_t galerkin_basis_ledger (galerkin *g, double t, const double *residual, pg_
         for (size_t s = 0; s < e->n; s++, at++) {
             double force = 0;
             if (!e->inverse) force = -residual[(size_t) e->slave[s] * dim + k];
-            else for (size_t j = 0; j < e->n; j++) force -= e->inverse[j * e->n + s] * residual[(size_t) e->slave[j] * dim + k];
+            else
+                for (size_t j = 0; j < e->n; j++)
+                    force -= e->inverse[j * e->n + s] * residual[(size_t) e->slave[j] * dim + k];
             out->force[at] = force, out->displacement[at] = goal_of (g, e, s, t);
             out->reaction[e->load[s] * 3 + (int) k] += force;
         }

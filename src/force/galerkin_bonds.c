@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the bonds show: utilisation of each live bond from stretch or mean principal stress of its two ends (Cui 2022 section 1.1,
- * theory F2: displacements and stresses are those of the shape functions, not the coefficients), overlap, census. */
+ * What the bonds show: utilisation of each live bond from stretch or mean principal stress of its two ends
+ * (Cui 2022 section 1.1, theory F2: displacements and stresses are those of the shape functions, not the
+ * coefficients), overlap, census. */
 #include "galerkin.h"
 #include <math.h>
 #include <string.h>
@@ -33,21 +34,30 @@ static void judge_by (const sweep *s, const pg_criterion *c, const pg_bond_measu
 }
 
 /* Those of a batch with an end in a material, by its law. */
-static void judge_material (const sweep *s, int material, pg_bond_measures m, const size_t *bond, const size_t *point)
+static void judge_material (const sweep *s, int material, pg_bond_measures m, const size_t *bond,
+                            const size_t *point)
 {
     const galerkin *g = s->g;
     const int *node = g->rows[s->set].family.node;
     double xi[BATCH * 3], eta[BATCH * 3], reach[BATCH], s1[BATCH], s3[BATCH];
     size_t some[BATCH], count = 0, dim = (size_t) g->dim;
     for (size_t k = 0; k < m.n; k++) {
-        if (g->material[s->set][point[k]] != material && g->material[PG_NODES][node[bond[k]]] != material) continue;
-        if (m.xi) memcpy (xi + count * dim, m.xi + k * dim, dim * sizeof *xi), memcpy (eta + count * dim, m.eta + k * dim, dim * sizeof *eta);
+        if (g->material[s->set][point[k]] != material && g->material[PG_NODES][node[bond[k]]] != material)
+            continue;
+        if (m.xi)
+            memcpy (xi + count * dim, m.xi + k * dim, dim * sizeof *xi),
+                memcpy (eta + count * dim, m.eta + k * dim, dim * sizeof *eta);
         if (m.reach) reach[count] = m.reach[k];
         if (m.s1) s1[count] = m.s1[k], s3[count] = m.s3[k];
         some[count++] = bond[k];
     }
-    m = (pg_bond_measures) { .n = count, .dim = m.dim, .xi = m.xi ? xi : NULL, .eta = m.xi ? eta : NULL, .reach = m.reach ? reach : NULL,
-                             .s1 = m.s1 ? s1 : NULL, .s3 = m.s1 ? s3 : NULL };
+    m = (pg_bond_measures){ .n = count,
+                            .dim = m.dim,
+                            .xi = m.xi ? xi : NULL,
+                            .eta = m.xi ? eta : NULL,
+                            .reach = m.reach ? reach : NULL,
+                            .s1 = m.s1 ? s1 : NULL,
+                            .s3 = m.s1 ? s3 : NULL };
     if (count) judge_by (s, &g->problem->criterion[material], &m, some);
 }
 
@@ -69,7 +79,8 @@ static void judge (const sweep *s, size_t count, const size_t *bond, const size_
     size_t dim = (size_t) g->dim;
     double xi[BATCH * 3], eta[BATCH * 3], reach[BATCH], s1[BATCH], s3[BATCH];
     int graded = g->problem->cloud.size != NULL;
-    int needs = g->problem->criterion->type->needs, stretch = needs & PG_NEEDS_STRETCH, stress = needs & PG_NEEDS_STRESS;
+    int needs = g->problem->criterion->type->needs, stretch = needs & PG_NEEDS_STRETCH,
+        stress = needs & PG_NEEDS_STRESS;
     int material = one_material (g, s->set, count, bond, point);
     for (size_t k = 0; stretch && k < count; k++) {
         size_t j = (size_t) r->family.node[bond[k]], p = point[k];
@@ -78,15 +89,23 @@ static void judge (const sweep *s, size_t count, const size_t *bond, const size_
             eta[k * dim + a] = g->u[PG_NODES][j * dim + a] - g->u[s->set][p * dim + a];
         }
     }
-    for (size_t k = 0; graded && k < count; k++)           /* mean of both ends: the same from either end                    */
-        reach[k] = 0.5 * (pg_problem_spacing (g->problem, s->set, point[k]) + g->problem->cloud.size[r->family.node[bond[k]]]) / g->problem->cloud.h;
+    for (size_t k = 0; graded && k < count; k++)           /* mean of both ends: the same from either end */
+        reach[k] = 0.5
+                   * (pg_problem_spacing (g->problem, s->set, point[k])
+                      + g->problem->cloud.size[r->family.node[bond[k]]])
+                   / g->problem->cloud.h;
     for (size_t k = 0; stress && k < count; k++) {
         size_t j = (size_t) r->family.node[bond[k]], p = point[k];
         s1[k] = 0.5 * (g->s1[s->set][p] + g->s1[PG_NODES][j]);
         s3[k] = 0.5 * (g->s3[s->set][p] + g->s3[PG_NODES][j]);
     }
-    pg_bond_measures m = { .n = count, .dim = g->dim, .xi = stretch ? xi : NULL, .eta = stretch ? eta : NULL, .reach = graded ? reach : NULL,
-                           .s1 = stress ? s1 : NULL, .s3 = stress ? s3 : NULL };
+    pg_bond_measures m = { .n = count,
+                           .dim = g->dim,
+                           .xi = stretch ? xi : NULL,
+                           .eta = stretch ? eta : NULL,
+                           .reach = graded ? reach : NULL,
+                           .s1 = stress ? s1 : NULL,
+                           .s3 = stress ? s3 : NULL };
     if (material >= 0) judge_by (s, &g->problem->criterion[material], &m, bond);
     else for (size_t k = 0; k < g->problem->nmaterial; k++) judge_material (s, (int) k, m, bond, point);
 }
@@ -126,7 +145,8 @@ static void principal_points (void *context, size_t first, size_t last, int thre
     }
 }
 
-pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation, char *kind, double *factor)
+pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
+                                char *kind, double *factor)
 {
     galerkin *g = self;
     for (int set = 0; set < PG_BOND_SETS; set++) {
@@ -134,7 +154,8 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
         if (r->n == 0) continue;
         galerkin_measure (g, set, d);
         principals c = { g, set };
-        if (g->problem->criterion->type->needs & PG_NEEDS_STRESS) pg_parallel (g->threads, r->n, principal_points, &c);
+        if (g->problem->criterion->type->needs & PG_NEEDS_STRESS)
+            pg_parallel (g->threads, r->n, principal_points, &c);
     }
     for (int set = 0; set < PG_BOND_SETS; set++) {
         sweep s = { g, state, set, utilisation, factor, kind };
@@ -150,7 +171,7 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
     const pg_rows *r = &g->rows[PG_NODES];
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
     double worst = 0;
-    int both = g->problem->cloud.size != NULL;             /* a bond of unlike ends may exist one way only                   */
+    int both = g->problem->cloud.size != NULL;             /* a bond of unlike ends may exist one way only */
     galerkin_measure (g, PG_NODES, d);
     for (size_t p = 0; p < r->n; p++) {
         double limit = 1.5 * pg_problem_spacing (g->problem, PG_NODES, p);
@@ -159,13 +180,18 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
             if (state->alive[e] || j == p || (j < p && !both)) continue;
             if (r->grade[p] >= PG_GRADE_SHEPARD || r->grade[j] >= PG_GRADE_SHEPARD) continue;
             double xi[3], rr = 0, approach = 0, elastic = 0;
-            for (size_t a = 0; a < dim; a++) xi[a] = r->x[j * dim + a] - r->x[p * dim + a], rr += xi[a] * xi[a];
+            for (size_t a = 0; a < dim; a++)
+                xi[a] = r->x[j * dim + a] - r->x[p * dim + a], rr += xi[a] * xi[a];
             if (rr > limit * limit) continue;
-            for (size_t a = 0; a < dim; a++) approach -= xi[a] * (g->u[PG_NODES][j * dim + a] - g->u[PG_NODES][p * dim + a]);
+            for (size_t a = 0; a < dim; a++)
+                approach -= xi[a] * (g->u[PG_NODES][j * dim + a] - g->u[PG_NODES][p * dim + a]);
             const double *ei = g->strain[PG_NODES] + p * nv, *ej = g->strain[PG_NODES] + j * nv;
             for (size_t a = 0; a < dim; a++) elastic -= 0.5 * (ei[a] + ej[a]) * xi[a] * xi[a];
             if (dim == 2) elastic -= 0.5 * (ei[2] + ej[2]) * xi[0] * xi[1];
-            if (dim == 3) elastic -= 0.5 * ((ei[3] + ej[3]) * xi[0] * xi[1] + (ei[4] + ej[4]) * xi[1] * xi[2] + (ei[5] + ej[5]) * xi[2] * xi[0]);
+            if (dim == 3)
+                elastic -= 0.5
+                           * ((ei[3] + ej[3]) * xi[0] * xi[1] + (ei[4] + ej[4]) * xi[1] * xi[2]
+                              + (ei[5] + ej[5]) * xi[2] * xi[0]);
             double overlap = (approach - fmax (elastic, 0)) / sqrt (rr);
             if (overlap > worst) worst = overlap;
         }
@@ -199,7 +225,7 @@ void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *
         }
         for (size_t i = 0; i < g->n; i++) size[root (parent, (int) i)]++;
         for (size_t i = 0; i < g->n; i++) *isolated += size[i] == 1, *fragments += size[i] > 1;
-        if (*fragments) --*fragments;                  /* the body itself is none                                        */
+        if (*fragments) --*fragments;                  /* the body itself is none */
     }
     pg_free (parent), pg_free (size);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Loads and essential conditions of the Galerkin form (theory E6): Nitsche on facet points,
- *   R_v += int v_k (sigma n)_k + int (sigma(v) n)_k (u_k - g_k) - beta int v_k (u_k - g_k),   beta = nitsche E / h,
+ *   R_v += int v_k (sigma n)_k + int (sigma(v) n)_k (u_k - g_k) - beta int v_k (u_k - g_k), beta = nitsche E
+ *       / h,
  * penalty on nodes, tractions and pressures on facets, point and body forces. */
 #include "galerkin.h"
 #include <math.h>
@@ -17,7 +18,8 @@ static int member (const int *list, size_t n, int value)
     return lo < n && list[lo] == value;
 }
 
-static int free_by (const pg_problem *p, const pg_load *load, int k)    /* component k is not prescribed by the load        */
+/* component k is not prescribed by the load */
+static int free_by (const pg_problem *p, const pg_load *load, int k)
 {
     return k >= p->dim || !pg_load_prescribes (load) || !load->value[k];
 }
@@ -34,7 +36,9 @@ static pg_status make_pins (galerkin *g)
         unsigned taken = 0;
         for (size_t l = 0; l < p->nload; l++) {
             const pg_load *load = &p->load[l];
-            if (load->essential != PG_ESSENTIAL_NITSCHE || !member (load->set->facet, load->set->nfacet, r->cell[q])) continue;
+            if (load->essential != PG_ESSENTIAL_NITSCHE
+                || !member (load->set->facet, load->set->nfacet, r->cell[q]))
+                continue;
             for (int k = 0; k < g->dim; k++) {
                 if (free_by (p, load, k) || (taken >> k & 1)) continue;
                 PG_GROW (g->pin, cap, g->npin + 1);
@@ -59,7 +63,9 @@ static pg_status make_pegs (galerkin *g)
         unsigned taken = 0;
         for (size_t l = 0; l < p->nload; l++) {
             const pg_load *load = &p->load[l];
-            if (load->essential != PG_ESSENTIAL_PENALTY || !member (load->set->point, load->set->npoint, (int) i)) continue;
+            if (load->essential != PG_ESSENTIAL_PENALTY
+                || !member (load->set->point, load->set->npoint, (int) i))
+                continue;
             for (int k = 0; k < g->dim; k++) {
                 if (free_by (p, load, k) || (taken >> k & 1)) continue;
                 PG_GROW (g->peg, cap, g->npeg + 1);
@@ -97,13 +103,16 @@ void galerkin_boundary_free (galerkin *g)
 /* Q . sigma = (sigma n)_k in Voigt form */
 static void traction_row (int dim, int k, const double *n, double *Q)
 {
-    static const int voigt3[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } }, voigt2[2][2] = { { 0, 2 }, { 2, 1 } };
+    static const int voigt3[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } },
+                     voigt2[2][2] = { { 0, 2 }, { 2, 1 } };
     memset (Q, 0, 6 * sizeof *Q);
     for (int c = 0; c < dim; c++) Q[dim == 3 ? voigt3[k][c] : dim == 2 ? voigt2[k][c] : 0] += n[c];
 }
 
-/* In units of E, or of a quarter of lambda + 2 mu where that is more (Poisson's ratio above 0.455): the traction of a strain is of that size, and a factor of E alone leaves K
- * indefinite from 0.49 on. Where the dilatation is projected, D is without lambda: what lambda makes of the traction is made up for patch by patch (galerkin_dilatation_facet.c). */
+/* In units of E, or of a quarter of lambda + 2 mu where that is more (Poisson's ratio above 0.455): the
+ * traction of a strain is of that size, and a factor of E alone leaves K indefinite from 0.49 on. Where the
+ * dilatation is projected, D is without lambda: what lambda makes of the traction is made up for patch by
+ * patch (galerkin_dilatation_facet.c). */
 static double beta (const galerkin *g, size_t q)
 {
     double E = galerkin_material (g, PG_FACETS, q)->modulus;
@@ -157,7 +166,8 @@ static double penalty (const galerkin *g, const pin *peg)
     const pg_problem *p = g->problem;
     size_t node = (size_t) g->peg_node[peg->point];
     double h = pg_problem_spacing (p, PG_NODES, node);
-    return p->load[peg->load].penalty * galerkin_material (g, PG_NODES, node)->modulus / (h * h) * p->cloud.volume[node];
+    return p->load[peg->load].penalty * galerkin_material (g, PG_NODES, node)->modulus / (h * h)
+           * p->cloud.volume[node];
 }
 
 void galerkin_peg_blocks (void *context, size_t p, size_t a, size_t m, double *out)
@@ -172,9 +182,12 @@ void galerkin_peg_blocks (void *context, size_t p, size_t a, size_t m, double *o
     }
 }
 
-/* ---- what each term adds ------------------------------------------------------------------------------------------------
- * visit (context, set, point, load, component, force, displacement): `force` acts on the body at that point of that set. */
-typedef void (*visitor) (void *context, int set, size_t point, int load, int k, double force, double displacement);
+/* ---- what each term adds
+ * ------------------------------------------------------------------------------------------------ visit
+ * (context, set, point, load, component, force, displacement): `force` acts on the body at that point of that
+ * set. */
+typedef void (*visitor) (void *context, int set, size_t point, int load, int k, double force,
+                         double displacement);
 
 static double pin_traction (const galerkin *g, const pin *q, double gap)
 {
@@ -192,14 +205,19 @@ static void visit_supports (galerkin *g, double t, visitor visit, void *context)
     for (size_t i = 0; i < g->npin; i++) {
         const pin *q = &g->pin[i];
         double u = g->u[PG_FACETS][q->point * dim + (size_t) q->component];
-        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_FACETS].x + q->point * dim, t);
-        visit (context, PG_FACETS, q->point, q->load, q->component, g->rows[PG_FACETS].weight[q->point] * (pin_traction (g, q, u - goal) + galerkin_dilatation_traction (g, q)), goal);
+        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
+                                     g->rows[PG_FACETS].x + q->point * dim, t);
+        visit (context, PG_FACETS, q->point, q->load, q->component,
+               g->rows[PG_FACETS].weight[q->point]
+                   * (pin_traction (g, q, u - goal) + galerkin_dilatation_traction (g, q)),
+               goal);
     }
     for (size_t i = 0; i < g->npeg; i++) {
         const pin *q = &g->peg[i];
         size_t node = (size_t) g->peg_node[q->point];
         double u = g->u[PG_NODES][node * dim + (size_t) q->component];
-        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_NODES].x + node * dim, t);
+        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
+                                     g->rows[PG_NODES].x + node * dim, t);
         visit (context, PG_NODES, node, q->load, q->component, -penalty (g, q) * (u - goal), goal);
     }
 }
@@ -214,7 +232,8 @@ static void visit_facet_load (const galerkin *g, double t, int l, visitor visit,
         for (size_t k = 0; k < dim; k++) {
             int pressure = load->kind == PG_PRESSURE;
             double f = pg_load_value (load, pressure ? 0 : (int) k, g->dim, r->x + q * dim, t);
-            visit (context, PG_FACETS, q, l, (int) k, r->weight[q] * (pressure ? -f * normal (g, q)[k] : f), g->u[PG_FACETS][q * dim + k]);
+            visit (context, PG_FACETS, q, l, (int) k, r->weight[q] * (pressure ? -f * normal (g, q)[k] : f),
+                   g->u[PG_FACETS][q * dim + k]);
         }
     }
 }
@@ -223,14 +242,16 @@ static void visit_point_load (const galerkin *g, double t, int l, visitor visit,
 {
     const pg_load *load = &g->problem->load[l];
     size_t dim = (size_t) g->dim;
-    int everywhere = load->kind == PG_BODY_FORCE && load->set->npoint == g->n, set = everywhere ? g->bulk : PG_NODES;
+    int everywhere = load->kind == PG_BODY_FORCE && load->set->npoint == g->n,
+        set = everywhere ? g->bulk : PG_NODES;
     const pg_rows *r = &g->rows[set];
     size_t count = everywhere ? r->n : load->set->npoint;
     for (size_t i = 0; i < count; i++) {
         size_t q = everywhere ? i : (size_t) load->set->point[i];
         double share = load->kind == PG_BODY_FORCE ? r->weight[q] : 1 / (double) load->set->npoint;
         for (size_t k = 0; k < dim; k++)
-            visit (context, set, q, l, (int) k, share * pg_load_value (load, (int) k, g->dim, r->x + q * dim, t), g->u[set][q * dim + k]);
+            visit (context, set, q, l, (int) k,
+                   share * pg_load_value (load, (int) k, g->dim, r->x + q * dim, t), g->u[set][q * dim + k]);
     }
 }
 
@@ -304,7 +325,8 @@ static void add_adjoint (galerkin *g, double t, double *f)
     size_t dim = (size_t) g->dim;
     for (size_t i = 0; i < g->npin; i++) {
         const pin *q = &g->pin[i];
-        double QD[6], part[3], goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, r->x + q->point * dim, t);
+        double QD[6], part[3],
+            goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, r->x + q->point * dim, t);
         double gap = r->weight[q->point] * (g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal);
         traction_of_strain (g, q->point, q->component, QD);
         for (size_t e = r->family.start[q->point]; e < r->family.start[q->point + 1]; e++) {
@@ -315,7 +337,8 @@ static void add_adjoint (galerkin *g, double t, double *f)
     galerkin_dilatation_adjoint (g, f);
 }
 
-void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external, double *reaction)
+void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external,
+                              double *reaction)
 {
     size_t ndof = g->n * (size_t) g->dim;
     spreading s = { g, g->work };
@@ -331,8 +354,8 @@ void galerkin_boundary_force (galerkin *g, double t, const double *d, double *re
     for (size_t i = 0; i < ndof; i++) residual[i] += g->work[i];
 }
 
-/* Energy that the boundary terms store: -int (u - g) (sigma n) + (beta / 2) int (u - g)^2, and the penalty springs. With it the work of
- * the supports equals the stored energy exactly as long as nothing breaks. */
+/* Energy that the boundary terms store: -int (u - g) (sigma n) + (beta / 2) int (u - g)^2, and the penalty
+ * springs. With it the work of the supports equals the stored energy exactly as long as nothing breaks. */
 double galerkin_boundary_energy (galerkin *g, double t)
 {
     size_t dim = (size_t) g->dim;
@@ -340,22 +363,26 @@ double galerkin_boundary_energy (galerkin *g, double t)
     galerkin_dilatation_gaps (g, t);
     for (size_t i = 0; i < g->npin; i++) {
         const pin *q = &g->pin[i];
-        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_FACETS].x + q->point * dim, t);
+        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
+                                     g->rows[PG_FACETS].x + q->point * dim, t);
         double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal;
-        sum -= g->rows[PG_FACETS].weight[q->point] * gap * 0.5 * (pin_traction (g, q, gap) + pin_traction (g, q, 0) + galerkin_dilatation_traction (g, q));
+        sum -= g->rows[PG_FACETS].weight[q->point] * gap * 0.5
+               * (pin_traction (g, q, gap) + pin_traction (g, q, 0) + galerkin_dilatation_traction (g, q));
     }
     for (size_t i = 0; i < g->npeg; i++) {
         const pin *q = &g->peg[i];
         size_t node = (size_t) g->peg_node[q->point];
-        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, g->rows[PG_NODES].x + node * dim, t);
+        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
+                                     g->rows[PG_NODES].x + node * dim, t);
         double gap = g->u[PG_NODES][node * dim + (size_t) q->component] - goal;
         sum += 0.5 * penalty (g, q) * gap * gap;
     }
     return sum;
 }
 
-/* ---- ledger ---------------------------------------------------------------------------------------------------------- */
-static void count_pair (void *context, int set, size_t point, int load, int k, double force, double displacement)
+/* ---- work_balance -------------------------------------------------------------------------------------- */
+static void count_pair (void *context, int set, size_t point, int load, int k, double force,
+                        double displacement)
 {
     (void) set, (void) point, (void) load, (void) k, (void) force, (void) displacement;
     ++*(size_t *) context;
@@ -369,9 +396,10 @@ size_t galerkin_boundary_pairs (galerkin *g)
     return n;
 }
 
-typedef struct { pg_ledger *out; size_t at; } writing;
+typedef struct { pg_work_balance *out; size_t at; } writing;
 
-static void write_pair (void *context, int set, size_t point, int load, int k, double force, double displacement)
+static void write_pair (void *context, int set, size_t point, int load, int k, double force,
+                        double displacement)
 {
     writing *w = context;
     (void) set, (void) point;
@@ -379,7 +407,7 @@ static void write_pair (void *context, int set, size_t point, int load, int k, d
     w->out->reaction[load * 3 + k] += force;
 }
 
-size_t galerkin_boundary_ledger (galerkin *g, double t, const double *d, pg_ledger *out)
+size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, pg_work_balance *out)
 {
     writing w = { out, 0 };
     (void) d;

@@ -4,7 +4,10 @@
 #include "galerkin.h"
 #include <string.h>
 
-const pg_material *galerkin_material (const galerkin *g, int set, size_t p) { return &g->problem->material[g->material[set][p]]; }
+const pg_material *galerkin_material (const galerkin *g, int set, size_t p)
+{
+    return &g->problem->material[g->material[set][p]];
+}
 
 /* strain += B_a d for one node: Voigt xx yy zz xy yz zx, engineering shears */
 static void add_strain (int dim, const double *q, const double *d, double *e)
@@ -13,7 +16,8 @@ static void add_strain (int dim, const double *q, const double *d, double *e)
     else if (dim == 2) e[0] += q[0] * d[0], e[1] += q[1] * d[1], e[2] += q[1] * d[0] + q[0] * d[1];
     else {
         e[0] += q[0] * d[0], e[1] += q[1] * d[1], e[2] += q[2] * d[2];
-        e[3] += q[1] * d[0] + q[0] * d[1], e[4] += q[2] * d[1] + q[1] * d[2], e[5] += q[2] * d[0] + q[0] * d[2];
+        e[3] += q[1] * d[0] + q[0] * d[1], e[4] += q[2] * d[1] + q[1] * d[2],
+            e[5] += q[2] * d[0] + q[0] * d[2];
     }
 }
 
@@ -65,11 +69,12 @@ static void add_point (galerkin *g, size_t p, size_t a, size_t m, double *out)
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv, first = r->family.start[p];
     const double *D = galerkin_plain (g, g->bulk, p)->D, *qa = r->dN + (first + a) * dim;
     double DB[18], unit[3];
-    for (size_t v = 0; v < 3 && dim == 2; v++) {         /* the same, written out                                          */
+    for (size_t v = 0; v < 3 && dim == 2; v++) {         /* the same, written out */
         DB[v] = (D[3 * v] * qa[0] + D[3 * v + 2] * qa[1]) * r->weight[p];
         DB[3 + v] = (D[3 * v + 1] * qa[1] + D[3 * v + 2] * qa[0]) * r->weight[p];
     }
-    for (size_t c = 0; c < dim && dim != 2; c++)       /* row c of (D B_a)': D applied to the strain of a unit dof        */
+    /* row c of (D B_a)': D applied to the strain of a unit dof */
+    for (size_t c = 0; c < dim && dim != 2; c++)
         for (size_t v = 0; v < nv; v++) {
             double row[6] = { 0 };
             memset (unit, 0, sizeof unit);
@@ -99,7 +104,8 @@ void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, doubl
     for (size_t p = first[cell]; p < first[cell + 1]; p++) add_point (g, p, a, m, out);
 }
 
-/* f += Silling forces of point p: f_l = c (w_l z_l - M g_l), z = eta - H xi, M = sum w z xi (theory D3a); returns the energy. */
+/* f += Silling forces of point p: f_l = c (w_l z_l - M g_l), z = eta - H xi, M = sum w z xi (theory D3a);
+ * returns the energy. */
 static double silling_force (const galerkin *g, size_t p, const double *d, double *f)
 {
     const pg_rows *r = &g->rows[g->bulk];
@@ -153,7 +159,8 @@ double galerkin_bulk_energy (const galerkin *g, const double *d)
     double sum = 0;
     for (size_t p = 0; p < r->n; p++) {
         double w = 0;
-        for (size_t v = 0; v < nv; v++) w += 0.5 * g->stress[g->bulk][p * nv + v] * g->strain[g->bulk][p * nv + v];
+        for (size_t v = 0; v < nv; v++)
+            w += 0.5 * g->stress[g->bulk][p * nv + v] * g->strain[g->bulk][p * nv + v];
         sum += r->weight[p] * w;
         if (g->problem->silling > 0) sum += silling_force (g, p, d, NULL);
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rows of the evaluation points for the sums over them. With consistent integration the derivatives of a cell obey the divergence identity
- * as long as no bond of its points, or of the points of a cell beside it, is broken; after that they are the direct ones of its live bonds. */
+ * Rows of the evaluation points for the sums over them. With consistent integration the derivatives of a cell
+ * obey the divergence identity as long as no bond of its points, or of the points of a cell beside it, is
+ * broken; after that they are the direct ones of its live bonds. */
 #include "galerkin.h"
 #include <stdlib.h>
 #include <string.h>
@@ -27,14 +28,17 @@ void galerkin_consistent_free (galerkin *g)
     pg_free (g->whole);
 }
 
-/* Live bonds alone, and linear fields reproduced at all points of the cell and of its faces? Else the identity would spoil what it corrects. */
+/* Live bonds alone, and linear fields reproduced at all points of the cell and of its faces? Else the
+ * identity would spoil what it corrects. */
 static int bonds_complete (const galerkin *g, const pg_state *state, size_t cell)
 {
     const pg_consistency *c = g->problem->consistency;
-    for (size_t p = c->first[cell]; p < c->first[cell + 1]; p++) if (g->rows[g->bulk].grade[p] > PG_GRADE_LOWERED) return 0;
+    for (size_t p = c->first[cell]; p < c->first[cell + 1]; p++)
+        if (g->rows[g->bulk].grade[p] > PG_GRADE_LOWERED) return 0;
     for (size_t k = c->faces.of[cell]; k < c->faces.of[cell + 1]; k++) {
         size_t face = (size_t) c->faces.face[k];
-        for (size_t q = c->faces.start[face]; q < c->faces.start[face + 1]; q++) if (c->face.grade[q] > PG_GRADE_LOWERED) return 0;
+        for (size_t q = c->faces.start[face]; q < c->faces.start[face + 1]; q++)
+            if (c->face.grade[q] > PG_GRADE_LOWERED) return 0;
     }
     const size_t *start = g->rows[g->bulk].family.start;
     const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
@@ -90,7 +94,8 @@ pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int al
     size_t *cells = NULL, n = 0;
     if (all) {
         memset (g->whole, 1, c->cells->n);
-        for (size_t cell = 0; cell < c->cells->n; cell++) if (!bonds_complete (g, state, cell)) open_around (g, cell, NULL, 0);
+        for (size_t cell = 0; cell < c->cells->n; cell++)
+            if (!bonds_complete (g, state, cell)) open_around (g, cell, NULL, 0);
         PG_TRY (pg_consistency_apply (c, r, &g->sums, g->whole, 0, NULL, g->threads));
         return PG_OK;
     }
@@ -98,7 +103,8 @@ pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int al
     PG_TRY (changed_cells (g, *count, &cells, &n));
     PG_TRY (pg_consistency_apply (c, r, &g->sums, g->whole, n, cells, g->threads));
     *count = 0;
-    for (size_t k = 0; k < n; k++) for (size_t p = c->first[cells[k]]; p < c->first[cells[k] + 1]; p++) g->list[g->bulk][(*count)++] = p;
+    for (size_t k = 0; k < n; k++)
+        for (size_t p = c->first[cells[k]]; p < c->first[cells[k] + 1]; p++) g->list[g->bulk][(*count)++] = p;
 done:
     pg_free (cells);
     return status;

@@ -1,31 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The dilatation that carries the pressure near Poisson's ratio 1/2: stress = lambda P (div u) 1 + (D - lambda 1 1') strain, P the projection, by the
- * weights of the evaluation points, on polynomials of a patch (integration.h): 1 and x, y (, z), or 1 alone where the patch is small. With psi_m
- * orthonormal, sum_p w_p psi_m (p) psi_n (p) = delta_mn, and g_m = sum_p w_p psi_m (p) grad N (p), the patch adds (lambda / 2) sum_m (g_m . d)^2 to the
- * energy: K stays symmetric, and what it loses against pointwise is positive. Linear displacements have constant dilatation: nothing changes
- * for them. Where bonds are dead a patch falls apart into the parts that live bonds of neighbours still join, each with polynomials of its own. */
+ * The dilatation that carries the pressure near Poisson's ratio 1/2: stress = lambda P (div u) 1 + (D -
+ * lambda 1 1') strain, P the projection, by the weights of the evaluation points, on polynomials of a patch
+ * (integration.h): 1 and x, y (, z), or 1 alone where the patch is small. With psi_m orthonormal, sum_p w_p
+ * psi_m (p) psi_n (p) = delta_mn, and g_m = sum_p w_p psi_m (p) grad N (p), the patch adds (lambda / 2) sum_m
+ * (g_m . d)^2 to the energy: K stays symmetric, and what it loses against pointwise is positive. Linear
+ * displacements have constant dilatation: nothing changes for them. Where bonds are dead a patch falls apart
+ * into the parts that live bonds of neighbours still join, each with polynomials of its own. */
 #include "galerkin_dilatation.h"
 #include <math.h>
 #include <string.h>
 
-static const double enough = 0.7;                      /* of the full volume: linear, else constant                      */
-static const double nearby = 1.25;                     /* spacings: bonds that join the points of a patch                */
+static const double enough = 0.7;                      /* of the full volume: linear, else constant */
+static const double nearby = 1.25;                     /* spacings: bonds that join the points of a patch */
 
 typedef galerkin_part part;
 
-/* ---- polynomials ------------------------------------------------------------------------------------------------------ */
+/* ---- polynomials --------------------------------------------------------------------------------------- */
 void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a, const double *x, double *psi)
 {
     psi[0] = 1;
     for (int k = 0; k < a->terms - 1; k++) psi[k + 1] = (x[k] - a->centre[k]) / a->size;
     (void) g;
-    for (int i = 0; i < a->terms; i++) {               /* L^-1 q                                                         */
+    for (int i = 0; i < a->terms; i++) {               /* L^-1 q */
         for (int j = 0; j < i; j++) psi[i] -= a->L[i * a->terms + j] * psi[j];
         psi[i] /= a->L[i * a->terms + i];
     }
 }
 
-static double weight (const galerkin *g, size_t p) { return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->sums.weight[p]; }
+static double weight (const galerkin *g, size_t p)
+{
+    return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->sums.weight[p];
+}
 
 /* Of the points of patch c that belong to part k. */
 static void measure_part (const galerkin *g, size_t c, int k, part *a, double *volume)
@@ -45,9 +50,10 @@ static void measure_part (const galerkin *g, size_t c, int k, part *a, double *v
     for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
         size_t p = q->point[i];
         if (d->part_of[p] != k) continue;
-        for (size_t m = 0; m < dim; m++) a->size = fmax (a->size, fabs (g->sums.x[p * dim + m] - a->centre[m]));
+        for (size_t m = 0; m < dim; m++)
+            a->size = fmax (a->size, fabs (g->sums.x[p * dim + m] - a->centre[m]));
     }
-    if (!(a->size > 0)) a->size = 1;                   /* one point: constant                                            */
+    if (!(a->size > 0)) a->size = 1;                   /* one point: constant */
 }
 
 /* As many polynomials as the part bears. */
@@ -67,7 +73,8 @@ static void find_polynomials (const galerkin *g, size_t c, int k, part *a)
             if (d->part_of[p] != k) continue;
             z[0] = 1;
             for (size_t m = 0; m < dim; m++) z[m + 1] = (g->sums.x[p * dim + m] - a->centre[m]) / a->size;
-            for (int r = 0; r < n; r++) for (int s = 0; s <= r; s++) a->L[r * n + s] += weight (g, p) / volume * z[r] * z[s];
+            for (int r = 0; r < n; r++)
+                for (int s = 0; s <= r; s++) a->L[r * n + s] += weight (g, p) / volume * z[r] * z[s];
         }
         if (pg_dense_cholesky (n, a->L, 1e-3) == 0 || n == 1) break;
     }
@@ -91,12 +98,13 @@ static void sum_rows (const galerkin *g, size_t c, int k, part *a)
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++, at++) {
             while (node[at] != r->family.node[e]) at++;
             for (int t = 0; t < a->terms; t++)
-                for (size_t s = 0; s < dim; s++) a->g[((size_t) t * m + at) * dim + s] += weight (g, p) * psi[t] * r->dN[e * dim + s];
+                for (size_t s = 0; s < dim; s++)
+                    a->g[((size_t) t * m + at) * dim + s] += weight (g, p) * psi[t] * r->dN[e * dim + s];
         }
     }
 }
 
-/* ---- parts ------------------------------------------------------------------------------------------------------------ */
+/* ---- parts --------------------------------------------------------------------------------------------- */
 static int root (int *parent, int i)
 {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -110,12 +118,15 @@ static int whole (const galerkin *g, const pg_state *state, size_t c)
     const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
     for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
         size_t p = q->point[i];
-        if (g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD || memchr (alive + start[p], 0, start[p + 1] - start[p])) return 0;
+        if (g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD
+            || memchr (alive + start[p], 0, start[p + 1] - start[p]))
+            return 0;
     }
     return 1;
 }
 
-/* Does the live bond e join its point with those around its node? The short ones do, and the shortest of all. */
+/* Does the live bond e join its point with those around its node? The short ones do, and the shortest of
+ * all. */
 static double length_of (const galerkin *g, size_t p, size_t e)
 {
     const pg_rows *r = &g->rows[g->bulk];
@@ -190,17 +201,18 @@ static pg_status rebuild (galerkin *g, const pg_state *state, size_t c)
     galerkin_dilatation *d = g->dilatation;
     const pg_family *f = &d->family;
     galerkin_patch *patch = &d->patch[c];
-    size_t one = (size_t) (g->dim + 1) * (f->start[c + 1] - f->start[c]) * (size_t) g->dim, pinned = d->facet_start[c + 1] > d->facet_start[c];
-    size_t room = pinned ? 2 * one : one;
+    size_t one = (size_t) (g->dim + 1) * (f->start[c + 1] - f->start[c]) * (size_t) g->dim,
+           pinned = d->facet_start[c + 1] > d->facet_start[c];
+    size_t workspace = pinned ? 2 * one : one;
     int count;
     PG_TRY (divide (g, state, c, &count));
-    if ((size_t) count > patch->room) {
-        PG_GROW (patch->part, patch->room, (size_t) count);
-        PG_GROW (patch->g, patch->room_g, patch->room * room);
+    if ((size_t) count > patch->workspace) {
+        PG_GROW (patch->part, patch->workspace, (size_t) count);
+        PG_GROW (patch->g, patch->room_g, patch->workspace * workspace);
     }
     patch->n = (size_t) count;
     for (int k = 0; k < count; k++) {
-        patch->part[k].g = patch->g + (size_t) k * room;
+        patch->part[k].g = patch->g + (size_t) k * workspace;
         find_polynomials (g, c, k, &patch->part[k]);
         sum_rows (g, c, k, &patch->part[k]);
         patch->part[k].s = pinned ? patch->part[k].g + one : NULL;
@@ -210,7 +222,7 @@ done:
     return status;
 }
 
-/* ---- life ------------------------------------------------------------------------------------------------------------- */
+/* ---- life ---------------------------------------------------------------------------------------------- */
 pg_status galerkin_dilatation_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -244,9 +256,11 @@ void galerkin_dilatation_free (galerkin *g)
 {
     galerkin_dilatation *d = g->dilatation;
     if (!d) return;
-    for (size_t c = 0; d->patch && c < g->problem->patches->n; c++) pg_free (d->patch[c].part), pg_free (d->patch[c].g);
+    for (size_t c = 0; d->patch && c < g->problem->patches->n; c++)
+        pg_free (d->patch[c].part), pg_free (d->patch[c].g);
     galerkin_dilatation_facets_free (g);
-    pg_free (d->plain), pg_free (d->patch), pg_free (d->part_of), pg_free (d->stamp), pg_free (d->mark), pg_free (d->amount), pg_free (d->share);
+    pg_free (d->plain), pg_free (d->patch), pg_free (d->part_of), pg_free (d->stamp), pg_free (d->mark),
+        pg_free (d->amount), pg_free (d->share);
     pg_free (d);
     g->dilatation = NULL;
 }
@@ -273,13 +287,14 @@ pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int al
     for (size_t c = 0; c < q->n; c++) {
         if (!d->mark[c]) continue;
         PG_TRY (rebuild (g, state, c));
-        for (size_t e = d->family.start[c]; !all && e < d->family.start[c + 1]; e++) g->stale[d->family.node[e]] = 1;
+        for (size_t e = d->family.start[c]; !all && e < d->family.start[c + 1]; e++)
+            g->stale[d->family.node[e]] = 1;
     }
 done:
     return status;
 }
 
-/* ---- what the patches add --------------------------------------------------------------------------------------------- */
+/* ---- what the patches add ------------------------------------------------------------------------------ */
 const pg_family *galerkin_dilatation_family (const galerkin *g) { return &g->dilatation->family; }
 
 static double lambda_of (const galerkin *g, size_t c)
@@ -302,11 +317,14 @@ void galerkin_dilatation_blocks (void *context, size_t c, size_t a, size_t m, do
         for (size_t t = 0; t < (size_t) patch->part[k].terms; t++)
             for (size_t r = 0; r < dim; r++) {
                 const part *q = &patch->part[k];
-                double share = lambda * entry (q, (t * n + a) * dim + r), flux = q->s ? lambda * g->problem->nitsche * q->s[(t * n + a) * dim + r] : 0;
+                double share = lambda * entry (q, (t * n + a) * dim + r),
+                       flux = q->s ? lambda * g->problem->nitsche * q->s[(t * n + a) * dim + r] : 0;
                 for (size_t b = 0; b < m && share != 0; b++)
-                    for (size_t s = 0; s < dim; s++) out[(b * dim + r) * dim + s] += share * entry (q, (t * n + b) * dim + s);
+                    for (size_t s = 0; s < dim; s++)
+                        out[(b * dim + r) * dim + s] += share * entry (q, (t * n + b) * dim + s);
                 for (size_t b = 0; b < m && flux != 0; b++)
-                    for (size_t s = 0; s < dim; s++) out[(b * dim + r) * dim + s] += flux * q->s[(t * n + b) * dim + s];
+                    for (size_t s = 0; s < dim; s++)
+                        out[(b * dim + r) * dim + s] += flux * q->s[(t * n + b) * dim + s];
             }
 }
 
@@ -358,7 +376,10 @@ void galerkin_dilatation_apply (galerkin *g, const double *x, double *y)
             for (int t = 0; t < a->terms; t++)
                 for (size_t e = f->start[c]; e < f->start[c + 1]; e++)
                     for (size_t s = 0; s < dim; s++, at++)
-                        y[(size_t) f->node[e] * dim + s] += lambda * (a->amount[t] * entry (a, at) + (a->s ? g->problem->nitsche * a->flux[t] * a->s[at] : 0));
+                        y[(size_t) f->node[e] * dim + s] +=
+                            lambda
+                            * (a->amount[t] * entry (a, at)
+                               + (a->s ? g->problem->nitsche * a->flux[t] * a->s[at] : 0));
         }
     }
 }
@@ -375,12 +396,15 @@ void galerkin_dilatation_diagonal (galerkin *g, double *d)
             for (int t = 0; t < a->terms; t++)
                 for (size_t e = f->start[c]; e < f->start[c + 1]; e++)
                     for (size_t s = 0; s < dim; s++, at++)
-                        d[(size_t) f->node[e] * dim + s] += lambda * (entry (a, at) * entry (a, at) + (a->s ? g->problem->nitsche * a->s[at] * a->s[at] : 0));
+                        d[(size_t) f->node[e] * dim + s] +=
+                            lambda
+                            * (entry (a, at) * entry (a, at)
+                               + (a->s ? g->problem->nitsche * a->s[at] * a->s[at] : 0));
         }
     }
 }
 
-/* ---- pressures -------------------------------------------------------------------------------------------------------- */
+/* ---- pressures ----------------------------------------------------------------------------------------- */
 /* lambda P (div u) at x, of the part of bulk point q; Pa */
 static double pressure_at (const galerkin *g, size_t q, const double *x)
 {
@@ -400,7 +424,8 @@ static void add_pressure (galerkin *g, int set, size_t p, double value)
     if (g->dim == 2) g->zz[set][p] += value;
 }
 
-/* Of nodes between points: mean of what the patches of the points that see them say there, by the influence of the live bonds. */
+/* Of nodes between points: mean of what the patches of the points that see them say there, by the influence
+ * of the live bonds. */
 static void node_pressures (galerkin *g, double *value, double *share)
 {
     const pg_rows *r = &g->rows[g->bulk];

@@ -1,36 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: the projected dilatation of the Galerkin force. Files: galerkin_dilatation.c (patches, their rows, stresses), galerkin_dilatation_facet.c
- * (what it adds to Nitsche's terms). */
+ * Private: the projected dilatation of the Galerkin force. Files: galerkin_dilatation.c (patches, their rows,
+ * stresses), galerkin_dilatation_facet.c (what it adds to Nitsche's terms). */
 #ifndef PG_GALERKIN_DILATATION_H
 #define PG_GALERKIN_DILATATION_H
 #include "galerkin.h"
 
-typedef struct {                                       /* points of a patch that live bonds still join                   */
-    int     terms;                                     /* polynomials: 1, or dim + 1                                     */
-    double  centre[3], size, L[16];                    /* psi = L^-1 (1, (x - centre) / size); m                         */
-    double *g;                                         /* sum_p w_p psi_m (p) grad N (p), of the patch's nodes (terms x nodes x dim) */
-    double *s;                                         /* sum_f w_f psi_m (f) n_k N (f) over its supported facet points, alike; NULL: none */
-    double  amount[4];                                 /* g_m . d of the last measure                                    */
-    double  flux[4];                                   /* s_m . x of the last apply                                      */
-    double  gap[4];                                    /* c_m, galerkin_dilatation_facet.c                               */
+typedef struct {                                       /* points of a patch that live bonds still join */
+    int     terms;                                     /* polynomials: 1, or dim + 1 */
+    double  centre[3], size, L[16];                    /* psi = L^-1 (1, (x - centre) / size); m */
+    double *g;  /* sum_p w_p psi_m (p) grad N (p), of the patch's nodes (terms x nodes x dim) */
+    double *s;  /* sum_f w_f psi_m (f) n_k N (f) over its supported facet points, alike; NULL: none */
+    double  amount[4];                                 /* g_m . d of the last measure */
+    double  flux[4];                                   /* s_m . x of the last apply */
+    double  gap[4];                                    /* c_m, galerkin_dilatation_facet.c */
 } galerkin_part;
 
-typedef struct { size_t n, room, room_g; galerkin_part *part; double *g; } galerkin_patch;
+typedef struct { size_t n, workspace, room_g; galerkin_part *part; double *g; } galerkin_patch;
 
 struct galerkin_dilatation {
-    pg_material    *plain;                             /* of every material: D without lambda                            */
+    pg_material    *plain;                             /* of every material: D without lambda */
     galerkin_patch *patch;
-    int            *part_of;                           /* part of every evaluation point in its patch; -1: carries no stress */
-    int            *stamp;                             /* scratch: per node                                              */
-    unsigned char  *mark;                              /* patches that changed                                           */
-    double         *amount, *share;                    /* scratch: per node                                              */
-    long           *home;                              /* of every facet point: the evaluation point whose patch goes on there; -1: none */
-    size_t         *facet_start, *facet;               /* supported facet points of every patch                          */
-    pg_family       family;                            /* nodes of every patch and of these points                       */
+    int            *part_of;  /* part of every evaluation point in its patch; -1: carries no stress */
+    int            *stamp;                             /* scratch: per node */
+    unsigned char  *mark;                              /* patches that changed */
+    double         *amount, *share;                    /* scratch: per node */
+    /* of every facet point: the evaluation point whose patch goes on there; -1: none */
+    long           *home;
+    size_t         *facet_start, *facet;               /* supported facet points of every patch */
+    pg_family       family;                            /* nodes of every patch and of these points */
 };
 
-void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a, const double *x, double *psi);     /* psi (terms) of a part at x */
+/* psi (terms) of a part at x */
+void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a, const double *x,
+                                      double *psi);
 pg_status galerkin_dilatation_facets_create (galerkin *g);
 void galerkin_dilatation_facets_free (galerkin *g);
-void galerkin_dilatation_facet_rows (const galerkin *g, size_t patch, int part, galerkin_part *a);     /* its s         */
+/* its s */
+void galerkin_dilatation_facet_rows (const galerkin *g, size_t patch, int part, galerkin_part *a);
 #endif

@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Nitsche's terms with a projected dilatation. The traction on a supported facet has the pressure of the patch behind it, its polynomials carried on to
- * the facet. With gap = u - prescribed and c_m = int psi_m n . gap over the supported facets of a patch,
- *     (lambda / 2) sum_m [ (g_m . d)^2 - 2 (g_m . d) c_m + (1 + factor) c_m^2 ] = (lambda / 2) sum_m [ (g_m . d - c_m)^2 + factor c_m^2 ]:
- * the energy of the patch, the work of its pressure on the gap, and the flux through the gap, with Nitsche's factor. Only the few numbers c_m weigh with
- * lambda; the usual term on every point of a facet can stay in units of E. In units of lambda it would hold these points so hard that the support
- * locks (a cantilever at 0.4999 came out 1.8 % too stiff, against 0.05 % so). */
+ * Nitsche's terms with a projected dilatation. The traction on a supported facet has the pressure of the
+ * patch behind it, its polynomials carried on to the facet. With gap = u - prescribed and c_m = int psi_m n .
+ * gap over the supported facets of a patch,
+ *     (lambda / 2) sum_m [ (g_m . d)^2 - 2 (g_m . d) c_m + (1 + factor) c_m^2 ] = (lambda / 2) sum_m [ (g_m .
+ *       d - c_m)^2 + factor c_m^2 ]: the energy of the patch, the work of its pressure on the gap, and the
+ *       flux through the gap, with Nitsche's factor. Only the few numbers c_m weigh with lambda; the usual
+ *       term on every point of a facet can stay in units of E. In units of lambda it would hold these points
+ *       so hard that the support locks (a cantilever at 0.4999 came out 1.8 % too stiff, against 0.05 %
+ * so). */
 #include "galerkin_dilatation.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- which patch goes on at a facet ----------------------------------------------------------------------------------- */
+/* ---- which patch goes on at a facet -------------------------------------------------------------------- */
 static double distance2 (int dim, const double *x, const double *y)
 {
     double s = 0;
@@ -18,7 +21,8 @@ static double distance2 (int dim, const double *x, const double *y)
     return s;
 }
 
-/* The nearest point of the cell behind a facet that belongs to a patch, else the nearest of all; with nodal integration always that. */
+/* The nearest point of the cell behind a facet that belongs to a patch, else the nearest of all; with nodal
+ * integration always that. */
 static pg_status find_homes (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -63,9 +67,11 @@ static pg_status sort_facets (galerkin *g)
     PG_ALLOC (d->facet_start, n + 1);
     PG_ALLOC (d->facet, g->rows[PG_FACETS].n);
     PG_ALLOC (next, n);
-    for (size_t f = 0; f < g->rows[PG_FACETS].n; f++) if (patch_of (g, f) >= 0) d->facet_start[patch_of (g, f) + 1]++;
+    for (size_t f = 0; f < g->rows[PG_FACETS].n; f++)
+        if (patch_of (g, f) >= 0) d->facet_start[patch_of (g, f) + 1]++;
     for (size_t c = 0; c < n; c++) d->facet_start[c + 1] += d->facet_start[c], next[c] = d->facet_start[c];
-    for (size_t f = 0; f < g->rows[PG_FACETS].n; f++) if (patch_of (g, f) >= 0) d->facet[next[patch_of (g, f)]++] = f;
+    for (size_t f = 0; f < g->rows[PG_FACETS].n; f++)
+        if (patch_of (g, f) >= 0) d->facet[next[patch_of (g, f)]++] = f;
 done:
     pg_free (next);
     return status;
@@ -74,7 +80,8 @@ done:
 static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
 
 /* Nodes of a family that are not yet stamped with c, appended. */
-static pg_status add_nodes (galerkin_dilatation *d, const pg_family *f, size_t at, int c, size_t *cap, size_t *n)
+static pg_status add_nodes (galerkin_dilatation *d, const pg_family *f, size_t at, int c, size_t *cap,
+                            size_t *n)
 {
     pg_status status = PG_OK;
     PG_GROW (d->family.node, *cap, *n + f->start[at + 1] - f->start[at]);
@@ -99,7 +106,8 @@ static pg_status unite (galerkin *g)
     for (size_t i = 0; i < g->n; i++) d->stamp[i] = -1;
     for (size_t c = 0; c < p->n; c++) {
         PG_TRY (add_nodes (d, &p->family, c, (int) c, &cap, &n));
-        for (size_t i = d->facet_start[c]; i < d->facet_start[c + 1]; i++) PG_TRY (add_nodes (d, &g->rows[PG_FACETS].family, d->facet[i], (int) c, &cap, &n));
+        for (size_t i = d->facet_start[c]; i < d->facet_start[c + 1]; i++)
+            PG_TRY (add_nodes (d, &g->rows[PG_FACETS].family, d->facet[i], (int) c, &cap, &n));
         qsort (d->family.node + d->family.start[c], n - d->family.start[c], sizeof (int), ascending);
         d->family.start[c + 1] = n;
     }
@@ -124,8 +132,11 @@ void galerkin_dilatation_facets_free (galerkin *g)
     pg_family_clear (&d->family);
 }
 
-/* ---- rows ------------------------------------------------------------------------------------------------------------- */
-static double normal (const galerkin *g, size_t f, int k) { return g->problem->facet_normal[f * (size_t) g->dim + (size_t) k]; }
+/* ---- rows ---------------------------------------------------------------------------------------------- */
+static double normal (const galerkin *g, size_t f, int k)
+{
+    return g->problem->facet_normal[f * (size_t) g->dim + (size_t) k];
+}
 
 void galerkin_dilatation_facet_rows (const galerkin *g, size_t c, int k, galerkin_part *a)
 {
@@ -144,12 +155,13 @@ void galerkin_dilatation_facet_rows (const galerkin *g, size_t c, int k, galerki
             while (node[at] != r->family.node[e]) at++;
             for (size_t q = g->pin_start[f]; q < g->pin_start[f + 1]; q++)
                 for (int t = 0; t < a->terms; t++)
-                    a->s[((size_t) t * m + at) * dim + (size_t) g->pin[q].component] += r->weight[f] * psi[t] * normal (g, f, g->pin[q].component) * r->N[e];
+                    a->s[((size_t) t * m + at) * dim + (size_t) g->pin[q].component] +=
+                        r->weight[f] * psi[t] * normal (g, f, g->pin[q].component) * r->N[e];
         }
     }
 }
 
-/* ---- gaps ------------------------------------------------------------------------------------------------------------- */
+/* ---- gaps ---------------------------------------------------------------------------------------------- */
 static galerkin_part *part_behind (const galerkin *g, size_t f)
 {
     const galerkin_dilatation *d = g->dilatation;
@@ -157,7 +169,10 @@ static galerkin_part *part_behind (const galerkin *g, size_t f)
     return c < 0 || d->part_of[d->home[f]] < 0 ? NULL : &d->patch[c].part[d->part_of[d->home[f]]];
 }
 
-static double lambda_behind (const galerkin *g, size_t f) { return g->problem->patches->lambda[g->material[g->bulk][g->dilatation->home[f]]]; }
+static double lambda_behind (const galerkin *g, size_t f)
+{
+    return g->problem->patches->lambda[g->material[g->bulk][g->dilatation->home[f]]];
+}
 
 void galerkin_dilatation_gaps (galerkin *g, double t)
 {
@@ -166,15 +181,18 @@ void galerkin_dilatation_gaps (galerkin *g, double t)
     size_t dim = (size_t) g->dim;
     double psi[4];
     for (size_t c = 0; d && c < g->problem->patches->n; c++)
-        for (size_t k = 0; k < d->patch[c].n; k++) memset (d->patch[c].part[k].gap, 0, sizeof d->patch[c].part[k].gap);
+        for (size_t k = 0; k < d->patch[c].n; k++)
+            memset (d->patch[c].part[k].gap, 0, sizeof d->patch[c].part[k].gap);
     for (size_t i = 0; d && i < g->npin; i++) {
         const pin *q = &g->pin[i];
         galerkin_part *a = part_behind (g, q->point);
         if (!a) continue;
         double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component]
-                     - pg_load_value (&g->problem->load[q->load], q->component, g->dim, r->x + q->point * dim, t);
+                     - pg_load_value (&g->problem->load[q->load], q->component, g->dim, r->x + q->point * dim,
+                                      t);
         galerkin_dilatation_polynomials (g, a, r->x + q->point * dim, psi);
-        for (int m = 0; m < a->terms; m++) a->gap[m] += r->weight[q->point] * psi[m] * normal (g, q->point, q->component) * gap;
+        for (int m = 0; m < a->terms; m++)
+            a->gap[m] += r->weight[q->point] * psi[m] * normal (g, q->point, q->component) * gap;
     }
 }
 
@@ -185,7 +203,8 @@ double galerkin_dilatation_traction (const galerkin *g, const pin *q)
     if (!a) return 0;
     galerkin_dilatation_polynomials (g, a, g->rows[PG_FACETS].x + q->point * (size_t) g->dim, psi);
     for (int m = 0; m < a->terms; m++) sum += psi[m] * a->gap[m];
-    return -(1 + g->problem->nitsche) * lambda_behind (g, q->point) * normal (g, q->point, q->component) * sum;
+    return -(1 + g->problem->nitsche) * lambda_behind (g, q->point) * normal (g, q->point, q->component)
+           * sum;
 }
 
 void galerkin_dilatation_adjoint (const galerkin *g, double *f)
@@ -200,7 +219,8 @@ void galerkin_dilatation_adjoint (const galerkin *g, double *f)
             const double *row = a->g;
             for (int t = 0; t < a->terms; t++)
                 for (size_t e = d->family.start[c]; e < d->family.start[c + 1]; e++, row += dim)
-                    for (size_t s = 0; s < dim; s++) f[(size_t) d->family.node[e] * dim + s] += lambda * a->gap[t] * row[s];
+                    for (size_t s = 0; s < dim; s++)
+                        f[(size_t) d->family.node[e] * dim + s] += lambda * a->gap[t] * row[s];
         }
     }
 }

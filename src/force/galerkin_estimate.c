@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Estimated error of the stress. Every node fits a polynomial of the order of the basis to the stresses at the evaluation points that
- * see it through a live bond (its patch), weighted by kernel and volume; the recovered stress s* at a point is the mean of the
- * polynomials of the nodes it sees, weighted alike. eta^2 = int (s* - s) C (s* - s) dV. Zienkiewicz & Zhu 1992 (patches),
- * Blacker & Belytschko 1994 (mean of polynomials). Patches do not cross cracks (live bonds only) nor borders of materials; points
- * that carry less than a linear basis take no part. */
+ * Estimated error of the stress. Every node fits a polynomial of the order of the basis to the stresses at
+ * the evaluation points that see it through a live bond (its patch), weighted by kernel and volume; the
+ * recovered stress s* at a point is the mean of the polynomials of the nodes it sees, weighted alike. eta^2 =
+ * int (s* - s) C (s* - s) dV. Zienkiewicz & Zhu 1992 (patches), Blacker & Belytschko 1994 (mean of
+ * polynomials). Patches do not cross cracks (live bonds only) nor borders of materials; points that carry
+ * less than a linear basis take no part. */
 #include "galerkin.h"
 #include <math.h>
 #include <string.h>
@@ -12,13 +13,13 @@ enum { TERMS = 10, VOIGT = 6, TRIANGLE = TERMS * (TERMS + 1) / 2 };
 typedef struct {
     galerkin *g;
     const pg_rows *rows;
-    const double *stress;                              /* at the points                      (points x nv)               */
-    int     order, terms;                              /* of the polynomials                                             */
-    size_t  stride;                                    /* numbers a node in `fit`                                        */
-    double *fit;                                       /* A (lower triangle by rows), then b; after the solution the coefficients in b */
-    unsigned char *known;                              /* the node has a polynomial          (n)                         */
-    double *error, *size;                              /* (s* - s) C (s* - s), s C s; NAN: left out   (points), Pa       */
-    double *L;                                         /* factor of D of each material       (36 each)                   */
+    const double *stress;                              /* at the points (points x nv) */
+    int     order, terms;                              /* of the polynomials */
+    size_t  stride;                                    /* numbers a node in `fit` */
+    double *fit;  /* A (lower triangle by rows), then b; after the solution the coefficients in b */
+    unsigned char *known;                              /* the node has a polynomial (n) */
+    double *error, *size;  /* (s* - s) C (s* - s), s C s; NAN: left out (points), Pa */
+    double *L;                                         /* factor of D of each material (36 each) */
 } recovery;
 
 static int takes_part (const recovery *r, size_t p)
@@ -26,7 +27,10 @@ static int takes_part (const recovery *r, size_t p)
     return r->rows->grade[p] <= PG_GRADE_LOWERED && r->rows->weight[p] > 0;
 }
 
-static int terms_of (int dim, int order) { return order == 0 ? 1 : order == 1 ? 1 + dim : 1 + dim + dim * (dim + 1) / 2; }
+static int terms_of (int dim, int order)
+{
+    return order == 0 ? 1 : order == 1 ? 1 + dim : 1 + dim + dim * (dim + 1) / 2;
+}
 
 /* 1, z_k, z_k z_l; z in horizons from the node */
 static void polynomial (const recovery *r, size_t p, size_t node, double *q)
@@ -35,7 +39,8 @@ static void polynomial (const recovery *r, size_t p, size_t node, double *q)
     size_t dim = (size_t) g->dim;
     double z[3];
     int m = 0;
-    for (size_t k = 0; k < dim; k++) z[k] = (r->rows->x[p * dim + k] - g->problem->cloud.x[node * dim + k]) / g->problem->approx.horizon;
+    for (size_t k = 0; k < dim; k++)
+        z[k] = (r->rows->x[p * dim + k] - g->problem->cloud.x[node * dim + k]) / g->problem->approx.horizon;
     q[m++] = 1;
     for (size_t k = 0; k < dim && r->order > 0; k++) q[m++] = z[k];
     for (size_t k = 0; k < dim && r->order > 1; k++)
@@ -50,7 +55,7 @@ static double weight_of (const recovery *r, size_t p, size_t e)
     return r->rows->w[e] / r->g->problem->cloud.volume[j];
 }
 
-/* ---- polynomials ---------------------------------------------------------------------------------------------------------- */
+/* ---- polynomials --------------------------------------------------------------------------------------- */
 /* The lowest-order polynomial that the patch bears, up to the order wanted. Without a factor: 0. */
 static int solve (const recovery *r, double *fit)
 {
@@ -98,7 +103,7 @@ static void fit_nodes (void *context, size_t first, size_t last, int thread)
     for (size_t j = first; j < last; j++) r->known[j] = (unsigned char) solve (r, r->fit + j * r->stride);
 }
 
-/* ---- error ------------------------------------------------------------------------------------------------------------------ */
+/* ---- error --------------------------------------------------------------------------------------------- */
 /* s D^-1 s */
 static double complementary (const recovery *r, size_t p, const double *s)
 {
@@ -137,7 +142,8 @@ static void compare_points (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* Every point's share to the node it lies nearest to, or to those equally near: root of E times the mean density, Pa. */
+/* Every point's share to the node it lies nearest to, or to those equally near: root of E times the mean
+ * density, Pa. */
 static void to_nodes (const recovery *r, double *volume, double *value)
 {
     const galerkin *g = r->g;
@@ -150,12 +156,16 @@ static void to_nodes (const recovery *r, double *volume, double *value)
             for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
                 size_t j = (size_t) f->node[e];
                 double s = 0;
-                for (size_t k = 0; k < dim; k++) s += pow (r->rows->x[p * dim + k] - g->problem->cloud.x[j * dim + k], 2);
+                for (size_t k = 0; k < dim; k++)
+                    s += pow (r->rows->x[p * dim + k] - g->problem->cloud.x[j * dim + k], 2);
                 if (pass == 0) nearest = fmin (nearest, s);
-                else if (s <= nearest * (1 + 1e-6)) value[j] += r->rows->weight[p] * r->error[p], volume[j] += r->rows->weight[p];
+                else if (s <= nearest * (1 + 1e-6))
+                    value[j] += r->rows->weight[p] * r->error[p], volume[j] += r->rows->weight[p];
             }
     }
-    for (size_t j = 0; j < g->n; j++) value[j] = volume[j] > 0 ? sqrt (galerkin_material (g, PG_NODES, j)->modulus * value[j] / volume[j]) : 0;
+    for (size_t j = 0; j < g->n; j++)
+        value[j] = volume[j] > 0 ? sqrt (galerkin_material (g, PG_NODES, j)->modulus * value[j] / volume[j])
+                                 : 0;
 }
 
 static void add_up (const recovery *r, pg_estimate *out)
@@ -189,7 +199,8 @@ pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, doub
     PG_ALLOC (volume, g->n);
     for (size_t m = 0; m < p->nmaterial; m++) {
         memcpy (r.L + 36 * m, p->material[m].D, 36 * sizeof *r.L);
-        if (pg_dense_cholesky (g->nv, r.L + 36 * m, 1e-12) != 0) PG_FAIL (PG_E_NOT_SPD, "material %s: its stiffness has no inverse", p->material[m].name);
+        if (pg_dense_cholesky (g->nv, r.L + 36 * m, 1e-12) != 0)
+            PG_FAIL (PG_E_NOT_SPD, "material %s: its stiffness has no inverse", p->material[m].name);
     }
     galerkin_measure (g, g->bulk, d);
     r.stress = g->stress[g->bulk];

@@ -22,7 +22,8 @@ static void damage (const galerkin *g, const pg_state *state, double *value)
     for (size_t i = 0; i < g->n; i++) value[i] = all[i] > 0 ? value[i] / all[i] : 0;
 }
 
-pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name, int *components, const char **unit, double *value)
+pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,
+                          int *components, const char **unit, double *value)
 {
     galerkin *g = self;
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv;

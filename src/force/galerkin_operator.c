@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K of the Galerkin form, twice: as a product K x straight from the shape functions (nothing to assemble, nothing to update after a break),
- * and as a sparse matrix, which is made when it is first asked for and whose rows are gathered again when breaking has touched them. */
+ * K of the Galerkin form, twice: as a product K x straight from the shape functions (nothing to assemble,
+ * nothing to update after a break), and as a sparse matrix, which is made when it is first asked for and
+ * whose rows are gathered again when breaking has touched them. */
 #include "galerkin.h"
 #include <string.h>
 
@@ -12,7 +13,8 @@ void galerkin_apply (void *context, const double *x, double *y)
     if (g->npin || g->npeg) galerkin_boundary_apply (g, x, y);
 }
 
-/* diag K_aa += w B_a' D B_a of the bulk; the diagonal of the boundary and stabilisation terms from their blocks */
+/* diag K_aa += w B_a' D B_a of the bulk; the diagonal of the boundary and stabilisation terms from their
+ * blocks */
 static void bulk_diagonal (galerkin *g, double *d)
 {
     const pg_rows *r = &g->sums;
@@ -22,7 +24,9 @@ static void bulk_diagonal (galerkin *g, double *d)
         double w = r->weight[p], normal[3], shear[3][3] = { { 0 } };
         for (size_t a = 0; a < dim; a++) normal[a] = w * D[a * nv + a];
         if (dim == 2) shear[0][1] = shear[1][0] = w * D[8];
-        if (dim == 3) shear[0][1] = shear[1][0] = w * D[21], shear[1][2] = shear[2][1] = w * D[28], shear[2][0] = shear[0][2] = w * D[35];
+        if (dim == 3)
+            shear[0][1] = shear[1][0] = w * D[21], shear[1][2] = shear[2][1] = w * D[28],
+            shear[2][0] = shear[0][2] = w * D[35];
         for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
             const double *q = r->dN + k * dim;
             double *to = d + (size_t) r->family.node[k] * dim;
@@ -44,14 +48,16 @@ static void add_diagonal_blocks (galerkin *g, const pg_family *f, blocks make, d
         for (size_t a = 0; a < f->start[p + 1] - f->start[p]; a++) {
             memset (wide, 0, (a + 1) * dim * dim * sizeof *wide);
             make (g, p, a, a + 1, wide);
-            for (size_t k = 0; k < dim; k++) d[(size_t) f->node[f->start[p] + a] * dim + k] += wide[(a * dim + k) * dim + k];
+            for (size_t k = 0; k < dim; k++)
+                d[(size_t) f->node[f->start[p] + a] * dim + k] += wide[(a * dim + k) * dim + k];
         }
 }
 
 static size_t widest (const pg_family *f)
 {
     size_t most = 0;
-    for (size_t p = 0; p < f->n; p++) if (f->start[p + 1] - f->start[p] > most) most = f->start[p + 1] - f->start[p];
+    for (size_t p = 0; p < f->n; p++)
+        if (f->start[p + 1] - f->start[p] > most) most = f->start[p + 1] - f->start[p];
     return most;
 }
 
@@ -59,7 +65,8 @@ static size_t widest (const pg_family *f)
 pg_status galerkin_operator_create (galerkin *g)
 {
     pg_status status = PG_OK;
-    size_t most = widest (&g->rows[PG_FACETS].family), bulk = widest (&g->sums.family), peg = widest (&g->peg_family);
+    size_t most = widest (&g->rows[PG_FACETS].family), bulk = widest (&g->sums.family),
+           peg = widest (&g->peg_family);
     most = most > bulk ? most : bulk, most = most > peg ? most : peg;
     PG_ALLOC (g->wide, most * (size_t) (g->dim * g->dim));
     PG_ALLOC (g->stale, g->n);
@@ -80,14 +87,15 @@ void galerkin_diagonal (void *context, double *d)
         if (g->dilatation) galerkin_dilatation_diagonal (g, g->diagonal);
         if (!(g->problem->silling > 0)) bulk_diagonal (g, g->diagonal);
         else add_diagonal_blocks (g, &g->sums.family, galerkin_bulk_blocks, g->wide, g->diagonal);
-        if (g->npin) add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, g->wide, g->diagonal);
+        if (g->npin)
+            add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, g->wide, g->diagonal);
         if (g->npeg) add_diagonal_blocks (g, &g->peg_family, galerkin_peg_blocks, g->wide, g->diagonal);
         g->diagonal_of = g->revision;
     }
     memcpy (d, g->diagonal, ndof * sizeof *d);
 }
 
-/* ---- the matrix -------------------------------------------------------------------------------------------------------------- */
+/* ---- the matrix ---------------------------------------------------------------------------------------- */
 static void mark_family (galerkin *g, int set, size_t p)
 {
     const pg_family *f = set == g->bulk ? &g->sums.family : &g->rows[set].family;
@@ -98,7 +106,8 @@ void galerkin_mark_stale (galerkin *g, const size_t *count)
 {
     size_t marked = count[g->bulk] + (g->npin ? count[PG_FACETS] : 0) + (g->npeg ? count[PG_NODES] : 0);
     for (size_t k = 0; k < count[g->bulk]; k++) mark_family (g, g->bulk, g->list[g->bulk][k]);
-    for (size_t k = 0; g->npin && k < count[PG_FACETS]; k++) mark_family (g, PG_FACETS, g->list[PG_FACETS][k]);
+    for (size_t k = 0; g->npin && k < count[PG_FACETS]; k++)
+        mark_family (g, PG_FACETS, g->list[PG_FACETS][k]);
     for (size_t k = 0; g->npeg && k < count[PG_NODES]; k++) mark_family (g, PG_NODES, g->list[PG_NODES][k]);
     g->revision += marked > 0;
 }
@@ -107,10 +116,11 @@ static pg_status create_matrix (galerkin *g)
 {
     pg_source source[4];
     size_t n = 0;
-    if (g->whole) source[n++] = (pg_source) { &g->problem->consistency->cell_family, g, galerkin_cell_blocks };
+    if (g->whole) source[n++] = (pg_source){ &g->problem->consistency->cell_family, g, galerkin_cell_blocks };
     else source[n++] = (pg_source) { &g->sums.family, g, galerkin_bulk_blocks };
     if (g->npin) source[n++] = (pg_source) { &g->rows[PG_FACETS].family, g, galerkin_facet_blocks };
-    if (g->dilatation) source[n++] = (pg_source) { galerkin_dilatation_family (g), g, galerkin_dilatation_blocks };
+    if (g->dilatation)
+        source[n++] = (pg_source){ galerkin_dilatation_family (g), g, galerkin_dilatation_blocks };
     if (g->npeg) source[n++] = (pg_source) { &g->peg_family, g, galerkin_peg_blocks };
     g->all_stale = 1;
     return pg_stiffness_create (&g->K, g->n, g->dim, n, source);
@@ -142,7 +152,7 @@ const pg_sparse *galerkin_matrix (void *self)
     return g->K ? pg_stiffness_matrix (g->K) : NULL;
 }
 
-/* ---- consistent mass --------------------------------------------------------------------------------------------------------- */
+/* ---- consistent mass ----------------------------------------------------------------------------------- */
 /* M_ab = int rho N_a N_b */
 static void mass_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {

@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Displacement and stress at any place, by the method's own shape functions evaluated there.
- * Which bonds live at a place: those that no pre-crack cuts, and whose node the nearest evaluation point and the nearest node on the same side
- * of the pre-cracks have not lost since. Where that leaves a poorer basis than the evaluation point has, its first-order expansion
- * u_q + grad u_q (x - x_q) and its stress hold. So the two faces of a crack stay apart. */
+ * Displacement and stress at any place, by the method's own shape functions evaluated there. Which bonds live
+ * at a place: those that no pre-crack cuts, and whose node the nearest evaluation point and the nearest node
+ * on the same side of the pre-cracks have not lost since. Where that leaves a poorer basis than the
+ * evaluation point has, its first-order expansion u_q + grad u_q (x - x_q) and its stress hold. So the two
+ * faces of a crack stay apart. */
 #include "galerkin.h"
 #include <string.h>
 
-enum { CHUNK = 2048 };                                 /* places at a time: bounds the memory                            */
+enum { CHUNK = 2048 };                                 /* places at a time: bounds the memory */
 
 typedef struct {
     galerkin *g;
     const pg_state *state;
     const double *d;
-    pg_rows rows;                                      /* of the places at hand                                          */
+    pg_rows rows;                                      /* of the places at hand */
     unsigned char *alive;
-    size_t *at;                                        /* nearest evaluation point                                       */
-    double *u, *stress;                                /* n x 3, n x 6 or NULL                                           */
-    const double *pressure;                            /* of patches, at the nodes (n), Pa; NULL: none                   */
+    size_t *at;                                        /* nearest evaluation point */
+    double *u, *stress;                                /* n x 3, n x 6 or NULL */
+    const double *pressure;                            /* of patches, at the nodes (n), Pa; NULL: none */
 } sampling;
 
 static int cut (const pg_problem *p, const double *x, const double *y)
@@ -26,7 +27,10 @@ static int cut (const pg_problem *p, const double *x, const double *y)
     return 0;
 }
 
-static const double *node_at (const galerkin *g, int node) { return g->problem->cloud.x + (size_t) node * (size_t) g->dim; }
+static const double *node_at (const galerkin *g, int node)
+{
+    return g->problem->cloud.x + (size_t) node * (size_t) g->dim;
+}
 
 static int point_hidden (void *context, const double *place, size_t point)
 {
@@ -71,8 +75,8 @@ static int view (const sampling *s, int set, size_t point, int j)
     return broken (s, set, point, low) ? LOST : SEEN;
 }
 
-/* Whether a place sees node j is asked of its nearest evaluation point q, then of its nearest node i. A node at the rim that neither knows
- * counts unless both i and j have lost bonds. */
+/* Whether a place sees node j is asked of its nearest evaluation point q, then of its nearest node i. A node
+ * at the rim that neither knows counts unless both i and j have lost bonds. */
 static int sees (const sampling *s, size_t q, size_t i, int lost /* i has lost bonds */, int j)
 {
     int bulk = s->g->bulk, answer = view (s, bulk, q, j);
@@ -101,7 +105,8 @@ static void find_bonds (void *context, size_t first, size_t last, int thread)
         int lost = hurt (s, PG_NODES, i);
         for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
             int j = f->node[e];
-            s->alive[e] = j == s->rows.own[p] || (!cut (g->problem, x, node_at (g, j)) && sees (s, q, i, lost, j));
+            s->alive[e] = j == s->rows.own[p]
+                          || (!cut (g->problem, x, node_at (g, j)) && sees (s, q, i, lost, j));
         }
     }
 }
@@ -139,7 +144,8 @@ static void add_pressure (const sampling *s, const pg_rows *r, size_t at, size_t
     double sum = 0, share = 0;
     for (size_t e = r->family.start[at]; e < r->family.start[at + 1]; e++) {
         size_t j = (size_t) r->family.node[e];
-        if (g->material[PG_NODES][j] == g->material[g->bulk][point]) sum += r->N[e] * s->pressure[j], share += r->N[e];
+        if (g->material[PG_NODES][j] == g->material[g->bulk][point])
+            sum += r->N[e] * s->pressure[j], share += r->N[e];
     }
     for (int k = 0; k < 3 && share > 0.1; k++) stress[k] += sum / share;
 }
@@ -159,7 +165,8 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
         else {
             gradient (s, bulk, q, u, H);
             for (size_t c = 0; c < dim; c++)
-                for (size_t k = 0; k < dim; k++) u[c] += H[c*dim + k] * (s->rows.x[p*dim + k] - bulk->x[q*dim + k]);
+                for (size_t k = 0; k < dim; k++)
+                    u[c] += H[c * dim + k] * (s->rows.x[p * dim + k] - bulk->x[q * dim + k]);
         }
         if (!s->stress) continue;
         pg_stress_of_gradient (galerkin_plain (g, g->bulk, q), g->dim, H, s->stress + 6*p);
@@ -197,7 +204,8 @@ done:
     return status;
 }
 
-pg_status galerkin_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x, double *u, double *stress)
+pg_status galerkin_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
+                           double *u, double *stress)
 {
     pg_status status = PG_OK;
     galerkin *g = self;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The two loops over evaluation points that everything costs: displacement and strain from nodal values, and nodal forces from stress,
- * f_J = sum_p w_p B_pJ' sigma_p. Together they are K x without a matrix: 24 bytes a bond instead of 9 numbers a node pair.
- * Forces are summed in a fixed number of slices of the points, each over its own range of nodes, and the slices in their order: the
- * answer does not depend on the number of threads. */
+ * The two loops over evaluation points that everything costs: displacement and strain from nodal values, and
+ * nodal forces from stress, f_J = sum_p w_p B_pJ' sigma_p. Together they are K x without a matrix: 24 bytes a
+ * bond instead of 9 numbers a node pair. Forces are summed in a fixed number of slices of the points, each
+ * over its own range of nodes, and the slices in their order: the answer does not depend on the number of
+ * threads. */
 #include "galerkin.h"
 #include <string.h>
 
@@ -11,10 +12,10 @@ enum { SLICES = 16 };
 #define INLINE static inline __attribute__ ((always_inline))
 
 struct galerkin_slices {
-    size_t  first[SLICES + 1];                         /* points of a slice                                              */
-    size_t  low[SLICES], high[SLICES];                 /* nodes they see                                                 */
-    double *sum[SLICES];                               /* per node of the range, 4 numbers (3D) or dim                   */
-    double *x;                                         /* nodal values, 4 numbers a node (3D)                            */
+    size_t  first[SLICES + 1];                         /* points of a slice */
+    size_t  low[SLICES], high[SLICES];                 /* nodes they see */
+    double *sum[SLICES];                               /* per node of the range, 4 numbers (3D) or dim */
+    double *x;                                         /* nodal values, 4 numbers a node (3D) */
 };
 
 pg_status galerkin_slices_create (galerkin *g)
@@ -49,7 +50,7 @@ void galerkin_slices_free (galerkin *g)
     g->slices = NULL;
 }
 
-/* ---- one point -------------------------------------------------------------------------------------------------------------- */
+/* ---- one point ----------------------------------------------------------------------------------------- */
 /* u (optional) and strain of a point in 3D, x having 4 numbers a node */
 INLINE void strain_solid (const pg_rows *r, size_t p, const double *x, double *u, double *e)
 {
@@ -61,7 +62,8 @@ INLINE void strain_solid (const pg_rows *r, size_t p, const double *x, double *u
         h0 += q[0] * d, h1 += q[1] * d, h2 += q[2] * d;
         if (u) s += r->N[k] * d;
     }
-    e[0] = h0[0], e[1] = h1[1], e[2] = h2[2], e[3] = h1[0] + h0[1], e[4] = h2[1] + h1[2], e[5] = h2[0] + h0[2];
+    e[0] = h0[0], e[1] = h1[1], e[2] = h2[2], e[3] = h1[0] + h0[1], e[4] = h2[1] + h1[2],
+    e[5] = h2[0] + h0[2];
     for (int c = 0; u && c < 3; c++) u[c] = s[c];
 }
 
@@ -69,7 +71,8 @@ INLINE void strain_solid (const pg_rows *r, size_t p, const double *x, double *u
 INLINE void force_solid (const pg_rows *r, size_t p, const double *s, double *f, size_t low)
 {
     double w = r->weight[p];
-    four s0 = { w * s[0], w * s[3], w * s[5], 0 }, s1 = { w * s[3], w * s[1], w * s[4], 0 }, s2 = { w * s[5], w * s[4], w * s[2], 0 };
+    four s0 = { w * s[0], w * s[3], w * s[5], 0 }, s1 = { w * s[3], w * s[1], w * s[4], 0 },
+         s2 = { w * s[5], w * s[4], w * s[2], 0 };
     const int *node = r->family.node;
     for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
         four *to = (four *) (f + 4 * ((size_t) node[k] - low));
@@ -110,7 +113,7 @@ INLINE void force_flat (int dim, const pg_rows *r, size_t p, const double *s, do
     }
 }
 
-/* ---- measures ---------------------------------------------------------------------------------------------------------------- */
+/* ---- measures ------------------------------------------------------------------------------------------ */
 typedef struct { galerkin *g; int set; const pg_rows *rows; const double *x; const size_t *list; } measuring;
 
 WIDE static void measure_solid (const measuring *m, size_t first, size_t last)
@@ -143,7 +146,8 @@ static const double *widened (galerkin *g, const double *d)
 {
     if (g->dim != 3) return d;
     double *x = g->slices->x;
-    for (size_t i = 0; i < g->n; i++) x[4 * i] = d[3 * i], x[4 * i + 1] = d[3 * i + 1], x[4 * i + 2] = d[3 * i + 2];
+    for (size_t i = 0; i < g->n; i++)
+        x[4 * i] = d[3 * i], x[4 * i + 1] = d[3 * i + 1], x[4 * i + 2] = d[3 * i + 2];
     return x;
 }
 
@@ -164,8 +168,9 @@ void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *li
     measure_points (&m, 0, count, 0);
 }
 
-/* ---- forces ------------------------------------------------------------------------------------------------------------------ */
-typedef struct { galerkin *g; const double *x; double *f; } summing;      /* x NULL: stresses of the last measure            */
+/* ---- forces -------------------------------------------------------------------------------------------- */
+/* x NULL: stresses of the last measure */
+typedef struct { galerkin *g; const double *x; double *f; } summing;
 
 INLINE void tangent (const double *D, const double *e, double *s)
 {

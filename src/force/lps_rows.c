@@ -1,44 +1,50 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rows of K for preconditioners of forces with dilatations, within the bonds' reach: K itself has neighbours of neighbours. Energy of a point's
- * dilatation, A theta^2 / (2 d) V: theta from the gradient over the nearest points alone (half the horizon, 1.5 spacings at most; exact for uniform
- * strain, as theta is, so that coarse grids see the body's own bulk modulus), where these and the bonds among them live; elsewhere bonds alone that are at
- * least as stiff (d A / q, lps.c). */
+ * Rows of K for preconditioners of forces with dilatations, within the bonds' reach: K itself has neighbours
+ * of neighbours. Energy of a point's dilatation, A theta^2 / (2 d) V: theta from the gradient over the
+ * nearest points alone (half the horizon, 1.5 spacings at most; exact for uniform strain, as theta is, so
+ * that coarse grids see the body's own bulk modulus), where these and the bonds among them live; elsewhere
+ * bonds alone that are at least as stiff (d A / q, lps.c). */
 #include "bond.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-enum { MOST = 36, NEAR = 40 };                         /* numbers of a block; nearest points looked at                   */
+enum { MOST = 36, NEAR = 40 };                         /* numbers of a block; nearest points looked at */
 struct lps_rows {
-    size_t *start;  int *node;                         /* nearest points of each                 (n + 1; of all)         */
-    double *inverse;                                   /* of sum V xi x xi over them, 1/m^5      (n x dim x dim)         */
-    double *stiff;                                     /* C / q, or B / q where theta is that of the nearest (n)         */
-    unsigned char *narrow, *uniform;                   /* that is so; row like that of all such  (n)                     */
-    unsigned char *intact;                             /* no bond of the point is dead           (n)                     */
-    double *whole;                                     /* that row; NULL: there is none                                  */
+    size_t *start;  int *node;                         /* nearest points of each (n + 1; of all) */
+    double *inverse;                                   /* of sum V xi x xi over them, 1/m^5 (n x dim x dim) */
+    double *stiff;  /* C / q, or B / q where theta is that of the nearest (n) */
+    unsigned char *narrow, *uniform;                   /* that is so; row like that of all such (n) */
+    unsigned char *intact;                             /* no bond of the point is dead (n) */
+    double *whole;                                     /* that row; NULL: there is none */
 };
 
 void lps_rows_free (bond *b)
 {
     lps_rows *r = b->rows;
     if (!r) return;
-    pg_free (r->start), pg_free (r->node), pg_free (r->inverse), pg_free (r->stiff), pg_free (r->narrow), pg_free (r->uniform), pg_free (r->intact), pg_free (r->whole);
+    pg_free (r->start), pg_free (r->node), pg_free (r->inverse), pg_free (r->stiff), pg_free (r->narrow),
+        pg_free (r->uniform), pg_free (r->intact), pg_free (r->whole);
     pg_free (r);
     b->rows = NULL;
 }
 
-/* ---- nearest points ------------------------------------------------------------------------------------------------------------ */
+/* ---- nearest points ------------------------------------------------------------------------------------ */
 static void offset (const bond *b, size_t i, size_t j, double *xi)
 {
-    for (size_t k = 0; k < (size_t) b->dim; k++) xi[k] = b->problem->cloud.x[j * (size_t) b->dim + k] - b->problem->cloud.x[i * (size_t) b->dim + k];
+    for (size_t k = 0; k < (size_t) b->dim; k++)
+        xi[k] = b->problem->cloud.x[j * (size_t) b->dim + k] - b->problem->cloud.x[i * (size_t) b->dim + k];
 }
 
-/* Those of point i, at most NEAR; -1: its bond is dead. Half the horizon, so that they are each other's neighbours: a kernel that vanishes there has none. */
+/* Those of point i, at most NEAR; -1: its bond is dead. Half the horizon, so that they are each other's
+ * neighbours: a kernel that vanishes there has none. */
 static size_t nearest (const bond *b, size_t i, int *node)
 {
     const pg_family *f = b->family;
     double h = pg_problem_spacing (b->problem, PG_NODES, i), ratio = h / b->problem->cloud.h, xi[3];
-    double half = 0.5 * b->problem->sums->rule.horizon * ratio * (b->problem->sums->rule.kernel->closed ? 1 + 1e-9 : 1 - 1e-9), reach = fmin (half, 1.5 * h * (1 + 1e-9));
+    double half = 0.5 * b->problem->sums->rule.horizon * ratio
+                  * (b->problem->sums->rule.kernel->closed ? 1 + 1e-9 : 1 - 1e-9),
+           reach = fmin (half, 1.5 * h * (1 + 1e-9));
     size_t m = 0;
     for (size_t e = f->start[i]; e < f->start[i + 1] && m < NEAR; e++) {
         double rr = 0;
@@ -83,7 +89,8 @@ static int invert (const bond *b, size_t i, size_t m, const int *node, double *o
     for (size_t k = 0; k < m; k++) {
         offset (b, i, (size_t) node[k], xi);
         for (size_t a = 0; a < dim; a++)
-            for (size_t c = 0; c < dim; c++) M[a * dim + c] += b->problem->cloud.volume[node[k]] * xi[a] * xi[c];
+            for (size_t c = 0; c < dim; c++)
+                M[a * dim + c] += b->problem->cloud.volume[node[k]] * xi[a] * xi[c];
     }
     memcpy (copy, M, sizeof M);
     pg_dense_eigen (b->dim, copy, lambda, NULL);
@@ -115,12 +122,15 @@ static void find_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) {
         int *node = r->node + r->start[i];
         size_t m = nearest (b, i, node);
-        r->narrow[i] = (unsigned char) (is_narrow (b, r, i, m, node) && invert (b, i, m, node, r->inverse + i * (size_t) (b->dim * b->dim)));
+        r->narrow[i] = (unsigned char) (is_narrow (b, r, i, m, node)
+                                        && invert (b, i, m, node,
+                                                   r->inverse + i * (size_t) (b->dim * b->dim)));
         r->stiff[i] = !r->narrow[i] ? b->stiff[i] : b->q[i] > 0 ? b->deviation[i] / b->q[i] : 0;
     }
 }
 
-/* On a lattice: all bonds, and nothing but gradients over the nearest, with one B / q, at the point and whatever it sees */
+/* On a lattice: all bonds, and nothing but gradients over the nearest, with one B / q, at the point and
+ * whatever it sees */
 static void compare_points (void *context, size_t first, size_t last, int thread)
 {
     bond *b = context;
@@ -137,7 +147,7 @@ static void compare_points (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* ---- a row --------------------------------------------------------------------------------------------------------------------- */
+/* ---- a row --------------------------------------------------------------------------------------------- */
 /* g_j of theta_k = sum g_j . (u_j - u_k); of k itself minus their sum */
 static void gradient (const bond *b, size_t k, int j, double *g)
 {
@@ -148,12 +158,14 @@ static void gradient (const bond *b, size_t k, int j, double *g)
         if ((size_t) j != k && r->node[e] != j) continue;
         offset (b, k, (size_t) r->node[e], xi);
         for (size_t a = 0; a < dim; a++)
-            for (size_t c = 0; c < dim; c++) sum[a] += b->problem->cloud.volume[r->node[e]] * r->inverse[(k * dim + a) * dim + c] * xi[c];
+            for (size_t c = 0; c < dim; c++)
+                sum[a] += b->problem->cloud.volume[r->node[e]] * r->inverse[(k * dim + a) * dim + c] * xi[c];
     }
     for (size_t a = 0; a < dim; a++) g[a] = (size_t) j == k ? -sum[a] : sum[a];
 }
 
-/* What the dilatation of point k adds to the row of point i, whose n blocks are at `node`, its own the last. */
+/* What the dilatation of point k adds to the row of point i, whose n blocks are at `node`, its own the
+ * last. */
 static void add_dilatation (const bond *b, size_t i, size_t k, size_t n, const int *node, double *value)
 {
     const lps_rows *r = b->rows;
@@ -169,14 +181,14 @@ static void add_dilatation (const bond *b, size_t i, size_t k, size_t n, const i
             else high = middle;
         }
         if ((size_t) j == i) low = n - 1;
-        if (node[low] != j) continue;                  /* cannot be: they are neighbours                                 */
+        if (node[low] != j) continue;                  /* cannot be: they are neighbours */
         gradient (b, k, j, other);
         for (size_t a = 0; a < dim; a++)
             for (size_t c = 0; c < dim; c++) value[low * m * m + a * m + c] += scale * mine[a] * other[c];
     }
 }
 
-static void pull_block (const bond *b, size_t i, const bond_star *s, size_t e, double *own, double *other)
+static void pull_block (const bond *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
 {
     size_t mm = (size_t) (b->stride * b->stride);
     if (b->shear) bond_beam (b, i, s, e, own, other);
@@ -189,8 +201,8 @@ static size_t make_row (const bond *b, size_t i, int thread, int *node, double *
     const lps_rows *r = b->rows;
     size_t bb = (size_t) (b->stride * b->stride), m = 0;
     double own[MOST] = { 0 }, part[MOST];
-    bond_star s;
-    bond_star_at (b, i, thread, &s);
+    point_bonds s;
+    point_bonds_at (b, i, thread, &s);
     for (size_t e = 0; e < s.m; e++) {
         if (!bond_lives (b, s.first + e)) continue;
         pull_block (b, i, &s, e, part, value + m * bb);
@@ -200,7 +212,7 @@ static size_t make_row (const bond *b, size_t i, int thread, int *node, double *
     memcpy (value + m * bb, own, bb * sizeof *own);
     node[m++] = (int) i;
     if (r->narrow[i]) add_dilatation (b, i, i, m, node, value);
-    for (size_t e = 0; e + 1 < m; e++)                 /* points that have i among their nearest                         */
+    for (size_t e = 0; e + 1 < m; e++)                 /* points that have i among their nearest */
         if (r->narrow[node[e]])
             for (size_t k = r->start[node[e]]; k < r->start[node[e] + 1]; k++)
                 if ((size_t) r->node[k] == i) add_dilatation (b, i, (size_t) node[e], m, node, value);
@@ -220,15 +232,17 @@ static size_t row (void *context, size_t i, int thread, int *node, double *value
         return m + 1;
     }
     if (value) return make_row (b, i, thread, node, value);
-    for (size_t e = first; e < b->family->start[i + 1]; e++) if (bond_lives (b, e)) node[m++] = b->family->node[e];
+    for (size_t e = first; e < b->family->start[i + 1]; e++)
+        if (bond_lives (b, e)) node[m++] = b->family->node[e];
     node[m++] = (int) i;
     return m;
 }
 
 static int is_uniform (void *context, size_t i) { return ((const bond *) context)->rows->uniform[i]; }
 
-/* ---- all of them --------------------------------------------------------------------------------------------------------------- */
-/* One row serves all points alike on a lattice without shares of volume, factors of surfaces or several moduli. */
+/* ---- all of them --------------------------------------------------------------------------------------- */
+/* One row serves all points alike on a lattice without shares of volume, factors of surfaces or several
+ * moduli. */
 static pg_status find_whole (bond *b, pg_couplings *out)
 {
     pg_status status = PG_OK;

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points carry a load: the force on a facet goes to the points nearest to its centre, in equal parts to those equally near, or to those of
- * the column below it, by their volumes; a total force to all points of its set alike; a force per volume to every point by its volume. */
+ * Which points carry a load: the force on a facet goes to the points nearest to its centre, in equal parts to
+ * those equally near, or to those of the column below it, by their volumes; a total force to all points of
+ * its set alike; a force per volume to every point by its volume. */
 #include "nodal.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct { nodal_load *out; size_t cap, cap_point; int *index; } gathering;     /* index: of each point, -1: not yet  */
+/* index: of each point, -1: not yet */
+typedef struct { nodal_load *out; size_t cap, cap_point; int *index; } gathering;
 
 static pg_status add_part (gathering *g, int point, nodal_part part)
 {
@@ -18,7 +20,7 @@ static pg_status add_part (gathering *g, int point, nodal_part part)
         g->index[point] = (int) l->npoint;
         l->point[l->npoint++] = point;
     }
-    part.at = (size_t) point;                          /* the point itself until all are there                           */
+    part.at = (size_t) point;                          /* the point itself until all are there */
     l->part[l->npart++] = part;
 done:
     return status;
@@ -26,7 +28,7 @@ done:
 
 static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
 
-/* ---- facets -------------------------------------------------------------------------------------------------------------------- */
+/* ---- facets -------------------------------------------------------------------------------------------- */
 static double distance (const double *a, const double *b, int dim)
 {
     double sum = 0;
@@ -36,7 +38,8 @@ static double distance (const double *a, const double *b, int dim)
 
 enum { MOST_TIES = 16 };
 
-/* Points as near to a facet's centre as the nearest one, to a millionth of the spacing; others are refused until only they are left. */
+/* Points as near to a facet's centre as the nearest one, to a millionth of the spacing; others are refused
+ * until only they are left. */
 typedef struct { const int *found; size_t n; } known;
 
 static int is_known (void *context, const double *place, size_t point)
@@ -68,37 +71,43 @@ static int member (const int *list, size_t n, int value)
     return n && bsearch (&value, list, n, sizeof *list, ascending) != NULL;
 }
 
-/* ---- columns below facets -------------------------------------------------------------------------------------------------------- */
+/* ---- columns below facets ------------------------------------------------------------------------------ */
 typedef struct {
     const pg_load *load;
-    pg_family near;                                    /* points around the middle of the column below each facet of its set */
-    unsigned char *below;                              /* of them: in the column                                         */
-    int *columns;                                      /* that hold each point  (n)                                      */
+    pg_family near;  /* points around the middle of the column below each facet of its set */
+    unsigned char *below;                              /* of them: in the column */
+    int *columns;                                      /* that hold each point (n) */
 } columns;
 
-/* Is point j below the facet, not deeper than `depth`, and within half a step of its middle along every axis? */
+/* Is point j below the facet, not deeper than `depth`, and within half a step of its middle along every
+ * axis? */
 static int is_below (const nodal *s, size_t facet, int j, double depth)
 {
     const pg_cloud *c = &s->problem->cloud;
     size_t dim = (size_t) s->dim;
-    const double *normal = s->problem->cells.normal + facet * dim, *centre = s->problem->cells.facet_centre + facet * dim, *x = c->x + (size_t) j * dim;
+    const double *normal = s->problem->cells.normal + facet * dim,
+                 *centre = s->problem->cells.facet_centre + facet * dim, *x = c->x + (size_t) j * dim;
     double down = 0;
     for (size_t k = 0; k < dim; k++) down -= (x[k] - centre[k]) * normal[k];
-    if (down > depth + 1e-6 * c->h || down < -0.5 * c->h) return 0;        /* perturbed points may lie above                     */
+    if (down > depth + 1e-6 * c->h || down < -0.5 * c->h) return 0;  /* perturbed points may lie above */
     for (size_t k = 0; k < dim; k++)
         if (fabs (x[k] - centre[k] + down * normal[k]) > (0.5 + 1e-6) * c->step[k]) return 0;
     return 1;
 }
 
-/* The force at one quadrature point of a facet, to its column; *found 0: nothing is there. A point between columns belongs to each by a part. */
-static pg_status column_parts (gathering *g, const nodal *s, const columns *c, int facet, nodal_part part, int *found)
+/* The force at one quadrature point of a facet, to its column; *found 0: nothing is there. A point between
+ * columns belongs to each by a part. */
+static pg_status column_parts (gathering *g, const nodal *s, const columns *c, int facet, nodal_part part,
+                               int *found)
 {
     pg_status status = PG_OK;
     const double *volume = s->problem->cloud.volume;
     const int *at = bsearch (&facet, c->load->set->facet, c->load->set->nfacet, sizeof facet, ascending);
     double sum = 0, weight = part.weight;
-    size_t first = c->near.start[at - c->load->set->facet], last = c->near.start[at - c->load->set->facet + 1];
-    for (size_t k = first; k < last; k++) if (c->below[k]) sum += volume[c->near.node[k]] / c->columns[c->near.node[k]];
+    size_t first = c->near.start[at - c->load->set->facet],
+           last = c->near.start[at - c->load->set->facet + 1];
+    for (size_t k = first; k < last; k++)
+        if (c->below[k]) sum += volume[c->near.node[k]] / c->columns[c->near.node[k]];
     *found = sum > 0;
     for (size_t k = first; k < last && sum > 0; k++) {
         int j = c->near.node[k];
@@ -136,7 +145,8 @@ static pg_status find_columns (columns *out, const nodal *s, const pg_load *load
     PG_ALLOC (out->columns, c->n);
     for (size_t i = 0; i < out->near.n; i++)
         for (size_t k = out->near.start[i]; k < out->near.start[i + 1]; k++) {
-            out->below[k] = (unsigned char) is_below (s, (size_t) load->set->facet[i], out->near.node[k], load->depth);
+            out->below[k] = (unsigned char) is_below (s, (size_t) load->set->facet[i], out->near.node[k],
+                                                      load->depth);
             out->columns[out->near.node[k]] += out->below[k];
         }
 done:
@@ -165,7 +175,9 @@ static pg_status facet_parts (gathering *g, const nodal *s, const pg_load *load)
             PG_TRY (column_parts (g, s, &below, q.cell[i], part, &shared));
             if (shared) continue;
         }
-        if (of != q.cell[i]) count = nearest_points (s, grid, cells->facet_centre + (size_t) q.cell[i] * dim, found), of = q.cell[i];
+        if (of != q.cell[i])
+            count = nearest_points (s, grid, cells->facet_centre + (size_t) q.cell[i] * dim, found),
+            of = q.cell[i];
         part.weight /= (double) count;
         for (size_t k = 0; k < count; k++) PG_TRY (add_part (g, found[k], part));
     }
@@ -176,14 +188,15 @@ done:
     return status;
 }
 
-/* ---- points -------------------------------------------------------------------------------------------------------------------- */
+/* ---- points -------------------------------------------------------------------------------------------- */
 static pg_status point_parts (gathering *g, const nodal *s, const pg_load *load)
 {
     pg_status status = PG_OK;
     const pg_cloud *c = &s->problem->cloud;
     for (size_t i = 0; i < load->set->npoint; i++) {
         int j = load->set->point[i];
-        nodal_part part = { .weight = load->kind == PG_BODY_FORCE ? c->volume[j] : 1 / (double) load->set->npoint };
+        nodal_part part = { .weight = load->kind == PG_BODY_FORCE ? c->volume[j]
+                                                                  : 1 / (double) load->set->npoint };
         memcpy (part.x, c->x + (size_t) j * (size_t) s->dim, (size_t) s->dim * sizeof *part.x);
         PG_TRY (add_part (g, j, part));
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Consistent integration: the points of gauss, with derivatives that obey the divergence identity cell by cell (see integration.h). */
+ * Consistent integration: the points of gauss, with derivatives that obey the divergence identity cell by
+ * cell (see integration.h). */
 #include "perigal/integration.h"
 #include <math.h>
 #include <stdlib.h>
@@ -7,15 +8,17 @@
 
 enum { POLYNOMIALS = 8 };
 
-/* ---- set-up ----------------------------------------------------------------------------------------------------------- */
+/* ---- set-up -------------------------------------------------------------------------------------------- */
 static int compare_nodes (const void *a, const void *b)
 {
     int i = *(const int *) a, j = *(const int *) b;
     return (i > j) - (i < j);
 }
 
-/* Nodes that the points first..last of a family see and that `seen` does not yet hold at `stamp`, appended to list. */
-static size_t collect (const pg_family *f, size_t first, size_t last, int *seen, int stamp, int *list, size_t n)
+/* Nodes that the points first..last of a family see and that `seen` does not yet hold at `stamp`, appended to
+ * list. */
+static size_t collect (const pg_family *f, size_t first, size_t last, int *seen, int stamp, int *list,
+                       size_t n)
 {
     for (size_t e = f->start[first]; e < f->start[last]; e++) {
         int j = f->node[e];
@@ -38,10 +41,12 @@ static pg_status unite (pg_consistency *c, const pg_rows *points, size_t nodes)
     PG_ALLOC (c->cell_family.start, c->cells->n + 1);
     c->family.n = points->n, c->cell_family.n = c->cells->n;
     for (size_t cell = 0; cell < c->cells->n; cell++) {
-        size_t n = collect (&points->family, c->first[cell], c->first[cell + 1], seen, (int) cell + 1, list, 0);
+        size_t n = collect (&points->family, c->first[cell], c->first[cell + 1], seen, (int) cell + 1, list,
+                            0);
         for (size_t k = c->faces.of[cell]; k < c->faces.of[cell + 1]; k++) {
             size_t f = (size_t) c->faces.face[k];
-            n = collect (&c->face.family, c->faces.start[f], c->faces.start[f + 1], seen, (int) cell + 1, list, n);
+            n = collect (&c->face.family, c->faces.start[f], c->faces.start[f + 1], seen, (int) cell + 1,
+                         list, n);
         }
         size_t own = c->cell_family.start[cell];
         qsort (list, n, sizeof *list, compare_nodes);
@@ -60,8 +65,8 @@ done:
     return status;
 }
 
-pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, const pg_approx *approx, const pg_cloud *cloud,
-                                 const pg_rows *points, int face_order, int threads)
+pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, const pg_approx *approx,
+                                 const pg_cloud *cloud, const pg_rows *points, int face_order, int threads)
 {
     pg_status status = PG_OK;
     pg_consistency *c = NULL;
@@ -72,7 +77,7 @@ pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, co
     for (size_t cell = 0; cell < cells->n; cell++) c->first[cell + 1] += c->first[cell];
     PG_TRY (pg_faces_build (&c->faces, cells, face_order));
     PG_TRY (pg_rows_create (&c->face, approx, cloud, c->faces.npoint, c->faces.x, NULL, NULL, NULL));
-    pg_free (c->face.dN), c->face.dN = NULL;           /* values only                                                    */
+    pg_free (c->face.dN), c->face.dN = NULL;           /* values only */
     PG_TRY (approx->type->evaluate (approx, cloud, &c->face, NULL, c->face.n, NULL, threads));
     PG_TRY (unite (c, points, cloud->n));
     *out = c, c = NULL;
@@ -94,11 +99,11 @@ void pg_consistency_free (pg_consistency **out)
     *out = NULL;
 }
 
-/* ---- one cell --------------------------------------------------------------------------------------------------------- */
+/* ---- one cell ------------------------------------------------------------------------------------------ */
 typedef struct {
-    int    dim, n;                                     /* polynomials in use                                             */
-    double centre[3], size;                            /* m: z = (x - centre) / size                                     */
-    double L[POLYNOMIALS * POLYNOMIALS];               /* Cholesky factor of sum w p p'                                  */
+    int    dim, n;                                     /* polynomials in use */
+    double centre[3], size;                            /* m: z = (x - centre) / size */
+    double L[POLYNOMIALS * POLYNOMIALS];               /* Cholesky factor of sum w p p' */
 } space;
 
 /* 1, z_k, products; slope (n x dim): 1/m */
@@ -139,15 +144,17 @@ static void find_space (space *s, const pg_rows *points, size_t first, size_t la
     for (size_t q = first; q < last; q++)
         for (size_t k = 0; k < dim; k++) s->centre[k] += points->weight[q] / volume * points->x[q * dim + k];
     for (size_t q = first; q < last; q++)
-        for (size_t k = 0; k < dim; k++) s->size = fmax (s->size, fabs (points->x[q * dim + k] - s->centre[k]));
+        for (size_t k = 0; k < dim; k++)
+            s->size = fmax (s->size, fabs (points->x[q * dim + k] - s->centre[k]));
     if (!(s->size > 0)) s->size = 1;                   /* one point */
-    const int sizes[] = { 1 << dim, (int) dim + 1, 1, 0 };             /* with the products, linear, constant, none      */
+    const int sizes[] = { 1 << dim, (int) dim + 1, 1, 0 };  /* with the products, linear, constant, none */
     for (const int *size = sizes; (s->n = *size) > 0; size++) {
         if ((size_t) s->n > n) continue;
         memset (s->L, 0, sizeof s->L);
         for (size_t q = first; q < last; q++) {
             polynomials (s, points->x + q * dim, p, slope);
-            for (int a = 0; a < s->n; a++) for (int b = 0; b <= a; b++) s->L[a * s->n + b] += points->weight[q] / volume * p[a] * p[b];
+            for (int a = 0; a < s->n; a++)
+                for (int b = 0; b <= a; b++) s->L[a * s->n + b] += points->weight[q] / volume * p[a] * p[b];
         }
         if (!thin (s) && pg_dense_cholesky (s->n, s->L, 1e-8) == 0) break;
     }
@@ -155,7 +162,8 @@ static void find_space (space *s, const pg_rows *points, size_t first, size_t la
 }
 
 /* Values of an ascending list of nodes, put at their places in a wider one. */
-static void spread (size_t n, const int *node, size_t stride, const double *value, const int *wide_node, double *wide)
+static void spread (size_t n, const int *node, size_t stride, const double *value, const int *wide_node,
+                    double *wide)
 {
     for (size_t i = 0, at = 0; i < n; i++, at++) {
         while (wide_node[at] != node[i]) at++;
@@ -169,7 +177,7 @@ typedef struct {
     pg_rows *wide;
     const unsigned char *whole;
     const size_t *list;
-    double **room;                                     /* per thread: residual of the identity, POLYNOMIALS x dim per node, and N */
+    double **workspace;  /* per thread: residual of the identity, POLYNOMIALS x dim per node, and N */
 } job;
 
 /* rest (m x dim) += rate_k N */
@@ -209,7 +217,8 @@ static void add_points (const job *j, const space *s, size_t cell, size_t m, dou
     }
 }
 
-static void add_faces (const job *j, const space *s, size_t cell, size_t m, const int *node, double *rest, double *N)
+static void add_faces (const job *j, const space *s, size_t cell, size_t m, const int *node, double *rest,
+                       double *N)
 {
     const pg_consistency *c = j->c;
     const pg_faces *f = &c->faces;
@@ -221,7 +230,8 @@ static void add_faces (const job *j, const space *s, size_t cell, size_t m, cons
         for (size_t q = f->start[face]; q < f->start[face + 1]; q++) {
             size_t start = c->face.family.start[q];
             memset (N, 0, m * sizeof *N);
-            spread (c->face.family.start[q + 1] - start, c->face.family.node + start, 1, c->face.N + start, node, N);
+            spread (c->face.family.start[q + 1] - start, c->face.family.node + start, 1, c->face.N + start,
+                    node, N);
             polynomials (s, f->x + q * dim, p, slope);
             for (size_t a = 0; a < n; a++) {
                 for (size_t k = 0; k < dim; k++) rate[k] = sign * p[a] * f->flux[q * dim + k];
@@ -244,7 +254,7 @@ static void correct (const job *j, const space *s, size_t cell, size_t m, const 
     }
 }
 
-static void treat (const job *j, size_t cell, double *room)
+static void treat (const job *j, size_t cell, double *workspace)
 {
     const pg_consistency *c = j->c;
     size_t dim = (size_t) j->points->dim, first = c->first[cell], last = c->first[cell + 1];
@@ -252,17 +262,19 @@ static void treat (const job *j, size_t cell, double *room)
     const int *node = c->family.node + c->family.start[first];
     size_t m = c->family.start[first + 1] - c->family.start[first];
     for (size_t q = first; q < last; q++) {
-        size_t from = j->points->family.start[q], n = j->points->family.start[q + 1] - from, to = c->family.start[q];
+        size_t from = j->points->family.start[q], n = j->points->family.start[q + 1] - from,
+               to = c->family.start[q];
         memset (j->wide->N + to, 0, m * sizeof (double));
         memset (j->wide->dN + to * dim, 0, m * dim * sizeof (double));
         spread (n, j->points->family.node + from, 1, j->points->N + from, node, j->wide->N + to);
-        spread (n, j->points->family.node + from, dim, j->points->dN + from * dim, node, j->wide->dN + to * dim);
+        spread (n, j->points->family.node + from, dim, j->points->dN + from * dim, node,
+                j->wide->dN + to * dim);
     }
     space s;
     if (!j->whole[cell]) return;
     find_space (&s, j->points, first, last);
     if (s.n == 0) return;
-    double *rest = room, *N = room + m * dim * POLYNOMIALS;
+    double *rest = workspace, *N = workspace + m * dim * POLYNOMIALS;
     memset (rest, 0, m * dim * POLYNOMIALS * sizeof *rest);
     add_points (j, &s, cell, m, rest);
     add_faces (j, &s, cell, m, node, rest, N);
@@ -272,22 +284,25 @@ static void treat (const job *j, size_t cell, double *room)
 static void work (void *context, size_t first, size_t last, int thread)
 {
     const job *j = context;
-    for (size_t k = first; k < last; k++) treat (j, j->list ? j->list[k] : k, j->room[thread]);
+    for (size_t k = first; k < last; k++) treat (j, j->list ? j->list[k] : k, j->workspace[thread]);
 }
 
-pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, pg_rows *wide, const unsigned char *whole,
-                                size_t count, const size_t *list, int threads)
+pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, pg_rows *wide,
+                                const unsigned char *whole, size_t count, const size_t *list, int threads)
 {
     pg_status status = PG_OK;
     size_t most = 0, slots = threads < 1 ? 1 : (size_t) threads;
     job j = { c, points, wide, whole, list, NULL };
-    for (size_t p = 0; p < points->n; p++) if (c->family.start[p + 1] - c->family.start[p] > most) most = c->family.start[p + 1] - c->family.start[p];
-    PG_ALLOC (j.room, slots);
-    for (size_t t = 0; t < slots; t++) PG_ALLOC (j.room[t], most * ((size_t) points->dim * POLYNOMIALS + 1));
+    for (size_t p = 0; p < points->n; p++)
+        if (c->family.start[p + 1] - c->family.start[p] > most)
+            most = c->family.start[p + 1] - c->family.start[p];
+    PG_ALLOC (j.workspace, slots);
+    for (size_t t = 0; t < slots; t++)
+        PG_ALLOC (j.workspace[t], most * ((size_t) points->dim * POLYNOMIALS + 1));
     pg_parallel (threads, list ? count : c->cells->n, work, &j);
 done:
-    for (size_t t = 0; j.room && t < slots; t++) pg_free (j.room[t]);
-    pg_free (j.room);
+    for (size_t t = 0; j.workspace && t < slots; t++) pg_free (j.workspace[t]);
+    pg_free (j.workspace);
     return status;
 }
 
@@ -297,4 +312,7 @@ static pg_status points (pg_quadrature *out, const pg_cells *cells, double thick
 }
 
 const pg_integration_type pg_integration_consistent = {
-    "consistent", "Gauss points with derivatives that obey the divergence identity: exact patch test on any points", 0, 1, points };
+    "consistent",
+    "Gauss points with derivatives that obey the divergence identity: exact patch test on any points", 0, 1,
+    points
+};

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The faces between cells and on the boundary, each once, with points and normals: what the divergence identity of consistent
- * integration needs. A face is known by its corners, which cells that share nodes hold with the same bits. */
+ * The faces between cells and on the boundary, each once, with points and normals: what the divergence
+ * identity of consistent integration needs. A face is known by its corners, which cells that share nodes hold
+ * with the same bits. */
 #include "perigal/integration.h"
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct {
-    size_t at;                                         /* which face of which cell, counted cell by cell                 */
+    size_t at;                                         /* which face of which cell, counted cell by cell */
     int    cell, side, corners;
-    double corner[12];                                 /* sorted                                                         */
+    double corner[12];                                 /* sorted */
 } candidate;
 
 static int compare_places (const void *a, const void *b)
@@ -21,7 +22,8 @@ static int compare_places (const void *a, const void *b)
 static int compare_corners (const candidate *c, const candidate *d)
 {
     if (c->corners != d->corners) return c->corners < d->corners ? -1 : 1;
-    for (int k = 0; k < 3 * c->corners; k++) if (c->corner[k] != d->corner[k]) return c->corner[k] < d->corner[k] ? -1 : 1;
+    for (int k = 0; k < 3 * c->corners; k++)
+        if (c->corner[k] != d->corner[k]) return c->corner[k] < d->corner[k] ? -1 : 1;
     return 0;
 }
 
@@ -48,8 +50,9 @@ static void describe (candidate *c, const pg_cells *cells, size_t at, int cell, 
     const double *x = cells->x + cells->start[cell] * dim;
     pg_element face = pg_element_face (kind_of (cells, (size_t) cell), side, node);
     *c = (candidate) { .at = at, .cell = cell, .side = side, .corners = pg_element_types[face].corners };
+    /* no -0 */
     for (int i = 0; i < c->corners; i++)
-        for (size_t k = 0; k < dim; k++) c->corner[3 * i + (int) k] = x[(size_t) node[i] * dim + k] + 0.0;      /* no -0 */
+        for (size_t k = 0; k < dim; k++) c->corner[3 * i + (int) k] = x[(size_t) node[i] * dim + k] + 0.0;
     qsort (c->corner, (size_t) c->corners, 3 * sizeof *c->corner, compare_places);
 }
 
@@ -74,7 +77,7 @@ done:
     return status;
 }
 
-/* ---- points ------------------------------------------------------------------------------------------------------------ */
+/* ---- points -------------------------------------------------------------------------------------------- */
 typedef struct { pg_faces *out; size_t cap_x, cap_flux; const pg_cells *cells; int order; } builder;
 
 static pg_status add_point (builder *b, const double *x, double weight, const double *normal)
@@ -83,7 +86,9 @@ static pg_status add_point (builder *b, const double *x, double weight, const do
     size_t dim = (size_t) b->out->dim;
     PG_GROW (b->out->x, b->cap_x, (b->out->npoint + 1) * dim);
     PG_GROW (b->out->flux, b->cap_flux, (b->out->npoint + 1) * dim);
-    for (size_t k = 0; k < dim; k++) b->out->x[b->out->npoint * dim + k] = x[k], b->out->flux[b->out->npoint * dim + k] = weight * normal[k];
+    for (size_t k = 0; k < dim; k++)
+        b->out->x[b->out->npoint * dim + k] = x[k],
+                                         b->out->flux[b->out->npoint * dim + k] = weight * normal[k];
     b->out->npoint++;
 done:
     return status;
@@ -99,7 +104,8 @@ static pg_status whole_face (builder *b, size_t cell, int side)
     const double *corner = cells->x + cells->start[cell] * dim;
     pg_element face = pg_element_face (kind_of (cells, cell), side, node);
     int n = pg_element_rule (face, b->order, xi, w), d = pg_element_types[face].dim;
-    for (int i = 0; i < pg_element_types[face].nodes; i++) memcpy (place + (size_t) i * dim, corner + (size_t) node[i] * dim, dim * sizeof *corner);
+    for (int i = 0; i < pg_element_types[face].nodes; i++)
+        memcpy (place + (size_t) i * dim, corner + (size_t) node[i] * dim, dim * sizeof *corner);
     for (int q = 0; q < n; q++) {
         double size = pg_element_map (face, cells->dim, place, xi + q * d, x, normal);
         if (dim == 1) normal[0] = side ? 1 : -1;
@@ -109,7 +115,8 @@ done:
     return status;
 }
 
-/* What lies in the body of a face that a cut cell has; Exodus numbers the sides of quads and hexes -y +x +y -x -z +z. */
+/* What lies in the body of a face that a cut cell has; Exodus numbers the sides of quads and hexes -y +x +y
+ * -x -z +z. */
 static pg_status cut_face (builder *b, size_t cell, int side)
 {
     static const int lattice_side[] = { 2, 1, 3, 0, 4, 5 };
@@ -119,7 +126,8 @@ static pg_status cut_face (builder *b, size_t cell, int side)
     int face = lattice_side[side];
     normal[face / 2] = face % 2 ? 1 : -1;
     PG_TRY (pg_cut_face (&p, b->cells, cell, face, b->order));
-    for (size_t q = 0; q < p.n; q++) PG_TRY (add_point (b, p.x + q * (size_t) b->out->dim, p.weight[q], normal));
+    for (size_t q = 0; q < p.n; q++)
+        PG_TRY (add_point (b, p.x + q * (size_t) b->out->dim, p.weight[q], normal));
 done:
     pg_cut_points_clear (&p);
     return status;
@@ -156,7 +164,8 @@ static pg_status add_boundary (builder *b)
     size_t dim = (size_t) b->out->dim, k = 0;
     PG_TRY (pg_facet_points (&q, b->cells, b->order));
     for (size_t f = 0; f < b->cells->nfacet; f++) {
-        for (; k < q.n && q.cell[k] == (int) f; k++) PG_TRY (add_point (b, q.x + k * dim, q.weight[k], q.normal + k * dim));
+        for (; k < q.n && q.cell[k] == (int) f; k++)
+            PG_TRY (add_point (b, q.x + k * dim, q.weight[k], q.normal + k * dim));
         close_face (b->out, b->cells->facet_cell[f], -1);
     }
 done:
@@ -174,7 +183,8 @@ static pg_status sort_faces (pg_faces *out, size_t cells)
     PG_ALLOC (next, cells);
     for (size_t k = 0; k < 2 * out->n; k++) if (out->cell[k] >= 0) out->of[out->cell[k] + 1]++;
     for (size_t c = 0; c < cells; c++) out->of[c + 1] += out->of[c], next[c] = out->of[c];
-    for (size_t k = 0; k < 2 * out->n; k++) if (out->cell[k] >= 0) out->face[next[out->cell[k]]++] = (int) (k / 2);
+    for (size_t k = 0; k < 2 * out->n; k++)
+        if (out->cell[k] >= 0) out->face[next[out->cell[k]]++] = (int) (k / 2);
 done:
     pg_free (next);
     return status;
@@ -207,6 +217,7 @@ done:
 
 void pg_faces_clear (pg_faces *f)
 {
-    pg_free (f->x), pg_free (f->flux), pg_free (f->start), pg_free (f->cell), pg_free (f->of), pg_free (f->face);
+    pg_free (f->x), pg_free (f->flux), pg_free (f->start), pg_free (f->cell), pg_free (f->of),
+        pg_free (f->face);
     *f = (pg_faces) { 0 };
 }

@@ -10,13 +10,13 @@ void pg_quadrature_clear (pg_quadrature *q)
     memset (q, 0, sizeof *q);
 }
 
-/* ---- cells and facets -------------------------------------------------------------------------------------------------- */
+/* ---- cells and facets ---------------------------------------------------------------------------------- */
 typedef struct {
     const pg_cells *cells;
     int    dim, facets, order;
     size_t n;
     const unsigned char *kind;  const size_t *start;  const double *x;
-    size_t ncut, next;  size_t *first;                 /* points of the cut ones, in order: first[k]..first[k + 1]       */
+    size_t ncut, next;  size_t *first;  /* points of the cut ones, in order: first[k]..first[k + 1] */
     pg_cut_points cut;
 } mesh;
 
@@ -28,7 +28,8 @@ static pg_status find_cut (mesh *m)
     PG_ALLOC (m->first, m->ncut + 1);
     for (size_t e = 0, k = 0; e < m->n; e++) {
         if (m->kind[e] != PG_CUT) continue;
-        PG_TRY (m->facets ? pg_cut_facet (&m->cut, m->cells, e, m->order) : pg_cut_cell (&m->cut, m->cells, e, m->order));
+        PG_TRY (m->facets ? pg_cut_facet (&m->cut, m->cells, e, m->order)
+                          : pg_cut_cell (&m->cut, m->cells, e, m->order));
         m->first[++k] = m->cut.n;
     }
 done:
@@ -56,7 +57,8 @@ done:
 }
 
 /* Adds the points of element e; factor multiplies the weights. */
-static void add (pg_quadrature *out, const mesh *m, size_t e, int n, const double *xi, const double *w, double factor)
+static void add (pg_quadrature *out, const mesh *m, size_t e, int n, const double *xi, const double *w,
+                 double factor)
 {
     size_t dim = (size_t) m->dim;
     pg_element kind = (pg_element) m->kind[e];
@@ -64,7 +66,10 @@ static void add (pg_quadrature *out, const mesh *m, size_t e, int n, const doubl
     const double *corner = m->x + m->start[e] * dim;
     for (int k = 0; k < n; k++, out->n++) {
         double *normal = m->facets ? out->normal + out->n * dim : NULL;
-        out->weight[out->n] = w[k] * fabs (pg_element_map (kind, m->dim, corner, xi + k * d, out->x + out->n * dim, normal)) * factor;
+        out->weight[out->n] = w[k]
+                              * fabs (pg_element_map (kind, m->dim, corner, xi + k * d, out->x + out->n * dim,
+                                                      normal))
+                              * factor;
         out->cell[out->n] = (int) e;
     }
 }
@@ -81,7 +86,8 @@ static void add_cut (pg_quadrature *out, mesh *m, size_t e)
         out->cell[out->n + k] = (int) e;
     }
     memcpy (out->x + out->n * dim, m->cut.x + from * dim, n * dim * sizeof *out->x);
-    if (m->facets) memcpy (out->normal + out->n * dim, m->cut.normal + from * dim, n * dim * sizeof *out->normal);
+    if (m->facets)
+        memcpy (out->normal + out->n * dim, m->cut.normal + from * dim, n * dim * sizeof *out->normal);
     out->n += n;
 }
 
@@ -96,7 +102,8 @@ static pg_status fill (pg_quadrature *out, mesh *m, double factor)
     for (size_t e = 0; e < m->n; e++) {
         if (m->kind[e] == PG_CUT) add_cut (out, m, e);
         else {
-            if (m->kind[e] != last) n = pg_element_rule ((pg_element) m->kind[e], m->order, xi, w), last = m->kind[e];
+            if (m->kind[e] != last)
+                n = pg_element_rule ((pg_element) m->kind[e], m->order, xi, w), last = m->kind[e];
             add (out, m, e, n, xi, w, factor);
         }
     }
@@ -109,7 +116,9 @@ done:
 
 static pg_status gauss_points (pg_quadrature *out, const pg_cells *c, double thickness, int order)
 {
-    mesh m = { .cells = c, .dim = c->dim, .order = order, .n = c->n, .kind = c->kind, .start = c->start, .x = c->x };
+    mesh m = {
+        .cells = c, .dim = c->dim, .order = order, .n = c->n, .kind = c->kind, .start = c->start, .x = c->x
+    };
     return fill (out, &m, c->dim == 3 ? 1 : thickness);
 }
 
@@ -123,12 +132,19 @@ static void flatten (double *normal, const double *mean, size_t dim)
 
 pg_status pg_facet_points (pg_quadrature *out, const pg_cells *c, int order)
 {
-    mesh m = { .cells = c, .dim = c->dim, .facets = 1, .order = order, .n = c->nfacet, .kind = c->facet_kind, .start = c->facet_start, .x = c->facet_x };
+    mesh m = { .cells = c,
+               .dim = c->dim,
+               .facets = 1,
+               .order = order,
+               .n = c->nfacet,
+               .kind = c->facet_kind,
+               .start = c->facet_start,
+               .x = c->facet_x };
     size_t dim = (size_t) c->dim;
     pg_status status = fill (out, &m, 1);
     for (size_t q = 0, end = 0; q < out->n; q = end) {
         int f = out->cell[q];
-        double sum = 0;                                /* the facet's own area carries the thickness                     */
+        double sum = 0;                                /* the facet's own area carries the thickness */
         for (end = q; end < out->n && out->cell[end] == f; end++) sum += out->weight[end];
         for (size_t k = q; k < end; k++) {
             if (c->facet_kind[f] == PG_CUT) continue;
@@ -139,4 +155,5 @@ pg_status pg_facet_points (pg_quadrature *out, const pg_cells *c, int order)
     return status;
 }
 
-const pg_integration_type pg_integration_gauss = { "gauss", "Gauss-Legendre points in background cells", 0, 0, gauss_points };
+const pg_integration_type pg_integration_gauss = { "gauss", "Gauss-Legendre points in background cells", 0, 0,
+                                                   gauss_points };

@@ -1,33 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Patches of the dilatation (see integration.h): which evaluation points share one. On a lattice so many cells (nodal integration: points) per axis,
- * divided evenly between the ends of the body, so that a mirrored body has mirrored patches. Elsewhere every cell or point goes to the nearest of
- * a set of roots that keep a distance of each other. What is left too small joins a neighbour. */
+ * Patches of the dilatation (see integration.h): which evaluation points share one. On a lattice so many
+ * cells (nodal integration: points) per axis, divided evenly between the ends of the body, so that a mirrored
+ * body has mirrored patches. Elsewhere every cell or point goes to the nearest of a set of roots that keep a
+ * distance of each other. What is left too small joins a neighbour. */
 #include "perigal/integration.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double too_small = 0.4;                   /* of the full volume: joins a neighbour                          */
-static const double apart = 0.875;                     /* least distance of two roots, in widths of a patch              */
+static const double too_small = 0.4;                   /* of the full volume: joins a neighbour */
+static const double apart = 0.875;                     /* least distance of two roots, in widths of a patch */
 
 typedef struct {
     const pg_patch_source *s;
-    size_t  n, units;                                  /* points; cells or nodes                                         */
+    size_t  n, units;                                  /* points; cells or nodes */
     int     dim;
-    double *centre;                                    /* of every unit, m                   (units x dim)               */
-    double *size;                                      /* volume of its points               (units)                     */
-    long   *group;                                     /* of every unit                      (units)                     */
+    double *centre;                                    /* of every unit, m (units x dim) */
+    double *size;                                      /* volume of its points (units) */
+    long   *group;                                     /* of every unit (units) */
     size_t  groups;
-    double *volume, *middle, *full;                    /* of every group                                                 */
-    int    *material;                                  /* of every point                     (n)                         */
-    double  extent[3], body[3];                        /* of the units, a spacing more; the middle, m                    */
+    double *volume, *middle, *full;                    /* of every group */
+    int    *material;                                  /* of every point (n) */
+    double  extent[3], body[3];                        /* of the units, a spacing more; the middle, m */
 } builder;
 
-static size_t unit_of (const builder *b, size_t p) { return b->s->points->cell[p] >= 0 ? (size_t) b->s->points->cell[p] : p; }
+static size_t unit_of (const builder *b, size_t p)
+{
+    return b->s->points->cell[p] >= 0 ? (size_t) b->s->points->cell[p] : p;
+}
 
-static double spacing_at (const builder *b, size_t p) { return b->s->spacing ? b->s->spacing[p] : b->s->cloud->h; }
+static double spacing_at (const builder *b, size_t p)
+{
+    return b->s->spacing ? b->s->spacing[p] : b->s->cloud->h;
+}
 
-/* ---- units ------------------------------------------------------------------------------------------------------------ */
+/* ---- units --------------------------------------------------------------------------------------------- */
 static pg_status measure_units (builder *b)
 {
     pg_status status = PG_OK;
@@ -39,26 +46,31 @@ static pg_status measure_units (builder *b)
     PG_ALLOC (b->group, b->units);
     for (size_t p = 0; p < b->n; p++) b->size[unit_of (b, p)] += r->weight[p];
     for (size_t u = 0; u < b->units; u++) {
-        size_t first = b->s->cells ? b->s->cells->start[u] : u, last = b->s->cells ? b->s->cells->start[u + 1] : u + 1;
+        size_t first = b->s->cells ? b->s->cells->start[u] : u,
+               last = b->s->cells ? b->s->cells->start[u + 1] : u + 1;
         const double *x = b->s->cells ? b->s->cells->x : r->x;
         for (size_t v = first; v < last; v++)
-            for (size_t k = 0; k < dim; k++) b->centre[u * dim + k] += x[v * dim + k] / (double) (last - first);
+            for (size_t k = 0; k < dim; k++)
+                b->centre[u * dim + k] += x[v * dim + k] / (double) (last - first);
     }
     for (size_t k = 0; k < dim; k++) {
         double low = INFINITY, high = -INFINITY;
         for (size_t u = 0; u < b->units; u++)
-            if (b->size[u] > 0) low = fmin (low, b->centre[u * dim + k]), high = fmax (high, b->centre[u * dim + k]);
+            if (b->size[u] > 0)
+                low = fmin (low, b->centre[u * dim + k]), high = fmax (high, b->centre[u * dim + k]);
         b->extent[k] = high - low + b->s->cloud->h, b->body[k] = (low + high) / 2;
     }
 done:
     return status;
 }
 
-/* ---- lattices --------------------------------------------------------------------------------------------------------- */
-/* Group of index i of n, about `across` in each and at least two, mirror symmetric: an odd number of indices makes an odd number of groups. */
+/* ---- lattices ------------------------------------------------------------------------------------------ */
+/* Group of index i of n, about `across` in each and at least two, mirror symmetric: an odd number of indices
+ * makes an odd number of groups. */
 static long group_of (long i, long n, long across)
 {
-    long mirrored = n - 1 - i, left = i < mirrored ? i : mirrored, groups = n / across < 1 ? 1 : n / across, at;
+    long mirrored = n - 1 - i, left = i < mirrored ? i : mirrored, groups = n / across < 1 ? 1 : n / across,
+         at;
     if (n % 2 && groups % 2 == 0) groups += n >= 2 * (groups + 1) ? 1 : -1;
     at = (2 * left + 1) * groups / (2 * n);
     return i <= mirrored ? at : groups - 1 - at;
@@ -69,7 +81,8 @@ static void index_of (const builder *b, size_t u, long *at)
     const pg_lattice *l = b->s->lattice;
     double shift = b->s->cells || b->s->centred ? 0 : 0.5;
     for (int k = 0; k < b->dim; k++)
-        at[k] = (long) floor ((b->centre[u * (size_t) b->dim + (size_t) k] - l->origin[k]) / l->step[k] + shift + 1e-9);
+        at[k] = (long) floor ((b->centre[u * (size_t) b->dim + (size_t) k] - l->origin[k]) / l->step[k]
+                              + shift + 1e-9);
 }
 
 static void bin_units (builder *b)
@@ -95,11 +108,13 @@ static void bin_units (builder *b)
         b->group[u] = 0;
         if (!(b->size[u] > 0)) continue;
         index_of (b, u, at);
-        for (int k = b->dim - 1; k >= 0; k--) b->group[u] = b->group[u] * groups[k] + group_of (at[k] - low[k], high[k] - low[k] + 1, b->s->across);
+        for (int k = b->dim - 1; k >= 0; k--)
+            b->group[u] = b->group[u] * groups[k]
+                          + group_of (at[k] - low[k], high[k] - low[k] + 1, b->s->across);
     }
 }
 
-/* ---- clouds and meshes ------------------------------------------------------------------------------------------------ */
+/* ---- clouds and meshes --------------------------------------------------------------------------------- */
 static double distance (const builder *b, size_t u, size_t v)
 {
     double s = 0;
@@ -149,7 +164,8 @@ static pg_status group_by_roots (builder *b)
     PG_ALLOC (local, b->units);
     for (size_t p = 0; p < b->n; p++) local[unit_of (b, p)] = fmax (local[unit_of (b, p)], spacing_at (b, p));
     for (size_t u = 0; u < b->units; u++) widest = fmax (widest, local[u]);
-    PG_TRY (pg_family_build (&near, &centres, b->units, b->centre, 1.01 * apart * b->s->across * widest, PG_RADIAL, 1));
+    PG_TRY (pg_family_build (&near, &centres, b->units, b->centre, 1.01 * apart * b->s->across * widest,
+                             PG_RADIAL, 1));
     PG_TRY (root_units (b, local, &near));
 done:
     pg_family_clear (&near);
@@ -157,7 +173,7 @@ done:
     return status;
 }
 
-/* ---- groups of one material ------------------------------------------------------------------------------------------- */
+/* ---- groups of one material ---------------------------------------------------------------------------- */
 /* Group of every point: that of its unit, parted by materials. */
 static pg_status measure_groups (builder *b, const long *group)
 {
@@ -195,7 +211,8 @@ static int unfit (void *context, const double *place, size_t c)
     const choice *h = context;
     (void) place;
     for (size_t k = 0; k < h->ntied; k++) if (h->tied[k] == (long) c) return 1;
-    return c == h->own || h->material[c] != h->material[h->own] || !(h->b->volume[c] > 0) || h->b->volume[c] < too_small * h->b->full[c];
+    return c == h->own || h->material[c] != h->material[h->own] || !(h->b->volume[c] > 0)
+           || h->b->volume[c] < too_small * h->b->full[c];
 }
 
 enum { MOST_TIED = 8 };
@@ -207,7 +224,8 @@ static double away (const builder *b, const double *x, const double *y)
     return sqrt (s);
 }
 
-/* The nearest group that is large enough; among those equally near the one nearer to the middle of the body, then the first. */
+/* The nearest group that is large enough; among those equally near the one nearer to the middle of the body,
+ * then the first. */
 static long neighbour (const builder *b, const pg_nearest *grid, const int *material, size_t c)
 {
     size_t dim = (size_t) b->dim;
@@ -271,7 +289,7 @@ done:
     return status;
 }
 
-/* ---- result ----------------------------------------------------------------------------------------------------------- */
+/* ---- result -------------------------------------------------------------------------------------------- */
 static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
 
 static pg_status see (pg_patches *out, const pg_family *f, size_t nodes)
@@ -310,7 +328,8 @@ static pg_status collect (pg_patches *out, const builder *b, const long *group)
     PG_ALLOC (out->full, out->n);
     PG_ALLOC (next, out->n + 1);
     for (size_t p = 0; p < b->n; p++) if (group[p] >= 0) out->first[group[p] + 1]++;
-    for (size_t c = 0; c < out->n; c++) out->first[c + 1] += out->first[c], next[c] = out->first[c], out->full[c] = b->full[c];
+    for (size_t c = 0; c < out->n; c++)
+        out->first[c + 1] += out->first[c], next[c] = out->first[c], out->full[c] = b->full[c];
     for (size_t p = 0; p < b->n; p++) {
         out->of[p] = group[p];
         if (group[p] >= 0) out->point[next[group[p]]++] = p;
@@ -348,7 +367,8 @@ pg_status pg_patches_create (pg_patches **out, const pg_patch_source *source)
     *out = made, made = NULL;
 done:
     pg_patches_free (&made);
-    pg_free (group), pg_free (b.centre), pg_free (b.size), pg_free (b.group), pg_free (b.volume), pg_free (b.middle), pg_free (b.full), pg_free (b.material);
+    pg_free (group), pg_free (b.centre), pg_free (b.size), pg_free (b.group), pg_free (b.volume),
+        pg_free (b.middle), pg_free (b.full), pg_free (b.material);
     return status;
 }
 

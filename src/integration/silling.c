@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Silling 2017 stabilisation (theory D3a). With z_j = eta_j - sum_l (g_l.xi_j) eta_l and c = V Gs mu d(d+2)/q, the energy
- * (1/2) c sum_j w_j |z_j|^2 gives, in the differences eta, S_lm = c [ w_l delta_lm - w_l xi_l.g_m - w_m xi_m.g_l + g_l.A g_m ],
- * A = sum w xi xi, q = sum w r^2 (w includes V_j); the own node collects minus the sums. */
+ * Silling 2017 stabilisation (theory D3a). With z_j = eta_j - sum_l (g_l.xi_j) eta_l and c = V Gs mu
+ * d(d+2)/q, the energy (1/2) c sum_j w_j |z_j|^2 gives, in the differences eta, S_lm = c [ w_l delta_lm - w_l
+ * xi_l.g_m - w_m xi_m.g_l + g_l.A g_m ], A = sum w xi xi, q = sum w r^2 (w includes V_j); the own node
+ * collects minus the sums. */
 #include "perigal/integration.h"
 
 typedef struct { double A[9], q, sum_w, sum_wxi[3]; } moments;
@@ -13,7 +14,9 @@ static void gather_moments (const pg_rows *rows, const pg_cloud *cloud, size_t p
     for (size_t e = rows->family.start[p]; e < rows->family.start[p + 1]; e++) {
         double w = rows->w[e], xi[3];
         if (w == 0 || rows->family.node[e] == rows->own[p]) continue;
-        for (int k = 0; k < dim; k++) xi[k] = cloud->x[(size_t) rows->family.node[e] * (size_t) dim + (size_t) k] - rows->x[p * (size_t) dim + (size_t) k];
+        for (int k = 0; k < dim; k++)
+            xi[k] = cloud->x[(size_t) rows->family.node[e] * (size_t) dim + (size_t) k]
+                    - rows->x[p * (size_t) dim + (size_t) k];
         m->sum_w += w;
         for (int k = 0; k < dim; k++) {
             m->q += w * xi[k] * xi[k];
@@ -23,8 +26,10 @@ static void gather_moments (const pg_rows *rows, const pg_cloud *cloud, size_t p
     }
 }
 
-/* w, w xi and g of local node b in full form: the own node takes w = 0 here, its g is minus the sum of the others. */
-static void local (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t b, const moments *m, int *own, double *w, double *wxi, const double **g)
+/* w, w xi and g of local node b in full form: the own node takes w = 0 here, its g is minus the sum of the
+ * others. */
+static void local (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t b, const moments *m, int *own,
+                   double *w, double *wxi, const double **g)
 {
     size_t e = rows->family.start[p] + b, dim = (size_t) rows->dim;
     int j = rows->family.node[e];
@@ -35,7 +40,8 @@ static void local (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t 
     *g = rows->dN + e * dim;
 }
 
-void pg_silling_add (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t a, size_t m, double modulus, double volume, double *blocks)
+void pg_silling_add (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t a, size_t m, double modulus,
+                     double volume, double *blocks)
 {
     moments M;
     int dim = rows->dim, own_a, own_b;
@@ -47,11 +53,13 @@ void pg_silling_add (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_
     local (rows, cloud, p, a, &M, &own_a, &wa, xa, &ga);
     for (size_t b = 0; b < m; b++) {
         local (rows, cloud, p, b, &M, &own_b, &wb, xb, &gb);
-        double s = a == b ? wa : own_a ? -wb : own_b ? -wa : 0;      /* star graph: own node against each neighbour     */
+        /* star graph: own node against each neighbour */
+        double s = a == b ? wa : own_a ? -wb : own_b ? -wa : 0;
         for (int k = 0; k < dim; k++) {
             s -= xa[k] * gb[k] + xb[k] * ga[k];
             for (int l = 0; l < dim; l++) s += ga[k] * M.A[k*3 + l] * gb[l];
         }
-        for (int k = 0; k < dim; k++) blocks[(b * (size_t) dim + (size_t) k) * (size_t) dim + (size_t) k] += c * s;
+        for (int k = 0; k < dim; k++)
+            blocks[(b * (size_t) dim + (size_t) k) * (size_t) dim + (size_t) k] += c * s;
     }
 }

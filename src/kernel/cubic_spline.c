@@ -23,5 +23,6 @@ static void value (size_t n, const double *q, double *w, double *dw)
 }
 
 const pg_kernel pg_kernel_cubic_spline = {
-    "cubic_spline", "2/3 - 4 q^2 + 4 q^3, then (4/3) (1 - q)^3 beyond 1/2: two continuous derivatives", 0, value
+    "cubic_spline", "2/3 - 4 q^2 + 4 q^3, then (4/3) (1 - q)^3 beyond 1/2: two continuous derivatives", 0,
+    value
 };

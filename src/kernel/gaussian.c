@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * w = (exp (-(q/c)^2) - exp (-1/c^2)) / (1 - exp (-1/c^2)), c = 0.4: shifted so that w(1) = 0, scaled so that w(0) = 1. */
+ * w = (exp (-(q/c)^2) - exp (-1/c^2)) / (1 - exp (-1/c^2)), c = 0.4: shifted so that w(1) = 0, scaled so that
+ * w(0) = 1. */
 #include "entries.h"
 #include <math.h>
 
@@ -15,4 +16,6 @@ static void value (size_t n, const double *q, double *w, double *dw)
     }
 }
 
-const pg_kernel pg_kernel_gaussian = { "gaussian", "exp (-(q/0.4)^2), shifted to 0 at q = 1 and scaled to 1 at q = 0", 0, value };
+const pg_kernel pg_kernel_gaussian = { "gaussian",
+                                       "exp (-(q/0.4)^2), shifted to 0 at q = 1 and scaled to 1 at q = 0", 0,
+                                       value };

@@ -5,13 +5,15 @@
 
 enum { PANELS = 32, POINTS = 5 };
 
-/* int_0^1 w(q) q^n dq by five Gauss points on each of 32 panels (a spline's knot at 1/2 lies between panels) */
+/* int_0^1 w(q) q^n dq by five Gauss points on each of 32 panels (a spline's knot at 1/2 lies between
+ * panels) */
 double pg_kernel_moment (const pg_kernel *kernel, int n)
 {
     static const double place[POINTS] = { -0.906179845938663992797627, -0.538469310105683091036314, 0,
                                           0.538469310105683091036314, 0.906179845938663992797627 };
-    static const double weight[POINTS] = { 0.236926885056189087514264, 0.478628670499366468041292, 0.568888888888888888888889,
-                                           0.478628670499366468041292, 0.236926885056189087514264 };
+    static const double weight[POINTS] = { 0.236926885056189087514264, 0.478628670499366468041292,
+                                           0.568888888888888888888889, 0.478628670499366468041292,
+                                           0.236926885056189087514264 };
     double sum = 0;
     for (int k = 0; k < PANELS; k++) {
         double q[POINTS], w[POINTS];

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * P K P' = L L', supernodal, by CHOLMOD. Nodes are ordered, not dofs (METIS, AMD for small bodies: with the wide rows of meshfree
- * shape functions METIS saves 15 % of a factorization at 4 000 and at 16 000 unknowns in 2D, for 15 to 60 ms more of analysis), the
- * order is expanded and given: one analysis serves every later factorization of the same pattern. 64-bit interface throughout.
- * The forecast analyses the graph of the nodes alone: a column of it with c entries stands for m columns of the dofs with
- * m (c - 1) + m, ..., m (c - 1) + 1 entries. */
+ * P K P' = L L', supernodal, by CHOLMOD. Nodes are ordered, not dofs (METIS, AMD for small bodies: with the
+ * wide rows of meshfree shape functions METIS saves 15 % of a factorization at 4 000 and at 16 000 unknowns
+ * in 2D, for 15 to 60 ms more of analysis), the order is expanded and given: one analysis serves every later
+ * factorization of the same pattern. 64-bit interface throughout. The forecast analyses the graph of the
+ * nodes alone: a column of it with c entries stands for m columns of the dofs with m (c - 1) + m, ..., m (c -
+ * 1) + 1 entries. */
 #include "perigal/linalg.h"
 #include <cholmod.h>
 #include <stdint.h>
@@ -12,7 +13,7 @@
 typedef struct {
     cholmod_common common;
     cholmod_factor *L;
-    cholmod_dense *X, *Y, *E;                          /* kept between solves                                            */
+    cholmod_dense *X, *Y, *E;                          /* kept between solves */
     const char *ordering;
     double entries, flops;
 } chol;
@@ -43,7 +44,8 @@ static cholmod_sparse view (const pg_sparse *A)
     cholmod_sparse S = { 0 };
     S.nrow = A->nrow, S.ncol = A->ncol, S.nzmax = (size_t) A->start[A->ncol];
     S.p = A->start, S.i = A->row, S.x = A->value;
-    S.stype = 1, S.itype = CHOLMOD_LONG, S.xtype = CHOLMOD_REAL, S.dtype = CHOLMOD_DOUBLE, S.sorted = 1, S.packed = 1;
+    S.stype = 1, S.itype = CHOLMOD_LONG, S.xtype = CHOLMOD_REAL, S.dtype = CHOLMOD_DOUBLE, S.sorted = 1,
+    S.packed = 1;
     return S;
 }
 
@@ -59,7 +61,8 @@ static pg_status node_graph (pg_sparse *G, const pg_sparse *A, int block)
 {
     pg_status status = PG_OK;
     size_t n = A->ncol / (size_t) block, nnz = 0;
-    for (size_t I = 0; I < n; I++) nnz += (size_t) (A->start[I * (size_t) block + 1] - A->start[I * (size_t) block]);
+    for (size_t I = 0; I < n; I++)
+        nnz += (size_t) (A->start[I * (size_t) block + 1] - A->start[I * (size_t) block]);
     PG_TRY (pg_sparse_create (G, n, n, nnz, 1));
     nnz = 0;
     for (size_t I = 0; I < n; I++) {
@@ -173,10 +176,12 @@ static pg_status chol_factor (void *self, const pg_sparse *A)
     if (c->common.status == CHOLMOD_NOT_POSDEF || (c->common.status >= 0 && c->L->minor < A->ncol)) {
         SuiteSparse_long *perm = c->L->Perm;
         failed_row = (long) (c->L->minor < A->ncol ? perm[c->L->minor] : 0);
-        PG_FAIL (PG_E_NOT_SPD, "the stiffness matrix is not positive definite at unknown %ld of %zu", failed_row, A->ncol);
+        PG_FAIL (PG_E_NOT_SPD, "the stiffness matrix is not positive definite at unknown %ld of %zu",
+                 failed_row, A->ncol);
     }
-    if (c->common.status < 0) PG_FAIL (PG_E_MEMORY, "the factorization needs %.3g MB and failed (CHOLMOD status %d)",
-                                       c->entries * 8e-6, c->common.status);
+    if (c->common.status < 0)
+        PG_FAIL (PG_E_MEMORY, "the factorization needs %.3g MB and failed (CHOLMOD status %d)",
+                 c->entries * 8e-6, c->common.status);
 done:
     return status;
 }

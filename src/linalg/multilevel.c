@@ -1,16 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * z = M r by a symmetric V-cycle over grids of hats: life, choice of levels, the coarsest matrix and its factor. */
+ * z = M r by a symmetric V-cycle over grids of hats: life, choice of levels, the coarsest matrix and its
+ * factor. */
 #include "multilevel.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-enum { DIRECT = 3000 };                                /* most unknowns of a coarsest level                              */
+enum { DIRECT = 3000 };                                /* most unknowns of a coarsest level */
 
 static void level_clear (level *l, int finest)
 {
-    void *all[] = { l->start, l->node, l->value, l->mask, l->inverse, l->cell, l->cell_start, l->cell_node, l->first, l->function, l->weight, l->at,
-                    l->member, l->share, l->r, l->d, l->q, finest ? NULL : l->b, finest ? NULL : l->z, finest ? NULL : l->x };
+    void *all[] = { l->start,
+                    l->node,
+                    l->value,
+                    l->mask,
+                    l->inverse,
+                    l->cell,
+                    l->cell_start,
+                    l->cell_node,
+                    l->first,
+                    l->function,
+                    l->weight,
+                    l->at,
+                    l->member,
+                    l->share,
+                    l->r,
+                    l->d,
+                    l->q,
+                    finest ? NULL : l->b,
+                    finest ? NULL : l->z,
+                    finest ? NULL : l->x };
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) pg_free (all[k]);
 }
 
@@ -24,17 +43,19 @@ void pg_multilevel_free (pg_multilevel **multilevel)
     *multilevel = NULL;
 }
 
-/* ---- the coarsest matrix ---------------------------------------------------------------------------------------------------------- */
+/* ---- the coarsest matrix ------------------------------------------------------------------------------- */
 static int masked (const level *l, size_t i, size_t k) { return l->mask[i] >> k & 1; }
 
-/* Upper triangle; masked unknowns: identity. `lift` of each diagonal entry is added: the matrix may be singular (loose fragments, functions that
- * are sums of others), and its right-hand sides have nothing there but rounding. */
+/* Upper triangle; masked unknowns: identity. `lift` of each diagonal entry is added: the matrix may be
+ * singular (loose fragments, functions that are sums of others), and its right-hand sides have nothing there
+ * but rounding. */
 static pg_status coarsest_matrix (pg_sparse *A, const level *l, double lift)
 {
     pg_status status = PG_OK;
     size_t block = (size_t) l->block, nnz = 0;
     for (size_t i = 0; i < l->n; i++)
-        for (size_t e = l->start[i]; e < l->start[i + 1] && (size_t) l->node[e] <= i; e++) nnz += block * block;
+        for (size_t e = l->start[i]; e < l->start[i + 1] && (size_t) l->node[e] <= i; e++)
+            nnz += block * block;
     PG_TRY (pg_sparse_create (A, l->ndof, l->ndof, nnz, 1));
     long at = 0;
     for (size_t i = 0; i < l->n; i++)
@@ -73,7 +94,7 @@ done:
     return status;
 }
 
-/* ---- levels ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- levels -------------------------------------------------------------------------------------------- */
 static pg_status make_vectors (level *l, int finest)
 {
     pg_status status = PG_OK;
@@ -110,12 +131,17 @@ pg_status pg_multilevel_create (pg_multilevel **out, const pg_multilevel_setting
     pg_status status = PG_OK;
     pg_multilevel *m = NULL;
     *out = NULL;
-    if (s->dim < 1 || s->dim > 3 || s->block < 1 || s->block > MOST_BLOCK) PG_FAIL (PG_E_USAGE, "a preconditioner of %d dimensions with %d unknowns a node: there is none", s->dim, s->block);
-    if (!(s->rows.reach > 0) || s->n == 0) PG_FAIL (PG_E_USAGE, "a preconditioner needs nodes and how far their couplings reach (%g m)", s->rows.reach);
+    if (s->dim < 1 || s->dim > 3 || s->block < 1 || s->block > MOST_BLOCK)
+        PG_FAIL (PG_E_USAGE, "a preconditioner of %d dimensions with %d unknowns a node: there is none",
+                 s->dim, s->block);
+    if (!(s->rows.reach > 0) || s->n == 0)
+        PG_FAIL (PG_E_USAGE, "a preconditioner needs nodes and how far their couplings reach (%g m)",
+                 s->rows.reach);
     PG_ALLOC (m, 1);
     m->degree = s->degree > 0 ? s->degree : 2;
     level *l = &m->at[0];
-    l->dim = s->dim, l->block = s->block, l->threads = s->threads > 1 ? s->threads : 1, l->n = s->n, l->ndof = s->n * (size_t) s->block;
+    l->dim = s->dim, l->block = s->block, l->threads = s->threads > 1 ? s->threads : 1, l->n = s->n,
+    l->ndof = s->n * (size_t) s->block;
     l->x = (double *) (uintptr_t) s->x;
     l->A = s->A, l->rows = s->rows;
     for (int k = 0; k < 3; k++) l->reach[k] = s->rows.reach;
@@ -134,11 +160,16 @@ static pg_status solve (void *context, const double *r, double *z)
     return multilevel_cycle (m, 0, r, z);
 }
 
-pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *m) { return (pg_preconditioner) { m, solve, m->at[0].threads }; }
+pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *m)
+{
+    return (pg_preconditioner){ m, solve, m->at[0].threads };
+}
 
 void pg_multilevel_describe (const pg_multilevel *m, pg_multilevel_info *info)
 {
     *info = (pg_multilevel_info) { .levels = m->count, .degree = m->degree, .applications = m->applications };
-    for (int k = 0; k < m->count && k < 8; k++) info->unknowns[k] = m->at[k].ndof, info->top[k] = m->at[k].top;
-    for (size_t h = 0; m->count > 1 && h < m->at[0].nhat; h++) info->split += m->at[0].first[h + 1] - m->at[0].first[h] > 1;
+    for (int k = 0; k < m->count && k < 8; k++)
+        info->unknowns[k] = m->at[k].ndof, info->top[k] = m->at[k].top;
+    for (size_t h = 0; m->count > 1 && h < m->at[0].nhat; h++)
+        info->split += m->at[0].first[h + 1] - m->at[0].first[h] > 1;
 }

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The symmetric V-cycle: Chebyshev polynomials of the fourth kind in D^-1 A before and after the correction by the next level (Lottes 2023,
- * "Optimal polynomial smoothers for multigrid V-cycles": only an upper bound of the spectrum is needed), which is found from the
- * Lanczos matrix of a few steps of conjugate gradients. */
+ * The symmetric V-cycle: Chebyshev polynomials of the fourth kind in D^-1 A before and after the correction
+ * by the next level (Lottes 2023, "Optimal polynomial smoothers for multigrid V-cycles": only an upper bound
+ * of the spectrum is needed), which is found from the Lanczos matrix of a few steps of conjugate
+ * gradients. */
 #include "multilevel.h"
 #include <math.h>
 #include <string.h>
 
 enum { LANCZOS = 10 };
-static const double margin = 1.05;                     /* of the largest Ritz value after so many steps                  */
+static const double margin = 1.05;                     /* of the largest Ritz value after so many steps */
 
-/* ---- products and transfers ------------------------------------------------------------------------------------------------------- */
+/* ---- products and transfers ---------------------------------------------------------------------------- */
 typedef struct { const level *l; const double *x, *y; double *out; double c1, c2; } sweep;
 
 static void multiply_rows (void *context, size_t first, size_t last, int thread)
@@ -27,7 +28,9 @@ static void multiply_rows (void *context, size_t first, size_t last, int thread)
                 y[0] += v[0] * x[0] + v[1] * x[1] + v[2] * x[2];
                 y[1] += v[3] * x[0] + v[4] * x[1] + v[5] * x[2];
                 y[2] += v[6] * x[0] + v[7] * x[1] + v[8] * x[2];
-            } else for (size_t a = 0; a < block; a++) for (size_t c = 0; c < block; c++) y[a] += v[a * block + c] * x[c];
+            } else
+                for (size_t a = 0; a < block; a++)
+                    for (size_t c = 0; c < block; c++) y[a] += v[a * block + c] * x[c];
         }
         memcpy (w->out + i * block, y, block * sizeof *y);
     }
@@ -54,7 +57,8 @@ static void restrict_functions (void *context, size_t first, size_t last, int th
         for (size_t p = l->at[f]; p < l->at[f + 1]; p++) {
             size_t i = (size_t) l->member[p];
             double share = l->share[p];
-            for (size_t k = 0; k < block; k++) b[k] += share * (l->mask[i] >> k & 1 ? 0 : w->x[i * block + k]);
+            for (size_t k = 0; k < block; k++)
+                b[k] += share * (l->mask[i] >> k & 1 ? 0 : w->x[i * block + k]);
         }
         memcpy (w->out + f * block, b, block * sizeof *b);
     }
@@ -82,7 +86,7 @@ static void correct_nodes (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* ---- smoothing -------------------------------------------------------------------------------------------------------------------- */
+/* ---- smoothing ----------------------------------------------------------------------------------------- */
 static void first_step (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -115,7 +119,8 @@ static void take_off (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) w->l->r[i] -= w->l->q[i];
 }
 
-/* Steps of the smoother; the first one with the residual at hand, or with what the last d leaves of it (z given: a second smoothing). */
+/* Steps of the smoother; the first one with the residual at hand, or with what the last d leaves of it (z
+ * given: a second smoothing). */
 static void smooth (const level *l, int degree, const double *b, double *z)
 {
     sweep w = { .l = l, .x = b, .out = z };
@@ -146,7 +151,7 @@ done:
     return status;
 }
 
-/* ---- bound ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- bound --------------------------------------------------------------------------------------------- */
 static double dot (const level *l, const double *a, const double *b)
 {
     double s = 0;
@@ -170,7 +175,9 @@ static int above (int n, const double *diagonal, const double *off, double x)
 static double largest (int n, const double *diagonal, const double *off)
 {
     double low = 0, high = 0;
-    for (int i = 0; i < n; i++) high = fmax (high, fabs (diagonal[i]) + (i ? fabs (off[i - 1]) : 0) + (i + 1 < n ? fabs (off[i]) : 0));
+    for (int i = 0; i < n; i++)
+        high = fmax (high,
+                     fabs (diagonal[i]) + (i ? fabs (off[i - 1]) : 0) + (i + 1 < n ? fabs (off[i]) : 0));
     for (int k = 0; k < 50; k++) {
         double middle = 0.5 * (low + high);
         if (above (n, diagonal, off, middle) > 0) low = middle;
@@ -179,7 +186,8 @@ static double largest (int n, const double *diagonal, const double *off)
     return high;
 }
 
-/* Conjugate gradients on A x = b, b of a fixed random draw: their coefficients are the Lanczos matrix of D^-1/2 A D^-1/2. */
+/* Conjugate gradients on A x = b, b of a fixed random draw: their coefficients are the Lanczos matrix of
+ * D^-1/2 A D^-1/2. */
 pg_status level_bound (level *l)
 {
     pg_status status = PG_OK;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A_c = P' A P of the coarse functions of a level, from the rows of A, cell by cell: all nodes of a cell add into one small dense matrix, rows
- * the functions at its corners, columns those of the nodes they are coupled with, and that goes into A_c. Cells whose corners
- * are apart go at the same time: no row of A_c is written by two threads, and the order of additions is always the same. */
+ * A_c = P' A P of the coarse functions of a level, from the rows of A, cell by cell: all nodes of a cell add
+ * into one small dense matrix, rows the functions at its corners, columns those of the nodes they are coupled
+ * with, and that goes into A_c. Cells whose corners are apart go at the same time: no row of A_c is written
+ * by two threads, and the order of additions is always the same. */
 #include "multilevel.h"
 #include <math.h>
 #include <string.h>
@@ -13,7 +14,7 @@ size_t level_row (const level *l, size_t i, int thread, int *node, double *value
     for (size_t e = l->start[i]; e < l->start[i + 1]; e++) {
         const double *v = l->value + e * bb;
         size_t k = 0;
-        while (k < bb && v[k] == 0) k++;               /* in the pattern, but not coupled                                */
+        while (k < bb && v[k] == 0) k++;               /* in the pattern, but not coupled */
         if (k == bb) continue;
         node[m] = l->node[e];
         if (value) memcpy (value + m * bb, v, bb * sizeof *value);
@@ -22,17 +23,17 @@ size_t level_row (const level *l, size_t i, int thread, int *node, double *value
     return m;
 }
 
-/* ---- diagonal --------------------------------------------------------------------------------------------------------------------- */
-typedef struct { int **node; double **value; } room;                   /* of a row, for each thread                      */
+/* ---- diagonal ------------------------------------------------------------------------------------------ */
+typedef struct { int **node; double **value; } workspace;                   /* of a row, for each thread */
 
-static void room_free (room *r, int threads)
+static void room_free (workspace *r, int threads)
 {
     for (int t = 0; r->node && t < threads; t++) pg_free (r->node[t]);
     for (int t = 0; r->value && t < threads; t++) pg_free (r->value[t]);
     pg_free (r->node), pg_free (r->value);
 }
 
-static pg_status room_make (room *r, const level *l)
+static pg_status room_make (workspace *r, const level *l)
 {
     pg_status status = PG_OK;
     PG_ALLOC (r->node, (size_t) l->threads);
@@ -52,7 +53,8 @@ static void diagonal_nodes (void *context, size_t first, size_t last, int thread
     size_t block = (size_t) l->block;
     for (size_t i = first; i < last; i++)
         for (size_t e = l->start[i]; e < l->start[i + 1]; e++)
-            for (size_t k = 0; k < block && (size_t) l->node[e] == i; k++) l->inverse[i * block + k] = l->value[(e * block + k) * block + k];
+            for (size_t k = 0; k < block && (size_t) l->node[e] == i; k++)
+                l->inverse[i * block + k] = l->value[(e * block + k) * block + k];
 }
 
 pg_status level_diagonal (level *l, const unsigned char *fixed)
@@ -72,8 +74,9 @@ done:
     return status;
 }
 
-/* ---- pattern ---------------------------------------------------------------------------------------------------------------------- */
-/* Calls for every hat that may be coupled with one at `at`, ascending: the number of functions so far goes in and out. */
+/* ---- pattern ------------------------------------------------------------------------------------------- */
+/* Calls for every hat that may be coupled with one at `at`, ascending: the number of functions so far goes in
+ * and out. */
 static size_t neighbours_of (const level *f, const int *at, const int *reach, int *out)
 {
     size_t count = 0;
@@ -86,7 +89,8 @@ static size_t neighbours_of (const level *f, const int *at, const int *reach, in
     for (int z = low[2]; z <= high[2]; z++)
         for (int y = low[1]; y <= high[1]; y++) {
             size_t row = (size_t) z * sz + (size_t) y * sy;
-            for (size_t p = f->first[row + (size_t) low[0]]; p < f->first[row + (size_t) high[0] + 1]; p++, count++)
+            for (size_t p = f->first[row + (size_t) low[0]]; p < f->first[row + (size_t) high[0] + 1];
+                 p++, count++)
                 if (out) out[count] = (int) p;
         }
     return count;
@@ -97,7 +101,7 @@ static pg_status make_pattern (level *c, const level *f)
     pg_status status = PG_OK;
     int reach[3] = { 0 }, at[3] = { 0 };
     size_t bb = (size_t) (c->block * c->block);
-    for (int k = 0; k < f->dim; k++) {                 /* hats end before two steps and the reach                        */
+    for (int k = 0; k < f->dim; k++) {                 /* hats end before two steps and the reach */
         reach[k] = (int) ceil (2 + f->reach[k] / f->step[k] + 1e-6) - 1;
         c->reach[k] = reach[k] * f->step[k];
     }
@@ -116,30 +120,38 @@ static pg_status make_pattern (level *c, const level *f)
         level_hat_place (f, h, at);
         for (size_t p = f->first[h]; p < f->first[h + 1]; p++) {
             neighbours_of (f, at, reach, c->node + c->start[p]);
-            for (int k = 0; k < c->dim; k++) c->x[p * (size_t) c->dim + (size_t) k] = f->low[k] + at[k] * f->step[k];
+            for (int k = 0; k < c->dim; k++)
+                c->x[p * (size_t) c->dim + (size_t) k] = f->low[k] + at[k] * f->step[k];
         }
     }
 done:
     return status;
 }
 
-/* ---- sums by cells ---------------------------------------------------------------------------------------------------------------- */
-typedef struct {                                       /* of one thread                                                  */
-    int    *where;                                     /* column of a function, -1: none     (functions)                 */
-    int    *row_of;                                    /* row of a function, -1: none        (functions)                 */
-    int    *row, *column;                              /* functions of rows and columns                                  */
+/* ---- sums by cells ------------------------------------------------------------------------------------- */
+typedef struct {                                       /* of one thread */
+    int    *where;                                     /* column of a function, -1: none (functions) */
+    int    *row_of;                                    /* row of a function, -1: none (functions) */
+    int    *row, *column;                              /* functions of rows and columns */
     size_t  nrow, ncolumn, cap_row, cap_column, cap_sum, cap_spread;
-    double *sum;                                       /* (columns x rows x block x block)                               */
-    double *spread;                                    /* A P of one node: (columns x block x block)                     */
+    double *sum;                                       /* (columns x rows x block x block) */
+    double *spread;                                    /* A P of one node: (columns x block x block) */
     pg_status status;
 } summer;
-typedef struct {                                       /* sums of a cell like many others                                */
-    unsigned char *like;                               /* of each cell: it is one of them; NULL: none is                 */
+typedef struct {                                       /* sums of a cell like many others */
+    unsigned char *like;                               /* of each cell: it is one of them; NULL: none is */
     size_t nrow, ncolumn;
-    int   *row, *column;                               /* offsets of hats from the cell's first corner (x 3)             */
+    int   *row, *column;  /* offsets of hats from the cell's first corner (x 3) */
     double *sum;
 } pattern;
-typedef struct { level *c; const level *f; room room; summer *summer; const size_t *cell; pattern pattern; } galerkin;
+typedef struct {
+    level *c;
+    const level *f;
+    workspace workspace;
+    summer *summer;
+    const size_t *cell;
+    pattern pattern;
+} galerkin;
 
 static inline void add_scaled (size_t bb, double w, const double *restrict a, double *restrict out)
 {
@@ -147,14 +159,16 @@ static inline void add_scaled (size_t bb, double w, const double *restrict a, do
 }
 
 /* spread += value of every coupling times the functions at its node, whose columns are known. */
-static inline void spread_row (const summer *s, const level *f, size_t bb, size_t m, const int *node, const double *value)
+static inline void spread_row (const summer *s, const level *f, size_t bb, size_t m, const int *node,
+                               const double *value)
 {
     size_t corners = (size_t) f->corners;
     for (size_t e = 0; e < m; e++) {
         const int *function = f->function + (size_t) node[e] * corners;
         const float *weight = f->weight + (size_t) node[e] * corners;
         for (size_t c = 0; c < corners; c++)
-            if (function[c] >= 0) add_scaled (bb, weight[c], value + e * bb, s->spread + (size_t) s->where[function[c]] * bb);
+            if (function[c] >= 0)
+                add_scaled (bb, weight[c], value + e * bb, s->spread + (size_t) s->where[function[c]] * bb);
     }
 }
 
@@ -217,7 +231,8 @@ static pg_status add_node (summer *s, const level *f, size_t i, size_t m, const 
         }
     }
     if (s->ncolumn) memset (s->spread, 0, s->ncolumn * bb * sizeof *s->spread);
-    if (bb == 4) spread_row (s, f, 4, m, node, value), gather_node (s, f, 4, i);       /* lengths that the compiler knows */
+    /* lengths that the compiler knows */
+    if (bb == 4) spread_row (s, f, 4, m, node, value), gather_node (s, f, 4, i);
     else if (bb == 9) spread_row (s, f, 9, m, node, value), gather_node (s, f, 9, i);
     else spread_row (s, f, bb, m, node, value), gather_node (s, f, bb, i);
 done:
@@ -246,23 +261,26 @@ static pg_status hand_over (const summer *s, const double *sums, level *c)
             const double *sum = sums + (q * s->nrow + r) * bb;
             if (at >= 0) add_scaled (bb, 1, sum, c->value + (first + (size_t) at) * bb);
             else for (size_t k = 0; k < bb; k++)
-                if (sum[k] != 0) PG_FAIL (PG_E_USAGE, "nodes are coupled that are further apart than their rows said");
+                    if (sum[k] != 0)
+                        PG_FAIL (PG_E_USAGE, "nodes are coupled that are further apart than their rows said");
         }
     }
 done:
     return status;
 }
 
-/* ---- cells that are alike ----------------------------------------------------------------------------------------------------------- */
+/* ---- cells that are alike ------------------------------------------------------------------------------ */
 static void cell_place (const level *f, size_t cell, int *at)
 {
-    for (int k = 0; k < f->dim; k++) at[k] = (int) (cell % (size_t) f->cells[k]), cell /= (size_t) f->cells[k];
+    for (int k = 0; k < f->dim; k++)
+        at[k] = (int) (cell % (size_t) f->cells[k]), cell /= (size_t) f->cells[k];
 }
 
 /* No node of the cell has a masked unknown, no hat at its corners is split. */
 static int is_plain (const level *f, size_t cell)
 {
-    for (size_t p = f->cell_start[cell]; p < f->cell_start[cell + 1]; p++) if (f->mask[f->cell_node[p]]) return 0;
+    for (size_t p = f->cell_start[cell]; p < f->cell_start[cell + 1]; p++)
+        if (f->mask[f->cell_node[p]]) return 0;
     for (int c = 0; c < f->corners; c++) {
         size_t hat = level_hat (f, cell, c);
         if (f->first[hat + 1] - f->first[hat] > 1) return 0;
@@ -300,7 +318,8 @@ static int stands_free (const level *f, const unsigned char *like, size_t cell)
     size_t sy = (size_t) f->cells[0], sz = sy * (f->dim > 1 ? (size_t) f->cells[1] : 1);
     for (int z = at[2] - far[2]; z <= at[2] + far[2]; z++)
         for (int y = at[1] - far[1]; y <= at[1] + far[1]; y++)
-            for (int x = at[0] - far[0]; x <= at[0] + far[0]; x++) if (!(like[(size_t) z * sz + (size_t) y * sy + (size_t) x] & PLAIN)) return 0;
+            for (int x = at[0] - far[0]; x <= at[0] + far[0]; x++)
+                if (!(like[(size_t) z * sz + (size_t) y * sy + (size_t) x] & PLAIN)) return 0;
     return 1;
 }
 
@@ -308,7 +327,7 @@ static int stands_free (const level *f, const unsigned char *like, size_t cell)
 static void offset_of (const level *f, const int *cell, int function, int *out)
 {
     size_t low = 0, high = f->nhat;
-    while (high - low > 1) {                           /* the last hat that starts at or before it                       */
+    while (high - low > 1) {                           /* the last hat that starts at or before it */
         size_t middle = (low + high) / 2;
         if (f->first[middle] <= (size_t) function) low = middle;
         else high = middle;
@@ -320,7 +339,8 @@ static void offset_of (const level *f, const int *cell, int function, int *out)
 static int function_at (const level *f, const int *cell, const int *offset)
 {
     size_t hat = 0, stride = 1;
-    for (int k = 0; k < f->dim; k++) hat += (size_t) (cell[k] + offset[k]) * stride, stride *= (size_t) f->cells[k] + 1;
+    for (int k = 0; k < f->dim; k++)
+        hat += (size_t) (cell[k] + offset[k]) * stride, stride *= (size_t) f->cells[k] + 1;
     return (int) f->first[hat];
 }
 
@@ -382,12 +402,13 @@ static pg_status take_pattern (galerkin *g, size_t cell, summer *s)
     PG_GROW (s->row, s->cap_row, p->nrow);
     PG_GROW (s->column, s->cap_column, p->ncolumn);
     for (; s->nrow < p->nrow; s->nrow++) s->row[s->nrow] = function_at (g->f, at, p->row + 3 * s->nrow);
-    for (; s->ncolumn < p->ncolumn; s->ncolumn++) s->column[s->ncolumn] = function_at (g->f, at, p->column + 3 * s->ncolumn);
+    for (; s->ncolumn < p->ncolumn; s->ncolumn++)
+        s->column[s->ncolumn] = function_at (g->f, at, p->column + 3 * s->ncolumn);
 done:
     return status;
 }
 
-/* ---- all of them --------------------------------------------------------------------------------------------------------------------- */
+/* ---- all of them --------------------------------------------------------------------------------------- */
 static pg_status sum_nodes (galerkin *g, size_t cell, int thread)
 {
     pg_status status = PG_OK;
@@ -397,8 +418,9 @@ static pg_status sum_nodes (galerkin *g, size_t cell, int thread)
     size_t m = f->cell_start[cell + 1] - f->cell_start[cell];
     PG_TRY (find_rows (s, f, node, m));
     for (size_t e = 0; e < m && s->nrow; e++) {
-        size_t i = (size_t) node[e], count = level_row (f, i, thread, g->room.node[thread], g->room.value[thread]);
-        PG_TRY (add_node (s, f, i, count, g->room.node[thread], g->room.value[thread]));
+        size_t i = (size_t) node[e],
+               count = level_row (f, i, thread, g->workspace.node[thread], g->workspace.value[thread]);
+        PG_TRY (add_node (s, f, i, count, g->workspace.node[thread], g->workspace.value[thread]));
     }
 done:
     return status;
@@ -439,7 +461,9 @@ static size_t cells_of_parity (const level *f, int parity, size_t *out)
     for (size_t cell = 0; cell < f->ncell; cell++) {
         size_t rest = cell;
         int same = f->cell_start[cell] < f->cell_start[cell + 1];
-        for (int k = 0; k < f->dim; k++) same = same && (int) (rest % (size_t) f->cells[k] % 2) == (parity >> k & 1), rest /= (size_t) f->cells[k];
+        for (int k = 0; k < f->dim; k++)
+            same = same && (int) (rest % (size_t) f->cells[k] % 2) == (parity >> k & 1),
+            rest /= (size_t) f->cells[k];
         if (same) out[count++] = cell;
     }
     return count;
@@ -454,8 +478,11 @@ static pg_status sum_all (galerkin *g)
     for (int parity = 0; parity < g->f->corners; parity++) {
         pg_parallel_heavy (g->f->threads, cells_of_parity (g->f, parity, cell), sum_cells, g);
         for (int t = 0; t < g->f->threads; t++)
-            if (g->summer[t].status != PG_OK) PG_FAIL (g->summer[t].status, "the coarse matrix of %zu functions could not be made: no memory, or couplings "
-                                                       "beyond their reach", g->c->n);
+            if (g->summer[t].status != PG_OK)
+                PG_FAIL (g->summer[t].status,
+                         "the coarse matrix of %zu functions could not be made: no memory, or couplings "
+                         "beyond their reach",
+                         g->c->n);
     }
 done:
     pg_free (cell);
@@ -466,9 +493,10 @@ pg_status level_coarsen (level *c, const level *f)
 {
     pg_status status = PG_OK;
     galerkin g = { .c = c, .f = f };
-    c->dim = f->dim, c->block = f->block, c->threads = f->threads, c->n = f->nfunction, c->ndof = c->n * (size_t) c->block;
+    c->dim = f->dim, c->block = f->block, c->threads = f->threads, c->n = f->nfunction,
+    c->ndof = c->n * (size_t) c->block;
     PG_TRY (make_pattern (c, f));
-    PG_TRY (room_make (&g.room, f));
+    PG_TRY (room_make (&g.workspace, f));
     PG_ALLOC (g.summer, (size_t) f->threads);
     for (int t = 0; t < f->threads; t++) {
         PG_ALLOC (g.summer[t].where, c->n);
@@ -482,10 +510,11 @@ pg_status level_coarsen (level *c, const level *f)
 done:
     for (int t = 0; g.summer && t < f->threads; t++) {
         summer *s = &g.summer[t];
-        pg_free (s->where), pg_free (s->row_of), pg_free (s->row), pg_free (s->column), pg_free (s->sum), pg_free (s->spread);
+        pg_free (s->where), pg_free (s->row_of), pg_free (s->row), pg_free (s->column), pg_free (s->sum),
+            pg_free (s->spread);
     }
     pg_free (g.summer);
     pg_free (g.pattern.like), pg_free (g.pattern.row), pg_free (g.pattern.column), pg_free (g.pattern.sum);
-    room_free (&g.room, f->threads);
+    room_free (&g.workspace, f->threads);
     return status;
 }

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Coarse functions of a level: multilinear hats on a grid over the box of its nodes. Where the couplings leave the nodes under a hat in several
- * parts (a crack runs through, a slit, two bodies side by side) each part has a function of its own: the hat on it, 0 on the others. Together
- * they make every linear displacement of every part that holds together. */
+ * Coarse functions of a level: multilinear hats on a grid over the box of its nodes. Where the couplings
+ * leave the nodes under a hat in several parts (a crack runs through, a slit, two bodies side by side) each
+ * part has a function of its own: the hat on it, 0 on the others. Together they make every linear
+ * displacement of every part that holds together. */
 #include "multilevel.h"
 #include <math.h>
 #include <string.h>
 
-static const double negligible = 1e-5;                 /* weights below it are left out                                  */
+static const double negligible = 1e-5;                 /* weights below it are left out */
 
 static void make_grid (level *l, double step)
 {
@@ -19,7 +20,7 @@ static void make_grid (level *l, double step)
         }
         double count = fmax (1, round ((high - low) / step)), h = l->rows.lattice[k];
         l->low[k] = low, l->step[k] = high > low ? (high - low) / count : 1;
-        if (h > 0) {                                   /* every cell holds the same nodes at the same places             */
+        if (h > 0) {  /* every cell holds the same nodes at the same places */
             l->share_of[k] = (int) fmax (1, round (step / h));
             l->low[k] = low - h / 2, l->step[k] = l->share_of[k] * h;
             count = ceil (round ((high - low) / h + 1) / l->share_of[k]);
@@ -42,7 +43,8 @@ size_t level_hat (const level *l, size_t cell, int corner)
 
 void level_hat_place (const level *l, size_t hat, int *at)
 {
-    for (int k = 0; k < l->dim; k++) at[k] = (int) (hat % ((size_t) l->cells[k] + 1)), hat /= (size_t) l->cells[k] + 1;
+    for (int k = 0; k < l->dim; k++)
+        at[k] = (int) (hat % ((size_t) l->cells[k] + 1)), hat /= (size_t) l->cells[k] + 1;
 }
 
 static int takes_part (const level *l, size_t i) { return l->mask[i] != (1 << l->block) - 1; }
@@ -65,7 +67,8 @@ static void place_nodes (void *context, size_t first, size_t last, int thread)
         for (int c = 0; c < l->corners; c++) {
             double w = 1;
             for (int k = 0; k < l->dim; k++) w *= c >> k & 1 ? t[k] : 1 - t[k];
-            l->weight[i * (size_t) l->corners + (size_t) c] = w > negligible && takes_part (l, i) ? (float) w : 0;
+            l->weight[i * (size_t) l->corners + (size_t) c] = w > negligible && takes_part (l, i) ? (float) w
+                                                                                                  : 0;
         }
     }
 }
@@ -82,8 +85,9 @@ done:
     return status;
 }
 
-/* ---- parts of a hat --------------------------------------------------------------------------------------------------------------- */
-typedef struct { int *under, *queue, *node; size_t *seen; } walker;       /* of one thread; seen: hat + 1 that reached a node */
+/* ---- parts of a hat ------------------------------------------------------------------------------------ */
+/* of one thread; seen: hat + 1 that reached a node */
+typedef struct { int *under, *queue, *node; size_t *seen; } walker;
 typedef struct { level *l; walker *walker; size_t *parts; pg_status failed; } search;
 
 /* Corner of the node's cell at which the hat stands, -1: the node is not under it. */
@@ -103,7 +107,7 @@ static int corner_of (const level *l, size_t i, const int *hat)
 static size_t gather (const level *l, const int *hat, int *under)
 {
     size_t count = 0;
-    for (int c = 0; c < l->corners; c++) {             /* the hat is corner c of this cell                               */
+    for (int c = 0; c < l->corners; c++) {             /* the hat is corner c of this cell */
         size_t cell = 0, stride = 1;
         int inside = 1;
         for (int k = 0; k < l->dim; k++) {
@@ -120,7 +124,8 @@ static size_t gather (const level *l, const int *hat, int *under)
     return count;
 }
 
-/* Numbers the parts under the hat: function[node, corner] = part; the rest of a part is not looked at once all nodes are reached. */
+/* Numbers the parts under the hat: function[node, corner] = part; the rest of a part is not looked at once
+ * all nodes are reached. */
 static size_t find_parts (level *l, size_t h, walker *w, int thread)
 {
     int hat[3];
@@ -156,7 +161,8 @@ static void search_hats (void *context, size_t first, size_t last, int thread)
 static size_t most_under (const level *l)
 {
     size_t most = 0;
-    for (size_t c = 0; c < l->ncell; c++) if (l->cell_start[c + 1] - l->cell_start[c] > most) most = l->cell_start[c + 1] - l->cell_start[c];
+    for (size_t c = 0; c < l->ncell; c++)
+        if (l->cell_start[c + 1] - l->cell_start[c] > most) most = l->cell_start[c + 1] - l->cell_start[c];
     return most * (size_t) l->corners;
 }
 
@@ -179,7 +185,8 @@ static pg_status split_hats (level *l)
     l->nfunction = l->first[l->nhat];
 done:
     for (int t = 0; s.walker && t < l->threads; t++)
-        pg_free (s.walker[t].under), pg_free (s.walker[t].queue), pg_free (s.walker[t].node), pg_free (s.walker[t].seen);
+        pg_free (s.walker[t].under), pg_free (s.walker[t].queue), pg_free (s.walker[t].node),
+            pg_free (s.walker[t].seen);
     pg_free (s.walker);
     return status;
 }

@@ -4,10 +4,18 @@
 #include <math.h>
 #include <string.h>
 
-enum { CHUNK = 4096 };                                 /* of sums: their order does not depend on the threads           */
-typedef struct { size_t n, nchunk; int threads; double *r, *z, *p, *q, *d, *x, *sum, alpha, turn; const double *a, *b; } vectors;
+enum { CHUNK = 4096 };  /* of sums: their order does not depend on the threads */
+typedef struct {
+    size_t n, nchunk;
+    int threads;
+    double *r, *z, *p, *q, *d, *x, *sum, alpha, turn;
+    const double *a, *b;
+} vectors;
 
-static size_t chunk_end (const vectors *v, size_t chunk) { return (chunk + 1) * CHUNK < v->n ? (chunk + 1) * CHUNK : v->n; }
+static size_t chunk_end (const vectors *v, size_t chunk)
+{
+    return (chunk + 1) * CHUNK < v->n ? (chunk + 1) * CHUNK : v->n;
+}
 
 static double total (vectors *v, pg_work work)
 {
@@ -24,7 +32,8 @@ static void dot_chunks (void *context, size_t first, size_t last, int thread)
     for (size_t c = first; c < last; c++) {
         double s[4] = { 0 };
         size_t i = c * CHUNK, end = chunk_end (v, c);
-        for (; i + 4 <= end; i += 4) for (int k = 0; k < 4; k++) s[k] += v->a[i + (size_t) k] * v->b[i + (size_t) k];
+        for (; i + 4 <= end; i += 4)
+            for (int k = 0; k < 4; k++) s[k] += v->a[i + (size_t) k] * v->b[i + (size_t) k];
         for (; i < end; i++) s[0] += v->a[i] * v->b[i];
         v->sum[c] = (s[0] + s[1]) + (s[2] + s[3]);
     }
@@ -98,8 +107,8 @@ done:
     return status;
 }
 
-pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b, double *x, double tolerance, size_t limit,
-                                       size_t *iterations)
+pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b,
+                                       double *x, double tolerance, size_t limit, size_t *iterations)
 {
     pg_status status = PG_OK;
     vectors v = { 0 };
@@ -115,18 +124,23 @@ pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditi
         rz = next;
         A->apply (A->context, v.p, v.q);
         double pq = dot (&v, v.p, v.q);
-        if (!(pq > 0)) PG_FAIL (PG_E_NOT_SPD, "conjugate gradients met a direction of energy %g after %zu iterations", pq, k);
+        if (!(pq > 0))
+            PG_FAIL (PG_E_NOT_SPD, "conjugate gradients met a direction of energy %g after %zu iterations",
+                     pq, k);
         v.alpha = rz / pq;
         rr = sqrt (total (&v, step_chunks));
     }
-    if (!(rr <= goal)) PG_FAIL (PG_E_EQUILIBRIUM, "conjugate gradients stopped after %zu iterations at residual %g of %g", k, rr, goal);
+    if (!(rr <= goal))
+        PG_FAIL (PG_E_EQUILIBRIUM, "conjugate gradients stopped after %zu iterations at residual %g of %g", k,
+                 rr, goal);
 done:
     if (iterations) *iterations = k;
     pg_free (v.r), pg_free (v.z), pg_free (v.p), pg_free (v.q), pg_free (v.d), pg_free (v.sum);
     return status;
 }
 
-pg_status pg_conjugate_gradients (const pg_operator *A, const double *b, double *x, double tolerance, size_t limit, size_t *iterations)
+pg_status pg_conjugate_gradients (const pg_operator *A, const double *b, double *x, double tolerance,
+                                  size_t limit, size_t *iterations)
 {
     return pg_conjugate_gradients_with (A, NULL, b, x, tolerance, limit, iterations);
 }
@@ -161,7 +175,8 @@ static pg_status pcg_solve (void *self, size_t nrhs, const double *b, double *x)
     for (size_t k = 0; k < nrhs; k++) {
         size_t used;
         memset (x + k * A.ncol, 0, A.ncol * sizeof *x);
-        PG_TRY (pg_conjugate_gradients (&op, b + k * A.ncol, x + k * A.ncol, s->tolerance, 20 * A.ncol + 1000, &used));
+        PG_TRY (pg_conjugate_gradients (&op, b + k * A.ncol, x + k * A.ncol, s->tolerance, 20 * A.ncol + 1000,
+                                        &used));
         s->iterations += used;
     }
 done:

@@ -62,9 +62,10 @@ static void diagonal (void *context, double *d)
 
 pg_operator pg_sparse_operator (pg_sparse *A) { return (pg_operator) { A->ncol, A, apply, diagonal }; }
 
-/* ---- B = T' A T ---------------------------------------------------------------------------------------------------------
+/* ---- B = T' A T
+ * ---------------------------------------------------------------------------------------------------------
  * Column k of B: c = A T(:,k) is scattered densely, then T' c on the columns that share a row with it. */
-typedef struct { long *start, *row; double *value; } rows_view;     /* T by rows                                         */
+typedef struct { long *start, *row; double *value; } rows_view;     /* T by rows */
 
 static pg_status by_rows (rows_view *R, const pg_sparse *T)
 {
@@ -111,7 +112,13 @@ done:
     return status;
 }
 
-typedef struct { const pg_sparse *A, *T; const rows_view *R; double *c, *b; long *hit_c, *hit_b, nc, nb; char *on_c, *on_b; } work;
+typedef struct {
+    const pg_sparse *A, *T;
+    const rows_view *R;
+    double *c, *b;
+    long *hit_c, *hit_b, nc, nb;
+    char *on_c, *on_b;
+} work;
 
 /* w->b, w->hit_b: column k of T' A T. */
 static void one_column (work *w, size_t k)
@@ -138,7 +145,7 @@ static void one_column (work *w, size_t k)
     for (long h = 0; h < w->nb; h++) w->on_b[w->hit_b[h]] = 0;
 }
 
-static void sort_ascending (long *a, long n)                       /* heap sort                                          */
+static void sort_ascending (long *a, long n)                       /* heap sort */
 {
     for (long m = n / 2 - 1, top = n; top > 1;) {
         long root, value;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A = L U for unsymmetric or indefinite matrices, by UMFPACK (64-bit interface), with its iterative refinement. */
+ * A = L U for unsymmetric or indefinite matrices, by UMFPACK (64-bit interface), with its iterative
+ * refinement. */
 #include "perigal/linalg.h"
 #include <umfpack.h>
 #include <string.h>
 
 typedef struct {
-    pg_sparse F;                                       /* both triangles of a symmetric A, else a copy                   */
-    long *from;                                        /* F.value[k] = A.value[from[k]]                                  */
+    pg_sparse F;                                       /* both triangles of a symmetric A, else a copy */
+    long *from;                                        /* F.value[k] = A.value[from[k]] */
     void *symbolic, *numeric;
     double control[UMFPACK_CONTROL], flops, entries;
 } lu;
@@ -38,8 +39,9 @@ static pg_status expand (lu *u, const pg_sparse *A)
             if (A->symmetric && (size_t) A->row[p] != j) u->F.start[A->row[p] + 1]++;
         }
     for (size_t j = 0; j < A->ncol; j++) u->F.start[j + 1] += u->F.start[j], fill[j] = u->F.start[j];
-    for (size_t j = 0; j < A->ncol; j++)               /* ascending rows: all i <= j arrive before those i > j           */
-        for (long p = A->start[j]; p < A->start[j + 1]; p++) u->F.row[fill[j]] = A->row[p], u->from[fill[j]++] = p;
+    for (size_t j = 0; j < A->ncol; j++)  /* ascending rows: all i <= j arrive before those i > j */
+        for (long p = A->start[j]; p < A->start[j + 1]; p++)
+            u->F.row[fill[j]] = A->row[p], u->from[fill[j]++] = p;
     if (A->symmetric)
         for (size_t j = 0; j < A->ncol; j++)
             for (long p = A->start[j]; p < A->start[j + 1]; p++) {
@@ -73,14 +75,20 @@ static pg_status lu_factor (void *self, const pg_sparse *A)
     for (long k = 0; k < u->F.start[u->F.ncol]; k++) u->F.value[k] = A->value[u->from[k]];
     umfpack_dl_free_numeric (&u->numeric);
     long code = 0;
-    if (!u->symbolic)                                  /* the first numbers help it to choose its strategy               */
-        code = umfpack_dl_symbolic ((long) A->nrow, (long) A->ncol, u->F.start, u->F.row, u->F.value, &u->symbolic, u->control, info);
+    if (!u->symbolic)                                  /* the first numbers help it to choose its strategy */
+        code = umfpack_dl_symbolic ((long) A->nrow, (long) A->ncol, u->F.start, u->F.row, u->F.value,
+                                    &u->symbolic, u->control, info);
     if (code == UMFPACK_OK)
-        code = umfpack_dl_numeric (u->F.start, u->F.row, u->F.value, u->symbolic, &u->numeric, u->control, info);
-    int lost = code == UMFPACK_OK && !(info[UMFPACK_RCOND] > 1e-14);       /* smallest by largest pivot of scaled rows     */
+        code = umfpack_dl_numeric (u->F.start, u->F.row, u->F.value, u->symbolic, &u->numeric, u->control,
+                                   info);
+    /* smallest by largest pivot of scaled rows */
+    int lost = code == UMFPACK_OK && !(info[UMFPACK_RCOND] > 1e-14);
     if (code == UMFPACK_WARNING_singular_matrix || lost)
-        PG_FAIL (PG_E_SINGULAR, "the matrix of %zu unknowns is singular: a part that can move freely?", A->ncol);
-    if (code != UMFPACK_OK) PG_FAIL (PG_E_MEMORY, "the LU factorization of %zu unknowns failed (UMFPACK status %ld)", A->ncol, code);
+        PG_FAIL (PG_E_SINGULAR, "the matrix of %zu unknowns is singular: a part that can move freely?",
+                 A->ncol);
+    if (code != UMFPACK_OK)
+        PG_FAIL (PG_E_MEMORY, "the LU factorization of %zu unknowns failed (UMFPACK status %ld)", A->ncol,
+                 code);
     u->flops = info[UMFPACK_FLOPS], u->entries = info[UMFPACK_LNZ] + info[UMFPACK_UNZ];
 done:
     return status;
@@ -92,9 +100,11 @@ static pg_status lu_solve (void *self, size_t nrhs, const double *b, double *x)
     lu *u = self;
     size_t n = u->F.ncol;
     for (size_t k = 0; k < nrhs; k++) {
-        long code = umfpack_dl_solve (UMFPACK_A, u->F.start, u->F.row, u->F.value, x + k * n, b + k * n, u->numeric, u->control, NULL);
-        if (code != UMFPACK_OK) PG_FAIL (code == UMFPACK_WARNING_singular_matrix ? PG_E_SINGULAR : PG_E_MEMORY,
-                                         "an LU solve failed (UMFPACK status %ld)", code);
+        long code = umfpack_dl_solve (UMFPACK_A, u->F.start, u->F.row, u->F.value, x + k * n, b + k * n,
+                                      u->numeric, u->control, NULL);
+        if (code != UMFPACK_OK)
+            PG_FAIL (code == UMFPACK_WARNING_singular_matrix ? PG_E_SINGULAR : PG_E_MEMORY,
+                     "an LU solve failed (UMFPACK status %ld)", code);
     }
 done:
     return status;

@@ -34,8 +34,10 @@ pg_status pg_material_add (const pg_material_type *type)
 {
     pg_status status = PG_OK;
     size_t used = strlen (names), length = strlen (type->name);
-    if (pg_material_find (type->name)) PG_FAIL (PG_E_USAGE, "there is a material model %s already", type->name);
-    if (nadded == MOST_ADDED || used + length + 2 > sizeof names) PG_FAIL (PG_E_USAGE, "%d material models can be added, no more", MOST_ADDED);
+    if (pg_material_find (type->name))
+        PG_FAIL (PG_E_USAGE, "there is a material model %s already", type->name);
+    if (nadded == MOST_ADDED || used + length + 2 > sizeof names)
+        PG_FAIL (PG_E_USAGE, "%d material models can be added, no more", MOST_ADDED);
     names[used] = '|';
     memcpy (names + used + 1, type->name, length + 1);
     added[nadded++] = type;
@@ -54,7 +56,8 @@ static int listed (const char *list, const char *name)
     return 0;
 }
 
-/* Every model brings keys of its own, and the scene knows them all: those of another model would do nothing, without a word. */
+/* Every model brings keys of its own, and the scene knows them all: those of another model would do nothing,
+ * without a word. */
 static void check_keys (const pg_material *m, const pg_scene *scene)
 {
     const char *key;
@@ -62,7 +65,8 @@ static void check_keys (const pg_material *m, const pg_scene *scene)
         char path[160];
         if (listed ("model density failure", key) || listed (m->type->keys, key)) continue;
         snprintf (path, sizeof path, "materials.%s.%s", m->name, key);
-        pg_scene_fault (scene, path, "is no key of model: %s, which reads %s and density", m->type->name, m->type->keys);
+        pg_scene_fault (scene, path, "is no key of model: %s, which reads %s and density", m->type->name,
+                        m->type->keys);
     }
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Isotropic linear elasticity: stress = D strain; plane strain: sigma_zz = nu (sigma_xx + sigma_yy). Theory section 0. */
+ * Isotropic linear elasticity: stress = D strain; plane strain: sigma_zz = nu (sigma_xx + sigma_yy). Theory
+ * section 0. */
 #include "entries.h"
 #include <string.h>
 
@@ -25,7 +26,9 @@ void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D)
 void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation)
 {
     double mu = E / (2 * (1 + nu)), lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), d = mode == PG_SOLID ? 3 : 2;
-    double bulk = mode == PG_PLANE_STRESS ? E / (2 * (1 - nu)) : mode == PG_PLANE_STRAIN ? lambda + mu : lambda + 2 * mu / 3;
+    double bulk = mode == PG_PLANE_STRESS   ? E / (2 * (1 - nu))
+                  : mode == PG_PLANE_STRAIN ? lambda + mu
+                                            : lambda + 2 * mu / 3;
     *dilation = mode == PG_LINE ? 0 : d * bulk - (d + 2) * mu;
     *deviation = mode == PG_LINE ? E : d * (d + 2) * mu;
 }
@@ -38,7 +41,8 @@ static pg_status read (pg_material *m, const pg_scene *scene)
     m->parameter[POISSON] = nu;
     pg_elastic_tangent (m->mode, E, nu, m->D);
     if (m->mode == PG_PLANE_STRAIN || m->mode == PG_SOLID) m->lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
-    if (m->mode == PG_PLANE_STRAIN) m->out_of_plane[0] = m->out_of_plane[1] = E * nu / ((1 + nu) * (1 - 2 * nu));
+    if (m->mode == PG_PLANE_STRAIN)
+        m->out_of_plane[0] = m->out_of_plane[1] = E * nu / ((1 + nu) * (1 - 2 * nu));
     return PG_OK;
 }
 
@@ -59,5 +63,10 @@ static void stress (const pg_material *m, size_t n, const double *strain, double
 }
 
 const pg_material_type pg_material_elastic = {
-    .name = "elastic", .summary = "isotropic, linear: Young's modulus and Poisson's ratio", .keys = "youngs_modulus poissons_ratio",
-    .isotropic = 1, .read = read, .stress = stress };
+    .name = "elastic",
+    .summary = "isotropic, linear: Young's modulus and Poisson's ratio",
+    .keys = "youngs_modulus poissons_ratio",
+    .isotropic = 1,
+    .read = read,
+    .stress = stress
+};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Principal stresses sigma_1 >= sigma_2 >= sigma_3: closed forms, and Jacobi rotations where the closed form of 3D loses
- * digits (two values nearly equal). */
+ * Principal stresses sigma_1 >= sigma_2 >= sigma_3: closed forms, and Jacobi rotations where the closed form
+ * of 3D loses digits (two values nearly equal). */
 #include "perigal/material.h"
 #include <math.h>
 

@@ -7,8 +7,9 @@ double pg_rayleigh_speed (double pressure, double shear)
 {
     double low = 1e-3, high = 1, q = shear * shear / (pressure * pressure);
     if (!(shear > 0 && pressure > shear)) return 0;
-    for (int k = 0; k < 200; k++) {                        /* x = c / c_s; the equation falls from x = 0, rises to 1 at x = 1 */
-        double x = 0.5 * (low + high), x2 = x * x, value = (2 - x2) * (2 - x2) - 4 * sqrt ((1 - x2) * (1 - q * x2));
+    for (int k = 0; k < 200; k++) {  /* x = c / c_s; the equation falls from x = 0, rises to 1 at x = 1 */
+        double x = 0.5 * (low + high), x2 = x * x,
+               value = (2 - x2) * (2 - x2) - 4 * sqrt ((1 - x2) * (1 - q * x2));
         if (x == low || x == high) break;
         *(value < 0 ? &low : &high) = x;
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Input files of Abaqus and CalculiX: nodes, elements, sets, surfaces; files by *INCLUDE; all other keywords are passed over. Keywords
- * and names count without regard to case and blanks around them. */
+ * Input files of Abaqus and CalculiX: nodes, elements, sets, surfaces; files by *INCLUDE; all other keywords
+ * are passed over. Keywords and names count without regard to case and blanks around them. */
 #include "abaqus.h"
 #include <ctype.h>
 #include <stdarg.h>
@@ -31,7 +31,7 @@ static void file_close (abaqus_file *f)
     *f = (abaqus_file) { 0 };
 }
 
-/* ---- keyword lines ---------------------------------------------------------------------------------------------------- */
+/* ---- keyword lines ------------------------------------------------------------------------------------- */
 void abaqus_trim (char *to, size_t size, const char *s, const char *end)
 {
     while (s < end && isspace ((unsigned char) *s)) s++;
@@ -45,11 +45,15 @@ void abaqus_trim (char *to, size_t size, const char *s, const char *end)
 static void copy_key (char *to, size_t size, const char *s, const char *end)
 {
     size_t n = 0;
-    for (; s < end && n + 1 < size; s++) if (!isspace ((unsigned char) *s)) to[n++] = (char) toupper ((unsigned char) *s);
+    for (; s < end && n + 1 < size; s++)
+        if (!isspace ((unsigned char) *s)) to[n++] = (char) toupper ((unsigned char) *s);
     to[n] = 0;
 }
 
-static int is_comment (const abaqus_file *f) { return f->end - f->line >= 2 && f->line[0] == '*' && f->line[1] == '*'; }
+static int is_comment (const abaqus_file *f)
+{
+    return f->end - f->line >= 2 && f->line[0] == '*' && f->line[1] == '*';
+}
 
 static void add_parameter (reader *r, const char *s, const char *end)
 {
@@ -86,7 +90,8 @@ static void read_keyword (reader *r)
 
 static const char *value_of (const reader *r, const char *key)
 {
-    for (int k = 0; k < r->nparameter; k++) if (strcmp (r->parameter[k].key, key) == 0) return r->parameter[k].value;
+    for (int k = 0; k < r->nparameter; k++)
+        if (strcmp (r->parameter[k].key, key) == 0) return r->parameter[k].value;
     return NULL;
 }
 
@@ -105,7 +110,10 @@ static pg_status begin_nodes (reader *r)
     pg_status status = PG_OK;
     const char *set = value_of (r, "NSET"), *system = value_of (r, "SYSTEM");
     char name[ABAQUS_NAME];
-    if (system && strcasecmp (system, "R") != 0) PG_TRY (ABAQUS_WRONG (r, "nodes with SYSTEM=%.20s are not read: write them in rectangular coordinates", system));
+    if (system && strcasecmp (system, "R") != 0)
+        PG_TRY (ABAQUS_WRONG (r,
+                              "nodes with SYSTEM=%.20s are not read: write them in rectangular coordinates",
+                              system));
     r->set = -1;
     if (set && *set) {
         PG_TRY (name_of (r, "NSET", NULL, name));
@@ -124,8 +132,12 @@ static pg_status begin_elements (reader *r)
     if (!type || !*type) PG_TRY (ABAQUS_WRONG (r, "*ELEMENT without TYPE="));
     copy_key (capitals, sizeof capitals, type, type + strlen (type));
     int found = abaqus_find_type (capitals, &r->type, near);
-    if (!found) PG_TRY (ABAQUS_WRONG (r, "elements of type '%.30s' are not known%s%s%s; known are C3D4, 6, 8, 10, 15, 20, CPS and CPE 3, 4, 6, 8, S3, 4, 6, 8, "
-                               "M3D3, 4, 6, 8, T3D2, B31, with letters behind them as in C3D8R", type, near[0] ? " (did you mean '" : "", near, near[0] ? "'?)" : ""));
+    if (!found)
+        PG_TRY (ABAQUS_WRONG (r,
+                              "elements of type '%.30s' are not known%s%s%s; known are C3D4, 6, 8, 10, 15, "
+                              "20, CPS and CPE 3, 4, 6, 8, S3, 4, 6, 8, "
+                              "M3D3, 4, 6, 8, T3D2, B31, with letters behind them as in C3D8R",
+                              type, near[0] ? " (did you mean '" : "", near, near[0] ? "'?)" : ""));
     r->mode = found == 1 ? ABAQUS_ELEMENT_LINES : ABAQUS_SKIP;
     r->have = -1;
     r->set = -1;
@@ -152,7 +164,8 @@ static pg_status begin_set (reader *r, int nodes)
     if (nodes && of) {
         int other = abaqus_set_find (&r->data.elset, of);
         if (other < 0) PG_TRY (ABAQUS_WRONG (r, "there is no element set '%.63s' before this line", of));
-        PG_TRY (abaqus_set_add (&r->data.nset.set[r->set], (abaqus_range) { other, other, ABAQUS_NODES_OF, 0 }));
+        PG_TRY (
+            abaqus_set_add (&r->data.nset.set[r->set], (abaqus_range){ other, other, ABAQUS_NODES_OF, 0 }));
     }
 done:
     return status;
@@ -164,7 +177,9 @@ static pg_status begin_surface (reader *r)
     const char *type = value_of (r, "TYPE");
     char name[ABAQUS_NAME];
     r->mode = ABAQUS_SKIP;
-    if (value_of (r, "COMBINE") || (type && strcasecmp (type, "ELEMENT") != 0 && strcasecmp (type, "NODE") != 0)) goto done;
+    if (value_of (r, "COMBINE")
+        || (type && strcasecmp (type, "ELEMENT") != 0 && strcasecmp (type, "NODE") != 0))
+        goto done;
     PG_TRY (name_of (r, "NAME", NULL, name));
     if (type && strcasecmp (type, "NODE") == 0) {
         PG_TRY (abaqus_set_get (&r->data.nset, name, &r->set));
@@ -201,7 +216,9 @@ static pg_status begin_include (reader *r, const char *name)
     char *path = NULL;
     const char *slash = strrchr (now (r)->bytes.path, '/');
     if (!name || !*name) PG_TRY (ABAQUS_WRONG (r, "*%s without INPUT=FILE", r->keyword));
-    if (r->depth + 1 == ABAQUS_DEEPEST || r->data.included == MOST_INCLUDES) PG_TRY (ABAQUS_WRONG (r, "files include one another more than %d deep or %d times", ABAQUS_DEEPEST, MOST_INCLUDES));
+    if (r->depth + 1 == ABAQUS_DEEPEST || r->data.included == MOST_INCLUDES)
+        PG_TRY (ABAQUS_WRONG (r, "files include one another more than %d deep or %d times", ABAQUS_DEEPEST,
+                              MOST_INCLUDES));
     size_t folder = slash && *name != '/' ? (size_t) (slash - now (r)->bytes.path) + 1 : 0;
     PG_ALLOC (path, folder + strlen (name) + 1);
     memcpy (path, now (r)->bytes.path, folder);
@@ -227,7 +244,9 @@ static pg_status begin_instance (reader *r)
     pg_status status = PG_OK;
     const char *name = value_of (r, "NAME");
     r->mode = ABAQUS_INSTANCE;
-    if (++r->instances > 1) PG_TRY (ABAQUS_WRONG (r, "a second *INSTANCE: an assembly of several bodies is not read; merge them into one part (no bodies in contact)"));
+    if (++r->instances > 1)
+        PG_TRY (ABAQUS_WRONG (r, "a second *INSTANCE: an assembly of several bodies is not read; merge them "
+                                 "into one part (no bodies in contact)"));
     if (name) snprintf (r->instance, sizeof r->instance, "%s", name);
 done:
     return status;
@@ -236,7 +255,8 @@ done:
 /* What makes nodes or elements from others: without it the mesh would be another. */
 static int generates (const char *keyword)
 {
-    static const char *const word[] = { "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "IMPORT", "SUBMODEL" };
+    static const char *const word[] = { "NGEN",   "NFILL",  "NCOPY",  "NMAP",    "ELGEN",
+                                        "ELCOPY", "SYSTEM", "IMPORT", "SUBMODEL" };
     for (size_t k = 0; k < sizeof word / sizeof *word; k++) if (strcmp (keyword, word[k]) == 0) return 1;
     return 0;
 }
@@ -244,7 +264,8 @@ static int generates (const char *keyword)
 static pg_status finish_element (const reader *r)
 {
     if (r->have < 0) return PG_OK;
-    return pg_error (PG_E_FILE, PG_HERE, "%s, line %ld: element %ld has %d of %d nodes", now (r)->bytes.path, r->element_line, r->element, r->have, r->type.nodes);
+    return pg_error (PG_E_FILE, PG_HERE, "%s, line %ld: element %ld has %d of %d nodes", now (r)->bytes.path,
+                     r->element_line, r->element, r->have, r->type.nodes);
 }
 
 static pg_status begin (reader *r)
@@ -261,14 +282,23 @@ static pg_status begin (reader *r)
     else if (strcmp (k, "SURFACE") == 0) status = begin_surface (r);
     else if (strcmp (k, "INCLUDE") == 0) status = begin_include (r, value_of (r, "INPUT"));
     else if (strcmp (k, "INSTANCE") == 0) status = begin_instance (r);
-    else if (strcmp (k, "SOLIDSECTION") == 0 || strcmp (k, "SHELLSECTION") == 0 || strcmp (k, "MEMBRANESECTION") == 0) status = begin_section (r);
-    else if (strcmp (k, "PART") == 0 && ++r->parts > 1) status = ABAQUS_WRONG (r, "a second *PART: only files of one part are read; merge the parts into one");
-    else if (generates (k)) status = ABAQUS_WRONG (r, "*%s is not read: write out all nodes and elements (most programs do so on export)", k);
-    if (status == PG_OK && r->mode != ABAQUS_SKIP && strcmp (k, "INCLUDE") != 0 && value_of (r, "INPUT")) status = begin_include (r, value_of (r, "INPUT"));
+    else if (strcmp (k, "SOLIDSECTION") == 0 || strcmp (k, "SHELLSECTION") == 0
+             || strcmp (k, "MEMBRANESECTION") == 0)
+        status = begin_section (r);
+    else if (strcmp (k, "PART") == 0 && ++r->parts > 1)
+        status = ABAQUS_WRONG (r,
+                               "a second *PART: only files of one part are read; merge the parts into one");
+    else if (generates (k))
+        status =
+            ABAQUS_WRONG (r,
+                          "*%s is not read: write out all nodes and elements (most programs do so on export)",
+                          k);
+    if (status == PG_OK && r->mode != ABAQUS_SKIP && strcmp (k, "INCLUDE") != 0 && value_of (r, "INPUT"))
+        status = begin_include (r, value_of (r, "INPUT"));
     return status;
 }
 
-/* ---- the file --------------------------------------------------------------------------------------------------------- */
+/* ---- the file ------------------------------------------------------------------------------------------ */
 static pg_status read_all (reader *r)
 {
     pg_status status = PG_OK;
@@ -285,7 +315,8 @@ static pg_status read_all (reader *r)
         else if (r->mode != ABAQUS_SKIP) PG_TRY (abaqus_data (r));
     }
     PG_TRY (finish_element (r));
-    if (r->data.maker->n == 0) PG_FAIL (PG_E_FILE, "%s: no *ELEMENT: there is no mesh in this file", r->file[0].bytes.path);
+    if (r->data.builder->n == 0)
+        PG_FAIL (PG_E_FILE, "%s: no *ELEMENT: there is no mesh in this file", r->file[0].bytes.path);
 done:
     return status;
 }
@@ -300,7 +331,7 @@ static void reader_free (reader *r)
     pg_free (r);
 }
 
-static pg_status read_abaqus (pg_mesh_maker *m, const mesh_bytes *file)
+static pg_status read_abaqus (pg_mesh_builder *m, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
     reader *r = NULL;
@@ -308,7 +339,7 @@ static pg_status read_abaqus (pg_mesh_maker *m, const mesh_bytes *file)
     r->file[0].bytes = *file;
     r->file[0].c = mesh_begin (file);
     r->data.path = file->path;
-    r->data.maker = m;
+    r->data.builder = m;
     r->have = -1;
     PG_TRY (read_all (r));
     PG_TRY (abaqus_resolve (&r->data));

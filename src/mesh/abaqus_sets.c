@@ -5,7 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* ---- the sets as written ---------------------------------------------------------------------------------------------- */
+/* ---- the sets as written ------------------------------------------------------------------------------- */
 int abaqus_set_find (const abaqus_sets *sets, const char *name)
 {
     for (size_t k = 0; k < sets->n; k++) if (strcasecmp (sets->set[k].name, name) == 0) return (int) k;
@@ -17,7 +17,7 @@ pg_status abaqus_set_get (abaqus_sets *sets, const char *name, int *set)
     pg_status status = PG_OK;
     *set = abaqus_set_find (sets, name);
     if (*set >= 0) goto done;
-    PG_GROW (sets->set, sets->room, sets->n + 1);
+    PG_GROW (sets->set, sets->workspace, sets->n + 1);
     memset (&sets->set[sets->n], 0, sizeof *sets->set);
     snprintf (sets->set[sets->n].name, ABAQUS_NAME, "%s", name);
     *set = (int) sets->n++;
@@ -30,11 +30,12 @@ pg_status abaqus_set_add (abaqus_set *set, abaqus_range range)
 {
     pg_status status = PG_OK;
     abaqus_range *last = set->n ? &set->range[set->n - 1] : NULL;
-    if (last && last->step == 1 && range.step == 1 && range.first == range.last && range.first == last->last + 1 && !last->line == !range.line) {
+    if (last && last->step == 1 && range.step == 1 && range.first == range.last
+        && range.first == last->last + 1 && !last->line == !range.line) {
         last->last = range.last;
         goto done;
     }
-    PG_GROW (set->range, set->room, set->n + 1);
+    PG_GROW (set->range, set->workspace, set->n + 1);
     set->range[set->n++] = range;
 done:
     return status;
@@ -47,16 +48,16 @@ void abaqus_sets_free (abaqus_sets *sets)
     *sets = (abaqus_sets) { 0 };
 }
 
-/* ---- what is in a set ------------------------------------------------------------------------------------------------- */
+/* ---- what is in a set ---------------------------------------------------------------------------------- */
 typedef struct {
-    const char *what;                                  /* "node", "element"                                              */
+    const char *what;                                  /* "node", "element" */
     const abaqus_sets *sets;
     id_table table;
     const long *id;
-    size_t   all, n;                                   /* of the file, in the set                                        */
-    int     *place;                                    /* of those in the set                                            */
-    unsigned char *in, *seen;                          /* of places, of sets                                             */
-    int     *todo;                                     /* sets                                                           */
+    size_t   all, n;                                   /* of the file, in the set */
+    int     *place;                                    /* of those in the set */
+    unsigned char *in, *seen;                          /* of places, of sets */
+    int     *todo;                                     /* sets */
 } gather;
 typedef struct { abaqus *a; gather node, element; } resolver;
 
@@ -71,7 +72,7 @@ static pg_status gather_start (gather *g, const char *what, const abaqus_sets *s
     pg_status status = PG_OK;
     size_t twice;
     g->what = what, g->sets = sets, g->all = n, g->id = id;
-    PG_TRY (id_table_build (&g->table, n, id, &twice));    /* numbers given twice are for the maker to tell                  */
+    PG_TRY (id_table_build (&g->table, n, id, &twice));  /* numbers given twice are for the builder to tell */
     PG_ALLOC (g->place, n);
     PG_ALLOC (g->in, n);
     PG_ALLOC (g->seen, sets->n);
@@ -97,18 +98,23 @@ static pg_status fault (const resolver *r, long line, const char *what, long id,
 {
     char at[32] = "";
     if (line > 0 && !r->a->included) snprintf (at, sizeof at, ", line %ld", line);
-    return pg_error (PG_E_FILE, PG_HERE, "%s%s: %s %ld of set '%s' is not there", r->a->path, at, what, id, set);
+    return pg_error (PG_E_FILE, PG_HERE, "%s%s: %s %ld of set '%s' is not there", r->a->path, at, what, id,
+                     set);
 }
 
 static pg_status put_range (const resolver *r, gather *g, const abaqus_range *range, const char *set)
 {
-    size_t count = range->last < range->first ? 0 : ((size_t) range->last - (size_t) range->first) / (size_t) range->step + 1;
-    if (count > g->all && range->line) {               /* more than there are: one is missing                            */
-        for (long id = range->first; ; id++) if (id_table_find (&g->table, id) < 0) return fault (r, range->line, g->what, id, set);
+    size_t count = range->last < range->first
+                       ? 0
+                       : ((size_t) range->last - (size_t) range->first) / (size_t) range->step + 1;
+    if (count > g->all && range->line) {               /* more than there are: one is missing */
+        for (long id = range->first;; id++)
+            if (id_table_find (&g->table, id) < 0) return fault (r, range->line, g->what, id, set);
     }
     if (count > g->all) {
         for (size_t k = 0; k < g->all; k++)
-            if (g->id[k] >= range->first && g->id[k] <= range->last && ((size_t) g->id[k] - (size_t) range->first) % (size_t) range->step == 0)
+            if (g->id[k] >= range->first && g->id[k] <= range->last
+                && ((size_t) g->id[k] - (size_t) range->first) % (size_t) range->step == 0)
                 put (g, (long) k);
         return PG_OK;
     }
@@ -125,8 +131,9 @@ static pg_status put_range (const resolver *r, gather *g, const abaqus_range *ra
 static pg_status collect (resolver *r, gather *g, int set);
 static void put_nodes (resolver *r, int e)
 {
-    const pg_mesh_maker *m = r->a->maker;
-    for (size_t j = m->start[e]; j < m->start[e + 1]; j++) put (&r->node, id_table_find (&r->node.table, m->list[j]));
+    const pg_mesh_builder *m = r->a->builder;
+    for (size_t j = m->start[e]; j < m->start[e + 1]; j++)
+        put (&r->node, id_table_find (&r->node.table, m->list[j]));
 }
 
 static pg_status put_nodes_of (resolver *r, int element_set)
@@ -156,7 +163,7 @@ static pg_status collect (resolver *r, gather *g, int set)
     return status;
 }
 
-/* ---- into the maker --------------------------------------------------------------------------------------------------- */
+/* ---- into the builder ---------------------------------------------------------------------------------- */
 /* Elements without a set of their own: the set of the section they were given. */
 static pg_status resolve_blocks (resolver *r)
 {
@@ -166,14 +173,14 @@ static pg_status resolve_blocks (resolver *r)
         int used = 0;
         PG_TRY (collect (r, &r->element, a->section[k]));
         for (size_t i = 0; i < r->element.n; i++) {
-            long *group = &a->maker->group[r->element.place[i]];
+            long *group = &a->builder->group[r->element.place[i]];
             if (*group == 0) *group = a->section[k] + 1, used = 1;
         }
         if (used) a->elset.set[a->section[k]].named = 1;
     }
     for (size_t k = 0; k < a->elset.n; k++)
         for (int dim = 0; dim <= 3 && a->elset.set[k].named; dim++)
-            PG_TRY (pg_maker_group (a->maker, dim, (long) k + 1, a->elset.set[k].name));
+            PG_TRY (pg_mesh_builder_group (a->builder, dim, (long) k + 1, a->elset.set[k].name));
 done:
     return status;
 }
@@ -182,8 +189,9 @@ static pg_status emit_nodes (resolver *r, const char *name, long id)
 {
     pg_status status = PG_OK;
     if (r->node.n == 0) goto done;
-    PG_TRY (pg_maker_nodeset (r->a->maker, name, id));
-    for (size_t i = 0; i < r->node.n; i++) PG_TRY (pg_maker_nodeset_add (r->a->maker, r->node.id[r->node.place[i]]));
+    PG_TRY (pg_mesh_builder_nodeset (r->a->builder, name, id));
+    for (size_t i = 0; i < r->node.n; i++)
+        PG_TRY (pg_mesh_builder_nodeset_add (r->a->builder, r->node.id[r->node.place[i]]));
 done:
     return status;
 }
@@ -206,25 +214,30 @@ done:
     return status;
 }
 
-static int top_dimension (const pg_mesh_maker *m)
+static int top_dimension (const pg_mesh_builder *m)
 {
     int dim = 0;
-    for (size_t e = 0; e < m->n; e++) if (pg_element_types[m->kind[e]].dim > dim) dim = pg_element_types[m->kind[e]].dim;
+    for (size_t e = 0; e < m->n; e++)
+        if (pg_element_types[m->kind[e]].dim > dim) dim = pg_element_types[m->kind[e]].dim;
     return dim;
 }
 
 /* Side that a line of a surface means for one element; -2: it is the face of a shell. */
-static pg_status side_of (const resolver *r, const abaqus_surface *surface, const abaqus_face *face, int place, int dim, int *side)
+static pg_status side_of (const resolver *r, const abaqus_surface *surface, const abaqus_face *face,
+                          int place, int dim, int *side)
 {
     pg_status status = PG_OK;
-    const pg_mesh_maker *m = r->a->maker;
+    const pg_mesh_builder *m = r->a->builder;
     char at[32] = "";
     pg_element kind = (pg_element) m->kind[place];
     *side = abaqus_side (kind, r->a->shell[place], face->face);
     if (!r->a->included) snprintf (at, sizeof at, ", line %ld", face->line);
     if (*side == -1 || pg_element_types[kind].dim < dim)
-        PG_FAIL (PG_E_FILE, "%s%s: surface '%s': element %ld (%s) has no face '%s'; faces are called S1, S2 ... (shells: E1, E2 ...)", r->a->path, at,
-                 surface->name, m->element_id[place], pg_element_types[kind].name, face->face);
+        PG_FAIL (PG_E_FILE,
+                 "%s%s: surface '%s': element %ld (%s) has no face '%s'; faces are called S1, S2 ... "
+                 "(shells: E1, E2 ...)",
+                 r->a->path, at, surface->name, m->element_id[place], pg_element_types[kind].name,
+                 face->face);
 done:
     return status;
 }
@@ -255,12 +268,13 @@ static pg_status resolve_surface (resolver *r, const abaqus_surface *surface, lo
                 put_nodes (r, e);
                 continue;
             }
-            if (!begun) PG_TRY (pg_maker_sideset (r->a->maker, surface->name, id));
-            PG_TRY (pg_maker_sideset_add (r->a->maker, r->element.id[e], side));
+            if (!begun) PG_TRY (pg_mesh_builder_sideset (r->a->builder, surface->name, id));
+            PG_TRY (pg_mesh_builder_sideset_add (r->a->builder, r->element.id[e], side));
             begun = 1;
         }
     }
-    if (!begun && abaqus_set_find (&r->a->nset, surface->name) < 0) PG_TRY (emit_nodes (r, surface->name, id));
+    if (!begun && abaqus_set_find (&r->a->nset, surface->name) < 0)
+        PG_TRY (emit_nodes (r, surface->name, id));
 done:
     return status;
 }
@@ -269,12 +283,13 @@ pg_status abaqus_resolve (abaqus *a)
 {
     pg_status status = PG_OK;
     resolver r = { .a = a };
-    int dim = top_dimension (a->maker);
-    PG_TRY (gather_start (&r.node, "node", &a->nset, a->maker->nnode, a->maker->node_id));
-    PG_TRY (gather_start (&r.element, "element", &a->elset, a->maker->n, a->maker->element_id));
+    int dim = top_dimension (a->builder);
+    PG_TRY (gather_start (&r.node, "node", &a->nset, a->builder->nnode, a->builder->node_id));
+    PG_TRY (gather_start (&r.element, "element", &a->elset, a->builder->n, a->builder->element_id));
     PG_TRY (resolve_blocks (&r));
     PG_TRY (resolve_sets (&r));
-    for (size_t s = 0; s < a->nsurface; s++) PG_TRY (resolve_surface (&r, &a->surface[s], (long) (a->nset.n + a->elset.n + s) + 1, dim));
+    for (size_t s = 0; s < a->nsurface; s++)
+        PG_TRY (resolve_surface (&r, &a->surface[s], (long) (a->nset.n + a->elset.n + s) + 1, dim));
 done:
     gather_clear (&r.node), gather_clear (&r.element);
     return status;

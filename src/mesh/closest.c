@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Least distance to an element: a sequence of small quadratic programmes, min |J d - r|^2 with xi + d in the reference element, each
- * solved by going through the sets of bounds that may hold with equality (at most three of at most six). */
+ * Least distance to an element: a sequence of small quadratic programmes, min |J d - r|^2 with xi + d in the
+ * reference element, each solved by going through the sets of bounds that may hold with equality (at most
+ * three of at most six). */
 #include "closest.h"
 #include "element.h"
 #include <math.h>
 #include <string.h>
 
 enum { BOUNDS = 6, UNKNOWNS = 6 };
-typedef struct { int dim, n; double g[BOUNDS][3], b[BOUNDS]; } bounds;      /* g[k] . xi <= b[k]                              */
+typedef struct { int dim, n; double g[BOUNDS][3], b[BOUNDS]; } bounds;      /* g[k] . xi <= b[k] */
 
 static bounds bounds_of (pg_element kind)
 {
     bounds s = { .dim = pg_element_types[kind].dim };
-    int corners = pg_element_types[kind].corners, simplex = s.dim > 1 && corners == s.dim + 1 ? s.dim : corners == 6 ? 2 : 0;
+    int corners = pg_element_types[kind].corners, simplex = s.dim > 1 && corners == s.dim + 1 ? s.dim
+                                                            : corners == 6                    ? 2
+                                                                                              : 0;
     for (int a = 0; a < simplex; a++) s.g[s.n++][a] = -1;
     for (int a = 0; a < simplex; a++) s.g[s.n][a] = 1;
     if (simplex) s.b[s.n++] = 1;
@@ -42,8 +45,10 @@ static int solve (int n, double A[UNKNOWNS][UNKNOWNS + 1], double *x)
     return 1;
 }
 
-/* Optimum with the bounds of `set` held with equality; 1 if it is that of the programme: within all bounds, held by all of `set`. */
-static int try_set (const bounds *s, double H[3][3], const double c[3], const double *xi, unsigned set, double to[3])
+/* Optimum with the bounds of `set` held with equality; 1 if it is that of the programme: within all bounds,
+ * held by all of `set`. */
+static int try_set (const bounds *s, double H[3][3], const double c[3], const double *xi, unsigned set,
+                    double to[3])
 {
     double A[UNKNOWNS][UNKNOWNS + 1] = { { 0 } }, u[UNKNOWNS];
     int d = s->dim, n = d;
@@ -78,10 +83,12 @@ static int next_point (const bounds *s, double H[3][3], const double c[3], const
 }
 
 /* r = place - x (xi), H = J'J / size^2, c = J'r / size^2 with size^2 = trace J'J; returns |r|^2. */
-static double normal_equations (pg_element kind, int dim, const double *x, const double *place, const double *xi, double H[3][3], double c[3])
+static double normal_equations (pg_element kind, int dim, const double *x, const double *place,
+                                const double *xi, double H[3][3], double c[3])
 {
     int d = pg_element_types[kind].dim, nodes = pg_element_types[kind].nodes;
-    double N[PG_ELEMENT_NODES], dN[3 * PG_ELEMENT_NODES], J[3][3] = { { 0 } }, r[3], square = 0, trace = d == 0;
+    double N[PG_ELEMENT_NODES], dN[3 * PG_ELEMENT_NODES], J[3][3] = { { 0 } }, r[3], square = 0,
+                                                          trace = d == 0;
     pg_element_shape (kind, xi, N, dN);
     for (int a = 0; a < dim; a++) {
         r[a] = place[a];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The table of finite elements: nodes on the reference element, faces, edges, shape functions. Order of nodes and sides: Exodus II. */
+ * The table of finite elements: nodes on the reference element, faces, edges, shape functions. Order of nodes
+ * and sides: Exodus II. */
 #include "element.h"
 #include <string.h>
 
@@ -23,27 +24,49 @@ const pg_element_type pg_element_types[PG_ELEMENTS] = {
 
 typedef enum { POINT, BAR, TRI, QUAD, TET, HEX, WEDGE, FAMILIES } family;
 static const family family_of[PG_ELEMENTS] = {
-    [PG_POINT1] = POINT, [PG_BAR2] = BAR, [PG_BAR3] = BAR, [PG_TRI3] = TRI, [PG_TRI6] = TRI, [PG_QUAD4] = QUAD, [PG_QUAD8] = QUAD, [PG_QUAD9] = QUAD,
-    [PG_TET4] = TET, [PG_TET10] = TET, [PG_HEX8] = HEX, [PG_HEX20] = HEX, [PG_HEX27] = HEX, [PG_WEDGE6] = WEDGE, [PG_WEDGE15] = WEDGE };
+    [PG_POINT1] = POINT, [PG_BAR2] = BAR,   [PG_BAR3] = BAR,   [PG_TRI3] = TRI,     [PG_TRI6] = TRI,
+    [PG_QUAD4] = QUAD,   [PG_QUAD8] = QUAD, [PG_QUAD9] = QUAD, [PG_TET4] = TET,     [PG_TET10] = TET,
+    [PG_HEX8] = HEX,     [PG_HEX20] = HEX,  [PG_HEX27] = HEX,  [PG_WEDGE6] = WEDGE, [PG_WEDGE15] = WEDGE
+};
 
-/* ---- faces and edges -------------------------------------------------------------------------------------------------- */
-/* Nodes of each face of the richest element of a family: corners, middles, centre; poorer elements stop earlier. */
+/* ---- faces and edges ----------------------------------------------------------------------------------- */
+/* Nodes of each face of the richest element of a family: corners, middles, centre; poorer elements stop
+ * earlier. */
 static const signed char face_nodes[FAMILIES][6][9] = {
-    [BAR]   = { { 0 }, { 1 } },
-    [TRI]   = { { 0, 1, 3 }, { 1, 2, 4 }, { 2, 0, 5 } },
-    [QUAD]  = { { 0, 1, 4 }, { 1, 2, 5 }, { 2, 3, 6 }, { 3, 0, 7 } },
-    [TET]   = { { 0, 1, 3, 4, 8, 7 }, { 1, 2, 3, 5, 9, 8 }, { 0, 3, 2, 7, 9, 6 }, { 0, 2, 1, 6, 5, 4 } },
-    [HEX]   = { { 0, 1, 5, 4,  8, 13, 16, 12, 25 }, { 1, 2, 6, 5,  9, 14, 17, 13, 24 }, { 2, 3, 7, 6, 10, 15, 18, 14, 26 },
-                { 0, 4, 7, 3, 12, 19, 15, 11, 23 }, { 0, 3, 2, 1, 11, 10,  9,  8, 21 }, { 4, 5, 6, 7, 16, 17, 18, 19, 22 } },
-    [WEDGE] = { { 0, 1, 4, 3, 6, 10, 12, 9 }, { 1, 2, 5, 4, 7, 11, 13, 10 }, { 0, 3, 5, 2, 9, 14, 11, 8 }, { 0, 2, 1, 8, 7, 6 }, { 3, 4, 5, 12, 13, 14 } },
+    [BAR] = { { 0 }, { 1 } },
+    [TRI] = { { 0, 1, 3 }, { 1, 2, 4 }, { 2, 0, 5 } },
+    [QUAD] = { { 0, 1, 4 }, { 1, 2, 5 }, { 2, 3, 6 }, { 3, 0, 7 } },
+    [TET] = { { 0, 1, 3, 4, 8, 7 }, { 1, 2, 3, 5, 9, 8 }, { 0, 3, 2, 7, 9, 6 }, { 0, 2, 1, 6, 5, 4 } },
+    [HEX] = { { 0, 1, 5, 4, 8, 13, 16, 12, 25 },
+              { 1, 2, 6, 5, 9, 14, 17, 13, 24 },
+              { 2, 3, 7, 6, 10, 15, 18, 14, 26 },
+              { 0, 4, 7, 3, 12, 19, 15, 11, 23 },
+              { 0, 3, 2, 1, 11, 10, 9, 8, 21 },
+              { 4, 5, 6, 7, 16, 17, 18, 19, 22 } },
+    [WEDGE] = { { 0, 1, 4, 3, 6, 10, 12, 9 },
+                { 1, 2, 5, 4, 7, 11, 13, 10 },
+                { 0, 3, 5, 2, 9, 14, 11, 8 },
+                { 0, 2, 1, 8, 7, 6 },
+                { 3, 4, 5, 12, 13, 14 } },
 };
 
 static const signed char edge_nodes[FAMILIES][12][2] = {
-    [BAR]   = { { 0, 1 } },
-    [TRI]   = { { 0, 1 }, { 1, 2 }, { 2, 0 } },
-    [QUAD]  = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } },
-    [TET]   = { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 3 }, { 2, 3 } },
-    [HEX]   = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 }, { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 } },
+    [BAR] = { { 0, 1 } },
+    [TRI] = { { 0, 1 }, { 1, 2 }, { 2, 0 } },
+    [QUAD] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } },
+    [TET] = { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 3 }, { 2, 3 } },
+    [HEX] = { { 0, 1 },
+              { 1, 2 },
+              { 2, 3 },
+              { 3, 0 },
+              { 0, 4 },
+              { 1, 5 },
+              { 2, 6 },
+              { 3, 7 },
+              { 4, 5 },
+              { 5, 6 },
+              { 6, 7 },
+              { 7, 4 } },
     [WEDGE] = { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 4 }, { 2, 5 }, { 3, 4 }, { 4, 5 }, { 5, 3 } },
 };
 
@@ -87,18 +110,26 @@ void pg_element_edge (pg_element kind, int e, int node[2])
 const signed char *element_mirror (pg_element kind)
 {
     static const signed char turn[FAMILIES][PG_ELEMENT_NODES] = {
-        [BAR] = { 1, 0, 2 }, [TRI] = { 0, 2, 1, 5, 4, 3 }, [QUAD] = { 0, 3, 2, 1, 7, 6, 5, 4, 8 }, [TET] = { 0, 2, 1, 3, 6, 5, 4, 7, 9, 8 },
-        [HEX] = { 4, 5, 6, 7, 0, 1, 2, 3, 16, 17, 18, 19, 12, 13, 14, 15, 8, 9, 10, 11, 20, 22, 21, 23, 24, 25, 26 },
-        [WEDGE] = { 3, 4, 5, 0, 1, 2, 12, 13, 14, 9, 10, 11, 6, 7, 8 } };
+        [BAR] = { 1, 0, 2 },
+        [TRI] = { 0, 2, 1, 5, 4, 3 },
+        [QUAD] = { 0, 3, 2, 1, 7, 6, 5, 4, 8 },
+        [TET] = { 0, 2, 1, 3, 6, 5, 4, 7, 9, 8 },
+        [HEX] = { 4,  5,  6, 7, 0,  1,  2,  3,  16, 17, 18, 19, 12, 13,
+                  14, 15, 8, 9, 10, 11, 20, 22, 21, 23, 24, 25, 26 },
+        [WEDGE] = { 3, 4, 5, 0, 1, 2, 12, 13, 14, 9, 10, 11, 6, 7, 8 }
+    };
     return turn[family_of[kind]];
 }
 
-/* ---- the reference element -------------------------------------------------------------------------------------------- */
+/* ---- the reference element ----------------------------------------------------------------------------- */
 static const signed char brick[27][3] = {
-    { -1, -1, -1 }, { 1, -1, -1 }, { 1, 1, -1 }, { -1, 1, -1 }, { -1, -1, 1 }, { 1, -1, 1 }, { 1, 1, 1 }, { -1, 1, 1 },
-    { 0, -1, -1 }, { 1, 0, -1 }, { 0, 1, -1 }, { -1, 0, -1 }, { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 },
-    { 0, -1, 1 }, { 1, 0, 1 }, { 0, 1, 1 }, { -1, 0, 1 }, { 0, 0, 0 }, { 0, 0, -1 }, { 0, 0, 1 }, { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 } };
-static const signed char square[9][3] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 }, { 0, -1 }, { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, 0 } };
+    { -1, -1, -1 }, { 1, -1, -1 }, { 1, 1, -1 }, { -1, 1, -1 }, { -1, -1, 1 }, { 1, -1, 1 },  { 1, 1, 1 },
+    { -1, 1, 1 },   { 0, -1, -1 }, { 1, 0, -1 }, { 0, 1, -1 },  { -1, 0, -1 }, { -1, -1, 0 }, { 1, -1, 0 },
+    { 1, 1, 0 },    { -1, 1, 0 },  { 0, -1, 1 }, { 1, 0, 1 },   { 0, 1, 1 },   { -1, 0, 1 },  { 0, 0, 0 },
+    { 0, 0, -1 },   { 0, 0, 1 },   { -1, 0, 0 }, { 1, 0, 0 },   { 0, -1, 0 },  { 0, 1, 0 }
+};
+static const signed char square[9][3] = { { -1, -1 }, { 1, -1 }, { 1, 1 },  { -1, 1 }, { 0, -1 },
+                                          { 1, 0 },   { 0, 1 },  { -1, 0 }, { 0, 0 } };
 static const signed char rod[3][3] = { { -1 }, { 1 }, { 0 } };
 
 /* Signs of a node of a bar, quad or hex. */
@@ -110,7 +141,8 @@ static const signed char *signs (pg_element kind, int node)
 
 void pg_element_node (pg_element kind, int node, double *xi)
 {
-    static const double corner[6][3] = { { 0, 0, -1 }, { 1, 0, -1 }, { 0, 1, -1 }, { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 } };
+    static const double corner[6][3] = { { 0, 0, -1 }, { 1, 0, -1 }, { 0, 1, -1 },
+                                         { 0, 0, 1 },  { 1, 0, 1 },  { 0, 1, 1 } };
     static const double tet[4][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
     family f = family_of[kind];
     const double (*x)[3] = f == WEDGE ? corner : tet;
@@ -123,7 +155,7 @@ void pg_element_node (pg_element kind, int node, double *xi)
     for (int a = 0; a < dim; a++) xi[a] = (x[end[0]][a] + x[end[1]][a]) / 2;
 }
 
-/* ---- shape functions -------------------------------------------------------------------------------------------------- */
+/* ---- shape functions ----------------------------------------------------------------------------------- */
 /* One factor of a product of linear (nodes -1, 1) or quadratic (and 0) polynomials, and its slope. */
 static double factor (int order, int s, double t, double *slope)
 {
@@ -153,7 +185,8 @@ static void shape_product (pg_element kind, const double *xi, double *N, double 
     }
 }
 
-/* Quads and hexes without nodes inside faces: corners prod (1 + s t) (sum s t - dim + 1) / 2^dim, middles (1 - t^2) prod (1 + s t) / 2^(dim-1). */
+/* Quads and hexes without nodes inside faces: corners prod (1 + s t) (sum s t - dim + 1) / 2^dim, middles (1
+ * - t^2) prod (1 + s t) / 2^(dim-1). */
 static void shape_serendipity (pg_element kind, const double *xi, double *N, double *dN)
 {
     const pg_element_type *type = &pg_element_types[kind];
@@ -195,7 +228,8 @@ static void shape_simplex (pg_element kind, const double *xi, double *N, double 
     }
 }
 
-/* Triangle (p, q: its corners) times line; s: end of the line, 0 half-way. Corners of wedge15: L (1 + s t) (2 L - 2 + s t) / 2. */
+/* Triangle (p, q: its corners) times line; s: end of the line, 0 half-way. Corners of wedge15: L (1 + s t) (2
+ * L - 2 + s t) / 2. */
 static void shape_wedge (pg_element kind, const double *xi, double *N, double *dN)
 {
     const pg_element_type *type = &pg_element_types[kind];
@@ -205,10 +239,13 @@ static void shape_wedge (pg_element kind, const double *xi, double *N, double *d
         int end[2] = { i, i };
         if (i >= 6) pg_element_edge (kind, i - 6, end);
         int p = end[0] % 3, q = end[1] % 3, s = end[0] / 3 != end[1] / 3 ? 0 : end[0] < 3 ? -1 : 1;
-        double side = (1 + s * t) / 2, bubble = (1 - t) * (1 + t), f, df[3] = { 0 };   /* f: N; df: by L_p, L_q, t          */
+        /* f: N; df: by L_p, L_q, t */
+        double side = (1 + s * t) / 2, bubble = (1 - t) * (1 + t), f, df[3] = { 0 };
         if (type->order == 1) f = L[p] * side, df[0] = side, df[2] = L[p] * s / 2;
         else if (s == 0) f = L[p] * bubble, df[0] = bubble, df[2] = -2 * t * L[p];
-        else if (p != q) f = 4 * L[p] * L[q] * side, df[0] = 4 * L[q] * side, df[1] = 4 * L[p] * side, df[2] = 2 * s * L[p] * L[q];
+        else if (p != q)
+            f = 4 * L[p] * L[q] * side, df[0] = 4 * L[q] * side, df[1] = 4 * L[p] * side,
+            df[2] = 2 * s * L[p] * L[q];
         else {
             double g = 2 * L[p] - 2 + s * t;
             f = L[p] * side * g;

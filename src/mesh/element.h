@@ -4,7 +4,8 @@
 #define MESH_ELEMENT_H
 #include "perigal/mesh.h"
 
-/* Node k of the element turned outside out is node element_mirror (kind)[k] of the one inside out (an involution). */
+/* Node k of the element turned outside out is node element_mirror (kind)[k] of the one inside out (an
+ * involution). */
 const signed char *element_mirror (pg_element kind);
 void element_centre (pg_element kind, double *xi);
 /* Corners of face f (numbers within the element), at most 4; returns how many. */

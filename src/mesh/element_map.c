@@ -4,7 +4,8 @@
 #include <math.h>
 
 /* x and J[axis][reference axis]. */
-static void place_and_slope (pg_element kind, int dim, const double *x, const double *xi, double place[3], double J[3][3])
+static void place_and_slope (pg_element kind, int dim, const double *x, const double *xi, double place[3],
+                             double J[3][3])
 {
     int d = pg_element_types[kind].dim, nodes = pg_element_types[kind].nodes;
     double N[PG_ELEMENT_NODES], dN[3 * PG_ELEMENT_NODES];
@@ -39,7 +40,8 @@ static double size_of (int d, int dim, double J[3][3], double n[3])
     return n[0] * J[0][2] + n[1] * J[1][2] + n[2] * J[2][2];
 }
 
-double pg_element_map (pg_element kind, int dim, const double *x, const double *xi, double *place, double *normal)
+double pg_element_map (pg_element kind, int dim, const double *x, const double *xi, double *place,
+                       double *normal)
 {
     int d = pg_element_types[kind].dim;
     double J[3][3], at[3] = { 0 }, n[3];
@@ -50,7 +52,7 @@ double pg_element_map (pg_element kind, int dim, const double *x, const double *
     return size;
 }
 
-/* ---- inverse ---------------------------------------------------------------------------------------------------------- */
+/* ---- inverse ------------------------------------------------------------------------------------------- */
 /* step = J^-1 r; 0 where J is singular. */
 static int solve (int d, double J[3][3], const double r[3], double step[3])
 {
@@ -64,7 +66,7 @@ static int solve (int d, double J[3][3], const double r[3], double step[3])
         step[1] = (r[1] * J[0][0] - r[0] * J[1][0]) / det;
         return 1;
     }
-    for (int k = 0; k < 3; k++) {                          /* Cramer                                                    */
+    for (int k = 0; k < 3; k++) {                          /* Cramer */
         double C[3][3], unused[3];
         for (int a = 0; a < 3; a++) for (int b = 0; b < 3; b++) C[a][b] = b == k ? r[a] : J[a][b];
         step[k] = size_of (3, 3, C, unused) / det;
@@ -94,9 +96,10 @@ int pg_element_invert (pg_element kind, const double *x, const double *place, do
         place_and_slope (kind, d, x, xi, at, J);
         for (int a = 0; a < d; a++) r[a] = place[a] - at[a];
         if (!solve (d, J, r, step)) return 0;
-        for (int a = 0; a < d; a++) longest = fmax (longest, fabs (step[a])), size = fmax (size, fabs (xi[a])), all += fabs (step[a]);
-        if (!isfinite (all)) return 0;                     /* fmax hides NaN                                             */
-        double short_of = linear || longest <= 2 ? 1 : 2 / longest;   /* no leaps out of a curved element                      */
+        for (int a = 0; a < d; a++)
+            longest = fmax (longest, fabs (step[a])), size = fmax (size, fabs (xi[a])), all += fabs (step[a]);
+        if (!isfinite (all)) return 0;                     /* fmax hides NaN */
+        double short_of = linear || longest <= 2 ? 1 : 2 / longest;   /* no leaps out of a curved element */
         for (int a = 0; a < d; a++) xi[a] += short_of * step[a];
         if (longest <= 1e-12 * size || (linear && k > 0)) return 1;
     }
@@ -105,8 +108,10 @@ int pg_element_invert (pg_element kind, const double *x, const double *place, do
 
 double pg_element_outside (pg_element kind, const double *xi)
 {
-    int d = pg_element_types[kind].dim, corners = pg_element_types[kind].corners, simplex = d > 1 && (corners == d + 1), wedge = corners == 6;
-    int triangle = simplex ? d : wedge ? 2 : 0;            /* the first axes: 0 <= xi, sum <= 1; the others in [-1, 1]    */
+    int d = pg_element_types[kind].dim, corners = pg_element_types[kind].corners,
+        simplex = d > 1 && (corners == d + 1), wedge = corners == 6;
+    /* the first axes: 0 <= xi, sum <= 1; the others in [-1, 1] */
+    int triangle = simplex ? d : wedge ? 2 : 0;
     double out = d == 0 ? 0 : -1, sum = 0;
     for (int a = 0; a < triangle; a++) out = fmax (out, -xi[a]), sum += xi[a];
     if (triangle) out = fmax (out, sum - 1);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Meshes and nodal results of Exodus II (any netCDF): nodes and elements go by their place in the file while it is read; the numbers
- * that node_num_map and elem_map give them come last. */
+ * Meshes and nodal results of Exodus II (any netCDF): nodes and elements go by their place in the file while
+ * it is read; the numbers that node_num_map and elem_map give them come last. */
 #include "netcdf_header.h"
 #include "result.h"
 #include <ctype.h>
@@ -16,14 +16,19 @@ typedef struct {
     const char *path;
     int    ncid, open;
     size_t nnode, n, nblock, bytes;
-    pg_mesh_maker *maker;
-    unsigned char *shell;                              /* of each element: its sides 1, 2 are faces (n)                  */
+    pg_mesh_builder *builder;
+    unsigned char *shell;                              /* of each element: its sides 1, 2 are faces (n) */
 } reader;
 
-#define NC_TRY(r, call) do { int rc_ = (call); if (rc_ != NC_NOERR) PG_FAIL (rc_ == NC_ENOMEM ? PG_E_MEMORY : PG_E_FILE, \
-    "%.400s: %s", (r)->path, nc_strerror (rc_)); } while (0)
+#define NC_TRY(r, call) \
+    do { \
+        int rc_ = (call); \
+        if (rc_ != NC_NOERR) \
+            PG_FAIL (rc_ == NC_ENOMEM ? PG_E_MEMORY : PG_E_FILE, "%.400s: %s", (r)->path, \
+                     nc_strerror (rc_)); \
+    } while (0)
 
-/* ---- netCDF ----------------------------------------------------------------------------------------------------------- */
+/* ---- netCDF -------------------------------------------------------------------------------------------- */
 /* Length of a dimension; 0 when there is none. */
 static size_t length_of (int ncid, const char *name)
 {
@@ -56,7 +61,8 @@ done:
     return status;
 }
 
-/* The n whole numbers of a variable; *value NULL: there is none. A file says less than it holds: n is bounded by its bytes. */
+/* The n whole numbers of a variable; *value NULL: there is none. A file says less than it holds: n is bounded
+ * by its bytes. */
 static pg_status whole_numbers (const reader *r, const char *name, size_t n, long **value)
 {
     pg_status status = PG_OK;
@@ -74,7 +80,8 @@ done:
 static pg_status must (const reader *r, const char *name, size_t n, long **value)
 {
     pg_status status = whole_numbers (r, name, n, value);
-    if (status == PG_OK && !*value) status = pg_error (PG_E_FILE, PG_HERE, "%.400s: no '%s': not a whole Exodus file", r->path, name);
+    if (status == PG_OK && !*value)
+        status = pg_error (PG_E_FILE, PG_HERE, "%.400s: no '%s': not a whole Exodus file", r->path, name);
     return status;
 }
 
@@ -84,15 +91,21 @@ static void name_of (const reader *r, const char *table, size_t k, char name[NAM
     int var, dims[NC_MAX_VAR_DIMS], ndims;
     size_t rows = 0, width = 0;
     memset (name, 0, NAME);
-    if (nc_inq_varid (r->ncid, table, &var) != NC_NOERR || nc_inq_varndims (r->ncid, var, &ndims) != NC_NOERR || ndims != 2) return;
-    if (nc_inq_vardimid (r->ncid, var, dims) != NC_NOERR || nc_inq_dimlen (r->ncid, dims[0], &rows) != NC_NOERR) return;
+    if (nc_inq_varid (r->ncid, table, &var) != NC_NOERR || nc_inq_varndims (r->ncid, var, &ndims) != NC_NOERR
+        || ndims != 2)
+        return;
+    if (nc_inq_vardimid (r->ncid, var, dims) != NC_NOERR
+        || nc_inq_dimlen (r->ncid, dims[0], &rows) != NC_NOERR)
+        return;
     if (nc_inq_dimlen (r->ncid, dims[1], &width) != NC_NOERR || k >= rows) return;
     if (width > NAME - 1) width = NAME - 1;
-    if (nc_get_vara_text (r->ncid, var, (size_t[2]) { k, 0 }, (size_t[2]) { 1, width }, name) != NC_NOERR) name[0] = 0;
+    if (nc_get_vara_text (r->ncid, var, (size_t[2]){ k, 0 }, (size_t[2]){ 1, width }, name) != NC_NOERR)
+        name[0] = 0;
     for (size_t m = strlen (name); m > 0 && name[m - 1] == ' '; m--) name[m - 1] = 0;
 }
 
-/* Dimensions are bounded by what the file can hold, before anything is made of them; 1: a compressed value takes a bit at least. */
+/* Dimensions are bounded by what the file can hold, before anything is made of them; 1: a compressed value
+ * takes a bit at least. */
 static int too_many (const reader *r, size_t n) { return n > 4096 * r->bytes || n > 0x7fffffff; }
 
 static pg_status open_file (reader *r, const mesh_bytes *file)
@@ -107,7 +120,8 @@ static pg_status open_file (reader *r, const mesh_bytes *file)
     r->nblock = length_of (r->ncid, "num_el_blk");
     if (r->nnode == 0) PG_FAIL (PG_E_FILE, "%.400s: no nodes: not an Exodus file", r->path);
     if (too_many (r, r->nnode) || too_many (r, r->n) || r->nblock > r->bytes)
-        PG_FAIL (PG_E_FILE, "%.400s: %zu nodes and %zu elements are more than it can hold", r->path, r->nnode, r->n);
+        PG_FAIL (PG_E_FILE, "%.400s: %zu nodes and %zu elements are more than it can hold", r->path, r->nnode,
+                 r->n);
 done:
     return status;
 }
@@ -118,7 +132,7 @@ static void close_file (reader *r)
     pg_free (r->shell);
 }
 
-/* ---- mesh ------------------------------------------------------------------------------------------------------------- */
+/* ---- mesh ---------------------------------------------------------------------------------------------- */
 static pg_status read_nodes (reader *r)
 {
     pg_status status = PG_OK;
@@ -128,7 +142,7 @@ static pg_status read_nodes (reader *r)
     size_t dim = length_of (r->ncid, "num_dim");
     if (dim < 1 || dim > 3) PG_FAIL (PG_E_FILE, "%.400s: %zu dimensions", r->path, dim);
     for (size_t a = 0; a < 3; a++) PG_ALLOC (x[a], r->nnode);
-    PG_TRY (find (r, "coord", dim * r->nnode, &var));      /* of old files: all in one                                       */
+    PG_TRY (find (r, "coord", dim * r->nnode, &var));      /* of old files: all in one */
     if (var >= 0) {
         PG_ALLOC (together, dim * r->nnode);
         NC_TRY (r, nc_get_var_double (r->ncid, var, together));
@@ -141,7 +155,8 @@ static pg_status read_nodes (reader *r)
         if (one < 0) PG_FAIL (PG_E_FILE, "%.400s: no '%s'", r->path, name);
         NC_TRY (r, nc_get_var_double (r->ncid, one, x[a]));
     }
-    for (size_t i = 0; i < r->nnode; i++) PG_TRY (pg_maker_node (r->maker, (long) i + 1, (double[3]) { x[0][i], x[1][i], x[2][i] }));
+    for (size_t i = 0; i < r->nnode; i++)
+        PG_TRY (pg_mesh_builder_node (r->builder, (long) i + 1, (double[3]){ x[0][i], x[1][i], x[2][i] }));
 done:
     for (size_t a = 0; a < 3; a++) pg_free (x[a]);
     pg_free (together);
@@ -151,18 +166,30 @@ done:
 /* Names of element types begin so; the number of nodes tells the rest. PG_ELEMENTS: unknown. */
 static pg_element kind_of (const char *type, size_t nodes, int *shell)
 {
-    static const struct { const char *begin; int shell; pg_element kind[4]; } table[] = {
-        { "SPH", 0, { PG_POINT1 } }, { "CIRC", 0, { PG_POINT1 } }, { "POINT", 0, { PG_POINT1 } }, { "NODE", 0, { PG_POINT1 } },
-        { "BAR", 0, { PG_BAR2, PG_BAR3 } }, { "BEAM", 0, { PG_BAR2, PG_BAR3 } }, { "TRUSS", 0, { PG_BAR2, PG_BAR3 } }, { "ROD", 0, { PG_BAR2, PG_BAR3 } },
-        { "EDGE", 0, { PG_BAR2, PG_BAR3 } }, { "LINE", 0, { PG_BAR2, PG_BAR3 } },
-        { "TRIS", 1, { PG_TRI3, PG_TRI6 } }, { "TRI", 0, { PG_TRI3, PG_TRI6 } },
-        { "QUA", 0, { PG_QUAD4, PG_QUAD8, PG_QUAD9 } }, { "SHE", 1, { PG_QUAD4, PG_QUAD8, PG_QUAD9, PG_TRI3 } },
-        { "TET", 0, { PG_TET4, PG_TET10 } }, { "HEX", 0, { PG_HEX8, PG_HEX20, PG_HEX27 } }, { "WED", 0, { PG_WEDGE6, PG_WEDGE15 } } };
+    static const struct { const char *begin; int shell; pg_element kind[4];
+    } table[] = { { "SPH", 0, { PG_POINT1 } },
+                  { "CIRC", 0, { PG_POINT1 } },
+                  { "POINT", 0, { PG_POINT1 } },
+                  { "NODE", 0, { PG_POINT1 } },
+                  { "BAR", 0, { PG_BAR2, PG_BAR3 } },
+                  { "BEAM", 0, { PG_BAR2, PG_BAR3 } },
+                  { "TRUSS", 0, { PG_BAR2, PG_BAR3 } },
+                  { "ROD", 0, { PG_BAR2, PG_BAR3 } },
+                  { "EDGE", 0, { PG_BAR2, PG_BAR3 } },
+                  { "LINE", 0, { PG_BAR2, PG_BAR3 } },
+                  { "TRIS", 1, { PG_TRI3, PG_TRI6 } },
+                  { "TRI", 0, { PG_TRI3, PG_TRI6 } },
+                  { "QUA", 0, { PG_QUAD4, PG_QUAD8, PG_QUAD9 } },
+                  { "SHE", 1, { PG_QUAD4, PG_QUAD8, PG_QUAD9, PG_TRI3 } },
+                  { "TET", 0, { PG_TET4, PG_TET10 } },
+                  { "HEX", 0, { PG_HEX8, PG_HEX20, PG_HEX27 } },
+                  { "WED", 0, { PG_WEDGE6, PG_WEDGE15 } } };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
         if (strncasecmp (type, table[k].begin, strlen (table[k].begin)) != 0) continue;
         *shell = table[k].shell;
-        for (int j = 0; j < 4; j++)                        /* PG_POINT1 = 0 fills what the table leaves out                  */
-            if ((j == 0 || table[k].kind[j]) && (size_t) pg_element_types[table[k].kind[j]].nodes == nodes) return table[k].kind[j];
+        for (int j = 0; j < 4; j++)                        /* PG_POINT1 = 0 fills what the table leaves out */
+            if ((j == 0 || table[k].kind[j]) && (size_t) pg_element_types[table[k].kind[j]].nodes == nodes)
+                return table[k].kind[j];
     }
     return PG_ELEMENTS;
 }
@@ -178,14 +205,17 @@ static pg_status block_kind (const reader *r, size_t k, size_t *count, pg_elemen
     snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);
     size_t nodes = length_of (r->ncid, name);
     *kind = PG_ELEMENTS;
-    if (*count == 0) goto done;                            /* an empty block has no connect                                  */
+    if (*count == 0) goto done;                            /* an empty block has no connect */
     snprintf (name, sizeof name, "connect%zu", k + 1);
     NC_TRY (r, nc_inq_varid (r->ncid, name, &var));
-    if (nc_inq_attlen (r->ncid, var, "elem_type", &length) == NC_NOERR && length < NAME) NC_TRY (r, nc_get_att_text (r->ncid, var, "elem_type", type));
+    if (nc_inq_attlen (r->ncid, var, "elem_type", &length) == NC_NOERR && length < NAME)
+        NC_TRY (r, nc_get_att_text (r->ncid, var, "elem_type", type));
     *kind = kind_of (type, nodes, shell);
     if (*kind == PG_ELEMENTS)
-        PG_FAIL (PG_E_FILE, "%.400s: block %zu has elements '%.30s' of %zu nodes; known are BAR, TRI, QUAD, SHELL, TET, WEDGE and HEX of first and second order", r->path,
-                 k + 1, type, nodes);
+        PG_FAIL (PG_E_FILE,
+                 "%.400s: block %zu has elements '%.30s' of %zu nodes; known are BAR, TRI, QUAD, SHELL, TET, "
+                 "WEDGE and HEX of first and second order",
+                 r->path, k + 1, type, nodes);
 done:
     return status;
 }
@@ -201,16 +231,18 @@ static pg_status read_block (reader *r, size_t k, size_t *first)
     PG_TRY (block_kind (r, k, &count, &kind, &shell));
     if (kind == PG_ELEMENTS) goto done;
     size_t nodes = (size_t) pg_element_types[kind].nodes;
-    if (count > r->n - *first) PG_FAIL (PG_E_FILE, "%.400s: its blocks have more than the %zu elements of the file", r->path, r->n);
+    if (count > r->n - *first)
+        PG_FAIL (PG_E_FILE, "%.400s: its blocks have more than the %zu elements of the file", r->path, r->n);
     snprintf (name, sizeof name, "connect%zu", k + 1);
     PG_TRY (must (r, name, count * nodes, &connect));
     for (size_t e = 0; e < count; e++) {
-        PG_TRY (pg_maker_element (r->maker, (long) (*first + e) + 1, kind, connect + e * nodes, group, 0));
+        PG_TRY (pg_mesh_builder_element (r->builder, (long) (*first + e) + 1, kind, connect + e * nodes,
+                                         group, 0));
         r->shell[*first + e] = (unsigned char) shell;
     }
     *first += count;
     name_of (r, "eb_names", k, name);
-    if (name[0]) PG_TRY (pg_maker_group (r->maker, pg_element_types[kind].dim, group, name));
+    if (name[0]) PG_TRY (pg_mesh_builder_group (r->builder, pg_element_types[kind].dim, group, name));
 done:
     pg_free (connect);
     return status;
@@ -220,7 +252,7 @@ done:
 static pg_status check_points (const reader *r)
 {
     pg_status status = PG_OK;
-    for (size_t e = 0; e < r->maker->n; e++) if (r->maker->kind[e] != PG_POINT1) goto done;
+    for (size_t e = 0; e < r->builder->n; e++) if (r->builder->kind[e] != PG_POINT1) goto done;
     PG_FAIL (PG_E_FILE, "%.400s: points without elements (SPHERE): a result of points is no mesh", r->path);
 done:
     return status;
@@ -238,11 +270,11 @@ static pg_status read_node_sets (reader *r)
         snprintf (name, sizeof name, "num_nod_ns%zu", k + 1);
         size_t m = length_of (r->ncid, name);
         name_of (r, "ns_names", k, name);
-        PG_TRY (pg_maker_nodeset (r->maker, name, id ? id[k] : (long) k + 1));
+        PG_TRY (pg_mesh_builder_nodeset (r->builder, name, id ? id[k] : (long) k + 1));
         if (m == 0) continue;
         snprintf (name, sizeof name, "node_ns%zu", k + 1);
         PG_TRY (must (r, name, m, &node));
-        for (size_t i = 0; i < m; i++) PG_TRY (pg_maker_nodeset_add (r->maker, node[i]));
+        for (size_t i = 0; i < m; i++) PG_TRY (pg_mesh_builder_nodeset_add (r->builder, node[i]));
         pg_free (node), node = NULL;
     }
 done:
@@ -254,11 +286,13 @@ done:
 static pg_status add_side (const reader *r, long element, long side)
 {
     pg_status status = PG_OK;
-    if (element < 1 || (size_t) element > r->n) PG_FAIL (PG_E_FILE, "%.400s: a side set has element %ld of %zu", r->path, element, r->n);
-    if (side < 1 || side > 6) PG_FAIL (PG_E_FILE, "%.400s: a side set has side %ld of element %ld", r->path, side, element);
+    if (element < 1 || (size_t) element > r->n)
+        PG_FAIL (PG_E_FILE, "%.400s: a side set has element %ld of %zu", r->path, element, r->n);
+    if (side < 1 || side > 6)
+        PG_FAIL (PG_E_FILE, "%.400s: a side set has side %ld of element %ld", r->path, side, element);
     int first = r->shell[element - 1] ? 3 : 1;
     if (side < first) goto done;
-    PG_TRY (pg_maker_sideset_add (r->maker, element, (int) side - first));
+    PG_TRY (pg_mesh_builder_sideset_add (r->builder, element, (int) side - first));
 done:
     return status;
 }
@@ -275,7 +309,7 @@ static pg_status read_side_sets (reader *r)
         snprintf (name, sizeof name, "num_side_ss%zu", k + 1);
         size_t m = length_of (r->ncid, name);
         name_of (r, "ss_names", k, name);
-        PG_TRY (pg_maker_sideset (r->maker, name, id ? id[k] : (long) k + 1));
+        PG_TRY (pg_mesh_builder_sideset (r->builder, name, id ? id[k] : (long) k + 1));
         if (m == 0) continue;
         snprintf (name, sizeof name, "elem_ss%zu", k + 1);
         PG_TRY (must (r, name, m, &element));
@@ -293,12 +327,15 @@ done:
 static pg_status renumber (const reader *r)
 {
     pg_status status = PG_OK;
-    pg_mesh_maker *m = r->maker;
+    pg_mesh_builder *m = r->builder;
     long *node = NULL, *element = NULL;
     PG_TRY (whole_numbers (r, "node_num_map", r->nnode, &node));
     PG_TRY (whole_numbers (r, "elem_num_map", r->n, &element));
-    for (size_t i = 0; node && i < m->nlist; i++) if (m->list[i] < 1 || (size_t) m->list[i] > r->nnode) goto done;   /* the maker tells */
-    for (size_t i = 0; node && i < m->nset_node; i++) if (m->set_node[i] < 1 || (size_t) m->set_node[i] > r->nnode) goto done;
+    /* the builder tells */
+    for (size_t i = 0; node && i < m->nlist; i++)
+        if (m->list[i] < 1 || (size_t) m->list[i] > r->nnode) goto done;
+    for (size_t i = 0; node && i < m->nset_node; i++)
+        if (m->set_node[i] < 1 || (size_t) m->set_node[i] > r->nnode) goto done;
     for (size_t i = 0; node && i < m->nnode; i++) m->node_id[i] = node[i];
     for (size_t i = 0; node && i < m->nlist; i++) m->list[i] = node[m->list[i] - 1];
     for (size_t i = 0; node && i < m->nset_node; i++) m->set_node[i] = node[m->set_node[i] - 1];
@@ -309,17 +346,19 @@ done:
     return status;
 }
 
-static pg_status read_exodus (pg_mesh_maker *m, const mesh_bytes *file)
+static pg_status read_exodus (pg_mesh_builder *m, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
-    reader r = { .maker = m };
+    reader r = { .builder = m };
     size_t first = 0;
     PG_TRY (open_file (&r, file));
     if (r.n == 0) PG_FAIL (PG_E_FILE, "%.400s: no elements", r.path);
     PG_ALLOC (r.shell, r.n);
     PG_TRY (read_nodes (&r));
     for (size_t k = 0; k < r.nblock; k++) PG_TRY (read_block (&r, k, &first));
-    if (first < r.n) PG_FAIL (PG_E_FILE, "%.400s: its blocks have %zu of the %zu elements of the file", r.path, first, r.n);
+    if (first < r.n)
+        PG_FAIL (PG_E_FILE, "%.400s: its blocks have %zu of the %zu elements of the file", r.path, first,
+                 r.n);
     PG_TRY (check_points (&r));
     PG_TRY (read_node_sets (&r));
     PG_TRY (read_side_sets (&r));
@@ -331,18 +370,20 @@ done:
 
 static int knows_exodus (const mesh_bytes *file)
 {
-    return file->size > 8 && (!memcmp (file->text, "CDF\1", 4) || !memcmp (file->text, "CDF\2", 4) || !memcmp (file->text, "CDF\5", 4) ||
-                              !memcmp (file->text, "\x89HDF\r\n\x1a\n", 8));
+    return file->size > 8
+           && (!memcmp (file->text, "CDF\1", 4) || !memcmp (file->text, "CDF\2", 4)
+               || !memcmp (file->text, "CDF\5", 4) || !memcmp (file->text, "\x89HDF\r\n\x1a\n", 8));
 }
 
-/* ---- fields ----------------------------------------------------------------------------------------------------------- */
-typedef struct { char base[NAME]; int part, var; } variable;    /* part: which component, -1 the name has no suffix             */
+/* ---- fields -------------------------------------------------------------------------------------------- */
+/* part: which component, -1 the name has no suffix */
+typedef struct { char base[NAME]; int part, var; } variable;
 
 /* "stress_xy" -> "stress", 3. */
 static void split_name (const char *name, variable *v)
 {
     static const char *const suffix[] = { "xx", "yy", "zz", "xy", "yz", "zx", "xz", "x", "y", "z" };
-    static const int part[] = { 0, 1, 2, 3, 4, 5, 5, 10, 11, 12 };      /* 10 on: of a vector                              */
+    static const int part[] = { 0, 1, 2, 3, 4, 5, 5, 10, 11, 12 };      /* 10 on: of a vector */
     const char *bar = strrchr (name, '_');
     snprintf (v->base, sizeof v->base, "%s", name);
     v->part = -1;
@@ -350,19 +391,25 @@ static void split_name (const char *name, variable *v)
         if (strcasecmp (bar + 1, suffix[k]) == 0) v->part = part[k], v->base[bar - name] = 0;
 }
 
-static int together (const variable *a, const variable *b) { return a->part >= 0 && b->part >= 0 && a->part / 10 == b->part / 10 && strcmp (a->base, b->base) == 0; }
+static int together (const variable *a, const variable *b)
+{
+    return a->part >= 0 && b->part >= 0 && a->part / 10 == b->part / 10 && strcmp (a->base, b->base) == 0;
+}
 
 /* Components a field has in a mesh; those that the file leaves out are 0. */
 static int components_of (const variable *v) { return v->part < 0 ? 1 : v->part >= 10 ? 3 : 6; }
 
-static pg_status read_values (const reader *r, const variable *v, size_t step, const pg_mesh *mesh, const int *at, double *work, pg_mesh_field *field)
+static pg_status read_values (const reader *r, const variable *v, size_t step, const pg_mesh *mesh,
+                              const int *at, double *work, pg_mesh_field *field)
 {
     pg_status status = PG_OK;
     size_t c = v->part < 0 ? 0 : (size_t) v->part % 10, m = (size_t) field->components;
-    NC_TRY (r, nc_get_vara_double (r->ncid, v->var, (size_t[2]) { step, 0 }, (size_t[2]) { 1, r->nnode }, work));
+    NC_TRY (r,
+            nc_get_vara_double (r->ncid, v->var, (size_t[2]){ step, 0 }, (size_t[2]){ 1, r->nnode }, work));
     for (size_t i = 0; i < mesh->nnode; i++) {
         double value = work[at[i]];
-        if (!isfinite (value)) PG_FAIL (PG_E_FILE, "%.400s: %s at node %ld is not finite", r->path, v->base, mesh->node_id[i]);
+        if (!isfinite (value))
+            PG_FAIL (PG_E_FILE, "%.400s: %s at node %ld is not finite", r->path, v->base, mesh->node_id[i]);
         field->value[i * m + c] = value;
     }
 done:
@@ -396,7 +443,8 @@ static pg_status find_nodes (const reader *r, const pg_mesh *mesh, int *at)
     if (number) PG_TRY (id_table_build (&t, r->nnode, number, &twice));
     for (size_t i = 0; i < mesh->nnode; i++) {
         long place = number ? id_table_find (&t, mesh->node_id[i]) : mesh->node_id[i] - 1;
-        if (place < 0 || (size_t) place >= r->nnode) PG_FAIL (PG_E_FILE, "%.400s: node %ld is not there", r->path, mesh->node_id[i]);
+        if (place < 0 || (size_t) place >= r->nnode)
+            PG_FAIL (PG_E_FILE, "%.400s: node %ld is not there", r->path, mesh->node_id[i]);
         at[i] = (int) place;
     }
 done:
@@ -405,7 +453,8 @@ done:
     return status;
 }
 
-static pg_status read_fields (mesh_fields *out, const reader *r, const pg_mesh *mesh, size_t n, const variable *v, size_t step)
+static pg_status read_fields (mesh_fields *out, const reader *r, const pg_mesh *mesh, size_t n,
+                              const variable *v, size_t step)
 {
     pg_status status = PG_OK;
     double *work = NULL;
@@ -417,9 +466,11 @@ static pg_status read_fields (mesh_fields *out, const reader *r, const pg_mesh *
         pg_mesh_field *field;
         size_t j = 0;
         while (j < k && !together (&v[j], &v[k])) j++;
-        if (j < k) continue;                               /* read with the first of its components                          */
+        if (j < k) continue;                               /* read with the first of its components */
         PG_TRY (fields_add (out, mesh->nnode, v[k].base, components_of (&v[k]), &field));
-        for (j = k; j < n; j++) if (j == k || together (&v[j], &v[k])) PG_TRY (read_values (r, &v[j], step, mesh, at, work, field));
+        for (j = k; j < n; j++)
+            if (j == k || together (&v[j], &v[k]))
+                PG_TRY (read_values (r, &v[j], step, mesh, at, work, field));
     }
 done:
     pg_free (work), pg_free (at);
@@ -439,7 +490,8 @@ static pg_status fields_exodus (mesh_fields *out, const pg_mesh *mesh, const mes
     PG_TRY (result_step (r.path, n ? steps : 0, step, &chosen));
     PG_ALLOC (v, n);
     PG_TRY (list_variables (&r, steps, n, v));
-    if (nc_inq_varid (r.ncid, "time_whole", &time) == NC_NOERR) NC_TRY (&r, nc_get_var1_double (r.ncid, time, &chosen, &out->time));
+    if (nc_inq_varid (r.ncid, "time_whole", &time) == NC_NOERR)
+        NC_TRY (&r, nc_get_var1_double (r.ncid, time, &chosen, &out->time));
     PG_TRY (read_fields (out, &r, mesh, n, v, chosen));
 done:
     close_file (&r);

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A mesh one element thick between two planes of constant z, as CalculiX makes of plane elements, back to the plane mesh. */
-#include "maker.h"
+ * A mesh one element thick between two planes of constant z, as CalculiX makes of plane elements, back to the
+ * plane mesh. */
+#include "builder.h"
 #include "element.h"
 #include <math.h>
 #include <string.h>
 
 typedef struct {
     const pg_mesh *mesh;
-    double  low, high;                                 /* z                                                              */
-    signed char *level;                                /* of each node: 0 below, 1 between, 2 above                      */
-    int    *twin;                                      /* of a node below: that above it, and back; -1                   */
-    pg_mesh_maker *maker;
+    double  low, high;                                 /* z */
+    signed char *level;                                /* of each node: 0 below, 1 between, 2 above */
+    int    *twin;                                      /* of a node below: that above it, and back; -1 */
+    pg_mesh_builder *builder;
 } plate;
 
 static pg_status find_levels (plate *p)
@@ -18,14 +19,17 @@ static pg_status find_levels (plate *p)
     pg_status status = PG_OK;
     const pg_mesh *m = p->mesh;
     p->low = HUGE_VAL, p->high = -HUGE_VAL;
-    for (size_t i = 0; i < m->nnode; i++) p->low = fmin (p->low, m->x[3 * i + 2]), p->high = fmax (p->high, m->x[3 * i + 2]);
+    for (size_t i = 0; i < m->nnode; i++)
+        p->low = fmin (p->low, m->x[3 * i + 2]), p->high = fmax (p->high, m->x[3 * i + 2]);
     double near = 1e-3 * (p->high - p->low);
     for (size_t i = 0; i < m->nnode; i++) {
         double z = m->x[3 * i + 2];
         p->level[i] = z <= p->low + near ? 0 : z >= p->high - near ? 2 : 1;
         p->twin[i] = -1;
         if (p->level[i] == 1 && fabs (z - (p->low + p->high) / 2) > near)
-            PG_FAIL (PG_E_USAGE, "node %ld lies at z = %g between %g and %g: the mesh is not one element thick", m->node_id[i], z, p->low, p->high);
+            PG_FAIL (PG_E_USAGE,
+                     "node %ld lies at z = %g between %g and %g: the mesh is not one element thick",
+                     m->node_id[i], z, p->low, p->high);
     }
 done:
     return status;
@@ -50,7 +54,10 @@ static pg_status pair_nodes (plate *p, size_t e, long node[9], pg_element *kind)
     pg_status status = PG_OK;
     const pg_mesh *m = p->mesh;
     int upper[9], lower[9], above = face_on (p, e, 2), below = face_on (p, e, 0);
-    if (above < 0 || below < 0) PG_FAIL (PG_E_USAGE, "element %ld does not reach from z = %g to z = %g: the mesh is not one element thick", m->element_id[e], p->low, p->high);
+    if (above < 0 || below < 0)
+        PG_FAIL (PG_E_USAGE,
+                 "element %ld does not reach from z = %g to z = %g: the mesh is not one element thick",
+                 m->element_id[e], p->low, p->high);
     *kind = pg_element_face ((pg_element) m->kind[e], above, upper);
     pg_element_face ((pg_element) m->kind[e], below, lower);
     int n = pg_element_types[*kind].nodes;
@@ -63,8 +70,11 @@ static pg_status pair_nodes (plate *p, size_t e, long node[9], pg_element *kind)
             size = fmax (size, d);
             if (d < least) least = d, best = low;
         }
-        if (least > 1e-3 * size || (p->twin[top] >= 0 && p->twin[top] != best) || (p->twin[best] >= 0 && p->twin[best] != top))
-            PG_FAIL (PG_E_USAGE, "element %ld: no node right below node %ld: the mesh is not a plane one made thick", m->element_id[e], m->node_id[top]);
+        if (least > 1e-3 * size || (p->twin[top] >= 0 && p->twin[top] != best)
+            || (p->twin[best] >= 0 && p->twin[best] != top))
+            PG_FAIL (PG_E_USAGE,
+                     "element %ld: no node right below node %ld: the mesh is not a plane one made thick",
+                     m->element_id[e], m->node_id[top]);
         p->twin[top] = best, p->twin[best] = top;
         node[k] = m->node_id[best];
     }
@@ -72,7 +82,10 @@ done:
     return status;
 }
 
-static long group_of (const pg_mesh *m, size_t b) { return m->blocks[b].id > 0 ? m->blocks[b].id : (long) b + 1; }
+static long group_of (const pg_mesh *m, size_t b)
+{
+    return m->blocks[b].id > 0 ? m->blocks[b].id : (long) b + 1;
+}
 
 static pg_status add_elements (plate *p)
 {
@@ -82,19 +95,23 @@ static pg_status add_elements (plate *p)
         long node[9];
         pg_element kind = PG_QUAD4;
         PG_TRY (pair_nodes (p, e, node, &kind));
-        PG_TRY (pg_maker_element (p->maker, m->element_id[e], kind, node, group_of (m, (size_t) m->block[e]), 0));
+        PG_TRY (pg_mesh_builder_element (p->builder, m->element_id[e], kind, node,
+                                         group_of (m, (size_t) m->block[e]), 0));
     }
-    for (size_t b = 0; b < m->nblock; b++) PG_TRY (pg_maker_group (p->maker, 2, group_of (m, b), m->blocks[b].name));
+    for (size_t b = 0; b < m->nblock; b++)
+        PG_TRY (pg_mesh_builder_group (p->builder, 2, group_of (m, b), m->blocks[b].name));
     for (size_t i = 0; i < m->nnode; i++) {
         if (p->level[i] != 0 || p->twin[i] < 0) continue;
         const double *a = m->x + 3 * i, *b = m->x + 3 * (size_t) p->twin[i];
-        PG_TRY (pg_maker_node (p->maker, m->node_id[i], (double[3]) { (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, 0 }));
+        PG_TRY (pg_mesh_builder_node (p->builder, m->node_id[i],
+                                      (double[3]){ (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, 0 }));
     }
 done:
     return status;
 }
 
-/* Side of the plane element (the upper face, turned to the nodes below) that a side of element e stands on; -1: it lies flat. */
+/* Side of the plane element (the upper face, turned to the nodes below) that a side of element e stands on;
+ * -1: it lies flat. */
 static int standing (const plate *p, size_t e, int side)
 {
     const pg_mesh *m = p->mesh;
@@ -116,11 +133,11 @@ static pg_status add_sets (plate *p)
     const pg_mesh *m = p->mesh;
     for (size_t s = 0; s < m->nnodes; s++) {
         const pg_mesh_nodes *set = &m->nodes[s];
-        PG_TRY (pg_maker_nodeset (p->maker, set->name, set->id));
+        PG_TRY (pg_mesh_builder_nodeset (p->builder, set->name, set->id));
         for (size_t k = 0; k < set->n; k++) {
             int i = set->node[k];
             if (p->level[i] == 2) i = p->twin[i];
-            if (i >= 0 && p->level[i] == 0) PG_TRY (pg_maker_nodeset_add (p->maker, m->node_id[i]));
+            if (i >= 0 && p->level[i] == 0) PG_TRY (pg_mesh_builder_nodeset_add (p->builder, m->node_id[i]));
         }
     }
     for (size_t s = 0; s < m->nsides; s++) {
@@ -128,8 +145,8 @@ static pg_status add_sets (plate *p)
         int begun = 0, side;
         for (size_t k = 0; k < set->n; k++) {
             if ((side = standing (p, (size_t) set->element[k], set->side[k])) < 0) continue;
-            if (!begun) PG_TRY (pg_maker_sideset (p->maker, set->name, set->id));
-            PG_TRY (pg_maker_sideset_add (p->maker, m->element_id[set->element[k]], side));
+            if (!begun) PG_TRY (pg_mesh_builder_sideset (p->builder, set->name, set->id));
+            PG_TRY (pg_mesh_builder_sideset_add (p->builder, m->element_id[set->element[k]], side));
             begun = 1;
         }
     }
@@ -142,7 +159,10 @@ static void take_means (const plate *p, const pg_mesh *flat, const int *at, pg_m
 {
     size_t n = (size_t) f->components, keep = n == 3 ? 2 : n;
     for (size_t i = 0; i < flat->nnode; i++)
-        for (size_t c = 0; c < keep; c++) work[i * keep + c] = (f->value[(size_t) at[i] * n + c] + f->value[(size_t) p->twin[at[i]] * n + c]) / 2;
+        for (size_t c = 0; c < keep; c++)
+            work[i * keep + c] = (f->value[(size_t) at[i] * n + c]
+                                  + f->value[(size_t) p->twin[at[i]] * n + c])
+                                 / 2;
     memcpy (f->value, work, flat->nnode * keep * sizeof *work);
     f->components = (int) keep;
 }
@@ -154,7 +174,8 @@ static pg_status flatten_fields (const plate *p, const pg_mesh *flat, size_t nfi
     int *at = NULL;
     double *work = NULL;
     size_t twice, most = 1;
-    for (size_t k = 0; k < nfield; k++) if ((size_t) fields[k].components > most) most = (size_t) fields[k].components;
+    for (size_t k = 0; k < nfield; k++)
+        if ((size_t) fields[k].components > most) most = (size_t) fields[k].components;
     PG_ALLOC (at, flat->nnode);
     PG_ALLOC (work, flat->nnode * most);
     PG_TRY (id_table_build (&t, p->mesh->nnode, p->mesh->node_id, &twice));
@@ -175,17 +196,17 @@ pg_status pg_mesh_flatten (pg_mesh *mesh, size_t nfield, pg_mesh_field *fields)
     PG_ALLOC (p.level, mesh->nnode);
     PG_ALLOC (p.twin, mesh->nnode);
     PG_TRY (find_levels (&p));
-    PG_TRY (pg_maker_create (&p.maker, "the plane mesh"));
+    PG_TRY (pg_mesh_builder_create (&p.builder, "the plane mesh"));
     PG_TRY (add_elements (&p));
     PG_TRY (add_sets (&p));
-    PG_TRY (pg_maker_finish (p.maker, &flat));
+    PG_TRY (pg_mesh_builder_finish (p.builder, &flat));
     PG_TRY (flatten_fields (&p, &flat, nfield, fields));
     pg_mesh_clear (mesh);
     *mesh = flat;
     memset (&flat, 0, sizeof flat);
 done:
     pg_mesh_clear (&flat);
-    pg_maker_free (&p.maker);
+    pg_mesh_builder_free (&p.builder);
     pg_free (p.level), pg_free (p.twin);
     return status;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Results of CalculiX (.frd; format by the manual of its viewer cgx): blocks of nodes, elements and results, each as text in short or
- * long columns, or binary. Numbers stand in fixed columns, often without blanks between them. */
+ * Results of CalculiX (.frd; format by the manual of its viewer cgx): blocks of nodes, elements and results,
+ * each as text in short or long columns, or binary. Numbers stand in fixed columns, often without blanks
+ * between them. */
 #include "result.h"
 #include <ctype.h>
 #include <math.h>
@@ -11,20 +12,20 @@
 enum { SHORT, LONG, FLOATS, DOUBLES, NAME = 9, MOST_COMPONENTS = 64 };
 typedef struct {
     char   name[NAME];
-    double value;                                      /* time                                                           */
-    long   number, nodes;                              /* of the step; of nodes                                          */
+    double value;                                      /* time */
+    long   number, nodes;                              /* of the step; of nodes */
     int    format, components;
-    mesh_cursor data;                                  /* where the values begin                                         */
+    mesh_cursor data;                                  /* where the values begin */
 } block;
 typedef struct {
     mesh_cursor    c;
-    const char    *first, *last;                       /* the line now                                                   */
-    pg_mesh_maker *maker;                              /* NULL: only the results count                                   */
-    size_t  nblock, room;
+    const char    *first, *last;                       /* the line now */
+    pg_mesh_builder *builder;                              /* NULL: only the results count */
+    size_t  nblock, workspace;
     block  *block;
 } reader;
 
-/* ---- columns ---------------------------------------------------------------------------------------------------------- */
+/* ---- columns ------------------------------------------------------------------------------------------- */
 /* The columns [at, at + width) of a line without the blanks around; 0: nothing there. */
 static int column (const reader *r, size_t at, size_t width, const char **s, const char **end)
 {
@@ -95,18 +96,20 @@ static double real_at (const char *p, int format)
 }
 
 /* Number of items and format at the end of the line that begins a block. */
-static pg_status block_head (const reader *r, const char *what, size_t at, size_t format_at, long *n, int *format)
+static pg_status block_head (const reader *r, const char *what, size_t at, size_t format_at, long *n,
+                             int *format)
 {
     pg_status status = PG_OK;
     long f = 0;
     if (!whole (r, at, 12, n) || *n < 0) MESH_FAIL (&r->c, "no number of %s", what);
-    if (!whole (r, format_at, 2, &f) || f < SHORT || f > DOUBLES) MESH_FAIL (&r->c, "the format of the %s is none of 0 (short), 1 (long), 2, 3 (binary)", what);
+    if (!whole (r, format_at, 2, &f) || f < SHORT || f > DOUBLES)
+        MESH_FAIL (&r->c, "the format of the %s is none of 0 (short), 1 (long), 2, 3 (binary)", what);
     *format = (int) f;
 done:
     return status;
 }
 
-/* ---- nodes ------------------------------------------------------------------------------------------------------------ */
+/* ---- nodes --------------------------------------------------------------------------------------------- */
 static pg_status binary_nodes (reader *r, long n, int format)
 {
     pg_status status = PG_OK;
@@ -114,8 +117,9 @@ static pg_status binary_nodes (reader *r, long n, int format)
     for (long k = 0; k < n; k++) {
         const char *p = bytes (r, 4 + 3 * size);
         if (!p) MESH_FAIL (&r->c, "the file ends within node %ld of %ld", k + 1, n);
-        double x[3] = { real_at (p + 4, format), real_at (p + 4 + size, format), real_at (p + 4 + 2 * size, format) };
-        if (r->maker) PG_TRY (pg_maker_node (r->maker, int_at (p), x));
+        double x[3] = { real_at (p + 4, format), real_at (p + 4 + size, format),
+                        real_at (p + 4 + 2 * size, format) };
+        if (r->builder) PG_TRY (pg_mesh_builder_node (r->builder, int_at (p), x));
     }
 done:
     return status;
@@ -134,19 +138,22 @@ static pg_status read_nodes (reader *r)
     }
     size_t width = id_width (format);
     for (; next (r) && !is_key (r, " -3"); count++) {
-        if (!r->maker) continue;
+        if (!r->builder) continue;
         if (!is_key (r, " -1") || !whole (r, 3, width, &id)) MESH_FAIL (&r->c, "is no line of a node");
-        for (size_t a = 0; a < 3; a++) if (!real (r, 3 + width + 12 * a, 12, &x[a])) MESH_FAIL (&r->c, "node %ld: coordinate %zu is no number", id, a + 1);
-        PG_TRY (pg_maker_node (r->maker, id, x));
+        for (size_t a = 0; a < 3; a++)
+            if (!real (r, 3 + width + 12 * a, 12, &x[a]))
+                MESH_FAIL (&r->c, "node %ld: coordinate %zu is no number", id, a + 1);
+        PG_TRY (pg_mesh_builder_node (r->builder, id, x));
     }
     if (count != n) MESH_FAIL (&r->c, "%ld nodes, but the block says %ld", count, n);
 done:
     return status;
 }
 
-/* ---- elements --------------------------------------------------------------------------------------------------------- */
+/* ---- elements ------------------------------------------------------------------------------------------ */
 /* Kinds 1 to 12 of cgx; their nodes are in the order of Exodus. */
-static const pg_element kinds[] = { PG_ELEMENTS, PG_HEX8, PG_WEDGE6, PG_TET4, PG_HEX20, PG_WEDGE15, PG_TET10, PG_TRI3, PG_TRI6, PG_QUAD4, PG_QUAD8, PG_BAR2, PG_BAR3 };
+static const pg_element kinds[] = { PG_ELEMENTS, PG_HEX8, PG_WEDGE6, PG_TET4,  PG_HEX20, PG_WEDGE15, PG_TET10,
+                                    PG_TRI3,     PG_TRI6, PG_QUAD4,  PG_QUAD8, PG_BAR2,  PG_BAR3 };
 
 
 static pg_status check_kind (const reader *r, long id, long kind, pg_element *out)
@@ -168,9 +175,11 @@ static pg_status binary_elements (reader *r, long n)
         if (!p) MESH_FAIL (&r->c, "the file ends within element %ld of %ld", k + 1, n);
         PG_TRY (check_kind (r, int_at (p), int_at (p + 4), &kind));
         int nodes = pg_element_types[kind].nodes;
-        if (!(q = bytes (r, 4 * (size_t) nodes))) MESH_FAIL (&r->c, "the file ends within element %ld of %ld", k + 1, n);
+        if (!(q = bytes (r, 4 * (size_t) nodes)))
+            MESH_FAIL (&r->c, "the file ends within element %ld of %ld", k + 1, n);
         for (int i = 0; i < nodes; i++) node[i] = int_at (q + 4 * i);
-        if (r->maker) PG_TRY (pg_maker_element (r->maker, int_at (p), kind, node, int_at (p + 12), 0));
+        if (r->builder)
+            PG_TRY (pg_mesh_builder_element (r->builder, int_at (p), kind, node, int_at (p + 12), 0));
     }
 done:
     return status;
@@ -182,15 +191,18 @@ static pg_status text_element (reader *r, int format)
     size_t width = id_width (format), per_line = format == SHORT ? 15 : 10;
     long id, type, material = 0, node[PG_ELEMENT_NODES], line = r->c.line;
     pg_element kind = PG_ELEMENTS;
-    if (!is_key (r, " -1") || !whole (r, 3, width, &id) || !whole (r, 3 + width, 5, &type)) MESH_FAIL (&r->c, "is no line of an element");
+    if (!is_key (r, " -1") || !whole (r, 3, width, &id) || !whole (r, 3 + width, 5, &type))
+        MESH_FAIL (&r->c, "is no line of an element");
     whole (r, 13 + width, 5, &material);
     PG_TRY (check_kind (r, id, type, &kind));
     size_t nodes = (size_t) pg_element_types[kind].nodes;
     for (size_t k = 0; k < nodes; k++) {
-        if (k % per_line == 0 && (!next (r) || !is_key (r, " -2"))) MESH_FAIL (&r->c, "element %ld has %zu of %zu nodes", id, k, nodes);
-        if (!whole (r, 3 + width * (k % per_line), width, &node[k])) MESH_FAIL (&r->c, "element %ld has %zu of %zu nodes", id, k, nodes);
+        if (k % per_line == 0 && (!next (r) || !is_key (r, " -2")))
+            MESH_FAIL (&r->c, "element %ld has %zu of %zu nodes", id, k, nodes);
+        if (!whole (r, 3 + width * (k % per_line), width, &node[k]))
+            MESH_FAIL (&r->c, "element %ld has %zu of %zu nodes", id, k, nodes);
     }
-    PG_TRY (pg_maker_element (r->maker, id, kind, node, material, line));
+    PG_TRY (pg_mesh_builder_element (r->builder, id, kind, node, material, line));
 done:
     return status;
 }
@@ -205,13 +217,13 @@ static pg_status read_elements (reader *r)
         status = binary_elements (r, n);
         goto done;
     }
-    for (; next (r) && !is_key (r, " -3"); count++) if (r->maker) PG_TRY (text_element (r, format));
-    if (r->maker && count != n) MESH_FAIL (&r->c, "%ld elements, but the block says %ld", count, n);
+    for (; next (r) && !is_key (r, " -3"); count++) if (r->builder) PG_TRY (text_element (r, format));
+    if (r->builder && count != n) MESH_FAIL (&r->c, "%ld elements, but the block says %ld", count, n);
 done:
     return status;
 }
 
-/* ---- results ---------------------------------------------------------------------------------------------------------- */
+/* ---- results ------------------------------------------------------------------------------------------- */
 static pg_status skip_values (reader *r, const block *b)
 {
     pg_status status = PG_OK;
@@ -220,7 +232,8 @@ static pg_status skip_values (reader *r, const block *b)
         while (next (r)) if (is_key (r, " -3")) goto done;
         MESH_FAIL (&r->c, "the file ends within %s", b->name);
     }
-    if ((size_t) b->nodes > (size_t) (r->c.end - r->c.at) / size) MESH_FAIL (&r->c, "the file ends within the %ld nodes of %s", b->nodes, b->name);
+    if ((size_t) b->nodes > (size_t) (r->c.end - r->c.at) / size)
+        MESH_FAIL (&r->c, "the file ends within the %ld nodes of %s", b->nodes, b->name);
     r->c.at += (size_t) b->nodes * size;
 done:
     return status;
@@ -238,12 +251,13 @@ static pg_status read_block (reader *r)
         MESH_FAIL (&r->c, "a block of results begins with its name and 1 to %d components", MOST_COMPONENTS);
     word (r, 5, 8, b.name, sizeof b.name);
     for (given = 0; given < n; given++) {
-        if (!next (r) || !is_key (r, " -5")) MESH_FAIL (&r->c, "%s has %ld of %ld components", b.name, given, n);
+        if (!next (r) || !is_key (r, " -5"))
+            MESH_FAIL (&r->c, "%s has %ld of %ld components", b.name, given, n);
         b.components += !whole (r, 33, 5, &made) || made == 0;
     }
     b.data = r->c;
     PG_TRY (skip_values (r, &b));
-    PG_GROW (r->block, r->room, r->nblock + 1);
+    PG_GROW (r->block, r->workspace, r->nblock + 1);
     r->block[r->nblock++] = b;
 done:
     return status;
@@ -255,9 +269,9 @@ static pg_status read_material (reader *r)
     pg_status status = PG_OK;
     long n;
     char name[64];
-    if (!r->maker || !whole (r, 9, 5, &n)) goto done;
+    if (!r->builder || !whole (r, 9, 5, &n)) goto done;
     word (r, 14, 63, name, sizeof name);
-    for (int dim = 1; dim <= 3; dim++) PG_TRY (pg_maker_group (r->maker, dim, n, name));
+    for (int dim = 1; dim <= 3; dim++) PG_TRY (pg_mesh_builder_group (r->builder, dim, n, name));
 done:
     return status;
 }
@@ -278,19 +292,24 @@ done:
 
 static int knows_frd (const mesh_bytes *file)
 {
-    return file->size > 6 && (!memcmp (file->text, "    1C", 6) || !memcmp (file->text, "    2C", 6) || !memcmp (file->text, "    1U", 6));
+    return file->size > 6
+           && (!memcmp (file->text, "    1C", 6) || !memcmp (file->text, "    2C", 6)
+               || !memcmp (file->text, "    1U", 6));
 }
 
-static pg_status read_frd (pg_mesh_maker *m, const mesh_bytes *file)
+static pg_status read_frd (pg_mesh_builder *m, const mesh_bytes *file)
 {
-    reader r = { .c = mesh_begin (file), .maker = m };
+    reader r = { .c = mesh_begin (file), .builder = m };
     pg_status status = read_all (&r);
     pg_free (r.block);
     return status;
 }
 
-/* ---- fields ----------------------------------------------------------------------------------------------------------- */
-static int same_step (const block *a, const block *b) { return a->value == b->value && a->number == b->number; }
+/* ---- fields -------------------------------------------------------------------------------------------- */
+static int same_step (const block *a, const block *b)
+{
+    return a->value == b->value && a->number == b->number;
+}
 
 /* Values of the next node; 0: no more. */
 static pg_status next_values (reader *r, const block *b, long *id, double *value, int *more)
@@ -306,10 +325,13 @@ static pg_status next_values (reader *r, const block *b, long *id, double *value
     }
     *more = next (r) && !is_key (r, " -3");
     if (!*more) goto done;
-    if (!is_key (r, " -1") || !whole (r, 3, width, id)) MESH_FAIL (&r->c, "is no line of %s at a node", b->name);
+    if (!is_key (r, " -1") || !whole (r, 3, width, id))
+        MESH_FAIL (&r->c, "is no line of %s at a node", b->name);
     for (size_t k = 0; k < n; k++) {
-        if (k > 0 && k % 6 == 0 && (!next (r) || !is_key (r, " -2"))) MESH_FAIL (&r->c, "%s at node %ld: %zu of %zu values", b->name, *id, k, n);
-        if (!real (r, 3 + width + 12 * (k % 6), 12, &value[k])) MESH_FAIL (&r->c, "%s at node %ld: value %zu is no number", b->name, *id, k + 1);
+        if (k > 0 && k % 6 == 0 && (!next (r) || !is_key (r, " -2")))
+            MESH_FAIL (&r->c, "%s at node %ld: %zu of %zu values", b->name, *id, k, n);
+        if (!real (r, 3 + width + 12 * (k % 6), 12, &value[k]))
+            MESH_FAIL (&r->c, "%s at node %ld: value %zu is no number", b->name, *id, k + 1);
     }
 done:
     return status;
@@ -317,10 +339,14 @@ done:
 
 static const char *field_name (const char *name)
 {
-    return strcmp (name, "DISP") == 0 ? "displacement" : strcmp (name, "STRESS") == 0 ? "stress" : strcmp (name, "TOSTRAIN") == 0 ? "strain" : name;
+    return strcmp (name, "DISP") == 0       ? "displacement"
+           : strcmp (name, "STRESS") == 0   ? "stress"
+           : strcmp (name, "TOSTRAIN") == 0 ? "strain"
+                                            : name;
 }
 
-static pg_status read_field (mesh_fields *out, const pg_mesh *mesh, const id_table *nodes, reader *r, const block *b, unsigned char *have)
+static pg_status read_field (mesh_fields *out, const pg_mesh *mesh, const id_table *nodes, reader *r,
+                             const block *b, unsigned char *have)
 {
     pg_status status = PG_OK;
     pg_mesh_field *field;
@@ -342,7 +368,8 @@ static pg_status read_field (mesh_fields *out, const pg_mesh *mesh, const id_tab
         found += !have[at];
         have[at] = 1;
     }
-    if (found < mesh->nnode) MESH_FAIL (&r->c, "%s is given at %zu of %zu nodes", b->name, found, mesh->nnode);
+    if (found < mesh->nnode)
+        MESH_FAIL (&r->c, "%s is given at %zu of %zu nodes", b->name, found, mesh->nnode);
 done:
     return status;
 }

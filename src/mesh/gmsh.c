@@ -17,7 +17,7 @@ static int is (const char *first, const char *last, const char *word)
     return (size_t) (last - first) == n && !memcmp (first, word, n);
 }
 
-/* ---- header ----------------------------------------------------------------------------------------------------------- */
+/* ---- header -------------------------------------------------------------------------------------------- */
 /* The header may follow comments. */
 static int find_header (mesh_cursor *c)
 {
@@ -35,7 +35,7 @@ int gmsh_knows (const mesh_bytes *file, double *version)
     return find_header (&c) && mesh_line (&c, &first, &last) && mesh_real (&first, last, version);
 }
 
-pg_status gmsh_open (gmsh_reader *g, pg_mesh_maker *m, const mesh_bytes *file)
+pg_status gmsh_open (gmsh_reader *g, pg_mesh_builder *m, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
     const char *at, *last;
@@ -44,7 +44,8 @@ pg_status gmsh_open (gmsh_reader *g, pg_mesh_maker *m, const mesh_bytes *file)
     g->c = mesh_begin (file), g->m = m;
     find_header (&g->c);
     PG_TRY (gmsh_line (g, "the version", &at, &last));
-    if (!mesh_real (&at, last, &g->version) || !mesh_whole (&at, last, &binary) || !mesh_whole (&at, last, &size))
+    if (!mesh_real (&at, last, &g->version) || !mesh_whole (&at, last, &binary)
+        || !mesh_whole (&at, last, &size))
         GMSH_FAIL (g, "$MeshFormat needs version, file type and data size");
     if (size != 8) GMSH_FAIL (g, "the size of numbers is %ld bytes; only 8 is known", size);
     g->binary = binary != 0;
@@ -59,7 +60,7 @@ done:
     return status;
 }
 
-/* ---- sections --------------------------------------------------------------------------------------------------------- */
+/* ---- sections ------------------------------------------------------------------------------------------ */
 int gmsh_section (gmsh_reader *g, char name[64])
 {
     const char *first, *last;
@@ -99,7 +100,10 @@ pg_status gmsh_end (gmsh_reader *g, const char *name)
     const char *first, *last;
     snprintf (end, sizeof end, "$End%s", name);
     PG_TRY (gmsh_line (g, end, &first, &last));
-    if (!is (first, last, end)) GMSH_FAIL (g, "expected %s, found '%.*s'", end, last - first < 40 && !g->binary ? (int) (last - first) : 40, g->binary ? "other bytes" : first);
+    if (!is (first, last, end))
+        GMSH_FAIL (g, "expected %s, found '%.*s'", end,
+                   last - first < 40 && !g->binary ? (int) (last - first) : 40,
+                   g->binary ? "other bytes" : first);
 done:
     return status;
 }
@@ -121,7 +125,8 @@ pg_status gmsh_wholes (gmsh_reader *g, const char *what, int n, long *value)
     const char *at, *last;
     PG_TRY (gmsh_line (g, what, &at, &last));
     for (int k = 0; k < n; k++)
-        if (!mesh_whole (&at, last, &value[k])) GMSH_FAIL (g, "%s: number %d of %d is missing or not whole", what, k + 1, n);
+        if (!mesh_whole (&at, last, &value[k]))
+            GMSH_FAIL (g, "%s: number %d of %d is missing or not whole", what, k + 1, n);
 done:
     return status;
 }
@@ -130,7 +135,8 @@ pg_status gmsh_place (gmsh_reader *g, const char **at, const char *last, double 
 {
     pg_status status = PG_OK;
     for (int a = 0; a < 3; a++)
-        if (!mesh_real (at, last, &x[a])) GMSH_FAIL (g, "coordinate %d of a node is missing or no finite number", a + 1);
+        if (!mesh_real (at, last, &x[a]))
+            GMSH_FAIL (g, "coordinate %d of a node is missing or no finite number", a + 1);
 done:
     return status;
 }
@@ -150,54 +156,71 @@ pg_status gmsh_names (gmsh_reader *g)
         while (at < last && *at != '"') at++;
         for (stop = last; stop > at && stop[-1] != '"'; stop--) continue;
         if (stop - at < 2) GMSH_FAIL (g, "name %ld of %ld is not in quotes", k + 1, n);
-        size_t length = (size_t) (stop - at - 2) < sizeof name - 1 ? (size_t) (stop - at - 2) : sizeof name - 1;
+        size_t length = (size_t) (stop - at - 2) < sizeof name - 1 ? (size_t) (stop - at - 2)
+                                                                   : sizeof name - 1;
         memcpy (name, at + 1, length), name[length] = '\0';
-        PG_TRY (pg_maker_group (g->m, (int) dim, group, name));
+        PG_TRY (pg_mesh_builder_group (g->m, (int) dim, group, name));
     }
     PG_TRY (gmsh_end (g, "PhysicalNames"));
 done:
     return status;
 }
 
-/* ---- elements --------------------------------------------------------------------------------------------------------- */
+/* ---- elements ------------------------------------------------------------------------------------------ */
 static const signed char same_order[PG_ELEMENT_NODES] = { 0, 1, 2, 3, 4, 5, 6, 7, 8 };
 static const signed char tet_order[10] = { 0, 1, 2, 3, 4, 5, 6, 7, 9, 8 };
-static const signed char hex_order[27] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 10, 12, 14, 15, 16, 18, 19, 17, 26, 20, 25, 22, 23, 21, 24 };
+static const signed char hex_order[27] = { 0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  10, 12,
+                                           14, 15, 16, 18, 19, 17, 26, 20, 25, 22, 23, 21, 24 };
 static const signed char wedge_order[15] = { 0, 1, 2, 3, 4, 5, 6, 9, 7, 8, 10, 11, 12, 14, 13 };
 
 pg_status gmsh_kind (gmsh_reader *g, long type, long element, gmsh_type *out)
 {
     pg_status status = PG_OK;
     static const gmsh_type types[] = {
-        [1] = { 1, PG_BAR2, same_order }, [2] = { 1, PG_TRI3, same_order }, [3] = { 1, PG_QUAD4, same_order }, [4] = { 1, PG_TET4, same_order },
-        [5] = { 1, PG_HEX8, same_order }, [6] = { 1, PG_WEDGE6, same_order }, [8] = { 1, PG_BAR3, same_order }, [9] = { 1, PG_TRI6, same_order },
-        [10] = { 1, PG_QUAD9, same_order }, [11] = { 1, PG_TET10, tet_order }, [12] = { 1, PG_HEX27, hex_order }, [15] = { 1, PG_POINT1, same_order },
-        [16] = { 1, PG_QUAD8, same_order }, [17] = { 1, PG_HEX20, hex_order }, [18] = { 1, PG_WEDGE15, wedge_order } };
-    static const char *const other[] = { [7] = "a pyramid of 5 nodes", [13] = "a wedge of 18 nodes", [14] = "a pyramid of 14 nodes", [19] = "a pyramid of 13 nodes" };
+        [1] = { 1, PG_BAR2, same_order },     [2] = { 1, PG_TRI3, same_order },
+        [3] = { 1, PG_QUAD4, same_order },    [4] = { 1, PG_TET4, same_order },
+        [5] = { 1, PG_HEX8, same_order },     [6] = { 1, PG_WEDGE6, same_order },
+        [8] = { 1, PG_BAR3, same_order },     [9] = { 1, PG_TRI6, same_order },
+        [10] = { 1, PG_QUAD9, same_order },   [11] = { 1, PG_TET10, tet_order },
+        [12] = { 1, PG_HEX27, hex_order },    [15] = { 1, PG_POINT1, same_order },
+        [16] = { 1, PG_QUAD8, same_order },   [17] = { 1, PG_HEX20, hex_order },
+        [18] = { 1, PG_WEDGE15, wedge_order }
+    };
+    static const char *const other[] = { [7] = "a pyramid of 5 nodes",
+                                         [13] = "a wedge of 18 nodes",
+                                         [14] = "a pyramid of 14 nodes",
+                                         [19] = "a pyramid of 13 nodes" };
     size_t k = (size_t) type;
     if (type > 0 && k < sizeof types / sizeof *types && types[k].known) {
         *out = types[k];
         return PG_OK;
     }
-    GMSH_FAIL (g, "element %ld is %s (type %ld of Gmsh), which is not known; use triangles, quadrilaterals, tetrahedra, hexahedra or wedges of order 1 or 2", element,
-               type > 0 && k < sizeof other / sizeof *other && other[k] ? other[k] : "of a kind of its own", type);
+    GMSH_FAIL (g,
+               "element %ld is %s (type %ld of Gmsh), which is not known; use triangles, quadrilaterals, "
+               "tetrahedra, hexahedra or wedges of order 1 or 2",
+               element,
+               type > 0 && k < sizeof other / sizeof *other && other[k] ? other[k] : "of a kind of its own",
+               type);
 done:
     return status;
 }
 
-pg_status gmsh_element (gmsh_reader *g, const gmsh_type *type, long id, const long *node, long group, long line)
+pg_status gmsh_element (gmsh_reader *g, const gmsh_type *type, long id, const long *node, long group,
+                        long line)
 {
     long sorted[PG_ELEMENT_NODES];
     for (int k = 0; k < pg_element_types[type->kind].nodes; k++) sorted[k] = node[type->order[k]];
-    return pg_maker_element (g->m, id, type->kind, sorted, group < 0 ? -group : group, line);
+    return pg_mesh_builder_element (g->m, id, type->kind, sorted, group < 0 ? -group : group, line);
 }
 
-/* ---- binary numbers --------------------------------------------------------------------------------------------------- */
+/* ---- binary numbers ------------------------------------------------------------------------------------ */
 pg_status gmsh_room (gmsh_reader *g, const char *what, size_t n, size_t size)
 {
     pg_status status = PG_OK;
     size_t left = (size_t) (g->c.end - g->c.at);
-    if (n > left / size) GMSH_FAIL (g, "%s: %zu records of %zu bytes do not fit into the %zu bytes that are left", what, n, size, left);
+    if (n > left / size)
+        GMSH_FAIL (g, "%s: %zu records of %zu bytes do not fit into the %zu bytes that are left", what, n,
+                   size, left);
 done:
     return status;
 }

@@ -3,7 +3,7 @@
 #include "gmsh.h"
 #include <string.h>
 
-/* ---- text ------------------------------------------------------------------------------------------------------------- */
+/* ---- text ---------------------------------------------------------------------------------------------- */
 static pg_status nodes_of_text (gmsh_reader *g, long n)
 {
     pg_status status = PG_OK;
@@ -14,7 +14,7 @@ static pg_status nodes_of_text (gmsh_reader *g, long n)
         PG_TRY (gmsh_line (g, "the last node", &at, &last));
         if (!mesh_whole (&at, last, &id)) GMSH_FAIL (g, "node %ld of %ld has no number", k + 1, n);
         PG_TRY (gmsh_place (g, &at, last, x));
-        PG_TRY (pg_maker_node (g->m, id, x));
+        PG_TRY (pg_mesh_builder_node (g->m, id, x));
     }
 done:
     return status;
@@ -31,12 +31,15 @@ static pg_status element_of_text (gmsh_reader *g, const char *at, const char *la
     PG_TRY (gmsh_kind (g, type, id, &t));
     if (tags < 0) GMSH_FAIL (g, "element %ld has %ld tags", id, tags);
     for (long k = 0; k < tags; k++) {
-        if (!mesh_whole (&at, last, &tag)) GMSH_FAIL (g, "element %ld: tag %ld of %ld is missing", id, k + 1, tags);
+        if (!mesh_whole (&at, last, &tag))
+            GMSH_FAIL (g, "element %ld: tag %ld of %ld is missing", id, k + 1, tags);
         if (k == 0) group = tag;
     }
     int nodes = pg_element_types[t.kind].nodes;
     for (int k = 0; k < nodes; k++)
-        if (!mesh_whole (&at, last, &node[k])) GMSH_FAIL (g, "element %ld (%s): node %d of %d is missing", id, pg_element_types[t.kind].name, k + 1, nodes);
+        if (!mesh_whole (&at, last, &node[k]))
+            GMSH_FAIL (g, "element %ld (%s): node %d of %d is missing", id, pg_element_types[t.kind].name,
+                       k + 1, nodes);
     PG_TRY (gmsh_element (g, &t, id, node, group, g->c.line));
 done:
     return status;
@@ -54,7 +57,7 @@ done:
     return status;
 }
 
-/* ---- binary ----------------------------------------------------------------------------------------------------------- */
+/* ---- binary -------------------------------------------------------------------------------------------- */
 static pg_status nodes_of_bytes (gmsh_reader *g, long n, int parametric)
 {
     pg_status status = PG_OK;
@@ -64,7 +67,7 @@ static pg_status nodes_of_bytes (gmsh_reader *g, long n, int parametric)
         PG_TRY (gmsh_room (g, "a node", 1, parametric ? 36 : 28));
         int id = gmsh_int (g);
         for (int a = 0; a < 3; a++) x[a] = gmsh_double (g);
-        PG_TRY (pg_maker_node (g->m, id, x));
+        PG_TRY (pg_mesh_builder_node (g->m, id, x));
         if (!parametric) continue;
         int dim = gmsh_int (g), more = dim == 1 || dim == 2 ? dim : 0;
         gmsh_int (g);
@@ -82,7 +85,8 @@ static pg_status block_of_bytes (gmsh_reader *g, long *left)
     gmsh_type t;
     PG_TRY (gmsh_room (g, "a block of elements", 3, 4));
     int type = gmsh_int (g), n = gmsh_int (g), tags = gmsh_int (g);
-    if (n < 1 || n > *left || tags < 0) GMSH_FAIL (g, "a block of %d elements with %d tags each where %ld elements are left", n, tags, *left);
+    if (n < 1 || n > *left || tags < 0)
+        GMSH_FAIL (g, "a block of %d elements with %d tags each where %ld elements are left", n, tags, *left);
     PG_TRY (gmsh_room (g, "tags", (size_t) tags, 4));
     PG_TRY (gmsh_room (g, "an element", 1, 4));
     gmsh_reader peek = *g;
@@ -103,7 +107,7 @@ done:
     return status;
 }
 
-/* ---- sections --------------------------------------------------------------------------------------------------------- */
+/* ---- sections ------------------------------------------------------------------------------------------ */
 static pg_status read_nodes (gmsh_reader *g, const char *name)
 {
     pg_status status = PG_OK;
@@ -129,7 +133,7 @@ done:
     return status;
 }
 
-static pg_status read (pg_mesh_maker *m, const mesh_bytes *file)
+static pg_status read (pg_mesh_builder *m, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
     gmsh_reader g;

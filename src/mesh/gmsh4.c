@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct { long dim, tag; size_t first, n; } entity;     /* groups of an entity: group[first .. first + n)                */
+/* groups of an entity: group[first .. first + n) */
+typedef struct { long dim, tag; size_t first, n; } entity;
 typedef struct {
     gmsh_reader g;
     size_t  nentity, entity_cap, ngroup, group_cap;
@@ -26,15 +27,16 @@ static pg_status add_group (reader *r, long group)
 {
     pg_status status = PG_OK;
     entity *e = &r->entities[r->nentity - 1];
-    if (e->n == MOST_GROUPS) GMSH_FAIL (&r->g, "entity %ld belongs to more than %d groups", e->tag, MOST_GROUPS);
+    if (e->n == MOST_GROUPS)
+        GMSH_FAIL (&r->g, "entity %ld belongs to more than %d groups", e->tag, MOST_GROUPS);
     PG_GROW (r->group, r->group_cap, r->ngroup + 1);
-    r->group[r->ngroup++] = labs (group);                  /* a negative number: seen from the other side                */
+    r->group[r->ngroup++] = labs (group);                  /* a negative number: seen from the other side */
     e->n++;
 done:
     return status;
 }
 
-/* ---- entities --------------------------------------------------------------------------------------------------------- */
+/* ---- entities ------------------------------------------------------------------------------------------ */
 /* tag, box (points: place), groups; what bounds it is left out. */
 static pg_status entity_of_text (reader *r, int dim)
 {
@@ -45,11 +47,15 @@ static pg_status entity_of_text (reader *r, int dim)
     double unused;
     PG_TRY (gmsh_line (g, "the last entity", &at, &last));
     if (!mesh_whole (&at, last, &tag)) GMSH_FAIL (g, "an entity has no number");
-    for (int k = 0; k < (dim ? 6 : 3); k++) if (!mesh_real (&at, last, &unused)) GMSH_FAIL (g, "entity %ld: number %d of its box is missing", tag, k + 1);
-    if (!mesh_whole (&at, last, &n) || n < 0) GMSH_FAIL (g, "entity %ld: the number of its groups is missing or negative", tag);
+    for (int k = 0; k < (dim ? 6 : 3); k++)
+        if (!mesh_real (&at, last, &unused))
+            GMSH_FAIL (g, "entity %ld: number %d of its box is missing", tag, k + 1);
+    if (!mesh_whole (&at, last, &n) || n < 0)
+        GMSH_FAIL (g, "entity %ld: the number of its groups is missing or negative", tag);
     PG_TRY (add_entity (r, dim, tag));
     for (long k = 0; k < n; k++) {
-        if (!mesh_whole (&at, last, &group)) GMSH_FAIL (g, "entity %ld: group %ld of %ld is missing", tag, k + 1, n);
+        if (!mesh_whole (&at, last, &group))
+            GMSH_FAIL (g, "entity %ld: group %ld of %ld is missing", tag, k + 1, n);
         PG_TRY (add_group (r, group));
     }
 done:
@@ -94,14 +100,15 @@ static pg_status read_entities (reader *r)
         for (int k = 0; k < 4; k++) count[k] = gmsh_long (g);
     } else PG_TRY (gmsh_wholes (g, "the numbers of entities", 4, count));
     for (int dim = 0; dim < 4; dim++)
-        for (long k = 0; k < count[dim]; k++) PG_TRY (g->binary ? entity_of_bytes (r, dim) : entity_of_text (r, dim));
+        for (long k = 0; k < count[dim]; k++)
+            PG_TRY (g->binary ? entity_of_bytes (r, dim) : entity_of_text (r, dim));
     if (r->nentity) qsort (r->entities, r->nentity, sizeof *r->entities, by_entity);
     PG_TRY (gmsh_end (g, "Entities"));
 done:
     return status;
 }
 
-/* ---- blocks ----------------------------------------------------------------------------------------------------------- */
+/* ---- blocks -------------------------------------------------------------------------------------------- */
 /* Four numbers before the blocks of a section: blocks, members, lowest and highest number. */
 static pg_status section_head (gmsh_reader *g, const char *what, long *blocks, long *members)
 {
@@ -126,14 +133,15 @@ static pg_status block_head (gmsh_reader *g, const char *what, long head[4], lon
         for (int k = 0; k < 3; k++) head[k] = gmsh_int (g);
         head[3] = gmsh_long (g);
     } else PG_TRY (gmsh_wholes (g, what, 4, head));
-    if (head[3] < 0 || head[3] > *left) GMSH_FAIL (g, "%s: %ld members where %ld are left", what, head[3], *left);
+    if (head[3] < 0 || head[3] > *left)
+        GMSH_FAIL (g, "%s: %ld members where %ld are left", what, head[3], *left);
     if (head[0] < 0 || head[0] > 3) GMSH_FAIL (g, "%s: an entity of dimension %ld", what, head[0]);
     *left -= head[3];
 done:
     return status;
 }
 
-/* ---- nodes ------------------------------------------------------------------------------------------------------------ */
+/* ---- nodes --------------------------------------------------------------------------------------------- */
 /* First all numbers, then all places: `number` walks behind. */
 static pg_status nodes_of_text (gmsh_reader *g, long n)
 {
@@ -147,7 +155,7 @@ static pg_status nodes_of_text (gmsh_reader *g, long n)
         PG_TRY (gmsh_wholes (&number, "the number of a node", 1, &id));
         PG_TRY (gmsh_line (g, "the last node", &at, &last));
         PG_TRY (gmsh_place (g, &at, last, x));
-        PG_TRY (pg_maker_node (g->m, id, x));
+        PG_TRY (pg_mesh_builder_node (g->m, id, x));
     }
 done:
     return status;
@@ -164,7 +172,7 @@ static pg_status nodes_of_bytes (gmsh_reader *g, long n, size_t parameters)
         long id = gmsh_long (&number);
         for (int a = 0; a < 3; a++) x[a] = gmsh_double (g);
         g->c.at += 8 * parameters;
-        PG_TRY (pg_maker_node (g->m, id, x));
+        PG_TRY (pg_mesh_builder_node (g->m, id, x));
     }
 done:
     return status;
@@ -177,7 +185,8 @@ static pg_status read_nodes (gmsh_reader *g)
     PG_TRY (section_head (g, "the number of nodes", &blocks, &left));
     for (long k = 0; k < blocks; k++) {
         PG_TRY (block_head (g, "a block of nodes", head, &left));
-        PG_TRY (g->binary ? nodes_of_bytes (g, head[3], head[2] ? (size_t) head[0] : 0) : nodes_of_text (g, head[3]));
+        PG_TRY (g->binary ? nodes_of_bytes (g, head[3], head[2] ? (size_t) head[0] : 0)
+                          : nodes_of_text (g, head[3]));
     }
     if (left > 0) GMSH_FAIL (g, "%ld nodes are missing", left);
     PG_TRY (gmsh_end (g, "Nodes"));
@@ -185,13 +194,15 @@ done:
     return status;
 }
 
-/* ---- elements --------------------------------------------------------------------------------------------------------- */
-/* Once for each group of the entity: the maker knows twins. */
-static pg_status add_element (reader *r, const entity *e, const gmsh_type *t, long id, const long *node, long line)
+/* ---- elements ------------------------------------------------------------------------------------------ */
+/* Once for each group of the entity: the builder knows twins. */
+static pg_status add_element (reader *r, const entity *e, const gmsh_type *t, long id, const long *node,
+                              long line)
 {
     pg_status status = PG_OK;
     if (!e || e->n == 0) PG_TRY (gmsh_element (&r->g, t, id, node, 0, line));
-    for (size_t k = 0; e && k < e->n; k++) PG_TRY (gmsh_element (&r->g, t, id, node, r->group[e->first + k], line));
+    for (size_t k = 0; e && k < e->n; k++)
+        PG_TRY (gmsh_element (&r->g, t, id, node, r->group[e->first + k], line));
 done:
     return status;
 }
@@ -206,7 +217,9 @@ static pg_status element_of_text (reader *r, const entity *e, const gmsh_type *t
     PG_TRY (gmsh_line (g, "the last element", &at, &last));
     if (!mesh_whole (&at, last, &id)) GMSH_FAIL (g, "an element has no number");
     for (int k = 0; k < nodes; k++)
-        if (!mesh_whole (&at, last, &node[k])) GMSH_FAIL (g, "element %ld (%s): node %d of %d is missing", id, pg_element_types[t->kind].name, k + 1, nodes);
+        if (!mesh_whole (&at, last, &node[k]))
+            GMSH_FAIL (g, "element %ld (%s): node %d of %d is missing", id, pg_element_types[t->kind].name,
+                       k + 1, nodes);
     PG_TRY (add_element (r, e, t, id, node, g->c.line));
 done:
     return status;
@@ -265,15 +278,18 @@ done:
     return status;
 }
 
-/* ---- file ------------------------------------------------------------------------------------------------------------- */
-static pg_status read (pg_mesh_maker *m, const mesh_bytes *file)
+/* ---- file ---------------------------------------------------------------------------------------------- */
+static pg_status read (pg_mesh_builder *m, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
     reader r = { .nentity = 0 };
     char name[64];
     PG_TRY (gmsh_open (&r.g, m, file));
     if (!(r.g.version >= 4.1 && r.g.version < 5))
-        GMSH_FAIL (&r.g, "version %g of Gmsh's format is not known; save as 4.1 or 2.2 (gmsh FILE -save -format msh4 -o NEW.msh)", r.g.version);
+        GMSH_FAIL (&r.g,
+                   "version %g of Gmsh's format is not known; save as 4.1 or 2.2 (gmsh FILE -save -format "
+                   "msh4 -o NEW.msh)",
+                   r.g.version);
     while (gmsh_section (&r.g, name))
         if (!strcmp (name, "Entities")) PG_TRY (read_entities (&r));
         else if (!strcmp (name, "Nodes")) PG_TRY (read_nodes (&r.g));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Numbers of nodes and elements as a file gives them, found again in constant time. */
-#include "maker.h"
+#include "builder.h"
 #include <stdint.h>
 #include <string.h>
 

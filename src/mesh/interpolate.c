@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-void pg_mesh_value (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi, double *out)
+void pg_mesh_value (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi,
+                    double *out)
 {
     double N[PG_ELEMENT_NODES];
     size_t n = (size_t) field->components, first = mesh->start[element];
@@ -29,21 +30,24 @@ static double invert (int dim, double J[3][3], double inverse[3][3])
     return det;
 }
 
-int pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi, double *out)
+int pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi,
+                      double *out)
 {
     double N[PG_ELEMENT_NODES], dN[3 * PG_ELEMENT_NODES], J[3][3] = { { 0 } }, inverse[3][3];
     size_t n = (size_t) field->components, first = mesh->start[element], dim = (size_t) mesh->dim;
     pg_element_shape ((pg_element) mesh->kind[element], xi, N, dN);
     for (size_t k = first; k < mesh->start[element + 1]; k++)
         for (size_t a = 0; a < dim; a++)
-            for (size_t b = 0; b < dim; b++) J[a][b] += dN[(k - first) * dim + b] * mesh->x[3 * (size_t) mesh->node[k] + a];
+            for (size_t b = 0; b < dim; b++)
+                J[a][b] += dN[(k - first) * dim + b] * mesh->x[3 * (size_t) mesh->node[k] + a];
     memset (out, 0, n * dim * sizeof *out);
     if (!(invert (mesh->dim, J, inverse) > 0)) return 0;
     for (size_t k = first; k < mesh->start[element + 1]; k++)
         for (size_t a = 0; a < dim; a++) {
             double slope = 0;
             for (size_t b = 0; b < dim; b++) slope += dN[(k - first) * dim + b] * inverse[b][a];
-            for (size_t c = 0; c < n; c++) out[c * dim + a] += slope * field->value[(size_t) mesh->node[k] * n + c];
+            for (size_t c = 0; c < n; c++)
+                out[c * dim + a] += slope * field->value[(size_t) mesh->node[k] * n + c];
         }
     return 1;
 }

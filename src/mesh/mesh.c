@@ -7,9 +7,11 @@
 void pg_mesh_clear (pg_mesh *mesh)
 {
     for (size_t i = 0; mesh->nodes && i < mesh->nnodes; i++) pg_free (mesh->nodes[i].node);
-    for (size_t i = 0; mesh->sides && i < mesh->nsides; i++) pg_free (mesh->sides[i].element), pg_free (mesh->sides[i].side);
+    for (size_t i = 0; mesh->sides && i < mesh->nsides; i++)
+        pg_free (mesh->sides[i].element), pg_free (mesh->sides[i].side);
     pg_free (mesh->nodes), pg_free (mesh->sides), pg_free (mesh->blocks);
-    pg_free (mesh->x), pg_free (mesh->node_id), pg_free (mesh->kind), pg_free (mesh->start), pg_free (mesh->node);
+    pg_free (mesh->x), pg_free (mesh->node_id), pg_free (mesh->kind), pg_free (mesh->start),
+        pg_free (mesh->node);
     pg_free (mesh->block), pg_free (mesh->element_id);
     memset (mesh, 0, sizeof *mesh);
 }
@@ -25,9 +27,9 @@ void mesh_face_key (const pg_mesh *mesh, size_t e, int f, int key[4])
     }
 }
 
-/* ---- surface ---------------------------------------------------------------------------------------------------------- */
+/* ---- surface ------------------------------------------------------------------------------------------- */
 enum { SIDES = 6, FEW = 48 };
-typedef struct { int key[3]; unsigned face; } entry;       /* the other corners; element * SIDES + side                  */
+typedef struct { int key[3]; unsigned face; } entry;       /* the other corners; element * SIDES + side */
 
 static int same (const entry *a, const entry *b) { return !memcmp (a->key, b->key, sizeof a->key); }
 
@@ -43,7 +45,8 @@ static void open_faces (entry *b, size_t n, unsigned char *open)
 {
     if (n > FEW) {
         qsort (b, n, sizeof *b, by_key);
-        for (size_t i = 0; i < n; i++) open[b[i].face] = !(i > 0 && same (&b[i], &b[i - 1])) && !(i + 1 < n && same (&b[i], &b[i + 1]));
+        for (size_t i = 0; i < n; i++)
+            open[b[i].face] = !(i > 0 && same (&b[i], &b[i - 1])) && !(i + 1 < n && same (&b[i], &b[i + 1]));
         return;
     }
     for (size_t i = 0; i < n; i++) {
@@ -59,7 +62,8 @@ static pg_status fill_buckets (const pg_mesh *mesh, size_t *start, entry **out)
     pg_status status = PG_OK;
     int key[4];
     for (size_t e = 0; e < mesh->n; e++)
-        for (int f = 0; f < pg_element_types[mesh->kind[e]].faces; f++) mesh_face_key (mesh, e, f, key), start[key[0] + 2]++;
+        for (int f = 0; f < pg_element_types[mesh->kind[e]].faces; f++)
+            mesh_face_key (mesh, e, f, key), start[key[0] + 2]++;
     for (size_t k = 2; k < mesh->nnode + 2; k++) start[k] += start[k - 1];
     PG_ALLOC (*out, start[mesh->nnode + 1]);
     for (size_t e = 0; e < mesh->n; e++)
@@ -80,7 +84,8 @@ pg_status pg_mesh_surface (const pg_mesh *mesh, size_t *n, int **element, int **
     entry *bucket = NULL;
     unsigned char *open = NULL;
     *n = 0, *element = *side = NULL;
-    if (mesh->n > (unsigned) -1 / SIDES) PG_FAIL (PG_E_LIMIT, "the surface of %zu elements: more than %u", mesh->n, (unsigned) -1 / SIDES);
+    if (mesh->n > (unsigned) -1 / SIDES)
+        PG_FAIL (PG_E_LIMIT, "the surface of %zu elements: more than %u", mesh->n, (unsigned) -1 / SIDES);
     PG_ALLOC (start, mesh->nnode + 2);
     PG_ALLOC (open, mesh->n * SIDES);
     PG_TRY (fill_buckets (mesh, start, &bucket));

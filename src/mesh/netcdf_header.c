@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The header of classic netCDF files, by the published grammar of the format: lists of dimensions, attributes and variables. */
+ * The header of classic netCDF files, by the published grammar of the format: lists of dimensions, attributes
+ * and variables. */
 #include "netcdf_header.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -10,7 +11,7 @@
 #include <unistd.h>
 
 enum { DIMENSION = 10, VARIABLE = 11, ATTRIBUTE = 12, MOST_DIMENSIONS = 1024 };
-typedef struct { const unsigned char *text; size_t size, at, ndim; int kind; } walker;   /* kind: 1, 2, 5                  */
+typedef struct { const unsigned char *text; size_t size, at, ndim; int kind; } walker;   /* kind: 1, 2, 5 */
 
 /* A whole number of some bytes; 0: the file ends before. */
 static int whole (walker *w, size_t bytes, uint64_t *value)
@@ -64,7 +65,8 @@ static int attributes (walker *w)
     size_t bytes;
     if (!list (w, ATTRIBUTE, 12, &n)) return 0;
     for (; n > 0; n--)
-        if (!name (w) || !type (w, &bytes) || !count (w, bytes, &values) || !skip (w, values * bytes)) return 0;
+        if (!name (w) || !type (w, &bytes) || !count (w, bytes, &values) || !skip (w, values * bytes))
+            return 0;
     return 1;
 }
 
@@ -72,7 +74,8 @@ static int dimensions (walker *w)
 {
     uint64_t n, length;
     if (!list (w, DIMENSION, 8, &n)) return 0;
-    for (w->ndim = n; n > 0; n--) if (!name (w) || !whole (w, w->kind == 5 ? 8 : 4, &length) || length >> 62) return 0;
+    for (w->ndim = n; n > 0; n--)
+        if (!name (w) || !whole (w, w->kind == 5 ? 8 : 4, &length) || length >> 62) return 0;
     return 1;
 }
 
@@ -82,13 +85,16 @@ static int variable (walker *w)
     size_t size;
     if (!name (w) || !count (w, 4, &n) || n > MOST_DIMENSIONS) return 0;
     for (; n > 0; n--) if (!whole (w, w->kind == 5 ? 8 : 4, &id) || id >= w->ndim) return 0;
-    return attributes (w) && type (w, &size) && whole (w, w->kind == 5 ? 8 : 4, &bytes) && whole (w, w->kind == 1 ? 4 : 8, &begin) && !(begin >> 62);
+    return attributes (w) && type (w, &size) && whole (w, w->kind == 5 ? 8 : 4, &bytes)
+           && whole (w, w->kind == 1 ? 4 : 8, &begin) && !(begin >> 62);
 }
 
 static int header (walker *w)
 {
     uint64_t n;
-    if (!whole (w, w->kind == 5 ? 8 : 4, &n) || !dimensions (w) || !attributes (w) || !list (w, VARIABLE, 24, &n)) return 0;
+    if (!whole (w, w->kind == 5 ? 8 : 4, &n) || !dimensions (w) || !attributes (w)
+        || !list (w, VARIABLE, 24, &n))
+        return 0;
     for (; n > 0; n--) if (!variable (w)) return 0;
     return 1;
 }
@@ -98,7 +104,12 @@ pg_status netcdf_check_header (const mesh_bytes *file)
     walker w = { .text = (const unsigned char *) file->text, .size = file->size, .at = 4 };
     if (file->size < 4 || memcmp (file->text, "CDF", 3)) return PG_OK;
     w.kind = file->text[3];
-    return header (&w) ? PG_OK : pg_error (PG_E_FILE, PG_HERE, "%.400s: the header of this netCDF file is broken near byte %zu: it was cut or changed", file->path, w.at);
+    return header (&w)
+               ? PG_OK
+               : pg_error (
+                   PG_E_FILE, PG_HERE,
+                   "%.400s: the header of this netCDF file is broken near byte %zu: it was cut or changed",
+                   file->path, w.at);
 }
 
 /* Of a result of gigabytes only the pages of the header are read. */

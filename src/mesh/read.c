@@ -27,7 +27,8 @@ pg_status mesh_load (mesh_bytes *out, const char *path)
     struct stat about;
     FILE *file = fopen (path, "rb");
     out->path = path, out->text = NULL, out->size = 0;
-    if (!file || fstat (fileno (file), &about)) PG_FAIL (PG_E_FILE, "%.400s: cannot be read: %s", path, strerror (errno));
+    if (!file || fstat (fileno (file), &about))
+        PG_FAIL (PG_E_FILE, "%.400s: cannot be read: %s", path, strerror (errno));
     if (!S_ISREG (about.st_mode)) PG_FAIL (PG_E_FILE, "%.400s: is not a file", path);
     PG_ALLOC (text, (size_t) about.st_size + 1);
     out->size = fread (text, 1, (size_t) about.st_size, file);
@@ -44,22 +45,25 @@ static pg_status unknown (const mesh_bytes *file)
     char names[400] = "";
     for (size_t k = 0, at = 0; k < FORMATS && at < sizeof names; k++)
         at += (size_t) snprintf (names + at, sizeof names - at, "%s%s", k ? ", " : "", formats[k]->name);
-    return pg_error (PG_E_FILE, PG_HERE, "%.400s: is none of the mesh files that are known: %s (perigal-mesh turns others into Gmsh files)", file->path, names);
+    return pg_error (
+        PG_E_FILE, PG_HERE,
+        "%.400s: is none of the mesh files that are known: %s (perigal-mesh turns others into Gmsh files)",
+        file->path, names);
 }
 
 pg_status mesh_parse (pg_mesh *out, const mesh_bytes *file)
 {
     pg_status status = PG_OK;
-    pg_mesh_maker *m = NULL;
+    pg_mesh_builder *m = NULL;
     size_t k = 0;
     memset (out, 0, sizeof *out);
     while (k < FORMATS && !formats[k]->knows (file)) k++;
     if (k == FORMATS) PG_TRY (unknown (file));
-    PG_TRY (pg_maker_create (&m, file->path));
+    PG_TRY (pg_mesh_builder_create (&m, file->path));
     PG_TRY (formats[k]->read (m, file));
-    PG_TRY (pg_maker_finish (m, out));
+    PG_TRY (pg_mesh_builder_finish (m, out));
 done:
-    pg_maker_free (&m);
+    pg_mesh_builder_free (&m);
     return status;
 }
 
@@ -73,7 +77,7 @@ pg_status pg_mesh_read (pg_mesh *out, const char *path)
     return status;
 }
 
-/* ---- text ------------------------------------------------------------------------------------------------------------- */
+/* ---- text ---------------------------------------------------------------------------------------------- */
 mesh_cursor mesh_begin (const mesh_bytes *file)
 {
     size_t mark = file->size >= 3 && !memcmp (file->text, "\xEF\xBB\xBF", 3) ? 3 : 0;
@@ -131,7 +135,8 @@ static int slow_real (const char *first, const char *last, double *value)
 /* Exact where the digits fit 2^53 and the power of ten is at most 22: one rounding (Clinger 1990). */
 int mesh_real (const char **at, const char *last, double *value)
 {
-    static const double power[] = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
+    static const double power[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
     skip_blanks (at, last);
     const char *p = *at, *first = p;
     uint64_t sum = 0;

@@ -7,7 +7,7 @@
 pg_status fields_add (mesh_fields *f, size_t nnode, const char *name, int components, pg_mesh_field **field)
 {
     pg_status status = PG_OK;
-    PG_GROW (f->field, f->room, f->n + 1);
+    PG_GROW (f->field, f->workspace, f->n + 1);
     pg_mesh_field *new = &f->field[f->n];
     memset (new, 0, sizeof *new);
     snprintf (new->name, sizeof new->name, "%.31s", name);
@@ -23,7 +23,8 @@ pg_status result_step (const char *path, size_t steps, int step, size_t *out)
 {
     pg_status status = PG_OK;
     if (steps == 0) PG_FAIL (PG_E_FILE, "%.400s holds a mesh and no results at nodes", path);
-    if (step < -1 || (step >= 0 && (size_t) step >= steps)) PG_FAIL (PG_E_USAGE, "%.400s has no step %d; its steps are 0 to %zu", path, step, steps - 1);
+    if (step < -1 || (step >= 0 && (size_t) step >= steps))
+        PG_FAIL (PG_E_USAGE, "%.400s has no step %d; its steps are 0 to %zu", path, step, steps - 1);
     *out = step < 0 ? steps - 1 : (size_t) step;
 done:
     return status;
@@ -43,12 +44,14 @@ static void flatten_vectors (const pg_mesh *mesh, mesh_fields *f)
     for (size_t k = 0; k < f->n && mesh->dim == 2; k++) {
         pg_mesh_field *v = &f->field[k];
         if (v->components != 3) continue;
-        for (size_t i = 0; i < mesh->nnode; i++) v->value[2 * i] = v->value[3 * i], v->value[2 * i + 1] = v->value[3 * i + 1];
+        for (size_t i = 0; i < mesh->nnode; i++)
+            v->value[2 * i] = v->value[3 * i], v->value[2 * i + 1] = v->value[3 * i + 1];
         v->components = 2;
     }
 }
 
-pg_status mesh_parse_result (pg_mesh *out, const mesh_bytes *file, int step, size_t *nfield, pg_mesh_field **fields, double *time)
+pg_status mesh_parse_result (pg_mesh *out, const mesh_bytes *file, int step, size_t *nfield,
+                             pg_mesh_field **fields, double *time)
 {
     static const result_format *const formats[] = { &result_format_frd, &result_format_exodus };
     enum { FORMATS = sizeof formats / sizeof *formats };
@@ -57,7 +60,9 @@ pg_status mesh_parse_result (pg_mesh *out, const mesh_bytes *file, int step, siz
     size_t k = 0;
     memset (out, 0, sizeof *out);
     while (k < FORMATS && !formats[k]->format->knows (file)) k++;
-    if (k == FORMATS) PG_FAIL (PG_E_FILE, "%.400s holds no fields of a kind that is known: CalculiX .frd, Exodus", file->path);
+    if (k == FORMATS)
+        PG_FAIL (PG_E_FILE, "%.400s holds no fields of a kind that is known: CalculiX .frd, Exodus",
+                 file->path);
     PG_TRY (mesh_parse (out, file));
     PG_TRY (formats[k]->fields (&found, out, file, step));
     flatten_vectors (out, &found);
@@ -71,7 +76,8 @@ done:
     return status;
 }
 
-pg_status pg_mesh_result (pg_mesh *out, const char *path, int step, size_t *nfield, pg_mesh_field **fields, double *time)
+pg_status pg_mesh_result (pg_mesh *out, const char *path, int step, size_t *nfield, pg_mesh_field **fields,
+                          double *time)
 {
     mesh_bytes file;
     memset (out, 0, sizeof *out);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * result.h: formats that hold fields beside a mesh (pg_mesh_result). A format: `knows` and `read` as of mesh_format, and `fields`. */
+ * result.h: formats that hold fields beside a mesh (pg_mesh_result). A format: `knows` and `read` as of
+ * mesh_format, and `fields`. */
 #ifndef MESH_RESULT_H
 #define MESH_RESULT_H
-#include "maker.h"
+#include "builder.h"
 #include "mesh_private.h"
 
-typedef struct { size_t n, room; pg_mesh_field *field; double time; } mesh_fields;
+typedef struct { size_t n, workspace; pg_mesh_field *field; double time; } mesh_fields;
 /* Adds a field of `nnode` x components zeros and returns it (borrowed until the next call). */
 pg_status fields_add (mesh_fields *f, size_t nnode, const char *name, int components, pg_mesh_field **field);
 /* fields: of one step (-1: the last) at the nodes of `mesh`, made from the same file. */

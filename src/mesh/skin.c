@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The surface of a mesh as a mesh of faces, in a tree: distance to it, its box, its size. */
-#include "finder.h"
+#include "locator.h"
 #include <math.h>
 #include <string.h>
 
 struct pg_mesh_skin {
-    pg_mesh faces;                                     /* dim of the space, elements of one less; x is borrowed          */
-    pg_mesh_finder *finder;
+    pg_mesh faces;  /* dim of the space, elements of one less; x is borrowed */
+    pg_mesh_locator *locator;
     int *element, *side;
 };
 
@@ -35,7 +35,7 @@ pg_status pg_skin_create (pg_mesh_skin **out, const pg_mesh *mesh)
     PG_ALLOC (f->start, f->n + 1);
     PG_ALLOC (f->node, 9 * f->n);
     fill (f, mesh, s->element, s->side);
-    PG_TRY (pg_finder_create (&s->finder, f));
+    PG_TRY (pg_mesh_locator_create (&s->locator, f));
     *out = s;
     s = NULL;
 done:
@@ -47,8 +47,9 @@ void pg_skin_free (pg_mesh_skin **skin)
 {
     pg_mesh_skin *s = *skin;
     if (!s) return;
-    pg_finder_free (&s->finder);
-    pg_free (s->faces.kind), pg_free (s->faces.start), pg_free (s->faces.node), pg_free (s->element), pg_free (s->side);
+    pg_mesh_locator_free (&s->locator);
+    pg_free (s->faces.kind), pg_free (s->faces.start), pg_free (s->faces.node), pg_free (s->element),
+        pg_free (s->side);
     pg_free (s);
     *skin = NULL;
 }
@@ -59,12 +60,15 @@ double pg_skin_distance (const pg_mesh_skin *skin, const double *place, double r
     long k = -1;
     int real = 1;
     for (int a = 0; a < skin->faces.dim; a++) real &= isfinite (place[a]) != 0;
-    if (real) k = finder_nearest (skin->finder, place, reach, &d);
+    if (real) k = locator_nearest (skin->locator, place, reach, &d);
     if (face) *face = k;
     return d;
 }
 
-void pg_skin_face (const pg_mesh_skin *skin, size_t face, int *element, int *side) { *element = skin->element[face], *side = skin->side[face]; }
+void pg_skin_face (const pg_mesh_skin *skin, size_t face, int *element, int *side)
+{
+    *element = skin->element[face], *side = skin->side[face];
+}
 
 static pg_element nodes_of (const pg_mesh *f, size_t k, double *x)
 {
@@ -74,7 +78,8 @@ static pg_element nodes_of (const pg_mesh *f, size_t k, double *x)
     return (pg_element) f->kind[k];
 }
 
-/* Where a curved face passes its nodes: on a grid of 32 steps, whose height misses that of a parabola by (1 / 32)^2 at most. */
+/* Where a curved face passes its nodes: on a grid of 32 steps, whose height misses that of a parabola by (1 /
+ * 32)^2 at most. */
 static void widen (const double *x, pg_element kind, int dim, double *low, double *high)
 {
     enum { STEPS = 32 };
@@ -84,7 +89,8 @@ static void widen (const double *x, pg_element kind, int dim, double *low, doubl
             double xi[2] = { (double) i / STEPS, (double) j / STEPS }, place[3];
             if (!simplex) xi[0] = 2 * xi[0] - 1, xi[1] = 2 * xi[1] - 1;
             pg_element_map (kind, dim, x, xi, place, NULL);
-            for (int a = 0; a < dim; a++) low[a] = fmin (low[a], place[a]), high[a] = fmax (high[a], place[a]);
+            for (int a = 0; a < dim; a++)
+                low[a] = fmin (low[a], place[a]), high[a] = fmax (high[a], place[a]);
         }
 }
 
@@ -97,7 +103,8 @@ void pg_skin_box (const pg_mesh_skin *skin, double *low, double *high)
     for (size_t k = 0; k < f->n; k++) {
         pg_element kind = nodes_of (f, k, x);
         int nodes = pg_element_types[kind].nodes;
-        for (int i = 0; i < nodes * f->dim; i++) low[i % f->dim] = fmin (low[i % f->dim], x[i]), high[i % f->dim] = fmax (high[i % f->dim], x[i]);
+        for (int i = 0; i < nodes * f->dim; i++)
+            low[i % f->dim] = fmin (low[i % f->dim], x[i]), high[i % f->dim] = fmax (high[i % f->dim], x[i]);
         if (nodes > pg_element_types[kind].corners) widen (x, kind, f->dim, lowest, highest);
     }
     for (int a = 0; a < f->dim; a++) size = fmax (size, high[a] - low[a]);
@@ -114,7 +121,9 @@ double pg_skin_size (const pg_mesh_skin *skin)
     for (size_t k = 0; k < f->n; k++) {
         pg_element kind = nodes_of (f, k, x);
         int n = pg_element_rule (kind, 5, xi, weight);
-        for (int q = 0; q < n; q++) size += weight[q] * pg_element_map (kind, f->dim, x, xi + q * pg_element_types[kind].dim, NULL, NULL);
+        for (int q = 0; q < n; q++)
+            size += weight[q]
+                    * pg_element_map (kind, f->dim, x, xi + q * pg_element_types[kind].dim, NULL, NULL);
     }
     return size;
 }

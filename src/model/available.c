@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How much memory is left: the least of what the machine has free (MemAvailable), what each control group above the process still
- * grants (limit minus use, file cache counted as free), and RLIMIT_AS minus the address space in use. */
+ * How much memory is left: the least of what the machine has free (MemAvailable), what each control group
+ * above the process still grants (limit minus use, file cache counted as free), and RLIMIT_AS minus the
+ * address space in use. */
 #include "perigal/model.h"
 #include <math.h>
 #include <stdlib.h>
@@ -10,7 +11,8 @@
 
 enum { PATH = 1200 };
 
-/* The number after `key` at the start of a line (key "": the first number); NAN: no such file, line or number ("max"). */
+/* The number after `key` at the start of a line (key "": the first number); NAN: no such file, line or number
+ * ("max"). */
 static double number_in (const char *path, const char *key)
 {
     char line[512];
@@ -36,7 +38,8 @@ static double number_at (const char *folder, const char *name, const char *key)
 
 typedef struct { const char *mount, *limit, *use, *cache; } hierarchy;
 static const hierarchy v2 = { "/sys/fs/cgroup", "memory.max", "memory.current", "inactive_file " };
-static const hierarchy v1 = { "/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file " };
+static const hierarchy v1 = { "/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
+                              "total_inactive_file " };
 
 /* Least of the group `name` and all above it; a group that is not visible here sets no limit. */
 static double group_left (const char *root, const hierarchy *h, const char *name)
@@ -47,8 +50,10 @@ static double group_left (const char *root, const hierarchy *h, const char *name
     size_t top = strlen (root) + strlen (h->mount);
     if (n < 0 || n >= (int) sizeof folder) return least;
     for (;;) {
-        double limit = number_at (folder, h->limit, ""), use = number_at (folder, h->use, ""), cache = number_at (folder, "memory.stat", h->cache);
-        if (limit >= 0 && use >= 0) least = fmin (least, fmax (0, limit - use + (cache > 0 ? fmin (cache, use) : 0)));
+        double limit = number_at (folder, h->limit, ""), use = number_at (folder, h->use, ""),
+               cache = number_at (folder, "memory.stat", h->cache);
+        if (limit >= 0 && use >= 0)
+            least = fmin (least, fmax (0, limit - use + (cache > 0 ? fmin (cache, use) : 0)));
         if (strlen (folder) <= top) return least;
         *strrchr (folder, '/') = 0;
     }
@@ -60,7 +65,7 @@ static double groups_left (const char *root)
     double least = INFINITY;
     snprintf (path, sizeof path, "%s/proc/self/cgroup", root);
     FILE *f = fopen (path, "r");
-    while (f && fgets (line, sizeof line, f)) {        /* "0::/a/b" is v2, "4:memory:/a/b" v1                             */
+    while (f && fgets (line, sizeof line, f)) {        /* "0::/a/b" is v2, "4:memory:/a/b" v1 */
         char *kind = strchr (line, ':'), *name = kind ? strchr (kind + 1, ':') : NULL;
         if (!name) continue;
         *name++ = 0, kind++;

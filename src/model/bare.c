@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A problem without its loads, supports and cracks, of one material: what is left is the discretisation, with a load on its whole surface. */
+ * A problem without its loads, supports and cracks, of one material: what is left is the discretisation, with
+ * a load on its whole surface. */
 #include "model.h"
 #include <stdio.h>
 
@@ -7,7 +8,8 @@
 static const pg_material *stiffest (const pg_problem *p)
 {
     size_t most = 0;
-    for (size_t m = 1; m < p->nmaterial; m++) if (p->material[m].parameter[1] > p->material[most].parameter[1]) most = m;
+    for (size_t m = 1; m < p->nmaterial; m++)
+        if (p->material[m].parameter[1] > p->material[most].parameter[1]) most = m;
     return &p->material[most];
 }
 
@@ -45,7 +47,8 @@ static pg_status make_load (pg_problem *out, const pg_problem *p)
     snprintf (out->load->name, sizeof out->load->name, "surface");
     out->load->kind = PG_TRACTION;
     for (size_t l = 0; l < p->nload; l++)
-        if ((p->load[l].kind == PG_TRACTION || p->load[l].kind == PG_PRESSURE) && p->load[l].depth > 0) out->load->depth = p->load[l].depth;
+        if ((p->load[l].kind == PG_TRACTION || p->load[l].kind == PG_PRESSURE) && p->load[l].depth > 0)
+            out->load->depth = p->load[l].depth;
     PG_TRY (pg_expression_compile (&out->load->ramp, "1", "1"));
 done:
     return status;

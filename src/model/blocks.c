@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which material every point is made of: the last entry of `blocks` that claims it. A condition holds or not at the point itself, so that
- * an interface along edges of cells is exact; a block number of the points' file goes with the nearest node, a block of a mesh with the
- * element itself (a node between blocks belongs to the first of them). */
+ * Which material every point is made of: the last entry of `blocks` that claims it. A condition holds or not
+ * at the point itself, so that an interface along edges of cells is exact; a block number of the points' file
+ * goes with the nearest node, a block of a mesh with the element itself (a node between blocks belongs to the
+ * first of them). */
 #include "model.h"
 #include <limits.h>
 #include <stdio.h>
@@ -9,9 +10,9 @@
 #include <string.h>
 
 typedef struct {
-    pg_expression *where;                              /* NULL: by number                                                */
+    pg_expression *where;                              /* NULL: by number */
     int    number, material;
-    size_t claimed;                                    /* points at which it holds, overridden ones included             */
+    size_t claimed;  /* points at which it holds, overridden ones included */
 } entry;
 typedef struct { size_t n; entry *entry; } entries;
 
@@ -24,7 +25,7 @@ static void clear (entries *e)
     *e = (entries) { 0 };
 }
 
-/* ---- the list --------------------------------------------------------------------------------------------------------- */
+/* ---- the list ------------------------------------------------------------------------------------------ */
 /* What `block` names, -1 with a fault. */
 static int block_named (const pg_problem *p, const pg_scene *scene, const char *path)
 {
@@ -33,12 +34,15 @@ static int block_named (const pg_problem *p, const pg_scene *scene, const char *
     if (p->part.mesh.n) {
         int k = pg_mesh_body_block (&p->part.mesh, text);
         pg_mesh_body_blocks (&p->part.mesh, names, sizeof names);
-        if (k < 0) pg_scene_fault (scene, path, "the mesh has no block of this name or number; there are %s", names);
+        if (k < 0)
+            pg_scene_fault (scene, path, "the mesh has no block of this name or number; there are %s", names);
         return k;
     }
     long number = strtol (text, &end, 10);
-    if (p->lattice.dim) pg_scene_fault (scene, path, "only points and meshes from a file have blocks: use where");
-    else if (end == text || *end || number < 0 || number > INT_MAX) pg_scene_fault (scene, path, "must be a whole number from 0: points have no names of blocks");
+    if (p->lattice.dim)
+        pg_scene_fault (scene, path, "only points and meshes from a file have blocks: use where");
+    else if (end == text || *end || number < 0 || number > INT_MAX)
+        pg_scene_fault (scene, path, "must be a whole number from 0: points have no names of blocks");
     else return (int) number;
     return -1;
 }
@@ -48,7 +52,8 @@ static pg_status read_entry (entry *e, const pg_problem *p, const pg_scene *scen
     pg_status status = PG_OK;
     char path[64];
     const char *material = pg_scene_text (scene, "blocks[%zu].material", k);
-    for (size_t m = 0; m < p->nmaterial; m++) if (strcmp (p->material[m].name, material) == 0) e->material = (int) m;
+    for (size_t m = 0; m < p->nmaterial; m++)
+        if (strcmp (p->material[m].name, material) == 0) e->material = (int) m;
     if (!pg_scene_given (scene, "blocks[%zu].where", k)) {
         snprintf (path, sizeof path, "blocks[%zu].block", k);
         e->number = block_named (p, scene, path);
@@ -80,15 +85,17 @@ pg_status pg_blocks_check (const pg_problem *p, const pg_scene *scene)
     return status == PG_E_SCENE ? PG_OK : status;
 }
 
-/* ---- claims ----------------------------------------------------------------------------------------------------------- */
-/* A point on the boundary is looked at a hair inside its cell, of a cut one inside the surface: rounding must not take it out of the body. */
+/* ---- claims -------------------------------------------------------------------------------------------- */
+/* A point on the boundary is looked at a hair inside its cell, of a cut one inside the surface: rounding must
+ * not take it out of the body. */
 static void inside (const pg_problem *p, int set, size_t point, double *x)
 {
     const pg_cells *c = &p->cells;
     size_t dim = (size_t) p->dim;
     memcpy (x, p->rows[set].x + point * dim, dim * sizeof *x);
     if (set != PG_FACETS) return;
-    size_t cell = (size_t) c->facet_cell[p->rows[set].cell[point]], first = c->start[cell], corners = c->start[cell + 1] - first;
+    size_t cell = (size_t) c->facet_cell[p->rows[set].cell[point]], first = c->start[cell],
+           corners = c->start[cell + 1] - first;
     if (c->facet_kind[p->rows[set].cell[point]] == PG_CUT) {
         for (size_t k = 0; k < dim; k++) x[k] -= 1e-9 * p->cloud.h * p->facet_normal[point * dim + k];
         return;
@@ -119,7 +126,8 @@ static int claim (entries *e, const pg_problem *p, int set, size_t point)
     pg_place at = pg_place_of (p->dim, x, 0);
     for (size_t k = 0; k < e->n; k++) {
         entry *one = &e->entry[k];
-        int holds = one->where ? pg_expression_value (one->where, &at) != 0 : number_of (p, set, point) == one->number;
+        int holds = one->where ? pg_expression_value (one->where, &at) != 0
+                               : number_of (p, set, point) == one->number;
         if (holds) found = one->material, one->claimed++;
     }
     return found;
@@ -130,8 +138,10 @@ static void fault_of_place (const pg_problem *p, const pg_scene *scene, int set,
     char place[96];
     size_t dim = (size_t) p->dim, at = 0;
     for (size_t k = 0; k < dim; k++)
-        at += (size_t) snprintf (place + at, sizeof place - at, "%s%.6g", k ? ", " : "", p->rows[set].x[point * dim + k]);
-    pg_scene_fault (scene, "blocks", "no entry claims %zu of %zu %s, the first at [%s] m", count, p->rows[set].n, kind_of_points[set], place);
+        at += (size_t) snprintf (place + at, sizeof place - at, "%s%.6g", k ? ", " : "",
+                                 p->rows[set].x[point * dim + k]);
+    pg_scene_fault (scene, "blocks", "no entry claims %zu of %zu %s, the first at [%s] m", count,
+                    p->rows[set].n, kind_of_points[set], place);
 }
 
 static void claim_all (entries *e, pg_problem *p, const pg_scene *scene)
@@ -161,15 +171,21 @@ static void by_name (pg_problem *p, const pg_scene *scene)
     for (int s = 0; s < PG_BOND_SETS && !missing; s++)
         for (size_t q = 0; q < p->rows[s].n && !missing; q++) {
             int block = number_of (p, s, q), material = -1;
-            for (size_t k = 0; block >= 0 && k < p->nmaterial; k++) if (!strcmp (p->material[k].name, m->blocks[block].name)) material = (int) k;
+            for (size_t k = 0; block >= 0 && k < p->nmaterial; k++)
+                if (!strcmp (p->material[k].name, m->blocks[block].name)) material = (int) k;
             p->block[s][q] = material < 0 ? 0 : material;
             missing = material < 0;
-            if (missing) pg_scene_fault (scene, "materials", "there are %zu, and none has the name of the block '%s' of the mesh: say with blocks "
-                                         "which block is made of which", p->nmaterial, block < 0 ? "" : m->blocks[block].name);
+            if (missing)
+                pg_scene_fault (
+                    scene, "materials",
+                    "there are %zu, and none has the name of the block '%s' of the mesh: say with blocks "
+                    "which block is made of which",
+                    p->nmaterial, block < 0 ? "" : m->blocks[block].name);
         }
 }
 
-/* Without a list the block column of the file counts the materials; other points follow their nearest node. */
+/* Without a list the block column of the file counts the materials; other points follow their nearest
+ * node. */
 static void by_number (pg_problem *p, const pg_scene *scene)
 {
     if (p->part.mesh.n) {
@@ -178,7 +194,8 @@ static void by_number (pg_problem *p, const pg_scene *scene)
     }
     for (size_t i = 0; i < p->cloud.n; i++)
         if (p->cloud.block[i] < 0 || (size_t) p->cloud.block[i] >= p->nmaterial) {
-            pg_scene_fault (scene, "materials", "point %zu is of block %d, and there are %zu materials", i, p->cloud.block[i], p->nmaterial);
+            pg_scene_fault (scene, "materials", "point %zu is of block %d, and there are %zu materials", i,
+                            p->cloud.block[i], p->nmaterial);
             return;
         }
     for (int s = 0; s < PG_BOND_SETS; s++)
@@ -209,7 +226,10 @@ pg_status pg_blocks_build (pg_problem *p, const pg_scene *scene)
         PG_TRY (read_entries (&e, p, scene));
         claim_all (&e, p, scene);
     } else if (p->nmaterial == 1) goto done;
-    else if (p->lattice.dim) pg_scene_fault (scene, "materials", "there are %zu: say with blocks which part of the body is made of which", p->nmaterial);
+    else if (p->lattice.dim)
+        pg_scene_fault (scene, "materials",
+                        "there are %zu: say with blocks which part of the body is made of which",
+                        p->nmaterial);
     else by_number (p, scene);
     PG_TRY (pg_scene_verdict (scene));
     check_used (p, scene);

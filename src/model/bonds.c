@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The bond sets: node-node, evaluation point-node, facet point-node (Cui 2022 section 3.1; theory F1), their exemptions, and
- * the bonds that the pre-cracks cut. */
+ * The bond sets: node-node, evaluation point-node, facet point-node (Cui 2022 section 3.1; theory F1), their
+ * exemptions, and the bonds that the pre-cracks cut. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
@@ -28,16 +28,21 @@ static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
     pg_rows *r = &p->rows[set];
     char at[100];
     if (p->lattice.dim || r->n == 0) goto done;
-    strip_values (r);                                  /* grades only                                                    */
+    strip_values (r);                                  /* grades only */
     PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, NULL, r->n, NULL, p->threads));
     for (size_t q = 0; q < r->n; q++) {
         int used = 0;
         if (r->grade[q] < PG_GRADE_PROJECTED) continue;
         for (int k = 0; k < p->dim; k++)
-            used += snprintf (at + used, sizeof at - (size_t) used, k ? ", %.6g" : "%.6g", r->x[q * (size_t) p->dim + (size_t) k]);
-        pg_scene_fault (scene, "method.horizon", "%s %zu at (%s) m sees %zu points, too few or too flat a set for a strain: use a larger horizon or %s",
-                        what[set], q + 1, at, r->family.start[q + 1] - r->family.start[q],
-                        p->cloud.size ? "larger spacings of the points there" : "a column spacing in the file of points, which the horizon of each then follows");
+            used += snprintf (at + used, sizeof at - (size_t) used, k ? ", %.6g" : "%.6g",
+                              r->x[q * (size_t) p->dim + (size_t) k]);
+        pg_scene_fault (
+            scene, "method.horizon",
+            "%s %zu at (%s) m sees %zu points, too few or too flat a set for a strain: use a larger horizon "
+            "or %s",
+            what[set], q + 1, at, r->family.start[q + 1] - r->family.start[q],
+            p->cloud.size ? "larger spacings of the points there"
+                          : "a column spacing in the file of points, which the horizon of each then follows");
         PG_TRY (pg_scene_verdict (scene));
     }
 done:
@@ -50,7 +55,8 @@ static pg_status make_nodes (pg_problem *p, const pg_scene *scene)
     int *own = NULL;
     PG_ALLOC (own, p->cloud.n);
     for (size_t i = 0; i < p->cloud.n; i++) own[i] = (int) i;
-    PG_TRY (pg_rows_create (&p->rows[PG_NODES], &p->approx, &p->cloud, p->cloud.n, p->cloud.x, p->cloud.volume, own, NULL));
+    PG_TRY (pg_rows_create (&p->rows[PG_NODES], &p->approx, &p->cloud, p->cloud.n, p->cloud.x,
+                            p->cloud.volume, own, NULL));
     PG_TRY (check_support (p, scene, PG_NODES));
     strip (&p->rows[PG_NODES]);
 done:
@@ -58,15 +64,19 @@ done:
     return status;
 }
 
-/* Points per direction of a cell: as many as the basis needs between two nodes; an element with middle nodes spans two such steps. */
+/* Points per direction of a cell: as many as the basis needs between two nodes; an element with middle nodes
+ * spans two such steps. */
 static int quadrature_order (const pg_problem *p)
 {
-    return p->approx.order + 1 + pg_mesh_body_halved (&p->part) * 2;       /* at most 5, the highest rule there is       */
+    /* at most 5, the highest rule there is */
+    return p->approx.order + 1 + pg_mesh_body_halved (&p->part) * 2;
 }
 
 static int gauss_order (const pg_problem *p, const pg_scene *scene)
 {
-    return pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : quadrature_order (p);
+    return pg_scene_given (scene, "method.gauss_points")
+               ? (int) pg_scene_integer (scene, "method.gauss_points")
+               : quadrature_order (p);
 }
 
 /* On a cut surface as fine as in the cells: linear fields balance only then. */
@@ -80,12 +90,15 @@ static pg_status make_points (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
-    p->cells.cut_order = p->integration->consistent ? 3 : 0;   /* with 2 the identity amplifies the error of thin pieces */
-    if (!p->integration->at_nodes) PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, gauss_order (p, scene)));
+    /* with 2 the identity amplifies the error of thin pieces */
+    p->cells.cut_order = p->integration->consistent ? 3 : 0;
+    if (!p->integration->at_nodes)
+        PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, gauss_order (p, scene)));
     PG_TRY (pg_rows_create (&p->rows[PG_POINTS], &p->approx, &p->cloud, q.n, q.x, q.weight, NULL, q.cell));
     PG_TRY (check_support (p, scene, PG_POINTS));
     if (p->integration->consistent)
-        PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS], facet_order (p, scene), p->threads));
+        PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS],
+                                       facet_order (p, scene), p->threads));
     strip (&p->rows[PG_POINTS]);
 done:
     pg_quadrature_clear (&q);
@@ -102,7 +115,8 @@ static pg_status make_facets (pg_problem *p, const pg_scene *scene)
     PG_ALLOC (used, p->cells.nfacet);
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        int needs = load->kind == PG_TRACTION || load->kind == PG_PRESSURE || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
+        int needs = load->kind == PG_TRACTION || load->kind == PG_PRESSURE
+                    || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
         for (size_t k = 0; needs && k < load->set->nfacet; k++) used[load->set->facet[k]] = 1;
     }
     p->facet_order = facet_order (p, scene);
@@ -158,7 +172,10 @@ done:
     return status;
 }
 
-double pg_problem_spacing (const pg_problem *p, int set, size_t point) { return p->spacing[set] ? p->spacing[set][point] : p->cloud.h; }
+double pg_problem_spacing (const pg_problem *p, int set, size_t point)
+{
+    return p->spacing[set] ? p->spacing[set][point] : p->cloud.h;
+}
 
 int pg_problem_no_bond (const pg_problem *p, int set, size_t point, size_t e)
 {
@@ -168,7 +185,8 @@ int pg_problem_no_bond (const pg_problem *p, int set, size_t point, size_t e)
     return j == r->own[point] || distance2 (p, r->x + point * (size_t) p->dim, j) <= least * least;
 }
 
-/* A node of an excluded set exempts its bonds; another point follows its nearest node. A material that never breaks exempts its points. */
+/* A node of an excluded set exempts its bonds; another point follows its nearest node. A material that never
+ * breaks exempts its points. */
 static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -178,7 +196,8 @@ static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
         char path[64];
         snprintf (path, sizeof path, "failure.exclude[%zu]", k);
         const pg_set *set = pg_sets_named (&p->sets, scene, path, name);
-        if (set && set->npoint == 0 && !pg_sets_empty_side (&p->sets, set)) pg_scene_fault (scene, path, "%s is a set without points", name);
+        if (set && set->npoint == 0 && !pg_sets_empty_side (&p->sets, set))
+            pg_scene_fault (scene, path, "%s is a set without points", name);
         if (!set) continue;
         for (size_t i = 0; i < set->npoint; i++) p->exempt[PG_NODES][set->point[i]] = 1;
     }
@@ -188,12 +207,14 @@ static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
             p->exempt[s][q] = nearest >= 0 && p->exempt[PG_NODES][nearest];
         }
     for (int s = 0; s < PG_BOND_SETS; s++)
-        for (size_t q = 0; q < p->rows[s].n; q++) p->exempt[s][q] |= (unsigned char) (p->criterion[p->block[s][q]].never != 0);
+        for (size_t q = 0; q < p->rows[s].n; q++)
+            p->exempt[s][q] |= (unsigned char) (p->criterion[p->block[s][q]].never != 0);
 done:
     return status;
 }
 
-/* Forces straight between points: a point without a bond bears nothing and would fly off, or leave K singular. */
+/* Forces straight between points: a point without a bond bears nothing and would fly off, or leave K
+ * singular. */
 static pg_status check_company (const pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -201,22 +222,27 @@ static pg_status check_company (const pg_problem *p, const pg_scene *scene)
     for (size_t i = 0; i < f->n; i++) {
         if (f->start[i + 1] > f->start[i]) continue;
         const double *x = p->cloud.x + i * (size_t) p->dim;
-        pg_scene_fault (scene, "method.horizon", "point %zu at (%.6g, %.6g, %.6g) m sees no other point within its horizon, %.6g m: use a larger horizon", i + 1, x[0],
-                        p->dim > 1 ? x[1] : 0, p->dim > 2 ? x[2] : 0, p->approx.horizon * pg_cloud_ratio (&p->cloud, i));
+        pg_scene_fault (scene, "method.horizon",
+                        "point %zu at (%.6g, %.6g, %.6g) m sees no other point within its horizon, %.6g m: "
+                        "use a larger horizon",
+                        i + 1, x[0], p->dim > 1 ? x[1] : 0, p->dim > 2 ? x[2] : 0,
+                        p->approx.horizon * pg_cloud_ratio (&p->cloud, i));
         PG_TRY (pg_scene_verdict (scene));
     }
 done:
     return status;
 }
 
-/* Points on a pre-crack, counted; of the first crack that has some it is said how its rows of points would leave it. */
+/* Points on a pre-crack, counted; of the first crack that has some it is said how its rows of points would
+ * leave it. */
 static void count_eroded (pg_problem *p, const pg_scene *scene)
 {
     const pg_crack *first = NULL;
     char way[96] = "move them off it";
     for (size_t i = 0; i < p->cloud.n; i++)
         for (size_t c = 0; c < p->cracks.n; c++)
-            if (pg_crack_touches (&p->cracks.crack[c], p->dim, p->cloud.x + i * (size_t) p->dim, 1e-9 * p->cloud.h)) {
+            if (pg_crack_touches (&p->cracks.crack[c], p->dim, p->cloud.x + i * (size_t) p->dim,
+                                  1e-9 * p->cloud.h)) {
                 p->eroded++;
                 if (!first) first = &p->cracks.crack[c];
                 break;
@@ -224,13 +250,20 @@ static void count_eroded (pg_problem *p, const pg_scene *scene)
     if (!first) return;
     if (p->lattice.dim) {
         int across = 0, n = 0;
-        for (int k = 1; k < p->dim; k++) if (fabs (first->normal[k]) > fabs (first->normal[across]) * (1 + 1e-9)) across = k;
-        n = snprintf (way, sizeof way, "%s [", pg_scene_given (scene, "lattice_offset") ? "lattice_offset more by" : "lattice_offset:");
-        for (int k = 0; k < p->dim; k++) n += snprintf (way + n, sizeof way - (size_t) n, "%s%s", k ? ", " : "", k == across ? "0.5" : "0");
+        for (int k = 1; k < p->dim; k++)
+            if (fabs (first->normal[k]) > fabs (first->normal[across]) * (1 + 1e-9)) across = k;
+        n = snprintf (way, sizeof way, "%s [",
+                      pg_scene_given (scene, "lattice_offset") ? "lattice_offset more by"
+                                                               : "lattice_offset:");
+        for (int k = 0; k < p->dim; k++)
+            n += snprintf (way + n, sizeof way - (size_t) n, "%s%s", k ? ", " : "",
+                           k == across ? "0.5" : "0");
         snprintf (way + n, sizeof way - (size_t) n, "] puts it between them");
     }
-    pg_problem_note (p, PG_WARNING "%zu point%s on a pre-crack and lose%s all bonds to both sides, as if the crack were a spacing wide; %s", p->eroded,
-                     p->eroded == 1 ? " lies" : "s lie", p->eroded == 1 ? "s" : "", way);
+    pg_problem_note (p,
+                     PG_WARNING "%zu point%s on a pre-crack and lose%s all bonds to both sides, as if the "
+                                "crack were a spacing wide; %s",
+                     p->eroded, p->eroded == 1 ? " lies" : "s lie", p->eroded == 1 ? "s" : "", way);
 }
 
 pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
@@ -244,7 +277,8 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
         PG_TRY (make_points (p, scene));
         PG_TRY (make_facets (p, scene));
     }
-    for (int s = 0; s < PG_BOND_SETS; s++) p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
+    for (int s = 0; s < PG_BOND_SETS; s++)
+        p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
     PG_TRY (measure_spacing (p));
     PG_TRY (pg_blocks_build (p, scene));
     PG_TRY (pg_dilatation_build (p, scene));
@@ -277,7 +311,8 @@ void pg_bonds_cut (const pg_problem *p, unsigned char *alive)
             for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++) {
                 int j = rows->family.node[e], dead = 0;
                 for (size_t c = 0; c < p->cracks.n && !dead && j != rows->own[q]; c++)
-                    dead = pg_crack_cuts (&p->cracks.crack[c], p->dim, rows->x + q * dim, p->cloud.x + (size_t) j * dim, 1e-9 * p->cloud.h);
+                    dead = pg_crack_cuts (&p->cracks.crack[c], p->dim, rows->x + q * dim,
+                                          p->cloud.x + (size_t) j * dim, 1e-9 * p->cloud.h);
                 alive[p->first_bond[s] + e] = !dead;
             }
     }

@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * method.dilatation: which materials carry their pressure by the dilatation of patches (doc/method.md, "Poisson's ratio near 1/2"), and what is
- * said of those that do not although they should. */
+ * method.dilatation: which materials carry their pressure by the dilatation of patches (doc/method.md,
+ * "Poisson's ratio near 1/2"), and what is said of those that do not although they should. */
 #include "model.h"
 #include <string.h>
 
-/* lambda / mu from which it is projected, that of Poisson's ratio 0.45: there the stresses of a thick cylinder (ten cells through its wall, linear
- * basis) are 5 % off with the dilatation at the points, three times as much as at 0.3; at 0.49 20 %, at 0.4999 ten times too large. */
+/* lambda / mu from which it is projected, that of Poisson's ratio 0.45: there the stresses of a thick
+ * cylinder (ten cells through its wall, linear basis) are 5 % off with the dilatation at the points, three
+ * times as much as at 0.3; at 0.49 20 %, at 0.4999 ten times too large. */
 static const double stiff = 9;
 
 static double shear_of (const pg_material *m) { return m->D[m->mode == PG_SOLID ? 21 : 8]; }
-static int nearly_incompressible (const pg_material *m) { return m->lambda > 0 && m->lambda >= stiff * (1 - 1e-9) * shear_of (m); }
+static int nearly_incompressible (const pg_material *m)
+{
+    return m->lambda > 0 && m->lambda >= stiff * (1 - 1e-9) * shear_of (m);
+}
 
 /* Forces of bonds: nothing to project, yet something to say. */
 static void warn (pg_problem *p, const char *mode)
@@ -19,11 +23,17 @@ static void warn (pg_problem *p, const char *mode)
         int state = p->direct && p->sums->rule.state;
         if (!nearly_incompressible (a)) continue;
         if (state)
-            pg_problem_note (p, "warning: material %.40s: Poisson's ratio is near 1/2, and force: %s takes the dilatation at every point: it locks, pressures "
-                             "oscillate, and large systems may not converge: use force: galerkin", a->name, p->force);
+            pg_problem_note (p,
+                             "warning: material %.40s: Poisson's ratio is near 1/2, and force: %s takes the "
+                             "dilatation at every point: it locks, pressures "
+                             "oscillate, and large systems may not converge: use force: galerkin",
+                             a->name, p->force);
         else if (!p->direct && strcmp (mode, "pointwise") == 0)
-            pg_problem_note (p, "warning: material %.40s: Poisson's ratio is near 1/2, and with method.dilatation: pointwise the body locks: too stiff, with wrong "
-                             "pressures: use projected or auto", a->name);
+            pg_problem_note (p,
+                             "warning: material %.40s: Poisson's ratio is near 1/2, and with "
+                             "method.dilatation: pointwise the body locks: too stiff, with wrong "
+                             "pressures: use projected or auto",
+                             a->name);
     }
 }
 
@@ -44,19 +54,30 @@ pg_status pg_dilatation_build (pg_problem *p, const pg_scene *scene)
     if (p->direct || p->dim == 1 || strcmp (mode, "pointwise") == 0) return PG_OK;
     PG_ALLOC (lambda, p->nmaterial);
     for (size_t m = 0; m < p->nmaterial; m++) {
-        int wanted = p->material[m].lambda > 0 && (strcmp (mode, "projected") == 0 || nearly_incompressible (&p->material[m]));
+        int wanted = p->material[m].lambda > 0
+                     && (strcmp (mode, "projected") == 0 || nearly_incompressible (&p->material[m]));
         if (wanted) lambda[m] = p->material[m].lambda, some++;
     }
     if (!some) goto done;
     const pg_rows *points = points_of (p, &set);
-    pg_patch_source source = {
-        .points = points, .family = p->consistency ? &p->consistency->family : &points->family, .cloud = &p->cloud,
-        .cells = p->integration->at_nodes ? NULL : &p->cells, .lattice = p->lattice.dim ? &p->lattice : NULL,
-        .centred = p->lattice.dim && strcmp (pg_scene_text (scene, "lattice"), "cells") == 0, .block = p->block[set],
-        .spacing = p->spacing[set], .across = p->integration->at_nodes ? 3 : 2, .materials = p->nmaterial, .lambda = lambda };
+    pg_patch_source source = { .points = points,
+                               .family = p->consistency ? &p->consistency->family : &points->family,
+                               .cloud = &p->cloud,
+                               .cells = p->integration->at_nodes ? NULL : &p->cells,
+                               .lattice = p->lattice.dim ? &p->lattice : NULL,
+                               .centred = p->lattice.dim
+                                          && strcmp (pg_scene_text (scene, "lattice"), "cells") == 0,
+                               .block = p->block[set],
+                               .spacing = p->spacing[set],
+                               .across = p->integration->at_nodes ? 3 : 2,
+                               .materials = p->nmaterial,
+                               .lambda = lambda };
     PG_TRY (pg_patches_create (&p->patches, &source));
-    pg_problem_note (p, "dilatation projected: linear in each of %zu patches of about %d %s per axis, against locking (Poisson's ratio near 1/2%s)",
-                     p->patches->n, source.across, source.cells ? "cells" : "points", some < p->nmaterial ? "; not in all materials" : "");
+    pg_problem_note (p,
+                     "dilatation projected: linear in each of %zu patches of about %d %s per axis, against "
+                     "locking (Poisson's ratio near 1/2%s)",
+                     p->patches->n, source.across, source.cells ? "cells" : "points",
+                     some < p->nmaterial ? "; not in all materials" : "");
 done:
     pg_free (lambda);
     return status;

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a run will need, before it allocates: counts from the lattice, bytes from counts, the factor by nested dissection of the
- * body's box: separators of `width` nodes halve the longest edge again and again, and a separator of s nodes with b boundary nodes
- * around its part fills s^2/2 + s b entries and costs s^3/3 + s^2 b + s b^2 operations (per node; dofs: times dim^2, dim^3). With width = 0.93
- * times the radius of the ball of as many nodes as one is coupled to, this is within 20 % of METIS for disks, cubes and plates of
- * 10^3 to 10^5 nodes (test/model/test_forecast.c). */
+ * What a run will need, before it allocates: counts from the lattice, bytes from counts, the factor by nested
+ * dissection of the body's box: separators of `width` nodes halve the longest edge again and again, and a
+ * separator of s nodes with b boundary nodes around its part fills s^2/2 + s b entries and costs s^3/3 + s^2
+ * b + s b^2 operations (per node; dofs: times dim^2, dim^3). With width = 0.93 times the radius of the ball
+ * of as many nodes as one is coupled to, this is within 20 % of METIS for disks, cubes and plates of 10^3 to
+ * 10^5 nodes (test/model/test_forecast.c). */
 #include "forecast.h"
 #include <math.h>
 #include <string.h>
 
-/* ---- the factor --------------------------------------------------------------------------------------------------------- */
+/* ---- the factor ---------------------------------------------------------------------------------------- */
 /* Parts of one level differ in how many of their faces are separators: 0, 1 or 2 along each axis. */
 typedef struct { double count[3][3][3]; } parts;
 
@@ -39,7 +40,8 @@ static void dissect (const pg_forecast *f, double *entries, double *flops)
         last = L[k] <= 2 * f->width;
         double s = m * (last ? n : f->width * n / L[k]);
         for (int a = 0; a < 27; a++) {
-            double c = p.count[a % 3][a / 3 % 3][a / 9], faces = a % 3 / L[0] + a / 3 % 3 / L[1] + a / 9 / L[2], b = m * f->width * n * faces;
+            double c = p.count[a % 3][a / 3 % 3][a / 9],
+                   faces = a % 3 / L[0] + a / 3 % 3 / L[1] + a / 9 / L[2], b = m * f->width * n * faces;
             *entries += c * (s * s / 2 + s * b);
             *flops += c * (s * s * s / 3 + s * s * b + s * b * b);
         }
@@ -48,52 +50,72 @@ static void dissect (const pg_forecast *f, double *entries, double *flops)
     }
 }
 
-/* ---- the linear solver ------------------------------------------------------------------------------------------------------ */
-/* As the solver decides under `auto`: no factor where the mass dominates (conjugate gradients then need some 40 iterations at most, which
- * takes beta dt^2 omega^2 <= 9 with omega = 2 c_p / h), nor for large solids at rest. */
+/* ---- the linear solver --------------------------------------------------------------------------------- */
+/* As the solver decides under `auto`: no factor where the mass dominates (conjugate gradients then need some
+ * 40 iterations at most, which takes beta dt^2 omega^2 <= 9 with omega = 2 c_p / h), nor for large solids at
+ * rest. */
 static void choose_linear (pg_forecast *f)
 {
     if (!f->automatic) return;
-    int none = f->explicit_ || f->matrixless ? 1 : f->dynamic ? f->weight <= 9 * f->spacing * f->spacing : f->direct ? pg_direct_large (1, f->dim, f->points * (f->dim + f->turns))
-             : f->dim == 3 && f->points * 3 > 200000;
+    int none = f->explicit_ || f->matrixless ? 1
+               : f->dynamic                  ? f->weight <= 9 * f->spacing * f->spacing
+               : f->direct                   ? pg_direct_large (1, f->dim, f->points * (f->dim + f->turns))
+                                             : f->dim == 3 && f->points * 3 > 200000;
     strcpy (f->linear, none ? "cg" : "cholmod");
 }
 
-/* ---- bytes ------------------------------------------------------------------------------------------------------------------ */
+/* ---- bytes --------------------------------------------------------------------------------------------- */
 const char *pg_forecast_item (int item)
 {
-    static const char *const names[PG_BYTES_COUNT] = { "program", "points and cells", "bond lists", "shape functions", "breaking", "stiffness matrix",
-                                                       "factor", "vectors", "results" };
+    static const char *const names[PG_BYTES_COUNT] = {
+        "program",          "points and cells", "bond lists", "shape functions", "breaking",
+        "stiffness matrix", "factor",           "vectors",    "results"
+    };
     return item >= 0 && item < PG_BYTES_COUNT ? names[item] : "";
 }
 
 /* 8 bytes a number; see the structures named. Of each pair of phases that do not meet, the larger counts. */
 void pg_forecast_sum (pg_forecast *f)
 {
-    double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->points, all = f->bonds[0] + f->bonds[1] + f->bonds[2], rows = n + f->evaluation + f->facets;
-    double bulk = f->nodal ? f->bonds[PG_NODES] : f->summed > 0 ? f->summed : f->bonds[PG_POINTS], corners = pow (2, d), *b = f->bytes;
+    double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->points,
+           all = f->bonds[0] + f->bonds[1] + f->bonds[2], rows = n + f->evaluation + f->facets;
+    double bulk = f->nodal        ? f->bonds[PG_NODES]
+                  : f->summed > 0 ? f->summed
+                                  : f->bonds[PG_POINTS],
+           corners = pow (2, d), *b = f->bytes;
     choose_linear (f);
     int factors = strcmp (f->linear, "cg") != 0, lu = strcmp (f->linear, "umfpack") == 0;
     double m = d + f->turns;
     f->dofs = n * m;
     f->matrix_entries = (f->pairs - n) * m * m + n * m * (m + 1) / 2;
     b[PG_BYTES_PROGRAM] = 35e6;
-    b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->cells * 8 * d * corners;                    /* pg_cloud, pg_cells             */
-    b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows                        */
-    b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;                  /* galerkin      */
-    b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;                                        /* pg_consistency                 */
-    b[PG_BYTES_SHAPES] += (4 + 8 * d * (d + 1)) * f->patched;                              /* galerkin_dilatation            */
-    if (f->direct) b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? (f->turns ? 25 + 8 * d : 7) : 0.25) * all + (100 + 16 * f->turns) * n + (factors ? 0 : 8 * f->dofs);       /* pg_sweep, bond */
-    if (f->matrixless && f->turns) b[PG_BYTES_SHAPES] += (f->listed || f->by_list ? 9 : 0.25) * all + (120 + 40 * d) * n;         /* dilatations     */
-    b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;    /* states; breaker; factored      */
+    b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->cells * 8 * d * corners;  /* pg_cloud, pg_cells */
+    b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows */
+    b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;  /* galerkin */
+    b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;  /* pg_consistency */
+    b[PG_BYTES_SHAPES] += (4 + 8 * d * (d + 1)) * f->patched;  /* galerkin_dilatation */
+    /* pg_bond_loop, bond */
+    if (f->direct)
+        b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? (f->turns ? 25 + 8 * d : 7) : 0.25) * all
+                             + (100 + 16 * f->turns) * n + (factors ? 0 : 8 * f->dofs);
+    /* dilatations */
+    if (f->matrixless && f->turns)
+        b[PG_BYTES_SHAPES] += (f->listed || f->by_list ? 9 : 0.25) * all + (120 + 40 * d) * n;
+    /* states; break_loop; factored */
+    b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;
     b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
-    if (f->matrixless && !f->explicit_ && !f->dynamic) b[PG_BYTES_VECTORS] += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));           /* lps_rows.c    */
-    if (f->direct && !factors && !f->explicit_ && !f->dynamic)         /* the multilevel preconditioner: its finest level, its first coarse matrix */
+    /* lps_rows.c */
+    if (f->matrixless && !f->explicit_ && !f->dynamic)
+        b[PG_BYTES_VECTORS] += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));
+    /* the multilevel preconditioner: its finest level, its first coarse matrix */
+    if (f->direct && !factors && !f->explicit_ && !f->dynamic)
         b[PG_BYTES_VECTORS] += n * (32 * m + 16 * corners + 16) + n * m * m * 12 * pow (1.25, d);
     b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
     b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
     if (factors)
-        b[PG_BYTES_MATRIX] = f->direct ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0) : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
+        b[PG_BYTES_MATRIX] = f->direct ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
+                                       : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated
+                                             + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
     if (factors) {
         double entries = lu ? 2 * f->factor_entries : f->factor_entries;
         b[PG_BYTES_FACTOR] = 8 * 1.45 * entries + 16 * f->matrix_entries + (lu ? 48 * f->matrix_entries : 0);
@@ -108,8 +130,9 @@ void forecast_factor (pg_forecast *f)
     dissect (f, &f->factor_entries, &f->factor_flops);
 }
 
-/* ---- from the problem ------------------------------------------------------------------------------------------------------- */
-/* Nodes that transformation eliminates along axis k, and those that they see: a dense inverse and a dense product. */
+/* ---- from the problem ---------------------------------------------------------------------------------- */
+/* Nodes that transformation eliminates along axis k, and those that they see: a dense inverse and a dense
+ * product. */
 static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned char *role)
 {
     const pg_family *fam = &p->rows[PG_NODES].family;
@@ -117,12 +140,14 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
     memset (role, 0, p->cloud.n);
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        if (!pg_load_prescribes (load) || !load->value[k] || load->essential != PG_ESSENTIAL_TRANSFORMATION) continue;
+        if (!pg_load_prescribes (load) || !load->value[k] || load->essential != PG_ESSENTIAL_TRANSFORMATION)
+            continue;
         for (size_t i = 0; i < load->set->npoint; i++) role[load->set->point[i]] = 1;
     }
     for (size_t i = 0; i < p->cloud.n; i++) {
         slaves += role[i] == 1;
-        for (size_t e = fam->start[i]; role[i] == 1 && e < fam->start[i + 1]; e++) if (!role[fam->node[e]]) role[fam->node[e]] = 2;
+        for (size_t e = fam->start[i]; role[i] == 1 && e < fam->start[i + 1]; e++)
+            if (!role[fam->node[e]]) role[fam->node[e]] = 2;
     }
     for (size_t i = 0; i < p->cloud.n; i++) masters += role[i] == 2;
     if (strcmp (p->approx.type->name, "nosb") == 0) masters = 0;
@@ -134,7 +159,8 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
 static int summed_by_list (const pg_problem *p)
 {
     const pg_sum_rule *rule = &p->sums->rule;
-    return p->sums->stencil.n == 0 || (p->nmaterial > 1 && (!rule->state || rule->beams)) || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
+    return p->sums->stencil.n == 0 || (p->nmaterial > 1 && (!rule->state || rule->beams))
+           || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
 }
 
 pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
@@ -150,8 +176,11 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
     for (int s = 0; s < PG_BOND_SETS; s++) f->bonds[s] = (double) (p->first_bond[s + 1] - p->first_bond[s]);
     f->pairs = p->direct ? 0.5 * f->bonds[PG_NODES] + f->points : shared * f->points;
     f->matrixless = p->sums && p->sums->rule.state;
-    f->direct = p->direct, f->listed = p->sums && p->sums->stencil.n == 0, f->by_list = p->sums && summed_by_list (p), f->turns = p->turns;
-    f->summed = p->consistency ? (double) (p->consistency->family.start[p->consistency->family.n] + p->consistency->face.family.start[p->consistency->face.n]) : 0;
+    f->direct = p->direct, f->listed = p->sums && p->sums->stencil.n == 0,
+    f->by_list = p->sums && summed_by_list (p), f->turns = p->turns;
+    f->summed = p->consistency ? (double) (p->consistency->family.start[p->consistency->family.n]
+                                           + p->consistency->face.family.start[p->consistency->face.n])
+                               : 0;
     f->patched = p->patches ? (double) p->patches->family.start[p->patches->n] : 0;
     f->horizon = p->approx.horizon, f->spacing = p->cloud.h;
     f->counted = 1;
@@ -170,11 +199,12 @@ void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, d
     pg_forecast_sum (f);
 }
 
-/* ---- what would fit ----------------------------------------------------------------------------------------------------------- */
+/* ---- what would fit ------------------------------------------------------------------------------------ */
 pg_forecast pg_forecast_at (const pg_forecast *f, double spacing)
 {
     pg_forecast g = *f;
-    double finer = f->spacing / spacing, more = pow (finer, f->dim), entries, flops, known = f->factor_entries, known_flops = f->factor_flops;
+    double finer = f->spacing / spacing, more = pow (finer, f->dim), entries, flops,
+           known = f->factor_entries, known_flops = f->factor_flops;
     g.spacing = spacing;
     g.points *= more, g.cells *= more, g.evaluation *= more, g.pairs *= more, g.summed *= more;
     g.facets *= more / finer, g.slaves *= more / finer, g.eliminated *= more * more / (finer * finer);
@@ -215,7 +245,8 @@ static void alternative (const pg_forecast *g, const char *what, double availabl
 {
     char words[32];
     size_t used = strlen (text);
-    snprintf (text + used, size - used, "; %s %s%s", what, in_words (words, sizeof words, g->peak), g->peak <= available ? " (fits)" : "");
+    snprintf (text + used, size - used, "; %s %s%s", what, in_words (words, sizeof words, g->peak),
+              g->peak <= available ? " (fits)" : "");
 }
 
 pg_status pg_forecast_afford (const pg_forecast *f, double available)
@@ -225,14 +256,17 @@ pg_status pg_forecast_afford (const pg_forecast *f, double available)
     if (f->peak <= available) return PG_OK;
     for (int i = PG_BYTES_POINTS; i < PG_BYTES_COUNT; i++)
         if (f->bytes[i] > 0.05 * f->peak)
-            used += (size_t) snprintf (items + used, sizeof items - used, "%s%s %s", used ? ", " : "", pg_forecast_item (i),
-                                       in_words (word, sizeof word, f->bytes[i]));
+            used += (size_t) snprintf (items + used, sizeof items - used, "%s%s %s", used ? ", " : "",
+                                       pg_forecast_item (i), in_words (word, sizeof word, f->bytes[i]));
     double fit = pg_forecast_fitting (f, available);
     if (isfinite (fit)) snprintf (text, sizeof text, "; a spacing of %.3g m or more fits", fit);
     if (!f->nodal && !f->direct) {
         pg_forecast g = *f;
-        double share = f->bonds[PG_POINTS] > 0 ? f->bonds[PG_NODES] / f->points * f->evaluation / f->bonds[PG_POINTS] : 1;
-        g.nodal = 1, g.evaluation = 0, g.bonds[PG_POINTS] = 0, g.pairs *= fmin (1, 0.55 * share), g.factor_entries *= 0.55, g.analysed = 1;
+        double share = f->bonds[PG_POINTS] > 0
+                           ? f->bonds[PG_NODES] / f->points * f->evaluation / f->bonds[PG_POINTS]
+                           : 1;
+        g.nodal = 1, g.evaluation = 0, g.bonds[PG_POINTS] = 0, g.pairs *= fmin (1, 0.55 * share),
+        g.factor_entries *= 0.55, g.analysed = 1;
         pg_forecast_sum (&g);
         alternative (&g, "method.integration: nodal needs about", available, text, sizeof text);
     }
@@ -244,8 +278,14 @@ pg_status pg_forecast_afford (const pg_forecast *f, double available)
         alternative (&g, "solver.linear: pcg needs about", available, text, sizeof text);
     }
     size_t at = strlen (text);
-    if (f->dim == 3) snprintf (text + at, sizeof text - at, "; a plane model (dimension: 2) has about %.2g points", pow (f->points, 2.0 / 3));
-    return pg_error (PG_E_LIMIT, PG_HERE, "the run would need about %s of memory, and %s are available: %.4g points at spacing %.4g m, %.4g bonds, "
-                     "%.3g entries in the stiffness matrix (%s)%s", in_words (need, sizeof need, f->peak), in_words (have, sizeof have, available),
-                     f->points, f->spacing, f->bonds[0] + f->bonds[1] + f->bonds[2], f->matrix_entries, items, text);
+    if (f->dim == 3)
+        snprintf (text + at, sizeof text - at, "; a plane model (dimension: 2) has about %.2g points",
+                  pow (f->points, 2.0 / 3));
+    return pg_error (PG_E_LIMIT, PG_HERE,
+                     "the run would need about %s of memory, and %s are available: %.4g points at spacing "
+                     "%.4g m, %.4g bonds, "
+                     "%.3g entries in the stiffness matrix (%s)%s",
+                     in_words (need, sizeof need, f->peak), in_words (have, sizeof have, available),
+                     f->points, f->spacing, f->bonds[0] + f->bonds[1] + f->bonds[2], f->matrix_entries, items,
+                     text);
 }

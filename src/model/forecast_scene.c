@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Sizes of a run from the scene alone: method and solver as written, points and bonds counted on the lattice or sampled from a file. */
+ * Sizes of a run from the scene alone: method and solver as written, points and bonds counted on the lattice
+ * or sampled from a file. */
 #include "forecast.h"
 #include <math.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
-static const double most_cells = 4e6;                  /* counted one by one                                             */
+static const double most_cells = 4e6;                  /* counted one by one */
 
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 
@@ -21,12 +22,15 @@ static double used_facets (const pg_scene *scene, const pg_tally *t, int dim)
     static const char *const sides[6] = { "left", "right", "bottom", "top", "back", "front" };
     double used = 0, all = 0;
     const char *how = pg_scene_text (scene, "method.essential");
-    int nitsche = is (how, "nitsche") || (is (how, "auto") && !is (pg_scene_text (scene, "method.approximation"), "nosb"));
+    int nitsche = is (how, "nitsche")
+                  || (is (how, "auto") && !is (pg_scene_text (scene, "method.approximation"), "nosb"));
     for (int k = 0; k < 2 * dim; k++) all += t->open[k];
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
         const char *set = pg_scene_text (scene, "boundary[%zu].set", i);
-        int prescribes = pg_scene_given (scene, "boundary[%zu].displacement", i) || pg_scene_given (scene, "boundary[%zu].velocity", i);
-        int pushes = pg_scene_given (scene, "boundary[%zu].traction", i) || pg_scene_given (scene, "boundary[%zu].pressure", i);
+        int prescribes = pg_scene_given (scene, "boundary[%zu].displacement", i)
+                         || pg_scene_given (scene, "boundary[%zu].velocity", i);
+        int pushes = pg_scene_given (scene, "boundary[%zu].traction", i)
+                     || pg_scene_given (scene, "boundary[%zu].pressure", i);
         double open = all / (2 * dim);
         if (!(pushes || (prescribes && nitsche))) continue;
         for (int k = 0; k < 2 * dim; k++) if (is (set, sides[k])) open = t->open[k];
@@ -42,7 +46,8 @@ static double fastest_wave (const pg_scene *scene, int dim)
     int strain = dim == 3 || is (pg_scene_text (scene, "plane"), "strain");
     double top = 0;
     for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++) {
-        double E = pg_scene_number (scene, "materials.%s.youngs_modulus", name), nu = pg_scene_number (scene, "materials.%s.poissons_ratio", name);
+        double E = pg_scene_number (scene, "materials.%s.youngs_modulus", name),
+               nu = pg_scene_number (scene, "materials.%s.poissons_ratio", name);
         double rho = pg_scene_number (scene, "materials.%s.density", name);
         double M = dim == 1 ? E : strain ? E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) : E / (1 - nu * nu);
         if (rho > 0 && M > 0) top = fmax (top, sqrt (M / rho));
@@ -53,25 +58,34 @@ static double fastest_wave (const pg_scene *scene, int dim)
 static void read_solver (pg_forecast *f, const pg_scene *scene)
 {
     const char *linear = pg_scene_text (scene, "solver.linear"), *kind = pg_scene_text (scene, "solver.kind");
-    double alpha = pg_scene_number (scene, "solver.alpha"), beta = pg_scene_number (scene, "solver.beta"), dt = pg_scene_number (scene, "solver.dt");
+    double alpha = pg_scene_number (scene, "solver.alpha"), beta = pg_scene_number (scene, "solver.beta"),
+           dt = pg_scene_number (scene, "solver.dt");
     f->automatic = !linear || is (linear, "auto");
     f->dynamic = kind && !is (kind, "static");
     f->explicit_ = is (kind, "verlet") || is (kind, "central") || is (kind, "adr") || is (kind, "relax");
-    snprintf (f->linear, sizeof f->linear, "%s", f->automatic ? "cholmod" : is (linear, "pcg") ? "cg" : linear);
+    snprintf (f->linear, sizeof f->linear, "%s",
+              f->automatic         ? "cholmod"
+              : is (linear, "pcg") ? "cg"
+                                   : linear);
     if (!(beta > 0)) beta = (1 - alpha) * (1 - alpha) / 4;
     f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
 }
 
 static void read_method (pg_forecast *f, const pg_scene *scene)
 {
-    const pg_integration_type *integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
-    f->direct = pg_direct_force (scene), f->matrixless = pg_direct_state (scene), f->turns = pg_direct_turns (scene, f->dim);
-    f->by_list = f->direct && (is (pg_scene_text (scene, "method.evaluation"), "list") || is (pg_scene_text (scene, "method.surface_correction"), "volume")
-                               || pg_scene_number (scene, "perturb.amount") > 0 || pg_scene_count (scene, "blocks") > 1);
+    const pg_integration_type *integration = pg_integration_find (
+        pg_scene_text (scene, "method.integration"));
+    f->direct = pg_direct_force (scene), f->matrixless = pg_direct_state (scene),
+    f->turns = pg_direct_turns (scene, f->dim);
+    f->by_list = f->direct
+                 && (is (pg_scene_text (scene, "method.evaluation"), "list")
+                     || is (pg_scene_text (scene, "method.surface_correction"), "volume")
+                     || pg_scene_number (scene, "perturb.amount") > 0
+                     || pg_scene_count (scene, "blocks") > 1);
     f->nodal = f->direct || (integration && integration->at_nodes);
-    f->summed = !f->direct && integration && integration->consistent;  /* until bonds are counted                          */
+    f->summed = !f->direct && integration && integration->consistent;  /* until bonds are counted */
     f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
-    f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients                                   */
+    f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients */
     f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
     read_solver (f, scene);
 }
@@ -83,8 +97,8 @@ static double lattice_step (const pg_lattice *l)
     return l->dim == 1 ? cell : l->dim == 2 ? sqrt (cell) : cbrt (cell);
 }
 
-/* Consistent integration: a cell's points see what any of them, or of its faces, sees: about half a spacing further. Faces: as many points
- * again as there are in the cell. */
+/* Consistent integration: a cell's points see what any of them, or of its faces, sees: about half a spacing
+ * further. Faces: as many points again as there are in the cell. */
 static void widen (pg_forecast *f, double reach)
 {
     double wider = pow ((reach + 0.5) / reach, f->dim);
@@ -93,8 +107,8 @@ static void widen (pg_forecast *f, double reach)
     f->pairs *= pow ((reach + 0.25) / reach, f->dim);
 }
 
-/* Cut cells, of which half have their centre outside, have more points than whole ones (measured on disks and balls of any spacing);
- * points near the surface see three quarters of what others see. */
+/* Cut cells, of which half have their centre outside, have more points than whole ones (measured on disks and
+ * balls of any spacing); points near the surface see three quarters of what others see. */
 static void add_cut (pg_forecast *f, const pg_tally *t, double finer)
 {
     double crossed = t->crossed * pow (finer, f->dim - 1), per = f->dim == 3 ? 1.6 : f->dim == 2 ? 1.23 : 1;
@@ -104,11 +118,15 @@ static void add_cut (pg_forecast *f, const pg_tally *t, double finer)
 }
 
 /* Counts of the lattice at hand, times `finer` per axis. */
-static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t, const pg_counting *how, const pg_lattice *l, double finer)
+static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t, const pg_counting *how,
+                        const pg_lattice *l, double finer)
 {
-    double more = pow (finer, f->dim), facets = used_facets (scene, t, f->dim) * pow (finer, f->dim - 1), per = 1, sites = 1;
-    for (int k = 0; k + 1 < f->dim; k++) per *= t->crossed > 0 ? fmax (how->order, how->approx->order + 1) : how->approx->order + 1;
-    f->points = t->points * more, f->cells = t->cells * more, f->evaluation = t->evaluation * more, f->pairs = t->pairs * more;
+    double more = pow (finer, f->dim), facets = used_facets (scene, t, f->dim) * pow (finer, f->dim - 1),
+           per = 1, sites = 1;
+    for (int k = 0; k + 1 < f->dim; k++)
+        per *= t->crossed > 0 ? fmax (how->order, how->approx->order + 1) : how->approx->order + 1;
+    f->points = t->points * more, f->cells = t->cells * more, f->evaluation = t->evaluation * more,
+    f->pairs = t->pairs * more;
     f->bonds[PG_NODES] = t->node_bonds * more, f->bonds[PG_POINTS] = t->point_bonds * more;
     add_cut (f, t, finer);
     f->facets = f->direct ? 0 : facets * per;
@@ -116,17 +134,24 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
     f->bonds[PG_FACETS] = f->facets * 0.6 * t->node_bonds / t->points;
     f->width = 0.93 * radius_of (f->dim, t->coupled);
     f->counted = !t->sampled && finer == 1 && t->crossed == 0;
-    for (int k = 0; k < 3; k++) f->edge[k] = k < f->dim ? l->count[k] + !how->centred : 1, sites *= f->edge[k];
-    double fill = pow (t->points / sites, 1.0 / f->dim);       /* a body that fills its box by half is a smaller box     */
+    for (int k = 0; k < 3; k++)
+        f->edge[k] = k < f->dim ? l->count[k] + !how->centred : 1, sites *= f->edge[k];
+    /* a body that fills its box by half is a smaller box */
+    double fill = pow (t->points / sites, 1.0 / f->dim);
     for (int k = 0; k < f->dim; k++) f->edge[k] *= fill * finer;
 }
 
-/* The bonds of one point of forces straight between points; moved points have those of whole volumes and a falling rim. */
+/* The bonds of one point of forces straight between points; moved points have those of whole volumes and a
+ * falling rim. */
 static pg_status make_direct (pg_stencil *out, const pg_scene *scene, const pg_lattice *l, const pg_approx *a)
 {
-    pg_mode mode = l->dim == 1 ? PG_LINE : l->dim == 3 ? PG_SOLID : is (pg_scene_text (scene, "plane"), "strain") ? PG_PLANE_STRAIN : PG_PLANE_STRESS;
+    pg_mode mode = l->dim == 1                                     ? PG_LINE
+                   : l->dim == 3                                   ? PG_SOLID
+                   : is (pg_scene_text (scene, "plane"), "strain") ? PG_PLANE_STRAIN
+                                                                   : PG_PLANE_STRESS;
     pg_sum_rule rule;
-    pg_direct_rule (&rule, scene, mode, a, lattice_step (l), !(pg_scene_number (scene, "perturb.amount") > 0));
+    pg_direct_rule (&rule, scene, mode, a, lattice_step (l),
+                    !(pg_scene_number (scene, "perturb.amount") > 0));
     return pg_stencil_build (out, &rule, l->dim, l->step);
 }
 
@@ -146,12 +171,19 @@ static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_
     PG_TRY (pg_lattice_fit (&l, body, spacing * finer, shifted ? offset : NULL));
     f->spacing = lattice_step (&l) / finer;
     PG_TRY (pg_approx_read (&a, scene, f->spacing));
-    f->horizon = a.horizon, a.horizon *= finer;            /* as many spacings on the coarser lattice                      */
+    f->horizon = a.horizon, a.horizon *= finer;            /* as many spacings on the coarser lattice */
     for (int k = 0; k < 3; k++) f->step[k] = l.step[k] / finer;
-    int order = pg_scene_given (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : a.order + 1;
+    int order = pg_scene_given (scene, "method.gauss_points")
+                    ? (int) pg_scene_integer (scene, "method.gauss_points")
+                    : a.order + 1;
     if (f->direct) PG_TRY (make_direct (&direct, scene, &l, &a));
-    pg_counting how = { &l, &a, is (pg_scene_text (scene, "lattice"), "cells"), f->nodal, order,
-                        is (pg_scene_text (scene, "cells"), "cut") ? body : NULL, f->direct ? &direct : NULL };
+    pg_counting how = { &l,
+                        &a,
+                        is (pg_scene_text (scene, "lattice"), "cells"),
+                        f->nodal,
+                        order,
+                        is (pg_scene_text (scene, "cells"), "cut") ? body : NULL,
+                        f->direct ? &direct : NULL };
     PG_TRY (pg_tally_count (&t, &how));
     if (!(t.points > 0)) PG_FAIL (PG_E_SCENE, "no point lies in the body");
     take_tally (f, scene, &t, &how, &l, finer);
@@ -162,13 +194,16 @@ done:
 }
 
 /* Elements, their points, and faces with theirs; bonds of these see as many nodes as a node. */
-static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg_mesh_body *part, const pg_approx *a)
+static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg_mesh_body *part,
+                                 const pg_approx *a)
 {
     pg_status status = PG_OK;
     const pg_mesh *m = &part->mesh;
-    double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS], count[PG_ELEMENTS], facets = 0, all = 0, each = f->bonds[PG_NODES] / f->points;
+    double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS], count[PG_ELEMENTS],
+        facets = 0, all = 0, each = f->bonds[PG_NODES] / f->points;
     int usual = a->order + 1 + 2 * pg_mesh_body_halved (part), order = usual;
-    if (pg_scene_given (scene, "method.gauss_points")) order = (int) pg_scene_integer (scene, "method.gauss_points");
+    if (pg_scene_given (scene, "method.gauss_points"))
+        order = (int) pg_scene_integer (scene, "method.gauss_points");
     size_t n = 0;
     int *element = NULL, *side = NULL, node[9];
     for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, order, xi, w);
@@ -177,15 +212,18 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
     f->bonds[PG_POINTS] = f->evaluation * each;
     PG_TRY (pg_mesh_surface (m, &n, &element, &side));
     for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, usual, xi, w);
-    for (size_t k = 0; k < n; k++) all += count[pg_element_face ((pg_element) m->kind[element[k]], side[k], node)];
-    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);      /* a side each      */
+    for (size_t k = 0; k < n; k++)
+        all += count[pg_element_face ((pg_element) m->kind[element[k]], side[k], node)];
+    /* a side each */
+    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);
     f->facets = f->direct ? 0 : fmin (facets, all), f->bonds[PG_FACETS] = f->facets * 0.6 * each;
 done:
     pg_free (element), pg_free (side);
     return status;
 }
 
-/* Points of a file or a mesh: their families are searched for as they are, on a sample of centres; what they share is about a ball of 1.6 horizons. */
+/* Points of a file or a mesh: their families are searched for as they are, on a sample of centres; what they
+ * share is about a ball of 1.6 horizons. */
 static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_body *body)
 {
     pg_status status = PG_OK;
@@ -203,7 +241,8 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
     size_t stride = c.n / 20000 + 1, n = 0, dim = (size_t) c.dim;
     PG_ALLOC (centre, (c.n / stride + 1) * dim);
     for (size_t i = 0; i < c.n; i += stride) memcpy (centre + n++ * dim, c.x + i * dim, dim * sizeof *centre);
-    if (f->direct && !is (pg_scene_text (scene, "method.partial_volume"), "none")) a.horizon += 0.5 * c.h;      /* volumes fall over one spacing */
+    /* volumes fall over one spacing */
+    if (f->direct && !is (pg_scene_text (scene, "method.partial_volume"), "none")) a.horizon += 0.5 * c.h;
     PG_TRY (pg_family_build (&near, &c, n, centre, a.horizon, a.shape, a.kernel->closed));
     PG_TRY (pg_family_build (&far, &c, n / 8 + 1, centre, 1.6 * a.horizon, a.shape, a.kernel->closed));
     f->spacing = c.h, f->horizon = a.horizon, f->points = (double) c.n;
@@ -213,7 +252,8 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
     if (f->direct) coupled = f->bonds[PG_NODES] / f->points, f->bonds[PG_NODES] -= f->points;
     f->pairs = 0.5 * f->points * (coupled + 1);
     f->width = 0.93 * radius_of (f->dim, coupled);
-    for (int k = 0; k < 3; k++) f->step[k] = c.h, f->edge[k] = k < f->dim ? (c.high[k] - c.low[k]) / c.h + 1 : 1, side *= f->edge[k];
+    for (int k = 0; k < 3; k++)
+        f->step[k] = c.h, f->edge[k] = k < f->dim ? (c.high[k] - c.low[k]) / c.h + 1 : 1, side *= f->edge[k];
     for (int k = 0; k < f->dim; k++) f->edge[k] *= pow (f->points / side, 1.0 / f->dim);
     f->counted = stride == 1;
     if (part.mesh.n) PG_TRY (count_elements (f, scene, &part, &a));
@@ -235,7 +275,8 @@ pg_status pg_forecast_scene (pg_forecast *out, const pg_scene *scene)
     PG_TRY (pg_body_read (&body, scene));
     PG_TRY (pg_scene_verdict (scene));
     read_method (out, scene);
-    if (pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh")) PG_TRY (count_file (out, scene, &body));
+    if (pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh"))
+        PG_TRY (count_file (out, scene, &body));
     else PG_TRY (count_lattice (out, scene, &body));
     PG_TRY (pg_scene_verdict (scene));
     forecast_factor (out);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * initial: the velocity of every point at the start of a dynamic run. Direct forces only: their unknowns are displacements of points. */
+ * initial: the velocity of every point at the start of a dynamic run. Direct forces only: their unknowns are
+ * displacements of points. */
 #include "model.h"
 #include <math.h>
 #include <string.h>
@@ -16,7 +17,8 @@ static pg_status read_component (pg_problem *p, const pg_scene *scene, int k)
         return PG_OK;
     }
     PG_TRY (pg_expression_compile (&p->initial[k], text, "m/s"));
-    if (pg_expression_uses (p->initial[k], 't')) pg_scene_fault (scene, path, "it holds at the start: it does not change with t");
+    if (pg_expression_uses (p->initial[k], 't'))
+        pg_scene_fault (scene, path, "it holds at the start: it does not change with t");
 done:
     return status;
 }
@@ -30,7 +32,9 @@ pg_status pg_initial_read (pg_problem *p, const pg_scene *scene)
         pg_problem_note (p, "without meaning for solver: %s: initial", kind);
         return PG_OK;
     }
-    if (!p->direct) pg_scene_fault (scene, "initial.velocity", "not with force: galerkin so far: use bond, fcbm, lps or gmpd");
+    if (!p->direct)
+        pg_scene_fault (scene, "initial.velocity",
+                        "not with force: galerkin so far: use bond, fcbm, lps or gmpd");
     for (int k = 0; p->direct && k < 3; k++) PG_TRY (read_component (p, scene, k));
 done:
     return status;
@@ -56,7 +60,8 @@ static double slope_at (const pg_problem *p, size_t i, size_t k, size_t a)
     return isfinite (slope) ? slope : 0;
 }
 
-/* Points that turn do so with the velocity of the body about them, half its curl (unknown: spacing times rotation): a body that spins is at rest in itself. */
+/* Points that turn do so with the velocity of the body about them, half its curl (unknown: spacing times
+ * rotation): a body that spins is at rest in itself. */
 void pg_initial_set (const pg_problem *p, double *v)
 {
     size_t dim = (size_t) p->dim, stride = dim + (size_t) p->turns;

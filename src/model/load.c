@@ -5,16 +5,27 @@
 #include <string.h>
 #include <math.h>
 
-static const struct { const char *key, *unit; pg_load_kind kind; } kinds[] = {
-    { "displacement", "m", PG_DISPLACEMENT }, { "velocity", "m/s", PG_VELOCITY }, { "traction", "Pa", PG_TRACTION },
-    { "pressure", "Pa", PG_PRESSURE }, { "force", "N", PG_POINT_FORCE }, { "body_force", "N/m3", PG_BODY_FORCE },
-    { "rotation", "rad", PG_ROTATION }, { "moment", "N m", PG_MOMENT },
+static const struct { const char *key, *unit; pg_load_kind kind;
+} kinds[] = {
+    { "displacement", "m", PG_DISPLACEMENT }, { "velocity", "m/s", PG_VELOCITY },
+    { "traction", "Pa", PG_TRACTION },        { "pressure", "Pa", PG_PRESSURE },
+    { "force", "N", PG_POINT_FORCE },         { "body_force", "N/m3", PG_BODY_FORCE },
+    { "rotation", "rad", PG_ROTATION },       { "moment", "N m", PG_MOMENT },
 };
 
-int pg_load_prescribes (const pg_load *load) { return load->kind == PG_DISPLACEMENT || load->kind == PG_VELOCITY || load->kind == PG_ROTATION; }
+int pg_load_prescribes (const pg_load *load)
+{
+    return load->kind == PG_DISPLACEMENT || load->kind == PG_VELOCITY || load->kind == PG_ROTATION;
+}
 int pg_load_turns (const pg_load *load) { return load->kind == PG_ROTATION || load->kind == PG_MOMENT; }
-int pg_load_components (const pg_load *load, int dim) { return !pg_load_turns (load) || dim == 3 ? dim : dim == 2; }
-char pg_load_axis (const pg_load *load, int dim, int k) { return "xyz"[pg_load_turns (load) && dim < 3 ? 2 : k]; }
+int pg_load_components (const pg_load *load, int dim)
+{
+    return !pg_load_turns (load) || dim == 3 ? dim : dim == 2;
+}
+char pg_load_axis (const pg_load *load, int dim, int k)
+{
+    return "xyz"[pg_load_turns (load) && dim < 3 ? 2 : k];
+}
 
 static double table_value (const pg_load *load, double t)
 {
@@ -22,7 +33,9 @@ static double table_value (const pg_load *load, double t)
     size_t n = load->ntable;
     if (t <= row[0]) return row[1];
     for (size_t k = 1; k < n; k++)
-        if (t <= row[2*k]) return row[2*k - 1] + (row[2*k + 1] - row[2*k - 1]) * (t - row[2*k - 2]) / (row[2*k] - row[2*k - 2]);
+        if (t <= row[2 * k])
+            return row[2 * k - 1]
+                   + (row[2 * k + 1] - row[2 * k - 1]) * (t - row[2 * k - 2]) / (row[2 * k] - row[2 * k - 2]);
     return row[2*n - 1];
 }
 
@@ -43,7 +56,8 @@ static double table_integral (const pg_load *load, double t)
 static double factor_at (const pg_load *load, const pg_place *at)
 {
     if (!load->table) return pg_expression_value (load->ramp, at);
-    return load->kind == PG_VELOCITY ? table_integral (load, at->t) - table_integral (load, 0) : table_value (load, at->t);
+    return load->kind == PG_VELOCITY ? table_integral (load, at->t) - table_integral (load, 0)
+                                     : table_value (load, at->t);
 }
 
 pg_place pg_place_of (int dim, const double *x, double t)
@@ -59,14 +73,18 @@ double pg_load_value (const pg_load *load, int k, int dim, const double *x, doub
 {
     if (!load->value[k]) return 0;
     const pg_expression *e = load->value[k], *ramp = load->table ? e : load->ramp;
-    int polar = pg_expression_uses (e, 'r') || pg_expression_uses (e, 'a') || pg_expression_uses (ramp, 'r') || pg_expression_uses (ramp, 'a');
-    pg_place at = polar ? pg_place_of (dim, x, t) : (pg_place) { x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0, 0, 0, t };
+    int polar = pg_expression_uses (e, 'r') || pg_expression_uses (e, 'a') || pg_expression_uses (ramp, 'r')
+                || pg_expression_uses (ramp, 'a');
+    pg_place at = polar ? pg_place_of (dim, x, t)
+                        : (pg_place){ x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0, 0, 0, t };
     return pg_expression_value (load->value[k], &at) * factor_at (load, &at);
 }
 
 static int depends_on_place (const pg_expression *e)
 {
-    return e && (pg_expression_uses (e, 'x') || pg_expression_uses (e, 'y') || pg_expression_uses (e, 'z') || pg_expression_uses (e, 'r') || pg_expression_uses (e, 'a'));
+    return e
+           && (pg_expression_uses (e, 'x') || pg_expression_uses (e, 'y') || pg_expression_uses (e, 'z')
+               || pg_expression_uses (e, 'r') || pg_expression_uses (e, 'a'));
 }
 
 int pg_load_separates (const pg_load *load)
@@ -123,21 +141,26 @@ static pg_status read_table (pg_load *load, const pg_scene *scene, size_t i)
     for (size_t k = 0; k < load->ntable; k++) {
         char path[64];
         snprintf (path, sizeof path, "boundary[%zu].table[%zu]", i, k);
-        if (pg_scene_count (scene, "%s", path) != 2 || pg_scene_vector (scene, 2, load->table + 2 * k, "%s", path) != 2) pg_scene_fault (scene, path, "a pair [t, factor] is needed");
-        else if (k && !(load->table[2*k] > load->table[2*k - 2])) pg_scene_fault (scene, path, "t must increase");
+        if (pg_scene_count (scene, "%s", path) != 2
+            || pg_scene_vector (scene, 2, load->table + 2 * k, "%s", path) != 2)
+            pg_scene_fault (scene, path, "a pair [t, factor] is needed");
+        else if (k && !(load->table[2 * k] > load->table[2 * k - 2]))
+            pg_scene_fault (scene, path, "t must increase");
     }
     if (load->ntable == 0) pg_scene_fault (scene, "boundary", "a table needs at least one pair");
 done:
     return status;
 }
 
-static pg_status read_values (pg_load *load, const pg_scene *scene, size_t i, const char *key, const char *unit)
+static pg_status read_values (pg_load *load, const pg_scene *scene, size_t i, const char *key,
+                              const char *unit)
 {
     pg_status status = PG_OK;
     int found = 0, dim = (int) pg_scene_integer (scene, "dimension");
     char path[64];
     if (load->kind == PG_PRESSURE) {
-        PG_TRY (pg_expression_compile (&load->value[0], pg_scene_text (scene, "boundary[%zu].pressure", i), unit));
+        PG_TRY (pg_expression_compile (&load->value[0], pg_scene_text (scene, "boundary[%zu].pressure", i),
+                                       unit));
         goto done;
     }
     for (int axis = 0; axis < 3; axis++) {
@@ -146,14 +169,16 @@ static pg_status read_values (pg_load *load, const pg_scene *scene, size_t i, co
         snprintf (path, sizeof path, "boundary[%zu].%s.%c", i, key, "xyz"[axis]);
         int k = pg_load_turns (load) && dim < 3 ? axis - 2 : axis;
         if (k < 0 || k >= pg_load_components (load, dim)) {
-            pg_scene_fault (scene, path, "a %dD body has no such component%s", dim, pg_load_turns (load) && dim == 2 ? ": it turns about z alone" : "");
+            pg_scene_fault (scene, path, "a %dD body has no such component%s", dim,
+                            pg_load_turns (load) && dim == 2 ? ": it turns about z alone" : "");
             found++;
             continue;
         }
         PG_TRY (pg_expression_compile (&load->value[k], text, unit));
         if (load->value[k] && pg_expression_uses (load->value[k], 't')) {
             load->proportional = 0;
-            if (load->kind == PG_VELOCITY) pg_scene_fault (scene, path, "a prescribed velocity may not depend on t (use displacement)");
+            if (load->kind == PG_VELOCITY)
+                pg_scene_fault (scene, path, "a prescribed velocity may not depend on t (use displacement)");
         }
         found++;
     }
@@ -169,14 +194,20 @@ static void check_place (const pg_problem *problem, const pg_load *load, const p
     snprintf (path, sizeof path, "boundary[%zu].set", i);
     const pg_set *set = load->set;
     int empty = set->npoint == 0 && set->nfacet == 0;
-    if (empty && (pg_scene_given (scene, "sets.%s", set->name) || pg_sets_empty_side (&problem->sets, set))) return;   /* told there */
+    /* told there */
+    if (empty && (pg_scene_given (scene, "sets.%s", set->name) || pg_sets_empty_side (&problem->sets, set)))
+        return;
     int on_facets = load->kind == PG_TRACTION || load->kind == PG_PRESSURE
                  || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
     if (on_facets && problem->cells.n == 0)
-        pg_scene_fault (scene, path, "%s needs boundary facets, and a body of explicit points has none", load->kind == PG_TRACTION ? "a traction"
-                        : load->kind == PG_PRESSURE ? "a pressure" : "essential: nitsche");
-    else if (on_facets && set->nfacet == 0) pg_scene_fault (scene, path, "the set %s holds no boundary facet", set->name);
-    else if (!on_facets && set->npoint == 0) pg_scene_fault (scene, path, "the set %s holds no point", set->name);
+        pg_scene_fault (scene, path, "%s needs boundary facets, and a body of explicit points has none",
+                        load->kind == PG_TRACTION   ? "a traction"
+                        : load->kind == PG_PRESSURE ? "a pressure"
+                                                    : "essential: nitsche");
+    else if (on_facets && set->nfacet == 0)
+        pg_scene_fault (scene, path, "the set %s holds no boundary facet", set->name);
+    else if (!on_facets && set->npoint == 0)
+        pg_scene_fault (scene, path, "the set %s holds no point", set->name);
 }
 
 /* The most that the box of the body measures along the normal of a facet of the set, m. */
@@ -188,13 +219,16 @@ static double deepest (const pg_problem *problem, const pg_set *set)
     double most = 0, size[3] = { 0 };
     for (size_t k = 0; k < dim; k++) {
         double low = INFINITY, high = -INFINITY;
-        for (size_t f = 0; f < c->nfacet; f++) low = fmin (low, c->facet_centre[f * dim + k]), high = fmax (high, c->facet_centre[f * dim + k]);
-        for (size_t i = 0; i < cloud->n; i++) low = fmin (low, cloud->x[i * dim + k]), high = fmax (high, cloud->x[i * dim + k]);
+        for (size_t f = 0; f < c->nfacet; f++)
+            low = fmin (low, c->facet_centre[f * dim + k]), high = fmax (high, c->facet_centre[f * dim + k]);
+        for (size_t i = 0; i < cloud->n; i++)
+            low = fmin (low, cloud->x[i * dim + k]), high = fmax (high, cloud->x[i * dim + k]);
         size[k] = high - low;
     }
     for (size_t f = 0; f < set->nfacet; f++) {
         double along = 0;
-        for (size_t k = 0; k < dim; k++) along += fabs (c->normal[(size_t) set->facet[f] * dim + k]) * size[k];
+        for (size_t k = 0; k < dim; k++)
+            along += fabs (c->normal[(size_t) set->facet[f] * dim + k]) * size[k];
         most = fmax (most, along);
     }
     return most;
@@ -207,40 +241,63 @@ static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene
     snprintf (path, sizeof path, "boundary[%zu].depth", i);
     if (!pg_scene_given (scene, "%s", path)) return;
     load->depth = pg_scene_length (scene, problem->cloud.h, "%s", path);
-    if (load->kind != PG_TRACTION && load->kind != PG_PRESSURE) pg_scene_fault (scene, path, "is for a traction or a pressure: others act on the points of their set");
-    else if (!problem->direct) pg_scene_fault (scene, path, "is for force: bond; shape functions carry a traction on the surface itself");
+    if (load->kind != PG_TRACTION && load->kind != PG_PRESSURE)
+        pg_scene_fault (scene, path,
+                        "is for a traction or a pressure: others act on the points of their set");
+    else if (!problem->direct)
+        pg_scene_fault (scene, path,
+                        "is for force: bond; shape functions carry a traction on the surface itself");
     else if (load->set->nfacet) {
         double most = deepest (problem, load->set);
-        if (load->depth > most * (1 + 1e-9)) pg_scene_fault (scene, path, "reaches beyond the body, which is %.6g m deep below %s: at most that", most, load->set->name);
+        if (load->depth > most * (1 + 1e-9))
+            pg_scene_fault (scene, path,
+                            "reaches beyond the body, which is %.6g m deep below %s: at most that", most,
+                            load->set->name);
     }
 }
 
-static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i, int is_static, double duration)
+static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i,
+                            int is_static, double duration)
 {
     pg_status status = PG_OK;
     char path[64];
-    const char *set = pg_scene_text (scene, "boundary[%zu].set", i), *name = pg_scene_text (scene, "boundary[%zu].name", i);
+    const char *set = pg_scene_text (scene, "boundary[%zu].set", i),
+               *name = pg_scene_text (scene, "boundary[%zu].name", i);
     size_t k = 0;
-    while (k + 1 < sizeof kinds / sizeof *kinds && !pg_scene_given (scene, "boundary[%zu].%s", i, kinds[k].key)) k++;
+    while (k + 1 < sizeof kinds / sizeof *kinds
+           && !pg_scene_given (scene, "boundary[%zu].%s", i, kinds[k].key))
+        k++;
     load->kind = kinds[k].kind;
     snprintf (path, sizeof path, "boundary[%zu].%s", i, kinds[k].key);
-    if (pg_load_turns (load) && !problem->turns) pg_scene_fault (scene, path, "is for force: gmpd: points of force: %s do not turn", problem->force);
+    if (pg_load_turns (load) && !problem->turns)
+        pg_scene_fault (scene, path, "is for force: gmpd: points of force: %s do not turn", problem->force);
     snprintf (load->name, sizeof load->name, "%.63s", name && *name ? name : set);
-    for (char *c = load->name; *c && !(name && *name); c++) if (*c == ' ') *c = '_';         /* polygon.edge 3: a column of history.csv */
+    /* polygon.edge 3: a column of history.csv */
+    for (char *c = load->name; *c && !(name && *name); c++) if (*c == ' ') *c = '_';
     snprintf (path, sizeof path, "boundary[%zu].set", i);
     load->set = pg_sets_named (&problem->sets, scene, path, set);
     if (!load->set) goto done;
-    if (is_static && load->kind == PG_VELOCITY) pg_scene_fault (scene, path, "a static run has no velocity: prescribe a displacement");
-    const char *how = pg_scene_text (scene, pg_scene_given (scene, "boundary[%zu].essential", i) ? "boundary[%zu].essential" : "method.essential", i);
+    if (is_static && load->kind == PG_VELOCITY)
+        pg_scene_fault (scene, path, "a static run has no velocity: prescribe a displacement");
+    const char *how = pg_scene_text (scene,
+                                     pg_scene_given (scene, "boundary[%zu].essential", i)
+                                         ? "boundary[%zu].essential"
+                                         : "method.essential",
+                                     i);
     int nosb = strcmp (pg_scene_text (scene, "method.approximation"), "nosb") == 0;
-    load->essential = strcmp (how, "transformation") == 0 ? PG_ESSENTIAL_TRANSFORMATION : strcmp (how, "penalty") == 0 ? PG_ESSENTIAL_PENALTY
-                    : strcmp (how, "nitsche") == 0 ? PG_ESSENTIAL_NITSCHE
-                    : load->set->nfacet > 0 && !nosb ? PG_ESSENTIAL_NITSCHE : PG_ESSENTIAL_TRANSFORMATION;
+    load->essential = strcmp (how, "transformation") == 0 ? PG_ESSENTIAL_TRANSFORMATION
+                      : strcmp (how, "penalty") == 0      ? PG_ESSENTIAL_PENALTY
+                      : strcmp (how, "nitsche") == 0      ? PG_ESSENTIAL_NITSCHE
+                      : load->set->nfacet > 0 && !nosb    ? PG_ESSENTIAL_NITSCHE
+                                                          : PG_ESSENTIAL_TRANSFORMATION;
     if (problem->direct) load->essential = PG_ESSENTIAL_TRANSFORMATION;
     load->penalty = problem->penalty;
-    if (!problem->direct && strcmp (how, "auto") == 0 && !nosb && (load->set->ninner || (load->set->nfacet == 0 && load->set->npoint > PG_MOST_ELIMINATED))) {
-        load->essential = PG_ESSENTIAL_PENALTY;            /* a set with an inside: its facets would leave that free */
-        if (pg_kind_marches (pg_scene_text (scene, "solver.kind"))) load->penalty = fmin (problem->penalty, problem->nitsche);        /* no shorter time step */
+    if (!problem->direct && strcmp (how, "auto") == 0 && !nosb
+        && (load->set->ninner || (load->set->nfacet == 0 && load->set->npoint > PG_MOST_ELIMINATED))) {
+        load->essential = PG_ESSENTIAL_PENALTY;  /* a set with an inside: its facets would leave that free */
+        /* no shorter time step */
+        if (pg_kind_marches (pg_scene_text (scene, "solver.kind")))
+            load->penalty = fmin (problem->penalty, problem->nitsche);
     }
     check_place (problem, load, scene, i);
     read_depth (problem, load, scene, i);
@@ -251,7 +308,8 @@ done:
     return status;
 }
 
-/* Names become columns of history.csv: two given alike are a fault, a name taken from the set gets a number. */
+/* Names become columns of history.csv: two given alike are a fault, a name taken from the set gets a
+ * number. */
 static void name_apart (pg_problem *problem, const pg_scene *scene)
 {
     char path[64];
@@ -259,7 +317,8 @@ static void name_apart (pg_problem *problem, const pg_scene *scene)
         for (size_t k = 0; k < i; k++) {
             if (strcmp (problem->load[i].name, problem->load[k].name) != 0) continue;
             snprintf (path, sizeof path, "boundary[%zu].name", i);
-            if (pg_scene_given (scene, "%s", path)) pg_scene_fault (scene, path, "boundary[%zu] has this name too", k);
+            if (pg_scene_given (scene, "%s", path))
+                pg_scene_fault (scene, path, "boundary[%zu] has this name too", k);
             else {
                 char longer[64];
                 snprintf (longer, sizeof longer, "%.40s_%zu", problem->load[k].name, i + 1);
@@ -275,11 +334,13 @@ pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
     int is_static = pg_kind_quasi_static (kind);
     double duration = is_static ? 1 : pg_scene_number (scene, "solver.end");
     if (!is_static && !(duration > 0) && pg_scene_has (scene, "solver.time_steps"))
-        duration = (double) pg_scene_integer (scene, "solver.time_steps") * pg_scene_number (scene, "solver.dt");
+        duration = (double) pg_scene_integer (scene, "solver.time_steps")
+                   * pg_scene_number (scene, "solver.dt");
     if (!(duration > 0)) duration = 1;
     problem->nload = pg_scene_count (scene, "boundary");
     PG_ALLOC (problem->load, problem->nload);
-    for (size_t i = 0; i < problem->nload; i++) PG_TRY (read_load (problem, &problem->load[i], scene, i, is_static, duration));
+    for (size_t i = 0; i < problem->nload; i++)
+        PG_TRY (read_load (problem, &problem->load[i], scene, i, is_static, duration));
     name_apart (problem, scene);
     pg_supports_check (problem, scene, duration);
     pg_supports_check_eliminated (problem, scene);
@@ -294,7 +355,8 @@ static int bears_shear (const pg_problem *p, int material)
     return fabs (nu - pg_beam_poisson (p->mode)) > 1e-9;
 }
 
-/* Where bonds bear no shear nothing resists rotations, and none are solved for: a moment would go nowhere. Once every point has its material. */
+/* Where bonds bear no shear nothing resists rotations, and none are solved for: a moment would go nowhere.
+ * Once every point has its material. */
 void pg_loads_check_moments (const pg_problem *p, const pg_scene *scene)
 {
     const int *material = p->block[PG_NODES];
@@ -306,7 +368,9 @@ void pg_loads_check_moments (const pg_problem *p, const pg_scene *scene)
         while (k < set->npoint && bears_shear (p, material[set->point[k]])) k++;
         if (k == set->npoint) continue;
         snprintf (path, sizeof path, "boundary[%zu].moment", i);
-        pg_scene_fault (scene, path, "material %.40s: at a Poisson's ratio of %.6g its bonds bear no shear, and nothing resists rotations: use a smaller one, or forces",
+        pg_scene_fault (scene, path,
+                        "material %.40s: at a Poisson's ratio of %.6g its bonds bear no shear, and nothing "
+                        "resists rotations: use a smaller one, or forces",
                         p->material[material[set->point[k]]].name, pg_beam_poisson (p->mode));
     }
 }

@@ -4,39 +4,45 @@
 #define PG_MODEL_PRIVATE_H
 #include "perigal/model.h"
 pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
-/* supports.c: supports that contradict each other (at corners: warnings), or are too many for elimination, as faults. duration: end of the run, s (static: 1). */
+/* supports.c: supports that contradict each other (at corners: warnings), or are too many for elimination, as
+ * faults. duration: end of the run, s (static: 1). */
 void      pg_supports_check (pg_problem *problem, const pg_scene *scene, double duration);
 void      pg_supports_check_eliminated (const pg_problem *problem, const pg_scene *scene);
 void      pg_loads_check_moments (const pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
-/* initial.velocity: checked and compiled; put into v (n x dim, m/s), which is left alone where nothing is given. */
+/* initial.velocity: checked and compiled; put into v (n x dim, m/s), which is left alone where nothing is
+ * given. */
 pg_status pg_initial_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_initial_set   (const pg_problem *problem, double *v);
 void      pg_initial_clear (pg_problem *problem);
 /* method.tip_offset: how far behind its tips and fronts each pre-crack cuts. */
 pg_status pg_tips_retreat (pg_problem *problem, const pg_scene *scene);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
-/* Forces straight between points: their rule, their sums, the only Poisson's ratio they know; and their bonds. */
+/* Forces straight between points: their rule, their sums, the only Poisson's ratio they know; and their
+ * bonds. */
 pg_status pg_direct_build (pg_problem *problem, const pg_scene *scene);
-void      pg_direct_note_unused (pg_problem *p, const pg_scene *scene);   /* keys of method that say nothing to its force     */
+/* keys of method that say nothing to its force */
+void      pg_direct_note_unused (pg_problem *p, const pg_scene *scene);
 pg_status pg_direct_bonds (pg_problem *problem);
 /* Can all points have one law where the evaluation asked for wants that? Once criteria are read. */
 void      pg_direct_check_laws (const pg_problem *problem, const pg_scene *scene);
 int       pg_direct_force (const pg_scene *scene);
 /* 1: its bonds are those of state-based theory. */
 int       pg_direct_state (const pg_scene *scene);
-int       pg_direct_turns (const pg_scene *scene, int dim);              /* rotations of a point                           */
+int       pg_direct_turns (const pg_scene *scene, int dim);              /* rotations of a point */
 /* Criterion of that force where the scene names none; NULL: it must.  */
 const char *pg_direct_criterion (const pg_scene *scene);
 /* Its rule, on a lattice or not; mode and kernel as given. */
-void      pg_direct_rule  (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx, double spacing, int lattice);
+void pg_direct_rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
+                     double spacing, int lattice);
 /* The node nearest to a point of a bond set among those it sees; -1: it sees none. */
 int       pg_bonds_nearest (const pg_problem *problem, int set, size_t point);
 /* block of every point, once the rows are there. */
 /* What is wrong with the entries of `blocks` by themselves, as faults. */
 pg_status pg_blocks_check (const pg_problem *problem, const pg_scene *scene);
 pg_status pg_blocks_build (pg_problem *problem, const pg_scene *scene);
-/* method.dilatation: patches for the materials that need them; notes and warnings for those that have none. */
+/* method.dilatation: patches for the materials that need them; notes and warnings for those that have
+ * none. */
 pg_status pg_dilatation_build (pg_problem *problem, const pg_scene *scene);
 /* Remarks on what was perhaps not meant (remarks.c); parts, contrast: once the bonds are there. */
 void      pg_remark_spacing  (pg_problem *problem, const pg_scene *scene);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * From the scene to a problem: body, points, cells, sets, cracks, laws, loads, bonds. Faults of all stages are collected. */
+ * From the scene to a problem: body, points, cells, sets, cracks, laws, loads, bonds. Faults of all stages
+ * are collected. */
 #include "model.h"
 #include <math.h>
 #include <stdarg.h>
@@ -9,10 +10,14 @@
 
 static pg_mode mode_of (const pg_scene *scene, int dim)
 {
-    static const struct { const char *key; int dim; } bound[] = { { "cross_section", 1 }, { "plane", 2 }, { "thickness", 2 } };
+    static const struct {
+        const char *key;
+        int dim;
+    } bound[] = { { "cross_section", 1 }, { "plane", 2 }, { "thickness", 2 } };
     for (size_t k = 0; k < sizeof bound / sizeof *bound; k++)
         if (bound[k].dim != dim && pg_scene_given (scene, "%s", bound[k].key))
-            pg_scene_fault (scene, bound[k].key, "has a meaning only in %dD, and dimension is %d", bound[k].dim, dim);
+            pg_scene_fault (scene, bound[k].key, "has a meaning only in %dD, and dimension is %d",
+                            bound[k].dim, dim);
     if (dim == 1) return PG_LINE;
     if (dim == 3) return PG_SOLID;
     return strcmp (pg_scene_text (scene, "plane"), "strain") == 0 ? PG_PLANE_STRAIN : PG_PLANE_STRESS;
@@ -92,34 +97,62 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
     PG_ALLOC (setting, p->nmaterial);
     PG_ALLOC (p->criterion, p->nmaterial);
     for (size_t i = 0; i < p->nmaterial; i++)
-        setting[i] = (pg_criterion_setting) {
-            .mode = p->mode, .horizon = p->approx.horizon, .modulus = p->material[i].modulus, .poisson = p->material[i].parameter[1],
-            .thickness = p->cloud.thickness, .kernel = p->approx.kernel->name, .material = p->material[i].name,
-            .graded = p->cloud.size != NULL && !p->direct, .toughness = p->direct && p->sums->rule.calibrate ? pg_sums_toughness (p->sums, p->material[i].modulus, p->material[i].parameter[1]) : 0,
-            .stretch = !p->direct ? NULL : p->sums->rule.finite ? "finite" : "linear", .usual = pg_direct_criterion (scene),
-            .state = p->direct && p->sums->rule.state && !p->turns };
+        setting[i] = (pg_criterion_setting){
+            .mode = p->mode,
+            .horizon = p->approx.horizon,
+            .modulus = p->material[i].modulus,
+            .poisson = p->material[i].parameter[1],
+            .thickness = p->cloud.thickness,
+            .kernel = p->approx.kernel->name,
+            .material = p->material[i].name,
+            .graded = p->cloud.size != NULL && !p->direct,
+            .toughness = p->direct && p->sums->rule.calibrate
+                             ? pg_sums_toughness (p->sums, p->material[i].modulus,
+                                                  p->material[i].parameter[1])
+                             : 0,
+            .stretch = !p->direct             ? NULL
+                       : p->sums->rule.finite ? "finite"
+                                              : "linear",
+            .usual = pg_direct_criterion (scene),
+            .state = p->direct && p->sums->rule.state && !p->turns
+        };
     for (size_t i = 0; p->turns && i < p->nmaterial; i++) {
         double axial, shear, E, nu, dilation, beside;
         pg_problem_beams (p, i, &E, &nu, &dilation);
-        PG_TRY (pg_beam_moduli (&axial, &shear, p->mode, p->approx.kernel, p->approx.horizon, E, nu, p->cloud.thickness));
+        PG_TRY (pg_beam_moduli (&axial, &shear, p->mode, p->approx.kernel, p->approx.horizon, E, nu,
+                                p->cloud.thickness));
         PG_TRY (measure_beams (setting[i].beam, p, axial, shear));
         beside = pg_beam_cut_dilatation (p->sums, dilation) / setting[i].beam[0];
         setting[i].beam[0] *= 1 + beside;
         setting[i].toughness = (setting[i].toughness > 0 ? setting[i].toughness : 1) * (1 + beside);
-        setting[i].modulus = p->material[i].modulus * axial / pg_bond_modulus (p->mode, p->approx.kernel, p->approx.horizon, p->material[i].modulus, p->cloud.thickness);
+        setting[i].modulus = p->material[i].modulus * axial
+                             / pg_bond_modulus (p->mode, p->approx.kernel, p->approx.horizon,
+                                                p->material[i].modulus, p->cloud.thickness);
     }
     PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));
     int needs = p->criterion->type ? p->criterion->type->needs : 0;
     if (p->direct && (needs & PG_NEEDS_STRESS))
-        pg_scene_fault (scene, "failure.criterion", "%s needs stresses, and force: %s knows only %s of its bonds: use %s, or force: galerkin",
-                        p->criterion->type->name, p->force, p->turns ? "stretch, shear and bending" : "the stretch", p->turns ? "beam_limits or stretch" : "stretch");
+        pg_scene_fault (
+            scene, "failure.criterion",
+            "%s needs stresses, and force: %s knows only %s of its bonds: use %s, or force: galerkin",
+            p->criterion->type->name, p->force, p->turns ? "stretch, shear and bending" : "the stretch",
+            p->turns ? "beam_limits or stretch" : "stretch");
     if (!p->turns && (needs & PG_NEEDS_BEAMS))
-        pg_scene_fault (scene, "failure.criterion", "%s judges bonds that bear shear and bending, which only force: gmpd has: use that, or stretch", p->criterion->type->name);
+        pg_scene_fault (
+            scene, "failure.criterion",
+            "%s judges bonds that bear shear and bending, which only force: gmpd has: use that, or stretch",
+            p->criterion->type->name);
     if (p->turns && (needs & PG_NEEDS_ENERGY))
-        pg_scene_fault (scene, "failure.criterion", "%s is for bonds that pull along themselves: with force: gmpd use beam_limits or stretch", p->criterion->type->name);
+        pg_scene_fault (
+            scene, "failure.criterion",
+            "%s is for bonds that pull along themselves: with force: gmpd use beam_limits or stretch",
+            p->criterion->type->name);
     if (!p->direct && (needs & PG_NEEDS_ENERGY))
-        pg_scene_fault (scene, "failure.criterion", "%s needs the energy that bonds store at a point, and force: %s has bonds without energy: use stretch, "
-                        "principal_stress or mohr_coulomb, or force: bond or fcbm", p->criterion->type->name, p->force);
+        pg_scene_fault (scene, "failure.criterion",
+                        "%s needs the energy that bonds store at a point, and force: %s has bonds without "
+                        "energy: use stretch, "
+                        "principal_stress or mohr_coulomb, or force: bond or fcbm",
+                        p->criterion->type->name, p->force);
     if (p->direct) pg_direct_check_laws (p, scene);
 done:
     pg_free (setting);
@@ -132,9 +165,11 @@ static void read_galerkin (pg_problem *p, const pg_scene *scene)
     p->integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
     p->approx.extrapolates = p->integration->consistent;
     if (!p->integration->at_nodes && p->cells.n == 0)
-        pg_scene_fault (scene, "method.integration", "a body of explicit points has no background cells: use nodal");
+        pg_scene_fault (scene, "method.integration",
+                        "a body of explicit points has no background cells: use nodal");
     int nosb = strcmp (p->approx.type->name, "nosb") == 0;
-    int silling = strcmp (stab, "silling") == 0 || (strcmp (stab, "auto") == 0 && nosb && p->integration->at_nodes);
+    int silling = strcmp (stab, "silling") == 0
+                  || (strcmp (stab, "auto") == 0 && nosb && p->integration->at_nodes);
     if (strcmp (stab, "silling") == 0 && !(nosb && p->integration->at_nodes))
         pg_scene_fault (scene, "method.stabilization", "silling stabilises nosb with nodal integration");
     p->silling = silling ? pg_scene_number (scene, "method.stabilization_factor") : 0;
@@ -148,7 +183,8 @@ static pg_status build_laws (pg_problem *p, const pg_scene *scene)
     const char *name;
     p->nmaterial = pg_scene_count (scene, "materials");
     PG_ALLOC (p->material, p->nmaterial);
-    for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++) PG_TRY (pg_material_read (&p->material[i], scene, name, p->mode));
+    for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++)
+        PG_TRY (pg_material_read (&p->material[i], scene, name, p->mode));
     if (p->nmaterial == 0) {
         pg_scene_fault (scene, "materials", "at least one material is needed");
         PG_TRY (pg_scene_verdict (scene));
@@ -169,7 +205,8 @@ static int sees_points (const pg_problem *p, const double *x)
     size_t dim = (size_t) p->dim;
     for (size_t i = 0; i < p->cloud.n; i++) {
         double r = 0;
-        for (size_t k = 0; k < dim; k++) r += (p->cloud.x[i * dim + k] - x[k]) * (p->cloud.x[i * dim + k] - x[k]);
+        for (size_t k = 0; k < dim; k++)
+            r += (p->cloud.x[i * dim + k] - x[k]) * (p->cloud.x[i * dim + k] - x[k]);
         double a = p->approx.horizon * pg_cloud_ratio (&p->cloud, i);
         if (r < a * a) return 1;
     }
@@ -190,11 +227,15 @@ static pg_status read_gauges (pg_problem *p, const pg_scene *scene)
             char path[64];
             snprintf (path, sizeof path, "output.gauges[%zu].%s", i, end ? "to" : "from");
             const double *place = end ? g->to : g->from;
-            if (!sees_points (p, place)) pg_scene_fault (scene, path, "lies outside the body: no point within the horizon");
+            if (!sees_points (p, place))
+                pg_scene_fault (scene, path, "lies outside the body: no point within the horizon");
             for (size_t c = 0; c < p->cracks.n; c++)
                 if (pg_crack_touches (&p->cracks.crack[c], p->dim, place, 1e-9 * p->cloud.h)) {
-                    pg_problem_note (p, PG_WARNING "gauge %s: %s lies on a crack, whose two faces move apart: which of them it follows is chance; "
-                                     "put it beside the crack, however near", g->name, end ? "to" : "from");
+                    pg_problem_note (p,
+                                     PG_WARNING "gauge %s: %s lies on a crack, whose two faces move apart: "
+                                                "which of them it follows is chance; "
+                                                "put it beside the crack, however near",
+                                     g->name, end ? "to" : "from");
                     break;
                 }
         }
@@ -211,7 +252,8 @@ pg_status pg_problem_prepare (pg_problem **out, const pg_scene *scene, int threa
     p->dim = (int) pg_scene_integer (scene, "dimension");
     p->threads = threads < 1 ? 1 : threads;
     p->mode = mode_of (scene, p->dim);
-    p->thickness_assumed = p->dim < 3 && !pg_scene_given (scene, "%s", p->dim == 2 ? "thickness" : "cross_section");
+    p->thickness_assumed = p->dim < 3
+                           && !pg_scene_given (scene, "%s", p->dim == 2 ? "thickness" : "cross_section");
     p->accept_inexact = pg_scene_bool (scene, "method.accept_inexact");
     p->patch = (pg_patch) { .error = NAN, .compliance = NAN };
     const char *title = pg_scene_text (scene, "title");
@@ -266,7 +308,8 @@ void pg_problem_free (pg_problem **problem)
 {
     pg_problem *p = *problem;
     if (!p) return;
-    for (int s = 0; s < PG_BOND_SETS; s++) pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]);
+    for (int s = 0; s < PG_BOND_SETS; s++)
+        pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]);
     pg_consistency_free (&p->consistency);
     pg_patches_free (&p->patches);
     pg_sums_free (&p->sums);
@@ -292,7 +335,10 @@ void pg_problem_note (pg_problem *p, const char *format, ...)
     va_end (args);
 }
 
-int pg_kind_marches (const char *kind) { return strcmp (kind, "static") != 0 && strcmp (kind, "newmark") != 0; }
+int pg_kind_marches (const char *kind)
+{
+    return strcmp (kind, "static") != 0 && strcmp (kind, "newmark") != 0;
+}
 
 int pg_kind_quasi_static (const char *kind)
 {
@@ -304,10 +350,13 @@ int pg_problem_proportional (const pg_problem *p)
     for (size_t i = 0; i < p->nload; i++) {
         if (p->load[i].proportional) continue;
         /* a displacement held at zero is proportional too */
-        static const double places[3][3] = { { 0.37, -0.21, 0.83 }, { -1.3, 2.7, 0.11 }, { 5.1, 0.77, -3.9 } };
+        static const double places[3][3] = { { 0.37, -0.21, 0.83 },
+                                             { -1.3, 2.7, 0.11 },
+                                             { 5.1, 0.77, -3.9 } };
         int held = pg_load_prescribes (&p->load[i]);
         for (int k = 0; k < pg_load_components (&p->load[i], p->dim) && held; k++)
-            for (int q = 0; q < 9 && held; q++) held = pg_load_value (&p->load[i], k, p->dim, places[q % 3], 0.1 + 0.4 * (q / 3)) == 0;
+            for (int q = 0; q < 9 && held; q++)
+                held = pg_load_value (&p->load[i], k, p->dim, places[q % 3], 0.1 + 0.4 * (q / 3)) == 0;
         if (!held) return 0;
     }
     return 1;
@@ -316,14 +365,16 @@ int pg_problem_proportional (const pg_problem *p)
 /* Of the load at this place, between t = 0 and 1. */
 static int is_affine (const pg_load *load, int k, int dim, const double *x)
 {
-    double a = pg_load_value (load, k, dim, x, 0), b = pg_load_value (load, k, dim, x, 1), size = fmax (fabs (a), fabs (b));
+    double a = pg_load_value (load, k, dim, x, 0), b = pg_load_value (load, k, dim, x, 1),
+           size = fmax (fabs (a), fabs (b));
     for (int q = 1; q < 16; q++) {
         double t = q / 16.0 + 0.01;
         if (fabs (pg_load_value (load, k, dim, x, t) - a - t * (b - a)) > 1e-12 * size) return 0;
     }
     for (size_t row = 0; row < load->ntable; row++) {
         double t = load->table[2 * row];
-        if (t > 0 && t < 1 && fabs (pg_load_value (load, k, dim, x, t) - a - t * (b - a)) > 1e-12 * size) return 0;
+        if (t > 0 && t < 1 && fabs (pg_load_value (load, k, dim, x, t) - a - t * (b - a)) > 1e-12 * size)
+            return 0;
     }
     return 1;
 }
@@ -338,7 +389,9 @@ int pg_problem_affine (const pg_problem *p)
         size_t n = pg_load_separates (load) ? 0 : load->set->npoint;
         for (int k = 0; k < components; k++) {
             if (!is_affine (load, k, p->dim, middle)) return 0;
-            for (size_t i = 0; i < n; i++) if (!is_affine (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim)) return 0;
+            for (size_t i = 0; i < n; i++)
+                if (!is_affine (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim))
+                    return 0;
         }
     }
     return 1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a problem amounts to that its user may not have meant: a spacing larger than the body, cracks that cut it into parts, materials whose
- * contrast no discretisation of this spacing can follow. */
+ * What a problem amounts to that its user may not have meant: a spacing larger than the body, cracks that cut
+ * it into parts, materials whose contrast no discretisation of this spacing can follow. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,9 @@ void pg_problem_box (const pg_problem *p, double *low, double *high)
     for (size_t k = 0; k < dim; k++) {
         low[k] = INFINITY, high[k] = -INFINITY;
         if (p->lattice.dim) low[k] = p->body.low[k], high[k] = p->body.high[k];
-        for (size_t i = 0; i < p->cloud.n && !p->lattice.dim; i++) low[k] = fmin (low[k], p->cloud.x[i * dim + k]), high[k] = fmax (high[k], p->cloud.x[i * dim + k]);
+        for (size_t i = 0; i < p->cloud.n && !p->lattice.dim; i++)
+            low[k] = fmin (low[k], p->cloud.x[i * dim + k]),
+            high[k] = fmax (high[k], p->cloud.x[i * dim + k]);
     }
 }
 
@@ -24,12 +26,15 @@ void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
     pg_problem_box (p, low, high);
     for (int k = 0; k < p->dim; k++)
         if (asked > (high[k] - low[k]) * (1 + 1e-9)) {
-            pg_problem_note (p, PG_WARNING "the spacing, %.4g m, is larger than the body, which measures %.4g m along %c: one cell there", asked, high[k] - low[k], "xyz"[k]);
+            pg_problem_note (p,
+                             PG_WARNING "the spacing, %.4g m, is larger than the body, which measures %.4g m "
+                                        "along %c: one cell there",
+                             asked, high[k] - low[k], "xyz"[k]);
             return;
         }
 }
 
-/* ---- parts ---------------------------------------------------------------------------------------------------------------------------- */
+/* ---- parts --------------------------------------------------------------------------------------------- */
 static int root (int *parent, int i)
 {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -40,25 +45,30 @@ static int is_cut (const pg_problem *p, size_t i, size_t j)
 {
     size_t dim = (size_t) p->dim;
     for (size_t c = 0; c < p->cracks.n; c++)
-        if (pg_crack_cuts (&p->cracks.crack[c], p->dim, p->cloud.x + i * dim, p->cloud.x + j * dim, 1e-9 * p->cloud.h)) return 1;
+        if (pg_crack_cuts (&p->cracks.crack[c], p->dim, p->cloud.x + i * dim, p->cloud.x + j * dim,
+                           1e-9 * p->cloud.h))
+            return 1;
     return 0;
 }
 
 static int on_a_crack (const pg_problem *p, size_t i)
 {
     for (size_t c = 0; c < p->cracks.n; c++)
-        if (pg_crack_touches (&p->cracks.crack[c], p->dim, p->cloud.x + i * (size_t) p->dim, 1e-9 * p->cloud.h)) return 1;
+        if (pg_crack_touches (&p->cracks.crack[c], p->dim, p->cloud.x + i * (size_t) p->dim,
+                              1e-9 * p->cloud.h))
+            return 1;
     return 0;
 }
 
 static void write_place (const pg_problem *p, size_t i, char *out, size_t size)
 {
     size_t dim = (size_t) p->dim;
-    for (size_t k = 0, used = 0; k < dim; k++) used += (size_t) snprintf (out + used, size - used, "%s%.4g", k ? ", " : "", p->cloud.x[i * dim + k]);
+    for (size_t k = 0, used = 0; k < dim; k++)
+        used += (size_t) snprintf (out + used, size - used, "%s%.4g", k ? ", " : "", p->cloud.x[i * dim + k]);
 }
 
-/* Parts of several points that no bond joins, once the cracks are cut, and points without a bond (those on a crack are told elsewhere); bonds
- * between points tell. */
+/* Parts of several points that no bond joins, once the cracks are cut, and points without a bond (those on a
+ * crack are told elsewhere); bonds between points tell. */
 pg_status pg_remark_parts (pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -73,7 +83,8 @@ pg_status pg_remark_parts (pg_problem *p)
     for (size_t i = 0; i < n; i++)
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e];
-            if (j < i && root (parent, (int) i) != root (parent, (int) j) && !is_cut (p, i, j)) parent[root (parent, (int) i)] = root (parent, (int) j);
+            if (j < i && root (parent, (int) i) != root (parent, (int) j) && !is_cut (p, i, j))
+                parent[root (parent, (int) i)] = root (parent, (int) j);
         }
     for (size_t i = 0; i < n; i++) size[root (parent, (int) i)]++;
     for (size_t i = 0; i < n; i++) if (size[i] > size[largest]) largest = (int) i;
@@ -86,21 +97,24 @@ pg_status pg_remark_parts (pg_problem *p)
     }
     if (parts) {
         write_place (p, at, place, sizeof place);
-        pg_problem_note (p, PG_WARNING "the cracks cut the body into %zu parts: %zu of its %zu points hang on the largest part by no bond, such as that at (%s) m", parts + 1,
-                         beside, n, place);
+        pg_problem_note (p,
+                         PG_WARNING "the cracks cut the body into %zu parts: %zu of its %zu points hang on "
+                                    "the largest part by no bond, such as that at (%s) m",
+                         parts + 1, beside, n, place);
     }
     if (alone) {
         write_place (p, lonely, place, sizeof place);
-        pg_problem_note (p, PG_WARNING "the cracks leave %zu point%s without a bond, such as that at (%s) m", alone, alone == 1 ? "" : "s", place);
+        pg_problem_note (p, PG_WARNING "the cracks leave %zu point%s without a bond, such as that at (%s) m",
+                         alone, alone == 1 ? "" : "s", place);
     }
 done:
     pg_free (parent), pg_free (size);
     return status;
 }
 
-/* ---- contrast ------------------------------------------------------------------------------------------------------------------------- */
-/* From here on a point of evaluation of the stiffer material holds the softer one's points that it sees. Below, what it does to them is less than
- * what a spacing more or less does. */
+/* ---- contrast ------------------------------------------------------------------------------------------ */
+/* From here on a point of evaluation of the stiffer material holds the softer one's points that it sees.
+ * Below, what it does to them is less than what a spacing more or less does. */
 static const double stark = 1e3;
 
 pg_status pg_remark_contrast (pg_problem *p)
@@ -129,8 +143,12 @@ pg_status pg_remark_contrast (pg_problem *p)
             all += p->cloud.volume[i], held += seen[i] ? p->cloud.volume[i] : 0;
         }
         if (held > 0.05 * all)
-            pg_problem_note (p, PG_WARNING "material %.40s is %.2g times as stiff as %.40s, and sees %.2g %% of it within the horizon, which can hardly strain: "
-                             "too stiff by up to as much; use a smaller spacing", p->material[by].name, most / p->material[soft].modulus, p->material[soft].name, 100 * held / all);
+            pg_problem_note (p,
+                             PG_WARNING "material %.40s is %.2g times as stiff as %.40s, and sees %.2g %% of "
+                                        "it within the horizon, which can hardly strain: "
+                                        "too stiff by up to as much; use a smaller spacing",
+                             p->material[by].name, most / p->material[soft].modulus, p->material[soft].name,
+                             100 * held / all);
     }
 done:
     pg_free (seen);

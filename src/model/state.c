@@ -30,7 +30,8 @@ done:
 
 pg_status pg_state_copy (pg_state *to, const pg_state *from)
 {
-    if (to->ndof != from->ndof || to->nbond != from->nbond) return pg_error (PG_E_USAGE, PG_HERE, "the states belong to different problems");
+    if (to->ndof != from->ndof || to->nbond != from->nbond)
+        return pg_error (PG_E_USAGE, PG_HERE, "the states belong to different problems");
     memcpy (to, from, from->bytes);
     place (to);
     return PG_OK;

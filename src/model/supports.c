@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Supports beside each other: which points and facets each of them holds, whether two of them contradict each other there, and whether those by
- * elimination are too many. */
+ * Supports beside each other: which points and facets each of them holds, whether two of them contradict each
+ * other there, and whether those by elimination are too many. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { LOOKS = 5 };                                    /* times of the run at which values are compared                  */
+enum { LOOKS = 5 };                                    /* times of the run at which values are compared */
 typedef struct { const int *item; size_t n; } held;
 
 /* In the shared order of both lists. */
@@ -29,8 +29,9 @@ static size_t common (const held *a, const held *b)
 
 static int by_facets (const pg_load *load) { return load->essential == PG_ESSENTIAL_NITSCHE; }
 
-/* What two supports share: facets, or points where one of them holds points. The corner that a face shares with the points of another is no
- * contradiction for the weak form (Nitsche's) of the face, unless one of them lies all in the other. */
+/* What two supports share: facets, or points where one of them holds points. The corner that a face shares
+ * with the points of another is no contradiction for the weak form (Nitsche's) of the face, unless one of
+ * them lies all in the other. */
 static int shared (const pg_load *a, const pg_load *b, held *first, held *second)
 {
     *first = (held) { a->set->facet, a->set->nfacet }, *second = (held) { b->set->facet, b->set->nfacet };
@@ -51,7 +52,8 @@ static double time_of (const pg_load *a, const pg_load *b, double duration, size
 
 typedef struct { double here, there, t, x[3]; size_t differ; } conflict;
 
-static conflict compare (const pg_problem *p, const pg_load *a, const pg_load *b, int k, int kind, held first, held second, double duration)
+static conflict compare (const pg_problem *p, const pg_load *a, const pg_load *b, int k, int kind, held first,
+                         held second, double duration)
 {
     const double *places = kind == PG_FACETS ? p->cells.facet_centre : p->cloud.x;
     size_t dim = (size_t) p->dim;
@@ -59,7 +61,8 @@ static conflict compare (const pg_problem *p, const pg_load *a, const pg_load *b
     for (size_t i = 0, q = 0; next_common (&first, &second, &i, &q); i++, q++) {
         const double *x = places + (size_t) first.item[i] * dim;
         for (size_t look = 0; look < LOOKS + a->ntable + b->ntable; look++) {
-            double t = time_of (a, b, duration, look), u = pg_load_value (a, k, p->dim, x, t), v = pg_load_value (b, k, p->dim, x, t);
+            double t = time_of (a, b, duration, look), u = pg_load_value (a, k, p->dim, x, t),
+                   v = pg_load_value (b, k, p->dim, x, t);
             if (fabs (u - v) <= 1e-9 * fmax (fabs (u), fabs (v))) continue;
             if (!c.differ++) {
                 c.here = v, c.there = u, c.t = t;
@@ -71,30 +74,46 @@ static conflict compare (const pg_problem *p, const pg_load *a, const pg_load *b
     return c;
 }
 
-static const char *key_of (const pg_load *load) { return load->kind == PG_VELOCITY ? "velocity" : load->kind == PG_ROTATION ? "rotation" : "displacement"; }
+static const char *key_of (const pg_load *load)
+{
+    return load->kind == PG_VELOCITY ? "velocity" : load->kind == PG_ROTATION ? "rotation" : "displacement";
+}
 
-/* A corner has to go with one of its sides: that is told. More than half of a support that another contradicts is a mistake. */
-static void tell (pg_problem *p, const pg_scene *scene, size_t i, size_t l, int k, int kind, size_t smaller, const conflict *c)
+/* A corner has to go with one of its sides: that is told. More than half of a support that another
+ * contradicts is a mistake. */
+static void tell (pg_problem *p, const pg_scene *scene, size_t i, size_t l, int k, int kind, size_t smaller,
+                  const conflict *c)
 {
     const pg_load *a = &p->load[i], *b = &p->load[l];
     char path[96], other[96], line[32] = "", at[80] = "";
-    const char *unit = pg_load_turns (a) ? "rad" : "m", *what = kind == PG_FACETS ? "facet" : "point", *many = c->differ > 1 ? "s" : "", *verb = c->differ > 1 ? "belong" : "belongs";
+    const char *unit = pg_load_turns (a) ? "rad" : "m", *what = kind == PG_FACETS ? "facet" : "point",
+               *many = c->differ > 1 ? "s" : "", *verb = c->differ > 1 ? "belong" : "belongs";
     int number, used = 0;
     snprintf (other, sizeof other, "boundary[%zu].%s.%c", i, key_of (a), pg_load_axis (a, p->dim, k));
     snprintf (path, sizeof path, "boundary[%zu].%s.%c", l, key_of (b), pg_load_axis (b, p->dim, k));
     if ((number = pg_scene_line (scene, "%s", other))) snprintf (line, sizeof line, " (line %d)", number);
-    for (int d = 0; d < p->dim; d++) used += snprintf (at + used, sizeof at - (size_t) used, "%s%.6g", d ? ", " : "", c->x[d]);
+    for (int d = 0; d < p->dim; d++)
+        used += snprintf (at + used, sizeof at - (size_t) used, "%s%.6g", d ? ", " : "", c->x[d]);
     if (2 * c->differ > smaller)
-        pg_scene_fault (scene, path, "contradicts %s%s: %zu %s%s of %s %s to %s too, and the %s at (%s) m is moved by %.6g %s there, by %.6g %s here. Equal values are fine; else leave "
-                        "one of them out, or take what they share out of one of the sets (sets: {NAME: {where: ...}})", other, line, c->differ, what, many, b->set->name, verb, a->set->name,
-                        what, at, c->there, unit, c->here, unit);
-    else pg_problem_note (p, PG_WARNING "%zu %s%s of %.32s, such as (%s) m, %s to %.32s too, which moves them by %.6g %s, not %.6g: %s comes first and holds them", c->differ, what, many,
-                          b->set->name, at, verb, a->set->name, c->there, unit, c->here, other);
+        pg_scene_fault (
+            scene, path,
+            "contradicts %s%s: %zu %s%s of %s %s to %s too, and the %s at (%s) m is moved by %.6g %s there, "
+            "by %.6g %s here. Equal values are fine; else leave "
+            "one of them out, or take what they share out of one of the sets (sets: {NAME: {where: ...}})",
+            other, line, c->differ, what, many, b->set->name, verb, a->set->name, what, at, c->there, unit,
+            c->here, unit);
+    else
+        pg_problem_note (p,
+                         PG_WARNING "%zu %s%s of %.32s, such as (%s) m, %s to %.32s too, which moves them by "
+                                    "%.6g %s, not %.6g: %s comes first and holds them",
+                         c->differ, what, many, b->set->name, at, verb, a->set->name, c->there, unit, c->here,
+                         other);
 }
 
 static int comparable (const pg_load *a, const pg_load *b, int k)
 {
-    return pg_load_prescribes (a) && pg_load_prescribes (b) && pg_load_turns (a) == pg_load_turns (b) && a->set && b->set && a->value[k] && b->value[k];
+    return pg_load_prescribes (a) && pg_load_prescribes (b) && pg_load_turns (a) == pg_load_turns (b)
+           && a->set && b->set && a->value[k] && b->value[k];
 }
 
 void pg_supports_check (pg_problem *p, const pg_scene *scene, double duration)
@@ -113,10 +132,12 @@ void pg_supports_check (pg_problem *p, const pg_scene *scene, double duration)
         }
 }
 
-/* Elimination makes full matrices of the points prescribed in one direction, unless shape functions are 1 at their own point (nosb). */
+/* Elimination makes full matrices of the points prescribed in one direction, unless shape functions are 1 at
+ * their own point (nosb). */
 static int eliminates (const pg_problem *p, const pg_load *load)
 {
-    return !p->direct && load->set && pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_TRANSFORMATION && strcmp (p->approx.type->name, "nosb") != 0;
+    return !p->direct && load->set && pg_load_prescribes (load)
+           && load->essential == PG_ESSENTIAL_TRANSFORMATION && strcmp (p->approx.type->name, "nosb") != 0;
 }
 
 void pg_supports_check_eliminated (const pg_problem *p, const pg_scene *scene)
@@ -131,8 +152,11 @@ void pg_supports_check_eliminated (const pg_problem *p, const pg_scene *scene)
         if (n <= PG_MOST_ELIMINATED) continue;
         char path[64];
         snprintf (path, sizeof path, "boundary[%zu].set", largest);
-        pg_scene_fault (scene, path, "essential: transformation would eliminate %zu points along %c, at most %d: its matrices are full. Take essential: penalty (the same to "
-                        "1 / penalty_factor, and cheaper), or nitsche for faces", n, "xyz"[k], PG_MOST_ELIMINATED);
+        pg_scene_fault (scene, path,
+                        "essential: transformation would eliminate %zu points along %c, at most %d: its "
+                        "matrices are full. Take essential: penalty (the same to "
+                        "1 / penalty_factor, and cheaper), or nitsche for faces",
+                        n, "xyz"[k], PG_MOST_ELIMINATED);
         return;
     }
 }

@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Sizes of a body on its lattice without building it: cells, points and open faces exactly; bonds from stencils (the points that a node
- * or a Gauss point would see), exactly for small bodies, else on an even sample; likewise the node pairs that share a point. */
+ * Sizes of a body on its lattice without building it: cells, points and open faces exactly; bonds from
+ * stencils (the points that a node or a Gauss point would see), exactly for small bodies, else on an even
+ * sample; likewise the node pairs that share a point. */
 #include "forecast.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double most_visits = 1e7;                 /* a few hundredths of a second                                   */
+static const double most_visits = 1e7;                 /* a few hundredths of a second */
 
-typedef struct { size_t n; int (*step)[3]; } stencil;  /* sites seen, relative to the node or the cell                   */
+typedef struct { size_t n; int (*step)[3]; } stencil;  /* sites seen, relative to the node or the cell */
 
 typedef struct {
     const pg_counting *how;
     const pg_lattice *l;
-    int     size[3];                                   /* sites per axis                                                 */
+    int     size[3];                                   /* sites per axis */
     size_t  nsite, ncell;
-    unsigned char *site;                               /* 1: a point                                                     */
+    unsigned char *site;                               /* 1: a point */
     stencil node, *gauss;  size_t ngauss;
-    int     span[3], wide[3];                          /* pairs: largest step, 2 span + 1                                */
-    long   *mark, epoch;                               /* box of marks                                                   */
+    int     span[3], wide[3];                          /* pairs: largest step, 2 span + 1 */
+    long   *mark, epoch;                               /* box of marks */
 } counter;
 
 static void counter_clear (counter *c)
@@ -46,7 +47,8 @@ static int is_point (const counter *c, const int *at, const int *step)
     return c->site[site_at (c, x, y, z)];
 }
 
-/* An open face whose middle is not on the surface: as many cells as such faces are crossed by a plane, whatever its direction. */
+/* An open face whose middle is not on the surface: as many cells as such faces are crossed by a plane,
+ * whatever its direction. */
 static int off_surface (const counter *c, int x, int y, int z, int f)
 {
     const pg_lattice *l = c->l;
@@ -61,7 +63,9 @@ static void count_faces (const counter *c, pg_tally *t, int x, int y, int z)
 {
     for (int f = 0; f < 2 * c->l->dim; f++) {
         int step = f % 2 ? 1 : -1;
-        if (kept (c->l, x + (f / 2 == 0 ? step : 0), y + (f / 2 == 1 ? step : 0), z + (f / 2 == 2 ? step : 0))) continue;
+        if (kept (c->l, x + (f / 2 == 0 ? step : 0), y + (f / 2 == 1 ? step : 0),
+                  z + (f / 2 == 2 ? step : 0)))
+            continue;
         t->open[f]++;
         t->crossed += c->how->body && off_surface (c, x, y, z, f);
     }
@@ -91,7 +95,7 @@ done:
     return status;
 }
 
-/* ---- stencils --------------------------------------------------------------------------------------------------------- */
+/* ---- stencils ------------------------------------------------------------------------------------------ */
 /* Sites within the horizon of `at` (lattice steps from site 0). */
 static pg_status make_stencil (stencil *out, const counter *c, const double *at)
 {
@@ -142,7 +146,8 @@ static pg_status make_stencils (counter *c)
     pg_gauss_rule (order, x, w);
     for (size_t g = 0; g < c->ngauss; g++) {
         size_t rest = g;
-        for (int k = 0; k < c->l->dim; k++, rest /= (size_t) order) at[k] = (1 + x[rest % (size_t) order]) / 2 - (c->how->centred ? 0.5 : 0);
+        for (int k = 0; k < c->l->dim; k++, rest /= (size_t) order)
+            at[k] = (1 + x[rest % (size_t) order]) / 2 - (c->how->centred ? 0.5 : 0);
         PG_TRY (make_stencil (&c->gauss[g], c, at));
     }
 done:
@@ -156,7 +161,7 @@ static size_t seen (const counter *c, const int *at, const stencil *s)
     return n;
 }
 
-/* ---- pairs ------------------------------------------------------------------------------------------------------------ */
+/* ---- pairs --------------------------------------------------------------------------------------------- */
 static size_t mark_seen (counter *c, const int *node, const int *from, const stencil *s)
 {
     size_t n = 0;
@@ -164,7 +169,8 @@ static size_t mark_seen (counter *c, const int *node, const int *from, const ste
         if (!is_point (c, from, s->step[k])) continue;
         int d[3];
         for (int i = 0; i < 3; i++) d[i] = from[i] + s->step[k][i] - node[i] + c->span[i];
-        long *m = &c->mark[((size_t) d[2] * (size_t) c->wide[1] + (size_t) d[1]) * (size_t) c->wide[0] + (size_t) d[0]];
+        long *m = &c->mark[((size_t) d[2] * (size_t) c->wide[1] + (size_t) d[1]) * (size_t) c->wide[0]
+                           + (size_t) d[0]];
         n += *m != c->epoch;
         *m = c->epoch;
     }
@@ -196,7 +202,8 @@ static pg_status make_marks (counter *c)
     for (size_t g = 0; g <= c->ngauss; g++) {
         const stencil *s = g < c->ngauss ? &c->gauss[g] : &c->node;
         for (size_t k = 0; k < s->n; k++)
-            for (int i = 0; i < 3; i++) if (abs (s->step[k][i]) > c->span[i]) c->span[i] = abs (s->step[k][i]);
+            for (int i = 0; i < 3; i++)
+                if (abs (s->step[k][i]) > c->span[i]) c->span[i] = abs (s->step[k][i]);
     }
     for (int i = 0; i < 3; i++) c->span[i] *= 2, c->wide[i] = 2 * c->span[i] + 1;
     PG_ALLOC (c->mark, (size_t) c->wide[0] * (size_t) c->wide[1] * (size_t) c->wide[2]);
@@ -204,9 +211,12 @@ done:
     return status;
 }
 
-/* ---- the sample --------------------------------------------------------------------------------------------------------- */
+/* ---- the sample ---------------------------------------------------------------------------------------- */
 /* One of every `stride` items, at a place that changes from stride to stride. */
-static int chosen (size_t i, size_t stride) { return i % stride == (size_t) (i / stride * 2654435761u) % stride; }
+static int chosen (size_t i, size_t stride)
+{
+    return i % stride == (size_t) (i / stride * 2654435761u) % stride;
+}
 
 static size_t stride_for (double items, double visits_each)
 {
@@ -215,9 +225,13 @@ static size_t stride_for (double items, double visits_each)
 
 static void count_nodes (counter *c, pg_tally *t)
 {
-    double work = c->how->direct ? (double) c->node.n : c->how->nodal ? (double) c->node.n * (double) c->node.n : 0, bonds = 0, pairs = 0;
+    double work = c->how->direct  ? (double) c->node.n
+                  : c->how->nodal ? (double) c->node.n * (double) c->node.n
+                                  : 0,
+           bonds = 0, pairs = 0;
     for (size_t g = 0; g < c->ngauss; g++) work += (double) c->gauss[g].n * (double) c->gauss[g].n;
-    size_t stride = stride_for (t->points, (double) c->node.n), pair_stride = stride_for (t->points, work), i = 0, nbond = 0, npair = 0;
+    size_t stride = stride_for (t->points, (double) c->node.n), pair_stride = stride_for (t->points, work),
+           i = 0, nbond = 0, npair = 0;
     int at[3];
     for (at[2] = 0; at[2] < c->size[2]; at[2]++)
         for (at[1] = 0; at[1] < c->size[1]; at[1]++)
@@ -259,7 +273,12 @@ static void count_gauss (counter *c, pg_tally *t)
 static int wide_open (const counter *c, pg_tally *t)
 {
     const pg_approx *a = c->how->approx;
-    double box = 1, ball = a->shape == PG_TENSOR ? 1 : c->l->dim == 3 ? 0.5236 : c->l->dim == 2 ? 0.7854 : 1, points = 1;
+    double box = 1,
+           ball = a->shape == PG_TENSOR ? 1
+                  : c->l->dim == 3      ? 0.5236
+                  : c->l->dim == 2      ? 0.7854
+                                        : 1,
+           points = 1;
     for (int k = 0; k < c->l->dim; k++) box *= 2 * a->horizon / c->l->step[k] + 3, points *= c->how->order;
     if (box < 2e5) return 0;
     double each = fmin (t->points, ball * box);

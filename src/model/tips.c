@@ -1,24 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Tips of pre-cracks. Shape functions of points beside a tip that lost some of their neighbours follow the crack further than the bonds were cut: a crack
- * that cuts every bond it meets acts as one that is longer by a share of the spacing. So it cuts only what crosses it some way behind its tips (in
- * space: its fronts). An end is no tip where the body ends, or where the crack meets another. */
+ * Tips of pre-cracks. Shape functions of points beside a tip that lost some of their neighbours follow the
+ * crack further than the bonds were cut: a crack that cuts every bond it meets acts as one that is longer by
+ * a share of the spacing. So it cuts only what crosses it some way behind its tips (in space: its fronts). An
+ * end is no tip where the body ends, or where the crack meets another. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Behind the tip, in spacings, by horizon (spacings): measured on the single edge notch with Gauss points, mean of 16 places of the lattice against the
- * tip, in the plane (doc/accuracy.md, "Cracks that are there before"). Approximate derivatives (pddo, nosb) follow a crack further. */
+/* Behind the tip, in spacings, by horizon (spacings): measured on the single edge notch with Gauss points,
+ * mean of 16 places of the lattice against the tip, in the plane (doc/accuracy.md, "Cracks that are there
+ * before"). Approximate derivatives (pddo, nosb) follow a crack further. */
 typedef struct { double horizon, offset; } row;
-static const row exact[2][5] = { { { 1.6, 0.07 }, { 2, 0.26 }, { 2.5, 0.45 }, { 3, 0.69 }, { 3.5, 1 } }, { { 2, 0.04 }, { 2.5, 0.09 }, { 3, 0.19 }, { 3.5, 0.39 }, { 4, 0.61 } } };
-static const row approximate[2][5] = { { { 1.6, 0.1 }, { 2, 0.32 }, { 2.5, 0.53 }, { 3, 0.84 }, { 3.5, 1.15 } }, { { 2, 0.3 }, { 2.6, 0.48 }, { 3, 0.66 }, { 3.5, 0.94 }, { 4, 1.2 } } };
+static const row exact[2][5] = { { { 1.6, 0.07 }, { 2, 0.26 }, { 2.5, 0.45 }, { 3, 0.69 }, { 3.5, 1 } },
+                                 { { 2, 0.04 }, { 2.5, 0.09 }, { 3, 0.19 }, { 3.5, 0.39 }, { 4, 0.61 } } };
+static const row approximate[2][5] = {
+    { { 1.6, 0.1 }, { 2, 0.32 }, { 2.5, 0.53 }, { 3, 0.84 }, { 3.5, 1.15 } },
+    { { 2, 0.3 }, { 2.6, 0.48 }, { 3, 0.66 }, { 3.5, 0.94 }, { 4, 1.2 } }
+};
 enum { ROWS = 5 };
-/* What is left of it, in spacings, by where the tip lies among the points: the worst of eight places there. At the points alone it is more, for what
- * resists few of their motions resists the opening little. */
+/* What is left of it, in spacings, by where the tip lies among the points: the worst of eight places there.
+ * At the points alone it is more, for what resists few of their motions resists the opening little. */
 static const struct { const char *approximation; double linear, quadratic, nodal; } known[] = {
     { "rkpm", 0.2, 0.29, 0.75 }, { "pddo", 0.26, 0.29, 1.1 }, { "nosb", 0.26, 0.29, 0.45 } };
-#define WORTH_A_WARNING 0.05                           /* of the opening                                                 */
-#define NODAL 0.25                                     /* evaluation at the points alone: +- 0.3 by where they lie        */
+#define WORTH_A_WARNING 0.05                           /* of the opening */
+#define NODAL 0.25  /* evaluation at the points alone: +- 0.3 by where they lie */
 
 static double interpolated (const row *r, double horizon)
 {
@@ -32,28 +38,32 @@ static double interpolated (const row *r, double horizon)
 static double offset_of (const pg_problem *p, const pg_scene *scene)
 {
     double horizon = p->approx.horizon / p->cloud.h;
-    if (pg_scene_given (scene, "method.tip_offset")) return pg_scene_length (scene, p->cloud.h, "method.tip_offset");
+    if (pg_scene_given (scene, "method.tip_offset"))
+        return pg_scene_length (scene, p->cloud.h, "method.tip_offset");
     if (p->direct) return 0;
     if (p->integration->at_nodes) return NODAL * p->cloud.h;
-    return p->cloud.h * interpolated ((strcmp (p->approx.type->name, "rkpm") == 0 ? exact : approximate)[p->approx.order == 2], horizon);
+    return p->cloud.h
+           * interpolated ((strcmp (p->approx.type->name, "rkpm") == 0 ? exact
+                                                                       : approximate)[p->approx.order == 2],
+                           horizon);
 }
 
-/* ---- where the body is ----------------------------------------------------------------------------------------------------- */
+/* ---- where the body is --------------------------------------------------------------------------------- */
 /* A crack as far as the body goes, for what a tip that is not quite known means. */
 typedef struct {
-    double size, front;                                /* 2D: length, m, and number of tips; 3D: area, m^2, and length of fronts, m */
-    double ligament;                                   /* of its tips, the least length of body ahead, m                 */
-    double spacing;                                    /* the largest at its tips, m                                     */
-    int open;                                          /* reaches the surface                                            */
-    size_t group;                                      /* the first crack that it hangs together with                    */
+    double size, front;  /* 2D: length, m, and number of tips; 3D: area, m^2, and length of fronts, m */
+    double ligament;                                   /* of its tips, the least length of body ahead, m */
+    double spacing;                                    /* the largest at its tips, m */
+    int open;                                          /* reaches the surface */
+    size_t group;                                      /* the first crack that it hangs together with */
 } extent;
 
 typedef struct {
     const pg_problem *p;
-    pg_mesh_finder *finder;                            /* of a body that is a mesh                                       */
+    pg_mesh_locator *locator;                            /* of a body that is a mesh */
     pg_nearest *near;
-    double offset;                                     /* where the local spacing is the nominal one, m                  */
-    extent *extent;                                    /* of each crack                                                  */
+    double offset;                                     /* where the local spacing is the nominal one, m */
+    extent *extent;                                    /* of each crack */
 } surroundings;
 
 static double spacing_at (const surroundings *s, const double *x)
@@ -68,9 +78,10 @@ static int has_body (const surroundings *s, const double *x, double spacing)
     const pg_problem *p = s->p;
     double xi[3], d = 0;
     if (p->body.n) return pg_body_inside (&p->body, x, 0);
-    if (s->finder) return pg_finder_find (s->finder, x, xi, NULL) >= 0;
+    if (s->locator) return pg_mesh_locator_find (s->locator, x, xi, NULL) >= 0;
     long i = pg_nearest_find (s->near, x, NULL, NULL);
-    for (int k = 0; i >= 0 && k < p->dim; k++) d = hypot (d, p->cloud.x[(size_t) i * (size_t) p->dim + (size_t) k] - x[k]);
+    for (int k = 0; i >= 0 && k < p->dim; k++)
+        d = hypot (d, p->cloud.x[(size_t) i * (size_t) p->dim + (size_t) k] - x[k]);
     return i >= 0 && d <= (p->dim == 3 ? 0.87 : 0.71) * spacing;
 }
 
@@ -78,7 +89,8 @@ static int meets_other (const surroundings *s, size_t crack, const double *x)
 {
     const pg_problem *p = s->p;
     double reach = fmax (s->offset, 1e-6 * p->cloud.h) * spacing_at (s, x) / p->cloud.h;
-    for (size_t c = 0; c < p->cracks.n; c++) if (c != crack && pg_crack_touches (&p->cracks.crack[c], p->dim, x, reach)) return 1;
+    for (size_t c = 0; c < p->cracks.n; c++)
+        if (c != crack && pg_crack_touches (&p->cracks.crack[c], p->dim, x, reach)) return 1;
     return 0;
 }
 
@@ -88,7 +100,7 @@ static int is_tip (const surroundings *s, size_t crack, const double *x, const d
     const pg_problem *p = s->p;
     double h = spacing_at (s, x), place[3] = { 0, 0, 0 };
     if (meets_other (s, crack, x)) return 0;
-    for (int k = 0; k < p->dim; k++) place[k] = x[k] + (p->body.n || s->finder ? 0.5 : 1) * h * ahead[k];
+    for (int k = 0; k < p->dim; k++) place[k] = x[k] + (p->body.n || s->locator ? 0.5 : 1) * h * ahead[k];
     if (has_body (s, place, h)) return 1;
     s->extent[crack].open = 1;
     return 0;
@@ -100,13 +112,15 @@ static double length_inside (const surroundings *s, const double *a, const doubl
     enum { PLACES = 100 };
     size_t in = 0;
     for (size_t q = 0; q < PLACES; q++) {
-        double t = (0.5 + (double) q) / PLACES, x[3] = { a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), 0 };
+        double t = (0.5 + (double) q) / PLACES,
+               x[3] = { a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), 0 };
         in += (size_t) has_body (s, x, spacing_at (s, x));
     }
     return hypot (b[0] - a[0], b[1] - a[1]) * (double) in / PLACES;
 }
 
-/* Area of a polygon inside the body, by triangles that one vertex has with the edges; those of a polygon that is not convex cancel. */
+/* Area of a polygon inside the body, by triangles that one vertex has with the edges; those of a polygon that
+ * is not convex cancel. */
 static double area_inside (const surroundings *s, const pg_crack *c)
 {
     enum { PLACES = 12 };
@@ -118,7 +132,7 @@ static double area_inside (const surroundings *s, const pg_crack *c)
             int m = (k + 1) % 3, n = (k + 2) % 3;
             whole += 0.5 * c->normal[k] * ((u[m] - o[m]) * (v[n] - o[n]) - (u[n] - o[n]) * (v[m] - o[m]));
         }
-        for (int a = 0; a < PLACES * PLACES; a++) {    /* strips across, weighed by their length                         */
+        for (int a = 0; a < PLACES * PLACES; a++) {    /* strips across, weighed by their length */
             double r = (0.5 + a / PLACES) / PLACES, t = (0.5 + a % PLACES) / PLACES, x[3];
             for (int k = 0; k < 3; k++) x[k] = o[k] + r * ((1 - t) * (u[k] - o[k]) + t * (v[k] - o[k]));
             all += r;
@@ -130,7 +144,8 @@ static double area_inside (const surroundings *s, const pg_crack *c)
 }
 
 /* A tip, or a stretch of front about x. */
-static void add_front (const surroundings *s, size_t crack, const double *x, const double *ahead, double length)
+static void add_front (const surroundings *s, size_t crack, const double *x, const double *ahead,
+                       double length)
 {
     enum { FAR = 200 };
     extent *e = &s->extent[crack];
@@ -143,9 +158,12 @@ static void add_front (const surroundings *s, size_t crack, const double *x, con
     e->front += length;
 }
 
-static double retreat_at (const surroundings *s, const double *x) { return s->offset * spacing_at (s, x) / s->p->cloud.h; }
+static double retreat_at (const surroundings *s, const double *x)
+{
+    return s->offset * spacing_at (s, x) / s->p->cloud.h;
+}
 
-/* ---- kinds ------------------------------------------------------------------------------------------------------------------- */
+/* ---- kinds --------------------------------------------------------------------------------------------- */
 static void retreat_segment (const surroundings *s, size_t k, pg_crack *c, double *out)
 {
     double t[2] = { c->vertex[2] - c->vertex[0], c->vertex[3] - c->vertex[1] }, length = hypot (t[0], t[1]);
@@ -210,12 +228,14 @@ static void retreat_disc (const surroundings *s, size_t k, const pg_crack *c, do
     s->extent[k].size = area_inside (s, c);
 }
 
-/* ---- how well a tip is known --------------------------------------------------------------------------------------------------- */
+/* ---- how well a tip is known --------------------------------------------------------------------------- */
 static int joined (const pg_problem *p, const pg_crack *a, const pg_crack *b)
 {
     size_t dim = (size_t) p->dim;
-    for (size_t i = 0; i < a->nvertex; i++) if (pg_crack_touches (b, p->dim, a->vertex + i * dim, 1e-6 * p->cloud.h)) return 1;
-    for (size_t i = 0; i < b->nvertex; i++) if (pg_crack_touches (a, p->dim, b->vertex + i * dim, 1e-6 * p->cloud.h)) return 1;
+    for (size_t i = 0; i < a->nvertex; i++)
+        if (pg_crack_touches (b, p->dim, a->vertex + i * dim, 1e-6 * p->cloud.h)) return 1;
+    for (size_t i = 0; i < b->nvertex; i++)
+        if (pg_crack_touches (a, p->dim, b->vertex + i * dim, 1e-6 * p->cloud.h)) return 1;
     return 0;
 }
 
@@ -227,29 +247,42 @@ static void join (const pg_problem *p, extent *e)
         for (size_t j = 0; j < k; j++) {
             size_t from = e[k].group, to = e[j].group;
             if (from == to || !joined (p, &p->cracks.crack[k], &p->cracks.crack[j])) continue;
-            for (size_t i = 0; i <= k; i++) if (e[i].group == from || e[i].group == to) e[i].group = from < to ? from : to;
+            for (size_t i = 0; i <= k; i++)
+                if (e[i].group == from || e[i].group == to) e[i].group = from < to ? from : to;
         }
     for (size_t k = 1; k < p->cracks.n; k++) {
         extent *first = &e[e[k].group];
         if (first == &e[k]) continue;
-        if (e[k].front > 0) first->ligament = first->front > 0 ? fmin (first->ligament, e[k].ligament) : e[k].ligament;
-        first->spacing = fmax (first->spacing, e[k].spacing), first->size += e[k].size, first->front += e[k].front, first->open |= e[k].open;
+        if (e[k].front > 0)
+            first->ligament = first->front > 0 ? fmin (first->ligament, e[k].ligament) : e[k].ligament;
+        first->spacing = fmax (first->spacing, e[k].spacing), first->size += e[k].size,
+        first->front += e[k].front, first->open |= e[k].open;
     }
 }
 
 /* m: length to a tip (half of a crack inside the body), depth to a front, radius of a disc. */
-static double length_of (const extent *e, int dim) { return (dim == 3 && !e->open ? 2 : 1) * e->size / e->front; }
+static double length_of (const extent *e, int dim)
+{
+    return (dim == 3 && !e->open ? 2 : 1) * e->size / e->front;
+}
 
-/* What moving all tips ahead by 1 m adds to the opening, of it: of a short crack 1 / length, of a deep notch in tension 2 / ligament, between them the sum
- * to a sixth; a crack inside the body feels the ligament less. */
-static double sensitivity (const extent *e, int dim) { return 1 / length_of (e, dim) + (e->open ? 2 : 0.4) / e->ligament; }
+/* What moving all tips ahead by 1 m adds to the opening, of it: of a short crack 1 / length, of a deep notch
+ * in tension 2 / ligament, between them the sum to a sixth; a crack inside the body feels the ligament
+ * less. */
+static double sensitivity (const extent *e, int dim)
+{
+    return 1 / length_of (e, dim) + (e->open ? 2 : 0.4) / e->ligament;
+}
 
 /* How well tips are known, in spacings. */
 static double known_to (const pg_problem *p)
 {
     size_t k = 0;
-    while (k + 1 < sizeof known / sizeof *known && strcmp (p->approx.type->name, known[k].approximation) != 0) k++;
-    return p->integration->at_nodes ? known[k].nodal : p->approx.order == 2 ? known[k].quadratic : known[k].linear;
+    while (k + 1 < sizeof known / sizeof *known && strcmp (p->approx.type->name, known[k].approximation) != 0)
+        k++;
+    return p->integration->at_nodes ? known[k].nodal
+           : p->approx.order == 2   ? known[k].quadratic
+                                    : known[k].linear;
 }
 
 /* Of the crack whose opening is known worst. */
@@ -266,10 +299,15 @@ static void tell (pg_problem *p, const pg_scene *scene, extent *e)
         if (share > worst) worst = share, at = k;
     }
     if (!(worst > 0)) return;
-    if (worst > WORTH_A_WARNING) snprintf (remedy, sizeof remedy, "; points %.2g m apart there make that 5 %%", e[at].spacing * WORTH_A_WARNING / worst);
+    if (worst > WORTH_A_WARNING)
+        snprintf (remedy, sizeof remedy, "; points %.2g m apart there make that 5 %%",
+                  e[at].spacing * WORTH_A_WARNING / worst);
     const char *end = p->dim == 3 ? "front" : "tip";
-    pg_problem_note (p, "%sthe opening of crack %zu (%.3g spacings to its %s) is known to about +-%.2g %%: where its %s lies among the points is worth +-%g spacing%s",
-                     worst > WORTH_A_WARNING ? PG_WARNING : "", at + 1, length_of (&e[at], p->dim) / e[at].spacing, end, 100 * worst, end, spacings, remedy);
+    pg_problem_note (p,
+                     "%sthe opening of crack %zu (%.3g spacings to its %s) is known to about +-%.2g %%: "
+                     "where its %s lies among the points is worth +-%g spacing%s",
+                     worst > WORTH_A_WARNING ? PG_WARNING : "", at + 1,
+                     length_of (&e[at], p->dim) / e[at].spacing, end, 100 * worst, end, spacings, remedy);
 }
 
 pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
@@ -280,11 +318,12 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     if (p->cracks.n == 0) return PG_OK;
     s.offset = offset_of (p, scene);
     if (p->direct && !(s.offset > 0)) return PG_OK;
-    if (p->part.mesh.n) PG_TRY (pg_finder_create (&s.finder, &p->part.mesh));
+    if (p->part.mesh.n) PG_TRY (pg_mesh_locator_create (&s.locator, &p->part.mesh));
     PG_TRY (pg_nearest_create (&s.near, p->dim, p->cloud.n, p->cloud.x));
     PG_ALLOC (made, p->cracks.n);
     PG_ALLOC (s.extent, p->cracks.n);
-    for (size_t k = 0; k < p->cracks.n; k++) {         /* all before any: an end on another crack is none of its own     */
+    /* all before any: an end on another crack is none of its own */
+    for (size_t k = 0; k < p->cracks.n; k++) {
         pg_crack *c = &p->cracks.crack[k];
         PG_ALLOC (out, c->nvertex);
         if (c->kind == PG_CRACK_SEGMENT) retreat_segment (&s, k, c, out);
@@ -292,12 +331,13 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
         else retreat_polygon (&s, k, c, out);
         made[k] = out, out = NULL;
     }
-    if (!p->direct) tell (p, scene, s.extent);         /* before they retreat: cracks as drawn                           */
-    for (size_t k = 0; s.offset > 0 && k < p->cracks.n; k++) p->cracks.crack[k].retreat = made[k], made[k] = NULL;
+    if (!p->direct) tell (p, scene, s.extent);         /* before they retreat: cracks as drawn */
+    for (size_t k = 0; s.offset > 0 && k < p->cracks.n; k++)
+        p->cracks.crack[k].retreat = made[k], made[k] = NULL;
 done:
     for (size_t k = 0; made && k < p->cracks.n; k++) pg_free (made[k]);
     pg_free (made), pg_free (out), pg_free (s.extent);
     pg_nearest_free (&s.near);
-    pg_finder_free (&s.finder);
+    pg_mesh_locator_free (&s.locator);
     return status;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Axes: round ticks (1, 2, 5 x 10^k or powers of ten), texts without noise digits, and a factor or SI prefix taken to the label. */
+ * Axes: round ticks (1, 2, 5 x 10^k or powers of ten), texts without noise digits, and a factor or SI prefix
+ * taken to the label. */
 #include "picture.h"
 #include <math.h>
 #include <string.h>
@@ -45,7 +46,8 @@ static void number (char *text, size_t size, double value, int decimals)
     snprintf (text, size, "%s%.32s", value < 0 && !zero ? MINUS : "", plain);
 }
 
-/* SI prefix for 10^power in front of the unit at the end of the label, "stress (Pa)"; NULL when the unit takes none. */
+/* SI prefix for 10^power in front of the unit at the end of the label, "stress (Pa)"; NULL when the unit
+ * takes none. */
 static const char *prefix_of (const char *label, int power, size_t *unit)
 {
     static const char *const si[] = { "Pa", "m", "N", "J", "W", "s" };
@@ -74,9 +76,10 @@ void pg_picture_time (double t, char *out, size_t size)
 void pg_picture_quantity (double value, const char *unit, char *out, size_t size)
 {
     static const char *const prefix[] = { "n", "\xc2\xb5", "m", "", "k", "M", "G", "T" };
-    int power = *unit == 'm' && unit[1] >= '2' && unit[1] <= '9', k = 0;               /* a prefix would be squared       */
+    int power = *unit == 'm' && unit[1] >= '2' && unit[1] <= '9', k = 0;  /* a prefix would be squared */
     int lowest = power ? 0 : -3, highest = power ? 0 : *unit == 'm' ? 1 : 4;
-    if (value != 0 && isfinite (value)) k = (int) fmin (fmax (floor (log10 (fabs (value) * 1.00005) / 3), lowest), highest);
+    if (value != 0 && isfinite (value))
+        k = (int) fmin (fmax (floor (log10 (fabs (value) * 1.00005) / 3), lowest), highest);
     snprintf (out, size, "%.4g %s%s", value / pow (1000, k), prefix[k + 3], unit);
 }
 
@@ -97,7 +100,8 @@ static int scale_label (pg_axis *a, double low, double high, const char *label, 
     const char *open = strrchr (label, '('), *sign = power < 0 ? MINUS : "";
     int size = power < 0 ? -power : power;
     if (open && label[n - 1] == ')')
-        snprintf (a->label, room, "%.*s(%s10^{%s%d} %s", (int) (open - label), label, TIMES, sign, size, open + 1);
+        snprintf (a->label, room, "%.*s(%s10^{%s%d} %s", (int) (open - label), label, TIMES, sign, size,
+                  open + 1);
     else snprintf (a->label, room, "%s%s(%s10^{%s%d})", label, n ? " " : "", TIMES, sign, size);
     return power;
 }
@@ -115,7 +119,8 @@ static double round_step (double raw, int *decimals)
 /* Room a text takes along the axis. */
 static double extent (const pg_axis *a, cairo_t *cr, int k)
 {
-    return a->side == PG_BOTTOM ? pg_text (cr, a->text[k], PG_FONT, 0, 0, 0, 0, 0) + 1.2 * PG_FONT : 1.6 * PG_FONT;
+    return a->side == PG_BOTTOM ? pg_text (cr, a->text[k], PG_FONT, 0, 0, 0, 0, 0) + 1.2 * PG_FONT
+                                : 1.6 * PG_FONT;
 }
 
 static int texts_fit (const pg_axis *a, cairo_t *cr, double length)
@@ -143,7 +148,8 @@ static void linear_ticks (pg_axis *a, double low, double high, int target, doubl
     }
 }
 
-static void fit_linear (pg_axis *a, cairo_t *cr, double low, double high, double length, const pg_axis_wish *wish)
+static void fit_linear (pg_axis *a, cairo_t *cr, double low, double high, double length,
+                        const pg_axis_wish *wish)
 {
     pg_range_widen (&low, &high);
     double scale = pow (10, scale_label (a, low, high, wish->label, wish->plain));
@@ -154,7 +160,8 @@ static void fit_linear (pg_axis *a, cairo_t *cr, double low, double high, double
     while (!texts_fit (a, cr, length) && --target > 0);
 }
 
-/* m x 10^k with m = 1, 2, 5: the exponent of the value's place in that row, e.g. 1 -> 0, 2 -> 1, 5 -> 2, 10 -> 3. */
+/* m x 10^k with m = 1, 2, 5: the exponent of the value's place in that row, e.g. 1 -> 0, 2 -> 1, 5 -> 2, 10
+ * -> 3. */
 static double row_value (int place)
 {
     static const double m[] = { 1, 2, 5 };
@@ -173,9 +180,11 @@ static void short_log_ticks (pg_axis *a, double low, double high)
     for (k = first; k <= last && a->n < PG_TICKS; k++, a->n++) {
         int power = (int) floor (k / 3.0);
         a->tick[a->n] = row_value (k);
-        if (power >= -3 && power <= 3) number (a->text[a->n], sizeof a->text[0], a->tick[a->n], power < 0 ? -power : 0);
-        else snprintf (a->text[a->n], sizeof a->text[0], "%.0f" TIMES "10^{%s%d}", a->tick[a->n] / pow (10, power),
-                       power < 0 ? MINUS : "", power < 0 ? -power : power);
+        if (power >= -3 && power <= 3)
+            number (a->text[a->n], sizeof a->text[0], a->tick[a->n], power < 0 ? -power : 0);
+        else
+            snprintf (a->text[a->n], sizeof a->text[0], "%.0f" TIMES "10^{%s%d}",
+                      a->tick[a->n] / pow (10, power), power < 0 ? MINUS : "", power < 0 ? -power : power);
     }
 }
 
@@ -184,7 +193,8 @@ static void long_log_ticks (pg_axis *a, cairo_t *cr, double low, double high, do
 {
     double l = log10 (low), h = log10 (high), pad = 0.03 * (h - l);
     a->low = pow (10, l -= pad), a->high = pow (10, h += pad);
-    int first = (int) ceil (l - 1e-9), last = (int) floor (h + 1e-9), stride = 1 + (last - first) / (PG_TICKS - 1);
+    int first = (int) ceil (l - 1e-9), last = (int) floor (h + 1e-9),
+        stride = 1 + (last - first) / (PG_TICKS - 1);
     do {
         a->n = 0;
         for (int k = first; k <= last && a->n < PG_TICKS; k += stride, a->n++) {
@@ -194,7 +204,8 @@ static void long_log_ticks (pg_axis *a, cairo_t *cr, double low, double high, do
     } while (a->n > 2 && !texts_fit (a, cr, length) && ++stride);
 }
 
-static void fit_log (pg_axis *a, cairo_t *cr, double low, double high, double length, const pg_axis_wish *wish)
+static void fit_log (pg_axis *a, cairo_t *cr, double low, double high, double length,
+                     const pg_axis_wish *wish)
 {
     snprintf (a->label, sizeof a->label, "%s", wish->label);
     if (!(low > 0) || !(high >= low) || !isfinite (high)) low = 1, high = 10;
@@ -216,7 +227,8 @@ void pg_axis_fit (pg_axis *a, cairo_t *cr, double low, double high, double lengt
 
 double pg_axis_at (const pg_axis *a, double value)
 {
-    double t = a->log ? log10 (value / a->low) / log10 (a->high / a->low) : (value - a->low) / (a->high - a->low);
+    double t = a->log ? log10 (value / a->low) / log10 (a->high / a->low)
+                      : (value - a->low) / (a->high - a->low);
     return a->reverse ? 1 - t : t;
 }
 
@@ -231,7 +243,8 @@ static double widest (const pg_axis *a, cairo_t *cr)
 static double label_place (const pg_axis *a, cairo_t *cr)
 {
     double raised = a->log ? 0.15 * PG_FONT : 0;
-    return a->side == PG_BOTTOM ? PG_TICK + 2.75 * PG_FONT + raised : PG_TICK + 8 + widest (a, cr) + 1.05 * PG_FONT;
+    return a->side == PG_BOTTOM ? PG_TICK + 2.75 * PG_FONT + raised
+                                : PG_TICK + 8 + widest (a, cr) + 1.05 * PG_FONT;
 }
 
 double pg_axis_room (const pg_axis *a, cairo_t *cr)
@@ -240,7 +253,8 @@ double pg_axis_room (const pg_axis *a, cairo_t *cr)
 }
 
 /* Foot of a tick at `value` on the frame. */
-static void foot (const pg_axis *a, double value, double x, double y, double w, double h, double *px, double *py)
+static void foot (const pg_axis *a, double value, double x, double y, double w, double h, double *px,
+                  double *py)
 {
     double t = pg_axis_at (a, value);
     *px = a->side == PG_BOTTOM ? x + t * w : a->side == PG_LEFT ? x : x + w;
@@ -250,7 +264,8 @@ static void foot (const pg_axis *a, double value, double x, double y, double w, 
 
 void pg_axis_draw (const pg_axis *a, cairo_t *cr, double x, double y, double w, double h)
 {
-    double px, py, dx = a->side == PG_LEFT ? -1 : a->side == PG_RIGHT, dy = a->side == PG_BOTTOM, size = PG_FONT;
+    double px, py, dx = a->side == PG_LEFT ? -1 : a->side == PG_RIGHT, dy = a->side == PG_BOTTOM,
+                   size = PG_FONT;
     double from = label_place (a, cr);
     cairo_set_source_rgb (cr, 0, 0, 0);
     cairo_set_line_width (cr, 2);

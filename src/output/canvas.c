@@ -25,13 +25,15 @@ pg_status pg_canvas_open (pg_canvas *c, const char *path, double width, double h
 {
     pg_status status = PG_OK;
     *c = (pg_canvas) { .path = path, .svg = ends_with (path, ".svg") };
-    if (!c->svg && !ends_with (path, ".png")) PG_FAIL (PG_E_USAGE, "%s: a picture's file ends in .png or .svg", path);
+    if (!c->svg && !ends_with (path, ".png"))
+        PG_FAIL (PG_E_USAGE, "%s: a picture's file ends in .png or .svg", path);
     PG_TRY (pg_file_create (&c->file, path));
     c->surface = c->svg ? cairo_svg_surface_create_for_stream (write_bytes, c, width, height)
                         : cairo_image_surface_create (CAIRO_FORMAT_RGB24, (int) width, (int) height);
     c->cr = cairo_create (c->surface);
     if (cairo_status (c->cr) != CAIRO_STATUS_SUCCESS)
-        PG_FAIL (PG_E_MEMORY, "%s: %.0f x %.0f pixels: %s", path, width, height, cairo_status_to_string (cairo_status (c->cr)));
+        PG_FAIL (PG_E_MEMORY, "%s: %.0f x %.0f pixels: %s", path, width, height,
+                 cairo_status_to_string (cairo_status (c->cr)));
     cairo_set_source_rgb (c->cr, 1, 1, 1);
     cairo_paint (c->cr);
     cairo_set_source_rgb (c->cr, 0, 0, 0);
@@ -45,7 +47,8 @@ pg_status pg_canvas_close (pg_canvas *c, pg_status given)
     cairo_status_t fault = c->cr ? cairo_status (c->cr) : CAIRO_STATUS_SUCCESS;
     if (c->cr) cairo_destroy (c->cr);
     if (c->surface) {
-        if (given == PG_OK && fault == CAIRO_STATUS_SUCCESS && !c->svg) fault = cairo_surface_write_to_png_stream (c->surface, write_bytes, c);
+        if (given == PG_OK && fault == CAIRO_STATUS_SUCCESS && !c->svg)
+            fault = cairo_surface_write_to_png_stream (c->surface, write_bytes, c);
         cairo_surface_finish (c->surface);
         if (fault == CAIRO_STATUS_SUCCESS) fault = cairo_surface_status (c->surface);
         cairo_surface_destroy (c->surface);
@@ -55,7 +58,8 @@ pg_status pg_canvas_close (pg_canvas *c, pg_status given)
     if (given == PG_OK) {
         if (c->reason) PG_FAIL (PG_E_FILE, "%s: %s", c->path, strerror (c->reason));
         if (fault == CAIRO_STATUS_NO_MEMORY) PG_FAIL (PG_E_MEMORY, "%s: no memory to draw", c->path);
-        if (fault != CAIRO_STATUS_SUCCESS) PG_FAIL (PG_E_FILE, "%s: %s", c->path, cairo_status_to_string (fault));
+        if (fault != CAIRO_STATUS_SUCCESS)
+            PG_FAIL (PG_E_FILE, "%s: %s", c->path, cairo_status_to_string (fault));
     }
 done:
     if (status != PG_OK && c->file) remove (c->path);
@@ -70,7 +74,9 @@ static double runs (cairo_t *cr, const char *text, double size, int draw)
     char run[256];
     cairo_text_extents_t e;
     while (*text) {
-        int level = (text[0] == '^' || text[0] == '_') && text[1] == '{' && strchr (text, '}') ? (text[0] == '^' ? 1 : -1) : 0;
+        int level = (text[0] == '^' || text[0] == '_') && text[1] == '{' && strchr (text, '}')
+                        ? (text[0] == '^' ? 1 : -1)
+                        : 0;
         size_t n = 1;
         if (level) {
             text += 2;
@@ -92,7 +98,8 @@ static double runs (cairo_t *cr, const char *text, double size, int draw)
     return x;
 }
 
-double pg_text (cairo_t *cr, const char *text, double size, double x, double y, double align, int turned, int draw)
+double pg_text (cairo_t *cr, const char *text, double size, double x, double y, double align, int turned,
+                int draw)
 {
     cairo_select_font_face (cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     double width = runs (cr, text, size, 0);
@@ -100,7 +107,7 @@ double pg_text (cairo_t *cr, const char *text, double size, double x, double y, 
     cairo_save (cr);
     cairo_translate (cr, x, y);
     if (turned) cairo_rotate (cr, -1.5707963267948966);
-    cairo_translate (cr, -align * width, 0.364 * size);            /* capitals are about 0.73 of the size high */
+    cairo_translate (cr, -align * width, 0.364 * size);  /* capitals are about 0.73 of the size high */
     runs (cr, text, size, 1);
     cairo_restore (cr);
     cairo_new_path (cr);

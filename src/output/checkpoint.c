@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * checkpoint.nc: each name of a pg_keeper's walk is one variable of a CDF-5 file (doubles, 64-bit integers, bytes); the last one,
- * `checksum` over all names, types, lengths and values, tells a whole file from one that was cut off or changed, before a value is used. A first
- * walk defines, a second writes; reading is one walk. */
+ * checkpoint.nc: each name of a pg_keeper's walk is one variable of a CDF-5 file (doubles, 64-bit integers,
+ * bytes); the last one, `checksum` over all names, types, lengths and values, tells a whole file from one
+ * that was cut off or changed, before a value is used. A first walk defines, a second writes; reading is one
+ * walk. */
 #include "disk.h"
 #include "exodus.h"
 #include "perigal/mesh.h"
@@ -34,7 +35,8 @@ static pg_status define (checkpoint *c, const char *name, size_t n, nc_type type
     char length[40];
     int dim, var;
     snprintf (length, sizeof length, "length_%zu", n);
-    if (nc_inq_dimid (c->ncid, length, &dim) != NC_NOERR) NC_TRY (c->path, nc_def_dim (c->ncid, length, n, &dim));
+    if (nc_inq_dimid (c->ncid, length, &dim) != NC_NOERR)
+        NC_TRY (c->path, nc_def_dim (c->ncid, length, n, &dim));
     int code = nc_def_var (c->ncid, name, type, 1, &dim, &var);
     if (code != NC_NOERR) PG_FAIL (PG_E_USAGE, "%s: '%s': %s", c->path, name, nc_strerror (code));
 done:
@@ -60,7 +62,7 @@ static pg_status keep (checkpoint *c, const char *name, size_t n, nc_type type, 
 {
     pg_status status = PG_OK;
     int var;
-    if (n == 0) goto done;                             /* netCDF knows no empty dimension                                */
+    if (n == 0) goto done;                             /* netCDF knows no empty dimension */
     if (c->defining) {
         status = define (c, name, n, type);
         goto done;
@@ -75,9 +77,18 @@ done:
 }
 
 _Static_assert (sizeof (long) == sizeof (int64_t), "counts are kept as 64-bit integers");
-static pg_status keep_numbers (void *c, const char *name, size_t n, double *value) { return keep (c, name, n, NC_DOUBLE, value); }
-static pg_status keep_counts (void *c, const char *name, size_t n, long *value) { return keep (c, name, n, NC_INT64, value); }
-static pg_status keep_bytes (void *c, const char *name, size_t n, void *value) { return keep (c, name, n, NC_BYTE, value); }
+static pg_status keep_numbers (void *c, const char *name, size_t n, double *value)
+{
+    return keep (c, name, n, NC_DOUBLE, value);
+}
+static pg_status keep_counts (void *c, const char *name, size_t n, long *value)
+{
+    return keep (c, name, n, NC_INT64, value);
+}
+static pg_status keep_bytes (void *c, const char *name, size_t n, void *value)
+{
+    return keep (c, name, n, NC_BYTE, value);
+}
 
 /* The same sum from the file, piece by piece. */
 static pg_status sum_variable (checkpoint *c, int var)
@@ -90,7 +101,8 @@ static pg_status sum_variable (checkpoint *c, int var)
     nc_type type;
     size_t n = 0;
     NC_TRY (c->path, nc_inq_var (c->ncid, var, name, &type, &ndim, dim, NULL));
-    if (ndim != 1 || (type != NC_BYTE && type != NC_DOUBLE && type != NC_INT64)) PG_FAIL (PG_E_FILE, "%s: '%s' is none of a checkpoint", c->path, name);
+    if (ndim != 1 || (type != NC_BYTE && type != NC_DOUBLE && type != NC_INT64))
+        PG_FAIL (PG_E_FILE, "%s: '%s' is none of a checkpoint", c->path, name);
     NC_TRY (c->path, nc_inq_dimlen (c->ncid, dim[0], &n));
     sum_head (c, name, n, type);
     for (size_t from = 0; from < n; from += PIECE) {
@@ -108,11 +120,15 @@ static pg_status check_sum (checkpoint *c)
     int n, last;
     int64_t found = 0;
     NC_TRY (c->path, nc_inq_nvars (c->ncid, &n));
-    if (n < 1 || nc_inq_varid (c->ncid, "checksum", &last) != NC_NOERR || last != n - 1) PG_FAIL (PG_E_FILE, "%s is no checkpoint, or not complete: it has no checksum", c->path);
+    if (n < 1 || nc_inq_varid (c->ncid, "checksum", &last) != NC_NOERR || last != n - 1)
+        PG_FAIL (PG_E_FILE, "%s is no checkpoint, or not complete: it has no checksum", c->path);
     PG_TRY (find (c, "checksum", 1, NC_INT64, &last));
     for (int var = 0; var < last; var++) PG_TRY (sum_variable (c, var));
     NC_TRY (c->path, nc_get_var (c->ncid, last, &found));
-    if (found != (int64_t) c->sum) PG_FAIL (PG_E_FILE, "%s is damaged or cut off: its checksum is not that of its values; begin anew with --force", c->path);
+    if (found != (int64_t) c->sum)
+        PG_FAIL (PG_E_FILE,
+                 "%s is damaged or cut off: its checksum is not that of its values; begin anew with --force",
+                 c->path);
 done:
     return status;
 }
@@ -135,7 +151,7 @@ static pg_status write_file (checkpoint *c, pg_keep walk, void *context)
     pg_status status = PG_OK;
     int before;
     size_t buffer = 1 << 20;
-    FILE *probe;                                       /* netCDF does not always tell the system's reason                */
+    FILE *probe;                                       /* netCDF does not always tell the system's reason */
     PG_TRY (pg_file_create (&probe, c->path));
     fclose (probe);
     NC_TRY (c->path, nc__create (c->path, NC_CLOBBER | NC_64BIT_DATA, 0, &buffer, &c->ncid));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Bytes to the disk: written whole or refused with the system's reason, and what was there before stays as it was. */
+ * Bytes to the disk: written whole or refused with the system's reason, and what was there before stays as it
+ * was. */
 #include "disk.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -15,7 +16,8 @@ pg_status disk_write (const char *path, int file, const void *data, size_t bytes
     while (bytes > 0) {
         ssize_t n = pwrite (file, from, bytes, offset);
         if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) PG_FAIL (PG_E_FILE, "%s: %s", path, n < 0 ? strerror (errno) : "nothing could be written");
+        if (n <= 0)
+            PG_FAIL (PG_E_FILE, "%s: %s", path, n < 0 ? strerror (errno) : "nothing could be written");
         from += n, bytes -= (size_t) n, offset += n;
     }
 done:
@@ -24,7 +26,8 @@ done:
 
 pg_status disk_cut (const char *path, int file, long bytes)
 {
-    return ftruncate (file, bytes) == 0 ? PG_OK : pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
+    return ftruncate (file, bytes) == 0 ? PG_OK
+                                        : pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
 }
 
 pg_status disk_create (const char *path, int *file)
@@ -32,13 +35,14 @@ pg_status disk_create (const char *path, int *file)
     pg_status status = PG_OK;
     struct stat s;
     *file = -1;
-    if (stat (path, &s) == 0 && S_ISCHR (s.st_mode)) {                 /* a device holds nothing that could be lost      */
+    if (stat (path, &s) == 0 && S_ISCHR (s.st_mode)) {  /* a device holds nothing that could be lost */
         *file = open (path, O_WRONLY | O_CLOEXEC);
         if (*file < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
         goto done;
     }
     int there = lstat (path, &s) == 0;
-    if (there && !S_ISREG (s.st_mode) && !S_ISLNK (s.st_mode)) PG_FAIL (PG_E_FILE, "%s: %s", path, S_ISDIR (s.st_mode) ? strerror (EISDIR) : "is no regular file");
+    if (there && !S_ISREG (s.st_mode) && !S_ISLNK (s.st_mode))
+        PG_FAIL (PG_E_FILE, "%s: %s", path, S_ISDIR (s.st_mode) ? strerror (EISDIR) : "is no regular file");
     if (there && unlink (path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
     *file = open (path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (*file < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
@@ -62,7 +66,8 @@ pg_status disk_sync (const char *path)
 {
     int file = open (path, O_RDONLY);
     if (file < 0) return pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
-    int bad = fsync (file) != 0 && errno != EINVAL && errno != ENOTSUP, reason = errno;     /* not every system syncs folders */
+    /* not every system syncs folders */
+    int bad = fsync (file) != 0 && errno != EINVAL && errno != ENOTSUP, reason = errno;
     close (file);
     return bad ? pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (reason)) : PG_OK;
 }
@@ -76,7 +81,8 @@ pg_status pg_folder_make (const char *path)
         if (*p && *p != '/') continue;
         char keep = *p;
         *p = 0;
-        if (mkdir (part, 0777) != 0 && errno != EEXIST) PG_FAIL (PG_E_FILE, "cannot make the folder %s: %s", part, strerror (errno));
+        if (mkdir (part, 0777) != 0 && errno != EEXIST)
+            PG_FAIL (PG_E_FILE, "cannot make the folder %s: %s", part, strerror (errno));
         *p = keep;
         if (!keep) break;
     }

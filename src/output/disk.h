@@ -6,7 +6,8 @@
 
 pg_status disk_write (const char *path, int file, const void *data, size_t bytes, long offset);
 pg_status disk_cut   (const char *path, int file, long bytes);
-/* A file made anew, to write: a file or a symbolic link in its place is removed, so that nothing is written through a link. */
+/* A file made anew, to write: a file or a symbolic link in its place is removed, so that nothing is written
+ * through a link. */
 pg_status disk_create (const char *path, int *file);
-pg_status disk_sync  (const char *path);               /* of a file or folder, opened by its name                        */
+pg_status disk_sync  (const char *path);               /* of a file or folder, opened by its name */
 #endif

@@ -11,7 +11,8 @@ static double direction_of (size_t n, const double *x)
     return most < 0 ? -1 : 1;
 }
 
-size_t pg_envelope (size_t n, const double *x, const double *y, int linear, double *ex, double *ey, size_t *peak)
+size_t pg_envelope (size_t n, const double *x, const double *y, int linear, double *ex, double *ey,
+                    size_t *peak)
 {
     double sign = direction_of (n, x), top = linear ? 0 : -INFINITY;
     size_t m = 0, last = n;
@@ -21,7 +22,8 @@ size_t pg_envelope (size_t n, const double *x, const double *y, int linear, doub
         if (!isfinite (x[i]) || !isfinite (y[i])) continue;
         if (sign * x[i] > top) {
             double line = fell ? y[i] / x[i] * ex[m - 1] : 0;
-            if (fell && fabs (line - ey[m - 1]) > 1e-9 * fabs (ey[m - 1])) ex[m] = ex[m - 1], ey[m] = line, m++;
+            if (fell && fabs (line - ey[m - 1]) > 1e-9 * fabs (ey[m - 1]))
+                ex[m] = ex[m - 1], ey[m] = line, m++;
             ex[m] = x[i], ey[m] = y[i], m++;
             top = sign * x[i], last = i;
         } else if (fell && i + 1 == n && x[i] != 0) ex[m] = ex[m - 1], ey[m] = y[i] / x[i] * ex[m - 1], m++;

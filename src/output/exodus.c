@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Writes result.e so that it can be read after a kill and on a full disk, at any instant. The header comes from exodus_layout.c under
- * another name and is moved to its place whole; steps are records behind it, by the published layout of classic netCDF: one value of
- * time_whole, then n values for each vals_nod_var<k>, most significant byte first. The values are written first, time_whole next, and
- * the number of records, 4 or 8 bytes from byte 4 on, last. A step that cannot be written whole is cut off again. */
+ * Writes result.e so that it can be read after a kill and on a full disk, at any instant. The header comes
+ * from exodus_layout.c under another name and is moved to its place whole; steps are records behind it, by
+ * the published layout of classic netCDF: one value of time_whole, then n values for each vals_nod_var<k>,
+ * most significant byte first. The values are written first, time_whole next, and the number of records, 4 or
+ * 8 bytes from byte 4 on, last. A step that cannot be written whole is cut off again. */
 #include "disk.h"
 #include "exodus.h"
 #include "perigal/mesh.h"
@@ -15,31 +16,35 @@
 #include <unistd.h>
 
 struct pg_exodus {
-    int     file, dim, wide;                           /* wide: CDF-5                                                    */
-    long    begin, record;                             /* first byte of the steps; bytes of one                          */
-    size_t  n, step, nfield, nvar;                     /* nfield: of the caller; one more when `extra`                  */
-    int     extra;                                     /* volume is not a field of the caller: written as one more      */
+    int     file, dim, wide;                           /* wide: CDF-5 */
+    long    begin, record;                             /* first byte of the steps; bytes of one */
+    size_t  n, step, nfield, nvar;                     /* nfield: of the caller; one more when `extra` */
+    int     extra;  /* volume is not a field of the caller: written as one more */
     char   *path;
-    pg_field_view *field;                              /* nfield + 1; values only of the extra one                      */
-    double *volume, *buffer;                           /* n                                                             */
+    pg_field_view *field;                              /* nfield + 1; values only of the extra one */
+    double *volume, *buffer;                           /* n */
 };
 
-static pg_status check_request (const char *path, const pg_cloud *cloud, size_t nfield, const pg_field_view *fields)
+static pg_status check_request (const char *path, const pg_cloud *cloud, size_t nfield,
+                                const pg_field_view *fields)
 {
     pg_status status = PG_OK;
     if (cloud->n == 0 || cloud->n >= 0x7fffffff) PG_FAIL (PG_E_USAGE, "%s: %zu points", path, cloud->n);
     if (cloud->dim < 1 || cloud->dim > 3) PG_FAIL (PG_E_USAGE, "%s: dimension %d", path, cloud->dim);
     for (size_t v = 0; v < nfield; v++) {
         if (fields[v].components < 1 || fields[v].components > EXODUS_COMPONENTS || !fields[v].name[0])
-            PG_FAIL (PG_E_USAGE, "%s: field '%.31s' has %d components", path, fields[v].name, fields[v].components);
+            PG_FAIL (PG_E_USAGE, "%s: field '%.31s' has %d components", path, fields[v].name,
+                     fields[v].components);
         for (size_t w = 0; w < v; w++)
-            if (strcmp (fields[v].name, fields[w].name) == 0) PG_FAIL (PG_E_USAGE, "%s: two fields '%.31s'", path, fields[v].name);
+            if (strcmp (fields[v].name, fields[w].name) == 0)
+                PG_FAIL (PG_E_USAGE, "%s: two fields '%.31s'", path, fields[v].name);
     }
 done:
     return status;
 }
 
-static pg_status copy_request (pg_exodus *f, const char *path, const pg_cloud *cloud, size_t nfield, const pg_field_view *fields)
+static pg_status copy_request (pg_exodus *f, const char *path, const pg_cloud *cloud, size_t nfield,
+                               const pg_field_view *fields)
 {
     pg_status status = PG_OK;
     f->file = -1;
@@ -73,7 +78,8 @@ static pg_status open_file (pg_exodus *f, long *bytes)
     char magic[4];
     f->file = open (f->path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
     if (f->file < 0 || fstat (f->file, &s) != 0) PG_FAIL (PG_E_FILE, "%s: %s", f->path, strerror (errno));
-    if (pread (f->file, magic, 4, 0) != 4 || memcmp (magic, "CDF", 3) != 0 || (magic[3] != 2 && magic[3] != 5))
+    if (pread (f->file, magic, 4, 0) != 4 || memcmp (magic, "CDF", 3) != 0
+        || (magic[3] != 2 && magic[3] != 5))
         PG_FAIL (PG_E_FILE, "%s: not a file that this program can append to", f->path);
     f->wide = magic[3] == 5;
     *bytes = (long) s.st_size;
@@ -89,7 +95,9 @@ static pg_status create_file (pg_exodus *f, const pg_cloud *cloud, const char *t
     size_t size = strlen (f->path) + 5;
     PG_ALLOC (fresh, size);
     snprintf (fresh, size, "%s.new", f->path);
-    exodus_layout layout = { fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume };
+    exodus_layout layout = {
+        fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume
+    };
     PG_TRY (exodus_layout_write (&layout));
     if (rename (fresh, f->path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", f->path, strerror (errno));
     PG_TRY (open_file (f, &f->begin));
@@ -136,14 +144,15 @@ static pg_status check_sizes (const pg_exodus *f)
     if (nc_inq_dimid (ncid, "num_nodes", &dim) == NC_NOERR) nc_inq_dimlen (ncid, dim, &n);
     if (nc_inq_dimid (ncid, "num_nod_var", &dim) == NC_NOERR) nc_inq_dimlen (ncid, dim, &m);
     if (n != f->n || m != f->nvar)
-        PG_FAIL (PG_E_FILE, "%s holds %zu values at %zu points, not %zu at %zu: it is of another run", f->path, m, n, f->nvar, f->n);
+        PG_FAIL (PG_E_FILE, "%s holds %zu values at %zu points, not %zu at %zu: it is of another run",
+                 f->path, m, n, f->nvar, f->n);
 done:
     if (open) nc_close (ncid);
     return status;
 }
 
-pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *cloud, size_t nfield, const pg_field_view *fields,
-                          long steps, long bytes)
+pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *cloud, size_t nfield,
+                          const pg_field_view *fields, long steps, long bytes)
 {
     pg_status status = PG_OK;
     pg_exodus *f = NULL;
@@ -154,8 +163,11 @@ pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *clo
     PG_TRY (copy_request (f, path, cloud, nfield, fields));
     PG_TRY (open_file (f, &present));
     PG_TRY (check_sizes (f));
-    if (steps < 0 || bytes < 0 || steps >= bytes / f->record + (bytes % f->record > 0)) PG_FAIL (PG_E_USAGE, "%s: %ld steps in %ld bytes", path, steps, bytes);
-    if (present < bytes) PG_FAIL (PG_E_FILE, "%s has %ld bytes, %ld are missing: it was changed since", path, present, bytes - present);
+    if (steps < 0 || bytes < 0 || steps >= bytes / f->record + (bytes % f->record > 0))
+        PG_FAIL (PG_E_USAGE, "%s: %ld steps in %ld bytes", path, steps, bytes);
+    if (present < bytes)
+        PG_FAIL (PG_E_FILE, "%s has %ld bytes, %ld are missing: it was changed since", path, present,
+                 bytes - present);
     f->begin = bytes - steps * f->record;
     f->step = (size_t) steps;
     PG_TRY (count_records (f, f->step));
@@ -217,14 +229,16 @@ pg_status pg_exodus_write (pg_exodus *f, double time, const pg_field_view *field
 {
     pg_status status = PG_OK;
     for (size_t v = 0; v < f->nfield; v++)
-        if (strcmp (fields[v].name, f->field[v].name) != 0 || fields[v].components != f->field[v].components || !fields[v].value)
-            PG_FAIL (PG_E_USAGE, "%s: field %zu is '%s' with %d values a point, expected '%s' with %d", f->path, v + 1,
-                     fields[v].name, fields[v].value ? fields[v].components : 0, f->field[v].name, f->field[v].components);
+        if (strcmp (fields[v].name, f->field[v].name) != 0 || fields[v].components != f->field[v].components
+            || !fields[v].value)
+            PG_FAIL (PG_E_USAGE, "%s: field %zu is '%s' with %d values a point, expected '%s' with %d",
+                     f->path, v + 1, fields[v].name, fields[v].value ? fields[v].components : 0,
+                     f->field[v].name, f->field[v].components);
     status = write_record (f, time, fields);
     if (status == PG_OK) f->step++;
     else {
         int cut = ftruncate (f->file, f->begin + (long) f->step * f->record);
-        (void) cut;                                    /* what would stay is behind the records that count               */
+        (void) cut;                                    /* what would stay is behind the records that count */
     }
 done:
     return status;

@@ -6,18 +6,22 @@
 #include <netcdf.h>
 
 /* netCDF gives negative codes of its own and positive ones of the system; nc_strerror knows both. */
-#define NC_TRY(path, call) do { int rc_ = (call); if (rc_ != NC_NOERR) PG_FAIL (rc_ == NC_ENOMEM ? PG_E_MEMORY : PG_E_FILE, \
-    "%s: %s", (path), nc_strerror (rc_)); } while (0)
+#define NC_TRY(path, call) \
+    do { \
+        int rc_ = (call); \
+        if (rc_ != NC_NOERR) \
+            PG_FAIL (rc_ == NC_ENOMEM ? PG_E_MEMORY : PG_E_FILE, "%s: %s", (path), nc_strerror (rc_)); \
+    } while (0)
 
 enum { EXODUS_COMPONENTS = 64 };
-/* ---- exodus_layout.c: a whole result.e without steps; records: time_whole, then the nvar components of the fields ------------ */
+/* ---- exodus_layout.c: a whole result.e without steps; records: time_whole, the components of the fields - */
 typedef struct {
     const char     *path;
     const pg_cloud *cloud;
     const char     *title;
     size_t          nfield, nvar;
     const pg_field_view *field;
-    const double   *volume;                            /* n                                                              */
+    const double   *volume;                            /* n */
 } exodus_layout;
 pg_status exodus_layout_write (const exodus_layout *layout);
 #endif

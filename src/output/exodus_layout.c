@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The header of result.e: Exodus II in classic netCDF, 64-bit offsets (CDF-5 where a variable passes 4 GiB). Every point is a node and
- * a SPHERE element; vals_nod_var<k> (time_step x num_nodes) is one component of one field. Beyond Exodus, read back by exodus_read.c:
- * attributes `field` and `units` of each variable, `point_volume`, and global attributes with spacing, lattice step, thickness, box. */
+ * The header of result.e: Exodus II in classic netCDF, 64-bit offsets (CDF-5 where a variable passes 4 GiB).
+ * Every point is a node and a SPHERE element; vals_nod_var<k> (time_step x num_nodes) is one component of one
+ * field. Beyond Exodus, read back by exodus_read.c: attributes `field` and `units` of each variable,
+ * `point_volume`, and global attributes with spacing, lattice step, thickness, box. */
 #include "exodus.h"
 #include <errno.h>
 #include <stdio.h>
@@ -13,9 +14,9 @@ typedef struct {
     const exodus_layout *l;
     int     ncid, open, dim;
     size_t  n, nblock;
-    int    *block;                                     /* values of cloud->block, ascending                              */
-    double *work;                                      /* n                                                              */
-    int    *node;                                      /* n                                                              */
+    int    *block;                                     /* values of cloud->block, ascending */
+    double *work;                                      /* n */
+    int    *node;                                      /* n */
 } writer;
 
 /* "_x", "_xy", "_7": what Exodus readers group into vectors and tensors (Voigt order). */
@@ -79,7 +80,8 @@ static pg_status define_points (writer *w, int nodes, int name_dim)
     static const char *const variable[] = { "coordx", "coordy", "coordz" };
     int dim, var;
     NC_TRY (w->l->path, nc_def_dim (w->ncid, "num_dim", (size_t) w->dim, &dim));
-    for (int a = 0; a < w->dim; a++) NC_TRY (w->l->path, nc_def_var (w->ncid, variable[a], NC_DOUBLE, 1, &nodes, &var));
+    for (int a = 0; a < w->dim; a++)
+        NC_TRY (w->l->path, nc_def_var (w->ncid, variable[a], NC_DOUBLE, 1, &nodes, &var));
     PG_TRY (define_names (w, "coor_names", dim, name_dim));
     NC_TRY (w->l->path, nc_def_var (w->ncid, "point_volume", NC_DOUBLE, 1, &nodes, &var));
     NC_TRY (w->l->path, put_text (w->ncid, var, "units", "m3"));
@@ -87,7 +89,10 @@ done:
     return status;
 }
 
-static int belongs (const writer *w, size_t i, size_t k) { return !w->l->cloud->block || w->l->cloud->block[i] == w->block[k]; }
+static int belongs (const writer *w, size_t i, size_t k)
+{
+    return !w->l->cloud->block || w->l->cloud->block[i] == w->block[k];
+}
 
 /* One block of spheres: connect<k> (elements x 1) lists the nodes, counted from 1. */
 static pg_status define_block (writer *w, size_t k)
@@ -164,7 +169,7 @@ done:
     return status;
 }
 
-/* ---- values that stay ------------------------------------------------------------------------------------------------------- */
+/* ---- values that stay ---------------------------------------------------------------------------------- */
 static pg_status put_doubles (writer *w, const char *variable, const double *value)
 {
     pg_status status = PG_OK;
@@ -193,7 +198,8 @@ static pg_status put_name (writer *w, const char *variable, size_t row, const ch
     int var;
     snprintf (padded, sizeof padded, "%s", name);
     NC_TRY (w->l->path, nc_inq_varid (w->ncid, variable, &var));
-    NC_TRY (w->l->path, nc_put_vara_text (w->ncid, var, (size_t[2]) { row, 0 }, (size_t[2]) { 1, NAME + 1 }, padded));
+    NC_TRY (w->l->path,
+            nc_put_vara_text (w->ncid, var, (size_t[2]){ row, 0 }, (size_t[2]){ 1, NAME + 1 }, padded));
 done:
     return status;
 }
@@ -248,7 +254,7 @@ done:
     return status;
 }
 
-/* ---- the file --------------------------------------------------------------------------------------------------------------- */
+/* ---- the file ------------------------------------------------------------------------------------------ */
 static int ascending (const void *a, const void *b)
 {
     int p = *(const int *) a, q = *(const int *) b;
@@ -265,7 +271,8 @@ static pg_status find_blocks (writer *w)
     if (!w->l->cloud->block) goto done;
     memcpy (w->block, w->l->cloud->block, w->n * sizeof *w->block);
     qsort (w->block, w->n, sizeof *w->block, ascending);
-    for (size_t i = 1; i < w->n; i++) if (w->block[i] != w->block[w->nblock - 1]) w->block[w->nblock++] = w->block[i];
+    for (size_t i = 1; i < w->n; i++)
+        if (w->block[i] != w->block[w->nblock - 1]) w->block[w->nblock++] = w->block[i];
 done:
     return status;
 }
@@ -275,10 +282,12 @@ static pg_status open_file (writer *w)
 {
     pg_status status = PG_OK;
     int before;
-    FILE *probe;                                       /* netCDF does not always tell the system's reason                */
+    FILE *probe;                                       /* netCDF does not always tell the system's reason */
     PG_TRY (pg_file_create (&probe, w->l->path));
     fclose (probe);
-    NC_TRY (w->l->path, nc_create (w->l->path, NC_CLOBBER | (w->n > 0xfffffffcu / 8 ? NC_64BIT_DATA : NC_64BIT_OFFSET), &w->ncid));
+    NC_TRY (w->l->path,
+            nc_create (w->l->path, NC_CLOBBER | (w->n > 0xfffffffcu / 8 ? NC_64BIT_DATA : NC_64BIT_OFFSET),
+                       &w->ncid));
     w->open = 1;
     NC_TRY (w->l->path, nc_set_fill (w->ncid, NC_NOFILL, &before));
 done:

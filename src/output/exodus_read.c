@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Reads result.e back: points and volumes, and fields whose components are grouped by the attribute `field` of vals_nod_var<k>
- * (files of other programs, without it: every variable is a field of one component). */
+ * Reads result.e back: points and volumes, and fields whose components are grouped by the attribute `field`
+ * of vals_nod_var<k> (files of other programs, without it: every variable is a field of one component). */
 #include "exodus.h"
 #include "perigal/mesh.h"
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 enum { NAME = 32 };
 
-typedef struct { char base[NAME], unit[16]; int var; } part;      /* one component of a field                            */
+typedef struct { char base[NAME], unit[16]; int var; } part;      /* one component of a field */
 typedef struct {
     const char *path;
     int     ncid, open;
@@ -28,7 +28,9 @@ static size_t length_of (int ncid, const char *name)
 static int text_attribute (int ncid, int var, const char *name, char *text, size_t size)
 {
     size_t n;
-    if (nc_inq_attlen (ncid, var, name, &n) != NC_NOERR || n >= size || nc_get_att_text (ncid, var, name, text) != NC_NOERR) return 0;
+    if (nc_inq_attlen (ncid, var, name, &n) != NC_NOERR || n >= size
+        || nc_get_att_text (ncid, var, name, text) != NC_NOERR)
+        return 0;
     text[n] = 0;
     return 1;
 }
@@ -109,13 +111,14 @@ static pg_status find_field (const reader *r, const char *field, size_t *first, 
     if (*components > 0) goto done;
     list_fields (r, all, sizeof all);
     const char *near = pg_nearest_name (field, all);
-    PG_FAIL (PG_E_USAGE, "%s has no field '%s'%s%s%s; it has %s", r->path, field, near ? " (did you mean '" : "", near ? near : "",
-             near ? "'?)" : "", all[0] ? all : "none");
+    PG_FAIL (PG_E_USAGE, "%s has no field '%s'%s%s%s; it has %s", r->path, field,
+             near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "", all[0] ? all : "none");
 done:
     return status;
 }
 
-pg_status pg_exodus_read (const char *path, const char *field, int step, size_t *n, int *components, double **value)
+pg_status pg_exodus_read (const char *path, const char *field, int step, size_t *n, int *components,
+                          double **value)
 {
     pg_status status = PG_OK;
     reader r;
@@ -128,7 +131,8 @@ pg_status pg_exodus_read (const char *path, const char *field, int step, size_t 
     if (r.nstep == 0) PG_FAIL (PG_E_USAGE, "%s holds no step yet", path);
     if (step < -1 || (step >= 0 && (size_t) step >= r.nstep))
         PG_FAIL (PG_E_USAGE, "%s has no step %d; its steps are 0 to %zu", path, step, r.nstep - 1);
-    size_t m = (size_t) *components, start[2] = { step < 0 ? r.nstep - 1 : (size_t) step, 0 }, count[2] = { 1, r.n };
+    size_t m = (size_t) *components, start[2] = { step < 0 ? r.nstep - 1 : (size_t) step, 0 },
+           count[2] = { 1, r.n };
     PG_ALLOC (all, r.n * m);
     PG_ALLOC (one, r.n);
     for (size_t k = first; k < r.npart; k++) {
@@ -181,7 +185,8 @@ done:
 static void numbers (int ncid, const char *name, size_t m, double *value)
 {
     size_t n;
-    if (nc_inq_attlen (ncid, NC_GLOBAL, name, &n) == NC_NOERR && n == m) nc_get_att_double (ncid, NC_GLOBAL, name, value);
+    if (nc_inq_attlen (ncid, NC_GLOBAL, name, &n) == NC_NOERR && n == m)
+        nc_get_att_double (ncid, NC_GLOBAL, name, value);
 }
 
 static pg_status read_places (const reader *r, pg_cloud *cloud, double *work)
@@ -205,7 +210,8 @@ static pg_status read_places (const reader *r, pg_cloud *cloud, double *work)
     numbers (r->ncid, "lattice_step", 3, cloud->step);
     numbers (r->ncid, "spacing", 1, &cloud->h);
     numbers (r->ncid, "thickness", 1, &cloud->thickness);
-    if (nc_inq_varid (r->ncid, "point_volume", &var) == NC_NOERR) NC_TRY (r->path, nc_get_var_double (r->ncid, var, cloud->volume));
+    if (nc_inq_varid (r->ncid, "point_volume", &var) == NC_NOERR)
+        NC_TRY (r->path, nc_get_var_double (r->ncid, var, cloud->volume));
 done:
     return status;
 }
@@ -225,12 +231,14 @@ static pg_status read_blocks (const reader *r, pg_cloud *cloud)
         snprintf (name, sizeof name, "num_el_in_blk%zu", k + 1);
         size_t count = length_of (r->ncid, name);
         snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);
-        if (count > r->n || length_of (r->ncid, name) != 1) PG_FAIL (PG_E_FILE, "%s: block %zu is not one of points", r->path, k + 1);
+        if (count > r->n || length_of (r->ncid, name) != 1)
+            PG_FAIL (PG_E_FILE, "%s: block %zu is not one of points", r->path, k + 1);
         snprintf (name, sizeof name, "connect%zu", k + 1);
         NC_TRY (r->path, nc_inq_varid (r->ncid, name, &var));
         NC_TRY (r->path, nc_get_var_int (r->ncid, var, node));
         for (size_t i = 0; i < count; i++) {
-            if (node[i] < 1 || (size_t) node[i] > r->n) PG_FAIL (PG_E_FILE, "%s: block %zu names node %d", r->path, k + 1, node[i]);
+            if (node[i] < 1 || (size_t) node[i] > r->n)
+                PG_FAIL (PG_E_FILE, "%s: block %zu names node %d", r->path, k + 1, node[i]);
             cloud->block[node[i] - 1] = id[k] - 1;
         }
     }

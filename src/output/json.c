@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * JSON (RFC 8259), two blanks a level, keys in the order of the calls. Faults are remembered and reported by pg_json_close,
- * which moves PATH.tmp to PATH only when all is well. The outer braces may be opened by the caller or are opened by the first key. */
+ * JSON (RFC 8259), two blanks a level, keys in the order of the calls. Faults are remembered and reported by
+ * pg_json_close, which moves PATH.tmp to PATH only when all is well. The outer braces may be opened by the
+ * caller or are opened by the first key. */
 #include "perigal/output.h"
 #include <errno.h>
 #include <math.h>
@@ -16,15 +17,20 @@ struct pg_json {
     char *path, *temporary;
     int   depth, misuse;
     char  bracket[DEPTH];
-    int   count[DEPTH + 1];                            /* members written so far on each level                          */
+    int   count[DEPTH + 1];                            /* members written so far on each level */
 };
 
 /* Bytes of the valid UTF-8 sequence at p, 0 when it is none. */
 static int sequence (const unsigned char *p)
 {
-    int n = p[0] < 0x80 ? 1 : p[0] >= 0xc2 && p[0] < 0xe0 ? 2 : p[0] >= 0xe0 && p[0] < 0xf0 ? 3 : p[0] >= 0xf0 && p[0] < 0xf5 ? 4 : 0;
+    int n = p[0] < 0x80                   ? 1
+            : p[0] >= 0xc2 && p[0] < 0xe0 ? 2
+            : p[0] >= 0xe0 && p[0] < 0xf0 ? 3
+            : p[0] >= 0xf0 && p[0] < 0xf5 ? 4
+                                          : 0;
     for (int k = 1; k < n; k++) if ((p[k] & 0xc0) != 0x80) return 0;
-    if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) || (p[0] == 0xf0 && p[1] < 0x90) || (p[0] == 0xf4 && p[1] > 0x8f))
+    if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) || (p[0] == 0xf0 && p[1] < 0x90)
+        || (p[0] == 0xf4 && p[1] > 0x8f))
         return 0;
     return n;
 }

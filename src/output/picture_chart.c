@@ -17,7 +17,8 @@ void chart_place (const chart *c, double x, double y, double *px, double *py)
 }
 
 /* Ranges of the points drawn: both coordinates must be finite, and positive on a log axis. */
-static void widen (int *found, size_t ncurve, const pg_curve *curves, const chart *c, double x[2], double y[2])
+static void widen (int *found, size_t ncurve, const pg_curve *curves, const chart *c, double x[2],
+                   double y[2])
 {
     for (size_t k = 0; k < ncurve; k++)
         for (size_t i = 0; i < curves[k].n; i++) {
@@ -29,7 +30,8 @@ static void widen (int *found, size_t ncurve, const pg_curve *curves, const char
         }
 }
 
-static void ranges (size_t ncurve, const pg_curve *curves, const chart *c, const pg_chart_style *style, double x[2], double y[2])
+static void ranges (size_t ncurve, const pg_curve *curves, const chart *c, const pg_chart_style *style,
+                    double x[2], double y[2])
 {
     int found = 0;
     widen (&found, ncurve, curves, c, x, y);
@@ -40,7 +42,7 @@ static void ranges (size_t ncurve, const pg_curve *curves, const chart *c, const
 static void lay_out (chart *c, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
 {
     double x[2], y[2];
-    cairo_surface_t *scratch = cairo_image_surface_create (CAIRO_FORMAT_A8, 1, 1);     /* to measure texts on */
+    cairo_surface_t *scratch = cairo_image_surface_create (CAIRO_FORMAT_A8, 1, 1);  /* to measure texts on */
     cairo_t *cr = cairo_create (scratch);
     pg_axis_wish wx = { style->xlabel ? style->xlabel : "", PG_BOTTOM, style->logx, 1, 0 };
     pg_axis_wish wy = { style->ylabel ? style->ylabel : "", PG_LEFT, style->logy, 1, 0 };
@@ -57,7 +59,8 @@ static void lay_out (chart *c, size_t ncurve, const pg_curve *curves, const pg_c
     chart_marks_place (c, cr, ncurve, curves, style);
     if (chart_legend_rows (ncurve, style) > 1) {
         chart_legend_size (c, cr, ncurve, curves, style);
-        if (chart_legend_place (c, ncurve, curves, style)) c->total = ceil (c->legend[0] + c->legend[2] + CHART_GAP);
+        if (chart_legend_place (c, ncurve, curves, style))
+            c->total = ceil (c->legend[0] + c->legend[2] + CHART_GAP);
     }
     cairo_destroy (cr);
     cairo_surface_destroy (scratch);
@@ -71,7 +74,8 @@ static void draw_grid (const chart *c, cairo_t *cr)
             double t = pg_axis_at (a, k < 0 ? a->minor[-k - 1] : a->tick[k]), shade = k < 0 ? 0.94 : 0.86;
             cairo_set_source_rgb (cr, shade, shade, shade);
             cairo_set_line_width (cr, k < 0 ? 1 : 1.5);
-            cairo_move_to (cr, c->left + (pass ? 0 : t * c->width), c->top + (pass ? (1 - t) * c->height : 0));
+            cairo_move_to (cr, c->left + (pass ? 0 : t * c->width),
+                           c->top + (pass ? (1 - t) * c->height : 0));
             cairo_rel_line_to (cr, pass ? c->width : 0, pass ? 0 : c->height);
             cairo_stroke (cr);
         }
@@ -84,8 +88,10 @@ static void draw_zero (const chart *c, cairo_t *cr)
     double x = pg_axis_at (&c->x, 0), y = pg_axis_at (&c->y, 0);
     cairo_set_source_rgb (cr, 0.45, 0.45, 0.45);
     cairo_set_line_width (cr, 1.5);
-    if (!c->x.log && x > 0 && x < 1) cairo_move_to (cr, c->left + x * c->width, c->top), cairo_rel_line_to (cr, 0, c->height);
-    if (!c->y.log && y > 0 && y < 1) cairo_move_to (cr, c->left, c->top + (1 - y) * c->height), cairo_rel_line_to (cr, c->width, 0);
+    if (!c->x.log && x > 0 && x < 1)
+        cairo_move_to (cr, c->left + x * c->width, c->top), cairo_rel_line_to (cr, 0, c->height);
+    if (!c->y.log && y > 0 && y < 1)
+        cairo_move_to (cr, c->left, c->top + (1 - y) * c->height), cairo_rel_line_to (cr, c->width, 0);
     cairo_stroke (cr);
 }
 
@@ -104,8 +110,9 @@ void chart_pen (cairo_t *cr, size_t k)
 void chart_marker (cairo_t *cr, size_t k, double x, double y)
 {
     static const double corner[4][4][2] = { { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } },
-        { { 0, -1.3 }, { 1.2, 0.9 }, { -1.2, 0.9 }, { 0, -1.3 } }, { { 0, -1.4 }, { 1.2, 0 }, { 0, 1.4 }, { -1.2, 0 } },
-        { { 0, 1.3 }, { 1.2, -0.9 }, { -1.2, -0.9 }, { 0, 1.3 } } };
+                                            { { 0, -1.3 }, { 1.2, 0.9 }, { -1.2, 0.9 }, { 0, -1.3 } },
+                                            { { 0, -1.4 }, { 1.2, 0 }, { 0, 1.4 }, { -1.2, 0 } },
+                                            { { 0, 1.3 }, { 1.2, -0.9 }, { -1.2, -0.9 }, { 0, 1.3 } } };
     double r = 7, rgb[3], s = 1.3 * r;
     size_t kind = k % 7;
     pg_colour_curve (k, rgb);
@@ -113,7 +120,9 @@ void chart_marker (cairo_t *cr, size_t k, double x, double y)
     cairo_set_line_width (cr, 3);
     cairo_new_sub_path (cr);
     if (kind == 0) cairo_arc (cr, x, y, r, 0, 6.283185307179586);
-    else if (kind < 5) for (int e = 0; e < 4; e++) cairo_line_to (cr, x + r * corner[kind - 1][e][0], y + r * corner[kind - 1][e][1]);
+    else if (kind < 5)
+        for (int e = 0; e < 4; e++)
+            cairo_line_to (cr, x + r * corner[kind - 1][e][0], y + r * corner[kind - 1][e][1]);
     else {
         double a = kind == 5 ? 0 : 0.75 * s, b = kind == 5 ? s : 0.75 * s;
         cairo_move_to (cr, x - b, y - a), cairo_line_to (cr, x + b, y + a);
@@ -132,7 +141,8 @@ void chart_marker (cairo_t *cr, size_t k, double x, double y)
     cairo_new_path (cr);
 }
 
-/* A polyline, broken at what cannot be drawn; points closer than a quarter of a pixel to the last one are left out. */
+/* A polyline, broken at what cannot be drawn; points closer than a quarter of a pixel to the last one are
+ * left out. */
 static void line (const chart *c, cairo_t *cr, const pg_curve *curve)
 {
     double px, py, qx = 0, qy = 0;
@@ -164,7 +174,8 @@ static void draw_curve (const chart *c, cairo_t *cr, const pg_curve *curve, size
     cairo_set_dash (cr, NULL, 0, 0);
 }
 
-static void draw_chart (const chart *c, cairo_t *cr, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
+static void draw_chart (const chart *c, cairo_t *cr, size_t ncurve, const pg_curve *curves,
+                        const pg_chart_style *style)
 {
     draw_grid (c, cr);
     if (style->zero) draw_zero (c, cr);
@@ -176,10 +187,13 @@ static void draw_chart (const chart *c, cairo_t *cr, size_t ncurve, const pg_cur
     pg_axis_draw (&c->y, cr, c->left, c->top, c->width, c->height);
     cairo_set_line_join (cr, CAIRO_LINE_JOIN_ROUND);
     cairo_save (cr);
-    cairo_rectangle (cr, c->left - 12, c->top - 12, c->width + 24, c->height + 24);     /* markers on the frame stay whole */
+    /* markers on the frame stay whole */
+    cairo_rectangle (cr, c->left - 12, c->top - 12, c->width + 24, c->height + 24);
     cairo_clip (cr);
     for (size_t k = 0; k < style->nslope; k++)
-        if (style->slopes[k].curve < ncurve) chart_slope_draw (c, cr, &curves[style->slopes[k].curve], style->slopes[k].curve, &style->slopes[k]);
+        if (style->slopes[k].curve < ncurve)
+            chart_slope_draw (c, cr, &curves[style->slopes[k].curve], style->slopes[k].curve,
+                              &style->slopes[k]);
     for (size_t k = 0; k < style->npale; k++) chart_pale_pen (cr, k), line (c, cr, &style->pale[k]);
     for (size_t k = 0; k < ncurve; k++) draw_curve (c, cr, &curves[k], k);
     cairo_restore (cr);
@@ -189,7 +203,8 @@ static void draw_chart (const chart *c, cairo_t *cr, size_t ncurve, const pg_cur
     if (style->title) pg_title (cr, style->title, c->left + 0.5 * c->width, c->top - 34, c->total);
 }
 
-pg_status pg_picture_chart (const char *path, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
+pg_status pg_picture_chart (const char *path, size_t ncurve, const pg_curve *curves,
+                            const pg_chart_style *style)
 {
     pg_status status = PG_OK;
     pg_canvas canvas = { 0 };

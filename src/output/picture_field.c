@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields as pictures: which points are seen, the frame they fill, their colours; one state or several side by side.
- * 2D: a coloured cell per point; 3D: a section, or the body from outside; 1D: value over x. */
+ * Fields as pictures: which points are seen, the frame they fill, their colours; one state or several side by
+ * side. 2D: a coloured cell per point; 3D: a section, or the body from outside; 1D: value over x. */
 #include "picture_tiles.h"
 #include <math.h>
 #include <stdio.h>
@@ -10,17 +10,17 @@
 typedef struct {
     const pg_cloud *cloud;
     const pg_picture_style *style;
-    size_t  n;                                         /* panels                                                         */
+    size_t  n;                                         /* panels */
     const pg_panel *panel;
-    pg_grid grid;                                      /* 3D                                                             */
+    pg_grid grid;                                      /* 3D */
     pg_plate plate;
-    unsigned char *seen;                               /* points in the section, or all                                  */
-    unsigned char *keep;                               /* points above the limit, of the panel at work                   */
-    double *own;                                       /* coloured by depth: coordinate in the picture's unit            */
-    int    *index, layer;                              /* of a spot's point; of the section                              */
+    unsigned char *seen;                               /* points in the section, or all */
+    unsigned char *keep;                               /* points above the limit, of the panel at work */
+    double *own;  /* coloured by depth: coordinate in the picture's unit */
+    int    *index, layer;                              /* of a spot's point; of the section */
     pg_spots spots;
-    double *spacing;                                   /* of the points of a 2D cloud that is no lattice, m, or NULL   */
-    double *face;  size_t nface, cap_face;             /* displaced faces of pre-cracks, FACE places each, m (2D)        */
+    double *spacing;  /* of the points of a 2D cloud that is no lattice, m, or NULL */
+    double *face;  size_t nface, cap_face;  /* displaced faces of pre-cracks, FACE places each, m (2D) */
     char    label[32], title[440];
 } drawing;
 
@@ -34,7 +34,7 @@ static const double *value_of (const drawing *d, size_t panel)
     return d->own ? d->own : d->panel[panel].value;
 }
 
-/* ---- points ---------------------------------------------------------------------------------------------------------------- */
+/* ---- points -------------------------------------------------------------------------------------------- */
 /* A section shows the layer of points it lies in (the lower of two when it lies between them). */
 static pg_status choose_layer (drawing *d)
 {
@@ -45,8 +45,10 @@ static pg_status choose_layer (drawing *d)
     d->layer = (int) fmin (fmax (ceil (t - 0.5 - 1e-6), -2), g->count[e->cut]);
     if (d->layer == -1 && t > -0.5 - 1e-6) d->layer = 0;
     if (d->layer < 0 || d->layer >= g->count[e->cut])
-        PG_FAIL (PG_E_USAGE, "the section %c = %g m meets no points: they lie between %g and %g m", "xyz"[e->cut], e->at, g->low[e->cut], g->high[e->cut]);
-    for (size_t i = 0; i < d->cloud->n; i++) d->seen[i] = pg_grid_place (g, e->cut, d->cloud->x[3 * i + (size_t) e->cut]) == d->layer;
+        PG_FAIL (PG_E_USAGE, "the section %c = %g m meets no points: they lie between %g and %g m",
+                 "xyz"[e->cut], e -> at, g -> low[e->cut], g -> high[e->cut]);
+    for (size_t i = 0; i < d->cloud->n; i++)
+        d->seen[i] = pg_grid_place (g, e->cut, d->cloud->x[3 * i + (size_t) e->cut]) == d->layer;
 done:
     return status;
 }
@@ -56,7 +58,9 @@ static double half_cell (const drawing *d, const double *direction)
 {
     double s = 0;
     for (int a = 0; a < d->cloud->dim; a++) {
-        double step = d->cloud->dim == 3 ? d->grid.step[a] : d->cloud->step[a] > 0 ? d->cloud->step[a] : d->cloud->h;
+        double step = d->cloud->dim == 3      ? d->grid.step[a]
+                      : d->cloud->step[a] > 0 ? d->cloud->step[a]
+                                              : d->cloud->h;
         s += 0.5 * step * fabs (direction[a]);
     }
     return s;
@@ -72,15 +76,17 @@ static pg_status choose_points (drawing *d)
     memset (d->seen, 1, d->cloud->n);
     if (e->kind == PG_LAYER) PG_TRY (choose_layer (d));
     for (size_t i = 0; e->kind == PG_SLICE && i < d->cloud->n; i++)
-        d->seen[i] = fabs (pg_along (e->toward, d->cloud->x + 3 * i, 3) - e->at) <= half_cell (d, e->toward) * (1 + 1e-6);
+        d->seen[i] = fabs (pg_along (e->toward, d->cloud->x + 3 * i, 3) - e->at)
+                     <= half_cell (d, e->toward) * (1 + 1e-6);
     for (size_t i = 0; i < d->cloud->n; i++) found += d->seen[i];
     if (found == 0) PG_FAIL (PG_E_USAGE, "the section meets no points");
 done:
     return status;
 }
 
-/* ---- frame ------------------------------------------------------------------------------------------------------------------- */
-/* Places of the points of one panel along a direction; NAN for those not seen and, displaced, for fragments that fly far. */
+/* ---- frame --------------------------------------------------------------------------------------------- */
+/* Places of the points of one panel along a direction; NAN for those not seen and, displaced, for fragments
+ * that fly far. */
 static pg_status places (const drawing *d, size_t panel, const double *direction, double *out)
 {
     pg_status status = PG_OK;
@@ -88,7 +94,8 @@ static pg_status places (const drawing *d, size_t panel, const double *direction
     const double *u = displaced (d, panel);
     double low = 0, high = 0;
     int found;
-    for (size_t i = 0; i < d->cloud->n; i++) out[i] = u ? d->style->magnify * pg_along (direction, u + i * dim, (int) dim) : 0;
+    for (size_t i = 0; i < d->cloud->n; i++)
+        out[i] = u ? d->style->magnify * pg_along (direction, u + i * dim, (int) dim) : 0;
     if (u) PG_TRY (pg_picture_range (d->cloud->n, out, 2, &low, &high, &found));
     double slack = 0.5 * (high - low);
     for (size_t i = 0; i < d->cloud->n; i++) {
@@ -106,7 +113,8 @@ static void end_at_body (const drawing *d, const double *direction, double *low,
     for (size_t k = 0; k < d->n; k++) if (displaced (d, k)) return;
     for (int c = 0; c < d->cloud->dim; c++) {
         if (fabs (fabs (direction[c]) - 1) > 1e-12) continue;
-        *low = fmax (*low, direction[c] > 0 ? body->low[c] : -body->high[c]), *high = fmin (*high, direction[c] > 0 ? body->high[c] : -body->low[c]);
+        *low = fmax (*low, direction[c] > 0 ? body->low[c] : -body->high[c]),
+        *high = fmin (*high, direction[c] > 0 ? body->high[c] : -body->low[c]);
     }
 }
 
@@ -126,7 +134,8 @@ static pg_status extent (const drawing *d, const double *direction, double *low,
     double half = half_cell (d, direction);
     if (!(half > 0)) half = *high > *low ? 0.5 * (*high - *low) / sqrt ((double) d->cloud->n) : 0.5;
     *low -= half, *high += half;
-    if (d->style->outline && d->style->outline->body && d->style->outline->body->n) end_at_body (d, direction, low, high);
+    if (d->style->outline && d->style->outline->body && d->style->outline->body->n)
+        end_at_body (d, direction, low, high);
 done:
     pg_free (place);
     return status;
@@ -164,7 +173,7 @@ done:
     return status;
 }
 
-/* ---- colours ----------------------------------------------------------------------------------------------------------------- */
+/* ---- colours ------------------------------------------------------------------------------------------- */
 static int above (const drawing *d, size_t panel, size_t i)
 {
     const double *select = d->panel[panel].select;
@@ -195,7 +204,10 @@ static pg_status range_of_panels (const drawing *d, double *low, double *high)
     for (size_t k = 0; k < d->n; k++) {
         for (size_t i = 0; i < d->cloud->n; i++) {
             double v = value_of (d, k)[i];
-            shown[i] = !d->seen[i] || !(d->own || above (d, k, i)) ? NAN : !d->style->log ? v : v != 0 ? fabs (v) : NAN;
+            shown[i] = !d->seen[i] || !(d->own || above (d, k, i)) ? NAN
+                       : !d->style->log                            ? v
+                       : v != 0                                    ? fabs (v)
+                                                                   : NAN;
         }
         PG_TRY (pg_picture_range (d->cloud->n, shown, d->style->clip && !d->own ? 2 : 0, &from, &to, &found));
         if (found) *low = any ? fmin (*low, from) : from, *high = any ? fmax (*high, to) : to;
@@ -230,7 +242,8 @@ static pg_status choose_note (drawing *d, const char *label, double low, double 
     if (d->own || d->style->log) return PG_OK;
     PG_ALLOC (shown, d->n * d->cloud->n);
     for (size_t k = 0; k < d->n; k++)
-        for (size_t i = 0; i < d->cloud->n; i++) shown[k * d->cloud->n + i] = d->seen[i] && above (d, k, i) ? value_of (d, k)[i] : NAN;
+        for (size_t i = 0; i < d->cloud->n; i++)
+            shown[k * d->cloud->n + i] = d->seen[i] && above (d, k, i) ? value_of (d, k)[i] : NAN;
     pg_plate_leave_out (&d->plate, label, d->n * d->cloud->n, shown, low, high);
 done:
     pg_free (shown);
@@ -251,14 +264,15 @@ static void choose_arrows (drawing *d)
         }
 }
 
-/* How far the cell of a point reaches along an axis of the picture, m; of points without a spacing by their number. */
+/* How far the cell of a point reaches along an axis of the picture, m; of points without a spacing by their
+ * number. */
 static double half_of_points (const drawing *d, int a)
 {
     double half = half_cell (d, a ? d->plate.eye.up : d->plate.eye.right);
     return half > 0 ? half : 0.5 * (d->plate.high[a] - d->plate.low[a]) / sqrt ((double) d->cloud->n);
 }
 
-/* ---- painting ---------------------------------------------------------------------------------------------------------------- */
+/* ---- painting ------------------------------------------------------------------------------------------ */
 enum { FACE = 129 };
 static pg_status find_faces (drawing *d, const pg_tiles *t)
 {
@@ -280,10 +294,15 @@ static pg_status paint_tiles (drawing *d, size_t panel, pg_screen *s)
 {
     pg_status status = PG_OK;
     const pg_eye *e = &d->plate.eye;
-    const double *u = displaced (d, panel), *damage = d->panel[panel].damage, *size = d->cloud->size ? d->cloud->size : d->spacing;
+    const double *u = displaced (d, panel), *damage = d->panel[panel].damage,
+                 *size = d->cloud->size ? d->cloud->size : d->spacing;
     size_t dim = (size_t) d->cloud->dim, n = d->cloud->n;
     double *place = NULL, *shift = NULL, *harm = NULL, *local = NULL;
-    pg_tiles t = { .dim = d->cloud->dim, .loose = d->spacing || d->cloud->size || d->grid.loose, .eye = e, .outline = d->style->outline, .cracks = d->style->cracks };
+    pg_tiles t = { .dim = d->cloud->dim,
+                   .loose = d->spacing || d->cloud->size || d->grid.loose,
+                   .eye = e,
+                   .outline = d->style->outline,
+                   .cracks = d->style->cracks };
     PG_ALLOC (place, 2 * n);
     if (u) PG_ALLOC (shift, 2 * n);
     if (damage) PG_ALLOC (harm, n);
@@ -298,11 +317,13 @@ static pg_status paint_tiles (drawing *d, size_t panel, pg_screen *s)
         }
         if (damage) harm[k] = damage[i];
         if (size) local[k] = size[i];
-        if (dim == 2 && d->cloud->volume && d->cloud->thickness > 0) t.area += d->cloud->volume[i] / d->cloud->thickness;
+        if (dim == 2 && d->cloud->volume && d->cloud->thickness > 0)
+            t.area += d->cloud->volume[i] / d->cloud->thickness;
         d->index[k] = (int) i;
     }
     for (int a = 0; a < 2; a++) t.step[a] = 2 * half_of_points (d, a);
-    if (e->kind == PG_LAYER) t.at = e->toward[e->cut] * (d->grid.origin[e->cut] + d->layer * d->grid.step[e->cut]);
+    if (e->kind == PG_LAYER)
+        t.at = e->toward[e->cut] * (d->grid.origin[e->cut] + d->layer * d->grid.step[e->cut]);
     t.place = place, t.shift = shift, t.damage = harm, t.size = d->cloud->size ? local : NULL;
     PG_TRY (pg_tiles_open (&t));
     PG_TRY (pg_tiles_draw (&t, s));
@@ -332,15 +353,17 @@ static pg_status paint_spots (drawing *d, size_t panel, pg_screen *s)
         size_t k = d->spots.n++;
         for (int a = 0; a < 2; a++) {
             const double *direction = a ? e->up : e->right;
-            double place = pg_along (direction, x, (int) dim) + (u ? d->style->magnify * pg_along (direction, u + i * dim, (int) dim) : 0);
-            d->spots.place[2 * k + (size_t) a] = a ? (s->top - place) * s->scale : (place - s->left) * s->scale;
+            double place = pg_along (direction, x, (int) dim)
+                           + (u ? d->style->magnify * pg_along (direction, u + i * dim, (int) dim) : 0);
+            d->spots.place[2 * k + (size_t) a] = a ? (s->top - place) * s->scale
+                                                   : (place - s->left) * s->scale;
         }
         d->index[k] = (int) i;
     }
     for (int a = 0; a < 2; a++) {
         d->spots.size[a] = 2 * half_of_points (d, a) * s->scale;
     }
-    d->spots.reach = u ? 1.3 : 1.9;                    /* opened cracks stay open                                        */
+    d->spots.reach = u ? 1.3 : 1.9;                    /* opened cracks stay open */
     PG_TRY (pg_raster (&d->spots, s->width, s->height, s->owner));
     for (size_t p = 0; p < cells; p++) if (s->owner[p] >= 0) s->owner[p] = d->index[s->owner[p]];
 done:
@@ -350,7 +373,8 @@ done:
 static void paint_slice (drawing *d, pg_screen *s)
 {
     pg_slice_draw (&d->grid, &d->plate.eye, s);
-    for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++) if (s->owner[p] >= 0 && !d->keep[s->owner[p]]) s->owner[p] = PG_GHOST;
+    for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++)
+        if (s->owner[p] >= 0 && !d->keep[s->owner[p]]) s->owner[p] = PG_GHOST;
 }
 
 static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
@@ -359,7 +383,9 @@ static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
     const pg_plate *p = &d->plate;
     const pg_eye *e = &p->eye;
     const double *u = displaced (d, panel);
-    pg_screen s = { .left = p->low[0], .top = p->high[1], .scale = fine * p->width / (p->high[0] - p->low[0]) };
+    pg_screen s = { .left = p->low[0],
+                    .top = p->high[1],
+                    .scale = fine * p->width / (p->high[0] - p->low[0]) };
     PG_TRY (pg_screen_open (&s, (int) p->width * fine, (int) p->height * fine));
     for (size_t i = 0; i < d->cloud->n; i++) d->keep[i] = (unsigned char) above (d, panel, i);
     pg_solid solid = { d->cloud, &d->grid, e, u, d->style->magnify, d->keep, d->panel[panel].damage };
@@ -374,7 +400,8 @@ static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
     PG_TRY (pg_panel_paint (p, cr, panel, &s, value_of (d, panel), fine));
     if (box) pg_wire_box (p, cr, panel, &d->grid, 0);
     if (u && d->cloud->dim == 2) pg_wire_faces (p, cr, panel, d->nface, FACE, d->face);
-    else if (d->style->cracks && !u) pg_wire_cracks (p, cr, panel, &d->grid, d->style->cracks, d->panel[panel].select ? NULL : &s);
+    else if (d->style->cracks && !u)
+        pg_wire_cracks (p, cr, panel, &d->grid, d->style->cracks, d->panel[panel].select ? NULL : &s);
     pg_panel_draw (p, cr, panel, d->panel[panel].title);
 done:
     pg_screen_close (&s);
@@ -387,7 +414,8 @@ static const char *name_layer (drawing *d)
     const char *given = d->style->title ? d->style->title : "";
     char axis = "xyz"[d->plate.eye.cut];
     double at = d->grid.origin[d->plate.eye.cut] + d->layer * d->grid.step[d->plate.eye.cut];
-    snprintf (d->title, sizeof d->title, "%.380s%ssection %c = %.4g %s", given, *given ? ", " : "", axis, at / d->plate.unit + 0.0, pg_plate_unit (&d->plate));
+    snprintf (d->title, sizeof d->title, "%.380s%ssection %c = %.4g %s", given, *given ? ", " : "", axis,
+              at / d->plate.unit + 0.0, pg_plate_unit (&d->plate));
     return d->title;
 }
 
@@ -407,20 +435,22 @@ static pg_status draw_sheet (drawing *d, const char *path)
     PG_ALLOC (d->spots.place, 2 * d->cloud->n);
     PG_ALLOC (d->index, d->cloud->n);
     PG_TRY (pg_canvas_open (&canvas, path, d->plate.total[0], d->plate.total[1]));
-    for (size_t k = 0; k < d->n; k++) PG_TRY (paint_panel (d, canvas.cr, k, canvas.svg || !d->plate.eye.framed ? 2 : 1));
+    for (size_t k = 0; k < d->n; k++)
+        PG_TRY (paint_panel (d, canvas.cr, k, canvas.svg || !d->plate.eye.framed ? 2 : 1));
     pg_plate_draw (&d->plate, canvas.cr, d->cloud, &d->grid, &style);
 done:
     return canvas.path ? pg_canvas_close (&canvas, status) : status;
 }
 
-/* ---- 1D ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- 1D ------------------------------------------------------------------------------------------------ */
 static int by_place (const void *a, const void *b)
 {
     double p = *(const double *) a, q = *(const double *) b;
     return (p > q) - (p < q);
 }
 
-static pg_status draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, const pg_panel *panel, const pg_picture_style *style)
+static pg_status draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, const pg_panel *panel,
+                            const pg_picture_style *style)
 {
     pg_status status = PG_OK;
     double *pair = NULL, *x = NULL, *y = NULL;
@@ -432,12 +462,15 @@ static pg_status draw_bars (const char *path, const pg_cloud *cloud, size_t npan
     PG_ALLOC (curve, npanel);
     for (size_t k = 0; k < npanel; k++) {
         const double *u = panel[k].u;
-        for (size_t i = 0; i < n; i++) pair[2*i] = cloud->x[i] + (u ? style->magnify * u[i] : 0), pair[2*i + 1] = panel[k].value[i];
+        for (size_t i = 0; i < n; i++)
+            pair[2 * i] = cloud->x[i] + (u ? style->magnify * u[i] : 0), pair[2 * i + 1] = panel[k].value[i];
         qsort (pair, n, 2 * sizeof (double), by_place);
         for (size_t i = 0; i < n; i++) x[k * n + i] = pair[2*i], y[k * n + i] = pair[2*i + 1];
         curve[k] = (pg_curve) { panel[k].title, n, x + k * n, y + k * n, n <= 60 };
     }
-    PG_TRY (pg_picture_chart (path, npanel, curve, &(pg_chart_style) { .title = style->title, .xlabel = "x (m)", .ylabel = style->label }));
+    PG_TRY (pg_picture_chart (path, npanel, curve,
+                              &(pg_chart_style){
+                                  .title = style->title, .xlabel = "x (m)", .ylabel = style->label }));
 done:
     pg_free (curve);
     pg_free (y);
@@ -446,7 +479,8 @@ done:
     return status;
 }
 
-pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel, int columns, const pg_picture_style *style)
+pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel,
+                             int columns, const pg_picture_style *style)
 {
     pg_status status = PG_OK;
     drawing *d = NULL;
@@ -472,7 +506,8 @@ done:
     return status;
 }
 
-pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value, const pg_picture_style *style)
+pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value,
+                            const pg_picture_style *style)
 {
     pg_panel panel = { NULL, value, style->u, style->select, style->damage };
     return pg_picture_panels (path, cloud, 1, &panel, 1, style);

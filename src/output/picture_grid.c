@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The points of a 3D cloud as cells of the lattice they came from, found from places, steps and volumes alone. */
+ * The points of a 3D cloud as cells of the lattice they came from, found from places, steps and volumes
+ * alone. */
 #include "picture.h"
 #include <math.h>
 #include <stdlib.h>
 
-/* Edges of a cell, and how many fit between the first and the last point. 0: too many to keep as a lattice. */
+/* Edges of a cell, and how many fit between the first and the last point. 0: too many to keep as a
+ * lattice. */
 static int measure (pg_grid *g, const pg_cloud *cloud)
 {
     double cells = 1, mean = 0;
     for (size_t i = 0; i < cloud->n; i++) mean += cloud->volume ? cloud->volume[i] / (double) cloud->n : 0;
     for (int a = 0; a < 3; a++) {
         double low = cloud->x[a], high = low;
-        for (size_t i = 1; i < cloud->n; i++) low = fmin (low, cloud->x[3 * i + (size_t) a]), high = fmax (high, cloud->x[3 * i + (size_t) a]);
+        for (size_t i = 1; i < cloud->n; i++)
+            low = fmin (low, cloud->x[3 * i + (size_t) a]), high = fmax (high, cloud->x[3 * i + (size_t) a]);
         double step = cloud->step[a] > 0 ? cloud->step[a] : cloud->h > 0 ? cloud->h : cbrt (mean);
         if (!(step > 0)) step = high > low ? (high - low) / cbrt ((double) cloud->n) : 1;
         g->origin[a] = low, g->step[a] = step;
@@ -32,7 +35,8 @@ static void cut_faces (pg_grid *g, const pg_cloud *cloud)
         whole = fmax (whole, cloud->volume[i]);
         for (int a = 0; a < 3; a++) {
             int k = pg_grid_place (g, a, cloud->x[3 * i + (size_t) a]);
-            for (int side = 0; side < 2; side++) if (k == (side ? g->count[a] - 1 : 0)) most[a][side] = fmax (most[a][side], cloud->volume[i]);
+            for (int side = 0; side < 2; side++)
+                if (k == (side ? g->count[a] - 1 : 0)) most[a][side] = fmax (most[a][side], cloud->volume[i]);
         }
     }
     for (int a = 0; a < 3; a++) {
@@ -50,7 +54,8 @@ int pg_grid_place (const pg_grid *g, int axis, double x)
 
 static size_t cell_index (const pg_grid *g, const int *cell)
 {
-    return ((size_t) cell[2] * (size_t) g->count[1] + (size_t) cell[1]) * (size_t) g->count[0] + (size_t) cell[0];
+    return ((size_t) cell[2] * (size_t) g->count[1] + (size_t) cell[1]) * (size_t) g->count[0]
+           + (size_t) cell[0];
 }
 
 int pg_grid_point (const pg_grid *g, const int *cell)
@@ -87,15 +92,16 @@ void pg_grid_clear (pg_grid *g)
     *g = (pg_grid) { 0 };
 }
 
-/* ---- 2D ------------------------------------------------------------------------------------------------------------------------- */
+/* ---- 2D ------------------------------------------------------------------------------------------------ */
 static int ascending (const void *a, const void *b)
 {
     double p = *(const double *) a, q = *(const double *) b;
     return (p > q) - (p < q);
 }
 
-/* Along an axis: do the phases of the points spread over a step, and are most coordinates of their own? (Lattices moved a little keep their
- * phase, those with another step than the nominal one have few coordinates.) work: n */
+/* Along an axis: do the phases of the points spread over a step, and are most coordinates of their own?
+ * (Lattices moved a little keep their phase, those with another step than the nominal one have few
+ * coordinates.) work: n */
 static int spreads (const pg_cloud *cloud, int axis, double *work)
 {
     double step = cloud->step[axis] > 0 ? cloud->step[axis] : cloud->h, c = 0, s = 0;
@@ -122,7 +128,8 @@ pg_status pg_loose_spacing (const pg_cloud *cloud, double **spacing)
     for (size_t i = 0; i < cloud->n; i++) sorted[i] = cloud->volume ? cloud->volume[i] : 1;
     qsort (sorted, cloud->n, sizeof *sorted, ascending);
     double middle = sorted[cloud->n / 2];
-    for (size_t i = 0; i < cloud->n; i++) (*spacing)[i] = cloud->h * sqrt (cloud->volume && middle > 0 ? cloud->volume[i] / middle : 1);
+    for (size_t i = 0; i < cloud->n; i++)
+        (*spacing)[i] = cloud->h * sqrt (cloud->volume && middle > 0 ? cloud->volume[i] / middle : 1);
 done:
     pg_free (sorted);
     return status;

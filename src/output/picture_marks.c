@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Marks of charts: rings around places of curves, with texts that stay inside the frame and off the curves; pale curves' pen. */
+ * Marks of charts: rings around places of curves, with texts that stay inside the frame and off the curves;
+ * pale curves' pen. */
 #include "chart.h"
 #include <math.h>
 
@@ -18,7 +19,8 @@ void chart_pale_pen (cairo_t *cr, size_t k)
 /* Right, left, above, below, then the four corners around the ring. */
 static void spot_of (const chart *c, double px, double py, double w, double h, int spot, double box[4])
 {
-    static const signed char side[8][2] = { { 1, 0 }, { -1, 0 }, { 0, -1 }, { 0, 1 }, { 1, -1 }, { -1, -1 }, { 1, 1 }, { -1, 1 } };
+    static const signed char side[8][2] = { { 1, 0 },  { -1, 0 },  { 0, -1 }, { 0, 1 },
+                                            { 1, -1 }, { -1, -1 }, { 1, 1 },  { -1, 1 } };
     box[0] = px + side[spot][0] * AWAY - (side[spot][0] < 0 ? w : side[spot][0] ? 0 : 0.5 * w);
     box[1] = py + side[spot][1] * AWAY - (side[spot][1] < 0 ? h : side[spot][1] ? 0 : 0.5 * h);
     box[0] = fmin (fmax (box[0], c->left + 6), c->left + c->width - w - 6);
@@ -26,7 +28,8 @@ static void spot_of (const chart *c, double px, double py, double w, double h, i
     box[2] = w, box[3] = h;
 }
 
-void chart_marks_place (chart *c, cairo_t *cr, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
+void chart_marks_place (chart *c, cairo_t *cr, size_t ncurve, const pg_curve *curves,
+                        const pg_chart_style *style)
 {
     for (size_t k = 0; k < style->nmark && k < CHART_NOTES; k++) {
         const pg_chart_mark *m = &style->marks[k];
@@ -37,7 +40,8 @@ void chart_marks_place (chart *c, cairo_t *cr, size_t ncurve, const pg_curve *cu
         double w = ceil (pg_text (cr, m->text, PG_FONT, 0, 0, 0, 0, 0)) + 8, h = 1.3 * PG_FONT;
         for (int spot = 0; spot < 8; spot++) {
             spot_of (c, px, py, w, h, spot, box);
-            int over = box[0] < px + RING && box[0] + w > px - RING && box[1] < py + RING && box[1] + h > py - RING;
+            int over = box[0] < px + RING && box[0] + w > px - RING && box[1] < py + RING
+                       && box[1] + h > py - RING;
             size_t n = chart_crowd (c, ncurve, curves, style, box) + (over ? 1000000 : 0);
             if (n >= least) continue;
             least = n;

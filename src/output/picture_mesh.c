@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Pictures of meshes: which faces are seen, the frame they fill, their colours: values at the nodes, blocks of elements or sets. */
+ * Pictures of meshes: which faces are seen, the frame they fill, their colours: values at the nodes, blocks
+ * of elements or sets. */
 #include "picture_mesh.h"
 #include <math.h>
 #include <string.h>
@@ -19,7 +20,7 @@ pg_element mesh_face (const mesh_drawing *d, int element, int side, int node[9])
     return face;
 }
 
-/* ---- what is seen ----------------------------------------------------------------------------------------------------------- */
+/* ---- what is seen -------------------------------------------------------------------------------------- */
 static pg_status choose_faces (mesh_drawing *d)
 {
     pg_status status = PG_OK;
@@ -47,7 +48,8 @@ static pg_status place_nodes (mesh_drawing *d)
         for (size_t k = 0; k < 3; k++) {
             double u = style->u && k < dim ? style->magnify * style->u[i * dim + k] : 0;
             d->x[3 * i + k] = d->scale * (m->x[3 * i + k] + u);
-            if (!isfinite (d->x[3 * i + k])) PG_FAIL (PG_E_USAGE, "node %ld has no place", m->node_id ? m->node_id[i] : (long) i + 1);
+            if (!isfinite (d->x[3 * i + k]))
+                PG_FAIL (PG_E_USAGE, "node %ld has no place", m->node_id ? m->node_id[i] : (long) i + 1);
         }
 done:
     return status;
@@ -72,8 +74,10 @@ static void choose_frame (mesh_drawing *d)
     double size = 0, margin = p->eye.framed ? 0.025 : 0.015;
     for (size_t i = 0; i < d->mesh->nnode; i++)
         for (int a = 0; a < 3; a++) {
-            double v = d->x[3 * i + (size_t) a], s = a < 2 ? pg_along (a ? p->eye.up : p->eye.right, d->x + 3 * i, 3) : 0;
-            d->grid.low[a] = i ? fmin (d->grid.low[a], v) : v, d->grid.high[a] = i ? fmax (d->grid.high[a], v) : v;
+            double v = d->x[3 * i + (size_t) a],
+                   s = a < 2 ? pg_along (a ? p->eye.up : p->eye.right, d->x + 3 * i, 3) : 0;
+            d->grid.low[a] = i ? fmin (d->grid.low[a], v) : v,
+            d->grid.high[a] = i ? fmax (d->grid.high[a], v) : v;
             if (a < 2) p->low[a] = i ? fmin (p->low[a], s) : s, p->high[a] = i ? fmax (p->high[a], s) : s;
         }
     for (int a = 0; a < 2; a++) size = fmax (size, p->high[a] - p->low[a]);
@@ -83,7 +87,7 @@ static void choose_frame (mesh_drawing *d)
     for (int k = 3; k >= 0 && !p->bare; k--) if (size >= 0.999 * unit[k]) p->unit = unit[k];
 }
 
-/* ---- colours ------------------------------------------------------------------------------------------------------------------ */
+/* ---- colours ------------------------------------------------------------------------------------------- */
 /* Sets: the body light grey, then full colours. */
 static void colour_of_set (double t, double rgb[3])
 {
@@ -116,8 +120,10 @@ static pg_status colour_blocks (mesh_drawing *d)
     pg_status status = PG_OK;
     const pg_mesh *m = d->mesh;
     PG_ALLOC (d->own, d->nface);
-    for (size_t f = 0; f < d->nface; f++) d->own[f] = m->block && m->block[d->element[f]] < MESH_SETS ? m->block[d->element[f]] : MESH_SETS;
-    for (size_t b = 0; b < m->nblock && b <= MESH_SETS; b++) add_name (d, b < MESH_SETS ? m->blocks[b].name : "more blocks", "block", m->blocks[b].id);
+    for (size_t f = 0; f < d->nface; f++)
+        d->own[f] = m->block && m->block[d->element[f]] < MESH_SETS ? m->block[d->element[f]] : MESH_SETS;
+    for (size_t b = 0; b < m->nblock && b <= MESH_SETS; b++)
+        add_name (d, b < MESH_SETS ? m->blocks[b].name : "more blocks", "block", m->blocks[b].id);
     if (!d->plate.nlegend) add_name (d, "elements", "block", 0);
     d->plate.colour = colour_of_block;
 done:
@@ -142,7 +148,8 @@ static int has_sides (const pg_mesh *m, const char *name)
     return 0;
 }
 
-/* Sets of sides, then sets of nodes that are none of those; a side in several sets has the colour of the last. */
+/* Sets of sides, then sets of nodes that are none of those; a side in several sets has the colour of the
+ * last. */
 static pg_status colour_sets (mesh_drawing *d)
 {
     pg_status status = PG_OK;
@@ -158,7 +165,8 @@ static pg_status colour_sets (mesh_drawing *d)
         }
     }
     for (size_t t = 0; t < m->nnodes && d->categories < MESH_SETS; t++)
-        if (!has_sides (m, m->nodes[t].name)) add_name (d, m->nodes[t].name, "nodes", m->nodes[t].id), d->categories++;
+        if (!has_sides (m, m->nodes[t].name))
+            add_name (d, m->nodes[t].name, "nodes", m->nodes[t].id), d->categories++;
     d->plate.colour = colour_of_set;
 done:
     return status;
@@ -172,7 +180,8 @@ static pg_status colour_values (mesh_drawing *d, double *low, double *high)
     double *shown = NULL;
     int found;
     PG_ALLOC (shown, n);
-    for (size_t i = 0; i < n; i++) shown[i] = style->log ? (d->value[i] != 0 ? fabs (d->value[i]) : NAN) : d->value[i];
+    for (size_t i = 0; i < n; i++)
+        shown[i] = style->log ? (d->value[i] != 0 ? fabs (d->value[i]) : NAN) : d->value[i];
     d->plate.colour = style->diverging && !style->log ? pg_colour_diverging : pg_colour_sequential;
     *low = style->low, *high = style->high;
     if (*low < *high) goto done;
@@ -199,7 +208,7 @@ static void choose_arrows (mesh_drawing *d)
     }
 }
 
-/* ---- the sheet ------------------------------------------------------------------------------------------------------------------ */
+/* ---- the sheet ----------------------------------------------------------------------------------------- */
 static pg_status draw_sheet (mesh_drawing *d, const char *path)
 {
     pg_status status = PG_OK;
@@ -219,7 +228,9 @@ static pg_status draw_sheet (mesh_drawing *d, const char *path)
     choose_arrows (d);
     PG_TRY (pg_canvas_open (&canvas, path, p->total[0], p->total[1]));
     int fine = canvas.svg || !p->eye.framed ? 2 : 1;
-    s = (pg_screen) { .left = p->low[0], .top = p->high[1], .scale = fine * p->width / (p->high[0] - p->low[0]) };
+    s = (pg_screen){ .left = p->low[0],
+                     .top = p->high[1],
+                     .scale = fine * p->width / (p->high[0] - p->low[0]) };
     PG_TRY (pg_screen_open (&s, (int) p->width * fine, (int) p->height * fine));
     PG_TRY (mesh_paint (d, &s));
     PG_TRY (pg_panel_paint (p, canvas.cr, 0, &s, s.value, fine));
@@ -231,7 +242,8 @@ done:
     return canvas.path ? pg_canvas_close (&canvas, status) : status;
 }
 
-pg_status pg_picture_mesh (const char *path, const pg_mesh *mesh, const double *value, const pg_picture_style *style)
+pg_status pg_picture_mesh (const char *path, const pg_mesh *mesh, const double *value,
+                           const pg_picture_style *style)
 {
     pg_status status = PG_OK;
     mesh_drawing *d = NULL;
@@ -246,7 +258,8 @@ pg_status pg_picture_mesh (const char *path, const pg_mesh *mesh, const double *
     PG_TRY (draw_sheet (d, path));
 done:
     if (d) {
-        pg_free (d->x), pg_free (d->element), pg_free (d->side), pg_free (d->rim_element), pg_free (d->rim_side), pg_free (d->own);
+        pg_free (d->x), pg_free (d->element), pg_free (d->side), pg_free (d->rim_element),
+            pg_free (d->rim_side), pg_free (d->own);
     }
     pg_free (d);
     return status;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Faces of elements on a screen: cut into small triangles along their own coordinates, so that curved edges look curved and values
- * vary as the shape functions do; then the edges that are in sight. */
+ * Faces of elements on a screen: cut into small triangles along their own coordinates, so that curved edges
+ * look curved and values vary as the shape functions do; then the edges that are in sight. */
 #include "picture_mesh.h"
 #include <math.h>
 #include <string.h>
 
 enum { FINEST = 8, SPOTS = (FINEST + 1) * (FINEST + 1) };
 
-/* ---- faces ------------------------------------------------------------------------------------------------------------------ */
+/* ---- faces --------------------------------------------------------------------------------------------- */
 static int is_triangle (pg_element kind) { return pg_element_types[kind].corners == 3; }
 
 /* How many parts along an edge: straight triangles are one. */
@@ -19,7 +19,8 @@ static int parts_of (const mesh_drawing *d, pg_element kind)
 }
 
 /* Place on the screen and value of place xi of a face. */
-static void spot_of (const mesh_drawing *d, const pg_screen *s, pg_element kind, const int *node, const double *xi, double *at, double *x, double *value)
+static void spot_of (const mesh_drawing *d, const pg_screen *s, pg_element kind, const int *node,
+                     const double *xi, double *at, double *x, double *value)
 {
     double N[PG_ELEMENT_NODES];
     pg_element_shape (kind, xi, N, NULL);
@@ -43,7 +44,8 @@ static float light_of (const mesh_drawing *d, const double (*x)[3])
     n[0] = a[1] * b[2] - a[2] * b[1], n[1] = a[2] * b[0] - a[0] * b[2], n[2] = a[0] * b[1] - a[1] * b[0];
     double size = sqrt (pg_along (n, n, 3)), toward = pg_along (d->plate.eye.toward, n, 3);
     for (int k = 0; k < 3; k++) n[k] *= size > 0 ? (toward < 0 ? -1 : 1) / size : 0;
-    return d->plate.eye.framed ? (float) (0.7 + 0.3 * pg_along (d->plate.eye.toward, n, 3)) : pg_light_on (&d->plate.eye, n);
+    return d->plate.eye.framed ? (float) (0.7 + 0.3 * pg_along (d->plate.eye.toward, n, 3))
+                               : pg_light_on (&d->plate.eye, n);
 }
 
 static void paint_face (const mesh_drawing *d, pg_screen *s, size_t f)
@@ -62,13 +64,15 @@ static void paint_face (const mesh_drawing *d, pg_screen *s, size_t f)
     for (row = 0; row < m; row++)
         for (int i = 0; i < (triangle ? m - row : m); i++)
             for (int half = 0; half < (triangle && i == m - row - 1 ? 1 : 2); half++) {
-                int a = row * stride + i, corner[3] = { half ? a + 1 : a, half ? a + 1 + stride : a + 1, a + stride };
+                int a = row * stride + i,
+                    corner[3] = { half ? a + 1 : a, half ? a + 1 + stride : a + 1, a + stride };
                 double v[3][3], y[3][3], w[3];
                 for (int k = 0; k < 3; k++) {
                     memcpy (v[k], at[corner[k]], sizeof v[k]), memcpy (y[k], x[corner[k]], sizeof y[k]);
                     w[k] = value[corner[k]];
                 }
-                if (isfinite (v[0][0] + v[0][1] + v[1][0] + v[1][1] + v[2][0] + v[2][1])) pg_triangle (s, (const double (*)[3]) v, 0, light_of (d, (const double (*)[3]) y), w);
+                if (isfinite (v[0][0] + v[0][1] + v[1][0] + v[1][1] + v[2][0] + v[2][1]))
+                    pg_triangle (s, (const double (*)[3]) v, 0, light_of (d, (const double (*)[3]) y), w);
             }
 }
 
@@ -90,7 +94,7 @@ done:
     return status;
 }
 
-/* ---- lines -------------------------------------------------------------------------------------------------------------------- */
+/* ---- lines --------------------------------------------------------------------------------------------- */
 /* Is a place in front of, or in, what the screen shows around it? */
 static int in_sight (const pg_screen *s, const double *at, double slack)
 {
@@ -103,15 +107,21 @@ static int in_sight (const pg_screen *s, const double *at, double slack)
 }
 
 /* Side `e` of a face, from corner to corner, what of it is in sight. */
-static void path_of_side (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, pg_element kind, const int *node, int e)
+static void path_of_side (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, pg_element kind,
+                          const int *node, int e)
 {
-    static const double tri[3][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 } }, quad[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
-    int corners = pg_element_types[kind].corners, solid = d->mesh->dim == 3, m = pg_element_types[kind].order == 2 ? FINEST : 1, pen = 0;
-    const double *from = corners == 3 ? tri[e] : quad[e], *to = corners == 3 ? tri[(e + 1) % 3] : quad[(e + 1) % 4];
+    static const double tri[3][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 } },
+                        quad[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
+    int corners = pg_element_types[kind].corners, solid = d->mesh->dim == 3,
+        m = pg_element_types[kind].order == 2 ? FINEST : 1, pen = 0;
+    const double *from = corners == 3 ? tri[e] : quad[e],
+                 *to = corners == 3 ? tri[(e + 1) % 3] : quad[(e + 1) % 4];
     double size = fmax (d->plate.high[0] - d->plate.low[0], d->plate.high[1] - d->plate.low[1]);
     if (solid) m = d->nface > 2000 ? 4 : 16;
     for (int k = 0; k <= m; k++) {
-        double t = (double) k / m, xi[2] = { from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]) }, at[3], x[3], value;
+        double t = (double) k / m,
+               xi[2] = { from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]) }, at[3], x[3],
+               value;
         spot_of (d, s, kind, node, xi, at, x, &value);
         int seen = !solid || in_sight (s, at, 0.004 * size);
         if (seen && pen) cairo_line_to (cr, at[0], at[1]);
@@ -148,7 +158,8 @@ static void draw_sets (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, d
     int k = 1;
     for (size_t t = 0; t < m->nsides && k <= d->categories; t++, k++) {
         if (m->dim == 3) continue;
-        for (size_t i = 0; i < m->sides[t].n; i++) path_of_rim (d, cr, s, m->sides[t].element[i], m->sides[t].side[i]);
+        for (size_t i = 0; i < m->sides[t].n; i++)
+            path_of_rim (d, cr, s, m->sides[t].element[i], m->sides[t].side[i]);
         d->plate.colour ((double) k / PG_CATEGORIES, rgb);
         cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
         cairo_set_line_width (cr, 7 * pixel);
@@ -160,7 +171,9 @@ static void draw_sets (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, d
         cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
         for (size_t i = 0; i < m->nodes[t].n; i++) {
             const double *x = d->x + 3 * (size_t) m->nodes[t].node[i];
-            double at[3] = { (pg_along (d->plate.eye.right, x, 3) - s->left) * s->scale, (s->top - pg_along (d->plate.eye.up, x, 3)) * s->scale, pg_along (d->plate.eye.toward, x, 3) };
+            double at[3] = { (pg_along (d->plate.eye.right, x, 3) - s->left) * s->scale,
+                             (s->top - pg_along (d->plate.eye.up, x, 3)) * s->scale,
+                             pg_along (d->plate.eye.toward, x, 3) };
             if (m->dim == 3 && !in_sight (s, at, 0.004 * size)) continue;
             cairo_new_sub_path (cr);
             cairo_arc (cr, at[0], at[1], 5 * pixel, 0, 6.283185307179586);

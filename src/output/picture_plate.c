@@ -1,16 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The sheet of a picture: one frame or several of equal scales in rows, axes with the length unit, a common colour bar, title. */
+ * The sheet of a picture: one frame or several of equal scales in rows, axes with the length unit, a common
+ * colour bar, title. */
 #include "picture.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { WIDE = 1120, BROAD = 900, TALL = 1000, SHARED = 1440, LEAST_FRAME = 340, BAR = 30, BAR_GAP = 34, LEAST = 640, STRIP = 128,
-       TITLE = 74, PANEL_TITLE = 48, GAP = 34, SIDE = 24, NOTE = 36 };
+enum {
+    WIDE = 1120,
+    BROAD = 900,
+    TALL = 1000,
+    SHARED = 1440,
+    LEAST_FRAME = 340,
+    BAR = 30,
+    BAR_GAP = 34,
+    LEAST = 640,
+    STRIP = 128,
+    TITLE = 74,
+    PANEL_TITLE = 48,
+    GAP = 34,
+    SIDE = 24,
+    NOTE = 36
+};
 
 const char *pg_plate_unit (const pg_plate *p)
 {
-    return p->bare ? "" : p->unit > 1 ? "km" : p->unit == 1 ? "m" : p->unit == 1e-3 ? "mm" : p->unit == 1e-6 ? "\xc2\xb5m" : "nm";
+    return p->bare           ? ""
+           : p->unit > 1     ? "km"
+           : p->unit == 1    ? "m"
+           : p->unit == 1e-3 ? "mm"
+           : p->unit == 1e-6 ? "\xc2\xb5m"
+                             : "nm";
 }
 
 static double most_of (double share, int parts)
@@ -40,8 +60,10 @@ static void fit_axis (const pg_plate *p, pg_axis *axis, cairo_t *cr, int a)
 {
     char text[32];
     int k = p->eye.axis[a], reverse = k >= 0 && p->eye.sign[a] < 0;
-    snprintf (text, sizeof text, p->bare ? "%c" : "%c (%s)", k < 0 ? (a ? 't' : 's') : "xyz"[k], pg_plate_unit (p));
-    double low = (reverse ? -p->high[a] : p->low[a]) / p->unit, high = (reverse ? -p->low[a] : p->high[a]) / p->unit;
+    snprintf (text, sizeof text, p->bare ? "%c" : "%c (%s)", k < 0 ? (a ? 't' : 's') : "xyz"[k],
+              pg_plate_unit (p));
+    double low = (reverse ? -p->high[a] : p->low[a]) / p->unit,
+           high = (reverse ? -p->low[a] : p->high[a]) / p->unit;
     pg_axis_wish wish = { text, a ? PG_LEFT : PG_BOTTOM, 0, 0, 1 };
     pg_axis_fit (axis, cr, low, high, a ? p->height : p->width, &wish);
     axis->reverse = reverse;
@@ -73,12 +95,13 @@ static void place_parts (pg_plate *p, cairo_t *cr, const pg_picture_style *style
 
 void pg_plate_fit (pg_plate *p, const pg_picture_style *style, double low, double high)
 {
-    cairo_surface_t *scratch = cairo_image_surface_create (CAIRO_FORMAT_A8, 1, 1);     /* to measure texts on */
+    cairo_surface_t *scratch = cairo_image_surface_create (CAIRO_FORMAT_A8, 1, 1);  /* to measure texts on */
     cairo_t *cr = cairo_create (scratch);
     size_frame (p);
     fit_axis (p, &p->x, cr, 0);
     fit_axis (p, &p->y, cr, 1);
-    pg_axis_wish wish = { style->label ? style->label : "", p->flat ? PG_BOTTOM : PG_RIGHT, style->log, 0, 0 };
+    pg_axis_wish wish = { style->label ? style->label : "", p->flat ? PG_BOTTOM : PG_RIGHT, style->log, 0,
+                          0 };
     double h = p->height + (p->rows - 1) * (p->height + GAP + (p->titles ? PANEL_TITLE : 0));
     pg_axis_fit (&p->bar, cr, low, high, p->flat ? p->width : h, &wish);
     if (p->nlegend) p->bar.low = 0, p->bar.high = PG_CATEGORIES, p->bar.log = 0;
@@ -170,9 +193,11 @@ static void draw_legend (const pg_plate *p, cairo_t *cr)
 static void draw_strip (const pg_plate *p, cairo_t *cr, const pg_grid *g)
 {
     char text[160];
-    double room = p->total[0] - 2 * SIDE - 130, size = PG_FONT, y = p->total[1] - 0.5 * STRIP - 4 - (p->note[0] ? NOTE : 0);
-    snprintf (text, sizeof text, "%.4g \xc3\x97 %.4g \xc3\x97 %.4g %s%s(x \xc3\x97 y \xc3\x97 z)", (g->high[0] - g->low[0]) / p->unit,
-              (g->high[1] - g->low[1]) / p->unit, (g->high[2] - g->low[2]) / p->unit, pg_plate_unit (p), p->bare ? "" : " ");
+    double room = p->total[0] - 2 * SIDE - 130, size = PG_FONT,
+           y = p->total[1] - 0.5 * STRIP - 4 - (p->note[0] ? NOTE : 0);
+    snprintf (text, sizeof text, "%.4g \xc3\x97 %.4g \xc3\x97 %.4g %s%s(x \xc3\x97 y \xc3\x97 z)",
+              (g->high[0] - g->low[0]) / p->unit, (g->high[1] - g->low[1]) / p->unit,
+              (g->high[2] - g->low[2]) / p->unit, pg_plate_unit (p), p->bare ? "" : " ");
     double w = pg_text (cr, text, size, 0, 0, 0, 0, 0);
     if (w > room) size *= room / w;
     pg_wire_triad (p, cr, SIDE + 52, y + 10, 42);
@@ -182,13 +207,15 @@ static void draw_strip (const pg_plate *p, cairo_t *cr, const pg_grid *g)
 
 static void draw_note (const pg_plate *p, cairo_t *cr)
 {
-    double size = 0.8 * PG_FONT, room = p->total[0] - 2 * SIDE, w = pg_text (cr, p->note, size, 0, 0, 0, 0, 0);
+    double size = 0.8 * PG_FONT, room = p->total[0] - 2 * SIDE,
+           w = pg_text (cr, p->note, size, 0, 0, 0, 0, 0);
     if (w > room) size *= room / w;
     cairo_set_source_rgb (cr, 0.25, 0.25, 0.25);
     pg_text (cr, p->note, size, 0.5 * p->total[0], p->total[1] - 0.5 * NOTE - 4, 0.5, 0, 1);
 }
 
-void pg_plate_leave_out (pg_plate *p, const char *label, size_t n, const double *value, double low, double high)
+void pg_plate_leave_out (pg_plate *p, const char *label, size_t n, const double *value, double low,
+                         double high)
 {
     double least = INFINITY, most = -INFINITY, slack = 1e-9 * (high - low), all = 0, in = 0;
     char unit[32] = "", end[2][48];
@@ -202,13 +229,16 @@ void pg_plate_leave_out (pg_plate *p, const char *label, size_t n, const double 
     if (!(in < all)) return;
     if (open) snprintf (unit, sizeof unit, "%.*s", (int) strcspn (open + 1, ")"), open + 1);
     for (int k = 0; k < 2; k++) {
-        if (*unit && strchr ("NmPJ", *unit)) pg_picture_quantity (k ? most : least, unit, end[k], sizeof end[k]);
+        if (*unit && strchr ("NmPJ", *unit))
+            pg_picture_quantity (k ? most : least, unit, end[k], sizeof end[k]);
         else snprintf (end[k], sizeof end[k], "%.4g%s%s", k ? most : least, *unit ? " " : "", unit);
     }
-    snprintf (p->note, sizeof p->note, "colours end at %.3g %% of the points; values from %s to %s", floor (1000 * in / all) / 10, end[0], end[1]);
+    snprintf (p->note, sizeof p->note, "colours end at %.3g %% of the points; values from %s to %s",
+              floor (1000 * in / all) / 10, end[0], end[1]);
 }
 
-void pg_plate_draw (const pg_plate *p, cairo_t *cr, const pg_cloud *cloud, const pg_grid *grid, const pg_picture_style *style)
+void pg_plate_draw (const pg_plate *p, cairo_t *cr, const pg_cloud *cloud, const pg_grid *grid,
+                    const pg_picture_style *style)
 {
     double w = p->width + (p->columns - 1) * p->pitch[0];
     if (p->nlegend) draw_legend (p, cr);
@@ -216,7 +246,9 @@ void pg_plate_draw (const pg_plate *p, cairo_t *cr, const pg_cloud *cloud, const
     if (!p->eye.framed && cloud->dim == 3) draw_strip (p, cr, grid);
     if (p->note[0]) draw_note (p, cr);
     cairo_set_source_rgb (cr, 0, 0, 0);
-    if (style->title) pg_title (cr, style->title, p->left + 0.5 * w, p->top - (p->titles ? PANEL_TITLE : 0) - 36, p->total[0]);
+    if (style->title)
+        pg_title (cr, style->title, p->left + 0.5 * w, p->top - (p->titles ? PANEL_TITLE : 0) - 36,
+                  p->total[0]);
 }
 
 /* Frame and title of a panel; axes along the left and the lower rim of the sheet only. */
@@ -225,8 +257,10 @@ void pg_panel_draw (const pg_plate *p, cairo_t *cr, size_t panel, const char *ti
     double x, y, size = PG_FONT;
     corner_of (p, panel, &x, &y);
     if (p->eye.framed) draw_frame (cr, x, y, p->width, p->height);
-    if (p->eye.framed && panel + (size_t) p->columns >= p->panels) pg_axis_draw (&p->x, cr, x, y, p->width, p->height);
-    if (p->eye.framed && panel % (size_t) p->columns == 0) pg_axis_draw (&p->y, cr, x, y, p->width, p->height);
+    if (p->eye.framed && panel + (size_t) p->columns >= p->panels)
+        pg_axis_draw (&p->x, cr, x, y, p->width, p->height);
+    if (p->eye.framed && panel % (size_t) p->columns == 0)
+        pg_axis_draw (&p->y, cr, x, y, p->width, p->height);
     if (!p->titles || !title) return;
     double w = pg_text (cr, title, size, 0, 0, 0, 0, 0);
     if (w > p->pitch[0]) size *= p->pitch[0] / w;
@@ -244,32 +278,37 @@ static uint32_t pixel_of (const pg_plate *p, const pg_screen *s, size_t at, cons
     else if (k == PG_EDGE) for (int c = 0; c < 3; c++) rgb[c] = 0.50, shade = 1;
     else {
         double t = pg_axis_at (&p->bar, p->bar.log ? fmax (fabs (value[k]), p->bar.low) : value[k]);
-        if (isfinite (value[k]) && isfinite (t)) p->colour (lround (1023 * fmin (fmax (t, 0), 1)) / 1023.0, rgb);
+        if (isfinite (value[k]) && isfinite (t))
+            p->colour (lround (1023 * fmin (fmax (t, 0), 1)) / 1023.0, rgb);
     }
     uint32_t pixel = 0xff000000u;
     for (int c = 0; c < 3; c++) pixel |= (uint32_t) lround (255 * shade * rgb[c]) << (16 - 8 * c);
     return pixel;
 }
 
-pg_status pg_panel_paint (const pg_plate *p, cairo_t *cr, size_t panel, const pg_screen *s, const double *value, int fine)
+pg_status pg_panel_paint (const pg_plate *p, cairo_t *cr, size_t panel, const pg_screen *s,
+                          const double *value, int fine)
 {
     pg_status status = PG_OK;
     double x, y;
     corner_of (p, panel, &x, &y);
     cairo_surface_t *image = cairo_image_surface_create (CAIRO_FORMAT_ARGB32, s->width, s->height);
-    if (cairo_surface_status (image) != CAIRO_STATUS_SUCCESS) PG_FAIL (PG_E_MEMORY, "no memory for %d x %d pixels", s->width, s->height);
+    if (cairo_surface_status (image) != CAIRO_STATUS_SUCCESS)
+        PG_FAIL (PG_E_MEMORY, "no memory for %d x %d pixels", s->width, s->height);
     unsigned char *bytes = cairo_image_surface_get_data (image);
     for (int j = 0; j < s->height; j++)
         for (int i = 0; i < s->width; i++) {
             uint32_t pixel = pixel_of (p, s, (size_t) j * (size_t) s->width + (size_t) i, value);
-            memcpy (bytes + (size_t) j * (size_t) cairo_image_surface_get_stride (image) + 4 * (size_t) i, &pixel, 4);
+            memcpy (bytes + (size_t) j * (size_t) cairo_image_surface_get_stride (image) + 4 * (size_t) i,
+                    &pixel, 4);
         }
     cairo_surface_mark_dirty (image);
     cairo_save (cr);
     cairo_translate (cr, x, y);
     cairo_scale (cr, 1.0 / fine, 1.0 / fine);
     cairo_set_source_surface (cr, image, 0, 0);
-    cairo_pattern_set_filter (cairo_get_source (cr), p->eye.framed ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
+    cairo_pattern_set_filter (cairo_get_source (cr),
+                              p->eye.framed ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
     cairo_paint (cr);
     cairo_restore (cr);
 done:

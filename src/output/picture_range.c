@@ -10,7 +10,8 @@ static int ascending (const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-pg_status pg_picture_range (size_t n, const double *value, double excess, double *low, double *high, int *found)
+pg_status pg_picture_range (size_t n, const double *value, double excess, double *low, double *high,
+                            int *found)
 {
     pg_status status = PG_OK;
     double *sorted = NULL;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Solids on a screen: a cube around each point, its faces as triangles with a depth buffer, so that what is nearer hides what is
- * behind. Neighbours share displaced corners, except across an opening of more than half a cell. */
+ * Solids on a screen: a cube around each point, its faces as triangles with a depth buffer, so that what is
+ * nearer hides what is behind. Neighbours share displaced corners, except across an opening of more than half
+ * a cell. */
 #include "picture.h"
 #include <math.h>
 
@@ -32,7 +33,8 @@ void pg_triangle (pg_screen *s, const double v[3][3], int owner, float shade, co
     if (!(fabs (area) > 1e-9)) return;
     int first[2], last[2], most[2] = { s->width, s->height };
     for (int a = 0; a < 2; a++) {
-        double low = ceil (fmin (fmin (v[0][a], v[1][a]), v[2][a]) - 0.5 - 1e-6), high = floor (fmax (fmax (v[0][a], v[1][a]), v[2][a]) - 0.5 + 1e-6);
+        double low = ceil (fmin (fmin (v[0][a], v[1][a]), v[2][a]) - 0.5 - 1e-6),
+               high = floor (fmax (fmax (v[0][a], v[1][a]), v[2][a]) - 0.5 + 1e-6);
         first[a] = low < 0 ? 0 : low < most[a] ? (int) low : most[a];
         last[a] = high < 0 ? -1 : high < most[a] ? (int) high : most[a] - 1;
     }
@@ -52,10 +54,12 @@ void pg_triangle (pg_screen *s, const double v[3][3], int owner, float shade, co
         }
 }
 
-/* Light from above, slightly from the left, behind the eye; a face towards the eye of a side view is fully bright. */
+/* Light from above, slightly from the left, behind the eye; a face towards the eye of a side view is fully
+ * bright. */
 float pg_light_on (const pg_eye *e, const double *normal)
 {
-    double right = pg_along (e->right, normal, 3), up = pg_along (e->up, normal, 3), toward = pg_along (e->toward, normal, 3);
+    double right = pg_along (e->right, normal, 3), up = pg_along (e->up, normal, 3),
+           toward = pg_along (e->toward, normal, 3);
     if (e->framed) return toward > 0.5 ? 1 : 0.8f;
     double light = (-0.25 * right + 0.45 * up + 0.85 * toward) / 0.78;
     return (float) (0.70 + 0.30 * fmin (fmax (light, 0), 1));
@@ -63,26 +67,33 @@ float pg_light_on (const pg_eye *e, const double *normal)
 
 static int kept (const pg_solid *s, int point) { return point >= 0 && (!s->keep || s->keep[point]); }
 
-/* Have the two points drifted apart by more than half a cell? Whole ones have not, however much is magnified. */
+/* Have the two points drifted apart by more than half a cell? Whole ones have not, however much is
+ * magnified. */
 static int torn (const pg_solid *s, int i, int j)
 {
     if (s->damage && fmin (s->damage[i], s->damage[j]) < 0.1) return 0;
     for (int a = 0; s->u && a < 3; a++)
-        if (fabs (s->magnify * (s->u[3 * (size_t) i + (size_t) a] - s->u[3 * (size_t) j + (size_t) a])) > 0.5 * s->grid->step[a]) return 1;
+        if (fabs (s->magnify * (s->u[3 * (size_t) i + (size_t) a] - s->u[3 * (size_t) j + (size_t) a]))
+            > 0.5 * s->grid->step[a])
+            return 1;
     return 0;
 }
 
 /* Place of corner (0 or 1 an axis) of the cube of point i, on pixels, with its depth. */
-static void corner_at (const pg_solid *s, const pg_screen *screen, int i, const int *cell, const int *corner, double *out)
+static void corner_at (const pg_solid *s, const pg_screen *screen, int i, const int *cell, const int *corner,
+                       double *out)
 {
     const pg_grid *g = s->grid;
     double x[3], u[3] = { 0 }, n = 0;
     for (int a = 0; a < 3; a++) {
         if (g->loose) x[a] = s->cloud->x[3 * (size_t) i + (size_t) a] + (corner[a] - 0.5) * g->step[a];
-        else x[a] = fmin (fmax (g->origin[a] + (cell[a] + corner[a] - 0.5) * g->step[a], g->low[a]), g->high[a]);
+        else
+            x[a] = fmin (fmax (g->origin[a] + (cell[a] + corner[a] - 0.5) * g->step[a], g->low[a]),
+                         g->high[a]);
     }
     for (int k = 0; s->u && k < 8; k++) {
-        int other[3] = { cell[0] + corner[0] - (k & 1), cell[1] + corner[1] - (k >> 1 & 1), cell[2] + corner[2] - (k >> 2) };
+        int other[3] = { cell[0] + corner[0] - (k & 1), cell[1] + corner[1] - (k >> 1 & 1),
+                         cell[2] + corner[2] - (k >> 2) };
         int j = g->loose ? i : pg_grid_point (g, other);
         if (!kept (s, j) || torn (s, i, j)) continue;
         for (int a = 0; a < 3; a++) u[a] += s->u[3 * (size_t) j + (size_t) a];
@@ -103,11 +114,14 @@ static void draw_face (const pg_solid *s, pg_screen *screen, int i, const int *c
         int corner[3];
         corner[axis] = side, corner[(axis + 1) % 3] = round[k][0], corner[(axis + 2) % 3] = round[k][1];
         corner_at (s, screen, i, cell, corner, v[k]);
-        v[k][2] -= pg_along (s->eye->toward, normal, 3) < 0.1 ? 0.02 * s->grid->step[axis] : 0;     /* edge-on: behind its neighbours */
+        /* edge-on: behind its neighbours */
+        v[k][2] -= pg_along (s->eye->toward, normal, 3) < 0.1 ? 0.02 * s->grid->step[axis] : 0;
         if (!isfinite (v[k][0]) || !isfinite (v[k][1]) || !isfinite (v[k][2])) return;
     }
     float shade = pg_light_on (s->eye, normal);
-    double second[3][3] = { { v[0][0], v[0][1], v[0][2] }, { v[2][0], v[2][1], v[2][2] }, { v[3][0], v[3][1], v[3][2] } };
+    double second[3][3] = { { v[0][0], v[0][1], v[0][2] },
+                            { v[2][0], v[2][1], v[2][2] },
+                            { v[3][0], v[3][1], v[3][2] } };
     pg_triangle (screen, v, i, shade, NULL);
     pg_triangle (screen, second, i, shade, NULL);
 }
@@ -117,7 +131,8 @@ void pg_solid_draw (const pg_solid *s, pg_screen *screen)
     for (size_t i = 0; i < s->cloud->n; i++) {
         int cell[3] = { 0 };
         if (!kept (s, (int) i)) continue;
-        for (int a = 0; a < 3 && !s->grid->loose; a++) cell[a] = pg_grid_place (s->grid, a, s->cloud->x[3 * i + (size_t) a]);
+        for (int a = 0; a < 3 && !s->grid->loose; a++)
+            cell[a] = pg_grid_place (s->grid, a, s->cloud->x[3 * i + (size_t) a]);
         for (int f = 0; f < 6; f++) {
             int next[3] = { cell[0], cell[1], cell[2] };
             next[f / 2] += f % 2 ? 1 : -1;
@@ -134,7 +149,9 @@ int pg_on_outline (const pg_screen *s, int i, int j, double jump)
     float depth = s->depth[(size_t) j * (size_t) s->width + (size_t) i];
     for (int k = 0; k < 4; k++) {
         int x = i + beside[k][0], y = j + beside[k][1];
-        if (x < 0 || y < 0 || x >= s->width || y >= s->height || depth - s->depth[(size_t) y * (size_t) s->width + (size_t) x] > jump) return 1;
+        if (x < 0 || y < 0 || x >= s->width || y >= s->height
+            || depth - s->depth[(size_t) y * (size_t) s->width + (size_t) x] > jump)
+            return 1;
     }
     return 0;
 }

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body at rest on the pixels of its plane: where it is, by its outline or by its points alone, and whose pixel each is: of the nearest
- * point that no pre-crack parts from it. */
+ * The body at rest on the pixels of its plane: where it is, by its outline or by its points alone, and whose
+ * pixel each is: of the nearest point that no pre-crack parts from it. */
 #include "picture_tiles.h"
 #include <math.h>
 #include <string.h>
 
 void pg_tiles_space (const pg_tiles *t, double a, double b, double *x)
 {
-    for (int k = 0; k < 3; k++) x[k] = t->dim == 2 ? (k == 0 ? a : k == 1 ? b : 0) : a * t->eye->right[k] + b * t->eye->up[k] + t->at * t->eye->toward[k];
+    for (int k = 0; k < 3; k++)
+        x[k] = t->dim == 2 ? (k == 0   ? a
+                              : k == 1 ? b
+                                       : 0)
+                           : a * t->eye->right[k] + b * t->eye->up[k] + t->at * t->eye->toward[k];
 }
 
-/* ---- points in buckets ------------------------------------------------------------------------------------------------------ */
+/* ---- points in buckets --------------------------------------------------------------------------------- */
 static long bucket_of (const pg_tiles *t, int axis, double place)
 {
     double k = floor ((place - t->low[axis]) / t->pitch);
@@ -23,7 +27,9 @@ static pg_status sort_points (pg_tiles *t)
     t->pitch = fmax (1.6 * t->widest, 1e-300);
     for (int a = 0; a < 2; a++) {
         double high = t->low[a] = t->place[a];
-        for (size_t k = 0; k < t->n; k++) t->low[a] = fmin (t->low[a], t->place[2 * k + (size_t) a]), high = fmax (high, t->place[2 * k + (size_t) a]);
+        for (size_t k = 0; k < t->n; k++)
+            t->low[a] = fmin (t->low[a], t->place[2 * k + (size_t) a]),
+            high = fmax (high, t->place[2 * k + (size_t) a]);
         t->buckets[a] = (long) fmin ((high - t->low[a]) / t->pitch + 1, 4096);
     }
     size_t all = (size_t) (t->buckets[0] * t->buckets[1]);
@@ -31,7 +37,8 @@ static pg_status sort_points (pg_tiles *t)
     PG_ALLOC (t->sorted, t->n);
     for (int pass = 0; pass < 2; pass++) {
         for (size_t k = 0; k < t->n; k++) {
-            size_t b = (size_t) (bucket_of (t, 1, t->place[2 * k + 1]) * t->buckets[0] + bucket_of (t, 0, t->place[2 * k]));
+            size_t b = (size_t) (bucket_of (t, 1, t->place[2 * k + 1]) * t->buckets[0]
+                                 + bucket_of (t, 0, t->place[2 * k]));
             if (pass) t->sorted[--t->first[b + 1]] = (int) k;
             else t->first[b + 1]++;
         }
@@ -47,7 +54,8 @@ size_t pg_tiles_near (const pg_tiles *t, const double *at, double reach, size_t 
 {
     size_t n = 0;
     long from[2], to[2];
-    for (int a = 0; a < 2; a++) from[a] = bucket_of (t, a, at[a] - reach), to[a] = bucket_of (t, a, at[a] + reach);
+    for (int a = 0; a < 2; a++)
+        from[a] = bucket_of (t, a, at[a] - reach), to[a] = bucket_of (t, a, at[a] + reach);
     for (long j = from[1]; j <= to[1]; j++)
         for (long i = from[0]; i <= to[0]; i++)
             for (size_t s = t->first[j * t->buckets[0] + i]; s < t->first[j * t->buckets[0] + i + 1]; s++) {
@@ -58,7 +66,7 @@ size_t pg_tiles_near (const pg_tiles *t, const double *at, double reach, size_t 
     return n;
 }
 
-/* ---- spacing ---------------------------------------------------------------------------------------------------------------- */
+/* ---- spacing ------------------------------------------------------------------------------------------- */
 /* Each spacing the mean of those around it. */
 static pg_status smooth_spacing (pg_tiles *t)
 {
@@ -78,7 +86,8 @@ done:
     return status;
 }
 
-/* Local spacings: given, or, of points of no lattice, the distance of the third nearest neighbour; of a lattice its step. */
+/* Local spacings: given, or, of points of no lattice, the distance of the third nearest neighbour; of a
+ * lattice its step. */
 static pg_status measure_spacing (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -96,10 +105,12 @@ static pg_status measure_spacing (pg_tiles *t)
             size_t m = pg_tiles_near (t, t->place + 2 * k, reach, MOST, near);
             third[0] = third[1] = third[2] = INFINITY;
             for (size_t i = 0; i < m; i++) {
-                double d = hypot (t->place[2 * (size_t) near[i]] - t->place[2*k], t->place[2 * (size_t) near[i] + 1] - t->place[2*k + 1]);
+                double d = hypot (t->place[2 * (size_t) near[i]] - t->place[2 * k],
+                                  t->place[2 * (size_t) near[i] + 1] - t->place[2 * k + 1]);
                 if (!(d > 0) || d >= third[2]) continue;
                 third[2] = d;
-                for (int s = 1; s >= 0 && third[s] > third[s + 1]; s--) d = third[s], third[s] = third[s + 1], third[s + 1] = d;
+                for (int s = 1; s >= 0 && third[s] > third[s + 1]; s--)
+                    d = third[s], third[s] = third[s + 1], third[s + 1] = d;
             }
         }
         if (isfinite (third[2])) t->spacing[k] = third[2];
@@ -114,12 +125,13 @@ done:
 
 enum { NEAR_CRACK = 1, ON_CRACK };
 
-/* ---- cracks ----------------------------------------------------------------------------------------------------------------- */
+/* ---- cracks -------------------------------------------------------------------------------------------- */
 int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
 {
     double x[3], y[3];
     pg_tiles_space (t, a[0], a[1], x), pg_tiles_space (t, b[0], b[1], y);
-    for (size_t c = 0; t->cracks && c < t->cracks->n; c++) if (pg_crack_cuts (&t->cracks->crack[c], t->dim, x, y, 0)) return 1;
+    for (size_t c = 0; t->cracks && c < t->cracks->n; c++)
+        if (pg_crack_cuts (&t->cracks->crack[c], t->dim, x, y, 0)) return 1;
     return 0;
 }
 
@@ -127,7 +139,8 @@ static int on_crack (const pg_tiles *t, size_t k)
 {
     double x[3];
     pg_tiles_space (t, t->place[2*k], t->place[2*k + 1], x);
-    for (size_t c = 0; c < t->cracks->n; c++) if (pg_crack_touches (&t->cracks->crack[c], t->dim, x, 1e-9 * t->spacing[k])) return 1;
+    for (size_t c = 0; c < t->cracks->n; c++)
+        if (pg_crack_touches (&t->cracks->crack[c], t->dim, x, 1e-9 * t->spacing[k])) return 1;
     return 0;
 }
 
@@ -138,7 +151,8 @@ static pg_status find_cracked (pg_tiles *t)
     PG_ALLOC (t->cracked, t->n);
     for (size_t k = 0; t->cracks && t->cracks->n && k < t->n; k++) {
         for (int s = 0; s < 16 && !t->cracked[k]; s++) {
-            double r = 2.1 * t->spacing[k], end[2] = { t->place[2*k] + r * cos (0.39269908 * s + 0.1), t->place[2*k + 1] + r * sin (0.39269908 * s + 0.1) };
+            double r = 2.1 * t->spacing[k], end[2] = { t->place[2 * k] + r * cos (0.39269908 * s + 0.1),
+                                                       t->place[2 * k + 1] + r * sin (0.39269908 * s + 0.1) };
             t->cracked[k] = (unsigned char) pg_tiles_cut (t, t->place + 2 * k, end);
         }
         if (t->cracked[k] && on_crack (t, k)) t->cracked[k] = ON_CRACK;
@@ -158,16 +172,18 @@ done:
 
 void pg_tiles_close (pg_tiles *t)
 {
-    pg_free (t->spacing), pg_free (t->first), pg_free (t->sorted), pg_free (t->cracked), pg_free (t->gradient);
+    pg_free (t->spacing), pg_free (t->first), pg_free (t->sorted), pg_free (t->cracked),
+        pg_free (t->gradient);
     t->spacing = t->gradient = NULL, t->first = NULL, t->sorted = NULL, t->cracked = NULL;
 }
 
-/* ---- the outline ------------------------------------------------------------------------------------------------------------ */
+/* ---- the outline --------------------------------------------------------------------------------------- */
 static int in_lattice (const pg_lattice *l, const double *x)
 {
     size_t at = 0, stride = 1;
     for (int k = 0; k < l->dim; k++) {
-        double t = (x[k] - l->origin[k]) / l->step[k], i = t >= l->count[k] && t < l->count[k] + 1e-6 ? l->count[k] - 1 : floor (t + 1e-9);
+        double t = (x[k] - l->origin[k]) / l->step[k],
+               i = t >= l->count[k] && t < l->count[k] + 1e-6 ? l->count[k] - 1 : floor (t + 1e-9);
         if (!(i >= 0 && i < l->count[k])) return 0;
         at += stride * (size_t) i, stride *= (size_t) l->count[k];
     }
@@ -176,7 +192,9 @@ static int in_lattice (const pg_lattice *l, const double *x)
 
 static void fill_element (const pg_mesh *m, size_t e, pg_screen *s)
 {
-    static const unsigned char round[3][9] = { { 0, 3, 1, 4, 2, 5 }, { 0, 4, 1, 5, 2, 6, 3, 7 }, { 0, 1, 2, 3 } };
+    static const unsigned char round[3][9] = { { 0, 3, 1, 4, 2, 5 },
+                                               { 0, 4, 1, 5, 2, 6, 3, 7 },
+                                               { 0, 1, 2, 3 } };
     const pg_element_type *type = &pg_element_types[m->kind[e]];
     const unsigned char *order = round[type->order == 2 ? type->corners == 4 : 2];
     int last = (type->order == 2 ? 2 * type->corners : type->corners) - 1;
@@ -197,7 +215,8 @@ int pg_tiles_inside (const pg_tiles *t, const double *at)
     double x[3];
     if (!o || o->mesh) return 1;
     pg_tiles_space (t, at[0], at[1], x);
-    return o->lattice && o->lattice->dim ? in_lattice (o->lattice, x) : pg_body_inside (o->body, x, 1e-6 * t->widest);
+    return o->lattice && o->lattice->dim ? in_lattice (o->lattice, x)
+                                         : pg_body_inside (o->body, x, 1e-6 * t->widest);
 }
 
 /* 1 where the body is. */
@@ -221,7 +240,7 @@ done:
     return status;
 }
 
-/* ---- owners ----------------------------------------------------------------------------------------------------------------- */
+/* ---- owners -------------------------------------------------------------------------------------------- */
 /* Distance of a place from point k: lattice cells are nearest in steps. */
 static double distance_to (const pg_tiles *t, size_t k, double a, double b)
 {
@@ -230,19 +249,23 @@ static double distance_to (const pg_tiles *t, size_t k, double a, double b)
     return hypot (dx, dy);
 }
 
-/* Nearest point of every pixel within `reach` spacings; across a pre-crack only where there is no other. What lies on a crack is on both sides of it. */
+/* Nearest point of every pixel within `reach` spacings; across a pre-crack only where there is no other. What
+ * lies on a crack is on both sides of it. */
 static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
 {
     const double *at = t->place + 2 * k;
     int from[2], to[2], most[2] = { s->width, s->height };
     for (int a = 0; a < 2; a++) {
-        double middle = a ? (s->top - at[1]) * s->scale : (at[0] - s->left) * s->scale, r = reach * t->spacing[k] * s->scale;
-        from[a] = (int) fmin (fmax (floor (middle - r), 0), most[a]), to[a] = (int) fmin (fmax (ceil (middle + r), 0), most[a]);
+        double middle = a ? (s->top - at[1]) * s->scale : (at[0] - s->left) * s->scale,
+               r = reach * t->spacing[k] * s->scale;
+        from[a] = (int) fmin (fmax (floor (middle - r), 0), most[a]),
+        to[a] = (int) fmin (fmax (ceil (middle + r), 0), most[a]);
     }
     for (int j = from[1]; j < to[1]; j++)
         for (int i = from[0]; i < to[0]; i++) {
             size_t p = (size_t) j * (size_t) s->width + (size_t) i;
-            double place[2] = { s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale }, d = distance_to (t, k, place[0], place[1]);
+            double place[2] = { s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale },
+                   d = distance_to (t, k, place[0], place[1]);
             if (d > reach * t->spacing[k] || (s->owner[p] >= 0 && d >= s->depth[p])) continue;
             if (t->cracked[k] == NEAR_CRACK && pg_tiles_cut (t, at, place)) d += 1e3 * t->widest;
             if (s->owner[p] < 0 || d < s->depth[p]) s->owner[p] = (int) k, s->depth[p] = (float) d;
@@ -257,7 +280,8 @@ static pg_status adopt (const pg_tiles *t, const unsigned char *mask, pg_screen 
     for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++) {
         if (!mask[p]) s->owner[p] = PG_EMPTY;
         if (!mask[p] || s->owner[p] >= 0) continue;
-        double place[2] = { s->left + ((double) (p % (size_t) s->width) + 0.5) / s->scale, s->top - ((double) (p / (size_t) s->width) + 0.5) / s->scale };
+        double place[2] = { s->left + ((double) (p % (size_t) s->width) + 0.5) / s->scale,
+                            s->top - ((double) (p / (size_t) s->width) + 0.5) / s->scale };
         if (!nearest) PG_TRY (pg_nearest_create (&nearest, 2, t->n, t->place));
         s->owner[p] = (int) pg_nearest_find (nearest, place, NULL, NULL);
     }
@@ -266,8 +290,9 @@ done:
     return status;
 }
 
-/* ---- clouds without an outline ---------------------------------------------------------------------------------------------- */
-/* One pass of the exact distance transform (lower envelope of parabolas) along n values, `step` apart. v: n, z: n + 1 */
+/* ---- clouds without an outline ------------------------------------------------------------------------- */
+/* One pass of the exact distance transform (lower envelope of parabolas) along n values, `step` apart. v: n,
+ * z: n + 1 */
 static void transform_line (float *f, size_t step, int n, float *out, int *v, double *z)
 {
     int k = 0;
@@ -276,7 +301,8 @@ static void transform_line (float *f, size_t step, int n, float *out, int *v, do
         double s;
         for (;;) {
             int r = v[k];
-            s = ((f[(size_t) q * step] + (double) q * q) - (f[(size_t) r * step] + (double) r * r)) / (2.0 * (q - r));
+            s = ((f[(size_t) q * step] + (double) q * q) - (f[(size_t) r * step] + (double) r * r))
+                / (2.0 * (q - r));
             if (s > z[k] || k == 0) break;
             k--;
         }
@@ -290,7 +316,8 @@ static void transform_line (float *f, size_t step, int n, float *out, int *v, do
     for (int q = 0; q < n; q++) f[(size_t) q * step] = out[q];
 }
 
-/* Distance of every pixel to the nearest one without an owner, pixels; what lies outside of the screen has none. */
+/* Distance of every pixel to the nearest one without an owner, pixels; what lies outside of the screen has
+ * none. */
 static pg_status distance_to_nothing (const pg_screen *s, float *f)
 {
     pg_status status = PG_OK;
@@ -309,7 +336,7 @@ done:
     return status;
 }
 
-enum { GROWN = 5 };                                    /* quarters of a spacing                                          */
+enum { GROWN = 5 };                                    /* quarters of a spacing */
 /* Pixels that stay when the outline lies `rim` spacings outside the outer points. */
 static double kept (const pg_tiles *t, const pg_screen *s, const float *inward, double rim, int drop)
 {
@@ -323,8 +350,8 @@ static double kept (const pg_tiles *t, const pg_screen *s, const float *inward, 
     return n;
 }
 
-/* Discs of one and a quarter spacings around the points close every gap between them; then the outline is drawn in, so far that the area is that of
- * the points together. */
+/* Discs of one and a quarter spacings around the points close every gap between them; then the outline is
+ * drawn in, so far that the area is that of the points together. */
 static pg_status close_gaps (const pg_tiles *t, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -350,7 +377,8 @@ static pg_status lay_cells (const pg_tiles *t, pg_screen *s)
     pg_spots spots = { .n = t->n, .size = { t->step[0] * s->scale, t->step[1] * s->scale }, .reach = 1.9 };
     PG_ALLOC (spots.place, 2 * t->n);
     for (size_t k = 0; k < t->n; k++)
-        spots.place[2*k] = (t->place[2*k] - s->left) * s->scale, spots.place[2*k + 1] = (s->top - t->place[2*k + 1]) * s->scale;
+        spots.place[2 * k] = (t->place[2 * k] - s->left) * s->scale,
+                        spots.place[2 * k + 1] = (s->top - t->place[2 * k + 1]) * s->scale;
     PG_TRY (pg_raster (&spots, s->width, s->height, s->owner));
 done:
     pg_free (spots.place);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where the eye of a picture is: a plane body, a section, or a solid from one of its sides or obliquely; always parallel rays. */
+ * Where the eye of a picture is: a plane body, a section, or a solid from one of its sides or obliquely;
+ * always parallel rays. */
 #include "picture.h"
 #include <math.h>
 #include <stdlib.h>
@@ -44,7 +45,8 @@ static void look (pg_eye *e, const double *direction)
     for (int a = 0; a < 2; a++) {
         const double *v = a ? e->up : e->right;
         e->axis[a] = -1;
-        for (int k = 0; k < 3; k++) if (fabs (v[k]) > 1 - 1e-9) e->axis[a] = k, e->sign[a] = v[k] > 0 ? 1 : -1;
+        for (int k = 0; k < 3; k++)
+            if (fabs (v[k]) > 1 - 1e-9) e->axis[a] = k, e->sign[a] = v[k] > 0 ? 1 : -1;
     }
 }
 
@@ -99,7 +101,8 @@ pg_status pg_picture_direction (double direction[3], const char *text)
 {
     pg_status status = PG_OK;
     double d[3] = { 0 };
-    if (numbers_of (text, strlen (text), d) != 3 || !(pg_along (d, d, 3) > 0) || !isfinite (pg_along (d, d, 3)))
+    if (numbers_of (text, strlen (text), d) != 3 || !(pg_along (d, d, 3) > 0)
+        || !isfinite (pg_along (d, d, 3)))
         PG_FAIL (PG_E_USAGE, "%s: expected a direction x,y,z that is not zero, such as 1,0.5,2", text);
     memcpy (direction, d, sizeof d);
 done:
@@ -111,10 +114,16 @@ pg_status pg_picture_section (pg_picture_style *style, const char *text)
     pg_status status = PG_OK;
     const char *sign = strchr (text, '='), *first = text + strspn (text, " ");
     double normal[3] = { 0 }, at;
-    if (!sign) PG_FAIL (PG_E_USAGE, "%s: expected AXIS = PLACE, such as z = 5 mm, or a normal: 1, 0, 1 = 5 mm", text);
-    int axis = *first && strchr ("xyz", *first) && first + 1 + strspn (first + 1, " ") == sign ? *first - 'x' + 1 : 0;
-    if (!axis && (numbers_of (text, (size_t) (sign - text), normal) != 3 || !(pg_along (normal, normal, 3) > 0)))
-        PG_FAIL (PG_E_USAGE, "%s: expected AXIS = PLACE, such as z = 5 mm, or a normal: 1, 0, 1 = 5 mm", text);
+    if (!sign)
+        PG_FAIL (PG_E_USAGE, "%s: expected AXIS = PLACE, such as z = 5 mm, or a normal: 1, 0, 1 = 5 mm",
+                 text);
+    int axis = *first && strchr ("xyz", *first) && first + 1 + strspn (first + 1, " ") == sign
+                   ? *first - 'x' + 1
+                   : 0;
+    if (!axis
+        && (numbers_of (text, (size_t) (sign - text), normal) != 3 || !(pg_along (normal, normal, 3) > 0)))
+        PG_FAIL (PG_E_USAGE, "%s: expected AXIS = PLACE, such as z = 5 mm, or a normal: 1, 0, 1 = 5 mm",
+                 text);
     if (numbers_of (sign + 1, strlen (sign + 1), (double[3]) { 0 }) == 1) at = strtod (sign + 1, NULL);
     else PG_TRY (pg_unit_parse (&at, sign + 1 + strspn (sign + 1, " "), "m"));
     style->view = PG_SECTION, style->section = axis ? axis : 4, style->at = at;

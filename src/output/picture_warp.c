@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body displaced: a fine grid over the body at rest whose corners move with the points around them, as the points on one side of a crack
- * say; each piece of it is filled with what the pixels at rest show there. */
+ * The body displaced: a fine grid over the body at rest whose corners move with the points around them, as
+ * the points on one side of a crack say; each piece of it is filled with what the pixels at rest show
+ * there. */
 #include "picture_tiles.h"
 #include <math.h>
 #include <stdlib.h>
@@ -9,9 +10,9 @@
 enum { NEAR = 96, OWNERS = 24 };
 typedef struct {
     pg_tiles *t;
-    const pg_screen *rest;                             /* owners at rest                                                 */
+    const pg_screen *rest;                             /* owners at rest */
     pg_screen *screen;
-    double origin[2], step;                            /* of the grid, m                                                 */
+    double origin[2], step;                            /* of the grid, m */
     long   count[2];
 } warp;
 
@@ -21,9 +22,13 @@ static double strain_of (const pg_tiles *t, size_t i, size_t j)
     return hypot (t->shift[2*j] - t->shift[2*i], t->shift[2*j + 1] - t->shift[2*i + 1]) / hypot (dx, dy);
 }
 
-static int sound (const pg_tiles *t, size_t i, size_t j) { return t->damage && fmin (t->damage[i], t->damage[j]) < 0.1; }
+static int sound (const pg_tiles *t, size_t i, size_t j)
+{
+    return t->damage && fmin (t->damage[i], t->damage[j]) < 0.1;
+}
 
-/* Have two points lost each other? Never where one is whole; else if a pre-crack parts them, or they are farther apart than strain explains. */
+/* Have two points lost each other? Never where one is whole; else if a pre-crack parts them, or they are
+ * farther apart than strain explains. */
 static int torn (const pg_tiles *t, size_t i, size_t j)
 {
     if (i == j) return 0;
@@ -37,8 +42,8 @@ static int ascending (const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* What strain does: three times the value that 95 of 100 pairs of sound neighbours stay below (where damage is not known, six times that of
- * all pairs, and no less than half a spacing on the picture). */
+/* What strain does: three times the value that 95 of 100 pairs of sound neighbours stay below (where damage
+ * is not known, six times that of all pairs, and no less than half a spacing on the picture). */
 static pg_status find_limit (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -50,7 +55,8 @@ static pg_status find_limit (pg_tiles *t)
         for (size_t s = 0; s < k; s++) {
             size_t j = (size_t) near[s];
             if (j <= i || (t->damage && !sound (t, i, j)) || !(isfinite (strain_of (t, i, j)))) continue;
-            if (t->cracked[i] && t->cracked[j] && pg_tiles_cut (t, t->place + 2 * i, t->place + 2 * j)) continue;
+            if (t->cracked[i] && t->cracked[j] && pg_tiles_cut (t, t->place + 2 * i, t->place + 2 * j))
+                continue;
             PG_GROW (strain, room, m + 1);
             strain[m++] = strain_of (t, i, j);
         }
@@ -63,7 +69,8 @@ done:
     return status;
 }
 
-/* Gradient of the shift at each point, by least squares over its neighbours that hold to it; 0 where they do not span the plane. */
+/* Gradient of the shift at each point, by least squares over its neighbours that hold to it; 0 where they do
+ * not span the plane. */
 static pg_status find_gradients (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -93,7 +100,8 @@ done:
     return status;
 }
 
-/* One and a half spacings of the point nearest to a place about o: of all that ask about the place the same. */
+/* One and a half spacings of the point nearest to a place about o: of all that ask about the place the
+ * same. */
 static double reach_at (const pg_tiles *t, size_t o, const double *at)
 {
     int near[NEAR];
@@ -107,7 +115,8 @@ static double reach_at (const pg_tiles *t, size_t o, const double *at)
     return reach;
 }
 
-/* Shift at a place as the points say that hold to point o: their own, carried on by their gradients, weighed by nearness. */
+/* Shift at a place as the points say that hold to point o: their own, carried on by their gradients, weighed
+ * by nearness. */
 static void shift_at (const pg_tiles *t, size_t o, const double *at, double *out)
 {
     int near[NEAR];
@@ -117,14 +126,18 @@ static void shift_at (const pg_tiles *t, size_t o, const double *at, double *out
     for (size_t s = 0; s <= k; s++) {
         size_t j = s < k ? (size_t) near[s] : o;
         if (s == k ? sum > 0 : torn (t, o, j)) continue;
-        double x = at[0] - t->place[2*j], y = at[1] - t->place[2*j + 1], far = 1 - hypot (x, y) / reach, w = s < k ? fmax (far * far, 1e-9) : 1;
-        for (size_t c = 0; c < 2; c++) out[c] += w * (t->shift[2*j + c] + t->gradient[4*j + 2*c] * x + t->gradient[4*j + 2*c + 1] * y);
+        double x = at[0] - t->place[2 * j], y = at[1] - t->place[2 * j + 1], far = 1 - hypot (x, y) / reach,
+               w = s < k ? fmax (far * far, 1e-9) : 1;
+        for (size_t c = 0; c < 2; c++)
+            out[c] += w
+                      * (t->shift[2 * j + c] + t->gradient[4 * j + 2 * c] * x
+                         + t->gradient[4 * j + 2 * c + 1] * y);
         sum += w;
     }
     out[0] /= sum, out[1] /= sum;
 }
 
-/* ---- faces of pre-cracks ---------------------------------------------------------------------------------------------------- */
+/* ---- faces of pre-cracks ------------------------------------------------------------------------------- */
 /* The nearest point that no pre-crack parts from a place within two spacings; -1: there is none. */
 static long beside (const pg_tiles *t, const double *place)
 {
@@ -133,7 +146,8 @@ static long beside (const pg_tiles *t, const double *place)
     double least = INFINITY;
     size_t k = pg_tiles_near (t, place, 2 * t->widest, NEAR, near);
     for (size_t s = 0; s < k; s++) {
-        double d = hypot (t->place[2 * (size_t) near[s]] - place[0], t->place[2 * (size_t) near[s] + 1] - place[1]);
+        double d = hypot (t->place[2 * (size_t) near[s]] - place[0],
+                          t->place[2 * (size_t) near[s] + 1] - place[1]);
         if (d < least && !pg_tiles_cut (t, t->place + 2 * (size_t) near[s], place)) least = d, best = near[s];
     }
     return best;
@@ -141,9 +155,11 @@ static long beside (const pg_tiles *t, const double *place)
 
 void pg_tiles_face (const pg_tiles *t, const double *a, const double *b, int side, size_t n, double *out)
 {
-    double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot (dx, dy), off = (side ? 1e-3 : -1e-3) * t->widest;
+    double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot (dx, dy),
+           off = (side ? 1e-3 : -1e-3) * t->widest;
     for (size_t k = 0; k < n; k++) {
-        double s = (double) k / (double) (n - 1), at[2] = { a[0] + s * dx - off * dy / length, a[1] + s * dy + off * dx / length }, u[2];
+        double s = (double) k / (double) (n - 1),
+               at[2] = { a[0] + s * dx - off * dy / length, a[1] + s * dy + off * dx / length }, u[2];
         long o = pg_tiles_inside (t, at) ? beside (t, at) : -1;
         out[2*k] = out[2*k + 1] = NAN;
         if (o < 0) continue;
@@ -152,7 +168,7 @@ void pg_tiles_face (const pg_tiles *t, const double *a, const double *b, int sid
     }
 }
 
-/* ---- pieces ----------------------------------------------------------------------------------------------------------------- */
+/* ---- pieces -------------------------------------------------------------------------------------------- */
 static int rest_at (const warp *w, double a, double b)
 {
     double i = floor ((a - w->rest->left) * w->rest->scale), j = floor ((w->rest->top - b) * w->rest->scale);
@@ -168,7 +184,8 @@ static void fill (const warp *w, const double a[3][2], const double v[3][2], int
     int first[2], last[2], most[2] = { s->width, s->height };
     if (!(fabs (area) > 1e-9)) return;
     for (int c = 0; c < 2; c++) {
-        double low = ceil (fmin (fmin (v[0][c], v[1][c]), v[2][c]) - 0.5 - 1e-6), high = floor (fmax (fmax (v[0][c], v[1][c]), v[2][c]) - 0.5 + 1e-6);
+        double low = ceil (fmin (fmin (v[0][c], v[1][c]), v[2][c]) - 0.5 - 1e-6),
+               high = floor (fmax (fmax (v[0][c], v[1][c]), v[2][c]) - 0.5 + 1e-6);
         first[c] = low < 0 ? 0 : low < most[c] ? (int) low : most[c];
         last[c] = high < 0 ? -1 : high < most[c] ? (int) high : most[c] - 1;
     }
@@ -179,8 +196,10 @@ static void fill (const warp *w, const double a[3][2], const double v[3][2], int
                 const double *p = v[(k + 1) % 3], *q = v[(k + 2) % 3];
                 b[k] = ((p[0] - x) * (q[1] - y) - (q[0] - x) * (p[1] - y)) / area;
             }
-            if (b[0] < -0.03 || b[1] < -0.03 || b[2] < -0.03) continue;       /* neighbours overlap a little */
-            if (rest_at (w, b[0] * a[0][0] + b[1] * a[1][0] + b[2] * a[2][0], b[0] * a[0][1] + b[1] * a[1][1] + b[2] * a[2][1]) == o)
+            if (b[0] < -0.03 || b[1] < -0.03 || b[2] < -0.03) continue;  /* neighbours overlap a little */
+            if (rest_at (w, b[0] * a[0][0] + b[1] * a[1][0] + b[2] * a[2][0],
+                         b[0] * a[0][1] + b[1] * a[1][1] + b[2] * a[2][1])
+                == o)
                 s->owner[(size_t) j * (size_t) s->width + (size_t) i] = o;
         }
 }
@@ -189,7 +208,8 @@ static void fill (const warp *w, const double a[3][2], const double v[3][2], int
 static int owners_in (const warp *w, const double *low, int *owner)
 {
     int n = 0;
-    int from[2] = { (int) floor ((low[0] - w->rest->left) * w->rest->scale) - 1, (int) floor ((w->rest->top - low[1] - w->step) * w->rest->scale) - 1 };
+    int from[2] = { (int) floor ((low[0] - w->rest->left) * w->rest->scale) - 1,
+                    (int) floor ((w->rest->top - low[1] - w->step) * w->rest->scale) - 1 };
     int more = (int) ceil (w->step * w->rest->scale) + 2;
     for (int j = from[1]; j <= from[1] + more; j++)
         for (int i = from[0]; i <= from[0] + more; i++) {
@@ -210,7 +230,8 @@ static void draw_piece (const warp *w, const double *low, int o)
         double u[2];
         for (int c = 0; c < 2; c++) a[k][c] = low[c] + round[k][c] * w->step;
         shift_at (w->t, (size_t) o, a[k], u);
-        v[k][0] = (a[k][0] + u[0] - w->screen->left) * w->screen->scale, v[k][1] = (w->screen->top - a[k][1] - u[1]) * w->screen->scale;
+        v[k][0] = (a[k][0] + u[0] - w->screen->left) * w->screen->scale,
+        v[k][1] = (w->screen->top - a[k][1] - u[1]) * w->screen->scale;
         if (!isfinite (v[k][0]) || !isfinite (v[k][1])) return;
     }
     for (int half = 0; half < 2; half++) {
@@ -223,19 +244,23 @@ static void draw_piece (const warp *w, const double *low, int o)
     }
 }
 
-/* The body at rest on a screen of its own, as fine as the picture (its longer side 3000 pixels at most), with a rim wider than what the points reach. */
+/* The body at rest on a screen of its own, as fine as the picture (its longer side 3000 pixels at most), with
+ * a rim wider than what the points reach. */
 static pg_status open_rest (const pg_tiles *t, const pg_screen *screen, pg_screen *rest)
 {
     pg_status status = PG_OK;
     double low[2], high[2];
     for (int c = 0; c < 2; c++) {
         low[c] = high[c] = t->place[c];
-        for (size_t k = 0; k < t->n; k++) low[c] = fmin (low[c], t->place[2*k + (size_t) c]), high[c] = fmax (high[c], t->place[2*k + (size_t) c]);
+        for (size_t k = 0; k < t->n; k++)
+            low[c] = fmin (low[c], t->place[2 * k + (size_t) c]),
+            high[c] = fmax (high[c], t->place[2 * k + (size_t) c]);
         low[c] -= 1.6 * t->widest, high[c] += 1.6 * t->widest;
     }
     double size = fmax (high[0] - low[0], high[1] - low[1]);
     *rest = (pg_screen) { .left = low[0], .top = high[1], .scale = fmin (1.5 * screen->scale, 3000 / size) };
-    PG_TRY (pg_screen_open (rest, (int) ceil ((high[0] - low[0]) * rest->scale), (int) ceil ((high[1] - low[1]) * rest->scale)));
+    PG_TRY (pg_screen_open (rest, (int) ceil ((high[0] - low[0]) * rest->scale),
+                            (int) ceil ((high[1] - low[1]) * rest->scale)));
     PG_TRY (pg_tiles_rest (t, rest));
 done:
     return status;
@@ -256,7 +281,9 @@ static void copy (const warp *w)
     pg_screen *s = w->screen;
     for (int j = 0; j < s->height; j++)
         for (int i = 0; i < s->width; i++)
-            s->owner[(size_t) j * (size_t) s->width + (size_t) i] = rest_at (w, s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale);
+            s->owner[(size_t) j * (size_t) s->width + (size_t) i] = rest_at (w,
+                                                                             s->left + (i + 0.5) / s->scale,
+                                                                             s->top - (j + 0.5) / s->scale);
 }
 
 pg_status pg_tiles_draw (pg_tiles *t, pg_screen *screen)
@@ -265,7 +292,9 @@ pg_status pg_tiles_draw (pg_tiles *t, pg_screen *screen)
     pg_screen rest = { 0 };
     if (!t->shift && t->outline) return pg_tiles_rest (t, screen);
     PG_TRY (open_rest (t, screen, &rest));
-    warp w = { .t = t, .rest = &rest, .screen = screen, .origin = { rest.left, rest.top - rest.height / rest.scale } };
+    warp w = {
+        .t = t, .rest = &rest, .screen = screen, .origin = { rest.left, rest.top - rest.height / rest.scale }
+    };
     if (!t->shift) {
         copy (&w);
         goto done;
@@ -275,7 +304,8 @@ pg_status pg_tiles_draw (pg_tiles *t, pg_screen *screen)
     double least = t->widest;
     for (size_t k = 0; k < t->n; k++) least = fmin (least, t->spacing[k]);
     w.step = fmax (fmax (0.5 * least, 3 / rest.scale), fmax (rest.width, rest.height) / rest.scale / 2000);
-    for (int c = 0; c < 2; c++) w.count[c] = (long) ceil ((c ? rest.height : rest.width) / rest.scale / w.step);
+    for (int c = 0; c < 2; c++)
+        w.count[c] = (long) ceil ((c ? rest.height : rest.width) / rest.scale / w.step);
     displace (&w);
 done:
     pg_screen_close (&rest);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Lines on pictures: pre-cracks (2D as they are, 3D where they meet the plane shown, or their outline), the body's box, a triad. */
+ * Lines on pictures: pre-cracks (2D as they are, 3D where they meet the plane shown, or their outline), the
+ * body's box, a triad. */
 #include "picture.h"
 #include <math.h>
 #include <string.h>
@@ -9,7 +10,7 @@ static void project (const pg_plate *p, size_t panel, const double *x, double *p
     pg_plate_to (p, panel, pg_along (p->eye.right, x, 3), pg_along (p->eye.up, x, 3), px, py);
 }
 
-/* ---- cracks -------------------------------------------------------------------------------------------------------------- */
+/* ---- cracks -------------------------------------------------------------------------------------------- */
 static void path_2d (const pg_plate *p, cairo_t *cr, size_t panel, const pg_crack *crack)
 {
     double px, py;
@@ -37,7 +38,8 @@ static int clip_line (const pg_grid *g, const double *a, const double *b, double
 }
 
 /* Where a polygon meets the plane normal . x = at, inside the box. */
-static void path_of_cut (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g, const pg_crack *crack, const double *normal, double at)
+static void path_of_cut (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g,
+                         const pg_crack *crack, const double *normal, double at)
 {
     double end[2][3], from, to, x[3], px, py;
     int pen = 0;
@@ -58,14 +60,16 @@ static void path_of_cut (const pg_plate *p, cairo_t *cr, size_t panel, const pg_
 /* Not behind what the screen shows there, to one and a half cells. */
 static int in_sight (const pg_plate *p, const pg_grid *g, const pg_screen *s, const double *x)
 {
-    double i = floor ((pg_along (p->eye.right, x, 3) - s->left) * s->scale), j = floor ((s->top - pg_along (p->eye.up, x, 3)) * s->scale);
+    double i = floor ((pg_along (p->eye.right, x, 3) - s->left) * s->scale),
+           j = floor ((s->top - pg_along (p->eye.up, x, 3)) * s->scale);
     if (!(i >= 0 && i < s->width && j >= 0 && j < s->height)) return 1;
     double slack = 1.5 * fmax (fmax (g->step[0], g->step[1]), g->step[2]);
     return s->depth[(size_t) j * (size_t) s->width + (size_t) i] <= pg_along (p->eye.toward, x, 3) + slack;
 }
 
 /* One line in space, in the box, and where `screen` is given only what is in sight. */
-static void path_of_line (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g, const pg_screen *screen, const double *a, const double *b)
+static void path_of_line (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g,
+                          const pg_screen *screen, const double *a, const double *b)
 {
     enum { PARTS = 200 };
     double from, to, x[3], px, py;
@@ -84,10 +88,12 @@ static void path_of_line (const pg_plate *p, cairo_t *cr, size_t panel, const pg
 }
 
 /* The rim of a polygon inside the box, and where its plane meets the faces of the box. */
-static void path_of_rim (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g, const pg_screen *screen, const pg_crack *crack)
+static void path_of_rim (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g,
+                         const pg_screen *screen, const pg_crack *crack)
 {
     for (size_t k = 0; k < crack->nvertex; k++)
-        path_of_line (p, cr, panel, g, screen, crack->vertex + 3 * k, crack->vertex + 3 * ((k + 1) % crack->nvertex));
+        path_of_line (p, cr, panel, g, screen, crack->vertex + 3 * k,
+                      crack->vertex + 3 * ((k + 1) % crack->nvertex));
     for (int f = 0; f < 6; f++) {
         int axis = f / 2, pen = 0;
         double at = f % 2 ? g->high[axis] : g->low[axis], end[2][3];
@@ -101,20 +107,24 @@ static void path_of_rim (const pg_plate *p, cairo_t *cr, size_t panel, const pg_
     }
 }
 
-static void path_of_crack (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g, const pg_screen *screen, const pg_crack *crack)
+static void path_of_crack (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g,
+                           const pg_screen *screen, const pg_crack *crack)
 {
     const pg_eye *e = &p->eye;
     if (e->kind == PG_FLAT) path_2d (p, cr, panel, crack);
-    else if (e->kind != PG_SOLID) path_of_cut (p, cr, panel, g, crack, e->toward, e->cut < 0 || e->toward[e->cut] > 0 ? e->at : -e->at);
+    else if (e->kind != PG_SOLID)
+        path_of_cut (p, cr, panel, g, crack, e->toward, e->cut < 0 || e->toward[e->cut] > 0 ? e->at : -e->at);
     else if (!e->framed) path_of_rim (p, cr, panel, g, screen, crack);
-    else {                                             /* the face looked at                                              */
-        double far = pg_along (e->toward, g->high, 3), near = pg_along (e->toward, g->low, 3), size = fmax (fmax (g->step[0], g->step[1]), g->step[2]);
+    else {                                             /* the face looked at */
+        double far = pg_along (e->toward, g->high, 3), near = pg_along (e->toward, g->low, 3),
+               size = fmax (fmax (g->step[0], g->step[1]), g->step[2]);
         path_of_cut (p, cr, panel, g, crack, e->toward, fmax (far, near) - 1e-6 * size);
     }
 }
 
 /* Black on a thin white rim, so that cracks show on dark colours. */
-void pg_wire_cracks (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g, const pg_cracks *cracks, const pg_screen *screen)
+void pg_wire_cracks (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g, const pg_cracks *cracks,
+                     const pg_screen *screen)
 {
     double x, y;
     pg_plate_to (p, panel, p->low[0], p->high[1], &x, &y);
@@ -152,7 +162,7 @@ void pg_wire_faces (const pg_plate *p, cairo_t *cr, size_t panel, size_t n, size
     cairo_restore (cr);
 }
 
-/* ---- box and triad -------------------------------------------------------------------------------------------------------- */
+/* ---- box and triad ------------------------------------------------------------------------------------- */
 /* Edges that meet the corner farthest from the eye (hidden) or the others. */
 void pg_wire_box (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g, int hidden)
 {
@@ -162,7 +172,9 @@ void pg_wire_box (const pg_plate *p, cairo_t *cr, size_t panel, const pg_grid *g
         int axis = k / 8, from = k % 8, to = from | 1 << axis;
         if (from == to || (from == farthest || to == farthest) != hidden) continue;
         double end[2][3], px, py;
-        for (int a = 0; a < 3; a++) end[0][a] = from >> a & 1 ? g->high[a] : g->low[a], end[1][a] = to >> a & 1 ? g->high[a] : g->low[a];
+        for (int a = 0; a < 3; a++)
+            end[0][a] = from >> a & 1 ? g->high[a] : g->low[a],
+            end[1][a] = to >> a & 1 ? g->high[a] : g->low[a];
         project (p, panel, end[0], &px, &py);
         cairo_move_to (cr, px, py);
         project (p, panel, end[1], &px, &py);
@@ -193,7 +205,7 @@ void pg_wire_triad (const pg_plate *p, cairo_t *cr, double x, double y, double l
         int a = order[k];
         double dx = length * p->eye.right[a], dy = -length * p->eye.up[a], size = hypot (dx, dy), arm = 11;
         cairo_set_source_rgb (cr, colour[a][0], colour[a][1], colour[a][2]);
-        if (size < 0.15 * length) {                    /* straight at the eye, or away from it                            */
+        if (size < 0.15 * length) {                    /* straight at the eye, or away from it */
             cairo_arc (cr, x, y, 5, 0, 6.283185307179586);
             cairo_fill (cr);
             pg_text (cr, (const char[2]) { "xyz"[a], 0 }, 0.85 * PG_FONT, x - 16, y + 14, 0.5, 0, 1);
@@ -207,6 +219,7 @@ void pg_wire_triad (const pg_plate *p, cairo_t *cr, double x, double y, double l
         cairo_line_to (cr, x + dx - arm * ux - 0.4 * arm * uy, y + dy - arm * uy + 0.4 * arm * ux);
         cairo_line_to (cr, x + dx - arm * ux + 0.4 * arm * uy, y + dy - arm * uy - 0.4 * arm * ux);
         cairo_fill (cr);
-        pg_text (cr, (const char[2]) { "xyz"[a], 0 }, 0.85 * PG_FONT, x + dx + 17 * ux, y + dy + 17 * uy, 0.5, 0, 1);
+        pg_text (cr, (const char[2]){ "xyz"[a], 0 }, 0.85 * PG_FONT, x + dx + 17 * ux, y + dy + 17 * uy, 0.5,
+                 0, 1);
     }
 }

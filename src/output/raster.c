@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * owner[pixel] = the spot whose cell covers the pixel's centre, the nearest where several do. Pixels in narrow gaps between cells
- * (moved points) go to the nearest spot if there are spots on opposite sides; the outline of the body does not grow.
- * Spots of no lattice have pixels nearest to them, as far as their neighbours. */
+ * owner[pixel] = the spot whose cell covers the pixel's centre, the nearest where several do. Pixels in
+ * narrow gaps between cells (moved points) go to the nearest spot if there are spots on opposite sides; the
+ * outline of the body does not grow. Spots of no lattice have pixels nearest to them, as far as their
+ * neighbours. */
 #include "picture.h"
 #include <math.h>
 
-/* Sides on which a pixel has a spot: straight beside it (low four bits), or near in any direction (high four bits). */
+/* Sides on which a pixel has a spot: straight beside it (low four bits), or near in any direction (high four
+ * bits). */
 enum { LEFT = 1, RIGHT = 2, ABOVE = 4, BELOW = 8, ALL = 15 };
 
-/* First and one past the last pixel whose centre lies within `half` of `at`, cut to [0, n). Written so that cells side by side
- * neither overlap nor leave a pixel out. */
+/* First and one past the last pixel whose centre lies within `half` of `at`, cut to [0, n). Written so that
+ * cells side by side neither overlap nor leave a pixel out. */
 static void span (double at, double half, int n, int *first, int *last)
 {
     double a = ceil (at - half - 0.5 - 1e-6), b = ceil (at + half - 0.5 - 1e-6);
@@ -17,7 +19,8 @@ static void span (double at, double half, int n, int *first, int *last)
     *last = b < 0 ? 0 : b > n ? n : (int) b;
 }
 
-static void stamp (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance, unsigned short *seen)
+static void stamp (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance,
+                   unsigned short *seen)
 {
     const double *at = s->place + 2 * k, *size = s->size;
     int x[2], y[2], ix[2], iy[2];
@@ -33,7 +36,8 @@ static void stamp (const pg_spots *s, size_t k, int width, int height, int *owne
             float d = (float) (dx * dx + dy * dy);
             int across = j >= iy[0] && j < iy[1], along = i >= ix[0] && i < ix[1];
             int level = dx > 0 ? LEFT : RIGHT, upright = dy > 0 ? ABOVE : BELOW;
-            seen[p] |= (unsigned short) ((level | upright) << 4 | (across ? level : 0) | (along ? upright : 0) | (across && along ? ALL : 0));
+            seen[p] |= (unsigned short) ((level | upright) << 4 | (across ? level : 0) | (along ? upright : 0)
+                                         | (across && along ? ALL : 0));
             if (owner[p] < 0 || d < distance[p]) owner[p] = (int) k, distance[p] = d;
         }
 }
@@ -41,12 +45,14 @@ static void stamp (const pg_spots *s, size_t k, int width, int height, int *owne
 /* In a cell, or in a gap with spots straight on two opposite sides, or near on all four. */
 static int enclosed (unsigned short seen)
 {
-    return (seen & (LEFT | RIGHT)) == (LEFT | RIGHT) || (seen & (ABOVE | BELOW)) == (ABOVE | BELOW) || seen >> 4 == ALL;
+    return (seen & (LEFT | RIGHT)) == (LEFT | RIGHT) || (seen & (ABOVE | BELOW)) == (ABOVE | BELOW)
+           || seen >> 4 == ALL;
 }
 
-/* ---- spots without a lattice -------------------------------------------------------------------------------------------------- */
+/* ---- spots without a lattice --------------------------------------------------------------------------- */
 /* The 16 sectors in which a pixel has spots within one and a half of their spacings. */
-static void stamp_near (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance, unsigned short *seen)
+static void stamp_near (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance,
+                        unsigned short *seen)
 {
     const double *at = s->place + 2 * k, reach = 1.5 * s->spacing[k];
     int x[2], y[2];
@@ -72,7 +78,8 @@ static int between (unsigned short seen)
 }
 
 /* Near its spot, or not far and between others: the outline grows by a quarter of a spacing. */
-static void keep_near (const pg_spots *s, size_t n, const unsigned short *seen, const float *distance, int *owner)
+static void keep_near (const pg_spots *s, size_t n, const unsigned short *seen, const float *distance,
+                       int *owner)
 {
     for (size_t p = 0; p < n; p++) {
         if (owner[p] < 0) continue;
@@ -90,7 +97,8 @@ pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner)
     PG_ALLOC (distance, n);
     PG_ALLOC (seen, n);
     for (size_t p = 0; p < n; p++) owner[p] = -1;
-    for (size_t k = 0; k < spots->n; k++) (spots->spacing ? stamp_near : stamp) (spots, k, width, height, owner, distance, seen);
+    for (size_t k = 0; k < spots->n; k++)
+        (spots->spacing ? stamp_near : stamp) (spots, k, width, height, owner, distance, seen);
     if (spots->spacing) keep_near (spots, n, seen, distance, owner);
     for (size_t p = 0; p < n && !spots->spacing; p++) if (!enclosed (seen[p])) owner[p] = -1;
 done:

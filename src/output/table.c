@@ -11,8 +11,8 @@ struct pg_table {
     int    file;
     char  *path;
     size_t n;
-    long   rows, bytes;                                /* without the header; of the whole rows                          */
-    char  *text;                                       /* the row at hand                                                */
+    long   rows, bytes;                                /* without the header; of the whole rows */
+    char  *text;                                       /* the row at hand */
     size_t length, cap;
 };
 
@@ -49,12 +49,14 @@ static pg_status end_row (pg_table *t)
     while (written < t->length) {
         ssize_t n = write (t->file, t->text + written, t->length - written);
         if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) PG_FAIL (PG_E_FILE, "%s: %s", t->path, n < 0 ? strerror (errno) : "nothing could be written");
+        if (n <= 0)
+            PG_FAIL (PG_E_FILE, "%s: %s", t->path, n < 0 ? strerror (errno) : "nothing could be written");
         written += (size_t) n;
     }
     t->bytes += (long) t->length;
 done:
-    if (status != PG_OK && written > 0 && ftruncate (t->file, t->bytes) == 0) lseek (t->file, t->bytes, SEEK_SET);
+    if (status != PG_OK && written > 0 && ftruncate (t->file, t->bytes) == 0)
+        lseek (t->file, t->bytes, SEEK_SET);
     t->length = 0;
     return status;
 }
@@ -69,7 +71,8 @@ static pg_status prepare (pg_table **out, const char *path, int fresh)
     t->path = pg_strdup (path);
     if (!t->path) PG_FAIL (PG_E_MEMORY, "no memory for a path");
     if (fresh) PG_TRY (disk_create (path, &t->file));
-    else if ((t->file = open (path, O_RDWR | O_NOFOLLOW | O_CLOEXEC)) < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    else if ((t->file = open (path, O_RDWR | O_NOFOLLOW | O_CLOEXEC)) < 0)
+        PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
     *out = t;
     t = NULL;
 done:
@@ -105,7 +108,9 @@ static pg_status skip_rows (pg_table *t, long rows)
             if (part[k] == '"') quoted = !quoted;
             t->rows += part[k] == '\n' && !quoted;
         }
-    if (t->rows < rows) PG_FAIL (PG_E_FILE, "%s has %ld rows of the %ld it had: it was changed since", t->path, t->rows < 0 ? 0 : t->rows, rows);
+    if (t->rows < rows)
+        PG_FAIL (PG_E_FILE, "%s has %ld rows of the %ld it had: it was changed since", t->path,
+                 t->rows < 0 ? 0 : t->rows, rows);
 done:
     return status;
 }
@@ -134,7 +139,8 @@ pg_status pg_table_row (pg_table *t, const double *values)
     char cell[40];
     for (size_t k = 0; k < t->n; k++) {
         if (k) PG_TRY (append (t, ",", 1));
-        if (values[k] == values[k]) PG_TRY (append (t, cell, (size_t) snprintf (cell, sizeof cell, "%.17g", values[k])));
+        if (values[k] == values[k])
+            PG_TRY (append (t, cell, (size_t) snprintf (cell, sizeof cell, "%.17g", values[k])));
     }
     PG_TRY (end_row (t));
     t->rows++;

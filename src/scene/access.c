@@ -107,12 +107,14 @@ const char *pg_scene_name (const pg_scene *s, size_t i, const char *path, ...)
     return node && node->shape == PG_SCALAR ? node->text : NULL;
 }
 
-/* SI value; `spacing` metres for one point spacing. A node without a numeric kind (dimension: 2) is read as plain number. */
+/* SI value; `spacing` metres for one point spacing. A node without a numeric kind (dimension: 2) is read as
+ * plain number. */
 static double number_of (const pg_node *node, double spacing)
 {
     double value = 0;
     if (!node || node->shape != PG_SCALAR) return 0;
-    if (!node->key || node->key->kind == PG_NAME || node->key->kind == PG_TEXT || node->key->kind == PG_FILE || node->key->kind == PG_NAMES) {
+    if (!node->key || node->key->kind == PG_NAME || node->key->kind == PG_TEXT || node->key->kind == PG_FILE
+        || node->key->kind == PG_NAMES) {
         if (!node->text || !pg_number_read (node->text, &value)) value = 0;
         return value;
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The tree against the key tables: unknown, missing, doubled and wrongly shaped keys, groups. Values are in value.c. */
+ * The tree against the key tables: unknown, missing, doubled and wrongly shaped keys, groups. Values are in
+ * value.c. */
 #include "document.h"
 #include "value.h"
 #include <string.h>
@@ -8,7 +9,7 @@ static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN
 
 #define FAULT(node, value, ...) pg_faults_add (s->faults, s->file, (node), path, (value), __VA_ARGS__)
 
-/* ---- unknown and doubled keys --------------------------------------------------------------------------------------- */
+/* ---- unknown and doubled keys -------------------------------------------------------------------------- */
 /* A key of that name somewhere else: "materials.NAME.density"; NULL. */
 static const char *known_elsewhere (const pg_schema *schema, const char *name)
 {
@@ -35,7 +36,9 @@ static void unknown_key (pg_scene *s, const pg_node *node, const char *pattern, 
     pg_schema_names (&s->schema, pattern, names);
     const char *near = pg_nearest_name (node->name, names), *other = known_elsewhere (&s->schema, node->name);
     list_with_commas (listed, sizeof listed, names);
-    if (strcmp (node->name, "<<") == 0) FAULT (node, 0, "merge keys are not known: write the keys again (an alias may stand for a whole value)");
+    if (strcmp (node->name, "<<") == 0)
+        FAULT (node, 0,
+               "merge keys are not known: write the keys again (an alias may stand for a whole value)");
     else if (near) FAULT (node, 1, "unknown key; did you mean %s?", near);
     else if (other) FAULT (node, 1, "unknown key here; it belongs at %s", other);
     else FAULT (node, 1, "unknown key; known here: %s", listed);
@@ -53,8 +56,11 @@ static const pg_node *earlier (const pg_node *node, size_t k)
     return NULL;
 }
 
-/* ---- missing keys and groups ---------------------------------------------------------------------------------------- */
-static int present (const pg_node *node, const char *name) { return pg_node_child (node, name, strlen (name)) != NULL; }
+/* ---- missing keys and groups --------------------------------------------------------------------------- */
+static int present (const pg_node *node, const char *name)
+{
+    return pg_node_child (node, name, strlen (name)) != NULL;
+}
 
 static int first_of_path (const pg_schema *schema, size_t k)
 {
@@ -75,7 +81,8 @@ static void check_missing (pg_scene *s, const pg_node *node, const char *pattern
     for (size_t k = 0; k < s->schema.n; k++) {
         const pg_key *row = s->schema.row[k];
         const char *name = pg_schema_below (row, pattern);
-        if (!name || row->fallback || row->group || present (node, name) || !first_of_path (&s->schema, k)) continue;
+        if (!name || row->fallback || row->group || present (node, name) || !first_of_path (&s->schema, k))
+            continue;
         size_t n = write_path (path, ".", name);
         FAULT (node, 0, "is missing: %s", row->doc ? row->doc : "required");
         path[n] = '\0';
@@ -84,15 +91,18 @@ static void check_missing (pg_scene *s, const pg_node *node, const char *pattern
 
 typedef struct { size_t given; char names[400], last[64]; } membership;
 
-static membership count_members (const pg_scene *s, const pg_node *node, const char *pattern, const char *group)
+static membership count_members (const pg_scene *s, const pg_node *node, const char *pattern,
+                                 const char *group)
 {
     membership m = { 0 };
     size_t used = 0;
     for (size_t k = 0; k < s->schema.n; k++) {
         const pg_key *row = s->schema.row[k];
         const char *name = pg_schema_below (row, pattern);
-        if (!name || !row->group || strcmp (row->group, group) != 0 || !first_of_path (&s->schema, k)) continue;
-        if (used < sizeof m.names) used += (size_t) snprintf (m.names + used, sizeof m.names - used, "%s%s", used ? ", " : "", name);
+        if (!name || !row->group || strcmp (row->group, group) != 0 || !first_of_path (&s->schema, k))
+            continue;
+        if (used < sizeof m.names)
+            used += (size_t) snprintf (m.names + used, sizeof m.names - used, "%s%s", used ? ", " : "", name);
         if (!present (node, name)) continue;
         m.given++;
         snprintf (m.last, sizeof m.last, "%s", name);
@@ -104,7 +114,9 @@ static int first_of_group (const pg_schema *schema, size_t k, const char *patter
 {
     const char *group = schema->row[k]->group;
     for (size_t j = 0; j < k; j++)
-        if (schema->row[j]->group && pg_schema_below (schema->row[j], pattern) && strcmp (schema->row[j]->group, group) == 0) return 0;
+        if (schema->row[j]->group && pg_schema_below (schema->row[j], pattern)
+            && strcmp (schema->row[j]->group, group) == 0)
+            return 0;
     return 1;
 }
 
@@ -112,19 +124,22 @@ static void check_groups (pg_scene *s, const pg_node *node, const char *pattern,
 {
     for (size_t k = 0; k < s->schema.n; k++) {
         const char *group = s->schema.row[k]->group;
-        if (!group || !pg_schema_below (s->schema.row[k], pattern) || !first_of_group (&s->schema, k, pattern)) continue;
+        if (!group || !pg_schema_below (s->schema.row[k], pattern)
+            || !first_of_group (&s->schema, k, pattern))
+            continue;
         const char *rule = strrchr (group, ':');
         int one = rule && strcmp (rule, ":one") == 0;
         membership m = count_members (s, node, pattern, group);
         if (m.given > 1) {
             size_t n = write_path (path, ".", m.last);
-            FAULT (pg_node_child (node, m.last, strlen (m.last)), 1, "give %s of %s", one ? "exactly one" : "at most one", m.names);
+            FAULT (pg_node_child (node, m.last, strlen (m.last)), 1, "give %s of %s",
+                   one ? "exactly one" : "at most one", m.names);
             path[n] = '\0';
         } else if (m.given == 0 && one) FAULT (node, 0, "give exactly one of %s", m.names);
     }
 }
 
-/* ---- shapes --------------------------------------------------------------------------------------------------------- */
+/* ---- shapes -------------------------------------------------------------------------------------------- */
 static pg_status check_map (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT])
 {
     pg_status status = PG_OK;
@@ -134,7 +149,8 @@ static pg_status check_map (pg_scene *s, pg_node *node, char pattern[PG_PATTERN]
         size_t end = strlen (pattern), n = write_path (path, ".", child->name);
         int found = pg_schema_enter (&s->schema, pattern, child->name, strlen (child->name));
         if (twin) FAULT (child, 1, "is given twice, first in line %d", twin->line);
-        else if (!good_name (child->name)) FAULT (child, 0, "a name has 1 to 63 characters without . = [ ] { }");
+        else if (!good_name (child->name))
+            FAULT (child, 0, "a name has 1 to 63 characters without . = [ ] { }");
         else if (!found) unknown_key (s, child, pattern, path);
         else PG_TRY (check_node (s, child, pattern, path));
         pattern[end] = '\0';
@@ -167,7 +183,10 @@ done:
 static void shape_of_nothing (const pg_schema *schema, pg_node *node, const char *pattern)
 {
     if (!pg_node_null (node) || pg_schema_row (schema, pattern, PG_SCALAR)) return;
-    pg_node_shape shape = pg_schema_opens (schema, pattern, '[') || pg_schema_row (schema, pattern, PG_SEQUENCE) ? PG_SEQUENCE : PG_MAPPING;
+    pg_node_shape shape = pg_schema_opens (schema, pattern, '[')
+                                  || pg_schema_row (schema, pattern, PG_SEQUENCE)
+                              ? PG_SEQUENCE
+                              : PG_MAPPING;
     pg_free (node->text);
     node->text = NULL;
     node->shape = shape;
@@ -190,7 +209,7 @@ static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN
     return PG_OK;
 }
 
-/* ---- all ------------------------------------------------------------------------------------------------------------ */
+/* ---- all ----------------------------------------------------------------------------------------------- */
 static pg_status check_defaults (pg_scene *s)
 {
     pg_status status = PG_OK;
@@ -202,7 +221,8 @@ static pg_status check_defaults (pg_scene *s)
         int good = 1;
         if (!text || !*text) continue;
         pg_node *node = &s->fallback[k];
-        if (*text == '[' || *text == '{') PG_TRY (pg_node_read (node, text, strlen (text), pg_default_origin, s->file, s->faults, &good));
+        if (*text == '[' || *text == '{')
+            PG_TRY (pg_node_read (node, text, strlen (text), pg_default_origin, s->file, s->faults, &good));
         else PG_TRY (pg_node_word (node, text, pg_default_origin));
         snprintf (pattern, sizeof pattern, "%s", row->path);
         snprintf (path, sizeof path, "%s", row->path);
@@ -217,7 +237,8 @@ pg_status pg_scene_check (pg_scene *s)
     pg_status status = PG_OK;
     char pattern[PG_PATTERN] = "", path[PG_PATH_TEXT] = "";
     const pg_node *d = pg_node_child (&s->root, "dimension", strlen ("dimension"));
-    if (d && d->shape == PG_SCALAR && d->text && strlen (d->text) == 1 && strchr ("123", *d->text)) s->dimension = *d->text - '0';
+    if (d && d->shape == PG_SCALAR && d->text && strlen (d->text) == 1 && strchr ("123", *d->text))
+        s->dimension = *d->text - '0';
     PG_TRY (check_map (s, &s->root, pattern, path));
     PG_TRY (check_defaults (s));
 done:

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Text -> stack code, by recursive descent, with the dimension of every part. `or` < `and` < `not` < comparison < + - < * / < sign < ^.
- * A bare number fits any unit (it is SI); a product of a bare number with something dimensionless stays bare. */
+ * Text -> stack code, by recursive descent, with the dimension of every part. `or` < `and` < `not` <
+ * comparison < + - < * / < sign < ^. A bare number fits any unit (it is SI); a product of a bare number with
+ * something dimensionless stays bare. */
 #include "compile.h"
 #include <ctype.h>
 #include <math.h>
@@ -31,7 +32,7 @@ done:
     return status;
 }
 
-/* ---- signs, from tight to loose ------------------------------------------------------------------------------------- */
+/* ---- signs, from tight to loose ------------------------------------------------------------------------ */
 static pg_status read_power (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -174,10 +175,13 @@ done:
     return status;
 }
 
-static pg_status read_and (pg_reader *p, pg_operand *o) { return read_joined (p, o, "and", PG_OP_AND, read_not); }
+static pg_status read_and (pg_reader *p, pg_operand *o)
+{
+    return read_joined (p, o, "and", PG_OP_AND, read_not);
+}
 pg_status pg_read_or (pg_reader *p, pg_operand *o) { return read_joined (p, o, "or", PG_OP_OR, read_and); }
 
-/* ---- the whole ------------------------------------------------------------------------------------------------------ */
+/* ---- the whole ----------------------------------------------------------------------------------------- */
 static pg_status check_result (pg_reader *p, const pg_operand *o, const char *unit)
 {
     pg_measure wanted;
@@ -185,7 +189,8 @@ static pg_status check_result (pg_reader *p, const pg_operand *o, const char *un
     if (strcmp (unit, "bool") == 0)
         return o->condition ? PG_OK : pg_read_fault (p, 0, "a condition is expected, for example x > 5 mm");
     size_t n = strcspn (unit, "|");
-    if (o->condition) return pg_read_fault (p, 0, "this is a condition, expected a value in %.*s", (int) n, unit);
+    if (o->condition)
+        return pg_read_fault (p, 0, "this is a condition, expected a value in %.*s", (int) n, unit);
     pg_status status = pg_measure_read (&wanted, unit, n);
     if (status != PG_OK || o->bare || pg_measure_same (&o->m, &wanted)) return status;
     pg_measure_text (&o->m, given, sizeof given);
@@ -208,7 +213,8 @@ done:
     return status;
 }
 
-/* A plain quantity in the full unit grammar ("5 1/s", "2 m s-1"), or an expression, with t in s or else as a load factor. */
+/* A plain quantity in the full unit grammar ("5 1/s", "2 m s-1"), or an expression, with t in s or else as a
+ * load factor. */
 static pg_status compile (pg_reader *p, const char *unit)
 {
     pg_status status = PG_OK;
@@ -232,7 +238,8 @@ static pg_status compile (pg_reader *p, const char *unit)
             first = p->fault_at;
         }
     }
-    if (status == PG_E_SCENE && *message && first >= p->fault_at) return pg_error (PG_E_SCENE, PG_HERE, "%s", message);
+    if (status == PG_E_SCENE && *message && first >= p->fault_at)
+        return pg_error (PG_E_SCENE, PG_HERE, "%s", message);
     return status;
 }
 

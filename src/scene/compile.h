@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * compile.h: what the files of the compiler share: the reader of the text, operands with their dimension, code. */
+ * compile.h: what the files of the compiler share: the reader of the text, operands with their dimension,
+ * code. */
 #ifndef PG_SCENE_COMPILE_H
 #define PG_SCENE_COMPILE_H
 #include "expression.h"
@@ -8,7 +9,7 @@
 enum { PG_DEEPEST_NESTING = 60, PG_WORD = 40 };
 
 typedef struct {
-    int        condition, bare, fixed;                 /* a truth value; a number without unit; known while compiling */
+    int        condition, bare, fixed;  /* a truth value; a number without unit; known while compiling */
     double     value;                                  /* when fixed */
     pg_measure m;
     size_t     first;                                  /* its first instruction */
@@ -23,7 +24,8 @@ typedef struct {
 } pg_reader;
 
 /* text (lex.c) */
-pg_status pg_read_fault (pg_reader *p, size_t at, const char *format, ...) __attribute__ ((format (printf, 3, 4)));
+pg_status pg_read_fault (pg_reader *p, size_t at, const char *format, ...)
+    __attribute__ ((format (printf, 3, 4)));
 #define PG_BAD(position, ...) do { status = pg_read_fault (p, (position), __VA_ARGS__); goto done; } while (0)
 void   pg_read_skip (pg_reader *p);                    /* spaces */
 int    pg_read_take (pg_reader *p, const char *symbol);    /* 1: it was next and is passed */
@@ -43,7 +45,8 @@ int       pg_operand_plain  (const pg_operand *o);
 pg_status pg_operand_number (pg_reader *p, const pg_operand *o, size_t at);
 /* Makes a and b one dimension; a bare one takes that of the other. */
 pg_status pg_operand_agree    (pg_reader *p, pg_operand *a, const pg_operand *b, size_t at, const char *verb);
-void      pg_operand_multiply (pg_operand *a, const pg_operand *b, double sign);      /* dimensions; sign -1 divides */
+/* dimensions; sign -1 divides */
+void      pg_operand_multiply (pg_operand *a, const pg_operand *b, double sign);
 void      pg_operand_raise    (pg_operand *a, double power);
 
 /* numbers and names (term.c), the whole grammar (compile.c) */

@@ -20,7 +20,8 @@ static void hash (pg_scene *s, size_t length, size_t nset, const char *const *se
     pg_sha256_end (&sum, s->hash);
 }
 
-static pg_status keep_texts (pg_scene *s, const char *text, size_t length, const char *name, size_t nset, const char *const *set)
+static pg_status keep_texts (pg_scene *s, const char *text, size_t length, const char *name, size_t nset,
+                             const char *const *set)
 {
     pg_status status = PG_OK;
     PG_ALLOC (s->source, length + 1);
@@ -47,14 +48,16 @@ static pg_status read_tree (pg_scene *s, const char *text, size_t length)
     s->root.line = s->root.column = 1;
     if ((s->root.shape == PG_SCALAR && !s->root.text) || pg_node_null (&s->root))
         pg_faults_add (s->faults, s->file, NULL, NULL, 0, "the scene is empty");
-    else if (s->root.shape != PG_MAPPING) pg_faults_add (s->faults, s->file, NULL, NULL, 0, "a scene is a map (key: value)");
+    else if (s->root.shape != PG_MAPPING)
+        pg_faults_add (s->faults, s->file, NULL, NULL, 0, "a scene is a map (key: value)");
     return PG_OK;
 }
 
 /* All faults lie where body, points, cracks and sets do not look. */
 static int geometry_is_sound (const pg_scene *s)
 {
-    static const char *const elsewhere[] = { "title", "materials", "failure", "blocks", "boundary", "initial", "solver", "output", "reference" };
+    static const char *const elsewhere[] = { "title",   "materials", "failure", "blocks",   "boundary",
+                                             "initial", "solver",    "output",  "reference" };
     for (size_t i = 0; i < s->faults->n; i++) {
         size_t k = 0, n = sizeof elsewhere / sizeof *elsewhere;
         while (k < n && strcmp (s->faults->fault[i].top, elsewhere[k]) != 0) k++;
@@ -64,8 +67,8 @@ static int geometry_is_sound (const pg_scene *s)
 }
 
 /* some: a scene whose geometry has no fault is given with the faults it has. */
-static pg_status read_some (pg_scene **out, const char *text, size_t length, const char *name, size_t nset, const char *const *set,
-                            const pg_key_table *table, size_t ntable, int some)
+static pg_status read_some (pg_scene **out, const char *text, size_t length, const char *name, size_t nset,
+                            const char *const *set, const pg_key_table *table, size_t ntable, int some)
 {
     pg_status status = PG_OK;
     pg_scene *s;
@@ -86,20 +89,24 @@ done:
     return status;
 }
 
-pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset, const char *const *set,
-                         const pg_key_table *table, size_t ntable)
+pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset,
+                         const char *const *set, const pg_key_table *table, size_t ntable)
 {
     return read_some (out, text, length, name, nset, set, table, ntable, 0);
 }
 
-pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset, const char *const *set)
+pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset,
+                               const char *const *set)
 {
     size_t n;
     const pg_key_table *table = pg_scene_tables (&n);
     return pg_scene_read (out, text, strlen (text), name, nset, set, table, n);
 }
 
-pg_status pg_scene_parse (pg_scene **out, const char *text, const char *name) { return pg_scene_parse_with (out, text, name, 0, NULL); }
+pg_status pg_scene_parse (pg_scene **out, const char *text, const char *name)
+{
+    return pg_scene_parse_with (out, text, name, 0, NULL);
+}
 
 static pg_status read_file (char **text, size_t *length, const char *path)
 {
@@ -107,8 +114,10 @@ static pg_status read_file (char **text, size_t *length, const char *path)
     size_t cap = 0, n = 0, more;
     struct stat s;
     FILE *f = NULL;
-    if (stat (path, &s) == 0 && !S_ISREG (s.st_mode))  /* a pipe would be waited for, and is empty when it is read again  */
-        PG_FAIL (PG_E_FILE, "%s: cannot be read: %s", path, S_ISDIR (s.st_mode) ? strerror (EISDIR) : "a scene is a regular file, no pipe or device");
+    /* a pipe would be waited for, and is empty when it is read again */
+    if (stat (path, &s) == 0 && !S_ISREG (s.st_mode))
+        PG_FAIL (PG_E_FILE, "%s: cannot be read: %s", path,
+                 S_ISDIR (s.st_mode) ? strerror (EISDIR) : "a scene is a regular file, no pipe or device");
     f = fopen (path, "rb");
     if (!f) PG_FAIL (PG_E_FILE, "%s: cannot be opened: %s", path, strerror (errno));
     do {
@@ -138,8 +147,14 @@ done:
     return status;
 }
 
-pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, const char *const *set) { return load (out, path, nset, set, 0); }
-pg_status pg_scene_load_some (pg_scene **out, const char *path, size_t nset, const char *const *set) { return load (out, path, nset, set, 1); }
+pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, const char *const *set)
+{
+    return load (out, path, nset, set, 0);
+}
+pg_status pg_scene_load_some (pg_scene **out, const char *path, size_t nset, const char *const *set)
+{
+    return load (out, path, nset, set, 1);
+}
 pg_status pg_scene_load (pg_scene **out, const char *path) { return pg_scene_load_with (out, path, 0, NULL); }
 
 void pg_scene_free (pg_scene **scene)
@@ -162,7 +177,10 @@ void pg_scene_free (pg_scene **scene)
 
 const char *pg_scene_file   (const pg_scene *s) { return s->file; }
 const char *pg_scene_source (const pg_scene *s) { return s->source; }
-const char *pg_scene_setting (const pg_scene *s, size_t k) { return k < s->nset ? s->set[k] + sizeof "--set" : NULL; }
+const char *pg_scene_setting (const pg_scene *s, size_t k)
+{
+    return k < s->nset ? s->set[k] + sizeof "--set" : NULL;
+}
 
 const char *pg_scene_hash   (const pg_scene *s) { return s->hash; }
 

@@ -12,15 +12,16 @@ struct pg_scene {
     int        dimension;                              /* 0: not known */
     pg_schema  schema;
     pg_node    root;
-    pg_node   *fallback;                               /* default of each row; no text and no child: none (schema.n) */
+    pg_node   *fallback;  /* default of each row; no text and no child: none (schema.n) */
     pg_faults *faults;                                 /* grows even in a const scene */
-    int        partial;                                /* it has faults beside its geometry (pg_scene_load_some) */
+    int        partial;  /* it has faults beside its geometry (pg_scene_load_some) */
 };
 
-pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset, const char *const *set,
-                         const pg_key_table *table, size_t ntable);
+pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset,
+                         const char *const *set, const pg_key_table *table, size_t ntable);
 /* "key=value" into the tree; what is wrong with it is a fault. */
 pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin);
-/* Checks the tree and the defaults against the rows; faults are collected, only lack of memory or of the unit database fails. */
+/* Checks the tree and the defaults against the rows; faults are collected, only lack of memory or of the unit
+ * database fails. */
 pg_status pg_scene_check (pg_scene *s);
 #endif

@@ -14,22 +14,29 @@ static const pg_variable variables[] = {
 };
 
 static const pg_function functions[] = {
-    { "sin",   PG_OP_SIN,    1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "sine of an angle" },
-    { "cos",   PG_OP_COS,    1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "cosine of an angle" },
-    { "tan",   PG_OP_TAN,    1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "tangent of an angle" },
-    { "exp",   PG_OP_EXP,    1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "exponential" },
-    { "log",   PG_OP_LOG,    1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "natural logarithm" },
-    { "sqrt",  PG_OP_SQRT,   1, PG_TAKES_ANY,   PG_GIVES_ROOT,  "square root" },
-    { "abs",   PG_OP_ABS,    1, PG_TAKES_ANY,   PG_GIVES_SAME,  "absolute value" },
-    { "step",  PG_OP_STEP,   1, PG_TAKES_ANY,   PG_GIVES_PLAIN, "0 below 0, else 1" },
-    { "min",   PG_OP_MIN,   -2, PG_TAKES_ALIKE, PG_GIVES_SAME,  "smallest of two or more" },
-    { "max",   PG_OP_MAX,   -2, PG_TAKES_ALIKE, PG_GIVES_SAME,  "largest of two or more" },
-    { "hypot", PG_OP_HYPOT,  2, PG_TAKES_ALIKE, PG_GIVES_SAME,  "sqrt (a^2 + b^2)" },
-    { "atan2", PG_OP_ATAN2,  2, PG_TAKES_ALIKE, PG_GIVES_PLAIN, "angle of the vector (b, a), rad, from -pi to pi" },
+    { "sin", PG_OP_SIN, 1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "sine of an angle" },
+    { "cos", PG_OP_COS, 1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "cosine of an angle" },
+    { "tan", PG_OP_TAN, 1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "tangent of an angle" },
+    { "exp", PG_OP_EXP, 1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "exponential" },
+    { "log", PG_OP_LOG, 1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "natural logarithm" },
+    { "sqrt", PG_OP_SQRT, 1, PG_TAKES_ANY, PG_GIVES_ROOT, "square root" },
+    { "abs", PG_OP_ABS, 1, PG_TAKES_ANY, PG_GIVES_SAME, "absolute value" },
+    { "step", PG_OP_STEP, 1, PG_TAKES_ANY, PG_GIVES_PLAIN, "0 below 0, else 1" },
+    { "min", PG_OP_MIN, -2, PG_TAKES_ALIKE, PG_GIVES_SAME, "smallest of two or more" },
+    { "max", PG_OP_MAX, -2, PG_TAKES_ALIKE, PG_GIVES_SAME, "largest of two or more" },
+    { "hypot", PG_OP_HYPOT, 2, PG_TAKES_ALIKE, PG_GIVES_SAME, "sqrt (a^2 + b^2)" },
+    { "atan2", PG_OP_ATAN2, 2, PG_TAKES_ALIKE, PG_GIVES_PLAIN,
+      "angle of the vector (b, a), rad, from -pi to pi" },
 };
 
-const pg_function *pg_expression_function (size_t i) { return i < sizeof functions / sizeof *functions ? &functions[i] : NULL; }
-const pg_variable *pg_expression_variable (size_t i) { return i < sizeof variables / sizeof *variables ? &variables[i] : NULL; }
+const pg_function *pg_expression_function (size_t i)
+{
+    return i < sizeof functions / sizeof *functions ? &functions[i] : NULL;
+}
+const pg_variable *pg_expression_variable (size_t i)
+{
+    return i < sizeof variables / sizeof *variables ? &variables[i] : NULL;
+}
 
 double pg_op_apply (pg_op op, double a, double b)
 {

@@ -7,10 +7,40 @@
 enum { PG_STACK = 64 };                                /* deepest stack; the compiler refuses more */
 
 typedef enum {
-    PG_OP_CONSTANT, PG_OP_X, PG_OP_Y, PG_OP_Z, PG_OP_R, PG_OP_ANGLE, PG_OP_T,
-    PG_OP_NEGATE, PG_OP_NOT, PG_OP_SIN, PG_OP_COS, PG_OP_TAN, PG_OP_SQRT, PG_OP_ABS, PG_OP_EXP, PG_OP_LOG, PG_OP_STEP,
-    PG_OP_ADD, PG_OP_SUBTRACT, PG_OP_MULTIPLY, PG_OP_DIVIDE, PG_OP_POWER, PG_OP_MIN, PG_OP_MAX, PG_OP_HYPOT, PG_OP_ATAN2,
-    PG_OP_LESS, PG_OP_AT_MOST, PG_OP_MORE, PG_OP_AT_LEAST, PG_OP_EQUAL, PG_OP_DIFFERENT, PG_OP_AND, PG_OP_OR
+    PG_OP_CONSTANT,
+    PG_OP_X,
+    PG_OP_Y,
+    PG_OP_Z,
+    PG_OP_R,
+    PG_OP_ANGLE,
+    PG_OP_T,
+    PG_OP_NEGATE,
+    PG_OP_NOT,
+    PG_OP_SIN,
+    PG_OP_COS,
+    PG_OP_TAN,
+    PG_OP_SQRT,
+    PG_OP_ABS,
+    PG_OP_EXP,
+    PG_OP_LOG,
+    PG_OP_STEP,
+    PG_OP_ADD,
+    PG_OP_SUBTRACT,
+    PG_OP_MULTIPLY,
+    PG_OP_DIVIDE,
+    PG_OP_POWER,
+    PG_OP_MIN,
+    PG_OP_MAX,
+    PG_OP_HYPOT,
+    PG_OP_ATAN2,
+    PG_OP_LESS,
+    PG_OP_AT_MOST,
+    PG_OP_MORE,
+    PG_OP_AT_LEAST,
+    PG_OP_EQUAL,
+    PG_OP_DIFFERENT,
+    PG_OP_AND,
+    PG_OP_OR
 } pg_op;
 
 typedef struct { pg_op op; double value; } pg_code;
@@ -24,7 +54,14 @@ struct pg_expression {
 /* What a function wants of its arguments and gives. */
 typedef enum { PG_TAKES_PLAIN, PG_TAKES_ANY, PG_TAKES_ALIKE } pg_takes;
 typedef enum { PG_GIVES_PLAIN, PG_GIVES_SAME, PG_GIVES_ROOT } pg_gives;
-typedef struct { const char *name; pg_op op; int arguments; pg_takes takes; pg_gives gives; const char *doc; } pg_function;
+typedef struct {
+    const char *name;
+    pg_op op;
+    int arguments;
+    pg_takes takes;
+    pg_gives gives;
+    const char *doc;
+} pg_function;
 typedef struct { const char *name; pg_op op; const char *doc; } pg_variable;
 
 const pg_function *pg_expression_function (size_t i);  /* NULL past the end; arguments -2: two or more */

@@ -12,15 +12,18 @@ static void printable (char *out, size_t most, const char *text)
 {
     size_t n = 0, length = strlen (text);
     if (length > most) {
-        for (length = most - 3; length > 0 && ((unsigned char) text[length] & 0xC0) == 0x80; length--) continue;
+        for (length = most - 3; length > 0 && ((unsigned char) text[length] & 0xC0) == 0x80; length--)
+            continue;
     }
     for (; n < length; n++) out[n] = iscntrl ((unsigned char) text[n]) ? '?' : text[n];
     snprintf (out + n, 4, "%s", text[n] ? "..." : "");
 }
 
-void pg_faults_add_v (pg_faults *f, const char *file, const pg_node *at, const char *path, int with_value, const char *format, va_list args)
+void pg_faults_add_v (pg_faults *f, const char *file, const pg_node *at, const char *path, int with_value,
+                      const char *format, va_list args)
 {
-    char text[2 * LINE], value[VALUE + 4] = "", origin[VALUE + 4], reason[LINE], clean[LINE + 4], name[LINE / 3 + 4];
+    char text[2 * LINE], value[VALUE + 4] = "", origin[VALUE + 4], reason[LINE], clean[LINE + 4],
+                                       name[LINE / 3 + 4];
     pg_status status = PG_OK;
     int line = at && at->line ? at->line : 1, column = at && at->column ? at->column : 1;
     vsnprintf (reason, sizeof reason, format, args);
@@ -34,21 +37,24 @@ void pg_faults_add_v (pg_faults *f, const char *file, const pg_node *at, const c
         used = (size_t) snprintf (text, sizeof text, "%s: ", origin);
         line = INT_MAX;
     } else used = (size_t) snprintf (text, sizeof text, "%.300s:%d:%d: ", file, line, column);
-    snprintf (text + used, sizeof text - used, "%s%s%s%s%s", name, shows ? " = " : "", value, *name ? ": " : "", clean);
+    snprintf (text + used, sizeof text - used, "%s%s%s%s%s", name, shows ? " = " : "", value,
+              *name ? ": " : "", clean);
     if (f->n == KEPT) {
         f->more++;
         return;
     }
     PG_GROW (f->fault, f->cap, f->n + 1);
     f->fault[f->n] = (pg_fault) { .text = pg_strdup (text), .line = line, .column = column };
-    snprintf (f->fault[f->n].top, sizeof f->fault[f->n].top, "%.*s", (int) strcspn (path ? path : "", ".["), path ? path : "");
+    snprintf (f->fault[f->n].top, sizeof f->fault[f->n].top, "%.*s", (int) strcspn (path ? path : "", ".["),
+              path ? path : "");
     if (f->fault[f->n].text) f->n++;
     else f->lost = 1;
 done:
     if (status != PG_OK) f->lost = 1;
 }
 
-void pg_faults_add (pg_faults *f, const char *file, const pg_node *at, const char *path, int with_value, const char *format, ...)
+void pg_faults_add (pg_faults *f, const char *file, const pg_node *at, const char *path, int with_value,
+                    const char *format, ...)
 {
     va_list args;
     va_start (args, format);

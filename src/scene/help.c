@@ -7,12 +7,14 @@
 const char *pg_key_kind (const pg_key *key)
 {
     static const char *const kind[] = {
-        "map", "list", "number", "whole number", "on or off", "name", "text", "vector", "numbers", "names", "file", "expression",
+        "map",  "list",   "number",  "whole number", "on or off", "name",
+        "text", "vector", "numbers", "names",        "file",      "expression",
     };
     return (unsigned) key->kind < sizeof kind / sizeof *kind ? kind[key->kind] : "?";
 }
 
-/* "materials.{}.youngs_modulus" and "materials.youngs_modulus" become the same text: what a user would type. */
+/* "materials.{}.youngs_modulus" and "materials.youngs_modulus" become the same text: what a user would
+ * type. */
 static void plain_path (char out[PG_PATTERN], const char *path)
 {
     size_t n = 0;
@@ -51,12 +53,15 @@ static void print_partners (FILE *to, const pg_schema *s, const pg_key *key)
 {
     const char *last = strrchr (key->path, '.'), *rule = strrchr (key->group, ':'), *joint = "";
     size_t n = last ? (size_t) (last - key->path) : 0;
-    fprintf (to, "  group    give %s of ", rule && strcmp (rule, ":one") == 0 ? "exactly one" : "at most one");
+    fprintf (to, "  group    give %s of ",
+             rule && strcmp (rule, ":one") == 0 ? "exactly one" : "at most one");
     for (size_t k = 0; k < s->n; k++) {
         const pg_key *row = s->row[k];
         const char *other = strrchr (row->path, '.');
         size_t m = other ? (size_t) (other - row->path) : 0;
-        if (!row->group || strcmp (row->group, key->group) != 0 || n != m || strncmp (row->path, key->path, n) != 0) continue;
+        if (!row->group || strcmp (row->group, key->group) != 0 || n != m
+            || strncmp (row->path, key->path, n) != 0)
+            continue;
         fprintf (to, "%s%s", joint, other ? other + 1 : row->path);
         joint = ", ";
     }
@@ -110,7 +115,8 @@ static const char *nearest_key (const pg_schema *s, const char *key)
         for (size_t k = 0; k < s->n; k++) {
             plain_path (path, s->row[k]->path);
             const char *last = strrchr (path, '.');
-            used += (size_t) snprintf (all + used, size - used, "%s%s", used ? "|" : "", whole || !last ? path : last + 1);
+            used += (size_t) snprintf (all + used, size - used, "%s%s", used ? "|" : "",
+                                       whole || !last ? path : last + 1);
         }
         near = pg_nearest_name (key, all);
         pg_free (all);

@@ -3,13 +3,27 @@
 #include "perigal/scene.h"
 
 static const pg_key keys[] = {
-    { .path = "title", .kind = PG_TEXT, .fallback = "", .doc = "What the scene is about; printed in reports." },
+    { .path = "title",
+      .kind = PG_TEXT,
+      .fallback = "",
+      .doc = "What the scene is about; printed in reports." },
     { .path = "dimension", .kind = PG_NAME, .choices = "1|2|3", .doc = "Number of space dimensions." },
-    { .path = "plane", .kind = PG_NAME, .choices = "stress|strain", .fallback = "stress",
+    { .path = "plane",
+      .kind = PG_NAME,
+      .choices = "stress|strain",
+      .fallback = "stress",
       .doc = "What a two-dimensional body is a slice of: a thin plate or a long bar." },
-    { .path = "thickness", .kind = PG_NUMBER, .unit = "m", .range = "(0, inf)", .fallback = "1 m",
+    { .path = "thickness",
+      .kind = PG_NUMBER,
+      .unit = "m",
+      .range = "(0, inf)",
+      .fallback = "1 m",
       .doc = "Thickness of a two-dimensional body." },
-    { .path = "cross_section", .kind = PG_NUMBER, .unit = "m2", .range = "(0, inf)", .fallback = "1 m2",
+    { .path = "cross_section",
+      .kind = PG_NUMBER,
+      .unit = "m2",
+      .range = "(0, inf)",
+      .fallback = "1 m2",
       .doc = "Area of the cross section of a one-dimensional bar." },
 };
 const pg_key_table pg_keys_scene = { "scene", keys, sizeof keys / sizeof *keys };

@@ -21,7 +21,10 @@ void pg_read_skip (pg_reader *p)
     while (p->text[p->at] && strchr (" \t\r\n", p->text[p->at])) p->at++;
 }
 
-int pg_read_is_letter (char c) { return isalpha ((unsigned char) c) || c == '_' || c == '%' || (unsigned char) c >= 0x80; }
+int pg_read_is_letter (char c)
+{
+    return isalpha ((unsigned char) c) || c == '_' || c == '%' || (unsigned char) c >= 0x80;
+}
 
 size_t pg_word_length (const char *s)
 {
@@ -31,7 +34,10 @@ size_t pg_word_length (const char *s)
     return n;
 }
 
-int pg_is_word (const char *s, size_t n, const char *word) { return strlen (word) == n && memcmp (s, word, n) == 0; }
+int pg_is_word (const char *s, size_t n, const char *word)
+{
+    return strlen (word) == n && memcmp (s, word, n) == 0;
+}
 
 int pg_read_take (pg_reader *p, const char *symbol)
 {

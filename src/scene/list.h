@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * One line per folder that brings keys of the scene file (const pg_key_table pg_keys_<folder>, in src/<folder>/keys.c). */
+ * One line per folder that brings keys of the scene file (const pg_key_table pg_keys_<folder>, in
+ * src/<folder>/keys.c). */
 PG_KEYS (scene)
 PG_KEYS (material)
 PG_KEYS (criterion)
@@ -9,4 +10,4 @@ PG_KEYS (cells)
 PG_KEYS (model)
 PG_KEYS (solve)
 PG_KEYS (compare)
-PG_KEYS (report)
+PG_KEYS (results)

@@ -1,41 +1,57 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * doc/input.md: an introduction, then one section with a table of keys for each word at the top of a scene. */
+ * doc/input.md: an introduction, then one section with a table of keys for each word at the top of a
+ * scene. */
 #include "expression.h"
 #include "help.h"
 #include <string.h>
 
-static const char introduction[] =
-    "# The scene file\n\n"
-    "This page is written by the program from the tables that also check a scene; `perigal help KEY` prints one entry.\n\n"
-    "A scene is a YAML map. Every key is checked: an unknown key, a missing one, a wrong unit or a value out of range is\n"
-    "reported with its line and column, all of them in one pass. In the tables `{}` stands for a name of your choice and\n"
-    "`[]` for an element of a list.\n\n"
-    "## Units\n\n"
-    "A number is followed by its unit: `10 GPa`, `-1 um`, `2500 kg/m3`, `40 deg`, `5 %`, `0.1 ms`. Without a unit it is in\n"
-    "SI (m, kg, s, N, Pa, rad). A unit of another kind (`72 mm` for a pressure) is an error. Where the unit is given as\n"
-    "`m, spacing` the value may also be a multiple of the distance of points: `2.0 spacing`. Units are those of udunits2,\n"
-    "plus `deg`; powers are written `mm2` or `mm^2`, products `kN m`.\n\n";
+static const char introduction[] = "# The scene file\n\n"
+                                   "This page is written by the program from the tables that also check a "
+                                   "scene; `perigal help KEY` prints one entry.\n\n"
+                                   "A scene is a YAML map. Every key is checked: an unknown key, a missing "
+                                   "one, a wrong unit or a value out of range is\n"
+                                   "reported with its line and column, all of them in one pass. In the "
+                                   "tables `{}` stands for a name of your choice and\n"
+                                   "`[]` for an element of a list.\n\n"
+                                   "## Units\n\n"
+                                   "A number is followed by its unit: `10 GPa`, `-1 um`, `2500 kg/m3`, `40 "
+                                   "deg`, `5 %`, `0.1 ms`. Without a unit it is in\n"
+                                   "SI (m, kg, s, N, Pa, rad). A unit of another kind (`72 mm` for a "
+                                   "pressure) is an error. Where the unit is given as\n"
+                                   "`m, spacing` the value may also be a multiple of the distance of points: "
+                                   "`2.0 spacing`. Units are those of udunits2,\n"
+                                   "plus `deg`; powers are written `mm2` or `mm^2`, products `kN m`.\n\n";
 
 static const char overrides[] =
     "## Overrides\n\n"
-    "`--set KEY=VALUE` on the command line replaces or adds one value before the scene is checked; VALUE is YAML, KEY is a\n"
-    "path such as `method.horizon` or `cracks[0].from`. Maps on the way are made when they are missing, and a list grows by\n"
+    "`--set KEY=VALUE` on the command line replaces or adds one value before the scene is checked; VALUE is "
+    "YAML, KEY is a\n"
+    "path such as `method.horizon` or `cracks[0].from`. Maps on the way are made when they are missing, and "
+    "a list grows by\n"
     "naming the element after its last. Overrides enter the hash by which results name their scene.\n\n";
 
 static void write_expressions (FILE *to)
 {
-    fprintf (to, "## Expressions\n\nA value of kind *expression* is a number with unit or a formula. Numbers in it may carry units;\n"
-                 "adding or comparing different units is an error. A number without unit is SI and fits anywhere.\n\n");
+    fprintf (to, "## Expressions\n\nA value of kind *expression* is a number with unit or a formula. Numbers "
+                 "in it may carry units;\n"
+                 "adding or comparing different units is an error. A number without unit is SI and fits "
+                 "anywhere.\n\n");
     fprintf (to, "| variable | meaning |\n|---|---|\n");
     for (size_t k = 0; pg_expression_variable (k); k++)
         fprintf (to, "| `%s` | %s |\n", pg_expression_variable (k)->name, pg_expression_variable (k)->doc);
     fprintf (to, "\n| function | meaning |\n|---|---|\n");
     for (size_t k = 0; pg_expression_function (k); k++) {
         const pg_function *f = pg_expression_function (k);
-        fprintf (to, "| `%s (%s)` | %s |\n", f->name, f->arguments == 1 ? "a" : f->arguments < 0 ? "a, b, ..." : "a, b", f->doc);
+        fprintf (to, "| `%s (%s)` | %s |\n", f->name,
+                 f->arguments == 1  ? "a"
+                 : f->arguments < 0 ? "a, b, ..."
+                                    : "a, b",
+                 f->doc);
     }
-    fprintf (to, "\nOperators, from loose to tight: `or`, `and`, `not`, one of `< <= > >= == !=`, `+ -`, `* /`, sign, `^`.\n"
-                 "`pi` is the number. A *condition* (unit `bool`) is an expression such as `r >= 48 mm and y > 0`.\n\n");
+    fprintf (to, "\nOperators, from loose to tight: `or`, `and`, `not`, one of `< <= > >= == !=`, `+ -`, `* "
+                 "/`, sign, `^`.\n"
+                 "`pi` is the number. A *condition* (unit `bool`) is an expression such as `r >= 48 mm and y "
+                 "> 0`.\n\n");
 }
 
 static void write_list (FILE *to, const char *names)
@@ -62,7 +78,8 @@ static void write_row (FILE *to, const pg_key *key)
     if (key->group) {
         const char *rule = strrchr (key->group, ':');
         int one = rule && strcmp (rule, ":one") == 0;
-        fprintf (to, " %s of the group *%.*s*.", one ? "Exactly one" : "At most one", (int) strcspn (key->group, ":"), key->group);
+        fprintf (to, " %s of the group *%.*s*.", one ? "Exactly one" : "At most one",
+                 (int) strcspn (key->group, ":"), key->group);
     }
     fprintf (to, " |\n");
 }
@@ -90,7 +107,10 @@ static int stands_alone (const pg_schema *s, size_t k)
 
 static void write_title (FILE *to, const char *title, size_t n)
 {
-    fprintf (to, "### %.*s\n\n| key | kind, unit | range or choices | default | meaning |\n|---|---|---|---|---|\n", (int) n, title);
+    fprintf (
+        to,
+        "### %.*s\n\n| key | kind, unit | range or choices | default | meaning |\n|---|---|---|---|---|\n",
+        (int) n, title);
 }
 
 static void write_sections (FILE *to, const pg_schema *s)

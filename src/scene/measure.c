@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Units through udunits2: text -> factor and powers of the base units. The database is read once, on first use. */
+ * Units through udunits2: text -> factor and powers of the base units. The database is read once, on first
+ * use. */
 #include "unit.h"
 #include <locale.h>
 #include <math.h>
@@ -31,7 +32,7 @@ static void load (void)
     }
 }
 
-/* ---- powers of the base units, by visiting the tree of a unit ------------------------------------------------------ */
+/* ---- powers of the base units, by visiting the tree of a unit ------------------------------------------ */
 static const char *const base_symbol[PG_BASE_UNITS] = { "m", "kg", "s", "A", "K", "mol", "cd" };
 
 static ut_status add_basic (const ut_unit *unit, double power, pg_measure *m)
@@ -46,7 +47,8 @@ static ut_status add_basic (const ut_unit *unit, double power, pg_measure *m)
 
 static ut_status visit_basic (const ut_unit *unit, void *p) { return add_basic (unit, 1, p); }
 
-static ut_status visit_product (const ut_unit *unit, int n, const ut_unit *const *basic, const int *power, void *p)
+static ut_status visit_product (const ut_unit *unit, int n, const ut_unit *const *basic, const int *power,
+                                void *p)
 {
     (void) unit;
     for (int k = 0; k < n; k++) {
@@ -58,7 +60,8 @@ static ut_status visit_product (const ut_unit *unit, int n, const ut_unit *const
 
 static ut_visitor visitor;
 
-static ut_status visit_galilean (const ut_unit *unit, double scale, const ut_unit *under, double origin, void *p)
+static ut_status visit_galilean (const ut_unit *unit, double scale, const ut_unit *under, double origin,
+                                 void *p)
 {
     (void) unit;
     if (origin != 0) return UT_MEANINGLESS;            /* degC, "m from 5" */
@@ -80,7 +83,7 @@ static ut_status visit_log (const ut_unit *unit, double base, const ut_unit *ref
 
 static ut_visitor visitor = { visit_basic, visit_product, visit_galilean, visit_time, visit_log };
 
-/* ---- text ----------------------------------------------------------------------------------------------------------- */
+/* ---- text ---------------------------------------------------------------------------------------------- */
 static int is_letter (char c)
 {
     unsigned char u = (unsigned char) c;
@@ -89,7 +92,8 @@ static int is_letter (char c)
 
 static int is_digit (char c) { return c >= '0' && c <= '9'; }
 
-/* Words with whole powers, joined by space . * or /, perhaps after "1/": udunits itself also takes "m)" or "5 m @ 3". */
+/* Words with whole powers, joined by space . * or /, perhaps after "1/": udunits itself also takes "m)" or "5
+ * m @ 3". */
 static int well_formed (const char *s)
 {
     if (s[0] == '1' && s[1] == '/') s += 2;
@@ -127,12 +131,16 @@ static size_t place_of (const char *text)
     return h % REMEMBERED;
 }
 
-/* What most scenes make do with: reading the database takes longer than a small run. The same bits as udunits gives. */
-static const struct { const char *text; double factor, m, kg, s; } common[] = {
-    { "m",   1, 1, 0, 0 }, { "mm", 1e-3, 1, 0, 0 },  { "m2",  1, 2, 0, 0 },    { "m3", 1, 3, 0, 0 },     { "kg",   1, 0, 1, 0 },   { "s",  1, 0, 0, 1 },
-    { "1/s", 1, 0, 0, -1 }, { "m/s", 1, 1, 0, -1 },  { "m/s2", 1, 1, 0, -2 },  { "N",  1, 1, 1, -2 },    { "kN", 1e3, 1, 1, -2 },  { "J",  1, 2, 1, -2 },
-    { "Pa",  1, -1, 1, -2 }, { "MPa", 1e6, -1, 1, -2 }, { "GPa", 1e9, -1, 1, -2 }, { "N/m", 1, 0, 1, -2 }, { "J/m2", 1, 0, 1, -2 }, { "N/m3", 1, -2, 1, -2 },
-    { "kg/m3", 1, -3, 1, 0 }, { "%", 0.01, 0, 0, 0 }, { "min", 60, 0, 0, 1 },
+/* What most scenes make do with: reading the database takes longer than a small run. The same bits as udunits
+ * gives. */
+static const struct { const char *text; double factor, m, kg, s;
+} common[] = {
+    { "m", 1, 1, 0, 0 },     { "mm", 1e-3, 1, 0, 0 },   { "m2", 1, 2, 0, 0 },      { "m3", 1, 3, 0, 0 },
+    { "kg", 1, 0, 1, 0 },    { "s", 1, 0, 0, 1 },       { "1/s", 1, 0, 0, -1 },    { "m/s", 1, 1, 0, -1 },
+    { "m/s2", 1, 1, 0, -2 }, { "N", 1, 1, 1, -2 },      { "kN", 1e3, 1, 1, -2 },   { "J", 1, 2, 1, -2 },
+    { "Pa", 1, -1, 1, -2 },  { "MPa", 1e6, -1, 1, -2 }, { "GPa", 1e9, -1, 1, -2 }, { "N/m", 1, 0, 1, -2 },
+    { "J/m2", 1, 0, 1, -2 }, { "N/m3", 1, -2, 1, -2 },  { "kg/m3", 1, -3, 1, 0 },  { "%", 0.01, 0, 0, 0 },
+    { "min", 60, 0, 0, 1 },
 };
 
 static int is_common (pg_measure *m, const char *text, size_t n)
@@ -147,7 +155,8 @@ static int is_common (pg_measure *m, const char *text, size_t n)
 
 pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
 {
-    static const char usual[] = "m|mm|um|km|cm|Pa|kPa|MPa|GPa|N|kN|MN|J|kJ|s|ms|us|h|kg|g|t|deg|rad|Hz|kg/m3|N/m|m/s|J/m2|N/m2|1/s";
+    static const char usual[] =
+        "m|mm|um|km|cm|Pa|kPa|MPa|GPa|N|kN|MN|J|kJ|s|ms|us|h|kg|g|t|deg|rad|Hz|kg/m3|N/m|m/s|J/m2|N/m2|1/s";
     char word[WORD];
     if (n == 1 && text[0] == '1') {
         *m = (pg_measure) { .factor = 1 };
@@ -158,7 +167,8 @@ pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
     if (is_common (m, word, n)) return PG_OK;
     pthread_once (&once, load);
     if (!units)
-        return pg_error (PG_E_FILE, PG_HERE, "the unit database of udunits2 cannot be read (see UDUNITS2_XML_PATH)");
+        return pg_error (PG_E_FILE, PG_HERE,
+                         "the unit database of udunits2 cannot be read (see UDUNITS2_XML_PATH)");
     int good = well_formed (word);
     if (good) {
         pthread_mutex_lock (&lock);
@@ -197,14 +207,15 @@ double pg_measure_scale (double value, const pg_measure *m)
     return value * m->factor;
 }
 
-/* ---- names for messages --------------------------------------------------------------------------------------------- */
-static const struct { const char *unit; double m, kg, s; const char *example; } known[] = {
-    { "1",      0, 0,  0, "0.25" },       { "rad",    0, 0,  0, "40 deg" },     { "m",      1, 0,  0, "5 mm" },
-    { "m2",     2, 0,  0, "20 mm2" },     { "m3",     3, 0,  0, "8 mm3" },      { "s",      0, 0,  1, "0.1 ms" },
-    { "1/s",    0, 0, -1, "100 1/s" },    { "m/s",    1, 0, -1, "2 m/s" },      { "m/s2",   1, 0, -2, "9.81 m/s2" },
-    { "kg",     0, 1,  0, "2 kg" },       { "kg/m3", -3, 1,  0, "2500 kg/m3" }, { "N",      1, 1, -2, "10 kN" },
-    { "Pa",    -1, 1, -2, "10 GPa" },     { "N/m",    0, 1, -2, "10 kN/m" },    { "J/m2",   0, 1, -2, "100 J/m2" },
-    { "J",      2, 1, -2, "5 J" },        { "N/m3",  -2, 1, -2, "25 kN/m3" },   { "N s/m",  0, 1, -1, "5 N s/m" },
+/* ---- names for messages -------------------------------------------------------------------------------- */
+static const struct { const char *unit; double m, kg, s; const char *example;
+} known[] = {
+    { "1", 0, 0, 0, "0.25" },       { "rad", 0, 0, 0, "40 deg" },        { "m", 1, 0, 0, "5 mm" },
+    { "m2", 2, 0, 0, "20 mm2" },    { "m3", 3, 0, 0, "8 mm3" },          { "s", 0, 0, 1, "0.1 ms" },
+    { "1/s", 0, 0, -1, "100 1/s" }, { "m/s", 1, 0, -1, "2 m/s" },        { "m/s2", 1, 0, -2, "9.81 m/s2" },
+    { "kg", 0, 1, 0, "2 kg" },      { "kg/m3", -3, 1, 0, "2500 kg/m3" }, { "N", 1, 1, -2, "10 kN" },
+    { "Pa", -1, 1, -2, "10 GPa" },  { "N/m", 0, 1, -2, "10 kN/m" },      { "J/m2", 0, 1, -2, "100 J/m2" },
+    { "J", 2, 1, -2, "5 J" },       { "N/m3", -2, 1, -2, "25 kN/m3" },   { "N s/m", 0, 1, -1, "5 N s/m" },
 };
 
 static int is_known (size_t k, const pg_measure *m)
@@ -225,7 +236,8 @@ void pg_measure_text (const pg_measure *m, char *out, size_t n)
         if (fabs (m->power[k]) < 1e-9) continue;
         int more = snprintf (out + used, n - used, "%s%s", used ? " " : "", base_symbol[k]);
         used += (size_t) more;
-        if (used < n && m->power[k] != 1) used += (size_t) snprintf (out + used, n - used, "^%g", m->power[k]);
+        if (used < n && m->power[k] != 1)
+            used += (size_t) snprintf (out + used, n - used, "^%g", m->power[k]);
     }
 }
 

@@ -38,7 +38,8 @@ pg_node *pg_node_child (const pg_node *parent, const char *name, size_t length)
 
 int pg_node_null (const pg_node *node)
 {
-    return node->shape == PG_SCALAR && node->plain && (!node->text || *node->text == '\0' || strcmp (node->text, "~") == 0);
+    return node->shape == PG_SCALAR && node->plain
+           && (!node->text || *node->text == '\0' || strcmp (node->text, "~") == 0);
 }
 
 void pg_node_clear (pg_node *node)

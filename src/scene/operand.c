@@ -2,7 +2,7 @@
  * Operands of an expression: stack code with folding of constants, and the dimension of each part. */
 #include "compile.h"
 
-/* ---- code ----------------------------------------------------------------------------------------------------------- */
+/* ---- code ---------------------------------------------------------------------------------------------- */
 pg_status pg_operand_emit (pg_reader *p, pg_op op, double value)
 {
     pg_status status = PG_OK;
@@ -35,7 +35,7 @@ pg_status pg_operand_combine (pg_reader *p, pg_op op, pg_operand *a, const pg_op
     return PG_OK;
 }
 
-/* ---- dimensions ----------------------------------------------------------------------------------------------------- */
+/* ---- dimensions ---------------------------------------------------------------------------------------- */
 int pg_operand_plain (const pg_operand *o) { return o->bare || pg_measure_plain (&o->m); }
 
 pg_status pg_operand_number (pg_reader *p, const pg_operand *o, size_t at)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * "a.b[0].c=value": puts a value, read as YAML, into the tree; maps and lists on the way are made when they are missing. */
+ * "a.b[0].c=value": puts a value, read as YAML, into the tree; maps and lists on the way are made when they
+ * are missing. */
 #include "document.h"
 #include <string.h>
 
@@ -30,7 +31,8 @@ static int next_part (const char **path, const char *end, char word[WORD], long 
     size_t n = 0;
     if (*s == '[') {
         *index = 0;
-        for (n = 1; s + n < end && s[n] >= '0' && s[n] <= '9' && n < 9; n++) *index = *index * 10 + (s[n] - '0');
+        for (n = 1; s + n < end && s[n] >= '0' && s[n] <= '9' && n < 9; n++)
+            *index = *index * 10 + (s[n] - '0');
         if (n == 1 || s + n >= end || s[n] != ']') return 0;
         *path = s + n + 1;
         return 1;
@@ -57,7 +59,8 @@ static int well_formed (const char *path, const char *end)
 }
 
 /* The node at the path (well formed), made if need be; *why says what is wrong. */
-static pg_status reach (pg_scene *s, pg_node **node, const char *path, const char *end, const char *origin, const char **why)
+static pg_status reach (pg_scene *s, pg_node **node, const char *path, const char *end, const char *origin,
+                        const char **why)
 {
     pg_status status = PG_OK;
     char word[WORD];
@@ -69,7 +72,8 @@ static pg_status reach (pg_scene *s, pg_node **node, const char *path, const cha
         if (!next_part (&path, end, word, &index)) break;
         int is_name = index < 0;
         if (!become (*node, is_name ? PG_MAPPING : PG_SEQUENCE))
-            *why = is_name ? "leads through something that is not a map" : "leads through something that is not a list";
+            *why = is_name ? "leads through something that is not a map"
+                           : "leads through something that is not a list";
         else if (index > (long) (*node)->n) *why = "leads past the end of a list";
         else if (index >= 0 && index < (long) (*node)->n) child = &(*node)->child[index];
         else if (index < 0) child = pg_node_child (*node, word, strlen (word));

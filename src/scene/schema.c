@@ -51,7 +51,8 @@ static int extend (const pg_schema *s, char *pattern, const char *joint, const c
 int pg_schema_enter (const pg_schema *s, char pattern[PG_PATTERN], const char *name, size_t length)
 {
     const char *joint = *pattern ? "." : "";
-    if (length == 0 || memchr (name, '.', length) || memchr (name, '[', length) || memchr (name, '{', length)) return 0;
+    if (length == 0 || memchr (name, '.', length) || memchr (name, '[', length) || memchr (name, '{', length))
+        return 0;
     if (extend (s, pattern, joint, name, length)) return 1;
     return extend (s, pattern, joint, "{}", 2) ? 2 : 0;
 }
@@ -121,7 +122,8 @@ void pg_schema_names (const pg_schema *s, const char *pattern, char names[PG_LEV
         rest += *pattern != '\0';
         size_t n = strcspn (rest, ".[");
         if (n == 0 || rest[0] == '{' || listed (names, rest, n) || used + n + 2 > PG_LEVEL_NAMES) continue;
-        used += (size_t) snprintf (names + used, PG_LEVEL_NAMES - used, "%s%.*s", used ? "|" : "", (int) n, rest);
+        used += (size_t) snprintf (names + used, PG_LEVEL_NAMES - used, "%s%.*s", used ? "|" : "", (int) n,
+                                   rest);
     }
 }
 
@@ -142,7 +144,9 @@ void pg_schema_wanted (const pg_schema *s, const char *pattern, char *out, size_
     case PG_NUMBER:     snprintf (out, n, "%s", number); break;
     case PG_INTEGER:    snprintf (out, n, "a whole number"); break;
     case PG_BOOL:       snprintf (out, n, "on or off"); break;
-    case PG_NAME:       snprintf (out, n, "one of %s", pg_key_choices (key) ? pg_key_choices (key) : "the names known here"); break;
+    case PG_NAME:
+        snprintf (out, n, "one of %s", pg_key_choices (key) ? pg_key_choices (key) : "the names known here");
+        break;
     case PG_TEXT:       snprintf (out, n, "a text"); break;
     case PG_FILE:       snprintf (out, n, "the name of a file"); break;
     case PG_VECTOR:     snprintf (out, n, "a vector such as [0, 0]"); break;

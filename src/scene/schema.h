@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * schema.h: all key tables as one list of rows, and the patterns ("materials.{}.density") that lead through it. */
+ * schema.h: all key tables as one list of rows, and the patterns ("materials.{}.density") that lead through
+ * it. */
 #ifndef PG_SCENE_SCHEMA_H
 #define PG_SCENE_SCHEMA_H
 #include "node.h"

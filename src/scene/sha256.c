@@ -8,12 +8,14 @@
 static uint32_t K[64], H0[8];
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 
-/* First 32 bits of the fractional part of the root of p of order `order`: the largest x / 2^32 with x^order <= p, in whole numbers. */
+/* First 32 bits of the fractional part of the root of p of order `order`: the largest x / 2^32 with x^order
+ * <= p, in whole numbers. */
 static uint32_t root_bits (unsigned p, int order)
 {
     uint64_t x = 0;
     for (int bit = 35; bit >= 0; bit--) {
-        unsigned __int128 y = x | (uint64_t) 1 << bit, limit = (unsigned __int128) p << (order == 2 ? 64 : 96);
+        unsigned __int128 y = x | (uint64_t) 1 << bit,
+                          limit = (unsigned __int128) p << (order == 2 ? 64 : 96);
         if (order == 2 ? y * y <= limit : y * y <= limit / y) x = (uint64_t) y;
     }
     return (uint32_t) x;
@@ -37,16 +39,20 @@ static void mix (uint32_t h[8], const unsigned char *block)
 {
     uint32_t w[64], v[8];
     for (int t = 0; t < 16; t++)
-        w[t] = (uint32_t) block[4 * t] << 24 | (uint32_t) block[4 * t + 1] << 16 | (uint32_t) block[4 * t + 2] << 8 | block[4 * t + 3];
+        w[t] = (uint32_t) block[4 * t] << 24 | (uint32_t) block[4 * t + 1] << 16
+               | (uint32_t) block[4 * t + 2] << 8 | block[4 * t + 3];
     for (int t = 16; t < 64; t++) {
         uint32_t a = w[t - 15], b = w[t - 2];
-        w[t] = w[t - 16] + (turn (a, 7) ^ turn (a, 18) ^ a >> 3) + w[t - 7] + (turn (b, 17) ^ turn (b, 19) ^ b >> 10);
+        w[t] = w[t - 16] + (turn (a, 7) ^ turn (a, 18) ^ a >> 3) + w[t - 7]
+               + (turn (b, 17) ^ turn (b, 19) ^ b >> 10);
     }
     memcpy (v, h, sizeof v);
     for (int t = 0; t < 64; t++) {
         uint32_t a = v[0], e = v[4];
-        uint32_t one = v[7] + (turn (e, 6) ^ turn (e, 11) ^ turn (e, 25)) + ((e & v[5]) ^ (~e & v[6])) + K[t] + w[t];
-        uint32_t two = (turn (a, 2) ^ turn (a, 13) ^ turn (a, 22)) + ((a & v[1]) ^ (a & v[2]) ^ (v[1] & v[2]));
+        uint32_t one = v[7] + (turn (e, 6) ^ turn (e, 11) ^ turn (e, 25)) + ((e & v[5]) ^ (~e & v[6])) + K[t]
+                       + w[t];
+        uint32_t two = (turn (a, 2) ^ turn (a, 13) ^ turn (a, 22))
+                       + ((a & v[1]) ^ (a & v[2]) ^ (v[1] & v[2]));
         memmove (v + 1, v, 7 * sizeof *v);
         v[4] += one;
         v[0] = one + two;

@@ -13,7 +13,8 @@ static size_t exponent_length (const char *s)          /* "^2", "^-1"; 0 when no
     return digits && s[n + digits] != '.' ? n + digits : 0;
 }
 
-/* The unit after a number: "mm", "kN/m2", "kN m": words that are no words of the language. Copies it without spaces. */
+/* The unit after a number: "mm", "kN/m2", "kN m": words that are no words of the language. Copies it without
+ * spaces. */
 static pg_status read_unit (pg_reader *p, char *unit, size_t size)
 {
     pg_status status = PG_OK;
@@ -30,7 +31,8 @@ static pg_status read_unit (pg_reader *p, char *unit, size_t size)
         const char *s = p->text + p->at;
         size_t n = pg_word_length (s);
         const pg_variable *v = pg_variable_of (s, n);
-        if (n && v && *joint != '/') PG_BAD (p->at, "'%s' is a variable: write a sign before it, as in 2*%s", v->name, v->name);
+        if (n && v && *joint != '/')
+            PG_BAD (p->at, "'%s' is a variable: write a sign before it, as in 2*%s", v->name, v->name);
         if (n == 0 || pg_is_own_word (s, n)) {
             p->at = start;
             break;
@@ -69,7 +71,8 @@ pg_status pg_read_number (pg_reader *p, pg_operand *o)
         value = pg_measure_scale (value, &o->m);
     }
     if (!(fabs (value) <= 1e60)) PG_BAD (start, "the number is too large: in SI units at most 1e60");
-    if (value != 0 && fabs (value) < 1e-60) PG_BAD (start, "the number is too small: in SI units 0, or at least 1e-60");
+    if (value != 0 && fabs (value) < 1e-60)
+        PG_BAD (start, "the number is too small: in SI units 0, or at least 1e-60");
     PG_TRY (pg_operand_push (p, o, value));
 done:
     return status;
@@ -118,9 +121,11 @@ static void unknown_name (const char *s, size_t n, char *out, size_t size)
     char known[400] = "pi", word[PG_WORD];
     size_t used = strlen (known);
     for (size_t k = 0; pg_expression_variable (k); k++)
-        used += (size_t) snprintf (known + used, sizeof known - used, "|%s", pg_expression_variable (k)->name);
+        used += (size_t) snprintf (known + used, sizeof known - used, "|%s",
+                                   pg_expression_variable (k)->name);
     for (size_t k = 0; pg_expression_function (k); k++)
-        used += (size_t) snprintf (known + used, sizeof known - used, "|%s", pg_expression_function (k)->name);
+        used += (size_t) snprintf (known + used, sizeof known - used, "|%s",
+                                   pg_expression_function (k)->name);
     snprintf (word, sizeof word, "%.*s", (int) (n < PG_WORD ? n : PG_WORD - 1), s);
     const char *near = pg_nearest_name (word, known);
     if (near) snprintf (out, size, "unknown name '%s'; did you mean %s?", word, near);
@@ -158,7 +163,8 @@ pg_status pg_read_name (pg_reader *p, pg_operand *o)
     } else if (pg_is_word (s, n, "true") || pg_is_word (s, n, "false")) {
         o->condition = 1;
         PG_TRY (pg_operand_push (p, o, *s == 't'));
-    } else if (!pg_is_own_word (s, n) && pg_measure_read (&o->m, s, n) == PG_OK) {        /* a unit by itself, as in x/mm */
+    /* a unit by itself, as in x/mm */
+    } else if (!pg_is_own_word (s, n) && pg_measure_read (&o->m, s, n) == PG_OK) {
         PG_TRY (pg_operand_push (p, o, o->m.factor));
     } else {
         unknown_name (s, n, why, sizeof why);

@@ -59,7 +59,7 @@ const char *pg_number_read (const char *text, double *value)
     return end;
 }
 
-/* ---- number with unit ----------------------------------------------------------------------------------------------- */
+/* ---- number with unit ---------------------------------------------------------------------------------- */
 /* Length of the unit text before the alternative "|spacing". */
 static size_t unit_length (const char *unit) { return strcspn (unit, "|"); }
 static int takes_spacing (const char *unit) { return strstr (unit, "|spacing") != NULL; }
@@ -80,14 +80,16 @@ static const char *unit_words (const char *unit)
 {
     static _Thread_local char text[80];
     if (strcmp (unit, "1") == 0) return "a plain number or %";
-    snprintf (text, sizeof text, "%.*s%s", (int) unit_length (unit), unit, takes_spacing (unit) ? " or spacing" : "");
+    snprintf (text, sizeof text, "%.*s%s", (int) unit_length (unit), unit,
+              takes_spacing (unit) ? " or spacing" : "");
     return text;
 }
 
 void pg_quantity_describe (char *out, size_t n, const char *unit)
 {
     if (!unit || strcmp (unit, "1") == 0) snprintf (out, n, "a number, for example 0.25");
-    else snprintf (out, n, "a number with a unit of %s, for example %s", unit_words (unit), example_of (unit));
+    else
+        snprintf (out, n, "a number with a unit of %s, for example %s", unit_words (unit), example_of (unit));
 }
 
 static pg_status convert (double *out, double value, const char *word, size_t n, const char *unit)
@@ -96,7 +98,8 @@ static pg_status convert (double *out, double value, const char *word, size_t n,
     pg_status status = pg_measure_read (&given, word, n);
     if (status == PG_OK) status = pg_measure_read (&wanted, unit, unit_length (unit));
     if (status != PG_OK) return status;
-    int fits = pg_measure_same (&given, &wanted) && (!pg_measure_plain (&wanted) || given.angle == wanted.angle);
+    int fits = pg_measure_same (&given, &wanted)
+               && (!pg_measure_plain (&wanted) || given.angle == wanted.angle);
     if (!fits)
         return pg_error (PG_E_SCENE, PG_HERE, "'%.*s' does not fit: expected %s, for example %s",
                          (int) n, word, unit_words (unit), example_of (unit));
@@ -106,8 +109,10 @@ static pg_status convert (double *out, double value, const char *word, size_t n,
 
 pg_status pg_quantity_sane (double value)
 {
-    if (!(fabs (value) <= 1e60)) return pg_error (PG_E_SCENE, PG_HERE, "is too large for a number: in SI units at most 1e60");
-    if (value != 0 && fabs (value) < 1e-60) return pg_error (PG_E_SCENE, PG_HERE, "is too small for a number: in SI units 0, or at least 1e-60");
+    if (!(fabs (value) <= 1e60))
+        return pg_error (PG_E_SCENE, PG_HERE, "is too large for a number: in SI units at most 1e60");
+    if (value != 0 && fabs (value) < 1e-60)
+        return pg_error (PG_E_SCENE, PG_HERE, "is too small for a number: in SI units 0, or at least 1e-60");
     return PG_OK;
 }
 
@@ -146,7 +151,7 @@ pg_status pg_unit_parse (double *out, const char *text, const char *unit)
     return status;
 }
 
-/* ---- ranges --------------------------------------------------------------------------------------------------------- */
+/* ---- ranges -------------------------------------------------------------------------------------------- */
 /* A number, "pi", "2 pi", "pi/2", "inf" or "-inf". */
 static const char *read_bound (const char *s, double *value)
 {

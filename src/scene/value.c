@@ -27,7 +27,8 @@ static void check_range (pg_scene *s, const pg_node *node, const pg_key *row, co
     int wrong, holds = pg_range_holds (row->range, node->value, &wrong);
     const char *unit = row->unit && !node->spacing && strcmp (row->unit, "1") != 0 ? row->unit : "";
     if (wrong) FAULT (node, "the range '%s' of its key table is wrong", row->range);
-    int bare = strcmp (unit, "rad") == 0 && node->text && node->text[strspn (node->text, "+-.0123456789eE ")] == '\0';
+    int bare = strcmp (unit, "rad") == 0 && node->text
+               && node->text[strspn (node->text, "+-.0123456789eE ")] == '\0';
     if (!holds)
         FAULT (node, "must lie in %s%s%.*s%s", row->range, *unit ? " " : "", (int) strcspn (unit, "|"), unit,
                bare ? "; a number without unit is in rad, degrees are written 40 deg" : "");
@@ -44,7 +45,8 @@ static pg_status check_number (pg_scene *s, pg_node *node, const pg_key *row, co
 static void check_integer (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
 {
     const char *end = pg_number_read (node->text, &node->value);
-    int whole = end && !*end && fabs (node->value) <= 9007199254740992.0 && node->value == floor (node->value);
+    int whole = end && !*end && fabs (node->value) <= 9007199254740992.0
+                && node->value == floor (node->value);
     if (!whole) FAULT (node, "must be a whole number");
     else check_range (s, node, row, path);
 }
@@ -86,15 +88,18 @@ static int is_part_of_shape (const pg_scene *s, const char *base, const char *te
     const pg_node *list = pg_node_child (&s->root, "body", 4);
     if (!text[strlen (base)]) return 0;
     for (size_t k = 0; list && k < list->n; k++) {
-        const pg_node *name = pg_node_child (&list->child[k], "name", 4), *shape = pg_node_child (&list->child[k], "add", 3);
+        const pg_node *name = pg_node_child (&list->child[k], "name", 4),
+                      *shape = pg_node_child (&list->child[k], "add", 3);
         if (!shape) shape = pg_node_child (&list->child[k], "subtract", 8);
         if (name && name->text && !strcmp (name->text, base)) return 1;
-        for (size_t c = 0; shape && c < shape->n; c++) if (shape->child[c].name && !strcmp (shape->child[c].name, base)) return 1;
+        for (size_t c = 0; shape && c < shape->n; c++)
+            if (shape->child[c].name && !strcmp (shape->child[c].name, base)) return 1;
     }
     return !strcmp (base, "rim") || !strcmp (base, "side") || !strcmp (base, "hole");
 }
 
-/* Choices "sets.{}|left|...": a name of that map of the scene, one of the others, or a part of either (name.top). */
+/* Choices "sets.{}|left|...": a name of that map of the scene, one of the others, or a part of either
+ * (name.top). */
 static void check_reference (pg_scene *s, const pg_node *node, const char *choices, const char *path)
 {
     char names[4096], base[64], map[64];
@@ -104,13 +109,16 @@ static void check_reference (pg_scene *s, const pg_node *node, const char *choic
     at = (size_t) snprintf (names, sizeof names, "%s", choices[m + 3] ? choices + m + 4 : "");
     const pg_node *known = pg_node_child (&s->root, map, m);
     for (size_t k = 0; known && k < known->n && at < sizeof names - 70; k++)
-        if (known->child[k].name) at += (size_t) snprintf (names + at, sizeof names - at, "|%s", known->child[k].name);
+        if (known->child[k].name)
+            at += (size_t) snprintf (names + at, sizeof names - at, "|%s", known->child[k].name);
     if (m == 4 && strncmp (map, "sets", 4) == 0) add_layers (s, names, at, sizeof names);
     if (is_choice (base, names)) return;
     if (m == 4 && strncmp (map, "sets", 4) == 0 && is_part_of_shape (s, base, node->text)) return;
-    if (m == 4 && strncmp (map, "sets", 4) == 0 && pg_node_child (&s->root, "mesh", 4)) return;      /* its own sets: looked up once it is read */
+    /* its own sets: looked up once it is read */
+    if (m == 4 && strncmp (map, "sets", 4) == 0 && pg_node_child (&s->root, "mesh", 4)) return;
     const char *near = pg_nearest_name (node->text, names);
-    FAULT (node, "there is no %.*s of this name%s%s%s", (int) (m ? m - 1 : 0), map, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
+    FAULT (node, "there is no %.*s of this name%s%s%s", (int) (m ? m - 1 : 0), map,
+           near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
 }
 
 static void check_choice (pg_scene *s, const pg_node *node, const pg_key *row, const char *path)
@@ -198,7 +206,9 @@ pg_status pg_value_check (pg_scene *s, pg_node *node, const pg_key *row, const c
         char part[PG_PATH_TEXT];
         snprintf (part, sizeof part, "%.480s[%zu]", path, k);
         if (node->child[k].shape == PG_SCALAR) PG_TRY (check_scalar (s, &node->child[k], row, part));
-        else pg_faults_add (s->faults, s->file, &node->child[k], part, 0, "must be %s", row->kind == PG_NAMES ? "a name" : "a number");
+        else
+            pg_faults_add (s->faults, s->file, &node->child[k], part, 0, "must be %s",
+                           row->kind == PG_NAMES ? "a name" : "a number");
     }
 done:
     return status;

@@ -10,7 +10,7 @@ typedef struct {
     yaml_document_t *document;
     const char      *origin, *file;
     pg_faults       *faults;
-    size_t           left;                             /* nodes still allowed: aliases may repeat parts without end */
+    size_t           left;  /* nodes still allowed: aliases may repeat parts without end */
     int              good;
 } reader;
 
@@ -61,10 +61,12 @@ static pg_status convert_map (reader *r, pg_node *node, const yaml_node_t *y, in
     node->shape = PG_MAPPING;
     for (yaml_node_pair_t *i = y->data.mapping.pairs.start; i < y->data.mapping.pairs.top; i++) {
         pg_node *child, here = { 0 };
-        const yaml_node_t *key = yaml_document_get_node (r->document, i->key), *value = yaml_document_get_node (r->document, i->value);
+        const yaml_node_t *key = yaml_document_get_node (r->document, i->key),
+                          *value = yaml_document_get_node (r->document, i->value);
         if (!key || !value) continue;
         place (r, &here, key);
-        if (key->type != YAML_SCALAR_NODE || strlen ((const char *) key->data.scalar.value) != key->data.scalar.length) {
+        if (key->type != YAML_SCALAR_NODE
+            || strlen ((const char *) key->data.scalar.value) != key->data.scalar.length) {
             complain (r, &here, "a key must be a plain word");
             continue;
         }
@@ -79,7 +81,8 @@ done:
 static pg_status convert (reader *r, pg_node *node, const yaml_node_t *y, int deep)
 {
     if (deep > DEEPEST || r->left == 0) {
-        if (r->good) complain (r, node, deep > DEEPEST ? "nested too deeply" : "too many repeated parts (aliases)");
+        if (r->good)
+            complain (r, node, deep > DEEPEST ? "nested too deeply" : "too many repeated parts (aliases)");
         return pg_node_word (node, "", r->origin);
     }
     r->left--;
@@ -109,23 +112,30 @@ static int has_tab (const char *text, size_t length, int line, int column)
 
 static void syntax_fault (reader *r, const yaml_parser_t *parser, const char *text, size_t length)
 {
-    pg_node at = { .origin = r->origin, .line = (int) parser->problem_mark.line + 1, .column = (int) parser->problem_mark.column + 1 };
+    pg_node at = { .origin = r->origin,
+                   .line = (int) parser->problem_mark.line + 1,
+                   .column = (int) parser->problem_mark.column + 1 };
     r->good = 0;
     if (parser->error == YAML_READER_ERROR) {
         locate (&at, text, length, parser->problem_offset);
-        pg_faults_add (r->faults, r->file, &at, NULL, 0, "not a text in UTF-8: %s", parser->problem ? parser->problem : "cannot be read");
+        pg_faults_add (r->faults, r->file, &at, NULL, 0, "not a text in UTF-8: %s",
+                       parser->problem ? parser->problem : "cannot be read");
         return;
     }
     if (parser->context && strstr (parser->context, "simple key")) {
         at.line = (int) parser->context_mark.line + 1, at.column = (int) parser->context_mark.column + 1;
-        pg_faults_add (r->faults, r->file, &at, NULL, 0, "not valid YAML: a key is followed by a colon and a space, as in spacing: 2 mm");
+        pg_faults_add (r->faults, r->file, &at, NULL, 0,
+                       "not valid YAML: a key is followed by a colon and a space, as in spacing: 2 mm");
         return;
     }
     int alias = parser->problem && strstr (parser->problem, "undefined alias") != NULL;
     int tab = parser->error == YAML_SCANNER_ERROR && has_tab (text, length, at.line, at.column);
-    pg_faults_add (r->faults, r->file, &at, NULL, 0, "not valid YAML: %s%s%s%s", parser->problem ? parser->problem : "cannot be read",
-                   parser->context ? " " : "", parser->context ? parser->context : "",
-                   tab ? " (indent with spaces, not tabs)" : alias ? " (a text that begins with * needs quotes)" : "");
+    pg_faults_add (r->faults, r->file, &at, NULL, 0, "not valid YAML: %s%s%s%s",
+                   parser->problem ? parser->problem : "cannot be read", parser->context ? " " : "",
+                   parser->context ? parser->context : "",
+                   tab     ? " (indent with spaces, not tabs)"
+                   : alias ? " (a text that begins with * needs quotes)"
+                           : "");
 }
 
 static pg_status load_one (reader *r, yaml_parser_t *parser, pg_node *root, const char *text, size_t length)
@@ -133,7 +143,8 @@ static pg_status load_one (reader *r, yaml_parser_t *parser, pg_node *root, cons
     pg_status status = PG_OK;
     yaml_document_t document;
     if (!yaml_parser_load (parser, &document)) {
-        if (parser->error == YAML_MEMORY_ERROR) return pg_error (PG_E_MEMORY, PG_HERE, "no memory to read the scene");
+        if (parser->error == YAML_MEMORY_ERROR)
+            return pg_error (PG_E_MEMORY, PG_HERE, "no memory to read the scene");
         syntax_fault (r, parser, text, length);
         return PG_OK;
     }
@@ -152,19 +163,23 @@ static pg_status load_one (reader *r, yaml_parser_t *parser, pg_node *root, cons
     return status;
 }
 
-/* libyaml looks at all open brackets for every one that follows, so they are counted before it builds a tree; other faults are told then. */
+/* libyaml looks at all open brackets for every one that follows, so they are counted before it builds a tree;
+ * other faults are told then. */
 static pg_status check_depth (reader *r, const char *text, size_t length)
 {
     yaml_parser_t parser;
     yaml_event_t event;
     int deep = 0, end = 0;
-    if (!yaml_parser_initialize (&parser)) return pg_error (PG_E_MEMORY, PG_HERE, "no memory to read the scene");
+    if (!yaml_parser_initialize (&parser))
+        return pg_error (PG_E_MEMORY, PG_HERE, "no memory to read the scene");
     yaml_parser_set_input_string (&parser, (const unsigned char *) text, length);
     while (!end && yaml_parser_parse (&parser, &event)) {
         deep += event.type == YAML_SEQUENCE_START_EVENT || event.type == YAML_MAPPING_START_EVENT;
         deep -= event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT;
         if (deep > DEEPEST + 1) {
-            pg_node at = { .origin = r->origin, .line = (int) event.start_mark.line + 1, .column = (int) event.start_mark.column + 1 };
+            pg_node at = { .origin = r->origin,
+                           .line = (int) event.start_mark.line + 1,
+                           .column = (int) event.start_mark.column + 1 };
             complain (r, &at, "nested too deeply");
         }
         end = event.type == YAML_STREAM_END_EVENT || !r->good;
@@ -174,14 +189,16 @@ static pg_status check_depth (reader *r, const char *text, size_t length)
     return PG_OK;
 }
 
-pg_status pg_node_read (pg_node *root, const char *text, size_t length, const char *origin, const char *file, pg_faults *faults, int *good)
+pg_status pg_node_read (pg_node *root, const char *text, size_t length, const char *origin, const char *file,
+                        pg_faults *faults, int *good)
 {
     reader r = { .origin = origin, .file = file, .faults = faults, .good = 1 };
     yaml_parser_t parser;
     pg_status status = check_depth (&r, text, length);
     *good = r.good;
     if (status != PG_OK || !r.good) return status;
-    if (!yaml_parser_initialize (&parser)) return pg_error (PG_E_MEMORY, PG_HERE, "no memory to read the scene");
+    if (!yaml_parser_initialize (&parser))
+        return pg_error (PG_E_MEMORY, PG_HERE, "no memory to read the scene");
     yaml_parser_set_input_string (&parser, (const unsigned char *) text, length);
     status = load_one (&r, &parser, root, text, length);
     if (status == PG_OK && r.good) status = load_one (&r, &parser, NULL, text, length);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Adaptive dynamic relaxation (Kilic and Madenci 2010; theory B4): dt = 1 and masses D_ii = 1/4 sum_j |K_ij|, with which
- * the largest frequency is at most 2; damping from Rayleigh's quotient at every iteration. */
-#include "relaxing.h"
+ * Adaptive dynamic relaxation (Kilic and Madenci 2010; theory B4): dt = 1 and masses D_ii = 1/4 sum_j |K_ij|,
+ * with which the largest frequency is at most 2; damping from Rayleigh's quotient at every iteration. */
+#include "relaxation.h"
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,11 @@ static const double margin = 1.02;
 static pg_status sum_rows (pg_system *sys, double *sum)
 {
     pg_status status = PG_OK;
-    if (!sys->force->matrix) PG_FAIL (PG_E_USAGE, "adr needs the rows of the stiffness, and the force %s tells neither them nor their sums: use relax", sys->force->name);
+    if (!sys->force->matrix)
+        PG_FAIL (PG_E_USAGE,
+                 "adr needs the rows of the stiffness, and the force %s tells neither them nor their sums: "
+                 "use relax",
+                 sys->force->name);
     if (sys->force->assemble) PG_TRY (sys->force->assemble (sys->self));
     const pg_sparse *K = sys->force->matrix (sys->self);
     for (size_t j = 0; j < K->ncol; j++)
@@ -28,8 +32,8 @@ done:
 static pg_status weigh (pg_solver *s)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
-    double *mass = s->motion->relaxing->mass;
+    pg_system *sys = &s->break_loop.system;
+    double *mass = s->motion->relaxation->mass;
     memset (mass, 0, sys->ndof * sizeof *mass);
     PG_TRY (sys->force->row_sums ? sys->force->row_sums (sys->self, mass) : sum_rows (sys, mass));
     for (size_t i = 0; i < sys->ndof; i++) {
@@ -40,22 +44,31 @@ done:
     return status;
 }
 
-/* Forces that tell the sums of their rows only soften when bonds break; others may stiffen what is left, and are weighed anew. */
+/* Forces that tell the sums of their rows only soften when bonds break; others may stiffen what is left, and
+ * are weighed anew. */
 static pg_status prepare (pg_solver *s)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
-    PG_TRY (relaxing_create (s));
-    struct relaxing *x = s->motion->relaxing;
+    pg_system *sys = &s->break_loop.system;
+    PG_TRY (relaxation_create (s));
+    struct relaxation *x = s->motion->relaxation;
     PG_TRY (system_refresh (sys, s->backup, NULL));
     x->dt = 1;
     PG_TRY (weigh (s));
     if (!sys->force->row_sums) x->weigh = weigh;
-    PG_TRY (relaxing_stages (s));
+    PG_TRY (relaxation_stages (s));
 done:
     return status;
 }
 
-const pg_solver_type pg_solver_adr = {
-    "adr", "quasi-static stages by adaptive dynamic relaxation", relaxing_start, relaxing_step, relaxing_done, relaxing_free, .way = RELAXES,
-    .prepare = prepare, .refused = relaxing_refused, .keep = relaxing_keep, .progress = relaxing_progress };
+const pg_solver_type pg_solver_adr = { "adr",
+                                       "quasi-static stages by adaptive dynamic relaxation",
+                                       relaxation_start,
+                                       relaxation_step,
+                                       relaxation_done,
+                                       relaxation_free,
+                                       .way = RELAXES,
+                                       .prepare = prepare,
+                                       .refused = relaxation_refused,
+                                       .keep = relaxation_keep,
+                                       .progress = relaxation_progress };

@@ -1,25 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Event stepping under loads that are a constant part and factor lambda times another: between breaks d = d_0 + lambda (d_1 - d_0), with two equilibria, at
- * lambda = 0 and 1. Every utilisation is convex in lambda (a length, the largest eigenvalue, an energy of something affine), so that what a bond admits is an interval of
- * lambda: from a place that all bonds admit there is one way out to each side, found by chords of every bond and then by regula falsi on the largest. After a break
- * no place at or below the present factor may be left: then the constant part drives the crack, the factor is held and the worst bonds break one after the other. */
+ * Event stepping under loads that are a constant part and factor lambda times another: between breaks d = d_0
+ * + lambda (d_1 - d_0), with two equilibria, at lambda = 0 and 1. Every utilisation is convex in lambda (a
+ * length, the largest eigenvalue, an energy of something affine), so that what a bond admits is an interval
+ * of lambda: from a place that all bonds admit there is one way out to each side, found by chords of every
+ * bond and then by regula falsi on the largest. After a break no place at or below the present factor may be
+ * left: then the constant part drives the crack, the factor is held and the worst bonds break one after the
+ * other. */
 #include "solve.h"
 #include <math.h>
 #include <string.h>
 
-static const double close = 1e-12;                     /* of utilisation to its limit                                     */
+static const double close = 1e-12;                     /* of utilisation to its limit */
 enum { MOST_LOOKS = 80, MOST_THIRDS = 40 };
 
 static void move_to (const pg_solver *s, pg_state *state, double factor)
 {
-    for (size_t i = 0; i < state->ndof; i++) state->d[i] = factor == 1 ? s->unit[i] : s->base[i] + factor * (s->unit[i] - s->base[i]);
+    for (size_t i = 0; i < state->ndof; i++)
+        state->d[i] = factor == 1 ? s->unit[i] : s->base[i] + factor * (s->unit[i] - s->base[i]);
 }
 
 /* Utilisation of every bond at this factor; *top the largest. */
 static pg_status look (pg_solver *s, pg_state *state, double factor, double *utilisation, double *top)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     double t0 = pg_seconds ();
     move_to (s, state, factor);
     PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, utilisation, b->kind, NULL));
@@ -30,21 +34,24 @@ done:
     return status;
 }
 
-/* Where the first chord reaches the limit: at `in` all bonds are below it (b->factor), at `out` some are not (b->utilisation). */
+/* Where the first chord reaches the limit: at `in` all bonds are below it (b->factor), at `out` some are not
+ * (b->utilisation). */
 static double first_chord (const pg_solver *s, const pg_state *state, double in, double out)
 {
-    const breaker *b = &s->breaker;
+    const break_loop *b = &s->break_loop;
     double share = 1;
     for (size_t i = 0; i < state->nbond; i++)
-        if (b->utilisation[i] > 1) share = fmin (share, (1 - fmin (b->factor[i], 1)) / (b->utilisation[i] - fmin (b->factor[i], 1)));
+        if (b->utilisation[i] > 1)
+            share = fmin (share, (1 - fmin (b->factor[i], 1)) / (b->utilisation[i] - fmin (b->factor[i], 1)));
     return in + share * (out - in);
 }
 
-/* The way out between a factor that all bonds admit and one that some do not; b->utilisation is that of *factor. Regula falsi after Illinois. */
+/* The way out between a factor that all bonds admit and one that some do not; b->utilisation is that of
+ * *factor. Regula falsi after Illinois. */
 static pg_status way_out (pg_solver *s, pg_state *state, double in, double out, double *factor)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     double low, high, top;
     PG_TRY (look (s, state, in, b->factor, &low));
     PG_TRY (look (s, state, out, b->utilisation, &high));
@@ -70,7 +77,8 @@ done:
     return status;
 }
 
-/* A factor below `from` that all bonds admit, though zero is none: thirds of a convex function. *found 0: there is none. */
+/* A factor below `from` that all bonds admit, though zero is none: thirds of a convex function. *found 0:
+ * there is none. */
 static pg_status search (pg_solver *s, pg_state *state, double from, double *at, int *found)
 {
     pg_status status = PG_OK;
@@ -78,10 +86,10 @@ static pg_status search (pg_solver *s, pg_state *state, double from, double *at,
     *found = 0;
     for (int k = 0; k < MOST_THIRDS && high - low > 1e-9 * from; k++) {
         double p = low + (high - low) / 3, q = high - (high - low) / 3;
-        PG_TRY (look (s, state, q, s->breaker.factor, &b));
+        PG_TRY (look (s, state, q, s->break_loop.factor, &b));
         if ((*found = b <= 1)) *at = q;
         if (*found) break;
-        PG_TRY (look (s, state, p, s->breaker.factor, &a));
+        PG_TRY (look (s, state, p, s->break_loop.factor, &a));
         if ((*found = a <= 1)) *at = p;
         if (*found) break;
         if (a < b) high = q; else low = p;
@@ -90,16 +98,17 @@ done:
     return status;
 }
 
-/* Where the next bonds break, or the next level; *breaks: something breaks there. b->utilisation is that of *factor. */
+/* Where the next bonds break, or the next level; *breaks: something breaks there. b->utilisation is that of
+ * *factor. */
 static pg_status choose (pg_solver *s, pg_state *state, double level, double *factor, int *breaks)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     double now = state->factor, top, there, in;
     int found = 1;
     *breaks = 0, *factor = state->step == 0 ? now : level;
     if (!s->problem->criterion->type || !b->system.force->utilisation) goto done;
-    PG_TRY (breaker_ready (b));
+    PG_TRY (break_loop_ready (b));
     PG_TRY (look (s, state, now, b->utilisation, &top));
     if (top <= 1 + close) {
         if (state->step == 0) goto done;
@@ -116,8 +125,12 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
     if (found) PG_TRY (way_out (s, state, in, now, factor));
     else {
         *factor = now;
-        if (!s->held++) pg_report_warn (&s->report, "at load factor %.6g, after event %ld, no lower factor lets the remaining bonds live: the constant loads drive the crack, which then runs "
-                                        "at a held factor, bond by bond (in truth a dynamic event)", now, state->events);
+        if (!s->held++)
+            pg_statistics_warn (&s->report,
+                                "at load factor %.6g, after event %ld, no lower factor lets the remaining "
+                                "bonds live: the constant loads drive the crack, which then runs "
+                                "at a held factor, bond by bond (in truth a dynamic event)",
+                                now, state->events);
         PG_TRY (look (s, state, now, b->utilisation, &top));
     }
 done:
@@ -128,7 +141,7 @@ pg_status affine_solve (pg_solver *s)
 {
     pg_status status = PG_OK;
     double first, second;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     PG_TRY (system_solve (sys, 0, s->base, NULL, &first));
     PG_TRY (system_solve (sys, 1, s->unit, NULL, &second));
     s->unit_residual = fmax (first, second);
@@ -140,26 +153,28 @@ done:
 static pg_status secant (pg_solver *s, double *out)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
-    pg_ledger zero = { 0 }, one = { 0 };
+    pg_system *sys = &s->break_loop.system;
+    pg_work_balance zero = { 0 }, one = { 0 };
     *out = 0;
-    if (!sys->force->ledger) return PG_OK;
-    PG_TRY (sys->force->ledger (sys->self, 0, s->base, NULL, &zero));
-    PG_TRY (sys->force->ledger (sys->self, 1, s->unit, NULL, &one));
-    for (size_t k = 0; k < one.npair; k++) *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
+    if (!sys->force->work_balance) return PG_OK;
+    PG_TRY (sys->force->work_balance (sys->self, 0, s->base, NULL, &zero));
+    PG_TRY (sys->force->work_balance (sys->self, 1, s->unit, NULL, &one));
+    for (size_t k = 0; k < one.npair; k++)
+        *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
 done:
-    pg_ledger_clear (&zero), pg_ledger_clear (&one);
+    pg_work_balance_clear (&zero), pg_work_balance_clear (&one);
     return status;
 }
 
 static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     const pg_solver_options *o = &s->options;
-    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 0, now;
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 0,
+           now;
     for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
-    PG_TRY (breaker_kill (b, state, b->utilisation, (1 - width) * top, 1, factor));
+    PG_TRY (break_loop_kill (b, state, b->utilisation, (1 - width) * top, 1, factor));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
     state->events++, s->report.events++;
     double strain = s->report.energy_strain, work = b->work;
@@ -168,8 +183,8 @@ static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_st
     if (event_ended (s, state, factor, solved)) goto done;
     PG_TRY (solved);
     move_to (s, state, factor);
-    PG_TRY (breaker_account (b, factor, state->d, NULL, 1));
-    s->report.energy_strain = b->ledger.strain;
+    PG_TRY (break_loop_account (b, factor, state->d, NULL, 1));
+    s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (secant (s, &now));
     PG_TRY (event_stops (s, state, factor, now));
@@ -180,7 +195,7 @@ done:
 pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     double level = (double) s->next_level / (double) s->options.levels, factor;
     int breaks, start = state->step == 0;
     b->nbroken = 0;
@@ -190,14 +205,16 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     move_to (s, state, factor);
     state->factor = state->time = step->factor = step->time = factor;
     s->top_factor = fmax (s->top_factor, factor);
-    PG_TRY (breaker_account (b, factor, state->d, NULL, 1));
-    s->report.energy_strain = b->ledger.strain;
-    if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    PG_TRY (break_loop_account (b, factor, state->d, NULL, 1));
+    s->report.energy_strain = b->work_balance.strain;
+    if (b->work_balance.reaction)
+        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     if (start) PG_TRY (secant (s, &s->secant0));
     step->residual = s->unit_residual;
     if (s->problem->criterion->type && b->system.force->utilisation) {
-        long over = breaker_over (b, state, 1, &step->utilisation);
-        if (!s->held || !breaks) s->report.bonds_over_limit += over;           /* at a held factor they are about to break      */
+        long over = break_loop_over (b, state, 1, &step->utilisation);
+        /* at a held factor they are about to break */
+        if (!s->held || !breaks) s->report.bonds_over_limit += over;
     }
     if (breaks) PG_TRY (break_here (s, state, factor, step));
     if (start) step->level = 1;

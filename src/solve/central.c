@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Central differences as leapfrog (theory G4) with damping C = c M:
- *   v(n+1/2) = ((1 - c dt / 2) v(n-1/2) + dt f_n / m) / (1 + c dt / 2),  u_n+1 = u_n + dt v(n+1/2),  v(1/2) = v_0 + dt a_0 / 2.
- * v of the state is half a step ahead of its displacement, a = (v(n+1/2) - v(n-1/2)) / dt. */
+ *   v(n+1/2) = ((1 - c dt / 2) v(n-1/2) + dt f_n / m) / (1 + c dt / 2), u_n+1 = u_n + dt v(n+1/2), v(1/2) =
+ *     v_0 + dt a_0 / 2. v of the state is half a step ahead of its displacement, a = (v(n+1/2) - v(n-1/2)) /
+ *     dt. */
 #include "explicit.h"
 
 static void range (const sweep *w, size_t first, size_t last, double *sum)
 {
-    double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), keep = (1 - h * c) * less, push = dt * less, rate = 1 / dt;
-    double *restrict d = w->d, *restrict v = w->v, *restrict a = w->a, before[8] = { 0 }, after[8] = { 0 }, kinetic[8] = { 0 };
+    double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), keep = (1 - h * c) * less,
+           push = dt * less, rate = 1 / dt;
+    double *restrict d = w->d, *restrict v = w->v, *restrict a = w->a, before[8] = { 0 }, after[8] = { 0 },
+                     kinetic[8] = { 0 };
     const double *restrict f = w->f, *restrict inverse = w->inverse;
     if (w->settle) {
         for (size_t i = first; c > 0 && i < last; i++) {
@@ -35,8 +38,19 @@ static void range (const sweep *w, size_t first, size_t last, double *sum)
     }
 }
 
-static pg_status step (pg_solver *s, pg_state *state, pg_step *out) { return march_step (s, state, out, range, 1); }
+static pg_status step (pg_solver *s, pg_state *state, pg_step *out)
+{
+    return march_step (s, state, out, range, 1);
+}
 
-const pg_solver_type pg_solver_central = {
-    "central", "explicit dynamics, central differences", march_start, step, march_done, explicit_free, .way = MARCHES, .prepare = march_prepare,
-    .refused = march_refused, .keep = explicit_keep, .progress = march_progress };
+const pg_solver_type pg_solver_central = { "central",
+                                           "explicit dynamics, central differences",
+                                           march_start,
+                                           step,
+                                           march_done,
+                                           explicit_free,
+                                           .way = MARCHES,
+                                           .prepare = march_prepare,
+                                           .refused = march_refused,
+                                           .keep = explicit_keep,
+                                           .progress = march_progress };

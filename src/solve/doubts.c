@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a scene asks for that is legal, yet hardly meant: the warnings that a run has before its first step. */
+ * What a scene asks for that is legal, yet hardly meant: the warnings that a run has before its first
+ * step. */
 #include "perigal/solve.h"
 #include <math.h>
 #include <stdio.h>
@@ -9,11 +10,14 @@
 static int acts_at (const pg_problem *p, const pg_load *load, int k, double t)
 {
     for (size_t i = 0; i < load->set->npoint; i++)
-        if (pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, t) != 0) return 1;
+        if (pg_load_value (load, k, p->dim, p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, t)
+            != 0)
+            return 1;
     return 0;
 }
 
-/* Ever? A load may end at zero (a table that comes back): looked at where its table has rows, or at times all along the run. */
+/* Ever? A load may end at zero (a table that comes back): looked at where its table has rows, or at times all
+ * along the run. */
 static int acts (const pg_problem *p, const pg_load *load, int k, double end)
 {
     enum { LOOKS = 7 };
@@ -24,20 +28,24 @@ static int acts (const pg_problem *p, const pg_load *load, int k, double end)
     return 0;
 }
 
-/* Rigid motions that the prescribed displacements leave free: the least eigenvalue of sum (e_k . motion)^2 over all of them, motions in units of the body's size. */
+/* Rigid motions that the prescribed displacements leave free: the least eigenvalue of sum (e_k . motion)^2
+ * over all of them, motions in units of the body's size. */
 static int may_turn (const pg_problem *p)
 {
     size_t dim = (size_t) p->dim, n = dim == 2 ? 3 : 6, count = 0;
     double A[36] = { 0 }, value[6], size = 0, middle[3] = { 0 };
     if (dim < 2) return 0;
-    for (size_t k = 0; k < dim; k++) middle[k] = 0.5 * (p->cloud.low[k] + p->cloud.high[k]), size = fmax (size, p->cloud.high[k] - p->cloud.low[k]);
+    for (size_t k = 0; k < dim; k++)
+        middle[k] = 0.5 * (p->cloud.low[k] + p->cloud.high[k]),
+        size = fmax (size, p->cloud.high[k] - p->cloud.low[k]);
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         if (pg_load_prescribes (load) && pg_load_turns (load)) return 0;
         for (size_t k = 0; pg_load_prescribes (load) && k < dim; k++)
             for (size_t i = 0; load->value[k] && i < load->set->npoint; i++) {
                 double row[6] = { 0 }, x[3] = { 0 };
-                for (size_t a = 0; a < dim; a++) x[a] = (p->cloud.x[(size_t) load->set->point[i] * dim + a] - middle[a]) / size;
+                for (size_t a = 0; a < dim; a++)
+                    x[a] = (p->cloud.x[(size_t) load->set->point[i] * dim + a] - middle[a]) / size;
                 row[k] = 1, count++;
                 if (dim == 2) row[2] = k == 0 ? -x[1] : x[0];
                 else row[3 + (k + 1) % 3] = x[(k + 2) % 3], row[3 + (k + 2) % 3] = -x[(k + 1) % 3];
@@ -49,76 +57,104 @@ static int may_turn (const pg_problem *p)
     return value[n - 1] < 1e-12 * value[0];
 }
 
-static void doubt_supports (pg_report *report, const pg_problem *p, const pg_solver_options *o)
+static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
     int moving = 0, everywhere = 1;
     for (int k = 0; k < p->dim; k++) {
         int held = !o->quasi_static;
         for (size_t l = 0; l < p->nload; l++) {
             held |= pg_load_prescribes (&p->load[l]) && !pg_load_turns (&p->load[l]) && p->load[l].value[k];
-            moving |= acts (p, &p->load[l], k, o->quasi_static ? 1 : o->end) || p->load[l].kind == PG_PRESSURE;
+            moving |= acts (p, &p->load[l], k, o->quasi_static ? 1 : o->end)
+                      || p->load[l].kind == PG_PRESSURE;
         }
         everywhere &= held;
-        if (!held) pg_report_warn (report, "nothing holds the body along %c: no displacement along %c is prescribed anywhere", "xyz"[k], "xyz"[k]);
+        if (!held)
+            pg_statistics_warn (
+                report, "nothing holds the body along %c: no displacement along %c is prescribed anywhere",
+                "xyz"[k], "xyz"[k]);
     }
     if (everywhere && o->quasi_static && p->nload && may_turn (p))
-        pg_report_warn (report, "nothing keeps the body from turning: the prescribed displacements leave a rotation free");
-    if (!moving) pg_report_warn (report, "nothing loads the body: every prescribed displacement is zero, and there is no force");
+        pg_statistics_warn (
+            report,
+            "nothing keeps the body from turning: the prescribed displacements leave a rotation free");
+    if (!moving)
+        pg_statistics_warn (
+            report, "nothing loads the body: every prescribed displacement is zero, and there is no force");
 }
 
 /* A displacement on `all` is one of every point, not of the surface. */
-static void doubt_all (pg_report *report, const pg_problem *p)
+static void doubt_all (pg_statistics *report, const pg_problem *p)
 {
     unsigned held = 0;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        if (!pg_load_prescribes (load) || pg_load_turns (load) || load->essential == PG_ESSENTIAL_NITSCHE || load->set->npoint < p->cloud.n) continue;
+        if (!pg_load_prescribes (load) || pg_load_turns (load) || load->essential == PG_ESSENTIAL_NITSCHE
+            || load->set->npoint < p->cloud.n)
+            continue;
         for (int k = 0; k < p->dim; k++) held |= (unsigned) (load->value[k] != NULL) << k;
     }
     if (held == (1u << p->dim) - 1)
-        pg_report_warn (report, "displacements are prescribed at every point of the body: nothing is left to solve. Of its surface alone: sets: {NAME: {boundary: all}}, or essential: nitsche");
+        pg_statistics_warn (
+            report, "displacements are prescribed at every point of the body: nothing is left to solve. Of "
+                    "its surface alone: sets: {NAME: {boundary: all}}, or essential: nitsche");
 }
 
 /* Nitsche's method integrates over facets; of the whole body that is meant: its surface. */
-static void doubt_inner (pg_report *report, const pg_problem *p)
+static void doubt_inner (pg_statistics *report, const pg_problem *p)
 {
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        if (!pg_load_prescribes (load) || load->essential != PG_ESSENTIAL_NITSCHE || !load->set->ninner || load->set->npoint == p->cloud.n) continue;
-        pg_report_warn (report, "%.40s: essential: nitsche holds the %zu facets of %.40s and leaves free %zu of its points, which lie behind them; use essential: penalty", load->name,
-                        load->set->nfacet, load->set->name, load->set->ninner);
+        if (!pg_load_prescribes (load) || load->essential != PG_ESSENTIAL_NITSCHE || !load->set->ninner
+            || load->set->npoint == p->cloud.n)
+            continue;
+        pg_statistics_warn (report,
+                            "%.40s: essential: nitsche holds the %zu facets of %.40s and leaves free %zu of "
+                            "its points, which lie behind them; use essential: penalty",
+                            load->name, load->set->nfacet, load->set->name, load->set->ninner);
     }
 }
 
 static int warns (const char *note) { return strncmp (note, PG_WARNING, strlen (PG_WARNING)) == 0; }
 
-static void doubt_patch (pg_report *report, const pg_problem *p)
+static void doubt_patch (pg_statistics *report, const pg_problem *p)
 {
     char words[240], remedy[240];
     const pg_patch *t = &p->patch;
     if (!t->measured) return;
-    if (t->degenerate) pg_report_warn (report, "%zu of %zu evaluation points see too few points for a strain and carry no stress", t->degenerate, t->points);
-    if (t->isolated) pg_report_warn (report, "%zu point%s by no bond on any other", t->isolated, t->isolated == 1 ? " hangs" : "s hang");
-    if (t->fragments) pg_report_warn (report, "the body is in %zu parts that no bond joins", t->fragments + 1);
+    if (t->degenerate)
+        pg_statistics_warn (
+            report, "%zu of %zu evaluation points see too few points for a strain and carry no stress",
+            t->degenerate, t->points);
+    if (t->isolated)
+        pg_statistics_warn (report, "%zu point%s by no bond on any other", t->isolated,
+                            t->isolated == 1 ? " hangs" : "s hang");
+    if (t->fragments)
+        pg_statistics_warn (report, "the body is in %zu parts that no bond joins", t->fragments + 1);
     if (t->softness > 1e9)
-        pg_report_warn (report, "next to nothing resists some motion of the points (%.1g times less than usual): displacements may be wrong there; points that nearly "
-                        "coincide, or modes without energy of nodal integration, do this", t->softness);
+        pg_statistics_warn (report,
+                            "next to nothing resists some motion of the points (%.1g times less than usual): "
+                            "displacements may be wrong there; points that nearly "
+                            "coincide, or modes without energy of nodal integration, do this",
+                            t->softness);
     if (t->error <= PG_PATCH_TOLD) return;
     pg_patch_words (p, words, sizeof words);
     pg_patch_remedy (p, remedy, sizeof remedy);
-    pg_report_warn (report, "%s; %s", words, remedy);
+    pg_statistics_warn (report, "%s; %s", words, remedy);
 }
 
-void pg_solver_doubts (pg_report *report, const pg_problem *p, const pg_solver_options *o)
+void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
     doubt_supports (report, p, o);
     doubt_all (report, p);
     doubt_inner (report, p);
     doubt_patch (report, p);
-    for (size_t k = 0; k < p->nnote; k++) if (warns (p->note[k])) pg_report_warn (report, "%s", p->note[k] + strlen (PG_WARNING));
+    for (size_t k = 0; k < p->nnote; k++)
+        if (warns (p->note[k])) pg_statistics_warn (report, "%s", p->note[k] + strlen (PG_WARNING));
     if (p->part.mesh.n && p->part.quality < 0.1)
-        pg_report_warn (report, "element %ld of the mesh is nearly flat: quality %.2g (scaled Jacobian; better than 0.1 is wanted)",
-                        p->part.mesh.element_id[p->part.worst], p->part.quality);
+        pg_statistics_warn (report,
+                            "element %ld of the mesh is nearly flat: quality %.2g (scaled Jacobian; better "
+                            "than 0.1 is wanted)",
+                            p->part.mesh.element_id[p->part.worst], p->part.quality);
 }
 
 int pg_solver_note (const pg_problem *p, const pg_solver_options *o, size_t k, char *out, size_t size)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How far a run has come towards its end; event stepping: towards the nearest of the ends that it may come to. */
+ * How far a run has come towards its end; event stepping: towards the nearest of the ends that it may come
+ * to. */
 #include "solve.h"
 #include <math.h>
 
@@ -13,15 +14,19 @@ static void offer (pg_progress *p, double share, const char *end, int even)
 void pg_solver_progress (const pg_solver *s, const pg_state *state, pg_progress *out)
 {
     const pg_solver_options *o = &s->options;
-    const breaker *b = &s->breaker;
+    const break_loop *b = &s->break_loop;
     *out = (pg_progress) { .event = o->event, .stiffness = NAN, .damage = NAN };
     if (o->stop_set && b->looked) out->damage = b->nearest;
-    if (s->type->progress) offer (out, s->type->progress (s, state), o->marching ? "the time steps" : "the stages", 1);
-    else if (!o->event) offer (out, (double) state->step / (double) o->steps, o->quasi_static ? "the load" : "the time", 1);
+    if (s->type->progress)
+        offer (out, s->type->progress (s, state), o->marching ? "the time steps" : "the stages", 1);
+    else if (!o->event)
+        offer (out, (double) state->step / (double) o->steps, o->quasi_static ? "the load" : "the time", 1);
     if (!o->event) return;
     if (s->secant > 0) out->stiffness = s->secant;
-    offer (out, fmax (s->top_factor, (double) (s->next_level - 1) / (double) o->levels), "the load", state->events == 0);
-    if (s->problem->criterion->type) offer (out, (double) state->events / (double) o->max_events, "max_events", 1);
+    offer (out, fmax (s->top_factor, (double) (s->next_level - 1) / (double) o->levels), "the load",
+           state->events == 0);
+    if (s->problem->criterion->type)
+        offer (out, (double) state->events / (double) o->max_events, "max_events", 1);
     if (o->stop_set && b->nearest > b->nearest0)
         offer (out, (b->nearest - b->nearest0) / (o->stop_damage - b->nearest0), "stop.damage", 0);
 }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The break loop (Cui 2022 section 3.2, corrected in theory F5): solve, break the bonds over their limit, update what they touched,
- * solve again, until no bond is over its limit and the residual is small. Shared by static and newmark. */
+ * The break loop (Cui 2022 section 3.2, corrected in theory F5): solve, break the bonds over their limit,
+ * update what they touched, solve again, until no bond is over its limit and the residual is small. Shared by
+ * static and newmark. */
 #include "solve.h"
 #include <math.h>
 #include <string.h>
 
-pg_status breaker_create (breaker *b)
+pg_status break_loop_create (break_loop *b)
 {
     pg_status status = PG_OK;
     PG_TRY (system_create (&b->system));
@@ -13,7 +14,7 @@ done:
     return status;
 }
 
-pg_status breaker_ready (breaker *b)
+pg_status break_loop_ready (break_loop *b)
 {
     pg_status status = PG_OK;
     size_t nbond = b->system.problem->first_bond[PG_BOND_SETS];
@@ -25,13 +26,13 @@ done:
     return status;
 }
 
-void breaker_free (breaker *b)
+void break_loop_free (break_loop *b)
 {
     system_free (&b->system);
     pg_free (b->utilisation), pg_free (b->factor), pg_free (b->kind);
     pg_free (b->changes.bond), pg_free (b->broken);
-    pg_ledger_clear (&b->ledger);
-    pg_ledger_clear (&b->before);
+    pg_work_balance_clear (&b->work_balance);
+    pg_work_balance_clear (&b->before);
     pg_free (b->damage);
 }
 
@@ -44,7 +45,7 @@ static void locate (const pg_problem *p, pg_broken *out)
     for (size_t k = 0; k < dim; k++) out->place[k] = 0.5 * (r->x[point * dim + k] + end[k]);
 }
 
-pg_status breaker_log (breaker *b, size_t bond, char kind, double utilisation, double t)
+pg_status break_loop_log (break_loop *b, size_t bond, char kind, double utilisation, double t)
 {
     pg_status status = PG_OK;
     PG_GROW (b->broken, b->cap_broken, b->nbroken + 1);
@@ -55,14 +56,15 @@ done:
     return status;
 }
 
-pg_status breaker_kill (breaker *b, pg_state *state, const double *measure, double cut, double scale, double t)
+pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure, double cut, double scale,
+                           double t)
 {
     pg_status status = PG_OK;
     b->changes.n = 0;
     for (size_t i = 0; i < state->nbond; i++) {
         if (!state->alive[i] || !(measure[i] >= cut)) continue;
         PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
-        PG_TRY (breaker_log (b, i, b->kind[i], b->utilisation[i] * scale, t));
+        PG_TRY (break_loop_log (b, i, b->kind[i], b->utilisation[i] * scale, t));
         state->alive[i] = 0;
         b->changes.bond[b->changes.n++] = i;
     }
@@ -78,7 +80,7 @@ static double largest (const double *a, size_t n)
     return top;
 }
 
-long breaker_over (const breaker *b, const pg_state *state, double scale, double *top)
+long break_loop_over (const break_loop *b, const pg_state *state, double scale, double *top)
 {
     long over = 0;
     *top = 0;
@@ -91,7 +93,8 @@ long breaker_over (const breaker *b, const pg_state *state, double scale, double
     return over;
 }
 
-pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step)
+pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn,
+                       pg_step *step)
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
@@ -106,59 +109,66 @@ pg_status equilibrate (breaker *b, pg_state *state, double t, double *d, const d
             b->stopped = 0;
         }
         PG_TRY (system_solve (s, t, d, dyn, &step->residual));
-        if (step->iterations == 0) PG_TRY (breaker_account (b, t, d, dyn, 1));     /* later rounds: loads and goals stay      */
+        /* later rounds: loads and goals stay */
+        if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
         if (!s->force->utilisation || !s->problem->criterion->type) break;
         double t0 = pg_seconds ();
-        PG_TRY (breaker_ready (b));
+        PG_TRY (break_loop_ready (b));
         PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
         double top = step->utilisation = largest (b->utilisation, state->nbond);
         s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
         if (!(top > 1)) {
-            s->report->bonds_over_limit += breaker_over (b, state, 1, &step->utilisation);
+            s->report->bonds_over_limit += break_loop_over (b, state, 1, &step->utilisation);
             break;
         }
         if (step->iterations >= o->max_iterations)
-            PG_FAIL (PG_E_EQUILIBRIUM, "bonds still break after %ld rounds (%zu in this step, worst utilisation %.6g): raise solver.max_iterations "
-                     "or take smaller steps", step->iterations, b->nbroken, top);
-        double cut = o->break_mode == PG_BREAK_ALL ? 1 : top * (1 - (o->break_mode == PG_BREAK_WORST ? o->tie : fmax (o->break_fraction, o->tie)));
+            PG_FAIL (PG_E_EQUILIBRIUM,
+                     "bonds still break after %ld rounds (%zu in this step, worst utilisation %.6g): raise "
+                     "solver.max_iterations "
+                     "or take smaller steps",
+                     step->iterations, b->nbroken, top);
+        double cut =
+            o->break_mode == PG_BREAK_ALL
+                ? 1
+                : top * (1 - (o->break_mode == PG_BREAK_WORST ? o->tie : fmax (o->break_fraction, o->tie)));
         if (o->break_mode != PG_BREAK_WORST) cut = fmax (cut, 1);
-        PG_TRY (breaker_kill (b, state, b->utilisation, cut, 1, t));
+        PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
         PG_TRY (system_refresh (s, state, &b->changes));
     }
-    if (step->iterations > 0) PG_TRY (breaker_account (b, t, d, dyn, 1));
+    if (step->iterations > 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
     b->round = 0;
     step->nbroken = b->nbroken, step->broken = b->broken;
 done:
     return status;
 }
 
-pg_status breaker_account (breaker *b, double t, const double *d, const dynamics *dyn, double scale)
+pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale)
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
-    if (!s->force->ledger) return PG_OK;
+    if (!s->force->work_balance) return PG_OK;
     double t0 = pg_seconds (), unused = 0;
     if (dyn) {
         memset (s->full, 0, s->ndof * sizeof *s->full);
         dyn->add (dyn->context, d, s->full, &unused);
     }
-    PG_TRY (s->force->ledger (s->self, t, d, dyn ? s->full : NULL, &b->ledger));
-    PG_TRY (breaker_book (b, scale));
+    PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : NULL, &b->work_balance));
+    PG_TRY (break_loop_book (b, scale));
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     return status;
 }
 
-pg_status breaker_book (breaker *b, double scale)
+pg_status break_loop_book (break_loop *b, double scale)
 {
     pg_status status = PG_OK;
-    if (!b->before.force) {                            /* the first state is reached from rest                           */
-        PG_ALLOC (b->before.force, b->ledger.npair);
-        PG_ALLOC (b->before.displacement, b->ledger.npair);
-        b->before.npair = b->ledger.npair;
+    if (!b->before.force) {                            /* the first state is reached from rest */
+        PG_ALLOC (b->before.force, b->work_balance.npair);
+        PG_ALLOC (b->before.displacement, b->work_balance.npair);
+        b->before.npair = b->work_balance.npair;
     }
-    for (size_t k = 0; k < b->ledger.npair; k++) {
-        double f = scale * b->ledger.force[k], u = scale * b->ledger.displacement[k];
+    for (size_t k = 0; k < b->work_balance.npair; k++) {
+        double f = scale * b->work_balance.force[k], u = scale * b->work_balance.displacement[k];
         b->work += 0.5 * (b->before.force[k] + f) * (u - b->before.displacement[k]);
         b->before.force[k] = f, b->before.displacement[k] = u;
     }
@@ -166,7 +176,7 @@ done:
     return status;
 }
 
-pg_status breaker_arrived (breaker *b, const pg_state *state, const double *d, int *arrived)
+pg_status break_loop_arrived (break_loop *b, const pg_state *state, const double *d, int *arrived)
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
@@ -178,7 +188,8 @@ pg_status breaker_arrived (breaker *b, const pg_state *state, const double *d, i
     if (!b->damage) PG_ALLOC (b->damage, 6 * s->problem->cloud.n);
     PG_TRY (s->force->field (s->self, state, d, "damage", &components, &unit, b->damage));
     b->nearest = 0;
-    for (size_t i = 0; components == 1 && i < set->npoint; i++) b->nearest = fmax (b->nearest, b->damage[set->point[i]]);
+    for (size_t i = 0; components == 1 && i < set->npoint; i++)
+        b->nearest = fmax (b->nearest, b->damage[set->point[i]]);
     if (!b->looked) b->nearest0 = b->nearest, b->looked = 1;
     *arrived = set->npoint && b->nearest >= s->options->stop_damage;
 done:

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What explicit and relaxed methods have in common: supports, loads, the stable time step, forces with breaking, rows and levels. */
+ * What explicit and relaxed methods have in common: supports, loads, the stable time step, forces with
+ * breaking, rows and levels. */
 #include "explicit.h"
 #include <math.h>
 #include <string.h>
 
 enum { BLOCK = 2048 };
 
-/* ---- supports ------------------------------------------------------------------------------------------------------------------ */
+/* ---- supports ------------------------------------------------------------------------------------------ */
 /* The rows of T without an entry; T must select: one entry a column, which is 1. */
 static pg_status find_held (motion *m, const pg_sparse *T, size_t ndof, const char *kind)
 {
@@ -15,8 +16,11 @@ static pg_status find_held (motion *m, const pg_sparse *T, size_t ndof, const ch
     PG_ALLOC (is_free, ndof);
     for (size_t j = 0; j < T->ncol; j++) {
         if (T->start[j + 1] != T->start[j] + 1)
-            PG_FAIL (PG_E_SCENE, "%s needs supports that prescribe single unknowns, and with these shape functions essential: transformation ties several "
-                     "together: use essential: nitsche", kind);
+            PG_FAIL (PG_E_SCENE,
+                     "%s needs supports that prescribe single unknowns, and with these shape functions "
+                     "essential: transformation ties several "
+                     "together: use essential: nitsche",
+                     kind);
         is_free[T->row[T->start[j]]] = 1;
     }
     for (size_t i = 0; i < ndof; i++) m->nheld += !is_free[i];
@@ -37,14 +41,15 @@ static int has_forces (const pg_problem *p)
 /* Supports that act like springs: their work is known to the force alone. */
 static int has_springs (const pg_problem *p)
 {
-    for (size_t l = 0; l < p->nload; l++) if (pg_load_prescribes (&p->load[l]) && p->load[l].essential != PG_ESSENTIAL_TRANSFORMATION) return 1;
+    for (size_t l = 0; l < p->nload; l++)
+        if (pg_load_prescribes (&p->load[l]) && p->load[l].essential != PG_ESSENTIAL_TRANSFORMATION) return 1;
     return 0;
 }
 
 pg_status explicit_create (pg_solver *s)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     const pg_force_type *force = sys->force;
     const pg_sparse *T = force->basis ? force->basis (sys->self) : NULL;
     motion *m = NULL;
@@ -56,7 +61,8 @@ pg_status explicit_create (pg_solver *s)
     PG_ALLOC (m->push, 2 * m->nheld);
     m->push0 = m->push + m->nheld;
     if (force->external && has_forces (s->problem)) PG_ALLOC (m->P, sys->ndof);
-    m->by_ledger = !force->external && force->ledger && (has_forces (s->problem) || has_springs (s->problem));
+    m->by_work_balance = !force->external && force->work_balance
+                         && (has_forces (s->problem) || has_springs (s->problem));
     m->nblock = (sys->ndof + BLOCK - 1) / BLOCK;
     PG_ALLOC (m->sum, m->nblock * SUMS);
     PG_ALLOC (m->inverse, sys->ndof);
@@ -70,7 +76,8 @@ void explicit_free (pg_solver *s)
 {
     motion *m = s->motion;
     if (!m) return;
-    pg_free (m->held), pg_free (m->lists), pg_free (m->push), pg_free (m->P), pg_free (m->inverse), pg_free (m->sum);
+    pg_free (m->held), pg_free (m->lists), pg_free (m->push), pg_free (m->P), pg_free (m->inverse),
+        pg_free (m->sum);
     pg_free (m);
     s->motion = NULL;
 }
@@ -85,7 +92,7 @@ static pg_status gather (pg_solver *s, double t, double *out)
 {
     pg_status status = PG_OK;
     const motion *m = s->motion;
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     if (m->nheld == 0) return PG_OK;
     PG_TRY (sys->force->impose (sys->self, t, sys->full));
     for (size_t k = 0; k < m->nheld; k++) out[k] = sys->full[m->held[k]];
@@ -97,8 +104,8 @@ pg_status explicit_follow (pg_solver *s, double before, double now, double next)
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
-    const pg_system *sys = &s->breaker.system;
-    if (m->fresh) {                                    /* they come from the step before: one evaluation is enough       */
+    const pg_system *sys = &s->break_loop.system;
+    if (m->fresh) {  /* they come from the step before: one evaluation is enough */
         double *first = m->before;
         m->before = m->goal, m->goal = m->next, m->next = first;
     } else {
@@ -112,18 +119,19 @@ done:
     return status;
 }
 
-/* ---- the stable time step -------------------------------------------------------------------------------------------------------- */
+/* ---- the stable time step ------------------------------------------------------------------------------ */
 /* A bound from above where the force has one; else the largest frequency itself, from below within 1 %. */
 static pg_status find_bound (pg_solver *s)
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     int exact = !sys->force->bound && !sys->force->row_sums;
     if (!sys->force->bound) PG_TRY (system_refresh (sys, s->backup, NULL));
     PG_TRY (pg_force_bound (sys->force, sys->self, sys->ndof, sys->mass, sys->full, &m->omega, &m->from));
     if (exact) PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
-    if (!isfinite (m->omega)) PG_FAIL (PG_E_SCENE, "the largest frequency of the body is not finite: check stiffness and density");
+    if (!isfinite (m->omega))
+        PG_FAIL (PG_E_SCENE, "the largest frequency of the body is not finite: check stiffness and density");
     m->stable = m->omega > 0 ? (exact ? 0.99 : 1) * 2 / m->omega : INFINITY;
 done:
     return status;
@@ -140,11 +148,17 @@ static pg_status check_dt (pg_solver *s)
     double limit = omega > 0 ? 0.99 * 2 / omega : INFINITY;
     if (s->options.dt <= limit) goto done;
     const pg_scene *scene = s->options.scene;
-    if (scene && !pg_scene_given (scene, "solver.dt"))     /* by solver.end / solver.time_steps                         */
-        PG_TRY (solver_fault (s, "solver.time_steps", "steps of %.6g s are too large: explicit steps are stable up to %.4g s (2 / largest frequency); take at least %.0f, "
-                              "or leave solver.time_steps out", s->options.dt, limit, ceil (s->options.end / limit)));
-    PG_TRY (solver_fault (s, "solver.dt", "%.6g s is too large: explicit steps are stable up to %.4g s (2 / largest frequency); take at most that, or leave "
-                          "solver.dt out", s->options.dt, limit));
+    if (scene && !pg_scene_given (scene, "solver.dt"))     /* by solver.end / solver.time_steps */
+        PG_TRY (solver_fault (s, "solver.time_steps",
+                              "steps of %.6g s are too large: explicit steps are stable up to %.4g s (2 / "
+                              "largest frequency); take at least %.0f, "
+                              "or leave solver.time_steps out",
+                              s->options.dt, limit, ceil (s->options.end / limit)));
+    PG_TRY (solver_fault (s, "solver.dt",
+                          "%.6g s is too large: explicit steps are stable up to %.4g s (2 / largest "
+                          "frequency); take at most that, or leave "
+                          "solver.dt out",
+                          s->options.dt, limit));
 done:
     return status;
 }
@@ -152,16 +166,21 @@ done:
 pg_status explicit_stable (pg_solver *s)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     motion *m = s->motion;
     for (size_t i = 0; i < sys->ndof; i++) {
-        if (!(sys->mass[i] > 0)) PG_TRY (solver_fault (s, "solver.kind", "%s needs mass at every point: give the material a density", s->type->name));
+        if (!(sys->mass[i] > 0))
+            PG_TRY (solver_fault (s, "solver.kind",
+                                  "%s needs mass at every point: give the material a density",
+                                  s->type->name));
         m->inverse[i] = 1 / sys->mass[i];
     }
     PG_TRY (find_bound (s));
     if (s->options.dt > 0) PG_TRY (check_dt (s));
     else if (isfinite (m->stable)) s->options.dt = 0.9 * m->stable;
-    else PG_TRY (solver_fault (s, "solver.dt", "nothing resists, so that any time step is stable: give solver.dt"));
+    else
+        PG_TRY (solver_fault (s, "solver.dt",
+                              "nothing resists, so that any time step is stable: give solver.dt"));
 done:
     return status;
 }
@@ -172,17 +191,17 @@ double pg_solver_stable (const pg_solver *s, const char **from)
     return s->motion && s->motion->from ? s->motion->stable : NAN;
 }
 
-/* ---- forces ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- forces -------------------------------------------------------------------------------------------- */
 static pg_status bury (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     const pg_force_type *force = b->system.force;
     char kind = s->problem->criterion->type->needs & PG_NEEDS_ENERGY ? 'e' : 't';
     for (size_t k = 0; k < b->changes.n; k++) {
         state->alive[b->changes.bond[k]] = 0;
         if (force->kind_of) kind = force->kind_of (b->system.self, state->d, b->changes.bond[k]);
-        PG_TRY (breaker_log (b, b->changes.bond[k], kind, NAN, t));
+        PG_TRY (break_loop_log (b, b->changes.bond[k], kind, NAN, t));
     }
     state->broken += (long) b->changes.n;
 done:
@@ -193,12 +212,12 @@ done:
 static pg_status break_by_sweep (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     double t0 = pg_seconds ();
-    PG_TRY (breaker_ready (b));
+    PG_TRY (break_loop_ready (b));
     PG_TRY (sys->force->utilisation (sys->self, state, state->d, b->utilisation, b->kind, NULL));
-    PG_TRY (breaker_kill (b, state, b->utilisation, 1, 1, t));
+    PG_TRY (break_loop_kill (b, state, b->utilisation, 1, 1, t));
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     if (b->changes.n) PG_TRY (system_refresh (sys, state, &b->changes));
 done:
@@ -208,20 +227,22 @@ done:
 pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking, double *reference)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     const pg_force_type *force = sys->force;
     double t0 = pg_seconds (), unused;
     breaking = breaking && (force->march || force->utilisation) && s->problem->criterion->type;
     b->changes.n = 0;
-    if (breaking && force->march) PG_TRY (force->march (sys->self, t, state->d, sys->residual, reference, &b->changes));
+    if (breaking && force->march)
+        PG_TRY (force->march (sys->self, t, state->d, sys->residual, reference, &b->changes));
     else PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     if (!breaking) goto done;
     if (force->march) PG_TRY (bury (s, state, t));
     else {
         PG_TRY (break_by_sweep (s, state, t));
-        if (b->changes.n) PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
+        if (b->changes.n)
+            PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     }
     if (b->changes.n) state->events++, s->report.events++;
 done:
@@ -240,18 +261,25 @@ void explicit_total (const pg_solver *s, double *sum)
 pg_status explicit_lost (const pg_solver *s, const pg_state *state, double t)
 {
     const pg_problem *p = s->problem;
-    size_t i = 0, dim = (size_t) p->dim, components = (size_t) s->breaker.system.components;
+    size_t i = 0, dim = (size_t) p->dim, components = (size_t) s->break_loop.system.components;
     while (i + 1 < state->ndof && isfinite (state->d[i])) i++;
     const double *x = p->cloud.x + i / components * dim;
-    return pg_error (PG_E_EQUILIBRIUM, PG_HERE, "the displacement of point %zu (%g, %g, %g) m is no longer finite at %s %.6g%s: loads or prescribed motions are too "
-                     "large for it, or breaking has made the body stiffer", i / components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0,
+    return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+                     "the displacement of point %zu (%g, %g, %g) m is no longer finite at %s %.6g%s: loads "
+                     "or prescribed motions are too "
+                     "large for it, or breaking has made the body stiffer",
+                     i / components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0,
                      s->options.quasi_static ? "load factor" : "t =", t, s->options.quasi_static ? "" : " s");
 }
 
-/* ---- rows and levels ------------------------------------------------------------------------------------------------------------- */
+/* ---- rows and levels ----------------------------------------------------------------------------------- */
 static long rows_of (const pg_solver_options *o, long total)
 {
-    long rows = o->rows > 0 ? o->rows : total / 10 < 100 ? 100 : total / 10 > 1000 ? 1000 : total / 10, levels = o->levels > 0 ? o->levels : 1;
+    long rows = o->rows > 0         ? o->rows
+                : total / 10 < 100  ? 100
+                : total / 10 > 1000 ? 1000
+                                    : total / 10,
+         levels = o->levels > 0 ? o->levels : 1;
     return levels * (rows > levels ? rows / levels : 1);
 }
 
@@ -270,7 +298,8 @@ long explicit_row (const pg_solver *s, long total, long now)
 int explicit_level (pg_solver *s, long total, long now)
 {
     int reached = 0;
-    while (s->next_level <= s->options.levels && row_end (s->next_level, s->options.levels, total) <= now) s->next_level++, reached = 1;
+    while (s->next_level <= s->options.levels && row_end (s->next_level, s->options.levels, total) <= now)
+        s->next_level++, reached = 1;
     return reached;
 }
 
@@ -279,11 +308,15 @@ pg_status explicit_end (pg_solver *s, const pg_state *state, int last, const cha
 {
     pg_status status = PG_OK;
     int arrived;
-    PG_TRY (breaker_arrived (&s->breaker, state, state->d, &arrived));
+    PG_TRY (break_loop_arrived (&s->break_loop, state, state->d, &arrived));
     const char *unit = s->options.quasi_static ? "" : " s";
-    if (arrived) pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at %s %.6g%s", s->options.stop_set->name, what, t, unit);
+    if (arrived)
+        pg_statistics_warn (&s->report, "the crack has arrived at %s: the run ends at %s %.6g%s",
+                            s->options.stop_set->name, what, t, unit);
     int many = state->events >= s->options.max_events && !last && s->options.max_events > 0;
-    if (many) pg_report_warn (&s->report, "stopped after solver.max_events = %ld events at %s %.6g%s", s->options.max_events, what, t, unit);
+    if (many)
+        pg_statistics_warn (&s->report, "stopped after solver.max_events = %ld events at %s %.6g%s",
+                            s->options.max_events, what, t, unit);
     if (arrived || many || last) s->finished = 1;
 done:
     return status;
@@ -295,7 +328,8 @@ pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
     motion *m = s->motion;
     double number[5] = { m->damped, m->damped0, m->resist, m->resist0, m->most };
     PG_TRY (k->numbers (k->context, "motion.numbers", 5, number));
-    m->damped = number[0], m->damped0 = number[1], m->resist = number[2], m->resist0 = number[3], m->most = number[4];
+    m->damped = number[0], m->damped0 = number[1], m->resist = number[2], m->resist0 = number[3],
+    m->most = number[4];
     if (m->nheld) PG_TRY (k->numbers (k->context, "motion.push", 2 * m->nheld, m->push));
     if (k->reading) m->fresh = 0;
 done:

@@ -1,59 +1,63 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: what explicit and relaxed methods have in common. Time step n ends at t_n = n dt; velocities live half way between.
- * Prescribed unknowns ("held") follow their motion: their entries of v and a are 0 inside a step and filled in where a state is shown. The
- * force on them from outside, m a + f_int with a = (g_n+1 - 2 g_n + g_n-1) / dt^2, does the work of the supports. */
+ * Private: what explicit and relaxed methods have in common. Time step n ends at t_n = n dt; velocities live
+ * half way between. Prescribed unknowns ("held") follow their motion: their entries of v and a are 0 inside a
+ * step and filled in where a state is shown. The force on them from outside, m a + f_int with a = (g_n+1 - 2
+ * g_n + g_n-1) / dt^2, does the work of the supports. */
 #ifndef PG_EXPLICIT_H
 #define PG_EXPLICIT_H
 #include "solve.h"
 
 struct motion {
-    size_t  nheld, *held;                              /* prescribed unknowns, ascending                                 */
-    double *lists, *before, *goal, *next;                    /* their displacement at t_n-1, t_n, t_n+1, m (nheld)             */
-    double *push, *push0;                              /* force on them from outside at t_n; at the start of the step, N (nheld) */
-    double *P;                                         /* loads at t_n, N (ndof); NULL: none, or the force does not say   */
-    double *inverse;                                   /* 1 / mass; 0: no mass                  (ndof)                   */
-    double *sum;  size_t nblock;                       /* of every block of unknowns            (nblock x SUMS)          */
-    double  most;                                      /* most external work so far, J                                   */
-    int     by_ledger;                                 /* work comes from the force's ledger, every time step            */
-    int     fresh;                                     /* lists and P are those of t_n                                   */
-    long    between;                                   /* time steps, or iterations, from look to look                   */
-    double  omega, stable;  const char *from;          /* bound of the largest frequency, rad/s; 2 / omega, s             */
-    double  damped, damped0;                           /* energy taken by damping, J; at the start of the step            */
-    double  resist, resist0;                           /* m v_n v(n+1/2) where the last step was closed; as damped0       */
-    struct relaxing *relaxing;                         /* relax.h                                                        */
+    size_t  nheld, *held;                              /* prescribed unknowns, ascending */
+    double *lists, *before, *goal, *next;  /* their displacement at t_n-1, t_n, t_n+1, m (nheld) */
+    double *push, *push0;  /* force on them from outside at t_n; at the start of the step, N (nheld) */
+    double *P;  /* loads at t_n, N (ndof); NULL: none, or the force does not say */
+    double *inverse;                                   /* 1 / mass; 0: no mass (ndof) */
+    double *sum;  size_t nblock;                       /* of every block of unknowns (nblock x SUMS) */
+    double  most;                                      /* most external work so far, J */
+    int     by_work_balance;  /* work comes from the force's work_balance, every time step */
+    int     fresh;                                     /* lists and P are those of t_n */
+    long    between;                                   /* time steps, or iterations, from look to look */
+    double  omega, stable;  const char *from;  /* bound of the largest frequency, rad/s; 2 / omega, s */
+    double  damped, damped0;  /* energy taken by damping, J; at the start of the step */
+    double  resist, resist0;  /* m v_n v(n+1/2) where the last step was closed; as damped0 */
+    struct relaxation *relaxation;                         /* relax.h */
 };
 /* Work of loads over the half step before t_n and after; m v_n v before and after; m v v; not finite. */
-enum { LANES = 8 };                                   /* unknowns at once, a number the compiler knows              */
+enum { LANES = 8 };                                   /* unknowns at once, a number the compiler knows */
 enum { SUM_A, SUM_B, SUM_C, SUM_D, SUM_K, SUM_BAD, SUMS };
 
-/* ---- explicit.c ---------------------------------------------------------------------------------------------------------------- */
-pg_status explicit_create  (pg_solver *s);             /* supports, masses, work space                                   */
+/* ---- explicit.c ---------------------------------------------------------------------------------------- */
+pg_status explicit_create  (pg_solver *s);             /* supports, masses, work space */
 void      explicit_free    (pg_solver *s);
-/* Bound of the largest frequency into omega, stable and from; then options.dt: 0.9 of the stable one if not given; one that is too large
- * is refused. */
+/* Bound of the largest frequency into omega, stable and from; then options.dt: 0.9 of the stable one if not
+ * given; one that is too large is refused. */
 pg_status explicit_stable  (pg_solver *s);
 /* v of prescribed unknowns 0, so that the loops over all unknowns leave them out. */
 void      explicit_release (pg_solver *s, pg_state *state);
 /* Motion of the supports around time step n (t_n, its length): before, goal, next; loads. */
 pg_status explicit_follow  (pg_solver *s, double before, double now, double next);
-/* system.residual at d and t, bonds over their limit dead; nothing breaks when `breaking` is 0. *reference may be NULL. */
+/* system.residual at d and t, bonds over their limit dead; nothing breaks when `breaking` is 0. *reference
+ * may be NULL. */
 pg_status explicit_force   (pg_solver *s, pg_state *state, double t, int breaking, double *reference);
 /* sum = of all blocks, in order. */
 void      explicit_total   (const pg_solver *s, double *sum);
-pg_status explicit_lost    (const pg_solver *s, const pg_state *state, double t);      /* names an unknown that is not finite */
+/* names an unknown that is not finite */
+pg_status explicit_lost    (const pg_solver *s, const pg_state *state, double t);
 /* Rows of a run of n steps: the next step at which one ends, and whether a level is reached there. */
 long      explicit_row     (const pg_solver *s, long total, long now);
 int       explicit_level   (pg_solver *s, long total, long now);
 pg_status explicit_end     (pg_solver *s, const pg_state *state, int last, const char *what, double t);
 pg_status explicit_keep    (pg_solver *s, const pg_keeper *keeper);
 
-/* ---- march.c ------------------------------------------------------------------------------------------------------------------- */
-/* One sweep over unknowns first..last - 1 of a block; settle: forces are at hand, v and a become those of the method at t_n; launch: on to
- * the next half step and d_n+1. Both at once give the bits of one after the other. Of `sum` it fills C, D (settle) and K (settle alone). */
+/* ---- march.c ------------------------------------------------------------------------------------------- */
+/* One sweep over unknowns first..last - 1 of a block; settle: forces are at hand, v and a become those of the
+ * method at t_n; launch: on to the next half step and d_n+1. Both at once give the bits of one after the
+ * other. Of `sum` it fills C, D (settle) and K (settle alone). */
 typedef struct {
     double *d, *v, *a;
-    const double *f, *inverse, *mass, *P;              /* P: or NULL                                                     */
-    double dt, damping;                                /* s, 1/s                                                         */
+    const double *f, *inverse, *mass, *P;              /* P: or NULL */
+    double dt, damping;                                /* s, 1/s */
     int    settle, launch;
 } sweep;
 typedef void (*sweep_range) (const sweep *w, size_t first, size_t last, double *sum);
@@ -63,7 +67,7 @@ pg_status march_step    (pg_solver *s, pg_state *state, pg_step *step, sweep_ran
 int       march_done    (const pg_solver *s, const pg_state *state);
 void      march_refused (pg_solver *s);
 double    march_progress (const pg_solver *s, const pg_state *state);
-double    sweep_sum     (const double *s);             /* of 8 lanes                                                     */
+double    sweep_sum     (const double *s);             /* of 8 lanes */
 double    sweep_dot     (const double *a, const double *b, size_t first, size_t last);
-double    sweep_bad     (const double *d, size_t first, size_t last);  /* 0, or NaN when one is not finite               */
+double    sweep_bad     (const double *d, size_t first, size_t last);  /* 0, or NaN when one is not finite */
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * T' (k K + m M) T delta = T' R without a matrix, by conjugate gradients: preconditioned by the diagonal (small time steps, where the mass
- * dominates, and bodies whose factor would not fit), or by the factor of an earlier K, which breaking has changed a little. */
+ * T' (k K + m M) T delta = T' R without a matrix, by conjugate gradients: preconditioned by the diagonal
+ * (small time steps, where the mass dominates, and bodies whose factor would not fit), or by the factor of an
+ * earlier K, which breaking has changed a little. */
 #include "solve.h"
 #include <string.h>
 
@@ -32,7 +33,8 @@ static void diagonal_combined (void *context, double *d)
     if (c->dyn) system_add_mass_diagonal (s, c->dyn->m, z);
     for (size_t j = 0; c->T && j < s->nred; j++) {
         d[j] = 0;
-        for (long p = c->T->start[j]; p < c->T->start[j + 1]; p++) d[j] += c->T->value[p] * c->T->value[p] * z[c->T->row[p]];
+        for (long p = c->T->start[j]; p < c->T->start[j + 1]; p++)
+            d[j] += c->T->value[p] * c->T->value[p] * z[c->T->row[p]];
     }
 }
 
@@ -42,7 +44,8 @@ static pg_status by_factor_of_before (void *context, const double *r, double *z)
     return s->linear->solve (s->factor, 1, r, z);
 }
 
-pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, double tolerance, size_t limit, size_t *used)
+pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, double tolerance, size_t limit,
+                          size_t *used)
 {
     combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL };
     pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
@@ -50,7 +53,8 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, doub
     double t0 = pg_seconds ();
     system_remember_diagonal (s, NULL);
     memset (s->delta, 0, s->ndof * sizeof *s->delta);
-    pg_status status = pg_conjugate_gradients_with (&op, by_factor ? &P : NULL, s->reduced, s->delta, tolerance, limit, used);
+    pg_status status = pg_conjugate_gradients_with (&op, by_factor ? &P : NULL, s->reduced, s->delta,
+                                                    tolerance, limit, used);
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     if (!by_factor) strcpy (s->report->solver, "cg");

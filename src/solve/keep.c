@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What later steps depend on, walked over once for writing and for reading back: the state (also that at the start of a step in its middle),
- * energies, counts, what a method carries from step to step. Caches are not kept: they are functions of the bonds, made again in the
- * same order. The factor of an earlier K is one of them: it is made again from the bonds that lived then. */
+ * What later steps depend on, walked over once for writing and for reading back: the state (also that at the
+ * start of a step in its middle), energies, counts, what a method carries from step to step. Caches are not
+ * kept: they are functions of the bonds, made again in the same order. The factor of an earlier K is one of
+ * them: it is made again from the bonds that lived then. */
 #include "solve.h"
 #include <string.h>
 
-static const long most = 1L << 50;                     /* of any count                                                   */
+static const long most = 1L << 50;                     /* of any count */
 /* What is read back must lie where the rest of the program may rely on it. */
-#define BOUND(k, name, value, low, high) do { if ((k)->reading && ((value) < (low) || (value) > (high))) \
-    PG_FAIL (PG_E_FILE, "the checkpoint is not of this run: %s is %ld, not from %ld to %ld", (name), (long) (value), (long) (low), (long) (high)); } while (0)
+#define BOUND(k, name, value, low, high) \
+    do { \
+        if ((k)->reading && ((value) < (low) || (value) > (high))) \
+            PG_FAIL (PG_E_FILE, "the checkpoint is not of this run: %s is %ld, not from %ld to %ld", (name), \
+                     (long) (value), (long) (low), (long) (high)); \
+    } while (0)
 
 static pg_status keep_flags (const char *name, size_t n, unsigned char *flag, const pg_keeper *k)
 {
@@ -19,7 +24,7 @@ done:
     return status;
 }
 
-/* A text of fixed room, ended whatever was read. */
+/* A text of fixed workspace, ended whatever was read. */
 static pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper *k)
 {
     pg_status status = k->bytes (k->context, name, size, text);
@@ -39,7 +44,8 @@ static pg_status keep_state (pg_state *s, const char *name, const pg_keeper *k)
     PG_TRY (k->counts (k->context, PART (".counts"), 5, count));
     PG_TRY (k->numbers (k->context, PART (".numbers"), 3, number));
     for (int i = 0; i < 5; i++) BOUND (k, name, count[i], 0, most);
-    s->step = count[0], s->events = count[1], s->iterations = count[2], s->broken = count[3], s->history_rows = count[4];
+    s->step = count[0], s->events = count[1], s->iterations = count[2], s->broken = count[3],
+    s->history_rows = count[4];
     s->time = number[0], s->factor = number[1], s->work = number[2];
     for (int v = 0; v < 3; v++) {
         PART (".");
@@ -52,7 +58,8 @@ done:
 }
 
 /* Word by word: the struct has gaps, and what it holds is looked at before it is used. */
-static pg_status keep_bond (const pg_problem *p, pg_broken *b, const pg_keeper *k, long *count, double *number)
+static pg_status keep_bond (const pg_problem *p, pg_broken *b, const pg_keeper *k, long *count,
+                            double *number)
 {
     pg_status status = PG_OK;
     if (!k->reading) {
@@ -64,12 +71,16 @@ static pg_status keep_bond (const pg_problem *p, pg_broken *b, const pg_keeper *
     BOUND (k, "the set of a broken bond", count[1], 0, PG_BOND_SETS - 1);
     BOUND (k, "a broken bond", count[0], 0, (long) p->first_bond[PG_BOND_SETS] - 1);
     BOUND (k, "the kind of a broken bond", count[2], 0, 127);
-    *b = (pg_broken) { (size_t) count[0], (int) count[1], (char) count[2], number[0], { number[2], number[3], number[4] }, number[1] };
+    *b = (pg_broken){
+        (size_t) count[0], (int) count[1], (char) count[2], number[0], { number[2], number[3], number[4] },
+        number[1]
+    };
 done:
     return status;
 }
 
-pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_broken *broken, const pg_keeper *k)
+pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_broken *broken,
+                          const pg_keeper *k)
 {
     pg_status status = PG_OK;
     char part[64];
@@ -77,26 +88,36 @@ pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_br
     double *number = NULL;
     PG_ALLOC (count, 3 * n + 1);
     PG_ALLOC (number, 5 * n + 1);
-    for (size_t i = 0; !k->reading && i < n; i++) PG_TRY (keep_bond (p, &broken[i], k, count + 3 * i, number + 5 * i));
+    for (size_t i = 0; !k->reading && i < n; i++)
+        PG_TRY (keep_bond (p, &broken[i], k, count + 3 * i, number + 5 * i));
     strcat (strcpy (part, name), ".bonds");
     PG_TRY (k->counts (k->context, part, 3 * n, count));
     strcat (strcpy (part, name), ".values");
     PG_TRY (k->numbers (k->context, part, 5 * n, number));
-    for (size_t i = 0; k->reading && i < n; i++) PG_TRY (keep_bond (p, &broken[i], k, count + 3 * i, number + 5 * i));
+    for (size_t i = 0; k->reading && i < n; i++)
+        PG_TRY (keep_bond (p, &broken[i], k, count + 3 * i, number + 5 * i));
 done:
     pg_free (count), pg_free (number);
     return status;
 }
 
 /* Counts, numbers and texts of the report, seconds too: those of the run so far. */
-static pg_status keep_report (pg_report *r, const pg_keeper *k)
+static pg_status keep_report (pg_statistics *r, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long *const word[9] = { &r->steps, &r->events, &r->iterations, &r->broken, &r->bonds_over_limit, &r->factorizations, &r->updates, &r->solves, &r->preconditioners };
-    size_t *const size[6] = { &r->cg_iterations, &r->degenerate_points, &r->isolated_nodes, &r->fragments, &r->nskipped, &r->nwarning };
-    double *const value[10] = { &r->utilisation_max, &r->residual_max, &r->overlap_max, &r->energy_strain, &r->energy_kinetic, &r->energy_external, &r->energy_damping,
-                                &r->energy_dissipated, &r->factor_entries, &r->factor_flops };
-    enum { SKIPS = sizeof r->skipped / sizeof *r->skipped, WARNINGS = sizeof r->warning / sizeof *r->warning };
+    long *const word[9] = { &r->steps,   &r->events,           &r->iterations,
+                            &r->broken,  &r->bonds_over_limit, &r->factorizations,
+                            &r->updates, &r->solves,           &r->preconditioners };
+    size_t *const size[6] = { &r->cg_iterations, &r->degenerate_points, &r->isolated_nodes,
+                              &r->fragments,     &r->nskipped,          &r->nwarning };
+    double *const value[10] = { &r->utilisation_max, &r->residual_max,      &r->overlap_max,
+                                &r->energy_strain,   &r->energy_kinetic,    &r->energy_external,
+                                &r->energy_damping,  &r->energy_dissipated, &r->factor_entries,
+                                &r->factor_flops };
+    enum {
+        SKIPS = sizeof r->skipped / sizeof *r->skipped,
+        WARNINGS = sizeof r->warning / sizeof *r->warning
+    };
     long count[15];
     double number[10 + PG_SECONDS_COUNT], saved[SKIPS];
     for (int i = 0; i < 9; i++) count[i] = *word[i];
@@ -135,7 +156,7 @@ done:
 }
 
 /* Bonds that died in the step at hand. */
-static pg_status keep_broken (breaker *b, const pg_problem *p, const pg_keeper *k)
+static pg_status keep_broken (break_loop *b, const pg_problem *p, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     long n = (long) b->nbroken;
@@ -151,7 +172,8 @@ done:
 }
 
 /* Forces and displacements of the last accounted states, between which work is summed. */
-static pg_status keep_ledger (pg_ledger *l, const char *name, size_t nload, long pairs, int reactions, const pg_keeper *k)
+static pg_status keep_work_balance (pg_work_balance *l, const char *name, size_t nload, long pairs,
+                                    int reactions, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     char part[64];
@@ -162,7 +184,7 @@ static pg_status keep_ledger (pg_ledger *l, const char *name, size_t nload, long
     if (count[0] < 0) goto done;
     BOUND (k, part, count[1], reactions, 1);
     if (k->reading) {
-        pg_ledger_clear (l);
+        pg_work_balance_clear (l);
         l->npair = (size_t) count[0];
         PG_ALLOC (l->force, l->npair);
         PG_ALLOC (l->displacement, l->npair);
@@ -185,15 +207,18 @@ static int operates (const pg_system *s) { return s->force->operator_ && s->forc
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[8] = { s->mode, s->umfpack, s->kept, s->marked, s->factored != NULL, s->stale, s->unshifted, s->spared };
+    long count[8] = { s->mode,  s->umfpack,   s->kept,  s->marked, s->factored != NULL,
+                      s->stale, s->unshifted, s->spared };
     double number[3] = { s->mean_diagonal, s->shift, s->rent };
     PG_TRY (k->counts (k->context, "system.counts", 8, count));
     PG_TRY (k->numbers (k->context, "system.numbers", 3, number));
     PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
     PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, s->touched, k));
-    BOUND (k, "the way to solve", count[0], SYSTEM_UNDECIDED, !system_has_matrix (s) && count[0] != SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_NO_FACTOR);
+    BOUND (k, "the way to solve", count[0], SYSTEM_UNDECIDED,
+           !system_has_matrix (s) && count[0] != SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_NO_FACTOR);
     BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, solves ? 1 : 0);
-    s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6], s->spared = count[7];
+    s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6],
+    s->spared = count[7];
     s->mean_diagonal = number[0], s->shift = number[1], s->rent = number[2];
     if (k->reading && count[1] && !s->umfpack) {
         if (s->factor) s->linear->free (&s->factor);
@@ -202,7 +227,8 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     }
     long made = s->multilevel != NULL || s->remake;
     PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));
-    BOUND (k, "the multilevel preconditioner", made, 0, solves && s->force->couplings && operates (s) && count[4] ? 1 : 0);
+    BOUND (k, "the multilevel preconditioner", made, 0,
+           solves && s->force->couplings && operates (s) && count[4] ? 1 : 0);
     BOUND (k, "a factor of the bonds", made ? 0 : count[4], 0, system_has_matrix (s) ? 1 : 0);
     PG_TRY (k->numbers (k->context, "system.pace", 1, &s->pace));
     PG_TRY (k->numbers (k->context, "system.borne", 1, &s->borne));
@@ -215,27 +241,28 @@ done:
     return status;
 }
 
-/* Entries of a ledger of this problem; -1: the force has none. */
+/* Entries of a work balance of this problem; -1: the force has none. */
 static pg_status count_pairs (pg_solver *s, long *pairs)
 {
     pg_status status = PG_OK;
-    const pg_system *sys = &s->breaker.system;
-    pg_ledger ledger = { 0 };
-    if (!sys->force->ledger) goto done;
-    PG_TRY (sys->force->ledger (sys->self, s->backup->time, s->backup->d, NULL, &ledger));
-    *pairs = (long) ledger.npair;
+    const pg_system *sys = &s->break_loop.system;
+    pg_work_balance work_balance = { 0 };
+    if (!sys->force->work_balance) goto done;
+    PG_TRY (sys->force->work_balance (sys->self, s->backup->time, s->backup->d, NULL, &work_balance));
+    *pairs = (long) work_balance.npair;
 done:
-    pg_ledger_clear (&ledger);
+    pg_work_balance_clear (&work_balance);
     return status;
 }
 
 static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     size_t nload = s->problem->nload;
     long pairs = -1;
-    long count[11] = { s->finished, s->overlap_told, s->energy_told, s->skips_told, s->next_level, (long) s->ended, s->ledger_fresh, b->round,
+    long count[11] = { s->finished,     s->overlap_told,   s->energy_told,        s->skips_told,
+                       s->next_level,   (long) s->ended,   s->work_balance_fresh, b->round,
                        s->unit != NULL, s->force0 != NULL, s->spared_told };
     double number[5] = { s->unit_residual, s->secant0, b->work, b->work0, b->stored0 };
     PG_TRY (k->counts (k->context, "solver.counts", 11, count));
@@ -243,9 +270,12 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     BOUND (k, "the next level", count[4], 0, s->options.levels + 1);
     BOUND (k, "the round", count[7], 0, most);
     BOUND (k, "the end of the run", count[5], 0, 63);
-    s->finished = (int) count[0], s->overlap_told = (int) count[1], s->energy_told = (int) count[2], s->skips_told = (int) count[3];
-    s->next_level = count[4], s->ended = (pg_status) count[5], s->ledger_fresh = (int) count[6], b->round = count[7], s->spared_told = (int) count[10];
-    s->unit_residual = number[0], s->secant0 = number[1], b->work = number[2], b->work0 = number[3], b->stored0 = number[4];
+    s->finished = (int) count[0], s->overlap_told = (int) count[1], s->energy_told = (int) count[2],
+    s->skips_told = (int) count[3];
+    s->next_level = count[4], s->ended = (pg_status) count[5], s->work_balance_fresh = (int) count[6],
+    b->round = count[7], s->spared_told = (int) count[10];
+    s->unit_residual = number[0], s->secant0 = number[1], b->work = number[2], b->work0 = number[3],
+    b->stored0 = number[4];
     PG_TRY (keep_text ("solver.why", sizeof s->why, s->why, k));
     PG_TRY (keep_report (&s->report, k));
     if (nload) PG_TRY (k->numbers (k->context, "solver.reaction", 3 * nload, s->reaction));
@@ -257,18 +287,19 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     if (count[9] && s->force0) PG_TRY (k->numbers (k->context, "solver.force0", b->system.ndof, s->force0));
     PG_TRY (keep_broken (b, s->problem, k));
     if (k->reading) PG_TRY (count_pairs (s, &pairs));
-    PG_TRY (keep_ledger (&b->ledger, "ledger", nload, pairs, 1, k));
-    PG_TRY (keep_ledger (&b->before, "before", nload, pairs, 0, k));
+    PG_TRY (keep_work_balance (&b->work_balance, "work_balance", nload, pairs, 1, k));
+    PG_TRY (keep_work_balance (&b->before, "before", nload, pairs, 0, k));
 done:
     return status;
 }
 
-/* Caches again as they were: the kept factor from the bonds that lived when it was made, all else from those that live now. */
+/* Caches again as they were: the kept factor from the bonds that lived when it was made, all else from those
+ * that live now. */
 static pg_status rebuild (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
-    pg_report counts = s->report;
+    pg_system *sys = &s->break_loop.system;
+    pg_statistics counts = s->report;
     int stale = sys->stale;
     unsigned char *alive = state->alive;
     double rent = sys->rent, pace = sys->pace;
@@ -282,7 +313,8 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
     } else if ((sys->mode == SYSTEM_KEPT_FACTOR || !stale) && sys->factored) {
         state->alive = sys->factored;
         status = system_refresh (sys, state, NULL);
-        if (status == PG_OK) status = system_factorize (sys, s->type->dynamics ? s->type->dynamics (s) : NULL);
+        if (status == PG_OK)
+            status = system_factorize (sys, s->type->dynamics ? s->type->dynamics (s) : NULL);
         state->alive = alive;
         PG_TRY (status);
     } else stale = 1;
@@ -302,7 +334,7 @@ pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
     PG_TRY (keep_state (state, "state", k));
     PG_TRY (keep_state (s->backup, "backup", k));
     PG_TRY (keep_solver (s, k));
-    PG_TRY (keep_system (&s->breaker.system, s->type->way == SOLVES, k));
+    PG_TRY (keep_system (&s->break_loop.system, s->type->way == SOLVES, k));
     if (s->type->keep) PG_TRY (s->type->keep (s, k));
     if (k->reading) PG_TRY (rebuild (s, state));
 done:

@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Explicit time steps (theory B4, G4): leapfrog of half-step velocities, in the writing of velocity Verlet or of central differences.
- * The energies are those that the method keeps: kinetic m v(n-1/2) v(n+1/2) / 2, work by trapezoids, damping dt c m v_n^2; they add up to
- * rounding while nothing breaks, so that the rest is what breaking takes. */
+ * Explicit time steps (theory B4, G4): leapfrog of half-step velocities, in the writing of velocity Verlet or
+ * of central differences. The energies are those that the method keeps: kinetic m v(n-1/2) v(n+1/2) / 2, work
+ * by trapezoids, damping dt c m v_n^2; they add up to rounding while nothing breaks, so that the rest is what
+ * breaking takes. */
 #include "explicit.h"
 #include <math.h>
 #include <string.h>
 
 enum { BLOCK = 2048 };
 
-double sweep_sum (const double *s) { return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7])); }
+double sweep_sum (const double *s)
+{
+    return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
+}
 
 double sweep_dot (const double *a, const double *b, size_t first, size_t last)
 {
@@ -28,14 +32,15 @@ double sweep_bad (const double *d, size_t first, size_t last)
     return sweep_sum (s);
 }
 
-/* ---- how many steps ------------------------------------------------------------------------------------------------------------- */
+/* ---- how many steps ------------------------------------------------------------------------------------ */
 static pg_status count_steps (pg_solver *s)
 {
     pg_status status = PG_OK;
     pg_solver_options *o = &s->options;
     if (o->end > 0) {
         double steps = o->time_steps > 0 ? (double) o->time_steps : ceil (o->end / o->dt * (1 - 1e-12));
-        if (steps > 1e9) PG_TRY (solver_fault (s, "solver.end", "%g time steps of %.4g s are too many", steps, o->dt));
+        if (steps > 1e9)
+            PG_TRY (solver_fault (s, "solver.end", "%g time steps of %.4g s are too many", steps, o->dt));
         o->time_steps = (long) steps;
         o->dt = o->end / steps;
     } else o->end = o->dt * (double) o->time_steps;
@@ -59,12 +64,15 @@ done:
 pg_status march_start (pg_solver *s, pg_state *state)
 {
     s->next_level = 1;
-    return system_refresh (&s->breaker.system, state, NULL);
+    return system_refresh (&s->break_loop.system, state, NULL);
 }
 
-static double time_at (const pg_solver *s, long n) { return n == s->options.time_steps ? s->options.end : (double) n * s->options.dt; }
+static double time_at (const pg_solver *s, long n)
+{
+    return n == s->options.time_steps ? s->options.end : (double) n * s->options.dt;
+}
 
-/* ---- one sweep over all unknowns ------------------------------------------------------------------------------------------------- */
+/* ---- one sweep over all unknowns ----------------------------------------------------------------------- */
 typedef struct { sweep w; sweep_range range; size_t ndof; double *sum; } sweeping;
 
 static void work_on_blocks (void *context, size_t first, size_t last, int thread)
@@ -95,22 +103,27 @@ static pg_status move (pg_solver *s, pg_state *state, sweep_range range, int set
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     double t0 = pg_seconds (), total[SUMS], c = s->options.rayleigh_mass, dt = s->options.dt;
-    sweeping all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, dt, c, settle, launch }, range, sys->ndof, m->sum };
+    sweeping all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, dt, c,
+                       settle, launch },
+                     range,
+                     sys->ndof,
+                     m->sum };
     if (launch && !settle) explicit_release (s, state);
     pg_parallel (s->problem->threads, m->nblock, work_on_blocks, &all);
     explicit_total (s, total);
     if (settle) {
-        if (!m->by_ledger) s->breaker.work += push_work (s, total[SUM_A], m->before, m->goal);
+        if (!m->by_work_balance) s->break_loop.work += push_work (s, total[SUM_A], m->before, m->goal);
         m->resist = total[SUM_D];
         m->damped += 0.5 * dt * c * total[SUM_C];
         s->report.energy_kinetic = 0.5 * total[SUM_K];
         for (size_t k = 0; k < m->nheld; k++)
-            s->report.energy_kinetic += 0.5 * sys->mass[m->held[k]] * (m->goal[k] - m->before[k]) * (m->next[k] - m->goal[k]) / (dt * dt);
+            s->report.energy_kinetic += 0.5 * sys->mass[m->held[k]] * (m->goal[k] - m->before[k])
+                                        * (m->next[k] - m->goal[k]) / (dt * dt);
     }
     if (launch) {
-        if (!m->by_ledger) s->breaker.work += push_work (s, total[SUM_B], m->goal, m->next);
+        if (!m->by_work_balance) s->break_loop.work += push_work (s, total[SUM_B], m->goal, m->next);
         m->damped += 0.5 * dt * c * m->resist;
         for (size_t k = 0; k < m->nheld; k++) state->d[m->held[k]] = m->next[k];
         total[SUM_BAD] += sweep_bad (m->next, 0, m->nheld);
@@ -137,11 +150,12 @@ static void show_held (const pg_solver *s, pg_state *state, int staggered)
 static void take_reactions (pg_solver *s)
 {
     motion *m = s->motion;
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     double dt = s->options.dt;
     for (size_t k = 0; k < m->nheld; k++) {
         size_t i = m->held[k];
-        m->push[k] = sys->mass[i] * (((m->next[k] - m->goal[k]) - (m->goal[k] - m->before[k])) / (dt * dt)) - sys->residual[i] + (m->P ? m->P[i] : 0);
+        m->push[k] = sys->mass[i] * (((m->next[k] - m->goal[k]) - (m->goal[k] - m->before[k])) / (dt * dt))
+                     - sys->residual[i] + (m->P ? m->P[i] : 0);
         sys->residual[i] = 0;
     }
 }
@@ -158,39 +172,42 @@ done:
     return status;
 }
 
-/* ---- ledger ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- work_balance -------------------------------------------------------------------------------------- */
 /* What motion adds to the residual, for reactions. */
 static void inertia (pg_solver *s, const pg_state *state, int staggered, double *out)
 {
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     double c = s->options.rayleigh_mass, half = staggered ? 0.5 * s->options.dt : 0;
-    for (size_t i = 0; i < sys->ndof; i++) out[i] = -sys->mass[i] * (state->a[i] + c * (state->v[i] - half * state->a[i]));
-    for (size_t k = 0; c > 0 && k < s->motion->nheld; k++) out[s->motion->held[k]] = -sys->mass[s->motion->held[k]] * state->a[s->motion->held[k]];
+    for (size_t i = 0; i < sys->ndof; i++)
+        out[i] = -sys->mass[i] * (state->a[i] + c * (state->v[i] - half * state->a[i]));
+    for (size_t k = 0; c > 0 && k < s->motion->nheld; k++)
+        out[s->motion->held[k]] = -sys->mass[s->motion->held[k]] * state->a[s->motion->held[k]];
 }
 
 static pg_status account (pg_solver *s, pg_state *state, double t, int staggered, int book)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     double t0 = pg_seconds ();
-    if (!sys->force->ledger) return PG_OK;
+    if (!sys->force->work_balance) return PG_OK;
     inertia (s, state, staggered, sys->full);
-    PG_TRY (sys->force->ledger (sys->self, t, state->d, sys->full, &b->ledger));
-    if (book) PG_TRY (breaker_book (b, 1));
-    s->report.energy_strain = b->ledger.strain;
+    PG_TRY (sys->force->work_balance (sys->self, t, state->d, sys->full, &b->work_balance));
+    if (book) PG_TRY (break_loop_book (b, 1));
+    s->report.energy_strain = b->work_balance.strain;
 done:
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     return status;
 }
 
-/* ---- a run ----------------------------------------------------------------------------------------------------------------------- */
-/* d and v as given but for the supports; held unknowns that do not move on as they did are pushed. Energy at hand counts as work done. */
+/* ---- a run --------------------------------------------------------------------------------------------- */
+/* d and v as given but for the supports; held unknowns that do not move on as they did are pushed. Energy at
+ * hand counts as work done. */
 static pg_status begin (pg_solver *s, pg_state *state, int staggered)
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     double dt = s->options.dt, c = s->options.rayleigh_mass, kinetic = 0;
     PG_TRY (explicit_follow (s, 0, 0, dt));
     for (size_t k = 0; k < m->nheld; k++) {
@@ -207,18 +224,20 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
         m->resist += sys->mass[i] * v * (v + 0.5 * dt * a);
         kinetic += 0.5 * sys->mass[i] * (v - 0.5 * dt * a) * (v + 0.5 * dt * a);
     }
-    for (size_t k = 0; k < m->nheld; k++) kinetic += 0.5 * sys->mass[m->held[k]] * (m->goal[k] - m->before[k]) * (m->next[k] - m->goal[k]) / (dt * dt);
+    for (size_t k = 0; k < m->nheld; k++)
+        kinetic += 0.5 * sys->mass[m->held[k]] * (m->goal[k] - m->before[k]) * (m->next[k] - m->goal[k])
+                   / (dt * dt);
     show_held (s, state, staggered);
     s->report.energy_kinetic = kinetic;
     PG_TRY (account (s, state, 0, staggered, 1));
-    s->breaker.work = s->report.energy_strain + kinetic;
+    s->break_loop.work = s->report.energy_strain + kinetic;
 done:
     return status;
 }
 
 static pg_status look (pg_solver *s, pg_state *state, pg_step *step, long n)
 {
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     step->nbroken = b->nbroken, step->broken = b->broken;
     step->time = time_at (s, n), step->iterations = b->round;
     b->stopped = 1;
@@ -227,17 +246,22 @@ static pg_status look (pg_solver *s, pg_state *state, pg_step *step, long n)
     return status;
 }
 
-/* Bonds that die may stiffen what is left of a body (non-ordinary theories with few neighbours), so that a stable step no longer is. */
+/* Bonds that die may stiffen what is left of a body (non-ordinary theories with few neighbours), so that a
+ * stable step no longer is. */
 static pg_status check_growth (pg_solver *s, double t)
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
     double stored = s->report.energy_strain + s->report.energy_kinetic;
-    m->most = fmax (m->most, fabs (s->breaker.work));
-    if ((s->problem->nload == 0 || s->breaker.system.force->ledger) && stored > 10 * m->most)
-        PG_FAIL (PG_E_EQUILIBRIUM, "the energy of the body has grown to %.3g J at t = %.6g s, while %.3g J of work were done: breaking has made "
-                 "parts of the body stiffer, which feeds energy into it or makes the time step unstable; try a smaller solver.dt, solver.kind: newmark, or "
-                 "method.force: bond, whose bonds only ever soften it", stored, t, m->most);
+    m->most = fmax (m->most, fabs (s->break_loop.work));
+    if ((s->problem->nload == 0 || s->break_loop.system.force->work_balance) && stored > 10 * m->most)
+        PG_FAIL (PG_E_EQUILIBRIUM,
+                 "the energy of the body has grown to %.3g J at t = %.6g s, while %.3g J of work were done: "
+                 "breaking has made "
+                 "parts of the body stiffer, which feeds energy into it or makes the time step unstable; try "
+                 "a smaller solver.dt, solver.kind: newmark, or "
+                 "method.force: bond, whose bonds only ever soften it",
+                 stored, t, m->most);
 done:
     return status;
 }
@@ -245,15 +269,17 @@ done:
 static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long n, int staggered)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
-    const pg_report *r = &s->report;
+    break_loop *b = &s->break_loop;
+    const pg_statistics *r = &s->report;
     double t = time_at (s, n);
     int breaks = (b->system.force->march || b->system.force->utilisation) && s->problem->criterion->type;
-    if (!s->motion->by_ledger) PG_TRY (account (s, state, t, staggered, 0));
+    if (!s->motion->by_work_balance) PG_TRY (account (s, state, t, staggered, 0));
     s->report.energy_damping = s->motion->damped;
     PG_TRY (check_growth (s, t));
-    step->dissipated = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0) - (s->motion->damped - s->motion->damped0);
-    if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    step->dissipated = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0)
+                       - (s->motion->damped - s->motion->damped0);
+    if (b->work_balance.reaction)
+        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     state->time = step->time = t;
     state->factor = step->factor = t / s->options.end;
     step->level = explicit_level (s, s->options.time_steps, n);
@@ -267,7 +293,7 @@ done:
 pg_status march_step (pg_solver *s, pg_state *state, pg_step *step, sweep_range range, int staggered)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     motion *m = s->motion;
     long n = state->iterations + b->round, last = explicit_row (s, s->options.time_steps, state->iterations);
     int settled = 1;
@@ -277,18 +303,19 @@ pg_status march_step (pg_solver *s, pg_state *state, pg_step *step, sweep_range 
         if (n == 0) PG_TRY (begin (s, state, staggered));
         if (m->nheld) memcpy (m->push0, m->push, m->nheld * sizeof *m->push);
     }
-    if (!m->fresh) PG_TRY (explicit_follow (s, time_at (s, n - 1), time_at (s, n), (double) (n + 1) * s->options.dt));
+    if (!m->fresh)
+        PG_TRY (explicit_follow (s, time_at (s, n - 1), time_at (s, n), (double) (n + 1) * s->options.dt));
     while (n < last) {
         pg_status now = move (s, state, range, !settled, 1);
         if (now != PG_OK) PG_TRY (explicit_lost (s, state, time_at (s, n + 1)));
         b->round = ++n - state->iterations;
         PG_TRY (arrive (s, state, n));
         int due = b->watch && n % m->between == 0 && n < last;
-        settled = n == last || due || m->by_ledger;
+        settled = n == last || due || m->by_work_balance;
         if (!settled) continue;
         PG_TRY (move (s, state, range, 1, 0));
         show_held (s, state, staggered);
-        if (m->by_ledger) PG_TRY (account (s, state, time_at (s, n), staggered, 1));
+        if (m->by_work_balance) PG_TRY (account (s, state, time_at (s, n), staggered, 1));
         if (due) PG_TRY (look (s, state, step, n));
     }
     step->iterations = b->round;
@@ -306,6 +333,12 @@ void march_refused (pg_solver *s)
     m->fresh = 0;
 }
 
-int march_done (const pg_solver *s, const pg_state *state) { return state->iterations + s->breaker.round >= s->options.time_steps; }
+int march_done (const pg_solver *s, const pg_state *state)
+{
+    return state->iterations + s->break_loop.round >= s->options.time_steps;
+}
 
-double march_progress (const pg_solver *s, const pg_state *state) { return (double) (state->iterations + s->breaker.round) / (double) s->options.time_steps; }
+double march_progress (const pg_solver *s, const pg_state *state)
+{
+    return (double) (state->iterations + s->break_loop.round) / (double) s->options.time_steps;
+}

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The mass, lumped (a number for each unknown) or consistent (a number for each pair of nodes, the same for every component). */
+ * The mass, lumped (a number for each unknown) or consistent (a number for each pair of nodes, the same for
+ * every component). */
 #include "solve.h"
 #include <string.h>
 
@@ -7,7 +8,8 @@ pg_status system_mass (pg_system *s)
 {
     pg_status status = PG_OK;
     if (!s->options->consistent || s->M) return PG_OK;
-    if (!s->force->mass_matrix) PG_FAIL (PG_E_USAGE, "the force %s has no consistent mass: use solver.mass: lumped", s->force->name);
+    if (!s->force->mass_matrix)
+        PG_FAIL (PG_E_USAGE, "the force %s has no consistent mass: use solver.mass: lumped", s->force->name);
     PG_TRY (s->force->mass_matrix (s->self, &s->M));
 done:
     return status;

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Newmark's method with the break loop inside each step (Cui 2022 eqs (21)-(26), corrected in theory F5): with
- * b0 = 1/(beta dt^2), b1 = 1/(beta dt), b2 = 1/(2 beta), b3 = gamma/(beta dt), b4 = gamma/beta, b5 = dt (gamma/(2 beta) - 1),
+ * Newmark's method with the break loop inside each step (Cui 2022 eqs (21)-(26), corrected in theory F5):
+ * with b0 = 1/(beta dt^2), b1 = 1/(beta dt), b2 = 1/(2 beta), b3 = gamma/(beta dt), b4 = gamma/beta, b5 = dt
+ * (gamma/(2 beta) - 1),
  *   A = b0 dU - b1 V - (b2 - 1) A_t,   V = b3 dU + (1 - b4) V_t - b5 A_t,
  *   Khat = (1 + alpha) (1 + b3 c_K) K + (b0 + (1 + alpha) b3 c_M) M,   C = c_M M + c_K K,
  *   R = (1 + alpha) G - alpha G_t - M A,   G = P - F_int - C V.
- * alpha = 0 is Newmark's method; alpha in [-1/3, 0) that of Hilber, Hughes and Taylor (1977), which damps the motions that the step cannot
+ * alpha = 0 is Newmark's method; alpha in [-1/3, 0) that of Hilber, Hughes and Taylor (1977), which damps the
+ *     motions that the step cannot
  * resolve; beta = (1 - alpha)^2 / 4 and gamma = 1/2 - alpha then keep it of second order.
  * Nodes whose motion is prescribed by elimination take V and A from that motion (newmark_start.c). */
 #include "solve.h"
@@ -16,7 +18,8 @@ typedef struct { double b[8]; } coefficients;
 static coefficients coefficients_of (const pg_solver_options *o)
 {
     double dt = o->dt, be = o->beta, ga = o->gamma;
-    return (coefficients) { { 1 / (be * dt * dt), 1 / (be * dt), 1 / (2 * be), ga / (be * dt), ga / be, dt * (ga / (2 * be) - 1), dt * (1 - ga), ga * dt } };
+    return (coefficients){ { 1 / (be * dt * dt), 1 / (be * dt), 1 / (2 * be), ga / (be * dt), ga / be,
+                             dt * (ga / (2 * be) - 1), dt * (1 - ga), ga * dt } };
 }
 
 void pg_newmark_coefficients (const pg_solver_options *o, double *b)
@@ -48,24 +51,26 @@ static void predict (const course *m, double *d)
     for (size_t i = 0; i < f->ndof; i++) d[i] = f->d[i] + dt * (f->v[i] + 0.5 * dt * f->a[i]);
 }
 
-/* residual <- (1 + alpha) residual - alpha (that of the last step's end) - M A, where residual holds P - F_int - C V. M A counts for the
- * reference; so does a millionth of the parts it is the difference of, M (b1 V_t + (b2 - 1) A_t): a body in free flight has no other
- * force, and its M A is their rounding. */
+/* residual <- (1 + alpha) residual - alpha (that of the last step's end) - M A, where residual holds P -
+ * F_int - C V. M A counts for the reference; so does a millionth of the parts it is the difference of, M (b1
+ * V_t + (b2 - 1) A_t): a body in free flight has no other force, and its M A is their rounding. */
 static void add_inertia (void *context, const double *d, double *residual, double *reference)
 {
     const course *m = context;
-    pg_system *sys = &m->s->breaker.system;
+    pg_system *sys = &m->s->break_loop.system;
     const pg_state *f = m->from;
     double *v = m->s->work1, *a = m->s->work3, size = 0, parts = 0, alpha = m->s->options.alpha;
     rates (m, d, v, a);
     newmark_damp (m->s, v, residual);
-    for (size_t i = 0; alpha != 0 && i < sys->ndof; i++) residual[i] = (1 + alpha) * residual[i] - alpha * m->s->force0[i];
+    for (size_t i = 0; alpha != 0 && i < sys->ndof; i++)
+        residual[i] = (1 + alpha) * residual[i] - alpha * m->s->force0[i];
     double *known = m->s->work4, *Mknown = known + sys->ndof, *Ma = Mknown + sys->ndof;
     memset (Mknown, 0, 2 * sys->ndof * sizeof *Mknown);
     for (size_t i = 0; i < sys->ndof; i++) known[i] = m->c.b[1] * f->v[i] + (m->c.b[2] - 1) * f->a[i];
     system_add_mass (sys, 1, known, Mknown);
     system_add_mass (sys, 1, a, Ma);
-    for (size_t i = 0; i < sys->ndof; i++) residual[i] -= Ma[i], parts += Mknown[i] * Mknown[i], size += Ma[i] * Ma[i];
+    for (size_t i = 0; i < sys->ndof; i++)
+        residual[i] -= Ma[i], parts += Mknown[i] * Mknown[i], size += Ma[i] * Ma[i];
     *reference = fmax (*reference, fmax (sqrt (size), 1e-6 * sqrt (parts)));
 }
 
@@ -81,9 +86,10 @@ static const dynamics *newmark_dynamics (pg_solver *s)
 static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     int last = state->step + 1 >= s->options.steps;
-    course m = { s, s->backup, coefficients_of (&s->options), last ? s->options.end : (double) (state->step + 1) * s->options.dt };
+    course m = { s, s->backup, coefficients_of (&s->options),
+                 last ? s->options.end : (double) (state->step + 1) * s->options.dt };
     dynamics dyn = *newmark_dynamics (s);
     dyn.add = add_inertia, dyn.context = &m;
     double t = m.t;
@@ -93,18 +99,23 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     rates (&m, state->d, state->v, state->a);
     if (s->options.alpha != 0) PG_TRY (newmark_remember (s, t, state));
     s->report.energy_kinetic = newmark_kinetic (s, state->v);
-    s->report.energy_strain = b->ledger.strain;
+    s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (s->report.energy_strain + s->report.energy_kinetic - b->stored0);
-    if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (b->work_balance.reaction)
+        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     state->time = step->time = t;
     state->factor = step->factor = t / s->options.end;
-    while ((double) s->next_level / (double) s->options.levels <= step->factor * (1 + 1e-12)) s->next_level++, step->level = 1;
+    while ((double) s->next_level / (double) s->options.levels <= step->factor * (1 + 1e-12))
+        s->next_level++, step->level = 1;
     int arrived;
-    PG_TRY (breaker_arrived (b, state, state->d, &arrived));
-    if (arrived) pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at t = %.6g s", s->options.stop_set->name, t);
+    PG_TRY (break_loop_arrived (b, state, state->d, &arrived));
+    if (arrived)
+        pg_statistics_warn (&s->report, "the crack has arrived at %s: the run ends at t = %.6g s",
+                            s->options.stop_set->name, t);
     if (arrived || last) s->finished = 1;
 done:
     return status;
 }
 
-const pg_solver_type pg_solver_newmark = { "newmark", "implicit dynamics, Newmark's method", newmark_start, newmark_step, .dynamics = newmark_dynamics };
+const pg_solver_type pg_solver_newmark = { "newmark", "implicit dynamics, Newmark's method", newmark_start,
+                                           newmark_step, .dynamics = newmark_dynamics };

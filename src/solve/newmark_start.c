@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Newmark's method: where it starts, and nodes whose motion is prescribed by elimination, d = T q + z (t). Their V = T q' + z' and
- * A = T q'' + z'' follow from z: Newmark's own recursion would turn any error in them into an oscillation that never dies.
- * Start: d, V as given but for the supports; T' M T q'' = T' (P - F_int - C V - M z''). */
+ * Newmark's method: where it starts, and nodes whose motion is prescribed by elimination, d = T q + z (t).
+ * Their V = T q' + z' and A = T q'' + z'' follow from z: Newmark's own recursion would turn any error in them
+ * into an oscillation that never dies. Start: d, V as given but for the supports; T' M T q'' = T' (P - F_int
+ * - C V - M z''). */
 #include "solve.h"
 #include <string.h>
 
@@ -13,7 +14,7 @@ static const pg_sparse *elimination (const pg_system *sys)
 /* residual -= C v */
 void newmark_damp (pg_solver *s, const double *v, double *residual)
 {
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     double *Kv = s->work2, cm = s->options.rayleigh_mass, ck = s->options.rayleigh_stiffness;
     system_add_mass (sys, -cm, v, residual);
     if (ck == 0) return;
@@ -25,14 +26,14 @@ void newmark_damp (pg_solver *s, const double *v, double *residual)
 void newmark_resist (pg_solver *s, const double *v, const double *a, double *residual)
 {
     newmark_damp (s, v, residual);
-    system_add_mass (&s->breaker.system, -1, a, residual);
+    system_add_mass (&s->break_loop.system, -1, a, residual);
 }
 
 /* force0 = P - F_int - C V at the state */
 pg_status newmark_remember (pg_solver *s, double t, const pg_state *state)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     double unused;
     PG_TRY (sys->force->balance (sys->self, t, state->d, s->force0, &unused));
     newmark_damp (s, state->v, s->force0);
@@ -42,7 +43,7 @@ done:
 
 double newmark_kinetic (pg_solver *s, const double *v)
 {
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     double sum = 0, *Mv = s->work2;
     memset (Mv, 0, sys->ndof * sizeof *Mv);
     system_add_mass (sys, 1, v, Mv);
@@ -54,7 +55,7 @@ double newmark_kinetic (pg_solver *s, const double *v)
 pg_status newmark_supports (pg_solver *s, double t, int start)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     double *z[3], e = s->options.dt / 16;
     s->support_updates = s->report.updates;
     if (!elimination (sys)) return PG_OK;
@@ -75,17 +76,17 @@ done:
 
 void newmark_follow (pg_solver *s, double t, double *v, double *a)
 {
-    const pg_system *sys = &s->breaker.system;
+    const pg_system *sys = &s->break_loop.system;
     if (!elimination (sys)) return;
     if (s->support_updates != s->report.updates) newmark_supports (s, t, 0);
     for (size_t k = 1; k < 3; k++) {
         double *w = k == 1 ? v : a;
-        sys->force->impose (sys->self, t, w);          /* prescribed nodes: T q + z                                      */
+        sys->force->impose (sys->self, t, w);          /* prescribed nodes: T q + z */
         for (size_t i = 0; i < sys->ndof; i++) w[i] += s->support[k * sys->ndof + i] - s->support[i];
     }
 }
 
-/* ---- start -------------------------------------------------------------------------------------------------------------- */
+/* ---- start --------------------------------------------------------------------------------------------- */
 static void apply_mass (void *context, const double *x, double *y)
 {
     const pg_system *sys = context;
@@ -134,15 +135,15 @@ done:
 static pg_status first_account (pg_solver *s, const pg_state *state)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     s->report.energy_kinetic = newmark_kinetic (s, state->v);
-    if (!sys->force->ledger) goto done;
+    if (!sys->force->work_balance) goto done;
     memset (sys->full, 0, sys->ndof * sizeof *sys->full);
     newmark_resist (s, state->v, state->a, sys->full);
-    PG_TRY (sys->force->ledger (sys->self, state->time, state->d, sys->full, &b->ledger));
-    PG_TRY (breaker_book (b, 1));
-    s->report.energy_strain = b->ledger.strain;
+    PG_TRY (sys->force->work_balance (sys->self, state->time, state->d, sys->full, &b->work_balance));
+    PG_TRY (break_loop_book (b, 1));
+    s->report.energy_strain = b->work_balance.strain;
     b->work = s->report.energy_strain + s->report.energy_kinetic;
 done:
     return status;
@@ -151,7 +152,7 @@ done:
 pg_status newmark_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     size_t ndof = sys->ndof;
     double reference;
     PG_TRY (system_refresh (sys, state, NULL));
@@ -163,7 +164,8 @@ pg_status newmark_start (pg_solver *s, pg_state *state)
     if (s->options.alpha != 0 && !s->force0) PG_ALLOC (s->force0, ndof);
     if (state->step > 0) goto done;
     for (size_t i = 0; i < ndof; i++)
-        if (!(sys->mass[i] > 0)) PG_FAIL (PG_E_USAGE, "newmark needs mass at every point: give the material a density");
+        if (!(sys->mass[i] > 0))
+            PG_FAIL (PG_E_USAGE, "newmark needs mass at every point: give the material a density");
     memset (state->a, 0, ndof * sizeof *state->a);
     if (elimination (sys)) {
         PG_TRY (sys->force->impose (sys->self, state->time, state->d));

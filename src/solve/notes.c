@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-void pg_report_warn (pg_report *report, const char *format, ...)
+void pg_statistics_warn (pg_statistics *report, const char *format, ...)
 {
     if (report->nwarning >= sizeof report->warning / sizeof *report->warning) return;
     va_list args;
@@ -13,7 +13,7 @@ void pg_report_warn (pg_report *report, const char *format, ...)
     va_end (args);
 }
 
-void pg_report_skip (pg_report *report, double seconds, const char *what, const char *why)
+void pg_statistics_skip (pg_statistics *report, double seconds, const char *what, const char *why)
 {
     if (report->nskipped >= sizeof report->skipped / sizeof *report->skipped) return;
     pg_skip *s = &report->skipped[report->nskipped++];

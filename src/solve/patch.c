@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The patch test of a discretisation (Irons): under the tractions of a uniform stress its displacement should be linear. What is measured is
- * that of the body as it is, whatever makes the difference: families cut by the surface, quadrature, modes without energy, rows that bear loads. */
+ * The patch test of a discretisation (Irons): under the tractions of a uniform stress its displacement should
+ * be linear. What is measured is that of the body as it is, whatever makes the difference: families cut by
+ * the surface, quadrature, modes without energy, rows that bear loads. */
 #include "solve.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { STATES = 6, DELAY = 6, FEWEST = 12, MOST = 3000 };
-static const double gain = 1e-4, enough = 1e-7;        /* of the energy of the error found so far; of the linear field's  */
-static const double bonds_paid = 3e8;                  /* visits of bonds that all iterations together may cost           */
+/* of the energy of the error found so far; of the linear field's */
+static const double gain = 1e-4, enough = 1e-7;
+static const double bonds_paid = 3e8;  /* visits of bonds that all iterations together may cost */
 
 typedef struct {
     const pg_problem *p;
@@ -17,16 +19,17 @@ typedef struct {
     pg_state *state;
     size_t    n, dim, stride, ndof, nv;
     const pg_operator *op;
-    double    middle[3], size;                         /* of the body, m                                                 */
-    double   *P, *x, *r, *z, *q, *inverse, *u;         /* P: tractions of a state; inverse: of the diagonal, 0: held     */
-    double    A[STATES * STATES];                      /* of fields of unit strains: one times K times another           */
+    double    middle[3], size;                         /* of the body, m */
+    /* P: tractions of a state; inverse: of the diagonal, 0: held */
+    double   *P, *x, *r, *z, *q, *inverse, *u;
+    double    A[STATES * STATES];  /* of fields of unit strains: one times K times another */
     size_t    limit;
-    int       supported;                               /* supports on points hold the body                               */
-    int       rows;                                    /* loads and supports are borne by the outermost rows             */
+    int       supported;                               /* supports on points hold the body */
+    int       rows;  /* loads and supports are borne by the outermost rows */
     pg_patch  out;
 } probe;
 
-/* ---- fields -------------------------------------------------------------------------------------------------------------- */
+/* ---- fields -------------------------------------------------------------------------------------------- */
 static double dot (size_t n, const double *a, const double *b)
 {
     double s = 0;
@@ -39,7 +42,8 @@ static void find_middle (probe *t)
     double all = 0, square = 0;
     for (size_t i = 0; i < t->n; i++) {
         all += t->p->cloud.volume[i];
-        for (size_t k = 0; k < t->dim; k++) t->middle[k] += t->p->cloud.volume[i] * t->p->cloud.x[i * t->dim + k];
+        for (size_t k = 0; k < t->dim; k++)
+            t->middle[k] += t->p->cloud.volume[i] * t->p->cloud.x[i * t->dim + k];
     }
     for (size_t k = 0; k < t->dim; k++) t->middle[k] /= all;
     for (size_t i = 0; i < t->n * t->dim; i++) {
@@ -49,8 +53,8 @@ static void find_middle (probe *t)
     t->size = sqrt (square / all);
 }
 
-/* Motion m of point i, up to dim displacements and its rotations times the spacing: linear ones of unit strain (engineering shear), then
- * translations and turns. */
+/* Motion m of point i, up to dim displacements and its rotations times the spacing: linear ones of unit
+ * strain (engineering shear), then translations and turns. */
 static void motion_at (const probe *t, size_t m, size_t i, double *d)
 {
     static const int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 2, 0 } };
@@ -64,7 +68,7 @@ static void motion_at (const probe *t, size_t m, size_t i, double *d)
     } else if (m < t->nv + t->dim) d[m - t->nv] = t->size;
     else {
         size_t turn = m - t->nv - t->dim;
-        const int *of = pair[3 + turn];                /* xy, yz, zx                                                     */
+        const int *of = pair[3 + turn];                /* xy, yz, zx */
         d[of[0]] = -x[of[1]], d[of[1]] = x[of[0]];
         d[t->dim + (t->dim == 2 ? 0 : (turn + 2) % 3)] = t->p->cloud.h;
     }
@@ -83,7 +87,8 @@ static void linear_field (const probe *t, const double *strain, size_t stride, d
         }
 }
 
-/* Takes out of f, of stride numbers a point, its least squares of rigid motions, and with linear of linear ones as well; weights: volumes, or 1. */
+/* Takes out of f, of stride numbers a point, its least squares of rigid motions, and with linear of linear
+ * ones as well; weights: volumes, or 1. */
 static void without (const probe *t, size_t stride, int volumes, int linear, double *f)
 {
     size_t first = linear ? 0 : t->nv, last = t->nv + t->dim + t->dim * (t->dim - 1) / 2, m = last - first;
@@ -110,7 +115,7 @@ static void without (const probe *t, size_t stride, int volumes, int linear, dou
         }
 }
 
-/* ---- points at the rim, where there are no facets ---------------------------------------------------------------------------- */
+/* ---- points at the rim, where there are no facets ------------------------------------------------------ */
 /* Neighbours within 1.6 spacings leave one side open. */
 static int outermost (const pg_problem *p, size_t i)
 {
@@ -119,7 +124,8 @@ static int outermost (const pg_problem *p, size_t i)
     double h = pg_problem_spacing (p, PG_NODES, i), sum[3] = { 0 }, count = 0, open = 0;
     for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
         double xi[3] = { 0 }, r = 0;
-        for (size_t k = 0; k < dim; k++) xi[k] = p->cloud.x[(size_t) f->node[e] * dim + k] - p->cloud.x[i * dim + k], r += xi[k] * xi[k];
+        for (size_t k = 0; k < dim; k++)
+            xi[k] = p->cloud.x[(size_t) f->node[e] * dim + k] - p->cloud.x[i * dim + k], r += xi[k] * xi[k];
         r = sqrt (r);
         if (!(r > 0.1 * h) || r > 1.6 * h) continue;
         count++;
@@ -129,7 +135,8 @@ static int outermost (const pg_problem *p, size_t i)
     return sqrt (open) > 0.2 * count || count < (double) dim;
 }
 
-/* Direct forces: is there a load or support that a set no deeper than a horizon bears? Those on facets of other forces are as thin as these. */
+/* Direct forces: is there a load or support that a set no deeper than a horizon bears? Those on facets of
+ * other forces are as thin as these. */
 static int borne_by_rows (const pg_problem *p)
 {
     size_t dim = (size_t) p->dim;
@@ -151,8 +158,9 @@ static int borne_by_rows (const pg_problem *p)
     return 0;
 }
 
-/* ---- one state of stress ------------------------------------------------------------------------------------------------------- */
-/* The strain energy's minimum over linear fields starts it: in a body that is too soft or too stiff everywhere alike it is the answer. */
+/* ---- one state of stress ------------------------------------------------------------------------------- */
+/* The strain energy's minimum over linear fields starts it: in a body that is too soft or too stiff
+ * everywhere alike it is the answer. */
 static void start (probe *t, const double *strain)
 {
     double A[STATES * STATES], b[STATES], one[STATES];
@@ -173,7 +181,8 @@ static void start (probe *t, const double *strain)
     for (size_t i = 0; i < t->ndof; i++) if (t->inverse[i] == 0) t->r[i] = 0;
 }
 
-/* Conjugate gradients; what an iteration takes off the energy of the error tells when to stop (Hestenes and Stiefel; Strakos and Tichy). */
+/* Conjugate gradients; what an iteration takes off the energy of the error tells when to stop (Hestenes and
+ * Stiefel; Strakos and Tichy). */
 static double iterate (probe *t, double scale)
 {
     double rz = 0, found = 0, late[DELAY] = { 0 };
@@ -201,7 +210,8 @@ static double iterate (probe *t, double scale)
     return found;
 }
 
-/* Energy that rough forces of unit size put into the body, over their number: where next to nothing resists some motion, it has no bound. */
+/* Energy that rough forces of unit size put into the body, over their number: where next to nothing resists
+ * some motion, it has no bound. */
 static double measure_softness (probe *t)
 {
     unsigned long long seed = 1;
@@ -226,32 +236,37 @@ static double size_of (const probe *t, const double *f)
     return s;
 }
 
-/* nosb, whose unknowns are the displacements of the points: supports that hold these leave the traction that the shape functions of other points see
- * on the facet unanswered, which those of Nitsche do not. 0: there are none. */
+/* nosb, whose unknowns are the displacements of the points: supports that hold these leave the traction that
+ * the shape functions of other points see on the facet unanswered, which those of Nitsche do not. 0: there
+ * are none. */
 static int mark_supports (probe *t, const pg_problem *p)
 {
     size_t marked = 0;
     if (p->direct || strcmp (p->approx.type->name, "nosb") != 0 || !t->p->borne) return 0;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        if (!pg_load_prescribes (load) || load->essential == PG_ESSENTIAL_NITSCHE || !load->set->nfacet) continue;
+        if (!pg_load_prescribes (load) || load->essential == PG_ESSENTIAL_NITSCHE || !load->set->nfacet)
+            continue;
         for (size_t k = 0; k < t->dim; k++) {
             if (!load->value[k]) continue;
-            for (size_t i = 0; i < load->set->npoint; i++) t->inverse[(size_t) load->set->point[i] * t->stride + k] = 0, marked++;
-            for (size_t i = 0; i < load->set->nfacet; i++) t->p->borne[load->set->facet[i]] |= (unsigned char) (1u << k);
+            for (size_t i = 0; i < load->set->npoint; i++)
+                t->inverse[(size_t) load->set->point[i] * t->stride + k] = 0, marked++;
+            for (size_t i = 0; i < load->set->nfacet; i++)
+                t->p->borne[load->set->facet[i]] |= (unsigned char) (1u << k);
         }
     }
     t->supported = marked > 0;
     return t->supported;
 }
 
-/* A bar's displacement has half the size about its middle that it has about its end, from which displacements are commonly counted: what is not
- * linear in the error is measured against that. Held or read off where it bears loads, the body moves by what its surface gives way: that is in
- * the work of the tractions. */
+/* A bar's displacement has half the size about its middle that it has about its end, from which displacements
+ * are commonly counted: what is not linear in the error is measured against that. Held or read off where it
+ * bears loads, the body moves by what its surface gives way: that is in the work of the tractions. */
 static pg_status measure_state (probe *t, size_t v)
 {
     pg_status status = PG_OK;
-    double stress[STATES] = { 0 }, strain[STATES] = { 0 }, D[STATES * STATES], volume = 0, work, exact, whole, local, compliance, error;
+    double stress[STATES] = { 0 }, strain[STATES] = { 0 }, D[STATES * STATES], volume = 0, work, exact, whole,
+           local, compliance, error;
     int components;
     const char *unit;
     stress[v] = strain[v] = 1;
@@ -273,9 +288,10 @@ static pg_status measure_state (probe *t, size_t v)
     whole = size_of (t, t->q);
     without (t, t->dim, 1, 1, t->q);
     local = size_of (t, t->q);
-    error = sqrt ((whole - 0.75 * local) / exact), compliance = t->out.held ? NAN : dot (t->ndof, t->P, t->x) / work - 1;
+    error = sqrt ((whole - 0.75 * local) / exact),
+    compliance = t->out.held ? NAN : dot (t->ndof, t->P, t->x) / work - 1;
     if (t->supported) error = 0.5 * sqrt (whole / exact), compliance = NAN;
-    if (t->rows) error = fmax (error, fabs (compliance));              /* fmax passes NAN by                             */
+    if (t->rows) error = fmax (error, fabs (compliance));              /* fmax passes NAN by */
     if (t->out.measured && !(error > (1 + 1e-6) * t->out.error) && !isnan (error)) goto done;
     t->out.measured = 1, t->out.error = isnan (error) ? INFINITY : error, t->out.state = (int) v;
     t->out.compliance = compliance;
@@ -283,15 +299,17 @@ done:
     return status;
 }
 
-/* ---- the probe --------------------------------------------------------------------------------------------------------------------- */
+/* ---- the probe ----------------------------------------------------------------------------------------- */
 static pg_status prepare (probe *t)
 {
     pg_status status = PG_OK;
     pg_field field[8];
     size_t stride = 0, nbond = t->p->first_bond[PG_BOND_SETS];
     PG_TRY (t->force->create (&t->self, t->p));
-    for (size_t k = 0, n = t->force->fields (t->self, 8, field); k < n && k < 8; k++) stride += (size_t) field[k].components;
-    t->n = t->p->cloud.n, t->dim = (size_t) t->p->dim, t->stride = stride, t->ndof = t->n * stride, t->nv = (size_t) pg_voigt_size (t->p->dim);
+    for (size_t k = 0, n = t->force->fields (t->self, 8, field); k < n && k < 8; k++)
+        stride += (size_t) field[k].components;
+    t->n = t->p->cloud.n, t->dim = (size_t) t->p->dim, t->stride = stride, t->ndof = t->n * stride,
+    t->nv = (size_t) pg_voigt_size (t->p->dim);
     PG_TRY (pg_state_create (&t->state, t->p, (int) stride));
     if (t->force->refresh) PG_TRY (t->force->refresh (t->self, t->state, NULL));
     t->op = t->force->operator_ (t->self);
@@ -322,7 +340,8 @@ done:
 
 static void clear (probe *t)
 {
-    pg_free (t->P), pg_free (t->x), pg_free (t->r), pg_free (t->z), pg_free (t->q), pg_free (t->inverse), pg_free (t->u);
+    pg_free (t->P), pg_free (t->x), pg_free (t->r), pg_free (t->z), pg_free (t->q), pg_free (t->inverse),
+        pg_free (t->u);
     pg_state_free (&t->state);
     if (t->self) t->force->free (&t->self);
 }

@@ -22,9 +22,14 @@ void pg_patch_words (const pg_problem *p, char *out, size_t size)
 {
     const pg_patch *t = &p->patch;
     char by[60] = "";
-    if (t->error >= 0.01 && fabs (t->compliance) >= 0.5 * t->error) snprintf (by, sizeof by, ": this body is %.4g %% too %s", percent (t->compliance), t->compliance > 0 ? "soft" : "stiff");
-    if (t->error < 1e-5) snprintf (out, size, "under uniform stress the displacement is off by less than 0.001 %%");
-    else snprintf (out, size, "under uniform stress %s the displacement is off by %s%.4g %%%s", pg_patch_state (p), t->settled ? "" : "at least ", percent (t->error), by);
+    if (t->error >= 0.01 && fabs (t->compliance) >= 0.5 * t->error)
+        snprintf (by, sizeof by, ": this body is %.4g %% too %s", percent (t->compliance),
+                  t->compliance > 0 ? "soft" : "stiff");
+    if (t->error < 1e-5)
+        snprintf (out, size, "under uniform stress the displacement is off by less than 0.001 %%");
+    else
+        snprintf (out, size, "under uniform stress %s the displacement is off by %s%.4g %%%s",
+                  pg_patch_state (p), t->settled ? "" : "at least ", percent (t->error), by);
 }
 
 /* Points across the thinnest side of the box around all points */
@@ -34,7 +39,8 @@ static double thinnest (const pg_problem *p)
     double least = INFINITY;
     for (size_t k = 0; k < dim; k++) {
         double low = INFINITY, high = -INFINITY;
-        for (size_t i = 0; i < p->cloud.n; i++) low = fmin (low, p->cloud.x[i * dim + k]), high = fmax (high, p->cloud.x[i * dim + k]);
+        for (size_t i = 0; i < p->cloud.n; i++)
+            low = fmin (low, p->cloud.x[i * dim + k]), high = fmax (high, p->cloud.x[i * dim + k]);
         least = fmin (least, (high - low) / (p->lattice.dim ? p->cloud.step[k] : p->cloud.h) + 1);
     }
     return round (least);
@@ -43,18 +49,35 @@ static double thinnest (const pg_problem *p)
 void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
 {
     double reach = p->approx.horizon / p->cloud.h, across = thinnest (p);
-    int rkpm = strcmp (p->approx.type->name, "rkpm") == 0, consistent = p->integration->consistent, smooth = strcmp (p->approx.kernel->name, "cubic_spline") == 0;
+    int rkpm = strcmp (p->approx.type->name, "rkpm") == 0, consistent = p->integration->consistent,
+        smooth = strcmp (p->approx.kernel->name, "cubic_spline") == 0;
     if (p->direct && across < 4 * reach)
-        snprintf (out, size, "bond-type forces want at least %.0f points across, four horizons, and this body has %.0f: use a smaller spacing or force: galerkin", ceil (4 * reach), across);
+        snprintf (out, size,
+                  "bond-type forces want at least %.0f points across, four horizons, and this body has %.0f: "
+                  "use a smaller spacing or force: galerkin",
+                  ceil (4 * reach), across);
     else if (p->direct && p->lattice.dim && p->cloud.step[0] > 0)
-        snprintf (out, size, "families cut by the surface and rows that bear loads make the difference: use a smaller spacing, a smaller horizon (now %.3g spacings), or force: galerkin", reach);
+        snprintf (out, size,
+                  "families cut by the surface and rows that bear loads make the difference: use a smaller "
+                  "spacing, a smaller horizon (now %.3g spacings), or force: galerkin",
+                  reach);
     else if (p->direct)
-        snprintf (out, size, "points that lie unevenly, or a kernel and horizon that few points sum badly: use a lattice, a smaller spacing, horizon: 3 spacing, or force: galerkin");
-    else if (p->cells.n == 0) snprintf (out, size, "points without cells are integrated by their volumes: use points that lie more evenly, or a mesh or body with integration: consistent");
+        snprintf (out, size,
+                  "points that lie unevenly, or a kernel and horizon that few points sum badly: use a "
+                  "lattice, a smaller spacing, horizon: 3 spacing, or force: galerkin");
+    else if (p->cells.n == 0)
+        snprintf (out, size,
+                  "points without cells are integrated by their volumes: use points that lie more evenly, or "
+                  "a mesh or body with integration: consistent");
     else if (strcmp (p->approx.type->name, "nosb") == 0)
-        snprintf (out, size, "use %sessential: nitsche (supports on the points of nosb are not consistent), or approximation: rkpm", consistent ? "" : "integration: consistent and ");
+        snprintf (out, size,
+                  "use %sessential: nitsche (supports on the points of nosb are not consistent), or "
+                  "approximation: rkpm",
+                  consistent ? "" : "integration: consistent and ");
     else if (!consistent)
-        snprintf (out, size, "use integration: consistent%s%s", rkpm ? "" : ", with approximation: rkpm if the horizon is wide", smooth ? "" : ", or kernel: cubic_spline");
+        snprintf (out, size, "use integration: consistent%s%s",
+                  rkpm ? "" : ", with approximation: rkpm if the horizon is wide",
+                  smooth ? "" : ", or kernel: cubic_spline");
     else snprintf (out, size, "use a smaller spacing%s", rkpm ? "" : ", or approximation: rkpm");
 }
 
@@ -64,12 +87,17 @@ pg_status pg_patch_refuse (const pg_problem *p, const pg_scene *scene)
     char words[240], remedy[240];
     if (!t->measured) return PG_OK;
     if (4 * t->degenerate > t->points)
-        pg_scene_fault (scene, "method.horizon", "%zu of %zu evaluation points see too few points for a strain and would carry no stress: use a larger horizon%s "
-                        "(now %.4g spacings), or a finer spacing", t->degenerate, t->points, p->approx.order == 2 ? ", or basis: linear" : "", p->approx.horizon / p->cloud.h);
+        pg_scene_fault (scene, "method.horizon",
+                        "%zu of %zu evaluation points see too few points for a strain and would carry no "
+                        "stress: use a larger horizon%s "
+                        "(now %.4g spacings), or a finer spacing",
+                        t->degenerate, t->points, p->approx.order == 2 ? ", or basis: linear" : "",
+                        p->approx.horizon / p->cloud.h);
     else if (!(t->error <= PG_PATCH_REFUSED) && !p->accept_inexact) {
         pg_patch_words (p, words, sizeof words);
         pg_patch_remedy (p, remedy, sizeof remedy);
-        pg_scene_fault (scene, "method", "%s; %s, or method.accept_inexact: yes to run all the same", words, remedy);
+        pg_scene_fault (scene, "method", "%s; %s, or method.accept_inexact: yes to run all the same", words,
+                        remedy);
     }
     return pg_scene_verdict (scene);
 }

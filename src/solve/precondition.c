@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K delta = R for forces that tell the rows of K, by conjugate gradients with the multilevel preconditioner, over all unknowns with the
- * prescribed ones blanked. Breaking leaves an old preconditioner valid: it is made anew when the iterations that it has cost above those of its
- * first solve would have paid for another (rent or buy, counted in iterations, never by the clock). */
+ * K delta = R for forces that tell the rows of K, by conjugate gradients with the multilevel preconditioner,
+ * over all unknowns with the prescribed ones blanked. Breaking leaves an old preconditioner valid: it is made
+ * anew when the iterations that it has cost above those of its first solve would have paid for another (rent
+ * or buy, counted in iterations, never by the clock). */
 #include "solve.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { RENEWAL = 20, MOST_ITERATIONS = 200 };          /* a new preconditioner costs about so many iterations            */
+enum { RENEWAL = 20, MOST_ITERATIONS = 200 };  /* a new preconditioner costs about so many iterations */
 
 /* T selects unknowns: one entry 1 in each column, no row twice. */
 static pg_status find_fixed (pg_system *s, const pg_sparse *T, int *selects)
@@ -30,7 +31,9 @@ pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
 {
     pg_status status = PG_OK;
     *can = 0;
-    if (dyn || !s->force->couplings || !s->force->operator_ || strcmp (s->options->preconditioner, "jacobi") == 0) return PG_OK;
+    if (dyn || !s->force->couplings || !s->force->operator_
+        || strcmp (s->options->preconditioner, "jacobi") == 0)
+        return PG_OK;
     PG_TRY (find_fixed (s, s->force->basis ? s->force->basis (s->self) : NULL, can));
 done:
     return status;
@@ -40,19 +43,24 @@ static void tell (pg_system *s)
 {
     pg_multilevel_info info;
     char *text = s->report->preconditioner;
-    size_t room = sizeof s->report->preconditioner, at = 0;
+    size_t workspace = sizeof s->report->preconditioner, at = 0;
     pg_multilevel_describe (s->multilevel, &info);
-    at = (size_t) snprintf (text, room, "multilevel, %d levels of", info.levels);
-    for (int k = 0; k < info.levels && k < 8 && at < room; k++)
-        at += (size_t) snprintf (text + at, room - at, "%s%zu", k ? ", " : " ", info.unknowns[k]);
-    if (at < room) snprintf (text + at, room - at, " unknowns");
+    at = (size_t) snprintf (text, workspace, "multilevel, %d levels of", info.levels);
+    for (int k = 0; k < info.levels && k < 8 && at < workspace; k++)
+        at += (size_t) snprintf (text + at, workspace - at, "%s%zu", k ? ", " : " ", info.unknowns[k]);
+    if (at < workspace) snprintf (text + at, workspace - at, " unknowns");
 }
 
 pg_status system_make_multilevel (pg_system *s)
 {
     pg_status status = PG_OK;
-    pg_multilevel_setting setting = { .dim = s->problem->dim, .block = s->components, .threads = s->problem->threads, .n = s->problem->cloud.n,
-                                      .x = s->problem->cloud.x, .fixed = s->fixed, .A = s->force->operator_ (s->self) };
+    pg_multilevel_setting setting = { .dim = s->problem->dim,
+                                      .block = s->components,
+                                      .threads = s->problem->threads,
+                                      .n = s->problem->cloud.n,
+                                      .x = s->problem->cloud.x,
+                                      .fixed = s->fixed,
+                                      .A = s->force->operator_ (s->self) };
     double t0 = pg_seconds ();
     pg_multilevel_free (&s->multilevel);
     PG_TRY (s->force->couplings (s->self, &setting.rows));
@@ -73,7 +81,8 @@ static void apply_free (void *context, const double *x, double *y)
     for (size_t i = 0; i < s->ndof; i++) if (s->fixed[i]) y[i] = 0;
 }
 
-/* Solves; keeps account of what an older preconditioner costs: pace is the gain of one iteration, as a logarithm, when it was new. */
+/* Solves; keeps account of what an older preconditioner costs: pace is the gain of one iteration, as a
+ * logarithm, when it was new. */
 static pg_status iterate (pg_system *s, double tolerance, size_t *used)
 {
     pg_operator op = { s->ndof, s, apply_free, NULL };
@@ -99,7 +108,8 @@ pg_status system_iterate_multilevel (pg_system *s, double tolerance)
     else s->spared += s->stale;
     strcpy (s->report->solver, "cg");
     pg_status now = iterate (s, tolerance, &used);
-    if ((now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD) && s->stale) {            /* made before the last break: once more */
+    /* made before the last break: once more */
+    if ((now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD) && s->stale) {
         PG_TRY (system_make_multilevel (s));
         now = iterate (s, tolerance, &used);
     }

@@ -4,10 +4,11 @@
 #define PG_SOLVE_PRIVATE_H
 #include "perigal/solve.h"
 
-/* ---- system.c: equilibrium of a force at given alive bits --------------------------------------------------------------- */
-typedef struct {                                       /* what inertia and damping add (NULL: static)                    */
-    double k, m;                                       /* matrix = k K + m M                                             */
-    void (*add) (void *context, const double *d, double *residual, double *reference);     /* reference: at least its size */
+/* ---- system.c: equilibrium of a force at given alive bits ---------------------------------------------- */
+typedef struct {                                       /* what inertia and damping add (NULL: static) */
+    double k, m;                                       /* matrix = k K + m M */
+    /* reference: at least its size */
+    void (*add) (void *context, const double *d, double *residual, double *reference);
     void  *context;
 } dynamics;
 
@@ -19,150 +20,171 @@ typedef struct {
     const pg_force_type *force;
     void                *self;
     const pg_solver_options *options;
-    pg_report           *report;
-    int       components, stale, umfpack, mode, unshifted, all_weak;       /* all_weak: every unknown gets the shift (touched)  */
-    unsigned long revision;                            /* of K when it was last factored or found stale                  */
-    long      spared;                                  /* solves by the factor of an earlier K                           */
-    long      kept;                                    /* refreshes that left K as it was                                */
+    pg_statistics           *report;
+    /* all_weak: every unknown gets the shift (touched) */
+    int       components, stale, umfpack, mode, unshifted, all_weak;
+    unsigned long revision;                            /* of K when it was last factored or found stale */
+    long      spared;                                  /* solves by the factor of an earlier K */
+    long      kept;                                    /* refreshes that left K as it was */
     size_t    ndof, nred;
     const pg_linear_type *linear;
     void     *factor;
-    pg_sparse A;                                       /* the factored matrix: values owned; pattern of K or reduced     */
-    double   *copy;                                    /* with elimination: values of k K + m M before the reduction     */
-    double   *diagonal0, mean_diagonal;                /* of the first K                                                 */
-    unsigned char *touched; int marked;                /* nodes that the pre-cracks touched (n); 1: found                */
-    double   *mass;                                    /* lumped, per unknown, kg                                        */
-    const pg_sparse *M;                                /* consistent, or NULL                                            */
+    pg_sparse A;  /* the factored matrix: values owned; pattern of K or reduced */
+    double   *copy;  /* with elimination: values of k K + m M before the reduction */
+    double   *diagonal0, mean_diagonal;                /* of the first K */
+    unsigned char *touched; int marked;                /* nodes that the pre-cracks touched (n); 1: found */
+    double   *mass;                                    /* lumped, per unknown, kg */
+    const pg_sparse *M;                                /* consistent, or NULL */
     double   *residual, *reduced, *delta, *full, *best, *scratch;
-    double    reference, unbalanced;                   /* of the last state measured, N: its forces; what it lacks to balance */
-    double    borne;                                   /* the largest reference of an accepted state of fixed load steps, N */
+    /* of the last state measured, N: its forces; what it lacks to balance */
+    double    reference, unbalanced;
+    double    borne;  /* the largest reference of an accepted state of fixed load steps, N */
     double    shift;
-    double    rent;                                    /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
-    pg_multilevel *multilevel;                         /* NULL: not used, or not made yet                                */
-    unsigned char *fixed;                              /* unknowns that T leaves out (ndof); NULL: not asked for         */
-    int       remake;                                  /* read back: the preconditioner is to be made from `factored`    */
-    double    pace;                                    /* - log of the residual's fall in one iteration, preconditioner new; 0: not known */
+    /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
+    double    rent;
+    pg_multilevel *multilevel;                         /* NULL: not used, or not made yet */
+    unsigned char *fixed;  /* unknowns that T leaves out (ndof); NULL: not asked for */
+    int       remake;  /* read back: the preconditioner is to be made from `factored` */
+    double    pace;  /* - log of the residual's fall in one iteration, preconditioner new; 0: not known */
     size_t    matrix_iterations;
-    const unsigned char *alive;                        /* of the last refresh, borrowed                                  */
-    unsigned char *factored;                           /* what lived when the factor or preconditioner was made          */
+    const unsigned char *alive;                        /* of the last refresh, borrowed */
+    unsigned char *factored;  /* what lived when the factor or preconditioner was made */
 } pg_system;
-int       system_has_matrix (const pg_system *s);       /* the force offers K itself                                      */
-pg_status system_create  (pg_system *s);               /* fields up to report set by the caller                           */
+int       system_has_matrix (const pg_system *s);       /* the force offers K itself */
+pg_status system_create  (pg_system *s);               /* fields up to report set by the caller */
 void      system_free    (pg_system *s);
-pg_status system_factorize (pg_system *s, const dynamics *dyn);                      /* k K + m M of the last refresh  */
-void      system_remember_diagonal (pg_system *s, const pg_sparse *K);               /* once; K NULL: by the operator  */
+pg_status system_factorize (pg_system *s, const dynamics *dyn);  /* k K + m M of the last refresh */
+void      system_remember_diagonal (pg_system *s, const pg_sparse *K);  /* once; K NULL: by the operator */
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
-void      system_multiply (const pg_system *s, const double *x, double *y);        /* y = K x, by operator or matrix       */
-/* delta = (k K + m M)^-1 reduced by conjugate gradients, preconditioned by the factor at hand or by the diagonal (iterate.c). */
-pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, double tolerance, size_t limit, size_t *used);
-/* The same for K alone by conjugate gradients with the multilevel preconditioner, made when needed (precondition.c). */
+/* y = K x, by operator or matrix */
+void      system_multiply (const pg_system *s, const double *x, double *y);
+/* delta = (k K + m M)^-1 reduced by conjugate gradients, preconditioned by the factor at hand or by the
+ * diagonal (iterate.c). */
+pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, double tolerance, size_t limit,
+                          size_t *used);
+/* The same for K alone by conjugate gradients with the multilevel preconditioner, made when needed
+ * (precondition.c). */
 pg_status system_iterate_multilevel (pg_system *s, double tolerance);
-pg_status system_make_multilevel (pg_system *s);                                     /* from the last refresh          */
+pg_status system_make_multilevel (pg_system *s);  /* from the last refresh */
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can);
-pg_status system_remember_alive (pg_system *s);        /* in `factored`                                                  */
-/* d becomes the equilibrium at t; *residual relative to the reference force. PG_E_EQUILIBRIUM when it stays above the tolerance. */
+pg_status system_remember_alive (pg_system *s);        /* in `factored` */
+/* d becomes the equilibrium at t; *residual relative to the reference force. PG_E_EQUILIBRIUM when it stays
+ * above the tolerance. */
 pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 
 /* mass.c: y += factor M x; d += factor diag M; value += factor M */
-pg_status system_mass (pg_system *s);                  /* after the first refresh                                        */
+pg_status system_mass (pg_system *s);                  /* after the first refresh */
 void system_add_mass (const pg_system *s, double factor, const double *x, double *y);
 void system_add_mass_diagonal (const pg_system *s, double factor, double *d);
 void system_add_mass_matrix (const pg_system *s, double factor, const pg_sparse *K, double *value);
 
-/* ---- equilibrate.c -------------------------------------------------------------------------------------------------------- */
+/* ---- equilibrate.c ------------------------------------------------------------------------------------- */
 typedef struct {
     pg_system  system;
-    double    *utilisation, *factor;                   /* per bond                                                       */
+    double    *utilisation, *factor;                   /* per bond */
     char      *kind;
-    pg_changes changes;                                /* died in the last round                                         */
-    pg_broken *broken; size_t nbroken, cap_broken;     /* died in this step                                              */
-    long       round;                                  /* break rounds of the step at hand; > 0 between steps: it was stopped in its middle */
-    long       began;                                  /* round at which this call began                                 */
-    pg_watch   watch; void *watching; int stopped;     /* the caller's look between rounds; 1: it ended the step         */
-    double     work0, stored0;                         /* at the start of the step, J                                    */
-    pg_ledger  ledger, before;                         /* now; at the last accounted state                               */
-    double     work;                                   /* external work, J                                               */
-    double    *damage;                                 /* with stop.set (6 n)                                            */
-    double     nearest, nearest0; int looked;          /* largest damage of stop.set: now, when it was first looked at   */
-} breaker;
-pg_status breaker_create (breaker *b);
-void      breaker_free   (breaker *b);
+    pg_changes changes;                                /* died in the last round */
+    pg_broken *broken; size_t nbroken, cap_broken;     /* died in this step */
+    long       round;  /* break rounds of the step at hand; > 0 between steps: it was stopped in its middle */
+    long       began;                                  /* round at which this call began */
+    /* the caller's look between rounds; 1: it ended the step */
+    pg_watch   watch; void *watching; int stopped;
+    double     work0, stored0;                         /* at the start of the step, J */
+    pg_work_balance  work_balance, before;                         /* now; at the last accounted state */
+    double     work;                                   /* external work, J */
+    double    *damage;                                 /* with stop.set (6 n) */
+    /* largest damage of stop.set: now, when it was first looked at */
+    double     nearest, nearest0; int looked;
+} break_loop;
+pg_status break_loop_create (break_loop *b);
+void      break_loop_free   (break_loop *b);
 /* The arrays of a sweep of utilisation, when they are first needed. */
-pg_status breaker_ready  (breaker *b);
+pg_status break_loop_ready  (break_loop *b);
 /* Notes a bond that died at time (or load factor) t. */
-pg_status breaker_log    (breaker *b, size_t bond, char kind, double utilisation, double t);
+pg_status break_loop_log    (break_loop *b, size_t bond, char kind, double utilisation, double t);
 /* Kills the bonds with measure[i] >= cut, logs them with the given utilisation scale. */
-pg_status breaker_kill   (breaker *b, pg_state *state, const double *measure, double cut, double scale, double t);
+pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure, double cut, double scale,
+                           double t);
 /* Solve, break, update, solve ... at time t until no bond is over its limit; d is left in equilibrium. */
-pg_status equilibrate    (breaker *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step);
-/* Live bonds over their limit (and its ties) in the last sweep, measured utilisation times scale; *top: the largest. */
-long      breaker_over   (const breaker *b, const pg_state *state, double scale, double *top);
-/* The ledger of (t, d), and with it the work done between the last accounted state and this one (loads scaled by `scale`). */
-pg_status breaker_account (breaker *b, double t, const double *d, const dynamics *dyn, double scale);
-/* The work alone, from the ledger at hand. */
-pg_status breaker_book    (breaker *b, double scale);
+pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn,
+                       pg_step *step);
+/* Live bonds over their limit (and its ties) in the last sweep, measured utilisation times scale; *top: the
+ * largest. */
+long      break_loop_over   (const break_loop *b, const pg_state *state, double scale, double *top);
+/* The work_balance of (t, d), and with it the work done between the last accounted state and this one (loads
+ * scaled by `scale`). */
+pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale);
+/* The work alone, from the work balance at hand. */
+pg_status break_loop_book    (break_loop *b, double scale);
 /* Has the damage of a point of options.stop_set reached options.stop_damage? */
-pg_status breaker_arrived (breaker *b, const pg_state *state, const double *d, int *arrived);
+pg_status break_loop_arrived (break_loop *b, const pg_state *state, const double *d, int *arrived);
 
-/* ---- methods ---------------------------------------------------------------------------------------------------------------- */
+/* ---- methods ------------------------------------------------------------------------------------------- */
 typedef struct {
     const char *name, *summary;
-    pg_status (*start) (pg_solver *s, pg_state *state);           /* before the first step                               */
+    pg_status (*start) (pg_solver *s, pg_state *state);           /* before the first step */
     pg_status (*step)  (pg_solver *s, pg_state *state, pg_step *step);
     int       (*done)  (const pg_solver *s, const pg_state *state);
     void      (*free)  (pg_solver *s);
-    const dynamics *(*dynamics) (pg_solver *s);        /* what the matrix holds besides K (NULL: nothing)                */
-    enum { SOLVES, MARCHES, RELAXES } way;             /* by linear systems; explicit time steps; stages of relaxation   */
-    pg_status (*prepare) (pg_solver *s);               /* when the solver is made: settles s->options; NULL: nothing      */
-    void      (*refused) (pg_solver *s);               /* the state goes back to s->backup; NULL: nothing                */
-    pg_status (*keep)    (pg_solver *s, const pg_keeper *keeper);      /* what it carries from step to step; NULL: nothing */
-    double    (*progress) (const pg_solver *s, const pg_state *state); /* NULL: steps done of options.steps              */
+    const dynamics *(*dynamics) (pg_solver *s);        /* what the matrix holds besides K (NULL: nothing) */
+    enum { SOLVES, MARCHES, RELAXES } way;  /* by linear systems; explicit time steps; stages of relaxation */
+    pg_status (*prepare) (pg_solver *s);  /* when the solver is made: settles s->options; NULL: nothing */
+    void      (*refused) (pg_solver *s);               /* the state goes back to s->backup; NULL: nothing */
+    /* what it carries from step to step; NULL: nothing */
+    pg_status (*keep)    (pg_solver *s, const pg_keeper *keeper);
+    double    (*progress) (const pg_solver *s, const pg_state *state); /* NULL: steps done of options.steps */
 } pg_solver_type;
-const pg_solver_type *solver_type_find (const char *name);             /* NULL: unknown                                  */
-/* PG_E_SCENE: what is found wrong with a key while the solver is made, placed in the scene if options.scene knows it. */
-pg_status solver_fault (const pg_solver *s, const char *key, const char *format, ...) __attribute__ ((format (printf, 3, 4)));
-typedef struct motion motion;                          /* explicit.h                                                     */
+const pg_solver_type *solver_type_find (const char *name);             /* NULL: unknown */
+/* PG_E_SCENE: what is found wrong with a key while the solver is made, placed in the scene if options.scene
+ * knows it. */
+pg_status solver_fault (const pg_solver *s, const char *key, const char *format, ...)
+    __attribute__ ((format (printf, 3, 4)));
+typedef struct motion motion;                          /* explicit.h */
 
 struct pg_solver {
     const pg_solver_type *type;
     pg_solver_options options;
     const pg_problem *problem;
-    breaker   breaker;
-    pg_report report;
+    break_loop   break_loop;
+    pg_statistics report;
     int       started, finished, overlap_told, energy_told, skips_told, spared_told;
-    long      next_level;                              /* next level to report: next_level / levels                      */
-    double   *unit;                                    /* event stepping: displacement at load factor 1                  */
-    double   *base;                                    /* affine loads: at load factor 0                                 */
-    long      held;                                    /* affine loads: events at a held load factor                     */
-    double    unit_residual;                           /* of `unit`                                                      */
-    pg_status ended;  char why[1024];                  /* event stepping: why no step can follow, told by the next       */
-    int       ledger_fresh;                            /* the ledger is that of `unit`                                   */
-    double    secant0;                                 /* event stepping: first work per squared load factor             */
-    double    secant, top_factor;                      /* event stepping: work per squared load factor over the first; largest load factor */
-    pg_state *backup;                                  /* last accepted state, for refused steps                         */
+    long      next_level;                              /* next level to report: next_level / levels */
+    double   *unit;                                    /* event stepping: displacement at load factor 1 */
+    double   *base;                                    /* affine loads: at load factor 0 */
+    long      held;                                    /* affine loads: events at a held load factor */
+    double    unit_residual;                           /* of `unit` */
+    pg_status ended;  char why[1024];  /* event stepping: why no step can follow, told by the next */
+    int       work_balance_fresh;                            /* the work balance is that of `unit` */
+    double    secant0;  /* event stepping: first work per squared load factor */
+    /* event stepping: work per squared load factor over the first; largest load factor */
+    double    secant, top_factor;
+    pg_state *backup;                                  /* last accepted state, for refused steps */
     double   *reaction;
-    double   *work1, *work2, *work3, *work4;           /* newmark (work4: 3 x ndof)                                      */
-    double   *force0;                                  /* newmark with alpha: loads less resistance at the last step's end, N */
-    dynamics  dyn;                                     /* newmark: coefficients of its matrix                            */
-    double   *support;                                 /* newmark: motion z, z', z'' of prescribed nodes (3 x ndof)      */
-    motion   *motion;                                  /* explicit and relaxed methods                                   */
-    long      support_updates;                         /* report.updates when it was found: breaking changes z           */
+    double   *work1, *work2, *work3, *work4;           /* newmark (work4: 3 x ndof) */
+    double   *force0;  /* newmark with alpha: loads less resistance at the last step's end, N */
+    dynamics  dyn;                                     /* newmark: coefficients of its matrix */
+    double   *support;  /* newmark: motion z, z', z'' of prescribed nodes (3 x ndof) */
+    motion   *motion;                                  /* explicit and relaxed methods */
+    long      support_updates;  /* report.updates when it was found: breaking changes z */
 };
 
-/* ---- static.c, affine.c: events ------------------------------------------------------------------------------------------------- */
-pg_status affine_solve (pg_solver *s);                 /* both equilibria                                                */
+/* ---- static.c, affine.c: events ------------------------------------------------------------------------ */
+pg_status affine_solve (pg_solver *s);                 /* both equilibria */
 pg_status affine_step  (pg_solver *s, pg_state *state, pg_step *step);
 /* What the equilibrium after an event came to: 1: there is none, and the next step says why. */
 int       event_ended  (pg_solver *s, const pg_state *state, double factor, pg_status now);
-pg_status event_stops  (pg_solver *s, const pg_state *state, double factor, double secant);       /* crack arrived, body apart    */
-void      event_limit  (pg_solver *s, const pg_state *state, double factor);                      /* max_events                   */
+/* crack arrived, body apart */
+pg_status event_stops  (pg_solver *s, const pg_state *state, double factor, double secant);
+void      event_limit  (pg_solver *s, const pg_state *state, double factor);  /* max_events */
 
-/* ---- newmark_start.c --------------------------------------------------------------------------------------------------------- */
+/* ---- newmark_start.c ----------------------------------------------------------------------------------- */
 pg_status newmark_start    (pg_solver *s, pg_state *state);
-pg_status newmark_supports (pg_solver *s, double t, int start);                  /* fills s->support for time t              */
-void      newmark_follow   (pg_solver *s, double t, double *v, double *a);       /* V and A of prescribed nodes from support */
-void      newmark_resist   (pg_solver *s, const double *v, const double *a, double *residual);     /* residual -= M a + C v  */
+pg_status newmark_supports (pg_solver *s, double t, int start);  /* fills s->support for time t */
+/* V and A of prescribed nodes from support */
+void      newmark_follow   (pg_solver *s, double t, double *v, double *a);
+/* residual -= M a + C v */
+void      newmark_resist   (pg_solver *s, const double *v, const double *a, double *residual);
 void      newmark_damp     (pg_solver *s, const double *v, double *residual);
-pg_status newmark_remember (pg_solver *s, double t, const pg_state *state);      /* fills s->force0                      */
+pg_status newmark_remember (pg_solver *s, double t, const pg_state *state);      /* fills s->force0 */
 double    newmark_kinetic  (pg_solver *s, const double *v);
 #endif

@@ -23,7 +23,8 @@ const char *pg_solver_names (void)
     size_t at = 0;
     if (names[0]) return names;
     char text[256];
-    for (size_t i = 0; i < COUNT; i++) at += (size_t) snprintf (text + at, sizeof text - at, "%s%s", i ? "|" : "", entries[i]->name);
+    for (size_t i = 0; i < COUNT; i++)
+        at += (size_t) snprintf (text + at, sizeof text - at, "%s%s", i ? "|" : "", entries[i]->name);
     memcpy (names, text, sizeof names);
     return names;
 }
@@ -59,7 +60,8 @@ pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg
     return pg_solver_create_with (out, problem, options, force);
 }
 
-pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, const pg_solver_options *options, const pg_force_type *force)
+pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, const pg_solver_options *options,
+                                 const pg_force_type *force)
 {
     pg_status status = PG_OK;
     pg_solver *s = NULL;
@@ -71,18 +73,20 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     if (why) PG_FAIL (PG_E_USAGE, "%s", why);
     s->options.quasi_static = pg_kind_quasi_static (options->kind);
     s->options.marching = s->type->way == MARCHES, s->options.staged = s->type->way == RELAXES;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     sys->problem = problem, sys->force = force, sys->options = &s->options, sys->report = &s->report;
     pg_solver_doubts (&s->report, problem, &s->options);
-    PG_TRY (breaker_create (&s->breaker));
+    PG_TRY (break_loop_create (&s->break_loop));
     PG_ALLOC (s->reaction, 3 * problem->nload);
     PG_ALLOC (s->work1, sys->ndof);
     PG_ALLOC (s->work2, sys->ndof);
     PG_TRY (pg_state_create (&s->backup, problem, sys->components));
     if (s->type->prepare) PG_TRY (s->type->prepare (s));
-    s->options.scene = NULL;                               /* may be gone from here on                                   */
+    s->options.scene = NULL;                               /* may be gone from here on */
     if (options->break_mode == PG_BREAK_ALL && problem->criterion->type)
-        pg_report_warn (&s->report, "break: all breaks every bond over its limit at once: the peak load depends on the increment");
+        pg_statistics_warn (
+            &s->report,
+            "break: all breaks every bond over its limit at once: the peak load depends on the increment");
     *out = s;
     s = NULL;
 done:
@@ -95,19 +99,20 @@ void pg_solver_free (pg_solver **solver)
     pg_solver *s = *solver;
     if (!s) return;
     if (s->type && s->type->free) s->type->free (s);
-    breaker_free (&s->breaker);
-    pg_free (s->unit), pg_free (s->base), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2), pg_free (s->work3), pg_free (s->work4), pg_free (s->support), pg_free (s->force0);
+    break_loop_free (&s->break_loop);
+    pg_free (s->unit), pg_free (s->base), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2),
+        pg_free (s->work3), pg_free (s->work4), pg_free (s->support), pg_free (s->force0);
     pg_state_free (&s->backup);
     pg_free (s);
     *solver = NULL;
 }
 
-int pg_solver_components (const pg_solver *s) { return s->breaker.system.components; }
+int pg_solver_components (const pg_solver *s) { return s->break_loop.system.components; }
 
 const pg_force_type *pg_solver_force (const pg_solver *s, void **self)
 {
-    if (self) *self = s->breaker.system.self;
-    return s->breaker.system.force;
+    if (self) *self = s->break_loop.system.self;
+    return s->break_loop.system.force;
 }
 
 pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
@@ -116,9 +121,9 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     memset (step, 0, sizeof *step);
     if (!s->started) PG_TRY (s->type->start (s, state));
     s->started = 1;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     b->began = b->round, b->stopped = 0;
-    if (b->round == 0) {                               /* else the step goes on where it was stopped                     */
+    if (b->round == 0) {                               /* else the step goes on where it was stopped */
         PG_TRY (pg_state_copy (s->backup, state));
         b->work0 = b->work, b->stored0 = s->report.energy_strain + s->report.energy_kinetic;
     }
@@ -126,77 +131,107 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     PG_TRY (s->type->step (s, state, step));
     state->step++;
     state->iterations += step->iterations;
-    state->work = s->breaker.work;
+    state->work = s->break_loop.work;
     step->stamp = s->options.event ? (double) step->number : step->time;
     step->reaction = s->reaction;
-    pg_report *r = &s->report;
+    pg_statistics *r = &s->report;
     r->steps++, r->iterations += step->iterations, r->broken += (long) step->nbroken;
     r->residual_max = fmax (r->residual_max, step->residual);
     r->utilisation_max = fmax (r->utilisation_max, step->utilisation);
-    if (step->level && s->breaker.system.force->overlap)
-        r->overlap_max = fmax (r->overlap_max, s->breaker.system.force->overlap (s->breaker.system.self, state, state->d));
-    r->energy_external = s->breaker.work;
+    if (step->level && s->break_loop.system.force->overlap)
+        r->overlap_max = fmax (r->overlap_max, s->break_loop.system.force->overlap (s->break_loop.system.self,
+                                                                                    state, state->d));
+    r->energy_external = s->break_loop.work;
     r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping;
 done:
-    if (status != PG_OK && s->started && !s->breaker.stopped) {
+    if (status != PG_OK && s->started && !s->break_loop.stopped) {
         char text[2048];
         int quasi = s->options.quasi_static;
         snprintf (text, sizeof text, "%s", pg_last_error ());
-        system_refresh (&s->breaker.system, s->backup, NULL);      /* fields asked for now are those of the accepted state       */
-        pg_multilevel_free (&s->breaker.system.multilevel);        /* bonds live again that it does not know                     */
-        s->breaker.work = s->backup->work, s->breaker.round = 0;
+        /* fields asked for now are those of the accepted state */
+        system_refresh (&s->break_loop.system, s->backup, NULL);
+        pg_multilevel_free (&s->break_loop.system.multilevel);  /* bonds live again that it does not know */
+        s->break_loop.work = s->backup->work, s->break_loop.round = 0;
         if (s->type->refused) s->type->refused (s);
-        if (status != PG_E_MEMORY) pg_error (status, PG_HERE, "step %ld after %s %.6g%s is refused: %s", s->backup->step + 1, quasi ? "load factor" : "t =",
-                                            quasi ? s->backup->factor : s->backup->time, quasi ? "" : " s", text);
+        if (status != PG_E_MEMORY)
+            pg_error (status, PG_HERE, "step %ld after %s %.6g%s is refused: %s", s->backup->step + 1,
+                      quasi ? "load factor" : "t =", quasi ? s->backup->factor : s->backup->time,
+                      quasi ? "" : " s", text);
         pg_state_copy (state, s->backup);
     }
     return status;
 }
 
-void pg_solver_watch (pg_solver *s, pg_watch watch, void *context) { s->breaker.watch = watch, s->breaker.watching = context; }
+void pg_solver_watch (pg_solver *s, pg_watch watch, void *context)
+{
+    s->break_loop.watch = watch, s->break_loop.watching = context;
+}
 
-int pg_solver_done (const pg_solver *s, const pg_state *state) { return s->finished || (s->type->done && s->type->done (s, state)); }
+int pg_solver_done (const pg_solver *s, const pg_state *state)
+{
+    return s->finished || (s->type->done && s->type->done (s, state));
+}
 
 static double largest_displacement (const pg_solver *s, const pg_state *state)
 {
     double top = 0;
-    for (size_t i = 0; i < s->breaker.system.ndof; i++) top = fmax (top, fabs (state->d[i]));
+    for (size_t i = 0; i < s->break_loop.system.ndof; i++) top = fmax (top, fabs (state->d[i]));
     return top;
 }
 
-const pg_report *pg_solver_report (pg_solver *s, const pg_state *state)
+const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
 {
-    pg_system *sys = &s->breaker.system;
-    if (sys->force->census) sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes, &s->report.fragments);
-    if (sys->force->overlap) s->report.overlap_max = fmax (s->report.overlap_max, sys->force->overlap (sys->self, state, state->d));
+    pg_system *sys = &s->break_loop.system;
+    if (sys->force->census)
+        sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
+                            &s->report.fragments);
+    if (sys->force->overlap)
+        s->report.overlap_max = fmax (s->report.overlap_max,
+                                      sys->force->overlap (sys->self, state, state->d));
     if (sys->kept && !s->skips_told && s->report.factorizations) {
         char what[96];
         snprintf (what, sizeof what, "factorization after %ld break rounds", sys->kept);
-        pg_report_skip (&s->report, (double) sys->kept * s->report.seconds[PG_SECONDS_FACTOR] / (double) s->report.factorizations, what,
-                        "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
+        pg_statistics_skip (&s->report,
+                            (double) sys->kept * s->report.seconds[PG_SECONDS_FACTOR]
+                                / (double) s->report.factorizations,
+                            what,
+                            "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
         s->skips_told = 1;
     }
     if (sys->spared && !s->spared_told && s->report.preconditioners) {
         char what[96];
         snprintf (what, sizeof what, "preconditioner in %ld solves after a break", sys->spared);
-        pg_report_skip (&s->report, (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR] / (double) s->report.preconditioners, what,
-                        "that of an earlier K serves until the iterations it costs would have paid for another (their time is not taken off)");
+        pg_statistics_skip (&s->report,
+                            (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR]
+                                / (double) s->report.preconditioners,
+                            what,
+                            "that of an earlier K serves until the iterations it costs would have paid for "
+                            "another (their time is not taken off)");
         s->spared_told = 1;
     }
     if (sys->spared && !s->spared_told && s->report.factorizations) {
         char what[96];
         snprintf (what, sizeof what, "factorization in %ld solves after a break", sys->spared);
-        pg_report_skip (&s->report, (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR] / (double) s->report.factorizations, what,
-                        "the factor of an earlier K preconditions conjugate gradients until a new one would pay (their time is not taken off)");
+        pg_statistics_skip (&s->report,
+                            (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR]
+                                / (double) s->report.factorizations,
+                            what,
+                            "the factor of an earlier K preconditions conjugate gradients until a new one "
+                            "would pay (their time is not taken off)");
         s->spared_told = 1;
     }
-    if (!s->energy_told && s->report.broken > 0 && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
-        pg_report_warn (&s->report, "breaking has fed %.3g J into the body instead of dissipating energy (external work %.3g J): single bonds are not an "
-                        "objective measure of fracture", -s->report.energy_dissipated, s->report.energy_external);
+    if (!s->energy_told && s->report.broken > 0
+        && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
+        pg_statistics_warn (&s->report,
+                            "breaking has fed %.3g J into the body instead of dissipating energy (external "
+                            "work %.3g J): single bonds are not an "
+                            "objective measure of fracture",
+                            -s->report.energy_dissipated, s->report.energy_external);
         s->energy_told = 1;
     }
     if (!s->overlap_told && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {
-        pg_report_warn (&s->report, "crack faces overlap by up to %.3g m (contact is not modelled)", s->report.overlap_max);
+        pg_statistics_warn (&s->report, "crack faces overlap by up to %.3g m (contact is not modelled)",
+                            s->report.overlap_max);
         s->overlap_told = 1;
     }
     return &s->report;
@@ -204,4 +239,4 @@ const pg_report *pg_solver_report (pg_solver *s, const pg_state *state)
 
 const pg_solver_options *pg_solver_settled (const pg_solver *s) { return &s->options; }
 
-const pg_report *pg_solver_report_now (const pg_solver *s) { return &s->report; }
+const pg_statistics *pg_solver_report_now (const pg_solver *s) { return &s->report; }

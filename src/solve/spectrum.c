@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The largest eigenfrequency, omega^2 = max K x / M x, by a few Lanczos steps on M^-1/2 K M^-1/2: explicit steps are stable up to 2 / omega. */
+ * The largest eigenfrequency, omega^2 = max K x / M x, by a few Lanczos steps on M^-1/2 K M^-1/2: explicit
+ * steps are stable up to 2 / omega. */
 #include "solve.h"
 #include <math.h>
 #include <string.h>
@@ -45,7 +46,7 @@ static int recur (lanczos *l, double *T)
 pg_status pg_solver_fastest (pg_solver *s, const pg_state *state, double *omega)
 {
     pg_status status = PG_OK;
-    pg_system *sys = &s->breaker.system;
+    pg_system *sys = &s->break_loop.system;
     size_t n = sys->ndof;
     lanczos l = { .s = sys };
     double T[STEPS * STEPS] = { 0 }, small[STEPS * STEPS], lambda[STEPS];
@@ -56,7 +57,8 @@ pg_status pg_solver_fastest (pg_solver *s, const pg_state *state, double *omega)
     l.w = l.scale + 4 * n;
     unsigned long seed = 1;
     for (size_t i = 0; i < n; i++) {
-        if (!(sys->mass[i] > 0)) PG_FAIL (PG_E_USAGE, "frequencies need mass at every point: give the material a density");
+        if (!(sys->mass[i] > 0))
+            PG_FAIL (PG_E_USAGE, "frequencies need mass at every point: give the material a density");
         l.scale[i] = 1 / sqrt (sys->mass[i]);
         seed = seed * 6364136223846793005ul + 1442695040888963407ul;
         l.v[0][i] = (double) (seed >> 40) / 8388608.0 - 1;

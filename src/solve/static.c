@@ -1,19 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Quasi-static loading. fixed: equal load steps, each with the break loop. event: between breaks everything is linear in the load
- * factor, so d = lambda d_1 and the factor of the next break follows in closed form (theory F6): go there, break the bonds
- * that reach their limit (ties included), solve for the new d_1, and so on; user levels are reported as they are passed. */
+ * Quasi-static loading. fixed: equal load steps, each with the break loop. event: between breaks everything
+ * is linear in the load factor, so d = lambda d_1 and the factor of the next break follows in closed form
+ * (theory F6): go there, break the bonds that reach their limit (ties included), solve for the new d_1, and
+ * so on; user levels are reported as they are passed. */
 #include "solve.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static double level_factor (const pg_solver *s, long level) { return (double) level / (double) s->options.levels; }
+static double level_factor (const pg_solver *s, long level)
+{
+    return (double) level / (double) s->options.levels;
+}
 
 static pg_status static_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
     double residual;
-    PG_TRY (system_refresh (&s->breaker.system, state, NULL));
+    PG_TRY (system_refresh (&s->break_loop.system, state, NULL));
     s->next_level = 1;
     if (s->options.event && s->options.affine) {
         PG_ALLOC (s->unit, state->ndof);
@@ -23,36 +27,39 @@ static pg_status static_start (pg_solver *s, pg_state *state)
         PG_TRY (affine_solve (s));
     } else if (s->options.event) {
         PG_ALLOC (s->unit, state->ndof);
-        for (size_t i = 0; state->factor != 0 && i < state->ndof; i++) s->unit[i] = state->d[i] / state->factor;
-        PG_TRY (system_solve (&s->breaker.system, 1, s->unit, NULL, &residual));
+        for (size_t i = 0; state->factor != 0 && i < state->ndof; i++)
+            s->unit[i] = state->d[i] / state->factor;
+        PG_TRY (system_solve (&s->break_loop.system, 1, s->unit, NULL, &residual));
         s->unit_residual = residual;
     }
 done:
     return status;
 }
 
-/* ---- fixed ---------------------------------------------------------------------------------------------------------------- */
+/* ---- fixed --------------------------------------------------------------------------------------------- */
 static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     double t = (double) (state->step + 1) / (double) s->options.steps;
     PG_TRY (equilibrate (b, state, t, state->d, NULL, step));
     b->system.borne = fmax (b->system.borne, b->system.reference);
     state->factor = state->time = t;
-    s->report.energy_strain = b->ledger.strain;
-    step->dissipated = b->work - b->work0 - (b->ledger.strain - b->stored0);
+    s->report.energy_strain = b->work_balance.strain;
+    step->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);
     step->factor = step->time = t;
     while (level_factor (s, s->next_level) <= t * (1 + 1e-12)) s->next_level++, step->level = 1;
     int arrived;
-    PG_TRY (breaker_arrived (b, state, state->d, &arrived));
-    if (arrived) pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at load factor %.6g", s->options.stop_set->name, t);
+    PG_TRY (break_loop_arrived (b, state, state->d, &arrived));
+    if (arrived)
+        pg_statistics_warn (&s->report, "the crack has arrived at %s: the run ends at load factor %.6g",
+                            s->options.stop_set->name, t);
     if (arrived || state->step + 1 >= s->options.steps) s->finished = 1;
 done:
     return status;
 }
 
-/* ---- event ------------------------------------------------------------------------------------------------------------------ */
+/* ---- event --------------------------------------------------------------------------------------------- */
 static double smallest (const double *a, size_t n)
 {
     double low = INFINITY;
@@ -66,19 +73,20 @@ static pg_status settle (pg_solver *s, pg_state *state, double factor)
     pg_status status = PG_OK;
     for (size_t i = 0; i < state->ndof; i++) state->d[i] = factor * s->unit[i];
     state->factor = state->time = factor;
-    if (!s->ledger_fresh) PG_TRY (breaker_account (&s->breaker, 1, s->unit, NULL, factor));
-    else PG_TRY (breaker_book (&s->breaker, factor));
-    s->ledger_fresh = 1;
-    s->report.energy_strain = factor * factor * s->breaker.ledger.strain;
+    if (!s->work_balance_fresh) PG_TRY (break_loop_account (&s->break_loop, 1, s->unit, NULL, factor));
+    else PG_TRY (break_loop_book (&s->break_loop, factor));
+    s->work_balance_fresh = 1;
+    s->report.energy_strain = factor * factor * s->break_loop.work_balance.strain;
 done:
     return status;
 }
 
 /* Work per squared load factor: a stiffness under prescribed displacements, a compliance under forces. */
-static double secant (const breaker *b)
+static double secant (const break_loop *b)
 {
     double sum = 0;
-    for (size_t k = 0; k < b->ledger.npair; k++) sum += b->ledger.force[k] * b->ledger.displacement[k];
+    for (size_t k = 0; k < b->work_balance.npair; k++)
+        sum += b->work_balance.force[k] * b->work_balance.displacement[k];
     return sum;
 }
 
@@ -86,7 +94,8 @@ int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status n
 {
     if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD && now != PG_E_SINGULAR) return 0;
     s->ended = now;
-    snprintf (s->why, sizeof s->why, "after event %ld at load factor %.6g: %s", state->events, factor, pg_last_error ());
+    snprintf (s->why, sizeof s->why, "after event %ld at load factor %.6g: %s", state->events, factor,
+              pg_last_error ());
     return 1;
 }
 
@@ -95,14 +104,17 @@ pg_status event_stops (pg_solver *s, const pg_state *state, double factor, doubl
     pg_status status = PG_OK;
     const pg_solver_options *o = &s->options;
     int arrived;
-    PG_TRY (breaker_arrived (&s->breaker, state, state->d, &arrived));
+    PG_TRY (break_loop_arrived (&s->break_loop, state, state->d, &arrived));
     if (arrived) {
-        pg_report_warn (&s->report, "the crack has arrived at %s: the run ends at event %ld, load factor %.6g", o->stop_set->name, state->events, factor);
+        pg_statistics_warn (&s->report,
+                            "the crack has arrived at %s: the run ends at event %ld, load factor %.6g",
+                            o->stop_set->name, state->events, factor);
         s->finished = 1;
     }
     double share = s->secant = secant / s->secant0;
     if (s->problem->nload && (share < o->stop_stiffness || share > 1 / fmax (o->stop_stiffness, 1e-12))) {
-        pg_report_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g", state->events, factor);
+        pg_statistics_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g",
+                            state->events, factor);
         s->finished = 1;
     }
 done:
@@ -112,19 +124,22 @@ done:
 void event_limit (pg_solver *s, const pg_state *state, double factor)
 {
     if (state->events < s->options.max_events) return;
-    pg_report_warn (&s->report, "stopped after solver.max_events = %ld events at load factor %.6g", state->events, factor);
+    pg_statistics_warn (&s->report, "stopped after solver.max_events = %ld events at load factor %.6g",
+                        state->events, factor);
     s->finished = 1;
 }
 
-/* Breaks what reaches its limit at `factor` and finds the next unit displacement; where there is none the next step is refused. */
+/* Breaks what reaches its limit at `factor` and finds the next unit displacement; where there is none the
+ * next step is refused. */
 static pg_status break_at (pg_solver *s, pg_state *state, double factor, double scale, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     const pg_solver_options *o = &s->options;
     double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, residual;
-    for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;   /* utilisation here */
-    PG_TRY (breaker_kill (b, state, b->factor, 1 - width, scale, factor));
+    /* utilisation here */
+    for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;
+    PG_TRY (break_loop_kill (b, state, b->factor, 1 - width, scale, factor));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
     state->events++, s->report.events++;
     double strain = s->report.energy_strain, work = b->work;
@@ -133,27 +148,29 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     if (event_ended (s, state, factor, now)) goto done;
     PG_TRY (now);
     s->unit_residual = residual;
-    PG_TRY (breaker_account (b, 1, s->unit, NULL, factor));
-    s->report.energy_strain = factor * factor * b->ledger.strain;
+    PG_TRY (break_loop_account (b, 1, s->unit, NULL, factor));
+    s->report.energy_strain = factor * factor * b->work_balance.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (event_stops (s, state, factor, secant (b)));
 done:
     return status;
 }
 
-/* Utilisation of the accepted state, from the sweep of the unit displacement: independent of the closed form that gave the factor. Where
- * a measure is not linear (finite stretch) and seems over its limit, the state itself is measured. *scale belongs to the sweep kept. */
+/* Utilisation of the accepted state, from the sweep of the unit displacement: independent of the closed form
+ * that gave the factor. Where a measure is not linear (finite stretch) and seems over its limit, the state
+ * itself is measured. *scale belongs to the sweep kept. */
 static pg_status look_over (pg_solver *s, const pg_state *state, double factor, double *scale, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     *scale = factor;
     if (!s->problem->criterion->type || !b->system.force->utilisation) return PG_OK;
-    long over = breaker_over (b, state, *scale, &step->utilisation);
+    long over = break_loop_over (b, state, *scale, &step->utilisation);
     if (over) {
         *scale = 1;
-        PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
-        over = breaker_over (b, state, *scale, &step->utilisation);
+        PG_TRY (
+            b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
+        over = break_loop_over (b, state, *scale, &step->utilisation);
     }
     s->report.bonds_over_limit += over;
 done:
@@ -163,20 +180,22 @@ done:
 static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
-    breaker *b = &s->breaker;
+    break_loop *b = &s->break_loop;
     double next = INFINITY, level = level_factor (s, s->next_level), scale, t0 = pg_seconds ();
     b->nbroken = 0;
     step->iterations = 1;
     if (s->problem->criterion->type && b->system.force->utilisation) {
-        PG_TRY (breaker_ready (b));
-        PG_TRY (b->system.force->utilisation (b->system.self, state, s->unit, b->utilisation, b->kind, b->factor));
+        PG_TRY (break_loop_ready (b));
+        PG_TRY (b->system.force->utilisation (b->system.self, state, s->unit, b->utilisation, b->kind,
+                                              b->factor));
         next = smallest (b->factor, state->nbond);
     }
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     double factor = next < level ? next : level;
     PG_TRY (settle (s, state, factor));
     s->top_factor = fmax (s->top_factor, factor);
-    if (b->ledger.reaction) memcpy (s->reaction, b->ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (b->work_balance.reaction)
+        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     if (s->secant0 == 0) s->secant0 = secant (b);
     step->factor = step->time = factor;
     step->residual = s->unit_residual;
@@ -187,8 +206,10 @@ static pg_status step_event (pg_solver *s, pg_state *state, pg_step *step)
         if (s->next_level++ >= s->options.levels) {
             s->finished = 1;
             if (state->events == 0 && s->options.levels > 1)
-                pg_report_skip (&s->report, (double) (s->options.levels - 1) * s->report.seconds[PG_SECONDS_SOLVE],
-                                "solves of all levels but one", "no bond broke: the answer is linear in the load factor");
+                pg_statistics_skip (&s->report,
+                                    (double) (s->options.levels - 1) * s->report.seconds[PG_SECONDS_SOLVE],
+                                    "solves of all levels but one",
+                                    "no bond broke: the answer is linear in the load factor");
         }
     }
     event_limit (s, state, factor);
@@ -200,10 +221,15 @@ done:
 static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     if (s->ended != PG_OK) return pg_error (s->ended, PG_HERE, "%s", s->why);
-    pg_status status = !s->options.event ? step_fixed (s, state, step) : s->options.affine ? affine_step (s, state, step) : step_event (s, state, step);
-    if (status == PG_OK && !s->options.event && s->breaker.ledger.reaction)
-        memcpy (s->reaction, s->breaker.ledger.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    pg_status status = !s->options.event   ? step_fixed (s, state, step)
+                       : s->options.affine ? affine_step (s, state, step)
+                                           : step_event (s, state, step);
+    if (status == PG_OK && !s->options.event && s->break_loop.work_balance.reaction)
+        memcpy (s->reaction, s->break_loop.work_balance.reaction,
+                3 * s->problem->nload * sizeof *s->reaction);
     return status;
 }
 
-const pg_solver_type pg_solver_static_ = { "static", "quasi-static equilibrium, event by event or in fixed load steps", static_start, static_step, .way = SOLVES };
+const pg_solver_type pg_solver_static_ = { "static",
+                                           "quasi-static equilibrium, event by event or in fixed load steps",
+                                           static_start, static_step, .way = SOLVES };

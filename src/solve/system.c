@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * (k K + m M) delta = R, d <- d + delta, until R is small: one linear solve with iterative refinement, the residual always taken
- * from the force, never from K. With elimination d = T q + g the matrix is T' (k K + m M) T and the residual T' R.
- * Unknowns that breaking has touched get 1e-11 of the mean diagonal (isolated nodes and loose fragments stay put); the refinement
- * takes its effect out again wherever the body can carry load. */
+ * (k K + m M) delta = R, d <- d + delta, until R is small: one linear solve with iterative refinement, the
+ * residual always taken from the force, never from K. With elimination d = T q + g the matrix is T' (k K + m
+ * M) T and the residual T' R. Unknowns that breaking has touched get 1e-11 of the mean diagonal (isolated
+ * nodes and loose fragments stay put); the refinement takes its effect out again wherever the body can carry
+ * load. */
 #include "solve.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { MOST_REFINEMENTS = 12 };
-static const double goal = 1e-12;                      /* refinement stops here or where it no longer gains              */
+static const double goal = 1e-12;                      /* refinement stops here or where it no longer gains */
 
 void system_free (pg_system *s)
 {
@@ -19,7 +20,8 @@ void system_free (pg_system *s)
     if (s->copy) pg_sparse_clear (&s->A);
     else pg_free (s->A.value);
     pg_free (s->copy), pg_free (s->diagonal0), pg_free (s->mass);
-    pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best), pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored);
+    pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best),
+        pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored);
     pg_free (s->fixed);
 }
 
@@ -28,7 +30,10 @@ int system_has_matrix (const pg_system *s)
     if (!s->force->matrix || (s->force->matrix_free && s->force->matrix_free (s->self))) return 0;
     return s->force->assemble || s->force->matrix (s->self);
 }
-static const pg_operator *operator_of (const pg_system *s) { return s->force->operator_ ? s->force->operator_ (s->self) : NULL; }
+static const pg_operator *operator_of (const pg_system *s)
+{
+    return s->force->operator_ ? s->force->operator_ (s->self) : NULL;
+}
 
 void system_multiply (const pg_system *s, const double *x, double *y)
 {
@@ -48,7 +53,8 @@ pg_status system_create (pg_system *s)
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     s->nred = T ? T->ncol : s->ndof;
     s->stale = 1;
-    if (!system_has_matrix (s) && !operator_of (s)) PG_FAIL (PG_E_USAGE, "the force %s offers neither a matrix nor an operator", s->force->name);
+    if (!system_has_matrix (s) && !operator_of (s))
+        PG_FAIL (PG_E_USAGE, "the force %s offers neither a matrix nor an operator", s->force->name);
     PG_ALLOC (s->scratch, s->ndof);
     PG_ALLOC (s->mass, s->ndof);
     PG_ALLOC (s->residual, s->ndof);
@@ -66,7 +72,8 @@ done:
     return status;
 }
 
-/* Nodes of points that lack a bond: breaking changes their diagonal, but the first K is already without it. */
+/* Nodes of points that lack a bond: breaking changes their diagonal, but the first K is already without
+ * it. */
 static void mark_touched (pg_system *s, const pg_state *state)
 {
     for (int set = 0; set < PG_BOND_SETS; set++) {
@@ -126,11 +133,13 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
     for (size_t j = 0; j < s->ndof; j++) {
         long q = K->start[j + 1] - 1;
         double now = K->value[q], first = s->diagonal0[j];
-        int weak = s->touched[j / (size_t) s->components] || !(first > 1e-9 * s->mean_diagonal) || fabs (now - first) > 1e-12 * first;
+        int weak = s->touched[j / (size_t) s->components] || !(first > 1e-9 * s->mean_diagonal)
+                   || fabs (now - first) > 1e-12 * first;
         if (m == 0 && weak) value[q] += s->shift * s->mean_diagonal;
     }
     if (m != 0) system_add_mass_matrix (s, m, K, value);
-    for (size_t j = 0; j < s->ndof && m != 0; j++) {   /* a point that no evaluation point sees has no consistent mass either */
+    /* a point that no evaluation point sees has no consistent mass either */
+    for (size_t j = 0; j < s->ndof && m != 0; j++) {
         long q = K->start[j + 1] - 1;
         if (!(fabs (value[q]) > 1e-11 * k * s->mean_diagonal)) value[q] += 1e-11 * k * s->mean_diagonal;
     }
@@ -166,7 +175,8 @@ static pg_status analyse (pg_system *s)
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
     int reduced = s->nred != s->ndof;
-    pg_linear_options o = { reduced ? 1 : s->components, s->problem->dim, s->problem->threads, 0.01 * s->options->tolerance };
+    pg_linear_options o = { reduced ? 1 : s->components, s->problem->dim, s->problem->threads,
+                            0.01 * s->options->tolerance };
     PG_TRY (s->linear->analyse (&s->factor, &s->A, &o));
     pg_linear_info info;
     s->linear->info (s->factor, &info);
@@ -178,7 +188,8 @@ done:
     return status;
 }
 
-/* Factors; a matrix that is not positive definite gets a larger shift on its weak unknowns, then goes to UMFPACK (linear: auto). */
+/* Factors; a matrix that is not positive definite gets a larger shift on its weak unknowns, then goes to
+ * UMFPACK (linear: auto). */
 pg_status system_factorize (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -199,16 +210,25 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
             s->shift *= 100;
             continue;
         }
-        if (s->problem->direct && !s->all_weak) {      /* no bond has negative energy, but those of a chain or a sheet leave motions free */
+        /* no bond has negative energy, but those of a chain or a sheet leave motions free */
+        if (s->problem->direct && !s->all_weak) {
             memset (s->touched, 1, s->problem->cloud.n);
             s->all_weak = 1, s->shift = 1e-11;
             continue;
         }
-        if (s->problem->direct) PG_FAIL (PG_E_NOT_SPD, "%s; bonds leave parts of the body free to move: hold them, or set solver.linear: pcg", pg_last_error ());
-        if (!automatic || s->umfpack) PG_FAIL (PG_E_NOT_SPD, "%s; with essential: nitsche raise method.nitsche_factor, or set solver.linear: umfpack",
-                                               pg_last_error ());
-        pg_report_warn (s->report, "K is not positive definite: UMFPACK instead of Cholesky from step %ld on (with essential: nitsche, a larger "
-                        "method.nitsche_factor may help)", s->report->steps);
+        if (s->problem->direct)
+            PG_FAIL (PG_E_NOT_SPD,
+                     "%s; bonds leave parts of the body free to move: hold them, or set solver.linear: pcg",
+                     pg_last_error ());
+        if (!automatic || s->umfpack)
+            PG_FAIL (PG_E_NOT_SPD,
+                     "%s; with essential: nitsche raise method.nitsche_factor, or set solver.linear: umfpack",
+                     pg_last_error ());
+        pg_statistics_warn (s->report,
+                            "K is not positive definite: UMFPACK instead of Cholesky from step %ld on (with "
+                            "essential: nitsche, a larger "
+                            "method.nitsche_factor may help)",
+                            s->report->steps);
         s->linear->free (&s->factor);
         s->linear = pg_linear_find ("umfpack");
         s->umfpack = 1;
@@ -220,18 +240,22 @@ done:
     return status;
 }
 
-/* ---- solving ------------------------------------------------------------------------------------------------------------ */
-/* A plain factor serves again and again; one that costs more than this many of its solves is worth keeping when K has changed a little. */
+/* ---- solving ------------------------------------------------------------------------------------------- */
+/* A plain factor serves again and again; one that costs more than this many of its solves is worth keeping
+ * when K has changed a little. */
 static const double worth_keeping = 15;
 
-/* Seconds by stored rates: supernodal factorization, triangular solve, K x without a matrix. Never measured: a run must not depend on the clock. */
+/* Seconds by stored rates: supernodal factorization, triangular solve, K x without a matrix. Never measured:
+ * a run must not depend on the clock. */
 static double factor_cost (const pg_system *s) { return s->report->factor_flops / 20e9; }
 static double solve_cost (const pg_system *s) { return 4 * s->report->factor_entries / 3e9; }
 static double apply_cost (const pg_system *s)
 {
     const pg_problem *p = s->problem;
     if (p->direct) return (p->sums->stencil.n ? 0.6e-9 : 3e-9) * (double) p->first_bond[PG_BOND_SETS];
-    return 4e-9 * (double) (p->first_bond[PG_BOND_SETS] - (p->integration->at_nodes ? 0 : p->first_bond[PG_POINTS]));
+    return 4e-9
+           * (double) (p->first_bond[PG_BOND_SETS]
+                       - (p->integration->at_nodes ? 0 : p->first_bond[PG_POINTS]));
 }
 
 static pg_status solve_by_factor (pg_system *s, const dynamics *dyn)
@@ -251,7 +275,8 @@ done:
     return status;
 }
 
-/* The factor of an earlier K preconditions; it is renewed when the iterations it cost too much would have paid for a new one (rent or buy). */
+/* The factor of an earlier K preconditions; it is renewed when the iterations it cost too much would have
+ * paid for a new one (rent or buy). */
 static pg_status solve_by_kept_factor (pg_system *s, const dynamics *dyn, double tolerance)
 {
     pg_status status = PG_OK;
@@ -277,8 +302,9 @@ static int by_sweeps (const pg_system *s, int can)
     return p->direct && (can || p->sums->stencil.n) && pg_direct_large (can, p->dim, (double) s->ndof);
 }
 
-/* Chosen once: solver.linear says it, a force without a matrix leaves no choice, and in a small time step the mass dominates: then a few
- * iterations without any factor do, which is simply tried. Large static 3D bodies have factors that outgrow everything else. */
+/* Chosen once: solver.linear says it, a force without a matrix leaves no choice, and in a small time step the
+ * mass dominates: then a few iterations without any factor do, which is simply tried. Large static 3D bodies
+ * have factors that outgrow everything else. */
 static pg_status choose_mode (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -287,16 +313,20 @@ static pg_status choose_mode (pg_system *s, const dynamics *dyn)
     int automatic = strcmp (linear, "auto") == 0;
     PG_TRY (system_can_precondition (s, dyn, &can));
     if (!can && strcmp (s->options->preconditioner, "multilevel") == 0)
-        pg_report_warn (s->report, "preconditioner: multilevel needs a body at rest and a force that tells the rows of K, with supports on points: the diagonal instead "
-                        "where there is no factor");
+        pg_statistics_warn (s->report, "preconditioner: multilevel needs a body at rest and a force that "
+                                       "tells the rows of K, with supports on points: the diagonal instead "
+                                       "where there is no factor");
     s->mode = SYSTEM_FACTOR;
-    if (!system_has_matrix (s) || (strcmp (linear, "pcg") == 0 && operator_of (s))) s->mode = SYSTEM_NO_FACTOR;
+    if (!system_has_matrix (s) || (strcmp (linear, "pcg") == 0 && operator_of (s)))
+        s->mode = SYSTEM_NO_FACTOR;
     else if (automatic && operator_of (s) && dyn) s->mode = SYSTEM_TRIAL;
     else if (automatic && operator_of (s) && by_sweeps (s, can)) {
         s->mode = SYSTEM_NO_FACTOR;
-        pg_report_skip (s->report, NAN, "stiffness matrix, analysis and factorization", "so many points: conjugate gradients with sums over the bonds are "
-                        "cheaper by stored rates");
-    } else if (automatic && operator_of (s) && s->problem->dim == 3 && s->ndof > 200000) s->mode = SYSTEM_NO_FACTOR;
+        pg_statistics_skip (s->report, NAN, "stiffness matrix, analysis and factorization",
+                            "so many points: conjugate gradients with sums over the bonds are "
+                            "cheaper by stored rates");
+    } else if (automatic && operator_of (s) && s->problem->dim == 3 && s->ndof > 200000)
+        s->mode = SYSTEM_NO_FACTOR;
 done:
     return status;
 }
@@ -306,11 +336,15 @@ enum { FEW_ITERATIONS = 40 };
 static void tell_small_step (pg_system *s, size_t used)
 {
     char why[160];
-    snprintf (why, sizeof why, "the time step is small, so that the mass dominates: %zu iterations of conjugate gradients did in the first step", used);
-    pg_report_skip (s->report, NAN, "stiffness matrix, analysis and factorization", why);
+    snprintf (why, sizeof why,
+              "the time step is small, so that the mass dominates: %zu iterations of conjugate gradients did "
+              "in the first step",
+              used);
+    pg_statistics_skip (s->report, NAN, "stiffness matrix, analysis and factorization", why);
 }
 
-enum { LAST_TRY = 2000 };                              /* iterations by the diagonal where the better preconditioner failed: probably a loaded part has come loose */
+/* iterations by the diagonal where the better preconditioner failed: probably a loaded part has come loose */
+enum { LAST_TRY = 2000 };
 
 /* With the diagonal where there is no better preconditioner. */
 static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double tolerance)
@@ -326,7 +360,11 @@ static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double
     }
     pg_status now = system_iterate (s, dyn, 0, tolerance, limit, &used);
     int free_to_move = (can && now == PG_E_EQUILIBRIUM) || (s->problem->direct && now == PG_E_NOT_SPD);
-    if (free_to_move) PG_FAIL (now, "%s; probably a loaded part has come loose: try prescribed displacements, newmark, or a coarser criterion", pg_last_error ());
+    if (free_to_move)
+        PG_FAIL (now,
+                 "%s; probably a loaded part has come loose: try prescribed displacements, newmark, or a "
+                 "coarser criterion",
+                 pg_last_error ());
     PG_TRY (now);
 done:
     return status;
@@ -362,9 +400,10 @@ static double norm (const double *a, size_t n)
     return sqrt (sum);
 }
 
-/* Where nothing resists (parts moved as rigid bodies) all forces are rounding, and their own size is no measure. This makes the
- * tolerance a backward error of 1e-14 there; with resistance it is far below the forces. It grows with d, and with it what a body that
- * nothing holds may leave unbalanced: who passes by it alone has to be `settled`. */
+/* Where nothing resists (parts moved as rigid bodies) all forces are rounding, and their own size is no
+ * measure. This makes the tolerance a backward error of 1e-14 there; with resistance it is far below the
+ * forces. It grows with d, and with it what a body that nothing holds may leave unbalanced: who passes by it
+ * alone has to be `settled`. */
 static double force_of_rounding (const pg_system *s, const double *d)
 {
     double sum = 0;
@@ -373,7 +412,8 @@ static double force_of_rounding (const pg_system *s, const double *d)
     return 1e-14 / s->options->tolerance * sqrt (sum);
 }
 
-static pg_status measure_residual (pg_system *s, double t, const double *d, const dynamics *dyn, double *relative)
+static pg_status measure_residual (pg_system *s, double t, const double *d, const dynamics *dyn,
+                                   double *relative)
 {
     pg_status status = PG_OK;
     double reference = 0, t0 = pg_seconds ();
@@ -402,7 +442,8 @@ static double restlessness (const pg_system *s, const double *step, const double
 
 static const double settled = 1e-3;
 
-/* Is a state that only rounding excuses one that K holds? Looks at one more refinement where none was made yet. */
+/* Is a state that only rounding excuses one that K holds? Looks at one more refinement where none was made
+ * yet. */
 static pg_status is_settled (pg_system *s, const dynamics *dyn, const double *d, double *restless)
 {
     pg_status status = PG_OK;
@@ -419,34 +460,47 @@ done:
     return status;
 }
 
-/* The unknown with the largest out-of-balance force; with elimination the reactions of the slaves are none. */
+/* The unknown with the largest out-of-balance force; with elimination the reactions of the slaves are
+ * none. */
 static size_t worst_unknown (const pg_system *s, const pg_sparse *T)
 {
     size_t worst = 0;
     for (size_t i = 1; i < s->nred; i++) if (fabs (s->reduced[i]) > fabs (s->reduced[worst])) worst = i;
     if (!T) return worst;
-    for (long q = T->start[worst]; q < T->start[worst + 1]; q++) if (T->value[q] == 1) return (size_t) T->row[q];
+    for (long q = T->start[worst]; q < T->start[worst + 1]; q++)
+        if (T->value[q] == 1) return (size_t) T->row[q];
     return (size_t) T->row[T->start[worst]];
 }
 
 static pg_status refuse (pg_system *s, double residual, double restless)
 {
     const pg_problem *p = s->problem;
-    size_t point = worst_unknown (s, s->force->basis ? s->force->basis (s->self) : NULL) / (size_t) s->components;
+    size_t point = worst_unknown (s, s->force->basis ? s->force->basis (s->self) : NULL)
+                   / (size_t) s->components;
     const double *x = p->cloud.x + point * (size_t) p->dim;
     char where[96];
-    snprintf (where, sizeof where, "largest at point %zu (%g, %g, %g) m", point, x[0], p->dim > 1 ? x[1] : 0, p->dim > 2 ? x[2] : 0);
+    snprintf (where, sizeof where, "largest at point %zu (%g, %g, %g) m", point, x[0], p->dim > 1 ? x[1] : 0,
+              p->dim > 2 ? x[2] : 0);
     if (restless > settled)
-        return pg_error (PG_E_EQUILIBRIUM, PG_HERE, "%.3g N of the loads stay unbalanced (%.3g of the reference force, allowed %.3g), %s, and each refinement moves the points by another "
-                         "%.2g of their displacement: nothing holds the body, or a loaded part of it has come loose; prescribe displacements that keep it from moving and turning, or "
-                         "use newmark", s->unbalanced, s->reference > 0 ? s->unbalanced / s->reference : 1, s->options->tolerance, where, restless);
-    return pg_error (PG_E_EQUILIBRIUM, PG_HERE, "the residual stays at %.3g of the reference force (allowed %.3g), %s: "
-                     "probably a loaded part has come loose; try prescribed displacements, newmark, or a coarser criterion", residual, s->options->tolerance, where);
+        return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+                         "%.3g N of the loads stay unbalanced (%.3g of the reference force, allowed %.3g), "
+                         "%s, and each refinement moves the points by another "
+                         "%.2g of their displacement: nothing holds the body, or a loaded part of it has "
+                         "come loose; prescribe displacements that keep it from moving and turning, or "
+                         "use newmark",
+                         s->unbalanced, s->reference > 0 ? s->unbalanced / s->reference : 1,
+                         s->options->tolerance, where, restless);
+    return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+                     "the residual stays at %.3g of the reference force (allowed %.3g), %s: "
+                     "probably a loaded part has come loose; try prescribed displacements, newmark, or a "
+                     "coarser criterion",
+                     residual, s->options->tolerance, where);
 }
 
-/* The state is judged by its own forces. Those of a body without load vanish: then by the largest that an accepted state has borne. Else rounding
- * excuses it, if it is settled. */
-static pg_status judge (pg_system *s, const double *d, const dynamics *dyn, double r, double restless, double *residual)
+/* The state is judged by its own forces. Those of a body without load vanish: then by the largest that an
+ * accepted state has borne. Else rounding excuses it, if it is settled. */
+static pg_status judge (pg_system *s, const double *d, const dynamics *dyn, double r, double restless,
+                        double *residual)
 {
     pg_status status = PG_OK;
     double tolerance = s->options->tolerance;
@@ -472,12 +526,15 @@ pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, 
     if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
     for (int k = 0; k <= MOST_REFINEMENTS; k++) {
         PG_TRY (measure_residual (s, t, d, dyn, &r));
-        if (k > 1 && r > last) {                       /* the last refinement made it worse: take it back                */
+        if (k > 1 && r > last) {                       /* the last refinement made it worse: take it back */
             memcpy (d, s->best, s->ndof * sizeof *d);
             r = last, s->unbalanced = before.unbalanced, s->reference = before.reference;
             break;
         }
-        if (r <= (s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_UNDECIDED ? goal : 0.1 * s->options->tolerance) || k == MOST_REFINEMENTS || (k > 1 && r > 0.5 * last)) break;
+        if (r <= (s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_UNDECIDED ? goal
+                                                                          : 0.1 * s->options->tolerance)
+            || k == MOST_REFINEMENTS || (k > 1 && r > 0.5 * last))
+            break;
         memcpy (s->best, d, s->ndof * sizeof *d);
         last = r, before.unbalanced = s->unbalanced, before.reference = s->reference;
         PG_TRY (solve_once (s, dyn, fmin (0.1, 0.03 * s->options->tolerance / r)));

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Velocity Verlet (theory B4) with damping C = c M:
- *   v_n = (v(n-1/2) + dt f_n / (2 m)) / (1 + c dt / 2),  a_n = f_n / m - c v_n,  v(n+1/2) = v_n + dt a_n / 2,  u_n+1 = u_n + dt v(n+1/2).
- * v and a of the state are those of its displacement. */
+ *   v_n = (v(n-1/2) + dt f_n / (2 m)) / (1 + c dt / 2), a_n = f_n / m - c v_n, v(n+1/2) = v_n + dt a_n / 2,
+ *     u_n+1 = u_n + dt v(n+1/2). v and a of the state are those of its displacement. */
 #include "explicit.h"
 
 /* The two halves of a step round alike, whether they come at once or one by one. */
 static void range (const sweep *w, size_t first, size_t last, double *sum)
 {
-    double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), before[8] = { 0 }, after[8] = { 0 }, kinetic[8] = { 0 };
+    double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), before[8] = { 0 },
+           after[8] = { 0 }, kinetic[8] = { 0 };
     double *restrict d = w->d, *restrict v = w->v, *restrict a = w->a;
     const double *restrict f = w->f, *restrict inverse = w->inverse;
     if (w->settle) {
@@ -18,7 +19,12 @@ static void range (const sweep *w, size_t first, size_t last, double *sum)
         }
         sum[SUM_C] = sweep_sum (before), sum[SUM_D] = sweep_sum (after);
     }
-#define BOTH(i) do { double acc = f[i] * inverse[i], vn = (v[i] + h * acc) * less; v[i] = vn + h * (acc - c * vn); d[i] += dt * v[i]; } while (0)
+#define BOTH(i) \
+    do { \
+        double acc = f[i] * inverse[i], vn = (v[i] + h * acc) * less; \
+        v[i] = vn + h * (acc - c * vn); \
+        d[i] += dt * v[i]; \
+    } while (0)
     size_t at = first;
     if (w->settle && w->launch) {
         for (; at + LANES <= last; at += LANES) for (size_t k = at; k < at + LANES; k++) BOTH (k);
@@ -39,8 +45,19 @@ static void range (const sweep *w, size_t first, size_t last, double *sum)
     }
 }
 
-static pg_status step (pg_solver *s, pg_state *state, pg_step *out) { return march_step (s, state, out, range, 0); }
+static pg_status step (pg_solver *s, pg_state *state, pg_step *out)
+{
+    return march_step (s, state, out, range, 0);
+}
 
-const pg_solver_type pg_solver_verlet = {
-    "verlet", "explicit dynamics, velocity Verlet", march_start, step, march_done, explicit_free, .way = MARCHES, .prepare = march_prepare,
-    .refused = march_refused, .keep = explicit_keep, .progress = march_progress };
+const pg_solver_type pg_solver_verlet = { "verlet",
+                                          "explicit dynamics, velocity Verlet",
+                                          march_start,
+                                          step,
+                                          march_done,
+                                          explicit_free,
+                                          .way = MARCHES,
+                                          .prepare = march_prepare,
+                                          .refused = march_refused,
+                                          .keep = explicit_keep,
+                                          .progress = march_progress };

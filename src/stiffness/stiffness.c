@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K_IJ = sum over sources and their points of the blocks K_ab: pattern once, then a row-owned gather of all or of some node rows. */
+ * K_IJ = sum over sources and their points of the blocks K_ab: pattern once, then a row-owned gather of all
+ * or of some node rows. */
 #include "perigal/stiffness.h"
 #include <string.h>
 
-typedef struct { size_t *start; size_t *point, *local; } inverse;      /* node -> (point, local index)                    */
+typedef struct { size_t *start; size_t *point, *local; } inverse;      /* node -> (point, local index) */
 
 struct pg_stiffness {
-    size_t     n, nsource, widest;                     /* nodes; sources; most nodes a point sees                        */
+    size_t     n, nsource, widest;                     /* nodes; sources; most nodes a point sees */
     int        block;
     pg_source *source;
-    inverse   *inverse;                                /* per source                                                     */
-    pg_family  lower;                                  /* node I -> nodes J <= I, ascending                              */
+    inverse   *inverse;                                /* per source */
+    pg_family  lower;                                  /* node I -> nodes J <= I, ascending */
     pg_sparse  K;
 };
 
@@ -50,14 +51,14 @@ static size_t neighbours (const pg_stiffness *K, size_t I, size_t *mark, int *no
                 count++;
             }
         }
-    if (mark[I] != I + 1) {                            /* a node that no point sees keeps its diagonal                   */
+    if (mark[I] != I + 1) {                            /* a node that no point sees keeps its diagonal */
         if (node) node[count] = (int) I;
         count++;
     }
     return count;
 }
 
-static void sort_nodes (int *a, size_t n)              /* insertion sort of nearly sorted runs, shell gaps                */
+static void sort_nodes (int *a, size_t n)              /* insertion sort of nearly sorted runs, shell gaps */
 {
     static const size_t gaps[] = { 301, 132, 57, 23, 10, 4, 1 };
     for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++)
@@ -77,7 +78,8 @@ static pg_status couple (pg_stiffness *K)
     PG_ALLOC (mark, K->n);
     PG_ALLOC (K->lower.start, K->n + 1);
     K->lower.n = K->n;
-    for (size_t I = 0; I < K->n; I++) K->lower.start[I + 1] = K->lower.start[I] + neighbours (K, I, mark, NULL);
+    for (size_t I = 0; I < K->n; I++)
+        K->lower.start[I + 1] = K->lower.start[I] + neighbours (K, I, mark, NULL);
     PG_ALLOC (K->lower.node, K->lower.start[K->n]);
     memset (mark, 0, K->n * sizeof *mark);
     for (size_t I = 0; I < K->n; I++) {
@@ -102,7 +104,8 @@ static pg_status pattern (pg_stiffness *K)
             K->K.start[I * m + beta] = at;
             for (size_t k = K->lower.start[I]; k < K->lower.start[I + 1]; k++)
                 for (size_t alpha = 0; alpha < m; alpha++)
-                    if ((size_t) K->lower.node[k] < I || alpha <= beta) K->K.row[at++] = (long) ((size_t) K->lower.node[k] * m + alpha);
+                    if ((size_t) K->lower.node[k] < I || alpha <= beta)
+                        K->K.row[at++] = (long) ((size_t) K->lower.node[k] * m + alpha);
         }
     K->K.start[K->n * m] = at;
 done:
@@ -122,7 +125,8 @@ static pg_status create (pg_stiffness **out, size_t n, int block, size_t nsource
         const pg_family *f = sources[s].family;
         K->source[s] = sources[s];
         PG_TRY (invert (&K->inverse[s], f, n));
-        for (size_t p = 0; p < f->n; p++) if (f->start[p + 1] - f->start[p] > K->widest) K->widest = f->start[p + 1] - f->start[p];
+        for (size_t p = 0; p < f->n; p++)
+            if (f->start[p + 1] - f->start[p] > K->widest) K->widest = f->start[p + 1] - f->start[p];
     }
     *out = K;
     K = NULL;
@@ -131,7 +135,8 @@ done:
     return status;
 }
 
-pg_status pg_stiffness_create (pg_stiffness **out, size_t n, int block, size_t nsource, const pg_source *sources)
+pg_status pg_stiffness_create (pg_stiffness **out, size_t n, int block, size_t nsource,
+                               const pg_source *sources)
 {
     pg_status status = PG_OK;
     pg_stiffness *K = NULL;
@@ -176,7 +181,8 @@ pg_status pg_stiffness_graph_direct (pg_sparse *out, const pg_family *f)
     PG_ALLOC (out->row, count);
     count = 0;
     for (size_t i = 0; i < f->n; i++) {
-        for (size_t e = f->start[i]; e < f->start[i + 1] && (size_t) f->node[e] < i; e++) out->row[count++] = f->node[e];
+        for (size_t e = f->start[i]; e < f->start[i + 1] && (size_t) f->node[e] < i; e++)
+            out->row[count++] = f->node[e];
         out->row[count++] = (long) i;
         out->start[i + 1] = (long) count;
     }
@@ -201,7 +207,7 @@ void pg_stiffness_free (pg_stiffness **K)
 
 pg_sparse *pg_stiffness_matrix (pg_stiffness *K) { return &K->K; }
 
-/* ---- gather ----------------------------------------------------------------------------------------------------------- */
+/* ---- gather -------------------------------------------------------------------------------------------- */
 typedef struct { pg_stiffness *K; const int *list; size_t *slot; double *blocks; } gathering;
 
 /* Adds block b of a row of blocks (row-major m x m, transposed into the columns of node I). */
@@ -219,8 +225,10 @@ static void gather_row (gathering *g, size_t I, size_t *slot, double *blocks)
 {
     pg_stiffness *K = g->K;
     size_t m = (size_t) K->block, mm = m * m;
-    memset (K->K.value + K->K.start[I * m], 0, (size_t) (K->K.start[(I + 1) * m] - K->K.start[I * m]) * sizeof (double));
-    for (size_t k = K->lower.start[I]; k < K->lower.start[I + 1]; k++) slot[K->lower.node[k]] = k - K->lower.start[I];
+    memset (K->K.value + K->K.start[I * m], 0,
+            (size_t) (K->K.start[(I + 1) * m] - K->K.start[I * m]) * sizeof (double));
+    for (size_t k = K->lower.start[I]; k < K->lower.start[I + 1]; k++)
+        slot[K->lower.node[k]] = k - K->lower.start[I];
     for (size_t s = 0; s < K->nsource; s++) {
         const pg_source *source = &K->source[s];
         for (size_t k = K->inverse[s].start[I]; k < K->inverse[s].start[I + 1]; k++) {
@@ -228,7 +236,8 @@ static void gather_row (gathering *g, size_t I, size_t *slot, double *blocks)
             const int *node = source->family->node + source->family->start[p];
             memset (blocks, 0, (a + 1) * mm * sizeof *blocks);
             source->blocks (source->context, p, a, a + 1, blocks);
-            for (size_t b = 0; b <= a; b++) add_block (K, I, (size_t) node[b], slot[node[b]], blocks + b * mm);
+            for (size_t b = 0; b <= a; b++)
+                add_block (K, I, (size_t) node[b], slot[node[b]], blocks + b * mm);
         }
     }
 }
@@ -238,7 +247,8 @@ static void gather (void *context, size_t first, size_t last, int thread)
     gathering *g = context;
     size_t wide = g->K->widest + 1, mm = (size_t) (g->K->block * g->K->block);
     for (size_t k = first; k < last; k++)
-        gather_row (g, g->list ? (size_t) g->list[k] : k, g->slot + (size_t) thread * g->K->n, g->blocks + (size_t) thread * wide * mm);
+        gather_row (g, g->list ? (size_t) g->list[k] : k, g->slot + (size_t) thread * g->K->n,
+                    g->blocks + (size_t) thread * wide * mm);
 }
 
 pg_status pg_stiffness_gather (pg_stiffness *K, size_t count, const int *list, int threads)

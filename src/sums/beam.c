@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Micropolar bonds: moduli from the energy of uniform strain, calibration on the points at hand, the energy of a straight cut, and the stiffness of
- * one bond (Chen 2022, corrected in theory G1, G2, G5). */
+ * Micropolar bonds: moduli from the energy of uniform strain, calibration on the points at hand, the energy
+ * of a straight cut, and the stiffness of one bond (Chen 2022, corrected in theory G1, G2, G5). */
 #include "beam.h"
 #include "sums_private.h"
 #include <math.h>
@@ -9,9 +9,15 @@
 
 static const double pi = 3.14159265358979323846264338327950288;
 
-double pg_beam_poisson (pg_mode mode) { return mode == PG_LINE ? 0 : mode == PG_PLANE_STRESS ? 1.0 / 3 : 0.25; }
+double pg_beam_poisson (pg_mode mode)
+{
+    return mode == PG_LINE ? 0 : mode == PG_PLANE_STRESS ? 1.0 / 3 : 0.25;
+}
 
-static double moment (const pg_kernel *kernel, double horizon, int n) { return pow (horizon, n + 1) * pg_kernel_moment (kernel, n); }
+static double moment (const pg_kernel *kernel, double horizon, int n)
+{
+    return pow (horizon, n + 1) * pg_kernel_moment (kernel, n);
+}
 
 /* Of the sum of shear stiffnesses: int k r^(dim - 2) dr */
 static pg_status shear_moment (double *out, const pg_kernel *kernel, double horizon, int dim)
@@ -19,19 +25,25 @@ static pg_status shear_moment (double *out, const pg_kernel *kernel, double hori
     pg_status status = PG_OK;
     double q = 1e-4, w;
     kernel->value (1, &q, &w, NULL);
-    if (dim == 2 && w * q > 0.01) PG_FAIL (PG_E_USAGE, "kernel %s: the shear of short bonds has no bound in 2D; use constant", kernel->name);
+    if (dim == 2 && w * q > 0.01)
+        PG_FAIL (PG_E_USAGE, "kernel %s: the shear of short bonds has no bound in 2D; use constant",
+                 kernel->name);
     *out = moment (kernel, horizon, dim - 2);
 done:
     return status;
 }
 
-pg_status pg_beam_moduli (double *axial, double *shear, pg_mode mode, const pg_kernel *kernel, double horizon, double E, double nu, double thickness)
+pg_status pg_beam_moduli (double *axial, double *shear, pg_mode mode, const pg_kernel *kernel, double horizon,
+                          double E, double nu, double thickness)
 {
     pg_status status = PG_OK;
     double across = 0;
     if (mode == PG_LINE) PG_FAIL (PG_E_USAGE, "bonds of a line bear no shear: use 2 or 3 dimensions");
     if (!(nu > -1) || !(nu <= pg_beam_poisson (mode) + 1e-9))
-        PG_FAIL (PG_E_USAGE, "Poisson's ratio %g of micropolar bonds must be at most %.6g: beyond, their shear stiffness is negative and the body unstable", nu, pg_beam_poisson (mode));
+        PG_FAIL (PG_E_USAGE,
+                 "Poisson's ratio %g of micropolar bonds must be at most %.6g: beyond, their shear stiffness "
+                 "is negative and the body unstable",
+                 nu, pg_beam_poisson (mode));
     PG_TRY (shear_moment (&across, kernel, horizon, mode == PG_SOLID ? 3 : 2));
     if (mode == PG_SOLID) {
         *axial = 3 * E / (2 * pi * moment (kernel, horizon, 3) * (1 - 2 * nu));
@@ -43,12 +55,13 @@ pg_status pg_beam_moduli (double *axial, double *shear, pg_mode mode, const pg_k
         *axial = 2 * E / (pi * thickness * moment (kernel, horizon, 2) * (1 + nu) * (1 - 2 * nu));
         *shear = E * (1 - 4 * nu) / (6 * pi * thickness * across * (1 + nu) * (1 - 2 * nu));
     }
-    if (fabs (nu - pg_beam_poisson (mode)) <= 1e-9) *shear = 0;        /* a third and a quarter are meant exactly                  */
+    if (fabs (nu - pg_beam_poisson (mode)) <= 1e-9) *shear = 0;  /* a third and a quarter are meant exactly */
 done:
     return status;
 }
 
-void pg_beam_split (double *bond_modulus, double *dilation, pg_mode mode, double E, double nu, double bond_poisson)
+void pg_beam_split (double *bond_modulus, double *dilation, pg_mode mode, double E, double nu,
+                    double bond_poisson)
 {
     double bonds, same;
     *bond_modulus = E * ((1 + bond_poisson) / (1 + nu));
@@ -57,7 +70,7 @@ void pg_beam_split (double *bond_modulus, double *dilation, pg_mode mode, double
     *dilation -= bonds;
 }
 
-/* ---- points at hand ------------------------------------------------------------------------------------------------------------------ */
+/* ---- points at hand ------------------------------------------------------------------------------------ */
 static int ascending (const void *a, const void *b)
 {
     double x = *(const double *) a, y = *(const double *) b;
@@ -123,24 +136,27 @@ pg_status pg_beam_measure (pg_beam_sums *out, const pg_sums *sums)
     }
     if (rule->calibrate && s->n) lattice_cuts (out, s, thickness);
     else {
-        out->along = dim == 3 ? pi * moment (rule->kernel, rule->horizon, 4) : 2 * thickness * moment (rule->kernel, rule->horizon, 3);
-        out->across = dim == 3 ? pi * moment (rule->kernel, rule->horizon, 2) : 2 * thickness * moment (rule->kernel, rule->horizon, 1);
+        out->along = dim == 3 ? pi * moment (rule->kernel, rule->horizon, 4)
+                              : 2 * thickness * moment (rule->kernel, rule->horizon, 3);
+        out->across = dim == 3 ? pi * moment (rule->kernel, rule->horizon, 2)
+                               : 2 * thickness * moment (rule->kernel, rule->horizon, 1);
     }
 done:
     return status;
 }
 
-/* ---- one bond ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- one bond ------------------------------------------------------------------------------------------ */
 static double between (const double *c, size_t i, size_t j)
 {
     double a = c[i], b = c[j];
     return a == b ? a : a + b > 0 ? 2 * a * b / (a + b) : 0;
 }
 
-pg_beam pg_beam_between (const pg_sweep_setting *s, size_t i, size_t j, const double *xi, double weight)
+pg_beam pg_beam_between (const pg_bond_loop_setting *s, size_t i, size_t j, const double *xi, double weight)
 {
     const pg_cloud *cloud = s->sums->cloud;
-    double rr = beam_dot (cloud->dim, xi, xi), r = sqrt (rr), all = weight * (cloud->volume[i] * cloud->volume[j]) / r, ratio = 1;
+    double rr = beam_dot (cloud->dim, xi, xi), r = sqrt (rr),
+           all = weight * (cloud->volume[i] * cloud->volume[j]) / r, ratio = 1;
     if (cloud->size) ratio = 0.5 * (pg_cloud_ratio (cloud, i) + pg_cloud_ratio (cloud, j));
     double wide = all * (ratio * ratio), length = s->beams->length;
     return (pg_beam) { 12 * between (s->beams->shear, i, j) * wide / rr, between (s->modulus, i, j) * all,
@@ -177,12 +193,14 @@ void pg_beam_blocks (int dim, const double *xi, const pg_beam *b, double length,
     }
     for (int t = 0; t < turns; t++)
         for (int v = 0; v < turns; v++) {
-            double P = dim == 2 ? 1 : (t == v) - xi[t] * xi[v] / rr, shear = b->shear * s * s * rr * P, bend = b->bending * P;
+            double P = dim == 2 ? 1 : (t == v) - xi[t] * xi[v] / rr, shear = b->shear * s * s * rr * P,
+                   bend = b->bending * P;
             own[(dim + t) * m + dim + v] = shear + bend, other[(dim + t) * m + dim + v] = shear - bend;
         }
 }
 
-void pg_beam_strain (int dim, const double *xi, double length, const double *di, const double *dj, double *shear, double *bending)
+void pg_beam_strain (int dim, const double *xi, double length, const double *di, const double *dj,
+                     double *shear, double *bending)
 {
     double w[3], diff[3], s;
     beam_motion (dim, 0.5 / length, xi, di, dj, w, diff);

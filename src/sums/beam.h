@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * beam.h: one micropolar bond (private): what its ends do to each other, in unknowns u and q = length theta. All terms change sign or stay, bit by
- * bit, when the bond is looked at from its other end. */
+ * beam.h: one micropolar bond (private): what its ends do to each other, in unknowns u and q = length theta.
+ * All terms change sign or stay, bit by bit, when the bond is looked at from its other end. */
 #ifndef PERIGAL_SUMS_BEAM_H
 #define PERIGAL_SUMS_BEAM_H
 #include "perigal/sums.h"
@@ -8,11 +8,13 @@
 static inline int beam_unknowns (int dim) { return dim == 2 ? 3 : 6; }
 
 /* w = eta - lever (q_i + q_j) x xi, diff = q_j - q_i; lever: 1 / (2 length) */
-static inline void beam_motion (int dim, double lever, const double *xi, const double *di, const double *dj, double *w, double *diff)
+static inline void beam_motion (int dim, double lever, const double *xi, const double *di, const double *dj,
+                                double *w, double *diff)
 {
     double sum[3];
     int turns = dim == 2 ? 1 : 3;
-    for (int k = 0; k < turns; k++) sum[k] = lever * (di[dim + k] + dj[dim + k]), diff[k] = dj[dim + k] - di[dim + k];
+    for (int k = 0; k < turns; k++)
+        sum[k] = lever * (di[dim + k] + dj[dim + k]), diff[k] = dj[dim + k] - di[dim + k];
     if (dim == 2) {
         w[0] = (dj[0] - di[0]) + sum[0] * xi[1];
         w[1] = (dj[1] - di[1]) - sum[0] * xi[0];
@@ -31,7 +33,8 @@ static inline double beam_dot (int n, const double *a, const double *b)
 }
 
 /* Adds force and moment on i to f; inverse: 1 / xi . xi */
-static inline void beam_pull (int dim, double lever, const double *xi, double inverse, const pg_beam *b, const double *w, const double *diff, double *f)
+static inline void beam_pull (int dim, double lever, const double *xi, double inverse, const pg_beam *b,
+                              const double *w, const double *diff, double *f)
 {
     double along = (b->along - b->shear) * (beam_dot (dim, xi, w) * inverse), g[3];
     for (int k = 0; k < dim; k++) g[k] = b->shear * w[k] + along * xi[k], f[k] += g[k];
@@ -46,9 +49,12 @@ static inline void beam_pull (int dim, double lever, const double *xi, double in
 }
 
 /* s^2 with its sign, gamma^2, kappa^2; per_length: 1 / length */
-static inline void beam_measures (int dim, double per_length, const double *xi, double inverse, const double *w, const double *diff, double *s, double *shear2, double *bending2)
+static inline void beam_measures (int dim, double per_length, const double *xi, double inverse,
+                                  const double *w, const double *diff, double *s, double *shear2,
+                                  double *bending2)
 {
-    double along = beam_dot (dim, xi, w) * inverse, across = 0, turn = 0, twist = dim == 3 ? beam_dot (3, xi, diff) * inverse : 0;
+    double along = beam_dot (dim, xi, w) * inverse, across = 0, turn = 0,
+           twist = dim == 3 ? beam_dot (3, xi, diff) * inverse : 0;
     for (int k = 0; k < dim; k++) across += (w[k] - along * xi[k]) * (w[k] - along * xi[k]);
     if (dim == 2) turn = diff[0] * diff[0];
     else for (int k = 0; k < 3; k++) turn += (diff[k] - twist * xi[k]) * (diff[k] - twist * xi[k]);
@@ -56,7 +62,8 @@ static inline void beam_measures (int dim, double per_length, const double *xi, 
 }
 
 /* Twice the energy of the bond, J */
-static inline double beam_energy (int dim, const double *xi, double rr, const pg_beam *b, const double *w, const double *diff)
+static inline double beam_energy (int dim, const double *xi, double rr, const pg_beam *b, const double *w,
+                                  const double *diff)
 {
     double s, shear2, turn2;
     beam_measures (dim, 1, xi, 1 / rr, w, diff, &s, &shear2, &turn2);

@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * beam_kernel.h: loops over micropolar bonds of the blocks of block.h (private, included by block_kernel.h once per instruction set; theory G2).
- * Of a live bond, q = length theta, lever = 1 / (2 length): w = eta - lever (q_i + q_j) x xi, f = kt w + g (xi.w) xi,
- * m = lever xi x f + kb (q_j - q_i)_perp. What is seen from the other end has the opposite sign or the same, bit by bit. */
+ * beam_kernel.h: loops over micropolar bonds of the blocks of block.h (private, included by block_kernel.h
+ * once per instruction set; theory G2). Of a live bond, q = length theta, lever = 1 / (2 length): w = eta -
+ * lever (q_i + q_j) x xi, f = kt w + g (xi.w) xi, m = lever xi x f + kb (q_j - q_i)_perp. What is seen from
+ * the other end has the opposite sign or the same, bit by bit. */
 
 #define BEAM_VECS(dim) ((dim) == 2 && LANES > 2 ? 2 : 1)
 #define POSITIVE(v) ((vec) ((__typeof__ ((v) > (vec) { 0 })) (v) & ((v) > (vec) { 0 })))
-#define LARGER(a, b) ((vec) (((__typeof__ ((a) > (b))) (a) & ((a) > (b))) | ((__typeof__ ((a) > (b))) (b) & ~((a) > (b)))))
+#define LARGER(a, b) \
+    ((vec) (((__typeof__ ((a) > (b))) (a) & ((a) > (b))) | ((__typeof__ ((a) > (b))) (b) & ~((a) > (b)))))
 
 /* Motion of one bond at `at` places of both ends: w, q_j - q_i */
-INLINE void beam_motion (const pg_block_job *job, size_t at, ptrdiff_t jump, int dim, const double *t, vec *w, vec *turn)
+INLINE void beam_motion (const pg_block_job *job, size_t at, ptrdiff_t jump, int dim, const double *t, vec *w,
+                         vec *turn)
 {
     const int turns = dim == 2 ? 1 : 3;
     const vec lever = ALL (job->lever);
@@ -17,7 +20,8 @@ INLINE void beam_motion (const pg_block_job *job, size_t at, ptrdiff_t jump, int
         vec here = LOAD (job->q[k] + at), there = LOAD (job->q[k] + (ptrdiff_t) at + jump);
         sum[k] = lever * (here + there), turn[k] = there - here;
     }
-    UNROLL for (int d = 0; d < dim; d++) w[d] = LOAD (job->u[d] + (ptrdiff_t) at + jump) - LOAD (job->u[d] + at);
+    UNROLL for (int d = 0; d < dim; d++)
+        w[d] = LOAD (job->u[d] + (ptrdiff_t) at + jump) - LOAD (job->u[d] + at);
     const vec x = ALL (t[PG_AT_XI]), y = ALL (t[PG_AT_XI + 1]), z = ALL (t[PG_AT_XI + 2]);
     if (dim == 2) {
         w[0] = vec_fuse (sum[0], y, w[0]);
@@ -88,7 +92,8 @@ INLINE void beam_stride (const pg_block_job *job, size_t k, int stride, int dim,
         if (weighted) p = LOAD (job->p + base + v * LANES);
         UNROLL for (int d = 0; d < dim; d++) STORE (out + d * PG_BLOCK + stride + v * LANES, force[d][v] * p);
         UNROLL for (int c = 0; c < turns; c++)
-            STORE (out + (dim + c) * PG_BLOCK + stride + v * LANES, vec_fuse (ALL (job->lever), cross[c][v], bend[c][v]) * p);
+            STORE (out + (dim + c) * PG_BLOCK + stride + v * LANES,
+                   vec_fuse (ALL (job->lever), cross[c][v], bend[c][v]) * p);
     }
 }
 
@@ -128,7 +133,8 @@ INLINE vec beam_share (const pg_block_job *job, size_t at, size_t j, int dim, ui
         bend = vec_fuse (turn[2], turn[2], bend);
     } else bend = bend * bend;
     s = POSITIVE (s);
-    s = s * s * ALL (t[PG_AT_STRETCH_SHARE]), shear = shear * ALL (t[PG_AT_SHEAR_SHARE]), bend = bend * ALL (t[PG_AT_BEND_SHARE]);
+    s = s * s * ALL (t[PG_AT_STRETCH_SHARE]), shear = shear * ALL (t[PG_AT_SHEAR_SHARE]),
+    bend = bend * ALL (t[PG_AT_BEND_SHARE]);
     vec all = job->single ? LARGER (s, LARGER (shear, bend)) : s + shear + bend;
     vec_keep (all, live);
     return all;
@@ -143,7 +149,8 @@ INLINE void beam_look_loop (const pg_block_job *job, size_t first, size_t last, 
         hits over = { 0 };
         for (size_t j = 0; j < job->n; j++)
             for (int at = 0; at < PG_BLOCK && (alive[j] & may[j]) >> at; at += LANES)
-                HITS_OVER (over, beam_share (job, b->base + (size_t) at, j, dim, (alive[j] & may[j]) >> at), ALL (1.0));
+                HITS_OVER (over, beam_share (job, b->base + (size_t) at, j, dim, (alive[j] & may[j]) >> at),
+                           ALL (1.0));
         if (HITS_ANY (over)) job->hit[k] = 1;
     }
 }
@@ -154,7 +161,8 @@ INLINE void beam_over_loop (const pg_block_job *job, size_t first, size_t last, 
     double lane[LANES];
     for (size_t k = first; k < last; k++)
         for (size_t j = 0; j < job->n; j++) {
-            uint32_t live = job->alive[k * job->n + j] & (job->may ? job->may[k * job->n + j] : UINT32_MAX), bits = 0;
+            uint32_t live = job->alive[k * job->n + j] & (job->may ? job->may[k * job->n + j] : UINT32_MAX),
+                     bits = 0;
             for (int at = 0; at < PG_BLOCK && live >> at; at += LANES) {
                 STORE (lane, beam_share (job, job->block[k].base + (size_t) at, j, dim, live >> at));
                 for (int l = 0; l < LANES; l++) bits |= (uint32_t) (lane[l] >= 1) << (at + l);
@@ -181,7 +189,8 @@ INLINE void beam_energy_loop (const pg_block_job *job, size_t first, size_t last
                 if (dim == 3) beam_across (t, turn);
                 UNROLL for (int d = 0; d < dim; d++) e = vec_fuse (w[d], w[d], e);
                 UNROLL for (int c = 0; c < turns; c++) bend = vec_fuse (turn[c], turn[c], bend);
-                e = vec_fuse (ALL (t[PG_AT_KG]), along * along, vec_fuse (ALL (t[PG_AT_KT]), e, ALL (t[PG_AT_KB]) * bend));
+                e = vec_fuse (ALL (t[PG_AT_KG]), along * along,
+                              vec_fuse (ALL (t[PG_AT_KT]), e, ALL (t[PG_AT_KB]) * bend));
                 vec_keep (e, job->alive[k * job->n + j] >> stride);
                 if (weighted) e = e * LOAD (job->p + (ptrdiff_t) at + job->jump[j]);
                 sum = sum + e;
@@ -190,16 +199,31 @@ INLINE void beam_energy_loop (const pg_block_job *job, size_t first, size_t last
             STORE (lane, sum);
             for (int l = 0; l < LANES; l++) {
                 whole += lane[l];
-                if (job->energies && b->present >> (stride + l) & 1) job->energies[job->point[b->site + (size_t) (stride + l)]] = lane[l];
+                if (job->energies && b->present >> (stride + l) & 1)
+                    job->energies[job->point[b->site + (size_t) (stride + l)]] = lane[l];
             }
         }
         job->energy[k] = whole;
     }
 }
 
-#define BEAM(D, W) static TARGET void beam_force_##D##W (const pg_block_job *job, size_t first, size_t last) { beam_force_loop (job, first, last, D, W); } \
-                   static TARGET void beam_energy_##D##W (const pg_block_job *job, size_t first, size_t last) { beam_energy_loop (job, first, last, D, W); }
-#define BEAMS(D) BEAM (D, 0) BEAM (D, 1) \
-                 static TARGET void beam_look_##D (const pg_block_job *job, size_t first, size_t last) { beam_look_loop (job, first, last, D); } \
-                 static TARGET void beam_over_##D (const pg_block_job *job, size_t first, size_t last) { beam_over_loop (job, first, last, D); }
+#define BEAM(D, W) \
+    static TARGET void beam_force_##D##W (const pg_block_job *job, size_t first, size_t last) \
+    { \
+        beam_force_loop (job, first, last, D, W); \
+    } \
+    static TARGET void beam_energy_##D##W (const pg_block_job *job, size_t first, size_t last) \
+    { \
+        beam_energy_loop (job, first, last, D, W); \
+    }
+#define BEAMS(D) \
+    BEAM (D, 0) \
+    BEAM (D, 1) static TARGET void beam_look_##D (const pg_block_job *job, size_t first, size_t last) \
+    { \
+        beam_look_loop (job, first, last, D); \
+    } \
+    static TARGET void beam_over_##D (const pg_block_job *job, size_t first, size_t last) \
+    { \
+        beam_over_loop (job, first, last, D); \
+    }
 BEAMS (2) BEAMS (3)

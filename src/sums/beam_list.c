@@ -1,26 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Micropolar bonds one by one, from a list: any points, any number of materials. Each point sums its own bonds. */
+ * Micropolar bonds one by one, from a list: any points, any number of materials. Each point sums its own
+ * bonds. */
 #include "beam.h"
-#include "sweep.h"
+#include "bond_loop.h"
 #include <math.h>
 #include <string.h>
 
 enum { MAX_THREADS = 64 };
 typedef struct {
-    pg_sweep_setting setting;
+    pg_bond_loop_setting setting;
     pg_beam_law law;
     int      dim, m;
-    double  *xi;                                       /* m      (bonds x dim)                                           */
-    pg_beam *beam;                                     /* N/m    (bonds)                                                 */
-    unsigned char *alive;                              /*        (bonds)                                                 */
-    double  *energy;                                   /* J, of each point's halves (n)                                  */
-    double  *share;                                    /* 1 / s0^2, 1 / gamma0^2, 1 / kappa0^2 of each point (n x 3); NULL: nothing breaks */
-    int      alike;                                    /* those of all points are                                        */
+    double  *xi;                                       /* m (bonds x dim) */
+    pg_beam *beam;                                     /* N/m (bonds) */
+    unsigned char *alive;                              /* (bonds) */
+    double  *energy;                                   /* J, of each point's halves (n) */
+    double  *share;  /* 1 / s0^2, 1 / gamma0^2, 1 / kappa0^2 of each point (n x 3); NULL: nothing breaks */
+    int      alike;                                    /* those of all points are */
     pg_changes found[MAX_THREADS];
     pg_status  failed[MAX_THREADS];
 } list;
 
-static const char *refusal (const pg_sweep_setting *setting)
+static const char *refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite) return "stretch: finite is not for bonds that bear shear";
     return setting->sums->cloud->dim < 2 ? "bonds of a line bear no shear" : NULL;
@@ -35,7 +36,10 @@ static void release (void *self)
     pg_free (s);
 }
 
-static int threads_for (const list *s) { return s->setting.threads < 1 ? 1 : s->setting.threads < MAX_THREADS ? s->setting.threads : MAX_THREADS; }
+static int threads_for (const list *s)
+{
+    return s->setting.threads < 1 ? 1 : s->setting.threads < MAX_THREADS ? s->setting.threads : MAX_THREADS;
+}
 
 static void fill (void *context, size_t first, size_t last, int thread)
 {
@@ -44,11 +48,13 @@ static void fill (void *context, size_t first, size_t last, int thread)
     (void) thread;
     for (size_t i = first; i < last; i++) {
         size_t at = family->start[i];
-        double *xi = s->xi + at * (size_t) s->dim, *weight = &s->beam[at].shear;       /* three numbers a bond, filled from behind */
+        /* three numbers a bond, filled from behind */
+        double *xi = s->xi + at * (size_t) s->dim, *weight = &s->beam[at].shear;
         pg_sums_bonds (s->setting.sums, family, i, xi, weight, NULL);
         for (size_t e = family->start[i + 1] - at; e-- > 0; ) {
             double own = weight[e];
-            s->beam[at + e] = pg_beam_between (&s->setting, i, (size_t) family->node[at + e], xi + e * (size_t) s->dim, own);
+            s->beam[at + e] = pg_beam_between (&s->setting, i, (size_t) family->node[at + e],
+                                               xi + e * (size_t) s->dim, own);
         }
     }
 }
@@ -70,7 +76,7 @@ done:
     return status;
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
     list *s = NULL;
@@ -105,7 +111,7 @@ static void update (void *self, const unsigned char *alive, const pg_changes *ch
     for (size_t c = 0; changes && c < changes->n; c++) s->alive[changes->bond[c]] = 0;
 }
 
-/* ---- sums ---------------------------------------------------------------------------------------------------------------------------- */
+/* ---- sums ---------------------------------------------------------------------------------------------- */
 /* Is the bond at a limit of point i's? */
 static inline int over_by (const list *s, size_t i, double stretch, double shear2, double bending2)
 {
@@ -116,7 +122,8 @@ static inline int over_by (const list *s, size_t i, double stretch, double shear
 
 typedef struct { list *s; const double *u; double *f, *W; int breaking; } pass;
 
-static inline __attribute__ ((always_inline)) void sum_point (const pass *p, size_t i, int dim, double *f, pg_changes *found, pg_status *failed)
+static inline __attribute__ ((always_inline)) void sum_point (const pass *p, size_t i, int dim, double *f,
+                                                              pg_changes *found, pg_status *failed)
 {
     pg_status status = PG_OK;
     list *s = p->s;
@@ -135,7 +142,8 @@ static inline __attribute__ ((always_inline)) void sum_point (const pass *p, siz
         if (p->breaking && !(exempt && (exempt[i] || exempt[j]))) {
             double stretch, shear2, bending2;
             beam_measures (dim, per_length, xi, inverse, w, diff, &stretch, &shear2, &bending2);
-            if (over_by (s, i, stretch, shear2, bending2) || (!s->alike && over_by (s, j, stretch, shear2, bending2))) {
+            if (over_by (s, i, stretch, shear2, bending2)
+                || (!s->alike && over_by (s, j, stretch, shear2, bending2))) {
                 s->alive[e] = 0;
                 PG_GROW (found->bond, found->cap, found->n + 1);
                 found->bond[found->n++] = e;
@@ -180,10 +188,11 @@ static void store_points (void *context, size_t first, size_t last, int thread)
         for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
             const double *xi = s->xi + e * (size_t) s->dim;
             if (!s->alive[e]) continue;
-            beam_motion (s->dim, 0.5 / s->law.length, xi, p->u + i * (size_t) s->m, p->u + (size_t) family->node[e] * (size_t) s->m, w, diff);
+            beam_motion (s->dim, 0.5 / s->law.length, xi, p->u + i * (size_t) s->m,
+                         p->u + (size_t) family->node[e] * (size_t) s->m, w, diff);
             p->W[i] += beam_energy (s->dim, xi, beam_dot (s->dim, xi, xi), &s->beam[e], w, diff);
         }
-        p->W[i] /= 4;                                  /* half of w, and half of it to each end                          */
+        p->W[i] /= 4;                                  /* half of w, and half of it to each end */
     }
 }
 
@@ -206,7 +215,16 @@ static pg_status energies (void *self, const double *u, double *W)
     return PG_OK;
 }
 
-const pg_sweep_kind pg_sweep_beam_list = {
-    .name = "list", .state = 2, .plain = 1, .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = update, .force = force, .energy = energy,
+const pg_bond_loop_kind pg_bond_loop_beam_list = {
+    .name = "list",
+    .state = 2,
+    .plain = 1,
+    .refusal = refusal,
+    .create = create,
+    .free = release,
+    .bytes = bytes,
+    .update = update,
+    .force = force,
+    .energy = energy,
     .energies = energies,
 };

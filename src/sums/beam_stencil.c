@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Micropolar bonds of points on a lattice: the blocks and bits of stencil_sweep.c with rotations beside displacements. Breaking: blocks are looked
- * through for bonds at their limit, which die before the forces are summed. theory G2. */
+ * Micropolar bonds of points on a lattice: the blocks and bits of stencil_sweep.c with rotations beside
+ * displacements. Breaking: blocks are looked through for bonds at their limit, which die before the forces
+ * are summed. theory G2. */
 #include "beam.h"
 #include "stencil_sweep.h"
 #include <math.h>
 #include <string.h>
 
 typedef struct {
-    stencil  base;                                     /* first: loops over blocks see it alone                          */
+    stencil  base;                                     /* first: loops over blocks see it alone */
     pg_beam_law law;
-    int      m;                                        /* unknowns of a point                                            */
-    double  *turn;                                     /* padded rotations times length, m                               */
+    int      m;                                        /* unknowns of a point */
+    double  *turn;                                     /* padded rotations times length, m */
     uint32_t *over;
 } beams;
 
@@ -20,14 +21,15 @@ static int differs (const double *a, size_t n)
     return 0;
 }
 
-static const char *refusal (const pg_sweep_setting *setting)
+static const char *refusal (const pg_bond_loop_setting *setting)
 {
     const pg_beam_law *law = setting->beams;
     size_t n = setting->sums->cloud->n;
     if (setting->sums->rule.finite) return "stretch: finite is not for bonds that bear shear";
     if (setting->sums->cloud->dim < 2) return "bonds of a line bear no shear";
     if (differs (law->shear, n) || differs (law->bending, n)) return "there are several moduli";
-    if (setting->limit && (differs (law->shear_limit, n) || differs (law->bending_limit, n))) return "there are several limits";
+    if (setting->limit && (differs (law->shear_limit, n) || differs (law->bending_limit, n)))
+        return "there are several limits";
     return stencil_refusal (setting);
 }
 
@@ -39,26 +41,32 @@ static void release (void *self)
     stencil_free (s);
 }
 
-static double share (double limit, double unit) { return limit > 0 && isfinite (limit) ? 1 / (unit * limit * limit) : 0; }
+static double share (double limit, double unit)
+{
+    return limit > 0 && isfinite (limit) ? 1 / (unit * limit * limit) : 0;
+}
 
 static void set_terms (beams *s)
 {
     stencil *b = &s->base;
     const pg_stencil *st = &b->setting.sums->stencil;
-    const pg_sweep_setting *set = &b->setting;
+    const pg_bond_loop_setting *set = &b->setting;
     double length = s->law.length, V = st->cell * set->sums->cloud->thickness;
     for (size_t j = 0; j < st->n; j++) {
-        double *t = b->term + j * PG_TERMS, r = st->r[j], all = st->weight[j] * (V * V) / r, kt = 12 * s->law.shear[0] * all / (r * r);
-        t[PG_AT_KT] = kt, t[PG_AT_KG] = (set->modulus[0] * all - kt) / (r * r), t[PG_AT_KB] = s->law.bending[0] * all / (length * length);
+        double *t = b->term + j * PG_TERMS, r = st->r[j], all = st->weight[j] * (V * V) / r,
+               kt = 12 * s->law.shear[0] * all / (r * r);
+        t[PG_AT_KT] = kt, t[PG_AT_KG] = (set->modulus[0] * all - kt) / (r * r),
+        t[PG_AT_KB] = s->law.bending[0] * all / (length * length);
         t[PG_AT_BEAM_INVERSE] = 1 / (r * r);
         t[PG_AT_STRETCH_SHARE] = t[PG_AT_SHEAR_SHARE] = t[PG_AT_BEND_SHARE] = 0;
         if (!set->limit) continue;
-        t[PG_AT_STRETCH_SHARE] = share (set->limit[0], 1), t[PG_AT_SHEAR_SHARE] = share (s->law.shear_limit[0], r * r);
+        t[PG_AT_STRETCH_SHARE] = share (set->limit[0], 1),
+        t[PG_AT_SHEAR_SHARE] = share (s->law.shear_limit[0], r * r);
         t[PG_AT_BEND_SHARE] = share (s->law.bending_limit[0], length * length);
     }
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
     PG_TRY (stencil_create (self, setting, set, sizeof (beams)));
@@ -85,7 +93,7 @@ static void bytes (const void *self, double *per_bond, double *per_point)
     *per_point *= (double) s->m / s->base.job.dim;
 }
 
-/* ---- sums ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- sums ---------------------------------------------------------------------------------------------- */
 typedef struct { beams *s; const double *u; } pass;
 
 static void spread_blocks (void *context, size_t first, size_t last, int thread)
@@ -117,7 +125,8 @@ static pg_status kill (stencil *b, size_t k, pg_changes *found)
             unsigned bit = (unsigned) __builtin_ctz (left);
             b->alive[k * b->job.n + j] &= ~(1u << bit);
             PG_GROW (found->bond, found->cap, found->n + 1);
-            found->bond[found->n++] = stencil_entry (b, b->job.point[block->site + bit], block->base + bit, j);
+            found->bond[found->n++] = stencil_entry (b, b->job.point[block->site + bit], block->base + bit,
+                                                     j);
         }
 done:
     return status;
@@ -162,7 +171,8 @@ static double sum_energies (beams *s, const double *u, double *W)
 {
     stencil *b = &s->base;
     spread (s, u);
-    return stencil_stored (b, b->kernels->beam_energy[b->job.dim - 2][b->p != NULL], W) / 4;       /* half of w, and half of it to each end */
+    /* half of w, and half of it to each end */
+    return stencil_stored (b, b->kernels->beam_energy[b->job.dim - 2][b->p != NULL], W) / 4;
 }
 
 static double energy (void *self, const double *u) { return sum_energies (self, u, NULL); }
@@ -176,7 +186,15 @@ static pg_status energies (void *self, const double *u, double *W)
     return PG_OK;
 }
 
-const pg_sweep_kind pg_sweep_beam_stencil = {
-    .name = "stencil", .state = 2, .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = stencil_update, .force = force,
-    .energy = energy, .energies = energies,
+const pg_bond_loop_kind pg_bond_loop_beam_stencil = {
+    .name = "stencil",
+    .state = 2,
+    .refusal = refusal,
+    .create = create,
+    .free = release,
+    .bytes = bytes,
+    .update = stencil_update,
+    .force = force,
+    .energy = energy,
+    .energies = energies,
 };

@@ -1,58 +1,74 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * block.h: force of the live bonds of 32 sites of a row at once (private). One source, block_kernel.h, is compiled for each instruction set.
- * Products are added with one rounding where the machine can; roots and quotients are those of IEEE 754: sets that fuse give the same bits. */
+ * block.h: force of the live bonds of 32 sites of a row at once (private). One source, block_kernel.h, is
+ * compiled for each instruction set. Products are added with one rounding where the machine can; roots and
+ * quotients are those of IEEE 754: sets that fuse give the same bits. */
 #ifndef PERIGAL_SUMS_BLOCK_H
 #define PERIGAL_SUMS_BLOCK_H
 #include "perigal/sums.h"
 #include <stdint.h>
 
-enum { PG_BLOCK = 32, PG_TERMS = 10 };                 /* sites of a block; doubles per bond                             */
+enum { PG_BLOCK = 32, PG_TERMS = 10 };                 /* sites of a block; doubles per bond */
 enum { PG_AT_XI, PG_AT_PULL = 3, PG_AT_LIMIT = 6, PG_AT_R2 = 7, PG_AT_R = 8, PG_AT_STORED = 9 };
-enum { PG_AT_KT = 3, PG_AT_KG = 4, PG_AT_KB = 5, PG_AT_BEAM_INVERSE = 6, PG_AT_STRETCH_SHARE = 7, PG_AT_SHEAR_SHARE = 8, PG_AT_BEND_SHARE = 9 };    /* beams */
-enum { PG_AT_WV = 3, PG_AT_WVV = 4, PG_AT_INVERSE = 5 };               /* state-based                                    */
+/* beams */
+enum {
+    PG_AT_KT = 3,
+    PG_AT_KG = 4,
+    PG_AT_KB = 5,
+    PG_AT_BEAM_INVERSE = 6,
+    PG_AT_STRETCH_SHARE = 7,
+    PG_AT_SHEAR_SHARE = 8,
+    PG_AT_BEND_SHARE = 9
+};
+enum { PG_AT_WV = 3, PG_AT_WVV = 4, PG_AT_INVERSE = 5 };               /* state-based */
 typedef struct {
-    size_t   base;                                     /* padded place of its first site                                 */
-    size_t   site;                                     /* of its first site                                              */
-    uint32_t present;                                  /* bit k: site k has a point                                      */
-    int      first;                                    /* lowest of its points if they are consecutive, else -1          */
+    size_t   base;                                     /* padded place of its first site */
+    size_t   site;                                     /* of its first site */
+    uint32_t present;                                  /* bit k: site k has a point */
+    int      first;  /* lowest of its points if they are consecutive, else -1 */
 } pg_block;
-/* Linear: pull = a xi (3), limit on xi.eta: s0 r^2. Finite: pull[0] = a r^2, limit on 2 xi.eta + eta.eta: s0 (2 + s0) r^2, r2 = r^2, r.
- * stored: a, of finite ones a r^2. * a = c V^2 k beta / r^3 (N/m^3), V: volume of a lattice cell. */
+/* Linear: pull = a xi (3), limit on xi.eta: s0 r^2. Finite: pull[0] = a r^2, limit on 2 xi.eta + eta.eta: s0
+ * (2 + s0) r^2, r2 = r^2, r. stored: a, of finite ones a r^2. * a = c V^2 k beta / r^3 (N/m^3), V: volume of
+ * a lattice cell. */
 typedef struct {
     int      dim;
-    size_t   n;                                        /* bonds of the stencil                                           */
-    const ptrdiff_t *jump;                             /* padded places from a point to its neighbour  (n)               */
-    const double    *term;                             /* (n x PG_TERMS)                                                 */
+    size_t   n;                                        /* bonds of the stencil */
+    const ptrdiff_t *jump;                             /* padded places from a point to its neighbour (n) */
+    const double    *term;                             /* (n x PG_TERMS) */
     const pg_block  *block;
-    const int       *point;                            /* of each site, -1: none                                         */
-    const uint32_t  *alive;                            /* bit k of word [block][bond]: that bond of site k lives         */
-    const uint32_t  *may;                              /* ... may break; NULL: all may                                   */
-    double         *u[3];                              /* padded displacement, m; 0 where there is no point              */
-    const double   *p;                                 /* padded weight of points; NULL: all 1                           */
-    double         *f;                                 /* n x dim, N                                                     */
-    unsigned char  *hit;                               /* set to 1: a bond of the block is over its limit (blocks)       */
-    double         *energy;                            /* sum of a (xi.eta)^2 p_i p_j over directed bonds (blocks)       */
-    double         *energies;                          /* the same sum of each point (n); NULL: not wanted               */
-    /* State-based (state.h): term = xi (3), w V, w V^2, 1 / r^2, and the limit where it always is.                      */
-    double         *factor, *beta, *alpha;             /* padded, 0 where there is no point: A d / q^2, B / q, A theta / q */
-    /* Beams (beam_kernel.h): term = xi (3), kt, (kn - kt) / r^2, kb, 1 / r^2, 1 / s0^2, 1 / (r gamma0)^2, 1 / (length kappa0)^2. */
-    double         *q[3];                              /* padded rotations times a length, m                             */
-    double          lever;                             /* 1 / (2 length), 1/m                                            */
-    int             single;                            /* any one limit, not all together                                */
-    uint32_t       *over;                              /* as alive: those at their limit                                 */
-    double          volume;                            /* of a lattice cell, m^3                                         */
+    const int       *point;                            /* of each site, -1: none */
+    const uint32_t  *alive;  /* bit k of word [block][bond]: that bond of site k lives */
+    const uint32_t  *may;                              /* ... may break; NULL: all may */
+    double         *u[3];                              /* padded displacement, m; 0 where there is no point */
+    const double   *p;                                 /* padded weight of points; NULL: all 1 */
+    double         *f;                                 /* n x dim, N */
+    unsigned char  *hit;  /* set to 1: a bond of the block is over its limit (blocks) */
+    double         *energy;  /* sum of a (xi.eta)^2 p_i p_j over directed bonds (blocks) */
+    double         *energies;                          /* the same sum of each point (n); NULL: not wanted */
+    /* State-based (state.h): term = xi (3), w V, w V^2, 1 / r^2, and the limit where it always is. */
+    /* padded, 0 where there is no point: A d / q^2, B / q, A theta / q */
+    double         *factor, *beta, *alpha;
+    /* Beams (beam_kernel.h): term = xi (3), kt, (kn - kt) / r^2, kb, 1 / r^2, 1 / s0^2, 1 / (r gamma0)^2, 1 /
+     * (length kappa0)^2. */
+    double         *q[3];                              /* padded rotations times a length, m */
+    double          lever;                             /* 1 / (2 length), 1/m */
+    int             single;                            /* any one limit, not all together */
+    uint32_t       *over;                              /* as alive: those at their limit */
+    double          volume;                            /* of a lattice cell, m^3 */
 } pg_block_job;
 
-typedef void (*pg_block_loop) (const pg_block_job *job, size_t first, size_t last);      /* blocks                       */
+typedef void (*pg_block_loop) (const pg_block_job *job, size_t first, size_t last);      /* blocks */
 enum { PG_CHECK_NONE, PG_CHECK_ALL, PG_CHECK_SOME };
 typedef struct {
-    pg_block_loop force[3][2][3][2];                   /* [dim - 1][finite][check][weighted]: job->f, job->hit           */
-    pg_block_loop energy[3][2][2];                     /* [dim - 1][finite][weighted]: job->energy                       */
-    /* State-based, of 2 and 3 dimensions [dim - 2]: sums of w xi.eta V times factor to job->alpha (and job->hit); job->f; job->energy, J */
-    pg_block_loop dilate[2][3][2], pull[2][2], store[2][2];            /* [check][weighted]                              */
-    pg_block_loop beam[2][2], beam_energy[2][2], beam_look[2], beam_over[2];           /* [dim - 2][weighted]             */
-    int fused;                                         /* a b + c is rounded once                                        */
-    void (*spread) (const pg_block_job *job, const double *u, size_t first, size_t last);      /* u (n x dim) to job->u  */
+    pg_block_loop force[3][2][3][2];  /* [dim - 1][finite][check][weighted]: job->f, job->hit */
+    pg_block_loop energy[3][2][2];                     /* [dim - 1][finite][weighted]: job->energy */
+    /* State-based, of 2 and 3 dimensions [dim - 2]: sums of w xi.eta V times factor to job->alpha (and
+     * job->hit); job->f; job->energy, J */
+    pg_block_loop dilate[2][3][2], pull[2][2], store[2][2];            /* [check][weighted] */
+    pg_block_loop beam[2][2], beam_energy[2][2], beam_look[2], beam_over[2];  /* [dim - 2][weighted] */
+    int fused;                                         /* a b + c is rounded once */
+    /* u (n x dim) to job->u */
+    void (*spread) (const pg_block_job *job, const double *u, size_t first, size_t last);
 } pg_block_kernels;
-extern const pg_block_kernels pg_block_scalar, pg_block_avx2, pg_block_avx512;     /* empty where the compiler lacks them */
+/* empty where the compiler lacks them */
+extern const pg_block_kernels pg_block_scalar, pg_block_avx2, pg_block_avx512;
 #endif

@@ -28,12 +28,14 @@ static const long long lanes[16][4] __attribute__ ((aligned (32))) = {
 #define vec_root(v) ((vec) _mm256_sqrt_pd ((__m256d) (v)))
 #define vec_keep(v, bits) ((v) = (vec) _mm256_and_pd ((__m256d) (v), OF (bits)))
 #define HITS_OVER(hits, v, limit) ((hits) = (vec) _mm256_or_pd ((__m256d) (hits), OVER (v, limit)))
-#define HITS_OVER_OF(hits, v, limit, bits) ((hits) = (vec) _mm256_or_pd ((__m256d) (hits), _mm256_and_pd (OVER (v, limit), OF (bits))))
+#define HITS_OVER_OF(hits, v, limit, bits) \
+    ((hits) = (vec) _mm256_or_pd ((__m256d) (hits), _mm256_and_pd (OVER (v, limit), OF (bits))))
 #define HITS_ANY(hits) (_mm256_movemask_pd ((__m256d) (hits)) != 0)
 
 static inline __attribute__ ((always_inline)) TARGET void zip (double *out, vec a, vec b)
 {
-    __m256d low = _mm256_unpacklo_pd ((__m256d) a, (__m256d) b), high = _mm256_unpackhi_pd ((__m256d) a, (__m256d) b);
+    __m256d low = _mm256_unpacklo_pd ((__m256d) a, (__m256d) b),
+            high = _mm256_unpackhi_pd ((__m256d) a, (__m256d) b);
     _mm256_storeu_pd (out, _mm256_permute2f128_pd (low, high, 0x20));
     _mm256_storeu_pd (out + 4, _mm256_permute2f128_pd (low, high, 0x31));
 }
@@ -41,7 +43,8 @@ static inline __attribute__ ((always_inline)) TARGET void zip (double *out, vec 
 static inline __attribute__ ((always_inline)) TARGET void unzip (const double *in, vec *a, vec *b)
 {
     __m256d first = _mm256_loadu_pd (in), last = _mm256_loadu_pd (in + 4);
-    __m256d low = _mm256_permute2f128_pd (first, last, 0x20), high = _mm256_permute2f128_pd (first, last, 0x31);
+    __m256d low = _mm256_permute2f128_pd (first, last, 0x20),
+            high = _mm256_permute2f128_pd (first, last, 0x31);
     *a = (vec) _mm256_unpacklo_pd (low, high);
     *b = (vec) _mm256_unpackhi_pd (low, high);
 }

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * block_kernel.h: the loops of block.h in terms of vectors (private, no include guard: one file per instruction set includes it after defining
- *   TARGET        attribute of every function, LANES doubles of a vector, VECS(dim) vectors of a stride, NAME of the table,
+ * block_kernel.h: the loops of block.h in terms of vectors (private, no include guard: one file per
+ * instruction set includes it after defining
+ *   TARGET attribute of every function, LANES doubles of a vector, VECS(dim) vectors of a stride, NAME of the
+ *       table,
  *   vec           typedef, and vec_root (vec), vec_fuse (a, b, c): a b + c, FUSED: 1 if rounded once,
  *   vec_least (a, b), vec_most (a, b): the smaller, the larger one,
  *   vec_keep (v, bits): 0 in lanes whose bit is not set,
- *   hits, HITS_OVER (hits, v, limit), HITS_OVER_OF (hits, v, limit, bits), HITS_ANY (hits): lanes with v >= limit (of those in bits),
+ *   hits, HITS_OVER (hits, v, limit), HITS_OVER_OF (hits, v, limit, bits), HITS_ANY (hits): lanes with v >=
+ *     limit (of those in bits),
  *   zip (out, a, b), unzip (in, &a, &b): pairs in memory from and to two vectors. */
 #include "block.h"
 
@@ -18,16 +21,19 @@
 typedef double vec_loose __attribute__ ((vector_size (8 * LANES), aligned (8), may_alias));
 #define LOAD(p) (*(const vec_loose *) (p))
 #define STORE(p, v) (*(vec_loose *) (p) = (v))
-#define ALL(x) ((x) - (vec) { 0 })                     /* x in every lane (x - 0: keeps -0)                              */
+#define ALL(x) ((x) - (vec) { 0 })                     /* x in every lane (x - 0: keeps -0) */
 
 /* Sums of one stride of a block, `stride` its first site: out[k * PG_BLOCK + site] */
-INLINE void sum_stride (const pg_block_job *job, size_t k, int stride, int dim, int finite, int check, int weighted, double *out, hits *over)
+INLINE void sum_stride (const pg_block_job *job, size_t k, int stride, int dim, int finite, int check,
+                        int weighted, double *out, hits *over)
 {
     const int vecs = VECS (dim);
     const pg_block *b = job->block + k;
-    const double *u[3] = { job->u[0] + b->base + stride, job->u[1] + b->base + stride, job->u[2] + b->base + stride };
+    const double *u[3] = { job->u[0] + b->base + stride, job->u[1] + b->base + stride,
+                           job->u[2] + b->base + stride };
     const double *p = weighted ? job->p + b->base + stride : NULL;
-    const uint32_t *alive = job->alive + k * job->n, *may = check == PG_CHECK_SOME ? job->may + k * job->n : NULL;
+    const uint32_t *alive = job->alive + k * job->n,
+                   *may = check == PG_CHECK_SOME ? job->may + k * job->n : NULL;
     vec own[3][8], sum[3][8];
     UNROLL for (int d = 0; d < dim; d++) {
         UNROLL for (int v = 0; v < vecs; v++) own[d][v] = LOAD (u[d] + v * LANES), sum[d][v] = (vec) { 0 };
@@ -75,9 +81,11 @@ INLINE void gather (const pg_block_job *job, const pg_block *b, int dim, const d
     if (b->present == UINT32_MAX && b->first >= 0) {
         double *f = job->f + (size_t) b->first * (size_t) dim;
         if (dim == 2) {
-            UNROLL for (int v = 0; v < PG_BLOCK; v += LANES) zip (f + 2 * v, LOAD (out + v), LOAD (out + PG_BLOCK + v));
+            UNROLL for (int v = 0; v < PG_BLOCK; v += LANES)
+                zip (f + 2 * v, LOAD (out + v), LOAD (out + PG_BLOCK + v));
         } else {
-            for (int k = 0; k < PG_BLOCK; k++) for (int d = 0; d < dim; d++) f[k * dim + d] = out[d * PG_BLOCK + k];
+            for (int k = 0; k < PG_BLOCK; k++)
+                for (int d = 0; d < dim; d++) f[k * dim + d] = out[d * PG_BLOCK + k];
         }
         return;
     }
@@ -88,7 +96,8 @@ INLINE void gather (const pg_block_job *job, const pg_block *b, int dim, const d
     }
 }
 
-INLINE void force_loop (const pg_block_job *job, size_t first, size_t last, int dim, int finite, int check, int weighted)
+INLINE void force_loop (const pg_block_job *job, size_t first, size_t last, int dim, int finite, int check,
+                        int weighted)
 {
     const int width = VECS (dim) * LANES;
     const uint32_t part = width < 32 ? (1u << (width & 31)) - 1 : UINT32_MAX;
@@ -96,14 +105,16 @@ INLINE void force_loop (const pg_block_job *job, size_t first, size_t last, int 
     for (size_t k = first; k < last; k++) {
         hits over = { 0 };
         for (int stride = 0; stride < PG_BLOCK; stride += width)
-            if (job->block[k].present >> stride & part) sum_stride (job, k, stride, dim, finite, check, weighted, out, &over);
+            if (job->block[k].present >> stride & part)
+                sum_stride (job, k, stride, dim, finite, check, weighted, out, &over);
         gather (job, job->block + k, dim, out);
         if (check && HITS_ANY (over)) job->hit[k] = 1;
     }
 }
 
 /* Linear: a (xi.eta)^2; finite: a r^2 q^2 / (|y| + r)^2 */
-INLINE void energy_loop (const pg_block_job *job, size_t first, size_t last, int dim, int finite, int weighted)
+INLINE void energy_loop (const pg_block_job *job, size_t first, size_t last, int dim, int finite,
+                         int weighted)
 {
     double lane[LANES];
     for (size_t k = first; k < last; k++) {
@@ -130,7 +141,8 @@ INLINE void energy_loop (const pg_block_job *job, size_t first, size_t last, int
             STORE (lane, sum);
             for (int l = 0; l < LANES; l++) whole += lane[l];
             for (int l = 0; job->energies && l < LANES; l++)
-                if (b->present >> (at + l) & 1) job->energies[job->point[b->site + (size_t) (at + l)]] = lane[l];
+                if (b->present >> (at + l) & 1)
+                    job->energies[job->point[b->site + (size_t) (at + l)]] = lane[l];
         }
         job->energy[k] = whole;
     }
@@ -151,7 +163,8 @@ static TARGET void spread (const pg_block_job *job, const double *u, size_t firs
                     STORE (job->u[1] + b->base + v, y);
                 }
             } else {
-                for (int d = 0; d < dim; d++) for (int l = 0; l < PG_BLOCK; l++) job->u[d][b->base + (size_t) l] = from[l * dim + d];
+                for (int d = 0; d < dim; d++)
+                    for (int l = 0; l < PG_BLOCK; l++) job->u[d][b->base + (size_t) l] = from[l * dim + d];
             }
             continue;
         }
@@ -165,21 +178,41 @@ static TARGET void spread (const pg_block_job *job, const double *u, size_t firs
 #include "state_kernel.h"
 #include "beam_kernel.h"
 
-#define FORCE(D, F, C, W) static TARGET void force_##D##F##C##W (const pg_block_job *job, size_t first, size_t last) \
-    { force_loop (job, first, last, D, F, C, W); }
-#define ENERGY(D, F, W) static TARGET void energy_##D##F##W (const pg_block_job *job, size_t first, size_t last) \
-    { energy_loop (job, first, last, D, F, W); }
-#define FORCES(D, F) FORCE (D, F, 0, 0) FORCE (D, F, 0, 1) FORCE (D, F, 1, 0) FORCE (D, F, 1, 1) FORCE (D, F, 2, 0) FORCE (D, F, 2, 1) \
-    ENERGY (D, F, 0) ENERGY (D, F, 1)
-FORCES (1, 0) FORCES (1, 1) FORCES (2, 0) FORCES (2, 1) FORCES (3, 0) FORCES (3, 1)
-#define ROW(D, F) { { force_##D##F##00, force_##D##F##01 }, { force_##D##F##10, force_##D##F##11 }, { force_##D##F##20, force_##D##F##21 } }
+#define FORCE(D, F, C, W) \
+    static TARGET void force_##D##F##C##W (const pg_block_job *job, size_t first, size_t last) \
+    { \
+        force_loop (job, first, last, D, F, C, W); \
+    }
+#define ENERGY(D, F, W) \
+    static TARGET void energy_##D##F##W (const pg_block_job *job, size_t first, size_t last) \
+    { \
+        energy_loop (job, first, last, D, F, W); \
+    }
+#define FORCES(D, F) \
+    FORCE (D, F, 0, 0) \
+    FORCE (D, F, 0, 1) FORCE (D, F, 1, 0) FORCE (D, F, 1, 1) FORCE (D, F, 2, 0) FORCE (D, F, 2, 1) \
+        ENERGY (D, F, 0) ENERGY (D, F, 1)
+FORCES (1, 0)
+FORCES (1, 1) FORCES (2, 0) FORCES (2, 1) FORCES (3, 0) FORCES (3, 1)
+#define ROW(D, F) \
+    { \
+        { force_##D##F##00, force_##D##F##01 }, { force_##D##F##10, force_##D##F##11 }, \
+        { \
+            force_##D##F##20, force_##D##F##21 \
+        } \
+    }
 #define SUM(D, F) { energy_##D##F##0, energy_##D##F##1 }
 
-const pg_block_kernels NAME = {
-    .force  = { { ROW (1, 0), ROW (1, 1) }, { ROW (2, 0), ROW (2, 1) }, { ROW (3, 0), ROW (3, 1) } },
-    .energy = { { SUM (1, 0), SUM (1, 1) }, { SUM (2, 0), SUM (2, 1) }, { SUM (3, 0), SUM (3, 1) } },
-    .dilate = { DILATES (2), DILATES (3) }, .pull = { PULLS (2), PULLS (3) }, .store = { STORES (2), STORES (3) },
-    .beam = { { beam_force_20, beam_force_21 }, { beam_force_30, beam_force_31 } }, .beam_look = { beam_look_2, beam_look_3 },
-    .beam_energy = { { beam_energy_20, beam_energy_21 }, { beam_energy_30, beam_energy_31 } }, .beam_over = { beam_over_2, beam_over_3 },
-    .spread = spread, .fused = FUSED,
-};
+    const pg_block_kernels NAME = {
+        .force = { { ROW (1, 0), ROW (1, 1) }, { ROW (2, 0), ROW (2, 1) }, { ROW (3, 0), ROW (3, 1) } },
+        .energy = { { SUM (1, 0), SUM (1, 1) }, { SUM (2, 0), SUM (2, 1) }, { SUM (3, 0), SUM (3, 1) } },
+        .dilate = { DILATES (2), DILATES (3) },
+        .pull = { PULLS (2), PULLS (3) },
+        .store = { STORES (2), STORES (3) },
+        .beam = { { beam_force_20, beam_force_21 }, { beam_force_30, beam_force_31 } },
+        .beam_look = { beam_look_2, beam_look_3 },
+        .beam_energy = { { beam_energy_20, beam_energy_21 }, { beam_energy_30, beam_energy_31 } },
+        .beam_over = { beam_over_2, beam_over_3 },
+        .spread = spread,
+        .fused = FUSED,
+    };

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Loops of block.h with what every machine has: pairs of doubles, which compilers map to the registers that there are. */
+ * Loops of block.h with what every machine has: pairs of doubles, which compilers map to the registers that
+ * there are. */
 #include "block.h"
 #include "fft_rows.h"
 #include <math.h>
@@ -30,8 +31,14 @@ static const lane_bits lanes[4] = { { 0, 0 }, { -1, 0 }, { 0, -1 }, { -1, -1 } }
 #define HITS_OVER_OF(hits, v, limit, bits) ((hits) |= (lane_bits) ((v) >= (limit)) & lanes[(bits) & 3])
 #define HITS_ANY(hits) (((hits)[0] | (hits)[1]) != 0)
 
-static inline void zip (double *out, vec a, vec b) { out[0] = a[0], out[1] = b[0], out[2] = a[1], out[3] = b[1]; }
-static inline void unzip (const double *in, vec *a, vec *b) { *a = (vec) { in[0], in[2] }, *b = (vec) { in[1], in[3] }; }
+static inline void zip (double *out, vec a, vec b)
+{
+    out[0] = a[0], out[1] = b[0], out[2] = a[1], out[3] = b[1];
+}
+static inline void unzip (const double *in, vec *a, vec *b)
+{
+    *a = (vec){ in[0], in[2] }, *b = (vec){ in[1], in[3] };
+}
 
 #include "block_kernel.h"
 #include "fft_kernel.h"

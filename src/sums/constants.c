@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Constants of bond-based peridynamics: the energy of a uniform strain and of a straight cut, in closed form (theory A1). */
+ * Constants of bond-based peridynamics: the energy of a uniform strain and of a straight cut, in closed form
+ * (theory A1). */
 #include "perigal/sums.h"
 #include <math.h>
 
@@ -15,7 +16,10 @@ double pg_bond_poisson (pg_mode mode)
 }
 
 /* m_n = int_0^horizon k(r) r^n dr */
-static double moment (const pg_kernel *kernel, double horizon, int n) { return pow (horizon, n + 1) * pg_kernel_moment (kernel, n); }
+static double moment (const pg_kernel *kernel, double horizon, int n)
+{
+    return pow (horizon, n + 1) * pg_kernel_moment (kernel, n);
+}
 
 double pg_bond_modulus (pg_mode mode, const pg_kernel *kernel, double horizon, double E, double thickness)
 {
@@ -27,7 +31,8 @@ double pg_bond_modulus (pg_mode mode, const pg_kernel *kernel, double horizon, d
     }
 }
 
-double pg_bond_fracture_energy (pg_mode mode, const pg_kernel *kernel, double horizon, double thickness, double c, double s0)
+double pg_bond_fracture_energy (pg_mode mode, const pg_kernel *kernel, double horizon, double thickness,
+                                double c, double s0)
 {
     switch (mode) {
     case PG_LINE: return thickness * c * s0 * s0 * moment (kernel, horizon, 2) / 2;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Neighbours of every point: on a lattice by the stencil, else by a search made symmetric; and what the bonds of a point are. */
+ * Neighbours of every point: on a lattice by the stencil, else by a search made symmetric; and what the bonds
+ * of a point are. */
 #include "sums_private.h"
 #include <limits.h>
 #include <math.h>
@@ -23,19 +24,20 @@ static size_t find (const int *list, size_t n, int item)
     return a < n && list[a] == item ? a : n;
 }
 
-/* ---- on a lattice ------------------------------------------------------------------------------------------------------- */
+/* ---- on a lattice -------------------------------------------------------------------------------------- */
 int sums_neighbour (const pg_sites *s, int site, const int *offset)
 {
-    int x = site % s->count[0] + offset[0], rest = site / s->count[0], y = rest % s->count[1] + offset[1], z = rest / s->count[1] + offset[2];
+    int x = site % s->count[0] + offset[0], rest = site / s->count[0], y = rest % s->count[1] + offset[1],
+        z = rest / s->count[1] + offset[2];
     if (x < 0 || x >= s->count[0] || y < 0 || y >= s->count[1] || z < 0 || z >= s->count[2]) return -1;
     return s->point[((size_t) z * (size_t) s->count[1] + (size_t) y) * (size_t) s->count[0] + (size_t) x];
 }
 
 typedef struct {
     const pg_sums *sums;
-    int   packed;                                      /* every site has a point                                         */
-    int   reach[3];                                    /* largest offsets                                                */
-    long *jump;                                        /* of each bond, in sites                                         */
+    int   packed;                                      /* every site has a point */
+    int   reach[3];                                    /* largest offsets */
+    long *jump;                                        /* of each bond, in sites */
     pg_family *out;
 } walk;
 
@@ -43,7 +45,8 @@ typedef struct {
 static int inside (const walk *w, int site)
 {
     const pg_sites *s = &w->sums->sites;
-    int at[3] = {site % s->count[0], site / s->count[0] % s->count[1], site / s->count[0] / s->count[1]}, all = 1;
+    int at[3] = { site % s->count[0], site / s->count[0] % s->count[1], site / s->count[0] / s->count[1] },
+        all = 1;
     for (int k = 0; k < 3; k++) all &= at[k] >= w->reach[k] && at[k] + w->reach[k] < s->count[k];
     return all;
 }
@@ -86,7 +89,9 @@ static pg_status by_stencil (pg_family *out, const pg_sums *sums)
     const pg_stencil *t = &sums->stencil;
     const int *count = sums->sites.count;
     size_t n = sums->cloud->n;
-    walk w = {.sums = sums, .out = out, .packed = n == (size_t) count[0] * (size_t) count[1] * (size_t) count[2]};
+    walk w = { .sums = sums,
+               .out = out,
+               .packed = n == (size_t) count[0] * (size_t) count[1] * (size_t) count[2] };
     PG_ALLOC (w.jump, t->n);
     for (size_t b = 0; b < t->n; b++) {
         const int *o = t->offset + 3*b;
@@ -104,7 +109,7 @@ done:
     return status;
 }
 
-/* ---- without a lattice -------------------------------------------------------------------------------------------------- */
+/* ---- without a lattice --------------------------------------------------------------------------------- */
 static double distance (const pg_cloud *cloud, size_t i, size_t j)
 {
     double r2 = 0;
@@ -118,7 +123,8 @@ static double distance (const pg_cloud *cloud, size_t i, size_t j)
 sums_bond sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, size_t i, size_t j)
 {
     sums_bond b = {.r = distance (cloud, i, j)};
-    double ratio = 0.5 * (pg_cloud_ratio (cloud, i) + pg_cloud_ratio (cloud, j)), horizon = rule->horizon * ratio;
+    double ratio = 0.5 * (pg_cloud_ratio (cloud, i) + pg_cloud_ratio (cloud, j)),
+           horizon = rule->horizon * ratio;
     b.beta = sums_partial (rule->partial, b.r, horizon, cloud->h * ratio);
     if (!(b.beta > 0)) return b;
     b.weight = b.beta * sums_kernel (rule, b.r, horizon);
@@ -127,7 +133,8 @@ sums_bond sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, siz
     return b;
 }
 
-/* Pairs (i, j) with j within its own reach of i, both ways round; node NULL: counted into next[i + 1], else written at next[i]. */
+/* Pairs (i, j) with j within its own reach of i, both ways round; node NULL: counted into next[i + 1], else
+ * written at next[i]. */
 static pg_status spread (const pg_sums *sums, const pg_family *near, size_t *next, int *node)
 {
     pg_status status = PG_OK;
@@ -138,8 +145,11 @@ static pg_status spread (const pg_sums *sums, const pg_family *near, size_t *nex
             sums_bond b = sums_bond_between (&sums->rule, sums->cloud, i, j);
             if (!(b.r > PG_NO_LENGTH * sums->cloud->h * pg_cloud_ratio (sums->cloud, i))) {
                 double x[3] = { 0 };
-                memcpy (x, sums->cloud->x + i * (size_t) sums->cloud->dim, (size_t) sums->cloud->dim * sizeof *x);
-                PG_FAIL (PG_E_USAGE, "points %zu and %zu coincide, at (%.6g, %.6g, %.6g) m: a bond needs a length, so remove one of them",
+                memcpy (x, sums->cloud->x + i * (size_t) sums->cloud->dim,
+                        (size_t) sums->cloud->dim * sizeof *x);
+                PG_FAIL (PG_E_USAGE,
+                         "points %zu and %zu coincide, at (%.6g, %.6g, %.6g) m: a bond needs a length, so "
+                         "remove one of them",
                          i < j ? i : j, i < j ? j : i, x[0], x[1], x[2]);
             }
             if (!(b.beta > 0)) continue;
@@ -185,9 +195,10 @@ pg_status pg_sums_family (pg_family *out, const pg_sums *sums)
     return status;
 }
 
-/* ---- the bonds of a point ------------------------------------------------------------------------------------------------ */
+/* ---- the bonds of a point ------------------------------------------------------------------------------ */
 /* Bond b of the stencil as entry e of point i's. */
-static void take (const pg_sums *sums, size_t i, size_t j, size_t b, size_t e, double *xi, double *weight, double *beta)
+static void take (const pg_sums *sums, size_t i, size_t j, size_t b, size_t e, double *xi, double *weight,
+                  double *beta)
 {
     const pg_stencil *t = &sums->stencil;
     size_t dim = (size_t) t->dim;
@@ -196,7 +207,8 @@ static void take (const pg_sums *sums, size_t i, size_t j, size_t b, size_t e, d
     if (beta) beta[e] = t->beta[b];
 }
 
-static void lattice_bonds (const pg_sums *sums, const int *node, size_t n, size_t i, double *xi, double *weight, double *beta)
+static void lattice_bonds (const pg_sums *sums, const int *node, size_t n, size_t i, double *xi,
+                           double *weight, double *beta)
 {
     const pg_stencil *t = &sums->stencil;
     size_t next = 0;
@@ -211,7 +223,8 @@ static void lattice_bonds (const pg_sums *sums, const int *node, size_t n, size_
     }
 }
 
-void pg_sums_bonds (const pg_sums *sums, const pg_family *family, size_t i, double *xi, double *weight, double *beta)
+void pg_sums_bonds (const pg_sums *sums, const pg_family *family, size_t i, double *xi, double *weight,
+                    double *beta)
 {
     const pg_cloud *cloud = sums->cloud;
     size_t dim = (size_t) cloud->dim, first = family->start[i], n = family->start[i + 1] - first;

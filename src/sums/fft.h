@@ -1,29 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * fft.h: cyclic convolutions of fields on a padded box of sites (private; FFTW3). A row is transformed real to complex; columns along the middle
- * axis (3D) and the last one in batches of FFT_WIDE, gathered where the cache is near, so that rows of zeros are never stored and the product with
- * the kernels costs no pass of its own. Batches do not depend on the number of threads: the same bits for any. */
+ * fft.h: cyclic convolutions of fields on a padded box of sites (private; FFTW3). A row is transformed real
+ * to complex; columns along the middle axis (3D) and the last one in batches of FFT_WIDE, gathered where the
+ * cache is near, so that rows of zeros are never stored and the product with the kernels costs no pass of its
+ * own. Batches do not depend on the number of threads: the same bits for any. */
 #ifndef PERIGAL_SUMS_FFT_H
 #define PERIGAL_SUMS_FFT_H
 #include "perigal/base.h"
 #include <fftw3.h>
 
-enum { FFT_WIDE = 8, FFT_MOST = 6 };                   /* columns side by side; fields at once                           */
+enum { FFT_WIDE = 8, FFT_MOST = 6 };                   /* columns side by side; fields at once */
 typedef struct {
     int    dim;
-    size_t n[3], T[3];                                 /* sites, places: along x, the middle axis (1 unless 3D), the last (1 in 1D) */
-    size_t C;                                          /* complex places of a row: T[0] / 2 + 1, rounded up to FFT_WIDE   */
-    int    measured;                                   /* plans come from measurements, of now or of before              */
-    fftw_plan row[2], middle[2], last[2];              /* forward, back; NULL along an axis of one place                 */
+    size_t n[3], T[3];  /* sites, places: along x, the middle axis (1 unless 3D), the last (1 in 1D) */
+    size_t C;  /* complex places of a row: T[0] / 2 + 1, rounded up to FFT_WIDE */
+    int    measured;                                   /* plans come from measurements, of now or of before */
+    fftw_plan row[2], middle[2], last[2];              /* forward, back; NULL along an axis of one place */
 } fft_box;
 
-/* Sites n (x, y, z; 1 beyond dim), places at least n + reach. measure: plans are timed unless a file remembers them. */
+/* Sites n (x, y, z; 1 beyond dim), places at least n + reach. measure: plans are timed unless a file
+ * remembers them. */
 pg_status fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *reach, int measure);
 void      fft_box_clear  (fft_box *box);
-size_t    fft_size       (size_t least, int even);     /* 2^a 3^b 5^c 7^d >= least, the one that is transformed fastest   */
-fftw_plan fft_plan_box   (const int *T, double *x);   /* one forward transform in place of [T0][T1][T2], rows of T2 + 2; NULL: no memory */
+/* 2^a 3^b 5^c 7^d >= least, the one that is transformed fastest */
+size_t    fft_size       (size_t least, int even);
+/* one forward transform in place of [T0][T1][T2], rows of T2 + 2; NULL: no memory */
+fftw_plan fft_plan_box   (const int *T, double *x);
 fftw_plan fft_plan_box_back (const int *T, double *x);
 void      fft_plan_free  (fftw_plan plan);
-double    fft_work       (const fft_box *box);         /* of one transform of the box, operations                        */
+double    fft_work       (const fft_box *box);         /* of one transform of the box, operations */
 
 /* Real even kernels of all pairs of axes: xx | xx xy yy | xx xy xz yy yz zz */
 typedef struct fft_kernels fft_kernels;
@@ -31,24 +35,29 @@ typedef struct {
     fft_box box;
     const fft_kernels *kernels;
     int     pairs, threads;
-    double *kernel;                                    /* transforms over the places' number: [columns / FFT_WIDE][T1/2 + 1][pair][T2/2 + 1][FFT_WIDE] */
-    double *block, *field[FFT_MOST];                   /* complex [n2][T1][C] each                                       */
-    double *rooms;  size_t room;                       /* of each thread                                                 */
-    long    forward, back;                             /* transforms of the box so far                                   */
+    /* transforms over the places' number: [columns / FFT_WIDE][T1/2 + 1][pair][T2/2 + 1][FFT_WIDE] */
+    double *kernel;
+    double *block, *field[FFT_MOST];                   /* complex [n2][T1][C] each */
+    double *workspaces;  size_t workspace;                       /* of each thread */
+    long    forward, back;                             /* transforms of the box so far */
 } fft;
 
 /* value (context, pair, entry): kernel at `entry` of the list of n offsets (n x 3). */
-pg_status fft_create (fft *out, int dim, const size_t *sites, size_t n, const int *offset, double (*value) (const void *context, int pair, size_t entry),
-                      const void *context, const fft_kernels *kernels, int threads, int measure);
+pg_status fft_create (fft *out, int dim, const size_t *sites, size_t n, const int *offset,
+                      double (*value) (const void *context, int pair, size_t entry), const void *context,
+                      const fft_kernels *kernels, int threads, int measure);
 void      fft_clear  (fft *f);
-pg_status fft_fields (fft *f, int fields);             /* room for as many fields                                        */
+pg_status fft_fields (fft *f, int fields);             /* workspace for as many fields */
 
 typedef struct {
-    int in, out;                                       /* fields read and made                                           */
-    void (*fill) (void *context, size_t row, int field, double *x);          /* n[0] values of a row; places after them are 0 and may be overwritten by 0 */
-    void (*take) (void *context, size_t row, double *const *x, double *spare);      /* of all fields made; spare: dim rows      */
+    int in, out;                                       /* fields read and made */
+    /* n[0] values of a row; places after them are 0 and may be overwritten by 0 */
+    void (*fill) (void *context, size_t row, int field, double *x);
+    /* of all fields made; spare: dim rows */
+    void (*take) (void *context, size_t row, double *const *x, double *spare);
     void *context;
 } fft_job;
-/* in = out = dim: out_a = sum_b K_ab * in_b. in = pairs, out = 1: sum over pairs (those of two axes twice) of K_ab * in_ab. Rows count as n[1] n[2]. */
+/* in = out = dim: out_a = sum_b K_ab * in_b. in = pairs, out = 1: sum over pairs (those of two axes twice) of
+ * K_ab * in_ab. Rows count as n[1] n[2]. */
 void fft_convolve (fft *f, const fft_job *job);
 #endif

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where a bond may be at its limit. From site i to site i + n, u changes by what it changes along a path of n_1 steps along the first axis, n_2 along
- * the second, ... With G_ab the changes of u_b over a step h_a, as they occur in the box about a block and its bonds, the stretch of a bond of
- * direction e is at most sum_a max G_aa e_a^2 + sum_{a<b} |e_a e_b| C_ab, C_ab = the larger of max G_ab + max G_ba and -(min G_ab + min G_ba);
- * of a rotation, G_ab = -G_ba, nothing is left. Where a site of the box has no point nothing is known: such blocks are looked at always. */
+ * Where a bond may be at its limit. From site i to site i + n, u changes by what it changes along a path of
+ * n_1 steps along the first axis, n_2 along the second, ... With G_ab the changes of u_b over a step h_a, as
+ * they occur in the box about a block and its bonds, the stretch of a bond of direction e is at most sum_a
+ * max G_aa e_a^2 + sum_{a<b} |e_a e_b| C_ab, C_ab = the larger of max G_ab + max G_ba and -(min G_ab + min
+ * G_ba); of a rotation, G_ab = -G_ba, nothing is left. Where a site of the box has no point nothing is known:
+ * such blocks are looked at always. */
 #include "fft_sweep.h"
 #include <math.h>
 #include <stdlib.h>
@@ -11,32 +13,38 @@
 /* Extremes kept: of each a, b the largest G_ab, for a != b also the largest -G_ab. */
 static int extremes (int dim) { return dim + 2 * dim * (dim - 1); }
 
-enum { STRIP = 4 };                                    /* rows taken together                                            */
+enum { STRIP = 4 };                                    /* rows taken together */
 typedef struct { transformer *t; const double *from; double *to; int axis; } slider;
 
-static size_t rows_along (const transformer *t, int axis) { return (size_t) t->s->setting.sums->sites.count[axis]; }
+static size_t rows_along (const transformer *t, int axis)
+{
+    return (size_t) t->s->setting.sums->sites.count[axis];
+}
 static size_t strips_along (const transformer *t) { return (rows_along (t, 1) + STRIP - 1) / STRIP; }
 
-/* ---- what does not change --------------------------------------------------------------------------------------------------- */
+/* ---- what does not change ------------------------------------------------------------------------------ */
 /* Blocks whose box has a site without a point, by sums over missing sites of each row */
 static pg_status find_ragged (transformer *t)
 {
     pg_status status = PG_OK;
     const stencil *s = t->s;
     const pg_sites *sites = &s->setting.sums->sites;
-    size_t ny = rows_along (t, 1), nz = rows_along (t, 2), rx = (size_t) s->reach[0], ry = (size_t) s->reach[1], rz = (size_t) s->reach[2];
-    unsigned char *row = NULL;                         /* [row][block]: missing in the block's part, halo included        */
+    size_t ny = rows_along (t, 1), nz = rows_along (t, 2), rx = (size_t) s->reach[0],
+           ry = (size_t) s->reach[1], rz = (size_t) s->reach[2];
+    unsigned char *row = NULL;  /* [row][block]: missing in the block's part, halo included */
     PG_ALLOC (row, t->rows * s->row_blocks);
     PG_ALLOC (t->ragged, s->nblock);
     for (size_t r = 0; r < t->rows; r++)
         for (size_t j = 0; j < s->row_blocks; j++) {
             size_t low = j * PG_BLOCK > rx ? j * PG_BLOCK - rx : 0, high = (j + 1) * PG_BLOCK + rx;
-            for (size_t x = low; x < high && x < t->nx && !row[r * s->row_blocks + j]; x++) row[r * s->row_blocks + j] = sites->point[r * t->nx + x] < 0;
+            for (size_t x = low; x < high && x < t->nx && !row[r * s->row_blocks + j]; x++)
+                row[r * s->row_blocks + j] = sites->point[r * t->nx + x] < 0;
         }
     for (size_t k = 0; k < s->nblock; k++) {
         size_t r = s->block[k].site / t->nx, j = s->block[k].site % t->nx / PG_BLOCK, y = r % ny, z = r / ny;
         for (size_t b = z > rz ? z - rz : 0; b < nz && b <= z + rz; b++)
-            for (size_t a = y > ry ? y - ry : 0; a < ny && a <= y + ry; a++) t->ragged[k] |= row[(b * ny + a) * s->row_blocks + j];
+            for (size_t a = y > ry ? y - ry : 0; a < ny && a <= y + ry; a++)
+                t->ragged[k] |= row[(b * ny + a) * s->row_blocks + j];
     }
 done:
     pg_free (row);
@@ -54,7 +62,7 @@ done:
     return status;
 }
 
-/* ---- extremes ----------------------------------------------------------------------------------------------------------------- */
+/* ---- extremes ------------------------------------------------------------------------------------------ */
 /* Which of a block's sites and their neighbours along an axis both have points */
 static uint32_t pairs_of (const transformer *t, size_t row, size_t j, int axis)
 {
@@ -82,7 +90,8 @@ static void edges_of_strips (void *context, size_t first, size_t last, int threa
     size_t ny = rows_along (t, 1), per = strips_along (t), all = per * rows_along (t, 2) * s->row_blocks;
     (void) thread;
     for (size_t strip = first; strip < last; strip++) {
-        size_t y = strip % per * STRIP, r = strip / per * ny + y, rows = ny - y < STRIP ? ny - y : STRIP, base = fft_row_base (t, r);
+        size_t y = strip % per * STRIP, r = strip / per * ny + y, rows = ny - y < STRIP ? ny - y : STRIP,
+               base = fft_row_base (t, r);
         for (size_t j = 0; j < s->row_blocks; j++, base += PG_BLOCK) {
             size_t at = strip * s->row_blocks + j, v = 0;
             for (int a = 0; a < t->dim; a++) {
@@ -91,7 +100,8 @@ static void edges_of_strips (void *context, size_t first, size_t last, int threa
                 for (size_t k = 0; k < rows; k++) any |= both[k] = pairs_of (t, r + k, j, a);
                 for (int b = 0; b < t->dim; b++) {
                     double high = -INFINITY, low = INFINITY;
-                    if (any) t->f.kernels->range (s->job.u[b] + base, s->pitch, rows, jump, both, &low, &high);
+                    if (any)
+                        t->f.kernels->range (s->job.u[b] + base, s->pitch, rows, jump, both, &low, &high);
                     g->to[v++ * all + at] = high / sites->step[a];
                     if (a != b) g->to[v++ * all + at] = -low / sites->step[a];
                 }
@@ -108,7 +118,8 @@ static void slide_strips (void *context, size_t first, size_t last, int thread)
     const slider *g = context;
     const transformer *t = g->t;
     const stencil *s = t->s;
-    size_t n = s->row_blocks, per = strips_along (t), all = per * rows_along (t, 2) * n, far = (size_t) s->reach[g->axis];
+    size_t n = s->row_blocks, per = strips_along (t), all = per * rows_along (t, 2) * n,
+           far = (size_t) s->reach[g->axis];
     if (g->axis == 1) far = (far + STRIP - 1) / STRIP;
     int count = extremes (t->dim);
     (void) thread;
@@ -120,12 +131,14 @@ static void slide_strips (void *context, size_t first, size_t last, int thread)
                 size_t blocks = (far + PG_BLOCK - 1) / PG_BLOCK;
                 for (size_t j = 0; j < n; j++) {
                     double most = -INFINITY;
-                    for (size_t k = j > blocks ? j - blocks : 0; k < n && k <= j + blocks; k++) most = larger (most, from[r * n + k]);
+                    for (size_t k = j > blocks ? j - blocks : 0; k < n && k <= j + blocks; k++)
+                        most = larger (most, from[r * n + k]);
                     to[j] = most;
                 }
                 continue;
             }
-            size_t step = g->axis == 1 ? 1 : per, at = g->axis == 1 ? r % per : r / per, end = g->axis == 1 ? per : rows_along (t, 2), start = r - at * step;
+            size_t step = g->axis == 1 ? 1 : per, at = g->axis == 1 ? r % per : r / per,
+                   end = g->axis == 1 ? per : rows_along (t, 2), start = r - at * step;
             for (size_t j = 0; j < n; j++) to[j] = -INFINITY;
             for (size_t k = at > far ? at - far : 0; k < end && k <= at + far; k++)
                 for (size_t j = 0; j < n; j++) to[j] = larger (to[j], from[(start + k * step) * n + j]);
@@ -138,11 +151,14 @@ static double most_stretch (int dim, const double *value, size_t apart)
     double G[3][3], minus[3][3], C[3][3] = { { 0 } }, size = 0, most = -INFINITY;
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) {
-            G[a][b] = isinf (*value) ? 0 : *value, value += apart;          /* none: one site thick, no bond along a        */
+            /* none: one site thick, no bond along a */
+            G[a][b] = isinf (*value) ? 0 : *value, value += apart;
             if (a != b) minus[a][b] = isinf (*value) ? 0 : *value, value += apart;
             size = larger (size, fabs (G[a][b])), size = a != b ? larger (size, fabs (minus[a][b])) : size;
         }
-    for (int a = 0; a < dim; a++) for (int b = 0; b < dim; b++) if (a != b) C[a][b] = larger (G[a][b] + G[b][a], minus[a][b] + minus[b][a]);
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++)
+            if (a != b) C[a][b] = larger (G[a][b] + G[b][a], minus[a][b] + minus[b][a]);
     if (dim == 2) {
         double half = 0.5 * (G[0][0] - G[1][1]);
         most = 0.5 * (G[0][0] + G[1][1]) + sqrt (half * half + 0.25 * C[0][1] * C[0][1]);
@@ -158,10 +174,12 @@ static void judge_strips (void *context, size_t first, size_t last, int thread)
     transformer *t = g->t;
     size_t n = t->s->row_blocks, all = strips_along (t) * rows_along (t, 2) * n;
     (void) thread;
-    for (size_t k = first * n; k < last * n; k++) t->risky[k] = !(most_stretch (t->dim, g->from + k, all) < g->limit);
+    for (size_t k = first * n; k < last * n; k++)
+        t->risky[k] = !(most_stretch (t->dim, g->from + k, all) < g->limit);
 }
 
-/* Blocks that may have a bond at its limit, and those with cut bonds: written to list, ascending; how many. */
+/* Blocks that may have a bond at its limit, and those with cut bonds: written to list, ascending; how
+ * many. */
 size_t fft_bound_suspects (transformer *t, double limit, int *list)
 {
     const stencil *s = t->s;
@@ -185,7 +203,8 @@ size_t fft_bound_suspects (transformer *t, double limit, int *list)
     for (size_t k = 0; k < s->nblock; k++) {
         int look = t->cut[k] || t->ragged[k];
         if (!look && !safe) {
-            size_t row = s->block[k].site / t->nx, ny = rows_along (t, 1), strip = row / ny * per + row % ny / STRIP;
+            size_t row = s->block[k].site / t->nx, ny = rows_along (t, 1),
+                   strip = row / ny * per + row % ny / STRIP;
             look = t->risky[strip * s->row_blocks + s->block[k].site % t->nx / PG_BLOCK];
         }
         if (look) list[n++] = (int) k;

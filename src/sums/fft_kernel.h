@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * fft_kernel.h: rows and columns between transforms, in terms of block_kernel.h's vectors (private, no include guard: included after it,
- * once per instruction set, FFT_NAME being the name of the table). No product is fused with a sum: all sets give the same bits. */
+ * fft_kernel.h: rows and columns between transforms, in terms of block_kernel.h's vectors (private, no
+ * include guard: included after it, once per instruction set, FFT_NAME being the name of the table). No
+ * product is fused with a sum: all sets give the same bits. */
 #include "fft_rows.h"
 #include <math.h>
 
 /* x[k] = (u[k] - shift - (from + by k)) chi[k], n rounded up to a vector; a large shift goes off exactly */
-static TARGET void still (size_t n, const double *u, double shift, double from, double by, const double *chi, double *x)
+static TARGET void still (size_t n, const double *u, double shift, double from, double by, const double *chi,
+                          double *x)
 {
     vec at, start = ALL (shift), first = ALL (from), slope = ALL (by);
     for (int l = 0; l < LANES; l++) at[l] = l;
-    for (size_t k = 0; k < n; k += LANES, at = at + (double) LANES) STORE (x + k, ((LOAD (u + k) - start) - (first + slope * at)) * LOAD (chi + k));
+    for (size_t k = 0; k < n; k += LANES, at = at + (double) LANES)
+        STORE (x + k, ((LOAD (u + k) - start) - (first + slope * at)) * LOAD (chi + k));
 }
 
 INLINE void block_force (const fft_row *r, size_t k, int dim, double *out)
@@ -18,11 +21,13 @@ INLINE void block_force (const fft_row *r, size_t k, int dim, double *out)
         vec at, t[3];
         for (int l = 0; l < LANES; l++) at[l] = l;
         at = at + (double) (int) (k + v);
-        UNROLL for (int d = 0; d < dim; d++) t[d] = (LOAD (r->u[d] + k + v) - ALL (r->shift[d])) - (ALL (r->from[d]) + ALL (r->by[d]) * at);
+        UNROLL for (int d = 0; d < dim; d++)
+            t[d] = (LOAD (r->u[d] + k + v) - ALL (r->shift[d])) - (ALL (r->from[d]) + ALL (r->by[d]) * at);
         UNROLL for (int a = 0; a < dim; a++) {
             vec sum = LOAD (r->q[a] + k + v);
             UNROLL for (int d = 0; d < dim; d++) {
-                const int low = a < d ? a : d, high = a < d ? d : a, pair = dim == 3 ? low * (5 - low) / 2 + high : low + high;
+                const int low = a < d ? a : d, high = a < d ? d : a,
+                          pair = dim == 3 ? low * (5 - low) / 2 + high : low + high;
                 sum = sum - LOAD (r->D[pair] + k + v) * t[d];
             }
             STORE (out + a * PG_BLOCK + (int) v, sum * LOAD (r->chi + k + v));
@@ -55,7 +60,8 @@ INLINE void load_kernel (const double *K, double sign, vec *k)
     }
 }
 
-INLINE void product (int dim, size_t places, const double *const *K, const double (*sign)[6], double *const *z)
+INLINE void product (int dim, size_t places, const double *const *K, const double (*sign)[6],
+                     double *const *z)
 {
     enum { PARTS = 2 * FFT_WIDE / LANES };
     const int pairs = dim * (dim + 1) / 2;
@@ -69,7 +75,8 @@ INLINE void product (int dim, size_t places, const double *const *K, const doubl
             UNROLL for (int d = 0; d < dim; d++) x[d] = LOAD (z[d] + at + v * LANES);
             UNROLL for (int a = 0; a < dim; a++) {
                 UNROLL for (int d = 0; d < dim; d++) {
-                    const int low = a < d ? a : d, high = a < d ? d : a, pair = dim == 3 ? low * (5 - low) / 2 + high : low + high;
+                    const int low = a < d ? a : d, high = a < d ? d : a,
+                              pair = dim == 3 ? low * (5 - low) / 2 + high : low + high;
                     y[a] = d == 0 ? k[pair][v] * x[d] : y[a] + k[pair][v] * x[d];
                 }
             }
@@ -78,11 +85,24 @@ INLINE void product (int dim, size_t places, const double *const *K, const doubl
     }
 }
 
-static TARGET void product_1 (size_t places, const double *const *K, const double (*sign)[6], double *const *z) { product (1, places, K, sign, z); }
-static TARGET void product_2 (size_t places, const double *const *K, const double (*sign)[6], double *const *z) { product (2, places, K, sign, z); }
-static TARGET void product_3 (size_t places, const double *const *K, const double (*sign)[6], double *const *z) { product (3, places, K, sign, z); }
+static TARGET void product_1 (size_t places, const double *const *K, const double (*sign)[6],
+                              double *const *z)
+{
+    product (1, places, K, sign, z);
+}
+static TARGET void product_2 (size_t places, const double *const *K, const double (*sign)[6],
+                              double *const *z)
+{
+    product (2, places, K, sign, z);
+}
+static TARGET void product_3 (size_t places, const double *const *K, const double (*sign)[6],
+                              double *const *z)
+{
+    product (3, places, K, sign, z);
+}
 
-static TARGET void range (const double *u, size_t pitch, size_t rows, ptrdiff_t jump, const uint32_t *sites, double *low, double *high)
+static TARGET void range (const double *u, size_t pitch, size_t rows, ptrdiff_t jump, const uint32_t *sites,
+                          double *low, double *high)
 {
     vec least = ALL (INFINITY), most = ALL (-INFINITY);
     for (size_t r = 0; r < rows; r++, u += pitch) {
@@ -107,4 +127,6 @@ static TARGET void range (const double *u, size_t pitch, size_t rows, ptrdiff_t 
     }
 }
 
-const fft_kernels FFT_NAME = { still, { row_force_1, row_force_2, row_force_3 }, { product_1, product_2, product_3 }, range };
+const fft_kernels FFT_NAME = {
+    still, { row_force_1, row_force_2, row_force_3 }, { product_1, product_2, product_3 }, range
+};

@@ -1,45 +1,51 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Convolutions with even kernels: rows forward (3D: and the columns of their plane), columns of the last axis there, times the kernel, and back,
- * rows back. */
+ * Convolutions with even kernels: rows forward (3D: and the columns of their plane), columns of the last axis
+ * there, times the kernel, and back, rows back. */
 #include "fft_rows.h"
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { BATCH = 2 * FFT_WIDE };                         /* doubles of a place in a batch of columns                       */
+enum { BATCH = 2 * FFT_WIDE };                         /* doubles of a place in a batch of columns */
 static double *level (double *x) { return (double *) (((uintptr_t) x + 63) / 64 * 64); }
 static int pair_of (int dim, int a, int b) { return dim == 3 ? a * (5 - a) / 2 + b : dim == 2 ? a + b : 0; }
 
-/* ---- columns ------------------------------------------------------------------------------------------------------------------ */
-/* n places of a batch of columns, `stride` doubles apart, to the room; zeros up to T */
-static void gather (double *restrict room, const double *restrict from, size_t n, size_t stride, size_t T)
+/* ---- columns ------------------------------------------------------------------------------------------- */
+/* n places of a batch of columns, `stride` doubles apart, to the workspace; zeros up to T */
+static void gather (double *restrict workspace, const double *restrict from, size_t n, size_t stride,
+                    size_t T)
 {
-    for (size_t k = 0; k < n; k++) memcpy (room + k * BATCH, from + k * stride, BATCH * sizeof *room);
-    if (T > n) memset (room + n * BATCH, 0, (T - n) * BATCH * sizeof *room);
+    for (size_t k = 0; k < n; k++)
+        memcpy (workspace + k * BATCH, from + k * stride, BATCH * sizeof *workspace);
+    if (T > n) memset (workspace + n * BATCH, 0, (T - n) * BATCH * sizeof *workspace);
 }
 
-static void scatter (double *restrict to, const double *restrict room, size_t n, size_t stride)
+static void scatter (double *restrict to, const double *restrict workspace, size_t n, size_t stride)
 {
-    for (size_t k = 0; k < n; k++) memcpy (to + k * stride, room + k * BATCH, BATCH * sizeof *room);
+    for (size_t k = 0; k < n; k++) memcpy (to + k * stride, workspace + k * BATCH, BATCH * sizeof *workspace);
 }
 
-static void transform (fftw_plan plan, double *x) { if (plan) fftw_execute_dft (plan, (fftw_complex *) x, (fftw_complex *) x); }
+static void transform (fftw_plan plan, double *x)
+{
+    if (plan) fftw_execute_dft (plan, (fftw_complex *) x, (fftw_complex *) x);
+}
 
 /* The columns of a plane along the middle axis, in place */
-static void middle_columns (const fft *f, double *plane, int back, double *room)
+static void middle_columns (const fft *f, double *plane, int back, double *workspace)
 {
     const fft_box *b = &f->box;
     if (b->T[1] == 1) return;
     size_t from = back ? b->T[1] : b->n[1], to = back ? b->n[1] : b->T[1], stride = 2 * b->C;
     for (size_t c = 0; c < b->C; c += FFT_WIDE) {
-        gather (room, plane + 2*c, from, stride, b->T[1]);
-        transform (b->middle[back], room);
-        scatter (plane + 2*c, room, to, stride);
+        gather (workspace, plane + 2*c, from, stride, b->T[1]);
+        transform (b->middle[back], workspace);
+        scatter (plane + 2*c, workspace, to, stride);
     }
 }
 
 /* Of a place: sum over pairs of K z, on FFT_WIDE columns. sign: of the kernel's mirror image */
-static inline void contract (int dim, const double *const *K, const double *sign, double *const *z, size_t at, size_t k)
+static inline void contract (int dim, const double *const *K, const double *sign, double *const *z, size_t at,
+                             size_t k)
 {
     double sum[BATCH] = { 0 };
     for (int a = 0; a < dim; a++)
@@ -54,10 +60,13 @@ static inline void contract (int dim, const double *const *K, const double *sign
     memcpy (z[0] + at, sum, sizeof sum);
 }
 
-/* ---- passes ------------------------------------------------------------------------------------------------------------------- */
+/* ---- passes -------------------------------------------------------------------------------------------- */
 typedef struct { fft *f; const fft_job *job; } pass;
 
-static double *room_of (const fft *f, int thread) { return level (f->rooms) + (size_t) thread * f->room; }
+static double *room_of (const fft *f, int thread)
+{
+    return level (f->workspaces) + (size_t) thread * f->workspace;
+}
 
 static void forward_slabs (void *context, size_t first, size_t last, int thread)
 {
@@ -68,7 +77,8 @@ static void forward_slabs (void *context, size_t first, size_t last, int thread)
         for (int a = 0; a < p->job->in; a++) {
             double *plane = p->f->field[a] + l * b->T[1] * b->C * 2;
             for (size_t m = 0; m < b->n[1]; m++) {
-                if (m == 0) memset (x + b->n[0], 0, (b->T[0] - b->n[0]) * sizeof *x);      /* r2c keeps its input        */
+                /* r2c keeps its input */
+                if (m == 0) memset (x + b->n[0], 0, (b->T[0] - b->n[0]) * sizeof *x);
                 p->job->fill (p->job->context, l * b->n[1] + m, a, x);
                 fftw_execute_dft_r2c (b->row[0], x, (fftw_complex *) (plane + m * b->C * 2));
             }
@@ -88,10 +98,12 @@ static void columns (void *context, size_t first, size_t last, int thread)
     for (size_t task = first; task < last; task++) {
         size_t m = task % b->T[1], c = task / b->T[1], mirror = b->T[1] - m;
         int turned = m > mirror;
-        const double *kernel = f->kernel + (c * (b->T[1] / 2 + 1) + (turned ? mirror : m)) * (size_t) f->pairs * half * FFT_WIDE;
+        const double *kernel = f->kernel
+                               + (c * (b->T[1] / 2 + 1) + (turned ? mirror : m)) * (size_t) f->pairs * half
+                                     * FFT_WIDE;
         for (int i = 0; i < f->pairs; i++) K[i] = kernel + (size_t) i * half * FFT_WIDE;
         for (int i = 0; i < b->dim; i++)
-            for (int j = i; j < b->dim; j++) {         /* odd along an axis that is in the pair once                     */
+            for (int j = i; j < b->dim; j++) {         /* odd along an axis that is in the pair once */
                 int k = pair_of (b->dim, i, j);
                 sign[0][k] = turned && b->dim == 3 && (i == 1) != (j == 1) ? -1 : 1;
                 sign[1][k] = i < j && j == b->dim - 1 ? -sign[0][k] : sign[0][k];
@@ -101,7 +113,9 @@ static void columns (void *context, size_t first, size_t last, int thread)
             transform (b->last[0], z[a]);
         }
         if (p->job->out == b->dim) f->kernels->product[b->dim - 1] (b->T[2], K, sign, z);
-        else for (size_t l = 0; l < b->T[2]; l++) contract (b->dim, K, sign[l >= half], z, l * BATCH, (l >= half ? b->T[2] - l : l) * FFT_WIDE);
+        else
+            for (size_t l = 0; l < b->T[2]; l++)
+                contract (b->dim, K, sign[l >= half], z, l * BATCH, (l >= half ? b->T[2] - l : l) * FFT_WIDE);
         for (int a = 0; a < p->job->out; a++) {
             transform (b->last[1], z[a]);
             scatter (f->field[a] + m * b->C * 2 + c * BATCH, z[a], b->n[2], plane);
@@ -114,14 +128,16 @@ static void backward_slabs (void *context, size_t first, size_t last, int thread
     const pass *p = context;
     const fft_box *b = &p->f->box;
     size_t length = (b->T[0] + 7) / 8 * 8;
-    double *room = room_of (p->f, thread), *x[3];
-    for (int a = 0; a < 3; a++) x[a] = room + (size_t) a * length;
+    double *workspace = room_of (p->f, thread), *x[3];
+    for (int a = 0; a < 3; a++) x[a] = workspace + (size_t) a * length;
     for (size_t l = first; l < last; l++) {
-        for (int a = 0; a < p->job->out; a++) middle_columns (p->f, p->f->field[a] + l * b->T[1] * b->C * 2, 1, room);
+        for (int a = 0; a < p->job->out; a++)
+            middle_columns (p->f, p->f->field[a] + l * b->T[1] * b->C * 2, 1, workspace);
         for (size_t m = 0; m < b->n[1]; m++) {
             for (int a = 0; a < p->job->out; a++)
-                fftw_execute_dft_c2r (b->row[1], (fftw_complex *) (p->f->field[a] + (l * b->T[1] + m) * b->C * 2), x[a]);
-            p->job->take (p->job->context, l * b->n[1] + m, x, room + 3 * length);
+                fftw_execute_dft_c2r (b->row[1],
+                                      (fftw_complex *) (p->f->field[a] + (l * b->T[1] + m) * b->C * 2), x[a]);
+            p->job->take (p->job->context, l * b->n[1] + m, x, workspace + 3 * length);
         }
     }
 }
@@ -135,13 +151,16 @@ void fft_convolve (fft *f, const fft_job *job)
     f->forward += job->in, f->back += job->out;
 }
 
-/* ---- life --------------------------------------------------------------------------------------------------------------------- */
-/* One kernel's transform by plain passes over a whole box [T2][T1][T0]: real and even (or odd in two axes), so only a quarter is kept. */
-static pg_status make_kernel (fft *f, int pair, size_t n, const int *offset, double (*value) (const void *, int, size_t), const void *context, double *box)
+/* ---- life ---------------------------------------------------------------------------------------------- */
+/* One kernel's transform by plain passes over a whole box [T2][T1][T0]: real and even (or odd in two axes),
+ * so only a quarter is kept. */
+static pg_status make_kernel (fft *f, int pair, size_t n, const int *offset,
+                              double (*value) (const void *, int, size_t), const void *context, double *box)
 {
     pg_status status = PG_OK;
     const fft_box *b = &f->box;
-    size_t half = b->T[2] / 2 + 1, middle = b->T[1] / 2 + 1, C = b->T[0] / 2 + 1, pitch = 2 * C, all = b->T[0] * b->T[1] * b->T[2];
+    size_t half = b->T[2] / 2 + 1, middle = b->T[1] / 2 + 1, C = b->T[0] / 2 + 1, pitch = 2 * C,
+           all = b->T[0] * b->T[1] * b->T[2];
     int T[3] = { (int) b->T[2], (int) b->T[1], (int) b->T[0] };
     memset (box, 0, pitch * b->T[1] * b->T[2] * sizeof *box);
     for (size_t e = 0; e < n; e++) {
@@ -160,14 +179,16 @@ static pg_status make_kernel (fft *f, int pair, size_t n, const int *offset, dou
     for (size_t c = 0; c < C; c++)
         for (size_t m = 0; m < middle; m++)
             for (size_t l = 0; l < half; l++)
-                f->kernel[((((c / FFT_WIDE) * middle + m) * (size_t) f->pairs + (size_t) pair) * half + l) * FFT_WIDE + c % FFT_WIDE]
-                    = box[(l * b->T[1] + m) * pitch + 2*c];
+                f->kernel[((((c / FFT_WIDE) * middle + m) * (size_t) f->pairs + (size_t) pair) * half + l)
+                              * FFT_WIDE
+                          + c % FFT_WIDE] = box[(l * b->T[1] + m) * pitch + 2 * c];
 done:
     return status;
 }
 
-pg_status fft_create (fft *out, int dim, const size_t *sites, size_t n, const int *offset, double (*value) (const void *context, int pair, size_t entry),
-                      const void *context, const fft_kernels *kernels, int threads, int measure)
+pg_status fft_create (fft *out, int dim, const size_t *sites, size_t n, const int *offset,
+                      double (*value) (const void *context, int pair, size_t entry), const void *context,
+                      const fft_kernels *kernels, int threads, int measure)
 {
     pg_status status = PG_OK;
     fft *f = out;
@@ -175,14 +196,15 @@ pg_status fft_create (fft *out, int dim, const size_t *sites, size_t n, const in
     size_t reach[3] = { 0, 0, 0 };
     *f = (fft) { .kernels = kernels, .pairs = dim * (dim + 1) / 2, .threads = threads < 1 ? 1 : threads };
     for (size_t e = 0; e < n; e++)
-        for (int k = 0; k < dim; k++) if (offset[3*e + (size_t) k] > (int) reach[k]) reach[k] = (size_t) offset[3*e + (size_t) k];
+        for (int k = 0; k < dim; k++)
+            if (offset[3 * e + (size_t) k] > (int) reach[k]) reach[k] = (size_t) offset[3 * e + (size_t) k];
     PG_TRY (fft_box_create (&f->box, dim, sites, reach, measure));
     const fft_box *b = &f->box;
     size_t row = (b->T[0] + 7) / 8 * 8, most = (size_t) f->pairs * b->T[2] * BATCH;
     if (most < 8 * row) most = 8 * row;
     if (most < b->T[1] * BATCH) most = b->T[1] * BATCH;
-    f->room = (most + 7) / 8 * 8 + 64;
-    PG_ALLOC (f->rooms, (size_t) f->threads * f->room + 8);
+    f->workspace = (most + 7) / 8 * 8 + 64;
+    PG_ALLOC (f->workspaces, (size_t) f->threads * f->workspace + 8);
     PG_ALLOC (f->kernel, b->C * (b->T[1] / 2 + 1) * (b->T[2] / 2 + 1) * (size_t) f->pairs);
     PG_ALLOC (box, (b->T[0] + 2) * b->T[1] * b->T[2]);
     for (int p = 0; p < f->pairs; p++) PG_TRY (make_kernel (f, p, n, offset, value, context, box));
@@ -209,6 +231,6 @@ done:
 void fft_clear (fft *f)
 {
     fft_box_clear (&f->box);
-    pg_free (f->rooms), pg_free (f->kernel), pg_free (f->block);
+    pg_free (f->workspaces), pg_free (f->kernel), pg_free (f->block);
     memset (f, 0, sizeof *f);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Sizes that transform fast, and FFTW's plans: guessed (the same everywhere), or measured and kept in a file of the user's cache. */
+ * Sizes that transform fast, and FFTW's plans: guessed (the same everywhere), or measured and kept in a file
+ * of the user's cache. */
 #include "fft.h"
 #include <errno.h>
 #include <math.h>
@@ -10,14 +11,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The planner is not thread-safe, and what it has learned is one for the whole process: kept aside while ours is used. */
+/* The planner is not thread-safe, and what it has learned is one for the whole process: kept aside while ours
+ * is used. */
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
-/* ---- sizes ------------------------------------------------------------------------------------------------------------------ */
-/* Time of a transform per place, from bench/sums_rate fcbm on an AMD EPYC (FFTW 3.3.10): a constant and a share of each prime factor. */
+/* ---- sizes --------------------------------------------------------------------------------------------- */
+/* Time of a transform per place, from bench/sums_rate fcbm on an AMD EPYC (FFTW 3.3.10): a constant and a
+ * share of each prime factor. */
 static double time_of (size_t n)
 {
-    static const struct { size_t prime; double time; } factor[] = { { 2, 0.08 }, { 3, 0.17 }, { 5, 0.22 }, { 7, 0.24 } };
+    static const struct {
+        size_t prime;
+        double time;
+    } factor[] = { { 2, 0.08 }, { 3, 0.17 }, { 5, 0.22 }, { 7, 0.24 } };
     double sum = n % 2 ? 0.45 : 0.2;
     for (size_t k = 0; k < sizeof factor / sizeof *factor; k++)
         while (n % factor[k].prime == 0) n /= factor[k].prime, sum += factor[k].time;
@@ -43,7 +49,7 @@ double fft_work (const fft_box *box)
     return 2.5 * n * log2 (n + 1);
 }
 
-/* ---- what the planner knows --------------------------------------------------------------------------------------------------- */
+/* ---- what the planner knows ---------------------------------------------------------------------------- */
 /* Path of the file of wisdom; 0: there is no place for it. */
 static int wisdom_path (char *path, size_t size, int make)
 {
@@ -69,7 +75,7 @@ static void add_letter (char letter, void *context)
     copy *c = context;
     if (c->n + 2 > c->cap) {
         char *more = pg_resize (c->text, 2 * c->cap + 256, 1);
-        if (!more) return;                             /* a text cut short is refused when it is read                    */
+        if (!more) return;                             /* a text cut short is refused when it is read */
         c->text = more, c->cap = 2 * c->cap + 256;
     }
     c->text[c->n++] = letter, c->text[c->n] = 0;
@@ -83,7 +89,7 @@ static void keep_wisdom (void)
     if (!fftw_export_wisdom_to_filename (fresh) || rename (fresh, path) != 0) remove (fresh);
 }
 
-/* ---- plans -------------------------------------------------------------------------------------------------------------------- */
+/* ---- plans --------------------------------------------------------------------------------------------- */
 static fftw_plan columns (size_t T, double *x, int sign, unsigned how)
 {
     fftw_iodim along = { (int) T, FFT_WIDE, FFT_WIDE }, side = { FFT_WIDE, 1, 1 };
@@ -96,8 +102,12 @@ static int make_plans (fft_box *b, double *x, double *y, unsigned how)
     b->row[0] = fftw_plan_dft_r2c_1d ((int) b->T[0], x, (fftw_complex *) y, how);
     b->row[1] = fftw_plan_dft_c2r_1d ((int) b->T[0], (fftw_complex *) y, x, how);
     for (int k = 0; k < 2; k++) {
-        if (b->T[1] > 1) b->middle[k] = columns (b->T[1], x, k ? FFTW_BACKWARD : FFTW_FORWARD, how), all &= b->middle[k] != NULL;
-        if (b->T[2] > 1) b->last[k] = columns (b->T[2], x, k ? FFTW_BACKWARD : FFTW_FORWARD, how), all &= b->last[k] != NULL;
+        if (b->T[1] > 1)
+            b->middle[k] = columns (b->T[1], x, k ? FFTW_BACKWARD : FFTW_FORWARD, how),
+            all &= b->middle[k] != NULL;
+        if (b->T[2] > 1)
+            b->last[k] = columns (b->T[2], x, k ? FFTW_BACKWARD : FFTW_FORWARD, how),
+            all &= b->last[k] != NULL;
         all &= b->row[k] != NULL;
     }
     return all;
@@ -116,18 +126,28 @@ pg_status fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *
 {
     pg_status status = PG_OK;
     fft_box *b = out;
-    double *room = NULL;
+    double *workspace = NULL;
     size_t most = 0;
-    *b = (fft_box) { .dim = dim, .n = { n[0], dim == 3 ? n[1] : 1, dim == 3 ? n[2] : dim == 2 ? n[1] : 1 }, .measured = measure };
+    *b = (fft_box){ .dim = dim,
+                    .n = { n[0], dim == 3 ? n[1] : 1,
+                           dim == 3   ? n[2]
+                           : dim == 2 ? n[1]
+                                      : 1 },
+                    .measured = measure };
     for (int k = 0; k < 3; k++) {
-        size_t far = k == 0 ? reach[0] : k == 1 ? (dim == 3 ? reach[1] : 0) : dim == 3 ? reach[2] : dim == 2 ? reach[1] : 0;
+        size_t far = k == 0     ? reach[0]
+                     : k == 1   ? (dim == 3 ? reach[1] : 0)
+                     : dim == 3 ? reach[2]
+                     : dim == 2 ? reach[1]
+                                : 0;
         b->T[k] = k == 0 || dim == 3 || (dim == 2 && k == 2) ? fft_size (b->n[k] + far, k == 0) : 1;
-        if (b->T[k] > 1u << 26) PG_FAIL (PG_E_LIMIT, "transforms of %zu places are too long; try evaluation: stencil", b->T[k]);
+        if (b->T[k] > 1u << 26)
+            PG_FAIL (PG_E_LIMIT, "transforms of %zu places are too long; try evaluation: stencil", b->T[k]);
         most = b->T[k] > most ? b->T[k] : most;
     }
     b->C = (b->T[0] / 2 + 1 + FFT_WIDE - 1) / FFT_WIDE * FFT_WIDE;
-    PG_ALLOC (room, 4 * FFT_WIDE * (most + 8));
-    double *x = (double *) (((uintptr_t) room + 63) / 64 * 64), *y = x + 2 * FFT_WIDE * (most + 2);
+    PG_ALLOC (workspace, 4 * FFT_WIDE * (most + 8));
+    double *x = (double *) (((uintptr_t) workspace + 63) / 64 * 64), *y = x + 2 * FFT_WIDE * (most + 2);
     pthread_mutex_lock (&planner);
     char path[4096];
     copy theirs = { NULL, 0, 0 };
@@ -147,7 +167,7 @@ pg_status fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *
     pthread_mutex_unlock (&planner);
     if (!made) PG_FAIL (PG_E_MEMORY, "no memory for the plan of a transform");
 done:
-    pg_free (room);
+    pg_free (workspace);
     return status;
 }
 

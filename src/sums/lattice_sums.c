@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the bonds of an infinite lattice add up to: hydrostatic energy, stiffness, energy of a straight cut (theory A2). */
+ * What the bonds of an infinite lattice add up to: hydrostatic energy, stiffness, energy of a straight cut
+ * (theory A2). */
 #include "sums_private.h"
 #include <math.h>
 #include <string.h>
@@ -21,13 +22,16 @@ double pg_stencil_calibration (const pg_stencil *s, const pg_sum_rule *rule)
 /* D = 1/2 sum c k beta r (n n^T) V, strain along the bond = n . (xx yy zz xy yz zx) */
 void pg_stencil_tangent (const pg_stencil *s, double c, double thickness, double *D)
 {
-    static const int axis[3][6][2] = { {{0, 0}}, {{0, 0}, {1, 1}, {0, 1}}, {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}} };
+    static const int axis[3][6][2] = { { { 0, 0 } },
+                                       { { 0, 0 }, { 1, 1 }, { 0, 1 } },
+                                       { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 2, 0 } } };
     int dim = s->dim, nv = pg_voigt_size (dim);
     memset (D, 0, (size_t) (nv * nv) * sizeof *D);
     for (size_t b = 0; b < s->n; b++) {
         const double *xi = s->xi + b * (size_t) dim;
         double n[6], scale = 0.5 * c * s->weight[b] * s->r[b] * s->cell * thickness;
-        for (int v = 0; v < nv; v++) n[v] = xi[axis[dim - 1][v][0]] * xi[axis[dim - 1][v][1]] / (s->r[b] * s->r[b]);
+        for (int v = 0; v < nv; v++)
+            n[v] = xi[axis[dim - 1][v][0]] * xi[axis[dim - 1][v][1]] / (s->r[b] * s->r[b]);
         for (int v = 0; v < nv; v++)
             for (int w = 0; w < nv; w++) D[v * nv + w] += scale * n[v] * n[w];
     }
@@ -38,6 +42,7 @@ double pg_stencil_fracture_energy (const pg_stencil *s, double c, double thickne
 {
     double sum = 0;
     for (size_t b = 0; b < s->n; b++)
-        if (s->offset[3*b + (size_t) axis] > 0) sum += s->weight[b] * s->r[b] * s->xi[b * (size_t) s->dim + (size_t) axis];
+        if (s->offset[3 * b + (size_t) axis] > 0)
+            sum += s->weight[b] * s->r[b] * s->xi[b * (size_t) s->dim + (size_t) axis];
     return 0.5 * c * s0 * s0 * sum * s->cell * thickness;
 }

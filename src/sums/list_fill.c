@@ -6,9 +6,9 @@
 
 typedef struct {
     bond_list *list;
-    const pg_sweep_setting *setting;
-    size_t  most;                                      /* bonds of the largest family                                    */
-    double *xi, *weight;                               /* of one family, for each thread     (threads x most x dim, x most) */
+    const pg_bond_loop_setting *setting;
+    size_t  most;                                      /* bonds of the largest family */
+    double *xi, *weight;  /* of one family, for each thread (threads x most x dim, x most) */
 } filler;
 
 /* Sort of the bond from point i to point j: 0 shared and kept by i, 1 between chunks, -1: kept by j. */
@@ -48,7 +48,8 @@ static void fill_lane (const filler *g, size_t p, double *xi, double *weight)
     bond_list *list = g->list;
     const pg_family *family = list->family;
     const double *V = list->sums->cloud->volume;
-    size_t i = (size_t) list->point[p], dim = (size_t) list->dim, slice = p / LIST_LANES, lane = p % LIST_LANES, used[2] = { 0, 0 };
+    size_t i = (size_t) list->point[p], dim = (size_t) list->dim, slice = p / LIST_LANES,
+           lane = p % LIST_LANES, used[2] = { 0, 0 };
     pg_sums_bonds (list->sums, family, i, xi, weight, NULL);
     for (size_t b = 0; b < family->start[i + 1] - family->start[i]; b++) {
         size_t j = (size_t) family->node[family->start[i] + b];
@@ -57,7 +58,8 @@ static void fill_lane (const filler *g, size_t p, double *xi, double *weight)
         bond_slots *slots = &list->slots[sort];
         size_t slot = slots->start[slice] + used[sort]++, at = LIST_LANES * slot + lane;
         size_t to = (size_t) list->rank[j] * (size_t) list->pitch;
-        if (sort == 0) slots->near[at] = (uint16_t) (to - p / list->chunk * list->chunk * (size_t) list->pitch);
+        if (sort == 0)
+            slots->near[at] = (uint16_t) (to - p / list->chunk * list->chunk * (size_t) list->pitch);
         else           slots->far[at] = (uint32_t) to;
         double rr = 0;
         for (size_t c = 0; c < dim; c++) rr += xi[b*dim + c] * xi[b*dim + c];
@@ -74,18 +76,23 @@ static void fill_slices (void *context, size_t first, size_t last, int thread)
     for (size_t slice = first; slice < last; slice++) {
         for (int sort = 0; sort < 2; sort++) {         /* lanes without a bond: the point itself, dead */
             bond_slots *slots = &list->slots[sort];
-            for (size_t at = LIST_LANES * slots->start[slice]; at < LIST_LANES * slots->start[slice + 1]; at++) {
+            for (size_t at = LIST_LANES * slots->start[slice]; at < LIST_LANES * slots->start[slice + 1];
+                 at++) {
                 size_t own = (slice * LIST_LANES + at % LIST_LANES) * (size_t) list->pitch;
-                if (sort == 0) slots->near[at] = (uint16_t) (own - slice * LIST_LANES / list->chunk * list->chunk * (size_t) list->pitch);
+                if (sort == 0)
+                    slots->near[at] = (uint16_t) (own
+                                                  - slice * LIST_LANES / list->chunk * list->chunk
+                                                        * (size_t) list->pitch);
                 else           slots->far[at] = (uint32_t) own;
             }
         }
         for (size_t p = slice * LIST_LANES; p < (slice + 1) * LIST_LANES && p < list->n; p++)
-            fill_lane (g, p, g->xi + (size_t) thread * g->most * (size_t) list->dim, g->weight + (size_t) thread * g->most);
+            fill_lane (g, p, g->xi + (size_t) thread * g->most * (size_t) list->dim,
+                       g->weight + (size_t) thread * g->most);
     }
 }
 
-static double pair_limit (const bond_list *list, const pg_sweep_setting *setting, size_t p, size_t q)
+static double pair_limit (const bond_list *list, const pg_bond_loop_setting *setting, size_t p, size_t q)
 {
     size_t i = (size_t) list->point[p], j = (size_t) list->point[q];
     if (setting->exempt && (setting->exempt[i] || setting->exempt[j])) return INFINITY;
@@ -102,7 +109,8 @@ static int first_eight (const bond_list *list, double limit)
 }
 
 /* Limits of one slice: where all are the same, eight of them; most slices share those of the first one. */
-static pg_status fill_limits (bond_list *list, bond_slots *slots, const pg_sweep_setting *setting, size_t slice)
+static pg_status fill_limits (bond_list *list, bond_slots *slots, const pg_bond_loop_setting *setting,
+                              size_t slice)
 {
     pg_status status = PG_OK;
     size_t first = slots->start[slice], n = slots->start[slice + 1] - first, end = list->limits;
@@ -110,7 +118,8 @@ static pg_status fill_limits (bond_list *list, bond_slots *slots, const pg_sweep
     double *limit = list->limit + end * LIST_LANES, low = INFINITY, high = -INFINITY;
     for (size_t k = 0; k < n * LIST_LANES; k++) {
         if (!(slots->alive[first + k / LIST_LANES] >> k % LIST_LANES & 1)) { limit[k] = INFINITY; continue; }
-        limit[k] = pair_limit (list, setting, slice * LIST_LANES + k % LIST_LANES, bond_list_end (list, slots, slice, first * LIST_LANES + k));
+        limit[k] = pair_limit (list, setting, slice * LIST_LANES + k % LIST_LANES,
+                               bond_list_end (list, slots, slice, first * LIST_LANES + k));
         low = fmin (low, limit[k]), high = fmax (high, limit[k]);
     }
     slots->limit_at[slice] = 0;
@@ -140,12 +149,13 @@ done:
     return status;
 }
 
-pg_status bond_list_fill (bond_list *list, const pg_sweep_setting *setting)
+pg_status bond_list_fill (bond_list *list, const pg_bond_loop_setting *setting)
 {
     pg_status status = PG_OK;
     filler g = { .list = list, .setting = setting };
     const size_t *start = list->family->start;
-    for (size_t i = 0; i < list->n; i++) if (start[i + 1] - start[i] > g.most) g.most = start[i + 1] - start[i];
+    for (size_t i = 0; i < list->n; i++)
+        if (start[i + 1] - start[i] > g.most) g.most = start[i + 1] - start[i];
     PG_ALLOC (g.xi, (size_t) list->threads * g.most * (size_t) list->dim);
     PG_ALLOC (g.weight, (size_t) list->threads * g.most);
     for (int k = 0; k < 2; k++) PG_ALLOC (list->slots[k].start, list->slices + 1);

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Order of the points of a list of bonds: slabs of equal numbers along one axis, cut along the next ones into compact chunks; in a chunk points with many
- * bonds out of it, then with many bonds in it first, so that the slots of a slice are full. */
+ * Order of the points of a list of bonds: slabs of equal numbers along one axis, cut along the next ones into
+ * compact chunks; in a chunk points with many bonds out of it, then with many bonds in it first, so that the
+ * slots of a slice are full. */
 #include "list.h"
 #include <math.h>
 #include <stdlib.h>
 
-enum { TILE = 256 };                                   /* points summed one after the other: their records stay in the first cache */
+enum { TILE = 256 };  /* points summed one after the other: their records stay in the first cache */
 
 typedef struct { double key; int point; } item;
-typedef struct { int out, in, point, rank; } load;     /* bonds of a point to other chunks and to later points of its own one */
+/* bonds of a point to other chunks and to later points of its own one */
+typedef struct { int out, in, point, rank; } load;
 
 static int by_key (const void *a, const void *b)
 {
@@ -19,10 +21,13 @@ static int by_key (const void *a, const void *b)
 static int by_load (const void *a, const void *b)
 {
     const load *p = a, *q = b;
-    return p->out != q->out ? q->out - p->out : p->in != q->in ? q->in - p->in : (p->rank > q->rank) - (p->rank < q->rank);
+    return p->out != q->out ? q->out - p->out
+           : p->in != q->in ? q->in - p->in
+                            : (p->rank > q->rank) - (p->rank < q->rank);
 }
 
-/* Sorts n items along `axis`, cuts them into slabs of whole chunks about as thick as a chunk is wide, goes on along the axes below. */
+/* Sorts n items along `axis`, cuts them into slabs of whole chunks about as thick as a chunk is wide, goes on
+ * along the axes below. */
 static void cut (item *items, size_t n, const pg_cloud *cloud, const double *wide, size_t chunk, int axis)
 {
     size_t dim = (size_t) cloud->dim, pieces = (n + chunk - 1) / chunk;
@@ -35,7 +40,8 @@ static void cut (item *items, size_t n, const pg_cloud *cloud, const double *wid
     }
     double slabs = fmin (fmax (1, round (pow (space, 1.0 / (axis + 1)))), (double) pieces);
     size_t step = (pieces + (size_t) slabs - 1) / (size_t) slabs * chunk;
-    for (size_t k = 0; k < n; k += step) cut (items + k, n - k < step ? n - k : step, cloud, wide, chunk, axis - 1);
+    for (size_t k = 0; k < n; k += step)
+        cut (items + k, n - k < step ? n - k : step, cloud, wide, chunk, axis - 1);
 }
 
 /* Compact tiles in every chunk: near ones are summed one after the other. */
@@ -84,11 +90,13 @@ pg_status bond_list_order (bond_list *list)
     PG_ALLOC (loads, list->chunk);
     for (size_t i = 0; i < list->n; i++) items[i].point = (int) i;
     cut_all (items, list->n, cloud, list->chunk);
-    for (size_t p = 0; p < list->n; p++) list->point[p] = items[p].point, list->rank[items[p].point] = (int) p;
+    for (size_t p = 0; p < list->n; p++)
+        list->point[p] = items[p].point, list->rank[items[p].point] = (int) p;
     for (size_t first = 0; first < list->n; first += list->chunk) {
         size_t last = list->n - first < list->chunk ? list->n : first + list->chunk;
         count_bonds (loads, list, first, last);
-        for (size_t k = first; k < last; k += TILE) qsort (loads + (k - first), last - k < TILE ? last - k : TILE, sizeof *loads, by_load);
+        for (size_t k = first; k < last; k += TILE)
+            qsort (loads + (k - first), last - k < TILE ? last - k : TILE, sizeof *loads, by_load);
         for (size_t p = first; p < last; p++) list->point[p] = loads[p - first].point;
     }
     for (size_t p = 0; p < list->n; p++) list->before[list->point[p]] = list->rank[list->point[p]];

@@ -15,7 +15,8 @@
 #define V_LEAST(a, b)    ((a) >= (b) ? 1u : 0u)
 #define V_FETCH1(record, o) const double *r_ = (record) + *(o), x0 = r_[0], u0 = r_[1]
 #define V_FETCH2(record, o) const double *r_ = (record) + *(o), x0 = r_[0], x1 = r_[1], u0 = r_[2], u1 = r_[3]
-#define V_FETCH3(record, o) const double *r_ = (record) + *(o), x0 = r_[0], x1 = r_[1], x2 = r_[2], u0 = r_[3], u1 = r_[4], u2 = r_[5]
+#define V_FETCH3(record, o) \
+    const double *r_ = (record) + *(o), x0 = r_[0], x1 = r_[1], x2 = r_[2], u0 = r_[3], u1 = r_[4], u2 = r_[5]
 #define V_GIVE1(sum, o) ((sum)[*(o) / 2] -= f0)
 #define V_GIVE2(sum, o) ((sum)[*(o) / 2] -= f0, (sum)[*(o) / 2 + 1] -= f1)
 #define V_GIVE3(sum, o) ((sum)[*(o) / 2] -= f0, (sum)[*(o) / 2 + 1] -= f1, (sum)[*(o) / 2 + 2] -= f2)

@@ -1,20 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a box and a ball about the origin have in common: length and area in closed form, volume by Gauss points over slices between the places
- * where a corner enters. A box that the axes cut through is folded into the first octant before, so that corners are its nearest and its farthest
- * points. Means of a kernel over the common part follow from the volumes V (rho) of all smaller balls: int k dV = -int k' V d rho for k (1) = 0. */
+ * What a box and a ball about the origin have in common: length and area in closed form, volume by Gauss
+ * points over slices between the places where a corner enters. A box that the axes cut through is folded into
+ * the first octant before, so that corners are its nearest and its farthest points. Means of a kernel over
+ * the common part follow from the volumes V (rho) of all smaller balls: int k dV = -int k' V d rho for k (1)
+ * = 0. */
 #include "overlap.h"
 #include <math.h>
 #include <string.h>
 
 enum { POINTS = 16 };
-static const double place[POINTS / 2]  = { 0.0950125098376374, 0.2816035507792589, 0.4580167776572274, 0.6178762444026438,
-                                           0.7554044083550030, 0.8656312023878318, 0.9445750230732326, 0.9894009349916499 };
-static const double weight[POINTS / 2] = { 0.1894506104550685, 0.1826034150449236, 0.1691565193950025, 0.1495959888165767,
-                                           0.1246289712555339, 0.0951585116824928, 0.0622535239386479, 0.0271524594117541 };
+static const double place[POINTS / 2] = { 0.0950125098376374, 0.2816035507792589, 0.4580167776572274,
+                                          0.6178762444026438, 0.7554044083550030, 0.8656312023878318,
+                                          0.9445750230732326, 0.9894009349916499 };
+static const double weight[POINTS / 2] = { 0.1894506104550685, 0.1826034150449236, 0.1691565193950025,
+                                           0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
+                                           0.0622535239386479, 0.0271524594117541 };
 
-typedef struct { int dim; double low[3], high[3]; } box;          /* 0 <= low < high                                      */
+typedef struct { int dim; double low[3], high[3]; } box;          /* 0 <= low < high */
 
-/* Point g of a rule on [a, b] whose points crowd at both ends, where integrands may go as a power of 3/2. Returns the weight. */
+/* Point g of a rule on [a, b] whose points crowd at both ends, where integrands may go as a power of 3/2.
+ * Returns the weight. */
 static double rule_at (int g, double a, double b, double *x)
 {
     int k = g < POINTS / 2 ? g : g - POINTS / 2;
@@ -36,8 +41,9 @@ static double area (const double *low, const double *high, double R)
 {
     if (square (low[0]) + square (low[1]) >= R * R) return 0;
     if (square (high[0]) + square (high[1]) <= R * R) return (high[0] - low[0]) * (high[1] - low[1]);
-    double full = high[1] < R ? sqrt ((R - high[1]) * (R + high[1])) : 0;           /* up to here the top edge is inside    */
-    double last = fmin (high[0], sqrt ((R - low[1]) * (R + low[1])));               /* from here on all is outside          */
+    /* up to here the top edge is inside */
+    double full = high[1] < R ? sqrt ((R - high[1]) * (R + high[1])) : 0;
+    double last = fmin (high[0], sqrt ((R - low[1]) * (R + low[1])));  /* from here on all is outside */
     double a = fmin (fmax (low[0], full), last), sum = (a - low[0]) * (high[1] - low[1]);
     return sum + arc (R, last) - arc (R, a) - (last - a) * low[1];
 }
@@ -112,7 +118,7 @@ double sums_overlap_mean (int dim, const int *n, const double *step, double radi
     if (nearest >= radius) return 0;
     count = insert (kink, count, nearest);
     count = insert (kink, count, radius);
-    if (radius / 2 > nearest) count = insert (kink, count, radius / 2);              /* the knot of splines                  */
+    if (radius / 2 > nearest) count = insert (kink, count, radius / 2);              /* the knot of splines */
     for (int c = 1; c < 1 << dim; c++) {
         double d = 0;
         for (int k = 0; k < dim; k++) d += square (c >> k & 1 ? b.high[k] : b.low[k]);

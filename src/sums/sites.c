@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points of a cloud are sites of one lattice. Where no lattice is given (points of a file, nodes of a mesh) its steps are the smallest gaps
- * between coordinates. */
+ * Which points of a cloud are sites of one lattice. Where no lattice is given (points of a file, nodes of a
+ * mesh) its steps are the smallest gaps between coordinates. */
 #include "sums_private.h"
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double off_site = 1e-6;                   /* of a step                                                      */
-static const double sparse   = 8;                      /* sites per point beyond which a found lattice is none           */
+static const double off_site = 1e-6;                   /* of a step */
+static const double sparse   = 8;  /* sites per point beyond which a found lattice is none */
 
 static void bounds (const pg_cloud *cloud, double *low, double *high)
 {
@@ -46,9 +46,10 @@ static pg_status find_steps (const pg_cloud *cloud, double *step, int *found)
         for (size_t i = 0; i < cloud->n; i++) x[i] = cloud->x[i * (size_t) cloud->dim + (size_t) k];
         qsort (x, cloud->n, sizeof *x, ascending);
         double length = x[cloud->n - 1] - x[0];
-        for (size_t i = 1; i < cloud->n; i++) if (x[i] - x[i - 1] > 1e-3 * cloud->h) gap = fmin (gap, x[i] - x[i - 1]);
+        for (size_t i = 1; i < cloud->n; i++)
+            if (x[i] - x[i - 1] > 1e-3 * cloud->h) gap = fmin (gap, x[i] - x[i - 1]);
         if (!isfinite (gap) || !isfinite (length)) goto done;
-        step[k] = length / floor (length / gap + 0.5);                 /* gaps are rounded, their sum is less so          */
+        step[k] = length / floor (length / gap + 0.5);  /* gaps are rounded, their sum is less so */
         all *= length / step[k] + 1;
     }
     *found = all < sparse * (double) cloud->n + 64;
@@ -91,7 +92,8 @@ pg_status pg_sites_build (pg_sites *out, const pg_cloud *cloud, const pg_lattice
     int fits = 0, found = 1, given = lattice && lattice->dim > 0;
     memset (out, 0, sizeof *out);
     out->dim = cloud->dim;
-    if ((given && lattice->dim != cloud->dim) || cloud->n == 0 || cloud->n > INT_MAX || !alike (cloud)) goto done;
+    if ((given && lattice->dim != cloud->dim) || cloud->n == 0 || cloud->n > INT_MAX || !alike (cloud))
+        goto done;
     if (given) memcpy (step, lattice->step, sizeof step);
     else PG_TRY (find_steps (cloud, step, &found));
     if (!found) goto done;

@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * state.h: what the loops of state-based theory share (private; theory B6). Of point i, with w = k beta / r and the bonds that count:
- * q = sum w r^2 V, factor = A d / q^2, beta = B / q; all 0 where no bond counts. */
+ * state.h: what the loops of state-based theory share (private; theory B6). Of point i, with w = k beta / r
+ * and the bonds that count: q = sum w r^2 V, factor = A d / q^2, beta = B / q; all 0 where no bond counts. */
 #ifndef PERIGAL_SUMS_STATE_H
 #define PERIGAL_SUMS_STATE_H
-#include "sweep.h"
+#include "bond_loop.h"
 
-static inline double state_factor (const pg_sweep_setting *s, size_t i, double q)
+static inline double state_factor (const pg_bond_loop_setting *s, size_t i, double q)
 {
     return q > 0 ? s->dilation[i] * s->sums->cloud->dim / (q * q) : 0;
 }
 
-static inline double state_beta (const pg_sweep_setting *s, size_t i, double q) { return q > 0 ? s->deviation[i] / q : 0; }
+static inline double state_beta (const pg_bond_loop_setting *s, size_t i, double q)
+{
+    return q > 0 ? s->deviation[i] / q : 0;
+}
 
 /* NULL: theory and rule go together; else why not. */
-const char *state_refusal (const pg_sweep_setting *setting);
+const char *state_refusal (const pg_bond_loop_setting *setting);
 #endif

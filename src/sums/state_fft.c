@@ -1,38 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * State-based sums of points on a lattice by fast Fourier transforms (theory B6). With chi the share of a point (0 where there is none),
- * g_a = w xi_a V (odd) and C_ab = w xi_a xi_b / r^2 V (even), and (k * b)_i = sum_n k[n] b_(i + n):
+ * State-based sums of points on a lattice by fast Fourier transforms (theory B6). With chi the share of a
+ * point (0 where there is none), g_a = w xi_a V (odd) and C_ab = w xi_a xi_b / r^2 V (even), and (k * b)_i =
+ * sum_n k[n] b_(i + n):
  *   alpha = factor [sum_a g_a * (chi u_a) - sum_a u_a G_a],   G_a = g_a * chi
- *   f_a   = V chi {Q_a + alpha G_a + beta R_a - sum_b u_b (H_ab + beta D_ab)},   D_ab = C_ab * chi,   H_ab = C_ab * (chi beta)
+ *   f_a = V chi {Q_a + alpha G_a + beta R_a - sum_b u_b (H_ab + beta D_ab)}, D_ab = C_ab * chi, H_ab = C_ab *
+ *       (chi beta)
  *   Q_a   = g_a * (chi alpha) + sum_b C_ab * (chi beta u_b),   R_a = sum_b C_ab * (chi u_b):
- * 2 d + 1 transforms forth and as many back. Blocks of 32 sites with a cut bond are summed bond by bond instead, by the loops of state_stencil.c. Each
+ * 2 d + 1 transforms forth and as many back. Blocks of 32 sites with a cut bond are summed bond by bond
+ *     instead, by the loops of state_stencil.c. Each
  * transform is the work of one thread: the same bits for any number of them. */
 #include "fft_sweep.h"
 #include "state_stencil.h"
 #include <math.h>
 #include <string.h>
 
-enum { MOST = 7 };                                     /* fields of a sum                                                */
+enum { MOST = 7 };                                     /* fields of a sum */
 typedef struct {
-    state   base;                                      /* first: a state_stencil                                         */
+    state   base;                                      /* first: a state_stencil */
     int     dim, pairs;
-    size_t  n[3], T[3], wide, complexes;               /* sites, places; doubles of a row, complex numbers of a field    */
+    size_t  n[3], T[3], wide, complexes;  /* sites, places; doubles of a row, complex numbers of a field */
     fftw_plan forth, back;
-    double *field[MOST];                               /* u, beta u, alpha                   (2 complexes)               */
-    double *S[3], *C[6];                               /* of the kernels' transforms the part that is not 0, over the number of places (complexes) */
-    double *chi, *G[3], *D[6], *H[6];                  /* (padded places)                                                */
-    int    *bits;                                      /* of each block while all bonds live                             */
-    int    *cut, ncut;                                 /* blocks that have lost some, ascending                          */
+    double *field[MOST];                               /* u, beta u, alpha (2 complexes) */
+    /* of the kernels' transforms the part that is not 0, over the number of places (complexes) */
+    double *S[3], *C[6];
+    double *chi, *G[3], *D[6], *H[6];                  /* (padded places) */
+    int    *bits;                                      /* of each block while all bonds live */
+    int    *cut, ncut;                                 /* blocks that have lost some, ascending */
     unsigned char *is_cut;
-    int     stale;                                     /* H is that of an earlier beta                                   */
-    double  centre[3];                                 /* mean displacement, taken off, m                                */
-    transformer bound;                                 /* no sums: what fft_bound.c looks at                             */
-    int    *suspect;                                   /* blocks                                                         */
-    pg_sweep_counts count;
+    int     stale;                                     /* H is that of an earlier beta */
+    double  centre[3];                                 /* mean displacement, taken off, m */
+    transformer bound;                                 /* no sums: what fft_bound.c looks at */
+    int    *suspect;                                   /* blocks */
+    pg_bond_loop_counts count;
 } convolver;
 
 static int pair_of (int dim, int a, int b) { return a > b ? fft_pair (dim, b, a) : fft_pair (dim, a, b); }
 
-static const char *refusal (const pg_sweep_setting *setting) { return pg_sweep_state_stencil.refusal (setting); }
+static const char *refusal (const pg_bond_loop_setting *setting)
+{
+    return pg_bond_loop_state_stencil.refusal (setting);
+}
 
 static void release (void *self)
 {
@@ -48,8 +55,9 @@ static void release (void *self)
     state_free (c);
 }
 
-/* ---- rows ----------------------------------------------------------------------------------------------------------------------- */
-typedef void (*rows_of) (convolver *c, size_t row, size_t place);      /* row of sites, padded place of its first site      */
+/* ---- rows ---------------------------------------------------------------------------------------------- */
+/* row of sites, padded place of its first site */
+typedef void (*rows_of) (convolver *c, size_t row, size_t place);
 typedef struct { convolver *c; rows_of work; } rowing;
 
 static size_t rows (const convolver *c) { return c->n[1] * c->n[2]; }
@@ -61,7 +69,9 @@ static void do_rows (void *context, size_t first, size_t last, int thread)
     const stencil *s = &r->c->base.base;
     for (size_t row = first; row < last; row++) {
         size_t y = row % r->c->n[1], z = row / r->c->n[1];
-        r->work (r->c, row, ((z + (size_t) s->reach[2]) * s->rows + y + (size_t) s->reach[1]) * s->pitch + (size_t) s->left);
+        r->work (r->c, row,
+                 ((z + (size_t) s->reach[2]) * s->rows + y + (size_t) s->reach[1]) * s->pitch
+                     + (size_t) s->left);
     }
 }
 
@@ -76,7 +86,7 @@ static double *row_of (const convolver *c, int field, size_t row)
     return c->field[field] + (row / c->n[1] * c->T[1] + row % c->n[1]) * c->wide;
 }
 
-/* ---- transforms ----------------------------------------------------------------------------------------------------------------- */
+/* ---- transforms ---------------------------------------------------------------------------------------- */
 typedef struct { convolver *c; int first, back; } transforming;
 
 static void transform_fields (void *context, size_t first, size_t last, int thread)
@@ -92,7 +102,8 @@ static void transform_fields (void *context, size_t first, size_t last, int thre
 
 static void transform (convolver *c, int first, int n, int back)
 {
-    pg_parallel_heavy (stencil_threads (&c->base.base), (size_t) n, transform_fields, &(transforming) { c, first, back });
+    pg_parallel_heavy (stencil_threads (&c->base.base), (size_t) n, transform_fields,
+                       &(transforming){ c, first, back });
     *(back ? &c->count.back : &c->count.forward) += n;
 }
 
@@ -119,7 +130,8 @@ static void multiply_dilatation (convolver *c, size_t first, size_t last)
     double *out = c->field[2 * c->dim];
     for (size_t k = first; k < last; k++) {
         double re = 0, im = 0;
-        for (int a = 0; a < c->dim; a++) re -= c->S[a][k] * c->field[a][2*k + 1], im += c->S[a][k] * c->field[a][2*k];
+        for (int a = 0; a < c->dim; a++)
+            re -= c->S[a][k] * c->field[a][2 * k + 1], im += c->S[a][k] * c->field[a][2 * k];
         out[2*k] = re, out[2*k + 1] = im;
     }
 }
@@ -136,14 +148,16 @@ static void multiply_forces (convolver *c, size_t first, size_t last)
                 R[a] = 0, Q[a] = c->S[a][k] * (part ? alpha[2*k] : -alpha[2*k + 1]);
                 for (int b = 0; b < d; b++) {
                     double C = c->C[pair_of (d, a, b)][k];
-                    R[a] += C * c->field[b][2*k + (size_t) part], Q[a] += C * c->field[d + b][2*k + (size_t) part];
+                    R[a] += C * c->field[b][2 * k + (size_t) part],
+                        Q[a] += C * c->field[d + b][2 * k + (size_t) part];
                 }
             }
-            for (int a = 0; a < d; a++) c->field[a][2*k + (size_t) part] = R[a], c->field[d + a][2*k + (size_t) part] = Q[a];
+            for (int a = 0; a < d; a++)
+                c->field[a][2 * k + (size_t) part] = R[a], c->field[d + a][2 * k + (size_t) part] = Q[a];
         }
 }
 
-/* ---- what does not change with the displacement --------------------------------------------------------------------------------- */
+/* ---- what does not change with the displacement -------------------------------------------------------- */
 static size_t place_in_box (const convolver *c, const int *offset)
 {
     size_t at[3];
@@ -151,7 +165,8 @@ static size_t place_in_box (const convolver *c, const int *offset)
     return (at[2] * c->T[1] + at[1]) * c->wide + at[0];
 }
 
-/* Transform of one kernel: its real part (even), or minus the imaginary one (odd), over the number of places */
+/* Transform of one kernel: its real part (even), or minus the imaginary one (odd), over the number of
+ * places */
 static void make_kernel (convolver *c, double *out, int a, int b)
 {
     const pg_stencil *st = &c->base.base.setting.sums->stencil;
@@ -160,13 +175,19 @@ static void make_kernel (convolver *c, double *out, int a, int b)
     for (size_t j = 0; j < st->n; j++) {
         int o[3] = { st->offset[3*j], dim > 1 ? st->offset[3*j + 1] : 0, dim > 2 ? st->offset[3*j + 2] : 0 };
         double wV = st->weight[j] / st->r[j] * c->base.base.job.volume, xa = st->xi[j * dim + (size_t) a];
-        c->field[0][place_in_box (c, o)] = b < 0 ? wV * xa : wV * xa * st->xi[j * dim + (size_t) b] / (st->r[j] * st->r[j]);
+        c->field[0][place_in_box (c, o)] = b < 0 ? wV * xa
+                                                 : wV * xa * st->xi[j * dim + (size_t) b]
+                                                       / (st->r[j] * st->r[j]);
     }
     transform (c, 0, 1, 0);
-    for (size_t k = 0; k < c->complexes; k++) out[k] = (b < 0 ? -c->field[0][2*k + 1] : c->field[0][2*k]) / (double) places;
+    for (size_t k = 0; k < c->complexes; k++)
+        out[k] = (b < 0 ? -c->field[0][2 * k + 1] : c->field[0][2 * k]) / (double) places;
 }
 
-static void fill_chi (convolver *c, size_t row, size_t place) { memcpy (row_of (c, 2 * c->dim, row), c->chi + place, c->n[0] * sizeof (double)); }
+static void fill_chi (convolver *c, size_t row, size_t place)
+{
+    memcpy (row_of (c, 2 * c->dim, row), c->chi + place, c->n[0] * sizeof (double));
+}
 
 static void fill_chi_beta (convolver *c, size_t row, size_t place)
 {
@@ -179,7 +200,9 @@ static void copy_rows (convolver *c, double *out)
 {
     const stencil *s = &c->base.base;
     for (size_t row = 0; row < rows (c); row++) {
-        size_t y = row % c->n[1], z = row / c->n[1], place = ((z + (size_t) s->reach[2]) * s->rows + y + (size_t) s->reach[1]) * s->pitch + (size_t) s->left;
+        size_t y = row % c->n[1], z = row / c->n[1],
+               place = ((z + (size_t) s->reach[2]) * s->rows + y + (size_t) s->reach[1]) * s->pitch
+                       + (size_t) s->left;
         memcpy (out + place, row_of (c, 0, row), c->n[0] * sizeof *out);
     }
 }
@@ -208,7 +231,8 @@ static void renew_beta (convolver *c)
 static void make_fixed (convolver *c)
 {
     for (int a = 0; a < c->dim; a++) make_kernel (c, c->S[a], a, -1);
-    for (int a = 0; a < c->dim; a++) for (int b = a; b < c->dim; b++) make_kernel (c, c->C[pair_of (c->dim, a, b)], a, b);
+    for (int a = 0; a < c->dim; a++)
+        for (int b = a; b < c->dim; b++) make_kernel (c, c->C[pair_of (c->dim, a, b)], a, b);
     clear_field (c, 2 * c->dim);
     each_row (c, fill_chi);
     transform (c, 2 * c->dim, 1, 0);
@@ -217,7 +241,7 @@ static void make_fixed (convolver *c)
     renew_beta (c);
 }
 
-/* ---- cut blocks ------------------------------------------------------------------------------------------------------------------ */
+/* ---- cut blocks ---------------------------------------------------------------------------------------- */
 static int bits_of (const stencil *s, size_t block)
 {
     int sum = 0;
@@ -243,7 +267,8 @@ static void mark_cut (convolver *c, const pg_changes *changes)
     const stencil *s = &c->base.base;
     unsigned bit;
     if (!changes) pg_parallel_heavy (stencil_threads (s), s->nblock, look_at_blocks, c);
-    for (size_t k = 0; changes && k < changes->n; k++) c->is_cut[stencil_block (s, s->place[stencil_owner (s, changes->bond[k])], &bit)] = 1;
+    for (size_t k = 0; changes && k < changes->n; k++)
+        c->is_cut[stencil_block (s, s->place[stencil_owner (s, changes->bond[k])], &bit)] = 1;
     list_cut (c);
     c->stale |= s->setting.sums->rule.follow;
 }
@@ -254,7 +279,7 @@ static void update (void *self, const unsigned char *alive, const pg_changes *ch
     mark_cut (self, changes);
 }
 
-/* ---- life ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- life ---------------------------------------------------------------------------------------------- */
 static pg_status allocate (convolver *c)
 {
     pg_status status = PG_OK;
@@ -279,7 +304,7 @@ done:
     return status;
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const fft_kernels *const kernels[] = { &pg_fft_scalar, &pg_fft_avx2, &pg_fft_avx512 };
     pg_status status = PG_OK;
@@ -288,12 +313,16 @@ static pg_status create (void **self, const pg_sweep_setting *setting, pg_instru
     const stencil *s = &c->base.base;
     const pg_sites *sites = &setting->sums->sites;
     c->dim = s->job.dim, c->pairs = c->dim * (c->dim + 1) / 2;
-    for (int k = 0; k < 3; k++) c->n[k] = (size_t) sites->count[k], c->T[k] = k < c->dim ? fft_size (c->n[k] + (size_t) s->reach[k], k == 0) : 1;
+    for (int k = 0; k < 3; k++)
+        c->n[k] = (size_t) sites->count[k],
+        c->T[k] = k < c->dim ? fft_size (c->n[k] + (size_t) s->reach[k], k == 0) : 1;
     c->wide = c->T[0] + 2, c->complexes = (c->T[0] / 2 + 1) * c->T[1] * c->T[2];
     if ((double) c->T[0] * (double) c->T[1] * (double) c->T[2] > 1e9)
-        PG_FAIL (PG_E_LIMIT, "transforms of %zu x %zu x %zu places are too large; try evaluation: stencil", c->T[0], c->T[1], c->T[2]);
+        PG_FAIL (PG_E_LIMIT, "transforms of %zu x %zu x %zu places are too large; try evaluation: stencil",
+                 c->T[0], c->T[1], c->T[2]);
     PG_TRY (allocate (c));
-    c->bound.s = &c->base.base, c->bound.dim = c->dim, c->bound.nx = c->n[0], c->bound.rows = rows (c), c->bound.cut = c->is_cut;
+    c->bound.s = &c->base.base, c->bound.dim = c->dim, c->bound.nx = c->n[0], c->bound.rows = rows (c),
+    c->bound.cut = c->is_cut;
     c->bound.f.kernels = kernels[set];
     if (setting->limit) PG_TRY (fft_bound_create (&c->bound));
     int T[3] = { (int) c->T[2], (int) c->T[1], (int) c->T[0] };
@@ -310,10 +339,11 @@ static void bytes (const void *self, double *per_bond, double *per_point)
 {
     const convolver *c = self;
     *per_bond = 0;
-    *per_point = sizeof (double) * 2 * (double) c->complexes * 6 * (double) (2 * c->dim + 1) / (double) c->base.base.setting.sums->cloud->n;
+    *per_point = sizeof (double) * 2 * (double) c->complexes * 6 * (double) (2 * c->dim + 1)
+                 / (double) c->base.base.setting.sums->cloud->n;
 }
 
-/* ---- sums ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- sums ---------------------------------------------------------------------------------------------- */
 static void take_mean (convolver *c, const double *u)
 {
     size_t n = c->base.base.setting.sums->cloud->n, dim = (size_t) c->dim;
@@ -324,7 +354,8 @@ static void take_mean (convolver *c, const double *u)
     }
 }
 
-/* Displacements less their mean times chi and chi beta; the padded ones lose the mean for good, but where there is no point. */
+/* Displacements less their mean times chi and chi beta; the padded ones lose the mean for good, but where
+ * there is no point. */
 static void fill_displacements (convolver *c, size_t row, size_t place)
 {
     const double *chi = c->chi + place, *beta = c->base.beta + place;
@@ -363,7 +394,8 @@ static void take_forces (convolver *c, size_t row, size_t place)
         if (point[k] < 0) continue;
         double scale = s->job.volume * c->chi[at];
         for (int a = 0; a < c->dim; a++) {
-            double sum = row_of (c, c->dim + a, row)[k] + c->base.alpha[at] * c->G[a][at] + c->base.beta[at] * row_of (c, a, row)[k];
+            double sum = row_of (c, c->dim + a, row)[k] + c->base.alpha[at] * c->G[a][at]
+                         + c->base.beta[at] * row_of (c, a, row)[k];
             for (int b = 0; b < c->dim; b++) {
                 int p = pair_of (c->dim, a, b);
                 sum -= s->job.u[b][at] * (c->H[p][at] + c->base.beta[at] * c->D[p][at]);
@@ -393,20 +425,26 @@ static void dilate (convolver *c)
     redo_cut (c, s->kernels->dilate[c->dim - 2][PG_CHECK_NONE][s->p != NULL]);
 }
 
-/* Which blocks break is decided by their bonds at the displacements as given; sums then come from displacements less their mean. */
+/* Which blocks break is decided by their bonds at the displacements as given; sums then come from
+ * displacements less their mean. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
     convolver *c = self;
     stencil *s = &c->base.base;
-    int at = c->dim - 2, weighted = s->p != NULL, check = !broken || !s->setting.limit ? PG_CHECK_NONE : s->may ? PG_CHECK_SOME : PG_CHECK_ALL;
+    int at = c->dim - 2, weighted = s->p != NULL,
+        check = !broken || !s->setting.limit ? PG_CHECK_NONE
+                : s->may                     ? PG_CHECK_SOME
+                                             : PG_CHECK_ALL;
     size_t before = broken ? broken->n : 0;
     s->job.f = f;
     stencil_spread (s, u);
     if (check) {
         size_t n = fft_bound_suspects (&c->bound, s->setting.limit[0], c->suspect);
         c->count.bonds += n;
-        PG_TRY (stencil_run_some (s, s->kernels->dilate[at][check][weighted], s->kernels->dilate[at][PG_CHECK_NONE][weighted], state_lost (s), n, c->suspect, broken));
+        PG_TRY (stencil_run_some (s, s->kernels->dilate[at][check][weighted],
+                                  s->kernels->dilate[at][PG_CHECK_NONE][weighted], state_lost (s), n,
+                                  c->suspect, broken));
         if (broken->n > before) mark_cut (c, &(pg_changes) { broken->n - before, 0, broken->bond + before });
     }
     if (c->stale) renew_beta (c);
@@ -427,10 +465,19 @@ done:
     return status;
 }
 
-static void counts (const void *self, pg_sweep_counts *out) { *out = ((const convolver *) self)->count; }
+static void counts (const void *self, pg_bond_loop_counts *out) { *out = ((const convolver *) self)->count; }
 
-const pg_sweep_kind pg_sweep_state_fft = {
-    .name = "fft", .state = 1, .refusal = refusal, .create = create, .free = release, .bytes = bytes, .update = update, .force = force,
-    .energy = state_energy, .energies = state_energies, .dilatation = state_dilatation,
+const pg_bond_loop_kind pg_bond_loop_state_fft = {
+    .name = "fft",
+    .state = 1,
+    .refusal = refusal,
+    .create = create,
+    .free = release,
+    .bytes = bytes,
+    .update = update,
+    .force = force,
+    .energy = state_energy,
+    .energies = state_energies,
+    .dilatation = state_dilatation,
     .counts = counts,
 };

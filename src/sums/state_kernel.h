@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * state_kernel.h: loops of state-based theory over the blocks of block.h (private, included by block_kernel.h once per instruction set; theory B6).
- * e = xi.eta of a live bond, w = k beta / r:
+ * state_kernel.h: loops of state-based theory over the blocks of block.h (private, included by block_kernel.h
+ * once per instruction set; theory B6). e = xi.eta of a live bond, w = k beta / r:
  *   dilate  alpha_i = factor_i sum_j w e V_j          (= A theta / q)
  *   pull    f_i     = V_i sum_j w V_j [alpha_i + alpha_j + (beta_i + beta_j) e / r^2] xi
  *   store   W_i     = 1/2 [factor_i (sum_j w e V_j)^2 + beta_i sum_j w e^2 / r^2 V_j] */
 
-INLINE void dilate_stride (const pg_block_job *job, size_t k, int stride, int dim, int check, int weighted, hits *over)
+INLINE void dilate_stride (const pg_block_job *job, size_t k, int stride, int dim, int check, int weighted,
+                           hits *over)
 {
     const int vecs = VECS (dim);
     const pg_block *b = job->block + k;
     const size_t base = b->base + (size_t) stride;
-    const double *u[3] = { job->u[0] + base, job->u[1] + base, job->u[2] + base }, *p = weighted ? job->p + base : NULL;
-    const uint32_t *alive = job->alive + k * job->n, *may = check == PG_CHECK_SOME ? job->may + k * job->n : NULL;
+    const double *u[3] = { job->u[0] + base, job->u[1] + base, job->u[2] + base },
+                 *p = weighted ? job->p + base : NULL;
+    const uint32_t *alive = job->alive + k * job->n,
+                   *may = check == PG_CHECK_SOME ? job->may + k * job->n : NULL;
     vec own[3][8], sum[8];
     UNROLL for (int v = 0; v < vecs; v++) {
         UNROLL for (int d = 0; d < dim; d++) own[d][v] = LOAD (u[d] + v * LANES);
@@ -24,7 +27,8 @@ INLINE void dilate_stride (const pg_block_job *job, size_t k, int stride, int di
         const vec limit = ALL (t[PG_AT_LIMIT]), wV = ALL (t[PG_AT_WV]);
         UNROLL for (int v = 0; v < vecs; v++) {
             vec s = ALL (t[PG_AT_XI]) * (LOAD (u[0] + jump + v * LANES) - own[0][v]);
-            UNROLL for (int d = 1; d < dim; d++) s = vec_fuse (ALL (t[PG_AT_XI + d]), LOAD (u[d] + jump + v * LANES) - own[d][v], s);
+            UNROLL for (int d = 1; d < dim; d++)
+                s = vec_fuse (ALL (t[PG_AT_XI + d]), LOAD (u[d] + jump + v * LANES) - own[d][v], s);
             vec_keep (s, live >> (v * LANES));
             if (check == PG_CHECK_ALL) HITS_OVER (*over, s, limit);
             if (check == PG_CHECK_SOME) HITS_OVER_OF (*over, s, limit, free >> (v * LANES));
@@ -32,7 +36,8 @@ INLINE void dilate_stride (const pg_block_job *job, size_t k, int stride, int di
             sum[v] = vec_fuse (s, wV, sum[v]);
         }
     }
-    UNROLL for (int v = 0; v < vecs; v++) STORE (job->alpha + base + v * LANES, sum[v] * LOAD (job->factor + base + v * LANES));
+    UNROLL for (int v = 0; v < vecs; v++)
+        STORE (job->alpha + base + v * LANES, sum[v] * LOAD (job->factor + base + v * LANES));
 }
 
 INLINE void pull_stride (const pg_block_job *job, size_t k, int stride, int dim, int weighted, double *out)
@@ -42,7 +47,8 @@ INLINE void pull_stride (const pg_block_job *job, size_t k, int stride, int dim,
     for (int half = 0; half < VECS (dim); half += vecs) {
         const int begin = stride + half * LANES;
         const size_t base = job->block[k].base + (size_t) begin;
-        const double *u[3] = { job->u[0] + base, job->u[1] + base, job->u[2] + base }, *p = weighted ? job->p + base : NULL;
+        const double *u[3] = { job->u[0] + base, job->u[1] + base, job->u[2] + base },
+                     *p = weighted ? job->p + base : NULL;
         const double *alpha = job->alpha + base, *beta = job->beta + base;
         vec own[3][8], a[8], c[8], sum[3][8];
         UNROLL for (int v = 0; v < vecs; v++) {
@@ -55,12 +61,15 @@ INLINE void pull_stride (const pg_block_job *job, size_t k, int stride, int dim,
             const uint32_t live = alive[j] >> begin;
             UNROLL for (int v = 0; v < vecs; v++) {
                 vec s = ALL (t[PG_AT_XI]) * (LOAD (u[0] + jump + v * LANES) - own[0][v]);
-                UNROLL for (int d = 1; d < dim; d++) s = vec_fuse (ALL (t[PG_AT_XI + d]), LOAD (u[d] + jump + v * LANES) - own[d][v], s);
-                s = vec_fuse (s * ALL (t[PG_AT_INVERSE]), c[v] + LOAD (beta + jump + v * LANES), a[v] + LOAD (alpha + jump + v * LANES));
+                UNROLL for (int d = 1; d < dim; d++)
+                    s = vec_fuse (ALL (t[PG_AT_XI + d]), LOAD (u[d] + jump + v * LANES) - own[d][v], s);
+                s = vec_fuse (s * ALL (t[PG_AT_INVERSE]), c[v] + LOAD (beta + jump + v * LANES),
+                              a[v] + LOAD (alpha + jump + v * LANES));
                 vec_keep (s, live >> (v * LANES));
                 s = s * ALL (t[PG_AT_WVV]);
                 if (weighted) s = s * LOAD (p + jump + v * LANES);
-                UNROLL for (int d = 0; d < dim; d++) sum[d][v] = vec_fuse (s, ALL (t[PG_AT_XI + d]), sum[d][v]);
+                UNROLL for (int d = 0; d < dim; d++)
+                    sum[d][v] = vec_fuse (s, ALL (t[PG_AT_XI + d]), sum[d][v]);
             }
         }
         UNROLL for (int d = 0; d < dim; d++) {
@@ -79,7 +88,8 @@ INLINE void dilate_loop (const pg_block_job *job, size_t first, size_t last, int
     for (size_t k = first; k < last; k++) {
         hits over = { 0 };
         for (int stride = 0; stride < PG_BLOCK; stride += width)
-            if (job->block[k].present >> stride & part) dilate_stride (job, k, stride, dim, check, weighted, &over);
+            if (job->block[k].present >> stride & part)
+                dilate_stride (job, k, stride, dim, check, weighted, &over);
         if (check && HITS_ANY (over)) job->hit[k] = 1;
     }
 }
@@ -109,7 +119,9 @@ INLINE void store_loop (const pg_block_job *job, size_t first, size_t last, int 
                 const ptrdiff_t jump = job->jump[j];
                 const double *t = job->term + j * PG_TERMS;
                 vec s = { 0 };
-                UNROLL for (int d = 0; d < dim; d++) s = vec_fuse (ALL (t[PG_AT_XI + d]), LOAD (job->u[d] + base + jump) - LOAD (job->u[d] + base), s);
+                UNROLL for (int d = 0; d < dim; d++)
+                    s = vec_fuse (ALL (t[PG_AT_XI + d]),
+                                  LOAD (job->u[d] + base + jump) - LOAD (job->u[d] + base), s);
                 vec_keep (s, job->alive[k * job->n + j] >> at);
                 vec w = s * ALL (t[PG_AT_WV]);
                 if (weighted) w = w * LOAD (job->p + base + jump);
@@ -119,7 +131,8 @@ INLINE void store_loop (const pg_block_job *job, size_t first, size_t last, int 
             vec W = (sum * sum * LOAD (job->factor + base) + square * LOAD (job->beta + base)) * ALL (0.5);
             STORE (lane, W);
             for (int l = 0; job->energies && l < LANES; l++)
-                if (b->present >> (at + l) & 1) job->energies[job->point[b->site + (size_t) (at + l)]] = lane[l];
+                if (b->present >> (at + l) & 1)
+                    job->energies[job->point[b->site + (size_t) (at + l)]] = lane[l];
             W = W * ALL (job->volume);
             if (weighted) W = W * LOAD (job->p + base);
             STORE (lane, W);
@@ -129,11 +142,31 @@ INLINE void store_loop (const pg_block_job *job, size_t first, size_t last, int 
     }
 }
 
-#define DILATE(D, C, W) static TARGET void dilate_##D##C##W (const pg_block_job *job, size_t first, size_t last) { dilate_loop (job, first, last, D, C, W); }
-#define PULL(D, W) static TARGET void pull_##D##W (const pg_block_job *job, size_t first, size_t last) { pull_loop (job, first, last, D, W); } \
-                   static TARGET void store_##D##W (const pg_block_job *job, size_t first, size_t last) { store_loop (job, first, last, D, W); }
-#define STATES(D) DILATE (D, 0, 0) DILATE (D, 0, 1) DILATE (D, 1, 0) DILATE (D, 1, 1) DILATE (D, 2, 0) DILATE (D, 2, 1) PULL (D, 0) PULL (D, 1)
+#define DILATE(D, C, W) \
+    static TARGET void dilate_##D##C##W (const pg_block_job *job, size_t first, size_t last) \
+    { \
+        dilate_loop (job, first, last, D, C, W); \
+    }
+#define PULL(D, W) \
+    static TARGET void pull_##D##W (const pg_block_job *job, size_t first, size_t last) \
+    { \
+        pull_loop (job, first, last, D, W); \
+    } \
+    static TARGET void store_##D##W (const pg_block_job *job, size_t first, size_t last) \
+    { \
+        store_loop (job, first, last, D, W); \
+    }
+#define STATES(D) \
+    DILATE (D, 0, 0) \
+    DILATE (D, 0, 1) DILATE (D, 1, 0) DILATE (D, 1, 1) DILATE (D, 2, 0) DILATE (D, 2, 1) PULL (D, 0) \
+        PULL (D, 1)
 STATES (2) STATES (3)
-#define DILATES(D) { { dilate_##D##00, dilate_##D##01 }, { dilate_##D##10, dilate_##D##11 }, { dilate_##D##20, dilate_##D##21 } }
+#define DILATES(D) \
+    { \
+        { dilate_##D##00, dilate_##D##01 }, { dilate_##D##10, dilate_##D##11 }, \
+        { \
+            dilate_##D##20, dilate_##D##21 \
+        } \
+    }
 #define PULLS(D) { pull_##D##0, pull_##D##1 }
 #define STORES(D) { store_##D##0, store_##D##1 }

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * State-based sums (linear peridynamic solid) over lists of neighbours, for any cloud: every point sums its own bonds in the order of the family, first for
- * the dilatations (bonds over their limit die there), then for the forces. Both ends compute the same products of a bond. theory B6. */
+ * State-based sums (linear peridynamic solid) over lists of neighbours, for any cloud: every point sums its
+ * own bonds in the order of the family, first for the dilatations (bonds over their limit die there), then
+ * for the forces. Both ends compute the same products of a bond. theory B6. */
 #include "state.h"
 #include <math.h>
 #include <string.h>
 
 enum { MAX_THREADS = 64, FEW = 1 << 15 };
 typedef struct {
-    pg_sweep_setting setting;
-    double *w;                                         /* k beta / r of each bond, 1/m       (entries)                   */
-    unsigned char *alive;                              /* (entries)                                                      */
-    double *q, *factor, *beta, *alpha;                 /* (n)                                                            */
+    pg_bond_loop_setting setting;
+    double *w;                                         /* k beta / r of each bond, 1/m (entries) */
+    unsigned char *alive;                              /* (entries) */
+    double *q, *factor, *beta, *alpha;                 /* (n) */
     pg_changes found[MAX_THREADS];
     pg_status  failed[MAX_THREADS];
 } list;
@@ -20,7 +21,8 @@ static void list_free (void *self)
     list *s = self;
     if (!s) return;
     for (int t = 0; t < MAX_THREADS; t++) pg_free (s->found[t].bond);
-    pg_free (s->w), pg_free (s->alive), pg_free (s->q), pg_free (s->factor), pg_free (s->beta), pg_free (s->alpha);
+    pg_free (s->w), pg_free (s->alive), pg_free (s->q), pg_free (s->factor), pg_free (s->beta),
+        pg_free (s->alpha);
     pg_free (s);
 }
 
@@ -33,7 +35,8 @@ static int threads_for (const list *s)
 
 /* xi.eta and r^2 of a bond; of the other direction the same bits */
 #define INLINE static inline __attribute__ ((always_inline))
-INLINE double product (const double *x, const double *u, size_t dim, size_t i, size_t j, double *xi, double *rr)
+INLINE double product (const double *x, const double *u, size_t dim, size_t i, size_t j, double *xi,
+                       double *rr)
 {
     double s = 0, r2 = 0;
     for (size_t k = 0; k < dim; k++) {
@@ -52,14 +55,15 @@ static double length2 (const double *x, size_t dim, size_t i, size_t j)
     return rr;
 }
 
-/* ---- q -------------------------------------------------------------------------------------------------------------------------- */
+/* ---- q ------------------------------------------------------------------------------------------------- */
 static void weigh (list *s, size_t i, const unsigned char *counts)
 {
     const pg_family *f = s->setting.family;
     const pg_cloud *c = s->setting.sums->cloud;
     double q = 0;
     for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
-        if (!counts || counts[e]) q += s->w[e] * length2 (c->x, (size_t) c->dim, i, (size_t) f->node[e]) * c->volume[f->node[e]];
+        if (!counts || counts[e])
+            q += s->w[e] * length2 (c->x, (size_t) c->dim, i, (size_t) f->node[e]) * c->volume[f->node[e]];
     s->q[i] = q, s->factor[i] = state_factor (&s->setting, i, q), s->beta[i] = state_beta (&s->setting, i, q);
 }
 
@@ -101,7 +105,7 @@ static void list_update (void *self, const unsigned char *alive, const pg_change
     for (size_t c = 0; changes && c < changes->n; c++) weigh (s, owner (s, changes->bond[c]), s->alive);
 }
 
-/* ---- life ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- life ---------------------------------------------------------------------------------------------- */
 static void find_weights (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -110,11 +114,12 @@ static void find_weights (void *context, size_t first, size_t last, int thread)
     const pg_cloud *c = s->setting.sums->cloud;
     for (size_t i = first; i < last; i++) {
         pg_sums_bonds (s->setting.sums, f, i, NULL, s->w + f->start[i], NULL);
-        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) s->w[e] /= sqrt (length2 (c->x, (size_t) c->dim, i, (size_t) f->node[e]));
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
+            s->w[e] /= sqrt (length2 (c->x, (size_t) c->dim, i, (size_t) f->node[e]));
     }
 }
 
-static pg_status list_create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status list_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
     (void) set;
@@ -144,12 +149,12 @@ static void list_bytes (const void *self, double *per_bond, double *per_point)
     *per_point = sizeof (double) * (double) (5 * dim + 6);
 }
 
-/* ---- sums ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- sums ---------------------------------------------------------------------------------------------- */
 typedef struct { list *s; const double *u; double *out; int check; } sweep;
 
 static int breaks (const list *s, size_t i, size_t j, double product_, double rr)
 {
-    const pg_sweep_setting *g = &s->setting;
+    const pg_bond_loop_setting *g = &s->setting;
     if (g->exempt && (g->exempt[i] || g->exempt[j])) return 0;
     return product_ >= fmin (g->limit[i], g->limit[j]) * rr;
 }
@@ -208,7 +213,8 @@ INLINE void pull (const sweep *w, size_t first, size_t last, const size_t dim)
             size_t j = (size_t) f->node[e];
             if (!s->alive[e]) continue;
             double p = product (c->x, w->u, dim, i, j, xi, &rr);
-            double t = s->w[e] * (c->volume[i] * c->volume[j]) * ((own + s->factor[j] * s->alpha[j]) + (s->beta[i] + s->beta[j]) * p / rr);
+            double t = s->w[e] * (c->volume[i] * c->volume[j])
+                       * ((own + s->factor[j] * s->alpha[j]) + (s->beta[i] + s->beta[j]) * p / rr);
             for (size_t k = 0; k < dim; k++) sum[k] += t * xi[k];
         }
         for (size_t k = 0; k < dim; k++) w->out[i * dim + k] = sum[k];
@@ -249,7 +255,8 @@ static void store_points (void *context, size_t first, size_t last, int thread)
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e];
             if (!s->alive[e]) continue;
-            double p = product (c->x, w->u, (size_t) c->dim, i, j, xi, &rr), part = s->w[e] * c->volume[j] * p;
+            double p = product (c->x, w->u, (size_t) c->dim, i, j, xi, &rr),
+                   part = s->w[e] * c->volume[j] * p;
             sum += part, square += part * p / rr;
         }
         w->out[i] = 0.5 * (s->factor[i] * sum * sum + s->beta[i] * square);
@@ -267,7 +274,7 @@ static double list_energy (void *self, const double *u)
 {
     list *s = self;
     double sum = 0;
-    list_energies (self, u, s->alpha);                 /* which every force makes anew                                   */
+    list_energies (self, u, s->alpha);                 /* which every force makes anew */
     for (size_t i = 0; i < s->setting.family->n; i++) sum += s->alpha[i] * s->setting.sums->cloud->volume[i];
     return sum;
 }
@@ -279,11 +286,21 @@ static pg_status list_dilatation (void *self, const double *u, double *theta, do
     if (q) memcpy (q, s->q, n * sizeof *q);
     if (!theta) return PG_OK;
     pg_parallel_heavy (threads_for (s), n, dilate_points, &(sweep) { s, u, NULL, 0 });
-    for (size_t i = 0; i < n; i++) theta[i] = s->q[i] > 0 ? s->setting.sums->cloud->dim / s->q[i] * s->alpha[i] : 0;
+    for (size_t i = 0; i < n; i++)
+        theta[i] = s->q[i] > 0 ? s->setting.sums->cloud->dim / s->q[i] * s->alpha[i] : 0;
     return PG_OK;
 }
 
-const pg_sweep_kind pg_sweep_state_list = {
-    .name = "list", .state = 1, .refusal = state_refusal, .create = list_create, .free = list_free, .bytes = list_bytes, .update = list_update,
-    .force = list_force, .energy = list_energy, .energies = list_energies, .dilatation = list_dilatation,
+const pg_bond_loop_kind pg_bond_loop_state_list = {
+    .name = "list",
+    .state = 1,
+    .refusal = state_refusal,
+    .create = list_create,
+    .free = list_free,
+    .bytes = list_bytes,
+    .update = list_update,
+    .force = list_force,
+    .energy = list_energy,
+    .energies = list_energies,
+    .dilatation = list_dilatation,
 };

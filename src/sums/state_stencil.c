@@ -1,19 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * State-based sums (linear peridynamic solid) over the bonds of points on a lattice: a loop for the dilatation of every point, one for the forces,
- * on the blocks and bits of stencil_sweep.c. Breaking: bonds over their limit die in the first loop. theory B6. */
+ * State-based sums (linear peridynamic solid) over the bonds of points on a lattice: a loop for the
+ * dilatation of every point, one for the forces, on the blocks and bits of stencil_sweep.c. Breaking: bonds
+ * over their limit die in the first loop. theory B6. */
 #include "state_stencil.h"
 #include <math.h>
 #include <string.h>
 
-const char *state_refusal (const pg_sweep_setting *setting)
+const char *state_refusal (const pg_bond_loop_setting *setting)
 {
-    if (setting->sums->rule.finite) return "state-based sums are linear in the displacement, and the stretch is to be finite";
-    if (setting->sums->rule.surface != PG_SURFACE_NONE) return "state-based sums weigh families that are not whole by themselves: no surface correction";
-    if (setting->sums->cloud->dim == 1) return "in one dimension state-based and bond-based sums are the same";
+    if (setting->sums->rule.finite)
+        return "state-based sums are linear in the displacement, and the stretch is to be finite";
+    if (setting->sums->rule.surface != PG_SURFACE_NONE)
+        return "state-based sums weigh families that are not whole by themselves: no surface correction";
+    if (setting->sums->cloud->dim == 1)
+        return "in one dimension state-based and bond-based sums are the same";
     return NULL;
 }
 
-static const char *refusal (const pg_sweep_setting *setting)
+static const char *refusal (const pg_bond_loop_setting *setting)
 {
     const char *why = state_refusal (setting);
     return why ? why : stencil_refusal (setting);
@@ -27,7 +31,7 @@ void state_free (void *self)
     stencil_free (s);
 }
 
-/* ---- q -------------------------------------------------------------------------------------------------------------------------- */
+/* ---- q ------------------------------------------------------------------------------------------------- */
 /* Of a point by the bits of its bonds */
 static void weigh (state *s, size_t i)
 {
@@ -37,7 +41,8 @@ static void weigh (state *s, size_t i)
     size_t place = b->place[i], k = stencil_block (b, place, &bit);
     double q = 0;
     for (size_t j = 0; j < st->n; j++)
-        if (b->alive[k * b->job.n + j] >> bit & 1) q += st->weight[j] * st->r[j] * (b->p ? b->p[(ptrdiff_t) place + b->jump[j]] : 1);
+        if (b->alive[k * b->job.n + j] >> bit & 1)
+            q += st->weight[j] * st->r[j] * (b->p ? b->p[(ptrdiff_t) place + b->jump[j]] : 1);
     q *= b->job.volume;
     s->q[i] = q;
     s->factor[place] = state_factor (&b->setting, i, q), s->beta[place] = state_beta (&b->setting, i, q);
@@ -49,7 +54,10 @@ static void weigh_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) weigh (context, i);
 }
 
-static void weigh_all (state *s) { pg_parallel_heavy (stencil_threads (&s->base), s->base.setting.sums->cloud->n, weigh_points, s); }
+static void weigh_all (state *s)
+{
+    pg_parallel_heavy (stencil_threads (&s->base), s->base.setting.sums->cloud->n, weigh_points, s);
+}
 
 static void weigh_block (stencil *b, size_t k)
 {
@@ -68,7 +76,7 @@ void state_update (void *self, const unsigned char *alive, const pg_changes *cha
     for (size_t c = 0; changes && c < changes->n; c++) weigh (s, stencil_owner (&s->base, changes->bond[c]));
 }
 
-/* ---- life ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- life ---------------------------------------------------------------------------------------------- */
 static void set_terms (state *s)
 {
     stencil *b = &s->base;
@@ -80,7 +88,7 @@ static void set_terms (state *s)
     }
 }
 
-pg_status state_create (void **self, const pg_sweep_setting *setting, pg_instructions set, size_t bytes)
+pg_status state_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set, size_t bytes)
 {
     pg_status status = PG_OK;
     PG_TRY (stencil_create (self, setting, set, bytes));
@@ -101,7 +109,7 @@ done:
     return status;
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     return state_create (self, setting, set, sizeof (state));
 }
@@ -110,20 +118,25 @@ static void bytes (const void *self, double *per_bond, double *per_point)
 {
     const stencil *s = self;
     stencil_bytes (s, per_bond, per_point);
-    *per_bond *= 2;                                    /* two loops; the second reads alpha and beta as well             */
+    *per_bond *= 2;  /* two loops; the second reads alpha and beta as well */
     *per_point = 2 * *per_point + sizeof (double) * 4;
 }
 
-/* ---- sums ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- sums ---------------------------------------------------------------------------------------------- */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
     state *s = self;
     stencil *b = &s->base;
-    int at = b->job.dim - 2, weighted = b->p != NULL, check = !broken || !b->setting.limit ? PG_CHECK_NONE : b->may ? PG_CHECK_SOME : PG_CHECK_ALL;
+    int at = b->job.dim - 2, weighted = b->p != NULL,
+        check = !broken || !b->setting.limit ? PG_CHECK_NONE
+                : b->may                     ? PG_CHECK_SOME
+                                             : PG_CHECK_ALL;
     b->job.f = f;
     stencil_spread (b, u);
-    PG_TRY (stencil_run (b, b->kernels->dilate[at][check][weighted], check ? b->kernels->dilate[at][PG_CHECK_NONE][weighted] : NULL, state_lost (b), broken));
+    PG_TRY (stencil_run (b, b->kernels->dilate[at][check][weighted],
+                         check ? b->kernels->dilate[at][PG_CHECK_NONE][weighted] : NULL, state_lost (b),
+                         broken));
     PG_TRY (stencil_run (b, b->kernels->pull[at][weighted], NULL, NULL, NULL));
 done:
     return status;
@@ -166,7 +179,16 @@ done:
     return status;
 }
 
-const pg_sweep_kind pg_sweep_state_stencil = {
-    .name = "stencil", .state = 1, .refusal = refusal, .create = create, .free = state_free, .bytes = bytes, .update = state_update, .force = force,
-    .energy = state_energy, .energies = state_energies, .dilatation = state_dilatation,
+const pg_bond_loop_kind pg_bond_loop_state_stencil = {
+    .name = "stencil",
+    .state = 1,
+    .refusal = refusal,
+    .create = create,
+    .free = state_free,
+    .bytes = bytes,
+    .update = state_update,
+    .force = force,
+    .energy = state_energy,
+    .energies = state_energies,
+    .dilatation = state_dilatation,
 };

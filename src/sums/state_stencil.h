@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * state_stencil.h: state-based sums over the bits of a stencil (private): for the sweep by stencil and for that by transforms, which sums with its
- * loops where bonds are cut. */
+ * state_stencil.h: state-based sums over the bits of a stencil (private): for the sweep by stencil and for
+ * that by transforms, which sums with its loops where bonds are cut. */
 #ifndef PERIGAL_SUMS_STATE_STENCIL_H
 #define PERIGAL_SUMS_STATE_STENCIL_H
 #include "state.h"
 #include "stencil_sweep.h"
 
 typedef struct {
-    stencil base;                                      /* first: loops over blocks see it alone                          */
-    double *q;                                         /* m^2 times volume                   (n)                         */
-    double *factor, *beta, *alpha;                     /* padded                                                         */
+    stencil base;                                      /* first: loops over blocks see it alone */
+    double *q;                                         /* m^2 times volume (n) */
+    double *factor, *beta, *alpha;                     /* padded */
 } state;
 
-/* Into room for `bytes`, of which the first are a state; freed by state_free, also after a failure. */
-pg_status state_create (void **self, const pg_sweep_setting *setting, pg_instructions set, size_t bytes);
+/* Into workspace for `bytes`, of which the first are a state; freed by state_free, also after a failure. */
+pg_status state_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set, size_t bytes);
 void      state_free   (void *self);
 void      state_update (void *self, const unsigned char *alive, const pg_changes *changes);
-stencil_lost state_lost (const stencil *s);            /* what a block that lost bonds needs; NULL: nothing               */
-/* As pg_sweep_energy and so on, bond by bond. */
+stencil_lost state_lost (const stencil *s);            /* what a block that lost bonds needs; NULL: nothing */
+/* As pg_bond_loop_energy and so on, bond by bond. */
 double    state_energy (void *self, const double *u);
 pg_status state_energies (void *self, const double *u, double *W);
 pg_status state_dilatation (void *self, const double *u, double *theta, double *q);

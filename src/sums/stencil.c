@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The bonds of a point inside a lattice. All is computed for offsets with sizes of components sorted (along axes of equal steps) and looked up for
- * the rest, so that mirrored and permuted offsets have the same bits. */
+ * The bonds of a point inside a lattice. All is computed for offsets with sizes of components sorted (along
+ * axes of equal steps) and looked up for the rest, so that mirrored and permuted offsets have the same
+ * bits. */
 #include "sums_private.h"
 #include "overlap.h"
 #include <math.h>
@@ -13,8 +14,8 @@ typedef struct { double r, beta, weight; } shell;
 typedef struct {
     const pg_sum_rule *rule;
     int    dim, reach[3];
-    double step[3];                                    /* those equal to 1e-9 are equal here                             */
-    shell *of;                                         /* by sizes of components, x fastest; beta 0: no bond             */
+    double step[3];                                    /* those equal to 1e-9 are equal here */
+    shell *of;  /* by sizes of components, x fastest; beta 0: no bond */
 } shells;
 
 static double value (const pg_kernel *kernel, double q)
@@ -56,7 +57,9 @@ static shell shell_at (const shells *s, const int *n)
     if (rule->partial == PG_PARTIAL_OVERLAP) {
         out.beta = sums_overlap (s->dim, n, s->step, rule->horizon);
         if (out.beta < 1e-12) out.beta = 0;
-    } else out.beta = sums_partial (rule->partial, out.r, rule->horizon, even ? s->step[0] : sqrt (spread) / out.r);
+    } else
+        out.beta = sums_partial (rule->partial, out.r, rule->horizon,
+                                 even ? s->step[0] : sqrt (spread) / out.r);
     if (!(out.beta > 0)) return out;
     if (rule->partial == PG_PARTIAL_OVERLAP && !rule->kernel->closed)
         out.weight = sums_overlap_mean (s->dim, n, s->step, rule->horizon, rule->kernel);
@@ -67,7 +70,8 @@ static shell shell_at (const shells *s, const int *n)
 
 static size_t place (const shells *s, const int *n)
 {
-    return (size_t) n[0] + (size_t) (s->reach[0] + 1) * ((size_t) n[1] + (size_t) (s->reach[1] + 1) * (size_t) n[2]);
+    return (size_t) n[0]
+           + (size_t) (s->reach[0] + 1) * ((size_t) n[1] + (size_t) (s->reach[1] + 1) * (size_t) n[2]);
 }
 
 /* Sizes of components, descending along axes of equal steps. */
@@ -87,13 +91,17 @@ static pg_status fit (shells *s, const pg_sum_rule *rule, int dim, const double 
     s->rule = rule, s->dim = dim;
     for (int k = 0; k < dim; k++) {
         s->step[k] = step[k];
-        for (int a = k; a-- > 0; ) if (fabs (step[k] - s->step[a]) <= 1e-9 * s->step[a]) s->step[k] = s->step[a];
+        for (int a = k; a-- > 0;)
+            if (fabs (step[k] - s->step[a]) <= 1e-9 * s->step[a]) s->step[k] = s->step[a];
     }
     for (int k = 0; k < dim; k++) {
         double far = rule->horizon * (1 + 1e-9) / s->step[k] + (rule->partial == PG_PARTIAL_NONE ? 0 : 0.5);
         all *= 2 * far + 1;
-        if (!(all < most_offsets)) PG_FAIL (PG_E_LIMIT, "a horizon of %g m holds too many points of spacing %g m: a shorter one, or wider spacing",
-                                            rule->horizon, step[k]);
+        if (!(all < most_offsets))
+            PG_FAIL (
+                PG_E_LIMIT,
+                "a horizon of %g m holds too many points of spacing %g m: a shorter one, or wider spacing",
+                rule->horizon, step[k]);
         s->reach[k] = (int) far;
     }
 done:
@@ -128,7 +136,8 @@ static size_t list (const shells *s, pg_stencil *out)
                 if (!(of->beta > 0)) continue;
                 if (out) {
                     for (int k = 0; k < 3; k++) out->offset[3*b + (size_t) k] = n[k];
-                    for (int k = 0; k < s->dim; k++) out->xi[b * (size_t) s->dim + (size_t) k] = n[k] * s->step[k];
+                    for (int k = 0; k < s->dim; k++)
+                        out->xi[b * (size_t) s->dim + (size_t) k] = n[k] * s->step[k];
                     out->r[b] = of->r, out->beta[b] = of->beta, out->weight[b] = of->weight;
                 }
                 b++;
@@ -143,14 +152,17 @@ pg_status pg_stencil_build (pg_stencil *out, const pg_sum_rule *rule, int dim, c
     memset (out, 0, sizeof *out);
     PG_TRY (sums_check_rule (rule, dim));
     for (int k = 0; k < dim; k++)
-        if (!(step[k] > 0) || !isfinite (step[k])) PG_FAIL (PG_E_USAGE, "step %g m of a lattice must be positive", step[k]);
+        if (!(step[k] > 0) || !isfinite (step[k]))
+            PG_FAIL (PG_E_USAGE, "step %g m of a lattice must be positive", step[k]);
     PG_TRY (fit (&s, rule, dim, step));
     PG_TRY (fill (&s));
     out->dim = dim;
     out->cell = 1;
     for (int k = 0; k < dim; k++) out->cell *= s.step[k];
     out->n = list (&s, NULL);
-    if (out->n == 0) PG_FAIL (PG_E_USAGE, "a horizon of %g m reaches no neighbour at a spacing of %g m", rule->horizon, step[0]);
+    if (out->n == 0)
+        PG_FAIL (PG_E_USAGE, "a horizon of %g m reaches no neighbour at a spacing of %g m", rule->horizon,
+                 step[0]);
     PG_ALLOC (out->offset, 3 * out->n);
     PG_ALLOC (out->xi, out->n * (size_t) dim);
     PG_ALLOC (out->r, out->n);

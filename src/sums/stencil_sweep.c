@@ -1,19 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The bonds of points on a lattice: sites in blocks of 32 of a row, one bit per bond and site, displacements in padded arrays. */
+ * The bonds of points on a lattice: sites in blocks of 32 of a row, one bit per bond and site, displacements
+ * in padded arrays. */
 #include "stencil_sweep.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 
-const char *stencil_refusal (const pg_sweep_setting *setting)
+const char *stencil_refusal (const pg_bond_loop_setting *setting)
 {
     const pg_sums *sums = setting->sums;
     size_t n = sums->cloud->n;
     if (sums->stencil.n == 0 || sums->sites.count[0] == 0) return "the points are no lattice";
-    if (sums->rule.surface == PG_SURFACE_VOLUME) return "surface_correction: volume differs from bond to bond";
-    for (size_t i = 1; setting->modulus && i < n; i++) if (setting->modulus[i] != setting->modulus[0]) return "there are several moduli";
-    for (size_t i = 1; setting->limit && i < n; i++) if (setting->limit[i] != setting->limit[0]) return "there are several critical stretches";
+    if (sums->rule.surface == PG_SURFACE_VOLUME)
+        return "surface_correction: volume differs from bond to bond";
+    for (size_t i = 1; setting->modulus && i < n; i++)
+        if (setting->modulus[i] != setting->modulus[0]) return "there are several moduli";
+    for (size_t i = 1; setting->limit && i < n; i++)
+        if (setting->limit[i] != setting->limit[0]) return "there are several critical stretches";
     if (setting->limit && n && !(setting->limit[0] > 0)) return "the critical stretch is not positive";
     return NULL;
 }
@@ -23,15 +27,17 @@ void stencil_free (void *self)
     stencil *s = self;
     if (!s) return;
     for (int t = 0; t < MAX_THREADS; t++) pg_free (s->found[t].bond);
-    void *blocks[] = { s->block, s->block_at, s->place, s->jump, s->term, s->field, s->p, s->energy, s->alive, s->may, s->hit };
+    void *blocks[] = { s->block, s->block_at, s->place, s->jump, s->term, s->field,
+                       s->p,     s->energy,   s->alive, s->may,  s->hit };
     for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) pg_free (blocks[k]);
     pg_free (s);
 }
 
-/* ---- places ------------------------------------------------------------------------------------------------------------------- */
+/* ---- places -------------------------------------------------------------------------------------------- */
 static size_t place_of (const stencil *s, const size_t *at)
 {
-    return ((at[2] + (size_t) s->reach[2]) * s->rows + at[1] + (size_t) s->reach[1]) * s->pitch + (size_t) s->left + at[0];
+    return ((at[2] + (size_t) s->reach[2]) * s->rows + at[1] + (size_t) s->reach[1]) * s->pitch
+           + (size_t) s->left + at[0];
 }
 
 /* Block and bit of a padded place */
@@ -49,17 +55,23 @@ static pg_status lay_out (stencil *s)
     const pg_stencil *st = &sums->stencil;
     for (size_t j = 0; j < st->n; j++)
         for (int d = 0; d < st->dim; d++)
-            if (abs (st->offset[3*j + (size_t) d]) > s->reach[d]) s->reach[d] = abs (st->offset[3*j + (size_t) d]);
+            if (abs (st->offset[3 * j + (size_t) d]) > s->reach[d])
+                s->reach[d] = abs (st->offset[3 * j + (size_t) d]);
     s->left = (s->reach[0] + 7) / 8 * 8;
     s->row_blocks = ((size_t) sums->sites.count[0] + PG_BLOCK - 1) / PG_BLOCK;
     s->pitch = (size_t) s->left + s->row_blocks * PG_BLOCK;
-    s->rows = (size_t) (sums->sites.count[1] + 2 * s->reach[1]), s->planes = (size_t) (sums->sites.count[2] + 2 * s->reach[2]);
+    s->rows = (size_t) (sums->sites.count[1] + 2 * s->reach[1]),
+    s->planes = (size_t) (sums->sites.count[2] + 2 * s->reach[2]);
     size_t places = stencil_places (s);
-    if (places > UINT32_MAX) PG_FAIL (PG_E_LIMIT, "a lattice of %zu padded sites: at most %lu; try evaluation: list", places, (unsigned long) UINT32_MAX);
+    if (places > UINT32_MAX)
+        PG_FAIL (PG_E_LIMIT, "a lattice of %zu padded sites: at most %lu; try evaluation: list", places,
+                 (unsigned long) UINT32_MAX);
     PG_ALLOC (s->jump, st->n);
     for (size_t j = 0; j < st->n; j++) {
         const int *o = st->offset + 3*j;
-        s->jump[j] = ((ptrdiff_t) (st->dim > 2 ? o[2] : 0) * (ptrdiff_t) s->rows + (st->dim > 1 ? o[1] : 0)) * (ptrdiff_t) s->pitch + o[0];
+        s->jump[j] = ((ptrdiff_t) (st->dim > 2 ? o[2] : 0) * (ptrdiff_t) s->rows + (st->dim > 1 ? o[1] : 0))
+                         * (ptrdiff_t) s->pitch
+                     + o[0];
     }
     PG_ALLOC (s->field, places * (size_t) st->dim);
     for (int d = 0; d < 3; d++) s->job.u[d] = s->field + places * (size_t) (d < st->dim ? d : 0);
@@ -74,7 +86,8 @@ static pg_status find_blocks (stencil *s)
 {
     pg_status status = PG_OK;
     const pg_sites *sites = &s->setting.sums->sites;
-    size_t lines = (size_t) sites->count[1] * (size_t) sites->count[2], nx = (size_t) sites->count[0], cap = 0;
+    size_t lines = (size_t) sites->count[1] * (size_t) sites->count[2], nx = (size_t) sites->count[0],
+           cap = 0;
     memset (s->block_at, -1, s->rows * s->planes * s->row_blocks * sizeof *s->block_at);
     for (size_t line = 0; line < lines; line++)
         for (size_t x = 0; x < nx; x += PG_BLOCK) {
@@ -100,7 +113,7 @@ done:
     return status;
 }
 
-/* ---- bonds ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- bonds --------------------------------------------------------------------------------------------- */
 /* Bond of the stencil that jumps so far, looked for from `from` on, then everywhere; n: none */
 static size_t bond_of (const stencil *s, ptrdiff_t jump, size_t from)
 {
@@ -119,7 +132,8 @@ static ptrdiff_t jump_of (const stencil *s, size_t i, size_t entry)
     return (ptrdiff_t) s->place[s->setting.family->node[entry]] - (ptrdiff_t) s->place[i];
 }
 
-/* Sets the bits of live bonds of point i; NULL: all live. exempt: those that may break as well. PG_E_USAGE: a bond that the stencil has not. */
+/* Sets the bits of live bonds of point i; NULL: all live. exempt: those that may break as well. PG_E_USAGE: a
+ * bond that the stencil has not. */
 static pg_status set_bits (stencil *s, size_t i, const unsigned char *live, const unsigned char *exempt)
 {
     pg_status status = PG_OK;
@@ -129,7 +143,11 @@ static pg_status set_bits (stencil *s, size_t i, const unsigned char *live, cons
     for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
         if (live && !live[e]) continue;
         b = bond_of (s, jump_of (s, i, e), b);
-        if (b == s->job.n) PG_FAIL (PG_E_USAGE, "points %zu and %d: their bond is not one of the lattice's stencil; try evaluation: list", i, family->node[e]);
+        if (b == s->job.n)
+            PG_FAIL (
+                PG_E_USAGE,
+                "points %zu and %d: their bond is not one of the lattice's stencil; try evaluation: list", i,
+                family->node[e]);
         s->alive[k * s->job.n + b] |= 1u << bit;
         if (exempt && !exempt[i] && !exempt[family->node[e]]) s->may[k * s->job.n + b] |= 1u << bit;
     }
@@ -137,7 +155,12 @@ done:
     return status;
 }
 
-typedef struct { stencil *s; const unsigned char *live, *exempt; pg_status status[MAX_THREADS]; size_t lost[MAX_THREADS]; } renewal;
+typedef struct {
+    stencil *s;
+    const unsigned char *live, *exempt;
+    pg_status status[MAX_THREADS];
+    size_t lost[MAX_THREADS];
+} renewal;
 
 static void renew_blocks (void *context, size_t first, size_t last, int thread)
 {
@@ -163,7 +186,7 @@ size_t stencil_owner (const stencil *s, size_t entry)
 {
     const size_t *start = s->setting.family->start;
     size_t low = 0, high = s->setting.sums->cloud->n;
-    while (high - low > 1) {                           /* the last point whose bonds start at or before the entry        */
+    while (high - low > 1) {  /* the last point whose bonds start at or before the entry */
         size_t middle = (low + high) / 2;
         if (start[middle] <= entry) low = middle;
         else high = middle;
@@ -175,7 +198,7 @@ void stencil_update (void *self, const unsigned char *alive, const pg_changes *c
 {
     stencil *s = self;
     if (!changes) {
-        renewal r = { .s = s, .live = alive };         /* every bond was found when this was created                     */
+        renewal r = { .s = s, .live = alive };         /* every bond was found when this was created */
         pg_parallel_heavy (stencil_threads (s), s->nblock, renew_blocks, &r);
         return;
     }
@@ -192,11 +215,13 @@ static pg_status set_terms (stencil *s)
     pg_status status = PG_OK;
     const pg_sums *sums = s->setting.sums;
     const pg_stencil *st = &sums->stencil;
-    double volume = st->cell * sums->cloud->thickness, c = sums->cloud->n && s->setting.modulus ? s->setting.modulus[0] : 0;
+    double volume = st->cell * sums->cloud->thickness,
+           c = sums->cloud->n && s->setting.modulus ? s->setting.modulus[0] : 0;
     double s0 = s->setting.limit && sums->cloud->n ? s->setting.limit[0] : 0;
     PG_ALLOC (s->term, st->n * PG_TERMS);
     for (size_t j = 0; j < st->n; j++) {
-        double *t = s->term + j * PG_TERMS, r = st->r[j], a = c * (volume * volume) * st->weight[j] / (r * r * r);
+        double *t = s->term + j * PG_TERMS, r = st->r[j],
+               a = c * (volume * volume) * st->weight[j] / (r * r * r);
         for (int d = 0; d < st->dim; d++) {
             t[PG_AT_XI + d] = st->xi[j * (size_t) st->dim + (size_t) d];
             t[PG_AT_PULL + d] = sums->rule.finite ? a * (r * r) : a * t[PG_AT_XI + d];
@@ -229,7 +254,7 @@ done:
     return status;
 }
 
-pg_status stencil_create (void **self, const pg_sweep_setting *setting, pg_instructions set, size_t bytes)
+pg_status stencil_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set, size_t bytes)
 {
     static const pg_block_kernels *const kernels[] = { &pg_block_scalar, &pg_block_avx2, &pg_block_avx512 };
     pg_status status = PG_OK;
@@ -249,17 +274,21 @@ pg_status stencil_create (void **self, const pg_sweep_setting *setting, pg_instr
     if (exempt) PG_ALLOC (s->may, words);
     PG_ALLOC (s->hit, s->nblock);
     PG_ALLOC (s->energy, s->nblock);
-    s->job.dim = setting->sums->stencil.dim, s->job.n = setting->sums->stencil.n, s->job.jump = s->jump, s->job.term = s->term;
-    s->job.block = s->block, s->job.point = setting->sums->sites.point, s->job.alive = s->alive, s->job.may = s->may, s->job.p = s->p;
+    s->job.dim = setting->sums->stencil.dim, s->job.n = setting->sums->stencil.n, s->job.jump = s->jump,
+    s->job.term = s->term;
+    s->job.block = s->block, s->job.point = setting->sums->sites.point, s->job.alive = s->alive,
+    s->job.may = s->may, s->job.p = s->p;
     s->job.hit = s->hit, s->job.energy = s->energy;
     renewal r = { .s = s, .exempt = exempt };
     pg_parallel_heavy (stencil_threads (s), s->nblock, renew_blocks, &r);
-    for (int t = 0; t < MAX_THREADS; t++) if (r.status[t] != PG_OK) PG_TRY (set_bits (s, r.lost[t], NULL, exempt));    /* says it on this thread */
+    /* says it on this thread */
+    for (int t = 0; t < MAX_THREADS; t++)
+        if (r.status[t] != PG_OK) PG_TRY (set_bits (s, r.lost[t], NULL, exempt));
 done:
     return status;
 }
 
-static pg_status create (void **self, const pg_sweep_setting *setting, pg_instructions set)
+static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     return stencil_create (self, setting, set, sizeof (stencil));
 }
@@ -268,12 +297,15 @@ void stencil_bytes (const void *self, double *per_bond, double *per_point)
 {
     const stencil *s = self;
     size_t n = s->setting.sums->cloud->n, dim = (size_t) s->job.dim;
-    double words = (double) (s->nblock * s->job.n) * (s->may ? 2 : 1), places = (double) (s->nblock * PG_BLOCK);
+    double words = (double) (s->nblock * s->job.n) * (s->may ? 2 : 1),
+           places = (double) (s->nblock * PG_BLOCK);
     *per_bond = s->nbond ? sizeof (uint32_t) * words / (double) s->nbond : 0;
-    *per_point = n ? sizeof (double) * ((double) (2 * dim * n) + places * (double) (2 * dim + (s->p != NULL))) / (double) n : 0;
+    *per_point = n ? sizeof (double) * ((double) (2 * dim * n) + places * (double) (2 * dim + (s->p != NULL)))
+                         / (double) n
+                   : 0;
 }
 
-/* ---- sums ------------------------------------------------------------------------------------------------------------------------- */
+/* ---- sums ---------------------------------------------------------------------------------------------- */
 size_t stencil_entry (const stencil *s, int i, size_t place, size_t b)
 {
     const pg_family *family = s->setting.family;
@@ -308,20 +340,30 @@ static pg_status kill_bonds (stencil *s, size_t k, pg_changes *found)
     pg_status status = PG_OK;
     const pg_block *block = s->block + k;
     for (size_t b = 0; b < s->job.n; b++) {
-        uint32_t *word = s->alive + k * s->job.n + b, live = s->may ? *word & s->may[k * s->job.n + b] : *word;
+        uint32_t *word = s->alive + k * s->job.n + b,
+                 live = s->may ? *word & s->may[k * s->job.n + b] : *word;
         for (; live; live &= live - 1) {
             unsigned bit = (unsigned) __builtin_ctz (live);
             if (!(measure (s, block->base + bit, b) >= s->term[b * PG_TERMS + PG_AT_LIMIT])) continue;
             *word &= ~(1u << bit);
             PG_GROW (found->bond, found->cap, found->n + 1);
-            found->bond[found->n++] = stencil_entry (s, s->job.point[block->site + bit], block->base + bit, b);
+            found->bond[found->n++] = stencil_entry (s, s->job.point[block->site + bit], block->base + bit,
+                                                     b);
         }
     }
 done:
     return status;
 }
 
-typedef struct { stencil *s; const double *u; pg_block_loop loop, again; stencil_lost lost; size_t n; const int *list; } pass;      /* list NULL: all n blocks */
+/* list NULL: all n blocks */
+typedef struct {
+    stencil *s;
+    const double *u;
+    pg_block_loop loop, again;
+    stencil_lost lost;
+    size_t n;
+    const int *list;
+} pass;
 
 static void spread_blocks (void *context, size_t first, size_t last, int thread)
 {
@@ -359,21 +401,26 @@ static pg_status run (stencil *s, pass *p, pg_changes *broken)
     return p->again ? sweep_collect (broken, threads, s->found, s->failed) : PG_OK;
 }
 
-pg_status stencil_run (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, pg_changes *broken)
+pg_status stencil_run (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost,
+                       pg_changes *broken)
 {
     return run (s, &(pass) { .s = s, .loop = loop, .again = again, .lost = lost, .n = s->nblock }, broken);
 }
 
-pg_status stencil_run_some (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, size_t n, const int *list, pg_changes *broken)
+pg_status stencil_run_some (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, size_t n,
+                            const int *list, pg_changes *broken)
 {
-    return run (s, &(pass) { .s = s, .loop = loop, .again = again, .lost = lost, .n = n, .list = list }, broken);
+    return run (s, &(pass){ .s = s, .loop = loop, .again = again, .lost = lost, .n = n, .list = list },
+                broken);
 }
 
 pg_status stencil_force_some (stencil *s, size_t n, const int *list, double *f, pg_changes *broken)
 {
     int finite = s->setting.sums->rule.finite != 0, weighted = s->p != NULL;
     int check = !broken || !s->setting.limit ? PG_CHECK_NONE : s->may ? PG_CHECK_SOME : PG_CHECK_ALL;
-    pass p = { .s = s, .loop = s->kernels->force[s->job.dim - 1][finite][check][weighted], .n = n, .list = list };
+    pass p = {
+        .s = s, .loop = s->kernels->force[s->job.dim - 1][finite][check][weighted], .n = n, .list = list
+    };
     if (check) p.again = s->kernels->force[s->job.dim - 1][finite][PG_CHECK_NONE][weighted];
     s->job.f = f;
     return run (s, &p, broken);
@@ -391,12 +438,16 @@ static void energy_blocks (void *context, size_t first, size_t last, int thread)
     (void) thread;
     pass *p = context;
     if (!p->list) p->loop (&p->s->job, first, last);
-    else for (size_t k = first; k < last; k++) p->loop (&p->s->job, (size_t) p->list[k], (size_t) p->list[k] + 1);
+    else
+        for (size_t k = first; k < last; k++)
+            p->loop (&p->s->job, (size_t) p->list[k], (size_t) p->list[k] + 1);
 }
 
 void stencil_energies_some (stencil *s, size_t n, const int *list, double *W)
 {
-    pass p = { .s = s, .loop = s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL], .list = list };
+    pass p = { .s = s,
+               .loop = s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL],
+               .list = list };
     s->job.energies = W;
     pg_parallel_heavy (stencil_threads (s), n, energy_blocks, &p);
     s->job.energies = NULL;
@@ -416,7 +467,10 @@ static double energy (void *self, const double *u)
 {
     stencil *s = self;
     stencil_spread (s, u);
-    return stencil_stored (s, s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL], NULL) / 4;                                    /* w / 2 of each bond, seen from both its ends                    */
+    /* w / 2 of each bond, seen from both its ends */
+    return stencil_stored (
+               s, s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL], NULL)
+           / 4;
 }
 
 static pg_status energies (void *self, const double *u, double *W)
@@ -429,15 +483,24 @@ static pg_status energies (void *self, const double *u, double *W)
     return PG_OK;
 }
 
-/* Bonds a nanosecond by instruction set, in a plane and in space: bench/sums_rate bond, square_400_m6 and cube_64, one thread of an AMD EPYC. */
-static double time_of (const pg_sweep_setting *setting, pg_instructions set)
+/* Bonds a nanosecond by instruction set, in a plane and in space: bench/sums_rate bond, square_400_m6 and
+ * cube_64, one thread of an AMD EPYC. */
+static double time_of (const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const double rate[][2] = { { 1.7, 0.8 }, { 3.9, 2.1 }, { 7.3, 3.7 } };
     const pg_sums *sums = setting->sums;
     return (double) sums->cloud->n * (double) sums->stencil.n / rate[set][sums->cloud->dim == 3];
 }
 
-const pg_sweep_kind pg_sweep_stencil = {
-    .name = "stencil", .refusal = stencil_refusal, .create = create, .free = stencil_free, .bytes = stencil_bytes, .update = stencil_update, .force = force, .energy = energy,
-    .energies = energies, .time = time_of,
+const pg_bond_loop_kind pg_bond_loop_stencil = {
+    .name = "stencil",
+    .refusal = stencil_refusal,
+    .create = create,
+    .free = stencil_free,
+    .bytes = stencil_bytes,
+    .update = stencil_update,
+    .force = force,
+    .energy = energy,
+    .energies = energies,
+    .time = time_of,
 };

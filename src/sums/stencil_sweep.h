@@ -1,53 +1,62 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * stencil_sweep.h: points of a lattice in blocks with a bit per bond, and loops over them (private): shared by the sums of bond-based theory
- * (stencil_sweep.c), by transforms, which leave blocks with cut bonds to these loops (fft_sweep.c), and of state-based theory (state_stencil.c). */
+ * stencil_sweep.h: points of a lattice in blocks with a bit per bond, and loops over them (private): shared
+ * by the sums of bond-based theory (stencil_sweep.c), by transforms, which leave blocks with cut bonds to
+ * these loops (fft_sweep.c), and of state-based theory (state_stencil.c). */
 #ifndef PERIGAL_SUMS_STENCIL_SWEEP_H
 #define PERIGAL_SUMS_STENCIL_SWEEP_H
 #include "block.h"
-#include "sweep.h"
+#include "bond_loop.h"
 
-enum { MAX_THREADS = 64, FEW = 1 << 15 };              /* FEW directed bonds are not worth a second thread               */
+enum { MAX_THREADS = 64, FEW = 1 << 15 };              /* FEW directed bonds are not worth a second thread */
 typedef struct {
-    pg_sweep_setting setting;
+    pg_bond_loop_setting setting;
     const pg_block_kernels *kernels;
-    pg_block_job job;                                  /* points into what follows                                       */
-    int        reach[3], left;                         /* halo in sites; padded places before a row                      */
-    size_t     pitch, rows, planes, row_blocks;        /* padded places of a row, rows of a plane, planes, blocks of a row */
-    size_t     nblock, nbond;                          /* blocks with points; bonds of the family                        */
+    pg_block_job job;                                  /* points into what follows */
+    int        reach[3], left;                         /* halo in sites; padded places before a row */
+    /* padded places of a row, rows of a plane, planes, blocks of a row */
+    size_t     pitch, rows, planes, row_blocks;
+    size_t     nblock, nbond;                          /* blocks with points; bonds of the family */
     pg_block  *block;
-    int       *block_at;                               /* of each block of each padded row, -1: without points           */
-    unsigned  *place;                                  /* padded place of each point                                     */
+    int       *block_at;  /* of each block of each padded row, -1: without points */
+    unsigned  *place;                                  /* padded place of each point */
     ptrdiff_t *jump;
     double    *term, *field, *p, *energy;
     uint32_t  *alive, *may;
     unsigned char *hit;
-    pg_changes found[MAX_THREADS];                     /* of each thread                                                 */
+    pg_changes found[MAX_THREADS];                     /* of each thread */
     pg_status  failed[MAX_THREADS];
 } stencil;
 
 /* NULL: a stencil can be laid over these points; else why not. */
-const char *stencil_refusal (const pg_sweep_setting *setting);
-/* Into room for `bytes`, of which the first are a stencil; all its bonds live. What it allocated is freed by stencil_free, also after a failure. */
-pg_status stencil_create (void **self, const pg_sweep_setting *setting, pg_instructions set, size_t bytes);
+const char *stencil_refusal (const pg_bond_loop_setting *setting);
+/* Into workspace for `bytes`, of which the first are a stencil; all its bonds live. What it allocated is
+ * freed by stencil_free, also after a failure. */
+pg_status stencil_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set,
+                          size_t bytes);
 void      stencil_free   (void *self);
 void      stencil_update (void *self, const unsigned char *alive, const pg_changes *changes);
 void      stencil_bytes  (const void *self, double *per_bond, double *per_point);
 int       stencil_threads (const stencil *s);
-size_t    stencil_places (const stencil *s);           /* of the padded box                                              */
-size_t    stencil_block  (const stencil *s, size_t place, unsigned *bit);                 /* block and bit of a padded place */
-size_t    stencil_owner  (const stencil *s, size_t entry);                                /* point of an entry of the family */
-void      stencil_spread (stencil *s, const double *u);                                   /* u (n x dim) to job.u        */
+size_t    stencil_places (const stencil *s);           /* of the padded box */
+/* block and bit of a padded place */
+size_t    stencil_block  (const stencil *s, size_t place, unsigned *bit);
+size_t    stencil_owner  (const stencil *s, size_t entry);  /* point of an entry of the family */
+void      stencil_spread (stencil *s, const double *u);  /* u (n x dim) to job.u */
 /* Position in the family of bond b of the site at `place`, whose point is i. */
 size_t    stencil_entry  (const stencil *s, int i, size_t place, size_t b);
-/* The loop over all blocks; where it says `hit` the bonds over their limit die, `lost` (or NULL) is told, and `again` does the block anew. Bonds
- * that died are appended to broken. */
+/* The loop over all blocks; where it says `hit` the bonds over their limit die, `lost` (or NULL) is told, and
+ * `again` does the block anew. Bonds that died are appended to broken. */
 typedef void (*stencil_lost) (stencil *s, size_t block);
-pg_status stencil_run    (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, pg_changes *broken);
+pg_status stencil_run (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost,
+                       pg_changes *broken);
 /* ... over n blocks of a list. */
-pg_status stencil_run_some (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, size_t n, const int *list, pg_changes *broken);
-/* Forces, and four times W_i V_i, of the points of n blocks of a list alone, at the displacements in job.u. */
+pg_status stencil_run_some (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, size_t n,
+                            const int *list, pg_changes *broken);
+/* Forces, and four times W_i V_i, of the points of n blocks of a list alone, at the displacements in
+ * job.u. */
 pg_status stencil_force_some    (stencil *s, size_t n, const int *list, double *f, pg_changes *broken);
 void      stencil_energies_some (stencil *s, size_t n, const int *list, double *W);
-/* What a loop stores over all blocks, in `energy` of each, added up; the points' shares in W unless that is NULL. */
+/* What a loop stores over all blocks, in `energy` of each, added up; the points' shares in W unless that is
+ * NULL. */
 double    stencil_stored (stencil *s, pg_block_loop loop, double *W);
 #endif

@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A rule and a cloud brought together: sites and stencil of a lattice, calibration, volumes of families for the surface. */
+ * A rule and a cloud brought together: sites and stencil of a lattice, calibration, volumes of families for
+ * the surface. */
 #include "sums_private.h"
 #include "perigal/criterion.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double whole_family = 0.8;                /* of the largest family's volume                                 */
+static const double whole_family = 0.8;                /* of the largest family's volume */
 
 pg_status sums_check_rule (const pg_sum_rule *rule, int dim)
 {
     pg_status status = PG_OK;
     int wanted = rule->mode == PG_LINE ? 1 : rule->mode == PG_SOLID ? 3 : 2;
-    if (wanted != dim) PG_FAIL (PG_E_USAGE, "bonds of a body of %d dimensions cannot have a mode of %d", dim, wanted);
-    if (!(rule->horizon > 0) || !isfinite (rule->horizon)) PG_FAIL (PG_E_USAGE, "horizon %g m of bonds must be positive", rule->horizon);
+    if (wanted != dim)
+        PG_FAIL (PG_E_USAGE, "bonds of a body of %d dimensions cannot have a mode of %d", dim, wanted);
+    if (!(rule->horizon > 0) || !isfinite (rule->horizon))
+        PG_FAIL (PG_E_USAGE, "horizon %g m of bonds must be positive", rule->horizon);
 done:
     return status;
 }
@@ -25,7 +28,7 @@ double sums_surface (const pg_sums *sums, size_t i, size_t j)
     return sums->rule.surface == PG_SURFACE_VOLUME ? 2 / (v[i] + v[j]) : 1 / sqrt (v[i] * v[j]);
 }
 
-/* ---- on a lattice ------------------------------------------------------------------------------------------------------- */
+/* ---- on a lattice -------------------------------------------------------------------------------------- */
 static pg_status find_shares (pg_sums *s, double cell)
 {
     pg_status status = PG_OK;
@@ -67,12 +70,14 @@ static pg_status from_lattice (pg_sums *s)
 {
     pg_status status = PG_OK;
     const pg_sum_rule *rule = &s->rule;
-    double c = 1, G = 0, G0 = pg_bond_fracture_energy (rule->mode, rule->kernel, rule->horizon, s->cloud->thickness, c, 1);
+    double c = 1, G = 0,
+           G0 = pg_bond_fracture_energy (rule->mode, rule->kernel, rule->horizon, s->cloud->thickness, c, 1);
     int dim = s->sites.dim;
     PG_TRY (pg_stencil_build (&s->stencil, rule, dim, s->sites.step));
     double cell = s->stencil.cell * s->cloud->thickness;
     if (rule->calibrate) s->calibration = pg_stencil_calibration (&s->stencil, rule);
-    for (int k = 0; k < dim; k++) G += pg_stencil_fracture_energy (&s->stencil, s->calibration * c, s->cloud->thickness, 1, k) / dim;
+    for (int k = 0; k < dim; k++)
+        G += pg_stencil_fracture_energy (&s->stencil, s->calibration * c, s->cloud->thickness, 1, k) / dim;
     s->toughness = G / G0;
     for (size_t b = 0; b < s->stencil.n; b++) s->full += s->stencil.beta[b] * cell;
     PG_TRY (find_shares (s, cell));
@@ -82,14 +87,16 @@ done:
     return status;
 }
 
-/* With I_l = the part of q beyond a plane that lies l - 1/2 layers off: G = h s0^2 sum_l [A d (I_l / q)^2 + B I_l / q]; here for h = s0 = 1 */
+/* With I_l = the part of q beyond a plane that lies l - 1/2 layers off: G = h s0^2 sum_l [A d (I_l / q)^2 + B
+ * I_l / q]; here for h = s0 = 1 */
 static double cut_energy (const pg_stencil *t, double A, double B, int axis)
 {
     double q = 0, sum = 0, inside = 1;
     for (size_t b = 0; b < t->n; b++) q += t->weight[b] * t->r[b];
     for (int layer = 1; inside > 0; layer++) {
         inside = 0;
-        for (size_t b = 0; b < t->n; b++) if (t->offset[3*b + (size_t) axis] >= layer) inside += t->weight[b] * t->r[b];
+        for (size_t b = 0; b < t->n; b++)
+            if (t->offset[3 * b + (size_t) axis] >= layer) inside += t->weight[b] * t->r[b];
         sum += A * t->dim * (inside / q) * (inside / q) + B * inside / q;
     }
     return sum;
@@ -101,7 +108,12 @@ double pg_sums_toughness (const pg_sums *sums, double E, double nu)
     double A, B, G = 0;
     int dim = sums->sites.dim;
     if (!rule->state || rule->beams || sums->stencil.n == 0) return sums->toughness;
-    pg_criterion_setting s = { .mode = rule->mode, .horizon = rule->horizon, .modulus = E, .poisson = nu, .kernel = rule->kernel->name, .state = 1 };
+    pg_criterion_setting s = { .mode = rule->mode,
+                               .horizon = rule->horizon,
+                               .modulus = E,
+                               .poisson = nu,
+                               .kernel = rule->kernel->name,
+                               .state = 1 };
     pg_state_moduli (rule->mode, E, nu, &A, &B);
     for (int k = 0; k < dim; k++) G += sums->sites.step[k] * cut_energy (&sums->stencil, A, B, k) / dim;
     return G / pg_state_fracture_energy (&s, 1);
@@ -111,12 +123,14 @@ double pg_beam_cut_dilatation (const pg_sums *sums, double dilation)
 {
     const pg_sum_rule *rule = &sums->rule;
     double G = 0;
-    if (!rule->calibrate || sums->stencil.n == 0) return rule->horizon * pg_state_cut_share (rule->mode, rule->kernel->name, dilation, 0);
-    for (int k = 0; k < sums->sites.dim; k++) G += sums->sites.step[k] * cut_energy (&sums->stencil, dilation, 0, k) / sums->sites.dim;
+    if (!rule->calibrate || sums->stencil.n == 0)
+        return rule->horizon * pg_state_cut_share (rule->mode, rule->kernel->name, dilation, 0);
+    for (int k = 0; k < sums->sites.dim; k++)
+        G += sums->sites.step[k] * cut_energy (&sums->stencil, dilation, 0, k) / sums->sites.dim;
     return G;
 }
 
-/* ---- without a lattice -------------------------------------------------------------------------------------------------- */
+/* ---- without a lattice --------------------------------------------------------------------------------- */
 static int ascending (const void *a, const void *b)
 {
     double x = *(const double *) a, y = *(const double *) b;
@@ -171,7 +185,8 @@ done:
     return status;
 }
 
-pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud, const pg_lattice *lattice)
+pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud,
+                          const pg_lattice *lattice)
 {
     pg_status status = PG_OK;
     pg_sums *s = NULL;

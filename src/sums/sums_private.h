@@ -13,11 +13,12 @@ double    sums_kernel     (const pg_sum_rule *rule, double r, double horizon);
 /* S_d m_d: integral of k r over the ball, m^(dim + 1) */
 double    sums_whole      (const pg_sum_rule *rule, int dim);
 
-/* A bond of an irregular cloud between points i and j, r apart; beta 0: there is none. Horizon and spacing are the means of both ends; the weight
- * carries (horizon of the rule / mean horizon)^(dim + 1), so that one modulus serves all spacings. */
+/* A bond of an irregular cloud between points i and j, r apart; beta 0: there is none. Horizon and spacing
+ * are the means of both ends; the weight carries (horizon of the rule / mean horizon)^(dim + 1), so that one
+ * modulus serves all spacings. */
 typedef struct { double r, beta, weight; } sums_bond;
 sums_bond sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, size_t i, size_t j);
 /* The point at an offset (x, y, z) from a site; -1: none. */
 int       sums_neighbour    (const pg_sites *sites, int site, const int *offset);
-double    sums_surface      (const pg_sums *sums, size_t i, size_t j);          /* g_ij                                   */
+double    sums_surface      (const pg_sums *sums, size_t i, size_t j);          /* g_ij */
 #endif

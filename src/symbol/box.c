@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The box in which a lattice is measured: a scene of its own with the first material, the steps and the method of the one given, and nothing else.
- * Along one axis it is a cell between two layers, so that its step there may differ from the others, which the spacing sets. */
+ * The box in which a lattice is measured: a scene of its own with the first material, the steps and the
+ * method of the one given, and nothing else. Along one axis it is a cell between two layers, so that its step
+ * there may differ from the others, which the spacing sets. */
 #include "symbol.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-/* ---- text ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- text ---------------------------------------------------------------------------------------------- */
 typedef struct { char *text; size_t used, cap; } writing;
 
 static pg_status put (writing *w, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
@@ -28,7 +29,8 @@ done:
 }
 
 /* name: value, as the scene has it */
-static pg_status put_key (writing *w, const pg_scene *scene, const pg_key *key, const char *path, const char *name)
+static pg_status put_key (writing *w, const pg_scene *scene, const pg_key *key, const char *path,
+                          const char *name)
 {
     switch (key->kind) {
     case PG_NUMBER:  return put (w, "%s: %.17g\n", name, pg_scene_number (scene, "%s", path));
@@ -50,7 +52,9 @@ static pg_status put_keys (writing *w, const pg_scene *scene, const char *root, 
         for (size_t k = 0; k < table[t].n; k++) {
             const pg_key *key = &table[t].key[k];
             const char *last = key->path + length;
-            if (strncmp (key->path, root, length) != 0 || strpbrk (last, ".[{") || (key->unit && strchr (key->unit, '|'))) continue;
+            if (strncmp (key->path, root, length) != 0 || strpbrk (last, ".[{")
+                || (key->unit && strchr (key->unit, '|')))
+                continue;
             snprintf (path, sizeof path, "%s%s", at, last);
             if (!pg_scene_given (scene, "%s", path)) continue;
             snprintf (name, sizeof name, "  %s%s", strncmp (at, "materials", 9) == 0 ? "  " : "", last);
@@ -76,7 +80,8 @@ static pg_status put_body (writing *w, const box_size *size, int dim, int vertic
         PG_TRY (put (w, high ? "]}}}]\nlayers:\n" : "]"));
     }
     for (int high = 0; high < 2; high++)
-        PG_TRY (put (w, "  - {name: l%d, side: %s, thickness: %.17g}\n", high, side[2 * odd + high], (size->half[odd] - (vertices && high)) * size->step[odd]));
+        PG_TRY (put (w, "  - {name: l%d, side: %s, thickness: %.17g}\n", high, side[2 * odd + high],
+                     (size->half[odd] - (vertices && high)) * size->step[odd]));
 done:
     return status;
 }
@@ -88,10 +93,13 @@ pg_status box_scene (pg_scene **out, const pg_scene *scene, const pg_problem *p,
     int vertices = strcmp (pg_scene_text (scene, "lattice"), "nodes") == 0;
     char material[160];
     PG_TRY (put (&w, "dimension: %d\n", p->dim));
-    if (p->dim == 2) PG_TRY (put (&w, "plane: %s\nthickness: %.17g\n", p->mode == PG_PLANE_STRAIN ? "strain" : "stress", pg_scene_number (scene, "thickness")));
+    if (p->dim == 2)
+        PG_TRY (put (&w, "plane: %s\nthickness: %.17g\n", p->mode == PG_PLANE_STRAIN ? "strain" : "stress",
+                     pg_scene_number (scene, "thickness")));
     if (p->dim == 1) PG_TRY (put (&w, "cross_section: %.17g\n", pg_scene_number (scene, "cross_section")));
     PG_TRY (put_body (&w, size, p->dim, vertices));
-    PG_TRY (put (&w, "spacing: %.17g\nlattice: %s\ncells: staircase\nmethod:\n", size->wanted, vertices ? "nodes" : "cells"));
+    PG_TRY (put (&w, "spacing: %.17g\nlattice: %s\ncells: staircase\nmethod:\n", size->wanted,
+                 vertices ? "nodes" : "cells"));
     PG_TRY (put_keys (&w, scene, "method.", "method."));
     PG_TRY (put (&w, "  horizon: %.17g\n", p->approx.horizon));
     snprintf (material, sizeof material, "materials.%.63s.", p->material[0].name);
@@ -105,7 +113,7 @@ done:
     return status;
 }
 
-/* ---- size ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- size ---------------------------------------------------------------------------------------------- */
 static double middle_step (const double *step, int dim)
 {
     double low = step[0], high = step[0], sum = 0;
@@ -117,16 +125,22 @@ pg_status box_steps (box_size *out, const pg_scene *scene, const pg_problem *p)
 {
     pg_status status = PG_OK;
     double product = 1;
-    if (p->part.mesh.n) PG_FAIL (PG_E_USAGE, "the points of a mesh lie on no lattice, so that there are no plane waves to be told: give a body and a spacing");
+    if (p->part.mesh.n)
+        PG_FAIL (PG_E_USAGE, "the points of a mesh lie on no lattice, so that there are no plane waves to be "
+                             "told: give a body and a spacing");
     if (!p->lattice.dim)
-        PG_FAIL (PG_E_USAGE, "the points of a file lie where the file says, so that there are no plane waves to be told: give a body and a spacing");
+        PG_FAIL (PG_E_USAGE, "the points of a file lie where the file says, so that there are no plane waves "
+                             "to be told: give a body and a spacing");
     if (pg_scene_number (scene, "perturb.amount") > 0)
-        PG_FAIL (PG_E_USAGE, "the points are moved away from their lattice at random (perturb), so that there are no plane waves to be told: that of the lattice "
-                 "itself is seen with --set perturb.amount=0");
+        PG_FAIL (PG_E_USAGE, "the points are moved away from their lattice at random (perturb), so that "
+                             "there are no plane waves to be told: that of the lattice "
+                             "itself is seen with --set perturb.amount=0");
     for (int k = 0; k < p->dim; k++) out->step[k] = p->lattice.step[k], product *= out->step[k];
     out->h = pow (product, 1.0 / p->dim);
-    for (int k = 1; k < p->dim; k++)                   /* the odd one out                                                     */
-        if (fabs (out->step[k] - middle_step (out->step, p->dim)) > fabs (out->step[out->odd] - middle_step (out->step, p->dim))) out->odd = k;
+    for (int k = 1; k < p->dim; k++)                   /* the odd one out */
+        if (fabs (out->step[k] - middle_step (out->step, p->dim))
+            > fabs (out->step[out->odd] - middle_step (out->step, p->dim)))
+            out->odd = k;
     out->wanted = p->dim == 1 ? out->step[0] : 0;
     for (int k = 0; k < p->dim; k++) if (k != out->odd) out->wanted += out->step[k] / (p->dim - 1);
 done:
@@ -140,8 +154,11 @@ pg_status box_fits (const box_size *size, int dim)
     for (int k = 0; k < dim; k++) {
         double cells = k == size->odd ? 1 : 2 * size->half[k] + 1;
         if (!(fabs (cells * (size->step[k] / size->wanted - 1)) < 0.49))
-            PG_FAIL (PG_E_USAGE, "the steps of the lattice along x, y, z differ too much for its waves to be told (%.6g, %.6g, %.6g m): take a spacing that divides "
-                     "the sizes of the body", size->step[0], dim > 1 ? size->step[1] : 0, dim > 2 ? size->step[2] : 0);
+            PG_FAIL (PG_E_USAGE,
+                     "the steps of the lattice along x, y, z differ too much for its waves to be told (%.6g, "
+                     "%.6g, %.6g m): take a spacing that divides "
+                     "the sizes of the body",
+                     size->step[0], dim > 1 ? size->step[1] : 0, dim > 2 ? size->step[2] : 0);
     }
 done:
     return status;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K_0j of a lattice: the answer of every point of a box to unit displacements and rotations of its middle one. */
+ * K_0j of a lattice: the answer of every point of a box to unit displacements and rotations of its middle
+ * one. */
 #include "symbol.h"
 #include <float.h>
 #include <math.h>
@@ -7,16 +8,16 @@
 #include <string.h>
 
 enum { TRIES = 6 };
-static const double most_pairs = 2e8;                  /* of points that see each other, counted by what they take: 1.4 GB */
+static const double most_pairs = 2e8;  /* of points that see each other, counted by what they take: 1.4 GB */
 /* Of the largest answer: too little to enlarge the box for; rounding, of transforms also far away. */
 static const double little = 1e-12, nothing = 1e-14;
 
 typedef struct {
     pg_scene *scene;  pg_problem *problem;  pg_state *state;
     const pg_force_type *force;  void *self;
-    size_t middle;                                     /* the point at the origin                                        */
+    size_t middle;                                     /* the point at the origin */
     int    m;
-    double *answer;                                    /* to unknown c of the middle: ndof x m, column by column         */
+    double *answer;  /* to unknown c of the middle: ndof x m, column by column */
 } box;
 
 static void clear (box *b)
@@ -61,11 +62,16 @@ static pg_status build (box *b, const pg_scene *scene, const pg_problem *p, cons
     pg_status status = PG_OK;
     pg_field field[4];
     double points = 1, family = 1, *x = NULL;
-    for (int k = 0; k < p->dim; k++) points *= 2 * size->half[k] + 1, family *= 1.7 * p->approx.horizon / size->step[k];
-    double pairs = points * family * (p->direct ? 1 : 10 * fmax (1, (double) p->rows[PG_POINTS].n / (double) p->cloud.n));
+    for (int k = 0; k < p->dim; k++)
+        points *= 2 * size->half[k] + 1, family *= 1.7 * p->approx.horizon / size->step[k];
+    double pairs = points * family
+                   * (p->direct ? 1 : 10 * fmax (1, (double) p->rows[PG_POINTS].n / (double) p->cloud.n));
     if (pairs > most_pairs)
-        PG_FAIL (PG_E_LIMIT, "the waves of this lattice need a box of %.0f points with about %.0f neighbours each, as its horizon is %.3g spacings: that is too "
-                 "large; take a smaller horizon, or fewer Gauss points", points, family, p->approx.horizon / size->h);
+        PG_FAIL (PG_E_LIMIT,
+                 "the waves of this lattice need a box of %.0f points with about %.0f neighbours each, as "
+                 "its horizon is %.3g spacings: that is too "
+                 "large; take a smaller horizon, or fewer Gauss points",
+                 points, family, p->approx.horizon / size->h);
     PG_TRY (box_fits (size, p->dim));
     PG_TRY (box_scene (&b->scene, scene, p, size));
     PG_TRY (pg_problem_build (&b->problem, b->scene, p->threads));
@@ -97,16 +103,19 @@ static double answer_at (const box *b, size_t j, int r, int c)
 static void offset_of (const box *b, const box_size *size, size_t j, int *offset)
 {
     size_t dim = (size_t) b->problem->dim;
-    for (size_t k = 0; k < 3; k++) offset[k] = k < dim ? (int) lround (b->problem->cloud.x[j * dim + k] / size->step[k]) : 0;
+    for (size_t k = 0; k < 3; k++)
+        offset[k] = k < dim ? (int) lround (b->problem->cloud.x[j * dim + k] / size->step[k]) : 0;
 }
 
-/* Is K_0j whole? The points that answer must not see the surface of the box, nor may their families where these weigh bonds. Sets how large the
- * box must be. */
+/* Is K_0j whole? The points that answer must not see the surface of the box, nor may their families where
+ * these weigh bonds. Sets how large the box must be. */
 static int large_enough (const box *b, box_size *size)
 {
-    int reach[3] = { 0 }, offset[3], enough = 1, dim = b->problem->dim, m = b->m, weighed = b->problem->direct && b->problem->sums->rule.surface != PG_SURFACE_NONE;
+    int reach[3] = { 0 }, offset[3], enough = 1, dim = b->problem->dim, m = b->m,
+        weighed = b->problem->direct && b->problem->sums->rule.surface != PG_SURFACE_NONE;
     double largest = 0;
-    for (size_t k = 0; k < b->problem->cloud.n * (size_t) (m * m); k++) largest = fmax (largest, fabs (b->answer[k]));
+    for (size_t k = 0; k < b->problem->cloud.n * (size_t) (m * m); k++)
+        largest = fmax (largest, fabs (b->answer[k]));
     for (size_t j = 0; j < b->problem->cloud.n; j++) {
         double most = 0;
         for (int e = 0; e < m * m; e++) most = fmax (most, fabs (answer_at (b, j, e / m, e % m)));
@@ -121,7 +130,7 @@ static int large_enough (const box *b, box_size *size)
     return enough;
 }
 
-/* ---- what is kept of it ----------------------------------------------------------------------------------------------------------- */
+/* ---- what is kept of it -------------------------------------------------------------------------------- */
 static pg_status collect (pg_symbol *s, const box *b, const box_size *size)
 {
     pg_status status = PG_OK;
@@ -140,7 +149,7 @@ static pg_status collect (pg_symbol *s, const box *b, const box_size *size)
     PG_ALLOC (s->block, n * m * m);
     for (size_t j = 0; j < n; j++) {
         double *K = s->block + s->n * m * m, most = 0;
-        for (size_t e = 0; e < m * m; e++) {           /* K_0j is K_j0 transposed                                             */
+        for (size_t e = 0; e < m * m; e++) {           /* K_0j is K_j0 transposed */
             K[e] = answer_at (b, j, (int) (e % m), (int) (e / m));
             most = fmax (most, fabs (K[e]));
         }
@@ -168,23 +177,29 @@ static pg_status verify (pg_symbol *s, const box_size *size)
     PG_ALLOC (at, all);
     for (size_t j = 0, place; j < s->n; j++) {
         place = 0;
-        for (int k = 2; k >= 0; k--) place = place * wide[k] + (size_t) (s->offset[3 * j + (size_t) k] + (k < s->dim ? size->half[k] : 0));
+        for (int k = 2; k >= 0; k--)
+            place = place * wide[k]
+                    + (size_t) (s->offset[3 * j + (size_t) k] + (k < s->dim ? size->half[k] : 0));
         at[place] = j + 1;
     }
-    for (size_t p = 0; p < all; p++)                   /* the opposite of place p is place all - 1 - p                        */
+    for (size_t p = 0; p < all; p++)                   /* the opposite of place p is place all - 1 - p */
         for (size_t e = 0; at[p] && e < mm; e++) {
-            double K = s->block[(at[p] - 1) * mm + e], other = at[all - 1 - p] ? s->block[(at[all - 1 - p] - 1) * mm + e % m * m + e / m] : 0;
+            double K = s->block[(at[p] - 1) * mm + e],
+                   other = at[all - 1 - p] ? s->block[(at[all - 1 - p] - 1) * mm + e % m * m + e / m] : 0;
             largest = fmax (largest, fabs (K)), difference = fmax (difference, fabs (K - other)), sum[e] += K;
         }
     for (size_t e = 0; e < mm; e++) if (e % m < (size_t) s->dim) drift = fmax (drift, fabs (sum[e]));
     s->size = largest, s->lopsided = largest > 0 ? difference / largest : 0;
     if (!(largest > 0)) PG_FAIL (PG_E_USAGE, "nothing resists the points of this lattice");
     if (!(s->lopsided < 1e-9) || !(drift < 1e-9 * largest))
-        PG_FAIL (PG_E_USAGE, "the points in the middle of a box answer each other unlike those of a lattice (by %.1e; to a translation by %.1e)", s->lopsided,
-                 drift / largest);
+        PG_FAIL (PG_E_USAGE,
+                 "the points in the middle of a box answer each other unlike those of a lattice (by %.1e; to "
+                 "a translation by %.1e)",
+                 s->lopsided, drift / largest);
     for (size_t r = 0; r < m; r++) {
         double most = 0;
-        for (size_t j = 0; j < s->n; j++) for (size_t c = 0; c < m; c++) most = fmax (most, fabs (s->block[j * mm + r * m + c]));
+        for (size_t j = 0; j < s->n; j++)
+            for (size_t c = 0; c < m; c++) most = fmax (most, fabs (s->block[j * mm + r * m + c]));
         s->held[r] = most <= nothing * largest;
     }
 done:
@@ -196,14 +211,14 @@ static pg_status weigh (pg_symbol *s, box *b)
 {
     pg_status status = PG_OK;
     size_t m = (size_t) s->unknowns, ndof = b->problem->cloud.n * m;
-    double *mass = NULL, *room = NULL;
+    double *mass = NULL, *workspace = NULL;
     PG_ALLOC (mass, ndof);
-    PG_ALLOC (room, ndof);
+    PG_ALLOC (workspace, ndof);
     PG_TRY (b->force->mass (b->self, mass));
     for (size_t c = 0; c < m; c++) s->mass[c] = mass[b->middle * m + c];
-    PG_TRY (pg_force_bound (b->force, b->self, ndof, mass, room, &s->bound, &s->from));
+    PG_TRY (pg_force_bound (b->force, b->self, ndof, mass, workspace, &s->bound, &s->from));
 done:
-    pg_free (mass), pg_free (room);
+    pg_free (mass), pg_free (workspace);
     return status;
 }
 
@@ -216,7 +231,8 @@ pg_status pg_symbol_create (pg_symbol **out, const pg_scene *scene, const pg_pro
     int whole = 0;
     *out = NULL;
     PG_TRY (box_steps (&size, scene, p));
-    for (int k = 0; k < p->dim; k++) size.half[k] = 2 * (int) ceil (p->approx.horizon / size.step[k] - 1e-6) + 2;
+    for (int k = 0; k < p->dim; k++)
+        size.half[k] = 2 * (int) ceil (p->approx.horizon / size.step[k] - 1e-6) + 2;
     for (int t = 0; t < TRIES && !whole; t++) {
         clear (&b);
         PG_TRY (build (&b, scene, p, &size));
@@ -224,7 +240,8 @@ pg_status pg_symbol_create (pg_symbol **out, const pg_scene *scene, const pg_pro
     }
     if (!whole) PG_FAIL (PG_E_USAGE, "a point of this lattice is coupled to all others, however far");
     PG_ALLOC (s, 1);
-    s->dim = p->dim, s->unknowns = b.m, s->threads = p->threads, s->points = b.problem->cloud.n, s->h = size.h;
+    s->dim = p->dim, s->unknowns = b.m, s->threads = p->threads, s->points = b.problem->cloud.n,
+    s->h = size.h;
     memcpy (s->step, size.step, sizeof s->step);
     s->material = b.problem->material[0];
     memcpy (s->material.name, p->material[0].name, sizeof s->material.name);

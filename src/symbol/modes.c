@@ -7,16 +7,18 @@
 
 enum { M = PG_UNKNOWNS };
 
-/* cos, sin of a = k step times n steps, exactly +-1 at the ends of the zone: there modes without energy have none. */
+/* cos, sin of a = k step times n steps, exactly +-1 at the ends of the zone: there modes without energy have
+ * none. */
 static void phase (double a, int n, double *c, double *s)
 {
-    double half = a * n / (4 * atan (1)), whole = nearbyint (half);            /* in units of pi                         */
+    double half = a * n / (4 * atan (1)), whole = nearbyint (half);            /* in units of pi */
     *c = cos (a * n), *s = sin (a * n);
     if (fabs (half - whole) < 1e-13 * (1 + fabs (half))) *c = fmod (whole, 2) == 0 ? 1 : -1, *s = 0;
 }
 
 /* sum of the blocks (count numbers each) times exp (i k.(x_j - x_0)) */
-static void transform (const pg_symbol *s, const double *k, size_t count, const double *block, double *real, double *imaginary)
+static void transform (const pg_symbol *s, const double *k, size_t count, const double *block, double *real,
+                       double *imaginary)
 {
     double x[3] = { 1, 1, 1 }, y[3] = { 0 };
     int last[3] = { 0 };
@@ -29,7 +31,8 @@ static void transform (const pg_symbol *s, const double *k, size_t count, const 
             if (n != last[a]) phase (k[a] * s->step[a], last[a] = n, &x[a], &y[a]);
             c = c * x[a] - d * y[a], d = old * y[a] + d * x[a];
         }
-        for (size_t e = 0; e < count; e++) real[e] += c * block[j * count + e], imaginary[e] += d * block[j * count + e];
+        for (size_t e = 0; e < count; e++)
+            real[e] += c * block[j * count + e], imaginary[e] += d * block[j * count + e];
     }
 }
 
@@ -50,7 +53,8 @@ static void level (pg_symbol_modes *o, double scale)
 {
     for (int i = 0, j; i < o->n; i = j) {
         double turning = 0, along = 0;
-        for (j = i; j < o->n && o->value[j] - o->value[i] <= 1e-9 * scale; j++) turning += o->turning[j], along += o->along[j];
+        for (j = i; j < o->n && o->value[j] - o->value[i] <= 1e-9 * scale; j++)
+            turning += o->turning[j], along += o->along[j];
         for (int q = i; q < j; q++) o->turning[q] = turning / (j - i), o->along[q] = along / (j - i);
     }
 }
@@ -58,18 +62,22 @@ static void level (pg_symbol_modes *o, double scale)
 /* The Hermitian A + iB as the symmetric [A, -B; B, A], which has every eigenvalue twice. */
 void pg_symbol_solve (const pg_symbol *s, const double *k, int weighted, pg_symbol_modes *o)
 {
-    double A[M * M], B[M * M], scale[M], W[4 * M * M], value[2 * M], vector[4 * M * M], norm = 0, unit[3] = { 0 }, rounding = 0;
+    double A[M * M], B[M * M], scale[M], W[4 * M * M], value[2 * M], vector[4 * M * M],
+        norm = 0, unit[3] = { 0 }, rounding = 0;
     int m = s->unknowns, live[M], n = 0;
     pg_symbol_at (s, k, A, B);
     memset (o, 0, sizeof *o);
     for (int i = 0; i < m; i++) if (!s->held[i]) live[n++] = i;
-    for (int i = 0; i < m; i++) scale[i] = weighted ? 1 / sqrt (s->mass[i]) : s->h / sqrt (s->material.modulus * s->volume);
+    for (int i = 0; i < m; i++)
+        scale[i] = weighted ? 1 / sqrt (s->mass[i]) : s->h / sqrt (s->material.modulus * s->volume);
     for (int i = 0; i < n; i++) rounding = fmax (rounding, 1e-14 * s->size * scale[live[i]] * scale[live[i]]);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             double f = scale[live[i]] * scale[live[j]];
-            double a = f * 0.5 * (A[live[i] * m + live[j]] + A[live[j] * m + live[i]]), b = f * 0.5 * (B[live[i] * m + live[j]] - B[live[j] * m + live[i]]);
-            W[i * 2 * n + j] = W[(n + i) * 2 * n + n + j] = a, W[i * 2 * n + n + j] = -b, W[(n + i) * 2 * n + j] = b;
+            double a = f * 0.5 * (A[live[i] * m + live[j]] + A[live[j] * m + live[i]]),
+                   b = f * 0.5 * (B[live[i] * m + live[j]] - B[live[j] * m + live[i]]);
+            W[i * 2 * n + j] = W[(n + i) * 2 * n + n + j] = a, W[i * 2 * n + n + j] = -b,
+                          W[(n + i) * 2 * n + j] = b;
         }
     pg_dense_eigen (2 * n, W, value, vector);
     for (int a = 0; a < s->dim; a++) norm += k[a] * k[a];
@@ -94,9 +102,9 @@ void pg_symbol_solve (const pg_symbol *s, const double *k, int weighted, pg_symb
     for (int i = 0; weighted && i < n; i++) o->value[i] = copysign (sqrt (fabs (o->value[i])), o->value[i]);
 }
 
-/* ---- long waves -------------------------------------------------------------------------------------------------------------------- */
-/* S = k^2 P + i k Q' + R for k = |k| e small: with the rotations in equilibrium the displacements have k^2 (P - Q R^-1 Q'), P = - 1/2 sum K (e.x)^2,
- * Q = sum K (e.x), R = sum K. Pa, dim x dim. */
+/* ---- long waves ---------------------------------------------------------------------------------------- */
+/* S = k^2 P + i k Q' + R for k = |k| e small: with the rotations in equilibrium the displacements have k^2 (P
+ * - Q R^-1 Q'), P = - 1/2 sum K (e.x)^2, Q = sum K (e.x), R = sum K. Pa, dim x dim. */
 static void acoustic (const pg_symbol *s, const double *e, double *T)
 {
     int dim = s->dim, m = s->unknowns, live[3], n = 0;
@@ -135,13 +143,13 @@ void pg_symbol_tangent (const pg_symbol *s, double *D)
         acoustic (s, e, T);
         D[a * nv + a] = T[a * dim + a];
     }
-    for (int a = 0; a < dim && dim > 1; a++) {         /* shears xy, yz, zx                                                   */
+    for (int a = 0; a < dim && dim > 1; a++) {         /* shears xy, yz, zx */
         int b = (a + 1) % dim, v = dim == 2 ? 2 : 3 + a;
         double e[3] = { a == 0, a == 1, a == 2 }, G;
         acoustic (s, e, T);
         G = D[v * nv + v] = T[b * dim + b];
         e[a] = e[b] = sqrt (0.5);
-        acoustic (s, e, T);                            /* T_ab = (D_ab + G) / 2                                              */
+        acoustic (s, e, T);                            /* T_ab = (D_ab + G) / 2 */
         D[a * nv + b] = D[b * nv + a] = T[a * dim + b] + T[b * dim + a] - G;
     }
 }

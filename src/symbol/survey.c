@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The plane waves of a lattice all over the zone: is every motion resisted, how fast are the fastest, how do long ones travel? */
+ * The plane waves of a lattice all over the zone: is every motion resisted, how fast are the fastest, how do
+ * long ones travel? */
 #include "symbol.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
-static const double none = 1e-10, feeble = 1e-2;       /* no energy: of the largest eigenvalue; weak: of a continuum's wave */
+/* no energy: of the largest eigenvalue; weak: of a continuum's wave */
+static const double none = 1e-10, feeble = 1e-2;
 
-/* ---- the zone ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- the zone ------------------------------------------------------------------------------------------ */
 typedef struct { int at[3], copies; double k[3], stiffness; pg_symbol_modes still, moving; } sample;
 typedef struct { const pg_symbol *s; sample *list; } work;
 
@@ -33,7 +35,8 @@ static void solve_range (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Wave vectors pi / step times at / (grid / 2), at from 1 - grid / 2 to grid / 2; of k and - k, which are the same, one. */
+/* Wave vectors pi / step times at / (grid / 2), at from 1 - grid / 2 to grid / 2; of k and - k, which are the
+ * same, one. */
 static pg_status sample_zone (const pg_symbol *s, int grid, sample **out, size_t *n)
 {
     pg_status status = PG_OK;
@@ -48,7 +51,7 @@ static pg_status sample_zone (const pg_symbol *s, int grid, sample **out, size_t
         for (int a = 0; a < s->dim; a++, rest /= side) {
             x->at[a] = (int) (rest % side) + 1 - grid / 2;
             x->k[a] = pi * x->at[a] / (grid / 2) / s->step[a];
-            if (x->at[a] == 0 || x->at[a] == grid / 2) continue;           /* this one is its own opposite                           */
+            if (x->at[a] == 0 || x->at[a] == grid / 2) continue;           /* this one is its own opposite */
             itself = 0;
             if (!sign) sign = x->at[a];
         }
@@ -61,7 +64,7 @@ done:
     return status;
 }
 
-/* ---- what is found there -------------------------------------------------------------------------------------------------------------- */
+/* ---- what is found there ------------------------------------------------------------------------------- */
 static pg_motion motion_of (const sample *x, const pg_symbol_modes *modes, int i, double value, double scale)
 {
     pg_motion m = { { x->k[0], x->k[1], x->k[2] }, value, modes->turning[i], modes->along[i], 0 };
@@ -69,7 +72,10 @@ static pg_motion motion_of (const sample *x, const pg_symbol_modes *modes, int i
     return m;
 }
 
-static double length (const pg_motion *m) { return m->k[0] * m->k[0] + m->k[1] * m->k[1] + m->k[2] * m->k[2]; }
+static double length (const pg_motion *m)
+{
+    return m->k[0] * m->k[0] + m->k[1] * m->k[1] + m->k[2] * m->k[2];
+}
 
 /* Rigid translation: the dim modes of the smallest eigenvalues in size at k = 0 that do not turn. */
 static int rigid (const sample *x, int i, double largest)
@@ -81,15 +87,19 @@ static void look (pg_survey *o, const pg_symbol *s, const sample *x, int grid)
 {
     const pg_symbol_modes *m = &x->still;
     int ends = 0, inside = 0;
-    for (int a = 0; a < s->dim; a++) ends += x->at[a] == grid / 2, inside += x->at[a] != 0 && x->at[a] != grid / 2;
+    for (int a = 0; a < s->dim; a++)
+        ends += x->at[a] == grid / 2, inside += x->at[a] != 0 && x->at[a] != grid / 2;
     for (int i = 0; i < m->n; i++) {
         double v = m->value[i], ratio = x->stiffness > 0 ? v / x->stiffness : INFINITY;
         if (rigid (x, i, o->largest)) continue;
         if (v < o->smallest.value) o->smallest = motion_of (x, m, i, v, o->largest);
-        if (ratio < o->softest.value && m->turning[i] < 0.5) o->softest = motion_of (x, m, i, ratio, o->largest);
+        if (ratio < o->softest.value && m->turning[i] < 0.5)
+            o->softest = motion_of (x, m, i, ratio, o->largest);
         if (m->turning[i] >= 0.5) o->turning[1] = isnan (o->turning[1]) ? v : fmin (o->turning[1], v);
-        if (x->stiffness == 0 && m->turning[i] >= 0.5) o->turning[0] = isnan (o->turning[0]) ? v : fmin (o->turning[0], v);
-        if (ends && !inside) o->shortest[0] = fmin (o->shortest[0], v), o->shortest[1] = fmax (o->shortest[1], v);
+        if (x->stiffness == 0 && m->turning[i] >= 0.5)
+            o->turning[0] = isnan (o->turning[0]) ? v : fmin (o->turning[0], v);
+        if (ends && !inside)
+            o->shortest[0] = fmin (o->shortest[0], v), o->shortest[1] = fmax (o->shortest[1], v);
         if (v < -none * o->largest) o->negative += (size_t) x->copies;
         else if (v <= none * o->largest) {
             pg_motion here = motion_of (x, m, i, v, o->largest);
@@ -98,10 +108,11 @@ static void look (pg_survey *o, const pg_symbol *s, const sample *x, int grid)
         } else if (ratio < feeble && m->turning[i] < 0.5) o->weak += (size_t) x->copies;
     }
     int top = x->moving.n - 1;
-    if (x->moving.value[top] > o->fastest.value) o->fastest = motion_of (x, &x->moving, top, x->moving.value[top], x->moving.value[top]);
+    if (x->moving.value[top] > o->fastest.value)
+        o->fastest = motion_of (x, &x->moving, top, x->moving.value[top], x->moving.value[top]);
 }
 
-/* ---- long waves -------------------------------------------------------------------------------------------------------------------------- */
+/* ---- long waves ---------------------------------------------------------------------------------------- */
 static void travel (pg_survey *o, const pg_symbol *s)
 {
     static const char *const names[] = { "x", "xy", "xyz" };
@@ -112,10 +123,11 @@ static void travel (pg_survey *o, const pg_symbol *s)
         int best = 0, found = 0;
         for (int a = 0; a <= d; a++) k[a] = size / sqrt (d + 1);
         pg_symbol_solve (s, k, 1, &m);
-        for (int i = 1; i < m.n; i++) if ((1 - m.turning[i]) * m.along[i] > (1 - m.turning[best]) * m.along[best]) best = i;
+        for (int i = 1; i < m.n; i++)
+            if ((1 - m.turning[i]) * m.along[i] > (1 - m.turning[best]) * m.along[best]) best = i;
         o->wave[d].along = names[d], o->wave[d].longitudinal = m.value[best] / size / w.pressure;
         o->wave[d].shear[0] = o->wave[d].shear[1] = NAN;
-        for (int i = 0; i < m.n && found < s->dim - 1; i++)            /* slow ones first: those that turn are fast       */
+        for (int i = 0; i < m.n && found < s->dim - 1; i++)  /* slow ones first: those that turn are fast */
             if (i != best && m.turning[i] < 0.5) o->wave[d].shear[found++] = m.value[i] / size / w.shear;
         if (found == 1) o->wave[d].shear[1] = o->wave[d].shear[0];
     }
@@ -129,37 +141,48 @@ pg_status pg_symbol_survey (pg_survey *o, const pg_symbol *s)
     int nv = pg_voigt_size (s->dim);
     memset (o, 0, sizeof *o);
     o->grid = s->dim == 1 ? 240 : s->dim == 2 ? 48 : 24;
-    o->smallest.value = o->softest.value = o->shortest[0] = INFINITY, o->shortest[1] = -INFINITY, o->turning[0] = o->turning[1] = NAN;
+    o->smallest.value = o->softest.value = o->shortest[0] = INFINITY, o->shortest[1] = -INFINITY,
+    o->turning[0] = o->turning[1] = NAN;
     PG_TRY (sample_zone (s, o->grid, &list, &n));
     o->vectors = n;
-    for (size_t i = 0; i < n; i++) o->largest = fmax (o->largest, fmax (fabs (list[i].still.value[0]), list[i].still.value[list[i].still.n - 1]));
+    for (size_t i = 0; i < n; i++)
+        o->largest = fmax (o->largest,
+                           fmax (fabs (list[i].still.value[0]), list[i].still.value[list[i].still.n - 1]));
     for (size_t i = 0; i < n; i++) look (o, s, &list[i], o->grid);
     travel (o, s);
     pg_symbol_tangent (s, o->tangent);
     for (int e = 0; e < nv * nv; e++) {
         double D = s->material.D[e];
-        o->tangent[e] = fabs (D) > 1e-12 * s->material.modulus ? o->tangent[e] / D : o->tangent[e] / s->material.modulus;
+        o->tangent[e] = fabs (D) > 1e-12 * s->material.modulus ? o->tangent[e] / D
+                                                               : o->tangent[e] / s->material.modulus;
     }
 done:
     pg_free (list);
     return status;
 }
 
-/* ---- path ---------------------------------------------------------------------------------------------------------------------------------- */
-size_t pg_symbol_path (const pg_symbol *s, size_t leg, size_t i, double *k, double *length_of, const char **name)
+/* ---- path ---------------------------------------------------------------------------------------------- */
+size_t pg_symbol_path (const pg_symbol *s, size_t leg, size_t i, double *k, double *length_of,
+                       const char **name)
 {
-    static const int corner[3][5][3] = { { { 0 }, { 1 } }, { { 0 }, { 1 }, { 1, 1 }, { 0 } }, { { 0 }, { 1 }, { 1, 1 }, { 1, 1, 1 }, { 0 } } };
-    static const char *const names[3][5] = { { "Gamma", "X" }, { "Gamma", "X", "M", "Gamma" }, { "Gamma", "X", "M", "R", "Gamma" } };
+    static const int corner[3][5][3] = { { { 0 }, { 1 } },
+                                         { { 0 }, { 1 }, { 1, 1 }, { 0 } },
+                                         { { 0 }, { 1 }, { 1, 1 }, { 1, 1, 1 }, { 0 } } };
+    static const char *const names[3][5] = { { "Gamma", "X" },
+                                             { "Gamma", "X", "M", "Gamma" },
+                                             { "Gamma", "X", "M", "R", "Gamma" } };
     size_t legs = (size_t) (s->dim == 1 ? 1 : s->dim + 1), from = i / leg < legs ? i / leg : legs - 1;
     const int (*c)[3] = corner[s->dim - 1];
     double share = ((double) i - (double) (from * leg)) / (double) leg;
     *length_of = 0;
     for (size_t q = 0; q <= from; q++) {
         double way = 0;
-        for (int a = 0; a < s->dim; a++) way += (c[q + 1][a] - c[q][a]) * (c[q + 1][a] - c[q][a]) * pi * pi / (s->step[a] * s->step[a]);
+        for (int a = 0; a < s->dim; a++)
+            way += (c[q + 1][a] - c[q][a]) * (c[q + 1][a] - c[q][a]) * pi * pi / (s->step[a] * s->step[a]);
         *length_of += sqrt (way) * (q < from ? 1 : share);
     }
-    for (int a = 0; a < s->dim; a++) k[a] = pi / s->step[a] * (c[from][a] + share * (c[from + 1][a] - c[from][a]));
+    for (int a = 0; a < s->dim; a++)
+        k[a] = pi / s->step[a] * (c[from][a] + share * (c[from + 1][a] - c[from][a]));
     *name = i % leg ? "" : names[s->dim - 1][i / leg];
     return legs * leg + 1;
 }

@@ -12,7 +12,9 @@ const char *pg_motion_kind (const pg_motion *m, const pg_symbol *s)
     if (m->turning > 0.1) return "rotation and displacement";
     if (s->dim == 1 || k == 0) return "displacement";
     if (m->alike == s->dim) return "displacement, any direction";
-    return m->along > 0.9 ? "longitudinal displacement" : m->along < 0.1 ? "transverse displacement" : "displacement along and across";
+    return m->along > 0.9   ? "longitudinal displacement"
+           : m->along < 0.1 ? "transverse displacement"
+                            : "displacement along and across";
 }
 
 void pg_motion_where (const pg_motion *m, const pg_symbol *s, char *text, size_t size)
@@ -26,7 +28,8 @@ void pg_motion_where (const pg_motion *m, const pg_symbol *s, char *text, size_t
         length += m->k[a] * m->k[a];
     }
     if (length == 0) snprintf (text, size, "all points alike");
-    else if (inside || !ends) snprintf (text, size, "waves of %.3g spacings", 2 * 3.14159265358979323846 / sqrt (length) / s->h);
+    else if (inside || !ends)
+        snprintf (text, size, "waves of %.3g spacings", 2 * 3.14159265358979323846 / sqrt (length) / s->h);
     else if (ends == s->dim) snprintf (text, size, ends == 1 ? "from point to point" : "checkerboard");
     else if (ends == 1) snprintf (text, size, "alternating along %c", "xyz"[axis]);
     else snprintf (text, size, "alternating along two axes");
@@ -35,20 +38,32 @@ void pg_motion_where (const pg_motion *m, const pg_symbol *s, char *text, size_t
 void pg_survey_verdict (const pg_survey *v, const pg_symbol *s, const pg_problem *p, char *text, size_t size)
 {
     char where[64];
-    int nodal = !p->direct && p->integration->at_nodes, nosb = nodal && strcmp (p->approx.type->name, "nosb") == 0;
-    const char *cure = nosb ? "method.stabilization: silling, or method.integration: gauss" : nodal ? "method.integration: gauss"
-                     : p->turns && v->negative ? "a smaller Poisson's ratio" : p->approx.horizon < 1.7 * s->h ? "a larger horizon" : "another kernel or a smaller horizon";
+    int nodal = !p->direct && p->integration->at_nodes,
+        nosb = nodal && strcmp (p->approx.type->name, "nosb") == 0;
+    const char *cure = nosb    ? "method.stabilization: silling, or method.integration: gauss"
+                       : nodal ? "method.integration: gauss"
+                       : p->turns && v->negative        ? "a smaller Poisson's ratio"
+                       : p->approx.horizon < 1.7 * s->h ? "a larger horizon"
+                                                        : "another kernel or a smaller horizon";
     if (v->negative) {
         pg_motion_where (&v->smallest, s, where, sizeof where);
-        snprintf (text, size, "unstable: %s (%s) gains energy, as do %zu more motions of %d^%d points; try %s", pg_motion_kind (&v->smallest, s), where,
-                  v->negative - 1, v->grid, s->dim, cure);
+        snprintf (text, size,
+                  "unstable: %s (%s) gains energy, as do %zu more motions of %d^%d points; try %s",
+                  pg_motion_kind (&v->smallest, s), where, v->negative - 1, v->grid, s->dim, cure);
     } else if (v->zero) {
         pg_motion_where (&v->first, s, where, sizeof where);
-        snprintf (text, size, "unstable: nothing resists %zu motion%s of %d^%d points beside rigid translation, such as %s (%s); try %s", v->zero, v->zero > 1 ? "s" : "", v->grid, s->dim,
-                  pg_motion_kind (&v->first, s), where, cure);
+        snprintf (text, size,
+                  "unstable: nothing resists %zu motion%s of %d^%d points beside rigid translation, such as "
+                  "%s (%s); try %s",
+                  v->zero, v->zero > 1 ? "s" : "", v->grid, s->dim, pg_motion_kind (&v->first, s), where,
+                  cure);
     } else if (v->weak) {
         pg_motion_where (&v->softest, s, where, sizeof where);
-        snprintf (text, size, "stable, but weak: %s (%s) meets %.2g of the resistance of a continuum; if results are rough from point to point, try %s",
+        snprintf (text, size,
+                  "stable, but weak: %s (%s) meets %.2g of the resistance of a continuum; if results are "
+                  "rough from point to point, try %s",
                   pg_motion_kind (&v->softest, s), where, v->softest.value, cure);
-    } else snprintf (text, size, "stable: every motion is resisted, by at least %.2g of what a continuum would", v->softest.value);
+    } else
+        snprintf (text, size, "stable: every motion is resisted, by at least %.2g of what a continuum would",
+                  v->softest.value);
 }

@@ -19,7 +19,8 @@ static inline size_t power (size_t base, int exponent)
     return p;
 }
 
-/* per_axis^dim nodes h apart from the origin on, moved by up to amount * h; volumes h^dim (1 + 0.3 amount * random). */
+/* per_axis^dim nodes h apart from the origin on, moved by up to amount * h; volumes h^dim (1 + 0.3 amount *
+ * random). */
 static inline pg_cloud lattice (int dim, size_t per_axis, double h, double amount)
 {
     pg_cloud c = { .dim = dim, .n = power (per_axis, dim), .h = h, .step = { h, h, h }, .thickness = 1 };
@@ -49,7 +50,8 @@ static inline pg_approx make (const char *type, const char *kernel, int order, i
 }
 
 /* Rows at n points, all evaluated with every bond alive. */
-static inline pg_rows rows_at (const pg_approx *a, const pg_cloud *c, size_t n, const double *x, const int *own)
+static inline pg_rows rows_at (const pg_approx *a, const pg_cloud *c, size_t n, const double *x,
+                               const int *own)
 {
     pg_rows rows;
     check_ok (pg_rows_create (&rows, a, c, n, x, NULL, own, NULL));
@@ -97,7 +99,8 @@ static inline void check_derivative (const pg_approx *a, const pg_cloud *c, cons
         pg_rows up = rows_at (a, c, 1, y, NULL);
         y[k] = x[k] - step;
         pg_rows down = rows_at (a, c, 1, y, NULL);
-        for (int j = 0; j < (int) c->n; j++) check_absolute (dN_of (&r, 0, j, k), (N_of (&up, 0, j) - N_of (&down, 0, j)) / (2 * step), 1e-7);
+        for (int j = 0; j < (int) c->n; j++)
+            check_absolute (dN_of (&r, 0, j, k), (N_of (&up, 0, j) - N_of (&down, 0, j)) / (2 * step), 1e-7);
         pg_rows_clear (&up);
         pg_rows_clear (&down);
     }

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Spacings that differ from point to point: consistency, exact derivatives, and equal spacings as if there were none. */
+ * Spacings that differ from point to point: consistency, exact derivatives, and equal spacings as if there
+ * were none. */
 #include "check.h"
 #include "lattice.h"
 
 static const size_t per_axis[4] = { 0, 14, 9, 6 };
 static const double growth[4] = { 1, 1.25, 1.25, 1.3 };
 
-/* Steps grow from h by a factor from one to the next, points moved at random; spacing: the longest step, times 1 +- 0.15. */
+/* Steps grow from h by a factor from one to the next, points moved at random; spacing: the longest step,
+ * times 1 +- 0.15. */
 static pg_cloud graded (int dim)
 {
     pg_cloud c = lattice (dim, per_axis[dim], 1, 0);
@@ -22,7 +24,7 @@ static pg_cloud graded (int dim)
         c.size[i] = size * (1 + 0.15 * rnd ());
         c.volume[i] = pow (size, dim);
     }
-    c.h = 1.7;                                         /* any: only ratios and horizon / h matter                        */
+    c.h = 1.7;                                         /* any: only ratios and horizon / h matter */
     return c;
 }
 
@@ -41,7 +43,8 @@ static double extent (const pg_cloud *c)
 
 static double reach (int dim, int order) { return 1.7 * (order == 1 ? 2.7 : dim == 1 ? 4.5 : 3.4); }
 
-/* Largest errors of 1, x_k (and x_k x_l), values and derivatives, over the largest value in the family and its spacing. */
+/* Largest errors of 1, x_k (and x_k x_l), values and derivatives, over the largest value in the family and
+ * its spacing. */
 static void worst (const pg_cloud *c, const pg_rows *r, int order, double *value, double *slope)
 {
     size_t dim = (size_t) c->dim;
@@ -54,7 +57,8 @@ static void worst (const pg_cloud *c, const pg_rows *r, int order, double *value
             for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
                 const double *y = c->x + (size_t) r->family.node[e] * dim;
                 double fj = (a < 0 ? 1 : y[a] - x[a] + 0.5) * (b < 0 ? 1 : y[b] - x[b] - 0.3);
-                size = fmax (size, fabs (fj)), step = step > 0 ? fmin (step, c->size[r->family.node[e]]) : c->size[r->family.node[e]];
+                size = fmax (size, fabs (fj)),
+                step = step > 0 ? fmin (step, c->size[r->family.node[e]]) : c->size[r->family.node[e]];
                 f += r->N[e] * fj;
                 for (size_t k = 0; k < dim; k++) g[k] += r->dN[e * dim + k] * fj;
             }
@@ -81,10 +85,12 @@ static void bases_are_reproduced (void **state)
                         for (int k = 0; k < 50 * dim; k++) x[k] = top * (0.5 + 0.5 * rnd ());
                         pg_rows r = nodes ? rows_at_nodes (&a, &c) : rows_at (&a, &c, 50, x, NULL);
                         for (size_t i = 0; i < r.n; i++)
-                            if (r.grade[i] != PG_GRADE_FULL) fail_msg ("%s, order %d in %dD: grade %d", type[t], order, dim, r.grade[i]);
+                            if (r.grade[i] != PG_GRADE_FULL)
+                                fail_msg ("%s, order %d in %dD: grade %d", type[t], order, dim, r.grade[i]);
                         worst (&c, &r, order, &value, &slope);
                         if (!(value <= 1e-11) || !(slope <= 1e-11))
-                            fail_msg ("%s, order %d in %dD: value %.3g, slope %.3g off", type[t], order, dim, value, slope);
+                            fail_msg ("%s, order %d in %dD: value %.3g, slope %.3g off", type[t], order, dim,
+                                      value, slope);
                         pg_rows_clear (&r);
                         graded_clear (&c);
                     }
@@ -115,9 +121,11 @@ static void equal_spacings_change_no_bit (void **state)
         for (int dim = 1; dim <= 3; dim++)
             for (size_t n = 0; pg_kernel_entry (n); n++)
                 for (int order = 1; order <= 2; order++) {
-                    int shape = n % 2 && strcmp (pg_kernel_entry (n)->name, "inverse_r") ? PG_TENSOR : PG_RADIAL;
+                    int shape = n % 2 && strcmp (pg_kernel_entry (n)->name, "inverse_r") ? PG_TENSOR
+                                                                                         : PG_RADIAL;
                     pg_cloud c = lattice (dim, per_axis[dim], 0.3, n % 3 ? 0.2 : 0), d = c;
-                    pg_approx a = make (type[t], pg_kernel_entry (n)->name, order, shape, 0.3 * (order == 1 ? 2 : 3));
+                    pg_approx a = make (type[t], pg_kernel_entry (n)->name, order, shape,
+                                        0.3 * (order == 1 ? 2 : 3));
                     d.size = pg_calloc (c.n, sizeof *d.size);
                     for (size_t i = 0; i < c.n; i++) d.size[i] = c.h;
                     pg_rows r = rows_at_nodes (&a, &c), s = rows_at_nodes (&a, &d);

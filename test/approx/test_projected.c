@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * degenerate: projected. Points whose neighbours lie on a line or a plane keep the derivatives along it: theory F3 item 3, value F-4. */
+ * degenerate: projected. Points whose neighbours lie on a line or a plane keep the derivatives along it:
+ * theory F3 item 3, value F-4. */
 #include "lattice.h"
 #include "approx/moment.h"
 #include "scene_runs/run.h"
@@ -42,11 +43,13 @@ static void prescribed_weights_give_the_tabled_values (void **state)
     size_t entry[4] = { 0, 1, 2, 3 };
     for (int i = 0; i < 8; i++) z[i] = line[i] / 2;
     for (int j = 0; j < 4; j++) w[j] = given[j] / 3.5;
-    pg_star s = { .dim = 2, .constant = 1, .a = 2, .n = 4, .entry = entry, .z = z, .w = w, .p = p, .project = 1 };
-    assert_int_equal (pg_star_grade (&s, 1, 1), PG_GRADE_PROJECTED);
-    pg_star_solve (&s, 0, b);
-    pg_star_shape (&s, b, N);
-    pg_star_differential (&s, dN);
+    pg_neighbourhood s = {
+        .dim = 2, .constant = 1, .a = 2, .n = 4, .entry = entry, .z = z, .w = w, .p = p, .project = 1
+    };
+    assert_int_equal (pg_neighbourhood_grade (&s, 1, 1), PG_GRADE_PROJECTED);
+    pg_neighbourhood_solve (&s, 0, b);
+    pg_neighbourhood_shape (&s, b, N);
+    pg_neighbourhood_differential (&s, dN);
     for (int j = 0; j < 4; j++) check_absolute (N[j], F4[j], 1e-8);
     for (int k = 0; k < 2; k++)
         for (int l = 0; l < 2; l++) {
@@ -98,8 +101,8 @@ static void by_default_the_same_point_carries_no_stress (void **state)
 /* ---- lines and planes in any direction ---- */
 enum { MOST = 40 };
 typedef struct {
-    int      dim, flat;                                /* dimension of the space, of the line (1) or plane (2)            */
-    double   frame[9];                                 /* rows: directions, first those along it                          */
+    int      dim, flat;  /* dimension of the space, of the line (1) or plane (2) */
+    double   frame[9];                                 /* rows: directions, first those along it */
     double   x[3 * MOST], volume[MOST];
     pg_cloud cloud;
 } sheet;
@@ -126,7 +129,8 @@ static void sheet_create (sheet *s, int dim, int flat, double thick)
     *s = (sheet) { .dim = dim, .flat = flat };
     frame_of (s);
     for (size_t i = 0; i < n; i++) {
-        double along[3] = { (double) (flat == 1 ? i : i % 5) - (flat == 1 ? 3 : 2) + 0.2 * rnd (), (double) (i / 5) - 2 + 0.2 * rnd () };
+        double along[3] = { (double) (flat == 1 ? i : i % 5) - (flat == 1 ? 3 : 2) + 0.2 * rnd (),
+                            (double) (i / 5) - 2 + 0.2 * rnd () };
         for (int k = flat; k < dim; k++) along[k] = thick * rnd ();
         for (int c = 0; c < dim; c++)
             for (int k = 0; k < dim; k++) s->x[i * (size_t) dim + (size_t) c] += along[k] * s->frame[3*k + c];
@@ -170,8 +174,9 @@ static void check_row (const sheet *s, const pg_rows *r, const double *x, double
             value += r->N[e] * y;
             for (size_t k = 0; k < dim; k++) slope[k] += r->dN[e*dim + k] * y;
         }
-        check_absolute (value, d < s->flat ? along (s, d, x) : 0, exact);                /* across: the foot of the point */
-        for (size_t k = 0; k < dim; k++) check_absolute (slope[k], d < s->flat ? s->frame[3*d + (int) k] : 0, exact);
+        check_absolute (value, d < s->flat ? along (s, d, x) : 0, exact);  /* across: the foot of the point */
+        for (size_t k = 0; k < dim; k++)
+            check_absolute (slope[k], d < s->flat ? s->frame[3 * d + (int) k] : 0, exact);
     }
 }
 
@@ -186,7 +191,8 @@ static void fields_along_a_line_or_plane_are_reproduced (void **state)
         middle = s.flat == 1 ? 3 : 12;
         place (&s, 0.1 * rnd (), t % 2 ? 0.4 * rnd () : 0, x);
         if (on_a_node) memcpy (x, s.x + middle * s.dim, (size_t) s.dim * sizeof *x);
-        pg_approx a = projecting (type[t % 3], t % 5 ? "cubic_spline" : "quadratic", 1, t % 7 ? PG_RADIAL : PG_TENSOR, 2.7);
+        pg_approx a = projecting (type[t % 3], t % 5 ? "cubic_spline" : "quadratic", 1,
+                                  t % 7 ? PG_RADIAL : PG_TENSOR, 2.7);
         pg_rows r = rows_at (&a, &s.cloud, 1, x, on_a_node ? &middle : NULL);
         check_row (&s, &r, x, 1e-14, 1e-12);
         pg_rows_clear (&r);
@@ -230,14 +236,15 @@ static void a_nearly_flat_sheet_is_flat (void **state)
                 for (size_t k = 0; k < m; k++) {
                     check_below (fabs (r.dN[e*m + k]), 2);
                     rate[k] += r.dN[e*m + k];
-                    for (size_t l = 0; l < m; l++) P[k*m + l] += r.dN[e*m + k] * s.x[(size_t) r.family.node[e] * m + l];
+                    for (size_t l = 0; l < m; l++)
+                        P[k * m + l] += r.dN[e * m + k] * s.x[(size_t) r.family.node[e] * m + l];
                 }
             }
             check_absolute (one, 1, 1e-14);
             for (size_t k = 0; k < m; k++) check_absolute (rate[k], 0, 1e-14);
             pg_rows_clear (&r);
             if (t % 3 == 0) continue;                  /* rkpm: exact along the sheet only */
-            for (size_t k = 0; k < m; k++)             /* gradients of the coordinates: a projector of rank `flat` */
+            for (size_t k = 0; k < m; k++)  /* gradients of the coordinates: a projector of rank `flat` */
                 for (size_t l = 0; l < m; l++) {
                     double square = 0;
                     for (size_t c = 0; c < m; c++) square += P[k*m + c] * P[c*m + l];
@@ -249,7 +256,8 @@ static void a_nearly_flat_sheet_is_flat (void **state)
         }
 }
 
-/* On an exactly flat sheet the projector is constant: nothing is neglected in rkpm's derivative, whichever way the point moves. */
+/* On an exactly flat sheet the projector is constant: nothing is neglected in rkpm's derivative, whichever
+ * way the point moves. */
 static void the_derivative_of_rkpm_is_that_of_its_shape_functions (void **state)
 {
     (void) state;
@@ -269,7 +277,8 @@ static void the_derivative_of_rkpm_is_that_of_its_shape_functions (void **state)
             if (place_of (&r, 0, j) == (size_t) -1) continue;
             for (int k = 0; k < s.dim; k++) {
                 size_t up = (size_t) (1 + 2*k), down = up + 1;
-                check_absolute (dN_of (&r, 0, j, k), (N_of (&r, up, j) - N_of (&r, down, j)) / (2 * step), 1e-6);
+                check_absolute (dN_of (&r, 0, j, k), (N_of (&r, up, j) - N_of (&r, down, j)) / (2 * step),
+                                1e-6);
             }
         }
         pg_rows_clear (&r);
@@ -309,7 +318,7 @@ static void too_little_is_left_for_a_direction (void **state)
     double x[8] = { 0.5, 0.1, 0.5, 0.1, 0.5, 0.1, 0.51, 0.1 }, volume[4] = { 1, 1, 1, 1 };
     const double at[2] = { 0.3, 0 };
     for (int t = 0; t < 3; t++)
-        for (size_t n = 0; n <= 4; n++) {              /* none, one, two and three at one place, one 0.01 h beside them */
+        for (size_t n = 0; n <= 4; n++) {  /* none, one, two and three at one place, one 0.01 h beside them */
             pg_cloud c = { .dim = 2, .n = n, .x = x, .volume = volume, .h = 1, .thickness = 1 };
             pg_approx a = projecting (type[t], "quadratic", 1, PG_RADIAL, 2);
             if (n == 0) continue;
@@ -380,7 +389,7 @@ static void only_points_of_the_plain_rule_change (void **state)
         check_ok (off.type->evaluate (&off, &c, &b, alive, c.n, NULL, 1));
         assert_int_equal (pg_rows_count (&b, PG_GRADE_PROJECTED), 0);
         assert_true (pg_rows_count (&b, PG_GRADE_SHEPARD) > 0);
-        if (order == 2 || dim == 1) check_same (&a, &b);                   /* the quadratic basis never projects */
+        if (order == 2 || dim == 1) check_same (&a, &b);  /* the quadratic basis never projects */
         for (size_t i = 0; i < a.n; i++) {
             size_t first = a.family.start[i], m = a.family.start[i + 1] - first;
             if (a.grade[i] != b.grade[i]) {
@@ -390,7 +399,8 @@ static void only_points_of_the_plain_rule_change (void **state)
                 continue;
             }
             assert_memory_equal (a.N + first, b.N + first, m * sizeof *a.N);
-            assert_memory_equal (a.dN + first * (size_t) dim, b.dN + first * (size_t) dim, m * (size_t) dim * sizeof *a.dN);
+            assert_memory_equal (a.dN + first * (size_t) dim, b.dN + first * (size_t) dim,
+                                 m * (size_t) dim * sizeof *a.dN);
         }
         pg_free (alive);
         pg_rows_clear (&a);
@@ -400,7 +410,8 @@ static void only_points_of_the_plain_rule_change (void **state)
     assert_true (changed > 100);
 }
 
-/* rkpm's derivative is a difference of terms up to 1e2 times as large where all that lives is close to the support's edge. */
+/* rkpm's derivative is a difference of terms up to 1e2 times as large where all that lives is close to the
+ * support's edge. */
 static void random_deaths_keep_the_partition_of_unity (void **state)
 {
     (void) state;
@@ -481,7 +492,8 @@ static void no_point_allocates (void **state)
 static void the_scene_chooses (void **state)
 {
     (void) state;
-    static const char *const text[] = { "{horizon: 7 mm}", "{degenerate: shepard}", "{degenerate: projected}" };
+    static const char *const text[] = { "{horizon: 7 mm}", "{degenerate: shepard}",
+                                        "{degenerate: projected}" };
     for (int t = 0; t < 3; t++) {
         pg_scene *s = NULL;
         pg_approx a;
@@ -498,8 +510,11 @@ static void the_scene_chooses (void **state)
     pg_scene_free (&s);
 }
 
-/* A row of points cut off from those above and below, in a plate that is pulled along it: nothing, or the bar of one dimension. */
-#define BAR "spacing: 0.1\nmaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0}}\nsolver: {stepping: fixed, steps: 1}\n" \
+/* A row of points cut off from those above and below, in a plate that is pulled along it: nothing, or the bar
+ * of one dimension. */
+#define BAR \
+    "spacing: 0.1\nmaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0}}\nsolver: {stepping: " \
+    "fixed, steps: 1}\n" \
     "output: {at: {levels: 1}}\nmethod: {approximation: %s, integration: nodal, stabilization: none, " \
     "essential: transformation, degenerate: %s}\n"
 static void a_row_between_two_cuts_carries_the_stress_of_a_bar (void **state)
@@ -507,17 +522,25 @@ static void a_row_between_two_cuts_carries_the_stress_of_a_bar (void **state)
     (void) state;
     for (int t = 0; t < 4; t++) {
         const char *rule = t / 2 ? "projected" : "shepard";
-        run bar = scene_of (1, BAR "dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\n"
-            "boundary: [{set: left, displacement: {x: 0}}, {set: right, displacement: {x: 1 mm}}]\n", type[t % 2], rule);
-        run plate = scene_of (1, BAR "dimension: 2\nthickness: 20 mm\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\n"
-            "cracks: [{from: [-0.2, 0.35], to: [1.2, 0.35]}, {from: [-0.2, 0.45], to: [1.2, 0.45]}]\n"
-            "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 1 mm, y: 0}}]\n", type[t % 2], rule);
+        run bar = scene_of (
+            1,
+            BAR "dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\n"
+                "boundary: [{set: left, displacement: {x: 0}}, {set: right, displacement: {x: 1 mm}}]\n",
+            type[t % 2], rule);
+        run plate = scene_of (
+            1,
+            BAR "dimension: 2\nthickness: 20 mm\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\n"
+                "cracks: [{from: [-0.2, 0.35], to: [1.2, 0.35]}, {from: [-0.2, 0.45], to: [1.2, 0.45]}]\n"
+                "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 1 mm, y: "
+                "0}}]\n",
+            type[t % 2], rule);
         size_t row = 0, degenerate, isolated, fragments;
         int components;
         void *self;
         to_the_end (&bar);
         to_the_end (&plate);
-        double *s = field_of (&plate, NULL, "stress", &components), *exact = field_of (&bar, NULL, "stress", NULL);
+        double *s = field_of (&plate, NULL, "stress", &components),
+               *exact = field_of (&bar, NULL, "stress", NULL);
         for (size_t i = 0; i < plate.problem->cloud.n; i++) {
             const double *x = plate.problem->cloud.x + 2*i, *stress = s + i * (size_t) components;
             if (fabs (x[1] - 0.4) > 0.01) continue;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Polynomials up to the order of the basis are reproduced, values and derivatives, on points moved at random; the derivative
- * of the reproducing kernel is the derivative of its shape function. */
+ * Polynomials up to the order of the basis are reproduced, values and derivatives, on points moved at random;
+ * the derivative of the reproducing kernel is the derivative of its shape function. */
 #include "check.h"
 #include "lattice.h"
 
@@ -9,7 +9,8 @@ static const size_t per_axis[4] = { 0, 12, 8, 6 };
 /* A polynomial of the order with fixed coefficients; value and gradient at x (units of h). */
 static double polynomial (int dim, int order, const double *x, double *slope)
 {
-    const double b[3] = { 0.7, -1.3, 0.4 }, C[3][3] = { { 0.5, -0.8, 0.3 }, { 0, 0.9, -0.6 }, { 0, 0, -0.2 } };
+    const double b[3] = { 0.7, -1.3, 0.4 },
+                 C[3][3] = { { 0.5, -0.8, 0.3 }, { 0, 0.9, -0.6 }, { 0, 0, -0.2 } };
     double f = 1.5;
     for (int k = 0; k < dim; k++) f += b[k] * x[k], slope[k] = b[k];
     for (int k = 0; order == 2 && k < dim; k++)
@@ -26,7 +27,8 @@ static void worst (const pg_cloud *c, const pg_rows *r, int order, double *value
 {
     *value = *slope = 0;
     for (size_t i = 0; i < r->n; i++) {
-        double f = 0, g[3] = { 0 }, exact[3], unused[3], size = 1, fx = polynomial (c->dim, order, r->x + i * (size_t) c->dim, exact);
+        double f = 0, g[3] = { 0 }, exact[3], unused[3], size = 1,
+               fx = polynomial (c->dim, order, r->x + i * (size_t) c->dim, exact);
         for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
             double fj = polynomial (c->dim, order, c->x + r->family.node[e] * c->dim, unused);
             size = fmax (size, fabs (fj));
@@ -45,19 +47,21 @@ static void check_family (const char *type, int dim, int order, int at_nodes)
     pg_cloud c = lattice (dim, per_axis[dim], 1, 0.2);
     for (size_t n = 0; pg_kernel_entry (n); n++)
         for (int shape = PG_RADIAL; shape <= PG_TENSOR; shape++) {
-            if (shape == PG_TENSOR && strcmp (pg_kernel_entry (n)->name, "inverse_r") == 0) continue;  /* infinite on planes */
+            /* infinite on planes */
+            if (shape == PG_TENSOR && strcmp (pg_kernel_entry (n)->name, "inverse_r") == 0) continue;
             pg_approx a = make (type, pg_kernel_entry (n)->name, order, shape, reach (dim, order));
             double x[150], value, slope;
             for (int k = 0; k < 50 * dim; k++) x[k] = ((double) per_axis[dim] - 1) * (0.5 + 0.5 * rnd ());
             pg_rows r = at_nodes ? rows_at_nodes (&a, &c) : rows_at (&a, &c, 50, x, NULL);
             for (size_t i = 0; i < r.n; i++)
                 if (r.grade[i] != PG_GRADE_FULL)
-                    fail_msg ("%s, %s, order %d in %dD: grade %d", type, a.kernel->name, order, dim, r.grade[i]);
+                    fail_msg ("%s, %s, order %d in %dD: grade %d", type, a.kernel->name, order, dim,
+                              r.grade[i]);
             for (int o = 0; o <= order; o++) {
                 worst (&c, &r, o, &value, &slope);
                 if (!(value <= 1e-12) || !(slope <= 1e-12))
-                    fail_msg ("%s, %s, %s, order %d of %d in %dD: value %.3g, slope %.3g off", type, a.kernel->name,
-                              shape ? "tensor" : "radial", o, order, dim, value, slope);
+                    fail_msg ("%s, %s, %s, order %d of %d in %dD: value %.3g, slope %.3g off", type,
+                              a.kernel->name, shape ? "tensor" : "radial", o, order, dim, value, slope);
             }
             pg_rows_clear (&r);
         }
@@ -111,7 +115,8 @@ static void compare_scaled (double unit, double shift, double tolerance)
                     for (size_t e = r.family.start[i]; e < r.family.start[i + 1]; e++) {
                         check_absolute (N_of (&s, i, r.family.node[e]), r.N[e], tolerance);
                         for (int k = 0; k < dim; k++)
-                            check_absolute (unit * dN_of (&s, i, r.family.node[e], k), r.dN[e * (size_t) dim + (size_t) k], tolerance);
+                            check_absolute (unit * dN_of (&s, i, r.family.node[e], k),
+                                            r.dN[e * (size_t) dim + (size_t) k], tolerance);
                     }
                 }
                 pg_rows_clear (&r);

@@ -69,7 +69,7 @@ static void a_list_gives_the_bits_of_the_whole (void **state)
         size_t list[27];
         for (size_t k = 0; k < 27; k++) {
             list[k] = 80 - 3 * k;
-            for (size_t i = list[k] - 2; i < list[k]; i++)             /* the other rows keep all their bonds */
+            for (size_t i = list[k] - 2; i < list[k]; i++)  /* the other rows keep all their bonds */
                 for (size_t e = all.family.start[i]; e < all.family.start[i + 1]; e++) alive[e] = 1;
         }
         check_ok (a.type->evaluate (&a, &c, &all, alive, all.n, NULL, 1));
@@ -88,8 +88,10 @@ static void what_is_left_out_changes_no_bit (void **state)
     for (int t = 0; t < 3 * 2; t++) {
         pg_cloud c = lattice (2, 9, 1e-3, 0.2);
         pg_approx a = make (type[t / 2], "cubic_spline", 2, PG_RADIAL, 3.1e-3);
-        pg_rows all = rows_at_nodes (&a, &c), values = rows_at_nodes (&a, &c), grades = rows_at_nodes (&a, &c);
-        unsigned char *alive = t % 2 ? random_alive (&all) : NULL;     /* dead bonds: steep derivatives lower the grade */
+        pg_rows all = rows_at_nodes (&a, &c), values = rows_at_nodes (&a, &c),
+                grades = rows_at_nodes (&a, &c);
+        /* dead bonds: steep derivatives lower the grade */
+        unsigned char *alive = t % 2 ? random_alive (&all) : NULL;
         pg_free (values.dN), values.dN = NULL;
         pg_free (grades.dN), pg_free (grades.N), pg_free (grades.w);
         grades.dN = grades.N = grades.w = NULL;
@@ -157,7 +159,8 @@ static void dead_bonds_equal_missing_nodes (void **state)
         assert_int_equal (r.grade[0], s.grade[0]);
         for (int j = 0; j < 49; j++)
             for (int k = 0; k < 2; k++) {
-                double N = keep[j] < 0 ? 0 : N_of (&s, 0, keep[j]), dN = keep[j] < 0 ? 0 : dN_of (&s, 0, keep[j], k);
+                double N = keep[j] < 0 ? 0 : N_of (&s, 0, keep[j]),
+                       dN = keep[j] < 0 ? 0 : dN_of (&s, 0, keep[j], k);
                 assert_true (N_of (&r, 0, j) == N && dN_of (&r, 0, j, k) == dN);
             }
         pg_free (alive);
@@ -277,9 +280,11 @@ static void nosb_at_a_degenerate_node_keeps_the_node_alone (void **state)
 static void nosb_needs_neighbours_beside_the_node_itself (void **state)
 {
     (void) state;
-    double x[8] = { 0, 0, 1, 0, 0, 1, -1, -0.5 };      /* two neighbours: three points, yet no basis; three: a full one */
+    /* two neighbours: three points, yet no basis; three: a full one */
+    double x[8] = { 0, 0, 1, 0, 0, 1, -1, -0.5 };
     const double at[2] = { 0, 0 };
-    pg_rows two = among ("nosb", 1, 3, x, at, 0), three = among ("nosb", 1, 4, x, at, 0), pd = among ("pddo", 1, 3, x, at, 0);
+    pg_rows two = among ("nosb", 1, 3, x, at, 0), three = among ("nosb", 1, 4, x, at, 0),
+            pd = among ("pddo", 1, 3, x, at, 0);
     assert_int_equal (two.grade[0], PG_GRADE_SHEPARD);
     assert_int_equal (three.grade[0], PG_GRADE_FULL);
     assert_int_equal (pd.grade[0], PG_GRADE_FULL);
@@ -302,7 +307,8 @@ static void a_point_without_live_bonds_is_dead (void **state)
         assert_int_equal (r.grade[0], PG_GRADE_FULL);
         check_ok (a.type->evaluate (&a, &c, &r, alive, 1, NULL, 1));
         assert_int_equal (r.grade[0], PG_GRADE_DEAD);
-        for (int e = 0; e < 3; e++) assert_true (r.N[e] == 0 && r.w[e] == 0 && r.dN[2*e] == 0 && r.dN[2*e + 1] == 0);
+        for (int e = 0; e < 3; e++)
+            assert_true (r.N[e] == 0 && r.w[e] == 0 && r.dN[2 * e] == 0 && r.dN[2 * e + 1] == 0);
         pg_rows_clear (&r);
     }
 }
@@ -311,7 +317,8 @@ static void too_few_nodes_for_a_quadratic_give_a_linear_basis (void **state)
 {
     (void) state;
     double x[12] = { 0, 0, 1, 0.1, 0, 1, -1, -0.2, 0.2, -1, 1, 1 };
-    double cross[12] = { 0, 0, 1, 0, 0, 1, -1, 0, 0, -1, 2, 0 };     /* six nodes on two lines: xy is zero on all of them */
+    /* six nodes on two lines: xy is zero on all of them */
+    double cross[12] = { 0, 0, 1, 0, 0, 1, -1, 0, 0, -1, 2, 0 };
     const double at[2] = { 0.1, 0.1 };
     for (int t = 0; t < 2; t++) {
         pg_rows five = among (type[t], 2, 5, x, at, -1), linear = among (type[t], 1, 5, x, at, -1);
@@ -328,7 +335,8 @@ static void too_few_nodes_for_a_quadratic_give_a_linear_basis (void **state)
     }
 }
 
-/* A grade says what the derivatives of a point reproduce, whatever bonds have died: FULL all polynomials of the basis, LOWERED those of degree one. */
+/* A grade says what the derivatives of a point reproduce, whatever bonds have died: FULL all polynomials of
+ * the basis, LOWERED those of degree one. */
 static void grades_say_what_is_reproduced (void **state)
 {
     (void) state;
@@ -342,22 +350,32 @@ static void grades_say_what_is_reproduced (void **state)
         double share = 0.4 * (t / 2 % 5) - 0.6;
         for (size_t e = 0; e < nnz; e++) alive[e] = rnd () > share;
         for (size_t i = 0; i < r.n; i++)
-            for (size_t e = r.family.start[i]; e < r.family.start[i + 1]; e++) if (r.family.node[e] == (int) i) alive[e] = 1;
+            for (size_t e = r.family.start[i]; e < r.family.start[i + 1]; e++)
+                if (r.family.node[e] == (int) i) alive[e] = 1;
         check_ok (a.type->evaluate (&a, &c, &r, alive, r.n, NULL, 1));
         for (size_t i = 0; i < r.n; i++) {
-            double worst[3] = { 0 }, steep = 0;        /* by degree: dN of 1, of x and y, of products about the point   */
+            /* by degree: dN of 1, of x and y, of products about the point */
+            double worst[3] = { 0 }, steep = 0;
             seen[r.grade[i]]++;
             if (r.grade[i] > PG_GRADE_LOWERED) continue;
             for (int k = 0; k < 2; k++) {
                 double sum[6] = { 0 };
                 for (size_t e = r.family.start[i]; e < r.family.start[i + 1]; e++) {
-                    const double *y = c.x + 2 * (size_t) r.family.node[e], z[2] = { y[0] - c.x[2*i], y[1] - c.x[2*i + 1] }, p[6] = { 1, z[0], z[1], z[0]*z[0], z[0]*z[1], z[1]*z[1] };
+                    const double *y = c.x + 2 * (size_t) r.family.node[e],
+                                 z[2] = { y[0] - c.x[2 * i], y[1] - c.x[2 * i + 1] },
+                                 p[6] = { 1, z[0], z[1], z[0] * z[0], z[0] * z[1], z[1] * z[1] };
                     for (int m = 0; m < 6; m++) sum[m] += r.dN[2*e + (size_t) k] * p[m];
                     steep = fmax (steep, fabs (r.dN[2*e + (size_t) k]));
                 }
-                for (int m = 0; m < 6; m++) worst[m == 0 ? 0 : m < 3 ? 1 : 2] = fmax (worst[m == 0 ? 0 : m < 3 ? 1 : 2], fabs (sum[m] - (m == 1 + k)));
+                for (int m = 0; m < 6; m++)
+                    worst[m == 0  ? 0
+                          : m < 3 ? 1
+                                  : 2] = fmax (worst[m == 0  ? 0
+                                                     : m < 3 ? 1
+                                                             : 2],
+                                               fabs (sum[m] - (m == 1 + k)));
             }
-            check_below (worst[0] / fmax (1, steep), 1e-6);        /* rounding, where pivots are 1e-10: 1e-8                  */
+            check_below (worst[0] / fmax (1, steep), 1e-6);  /* rounding, where pivots are 1e-10: 1e-8 */
             check_below (worst[1] / fmax (1, steep), 1e-6);
             if (r.grade[i] == PG_GRADE_FULL) check_below (worst[2] / fmax (1, steep), 1e-6);
         }
@@ -368,8 +386,8 @@ static void grades_say_what_is_reproduced (void **state)
     assert_true (seen[PG_GRADE_FULL] > 500 && seen[PG_GRADE_LOWERED] > 100);
 }
 
-/* Wherever bonds die: never NaN, shape functions sum to 1 where any lives, gradients to 0. A quadratic basis is admitted down
- * to pivots of 1e-10, where the coefficients of p reach 1e5 and rounding 1e-11. */
+/* Wherever bonds die: never NaN, shape functions sum to 1 where any lives, gradients to 0. A quadratic basis
+ * is admitted down to pivots of 1e-10, where the coefficients of p reach 1e5 and rounding 1e-11. */
 static void random_deaths_keep_the_partition_of_unity (void **state)
 {
     (void) state;
@@ -402,7 +420,8 @@ static void random_deaths_keep_the_partition_of_unity (void **state)
         pg_rows_clear (&r);
         lattice_clear (&c);
     }
-    for (int g = 0; g <= PG_GRADE_DEAD; g++) assert_true ((seen[g] > 0) == (g != PG_GRADE_PROJECTED));       /* not by default */
+    /* not by default */
+    for (int g = 0; g <= PG_GRADE_DEAD; g++) assert_true ((seen[g] > 0) == (g != PG_GRADE_PROJECTED));
 }
 
 /* ---- failures ---- */
@@ -492,7 +511,7 @@ int main (void)
         cmocka_unit_test (a_node_outside_its_own_family_is_an_error_of_nosb),
         cmocka_unit_test (an_order_beyond_two_is_an_error),
         cmocka_unit_test (no_points_are_no_error),
-        cmocka_unit_test (grades_say_what_is_reproduced),          /* last: the others keep their random numbers           */
+        cmocka_unit_test (grades_say_what_is_reproduced),  /* last: the others keep their random numbers */
     };
     return cmocka_run_group_tests_name ("approx/rows", tests, NULL, NULL);
 }

@@ -31,7 +31,9 @@ static void every_key_arrives (void **state)
 {
     (void) state;
     pg_approx a;
-    check_ok (reading ("{approximation: pddo, basis: quadratic, kernel: gaussian, horizon: 7 mm, support: tensor}", &a));
+    check_ok (
+        reading ("{approximation: pddo, basis: quadratic, kernel: gaussian, horizon: 7 mm, support: tensor}",
+                 &a));
     assert_string_equal (a.type->name, "pddo");
     assert_string_equal (a.kernel->name, "gaussian");
     assert_int_equal (a.order, 2);

@@ -4,7 +4,8 @@
 #include "lattice.h"
 
 /* Nodes first ... first + n - 1 of a line: N or dN at x */
-static void line (const char *type, int order, double a, double x, int first, int n, const double *want, int slope, double tolerance)
+static void line (const char *type, int order, double a, double x, int first, int n, const double *want,
+                  int slope, double tolerance)
 {
     pg_cloud c = lattice (1, 11, 1, 0);
     pg_approx p = make (type, "cubic_spline", order, PG_RADIAL, a);
@@ -47,7 +48,8 @@ static void near_the_end_of_the_line (void **state)
 {
     (void) state;
     /* N from exact fractions: w = 3541/6000, 2089/6000, 27/6000 */
-    const double N[3] = { .702282050234942, .295435899530116, .002282050234942 }, rk[3] = { -.96461007, .92922014, .03538993 };
+    const double N[3] = { .702282050234942, .295435899530116, .002282050234942 },
+                 rk[3] = { -.96461007, .92922014, .03538993 };
     const double pd[3] = { -.9684, .93679999, .0316 };
     line ("rkpm", 1, 2, 0.3, 0, 3, N, 0, 1e-14);
     line ("rkpm", 1, 2, 0.3, 0, 3, rk, 1, 1e-7);
@@ -57,16 +59,19 @@ static void near_the_end_of_the_line (void **state)
 static void quadratic_line (void **state)
 {
     (void) state;
-    const double N[6] = { -.03285339, .06534773, .65958218, .36395097, -.05377246, -.00225504 }, end[3] = { -1.5, 2, -.5 };
+    const double N[6] = { -.03285339, .06534773, .65958218, .36395097, -.05377246, -.00225504 },
+                 end[3] = { -1.5, 2, -.5 };
     line ("rkpm", 2, 3, 5.25, 3, 6, N, 0, 1e-8);
     line ("rkpm", 2, 3, 0, 0, 3, end, 1, 1e-10);
 }
 
 /* One node of a lattice, seen from x: N, reproducing derivative, differential operator */
-static void one_node (int dim, size_t per_axis, int order, double a, const double *x, int node, const double *want, double tolerance)
+static void one_node (int dim, size_t per_axis, int order, double a, const double *x, int node,
+                      const double *want, double tolerance)
 {
     pg_cloud c = lattice (dim, per_axis, 1, 0);
-    pg_approx rk = make ("rkpm", "cubic_spline", order, PG_RADIAL, a), pd = make ("pddo", "cubic_spline", order, PG_RADIAL, a);
+    pg_approx rk = make ("rkpm", "cubic_spline", order, PG_RADIAL, a),
+              pd = make ("pddo", "cubic_spline", order, PG_RADIAL, a);
     pg_rows r = rows_at (&rk, &c, 1, x, NULL), p = rows_at (&pd, &c, 1, x, NULL);
     check_absolute (N_of (&r, 0, node), want[0], tolerance);
     check_absolute (N_of (&p, 0, node), want[0], tolerance);
@@ -99,7 +104,8 @@ static void solid_linear (void **state)
 {
     (void) state;
     const double x[3] = { 1.3, 1.6, 1.2 };
-    const double want[7] = { .165871866589, -.13673288, -.26986945, -.09133871, -.16582858, -.33213629, -.10946922 };
+    const double want[7] = { .165871866589, -.13673288, -.26986945, -.09133871,
+                             -.16582858,    -.33213629, -.10946922 };
     one_node (3, 4, 1, 2, x, 1 + 4 + 16, want, 1e-8);
 }
 

@@ -6,7 +6,7 @@
 enum { MOST = 16 };
 static uint64_t seed = 88172645463325252u;
 
-static double random_number (void)                     /* in [-1, 1)                                                     */
+static double random_number (void)                     /* in [-1, 1) */
 {
     seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
     return (double) (seed >> 11) / 4503599627370496.0 - 1;
@@ -67,7 +67,7 @@ static void cholesky_names_the_row_that_fails (void **state)
         for (int bad = 0; bad < n; bad++) {
             double A[MOST * MOST];
             random_spd (n, 0.5, 1, A);
-            A[bad*n + bad] = -1;                       /* rows above stay positive definite                              */
+            A[bad*n + bad] = -1;                       /* rows above stay positive definite */
             assert_int_equal (pg_dense_cholesky (n, A, 1e-14), bad + 1);
         }
 }
@@ -90,7 +90,8 @@ static void eigenpairs_rebuild_the_matrix (void **state)
     for (int n = 1; n <= MOST; n++)
         for (int power = -100; power <= 100; power += 100) {
             double A[MOST * MOST], keep[MOST * MOST], lambda[MOST], V[MOST * MOST], scale = pow (10, power);
-            for (int i = 0; i < n; i++) for (int j = 0; j <= i; j++) A[i*n + j] = A[j*n + i] = scale * random_number ();
+            for (int i = 0; i < n; i++)
+                for (int j = 0; j <= i; j++) A[i * n + j] = A[j * n + i] = scale * random_number ();
             memcpy (keep, A, sizeof keep);
             pg_dense_eigen (n, A, lambda, V);
             assert_memory_equal (A, keep, (size_t) (n * n) * sizeof *A);
@@ -98,7 +99,8 @@ static void eigenpairs_rebuild_the_matrix (void **state)
             for (int i = 0; i < n; i++)
                 for (int j = 0; j < n; j++) {
                     double s = 0, dot = 0;
-                    for (int k = 0; k < n; k++) s += V[i*n + k] * lambda[k] * V[j*n + k], dot += V[k*n + i] * V[k*n + j];
+                    for (int k = 0; k < n; k++)
+                        s += V[i * n + k] * lambda[k] * V[j * n + k], dot += V[k * n + i] * V[k * n + j];
                     check_scaled (s, A[i*n + j], 1e-13, n * scale);
                     check_absolute (dot, i == j, 1e-13);
                 }
@@ -112,7 +114,8 @@ static void eigenvalues_of_known_matrices (void **state)
     for (int i = 0; i < 8; i++) T[i*8 + i] = 2;
     for (int i = 1; i < 8; i++) T[i*8 + i - 1] = T[(i - 1)*8 + i] = -1;
     pg_dense_eigen (8, T, lambda, NULL);
-    for (int k = 0; k < 8; k++) check_absolute (lambda[k], 2 - 2 * cos ((8 - k) * 3.14159265358979323846 / 9), 1e-14);
+    for (int k = 0; k < 8; k++)
+        check_absolute (lambda[k], 2 - 2 * cos ((8 - k) * 3.14159265358979323846 / 9), 1e-14);
     pg_dense_eigen (3, I, lambda, NULL);
     for (int k = 0; k < 3; k++) check_relative (lambda[k], 4, 1e-15);
     pg_dense_eigen (2, zero, lambda, NULL);
@@ -125,12 +128,13 @@ static void determinant_is_the_product_of_eigenvalues (void **state)
     for (int n = 1; n <= 3; n++)
         for (int trial = 0; trial < 100; trial++) {
             double A[9], lambda[3], product = 1;
-            for (int i = 0; i < n; i++) for (int j = 0; j <= i; j++) A[i*n + j] = A[j*n + i] = random_number ();
+            for (int i = 0; i < n; i++)
+                for (int j = 0; j <= i; j++) A[i * n + j] = A[j * n + i] = random_number ();
             pg_dense_eigen (n, A, lambda, NULL);
             for (int k = 0; k < n; k++) product *= lambda[k];
             check_absolute (pg_dense_det (n, A), product, 1e-14);
         }
-    double skew[9] = { 0, 2, 0, 0, 0, 3, 4, 0, 0 };    /* a cyclic permutation: + 24                                     */
+    double skew[9] = { 0, 2, 0, 0, 0, 3, 4, 0, 0 };    /* a cyclic permutation: + 24 */
     check_relative (pg_dense_det (3, skew), 24, 1e-15);
 }
 

@@ -16,7 +16,7 @@ static void blocks_are_zero_and_aligned (void **state)
         assert_non_null (p);
         assert_int_equal ((uintptr_t) p % 64, 0);
         assert_true (all_zero (p, 3 * n));
-        memset (p, 0xff, 3 * n);                       /* the next block may reuse this one                              */
+        memset (p, 0xff, 3 * n);                       /* the next block may reuse this one */
         pg_free (p);
     }
 }
@@ -28,7 +28,7 @@ static void a_product_that_overflows_gives_no_memory (void **state)
     assert_null (pg_calloc (SIZE_MAX / 2, 3));
     assert_null (pg_calloc (SIZE_MAX / 16 + 1, 16));
     assert_null (pg_calloc (SIZE_MAX, 1));
-    assert_null (pg_calloc (1, SIZE_MAX - 32));        /* the head in front of a block must not wrap around              */
+    assert_null (pg_calloc (1, SIZE_MAX - 32));        /* the head in front of a block must not wrap around */
     char *p = pg_calloc (10, 1);
     memcpy (p, "perigal", 8);
     assert_null (pg_resize (p, SIZE_MAX / 4, 8));

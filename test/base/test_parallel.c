@@ -56,7 +56,8 @@ static void few_items_stay_on_one_thread (void **state)
     for (size_t i = 0; i < 63; i++) assert_int_equal (t.thread[i], 0);
 }
 
-/* The caller goes on when the slowest part is done, asleep meanwhile: parts of other threads take longer than it looks at a word. */
+/* The caller goes on when the slowest part is done, asleep meanwhile: parts of other threads take longer than
+ * it looks at a word. */
 typedef struct { _Atomic int begun; int done[8]; } slow;
 
 static void work_slowly (void *context, size_t first, size_t last, int thread)
@@ -65,7 +66,8 @@ static void work_slowly (void *context, size_t first, size_t last, int thread)
     const struct timespec little = { 0, 1000000 }, long_ = { 0, 50000000 };
     (void) first, (void) last;
     w->begun++;
-    for (int k = 0; thread == 0 && w->begun < 4 && k < 500; k++) nanosleep (&little, NULL);      /* the others have all begun     */
+    /* the others have all begun */
+    for (int k = 0; thread == 0 && w->begun < 4 && k < 500; k++) nanosleep (&little, NULL);
     if (thread > 0) nanosleep (&long_, NULL);
     w->done[thread] = 1;
 }
@@ -153,7 +155,7 @@ static void a_child_of_fork_may_call (void **state)
     pid_t child = fork ();
     assert_true (child >= 0);
     if (child == 0) {
-        alarm (20);                                    /* waiting for threads that are not there must not last           */
+        alarm (20);  /* waiting for threads that are not there must not last */
         many_loops (&b);
         _exit (b.wrong ? 1 : 0);
     }

@@ -9,7 +9,8 @@ static void every_status_has_its_own_text (void **state)
     (void) state;
     for (int a = 0; a < PG_STATUS_COUNT; a++) {
         assert_true (strlen (pg_status_text ((pg_status) a)) > 1);
-        for (int b = 0; b < a; b++) assert_string_not_equal (pg_status_text ((pg_status) a), pg_status_text ((pg_status) b));
+        for (int b = 0; b < a; b++)
+            assert_string_not_equal (pg_status_text ((pg_status) a), pg_status_text ((pg_status) b));
     }
     assert_string_equal (pg_status_text (PG_STATUS_COUNT), "unknown status");
     assert_string_equal (pg_status_text ((pg_status) -1), "unknown status");
@@ -46,7 +47,8 @@ static void a_message_may_quote_the_last_one (void **state)
 {
     (void) state;
     fail_with (3);
-    for (int k = 0; k < 3; k++) assert_int_equal (pg_error (PG_E_FILE, PG_HERE, "file: %s", pg_last_error ()), PG_E_FILE);
+    for (int k = 0; k < 3; k++)
+        assert_int_equal (pg_error (PG_E_FILE, PG_HERE, "file: %s", pg_last_error ()), PG_E_FILE);
     assert_string_equal (pg_last_error (), "file: file: file: number 3 is too large");
 }
 
@@ -65,7 +67,7 @@ static void a_long_message_is_cut_not_overrun (void **state)
 
 static void *fail_elsewhere (void *seen)
 {
-    *(int *) seen = *pg_last_error () == 0;            /* a new thread has no message                                    */
+    *(int *) seen = *pg_last_error () == 0;            /* a new thread has no message */
     fail_with (99);
     return NULL;
 }

@@ -5,7 +5,14 @@
 #include "check.h"
 #include "perigal/cells.h"
 
-typedef struct { pg_scene *scene; pg_body body; pg_lattice lattice; pg_cloud cloud; pg_cells cells; pg_sets sets; } model;
+typedef struct {
+    pg_scene *scene;
+    pg_body body;
+    pg_lattice lattice;
+    pg_cloud cloud;
+    pg_cells cells;
+    pg_sets sets;
+} model;
 
 /* cut: cells cut by the surface, not whole ones. */
 static inline pg_status make (model *m, const char *text, int cut)
@@ -47,7 +54,8 @@ static inline void must_fault (const char *text, const char *part)
     model m;
     check_fails (make (&m, text, 0), PG_E_SCENE);
     check_contains (pg_last_error (), part);
-    if (m.cells.n) assert_non_null (pg_sets_find (&m.sets, "all"));      /* faults of sets: they are there all the same, for more to be found */
+    /* faults of sets: they are there all the same, for more to be found */
+    if (m.cells.n) assert_non_null (pg_sets_find (&m.sets, "all"));
     drop (&m);
 }
 #endif

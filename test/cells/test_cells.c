@@ -6,9 +6,12 @@
 typedef struct { pg_scene *scene; pg_body body; pg_lattice lattice; pg_cells cells; } meshed;
 
 static const char *const text[3] = {
-    "dimension: 1\nbody: [{add: {box: {low: [-1], high: [1]}}}, {subtract: {box: {low: [0.2], high: [0.5]}}}]",
-    "dimension: 2\nbody: [{add: {disk: {center: [0.3, -0.2], radius: 1}}}, {subtract: {disk: {center: [0.5, 0], radius: 0.3}}}]",
-    "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], axis: [1, 1, 1], radius: 1, length: 2}}}, {subtract: {sphere: {center: [0.5, 0.5, 0.5], radius: 0.4}}}]",
+    "dimension: 1\nbody: [{add: {box: {low: [-1], high: [1]}}}, {subtract: {box: {low: [0.2], high: "
+    "[0.5]}}}]",
+    "dimension: 2\nbody: [{add: {disk: {center: [0.3, -0.2], radius: 1}}}, {subtract: {disk: {center: [0.5, "
+    "0], radius: 0.3}}}]",
+    "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], axis: [1, 1, 1], radius: 1, length: 2}}}, "
+    "{subtract: {sphere: {center: [0.5, 0.5, 0.5], radius: 0.4}}}]",
 };
 
 static meshed mesh (int dim, double thickness)
@@ -43,7 +46,8 @@ static void cells_are_the_kept_cells_of_the_lattice (void **state)
     (void) state;
     for (int dim = 1; dim <= 3; dim++) {
         meshed m = mesh (dim, 1);
-        size_t n = 0, all = (size_t) m.lattice.count[0] * (size_t) m.lattice.count[1] * (size_t) m.lattice.count[2];
+        size_t n = 0,
+               all = (size_t) m.lattice.count[0] * (size_t) m.lattice.count[1] * (size_t) m.lattice.count[2];
         for (size_t i = 0; i < all; i++) n += m.lattice.in[i];
         assert_int_equal (m.cells.n, n);
         assert_true (n < all);
@@ -66,7 +70,8 @@ static void the_surface_is_closed (void **state)
         double sum[3] = {0, 0, 0}, size = 0;
         for (size_t f = 0; f < m.cells.nfacet; f++) {
             size += m.cells.area[f];
-            for (int k = 0; k < dim; k++) sum[k] += m.cells.normal[f * (size_t) dim + (size_t) k] * m.cells.area[f];
+            for (int k = 0; k < dim; k++)
+                sum[k] += m.cells.normal[f * (size_t) dim + (size_t) k] * m.cells.area[f];
         }
         assert_true (size > 0);
         for (int k = 0; k < dim; k++) check_scaled (sum[k], 0, 1e-13, size);
@@ -85,7 +90,8 @@ static void divergence_theorem_gives_the_volume (void **state)
         for (size_t f = 0; f < m.cells.nfacet; f++) {
             double x[3];
             facet_middle (&m.cells, f, x);
-            for (int k = 0; k < dim; k++) flux += x[k] * m.cells.normal[f * (size_t) dim + (size_t) k] * m.cells.area[f];
+            for (int k = 0; k < dim; k++)
+                flux += x[k] * m.cells.normal[f * (size_t) dim + (size_t) k] * m.cells.area[f];
         }
         check_relative (flux, dim * volume, 1e-12);
         drop (&m);
@@ -100,7 +106,8 @@ static void thickness_does_not_enter_in_3d (void **state)
     drop (&a), drop (&b);
 }
 
-/* A corner of one cell is a corner of its neighbour, equal in every bit: as many distinct positions as vertices in use. */
+/* A corner of one cell is a corner of its neighbour, equal in every bit: as many distinct positions as
+ * vertices in use. */
 static void shared_corners_are_equal_in_every_bit (void **state)
 {
     (void) state;
@@ -127,13 +134,15 @@ static void corners_follow_exodus_order (void **state)
     for (size_t i = 0; i < b.cells.n; i++) {
         const double *x = b.cells.x + 8*i;
         double area = 0;
-        for (int e = 0; e < 4; e++) area += 0.5 * (x[2*e] * x[2*((e + 1) % 4) + 1] - x[2*((e + 1) % 4)] * x[2*e + 1]);
+        for (int e = 0; e < 4; e++)
+            area += 0.5 * (x[2 * e] * x[2 * ((e + 1) % 4) + 1] - x[2 * ((e + 1) % 4)] * x[2 * e + 1]);
         check_relative (area, b.lattice.step[0] * b.lattice.step[1], 1e-11);
     }
     for (size_t i = 0; i < c.cells.n; i++) {
         const double *x = c.cells.x + 24*i;
         for (int e = 0; e < 4; e++) {                          /* top over bottom */
-            assert_true (x[3*e] == x[3*(e + 4)] && x[3*e + 1] == x[3*(e + 4) + 1] && x[3*e + 2] < x[3*(e + 4) + 2]);
+            assert_true (x[3 * e] == x[3 * (e + 4)] && x[3 * e + 1] == x[3 * (e + 4) + 1]
+                         && x[3 * e + 2] < x[3 * (e + 4) + 2]);
         }
         double p[3] = {x[3] - x[0], x[4] - x[1], 0}, q[3] = {x[9] - x[0], x[10] - x[1], 0};
         assert_true (p[0]*q[1] - p[1]*q[0] > 0 && x[6] == x[3] && x[7] == x[10]);
@@ -176,8 +185,10 @@ static void each_facet_lies_on_its_cell_and_points_out_of_it (void **state)
             facet_middle (c, f, x);
             for (size_t k = 0; k < d; k++) {
                 double middle = 0;
-                for (size_t e = c->start[cell]; e < c->start[cell + 1]; e++) middle += c->x[e * d + k] / (double) (1 << d);
-                assert_true (c->facet_centre[f*d + k] == x[k] || fabs (c->facet_centre[f*d + k] - x[k]) < 1e-15);
+                for (size_t e = c->start[cell]; e < c->start[cell + 1]; e++)
+                    middle += c->x[e * d + k] / (double) (1 << d);
+                assert_true (c->facet_centre[f * d + k] == x[k]
+                             || fabs (c->facet_centre[f * d + k] - x[k]) < 1e-15);
                 out += (x[k] - middle) * c->normal[f*d + k] / (0.5 * m.lattice.step[k]);
             }
             check_relative (out, 1, 1e-12);
@@ -215,10 +226,16 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (cells_are_the_kept_cells_of_the_lattice), cmocka_unit_test (the_surface_is_closed), cmocka_unit_test (divergence_theorem_gives_the_volume),
-        cmocka_unit_test (thickness_does_not_enter_in_3d), cmocka_unit_test (shared_corners_are_equal_in_every_bit), cmocka_unit_test (corners_follow_exodus_order),
-        cmocka_unit_test (facets_turn_counter_clockwise_seen_from_outside), cmocka_unit_test (each_facet_lies_on_its_cell_and_points_out_of_it),
-        cmocka_unit_test (no_lattice_no_cells), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (cells_are_the_kept_cells_of_the_lattice),
+        cmocka_unit_test (the_surface_is_closed),
+        cmocka_unit_test (divergence_theorem_gives_the_volume),
+        cmocka_unit_test (thickness_does_not_enter_in_3d),
+        cmocka_unit_test (shared_corners_are_equal_in_every_bit),
+        cmocka_unit_test (corners_follow_exodus_order),
+        cmocka_unit_test (facets_turn_counter_clockwise_seen_from_outside),
+        cmocka_unit_test (each_facet_lies_on_its_cell_and_points_out_of_it),
+        cmocka_unit_test (no_lattice_no_cells),
+        cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("cells/cells", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cells cut by the surface of the body: volumes, surfaces and moments against closed forms, order by order; the divergence theorem; bodies
- * that are moved, turned and scaled; volumes of the points; broken memory. */
+ * Cells cut by the surface of the body: volumes, surfaces and moments against closed forms, order by order;
+ * the divergence theorem; bodies that are moved, turned and scaled; volumes of the points; broken memory. */
 #include "check.h"
 #include "perigal/cells.h"
 
@@ -26,7 +26,7 @@ static void drop (meshed *m)
     pg_scene_free (&m->scene);
 }
 
-/* ---- sums over the body at one order ------------------------------------------------------------------------------------- */
+/* ---- sums over the body at one order ------------------------------------------------------------------- */
 static void add_inside (sums *s, int dim, const double *x, double w)
 {
     s->volume += w, s->least = fmin (s->least, w), s->points++;
@@ -65,19 +65,23 @@ static sums sum_of (const meshed *m, int order)
         }
     }
     for (size_t f = 0; f < c->nfacet; f++) {
-        if (c->facet_kind[f] != PG_CUT) add_outside (&s, c->dim, c->facet_centre + f * dim, c->normal + f * dim, c->area[f]);
+        if (c->facet_kind[f] != PG_CUT)
+            add_outside (&s, c->dim, c->facet_centre + f * dim, c->normal + f * dim, c->area[f]);
         else {
             p.n = 0;
             check_ok (pg_cut_facet (&p, c, f, order));
-            for (size_t k = 0; k < p.n; k++) add_outside (&s, c->dim, p.x + k * dim, p.normal + k * dim, p.weight[k]);
+            for (size_t k = 0; k < p.n; k++)
+                add_outside (&s, c->dim, p.x + k * dim, p.normal + k * dim, p.weight[k]);
         }
     }
     pg_cut_points_clear (&p);
     return s;
 }
 
-/* Volume and surface of the cells are exact; those of the rule fall at least as listed with orders 2, 4, 8; x.n sums to dim V. */
-static void converges (const char *name, const char *text, double spacing, double volume, double surface, const double allowed[3])
+/* Volume and surface of the cells are exact; those of the rule fall at least as listed with orders 2, 4, 8;
+ * x.n sums to dim V. */
+static void converges (const char *name, const char *text, double spacing, double volume, double surface,
+                       const double allowed[3])
 {
     meshed m = mesh (text, spacing);
     double V = 0, S = 0;
@@ -88,8 +92,9 @@ static void converges (const char *name, const char *text, double spacing, doubl
     for (int i = 0; i < 3; i++) {
         sums s = sum_of (&m, 2 << i);
         double closed = (fabs (s.close[0]) + fabs (s.close[1]) + fabs (s.close[2])) / surface;
-        print_message ("%-22s order %d: volume %.1e, surface %.1e, divergence %.1e, closed %.1e\n", name, 2 << i, fabs (s.volume / volume - 1),
-                       fabs (s.surface / surface - 1), fabs (s.flux / (m.cells.dim * volume) - 1), closed);
+        print_message ("%-22s order %d: volume %.1e, surface %.1e, divergence %.1e, closed %.1e\n", name,
+                       2 << i, fabs (s.volume / volume - 1), fabs (s.surface / surface - 1),
+                       fabs (s.flux / (m.cells.dim * volume) - 1), closed);
         check_relative (s.volume, volume, allowed[i]);
         check_relative (s.surface, surface, allowed[i]);
         check_relative (s.flux, m.cells.dim * volume, allowed[i]);
@@ -100,54 +105,89 @@ static void converges (const char *name, const char *text, double spacing, doubl
 }
 
 #define BOX2 "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}, "
-static const double straight[3] = {1e-13, 1e-13, 1e-13}, gentle[3] = {5e-6, 1e-10, 1e-12}, curved[3] = {1e-3, 2e-5, 5e-9}, solid[3] = {3e-4, 2e-6, 2e-10};
+static const double straight[3] = { 1e-13, 1e-13, 1e-13 }, gentle[3] = { 5e-6, 1e-10, 1e-12 },
+                    curved[3] = { 1e-3, 2e-5, 5e-9 }, solid[3] = { 3e-4, 2e-6, 2e-10 };
 
 static void disks_and_holes (void **state)
 {
     (void) state;
-    converges ("disk", "dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}]", 0.1, pi, 2 * pi, gentle);
-    converges ("disk in one cell", "dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}]", 3, pi, 2 * pi, gentle);
-    converges ("hole tangent to lines", BOX2 "{subtract: {disk: {center: [0.5, 0.5], radius: 0.2}}}]", 0.1, 1 - 0.04 * pi, 4 + 0.4 * pi, curved);
-    converges ("hole within a cell", BOX2 "{subtract: {disk: {center: [0.53, 0.56], radius: 0.02}}}]", 0.1, 1 - 4e-4 * pi, 4 + 0.04 * pi, curved);
-    converges ("annulus", "dimension: 2\nbody: [{add: {disk: {center: [0.1, 0], radius: 1}}}, {subtract: {disk: {center: [0.3, 0.2], radius: 0.3}}}]",
+    converges ("disk", "dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}]", 0.1, pi, 2 * pi,
+               gentle);
+    converges ("disk in one cell", "dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}]", 3, pi,
+               2 * pi, gentle);
+    converges ("hole tangent to lines", BOX2 "{subtract: {disk: {center: [0.5, 0.5], radius: 0.2}}}]", 0.1,
+               1 - 0.04 * pi, 4 + 0.4 * pi, curved);
+    converges ("hole within a cell", BOX2 "{subtract: {disk: {center: [0.53, 0.56], radius: 0.02}}}]", 0.1,
+               1 - 4e-4 * pi, 4 + 0.04 * pi, curved);
+    converges ("annulus",
+               "dimension: 2\nbody: [{add: {disk: {center: [0.1, 0], radius: 1}}}, {subtract: {disk: "
+               "{center: [0.3, 0.2], radius: 0.3}}}]",
                0.13, 0.91 * pi, 2.6 * pi, curved);
-    converges ("thin ring", "dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}, {subtract: {disk: {center: [0, 0], radius: 0.98}}}]",
+    converges ("thin ring",
+               "dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}, {subtract: {disk: {center: "
+               "[0, 0], radius: 0.98}}}]",
                0.1, (1 - 0.98 * 0.98) * pi, 3.96 * pi, curved);
-    converges ("two disks", "dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}, {add: {disk: {center: [1, 0], radius: 1}}}]", 0.1,
-               2 * pi - 2 * pi / 3 + sqrt (3) / 2, 8 * pi / 3, gentle);
+    converges ("two disks",
+               "dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}, {add: {disk: {center: [1, "
+               "0], radius: 1}}}]",
+               0.1, 2 * pi - 2 * pi / 3 + sqrt (3) / 2, 8 * pi / 3, gentle);
 }
 
 static void polygons (void **state)
 {
     (void) state;
     double a = hypot (0.93, 0.18) + hypot (0.33, 0.71) + hypot (0.5, 0.11) + hypot (0.1, 0.78);
-    converges ("oblique polygon", "dimension: 2\nbody: [{add: {polygon: {vertices: [[0.1, 0.02], [1.03, 0.2], [0.7, 0.91], [0.2, 0.8]]}}}]", 0.1, 0.54935, a, straight);
-    converges ("prism", "dimension: 3\nbody: [{add: {prism: {low: 0, high: 1, vertices: [[0.1, 0.02], [1.03, 0.2], [0.7, 0.91], [0.2, 0.8]]}}}]", 0.2,
-               0.54935, a + 2 * 0.54935, straight);
-    converges ("two slits in a cell", BOX2 "{subtract: {box: {low: [0.31, 0], high: [0.33, 0.5]}}}, {subtract: {box: {low: [0.35, 0], high: [0.36, 0.5]}}}]",
+    converges ("oblique polygon",
+               "dimension: 2\nbody: [{add: {polygon: {vertices: [[0.1, 0.02], [1.03, 0.2], [0.7, 0.91], "
+               "[0.2, 0.8]]}}}]",
+               0.1, 0.54935, a, straight);
+    converges ("prism",
+               "dimension: 3\nbody: [{add: {prism: {low: 0, high: 1, vertices: [[0.1, 0.02], [1.03, 0.2], "
+               "[0.7, 0.91], [0.2, 0.8]]}}}]",
+               0.2, 0.54935, a + 2 * 0.54935, straight);
+    converges ("two slits in a cell",
+               BOX2 "{subtract: {box: {low: [0.31, 0], high: [0.33, 0.5]}}}, {subtract: {box: {low: [0.35, "
+                    "0], high: [0.36, 0.5]}}}]",
                0.1, 1 - 0.015, 6, straight);
     /* a quarter of the disk and the triangle share a cell with both surfaces */
-    converges ("polygon and circle", "dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [1, 0], [0, 1]]}}}, {subtract: {disk: {center: [0, 0], radius: 0.35}}}]",
+    converges ("polygon and circle",
+               "dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [1, 0], [0, 1]]}}}, {subtract: "
+               "{disk: {center: [0, 0], radius: 0.35}}}]",
                0.13, 0.5 - pi * 0.35 * 0.35 / 4, sqrt (2) + 1.3 + pi * 0.35 / 2, curved);
 }
 
 static void cylinders_and_balls (void **state)
 {
     (void) state;
-    converges ("cylinder", "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], radius: 1, length: 1}}}]", 0.25, pi, 4 * pi, solid);
-    converges ("cylinder along x", "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], axis: [1, 0, 0], radius: 1, length: 1}}}]", 0.25, pi, 4 * pi, solid);
-    converges ("oblique cylinder", "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], axis: [1, 2, 3], radius: 1, length: 1}}}]", 0.3, pi, 4 * pi, solid);
-    converges ("ball", "dimension: 3\nbody: [{add: {sphere: {center: [0, 0, 0], radius: 1}}}]", 0.25, 4 * pi / 3, 4 * pi, solid);
-    converges ("drilled ball", "dimension: 3\nbody: [{add: {sphere: {center: [0, 0, 0], radius: 1}}}, {subtract: {cylinder: {center: [0, 0, -2], radius: 0.6, length: 4}}}]",
+    converges ("cylinder",
+               "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], radius: 1, length: 1}}}]", 0.25, pi,
+               4 * pi, solid);
+    converges (
+        "cylinder along x",
+        "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], axis: [1, 0, 0], radius: 1, length: 1}}}]",
+        0.25, pi, 4 * pi, solid);
+    converges (
+        "oblique cylinder",
+        "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], axis: [1, 2, 3], radius: 1, length: 1}}}]",
+        0.3, pi, 4 * pi, solid);
+    converges ("ball", "dimension: 3\nbody: [{add: {sphere: {center: [0, 0, 0], radius: 1}}}]", 0.25,
+               4 * pi / 3, 4 * pi, solid);
+    converges ("drilled ball",
+               "dimension: 3\nbody: [{add: {sphere: {center: [0, 0, 0], radius: 1}}}, {subtract: {cylinder: "
+               "{center: [0, 0, -2], radius: 0.6, length: 4}}}]",
                0.25, 4 * pi / 3 * 0.512, 5.12 * pi, solid);
-    converges ("drilled obliquely", "dimension: 3\nbody: [{add: {sphere: {center: [0, 0, 0], radius: 1}}}, "
-               "{subtract: {cylinder: {center: [-2, -4, -6], axis: [1, 2, 3], radius: 0.6, length: 20}}}]", 0.3, 4 * pi / 3 * 0.512, 5.12 * pi, solid);
+    converges ("drilled obliquely",
+               "dimension: 3\nbody: [{add: {sphere: {center: [0, 0, 0], radius: 1}}}, "
+               "{subtract: {cylinder: {center: [-2, -4, -6], axis: [1, 2, 3], radius: 0.6, length: 20}}}]",
+               0.3, 4 * pi / 3 * 0.512, 5.12 * pi, solid);
 }
 
 static void segments (void **state)
 {
     (void) state;
-    meshed m = mesh ("dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}, {subtract: {box: {low: [0.234], high: [0.567]}}}]", 0.1);
+    meshed m = mesh ("dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}, {subtract: {box: {low: "
+                     "[0.234], high: [0.567]}}}]",
+                     0.1);
     sums s = sum_of (&m, 1);
     check_relative (s.volume, 0.667, 1e-14);
     check_relative (s.flux, 0.667, 1e-14);
@@ -174,11 +214,13 @@ static void moments (void **state)
     drop (&d), drop (&b);
 }
 
-/* ---- the same body elsewhere -------------------------------------------------------------------------------------------- */
+/* ---- the same body elsewhere --------------------------------------------------------------------------- */
 /* x -> scale * (+-x or +-y) + shift: the errors of a low order are the same numbers. */
 static void moved_bodies_agree (void **state)
 {
-    static const int turn[4][2][2] = {{{1, 0}, {0, 1}}, {{-1, 0}, {0, 1}}, {{0, -1}, {1, 0}}, {{0, 1}, {1, 0}}};
+    static const int turn[4][2][2] = {
+        { { 1, 0 }, { 0, 1 } }, { { -1, 0 }, { 0, 1 } }, { { 0, -1 }, { 1, 0 } }, { { 0, 1 }, { 1, 0 } }
+    };
     double first[2] = {0};
     size_t cells = 0;
     (void) state;
@@ -186,8 +228,11 @@ static void moved_bodies_agree (void **state)
         const int (*T)[2] = turn[k % 4];
         double scale = k < 4 ? 1 : 1e-3, shift = k < 4 ? 0 : 0.7, c[2][2] = {{0.1, 0}, {0.3, 0.17}}, y[2][2];
         char text[300];
-        for (int i = 0; i < 2; i++) for (int a = 0; a < 2; a++) y[i][a] = scale * (T[a][0] * c[i][0] + T[a][1] * c[i][1]) + shift;
-        snprintf (text, sizeof text, "dimension: 2\nbody: [{add: {disk: {center: [%.17g, %.17g], radius: %.17g}}}, {subtract: {disk: {center: [%.17g, %.17g], radius: %.17g}}}]",
+        for (int i = 0; i < 2; i++)
+            for (int a = 0; a < 2; a++) y[i][a] = scale * (T[a][0] * c[i][0] + T[a][1] * c[i][1]) + shift;
+        snprintf (text, sizeof text,
+                  "dimension: 2\nbody: [{add: {disk: {center: [%.17g, %.17g], radius: %.17g}}}, {subtract: "
+                  "{disk: {center: [%.17g, %.17g], radius: %.17g}}}]",
                   y[0][0], y[0][1], scale, y[1][0], y[1][1], 0.31 * scale);
         meshed m = mesh (text, 0.13 * scale);
         sums s = sum_of (&m, 2);
@@ -202,7 +247,9 @@ static void moved_bodies_agree (void **state)
 static void bodies_along_the_lattice_are_not_cut (void **state)
 {
     (void) state;
-    meshed m = mesh ("dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}, {subtract: {box: {low: [0.5, 0.5, 0.5], high: [1, 1, 1]}}}]", 0.25);
+    meshed m = mesh ("dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}, {subtract: {box: "
+                     "{low: [0.5, 0.5, 0.5], high: [1, 1, 1]}}}]",
+                     0.25);
     pg_cells plain;
     check_ok (pg_cells_from_lattice (&plain, &m.lattice, 1));
     assert_null (m.cells.cut);
@@ -218,30 +265,38 @@ static void bodies_along_the_lattice_are_not_cut (void **state)
 static void facets_know_their_shape (void **state)
 {
     (void) state;
-    meshed m = mesh ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [2, 2]}}}, {subtract: {disk: {center: [1, 1], radius: 0.55}}}]", 0.1);
+    meshed m = mesh ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [2, 2]}}}, {subtract: {disk: "
+                     "{center: [1, 1], radius: 0.55}}}]",
+                     0.1);
     double hole = 0;
     for (size_t f = 0; f < m.cells.nfacet; f++) {
         const double *x = m.cells.facet_centre + 2 * f, *n = m.cells.normal + 2 * f;
         double r = hypot (x[0] - 1, x[1] - 1);
         if (pg_cut_shape (m.cells.cut, m.cells.facet_surface[f]) == 0) continue;
         hole += m.cells.area[f];
-        check_absolute (r, 0.55, 0.01);                    /* the centroid of an arc                                     */
+        check_absolute (r, 0.55, 0.01);                    /* the centroid of an arc */
         check_absolute (n[0] * (x[0] - 1) + n[1] * (x[1] - 1), -r, 1e-12);
     }
     check_relative (hole, 1.1 * pi, 1e-13);
     drop (&m);
 }
 
-/* Rays part facets exactly: arcs of 4 and 90 degrees of a rim and a bore, in 2D and 3D, whatever the lattice. */
+/* Rays part facets exactly: arcs of 4 and 90 degrees of a rim and a bore, in 2D and 3D, whatever the
+ * lattice. */
 static void rays_part_facets (void **state)
 {
     static const char *const text[2] = {
-        "dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}, {subtract: {disk: {center: [0, 0], radius: 0.37}}}]",
-        "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], radius: 1, length: 1}}}, {subtract: {cylinder: {center: [0, 0, 0], radius: 0.37, length: 1}}}]" };
+        "dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}, {subtract: {disk: {center: [0, 0], "
+        "radius: 0.37}}}]",
+        "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], radius: 1, length: 1}}}, {subtract: "
+        "{cylinder: {center: [0, 0, 0], radius: 0.37, length: 1}}}]"
+    };
     const double from[2] = {88 * pi / 180, 0.3}, to[2] = {92 * pi / 180, 0.3 + pi / 2};
     pg_ray ray[4];
     (void) state;
-    for (int i = 0; i < 4; i++) ray[i] = (pg_ray) {{0, 0}, {cos (i % 2 ? to[i / 2] : from[i / 2]), sin (i % 2 ? to[i / 2] : from[i / 2])}};
+    for (int i = 0; i < 4; i++)
+        ray[i] = (pg_ray){ { 0, 0 },
+                           { cos (i % 2 ? to[i / 2] : from[i / 2]), sin (i % 2 ? to[i / 2] : from[i / 2]) } };
     for (int k = 0; k < 2; k++)
         for (int range = 0; range < 2; range++) {
             meshed m = mesh (text[k], 0.13);
@@ -252,7 +307,9 @@ static void rays_part_facets (void **state)
                 const double *x = m.cells.facet_centre + (size_t) m.cells.dim * f;
                 double angle = atan2 (x[1], x[0]);
                 all += m.cells.area[f];
-                if (pg_cut_is_end (m.cells.cut, m.cells.facet_surface[f]) || angle < from[range] || angle > to[range]) continue;
+                if (pg_cut_is_end (m.cells.cut, m.cells.facet_surface[f]) || angle < from[range]
+                    || angle > to[range])
+                    continue;
                 area[pg_cut_shape (m.cells.cut, m.cells.facet_surface[f])] += m.cells.area[f];
             }
             check_relative (area[0], to[range] - from[range], 1e-11);
@@ -275,8 +332,10 @@ static void volumes_of_points_sum_to_the_body (void **state)
         pg_cells cells;
         double sum = 0;
         int three = k > 1;
-        snprintf (text, sizeof text, "dimension: %d\nlattice: %s\nspacing: %g\nbody: [{add: {%s: {center: [0, 0%s], radius: 1}}}]", 2 + three, lattice[k % 2],
-                  three ? 0.3 : 0.11, three ? "sphere" : "disk", three ? ", 0" : "");
+        snprintf (
+            text, sizeof text,
+            "dimension: %d\nlattice: %s\nspacing: %g\nbody: [{add: {%s: {center: [0, 0%s], radius: 1}}}]",
+            2 + three, lattice[k % 2], three ? 0.3 : 0.11, three ? "sphere" : "disk", three ? ", 0" : "");
         check_ok (pg_scene_parse (&scene, text, "test.yaml"));
         check_ok (pg_body_read (&body, scene));
         check_ok (pg_cloud_build (&cloud, &l, &body, scene));
@@ -284,11 +343,13 @@ static void volumes_of_points_sum_to_the_body (void **state)
         check_ok (pg_cells_share (&cloud, &cells, &l));
         for (size_t i = 0; i < cloud.n; i++) sum += cloud.volume[i], assert_true (cloud.volume[i] > 0);
         check_relative (sum, three ? 4 * pi / 3 : pi, 1e-12);
-        pg_cells_clear (&cells), pg_cloud_clear (&cloud), pg_lattice_clear (&l), pg_body_clear (&body), pg_scene_free (&scene);
+        pg_cells_clear (&cells), pg_cloud_clear (&cloud), pg_lattice_clear (&l), pg_body_clear (&body),
+            pg_scene_free (&scene);
     }
 }
 
-/* A disk about a place of symmetry of its lattice: the point that mirrors another at x = y has its volume, slivers between two points too. */
+/* A disk about a place of symmetry of its lattice: the point that mirrors another at x = y has its volume,
+ * slivers between two points too. */
 static void mirror_images_have_equal_volumes (void **state)
 {
     (void) state;
@@ -300,7 +361,10 @@ static void mirror_images_have_equal_volumes (void **state)
         pg_cloud cloud;
         pg_cells cells;
         size_t pairs = 0;
-        snprintf (text, sizeof text, "dimension: 2\nlattice: cells\nspacing: %.17g\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}]", 2.0 / n);
+        snprintf (text, sizeof text,
+                  "dimension: 2\nlattice: cells\nspacing: %.17g\nbody: [{add: {disk: {center: [0, 0], "
+                  "radius: 1}}}]",
+                  2.0 / n);
         check_ok (pg_scene_parse (&scene, text, "test.yaml"));
         check_ok (pg_body_read (&body, scene));
         check_ok (pg_cloud_build (&cloud, &l, &body, scene));
@@ -308,16 +372,20 @@ static void mirror_images_have_equal_volumes (void **state)
         check_ok (pg_cells_share (&cloud, &cells, &l));
         for (size_t i = 0; i < cloud.n; i++)
             for (size_t j = 0; j < cloud.n; j++)
-                if (hypot (cloud.x[2*i] - cloud.x[2*j + 1], cloud.x[2*i + 1] - cloud.x[2*j]) < 1e-9) pairs++, check_relative (cloud.volume[i], cloud.volume[j], 1e-9);
+                if (hypot (cloud.x[2 * i] - cloud.x[2 * j + 1], cloud.x[2 * i + 1] - cloud.x[2 * j]) < 1e-9)
+                    pairs++, check_relative (cloud.volume[i], cloud.volume[j], 1e-9);
         assert_int_equal (pairs, cloud.n);
-        pg_cells_clear (&cells), pg_cloud_clear (&cloud), pg_lattice_clear (&l), pg_body_clear (&body), pg_scene_free (&scene);
+        pg_cells_clear (&cells), pg_cloud_clear (&cloud), pg_lattice_clear (&l), pg_body_clear (&body),
+            pg_scene_free (&scene);
     }
 }
 
 static void any_allocation_may_fail (void **state)
 {
     (void) state;
-    meshed m = mesh ("dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}, {subtract: {disk: {center: [0.2, 0], radius: 0.3}}}]", 0.5);
+    meshed m = mesh ("dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}, {subtract: {disk: "
+                     "{center: [0.2, 0], radius: 0.3}}}]",
+                     0.5);
     size_t before = pg_memory_used (), k = 1;
     pg_status status = PG_E_MEMORY;
     for (; status == PG_E_MEMORY; k++) {
@@ -337,10 +405,18 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (disks_and_holes), cmocka_unit_test (polygons), cmocka_unit_test (cylinders_and_balls), cmocka_unit_test (segments),
-        cmocka_unit_test (moments), cmocka_unit_test (moved_bodies_agree), cmocka_unit_test (bodies_along_the_lattice_are_not_cut),
-        cmocka_unit_test (facets_know_their_shape), cmocka_unit_test (rays_part_facets), cmocka_unit_test (volumes_of_points_sum_to_the_body),
-        cmocka_unit_test (mirror_images_have_equal_volumes), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (disks_and_holes),
+        cmocka_unit_test (polygons),
+        cmocka_unit_test (cylinders_and_balls),
+        cmocka_unit_test (segments),
+        cmocka_unit_test (moments),
+        cmocka_unit_test (moved_bodies_agree),
+        cmocka_unit_test (bodies_along_the_lattice_are_not_cut),
+        cmocka_unit_test (facets_know_their_shape),
+        cmocka_unit_test (rays_part_facets),
+        cmocka_unit_test (volumes_of_points_sum_to_the_body),
+        cmocka_unit_test (mirror_images_have_equal_volumes),
+        cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("cells/cut", tests, NULL, NULL);
 }

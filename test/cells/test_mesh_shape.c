@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A mesh as a shape that a lattice fills: signed distance, box, volume and surface; stairs under `cells: cut` beside cut surfaces, closed;
- * names of its parts; scenes that cannot be; broken memory. */
+ * A mesh as a shape that a lattice fills: signed distance, box, volume and surface; stairs under `cells: cut`
+ * beside cut surfaces, closed; names of its parts; scenes that cannot be; broken memory. */
 #include "check.h"
 #include "perigal/cells.h"
 
@@ -24,7 +24,8 @@ static meshed make (const char *text, double spacing, int cut)
 
 static void drop (meshed *m)
 {
-    pg_cells_clear (&m->cells), pg_cloud_clear (&m->cloud), pg_lattice_clear (&m->lattice), pg_body_clear (&m->body), pg_scene_free (&m->scene);
+    pg_cells_clear (&m->cells), pg_cloud_clear (&m->cloud), pg_lattice_clear (&m->lattice),
+        pg_body_clear (&m->body), pg_scene_free (&m->scene);
 }
 
 static double volume_of (const meshed *m)
@@ -34,7 +35,7 @@ static double volume_of (const meshed *m)
     return V;
 }
 
-/* ---- the shape ---------------------------------------------------------------------------------------------------------- */
+/* ---- the shape ----------------------------------------------------------------------------------------- */
 /* Radius 1, hole of radius 0.4; edges of 0.4: those of second order miss the circle by 2e-4. */
 static void distances_are_those_of_the_surface (void **state)
 {
@@ -47,18 +48,21 @@ static void distances_are_those_of_the_surface (void **state)
         if (d > 1e-3) assert_int_equal (pg_body_inside (&m.body, x, 0), r > 0.4 && r < 1);
         assert_true (pg_body_inside (&m.body, x, d + 1e-9) == 1);
     }
-    for (int k = 0; k < 2; k++) check_absolute (m.body.low[k], -1, 1e-9), check_absolute (m.body.high[k], 1, 1e-9);
+    for (int k = 0; k < 2; k++)
+        check_absolute (m.body.low[k], -1, 1e-9), check_absolute (m.body.high[k], 1, 1e-9);
     drop (&m);
 }
 
 static void a_flat_box_is_exact (void **state)
 {
     (void) state;
-    meshed m = make ("dimension: 3\nbody: [{add: {mesh: {file: data/mesh/box_hex20_41b.msh, unit: mm}}}]\n", 0.25e-3, 1);
+    meshed m = make ("dimension: 3\nbody: [{add: {mesh: {file: data/mesh/box_hex20_41b.msh, unit: mm}}}]\n",
+                     0.25e-3, 1);
     double volume, surface, d;
     for (int k = 0; k < 3; k++) assert_true (m.body.high[k] - m.body.low[k] == (k ? 1e-3 : 2e-3));
     assert_int_equal (pg_body_measure (&m.body, &volume, &surface), 1);
-    check_relative (volume, 2e-9, 1e-12), check_relative (surface, 10e-6, 1e-12), check_relative (volume_of (&m), 2e-9, 1e-12);
+    check_relative (volume, 2e-9, 1e-12), check_relative (surface, 10e-6, 1e-12),
+        check_relative (volume_of (&m), 2e-9, 1e-12);
     double x[3] = {m.body.high[0] + 0.3e-3, m.body.high[1] + 0.4e-3, m.body.low[2] + 0.37e-3}, y[3];
     pg_body_nearest (&m.body, x, &d);
     check_relative (d, 0.5e-3, 1e-9);
@@ -68,14 +72,17 @@ static void a_flat_box_is_exact (void **state)
     drop (&m);
 }
 
-/* ---- volume ------------------------------------------------------------------------------------------------------------- */
+/* ---- volume -------------------------------------------------------------------------------------------- */
 /* The lattice misses the surface of the mesh by half a cell at random: well below h times the surface. */
 static void volumes_converge (void **state)
 {
     (void) state;
-    static const struct { const char *text; double exact, spacing; } c[] = {
-        { DISK ("disk_tri3.msh", ""), 0, 0.1 }, { DISK ("disk_quad9.msh", ""), 0.84 * pi, 0.1 }, { BALL ("ball_tet10.msh"), 4 * pi / 3, 0.2 },
-        { DISK ("disk_tri6_22.msh", "") "  - subtract: {disk: {center: [0.7, 0], radius: 0.2}}\n", 0.8 * pi, 0.1 } };
+    static const struct { const char *text; double exact, spacing;
+    } c[] = { { DISK ("disk_tri3.msh", ""), 0, 0.1 },
+              { DISK ("disk_quad9.msh", ""), 0.84 * pi, 0.1 },
+              { BALL ("ball_tet10.msh"), 4 * pi / 3, 0.2 },
+              { DISK ("disk_tri6_22.msh", "") "  - subtract: {disk: {center: [0.7, 0], radius: 0.2}}\n",
+                0.8 * pi, 0.1 } };
     for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
         double error[2], volume = c[i].exact, surface;
         for (int k = 0; k < 2; k++) {
@@ -91,7 +98,7 @@ static void volumes_converge (void **state)
     }
 }
 
-/* ---- cut cells ---------------------------------------------------------------------------------------------------------- */
+/* ---- cut cells ----------------------------------------------------------------------------------------- */
 typedef struct { double volume, close[3], flux; } sums;
 
 static sums sum_of (const meshed *m)
@@ -105,8 +112,12 @@ static sums sum_of (const meshed *m)
         p.n = 0;
         if (c->facet_kind[f] == PG_CUT) check_ok (pg_cut_facet (&p, c, f, 12));
         for (size_t k = 0; k < dim; k++) {
-            if (c->facet_kind[f] != PG_CUT) s.close[k] += c->area[f] * c->normal[f * dim + k], s.flux += c->area[f] * c->normal[f * dim + k] * c->facet_centre[f * dim + k];
-            for (size_t q = 0; q < p.n; q++) s.close[k] += p.weight[q] * p.normal[q * dim + k], s.flux += p.weight[q] * p.normal[q * dim + k] * p.x[q * dim + k];
+            if (c->facet_kind[f] != PG_CUT)
+                s.close[k] += c->area[f] * c->normal[f * dim + k],
+                    s.flux += c->area[f] * c->normal[f * dim + k] * c->facet_centre[f * dim + k];
+            for (size_t q = 0; q < p.n; q++)
+                s.close[k] += p.weight[q] * p.normal[q * dim + k],
+                    s.flux += p.weight[q] * p.normal[q * dim + k] * p.x[q * dim + k];
         }
     }
     pg_cut_points_clear (&p);
@@ -117,20 +128,31 @@ static sums sum_of (const meshed *m)
 static void stairs_and_cuts_close (void **state)
 {
     (void) state;
-    static const struct { const char *text; double spacing; } c[] = {
+    static const struct { const char *text; double spacing;
+    } c[] = {
         { DISK ("disk_tri6_41b.msh", ""), 0.083 },
-        { DISK ("disk_tri6_41b.msh", "") "  - subtract: {disk: {center: [0.9, 0.3], radius: 0.25}}\n", 0.083 },
-        { DISK ("disk_quad4.msh", "") "  - add: {disk: {center: [0.37, 0.1], radius: 0.31}}\n  - subtract: {box: {low: [-2, -2], high: [0.13, 0.17]}}\n", 0.071 },
-        { "dimension: 2\nbody:\n  - add: {box: {low: [-1.5, -1.5], high: [1.5, 1.5]}}\n  - subtract: {mesh: {file: data/mesh/disk_quad8.msh}}\n"
-          "  - subtract: {disk: {center: [0, 0.4], radius: 0.3}}\n", 0.1 },
-        { BALL ("ball_tet10.msh") "  - subtract: {cylinder: {center: [0, 0.3, -2], radius: 0.4, length: 4}}\n", 0.21 },
-        { DISK ("disk_tri6_22.msh", "") "  - add: {mesh: {file: data/mesh/disk_tri3.msh, unit: 0.7 m}}\n  - subtract: {disk: {center: [0, 0.4], radius: 0.3}}\n", 0.09 },
+        { DISK ("disk_tri6_41b.msh", "") "  - subtract: {disk: {center: [0.9, 0.3], radius: 0.25}}\n",
+          0.083 },
+        { DISK ("disk_quad4.msh", "") "  - add: {disk: {center: [0.37, 0.1], radius: 0.31}}\n  - subtract: "
+                                      "{box: {low: [-2, -2], high: [0.13, 0.17]}}\n",
+          0.071 },
+        { "dimension: 2\nbody:\n  - add: {box: {low: [-1.5, -1.5], high: [1.5, 1.5]}}\n  - subtract: {mesh: "
+          "{file: data/mesh/disk_quad8.msh}}\n"
+          "  - subtract: {disk: {center: [0, 0.4], radius: 0.3}}\n",
+          0.1 },
+        { BALL (
+              "ball_tet10.msh") "  - subtract: {cylinder: {center: [0, 0.3, -2], radius: 0.4, length: 4}}\n",
+          0.21 },
+        { DISK ("disk_tri6_22.msh", "") "  - add: {mesh: {file: data/mesh/disk_tri3.msh, unit: 0.7 m}}\n  - "
+                                        "subtract: {disk: {center: [0, 0.4], radius: 0.3}}\n",
+          0.09 },
     };
     for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
         meshed m = make (c[i].text, c[i].spacing, 1);
         sums s = sum_of (&m);
-        print_message ("body %zu: %zu cells, volume %.6g, closed to %.1e, divergence %.1e\n", i, m.cells.n, s.volume,
-                       fabs (s.close[0]) + fabs (s.close[1]) + fabs (s.close[2]), fabs (s.flux / (m.cells.dim * s.volume) - 1));
+        print_message ("body %zu: %zu cells, volume %.6g, closed to %.1e, divergence %.1e\n", i, m.cells.n,
+                       s.volume, fabs (s.close[0]) + fabs (s.close[1]) + fabs (s.close[2]),
+                       fabs (s.flux / (m.cells.dim * s.volume) - 1));
         check_below (fabs (s.close[0]) + fabs (s.close[1]) + fabs (s.close[2]), 1e-12);
         check_relative (s.flux, m.cells.dim * s.volume, 1e-12);
         drop (&m);
@@ -149,15 +171,19 @@ static void a_mesh_alone_is_a_staircase (void **state)
     drop (&a), drop (&b);
 }
 
-/* ---- sets --------------------------------------------------------------------------------------------------------------- */
+/* ---- sets ---------------------------------------------------------------------------------------------- */
 static void parts_of_its_surface_have_names (void **state)
 {
     (void) state;
-    meshed m = make (DISK ("disk_tri6_41b.msh", "") "  - subtract: {disk: {center: [0.7, 0], radius: 0.1}}\n    name: bolt\n"
-                     "sets: {outer: {boundary: rim}, inner: {boundary: hole}, both: {boundary: side}, small: {boundary: bolt}}\n", 0.05, 1);
+    meshed m = make (DISK ("disk_tri6_41b.msh",
+                           "") "  - subtract: {disk: {center: [0.7, 0], radius: 0.1}}\n    name: bolt\n"
+                               "sets: {outer: {boundary: rim}, inner: {boundary: hole}, both: {boundary: "
+                               "side}, small: {boundary: bolt}}\n",
+                     0.05, 1);
     pg_sets sets;
     check_ok (pg_sets_build (&sets, m.scene, &m.body, &m.lattice, &m.cloud, &m.cells));
-    const pg_set *outer = pg_sets_find (&sets, "outer"), *inner = pg_sets_find (&sets, "inner"), *small = pg_sets_find (&sets, "small");
+    const pg_set *outer = pg_sets_find (&sets, "outer"), *inner = pg_sets_find (&sets, "inner"),
+                 *small = pg_sets_find (&sets, "small");
     assert_true (outer->nfacet > 100 && inner->nfacet > 40 && small->nfacet > 10);
     assert_int_equal (pg_sets_find (&sets, "both")->nfacet, outer->nfacet + inner->nfacet);
     assert_int_equal (m.cells.nfacet, outer->nfacet + inner->nfacet + small->nfacet);
@@ -169,7 +195,7 @@ static void parts_of_its_surface_have_names (void **state)
     drop (&m);
 }
 
-/* ---- faults ------------------------------------------------------------------------------------------------------------- */
+/* ---- faults -------------------------------------------------------------------------------------------- */
 static void must_fault (const char *text, const char *why)
 {
     pg_scene *scene = NULL;
@@ -186,14 +212,17 @@ static void scenes_that_cannot_be (void **state)
     must_fault (DISK ("nowhere.msh", ""), "body[0].add.mesh.file");
     must_fault (DISK ("ball_tet4.msh", ""), "its elements are of dimension 3, and dimension is 2");
     must_fault (DISK ("disk_tri3.msh", ", unit: kg"), "body[0].add.mesh.unit");
-    must_fault (DISK ("disk_tri3.msh", ", blocks: [nothing]"), "the mesh has no block of this name; there are outside|inside");
-    must_fault ("dimension: 1\nbody: [{add: {mesh: {file: data/mesh/disk_tri3.msh}}}]\n", "a mesh needs dimension 2, this scene has 1");
+    must_fault (DISK ("disk_tri3.msh", ", blocks: [nothing]"),
+                "the mesh has no block of this name; there are outside|inside");
+    must_fault ("dimension: 1\nbody: [{add: {mesh: {file: data/mesh/disk_tri3.msh}}}]\n",
+                "a mesh needs dimension 2, this scene has 1");
 }
 
 static void any_allocation_may_fail (void **state)
 {
     (void) state;
-    meshed m = make (DISK ("disk_tri3.msh", "") "  - subtract: {disk: {center: [0.9, 0], radius: 0.3}}\n", 0.5, 1);
+    meshed m = make (DISK ("disk_tri3.msh", "") "  - subtract: {disk: {center: [0.9, 0], radius: 0.3}}\n",
+                     0.5, 1);
     size_t before = pg_memory_used (), k = 1;
     pg_status status = PG_E_MEMORY;
     for (; status == PG_E_MEMORY; k++) {
@@ -215,9 +244,14 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (distances_are_those_of_the_surface), cmocka_unit_test (a_flat_box_is_exact), cmocka_unit_test (volumes_converge),
-        cmocka_unit_test (stairs_and_cuts_close), cmocka_unit_test (a_mesh_alone_is_a_staircase), cmocka_unit_test (parts_of_its_surface_have_names),
-        cmocka_unit_test (scenes_that_cannot_be), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (distances_are_those_of_the_surface),
+        cmocka_unit_test (a_flat_box_is_exact),
+        cmocka_unit_test (volumes_converge),
+        cmocka_unit_test (stairs_and_cuts_close),
+        cmocka_unit_test (a_mesh_alone_is_a_staircase),
+        cmocka_unit_test (parts_of_its_surface_have_names),
+        cmocka_unit_test (scenes_that_cannot_be),
+        cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("cells/mesh_shape", tests, NULL, NULL);
 }

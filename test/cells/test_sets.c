@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Sets: sides of the box, surfaces of shapes, angles, conditions, parts, faults; nodes, cells and points from a file. */
+ * Sets: sides of the box, surfaces of shapes, angles, conditions, parts, faults; nodes, cells and points from
+ * a file. */
 #include "model.h"
 #include <stdlib.h>
 #include <unistd.h>
 
-#define PLATE "dimension: 2\nbody:\n  - add: {box: {low: [0, 0], high: [2, 1]}}\n  - subtract: {disk: {center: [0.5, 0.5], radius: 0.22}}\nspacing: 0.1\n"
-#define DISK "dimension: 2\nthickness: 10 mm\nbody: [{add: {disk: {center: [0, 0], diameter: 100 mm}}}]\nspacing: 2 mm\n"
+#define PLATE \
+    "dimension: 2\nbody:\n  - add: {box: {low: [0, 0], high: [2, 1]}}\n  - subtract: {disk: {center: [0.5, " \
+    "0.5], radius: 0.22}}\nspacing: 0.1\n"
+#define DISK \
+    "dimension: 2\nthickness: 10 mm\nbody: [{add: {disk: {center: [0, 0], diameter: 100 mm}}}]\nspacing: 2 " \
+    "mm\n"
 #define CUBE "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 2, 3]}}}]\nspacing: 0.5\n"
 
 static double area (const model *m, const char *name)
@@ -30,7 +35,8 @@ static void sides_of_a_box_have_their_points_and_areas (void **state)
         const pg_set *set = find (&m, name[s]);
         assert_int_equal (set->npoint, points[s / 2]);
         check_relative (area (&m, name[s]), size[s / 2], 1e-14);
-        for (size_t k = 0; k < set->npoint; k++) assert_true (m.cloud.x[3 * set->point[k] + s / 2] == (s % 2 ? 1 + s / 2 : 0));
+        for (size_t k = 0; k < set->npoint; k++)
+            assert_true (m.cloud.x[3 * set->point[k] + s / 2] == (s % 2 ? 1 + s / 2 : 0));
     }
     drop (&m);
 }
@@ -39,16 +45,24 @@ static void sides_of_a_box_have_their_points_and_areas (void **state)
 static void parts_of_stairs_are_where_they_should_be (void **state)
 {
     (void) state;
-    static const struct { const char *text; int axis; double at, out, area; } part[] = {
-#define ROD "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, -1], axis: [0, 0, 1], radius: 1, length: 2}}}]\nspacing: 0.2\nsets: {part: {boundary: cylinder."
-        { ROD "start}}", 2, -1, -1, 3.14 }, { ROD "end}}", 2, 1, 1, 3.14 },
+    static const struct { const char *text; int axis; double at, out, area;
+    } part[] = {
+#define ROD \
+    "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, -1], axis: [0, 0, 1], radius: 1, length: " \
+    "2}}}]\nspacing: 0.2\nsets: {part: {boundary: cylinder."
+        { ROD "start}}", 2, -1, -1, 3.14 },      { ROD "end}}", 2, 1, 1, 3.14 },
 #define AHEAD "[0.3, 0.2], [0.7, 0.2], [0.7, 0.8], [0.3, 0.8]"
 #define BACK "[0.3, 0.8], [0.7, 0.8], [0.7, 0.2], [0.3, 0.2]"
-#define WITH(vertices) "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}, {name: pit, subtract: {polygon: {vertices: [" vertices "]}}}]\nspacing: 0.1\nsets: {part: {boundary: pit.edge "
-        { WITH (AHEAD) "1}}", 1, 0.2, 1, 0.4 }, { WITH (AHEAD) "2}}", 0, 0.7, -1, 0.6 }, { WITH (AHEAD) "3}}", 1, 0.8, -1, 0.4 }, { WITH (AHEAD) "4}}", 0, 0.3, 1, 0.6 },
-        { WITH (BACK) "1}}", 1, 0.8, -1, 0.4 }, { WITH (BACK) "2}}", 0, 0.7, -1, 0.6 },
-#define SQUARE "dimension: 2\nbody: [{add: {polygon: {vertices: [" AHEAD "]}}}]\nspacing: 0.1\nsets: {part: {boundary: polygon.edge "
-        { SQUARE "1}}", 1, 0.2, -1, 0.4 }, { SQUARE "4}}", 0, 0.3, -1, 0.6 },
+#define WITH(vertices) \
+    "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}, {name: pit, subtract: {polygon: " \
+    "{vertices: [" vertices "]}}}]\nspacing: 0.1\nsets: {part: {boundary: pit.edge "
+        { WITH (AHEAD) "1}}", 1, 0.2, 1, 0.4 },  { WITH (AHEAD) "2}}", 0, 0.7, -1, 0.6 },
+        { WITH (AHEAD) "3}}", 1, 0.8, -1, 0.4 }, { WITH (AHEAD) "4}}", 0, 0.3, 1, 0.6 },
+        { WITH (BACK) "1}}", 1, 0.8, -1, 0.4 },  { WITH (BACK) "2}}", 0, 0.7, -1, 0.6 },
+#define SQUARE \
+    "dimension: 2\nbody: [{add: {polygon: {vertices: [" AHEAD \
+    "]}}}]\nspacing: 0.1\nsets: {part: {boundary: polygon.edge "
+        { SQUARE "1}}", 1, 0.2, -1, 0.4 },       { SQUARE "4}}", 0, 0.3, -1, 0.6 },
     };
     for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
         model m;
@@ -72,13 +86,20 @@ static void a_face_that_ends_in_a_side_is_none_of_it (void **state)
     (void) state;
     for (int cut = 0; cut < 2; cut++) {
         model m;
-        check_ok (make (&m, "dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [16, 0], [16, 10], [0, 20]]}}}]\nspacing: 1", cut));
+        check_ok (make (&m,
+                        "dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [16, 0], [16, 10], [0, "
+                        "20]]}}}]\nspacing: 1",
+                        cut));
         assert_int_equal (find (&m, "top")->nfacet, 0);
         check_relative (area (&m, "left"), 20, 1e-12);
         check_relative (area (&m, "right"), 10, 1e-12);
         drop (&m);
-        check_ok (make (&m, "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [10, 10]}}}, {subtract: {box: {low: [4, 5], high: [6, 7]}}}]\nspacing: 1", cut));
-        check_relative (area (&m, "top"), 10, 1e-12);          /* not the floor of the hole below it, which looks up as well        */
+        check_ok (make (&m,
+                        "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [10, 10]}}}, {subtract: {box: "
+                        "{low: [4, 5], high: [6, 7]}}}]\nspacing: 1",
+                        cut));
+        /* not the floor of the hole below it, which looks up as well */
+        check_relative (area (&m, "top"), 10, 1e-12);
         check_relative (area (&m, "all"), 48, 1e-12);
         drop (&m);
     }
@@ -88,7 +109,9 @@ static void a_bar_has_two_ends (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, "dimension: 1\ncross_section: 3\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1", 0));
+    check_ok (
+        make (&m, "dimension: 1\ncross_section: 3\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1",
+              0));
     assert_int_equal (find (&m, "left")->npoint, 1);
     assert_int_equal (find (&m, "right")->point[0], 10);
     check_relative (area (&m, "right"), 3, 1e-15);
@@ -111,11 +134,14 @@ static void a_hole_is_what_lies_nearest_to_its_circle (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, PLATE "sets: {bore: {boundary: hole}, edge: {boundary: side}, whole: {boundary: all}}", 0));
+    check_ok (
+        make (&m, PLATE "sets: {bore: {boundary: hole}, edge: {boundary: side}, whole: {boundary: all}}", 0));
     const pg_set *bore = find (&m, "bore");
-    assert_true (bore->nfacet >= 12 && bore->npoint == bore->nfacet);      /* a ring has as many corners as edges */
+    /* a ring has as many corners as edges */
+    assert_true (bore->nfacet >= 12 && bore->npoint == bore->nfacet);
     for (size_t k = 0; k < bore->npoint; k++)
-        assert_true (hypot (m.cloud.x[2 * bore->point[k]] - 0.5, m.cloud.x[2 * bore->point[k] + 1] - 0.5) < 0.35);
+        assert_true (hypot (m.cloud.x[2 * bore->point[k]] - 0.5, m.cloud.x[2 * bore->point[k] + 1] - 0.5)
+                     < 0.35);
     check_relative (area (&m, "edge"), 6, 1e-13);
     check_relative (area (&m, "edge") + area (&m, "bore"), area (&m, "whole"), 1e-13);
     assert_int_equal (find (&m, "whole")->npoint, bore->npoint + find (&m, "edge")->npoint);
@@ -127,7 +153,11 @@ static void boundaries_add_up_and_conditions_narrow_down (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, PLATE "sets: {ends: {boundary: [left, right]}, corner: {boundary: [left, right], where: y <= 0.27}}", 0));
+    check_ok (
+        make (&m,
+              PLATE
+              "sets: {ends: {boundary: [left, right]}, corner: {boundary: [left, right], where: y <= 0.27}}",
+              0));
     assert_int_equal (find (&m, "ends")->npoint, 22);
     assert_int_equal (find (&m, "corner")->npoint, 6);          /* y = 0, 0.1, 0.2 */
     assert_int_equal (find (&m, "corner")->nfacet, 6);          /* centres at 0.05, 0.15, 0.25 */
@@ -155,8 +185,11 @@ static void platens_of_the_disk_are_found_by_angle (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, DISK "sets: {platens: {boundary: rim, angle: [[80 deg, 100 deg], [260 deg, 280 deg]]}}", 0));
-    const pg_set *s = find (&m, "platens"), *top = find (&m, "platens.top"), *bottom = find (&m, "platens.bottom");
+    check_ok (make (&m,
+                    DISK "sets: {platens: {boundary: rim, angle: [[80 deg, 100 deg], [260 deg, 280 deg]]}}",
+                    0));
+    const pg_set *s = find (&m, "platens"), *top = find (&m, "platens.top"),
+                 *bottom = find (&m, "platens.bottom");
     double degree = acos (-1) / 180;
     size_t n = 0;
     assert_int_equal (top->npoint + bottom->npoint, s->npoint);
@@ -167,7 +200,7 @@ static void platens_of_the_disk_are_found_by_angle (void **state)
         double a = angle_at (x[0], x[1]);
         assert_true (x[1] > 0.04 && a >= 80 * degree - 1e-9 && a <= 100 * degree + 1e-9);
     }
-    for (size_t i = 0; i < m.cloud.n; i++) {                    /* corners of the staircase: not all four cells around */
+    for (size_t i = 0; i < m.cloud.n; i++) {  /* corners of the staircase: not all four cells around */
         double a = angle_at (m.cloud.x[2*i], m.cloud.x[2*i + 1]);
         n += m.cloud.x[2*i + 1] > 0 && m.cloud.volume[i] < 3.99e-8 && a >= 80 * degree && a <= 100 * degree;
     }
@@ -180,7 +213,10 @@ static void angles_wrap_around (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, DISK "sets: {a: {angle: [[350 deg, 10 deg]]}, b: {angle: [[-10 deg, 10 deg]]}, c: {angle: [[710 deg, 730 deg]]}, d: {angle: [[0, 360 deg]]}}", 0));
+    check_ok (make (&m,
+                    DISK "sets: {a: {angle: [[350 deg, 10 deg]]}, b: {angle: [[-10 deg, 10 deg]]}, c: "
+                         "{angle: [[710 deg, 730 deg]]}, d: {angle: [[0, 360 deg]]}}",
+                    0));
     const pg_set *a = find (&m, "a"), *b = find (&m, "b"), *c = find (&m, "c");
     assert_int_equal (a->npoint, b->npoint);
     assert_int_equal (a->npoint, c->npoint);
@@ -224,7 +260,10 @@ static void a_shifted_lattice_still_has_its_sides (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [2, 1]}}}]\nspacing: 0.1\nlattice_offset: [0.3, -0.6]\n", 0));
+    check_ok (make (&m,
+                    "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [2, 1]}}}]\nspacing: "
+                    "0.1\nlattice_offset: [0.3, -0.6]\n",
+                    0));
     check_relative (area (&m, "left"), 1, 1e-13);
     check_relative (area (&m, "right"), 1, 1e-13);
     check_relative (area (&m, "top"), 2, 1e-13);
@@ -254,7 +293,8 @@ static void points_from_a_file_have_sides_but_no_facets (void **state)
     assert_non_null (f);
     for (int j = 0; j < 5; j++) for (int i = 0; i < 9; i++) fprintf (f, "%g,%g,0.01\n", 0.1 * i, 0.1 * j);
     fclose (f);
-    snprintf (text, sizeof text, "dimension: 2\npoints: %s\nsets: {low: {where: y < 0.15}, ring: {boundary: all}}\n", path);
+    snprintf (text, sizeof text,
+              "dimension: 2\npoints: %s\nsets: {low: {where: y < 0.15}, ring: {boundary: all}}\n", path);
     model m;
     check_ok (make (&m, text, 0));
     assert_int_equal (find (&m, "left")->npoint, 5);
@@ -280,7 +320,8 @@ static void unknown_boundaries_name_the_known_ones (void **state)
     (void) state;
     must_fault (PLATE "sets: {a: {boundary: hle}}", "did you mean hole?");
     must_fault (PLATE "sets: {a: {boundary: front}}", "no boundary is called 'front'");
-    must_fault (PLATE "sets: {a: {boundary: [left, qqqqqq]}}", "there are left|right|bottom|top|all|side|hole");
+    must_fault (PLATE "sets: {a: {boundary: [left, qqqqqq]}}",
+                "there are left|right|bottom|top|all|side|hole");
 }
 
 static void conditions_that_make_no_sense_are_faults (void **state)
@@ -289,7 +330,9 @@ static void conditions_that_make_no_sense_are_faults (void **state)
     must_fault (PLATE "sets: {a: {angle: [[1, 2, 3]]}}", "range 1 must be a pair");
     must_fault (PLATE "sets: {a: {angle: []}}", "has no range");
     must_fault (PLATE "sets: {a: {where: t > 0.5 s}}", "does not change with t");
-    must_fault ("dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1\nsets: {a: {angle: [[0, 1]]}}", "needs dimension 2 or 3");
+    must_fault ("dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1\nsets: {a: {angle: "
+                "[[0, 1]]}}",
+                "needs dimension 2 or 3");
     must_fault (PLATE "sets: {a: {}}", "give boundary, angle or where");
 }
 
@@ -297,9 +340,12 @@ static void names_of_sets_are_checked (void **state)
 {
     (void) state;
     must_fault (PLATE "sets: {left: {where: x > 1}}", "always there");
-    must_fault (PLATE "sets: {a123456789a123456789a123456789a123456789a123456789a1234567: {where: x > 1}}", "at most 56 letters");
+    must_fault (PLATE "sets: {a123456789a123456789a123456789a123456789a123456789a1234567: {where: x > 1}}",
+                "at most 56 letters");
     model m;
-    check_ok (make (&m, PLATE "sets: {a123456789a123456789a123456789a123456789a123456789a12345: {where: x > 1}}", 0));
+    check_ok (make (&m,
+                    PLATE "sets: {a123456789a123456789a123456789a123456789a123456789a12345: {where: x > 1}}",
+                    0));
     find (&m, "a123456789a123456789a123456789a123456789a123456789a12345.bottom");
     drop (&m);
 }
@@ -338,15 +384,24 @@ static void the_rim_of_a_cylinder_is_round (void **state)
 {
     (void) state;
     model m;
-    check_ok (make (&m, "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], length: 10 mm, diameter: 40 mm}}}]\nspacing: 2 mm\n"
-                    "sets: {platens: {boundary: rim, angle: [[80 deg, 100 deg]]}, ends: {boundary: side}, skin: {boundary: all}}", 0));
-    const pg_set *platens = pg_sets_find (&m.sets, "platens"), *ends = pg_sets_find (&m.sets, "ends"), *skin = pg_sets_find (&m.sets, "skin");
+    check_ok (make (&m,
+                    "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], length: 10 mm, diameter: 40 "
+                    "mm}}}]\nspacing: 2 mm\n"
+                    "sets: {platens: {boundary: rim, angle: [[80 deg, 100 deg]]}, ends: {boundary: side}, "
+                    "skin: {boundary: all}}",
+                    0));
+    const pg_set *platens = pg_sets_find (&m.sets, "platens"), *ends = pg_sets_find (&m.sets, "ends"),
+                 *skin = pg_sets_find (&m.sets, "skin");
     assert_true (platens->npoint > 0 && platens->nfacet > 0);
-    for (size_t i = 0; i < platens->npoint; i++) assert_true (m.cloud.x[3 * (size_t) platens->point[i] + 1] > 17e-3);
-    for (size_t i = 0; i < platens->nfacet; i++) assert_true (fabs (m.cells.normal[3 * (size_t) platens->facet[i] + 2]) < 0.5);
-    for (size_t i = 0; i < ends->nfacet; i++) assert_true (fabs (m.cells.normal[3 * (size_t) ends->facet[i] + 2]) > 0.5);
+    for (size_t i = 0; i < platens->npoint; i++)
+        assert_true (m.cloud.x[3 * (size_t) platens->point[i] + 1] > 17e-3);
+    for (size_t i = 0; i < platens->nfacet; i++)
+        assert_true (fabs (m.cells.normal[3 * (size_t) platens->facet[i] + 2]) < 0.5);
+    for (size_t i = 0; i < ends->nfacet; i++)
+        assert_true (fabs (m.cells.normal[3 * (size_t) ends->facet[i] + 2]) > 0.5);
     size_t flat = 0;
-    for (size_t i = 0; i < skin->nfacet; i++) flat += fabs (m.cells.normal[3 * (size_t) skin->facet[i] + 2]) > 0.5;
+    for (size_t i = 0; i < skin->nfacet; i++)
+        flat += fabs (m.cells.normal[3 * (size_t) skin->facet[i] + 2]) > 0.5;
     assert_int_equal (ends->nfacet, flat);
     drop (&m);
 }
@@ -354,14 +409,27 @@ static void the_rim_of_a_cylinder_is_round (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (sides_of_a_box_have_their_points_and_areas), cmocka_unit_test (parts_of_stairs_are_where_they_should_be), cmocka_unit_test (a_face_that_ends_in_a_side_is_none_of_it), cmocka_unit_test (a_bar_has_two_ends), cmocka_unit_test (all_is_everything),
-        cmocka_unit_test (a_hole_is_what_lies_nearest_to_its_circle), cmocka_unit_test (boundaries_add_up_and_conditions_narrow_down),
-        cmocka_unit_test (where_alone_picks_points_inside_as_well), cmocka_unit_test (platens_of_the_disk_are_found_by_angle),
-        cmocka_unit_test (angles_wrap_around), cmocka_unit_test (parts_leave_out_the_middle), cmocka_unit_test (points_in_cells_take_the_cells_behind_the_facets),
-        cmocka_unit_test (a_shifted_lattice_still_has_its_sides), cmocka_unit_test (members_ascend), cmocka_unit_test (points_from_a_file_have_sides_but_no_facets),
-        cmocka_unit_test (an_empty_set_of_the_scene_is_a_fault), cmocka_unit_test (unknown_boundaries_name_the_known_ones),
-        cmocka_unit_test (conditions_that_make_no_sense_are_faults), cmocka_unit_test (names_of_sets_are_checked),
-        cmocka_unit_test (all_faulty_sets_are_reported_together), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (sides_of_a_box_have_their_points_and_areas),
+        cmocka_unit_test (parts_of_stairs_are_where_they_should_be),
+        cmocka_unit_test (a_face_that_ends_in_a_side_is_none_of_it),
+        cmocka_unit_test (a_bar_has_two_ends),
+        cmocka_unit_test (all_is_everything),
+        cmocka_unit_test (a_hole_is_what_lies_nearest_to_its_circle),
+        cmocka_unit_test (boundaries_add_up_and_conditions_narrow_down),
+        cmocka_unit_test (where_alone_picks_points_inside_as_well),
+        cmocka_unit_test (platens_of_the_disk_are_found_by_angle),
+        cmocka_unit_test (angles_wrap_around),
+        cmocka_unit_test (parts_leave_out_the_middle),
+        cmocka_unit_test (points_in_cells_take_the_cells_behind_the_facets),
+        cmocka_unit_test (a_shifted_lattice_still_has_its_sides),
+        cmocka_unit_test (members_ascend),
+        cmocka_unit_test (points_from_a_file_have_sides_but_no_facets),
+        cmocka_unit_test (an_empty_set_of_the_scene_is_a_fault),
+        cmocka_unit_test (unknown_boundaries_name_the_known_ones),
+        cmocka_unit_test (conditions_that_make_no_sense_are_faults),
+        cmocka_unit_test (names_of_sets_are_checked),
+        cmocka_unit_test (all_faulty_sets_are_reported_together),
+        cmocka_unit_test (any_allocation_may_fail),
         cmocka_unit_test (the_rim_of_a_cylinder_is_round),
     };
     return cmocka_run_group_tests_name ("cells/sets", tests, NULL, NULL);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A program of a user of the library: runs a scene and prints the largest displacement. Compiled by test_install.sh. */
+ * A program of a user of the library: runs a scene and prints the largest displacement. Compiled by
+ * test_install.sh. */
 #include <math.h>
 #include <perigal.h>
 #include <stdio.h>

@@ -57,7 +57,8 @@ static void round_shapes_measure_from_their_surface (void **state)
 static void tilted_cylinder_has_its_distance_and_box (void **state)
 {
     (void) state;
-    pg_body c = body_of ("dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], axis: [3, 0, 4], radius: 1, length: 10}}}]");
+    pg_body c = body_of ("dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], axis: [3, 0, 4], radius: "
+                         "1, length: 10}}}]");
     check_relative (distance (&c, 3, 0, 4), -1, 1e-14);         /* on the axis: side nearest */
     check_relative (distance (&c, 3, 2, 4), 1, 1e-14);
     check_relative (distance (&c, 7.2, 0, 9.6), 2, 1e-14);      /* beyond the far end */
@@ -71,12 +72,14 @@ static void tilted_cylinder_has_its_distance_and_box (void **state)
 static void polygon_and_prism_work_when_concave (void **state)
 {
     (void) state;
-    pg_body p = body_of ("dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [4, 0], [4, 4], [2, 1], [0, 4]]}}}]");
+    pg_body p = body_of (
+        "dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [4, 0], [4, 4], [2, 1], [0, 4]]}}}]");
     assert_false (pg_body_inside (&p, (double[]) {2, 2}, 0));
     assert_true (pg_body_inside (&p, (double[]) {0.5, 2}, 0));
     assert_true (pg_body_inside (&p, (double[]) {2, 1}, 1e-12));
     check_relative (distance (&p, 5, 2, 0), 1, 1e-15);
-    pg_body q = body_of ("dimension: 3\nbody: [{add: {prism: {vertices: [[0, 0], [1, 0], [0, 1]], low: -1, high: 1}}}]");
+    pg_body q = body_of (
+        "dimension: 3\nbody: [{add: {prism: {vertices: [[0, 0], [1, 0], [0, 1]], low: -1, high: 1}}}]");
     check_relative (distance (&q, 0.2, -0.3, 1.4), 0.5, 1e-14);
     assert_true (pg_body_inside (&q, (double[]) {0.4, 0.4, -0.9}, 0));
     assert_false (pg_body_inside (&q, (double[]) {0.6, 0.6, 0}, 0));
@@ -86,7 +89,8 @@ static void polygon_and_prism_work_when_concave (void **state)
 static void a_polygon_closed_by_hand_is_the_same (void **state)
 {
     (void) state;
-    pg_body p = body_of ("dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [4, 0], [4, 4], [0, 0]]}}}]");
+    pg_body p = body_of (
+        "dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [4, 0], [4, 4], [0, 0]]}}}]");
     assert_int_equal (p.shape[0].nvertex, 3);
     pg_body_clear (&p);
 }
@@ -94,7 +98,8 @@ static void a_polygon_closed_by_hand_is_the_same (void **state)
 static void shapes_act_in_order_and_surfaces_belong_to_the_body (void **state)
 {
     (void) state;
-    pg_body b = body_of ("dimension: 2\nbody:\n  - add: {box: {low: [-2, -2], high: [2, 2]}}\n  - subtract: {disk: {center: [0, 0], radius: 1}}\n"
+    pg_body b = body_of ("dimension: 2\nbody:\n  - add: {box: {low: [-2, -2], high: [2, 2]}}\n  - subtract: "
+                         "{disk: {center: [0, 0], radius: 1}}\n"
                          "  - add: {disk: {center: [0, 0], radius: 0.5}}\n");
     assert_true (pg_body_inside (&b, (double[]) {0, 0}, 0));
     assert_false (pg_body_inside (&b, (double[]) {0.7, 0}, 0));
@@ -109,7 +114,8 @@ static void shapes_act_in_order_and_surfaces_belong_to_the_body (void **state)
 static void the_box_of_the_body_ignores_what_is_subtracted (void **state)
 {
     (void) state;
-    pg_body b = body_of ("dimension: 2\nbody:\n  - add: {box: {low: [0, 0], high: [2, 1]}}\n  - subtract: {disk: {center: [9, 9], radius: 1}}\n");
+    pg_body b = body_of ("dimension: 2\nbody:\n  - add: {box: {low: [0, 0], high: [2, 1]}}\n  - subtract: "
+                         "{disk: {center: [9, 9], radius: 1}}\n");
     check_relative (b.high[0], 2, 0);
     check_relative (b.high[1], 1, 0);
     pg_body_clear (&b);
@@ -118,8 +124,10 @@ static void the_box_of_the_body_ignores_what_is_subtracted (void **state)
 static void surfaces_are_named_by_kind_or_by_the_user (void **state)
 {
     (void) state;
-    pg_body b = body_of ("dimension: 2\nbody:\n  - add: {box: {low: [-2, -2], high: [2, 2]}}\n  - subtract: {disk: {center: [0, 0], radius: 1}}\n"
-                         "  - add: {disk: {center: [5, 5], radius: 1}}\n  - subtract: {disk: {center: [5, 5], radius: 0.1}}\n    name: bore\n");
+    pg_body b = body_of ("dimension: 2\nbody:\n  - add: {box: {low: [-2, -2], high: [2, 2]}}\n  - subtract: "
+                         "{disk: {center: [0, 0], radius: 1}}\n"
+                         "  - add: {disk: {center: [5, 5], radius: 1}}\n  - subtract: {disk: {center: [5, "
+                         "5], radius: 0.1}}\n    name: bore\n");
     assert_string_equal (b.shape[0].boundary, "side");
     assert_string_equal (b.shape[1].boundary, "hole");
     assert_string_equal (b.shape[2].boundary, "rim");
@@ -133,21 +141,30 @@ static void surfaces_are_named_by_kind_or_by_the_user (void **state)
 static void a_shape_of_another_dimension_is_a_fault (void **state)
 {
     (void) state;
-    must_fault ("dimension: 3\nbody: [{add: {disk: {center: [0, 0, 0], radius: 1}}}]", "a disk needs dimension 2, this scene has 3");
-    must_fault ("dimension: 2\nbody: [{add: {sphere: {center: [0, 0], radius: 1}}}]", "a sphere needs dimension 3");
-    must_fault ("dimension: 3\nbody: [{add: {polygon: {vertices: [[0, 0], [1, 0], [0, 1]]}}}]", "a polygon needs dimension 2");
+    must_fault ("dimension: 3\nbody: [{add: {disk: {center: [0, 0, 0], radius: 1}}}]",
+                "a disk needs dimension 2, this scene has 3");
+    must_fault ("dimension: 2\nbody: [{add: {sphere: {center: [0, 0], radius: 1}}}]",
+                "a sphere needs dimension 3");
+    must_fault ("dimension: 3\nbody: [{add: {polygon: {vertices: [[0, 0], [1, 0], [0, 1]]}}}]",
+                "a polygon needs dimension 2");
 }
 
 static void impossible_shapes_are_faults (void **state)
 {
     (void) state;
-    must_fault ("dimension: 2\nbody: [{add: {box: {low: [0, 1], high: [1, 1]}}}]", "low must lie below high, but y");
+    must_fault ("dimension: 2\nbody: [{add: {box: {low: [0, 1], high: [1, 1]}}}]",
+                "low must lie below high, but y");
     must_fault ("dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [1, 0]]}}}]", "three vertices");
-    must_fault ("dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [1, 1], [1, 0], [0, 1]]}}}]", "crosses itself");
+    must_fault ("dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [1, 1], [1, 0], [0, 1]]}}}]",
+                "crosses itself");
     must_fault ("dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0], [1, 1], [2, 2]]}}}]", "polygon");
-    must_fault ("dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0, 0], [1, 0], [0, 1]]}}}]", "vertex 1 must be a pair");
-    must_fault ("dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], axis: [0, 0, 0], radius: 1, length: 1}}}]", "axis has no length");
-    must_fault ("dimension: 3\nbody: [{add: {prism: {vertices: [[0, 0], [1, 0], [0, 1]], low: 1, high: 1}}}]", "low must lie below high");
+    must_fault ("dimension: 2\nbody: [{add: {polygon: {vertices: [[0, 0, 0], [1, 0], [0, 1]]}}}]",
+                "vertex 1 must be a pair");
+    must_fault (
+        "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], axis: [0, 0, 0], radius: 1, length: 1}}}]",
+        "axis has no length");
+    must_fault ("dimension: 3\nbody: [{add: {prism: {vertices: [[0, 0], [1, 0], [0, 1]], low: 1, high: 1}}}]",
+                "low must lie below high");
 }
 
 static void a_body_needs_something_added (void **state)
@@ -160,14 +177,18 @@ static void a_body_needs_something_added (void **state)
 static void a_surface_may_not_take_the_name_of_a_side (void **state)
 {
     (void) state;
-    must_fault ("dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}, name: left}]", "already names a side");
-    must_fault ("dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}, name: abcdefghijklmnopqrstuvwxyzabcdefghijk}]", "at most 31 letters");
+    must_fault ("dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}, name: left}]",
+                "already names a side");
+    must_fault ("dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 1}}, name: "
+                "abcdefghijklmnopqrstuvwxyzabcdefghijk}]",
+                "at most 31 letters");
 }
 
 static void all_faults_of_a_body_come_together (void **state)
 {
     (void) state;
-    const char *text = "dimension: 2\nbody:\n  - add: {box: {low: [0, 1], high: [1, 1]}}\n  - add: {sphere: {center: [0, 0], radius: 1}}\n";
+    const char *text = "dimension: 2\nbody:\n  - add: {box: {low: [0, 1], high: [1, 1]}}\n  - add: {sphere: "
+                       "{center: [0, 0], radius: 1}}\n";
     must_fault (text, "a sphere needs");
     must_fault (text, "low must lie");
 }
@@ -175,12 +196,18 @@ static void all_faults_of_a_body_come_together (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (box_distance_is_exact_in_1d_2d_3d), cmocka_unit_test (round_shapes_measure_from_their_surface),
-        cmocka_unit_test (tilted_cylinder_has_its_distance_and_box), cmocka_unit_test (polygon_and_prism_work_when_concave),
-        cmocka_unit_test (a_polygon_closed_by_hand_is_the_same), cmocka_unit_test (shapes_act_in_order_and_surfaces_belong_to_the_body),
-        cmocka_unit_test (the_box_of_the_body_ignores_what_is_subtracted), cmocka_unit_test (surfaces_are_named_by_kind_or_by_the_user),
-        cmocka_unit_test (a_shape_of_another_dimension_is_a_fault), cmocka_unit_test (impossible_shapes_are_faults),
-        cmocka_unit_test (a_body_needs_something_added), cmocka_unit_test (a_surface_may_not_take_the_name_of_a_side),
+        cmocka_unit_test (box_distance_is_exact_in_1d_2d_3d),
+        cmocka_unit_test (round_shapes_measure_from_their_surface),
+        cmocka_unit_test (tilted_cylinder_has_its_distance_and_box),
+        cmocka_unit_test (polygon_and_prism_work_when_concave),
+        cmocka_unit_test (a_polygon_closed_by_hand_is_the_same),
+        cmocka_unit_test (shapes_act_in_order_and_surfaces_belong_to_the_body),
+        cmocka_unit_test (the_box_of_the_body_ignores_what_is_subtracted),
+        cmocka_unit_test (surfaces_are_named_by_kind_or_by_the_user),
+        cmocka_unit_test (a_shape_of_another_dimension_is_a_fault),
+        cmocka_unit_test (impossible_shapes_are_faults),
+        cmocka_unit_test (a_body_needs_something_added),
+        cmocka_unit_test (a_surface_may_not_take_the_name_of_a_side),
         cmocka_unit_test (all_faults_of_a_body_come_together),
     };
     return cmocka_run_group_tests_name ("cloud/body", tests, NULL, NULL);

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which bonds a crack cuts, against exact integer geometry: bonds and cracks with whole coordinates (u, v, w), w = 0 the crack's
- * plane, mapped to a tilted plane in space. */
+ * Which bonds a crack cuts, against exact integer geometry: bonds and cracks with whole coordinates (u, v,
+ * w), w = 0 the crack's plane, mapped to a tilted plane in space. */
 #include "check.h"
 #include "perigal/cloud.h"
 
 typedef struct { long u, v, w; } whole;
 
 static uint32_t seed = 1;
-static long pick (long n) { seed = seed * 1664525u + 1013904223u; return (long) ((seed >> 8) % (uint32_t) (2*n + 1)) - n; }
+static long pick (long n)
+{
+    seed = seed * 1664525u + 1013904223u;
+    return (long) ((seed >> 8) % (uint32_t) (2 * n + 1)) - n;
+}
 static double real (void) { seed = seed * 1664525u + 1013904223u; return (seed >> 8) / 8388608.0 - 1; }
 
-/* ---- exact planar geometry, closed sets -------------------------------------------------------------------------------- */
+/* ---- exact planar geometry, closed sets ---------------------------------------------------------------- */
 static long turn (whole a, whole b, whole c)
 {
     long s = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
@@ -18,7 +22,10 @@ static long turn (whole a, whole b, whole c)
 }
 
 static int between (long a, long b, long c) { return (a <= c && c <= b) || (b <= c && c <= a); }
-static int on (whole a, whole b, whole c) { return !turn (a, b, c) && between (a.u, b.u, c.u) && between (a.v, b.v, c.v); }
+static int on (whole a, whole b, whole c)
+{
+    return !turn (a, b, c) && between (a.u, b.u, c.u) && between (a.v, b.v, c.v);
+}
 
 static int meet (whole a, whole b, whole c, whole d)
 {
@@ -75,8 +82,8 @@ static int disc_meets (long radius, whole x, whole y)
     return c*c <= radius*radius*l;
 }
 
-/* ---- into space ------------------------------------------------------------------------------------------------------- */
-static void to_space (whole a, double *x)              /* orthonormal (2 1 -2)/3, (2 -2 1)/3, (1 2 2)/3                  */
+/* ---- into space ---------------------------------------------------------------------------------------- */
+static void to_space (whole a, double *x)              /* orthonormal (2 1 -2)/3, (2 -2 1)/3, (1 2 2)/3 */
 {
     double u = (double) a.u / 3, v = (double) a.v / 3, w = (double) a.w / 3;
     x[0] = 0.7 + 2*u + 2*v + w, x[1] = -0.3 + u - 2*v + 2*w, x[2] = 0.1 - 2*u + v + 2*w;
@@ -91,7 +98,9 @@ static void compare (const pg_crack *c, int dim, const double *x, const double *
 static void segment (pg_crack *c, double *vertex)
 {
     double t[2] = {vertex[2] - vertex[0], vertex[3] - vertex[1]}, l = hypot (t[0], t[1]);
-    *c = (pg_crack) {.kind = PG_CRACK_SEGMENT, .vertex = vertex, .nvertex = 2, .normal = {-t[1] / l, t[0] / l, 0}};
+    *c = (pg_crack){
+        .kind = PG_CRACK_SEGMENT, .vertex = vertex, .nvertex = 2, .normal = { -t[1] / l, t[0] / l, 0 }
+    };
 }
 
 static void bonds_and_segments_agree_with_integers (void **state)
@@ -99,9 +108,11 @@ static void bonds_and_segments_agree_with_integers (void **state)
     (void) state;
     int cut = 0;
     for (int k = 0; k < 200000; k++) {
-        whole p = {pick (4), pick (4), 0}, q = {pick (4), pick (4), 0}, a = {pick (4), pick (4), 0}, b = {pick (4), pick (4), 0};
+        whole p = { pick (4), pick (4), 0 }, q = { pick (4), pick (4), 0 }, a = { pick (4), pick (4), 0 },
+              b = { pick (4), pick (4), 0 };
         if (p.u == q.u && p.v == q.v) continue;
-        double v[4] = {(double) p.u, (double) p.v, (double) q.u, (double) q.v}, x[2] = {(double) a.u, (double) a.v}, y[2] = {(double) b.u, (double) b.v};
+        double v[4] = { (double) p.u, (double) p.v, (double) q.u, (double) q.v },
+               x[2] = { (double) a.u, (double) a.v }, y[2] = { (double) b.u, (double) b.v };
         pg_crack c;
         segment (&c, v);
         compare (&c, 2, x, y, meet (p, q, a, b));
@@ -115,7 +126,9 @@ static void polygon_agrees (int n, const whole *p)
     double v[24], x[3], y[3];
     int cut = 0;
     for (int i = 0; i < n; i++) to_space (p[i], v + 3*i);
-    pg_crack c = {.kind = PG_CRACK_POLYGON, .vertex = v, .nvertex = (size_t) n, .normal = {1.0/3, 2.0/3, 2.0/3}};
+    pg_crack c = {
+        .kind = PG_CRACK_POLYGON, .vertex = v, .nvertex = (size_t) n, .normal = { 1.0 / 3, 2.0 / 3, 2.0 / 3 }
+    };
     for (int k = 0; k < 100000; k++) {
         whole a = {pick (6), pick (6), pick (2)}, b = {pick (6), pick (6), pick (2)};
         to_space (a, x), to_space (b, y);
@@ -163,17 +176,21 @@ static void swapping_the_ends_never_changes_the_answer (void **state)
     pg_crack c;
     segment (&c, v);
     for (int k = 0; k < 200000; k++) {                         /* ends about one tolerance off the line */
-        double s = 0.8 * real (), t = 0.8 * real (), d = 2e-9 * real (), e = k % 2 ? 2e-9 * real () : 0.5 * real ();
-        double x[2] = {0.05 + s*0.7 + d*c.normal[0], 0.075 + s*0.55 + d*c.normal[1]}, y[2] = {0.05 + t*0.7 + e*c.normal[0], 0.075 + t*0.55 + e*c.normal[1]};
+        double s = 0.8 * real (), t = 0.8 * real (), d = 2e-9 * real (),
+               e = k % 2 ? 2e-9 * real () : 0.5 * real ();
+        double x[2] = { 0.05 + s * 0.7 + d * c.normal[0], 0.075 + s * 0.55 + d * c.normal[1] },
+               y[2] = { 0.05 + t * 0.7 + e * c.normal[0], 0.075 + t * 0.55 + e * c.normal[1] };
         assert_int_equal (pg_crack_cuts (&c, 2, x, y, 1e-9), pg_crack_cuts (&c, 2, y, x, 1e-9));
         near += pg_crack_cuts (&c, 2, x, y, 1e-9);
     }
     assert_true (near > 1000 && near < 199000);
     near = 0;
-    for (int k = 0; k < 200000; k++) {                         /* past the tip at exactly the tolerance: rounding decides */
-        double a = 0.3 + 0.2 * real (), b = 0.4 + 0.1 * real (), m = real (), tip[2] = {0.4, 0.35}, x[2], y[2];
+    for (int k = 0; k < 200000; k++) {  /* past the tip at exactly the tolerance: rounding decides */
+        double a = 0.3 + 0.2 * real (), b = 0.4 + 0.1 * real (), m = real (), tip[2] = { 0.4, 0.35 }, x[2],
+               y[2];
         for (int i = 0; i < 2; i++) {
-            double t = i ? -c.normal[0] : c.normal[1], corner = tip[i] + 0.01 * t + 0.01 * c.normal[i], along = m * t + c.normal[i] * (1 - fabs (m));
+            double t = i ? -c.normal[0] : c.normal[1], corner = tip[i] + 0.01 * t + 0.01 * c.normal[i],
+                   along = m * t + c.normal[i] * (1 - fabs (m));
             x[i] = corner - a * along, y[i] = corner + b * along;
         }
         assert_int_equal (pg_crack_cuts (&c, 2, x, y, 0.01), pg_crack_cuts (&c, 2, y, x, 0.01));
@@ -185,7 +202,7 @@ static void swapping_the_ends_never_changes_the_answer (void **state)
 static void a_point_on_the_crack_loses_both_sides (void **state)
 {
     (void) state;
-    double v[4] = {-10.6e-3, -10.6e-3, 10.6e-3, 10.6e-3};      /* the 45 degree crack of the disk, 2 mm lattice */
+    double v[4] = {-10.6e-3, -10.6e-3, 10.6e-3, 10.6e-3};  /* the 45 degree crack of the disk, 2 mm lattice */
     int on_crack = 0;
     pg_crack c;
     segment (&c, v);
@@ -208,13 +225,17 @@ static void mirrored_and_turned_bonds_and_cracks_agree (void **state)
     double v[4] = {-10.6e-3, -10.6e-3, 10.6e-3, 10.6e-3};
     pg_crack c;
     segment (&c, v);
-    for (int j = -8; j <= 8; j++) for (int i = -8; i <= 8; i++) for (int q = -3; q <= 3; q++) for (int p = -3; p <= 3; p++) {
-        double x[2] = {0.002 * i, 0.002 * j}, y[2] = {0.002 * (i + p), 0.002 * (j + q)};
-        int cut = pg_crack_cuts (&c, 2, x, y, 2e-12);
-        double mx[2] = {x[1], x[0]}, my[2] = {y[1], y[0]}, tx[2] = {-x[0], -x[1]}, ty[2] = {-y[0], -y[1]};
-        assert_int_equal (pg_crack_cuts (&c, 2, mx, my, 2e-12), cut);
-        assert_int_equal (pg_crack_cuts (&c, 2, tx, ty, 2e-12), cut);
-    }
+    for (int j = -8; j <= 8; j++)
+        for (int i = -8; i <= 8; i++)
+            for (int q = -3; q <= 3; q++)
+                for (int p = -3; p <= 3; p++) {
+                    double x[2] = { 0.002 * i, 0.002 * j }, y[2] = { 0.002 * (i + p), 0.002 * (j + q) };
+                    int cut = pg_crack_cuts (&c, 2, x, y, 2e-12);
+                    double mx[2] = { x[1], x[0] }, my[2] = { y[1], y[0] }, tx[2] = { -x[0], -x[1] },
+                           ty[2] = { -y[0], -y[1] };
+                    assert_int_equal (pg_crack_cuts (&c, 2, mx, my, 2e-12), cut);
+                    assert_int_equal (pg_crack_cuts (&c, 2, tx, ty, 2e-12), cut);
+                }
 }
 
 static void a_bond_that_ends_just_before_the_crack_lives (void **state)
@@ -232,10 +253,14 @@ static void a_bond_that_ends_just_before_the_crack_lives (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (bonds_and_segments_agree_with_integers), cmocka_unit_test (bonds_and_a_convex_polygon_agree_with_integers),
-        cmocka_unit_test (bonds_and_a_concave_polygon_agree_with_integers), cmocka_unit_test (bonds_and_a_disc_agree_with_integers),
-        cmocka_unit_test (swapping_the_ends_never_changes_the_answer), cmocka_unit_test (a_point_on_the_crack_loses_both_sides),
-        cmocka_unit_test (mirrored_and_turned_bonds_and_cracks_agree), cmocka_unit_test (a_bond_that_ends_just_before_the_crack_lives),
+        cmocka_unit_test (bonds_and_segments_agree_with_integers),
+        cmocka_unit_test (bonds_and_a_convex_polygon_agree_with_integers),
+        cmocka_unit_test (bonds_and_a_concave_polygon_agree_with_integers),
+        cmocka_unit_test (bonds_and_a_disc_agree_with_integers),
+        cmocka_unit_test (swapping_the_ends_never_changes_the_answer),
+        cmocka_unit_test (a_point_on_the_crack_loses_both_sides),
+        cmocka_unit_test (mirrored_and_turned_bonds_and_cracks_agree),
+        cmocka_unit_test (a_bond_that_ends_just_before_the_crack_lives),
     };
     return cmocka_run_group_tests_name ("cloud/crack", tests, NULL, NULL);
 }

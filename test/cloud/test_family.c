@@ -4,12 +4,17 @@
 #include "perigal/cloud.h"
 #include <stdlib.h>
 
-static double next (uint32_t *seed) { *seed = *seed * 1664525u + 1013904223u; return (*seed >> 8) / 16777216.0; }
+static double next (uint32_t *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return (*seed >> 8) / 16777216.0;
+}
 
 static int in_family (int dim, const double *c, const double *x, double reach, int shape, int closed)
 {
     double sum = 0, most = 0;
-    for (int k = 0; k < dim; k++) sum += (x[k] - c[k]) * (x[k] - c[k]), most = fmax (most, fabs (x[k] - c[k]));
+    for (int k = 0; k < dim; k++)
+        sum += (x[k] - c[k]) * (x[k] - c[k]), most = fmax (most, fabs (x[k] - c[k]));
     double d = shape == PG_RADIAL ? sqrt (sum) : most;
     return closed ? d <= reach * (1 + 1e-9) : d < reach * (1 - 1e-9);
 }
@@ -25,7 +30,9 @@ static void same_as_brute_force (int dim, size_t n, double *x, size_t m, const d
         for (size_t i = 0; i < m; i++) {
             size_t e = f.start[i];
             for (size_t j = 0; j < n; j++) {
-                if (!in_family (dim, centre + i * (size_t) dim, x + j * (size_t) dim, reach, how % 2, how / 2)) continue;
+                if (!in_family (dim, centre + i * (size_t) dim, x + j * (size_t) dim, reach, how % 2,
+                                how / 2))
+                    continue;
                 assert_true (e < f.start[i + 1]);
                 assert_int_equal (f.node[e++], j);
             }
@@ -42,8 +49,11 @@ static void random_clouds_match_brute_force (void **state)
     for (int dim = 1; dim <= 3; dim++) {
         double x[900], c[150];
         for (int i = 0; i < 900; i++) x[i] = next (&seed);
-        for (int i = 0; i < 150; i++) c[i] = 1.4 * next (&seed) - 0.2;     /* some centres outside the cloud */
-        same_as_brute_force (dim, 900 / (size_t) dim, x, 150 / (size_t) dim, c, dim == 1 ? 0.02 : dim == 2 ? 0.1 : 0.3);
+        for (int i = 0; i < 150; i++) c[i] = 1.4 * next (&seed) - 0.2;  /* some centres outside the cloud */
+        same_as_brute_force (dim, 900 / (size_t) dim, x, 150 / (size_t) dim, c,
+                             dim == 1   ? 0.02
+                             : dim == 2 ? 0.1
+                                        : 0.3);
     }
 }
 
@@ -82,7 +92,8 @@ static void own_reaches_match_brute_force (void **state)
             size_t n = 300, d = (size_t) dim;
             double x[900], size[300], reach = 0.04;
             for (size_t i = 0; i < n * d; i++) x[i] = i < n * d / 2 ? 1e-2 * next (&seed) : next (&seed);
-            for (size_t i = 0; i < n; i++) size[i] = pow (10, 3 * next (&seed) - 2), x[i * d] = i % 7 ? x[i * d] : 0.25;
+            for (size_t i = 0; i < n; i++)
+                size[i] = pow (10, 3 * next (&seed) - 2), x[i * d] = i % 7 ? x[i * d] : 0.25;
             pg_cloud cloud = {.dim = dim, .n = n, .x = x, .size = size, .h = 0.5};
             pg_family f;
             size_t bonds = 0, single = 0;
@@ -90,10 +101,12 @@ static void own_reaches_match_brute_force (void **state)
             for (size_t i = 0; i < n; i++) {
                 size_t e = f.start[i];
                 for (size_t j = 0; j < n; j++) {
-                    if (!in_family (dim, x + i * d, x + j * d, reach * (size[j] / 0.5), how % 2, how / 2)) continue;
+                    if (!in_family (dim, x + i * d, x + j * d, reach * (size[j] / 0.5), how % 2, how / 2))
+                        continue;
                     assert_true (e < f.start[i + 1]);
                     assert_int_equal (f.node[e++], j);
-                    bonds++, single += !in_family (dim, x + j * d, x + i * d, reach * (size[i] / 0.5), how % 2, how / 2);
+                    bonds++, single += !in_family (dim, x + j * d, x + i * d, reach * (size[i] / 0.5),
+                                                   how % 2, how / 2);
                 }
                 assert_int_equal (e, f.start[i + 1]);
             }
@@ -182,11 +195,15 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (random_clouds_match_brute_force), cmocka_unit_test (lattice_points_lie_on_cell_borders),
+        cmocka_unit_test (random_clouds_match_brute_force),
+        cmocka_unit_test (lattice_points_lie_on_cell_borders),
         cmocka_unit_test (clusters_and_flat_clouds_match_brute_force),
-        cmocka_unit_test (own_reaches_match_brute_force), cmocka_unit_test (an_end_exactly_at_the_reach_counts_only_when_closed),
-        cmocka_unit_test (families_do_not_depend_on_the_unit), cmocka_unit_test (no_centres_and_no_points_are_fine),
-        cmocka_unit_test (bad_numbers_are_refused), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (own_reaches_match_brute_force),
+        cmocka_unit_test (an_end_exactly_at_the_reach_counts_only_when_closed),
+        cmocka_unit_test (families_do_not_depend_on_the_unit),
+        cmocka_unit_test (no_centres_and_no_points_are_fine),
+        cmocka_unit_test (bad_numbers_are_refused),
+        cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("cloud/family", tests, NULL, NULL);
 }

@@ -2,9 +2,11 @@
  * Points on the lattice: numbers, order, volumes, perturbation, faults. */
 #include "parsed.h"
 
-#define PLATE "dimension: 2\nthickness: 10 mm\nbody:\n  - add: {box: {low: [0, 0], high: [2, 1]}}\n  - subtract: {disk: {center: [1, 0.5], radius: 0.2}}\nspacing: 0.1\n"
+#define PLATE \
+    "dimension: 2\nthickness: 10 mm\nbody:\n  - add: {box: {low: [0, 0], high: [2, 1]}}\n  - subtract: " \
+    "{disk: {center: [1, 0.5], radius: 0.2}}\nspacing: 0.1\n"
 
-static double total (const pg_cloud *c)                /* compensated: rounding of the sum itself must not show          */
+static double total (const pg_cloud *c)  /* compensated: rounding of the sum itself must not show */
 {
     double sum = 0, lost = 0;
     for (size_t i = 0; i < c->n; i++) {
@@ -18,15 +20,18 @@ static double total (const pg_cloud *c)                /* compensated: rounding 
 static size_t kept (const pg_lattice *l)
 {
     size_t n = 0;
-    for (size_t i = 0; i < (size_t) l->count[0] * (size_t) l->count[1] * (size_t) l->count[2]; i++) n += l->in[i];
+    for (size_t i = 0; i < (size_t) l->count[0] * (size_t) l->count[1] * (size_t) l->count[2]; i++)
+        n += l->in[i];
     return n;
 }
 
 static void nodes_of_a_box_in_1d_2d_3d (void **state)
 {
     (void) state;
-    built a = build ("dimension: 1\ncross_section: 4 cm2\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1");
-    built b = build ("dimension: 2\nthickness: 2 mm\nbody: [{add: {box: {low: [0, 0], high: [1, 2]}}}]\nspacing: 0.1");
+    built a = build (
+        "dimension: 1\ncross_section: 4 cm2\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1");
+    built b = build (
+        "dimension: 2\nthickness: 2 mm\nbody: [{add: {box: {low: [0, 0], high: [1, 2]}}}]\nspacing: 0.1");
     built c = build ("dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 2, 3]}}}]\nspacing: 0.5");
     assert_int_equal (a.cloud.n, 11);
     assert_int_equal (b.cloud.n, 11 * 21);
@@ -45,9 +50,12 @@ static void nodes_of_a_box_in_1d_2d_3d (void **state)
 static void centres_of_a_box_in_1d_2d_3d (void **state)
 {
     (void) state;
-    built a = build ("dimension: 1\nlattice: cells\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1");
-    built b = build ("dimension: 2\nlattice: cells\nthickness: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 2]}}}]\nspacing: 0.1");
-    built c = build ("dimension: 3\nlattice: cells\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 2, 3]}}}]\nspacing: 0.5");
+    built a = build (
+        "dimension: 1\nlattice: cells\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1");
+    built b = build ("dimension: 2\nlattice: cells\nthickness: 2\nbody: [{add: {box: {low: [0, 0], high: [1, "
+                     "2]}}}]\nspacing: 0.1");
+    built c = build ("dimension: 3\nlattice: cells\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 2, "
+                     "3]}}}]\nspacing: 0.5");
     assert_int_equal (a.cloud.n, 10);
     assert_int_equal (b.cloud.n, 200);
     assert_int_equal (c.cloud.n, 48);
@@ -104,18 +112,20 @@ static void every_vertex_of_a_kept_cell_is_a_point_and_no_other (void **state)
 static void a_disk_keeps_its_symmetry (void **state)
 {
     (void) state;
-    built b = build ("dimension: 2\nbody: [{add: {disk: {center: [0, 0], diameter: 100 mm}}}]\nspacing: 2 mm");
+    built b = build (
+        "dimension: 2\nbody: [{add: {disk: {center: [0, 0], diameter: 100 mm}}}]\nspacing: 2 mm");
     for (size_t i = 0, n = b.cloud.n; i < n; i++) {            /* half a turn reverses the order */
-        assert_true (b.cloud.x[2*i] == -b.cloud.x[2*(n - 1 - i)] && b.cloud.x[2*i + 1] == -b.cloud.x[2*(n - 1 - i) + 1]);
+        assert_true (b.cloud.x[2 * i] == -b.cloud.x[2 * (n - 1 - i)]
+                     && b.cloud.x[2 * i + 1] == -b.cloud.x[2 * (n - 1 - i) + 1]);
         assert_true (b.cloud.volume[i] == b.cloud.volume[n - 1 - i]);
     }
-    int cells = 0;                                             /* centres at odd multiples of 1 mm within 50 mm */
+    int cells = 0;  /* centres at odd multiples of 1 mm within 50 mm */
     for (int j = -49; j < 50; j += 2) for (int i = -49; i < 50; i += 2) cells += i*i + j*j <= 2500;
     check_relative (total (&b.cloud), cells * 4e-6, 1e-14);
     unbuild (&b);
 }
 
-/* ---- perturbation --------------------------------------------------------------------------------------------------- */
+/* ---- perturbation -------------------------------------------------------------------------------------- */
 static void only_points_amid_kept_cells_move (const char *lattice, int reach, int around)
 {
     char text[600];
@@ -130,7 +140,8 @@ static void only_points_amid_kept_cells_move (const char *lattice, int reach, in
         const double *x = b.cloud.x + 2*i, *y = rest.cloud.x + 2*i;
         int n = 0;
         for (int c = 0; c < 10; c++) for (int a = 0; a < 20; a++)
-            n += b.lattice.in[20*c + a] && fabs (0.1*a + 0.05 - y[0]) < 0.05 * reach + 0.01 && fabs (0.1*c + 0.05 - y[1]) < 0.05 * reach + 0.01;
+                n += b.lattice.in[20 * c + a] && fabs (0.1 * a + 0.05 - y[0]) < 0.05 * reach + 0.01
+                     && fabs (0.1 * c + 0.05 - y[1]) < 0.05 * reach + 0.01;
         assert_int_equal (x[0] != y[0] && x[1] != y[1], n == around);
         assert_int_equal (x[0] != y[0], x[1] != y[1]);
         moved += x[0] != y[0];
@@ -142,20 +153,31 @@ static void only_points_amid_kept_cells_move (const char *lattice, int reach, in
     unbuild (&b), unbuild (&rest);
 }
 
-static void only_inner_nodes_move (void **state) { (void) state; only_points_amid_kept_cells_move ("nodes", 1, 4); }
-static void only_inner_centres_move (void **state) { (void) state; only_points_amid_kept_cells_move ("cells", 2, 9); }
+static void only_inner_nodes_move (void **state)
+{
+    (void) state;
+    only_points_amid_kept_cells_move ("nodes", 1, 4);
+}
+static void only_inner_centres_move (void **state)
+{
+    (void) state;
+    only_points_amid_kept_cells_move ("cells", 2, 9);
+}
 
 static void shifts_are_uniform_reproducible_and_differ_by_seed (void **state)
 {
     (void) state;
-    const char *text = "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.01\nperturb: {amount: 0.45, seed: 1}";
+    const char *text = "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: "
+                       "0.01\nperturb: {amount: 0.45, seed: 1}";
     built a = build (text), b = build (text);
-    built c = build ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.01\nperturb: {amount: 0.45, seed: 2}");
+    built c = build ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: "
+                     "0.01\nperturb: {amount: 0.45, seed: 2}");
     double sum = 0, square = 0, cross = 0, both = 0, n = 0;
     assert_memory_equal (a.cloud.x, b.cloud.x, a.cloud.n * 2 * sizeof (double));
     for (int j = 1; j < 100; j++) for (int i = 1; i < 100; i++) {
         size_t p = (size_t) (101*j + i);
-        double u = (a.cloud.x[2*p] - 0.01*i) / 0.0045, v = (a.cloud.x[2*p + 1] - 0.01*j) / 0.0045, w = (c.cloud.x[2*p] - 0.01*i) / 0.0045;
+        double u = (a.cloud.x[2 * p] - 0.01 * i) / 0.0045, v = (a.cloud.x[2 * p + 1] - 0.01 * j) / 0.0045,
+               w = (c.cloud.x[2 * p] - 0.01 * i) / 0.0045;
         sum += u + v, square += u*u + v*v, cross += u*v, both += u*w, n += 2;
     }
     assert_true (fabs (sum / n) < 0.02);                       /* standard deviation 0.004 */
@@ -164,7 +186,7 @@ static void shifts_are_uniform_reproducible_and_differ_by_seed (void **state)
     unbuild (&a), unbuild (&b), unbuild (&c);
 }
 
-/* ---- faults --------------------------------------------------------------------------------------------------------- */
+/* ---- faults -------------------------------------------------------------------------------------------- */
 static void must_fault (const char *text, const char *part)
 {
     pg_scene *scene = parsed (text);
@@ -181,7 +203,8 @@ static void must_fault (const char *text, const char *part)
 static void a_body_without_cells_is_a_fault_that_counts_them (void **state)
 {
     (void) state;
-    must_fault ("dimension: 2\nbody:\n  - add: {box: {low: [0, 0], high: [1, 1]}}\n  - subtract: {disk: {center: [0.5, 0.5], radius: 0.2}}\nspacing: 1 m",
+    must_fault ("dimension: 2\nbody:\n  - add: {box: {low: [0, 0], high: [1, 1]}}\n  - subtract: {disk: "
+                "{center: [0.5, 0.5], radius: 0.2}}\nspacing: 1 m",
                 "none of the 1 x 1 x 1 lattice cells");
 }
 
@@ -217,11 +240,18 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (nodes_of_a_box_in_1d_2d_3d), cmocka_unit_test (centres_of_a_box_in_1d_2d_3d), cmocka_unit_test (points_run_along_x_then_y_then_z),
-        cmocka_unit_test (volumes_sum_to_the_kept_cells), cmocka_unit_test (every_vertex_of_a_kept_cell_is_a_point_and_no_other),
-        cmocka_unit_test (a_disk_keeps_its_symmetry), cmocka_unit_test (only_inner_nodes_move), cmocka_unit_test (only_inner_centres_move),
-        cmocka_unit_test (shifts_are_uniform_reproducible_and_differ_by_seed), cmocka_unit_test (a_body_without_cells_is_a_fault_that_counts_them),
-        cmocka_unit_test (a_missing_or_tiny_spacing_is_a_fault), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (nodes_of_a_box_in_1d_2d_3d),
+        cmocka_unit_test (centres_of_a_box_in_1d_2d_3d),
+        cmocka_unit_test (points_run_along_x_then_y_then_z),
+        cmocka_unit_test (volumes_sum_to_the_kept_cells),
+        cmocka_unit_test (every_vertex_of_a_kept_cell_is_a_point_and_no_other),
+        cmocka_unit_test (a_disk_keeps_its_symmetry),
+        cmocka_unit_test (only_inner_nodes_move),
+        cmocka_unit_test (only_inner_centres_move),
+        cmocka_unit_test (shifts_are_uniform_reproducible_and_differ_by_seed),
+        cmocka_unit_test (a_body_without_cells_is_a_fault_that_counts_them),
+        cmocka_unit_test (a_missing_or_tiny_spacing_is_a_fault),
+        cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("cloud/points", tests, NULL, NULL);
 }

@@ -51,7 +51,8 @@ static void must_fault (int dim, const char *csv, const char *part)
 static void header_comments_blanks_and_blocks_are_read (void **state)
 {
     (void) state;
-    const char *csv = "\xEF\xBB\xBF# made by hand\r\nX [m], y [m], volume [m3], block\r\n\r\n0,0,0.02,3\r\n 1 , 0.5 ,4e-2,0 # corner\r\n0,1,0.03,7";
+    const char *csv = "\xEF\xBB\xBF# made by hand\r\nX [m], y [m], volume [m3], block\r\n\r\n0,0,0.02,3\r\n "
+                      "1 , 0.5 ,4e-2,0 # corner\r\n0,1,0.03,7";
     pg_cloud c;
     check_ok (cloud_of (&c, 2, csv, strlen (csv)));
     assert_int_equal (c.n, 3);
@@ -80,8 +81,9 @@ static void blanks_separate_where_there_are_no_commas (void **state)
 static void spacings_follow_the_block_or_a_header (void **state)
 {
     (void) state;
-    const char *const csv[3] = {"0,0,0.02,3,0.1\n1,0,0.02,4,0.3\n", "x y volume block spacing\n0 0 0.02 3 0.1\n1 0 0.02 4 0.3\n",
-                                "x,y,volume,spacing [m]\n0,0,0.02,0.1\n1,0,0.02,0.3\n"};
+    const char *const csv[3] = { "0,0,0.02,3,0.1\n1,0,0.02,4,0.3\n",
+                                 "x y volume block spacing\n0 0 0.02 3 0.1\n1 0 0.02 4 0.3\n",
+                                 "x,y,volume,spacing [m]\n0,0,0.02,0.1\n1,0,0.02,0.3\n" };
     for (int k = 0; k < 3; k++) {
         pg_cloud c;
         check_ok (cloud_of (&c, 2, csv[k], strlen (csv[k])));
@@ -93,7 +95,8 @@ static void spacings_follow_the_block_or_a_header (void **state)
     }
     must_fault (2, "0 0 1 0 0.1\n1 0 1 0 0\n", "the spacing 0 must be positive");
     must_fault (2, "0 0 1 0 0.1\n1 0 1 0\n", "4 columns, the lines before have 5");
-    must_fault (2, "0 0 1 0 0.1 7\n", "6 columns; in 2D a line has 3 (coordinates, volume), 4 (and block) or 5 (and spacing)");
+    must_fault (2, "0 0 1 0 0.1 7\n",
+                "6 columns; in 2D a line has 3 (coordinates, volume), 4 (and block) or 5 (and spacing)");
 }
 
 static void many_points_keep_their_order (void **state)
@@ -101,11 +104,14 @@ static void many_points_keep_their_order (void **state)
     (void) state;
     static char csv[400000];
     size_t used = 0, n = 5000;
-    for (size_t i = 0; i < n; i++) used += (size_t) snprintf (csv + used, sizeof csv - used, "%zu,%g\n", (i * 7919) % n, 1.0 + (double) i);
+    for (size_t i = 0; i < n; i++)
+        used += (size_t) snprintf (csv + used, sizeof csv - used, "%zu,%g\n", (i * 7919) % n,
+                                   1.0 + (double) i);
     pg_cloud c;
     check_ok (cloud_of (&c, 1, csv, used));
     assert_int_equal (c.n, n);
-    for (size_t i = 0; i < n; i++) assert_true (c.x[i] == (double) ((i * 7919) % n) && c.volume[i] == 1.0 + (double) i);
+    for (size_t i = 0; i < n; i++)
+        assert_true (c.x[i] == (double) ((i * 7919) % n) && c.volume[i] == 1.0 + (double) i);
     pg_cloud_clear (&c);
 }
 
@@ -116,7 +122,8 @@ static void faults_name_the_line (void **state)
     must_fault (2, "0,0,1\n0,1,inf\n", "cloud.csv:2: 'inf' in column 3");
     must_fault (2, "0,0,1\n\n0,1,1e999\n", "cloud.csv:3: '1e999' in column 3");
     must_fault (2, "0,0,1\n1,0\n", "cloud.csv:2: 2 columns, the lines before have 3");
-    must_fault (2, "0,0\n", "cloud.csv:1: 2 columns; in 2D a line has 3 (coordinates, volume), 4 (and block)");
+    must_fault (2, "0,0\n",
+                "cloud.csv:1: 2 columns; in 2D a line has 3 (coordinates, volume), 4 (and block)");
     must_fault (2, "0,0,1\n1,0,1,0\n", "cloud.csv:2: 4 columns, the lines before have 3");
     must_fault (2, "0,0,1\n1,,1\n", "cloud.csv:2: '' in column 2");
     must_fault (2, "0,0,1\n1,2 3,1\n", "cloud.csv:2: '2 3' in column 2");
@@ -134,9 +141,12 @@ static void a_header_gives_units_and_order (void **state)
     static const char *const csv[] = {
         "x,y,volume,block,spacing\n0,0.003,2e-8,1,0.1\n1,0,3e-8,0,0.2\n-0.007,1,4e-8,2,0.3\n",
         "x [mm],y (mm),volume [mm3],block,spacing [cm]\n0,3,20,1,10\n1000,0,30,0,20\n-7,1000,40,2,30\n",
-        "\"volume [mm^3]\",\"y [um]\",\"x[km]\",\"spacing [m]\",\"block [1]\"\n20,3000,0,0.1,1\n30,0,1e-3,0.2,0\n40,1e6,-7e-6,0.3,2\n",
-        "spacing [mm] x [mm] y [m] VOLUME [mm3] block\n100 0 0.003 20 1\n200 1000 0 30 0\n300 -7 1 40 2\n" };
-    static const double x[6] = { 0, 0.003, 1, 0, -0.007, 1 }, volume[3] = { 2e-8, 3e-8, 4e-8 }, spacing[3] = { 0.1, 0.2, 0.3 };
+        "\"volume [mm^3]\",\"y [um]\",\"x[km]\",\"spacing [m]\",\"block "
+        "[1]\"\n20,3000,0,0.1,1\n30,0,1e-3,0.2,0\n40,1e6,-7e-6,0.3,2\n",
+        "spacing [mm] x [mm] y [m] VOLUME [mm3] block\n100 0 0.003 20 1\n200 1000 0 30 0\n300 -7 1 40 2\n"
+    };
+    static const double x[6] = { 0, 0.003, 1, 0, -0.007, 1 }, volume[3] = { 2e-8, 3e-8, 4e-8 },
+                        spacing[3] = { 0.1, 0.2, 0.3 };
     static const int block[3] = { 1, 0, 2 };
     for (size_t k = 0; k < sizeof csv / sizeof *csv; k++) {
         pg_cloud c;
@@ -150,24 +160,33 @@ static void a_header_gives_units_and_order (void **state)
         }
         pg_cloud_clear (&c);
     }
-    must_fault (2, "x [s],y,volume\n0,0,1\n", "cloud.csv:1: column 1 of the header, 'x [s]': 's' does not fit: expected m, for example 5 mm");
-    must_fault (2, "x,y,volume [mm2]\n0,0,1\n", "column 3 of the header, 'volume [mm2]': 'mm2' does not fit: expected m3");
-    must_fault (2, "x,y [mmm],volume\n0,0,1\n", "column 2 of the header, 'y [mmm]': unknown unit 'mmm'; did you mean mm?");
-    must_fault (2, "x,y,volume,block [mm]\n0,0,1,0\n", "column 4 of the header, 'block [mm]': 'mm' does not fit");
+    must_fault (
+        2, "x [s],y,volume\n0,0,1\n",
+        "cloud.csv:1: column 1 of the header, 'x [s]': 's' does not fit: expected m, for example 5 mm");
+    must_fault (2, "x,y,volume [mm2]\n0,0,1\n",
+                "column 3 of the header, 'volume [mm2]': 'mm2' does not fit: expected m3");
+    must_fault (2, "x,y [mmm],volume\n0,0,1\n",
+                "column 2 of the header, 'y [mmm]': unknown unit 'mmm'; did you mean mm?");
+    must_fault (2, "x,y,volume,block [mm]\n0,0,1,0\n",
+                "column 4 of the header, 'block [mm]': 'mm' does not fit");
     must_fault (2, "x [mm,y,volume\n0,0,1\n", "'x [mm': the bracket of its unit does not close");
 }
 
 static void a_header_must_name_the_columns (void **state)
 {
     (void) state;
-    must_fault (2, "x,y,volum\n0,0,1\n", "cloud.csv:1: column 3 of the header is called 'volum' (did you mean volume?): the columns of a 2D body are x, y, volume, block, spacing, in any order");
+    must_fault (2, "x,y,volum\n0,0,1\n",
+                "cloud.csv:1: column 3 of the header is called 'volum' (did you mean volume?): the columns "
+                "of a 2D body are x, y, volume, block, spacing, in any order");
     must_fault (2, "x,y,z,volume\n0,0,0,1\n", "column 3 of the header is called 'z'");
     must_fault (2, "x,x,volume\n0,0,1\n", "columns 1 and 2 of the header are both called 'x'");
     must_fault (2, "x,y,block\n0,0,1\n", "the header has no column 'volume'");
     must_fault (2, "x,y,volume\n0,0,1,1\n", "cloud.csv:2: 4 columns, the header has 3");
     must_fault (2, "x,y,volume\nx,y,volume\n0,0,1\n", "cloud.csv:2: 'x' in column 1 (x)");
     must_fault (2, "y,volume,x\n0,0,1\n", "the volume 0 must be positive: it stands in column 2");
-    must_fault (2, "1,0,0\n", "the volume 0 must be positive: it stands in column 3; without a header the columns are x, y, volume, block, spacing (a header");
+    must_fault (2, "1,0,0\n",
+                "the volume 0 must be positive: it stands in column 3; without a header the columns are x, "
+                "y, volume, block, spacing (a header");
 }
 
 static void empty_files_and_binary_files_are_faults (void **state)
@@ -184,7 +203,8 @@ static void the_same_point_twice_is_a_fault (void **state)
 {
     (void) state;
     must_fault (2, "0,0,1\n1,0,1\n0,1,1\n1,0,2\n", "cloud.csv:4: the same point as in line 2");
-    must_fault (2, "0,0,1\n1,0,1\n0,1,1\n1.00000000000001,-0.0,2\n", "cloud.csv:4: the same point as in line 2");
+    must_fault (2, "0,0,1\n1,0,1\n0,1,1\n1.00000000000001,-0.0,2\n",
+                "cloud.csv:4: the same point as in line 2");
     must_fault (2, "3,3,1\n3,3,1\n", "cloud.csv:2: the same point as in line 1");
 }
 
@@ -230,12 +250,17 @@ static void random_bytes_never_crash_the_reader (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (header_comments_blanks_and_blocks_are_read), cmocka_unit_test (blanks_separate_where_there_are_no_commas),
+        cmocka_unit_test (header_comments_blanks_and_blocks_are_read),
+        cmocka_unit_test (blanks_separate_where_there_are_no_commas),
         cmocka_unit_test (spacings_follow_the_block_or_a_header),
-        cmocka_unit_test (many_points_keep_their_order), cmocka_unit_test (faults_name_the_line), cmocka_unit_test (a_header_must_name_the_columns),
+        cmocka_unit_test (many_points_keep_their_order),
+        cmocka_unit_test (faults_name_the_line),
+        cmocka_unit_test (a_header_must_name_the_columns),
         cmocka_unit_test (a_header_gives_units_and_order),
-        cmocka_unit_test (empty_files_and_binary_files_are_faults), cmocka_unit_test (the_same_point_twice_is_a_fault),
-        cmocka_unit_test (a_missing_file_or_a_folder_is_a_fault), cmocka_unit_test (random_bytes_never_crash_the_reader),
+        cmocka_unit_test (empty_files_and_binary_files_are_faults),
+        cmocka_unit_test (the_same_point_twice_is_a_fault),
+        cmocka_unit_test (a_missing_file_or_a_folder_is_a_fault),
+        cmocka_unit_test (random_bytes_never_crash_the_reader),
     };
     return cmocka_run_group_tests_name ("cloud/points_file", tests, make_folder, drop_folder);
 }

@@ -19,7 +19,8 @@ static void columns_and_units (void **state)
 {
     (void) state;
     pg_line l;
-    write_file ("# centre line\nx [mm], note ,u_y [mm],s_xx [MPa],stress_xy [kPa]\r\n1,a,2,3,4\n\n2,b,,nan,5\n");
+    write_file (
+        "# centre line\nx [mm], note ,u_y [mm],s_xx [MPa],stress_xy [kPa]\r\n1,a,2,3,4\n\n2,b,,nan,5\n");
     check_ok (pg_line_read (&l, path, 2, 1, 2, origin));
     assert_int_equal (l.n, 2);
     assert_int_equal (l.ncolumn, 3);
@@ -50,12 +51,19 @@ static void columns_and_units (void **state)
 static void faults (void **state)
 {
     (void) state;
-    static const struct { const char *text, *message; } wrong[] = {
-        { "", "has no rows" }, { "x,u_x\n", "has no rows" }, { "a,b\n1,2\n", ":1: no column x, y" }, { "x,y\n1,2\n", ":1: no column of values" },
-        { "x [s],u_x\n1,2\n", ":1: column x: 's' does not fit: expected m" }, { "x [mm,u_x\n1,2\n", "does not close" }, { "x,u_x [MPa]\n1,2\n", "column u_x: 'MPa' does not fit: expected m" },
-        { "x,u_x,u_x\n1,2,3\n", "two columns u_x" },
-        { "x,u_x\n1,2\n1,2,3\n", ":3: 3 columns, the first row names 2" }, { "x,u_x\n1,two\n", ":2: 'two' in column 2" }, { "x,u_x\n,2\n", ":2: the place has no x" },
-        { "x,u_z\n1,2\n", "no column of values" } };
+    static const struct { const char *text, *message;
+    } wrong[] = { { "", "has no rows" },
+                  { "x,u_x\n", "has no rows" },
+                  { "a,b\n1,2\n", ":1: no column x, y" },
+                  { "x,y\n1,2\n", ":1: no column of values" },
+                  { "x [s],u_x\n1,2\n", ":1: column x: 's' does not fit: expected m" },
+                  { "x [mm,u_x\n1,2\n", "does not close" },
+                  { "x,u_x [MPa]\n1,2\n", "column u_x: 'MPa' does not fit: expected m" },
+                  { "x,u_x,u_x\n1,2,3\n", "two columns u_x" },
+                  { "x,u_x\n1,2\n1,2,3\n", ":3: 3 columns, the first row names 2" },
+                  { "x,u_x\n1,two\n", ":2: 'two' in column 2" },
+                  { "x,u_x\n,2\n", ":2: the place has no x" },
+                  { "x,u_z\n1,2\n", "no column of values" } };
     pg_line l;
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         write_file (wrong[k].text);
@@ -103,7 +111,7 @@ static void norms_of_a_column (void **state)
     check_relative (n.maximum.relative, 0.125, 1e-14);
     check_relative (n.maximum.place[0], 2, 1e-14);
     check_relative (n.maximum.place[1], 0.25, 1e-14);
-    check_relative (n.pointwise, 1.0 / 3, 1e-14);                      /* 0.002 is too small to count                   */
+    check_relative (n.pointwise, 1.0 / 3, 1e-14);                      /* 0.002 is too small to count */
     check_relative (n.place[0], -1, 1e-14);
     check_relative (n.l2.relative, sqrt ((0.25 + 0.25 + 1e-6) / (1 + 6.25 + 4e-6 + 2.25)), 1e-12);
     s.dim = 3;
@@ -126,7 +134,7 @@ static void relative_to_a_datum (void **state)
     check_ok (pg_line_measure (&n, &l, &s));
     check_absolute (n.maximum.difference, 0, 1e-14);
     assert_int_equal (n.rows, 3);
-    l.datum[0] = 4;                                                    /* unknown there: so is the rest                 */
+    l.datum[0] = 4;                                                    /* unknown there: so is the rest */
     check_ok (pg_line_measure (&n, &l, &s));
     assert_int_equal (n.missed, 3);
     pg_line_clear (&l);
@@ -143,6 +151,8 @@ static int drop (void **state) { (void) state; return unlink (path); }
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (columns_and_units), cmocka_unit_test (faults), cmocka_unit_test (norms_of_a_column), cmocka_unit_test (relative_to_a_datum) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (columns_and_units), cmocka_unit_test (faults),
+                                        cmocka_unit_test (norms_of_a_column),
+                                        cmocka_unit_test (relative_to_a_datum) };
     return cmocka_run_group_tests (tests, make, drop);
 }

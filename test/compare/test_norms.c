@@ -4,17 +4,22 @@
 
 typedef struct { const char *approximation, *integration, *essential, *basis; } method;
 static const method methods[] = {
-    { "rkpm", "gauss", "nitsche", "linear" }, { "rkpm", "gauss", "nitsche", "quadratic" }, { "pddo", "gauss", "transformation", "linear" },
-    { "nosb", "nodal", "transformation", "linear" }, { "nosb", "gauss", "nitsche", "linear" }, { "rkpm", "nodal", "penalty", "linear" },
+    { "rkpm", "gauss", "nitsche", "linear" },        { "rkpm", "gauss", "nitsche", "quadratic" },
+    { "pddo", "gauss", "transformation", "linear" }, { "nosb", "nodal", "transformation", "linear" },
+    { "nosb", "gauss", "nitsche", "linear" },        { "rkpm", "nodal", "penalty", "linear" },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
 static run plate (const method *m, const char *more)
 {
-    return scene_of (1, "dimension: 2\nthickness: 20 mm\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\nspacing: 0.1\nperturb: {amount: 0.1}\n"
+    return scene_of (
+        1,
+        "dimension: 2\nthickness: 20 mm\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\nspacing: "
+        "0.1\nperturb: {amount: 0.1}\n"
         "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
         "method: {approximation: %s, integration: %s, essential: %s, basis: %s, horizon: %s spacing}\n"
-        "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {x: 0.2 mm, y: 1 mm}}\n"
+        "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {x: 0.2 mm, "
+        "y: 1 mm}}\n"
         "solver: {stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n%s",
         m->approximation, m->integration, m->essential, m->basis, *m->basis == 'q' ? "3.01" : "2.2", more);
 }
@@ -34,7 +39,9 @@ static void nodes_and_points_agree (void **unused)
         run r = plate (&methods[m], "");
         to_the_end (&r);
         size_t n = r.problem->cloud.n;
-        double *u = pg_calloc (3 * n, 8), *s = pg_calloc (6 * n, 8), *u_nodes = field_of (&r, NULL, "displacement", NULL), *s_nodes = field_of (&r, NULL, "stress", NULL);
+        double *u = pg_calloc (3 * n, 8), *s = pg_calloc (6 * n, 8),
+               *u_nodes = field_of (&r, NULL, "displacement", NULL),
+               *s_nodes = field_of (&r, NULL, "stress", NULL);
         sample (&r, NULL, n, r.problem->cloud.x, u, s);
         double top = largest_of (u_nodes, 2 * n), most = largest_of (s_nodes, 3 * n);
         for (size_t i = 0; i < n; i++) {
@@ -49,7 +56,8 @@ static void nodes_and_points_agree (void **unused)
     }
 }
 
-/* Linear coefficients give the linear field and its stress at any place, outside as well; many places at once as one by one. */
+/* Linear coefficients give the linear field and its stress at any place, outside as well; many places at once
+ * as one by one. */
 static void linear_fields_are_sampled_exactly (void **unused)
 {
     (void) unused;
@@ -57,12 +65,15 @@ static void linear_fields_are_sampled_exactly (void **unused)
         run r = plate (&methods[m], "");
         refresh (&r, NULL);
         size_t n = r.problem->cloud.n, count = 5000;
-        double *d = pg_calloc (2 * n, 8), *x = pg_calloc (2 * count, 8), *u = pg_calloc (3 * count, 8), *s = pg_calloc (6 * count, 8);
+        double *d = pg_calloc (2 * n, 8), *x = pg_calloc (2 * count, 8), *u = pg_calloc (3 * count, 8),
+               *s = pg_calloc (6 * count, 8);
         for (size_t i = 0; i < n; i++) {
             const double *at = r.problem->cloud.x + 2*i;
             d[2*i] = 1e-3 + 8e-4 * at[0] + 1e-4 * at[1], d[2*i + 1] = -2e-4 * at[0] + 5e-4 * at[1];
         }
-        for (size_t i = 0; i < count; i++) x[2*i] = -0.02 + 1.04 * (double) (i % 71) / 70, x[2*i + 1] = -0.02 + 0.84 * (double) (i % 61) / 60;
+        for (size_t i = 0; i < count; i++)
+            x[2 * i] = -0.02 + 1.04 * (double) (i % 71) / 70,
+                  x[2 * i + 1] = -0.02 + 0.84 * (double) (i % 61) / 60;
         sample (&r, d, count, x, u, s);
         double E = 10e9, nu = 0.25, D = E / (1 - nu * nu);
         for (size_t i = 0; i < count; i++) {
@@ -80,14 +91,17 @@ static void linear_fields_are_sampled_exactly (void **unused)
     }
 }
 
-/* Coefficients 0 below y = 0.4 and 1 above: with all bonds across y = 0.4 dead, by a pre-crack or broken later, the field jumps there, and
- * nothing in between appears. */
+/* Coefficients 0 below y = 0.4 and 1 above: with all bonds across y = 0.4 dead, by a pre-crack or broken
+ * later, the field jumps there, and nothing in between appears. */
 static void check_jump (run *r)
 {
     size_t n = r->problem->cloud.n, count = 400;
-    double *d = pg_calloc (2 * n, 8), *x = pg_calloc (2 * count, 8), *u = pg_calloc (3 * count, 8), *s = pg_calloc (6 * count, 8);
+    double *d = pg_calloc (2 * n, 8), *x = pg_calloc (2 * count, 8), *u = pg_calloc (3 * count, 8),
+           *s = pg_calloc (6 * count, 8);
     for (size_t i = 0; i < n; i++) d[2*i] = r->problem->cloud.x[2*i + 1] > 0.4;
-    for (size_t i = 0; i < count; i++) x[2*i] = ((double) (i % 20) + 0.37) / 20, x[2*i + 1] = 0.4 + (i / 20 % 2 ? 1 : -1) * 0.2 * ((double) (i / 40) + 0.6) / 10;
+    for (size_t i = 0; i < count; i++)
+        x[2 * i] = ((double) (i % 20) + 0.37) / 20,
+              x[2 * i + 1] = 0.4 + (i / 20 % 2 ? 1 : -1) * 0.2 * ((double) (i / 40) + 0.6) / 10;
     sample (r, d, count, x, u, s);
     for (size_t i = 0; i < count; i++) {
         check_absolute (u[3*i], x[2*i + 1] > 0.4 ? 1 : 0, 1e-9);
@@ -98,9 +112,13 @@ static void check_jump (run *r)
 
 static run cells_plate (const char *integration, const char *crack)
 {
-    return scene_of (2, "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\nspacing: 0.1\nlattice: cells\n%s"
+    return scene_of (
+        2,
+        "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\nspacing: 0.1\nlattice: cells\n%s"
         "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
-        "method: {integration: %s, horizon: 2.2 spacing}\nboundary: [{set: left, displacement: {x: 0, y: 0}}]\nsolver: {stepping: fixed, steps: 1}\n", crack, integration);
+        "method: {integration: %s, horizon: 2.2 spacing}\nboundary: [{set: left, displacement: {x: 0, y: "
+        "0}}]\nsolver: {stepping: fixed, steps: 1}\n",
+        crack, integration);
 }
 
 static void faces_of_a_crack_stay_apart (void **unused)
@@ -116,7 +134,9 @@ static void faces_of_a_crack_stay_apart (void **unused)
             const pg_rows *rows = &r.problem->rows[s];
             for (size_t p = 0; p < rows->n; p++)
                 for (size_t e = rows->family.start[p]; e < rows->family.start[p + 1]; e++)
-                    if ((rows->x[2*p + 1] > 0.4) != (r.problem->cloud.x[2 * (size_t) rows->family.node[e] + 1] > 0.4)) r.state->alive[r.problem->first_bond[s] + e] = 0;
+                    if ((rows->x[2 * p + 1] > 0.4)
+                        != (r.problem->cloud.x[2 * (size_t) rows->family.node[e] + 1] > 0.4))
+                        r.state->alive[r.problem->first_bond[s] + e] = 0;
         }
         refresh (&r, NULL);
         check_jump (&r);
@@ -124,8 +144,8 @@ static void faces_of_a_crack_stay_apart (void **unused)
     }
 }
 
-/* ---- norms ------------------------------------------------------------------------------------------------------------------ */
-typedef struct { int which; } form;                    /* u = (x, y) + which (x^2, 0), s = D eps                            */
+/* ---- norms --------------------------------------------------------------------------------------------- */
+typedef struct { int which; } form;                    /* u = (x, y) + which (x^2, 0), s = D eps */
 static pg_status sample_form (void *context, size_t n, const double *x, double *u, double *stress)
 {
     const form *f = context;
@@ -138,7 +158,8 @@ static pg_status sample_form (void *context, size_t n, const double *x, double *
     return PG_OK;
 }
 
-/* Difference (x^2, 0) over [0, 2] x [0, 1]: int x^4 = 32/5, |u_ref|^2: int x^2 + y^2 = 8/3 + 2/3; s: x xx against (2, 1, 0). E = 4, nu = 1/4. */
+/* Difference (x^2, 0) over [0, 2] x [0, 1]: int x^4 = 32/5, |u_ref|^2: int x^2 + y^2 = 8/3 + 2/3; s: x xx
+ * against (2, 1, 0). E = 4, nu = 1/4. */
 static void known_difference (void **unused)
 {
     (void) unused;
@@ -173,7 +194,7 @@ static void known_difference (void **unused)
     check_ok (pg_norms_measure (&n, &q, &a, &b, &o));
     assert_int_equal (n.skipped, 3);
     o.where = NULL;
-    value.which = 2;                                   /* a stress is not known                                          */
+    value.which = 2;                                   /* a stress is not known */
     check_ok (pg_norms_measure (&n, &q, &a, &b, &o));
     assert_int_equal (n.places, 0);
     assert_false (n.displacement || n.stress);
@@ -202,19 +223,24 @@ static pg_errors measured (run *r)
     return e;
 }
 
-/* Coefficients linear: u_h is the linear field itself; the reference adds (c x^2, 0), so the difference is exactly that. */
+/* Coefficients linear: u_h is the linear field itself; the reference adds (c x^2, 0), so the difference is
+ * exactly that. */
 static void perturbed_patch (void **unused)
 {
     (void) unused;
-    static const char *const reference = "reference:\n  displacement: {x: \"1e-3*x + 1e-4 m^-1 * x^2\", y: \"2e-3*y\"}\n"
-        "  stress: {xx: \"10e9 Pa/0.9375*(1.5e-3 + 1e-3 m^-1 * x)\", yy: \"10e9 Pa/0.9375*2.25e-3\", xy: 0 Pa}\n";
+    static const char *const reference =
+        "reference:\n  displacement: {x: \"1e-3*x + 1e-4 m^-1 * x^2\", y: \"2e-3*y\"}\n"
+        "  stress: {xx: \"10e9 Pa/0.9375*(1.5e-3 + 1e-3 m^-1 * x)\", yy: \"10e9 Pa/0.9375*2.25e-3\", xy: 0 "
+        "Pa}\n";
     pg_errors first = { 0 };
     for (int points = 1; points <= 3; points++) {
         char text[600];
         snprintf (text, sizeof text, "%s", reference);
         run r = plate (&methods[0], text);
         refresh (&r, NULL);
-        for (size_t i = 0; i < r.problem->cloud.n; i++) r.state->d[2*i] = 1e-3 * r.problem->cloud.x[2*i], r.state->d[2*i + 1] = 2e-3 * r.problem->cloud.x[2*i + 1];
+        for (size_t i = 0; i < r.problem->cloud.n; i++)
+            r.state->d[2 * i] = 1e-3 * r.problem->cloud.x[2 * i],
+                           r.state->d[2 * i + 1] = 2e-3 * r.problem->cloud.x[2 * i + 1];
         pg_errors e = measured (&r);
         assert_int_equal (e.order, 4);
         double V = 0.8 * 0.02, ref2 = 0.02 * (0.8 * (1e-6 / 3 + 2 * 1e-7 / 4 + 1e-8 / 5) + 4e-6 * 0.512 / 3);
@@ -222,12 +248,12 @@ static void perturbed_patch (void **unused)
         check_relative (e.norms.l2.difference, sqrt (1e-8 / 5 * V), 1e-9);
         check_relative (e.norms.l2.reference, sqrt (ref2), 1e-12);
         check_relative (e.norms.energy.difference, 1e7 / 0.9375 * sqrt (V / 3 / 10e9), 1e-9);
-        check_relative (e.norms.maximum.difference, 1e-4, 1e-9);       /* at the nodes of x = 1                          */
+        check_relative (e.norms.maximum.difference, 1e-4, 1e-9);       /* at the nodes of x = 1 */
         check_relative (e.norms.maximum.place[0], 1, 1e-9);
         assert_non_null (e.difference);
         if (points == 1) first = e;
         else {
-            assert_memory_equal (&first.norms, &e.norms, sizeof first.norms);      /* the same again                     */
+            assert_memory_equal (&first.norms, &e.norms, sizeof first.norms);      /* the same again */
             pg_errors_clear (&e);
         }
         clear (&r);
@@ -238,9 +264,10 @@ static void perturbed_patch (void **unused)
 /* The size of a stress difference is that of the tensor: each shear stands for two components. */
 static pg_status sample_shears (void *context, size_t n, const double *x, double *u, double *stress)
 {
-    const double *size = context;                      /* of the components (6); they grow from place to place           */
+    const double *size = context;  /* of the components (6); they grow from place to place */
     (void) x, (void) u;
-    for (size_t i = 0; stress && i < n; i++) for (size_t k = 0; k < 6; k++) stress[6*i + k] = size[k] * (1 + (double) i);
+    for (size_t i = 0; stress && i < n; i++)
+        for (size_t k = 0; k < 6; k++) stress[6 * i + k] = size[k] * (1 + (double) i);
     return PG_OK;
 }
 
@@ -254,9 +281,11 @@ static void shears_count_twice_in_the_largest_stress (void **unused)
             for (int b = 0; b < dim; b++) {
                 static const int voigt[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } };
                 int k = voigt[a][b];
-                want[0] += (value[k] - reference[k]) * (value[k] - reference[k]), want[1] += reference[k] * reference[k];
+                want[0] += (value[k] - reference[k]) * (value[k] - reference[k]),
+                    want[1] += reference[k] * reference[k];
             }
-        pg_sampler a = { value, dim, 0, 63, sample_shears, NULL }, b = { reference, dim, 0, 63, sample_shears, NULL };
+        pg_sampler a = { value, dim, 0, 63, sample_shears, NULL },
+                   b = { reference, dim, 0, 63, sample_shears, NULL };
         double x[9] = { 0, 1, 2, 3, 4, 5, 6, 7, 8 }, weight[3] = { 1, 1, 1 };
         pg_material m = { .mode = modes[dim] };
         pg_elastic_tangent (m.mode, 4, 0, m.D);
@@ -275,8 +304,12 @@ static void shears_count_twice_in_the_largest_stress (void **unused)
 static void energy_of_two_materials (void **unused)
 {
     (void) unused;
-    run r = scene_of (1, "dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1\nblocks: [{material: soft, where: x < 0.5}, {material: hard, where: x >= 0.5}]\n"
-        "materials: {soft: {youngs_modulus: 1 GPa, poissons_ratio: 0}, hard: {youngs_modulus: 4 GPa, poissons_ratio: 0}}\n"
+    run r = scene_of (
+        1,
+        "dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1\nblocks: [{material: soft, "
+        "where: x < 0.5}, {material: hard, where: x >= 0.5}]\n"
+        "materials: {soft: {youngs_modulus: 1 GPa, poissons_ratio: 0}, hard: {youngs_modulus: 4 GPa, "
+        "poissons_ratio: 0}}\n"
         "method: {integration: gauss, horizon: 2.2 spacing}\nboundary: [{set: left, displacement: {x: 0}}]\n"
         "reference: {stress: {xx: 4 MPa}}\n");
     refresh (&r, NULL);
@@ -293,7 +326,7 @@ static void energy_of_two_materials (void **unused)
 /* Nothing against nothing is no difference; a component that one side does not know does not count. */
 static pg_status sample_pair (void *context, size_t n, const double *x, double *u, double *stress)
 {
-    const double *value = context;                     /* u_x, u_y                                                       */
+    const double *value = context;                     /* u_x, u_y */
     (void) x, (void) stress;
     for (size_t i = 0; i < n; i++) u[3*i] = value[0], u[3*i + 1] = value[1], u[3*i + 2] = 0;
     return PG_OK;
@@ -302,7 +335,8 @@ static pg_status sample_pair (void *context, size_t n, const double *x, double *
 static void what_is_not_there_does_not_count (void **unused)
 {
     (void) unused;
-    double none[2] = { 0, 0 }, one[2] = { 3, 7 }, other[2] = { 2, 5 }, x[4] = { 0, 0, 1, 1 }, weight[2] = { 1, 1 };
+    double none[2] = { 0, 0 }, one[2] = { 3, 7 }, other[2] = { 2, 5 }, x[4] = { 0, 0, 1, 1 },
+           weight[2] = { 1, 1 };
     pg_quadrature q = { .n = 2, .x = x, .weight = weight };
     pg_norm_options o = { NULL, NULL, NULL };
     pg_norms n;
@@ -312,7 +346,7 @@ static void what_is_not_there_does_not_count (void **unused)
     a.context = one;
     check_ok (pg_norms_measure (&n, &q, &a, &b, &o));
     assert_true (isinf (n.l2.relative));
-    a.displacement = 1, b.context = other;             /* u_x alone: 3 against 2                                         */
+    a.displacement = 1, b.context = other;             /* u_x alone: 3 against 2 */
     check_ok (pg_norms_measure (&n, &q, &a, &b, &o));
     check_relative (n.l2.difference, sqrt (2), 1e-14);
     check_relative (n.l2.relative, 0.5, 1e-14);
@@ -335,7 +369,8 @@ static void a_moved_result (void **unused)
     pg_sampler_clear (&s);
 }
 
-/* Displacements at points: least squares between them, each side of a pre-crack for itself, the nearest point's own where bonds are torn. */
+/* Displacements at points: least squares between them, each side of a pre-crack for itself, the nearest
+ * point's own where bonds are torn. */
 static void points_beside_cracks_and_tears (void **unused)
 {
     (void) unused;
@@ -369,8 +404,15 @@ static void points_beside_cracks_and_tears (void **unused)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (nodes_and_points_agree), cmocka_unit_test (linear_fields_are_sampled_exactly),
-        cmocka_unit_test (faces_of_a_crack_stay_apart), cmocka_unit_test (known_difference), cmocka_unit_test (perturbed_patch), cmocka_unit_test (shears_count_twice_in_the_largest_stress), cmocka_unit_test (energy_of_two_materials),
-        cmocka_unit_test (what_is_not_there_does_not_count), cmocka_unit_test (a_moved_result), cmocka_unit_test (points_beside_cracks_and_tears) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (nodes_and_points_agree),
+                                        cmocka_unit_test (linear_fields_are_sampled_exactly),
+                                        cmocka_unit_test (faces_of_a_crack_stay_apart),
+                                        cmocka_unit_test (known_difference),
+                                        cmocka_unit_test (perturbed_patch),
+                                        cmocka_unit_test (shears_count_twice_in_the_largest_stress),
+                                        cmocka_unit_test (energy_of_two_materials),
+                                        cmocka_unit_test (what_is_not_there_does_not_count),
+                                        cmocka_unit_test (a_moved_result),
+                                        cmocka_unit_test (points_beside_cracks_and_tears) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }

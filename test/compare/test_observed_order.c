@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The observed order of made sequences is the one they were made with; what swings, parts or stands still has none. */
+ * The observed order of made sequences is the one they were made with; what swings, parts or stands still has
+ * none. */
 #include "check.h"
 #include "perigal/compare.h"
 
@@ -35,10 +36,15 @@ static void last_three (void **unused)
 static void no_order (void **unused)
 {
     static const double h[] = { 1, 0.5, 0.25 }, rising[] = { 0.25, 0.5, 1 };
-    static const struct { double v[3]; const char *why; } cases[] = {
-        { { 1, 2, 1.5 }, "oscillates" }, { { 1, 2, 4 }, "diverges" }, { { 1, 2, 3 }, "diverges" }, { { 3, 3, 3 }, "always the same" },
-        { { 0, 0, 0 }, "always the same" }, { { 4, 3, 3 }, "no longer changes" }, { { 1, NAN, 3 }, "a value is missing" },
-        { { 1e9, 1, 0.5 }, "last change too small" } };
+    static const struct { double v[3]; const char *why;
+    } cases[] = { { { 1, 2, 1.5 }, "oscillates" },
+                  { { 1, 2, 4 }, "diverges" },
+                  { { 1, 2, 3 }, "diverges" },
+                  { { 3, 3, 3 }, "always the same" },
+                  { { 0, 0, 0 }, "always the same" },
+                  { { 4, 3, 3 }, "no longer changes" },
+                  { { 1, NAN, 3 }, "a value is missing" },
+                  { { 1e9, 1, 0.5 }, "last change too small" } };
     (void) unused;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         pg_observed o = pg_observed_of_values (3, h, cases[k].v);
@@ -51,7 +57,8 @@ static void no_order (void **unused)
 
 static void of_errors (void **unused)
 {
-    static const double h[] = { 1, 0.5, 0.3 }, e[] = { 0.4, 0.1, 0.1 * 0.36 }, grows[] = { 0.1, 0.1, 0.2 }, zero[] = { 1, 1, 0 };
+    static const double h[] = { 1, 0.5, 0.3 }, e[] = { 0.4, 0.1, 0.1 * 0.36 }, grows[] = { 0.1, 0.1, 0.2 },
+                        zero[] = { 1, 1, 0 };
     (void) unused;
     pg_observed o = pg_observed_of_errors (3, h, e);
     check_relative (o.order, 2, 1e-12);
@@ -64,7 +71,8 @@ static void of_errors (void **unused)
 
 static void crossing (void **unused)
 {
-    static const double e[] = { 1e-2, 1e-3, 1e-5 }, s[] = { 0.1, 1, 100 }, back[] = { 1e-5, 1e-3, 1e-2 }, t[] = { 100, 1, 0.1 };
+    static const double e[] = { 1e-2, 1e-3, 1e-5 }, s[] = { 0.1, 1, 100 }, back[] = { 1e-5, 1e-3, 1e-2 },
+                        t[] = { 100, 1, 0.1 };
     (void) unused;
     check_relative (pg_loglog_at (3, e, s, 1e-4), 10, 1e-12);
     check_relative (pg_loglog_at (3, back, t, 1e-4), 10, 1e-12);
@@ -76,7 +84,8 @@ static void crossing (void **unused)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (exact_orders), cmocka_unit_test (last_three), cmocka_unit_test (no_order),
-                                        cmocka_unit_test (of_errors), cmocka_unit_test (crossing) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (exact_orders), cmocka_unit_test (last_three),
+                                        cmocka_unit_test (no_order), cmocka_unit_test (of_errors),
+                                        cmocka_unit_test (crossing) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }

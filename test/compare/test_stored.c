@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Result folders opened again: their fields are those of the run that wrote them, by its own shape functions; least squares where that
- * cannot be; --set options, files beside the scene, damage. */
-#include "report/folder.h"
+ * Result folders opened again: their fields are those of the run that wrote them, by its own shape functions;
+ * least squares where that cannot be; --set options, files beside the scene, damage. */
+#include "results/folder.h"
 #include <unistd.h>
 
 static char folder[64], path[160];
@@ -27,9 +27,13 @@ static run made (const char *name, const char *text, size_t nset, const char *co
     return r;
 }
 
-#define PLATE "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\nspacing: 0.1\nperturb: {amount: 0.1}\n" \
-    "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\nmethod: {approximation: rkpm, horizon: 2.2 spacing}\n" \
-    "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {x: 0.2 mm, y: 1 mm}}\n"
+#define PLATE \
+    "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\nspacing: 0.1\nperturb: {amount: " \
+    "0.1}\n" \
+    "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\nmethod: {approximation: rkpm, " \
+    "horizon: 2.2 spacing}\n" \
+    "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {x: 0.2 mm, y: " \
+    "1 mm}}\n"
 
 static double difference (const run *r, pg_stored *s, double *stress_off)
 {
@@ -37,7 +41,8 @@ static double difference (const run *r, pg_stored *s, double *stress_off)
     double x[2*N], u[3*N], v[3*N], a[6*N], b[6*N];
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    for (size_t i = 0; i < N; i++) x[2*i] = (double) (i * 37 % N) / N, x[2*i + 1] = 0.8 * (double) (i * 113 % N) / N;
+    for (size_t i = 0; i < N; i++)
+        x[2 * i] = (double) (i * 37 % N) / N, x[2 * i + 1] = 0.8 * (double) (i * 113 % N) / N;
     check_ok (force->sample (self, r->state, r->state->d, N, x, u, a));
     check_ok (s->sampler.sample (s->sampler.context, N, x, v, b));
     *stress_off = largest_difference (a, b, 6*N) / largest_of (a, 6*N);
@@ -50,7 +55,9 @@ static void a_folder_gives_its_run_back (void **state)
     static const char *const set[] = { "method.basis=quadratic", "method.horizon=3.01 spacing" };
     static const char *const nosb[] = { "method.approximation=nosb", "method.integration=nodal" };
     for (int k = 0; k < 3; k++) {
-        run r = made ("run", PLATE "solver: {stepping: fixed, steps: 4}\noutput: {at: {levels: 4}, pictures: []}\n# --set spacing=5\nreference: {displacement: {x: 0.2 mm}}\n",
+        run r = made ("run",
+                      PLATE "solver: {stepping: fixed, steps: 4}\noutput: {at: {levels: 4}, pictures: []}\n# "
+                            "--set spacing=5\nreference: {displacement: {x: 0.2 mm}}\n",
                       k ? 2 : 0, k == 1 ? set : nosb);
         pg_stored *s = NULL;
         double stress;
@@ -63,11 +70,12 @@ static void a_folder_gives_its_run_back (void **state)
         check_below (stress, 1e-12);
         double out[3], far[2] = { 1.3, 0.4 };
         check_ok (s->sampler.sample (s->sampler.context, 1, far, out, NULL));
-        assert_true (isnan (out[0]));                  /* the body ends at x = 1                                         */
+        assert_true (isnan (out[0]));                  /* the body ends at x = 1 */
         pg_stored_free (&s);
         check_ok (pg_stored_open (&s, path, 1, 1));
         check_relative (s->t, 0.5, 1e-14);
-        for (size_t i = 0; i < r.state->ndof; i++) check_scaled (s->state->d[i], 0.5 * r.state->d[i], 1e-12, 1e-3);
+        for (size_t i = 0; i < r.state->ndof; i++)
+            check_scaled (s->state->d[i], 0.5 * r.state->d[i], 1e-12, 1e-3);
         pg_stored_free (&s);
         check_fails (pg_stored_open (&s, path, 7, 1), PG_E_USAGE);
         check_contains (pg_last_error (), "has no step 7; its steps are 0 to 3");
@@ -100,15 +108,18 @@ static void broken_bonds_are_told (void **state)
 {
     (void) state;
     pg_stored *s = NULL;
-    run r = made ("broken", PLATE "cracks: [{from: [-0.1, 0.45], to: [0.35, 0.45]}]\nfailure: {criterion: stretch, critical_stretch: 1e-3, exclude: [top, bottom]}\n"
-                  "solver: {stepping: event, max_events: 6}\noutput: {pictures: []}\n", 0, NULL);
+    run r = made ("broken",
+                  PLATE "cracks: [{from: [-0.1, 0.45], to: [0.35, 0.45]}]\nfailure: {criterion: stretch, "
+                        "critical_stretch: 1e-3, exclude: [top, bottom]}\n"
+                        "solver: {stepping: event, max_events: 6}\noutput: {pictures: []}\n",
+                  0, NULL);
     assert_true (r.state->broken > 0);
     check_ok (pg_stored_open (&s, path, -1, 1));
     check_contains (s->how, "bonds had broken; near ");
     check_relative (s->t, r.state->factor, 1e-9);
     double *u = field_of (&r, NULL, "displacement", NULL), out[3], stress[6];
     check_ok (s->sampler.sample (s->sampler.context, 1, r.problem->cloud.x, out, stress));
-    check_scaled (out[0], u[0], 0.02, 1e-3);           /* the corner is whole                                            */
+    check_scaled (out[0], u[0], 0.02, 1e-3);           /* the corner is whole */
     assert_true (isfinite (stress[0]));
     pg_free (u);
     pg_stored_free (&s);
@@ -136,8 +147,12 @@ static void no_memory (void **state)
 {
     (void) state;
     pg_stored *s = NULL;
-    run r = made ("memory", "dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.25\nmaterials: {a: {youngs_modulus: 1, poissons_ratio: 0}}\n"
-                  "method: {horizon: 2.2 spacing}\nboundary: [{set: left, displacement: {x: 0}}, {set: right, displacement: {x: 0.1}}]\noutput: {pictures: []}\n", 0, NULL);
+    run r = made ("memory",
+                  "dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.25\nmaterials: {a: "
+                  "{youngs_modulus: 1, poissons_ratio: 0}}\n"
+                  "method: {horizon: 2.2 spacing}\nboundary: [{set: left, displacement: {x: 0}}, {set: "
+                  "right, displacement: {x: 0.1}}]\noutput: {pictures: []}\n",
+                  0, NULL);
     clear (&r);
     size_t before = pg_memory_used (), k = 1;
     for (; k < 5000; k += k < 100 ? 1 : 7) {
@@ -157,7 +172,9 @@ static int drop (void **state) { (void) state, remove_folder (folder); return 0;
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (a_folder_gives_its_run_back), cmocka_unit_test (least_squares_where_coefficients_are_missing),
-        cmocka_unit_test (broken_bonds_are_told), cmocka_unit_test (wrong_folders), cmocka_unit_test (no_memory) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (a_folder_gives_its_run_back),
+                                        cmocka_unit_test (least_squares_where_coefficients_are_missing),
+                                        cmocka_unit_test (broken_bonds_are_told),
+                                        cmocka_unit_test (wrong_folders), cmocka_unit_test (no_memory) };
     return cmocka_run_group_tests (tests, make, drop);
 }

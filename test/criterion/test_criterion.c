@@ -16,7 +16,10 @@ static pg_criterion make (const char *name, double a, double b, double c)
     return (pg_criterion) { .type = pg_criterion_find (name), .parameter = { a, b, c } };
 }
 
-static pg_criterion rock (void) { return make ("mohr_coulomb", 0.5e6, 5e6, 40 * 3.14159265358979323846 / 180); }
+static pg_criterion rock (void)
+{
+    return make ("mohr_coulomb", 0.5e6, 5e6, 40 * 3.14159265358979323846 / 180);
+}
 
 static double stress_use (const pg_criterion *c, double s1, double s3, char *kind)
 {
@@ -32,11 +35,15 @@ static double stress_use (const pg_criterion *c, double s1, double s3, char *kin
 static void beams_break_by_energy (void **state)
 {
     (void) state;
-    const double xi[3][2] = { { 2, 0 }, { 0, 1 }, { 1, 0 } }, eta[3][2] = { { 0.2, 5 }, { 7, -0.3 }, { 0.06, 0 } }, shear[3] = { 0.01, 0.02, 0.08 }, bending[3] = { 0.3, 0.1, 0 };
+    const double xi[3][2] = { { 2, 0 }, { 0, 1 }, { 1, 0 } },
+                 eta[3][2] = { { 0.2, 5 }, { 7, -0.3 }, { 0.06, 0 } }, shear[3] = { 0.01, 0.02, 0.08 },
+                 bending[3] = { 0.3, 0.1, 0 };
     double u[3], f[3];
     char kind[3];
     pg_criterion c = { .type = pg_criterion_find ("beam_limits"), .parameter = { 0.1, 0.1, 0.4, 1 } };
-    const pg_bond_measures m = { .n = 3, .dim = 2, .xi = &xi[0][0], .eta = &eta[0][0], .shear = shear, .bending = bending };
+    const pg_bond_measures m = {
+        .n = 3, .dim = 2, .xi = &xi[0][0], .eta = &eta[0][0], .shear = shear, .bending = bending
+    };
     for (int single = 0; single < 2; single++) {
         c.single = single;
         c.type->utilisation (&c, &m, u, kind);
@@ -52,7 +59,8 @@ static void beams_break_by_energy (void **state)
 static void the_catalogue_lists_five (void **state)
 {
     (void) state;
-    assert_string_equal (pg_criterion_names (), "stretch|principal_stress|mohr_coulomb|node_energy|beam_limits");
+    assert_string_equal (pg_criterion_names (),
+                         "stretch|principal_stress|mohr_coulomb|node_energy|beam_limits");
     assert_null (pg_criterion_find ("energy"));
     assert_int_equal (pg_criterion_find ("stretch")->needs, PG_NEEDS_STRETCH);
     assert_int_equal (pg_criterion_find ("mohr_coulomb")->needs, PG_NEEDS_STRESS);
@@ -60,23 +68,34 @@ static void the_catalogue_lists_five (void **state)
     assert_int_equal (pg_criterion_find ("beam_limits")->needs, PG_NEEDS_BEAMS);
 }
 
-/* Where spacings differ: limits by an energy per area go with horizon^(-1/2), a stretch that is given is the same everywhere. */
+/* Where spacings differ: limits by an energy per area go with horizon^(-1/2), a stretch that is given is the
+ * same everywhere. */
 static void limits_follow_the_horizon_where_an_energy_gives_them (void **state)
 {
     (void) state;
-    const double xi[4] = { 1, 0, 2, 0 }, eta[4] = { 1e-3, 0, 2e-3, 0 }, reach[2] = { 1, 4 }, energy[2] = { 9, 9 }, shear[2] = { 0.2, 0.2 }, bending[2] = { 0.4, 0.4 };
-    const pg_bond_measures m = { .n = 2, .dim = 2, .xi = xi, .eta = eta, .reach = reach, .energy = energy, .shear = shear, .bending = bending };
+    const double xi[4] = { 1, 0, 2, 0 }, eta[4] = { 1e-3, 0, 2e-3, 0 }, reach[2] = { 1, 4 },
+                 energy[2] = { 9, 9 }, shear[2] = { 0.2, 0.2 }, bending[2] = { 0.4, 0.4 };
+    const pg_bond_measures m = { .n = 2,
+                                 .dim = 2,
+                                 .xi = xi,
+                                 .eta = eta,
+                                 .reach = reach,
+                                 .energy = energy,
+                                 .shear = shear,
+                                 .bending = bending };
     double u[2], f[2];
     for (int finite = 0; finite < 2; finite++)
         for (int derived = 0; derived < 2; derived++) {
-            pg_criterion c = { .type = pg_criterion_find ("stretch"), .parameter = { 1e-3, finite, 1, derived, 1 } };
+            pg_criterion c = { .type = pg_criterion_find ("stretch"),
+                               .parameter = { 1e-3, finite, 1, derived, 1 } };
             c.type->utilisation (&c, &m, u, NULL);
             c.type->factor (&c, &m, f);
             check_relative (u[0], 1, 1e-12);
             check_relative (u[1], derived ? 2 : 1, 1e-12);
             check_relative (f[1], derived ? 0.5 : 1, 1e-9);
         }
-    pg_criterion point = { .type = pg_criterion_find ("node_energy"), .parameter = { 9 } }, beam = { .type = pg_criterion_find ("beam_limits"), .parameter = { 1, 0.2, 4 } };
+    pg_criterion point = { .type = pg_criterion_find ("node_energy"), .parameter = { 9 } },
+                 beam = { .type = pg_criterion_find ("beam_limits"), .parameter = { 1, 0.2, 4 } };
     point.type->utilisation (&point, &m, u, NULL);
     check_relative (u[0], 1, 1e-12);
     check_relative (u[1], 2, 1e-12);
@@ -171,7 +190,8 @@ static void without_motion_no_factor_breaks_the_bond (void **state)
     (void) state;
     const double xi[2] = { 1, 0 }, eta[2] = { 0, 0 }, zero = 0;
     const pg_bond_measures bond = { .n = 1, .dim = 2, .xi = xi, .eta = eta, .s1 = &zero, .s3 = &zero };
-    pg_criterion all[4] = { make ("stretch", 1e-3, 0, 0), make ("stretch", 1e-3, 1, 0), make ("principal_stress", 1e6, 0, 0), rock () };
+    pg_criterion all[4] = { make ("stretch", 1e-3, 0, 0), make ("stretch", 1e-3, 1, 0),
+                            make ("principal_stress", 1e6, 0, 0), rock () };
     for (int k = 0; k < 4; k++) {
         double f, u;
         all[k].type->factor (&all[k], &bond, &f);

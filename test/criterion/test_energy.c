@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fracture energy and critical stretch: table of theory A1, and the work on all bonds that cross a plane (A-1, A-2). */
+ * Fracture energy and critical stretch: table of theory A1, and the work on all bonds that cross a plane
+ * (A-1, A-2). */
 #include "check.h"
 #include "perigal/criterion.h"
 #include "perigal/kernel.h"
@@ -10,15 +11,21 @@ static const pg_mode modes[4] = { PG_LINE, PG_PLANE_STRESS, PG_PLANE_STRAIN, PG_
 
 static pg_criterion_setting setting (int mode, const char *kernel, double horizon, double E)
 {
-    return (pg_criterion_setting) { .mode = modes[mode], .horizon = horizon, .modulus = E, .poisson = 0.25, .thickness = 0.7,
-                                    .kernel = kernel };
+    return (pg_criterion_setting){ .mode = modes[mode],
+                                   .horizon = horizon,
+                                   .modulus = E,
+                                   .poisson = 0.25,
+                                   .thickness = 0.7,
+                                   .kernel = kernel };
 }
 
 static void stretch_is_that_of_the_table (void **state)
 {
     (void) state;
-    const double a[5][4] = { { 3, 4 * pi / 9, 5 * pi / 12, 5.0 / 6 }, { 15.0 / 4, 8 * pi / 15, pi / 2, 35.0 / 36 },
-                             { 4, 5 * pi / 9, 25 * pi / 48, 1 }, { 8.0 / 3, 5 * pi / 12, 25 * pi / 64, 4.0 / 5 },
+    const double a[5][4] = { { 3, 4 * pi / 9, 5 * pi / 12, 5.0 / 6 },
+                             { 15.0 / 4, 8 * pi / 15, pi / 2, 35.0 / 36 },
+                             { 4, 5 * pi / 9, 25 * pi / 48, 1 },
+                             { 8.0 / 3, 5 * pi / 12, 25 * pi / 64, 4.0 / 5 },
                              { 4, pi / 2, 15 * pi / 32, 8.0 / 9 } };
     for (int k = 0; k < 5; k++)
         for (int m = 0; m < 4; m++) {
@@ -57,7 +64,8 @@ typedef double (*integrand) (double x, const void *context);
 static double integral (integrand f, const void *context, double low, double high, int panels)
 {
     const double x[5] = { -.9061798459386640, -.5384693101056831, 0, .5384693101056831, .9061798459386640 };
-    const double w[5] = { .2369268850561891, .4786286704993665, .5688888888888889, .4786286704993665, .2369268850561891 };
+    const double w[5] = { .2369268850561891, .4786286704993665, .5688888888888889, .4786286704993665,
+                          .2369268850561891 };
     double sum = 0, h = (high - low) / panels;
     for (int k = 0; k < panels; k++)
         for (int g = 0; g < 5; g++) sum += h / 2 * w[g] * f (low + h * (k + (1 + x[g]) / 2), context);
@@ -112,8 +120,8 @@ static void uniform_strain_stores_the_energy_of_hooke (void **state)
         }
 }
 
-/* Work on the bonds of length r that start at depth z = r (1 - u^2) and cross the plane, s0 = 1, c = 1; the square takes the
- * root of the angle at z = r away. */
+/* Work on the bonds of length r that start at depth z = r (1 - u^2) and cross the plane, s0 = 1, c = 1; the
+ * square takes the root of the angle at z = r away. */
 static double over_plane (double u, const void *context)
 {
     const place *p = context;
@@ -143,8 +151,9 @@ static void bonds_over_a_plane_at_the_critical_stretch_store_the_fracture_energy
         }
 }
 
-/* ---- state-based ------------------------------------------------------------------------------------------------------------------ */
-/* Of q = int k r dV the part that lies beyond a plane z away, by midpoints over the half ball; kernel constant, horizon 1 */
+/* ---- state-based --------------------------------------------------------------------------------------- */
+/* Of q = int k r dV the part that lies beyond a plane z away, by midpoints over the half ball; kernel
+ * constant, horizon 1 */
 static double part_beyond (int mode, double z)
 {
     enum { N = 2000 };
@@ -157,8 +166,8 @@ static double part_beyond (int mode, double z)
     return sum / whole;
 }
 
-/* Dilatation of a point beside a cut is d s0 I / q, its energy A theta^2 / (2 d); each stretched bond stores by B: A goes with the square of the part, B with
- * the part itself; both faces of the cut. */
+/* Dilatation of a point beside a cut is d s0 I / q, its energy A theta^2 / (2 d); each stretched bond stores
+ * by B: A goes with the square of the part, B with the part itself; both faces of the cut. */
 static void energy_of_a_state_based_cut (void **state)
 {
     (void) state;
@@ -169,13 +178,15 @@ static void energy_of_a_state_based_cut (void **state)
             double share = part_beyond (m, (k + 0.5) / N);
             first += share / N, second += share * share / N;
         }
-        check_relative (pg_state_cut_share (modes[m], "constant", 0, 1), first, 1e-3);       /* of these sums of 2000 shells    */
+        /* of these sums of 2000 shells */
+        check_relative (pg_state_cut_share (modes[m], "constant", 0, 1), first, 1e-3);
         check_relative (pg_state_cut_share (modes[m], "constant", 1, 0), d * second, 1e-3);
     }
     check_relative (pg_state_cut_share (PG_LINE, "constant", 1, 0), 2.0 / 15, 1e-10);
     check_relative (pg_state_cut_share (PG_LINE, "constant", 0, 1), 1.0 / 3, 1e-10);
     check_relative (pg_state_cut_share (PG_SOLID, "constant", 0, 1), 1.0 / 5, 1e-10);
-    check_relative (pg_state_cut_share (PG_SOLID, "constant", 1, 0), 3 * (1.0 / 4 - 1.0 / 3 + 1.0 / 30 + 1.0 / 9 + 1.0 / 324), 1e-10);
+    check_relative (pg_state_cut_share (PG_SOLID, "constant", 1, 0),
+                    3 * (1.0 / 4 - 1.0 / 3 + 1.0 / 30 + 1.0 / 9 + 1.0 / 324), 1e-10);
     assert_true (pg_state_cut_share (PG_SOLID, "nothing", 1, 1) == 0);
 }
 

@@ -3,7 +3,9 @@
 #include "check.h"
 #include "perigal/criterion.h"
 
-static const pg_criterion_setting setting = { .mode = PG_SOLID, .horizon = 0.06, .modulus = 30e9, .poisson = 0.2, .thickness = 1, .kernel = "constant" };
+static const pg_criterion_setting setting = {
+    .mode = PG_SOLID, .horizon = 0.06, .modulus = 30e9, .poisson = 0.2, .thickness = 1, .kernel = "constant"
+};
 
 /* Reads `failure: {...}`; the scene itself may already refuse. */
 static pg_status reading (const char *failure, pg_criterion *c)
@@ -60,8 +62,10 @@ static void a_given_stretch_is_kept_and_its_energy_derived (void **state)
 static void stretch_wants_exactly_one_limit (void **state)
 {
     (void) state;
-    check_refused ("{criterion: stretch}", "stretch needs either failure.critical_stretch or failure.fracture_energy");
-    check_refused ("{criterion: stretch, critical_stretch: 1e-3, fracture_energy: 100 J/m2}", "fracture_energy");
+    check_refused ("{criterion: stretch}",
+                   "stretch needs either failure.critical_stretch or failure.fracture_energy");
+    check_refused ("{criterion: stretch, critical_stretch: 1e-3, fracture_energy: 100 J/m2}",
+                   "fracture_energy");
 }
 
 static void strengths_are_read_with_units (void **state)
@@ -70,8 +74,10 @@ static void strengths_are_read_with_units (void **state)
     pg_criterion c;
     check_ok (reading ("{criterion: principal_stress, tensile_strength: 2 MPa}", &c));
     check_relative (c.parameter[0], 2e6, 1e-15);
-    check_ok (reading ("{criterion: mohr_coulomb, tensile_strength: 0.5 MPa, cohesion: 5 MPa, friction_angle: 40 deg,"
-                       " exclude: [left]}", &c));
+    check_ok (reading (
+        "{criterion: mohr_coulomb, tensile_strength: 0.5 MPa, cohesion: 5 MPa, friction_angle: 40 deg,"
+        " exclude: [left]}",
+        &c));
     double s1 = 0, s3 = -21.4450692e6, f;
     const pg_bond_measures m = { .n = 1, .dim = 3, .s1 = &s1, .s3 = &s3 };
     c.type->factor (&c, &m, &f);
@@ -82,23 +88,29 @@ static void missing_keys_are_named (void **state)
 {
     (void) state;
     check_refused ("{criterion: principal_stress}", "principal_stress needs failure.tensile_strength");
-    check_refused ("{criterion: mohr_coulomb, tensile_strength: 1 MPa}", "mohr_coulomb needs failure.cohesion");
-    check_refused ("{criterion: mohr_coulomb, tensile_strength: 1 MPa}", "mohr_coulomb needs failure.friction_angle");
+    check_refused ("{criterion: mohr_coulomb, tensile_strength: 1 MPa}",
+                   "mohr_coulomb needs failure.cohesion");
+    check_refused ("{criterion: mohr_coulomb, tensile_strength: 1 MPa}",
+                   "mohr_coulomb needs failure.friction_angle");
     check_refused ("{tensile_strength: 1 MPa}", "failure.criterion");
 }
 
 static void keys_without_effect_are_faults (void **state)
 {
     (void) state;
-    check_refused ("{criterion: stretch, critical_stretch: 1e-3, cohesion: 5 MPa}", "has no effect with the criterion stretch");
+    check_refused ("{criterion: stretch, critical_stretch: 1e-3, cohesion: 5 MPa}",
+                   "has no effect with the criterion stretch");
     check_refused ("{criterion: principal_stress, tensile_strength: 1 MPa, stretch: finite}", "f.yaml:2");
-    check_refused ("{criterion: principal_stress, tensile_strength: 1 MPa, fracture_energy: 1 J/m2}", "has no effect");
+    check_refused ("{criterion: principal_stress, tensile_strength: 1 MPa, fracture_energy: 1 J/m2}",
+                   "has no effect");
 }
 
 static void a_right_angle_of_friction_is_refused (void **state)
 {
     (void) state;
-    check_refused ("{criterion: mohr_coulomb, tensile_strength: 1 MPa, cohesion: 5 MPa, friction_angle: 90 deg}", "friction_angle");
+    check_refused (
+        "{criterion: mohr_coulomb, tensile_strength: 1 MPa, cohesion: 5 MPa, friction_angle: 90 deg}",
+        "friction_angle");
 }
 
 int main (void)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * bond.h: a problem of bonds from text with its force and state; random displacements; what every such force must bear. */
+ * bond.h: a problem of bonds from text with its force and state; random displacements; what every such force
+ * must bear. */
 #ifndef PERIGAL_TEST_BOND_H
 #define PERIGAL_TEST_BOND_H
 #include "check.h"
@@ -7,17 +8,21 @@
 
 #define BODY2 BODY2_OF ("0.3333333333")
 #define BODY3 BODY3_OF ("0.25")
-#define BODY2_OF(nu) "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [1, 0.7]}}}]\nspacing: 0.1\nthickness: 0.2\n" \
+#define BODY2_OF(nu) \
+    "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [1, 0.7]}}}]\nspacing: " \
+    "0.1\nthickness: 0.2\n" \
     "materials: {rock: {youngs_modulus: 10, poissons_ratio: " nu ", density: 3}}\n"
-#define BODY3_OF(nu) "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.6, 0.5, 0.4]}}}]\nspacing: 0.1\n" \
+#define BODY3_OF(nu) \
+    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.6, 0.5, 0.4]}}}]\nspacing: 0.1\n" \
     "materials: {rock: {youngs_modulus: 10, poissons_ratio: " nu ", density: 3}}\n"
-#define BODY1 "dimension: 1\ncross_section: 0.3\nbody: [{add: {box: {low: [0], high: [2]}}}]\nspacing: 0.1\n" \
+#define BODY1 \
+    "dimension: 1\ncross_section: 0.3\nbody: [{add: {box: {low: [0], high: [2]}}}]\nspacing: 0.1\n" \
     "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0, density: 3}}\n"
 
 typedef struct {
     pg_scene *scene; pg_problem *problem; pg_state *state;
     const pg_force_type *force; void *self;
-    size_t n, ndof, dim, stride;                       /* stride: unknowns of a point                                    */
+    size_t n, ndof, dim, stride;                       /* stride: unknowns of a point */
 } bonded;
 
 static inline bonded bonded_with (const char *text, int threads, size_t nset, const char *const *set)
@@ -29,7 +34,8 @@ static inline bonded bonded_with (const char *text, int threads, size_t nset, co
     check_ok (pg_state_create (&b.state, b.problem, b.problem->dim + b.problem->turns));
     check_ok (b.force->create (&b.self, b.problem));
     check_ok (b.force->refresh (b.self, b.state, NULL));
-    b.n = b.problem->cloud.n, b.dim = (size_t) b.problem->dim, b.stride = b.dim + (size_t) b.problem->turns, b.ndof = b.n * b.stride;
+    b.n = b.problem->cloud.n, b.dim = (size_t) b.problem->dim, b.stride = b.dim + (size_t) b.problem->turns,
+    b.ndof = b.n * b.stride;
     return b;
 }
 static inline bonded bonded_of (const char *text) { return bonded_with (text, 1, 0, NULL); }
@@ -42,7 +48,10 @@ static inline void unbonded (bonded *b)
     pg_scene_free (&b->scene);
 }
 
-static inline double any (unsigned *seed) { return (double) ((*seed = *seed * 1664525u + 1013904223u) >> 8) / 8388608.0 - 1; }
+static inline double any (unsigned *seed)
+{
+    return (double) ((*seed = *seed * 1664525u + 1013904223u) >> 8) / 8388608.0 - 1;
+}
 static inline double *random_vector (size_t n, unsigned seed)
 {
     double *x = pg_calloc (n, sizeof *x);
@@ -69,7 +78,8 @@ static inline double *linear_field (const bonded *b, const double *H)
     for (size_t i = 0; i < b->n; i++) {
         double *own = u + i * b->stride;
         for (size_t a = 0; a < b->dim; a++)
-            for (size_t c = 0; c < b->dim; c++) own[a] += H[a * b->dim + c] * b->problem->cloud.x[i * b->dim + c];
+            for (size_t c = 0; c < b->dim; c++)
+                own[a] += H[a * b->dim + c] * b->problem->cloud.x[i * b->dim + c];
         if (b->problem->turns == 1) own[2] = 0.5 * h * (H[2] - H[1]);
         for (size_t k = 0; b->problem->turns == 3 && k < 3; k++) {
             size_t y = (k + 1) % 3, z = (k + 2) % 3;
@@ -97,7 +107,8 @@ static inline pg_changes kill_some (bonded *b, size_t nth)
 /* Largest eigenfrequency of K x = omega^2 M x, rad/s, by power iteration: from below */
 static inline double largest_frequency (bonded *b)
 {
-    double *x = random_vector (b->ndof, 11), *y = pg_calloc (b->ndof, sizeof *y), *m = pg_calloc (b->ndof, sizeof *m), top = 0;
+    double *x = random_vector (b->ndof, 11), *y = pg_calloc (b->ndof, sizeof *y),
+           *m = pg_calloc (b->ndof, sizeof *m), top = 0;
     const pg_operator *op = b->force->operator_ (b->self);
     check_ok (b->force->mass (b->self, m));
     for (int it = 0; it < 300; it++) {
@@ -109,7 +120,8 @@ static inline double largest_frequency (bonded *b)
     pg_free (x), pg_free (y), pg_free (m);
     return sqrt (top);
 }
-/* Each allocation of making the force and one march fails once: it says so and leaves nothing behind; returns how many calls that took. */
+/* Each allocation of making the force and one march fails once: it says so and leaves nothing behind; returns
+ * how many calls that took. */
 static inline size_t fail_each_allocation (const char *text)
 {
     bonded b = bonded_of (text);

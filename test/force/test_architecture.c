@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The house takes forces of another kind: a beam with two fields (deflection, rotation) on a one-dimensional cloud, with a matrix
- * or as an operator only, with supports by springs or by elimination, and with every entry missing that may be missing. */
+ * The house takes forces of another kind: a beam with two fields (deflection, rotation) on a one-dimensional
+ * cloud, with a matrix or as an operator only, with supports by springs or by elimination, and with every
+ * entry missing that may be missing. */
 #include "scene_runs/run.h"
 #include "output/fonts.h"
 
 #define BAR "dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.05\n" \
     "materials: {steel: {youngs_modulus: 1, poissons_ratio: 0, density: 1}}\n"
 
-/* ---- a chain of Euler-Bernoulli elements, clamped at its left end, loaded at its right end ------------------------------- */
-static const double bending = 0.7, line_mass = 1.3, tip_force = 2.0, tip_moment = -0.6;       /* N m^2, kg/m, N, N m       */
-static int springs, clamps;                            /* how the next beam is clamped: springs, or elimination           */
+/* ---- a chain of Euler-Bernoulli elements, clamped at its left end, loaded at its right end ------------- */
+/* N m^2, kg/m, N, N m */
+static const double bending = 0.7, line_mass = 1.3, tip_force = 2.0, tip_moment = -0.6;
+static int springs, clamps;  /* how the next beam is clamped: springs, or elimination */
 
 typedef struct { const pg_problem *problem; pg_sparse K, T; pg_operator op; size_t ndof, refreshed; } beam;
 
@@ -22,7 +24,10 @@ static void beam_free (void **self)
     *self = NULL;
 }
 
-static void apply (void *context, const double *x, double *y) { pg_sparse_multiply (&((beam *) context)->K, x, y); }
+static void apply (void *context, const double *x, double *y)
+{
+    pg_sparse_multiply (&((beam *) context)->K, x, y);
+}
 static void diagonal (void *context, double *d)
 {
     pg_operator op = pg_sparse_operator (&((beam *) context)->K);
@@ -33,7 +38,10 @@ static void diagonal (void *context, double *d)
 static void add_element (pg_sparse *K, size_t e, double length)
 {
     double c = bending / (length * length * length), l = length;
-    double k[4][4] = { { 12, 6*l, -12, 6*l }, { 6*l, 4*l*l, -6*l, 2*l*l }, { -12, -6*l, 12, -6*l }, { 6*l, 2*l*l, -6*l, 4*l*l } };
+    double k[4][4] = { { 12, 6 * l, -12, 6 * l },
+                       { 6 * l, 4 * l * l, -6 * l, 2 * l * l },
+                       { -12, -6 * l, 12, -6 * l },
+                       { 6 * l, 2 * l * l, -6 * l, 4 * l * l } };
     for (size_t j = 0; j < 4; j++)
         for (long p = K->start[2*e + j]; p < K->start[2*e + j + 1]; p++) {
             long i = K->row[p] - (long) (2*e);
@@ -50,7 +58,7 @@ static pg_status beam_create (void **self, const pg_problem *problem)
     *self = b;
     b->problem = problem, b->ndof = 2 * n;
     PG_TRY (pg_sparse_create (&b->K, 2*n, 2*n, 7*n, 1));
-    for (size_t j = 0; j < 2*n; j++) {                 /* columns 2i, 2i + 1: node i - 1, and node i down to the diagonal */
+    for (size_t j = 0; j < 2*n; j++) {  /* columns 2i, 2i + 1: node i - 1, and node i down to the diagonal */
         for (size_t i = j / 2 ? j / 2 * 2 - 2 : 0; i <= j; i++) b->K.row[at++] = (long) i;
         b->K.start[j + 1] = (long) at;
     }
@@ -58,7 +66,8 @@ static pg_status beam_create (void **self, const pg_problem *problem)
     for (size_t j = 0; j < 2 && springs; j++) b->K.value[b->K.start[j + 1] - 1] += 1e9 * bending;
     if (clamps) {
         PG_TRY (pg_sparse_create (&b->T, 2*n, 2*n - 2, 2*n - 2, 0));
-        for (size_t j = 0; j < 2*n - 2; j++) b->T.row[j] = (long) j + 2, b->T.value[j] = 1, b->T.start[j + 1] = (long) j + 1;
+        for (size_t j = 0; j < 2 * n - 2; j++)
+            b->T.row[j] = (long) j + 2, b->T.value[j] = 1, b->T.start[j + 1] = (long) j + 1;
     }
     b->op = (pg_operator) { 2*n, b, apply, diagonal };
 done:
@@ -95,26 +104,47 @@ static pg_status beam_balance (void *self, double t, const double *d, double *re
 static pg_status beam_mass (void *self, double *mass)
 {
     beam *b = self;
-    for (size_t i = 0; i < b->ndof / 2; i++) mass[2*i] = line_mass * b->problem->cloud.volume[i], mass[2*i + 1] = 1e-4 * mass[2*i];
+    for (size_t i = 0; i < b->ndof / 2; i++)
+        mass[2 * i] = line_mass * b->problem->cloud.volume[i], mass[2 * i + 1] = 1e-4 * mass[2 * i];
     return PG_OK;
 }
 
 static const pg_operator *beam_operator (void *self) { return &((beam *) self)->op; }
 static const pg_sparse *beam_matrix (void *self) { return &((beam *) self)->K; }
 static const pg_sparse *no_matrix (void *self) { (void) self; return NULL; }
-static const pg_sparse *beam_basis (void *self) { return ((beam *) self)->T.ncol ? &((beam *) self)->T : NULL; }
-static pg_status beam_impose (void *self, double t, double *d) { (void) self, (void) t; d[0] = d[1] = 0; return PG_OK; }
+static const pg_sparse *beam_basis (void *self)
+{
+    return ((beam *) self)->T.ncol ? &((beam *) self)->T : NULL;
+}
+static pg_status beam_impose (void *self, double t, double *d)
+{
+    (void) self, (void) t;
+    d[0] = d[1] = 0;
+    return PG_OK;
+}
 
-#define FORCE(name_, refresh_, mass_, operator__, matrix_) { .name = name_, .summary = "a beam", .create = beam_create, .free = beam_free, \
-    .fields = beam_fields, .refresh = refresh_, .balance = beam_balance, .mass = mass_, .operator_ = operator__, .matrix = matrix_, \
-    .basis = beam_basis, .impose = beam_impose }
+#define FORCE(name_, refresh_, mass_, operator__, matrix_) \
+    { \
+        .name = name_, .summary = "a beam", .create = beam_create, .free = beam_free, .fields = beam_fields, \
+        .refresh = refresh_, .balance = beam_balance, .mass = mass_, .operator_ = operator__, \
+        .matrix = matrix_, .basis = beam_basis, .impose = beam_impose \
+    }
 static const pg_force_type with_matrix = FORCE ("beam", beam_refresh, beam_mass, NULL, beam_matrix);
-static const pg_force_type matrix_free = FORCE ("beam_free", beam_refresh, beam_mass, beam_operator, no_matrix);
+static const pg_force_type matrix_free = FORCE ("beam_free", beam_refresh, beam_mass, beam_operator,
+                                                no_matrix);
 static const pg_force_type nothing = FORCE ("beam_of_nothing", NULL, NULL, NULL, NULL);
-static const pg_force_type least = { .name = "least", .create = beam_create, .free = beam_free, .fields = beam_fields,
-                                     .balance = beam_balance, .matrix = beam_matrix };
-static const pg_force_type least_free = { .name = "least_free", .create = beam_create, .free = beam_free, .fields = beam_fields,
-                                          .balance = beam_balance, .operator_ = beam_operator };
+static const pg_force_type least = { .name = "least",
+                                     .create = beam_create,
+                                     .free = beam_free,
+                                     .fields = beam_fields,
+                                     .balance = beam_balance,
+                                     .matrix = beam_matrix };
+static const pg_force_type least_free = { .name = "least_free",
+                                          .create = beam_create,
+                                          .free = beam_free,
+                                          .fields = beam_fields,
+                                          .balance = beam_balance,
+                                          .operator_ = beam_operator };
 
 static run beam_of (const pg_force_type *force, int by_springs, const char *text)
 {
@@ -129,7 +159,10 @@ static run beam_of (const pg_force_type *force, int by_springs, const char *text
 }
 
 /* w = F x^2 (3 L - x) / 6 EI + M x^2 / 2 EI: cubic, so that the nodes are exact */
-static double deflection (double x) { return (tip_force * x * x * (3 - x) / 6 + tip_moment * x * x / 2) / bending; }
+static double deflection (double x)
+{
+    return (tip_force * x * x * (3 - x) / 6 + tip_moment * x * x / 2) / bending;
+}
 static double rotation (double x) { return (tip_force * x * (2 - x) / 2 + tip_moment * x) / bending; }
 
 static void is_the_closed_form (const run *r, double tolerance)
@@ -142,7 +175,7 @@ static void is_the_closed_form (const run *r, double tolerance)
     }
 }
 
-/* ---- two fields ------------------------------------------------------------------------------------------------------------ */
+/* ---- two fields ---------------------------------------------------------------------------------------- */
 static void two_fields_give_two_unknowns_a_point (void **state)
 {
     (void) state;
@@ -161,7 +194,9 @@ static void the_beam_bends_as_in_the_textbook (void **state)
         for (int by_springs = 0; by_springs < 2; by_springs++)
             for (int event = 0; event < 2; event++) {
                 char text[1000];
-                snprintf (text, sizeof text, BAR "solver: {kind: static, stepping: %s, steps: 3, linear: %s, tolerance: 1e-7}\noutput: {at: {levels: 2}}\n",
+                snprintf (text, sizeof text,
+                          BAR "solver: {kind: static, stepping: %s, steps: 3, linear: %s, tolerance: "
+                              "1e-7}\noutput: {at: {levels: 2}}\n",
                           event ? "event" : "fixed", solvers[s]);
                 run r = beam_of (&with_matrix, by_springs, text);
                 to_the_end (&r);
@@ -187,7 +222,7 @@ static void loads_grow_with_the_steps (void **state)
     clear (&r);
 }
 
-/* ---- without a matrix ------------------------------------------------------------------------------------------------------ */
+/* ---- without a matrix ---------------------------------------------------------------------------------- */
 static void an_operator_alone_gives_the_same (void **state)
 {
     (void) state;
@@ -195,9 +230,10 @@ static void an_operator_alone_gives_the_same (void **state)
         const char *text = BAR "solver: {kind: static, tolerance: 1e-9, steps: 2, stepping: fixed}\n";
         run a = beam_of (&with_matrix, by_springs, text), b = beam_of (&matrix_free, by_springs, text);
         to_the_end (&a), to_the_end (&b);
-        for (size_t i = 0; i < a.state->ndof; i++) check_scaled (b.state->d[i], a.state->d[i], 1e-8, fabs (deflection (1)));
+        for (size_t i = 0; i < a.state->ndof; i++)
+            check_scaled (b.state->d[i], a.state->d[i], 1e-8, fabs (deflection (1)));
         if (!by_springs) is_the_closed_form (&b, 1e-8);
-        const pg_report *report = pg_solver_report_now (b.solver);
+        const pg_statistics *report = pg_solver_report_now (b.solver);
         assert_true (report->cg_iterations > 10);
         assert_int_equal (report->factorizations, 0);
         assert_string_equal (report->solver, "cg");
@@ -208,7 +244,8 @@ static void an_operator_alone_gives_the_same (void **state)
 static void dynamics_needs_no_matrix_either (void **state)
 {
     (void) state;
-    const char *text = BAR "solver: {kind: newmark, dt: 0.01, end: 0.5, tolerance: 1e-10, rayleigh: {mass: 0.1, stiffness: 1e-3}}\n";
+    const char *text = BAR "solver: {kind: newmark, dt: 0.01, end: 0.5, tolerance: 1e-10, rayleigh: {mass: "
+                           "0.1, stiffness: 1e-3}}\n";
     run a = beam_of (&with_matrix, 0, text), b = beam_of (&matrix_free, 0, text);
     double top = 0;
     while (!pg_solver_done (a.solver, a.state)) {
@@ -241,7 +278,7 @@ static void neither_matrix_nor_operator_is_refused (void **state)
     assert_int_equal (pg_memory_used (), used);
 }
 
-/* ---- missing entries ------------------------------------------------------------------------------------------------------- */
+/* ---- missing entries ----------------------------------------------------------------------------------- */
 /* Loads, gauges, a criterion, a stop set: all that makes a solver ask its force for more. */
 #define RICH BAR "failure: {criterion: stretch, critical_stretch: 1e-6}\n" \
     "boundary: [{set: left, displacement: {x: 0}}, {set: right, force: {x: 1}}]\n"
@@ -252,11 +289,12 @@ static void missing_entries_are_not_missed (void **state)
     const pg_force_type *const forces[] = { &least, &least_free };
     for (int f = 0; f < 2; f++)
         for (int event = 0; event < 2; event++) {
-            run r = beam_of (forces[f], 1, event ? RICH "solver: {stepping: event, stop: {set: right}}\n"
-                                                 : RICH "solver: {stepping: fixed, steps: 2, stop: {set: right}}\n");
+            run r = beam_of (forces[f], 1,
+                             event ? RICH "solver: {stepping: event, stop: {set: right}}\n"
+                                   : RICH "solver: {stepping: fixed, steps: 2, stop: {set: right}}\n");
             to_the_end (&r);
             is_the_closed_form (&r, 1e-5);
-            const pg_report *report = pg_solver_report (r.solver, r.state);
+            const pg_statistics *report = pg_solver_report (r.solver, r.state);
             assert_int_equal (report->broken, 0);
             assert_int_equal (report->nwarning, 0);
             assert_true (report->energy_strain == 0 && report->energy_external == 0);
@@ -279,8 +317,10 @@ static void results_are_written_without_fields (void **state)
     (void) state;
     char folder[] = "/tmp/perigal_beam_XXXXXX", command[80];
     assert_non_null (mkdtemp (folder));
-    run r = beam_of (&least, 1, RICH "solver: {stepping: event}\n"
-                     "output: {at: {levels: 2}, gauges: [{name: g, from: [0], to: [1]}], pictures: [damage, displacement.x]}\n");
+    run r = beam_of (&least, 1,
+                     RICH "solver: {stepping: event}\n"
+                          "output: {at: {levels: 2}, gauges: [{name: g, from: [0], to: [1]}], pictures: "
+                          "[damage, displacement.x]}\n");
     pg_result *result = NULL;
     check_ok (pg_result_open (&result, folder, r.scene, r.problem, r.solver));
     while (!pg_solver_done (r.solver, r.state)) {

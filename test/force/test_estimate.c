@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The error estimate of the stress: nothing where the recovered polynomials hold the stress; not across cracks and borders of materials; the
- * size of the true error of three problems with a known solution (effectivity = estimate / true error, both in the energy norm at the
- * points of evaluation); the same for any number of threads; no leak when memory ends. */
+ * The error estimate of the stress: nothing where the recovered polynomials hold the stress; not across
+ * cracks and borders of materials; the size of the true error of three problems with a known solution
+ * (effectivity = estimate / true error, both in the energy norm at the points of evaluation); the same for
+ * any number of threads; no leak when memory ends. */
 #include "../scene_runs/run.h"
 #include "force/galerkin.h"
 
-/* ---- exact solutions ---------------------------------------------------------------------------------------------------------- */
+/* ---- exact solutions ----------------------------------------------------------------------------------- */
 static void timoshenko (const double *at, double *s)
 {
     double P = 1000, L = 48, D = 12, I = 144, x = at[0], y = at[1];
@@ -24,9 +25,11 @@ static void kirsch (const double *at, double *s)
 static void uniform (const double *at, double *s) { (void) at, s[0] = 10.08e6, s[1] = 7.52e6, s[2] = -0.4e6; }
 
 static const char cantilever_scene[] =
-    "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [0, -6], high: [48, 6]}}}]\nspacing: %g\nperturb: {amount: %g}\n"
+    "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [0, -6], high: [48, "
+    "6]}}}]\nspacing: %g\nperturb: {amount: %g}\n"
     "materials: {beam: {youngs_modulus: 3e7, poissons_ratio: 0.3}}\n"
-    "method: {approximation: %s, integration: %s, gauss_points: %d, basis: %s, kernel: cubic_spline, horizon: %g spacing}\n"
+    "method: {approximation: %s, integration: %s, gauss_points: %d, basis: %s, kernel: cubic_spline, "
+    "horizon: %g spacing}\n"
     "boundary:\n"
     "  - {set: left, displacement: {x: \"1000 N * y / (6 * 3e7 Pa * 144 m^4) * 2.3 * (y^2 - 36 m^2)\",\n"
     "                               y: \"-1000 N / (6 * 3e7 Pa * 144 m^4) * 0.9 * 48 m * y^2\"}}\n"
@@ -37,27 +40,34 @@ static const char cantilever_scene[] =
 #define CC "(x^3 - 3*x*y^2)"
 #define SS "(3*x^2*y - y^3)"
 static const char kirsch_scene[] =
-    "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [1, 1], high: [3, 3]}}}]\nspacing: %g\nperturb: {amount: %g}\n"
+    "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [1, 1], high: [3, "
+    "3]}}}]\nspacing: %g\nperturb: {amount: %g}\n"
     "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
-    "method: {approximation: %s, integration: %s, gauss_points: %d, basis: %s, kernel: cubic_spline, horizon: %g spacing}\n"
+    "method: {approximation: %s, integration: %s, gauss_points: %d, basis: %s, kernel: cubic_spline, "
+    "horizon: %g spacing}\n"
     "boundary:\n"
-    "  - {set: all, essential: nitsche, displacement: {x: \"3.125e-5*(3.2*x + 2 m^2*(3.2*x/" RR " + " CC "/" RR "^2) - 2 m^4*" CC "/" RR "^3)\",\n"
-    "                              y: \"3.125e-5*(-0.8*y + 2 m^2*(-1.2*y/" RR " + " SS "/" RR "^2) - 2 m^4*" SS "/" RR "^3)\"}}\n"
+    "  - {set: all, essential: nitsche, displacement: {x: \"3.125e-5*(3.2*x + 2 m^2*(3.2*x/" RR " + " CC
+    "/" RR "^2) - 2 m^4*" CC "/" RR "^3)\",\n"
+    "                              y: \"3.125e-5*(-0.8*y + 2 m^2*(-1.2*y/" RR " + " SS "/" RR
+    "^2) - 2 m^4*" SS "/" RR "^3)\"}}\n"
     "solver: {kind: static}\n";
 
-static const char patch_scene[] =
-    "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: %g\nperturb: {amount: %g}\n"
-    "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
-    "method: {approximation: %s, integration: %s, gauss_points: %d, basis: %s, kernel: cubic_spline, horizon: %g spacing}\n"
-    "boundary: [{set: all, essential: nitsche, displacement: {x: \"8.2e-4*x + 1e-4*y\", y: \"-2e-4*x + 5e-4*y\"}}]\n"
-    "solver: {kind: static}\n";
+static const char patch_scene[] = "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [0, "
+                                  "0], high: [1, 1]}}}]\nspacing: %g\nperturb: {amount: %g}\n"
+                                  "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
+                                  "method: {approximation: %s, integration: %s, gauss_points: %d, basis: %s, "
+                                  "kernel: cubic_spline, horizon: %g spacing}\n"
+                                  "boundary: [{set: all, essential: nitsche, displacement: {x: \"8.2e-4*x + "
+                                  "1e-4*y\", y: \"-2e-4*x + 5e-4*y\"}}]\n"
+                                  "solver: {kind: static}\n";
 
 typedef struct {
     const char *name, *scene;
     void (*exact) (const double *x, double *stress);
     double spacing;
 } known;
-static const known cantilever = { "cantilever", cantilever_scene, timoshenko, 1 }, hole = { "hole", kirsch_scene, kirsch, 0.1 },
+static const known cantilever = { "cantilever", cantilever_scene, timoshenko, 1 },
+                   hole = { "hole", kirsch_scene, kirsch, 0.1 },
                    patch = { "patch", patch_scene, uniform, 0.1 };
 
 /* s C s of plane stress */
@@ -74,7 +84,8 @@ static galerkin *force_of (const run *r)
     return self;
 }
 
-static double effectivity (const known *k, const char *approximation, const char *integration, const char *basis, double horizon, int points, double moved)
+static double effectivity (const known *k, const char *approximation, const char *integration,
+                           const char *basis, double horizon, int points, double moved)
 {
     run r = scene_of (1, k->scene, k->spacing, moved, approximation, integration, points, basis, horizon);
     pg_estimate e;
@@ -88,8 +99,10 @@ static double effectivity (const known *k, const char *approximation, const char
         for (int c = 0; c < 3; c++) s[c] -= g->stress[g->bulk][3 * p + (size_t) c];
         error += g->rows[g->bulk].weight[p] * twice_energy (r.problem->material, s);
     }
-    print_message ("%-10s %s %s %-9s %.1f h, %d points, moved %.2f: true %.2e, estimate %.2e, effectivity %.2f\n", k->name, approximation, integration, basis,
-                   horizon, points, moved, sqrt (error) / e.norm, e.relative, e.error / sqrt (error));
+    print_message (
+        "%-10s %s %s %-9s %.1f h, %d points, moved %.2f: true %.2e, estimate %.2e, effectivity %.2f\n",
+        k->name, approximation, integration, basis, horizon, points, moved, sqrt (error) / e.norm, e.relative,
+        e.error / sqrt (error));
     assert_int_equal (e.points, g->rows[g->bulk].n);
     assert_int_equal (e.left_out, 0);
     check_relative (e.relative, e.error / hypot (e.error, e.norm), 1e-12);
@@ -117,8 +130,8 @@ static void the_estimate_is_of_the_size_of_the_error (void **state)
     within (0.5, effectivity (&patch, "rkpm", "gauss", "quadratic", 2.5, 3, 0.15), 2);
 }
 
-/* What the recovery cannot see: smooth errors of quadrature on regular points, derivatives that belong to no displacement, and most of what
- * goes wrong at nodes that are the points of evaluation. */
+/* What the recovery cannot see: smooth errors of quadrature on regular points, derivatives that belong to no
+ * displacement, and most of what goes wrong at nodes that are the points of evaluation. */
 static void some_errors_are_seen_in_part_only (void **state)
 {
     (void) state;
@@ -130,14 +143,16 @@ static void some_errors_are_seen_in_part_only (void **state)
     within (0.05, effectivity (&hole, "nosb", "nodal", "linear", 2.0, 2, 0), 0.5);
 }
 
-/* ---- nothing to see --------------------------------------------------------------------------------------------------------------- */
+/* ---- nothing to see ------------------------------------------------------------------------------------ */
 static const char block_scene[] =
-    "dimension: %d\n%s\nbody: [{add: {box: {low: %s, high: %s}}}]\nspacing: 1 mm\nperturb: {amount: 0.1}\n%s\n"
+    "dimension: %d\n%s\nbody: [{add: {box: {low: %s, high: %s}}}]\nspacing: 1 mm\nperturb: {amount: "
+    "0.1}\n%s\n"
     "method: {approximation: rkpm, integration: %s, basis: %s, kernel: cubic_spline, horizon: %g spacing}\n"
     "boundary: [{set: left, displacement: {x: 0}}]\nsolver: {kind: static}\n";
 static const char one_rock[] = "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}";
 
-/* Coefficients of u = H x + quadratic terms of size q / m, the same polynomial for each half of a cut body but for the factor of x > middle */
+/* Coefficients of u = H x + quadratic terms of size q / m, the same polynomial for each half of a cut body
+ * but for the factor of x > middle */
 static double *polynomial_of (const pg_problem *p, double q, double middle, double factor)
 {
     size_t dim = (size_t) p->dim;
@@ -146,7 +161,9 @@ static double *polynomial_of (const pg_problem *p, double q, double middle, doub
         const double *x = p->cloud.x + i * dim;
         double s = x[0] > middle ? factor : 1;
         for (size_t k = 0; k < dim; k++) {
-            for (size_t l = 0; l < dim; l++) d[i * dim + k] += 1e-3 * (1 + 2 * (double) k - (double) l) * x[l] + q * (1 + (double) (k + l)) * x[l] * x[0];
+            for (size_t l = 0; l < dim; l++)
+                d[i * dim + k] += 1e-3 * (1 + 2 * (double) k - (double) l) * x[l]
+                                  + q * (1 + (double) (k + l)) * x[l] * x[0];
             d[i * dim + k] *= s;
         }
     }
@@ -166,15 +183,20 @@ static pg_estimate estimate_of (const run *r, double q, double middle, double fa
 static void a_stress_that_is_such_a_polynomial_has_no_error (void **state)
 {
     (void) state;
-    static const struct { int dim; const char *head, *low, *high; } body[] = {
-        { 1, "", "[0]", "[20 mm]" }, { 2, "plane: strain", "[0, 0]", "[12 mm, 8 mm]" }, { 3, "", "[0, 0, 0]", "[6 mm, 5 mm, 5 mm]" } };
+    static const struct { int dim; const char *head, *low, *high;
+    } body[] = { { 1, "", "[0]", "[20 mm]" },
+                 { 2, "plane: strain", "[0, 0]", "[12 mm, 8 mm]" },
+                 { 3, "", "[0, 0, 0]", "[6 mm, 5 mm, 5 mm]" } };
     for (int b = 0; b < 3; b++)
         for (int order = 1; order < 3; order++) {
-            run r = scene_of (1, block_scene, body[b].dim, body[b].head, body[b].low, body[b].high, one_rock, "gauss", order == 1 ? "linear" : "quadratic", order == 1 ? 2.0 : 2.6);
-            pg_estimate e = estimate_of (&r, order == 1 ? 0 : 0.05, 1, 1), bent = estimate_of (&r, 0.05, 1, 1);
+            run r = scene_of (1, block_scene, body[b].dim, body[b].head, body[b].low, body[b].high, one_rock,
+                              "gauss", order == 1 ? "linear" : "quadratic", order == 1 ? 2.0 : 2.6);
+            pg_estimate e = estimate_of (&r, order == 1 ? 0 : 0.05, 1, 1),
+                        bent = estimate_of (&r, 0.05, 1, 1);
             assert_true (e.norm > 0);
             check_below (e.relative, 1e-9);
-            if (order == 1) check_below (1e-4, bent.relative);     /* a quadratic field is none of a linear basis           */
+            /* a quadratic field is none of a linear basis */
+            if (order == 1) check_below (1e-4, bent.relative);
             clear (&r);
         }
 }
@@ -182,20 +204,27 @@ static void a_stress_that_is_such_a_polynomial_has_no_error (void **state)
 static void materials_are_recovered_each_for_itself (void **state)
 {
     (void) state;
-    static const char two[] = "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}, clay: {youngs_modulus: 1 GPa, poissons_ratio: 0.25}}\n"
-                              "blocks: [{material: rock, where: \"x <= 5.5 mm\"}, {material: clay, where: \"x > 5.5 mm\"}]";
-    run r = scene_of (1, block_scene, 2, "plane: stress", "[0, 0]", "[12 mm, 8 mm]", two, "gauss", "linear", 2.0);
+    static const char two[] =
+        "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}, clay: {youngs_modulus: 1 GPa, "
+        "poissons_ratio: 0.25}}\n"
+        "blocks: [{material: rock, where: \"x <= 5.5 mm\"}, {material: clay, where: \"x > 5.5 mm\"}]";
+    run r = scene_of (1, block_scene, 2, "plane: stress", "[0, 0]", "[12 mm, 8 mm]", two, "gauss", "linear",
+                      2.0);
     check_below (estimate_of (&r, 0, 1, 1).relative, 1e-9);
     clear (&r);
 }
 
-/* Two halves of different strain: as one body a large error, cut apart none, whatever becomes of the points beside the cut. */
+/* Two halves of different strain: as one body a large error, cut apart none, whatever becomes of the points
+ * beside the cut. */
 static void cracks_are_not_smoothed_over (void **state)
 {
     (void) state;
-    static const char cut[] = "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\ncracks: [{from: [5.5 mm, -1 mm], to: [5.5 mm, 9 mm]}]";
-    run whole = scene_of (1, block_scene, 2, "plane: stress", "[0, 0]", "[12 mm, 8 mm]", one_rock, "gauss", "linear", 2.0);
-    run halves = scene_of (1, block_scene, 2, "plane: stress", "[0, 0]", "[12 mm, 8 mm]", cut, "gauss", "linear", 2.0);
+    static const char cut[] = "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\ncracks: "
+                              "[{from: [5.5 mm, -1 mm], to: [5.5 mm, 9 mm]}]";
+    run whole = scene_of (1, block_scene, 2, "plane: stress", "[0, 0]", "[12 mm, 8 mm]", one_rock, "gauss",
+                          "linear", 2.0);
+    run halves = scene_of (1, block_scene, 2, "plane: stress", "[0, 0]", "[12 mm, 8 mm]", cut, "gauss",
+                           "linear", 2.0);
     pg_estimate a = estimate_of (&whole, 0, 5.5e-3, 2), b = estimate_of (&halves, 0, 5.5e-3, 2);
     check_below (0.05, a.relative);
     check_below (b.relative, 1e-9);
@@ -208,13 +237,15 @@ static void cracks_are_not_smoothed_over (void **state)
 static void degenerate_points_are_left_out (void **state)
 {
     (void) state;
-    run r = scene_of (1, block_scene, 2, "plane: stress", "[0, 0]", "[12 mm, 8 mm]", one_rock, "gauss", "linear", 2.0);
+    run r = scene_of (1, block_scene, 2, "plane: stress", "[0, 0]", "[12 mm, 8 mm]", one_rock, "gauss",
+                      "linear", 2.0);
     const pg_rows *rows = &r.problem->rows[PG_POINTS];
     size_t dead = 0;
     for (size_t p = 0; p < rows->n; p++) {
         if (rows->x[2 * p] > 2e-3) continue;
         dead++;
-        for (size_t e = rows->family.start[p]; e < rows->family.start[p + 1]; e++) r.state->alive[r.problem->first_bond[PG_POINTS] + e] = 0;
+        for (size_t e = rows->family.start[p]; e < rows->family.start[p + 1]; e++)
+            r.state->alive[r.problem->first_bond[PG_POINTS] + e] = 0;
     }
     pg_estimate e = estimate_of (&r, 0, 1, 1);
     assert_true (dead > 0);
@@ -223,7 +254,7 @@ static void degenerate_points_are_left_out (void **state)
     clear (&r);
 }
 
-/* ---- the field ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- the field ----------------------------------------------------------------------------------------- */
 static void the_map_shows_where_and_threads_change_nothing (void **state)
 {
     (void) state;
@@ -236,7 +267,7 @@ static void the_map_shows_where_and_threads_change_nothing (void **state)
         assert_int_equal (components, 1);
         size_t worst = 0, n = r.problem->cloud.n;
         for (size_t i = 0; i < n; i++) if (value[k][i] > value[k][worst]) worst = i;
-        check_below (r.problem->cloud.x[2 * worst], 8);            /* near the clamp                                          */
+        check_below (r.problem->cloud.x[2 * worst], 8);            /* near the clamp */
         pg_estimate e;
         check_ok (galerkin_estimate (force_of (&r), r.state->d, &e, NULL));
         if (k) assert_memory_equal (value[0], value[1], n * sizeof *value[0]);
@@ -272,10 +303,14 @@ static void memory_may_end (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (the_estimate_is_of_the_size_of_the_error), cmocka_unit_test (some_errors_are_seen_in_part_only),
-        cmocka_unit_test (a_stress_that_is_such_a_polynomial_has_no_error), cmocka_unit_test (materials_are_recovered_each_for_itself),
-        cmocka_unit_test (cracks_are_not_smoothed_over), cmocka_unit_test (degenerate_points_are_left_out),
-        cmocka_unit_test (the_map_shows_where_and_threads_change_nothing), cmocka_unit_test (memory_may_end),
+        cmocka_unit_test (the_estimate_is_of_the_size_of_the_error),
+        cmocka_unit_test (some_errors_are_seen_in_part_only),
+        cmocka_unit_test (a_stress_that_is_such_a_polynomial_has_no_error),
+        cmocka_unit_test (materials_are_recovered_each_for_itself),
+        cmocka_unit_test (cracks_are_not_smoothed_over),
+        cmocka_unit_test (degenerate_points_are_left_out),
+        cmocka_unit_test (the_map_shows_where_and_threads_change_nothing),
+        cmocka_unit_test (memory_may_end),
     };
     return cmocka_run_group_tests_name ("force/estimate", tests, NULL, NULL);
 }

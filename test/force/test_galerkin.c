@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What weak forms keep beside their sums: bonds that may not break, faces that overlap, cells that stay whole, the modulus that stabilises. */
+ * What weak forms keep beside their sums: bonds that may not break, faces that overlap, cells that stay
+ * whole, the modulus that stabilises. */
 #include "bond.h"
 #include "force/galerkin.h"
 
-#define PLATE "dimension: 2\nplane: stress\nthickness: 0.2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.7]}}}]\nspacing: 0.1\nlattice: cells\n" \
+#define PLATE \
+    "dimension: 2\nplane: stress\nthickness: 0.2\nbody: [{add: {box: {low: [0, 0], high: [1, " \
+    "0.7]}}}]\nspacing: 0.1\nlattice: cells\n" \
     "materials: {rock: {youngs_modulus: 10, poissons_ratio: %g, density: 3}}\n"
 
 static bonded plate (double nu, const char *method, const char *more)
@@ -21,7 +24,9 @@ static void what_is_exempt_never_breaks (void **unused)
     for (int k = 0; k < 3; k++) {
         char method[64];
         snprintf (method, sizeof method, "integration: %s", integrations[k]);
-        bonded b = plate (0.2, method, "sets: {grip: {where: x < 0.3}}\nfailure: {criterion: stretch, critical_stretch: 1e-3, exclude: [grip]}\n");
+        bonded b = plate (0.2, method,
+                          "sets: {grip: {where: x < 0.3}}\nfailure: {criterion: stretch, critical_stretch: "
+                          "1e-3, exclude: [grip]}\n");
         double *d = random_vector (b.ndof, 3), *u = pg_calloc (b.state->nbond, sizeof *u);
         char *kind = pg_calloc (b.state->nbond, 1);
         size_t near = 0, far = 0, crossing = 0;
@@ -31,7 +36,8 @@ static void what_is_exempt_never_breaks (void **unused)
             size_t base = b.problem->first_bond[set];
             for (size_t p = 0; p < r->n; p++)
                 for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
-                    int own = r->x[2*p] < 0.3, other = b.problem->cloud.x[2 * (size_t) r->family.node[e]] < 0.3;
+                    int own = r->x[2 * p] < 0.3,
+                        other = b.problem->cloud.x[2 * (size_t) r->family.node[e]] < 0.3;
                     crossing += own != other;
                     if (own || other) assert_true (u[base + e] == 0), near++;
                     else far += u[base + e] > 0;
@@ -43,8 +49,9 @@ static void what_is_exempt_never_breaks (void **unused)
     }
 }
 
-/* Dead bonds of a body that is pressed together as a whole do not overlap: their ends approach as those of live ones do. Halves apart from each other that
- * are pushed into each other by some length do, by that length. */
+/* Dead bonds of a body that is pressed together as a whole do not overlap: their ends approach as those of
+ * live ones do. Halves apart from each other that are pushed into each other by some length do, by that
+ * length. */
 static void only_what_is_more_than_elastic_overlaps (void **unused)
 {
     (void) unused;
@@ -54,7 +61,9 @@ static void only_what_is_more_than_elastic_overlaps (void **unused)
     size_t p = 0, first = 0;
     for (size_t i = 0; i < b.n; i++) if (hypot (r->x[2*i] - 0.45, r->x[2*i + 1] - 0.35) < 0.01) p = i;
     for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
-        if (fabs (r->x[2 * (size_t) r->family.node[e]] - r->x[2*p] - 0.1) < 1e-6 && fabs (r->x[2 * (size_t) r->family.node[e] + 1] - r->x[2*p + 1]) < 1e-6) first = e;
+        if (fabs (r->x[2 * (size_t) r->family.node[e]] - r->x[2 * p] - 0.1) < 1e-6
+            && fabs (r->x[2 * (size_t) r->family.node[e] + 1] - r->x[2 * p + 1]) < 1e-6)
+            first = e;
     b.state->alive[b.problem->first_bond[PG_NODES] + first] = 0;
     size_t back = (size_t) r->family.node[first];
     for (size_t e = r->family.start[back]; e < r->family.start[back + 1]; e++)
@@ -67,7 +76,9 @@ static void only_what_is_more_than_elastic_overlaps (void **unused)
     pg_free (d);
     unbonded (&b);
 
-    b = plate (0.2, "integration: gauss", "cracks: [{from: [0.5, -0.1], to: [0.5, 0.8]}]\nfailure: {criterion: stretch, critical_stretch: 1e-3}\n");
+    b = plate (0.2, "integration: gauss",
+               "cracks: [{from: [0.5, -0.1], to: [0.5, 0.8]}]\nfailure: {criterion: stretch, "
+               "critical_stretch: 1e-3}\n");
     r = &b.problem->rows[PG_NODES];
     d = pg_calloc (b.ndof, sizeof *d);
     for (size_t i = 0; i < b.n; i++) d[2*i] = r->x[2*i] > 0.5 ? -2e-3 : 0;
@@ -76,11 +87,13 @@ static void only_what_is_more_than_elastic_overlaps (void **unused)
     unbonded (&b);
 }
 
-/* consistent: where a bond of a cell dies, that cell and those that share a face with it take the direct derivatives, no others. */
+/* consistent: where a bond of a cell dies, that cell and those that share a face with it take the direct
+ * derivatives, no others. */
 static void a_broken_bond_opens_its_cell_and_those_beside (void **unused)
 {
     (void) unused;
-    bonded b = plate (0.2, "integration: consistent", "failure: {criterion: stretch, critical_stretch: 1e-3}\n");
+    bonded b = plate (0.2, "integration: consistent",
+                      "failure: {criterion: stretch, critical_stretch: 1e-3}\n");
     const galerkin *g = b.self;
     const pg_consistency *c = b.problem->consistency;
     const pg_faces *f = &c->faces;
@@ -104,17 +117,19 @@ static void a_broken_bond_opens_its_cell_and_those_beside (void **unused)
     unbonded (&b);
 }
 
-/* Silling's stabilisation resists with the shear modulus: what it adds to the energy of any displacement falls as 1 / (1 + nu). */
+/* Silling's stabilisation resists with the shear modulus: what it adds to the energy of any displacement
+ * falls as 1 / (1 + nu). */
 static double energy_of (double nu, const char *stabilization)
 {
     char method[128];
-    pg_ledger ledger = { 0 };
-    snprintf (method, sizeof method, "approximation: nosb, integration: nodal, stabilization: %s", stabilization);
+    pg_work_balance work_balance = { 0 };
+    snprintf (method, sizeof method, "approximation: nosb, integration: nodal, stabilization: %s",
+              stabilization);
     bonded b = plate (nu, method, "");
     double *d = random_vector (b.ndof, 11);
-    check_ok (b.force->ledger (b.self, 1, d, NULL, &ledger));
-    double energy = ledger.strain;
-    pg_ledger_clear (&ledger);
+    check_ok (b.force->work_balance (b.self, 1, d, NULL, &work_balance));
+    double energy = work_balance.strain;
+    pg_work_balance_clear (&work_balance);
     pg_free (d);
     unbonded (&b);
     return energy;
@@ -123,7 +138,8 @@ static double energy_of (double nu, const char *stabilization)
 static void stabilisation_goes_with_the_shear_modulus (void **unused)
 {
     (void) unused;
-    double soft = energy_of (0.4, "silling") - energy_of (0.4, "none"), stiff = energy_of (0, "silling") - energy_of (0, "none");
+    double soft = energy_of (0.4, "silling") - energy_of (0.4, "none"),
+           stiff = energy_of (0, "silling") - energy_of (0, "none");
     assert_true (soft > 0);
     check_relative (stiff / soft, 1.4, 1e-9);
 }
@@ -132,21 +148,25 @@ static void stabilisation_goes_with_the_shear_modulus (void **unused)
 static void supports_bear_inertia (void **unused)
 {
     (void) unused;
-    static const char *const forces[] = { "force: bond", "integration: gauss, essential: transformation", "force: galerkin, integration: nodal, essential: transformation" };
+    static const char *const forces[] = { "force: bond", "integration: gauss, essential: transformation",
+                                          "force: galerkin, integration: nodal, essential: transformation" };
     for (int k = 0; k < 3; k++) {
-        bonded b = plate (k ? 0.2 : 1.0 / 3, forces[k], "sets: {left_row: {where: x < 0.1}}\nboundary: [{set: left_row, displacement: {x: 0, y: 0}}]\n");
+        bonded b = plate (
+            k ? 0.2 : 1.0 / 3, forces[k],
+            "sets: {left_row: {where: x < 0.1}}\nboundary: [{set: left_row, displacement: {x: 0, y: 0}}]\n");
         double *d = random_vector (b.ndof, 5), *inertia = random_vector (b.ndof, 6), sum[2] = { 0 };
-        pg_ledger still = { 0 }, moving = { 0 };
+        pg_work_balance still = { 0 }, moving = { 0 };
         if (b.force->impose) check_ok (b.force->impose (b.self, 1, d));
         for (size_t i = 0; i < b.n; i++)
             for (size_t c = 0; c < 2; c++) {
                 if (b.problem->cloud.x[2*i] < 0.1) sum[c] += inertia[i * b.stride + c];
                 else inertia[i * b.stride + c] = 0;
             }
-        check_ok (b.force->ledger (b.self, 1, d, NULL, &still));
-        check_ok (b.force->ledger (b.self, 1, d, inertia, &moving));
-        for (int c = 0; c < 2; c++) check_scaled (moving.reaction[c] - still.reaction[c], -sum[c], 1e-9, fabs (still.reaction[c]));
-        pg_ledger_clear (&still), pg_ledger_clear (&moving);
+        check_ok (b.force->work_balance (b.self, 1, d, NULL, &still));
+        check_ok (b.force->work_balance (b.self, 1, d, inertia, &moving));
+        for (int c = 0; c < 2; c++)
+            check_scaled (moving.reaction[c] - still.reaction[c], -sum[c], 1e-9, fabs (still.reaction[c]));
+        pg_work_balance_clear (&still), pg_work_balance_clear (&moving);
         pg_free (d), pg_free (inertia);
         unbonded (&b);
     }
@@ -154,8 +174,10 @@ static void supports_bear_inertia (void **unused)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (what_is_exempt_never_breaks), cmocka_unit_test (only_what_is_more_than_elastic_overlaps),
-        cmocka_unit_test (a_broken_bond_opens_its_cell_and_those_beside), cmocka_unit_test (stabilisation_goes_with_the_shear_modulus),
-        cmocka_unit_test (supports_bear_inertia) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (what_is_exempt_never_breaks),
+                                        cmocka_unit_test (only_what_is_more_than_elastic_overlaps),
+                                        cmocka_unit_test (a_broken_bond_opens_its_cell_and_those_beside),
+                                        cmocka_unit_test (stabilisation_goes_with_the_shear_modulus),
+                                        cmocka_unit_test (supports_bear_inertia) };
     return cmocka_run_group_tests_name ("force/galerkin", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Strains and stresses are kept between calls and redone only where bonds died: residual, utilisation and ledger must equal, bit by
- * bit, those of a force made afresh from the same alive bits. */
+ * Strains and stresses are kept between calls and redone only where bonds died: residual, utilisation and
+ * work_balance must equal, bit by bit, those of a force made afresh from the same alive bits. */
 #include "check.h"
 #include "perigal.h"
 
@@ -10,10 +10,14 @@ static const char plate[] =
     "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
     "failure: {criterion: %s}\n"
     "method: {approximation: %s, integration: %s, kernel: cubic_spline, horizon: 2.0 spacing}\n"
-    "boundary:\n  - {name: foot, set: bottom, displacement: {%s}}\n  - {name: head, set: top, displacement: {x: 2 um, y: 20 um}}\n"
+    "boundary:\n  - {name: foot, set: bottom, displacement: {%s}}\n  - {name: head, set: top, displacement: "
+    "{x: 2 um, y: 20 um}}\n"
     "solver: {kind: static, stepping: event, max_events: 12}\n";
 
-typedef struct { const char *head, *from, *to, *criterion, *approximation, *integration, *foot; int dim; } plan;
+typedef struct {
+    const char *head, *from, *to, *criterion, *approximation, *integration, *foot;
+    int dim;
+} plan;
 
 static double *numbers (size_t n)
 {
@@ -23,9 +27,11 @@ static double *numbers (size_t n)
 }
 
 /* Residual, utilisation and factors of two forces at the same displacement. */
-static void compare (const pg_force_type *type, void *kept, void *fresh, const pg_state *state, const double *d)
+static void compare (const pg_force_type *type, void *kept, void *fresh, const pg_state *state,
+                     const double *d)
 {
-    double *r[2] = { numbers (state->ndof), numbers (state->ndof) }, *u[2] = { numbers (state->nbond), numbers (state->nbond) };
+    double *r[2] = { numbers (state->ndof), numbers (state->ndof) },
+           *u[2] = { numbers (state->nbond), numbers (state->nbond) };
     double *f[2] = { numbers (state->nbond), numbers (state->nbond) }, reference[2];
     char *kind = pg_calloc (state->nbond, 1);
     for (int k = 0; k < 2; k++) {
@@ -70,7 +76,8 @@ static void run_plan (const plan *a)
     pg_solver_options options;
     pg_step step;
     void *kept, *fresh = NULL;
-    snprintf (text, sizeof text, plate, a->dim, a->head, a->from, a->to, a->criterion, a->approximation, a->integration, a->foot);
+    snprintf (text, sizeof text, plate, a->dim, a->head, a->from, a->to, a->criterion, a->approximation,
+              a->integration, a->foot);
     check_ok (pg_scene_parse (&scene, text, "plate.yaml"));
     check_ok (pg_problem_build (&problem, scene, 1));
     check_ok (pg_solver_options_read (&options, problem, scene));
@@ -84,7 +91,8 @@ static void run_plan (const plan *a)
         check_ok (type->refresh (fresh, state, NULL));
         for (size_t i = 0; i < state->ndof; i++) other[i] = state->d[i] * (1 + 0.1 * (double) (i % 7));
         compare (type, kept, fresh, state, state->d);
-        compare (type, kept, fresh, state, other);         /* another displacement, and back: what is kept must not answer  */
+        /* another displacement, and back: what is kept must not answer */
+        compare (type, kept, fresh, state, other);
         compare (type, kept, fresh, state, state->d);
         type->free (&fresh);
     }
@@ -97,31 +105,37 @@ static void run_plan (const plan *a)
     pg_scene_free (&scene);
 }
 
-static const char stress[] = "mohr_coulomb, tensile_strength: 1 MPa, cohesion: 5 MPa, friction_angle: 40 deg", stretch[] = "stretch, critical_stretch: 1e-4";
+static const char stress[] = "mohr_coulomb, tensile_strength: 1 MPa, cohesion: 5 MPa, friction_angle: 40 deg",
+                  stretch[] = "stretch, critical_stretch: 1e-4";
 
 static void test_kept_measures_equal_fresh_ones_in_2d_with_gauss_points (void **unused)
 {
     (void) unused;
-    run_plan (&(plan) { "plane: stress\nthickness: 1 mm", "[0, 0]", "[8 mm, 10 mm]", stress, "rkpm", "gauss", "x: 0, y: 0", 2 });
+    run_plan (&(plan){ "plane: stress\nthickness: 1 mm", "[0, 0]", "[8 mm, 10 mm]", stress, "rkpm", "gauss",
+                       "x: 0, y: 0", 2 });
 }
 
 static void test_kept_measures_equal_fresh_ones_in_2d_at_nodes (void **unused)
 {
     (void) unused;
-    run_plan (&(plan) { "plane: strain\nthickness: 1 mm", "[0, 0]", "[8 mm, 10 mm]", stretch, "pddo", "nodal", "x: 0, y: 0", 2 });
+    run_plan (&(plan){ "plane: strain\nthickness: 1 mm", "[0, 0]", "[8 mm, 10 mm]", stretch, "pddo", "nodal",
+                       "x: 0, y: 0", 2 });
 }
 
 static void test_kept_measures_equal_fresh_ones_with_consistent_derivatives (void **unused)
 {
     (void) unused;
-    run_plan (&(plan) { "plane: stress\nthickness: 1 mm", "[0, 0]", "[8 mm, 10 mm]", stress, "rkpm", "consistent", "x: 0, y: 0", 2 });
-    run_plan (&(plan) { "", "[0, 0, 0]", "[3 mm, 5 mm, 3 mm]", stretch, "rkpm", "consistent", "x: 0, y: 0, z: 0", 3 });
+    run_plan (&(plan){ "plane: stress\nthickness: 1 mm", "[0, 0]", "[8 mm, 10 mm]", stress, "rkpm",
+                       "consistent", "x: 0, y: 0", 2 });
+    run_plan (&(plan){ "", "[0, 0, 0]", "[3 mm, 5 mm, 3 mm]", stretch, "rkpm", "consistent",
+                       "x: 0, y: 0, z: 0", 3 });
 }
 
 static void test_kept_measures_equal_fresh_ones_in_3d (void **unused)
 {
     (void) unused;
-    run_plan (&(plan) { "", "[0, 0, 0]", "[3 mm, 5 mm, 3 mm]", stretch, "rkpm", "gauss", "x: 0, y: 0, z: 0", 3 });
+    run_plan (
+        &(plan){ "", "[0, 0, 0]", "[3 mm, 5 mm, 3 mm]", stretch, "rkpm", "gauss", "x: 0, y: 0, z: 0", 3 });
 }
 
 int main (void)

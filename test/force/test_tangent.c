@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The Galerkin force and its matrix are one: -K d is the change of the residual for any d, supports included, whole or broken;
- * the strain energy's derivative is the force; partial updates equal fresh ones. */
+ * The Galerkin force and its matrix are one: -K d is the change of the residual for any d, supports included,
+ * whole or broken; the strain energy's derivative is the force; partial updates equal fresh ones. */
 #include "scene_runs/run.h"
 
 static uint64_t seed = 88172645463325252u;
@@ -12,36 +12,54 @@ static double random_number (void)
 
 #define MATERIAL "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.2}}\n"
 static const char *const bodies[] = {
-    "dimension: 1\nbody: [{add: {box: {low: [0], high: [1 m]}}}]\nspacing: 0.1 m\nperturb: {amount: 0.2}\n" MATERIAL
+    "dimension: 1\nbody: [{add: {box: {low: [0], high: [1 m]}}}]\nspacing: 0.1 m\nperturb: {amount: "
+    "0.2}\n" MATERIAL
     "boundary: [{set: left, displacement: {x: 1 mm}}, {set: right, traction: {x: 1 MPa}}]\n",
-    "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [1 m, 0.7 m]}}}]\nspacing: 0.1 m\nperturb: {amount: 0.2}\n" MATERIAL
-    "boundary: [{set: left, displacement: {x: 1 mm, y: 0}}, {set: right, displacement: {y: y}}, {set: top, pressure: 1 MPa}]\n",
-    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.4 m, 0.4 m, 0.3 m]}}}]\nspacing: 0.1 m\nperturb: {amount: 0.2}\n" MATERIAL
-    "boundary: [{set: left, displacement: {x: 1 mm, y: 0, z: 0}}, {set: back, displacement: {x: y}}, {set: all, body_force: {z: -25 kN/m3}}]\n",
+    "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [1 m, 0.7 m]}}}]\nspacing: 0.1 "
+    "m\nperturb: {amount: 0.2}\n" MATERIAL "boundary: [{set: left, displacement: {x: 1 mm, y: 0}}, {set: "
+                                           "right, displacement: {y: y}}, {set: top, pressure: 1 MPa}]\n",
+    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.4 m, 0.4 m, 0.3 m]}}}]\nspacing: 0.1 "
+    "m\nperturb: {amount: 0.2}\n" MATERIAL
+    "boundary: [{set: left, displacement: {x: 1 mm, y: 0, z: 0}}, {set: back, displacement: {x: y}}, {set: "
+    "all, body_force: {z: -25 kN/m3}}]\n",
 };
-static const struct { const char *method; int transformation; } methods[] = {
+static const struct { const char *method; int transformation;
+} methods[] = {
     { "method: {approximation: rkpm, integration: gauss, essential: nitsche}\n", 0 },
     { "method: {approximation: rkpm, integration: gauss, essential: penalty}\n", 0 },
     { "method: {approximation: rkpm, integration: gauss, essential: transformation}\n", 1 },
-    { "method: {approximation: rkpm, basis: quadratic, horizon: 3 spacing, integration: gauss, gauss_points: 3}\n", 0 },
+    { "method: {approximation: rkpm, basis: quadratic, horizon: 3 spacing, integration: gauss, gauss_points: "
+      "3}\n",
+      0 },
     { "method: {approximation: rkpm, integration: consistent}\n", 0 },
     { "method: {approximation: rkpm, basis: quadratic, horizon: 2.6 spacing, integration: consistent}\n", 0 },
     { "method: {approximation: pddo, integration: nodal, horizon: 2.5 spacing}\n", 0 },
     { "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, kernel: constant}\n", 1 },
-    { "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty, stabilization: silling}\n", 0 },
+    { "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty, "
+      "stabilization: silling}\n",
+      0 },
     { "method: {approximation: rkpm, integration: gauss, essential: nitsche, dilatation: projected}\n", 0 },
-    { "method: {approximation: rkpm, basis: quadratic, horizon: 2.6 spacing, integration: consistent, dilatation: projected}\n", 0 },
-    { "method: {approximation: rkpm, integration: gauss, essential: transformation, dilatation: projected}\n", 1 },
+    { "method: {approximation: rkpm, basis: quadratic, horizon: 2.6 spacing, integration: consistent, "
+      "dilatation: projected}\n",
+      0 },
+    { "method: {approximation: rkpm, integration: gauss, essential: transformation, dilatation: projected}\n",
+      1 },
     { "method: {approximation: pddo, integration: nodal, horizon: 2.5 spacing, dilatation: projected}\n", 0 },
-    { "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty, stabilization: silling, dilatation: projected}\n", 0 },
+    { "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty, "
+      "stabilization: silling, dilatation: projected}\n",
+      0 },
 };
 enum { BODIES = 3, METHODS = 14 };
 
-static run body_of (int body, int method) { return scene_of (1, "%s%s", bodies[body], methods[method].method); }
+static run body_of (int body, int method)
+{
+    return scene_of (1, "%s%s", bodies[body], methods[method].method);
+}
 
 static void kill_some (run *r, double share)
 {
-    for (size_t b = 0; b < r->state->nbond; b++) if (0.5 + 0.5 * random_number () < share) r->state->alive[b] = 0;
+    for (size_t b = 0; b < r->state->nbond; b++)
+        if (0.5 + 0.5 * random_number () < share) r->state->alive[b] = 0;
 }
 
 /* residual (d) - residual (0) = -K d */
@@ -50,7 +68,8 @@ static void compare (run *r)
     void *self;
     const pg_force_type *f = pg_solver_force (r->solver, &self);
     size_t n = r->state->ndof;
-    double *d = pg_calloc (4 * n, sizeof *d), *at_zero = d + n, *at_d = d + 2 * n, *Kd = d + 3 * n, reference, top = 0;
+    double *d = pg_calloc (4 * n, sizeof *d), *at_zero = d + n, *at_d = d + 2 * n, *Kd = d + 3 * n, reference,
+           top = 0;
     check_ok (f->balance (self, 0.7, d, at_zero, &reference));
     for (size_t i = 0; i < n; i++) d[i] = random_number ();
     check_ok (f->balance (self, 0.7, d, at_d, &reference));
@@ -59,7 +78,7 @@ static void compare (run *r)
     for (size_t i = 0; i < n; i++) top = fmax (top, fabs (Kd[i]));
     assert_true (top > 0 && reference > 0);
     for (size_t i = 0; i < n; i++) check_scaled (at_zero[i] - at_d[i], Kd[i], 1e-11, top);
-    check_ok (f->assemble (self));                     /* the matrix and the product without it are one                  */
+    check_ok (f->assemble (self));                     /* the matrix and the product without it are one */
     pg_sparse K = *f->matrix (self);
     pg_sparse_multiply (&K, d, at_d);
     for (size_t i = 0; i < n; i++) check_scaled (at_d[i], Kd[i], 1e-12, top);
@@ -89,7 +108,7 @@ static void also_when_bonds_are_broken (void **state)
     (void) state;
     for (int b = 0; b < BODIES; b++)
         for (int m = 0; m < METHODS; m++) {
-            if (methods[m].transformation && b == 0) continue;     /* the slaves' matrix may become singular             */
+            if (methods[m].transformation && b == 0) continue;  /* the slaves' matrix may become singular */
             run r = body_of (b, m);
             refresh (&r, NULL);
             kill_some (&r, 0.15);
@@ -116,19 +135,20 @@ static void the_force_is_the_derivative_of_the_energy (void **state)
             void *self;
             const pg_force_type *f = pg_solver_force (r.solver, &self);
             size_t n = r.state->ndof;
-            pg_ledger ledger = { 0 };
-            double *d = pg_calloc (3 * n, sizeof *d), *e = d + n, *residual = d + 2 * n, reference, power = 0, E[2];
+            pg_work_balance work_balance = { 0 };
+            double *d = pg_calloc (3 * n, sizeof *d), *e = d + n, *residual = d + 2 * n, reference, power = 0,
+                   E[2];
             for (size_t i = 0; i < n; i++) d[i] = random_number (), e[i] = random_number ();
             check_ok (f->balance (self, 1, d, residual, &reference));
             for (size_t i = 0; i < n; i++) power -= residual[i] * e[i];
-            for (int side = 0; side < 2; side++) {     /* E is quadratic: the central difference is exact                 */
+            for (int side = 0; side < 2; side++) {     /* E is quadratic: the central difference is exact */
                 for (size_t i = 0; i < n; i++) residual[i] = d[i] + (side ? 0.5 : -0.5) * e[i];
-                check_ok (f->ledger (self, 1, residual, NULL, &ledger));
-                E[side] = ledger.strain;
+                check_ok (f->work_balance (self, 1, residual, NULL, &work_balance));
+                E[side] = work_balance.strain;
                 assert_true (E[side] > 0);
             }
             check_scaled (E[1] - E[0], power, 1e-10, E[0] + E[1]);
-            pg_ledger_clear (&ledger);
+            pg_work_balance_clear (&work_balance);
             pg_free (d);
             clear (&r);
         }
@@ -145,11 +165,14 @@ static void a_partial_update_equals_a_fresh_one (void **state)
             const pg_force_type *f = pg_solver_force (part.solver, &self);
             pg_solver_force (whole.solver, &other);
             refresh (&part, NULL);
-            for (int round = 0; round < 6; round++) {  /* some bonds anywhere; then a single one of each set             */
+            /* some bonds anywhere; then a single one of each set */
+            for (int round = 0; round < 6; round++) {
                 size_t bond[64], n = 0, first = round < 3 ? 0 : part.problem->first_bond[round - 3];
-                size_t last = round < 3 ? part.state->nbond : part.problem->first_bond[round - 2], most = round < 3 ? 64 : 1;
+                size_t last = round < 3 ? part.state->nbond : part.problem->first_bond[round - 2],
+                       most = round < 3 ? 64 : 1;
                 for (size_t i = first; i < last && n < most; i++)
-                    if (part.state->alive[i] && 0.5 + 0.5 * random_number () < 0.001 * (double) (1 + round)) bond[n++] = i, part.state->alive[i] = 0;
+                    if (part.state->alive[i] && 0.5 + 0.5 * random_number () < 0.001 * (double) (1 + round))
+                        bond[n++] = i, part.state->alive[i] = 0;
                 refresh (&part, &(pg_changes) { n, 64, bond });
             }
             check_ok (pg_state_copy (whole.state, part.state));
@@ -164,7 +187,9 @@ static void a_partial_update_equals_a_fresh_one (void **state)
             check_ok (f->balance (self, 1, d, d + n, &reference[0]));
             check_ok (f->balance (other, 1, d, d + 2 * n, &reference[1]));
             assert_memory_equal (d + n, d + 2 * n, n * sizeof *d);
-            if (f->basis (self)) assert_memory_equal (f->basis (self)->value, f->basis (other)->value, (size_t) f->basis (self)->start[f->basis (self)->ncol] * sizeof *d);
+            if (f->basis (self))
+                assert_memory_equal (f->basis (self)->value, f->basis (other)->value,
+                                     (size_t) f->basis (self)->start[f->basis (self)->ncol] * sizeof *d);
             pg_free (d);
             clear (&part), clear (&whole);
         }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Any text as an expression and as a quantity of some unit (first byte): an answer always; what compiles has a value everywhere. */
+ * Any text as an expression and as a quantity of some unit (first byte): an answer always; what compiles has
+ * a value everywhere. */
 #include "fuzz.h"
 #include "perigal/scene.h"
 #include <math.h>
@@ -7,7 +8,9 @@
 
 static void evaluate (const char *text, const char *unit)
 {
-    static const pg_place place[] = { { 0 }, { 1, 2, 3, 3.7416573867739413, 1.1071487177940904, 0.5 }, { -1e-3, 1e9, -0.0, 1e9, 1.57, 1 } };
+    static const pg_place place[] = { { 0 },
+                                      { 1, 2, 3, 3.7416573867739413, 1.1071487177940904, 0.5 },
+                                      { -1e-3, 1e9, -0.0, 1e9, 1.57, 1 } };
     pg_expression *e = NULL;
     pg_status status = pg_expression_compile (&e, text, unit);
     FUZZ_EXPECT (status == PG_OK || status == PG_E_SCENE);
@@ -35,7 +38,8 @@ static void measure (const char *text, const char *unit)
 
 int LLVMFuzzerTestOneInput (const uint8_t *data, size_t size)
 {
-    static const char *const unit[] = { "bool", "1", "m", "Pa", "N", "m/s", "N/m3", "rad", "s", "kg/m3", "J/m2", "m|spacing" };
+    static const char *const unit[] = { "bool", "1",   "m", "Pa",    "N",    "m/s",
+                                        "N/m3", "rad", "s", "kg/m3", "J/m2", "m|spacing" };
     char text[LONGEST + 1];
     size_t used = pg_memory_used ();
     if (size < 1 || size > LONGEST) return 0;

@@ -14,7 +14,8 @@ static void check_sets (const pg_mesh *m)
     for (size_t s = 0; s < m->nsides; s++)
         for (size_t k = 0; k < m->sides[s].n; k++) {
             FUZZ_EXPECT ((size_t) m->sides[s].element[k] < m->n);
-            FUZZ_EXPECT (m->sides[s].side[k] >= 0 && m->sides[s].side[k] < pg_element_types[m->kind[m->sides[s].element[k]]].faces);
+            FUZZ_EXPECT (m->sides[s].side[k] >= 0
+                         && m->sides[s].side[k] < pg_element_types[m->kind[m->sides[s].element[k]]].faces);
         }
 }
 
@@ -39,14 +40,14 @@ static void check_mesh (const pg_mesh *m)
 
 static void check_search (const pg_mesh *m)
 {
-    pg_mesh_finder *f = NULL;
+    pg_mesh_locator *f = NULL;
     double xi[3], away;
-    FUZZ_EXPECT (pg_finder_create (&f, m) == PG_OK);
+    FUZZ_EXPECT (pg_mesh_locator_create (&f, m) == PG_OK);
     for (size_t i = 0; i < m->nnode && i < 20; i++) {
-        long e = pg_finder_find (f, m->x + 3 * i, xi, &away);
+        long e = pg_mesh_locator_find (f, m->x + 3 * i, xi, &away);
         FUZZ_EXPECT (e >= -1 && e < (long) m->n);
     }
-    pg_finder_free (&f);
+    pg_mesh_locator_free (&f);
 }
 
 static void check_result (const mesh_bytes *file)
@@ -59,7 +60,8 @@ static void check_result (const mesh_bytes *file)
     FUZZ_EXPECT (status == PG_OK || status == PG_E_FILE);
     if (status != PG_OK) return;
     for (size_t k = 0; k < n; k++)
-        for (size_t i = 0; i < m.nnode * (size_t) fields[k].components; i++) FUZZ_EXPECT (isfinite (fields[k].value[i]));
+        for (size_t i = 0; i < m.nnode * (size_t) fields[k].components; i++)
+            FUZZ_EXPECT (isfinite (fields[k].value[i]));
     status = pg_mesh_flatten (&m, n, fields);
     FUZZ_EXPECT (status == PG_OK || status == PG_E_USAGE || status == PG_E_FILE);
     pg_mesh_fields_clear (n, &fields);
@@ -83,7 +85,7 @@ int LLVMFuzzerTestOneInput (const uint8_t *data, size_t size)
     pg_free (text);
     FUZZ_EXPECT (pg_memory_used () == used);
 #ifndef FUZZ_REPLAY
-    FUZZ_EXPECT (pg_memory_peak () < (size_t) 1 << 26);    /* no more than such a file justifies                         */
+    FUZZ_EXPECT (pg_memory_peak () < (size_t) 1 << 26);    /* no more than such a file justifies */
 #endif
     return 0;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Any bytes as a file of points (first byte: the dimension): points with positive volumes and places of their own, or a fault. */
+ * Any bytes as a file of points (first byte: the dimension): points with positive volumes and places of their
+ * own, or a fault. */
 #include "fuzz.h"
 #include "cloud/points_file.h"
 #include <math.h>
@@ -10,13 +11,16 @@ static void check (const pg_cloud *c)
     size_t dim = (size_t) c->dim;
     FUZZ_EXPECT (c->n > 0);
     for (size_t i = 0; i < c->n * dim; i++) FUZZ_EXPECT (isfinite (c->x[i]));
-    for (size_t i = 0; i < c->n; i++) FUZZ_EXPECT (c->volume[i] > 0 && isfinite (c->volume[i]) && c->block[i] >= 0);
-    for (size_t i = 1; i < c->n; i++) FUZZ_EXPECT (memcmp (c->x + i * dim, c->x + (i - 1) * dim, dim * sizeof *c->x) != 0);
+    for (size_t i = 0; i < c->n; i++)
+        FUZZ_EXPECT (c->volume[i] > 0 && isfinite (c->volume[i]) && c->block[i] >= 0);
+    for (size_t i = 1; i < c->n; i++)
+        FUZZ_EXPECT (memcmp (c->x + i * dim, c->x + (i - 1) * dim, dim * sizeof *c->x) != 0);
 }
 
 int LLVMFuzzerTestOneInput (const uint8_t *data, size_t size)
 {
-    static const char *const text[] = { "dimension: 1\npoints: p.csv\n", "dimension: 2\npoints: p.csv\n", "dimension: 3\npoints: p.csv\n" };
+    static const char *const text[] = { "dimension: 1\npoints: p.csv\n", "dimension: 2\npoints: p.csv\n",
+                                        "dimension: 3\npoints: p.csv\n" };
     pg_scene *scene = NULL;
     size_t used = pg_memory_used ();
     if (size < 1 || size > LONGEST) return 0;

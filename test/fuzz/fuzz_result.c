@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Any bytes as a result file (result.e): points and fields whose numbers of values fit, or a fault that names the file. */
+ * Any bytes as a result file (result.e): points and fields whose numbers of values fit, or a fault that names
+ * the file. */
 #include "fuzz.h"
 #include "perigal/output.h"
 #include <stdlib.h>
@@ -12,13 +13,14 @@ static void remove_result (void) { unlink (result_path); }
 static const char *result_file (const uint8_t *data, size_t size)
 {
     static int descriptor = -1;
-    if (descriptor < 0 && ((descriptor = mkstemp (result_path)) < 0 || atexit (remove_result))) FUZZ_BROKEN ("no temporary file");
+    if (descriptor < 0 && ((descriptor = mkstemp (result_path)) < 0 || atexit (remove_result)))
+        FUZZ_BROKEN ("no temporary file");
     FUZZ_EXPECT (ftruncate (descriptor, 0) == 0);
     FUZZ_EXPECT (pwrite (descriptor, data, size, 0) == (ssize_t) size);
     return result_path;
 }
 
-static volatile double touched;                        /* every value is read, so that a sanitizer sees each            */
+static volatile double touched;  /* every value is read, so that a sanitizer sees each */
 
 static void touch (size_t n, const double *value) { for (size_t k = 0; k < n; k++) touched = value[k]; }
 

@@ -1,27 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Any bytes as a scene: an answer always, each fault with its place, no memory lost. A right scene with a small body is built, too,
- * and passes all that `perigal check` asks of it. */
+ * Any bytes as a scene: an answer always, each fault with its place, no memory lost. A right scene with a
+ * small body is built, too, and passes all that `perigal check` asks of it. */
 #include "fuzz.h"
-#include "perigal/report.h"
+#include "perigal/results.h"
 #include "scene/document.h"
 #include <math.h>
 
 enum { MOST_PAIRS = 60000 };                           /* evaluation points times neighbours */
 
-static const char name[] = "test/fuzz/seed_points/scene.yaml";     /* `points: plate.csv` is found beside it */
+static const char name[] = "test/fuzz/seed_points/scene.yaml";  /* `points: plate.csv` is found beside it */
 
 static int answered (pg_status status)
 {
     if (status == PG_OK) return 1;
-    return (status == PG_E_SCENE && strncmp (pg_last_error (), name, sizeof name - 1) == 0 && pg_last_error ()[sizeof name - 1] == ':')
-        || status == PG_E_LIMIT;
+    return (status == PG_E_SCENE && strncmp (pg_last_error (), name, sizeof name - 1) == 0
+            && pg_last_error ()[sizeof name - 1] == ':')
+           || status == PG_E_LIMIT;
 }
 
 /* Is the body so small that building it takes no time? The bounding box is filled with points. */
 static int small (const pg_scene *scene)
 {
     pg_body body;
-    int dim = (int) pg_scene_integer (scene, "dimension"), gauss = pg_scene_has (scene, "method.gauss_points") ? (int) pg_scene_integer (scene, "method.gauss_points") : 3;
+    int dim = (int) pg_scene_integer (scene, "dimension"),
+        gauss = pg_scene_has (scene, "method.gauss_points")
+                    ? (int) pg_scene_integer (scene, "method.gauss_points")
+                    : 3;
     const char *points = pg_scene_text (scene, "points");
     double n = 1, seen = 1, spacing = pg_scene_number (scene, "spacing");
     if (points) return strcmp (points, "plate.csv") == 0 && pg_scene_count (scene, "cracks") < 10;
@@ -39,7 +43,8 @@ static int small (const pg_scene *scene)
 
 static int honest (pg_status status)
 {
-    return status == PG_OK || status == PG_E_SINGULAR || status == PG_E_NOT_SPD || status == PG_E_EQUILIBRIUM || status == PG_E_LIMIT;
+    return status == PG_OK || status == PG_E_SINGULAR || status == PG_E_NOT_SPD || status == PG_E_EQUILIBRIUM
+           || status == PG_E_LIMIT;
 }
 
 /* Two steps: they may fail with a reason; an accepted state is finite. */
@@ -51,7 +56,8 @@ static void advance (const pg_scene *scene, const pg_problem *problem)
     pg_step step;
     pg_status status = pg_solver_options_read (&options, problem, scene);
     FUZZ_EXPECT (answered (status));
-    options.max_iterations = options.max_iterations < 20 ? options.max_iterations : 20;      /* break rounds take their time */
+    /* break rounds take their time */
+    options.max_iterations = options.max_iterations < 20 ? options.max_iterations : 20;
     if (options.marching) options.end = 0, options.time_steps = 50;
     if (options.staged && !options.hold && options.stages > 50) options.stages = 50;
     if (status == PG_OK) {
@@ -77,7 +83,9 @@ static void build (const pg_scene *scene)
     if (problem) {
         FUZZ_EXPECT (problem->cloud.n > 0 && isfinite (problem->cloud.h) && problem->cloud.h > 0);
         FUZZ_EXPECT (answered (pg_result_check (scene, problem)));
-        if (problem->cloud.n <= 40 && problem->first_bond[PG_BOND_SETS] <= 2000 && strlen (pg_scene_source (scene)) % 3 == 0) advance (scene, problem);
+        if (problem->cloud.n <= 40 && problem->first_bond[PG_BOND_SETS] <= 2000
+            && strlen (pg_scene_source (scene)) % 3 == 0)
+            advance (scene, problem);
     }
     pg_problem_free (&problem);
 }
@@ -98,7 +106,7 @@ int LLVMFuzzerTestOneInput (const uint8_t *data, size_t size)
 }
 
 #ifndef FUZZ_REPLAY
-/* ---- mutations that keep a scene a scene ------------------------------------------------------------------------------------- */
+/* ---- mutations that keep a scene a scene --------------------------------------------------------------- */
 size_t LLVMFuzzerMutate (uint8_t *data, size_t size, size_t most);
 size_t LLVMFuzzerCustomMutator (uint8_t *data, size_t size, size_t most, unsigned seed);
 
@@ -109,7 +117,8 @@ static unsigned next_random (unsigned *seed)
 }
 
 /* Puts `text` in place of the bytes [from, to). */
-static size_t splice (uint8_t *data, size_t size, size_t most, size_t from, size_t to, const char *text, size_t n)
+static size_t splice (uint8_t *data, size_t size, size_t most, size_t from, size_t to, const char *text,
+                      size_t n)
 {
     if (size - (to - from) + n > most) return size;
     memmove (data + from + n, data + to, size - to);
@@ -120,8 +129,37 @@ static size_t splice (uint8_t *data, size_t size, size_t most, size_t from, size
 /* Another number where one stands. */
 static size_t change_number (uint8_t *data, size_t size, size_t most, unsigned *seed)
 {
-    static const char *const value[] = { "0", "-0.0", "1", "-1", "2", "3", "0.5", "1e-3", "7", "1e3", "1e308", "-1e308", "1e-308", "5e-324", "1e16", "1e9", "1e-9",
-        "2147483647", "2147483648", "4294967297", "9007199254740993", "1e19", "1e400", "nan", "inf", "100 %", "2 spacing", "[]", "{}", "1.0000000000000002", "0.49999999999" };
+    static const char *const value[] = { "0",
+                                         "-0.0",
+                                         "1",
+                                         "-1",
+                                         "2",
+                                         "3",
+                                         "0.5",
+                                         "1e-3",
+                                         "7",
+                                         "1e3",
+                                         "1e308",
+                                         "-1e308",
+                                         "1e-308",
+                                         "5e-324",
+                                         "1e16",
+                                         "1e9",
+                                         "1e-9",
+                                         "2147483647",
+                                         "2147483648",
+                                         "4294967297",
+                                         "9007199254740993",
+                                         "1e19",
+                                         "1e400",
+                                         "nan",
+                                         "inf",
+                                         "100 %",
+                                         "2 spacing",
+                                         "[]",
+                                         "{}",
+                                         "1.0000000000000002",
+                                         "0.49999999999" };
     size_t at = next_random (seed) % size, end;
     while (at < size && !(data[at] >= '0' && data[at] <= '9')) at++;
     for (end = at; end < size && strchr ("0123456789.eE", data[end]); end++) continue;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Any bytes as a table of a reference (first byte: the dimension): rows at finite places, or a fault that names file and line. */
+ * Any bytes as a table of a reference (first byte: the dimension): rows at finite places, or a fault that
+ * names file and line. */
 #include "fuzz.h"
 #include "perigal/compare.h"
 #include <math.h>
@@ -14,7 +15,8 @@ static void remove_table (void) { unlink (table_path); }
 static const char *table_file (const uint8_t *data, size_t size)
 {
     static int descriptor = -1;
-    if (descriptor < 0 && ((descriptor = mkstemp (table_path)) < 0 || atexit (remove_table))) FUZZ_BROKEN ("no temporary file");
+    if (descriptor < 0 && ((descriptor = mkstemp (table_path)) < 0 || atexit (remove_table)))
+        FUZZ_BROKEN ("no temporary file");
     FUZZ_EXPECT (ftruncate (descriptor, 0) == 0);
     FUZZ_EXPECT (pwrite (descriptor, data, size, 0) == (ssize_t) size);
     return table_path;

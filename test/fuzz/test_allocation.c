@@ -1,30 +1,47 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * No memory on the whole way from a scene file to a result folder, in 3D and, for every force, integration and solver, in 2D: each allocation fails once
- * (the short test: each of the first, then some of the rest). Nothing crashes, nothing is lost, and the status says so. */
-#include "report/folder.h"
+ * No memory on the whole way from a scene file to a result folder, in 3D and, for every force, integration
+ * and solver, in 2D: each allocation fails once (the short test: each of the first, then some of the rest).
+ * Nothing crashes, nothing is lost, and the status says so. */
+#include "results/folder.h"
 
-#define BLOCK "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.4, 0.3, 0.2]}}}]\nspacing: 0.1\n" \
-    "cracks: [{disc: {center: [0.2, 0.15, 0.1], normal: [0, 1, 0], radius: 0.1}}]\nsets: {topmost: {where: y > 0.15}}\n" \
+#define BLOCK \
+    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.4, 0.3, 0.2]}}}]\nspacing: 0.1\n" \
+    "cracks: [{disc: {center: [0.2, 0.15, 0.1], normal: [0, 1, 0], radius: 0.1}}]\nsets: {topmost: {where: " \
+    "y > 0.15}}\n" \
     "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2, density: 2000}}\n" \
-    "output: {fields: [displacement, damage, stress], pictures: [], gauges: [{name: mouth, from: [0.2, 0.1, 0.1], to: [0.2, 0.2, 0.1]}],\n" \
-    "  averages: [{name: axial, set: topmost, field: stress.yy}, {name: strain, set: topmost, field: strain.yy}]}\n"
+    "output: {fields: [displacement, damage, stress], pictures: [], gauges: [{name: mouth, from: [0.2, " \
+    "0.1, 0.1], to: [0.2, 0.2, 0.1]}],\n" \
+    "  averages: [{name: axial, set: topmost, field: stress.yy}, {name: strain, set: topmost, field: " \
+    "strain.yy}]}\n"
 #define METHOD "method: {gauss_points: 1, horizon: 1.5 spacing, essential: transformation}\n"
 
-static const char static_scene[] = BLOCK METHOD "failure: {criterion: principal_stress, tensile_strength: 1 MPa}\n"
-    "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 1 mm}}]\nsolver: {stepping: fixed, steps: 2, break: all}\n";
-static const char newmark_scene[] = BLOCK METHOD "failure: {criterion: mohr_coulomb, tensile_strength: 1 MPa, cohesion: 5 MPa, friction_angle: 40 deg}\n"
+static const char static_scene[] = BLOCK METHOD
+    "failure: {criterion: principal_stress, tensile_strength: 1 MPa}\n"
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 1 "
+    "mm}}]\nsolver: {stepping: fixed, steps: 2, break: all}\n";
+static const char newmark_scene[] = BLOCK METHOD
+    "failure: {criterion: mohr_coulomb, tensile_strength: 1 MPa, cohesion: 5 MPa, friction_angle: 40 deg}\n"
     "boundary: [{set: bottom, velocity: {x: 0, y: -20 m/s, z: 0}}, {set: top, velocity: {y: 20 m/s}}]\n"
     "solver: {kind: newmark, dt: 20 us, end: 80 us, rayleigh: {mass: 10 1/s}}\n";
 
-static const char turning_scene[] = BLOCK "method: {force: gmpd, beam: timoshenko, horizon: 2 spacing}\nfailure: {criterion: beam_limits, fracture_energy: 1 J/m2}\n"
-    "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: bottom, rotation: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 0.2 mm}}]\n"
+static const char turning_scene[] = BLOCK
+    "method: {force: gmpd, beam: timoshenko, horizon: 2 spacing}\nfailure: {criterion: beam_limits, "
+    "fracture_energy: 1 J/m2}\n"
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: bottom, rotation: {x: 0, y: 0, z: "
+    "0}}, {set: top, displacement: {y: 0.2 mm}}]\n"
     "solver: {stepping: fixed, steps: 2, break: all}\n";
-static const char dilating_scene[] = BLOCK "method: {force: gmpd, volumetric: on, bond_poisson: 0.1, horizon: 2 spacing}\nfailure: {criterion: beam_limits, fracture_energy: 1 J/m2}\n"
-    "boundary: [{set: bottom, velocity: {x: 0, y: -20 m/s, z: 0}}, {set: top, velocity: {y: 20 m/s}}, {set: top, moment: {z: 1 kN m}}]\n"
+static const char dilating_scene[] = BLOCK
+    "method: {force: gmpd, volumetric: on, bond_poisson: 0.1, horizon: 2 spacing}\nfailure: {criterion: "
+    "beam_limits, fracture_energy: 1 J/m2}\n"
+    "boundary: [{set: bottom, velocity: {x: 0, y: -20 m/s, z: 0}}, {set: top, velocity: {y: 20 m/s}}, {set: "
+    "top, moment: {z: 1 kN m}}]\n"
     "solver: {kind: verlet, end: 100 us}\n";
 
-static const char soft_scene[] = BLOCK "method: {gauss_points: 1, horizon: 1.5 spacing, essential: nitsche, dilatation: projected}\nfailure: {criterion: principal_stress, tensile_strength: 1 MPa}\n"
-    "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 1 mm}}]\nsolver: {stepping: fixed, steps: 2, break: all}\n";
+static const char soft_scene[] = BLOCK
+    "method: {gauss_points: 1, horizon: 1.5 spacing, essential: nitsche, dilatation: projected}\nfailure: "
+    "{criterion: principal_stress, tensile_strength: 1 MPa}\n"
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 1 "
+    "mm}}]\nsolver: {stepping: fixed, steps: 2, break: all}\n";
 
 /* Loads, builds, makes up to three steps, writes them. */
 static pg_status run_file (const char *path, const char *folder, long *broken)
@@ -78,49 +95,96 @@ static void sweep (const char *text, size_t first, size_t rest)
         pg_status status = run_file (path, folder, &broken);
         pg_memory_fail_at (0);
         if ((status != PG_E_MEMORY && status != PG_OK) || pg_memory_used () != used)
-            print_error ("allocation %zu of %zu: '%s', %zu bytes lost\n", k, calls, pg_last_error (), pg_memory_used () - used);
+            print_error ("allocation %zu of %zu: '%s', %zu bytes lost\n", k, calls, pg_last_error (),
+                         pg_memory_used () - used);
         assert_true (status == PG_E_MEMORY || status == PG_OK);
         assert_int_equal (pg_memory_used (), used);
         unharmed += status == PG_OK;                   /* the census of the report is worth no failure */
     }
-    if (unharmed * 20 > tried + 20) print_error ("%zu of %zu failing allocations went unseen\n", unharmed, tried);
+    if (unharmed * 20 > tried + 20)
+        print_error ("%zu of %zu failing allocations went unseen\n", unharmed, tried);
     assert_true (unharmed * 20 <= tried + 20);
     remove_folder (folder);
 }
 
-static void a_static_block_survives_every_failing_allocation (void **state) { (void) state; sweep (static_scene, 20, 60); }
-static void a_block_of_patches_survives_every_failing_allocation (void **state) { (void) state; sweep (soft_scene, 20, 60); }
-static void a_newmark_block_survives_every_failing_allocation (void **state) { (void) state; sweep (newmark_scene, 20, 60); }
-static void a_micropolar_block_survives_every_failing_allocation (void **state) { (void) state; sweep (turning_scene, 20, 60); }
-static void a_marching_block_survives_every_failing_allocation (void **state) { (void) state; sweep (dilating_scene, 20, 60); }
+static void a_static_block_survives_every_failing_allocation (void **state)
+{
+    (void) state;
+    sweep (static_scene, 20, 60);
+}
+static void a_block_of_patches_survives_every_failing_allocation (void **state)
+{
+    (void) state;
+    sweep (soft_scene, 20, 60);
+}
+static void a_newmark_block_survives_every_failing_allocation (void **state)
+{
+    (void) state;
+    sweep (newmark_scene, 20, 60);
+}
+static void a_micropolar_block_survives_every_failing_allocation (void **state)
+{
+    (void) state;
+    sweep (turning_scene, 20, 60);
+}
+static void a_marching_block_survives_every_failing_allocation (void **state)
+{
+    (void) state;
+    sweep (dilating_scene, 20, 60);
+}
 
-/* ---- every force, integration and solver -------------------------------------------------------------------------------------------- */
-#define PLATE "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [6 mm, 8 mm]}}}]\nspacing: 1 mm\n%s\n" \
-    "cracks: [{from: [-1 mm, 4 mm], to: [2 mm, 4 mm]}]\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: %s, density: 2440 kg/m3}}\nmethod: {%s}\n" \
-    "failure: {criterion: %s}\nsets: {up: {where: y > 6 mm}, down: {where: y < 2 mm}}\nboundary: [{set: down, displacement: {x: 0, y: 0}}, {set: up, displacement: {%s}}]\n" \
+/* ---- every force, integration and solver --------------------------------------------------------------- */
+#define PLATE \
+    "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [6 mm, 8 " \
+    "mm]}}}]\nspacing: 1 mm\n%s\n" \
+    "cracks: [{from: [-1 mm, 4 mm], to: [2 mm, 4 mm]}]\nmaterials: {glass: {youngs_modulus: 72 GPa, " \
+    "poissons_ratio: %s, density: 2440 kg/m3}}\nmethod: {%s}\n" \
+    "failure: {criterion: %s}\nsets: {up: {where: y > 6 mm}, down: {where: y < 2 mm}}\nboundary: [{set: " \
+    "down, displacement: {x: 0, y: 0}}, {set: up, displacement: {%s}}]\n" \
     "solver: {%s}\noutput: {at: {levels: 3}, fields: [displacement, damage], pictures: []}\n"
 #define STRETCH "stretch, critical_stretch: 1e-4"
 
 typedef struct { const char *name, *lattice, *poisson, *method, *criterion, *solver; } plan;
 static const char pulled[] = "x: 0, y: 20 um", moved[] = "x: 0, y: '20 um * t / (0.1 us)'";
 static const plan plans[] = {
-    { "lps, verlet", "lattice: cells", "0.2", "force: lps, horizon: 2.5 spacing", STRETCH, "kind: verlet, end: 1 us" },
-    { "lps, central, live volumes of a list", "perturb: {amount: 0.2}", "0.2", "force: lps, horizon: 2.5 spacing, weighted_volume: live", STRETCH, "kind: central, end: 1 us, rayleigh: {mass: 10 1/s}" },
-    { "lps, static without a matrix", "lattice: cells", "0.4", "force: lps, horizon: 2.5 spacing", STRETCH, "kind: static, linear: pcg, stepping: fixed, steps: 2, break: all" },
-    { "lps by transforms, verlet", "lattice: cells", "0.2", "force: lps, horizon: 2.5 spacing, evaluation: fft", STRETCH, "kind: verlet, end: 1 us" },
-    { "fcbm, relax", "lattice: cells", "0.333333333333333", "force: fcbm, horizon: 2.5 spacing", "node_energy, fracture_energy: 0.1 J/m2", "kind: relax" },
-    { "fcbm, verlet", "lattice: cells", "0.333333333333333", "force: fcbm, horizon: 2.5 spacing", "node_energy, fracture_energy: 0.1 J/m2", "kind: verlet, end: 1 us" },
-    { "bond, adr", "lattice: cells", "0.333333333333333", "force: bond, horizon: 2.5 spacing", STRETCH, "kind: adr" },
-    { "bond, central, list, finite stretch", "perturb: {amount: 0.2}", "0.333333333333333", "force: bond, horizon: 2.5 spacing, surface_correction: volume, stretch: finite", STRETCH, "kind: central, end: 1 us" },
-    { "bond, newmark", "lattice: cells", "0.333333333333333", "force: bond, horizon: 2.5 spacing", STRETCH, "kind: newmark, dt: 0.1 us, end: 1 us, break: all" },
-    { "bond, event stepping", "lattice: cells", "0.333333333333333", "force: bond, horizon: 2.5 spacing", STRETCH, "kind: static, stepping: event, max_events: 3" },
-    { "gmpd, newmark", "lattice: cells", "0.2", "force: gmpd, horizon: 2.5 spacing", "beam_limits, fracture_energy: 0.1 J/m2", "kind: newmark, dt: 0.1 us, end: 1 us" },
-    { "gmpd, relax, list", "perturb: {amount: 0.2}", "0.2", "force: gmpd, horizon: 2.5 spacing", "beam_limits, fracture_energy: 0.1 J/m2", "kind: relax" },
-    { "galerkin, consistent", "", "0.2", "approximation: rkpm, integration: consistent", "principal_stress, tensile_strength: 10 MPa", "kind: static, stepping: event, max_events: 3" },
-    { "galerkin, pddo, consistent, newmark", "", "0.2", "approximation: pddo, integration: consistent", "principal_stress, tensile_strength: 10 MPa", "kind: newmark, dt: 0.1 us, end: 1 us, mass: consistent" },
-    { "galerkin, nodal, umfpack", "", "0.2", "approximation: nosb, integration: nodal, essential: penalty", STRETCH, "kind: static, linear: umfpack, stepping: fixed, steps: 2, break: all" },
-    { "galerkin, pddo, nodal, verlet", "", "0.2", "approximation: pddo, integration: nodal, essential: nitsche", STRETCH, "kind: verlet, end: 1 us" },
-    { "galerkin, quadratic, central", "", "0.2", "basis: quadratic, integration: gauss, horizon: 3.01 spacing, essential: nitsche", STRETCH, "kind: central, dt: 5 ns, end: 1 us" },
+    { "lps, verlet", "lattice: cells", "0.2", "force: lps, horizon: 2.5 spacing", STRETCH,
+      "kind: verlet, end: 1 us" },
+    { "lps, central, live volumes of a list", "perturb: {amount: 0.2}", "0.2",
+      "force: lps, horizon: 2.5 spacing, weighted_volume: live", STRETCH,
+      "kind: central, end: 1 us, rayleigh: {mass: 10 1/s}" },
+    { "lps, static without a matrix", "lattice: cells", "0.4", "force: lps, horizon: 2.5 spacing", STRETCH,
+      "kind: static, linear: pcg, stepping: fixed, steps: 2, break: all" },
+    { "lps by transforms, verlet", "lattice: cells", "0.2",
+      "force: lps, horizon: 2.5 spacing, evaluation: fft", STRETCH, "kind: verlet, end: 1 us" },
+    { "fcbm, relax", "lattice: cells", "0.333333333333333", "force: fcbm, horizon: 2.5 spacing",
+      "node_energy, fracture_energy: 0.1 J/m2", "kind: relax" },
+    { "fcbm, verlet", "lattice: cells", "0.333333333333333", "force: fcbm, horizon: 2.5 spacing",
+      "node_energy, fracture_energy: 0.1 J/m2", "kind: verlet, end: 1 us" },
+    { "bond, adr", "lattice: cells", "0.333333333333333", "force: bond, horizon: 2.5 spacing", STRETCH,
+      "kind: adr" },
+    { "bond, central, list, finite stretch", "perturb: {amount: 0.2}", "0.333333333333333",
+      "force: bond, horizon: 2.5 spacing, surface_correction: volume, stretch: finite", STRETCH,
+      "kind: central, end: 1 us" },
+    { "bond, newmark", "lattice: cells", "0.333333333333333", "force: bond, horizon: 2.5 spacing", STRETCH,
+      "kind: newmark, dt: 0.1 us, end: 1 us, break: all" },
+    { "bond, event stepping", "lattice: cells", "0.333333333333333", "force: bond, horizon: 2.5 spacing",
+      STRETCH, "kind: static, stepping: event, max_events: 3" },
+    { "gmpd, newmark", "lattice: cells", "0.2", "force: gmpd, horizon: 2.5 spacing",
+      "beam_limits, fracture_energy: 0.1 J/m2", "kind: newmark, dt: 0.1 us, end: 1 us" },
+    { "gmpd, relax, list", "perturb: {amount: 0.2}", "0.2", "force: gmpd, horizon: 2.5 spacing",
+      "beam_limits, fracture_energy: 0.1 J/m2", "kind: relax" },
+    { "galerkin, consistent", "", "0.2", "approximation: rkpm, integration: consistent",
+      "principal_stress, tensile_strength: 10 MPa", "kind: static, stepping: event, max_events: 3" },
+    { "galerkin, pddo, consistent, newmark", "", "0.2", "approximation: pddo, integration: consistent",
+      "principal_stress, tensile_strength: 10 MPa",
+      "kind: newmark, dt: 0.1 us, end: 1 us, mass: consistent" },
+    { "galerkin, nodal, umfpack", "", "0.2", "approximation: nosb, integration: nodal, essential: penalty",
+      STRETCH, "kind: static, linear: umfpack, stepping: fixed, steps: 2, break: all" },
+    { "galerkin, pddo, nodal, verlet", "", "0.2",
+      "approximation: pddo, integration: nodal, essential: nitsche", STRETCH, "kind: verlet, end: 1 us" },
+    { "galerkin, quadratic, central", "", "0.2",
+      "basis: quadratic, integration: gauss, horizon: 3.01 spacing, essential: nitsche", STRETCH,
+      "kind: central, dt: 5 ns, end: 1 us" },
     { "galerkin, adr", "", "0.2", "integration: gauss, essential: nitsche", STRETCH, "kind: adr" },
 };
 static void every_method_survives_every_failing_allocation (void **state)
@@ -130,7 +194,8 @@ static void every_method_survives_every_failing_allocation (void **state)
         char text[2000];
         const plan *p = &plans[k];
         int timed = strstr (p->solver, "end:") != NULL;
-        snprintf (text, sizeof text, PLATE, p->lattice, p->poisson, p->method, p->criterion, timed ? moved : pulled, p->solver);
+        snprintf (text, sizeof text, PLATE, p->lattice, p->poisson, p->method, p->criterion,
+                  timed ? moved : pulled, p->solver);
         printf ("# %s\n", p->name);
         sweep (text, 1, 25);
     }

@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The seeds of the fuzzers, the wrong scenes and all that fuzzing ever found, once more and without libFuzzer. Run from the top folder. */
+ * The seeds of the fuzzers, the wrong scenes and all that fuzzing ever found, once more and without
+ * libFuzzer. Run from the top folder. */
 #include "check.h"
 #define FUZZ_REPLAY
-#define FUZZ_BROKEN(what) do { print_error ("%s: broken: %s; last error: %s\n", replayed, (what), pg_last_error ()); _fail (__FILE__, __LINE__); } while (0)
+#define FUZZ_BROKEN(what) \
+    do { \
+        print_error ("%s: broken: %s; last error: %s\n", replayed, (what), pg_last_error ()); \
+        _fail (__FILE__, __LINE__); \
+    } while (0)
 static char replayed[300];
 
 #define LLVMFuzzerTestOneInput fuzz_scene
@@ -123,25 +128,32 @@ static void any_mesh_cut_anywhere_is_answered (void **state)
     }
 }
 
-/* Each count and each first value of three runs, set to what no run can have: it goes on, or it is refused by name. */
+/* Each count and each first value of three runs, set to what no run can have: it goes on, or it is refused by
+ * name. */
 static void any_wrong_word_of_a_checkpoint_is_answered (void **state)
 {
     (void) state;
-    static const uint8_t to[] = { 0, 4, 9 };           /* -1, 17, the largest                                            */
+    static const uint8_t to[] = { 0, 4, 9 };           /* -1, 17, the largest */
     for (int which = 0; which < CHECKPOINT_SCENES; which++)
         for (int part = which; part < 60; part += 2 + which)
             for (int at = part % 4; at < 15; at += 7) {
                 snprintf (replayed, sizeof replayed, "scene %d, part %d, word %d", which, part, at);
-                fuzz_checkpoint ((const uint8_t[]) { (uint8_t) which, (uint8_t) part, (uint8_t) at, to[(part + at) % 3] }, 4);
+                fuzz_checkpoint ((const uint8_t[]){ (uint8_t) which, (uint8_t) part, (uint8_t) at,
+                                                    to[(part + at) % 3] },
+                                 4);
             }
 }
 
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (scenes_that_were_found_are_answered), cmocka_unit_test (other_files_that_were_found_are_answered),
-        cmocka_unit_test (seeds_are_answered), cmocka_unit_test (wrong_scenes_leave_nothing_behind),
-        cmocka_unit_test (any_seed_cut_anywhere_is_answered), cmocka_unit_test (any_mesh_cut_anywhere_is_answered), cmocka_unit_test (any_wrong_word_of_a_checkpoint_is_answered),
+        cmocka_unit_test (scenes_that_were_found_are_answered),
+        cmocka_unit_test (other_files_that_were_found_are_answered),
+        cmocka_unit_test (seeds_are_answered),
+        cmocka_unit_test (wrong_scenes_leave_nothing_behind),
+        cmocka_unit_test (any_seed_cut_anywhere_is_answered),
+        cmocka_unit_test (any_mesh_cut_anywhere_is_answered),
+        cmocka_unit_test (any_wrong_word_of_a_checkpoint_is_answered),
     };
     return cmocka_run_group_tests_name ("fuzz/replay", tests, NULL, NULL);
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Gauss points: the rules, exactness in distorted quadrilaterals and hexahedra (moments from integrals over their boundary by
- * the divergence theorem), and the facets of a lattice body. */
+ * Gauss points: the rules, exactness in distorted quadrilaterals and hexahedra (moments from integrals over
+ * their boundary by the divergence theorem), and the facets of a lattice body. */
 #include "check.h"
 #include "perigal/integration.h"
 #include <gsl/gsl_integration.h>
 
 enum { FINE = 10 };
-static double gx[FINE], gw[FINE];                      /* a rule of another library                                      */
+static double gx[FINE], gw[FINE];                      /* a rule of another library */
 static uint64_t seed = 88172645463325252u;
 
 static double random_number (void)
@@ -74,21 +74,25 @@ static double quad_moment (const double *c, const int *e)
     return sum;
 }
 
-/* int x^a y^b z^c over a trilinear hexahedron = sum over its bilinear faces of int x^(a+1)/(a+1) y^b z^c n_x */
+/* int x^a y^b z^c over a trilinear hexahedron = sum over its bilinear faces of int x^(a+1)/(a+1) y^b z^c
+ * n_x */
 static double hex_moment (const double *corner, const int *e)
 {
-    static const int face[6][4] = { { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 5, 4 }, { 2, 3, 7, 6 }, { 1, 2, 6, 5 }, { 0, 4, 7, 3 } };
+    static const int face[6][4] = { { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 5, 4 },
+                                    { 2, 3, 7, 6 }, { 1, 2, 6, 5 }, { 0, 4, 7, 3 } };
     double sum = 0;
     for (int f = 0; f < 6; f++)
         for (int q = 0; q < FINE * FINE; q++) {
             double s = 0.5 * (1 + gx[q % FINE]), t = 0.5 * (1 + gx[q / FINE]), x[3], ds[3], dt[3];
             for (int k = 0; k < 3; k++) {
-                double a = corner[3*face[f][0] + k], b = corner[3*face[f][1] + k], c = corner[3*face[f][2] + k], d = corner[3*face[f][3] + k];
+                double a = corner[3 * face[f][0] + k], b = corner[3 * face[f][1] + k],
+                       c = corner[3 * face[f][2] + k], d = corner[3 * face[f][3] + k];
                 x[k] = (1 - s) * (1 - t) * a + s * (1 - t) * b + s * t * c + (1 - s) * t * d;
                 ds[k] = (1 - t) * (b - a) + t * (c - d), dt[k] = (1 - s) * (d - a) + s * (c - b);
             }
             double nx = ds[1] * dt[2] - ds[2] * dt[1];
-            sum += 0.25 * gw[q % FINE] * gw[q / FINE] * pow (x[0], e[0] + 1) / (e[0] + 1) * pow (x[1], e[1]) * pow (x[2], e[2]) * nx;
+            sum += 0.25 * gw[q % FINE] * gw[q / FINE] * pow (x[0], e[0] + 1) / (e[0] + 1) * pow (x[1], e[1])
+                   * pow (x[2], e[2]) * nx;
         }
     return sum;
 }
@@ -97,7 +101,8 @@ static double hex_moment (const double *corner, const int *e)
 static double cell_moment (const pg_quadrature *q, int dim, int cell, const int *e)
 {
     double sum = 0;
-    for (size_t i = 0; i < q->n; i++) if (q->cell[i] == cell) sum += q->weight[i] * monomial (e, q->x + i * (size_t) dim, dim);
+    for (size_t i = 0; i < q->n; i++)
+        if (q->cell[i] == cell) sum += q->weight[i] * monomial (e, q->x + i * (size_t) dim, dim);
     return sum;
 }
 
@@ -118,7 +123,8 @@ static void distorted_quadrilaterals_are_integrated_exactly (void **state)
             for (int a = 0; a <= 2 * order - 2; a++)
                 for (int b = 0; a + b <= 2 * order - 2; b++) {
                     int e[2] = { a, b };
-                    check_absolute (cell_moment (&q, 2, cell, e), thickness * quad_moment (corner + 8 * cell, e), 1e-14);
+                    check_absolute (cell_moment (&q, 2, cell, e),
+                                    thickness * quad_moment (corner + 8 * cell, e), 1e-14);
                 }
         pg_quadrature_clear (&q);
         assert_null (q.x);
@@ -143,7 +149,8 @@ static void distorted_hexahedra_are_integrated_exactly (void **state)
                 for (int b = 0; a + b <= 2 * order - 3; b++)
                     for (int c = 0; a + b + c <= 2 * order - 3; c++) {
                         int e[3] = { a, b, c };
-                        check_absolute (cell_moment (&q, 3, cell, e), hex_moment (corner + 24 * cell, e), 1e-13);
+                        check_absolute (cell_moment (&q, 3, cell, e), hex_moment (corner + 24 * cell, e),
+                                        1e-13);
                     }
         pg_quadrature_clear (&q);
     }
@@ -161,7 +168,10 @@ static void bars_are_integrated_exactly (void **state)
         check_ok (pg_integration_find ("gauss")->points (&q, &cells, 3, order));
         for (int a = 0; a < 2 * order; a++)
             for (int cell = 0; cell < 2; cell++)
-                check_relative (cell_moment (&q, 1, cell, &a), 3 * (pow (corner[2*cell + 1], a + 1) - pow (corner[2*cell], a + 1)) / (a + 1), 1e-14);
+                check_relative (cell_moment (&q, 1, cell, &a),
+                                3 * (pow (corner[2 * cell + 1], a + 1) - pow (corner[2 * cell], a + 1))
+                                    / (a + 1),
+                                1e-14);
         pg_quadrature_clear (&q);
     }
 }
@@ -169,7 +179,9 @@ static void bars_are_integrated_exactly (void **state)
 /* An L of cells in 2D, the same extruded in 3D, a bar in 1D. */
 static pg_cells lattice_cells (int dim, double thickness, unsigned char *in)
 {
-    pg_lattice l = { dim, { 3, dim > 1 ? 2 : 1, dim > 2 ? 2 : 1 }, { 0, 1, 2 }, { 0.6, 1.6, 2.2 }, { 0.2, 0.3, 0.1 }, in };
+    pg_lattice l = {
+        dim, { 3, dim > 1 ? 2 : 1, dim > 2 ? 2 : 1 }, { 0, 1, 2 }, { 0.6, 1.6, 2.2 }, { 0.2, 0.3, 0.1 }, in
+    };
     pg_cells cells;
     for (int i = 0; i < 12; i++) in[i] = dim == 1 || i % 6 != 5;
     check_ok (pg_cells_from_lattice (&cells, &l, thickness));
@@ -194,14 +206,19 @@ static void facet_weights_sum_to_areas (void **state)
                 const double *corner = cells.facet_x + cells.facet_start[f] * (size_t) dim;
                 for (int k = 0; k < dim; k++) {
                     low[k] = high[k] = corner[k];
-                    for (int c = 1; c < corners; c++) low[k] = fmin (low[k], corner[c*dim + k]), high[k] = fmax (high[k], corner[c*dim + k]);
+                    for (int c = 1; c < corners; c++)
+                        low[k] = fmin (low[k], corner[c * dim + k]),
+                        high[k] = fmax (high[k], corner[c * dim + k]);
                 }
                 for (size_t i = 0; i < q.n; i++) {
                     if (q.cell[i] != (int) f) continue;
                     sum += q.weight[i];
-                    assert_memory_equal (q.normal + i * (size_t) dim, cells.normal + f * (size_t) dim, (size_t) dim * sizeof (double));
+                    assert_memory_equal (q.normal + i * (size_t) dim, cells.normal + f * (size_t) dim,
+                                         (size_t) dim * sizeof (double));
                     assert_true (q.weight[i] > 0);
-                    for (int k = 0; k < dim; k++) assert_true (q.x[i * (size_t) dim + (size_t) k] > low[k] - 1e-12 && q.x[i * (size_t) dim + (size_t) k] < high[k] + 1e-12);
+                    for (int k = 0; k < dim; k++)
+                        assert_true (q.x[i * (size_t) dim + (size_t) k] > low[k] - 1e-12
+                                     && q.x[i * (size_t) dim + (size_t) k] < high[k] + 1e-12);
                 }
                 check_relative (sum, cells.area[f], 1e-14);
             }
@@ -222,7 +239,9 @@ static void facets_close_the_body (void **state)
         check_ok (pg_facet_points (&q, &cells, 2));
         check_ok (pg_integration_find ("gauss")->points (&bulk, &cells, thickness, 2));
         for (size_t i = 0; i < q.n; i++)
-            for (int k = 0; k < dim; k++) flux += q.weight[i] * q.x[i * (size_t) dim + (size_t) k] * q.normal[i * (size_t) dim + (size_t) k];
+            for (int k = 0; k < dim; k++)
+                flux += q.weight[i] * q.x[i * (size_t) dim + (size_t) k]
+                        * q.normal[i * (size_t) dim + (size_t) k];
         for (size_t i = 0; i < bulk.n; i++) volume += bulk.weight[i];
         check_relative (flux, dim * volume, 1e-13);
         pg_quadrature_clear (&q), pg_quadrature_clear (&bulk);
@@ -243,7 +262,8 @@ static void nodal_integration_needs_no_points_of_its_own (void **state)
 static void kinds_may_be_mixed (void **state)
 {
     (void) state;
-    static double x[] = { 0, 0, 1, 0, 1, 1, 0, 1,   1, 0, 2, 0, 1, 1,   2, 0, 2, 1, 1, 1,   0, 1, 2, 1, 2, 2, 0, 2,   2, 0, 3, 0, 2, 1 };
+    static double x[] = { 0, 0, 1, 0, 1, 1, 0, 1, 1, 0, 2, 0, 1, 1, 2, 0, 2,
+                          1, 1, 1, 0, 1, 2, 1, 2, 2, 0, 2, 2, 0, 3, 0, 2, 1 };
     static unsigned char kind[] = { PG_QUAD4, PG_TRI3, PG_TRI3, PG_QUAD4, PG_TRI3 };
     static size_t start[] = { 0, 4, 7, 10, 14, 17 };
     const double area[] = { 1, 0.5, 0.5, 2, 0.5 };

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Silling's stabilisation: the blocks against the energy written out, its sign, and the motions that must not feel it. */
+ * Silling's stabilisation: the blocks against the energy written out, its sign, and the motions that must not
+ * feel it. */
 #include "check.h"
 #include "perigal/integration.h"
 
@@ -22,7 +23,8 @@ static body make (int dim, int side)
     int *own = pg_calloc (n, sizeof *own);
     for (size_t i = 0; i < n; i++) {
         size_t rest = i;
-        for (size_t k = 0; k < d; k++, rest /= (size_t) side) b.cloud.x[i*d + k] = 0.1 * ((double) (rest % (size_t) side) + 0.2 * random_number ());
+        for (size_t k = 0; k < d; k++, rest /= (size_t) side)
+            b.cloud.x[i * d + k] = 0.1 * ((double) (rest % (size_t) side) + 0.2 * random_number ());
         b.cloud.volume[i] = pow (0.1, dim) * (1 + 0.3 * random_number ());
         own[i] = (int) i;
     }
@@ -48,7 +50,7 @@ static void gather (const body *b, size_t p, double modulus, double volume, doub
     size_t m = b->rows.family.start[p + 1] - b->rows.family.start[p], d = (size_t) b->rows.dim;
     double *blocks = pg_calloc (m * d * d, sizeof *blocks);
     for (size_t a = 0; a < m; a++) {
-        for (size_t k = 0; k < m * d * d; k++) blocks[k] = 100;                     /* it adds                            */
+        for (size_t k = 0; k < m * d * d; k++) blocks[k] = 100;                     /* it adds */
         pg_silling_add (&b->rows, &b->cloud, p, a, m, modulus, volume, blocks);
         for (size_t j = 0; j < m; j++) {
             S[a * m + j] = blocks[j * d * d] - 100;
@@ -63,7 +65,8 @@ static void gather (const body *b, size_t p, double modulus, double volume, doub
 }
 
 /* 1/2 c sum_j w_j |eta_j - H xi_j|^2, H = sum_j eta_j x g_j, c = V modulus d (d + 2) / sum_j w_j |xi_j|^2 */
-static double energy_of (const body *b, size_t p, double modulus, double volume, const double *u, double *scale)
+static double energy_of (const body *b, size_t p, double modulus, double volume, const double *u,
+                         double *scale)
 {
     const pg_rows *r = &b->rows;
     size_t d = (size_t) r->dim, own = (size_t) r->own[p];
@@ -71,7 +74,8 @@ static double energy_of (const body *b, size_t p, double modulus, double volume,
     *scale = 0;
     for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
         for (size_t k = 0; k < d; k++)
-            for (size_t l = 0; l < d; l++) H[3*k + l] += (u[(size_t) r->family.node[e] * d + k] - u[own * d + k]) * r->dN[e * d + l];
+            for (size_t l = 0; l < d; l++)
+                H[3 * k + l] += (u[(size_t) r->family.node[e] * d + k] - u[own * d + k]) * r->dN[e * d + l];
     for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
         size_t j = (size_t) r->family.node[e];
         for (size_t k = 0; k < d; k++) {
@@ -94,7 +98,8 @@ static double energy_by_blocks (const body *b, size_t p, const double *S, const 
     for (size_t a = 0; a < m; a++)
         for (size_t j = 0; j < m; j++)
             for (size_t k = 0; k < d; k++)
-                sum += 0.5 * S[a*m + j] * u[(size_t) b->rows.family.node[first + a] * d + k] * u[(size_t) b->rows.family.node[first + j] * d + k];
+                sum += 0.5 * S[a * m + j] * u[(size_t) b->rows.family.node[first + a] * d + k]
+                       * u[(size_t) b->rows.family.node[first + j] * d + k];
     return sum;
 }
 
@@ -149,14 +154,18 @@ static void check_symmetry (const body *b, size_t p, const double *S)
     pg_free (lambda);
 }
 
-static void blocks_are_symmetric_and_not_negative (void **state) { (void) state, for_every_point (check_symmetry); }
+static void blocks_are_symmetric_and_not_negative (void **state)
+{
+    (void) state, for_every_point (check_symmetry);
+}
 
 static void check_linear (const body *b, size_t p, const double *S)
 {
-    size_t d = (size_t) b->cloud.dim, first = b->rows.family.start[p], m = b->rows.family.start[p + 1] - first;
+    size_t d = (size_t) b->cloud.dim, first = b->rows.family.start[p],
+           m = b->rows.family.start[p + 1] - first;
     double top = 0, reach = 0;
     for (size_t a = 0; a < m; a++) top = fmax (top, S[a*m + a]);
-    for (size_t mode = 0; mode <= d; mode++)           /* constant, x, y, z: the force S u vanishes                       */
+    for (size_t mode = 0; mode <= d; mode++)           /* constant, x, y, z: the force S u vanishes */
         for (size_t a = 0; a < m; a++) {
             double force = 0;
             for (size_t j = 0; j < m; j++) {

@@ -57,10 +57,12 @@ static void moments_are_those_of_the_closed_forms (void **state)
 {
     (void) state;
     for (int n = 0; n <= 4; n++) {
-        const double m = n, want[] = { 1 / (m + 1), 1 / (m + 1) - 1 / (m + 2), 1 / (m + 1) - 1 / (m + 3), 1 / (m + 2),
-            1 / (m + 1) - 6 / (m + 3) + 8 / (m + 4) - 3 / (m + 5) };
-        static const char *const name[] = { "constant", "conical", "quadratic", "linear_r", "quartic_spline" };
-        for (int k = 0; k < 5; k++) check_relative (pg_kernel_moment (pg_kernel_find (name[k]), n), want[k], 1e-13);
+        const double m = n, want[] = { 1 / (m + 1), 1 / (m + 1) - 1 / (m + 2), 1 / (m + 1) - 1 / (m + 3),
+                                       1 / (m + 2), 1 / (m + 1) - 6 / (m + 3) + 8 / (m + 4) - 3 / (m + 5) };
+        static const char *const name[] = { "constant", "conical", "quadratic", "linear_r",
+                                            "quartic_spline" };
+        for (int k = 0; k < 5; k++)
+            check_relative (pg_kernel_moment (pg_kernel_find (name[k]), n), want[k], 1e-13);
         if (n > 0) check_relative (pg_kernel_moment (pg_kernel_find ("inverse_r"), n), 1 / m, 1e-13);
     }
 }

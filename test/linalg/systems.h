@@ -6,7 +6,7 @@
 #include "perigal/linalg.h"
 
 static uint64_t systems_seed = 88172645463325252u;
-static inline double random_number (void)              /* in [-1, 1)                                                     */
+static inline double random_number (void)              /* in [-1, 1) */
 {
     systems_seed ^= systems_seed << 13, systems_seed ^= systems_seed >> 7, systems_seed ^= systems_seed << 17;
     return (double) (systems_seed >> 11) / 4503599627370496.0 - 1;
@@ -21,7 +21,10 @@ static inline dense dense_new (size_t nrow, size_t ncol)
     return D;
 }
 static inline void dense_free (dense *D) { pg_free (D->a), pg_free (D->in); }
-static inline void dense_set (dense *D, size_t i, size_t j, double value) { D->a[i * D->ncol + j] = value, D->in[i * D->ncol + j] = 1; }
+static inline void dense_set (dense *D, size_t i, size_t j, double value)
+{
+    D->a[i * D->ncol + j] = value, D->in[i * D->ncol + j] = 1;
+}
 static inline double dense_at (const dense *D, size_t i, size_t j) { return D->a[i * D->ncol + j]; }
 
 /* The pattern is where values were set, zeros included. */
@@ -29,12 +32,14 @@ static inline pg_sparse sparse_of (const dense *D, int symmetric)
 {
     pg_sparse A;
     size_t nnz = 0;
-    for (size_t i = 0; i < D->nrow; i++) for (size_t j = 0; j < D->ncol; j++) nnz += D->in[i * D->ncol + j] && (!symmetric || i <= j);
+    for (size_t i = 0; i < D->nrow; i++)
+        for (size_t j = 0; j < D->ncol; j++) nnz += D->in[i * D->ncol + j] && (!symmetric || i <= j);
     check_ok (pg_sparse_create (&A, D->nrow, D->ncol, nnz, symmetric));
     nnz = 0;
     for (size_t j = 0; j < D->ncol; j++) {
         for (size_t i = 0; i < D->nrow; i++)
-            if (D->in[i * D->ncol + j] && (!symmetric || i <= j)) A.row[nnz] = (long) i, A.value[nnz++] = dense_at (D, i, j);
+            if (D->in[i * D->ncol + j] && (!symmetric || i <= j))
+                A.row[nnz] = (long) i, A.value[nnz++] = dense_at (D, i, j);
         A.start[j + 1] = (long) nnz;
     }
     return A;
@@ -48,7 +53,8 @@ static inline void multiply (const dense *D, const double *x, double *y)
     }
 }
 
-/* Laplacian of a lattice of side^dim nodes with random SPD blocks per edge and a share of the identity: SPD, full pattern. */
+/* Laplacian of a lattice of side^dim nodes with random SPD blocks per edge and a share of the identity: SPD,
+ * full pattern. */
 static inline dense random_laplacian (size_t side, int dim, size_t block)
 {
     size_t n = 1, step[3] = { 1, side, side * side };
@@ -64,13 +70,16 @@ static inline dense random_laplacian (size_t side, int dim, size_t block)
             for (size_t a = 0; a < block; a++)
                 for (size_t b = 0; b < block; b++) {
                     S[a * block + b] = a == b ? 0.3 : 0;
-                    for (size_t c = 0; c < block; c++) S[a * block + b] += G[a * block + c] * G[b * block + c];
+                    for (size_t c = 0; c < block; c++)
+                        S[a * block + b] += G[a * block + c] * G[b * block + c];
                 }
             for (size_t a = 0; a < block; a++)
                 for (size_t b = 0; b < block; b++) {
                     double s = S[a * block + b];
-                    dense_set (&D, i * block + a, i * block + b, dense_at (&D, i * block + a, i * block + b) + s);
-                    dense_set (&D, j * block + a, j * block + b, dense_at (&D, j * block + a, j * block + b) + s);
+                    dense_set (&D, i * block + a, i * block + b,
+                               dense_at (&D, i * block + a, i * block + b) + s);
+                    dense_set (&D, j * block + a, j * block + b,
+                               dense_at (&D, j * block + a, j * block + b) + s);
                     dense_set (&D, i * block + a, j * block + b, -s);
                     dense_set (&D, j * block + b, i * block + a, -s);
                 }
@@ -84,7 +93,9 @@ static inline double misfit (const dense *D, size_t nrhs, const double *x, const
     double worst = 0, top = 0, *y = pg_calloc (D->nrow, sizeof *y);
     for (size_t k = 0; k < nrhs; k++) {
         multiply (D, x + k * D->ncol, y);
-        for (size_t i = 0; i < D->nrow; i++) worst = fmax (worst, fabs (y[i] - b[k * D->nrow + i])), top = fmax (top, fabs (b[k * D->nrow + i]));
+        for (size_t i = 0; i < D->nrow; i++)
+            worst = fmax (worst, fabs (y[i] - b[k * D->nrow + i])),
+            top = fmax (top, fabs (b[k * D->nrow + i]));
     }
     pg_free (y);
     return worst / top;

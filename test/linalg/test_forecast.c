@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include "perigal/linalg.h"
 
-/* Upper triangle of a lattice whose nodes are coupled up to `reach` steps along each axis, in dense blocks. */
+/* Upper triangle of a lattice whose nodes are coupled up to `reach` steps along each axis, in dense
+ * blocks. */
 static void lattice_matrix (pg_sparse *A, size_t side, int dim, int reach, size_t block)
 {
     size_t n = 1, nnz = 0;
@@ -16,9 +17,11 @@ static void lattice_matrix (pg_sparse *A, size_t side, int dim, int reach, size_
             for (size_t b = 0; b < block; b++) {
                 for (size_t j = 0; j <= i; j++) {
                     size_t p = i, q = j, near = 1;
-                    for (int k = 0; k < dim; k++, p /= side, q /= side) near &= labs ((long) (p % side) - (long) (q % side)) <= reach;
+                    for (int k = 0; k < dim; k++, p /= side, q /= side)
+                        near &= labs ((long) (p % side) - (long) (q % side)) <= reach;
                     for (size_t a = 0; near && a < block && (j < i || a <= b); a++, nnz++)
-                        if (pass) A->row[nnz] = (long) (j * block + a), A->value[nnz] = i == j && a == b ? 1e3 : -1;
+                        if (pass)
+                            A->row[nnz] = (long) (j * block + a), A->value[nnz] = i == j && a == b ? 1e3 : -1;
                 }
                 if (pass) A->start[i * block + b + 1] = (long) nnz;
             }
@@ -46,9 +49,11 @@ static void forecast_of (size_t side, int dim, int reach, int block)
 
 static void test_bar (void **state)        { (void) state; forecast_of (200, 1, 3, 1); }
 static void test_plate (void **state)      { (void) state; forecast_of (20, 2, 2, 2); }
-static void test_large_plate (void **state) { (void) state; forecast_of (42, 2, 2, 2); }      /* 3528 unknowns: METIS    */
+/* 3528 unknowns: METIS */
+static void test_large_plate (void **state) { (void) state; forecast_of (42, 2, 2, 2); }
 static void test_solid (void **state)      { (void) state; forecast_of (8, 3, 1, 3); }
-static void test_large_solid (void **state) { (void) state; forecast_of (11, 3, 2, 3); }      /* 3993 unknowns: METIS    */
+/* 3993 unknowns: METIS */
+static void test_large_solid (void **state) { (void) state; forecast_of (11, 3, 2, 3); }
 
 static void test_dense_block_is_a_triangle (void **state)
 {
@@ -83,8 +88,13 @@ static void test_failing_allocations (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (test_bar), cmocka_unit_test (test_plate), cmocka_unit_test (test_large_plate), cmocka_unit_test (test_solid),
-        cmocka_unit_test (test_large_solid), cmocka_unit_test (test_dense_block_is_a_triangle), cmocka_unit_test (test_failing_allocations),
+        cmocka_unit_test (test_bar),
+        cmocka_unit_test (test_plate),
+        cmocka_unit_test (test_large_plate),
+        cmocka_unit_test (test_solid),
+        cmocka_unit_test (test_large_solid),
+        cmocka_unit_test (test_dense_block_is_a_triangle),
+        cmocka_unit_test (test_failing_allocations),
     };
     return cmocka_run_group_tests_name ("linalg/forecast", tests, NULL, NULL);
 }

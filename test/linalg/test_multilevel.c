@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The multilevel preconditioner on points joined by springs: same answers as a factorization, symmetric, iterations that do not grow with the
- * size or along a cut, loose parts, threads, cells that are alike, wrong settings, memory that runs out. */
+ * The multilevel preconditioner on points joined by springs: same answers as a factorization, symmetric,
+ * iterations that do not grow with the size or along a cut, loose parts, threads, cells that are alike, wrong
+ * settings, memory that runs out. */
 #include "springs.h"
 
 static int held_below (const double *x) { return x[0] < 1.5; }
-static int held_and_rolling (const double *x) { return x[0] < 1.5 ? 1 : x[0] > 30 && (int) (x[0] + x[1] + 0.5) % 3 == 0 ? 2 : 0; }
+static int held_and_rolling (const double *x)
+{
+    return x[0] < 1.5 ? 1 : x[0] > 30 && (int) (x[0] + x[1] + 0.5) % 3 == 0 ? 2 : 0;
+}
 static int held_both (const double *x) { return x[0] < 1.5 || x[0] > 57.5; }
 static int over_cut (const double *a, const double *b) { return (a[0] < 29.3) != (b[0] < 29.3); }
-static int round_notch (const double *a, const double *b)              /* x = 20.5 up to y = 30                            */
+static int round_notch (const double *a, const double *b)              /* x = 20.5 up to y = 30 */
 {
     if ((a[0] < 20.5) == (b[0] < 20.5)) return 0;
     return a[1] + (b[1] - a[1]) * (20.5 - a[0]) / (b[0] - a[0]) < 30.2;
@@ -59,11 +63,16 @@ static void answers_are_those_of_the_factor (void **state)
 {
     (void) state;
     static const springs_rule rules[] = {
-        { 1, 1, { 3000 }, 0, 2.1, NULL, held_below },               { 1, 1, { 900 }, 0.3, 2.9, NULL, held_below },
-        { 2, 2, { 60, 60 }, 0, 3.015, NULL, held_below },           { 2, 2, { 60, 60 }, 0.3, 3.2, NULL, held_below },
-        { 2, 1, { 90, 70 }, 0, 1.5, NULL, held_below },             { 2, 3, { 60, 60 }, 0.2, 2.9, round_notch, held_below },
-        { 2, 2, { 60, 60 }, 0, 3.015, round_notch, held_below },    { 2, 2, { 60, 60 }, 0.2, 3.015, over_cut, held_both },
-        { 3, 3, { 13, 14, 15 }, 0, 2.1, NULL, held_below },         { 3, 3, { 13, 14, 15 }, 0.25, 2.3, NULL, held_below },
+        { 1, 1, { 3000 }, 0, 2.1, NULL, held_below },
+        { 1, 1, { 900 }, 0.3, 2.9, NULL, held_below },
+        { 2, 2, { 60, 60 }, 0, 3.015, NULL, held_below },
+        { 2, 2, { 60, 60 }, 0.3, 3.2, NULL, held_below },
+        { 2, 1, { 90, 70 }, 0, 1.5, NULL, held_below },
+        { 2, 3, { 60, 60 }, 0.2, 2.9, round_notch, held_below },
+        { 2, 2, { 60, 60 }, 0, 3.015, round_notch, held_below },
+        { 2, 2, { 60, 60 }, 0.2, 3.015, over_cut, held_both },
+        { 3, 3, { 13, 14, 15 }, 0, 2.1, NULL, held_below },
+        { 3, 3, { 13, 14, 15 }, 0.25, 2.3, NULL, held_below },
     };
     for (size_t k = 0; k < sizeof rules / sizeof *rules; k++) {
         springs s = springs_of (&rules[k]);
@@ -77,8 +86,9 @@ static void answers_are_those_of_the_factor (void **state)
         check_ok (cholmod->factor (factor, &A));
         check_ok (cholmod->solve (factor, 1, b, y));
         size_t used = solve_with (&s, &setting, b, x);
-        print_message ("%d-D, %d unknowns a point, %zu points%s%s: %zu iterations, misfit %.1e\n", s.dim, s.block, s.n, rules[k].shake > 0 ? ", shaken" : "",
-                       rules[k].cut ? ", cut" : "", used, misfit_to (x, y, s.ndof));
+        print_message ("%d-D, %d unknowns a point, %zu points%s%s: %zu iterations, misfit %.1e\n", s.dim,
+                       s.block, s.n, rules[k].shake > 0 ? ", shaken" : "", rules[k].cut ? ", cut" : "", used,
+                       misfit_to (x, y, s.ndof));
         check_below (misfit_to (x, y, s.ndof), 1e-8);
         assert_true (used <= 25);
         cholmod->free (&factor);
@@ -91,18 +101,22 @@ static void answers_are_those_of_the_factor (void **state)
 static void it_is_symmetric (void **state)
 {
     (void) state;
-    static const springs_rule rules[] = { { 2, 2, { 60, 60 }, 0.2, 3.015, round_notch, held_below }, { 3, 3, { 12, 13, 14 }, 0, 2.1, NULL, held_below },
-                                          { 2, 2, { 120, 120 }, 0, 3.015, NULL, held_below }, { 2, 2, { 60, 60 }, 0, 3.015, NULL, held_and_rolling } };
+    static const springs_rule rules[] = { { 2, 2, { 60, 60 }, 0.2, 3.015, round_notch, held_below },
+                                          { 3, 3, { 12, 13, 14 }, 0, 2.1, NULL, held_below },
+                                          { 2, 2, { 120, 120 }, 0, 3.015, NULL, held_below },
+                                          { 2, 2, { 60, 60 }, 0, 3.015, NULL, held_and_rolling } };
     for (size_t k = 0; k < sizeof rules / sizeof *rules; k++) {
         springs s = springs_of (&rules[k]);
         pg_multilevel_setting setting = springs_setting (&s, 1);
         pg_multilevel *m = NULL;
-        double *x = draw (&s), *y = draw (&s), *Mx = pg_calloc (s.ndof, sizeof *x), *My = pg_calloc (s.ndof, sizeof *x), xMy = 0, yMx = 0, xMx = 0, yMy = 0;
+        double *x = draw (&s), *y = draw (&s), *Mx = pg_calloc (s.ndof, sizeof *x),
+               *My = pg_calloc (s.ndof, sizeof *x), xMy = 0, yMx = 0, xMx = 0, yMy = 0;
         check_ok (pg_multilevel_create (&m, &setting));
         pg_preconditioner P = pg_multilevel_preconditioner (m);
         check_ok (P.solve (P.context, x, Mx));
         check_ok (P.solve (P.context, y, My));
-        for (size_t i = 0; i < s.ndof; i++) xMy += x[i] * My[i], yMx += y[i] * Mx[i], xMx += x[i] * Mx[i], yMy += y[i] * My[i];
+        for (size_t i = 0; i < s.ndof; i++)
+            xMy += x[i] * My[i], yMx += y[i] * Mx[i], xMx += x[i] * Mx[i], yMy += y[i] * My[i];
         check_below (fabs (xMy - yMx) / sqrt (xMx * yMy), 1e-12);
         assert_true (xMx > 0 && yMy > 0);
         for (size_t i = 0; i < s.ndof; i++) if (s.fixed[i]) assert_true (Mx[i] == 0);
@@ -116,10 +130,14 @@ static void iterations_hardly_grow_with_size (void **state)
 {
     (void) state;
     size_t used[3];
-    for (int k = 0; k < 3; k++) used[k] = iterations (&(springs_rule) { 2, 2, { (size_t) 50 << k, (size_t) 50 << k }, 0, 3.015, NULL, held_below });
-    print_message ("50, 100, 200 points along an edge: %zu, %zu, %zu iterations\n", used[0], used[1], used[2]);
+    for (int k = 0; k < 3; k++)
+        used[k] = iterations (
+            &(springs_rule){ 2, 2, { (size_t) 50 << k, (size_t) 50 << k }, 0, 3.015, NULL, held_below });
+    print_message ("50, 100, 200 points along an edge: %zu, %zu, %zu iterations\n", used[0], used[1],
+                   used[2]);
     assert_true (used[2] <= 16 && (double) used[2] <= 1.3 * (double) used[0] + 1);
-    size_t small = iterations (&(springs_rule) { 3, 3, { 10, 10, 10 }, 0, 2.1, NULL, held_below }), large = iterations (&(springs_rule) { 3, 3, { 24, 24, 24 }, 0, 2.1, NULL, held_below });
+    size_t small = iterations (&(springs_rule){ 3, 3, { 10, 10, 10 }, 0, 2.1, NULL, held_below }),
+           large = iterations (&(springs_rule){ 3, 3, { 24, 24, 24 }, 0, 2.1, NULL, held_below });
     print_message ("10 and 24 in 3D: %zu, %zu iterations\n", small, large);
     assert_true (large <= 20 && (double) large <= 1.3 * (double) small + 1);
 }
@@ -155,7 +173,7 @@ static void an_old_one_serves_after_a_break (void **state)
     double *b = draw (&broken), *x = pg_calloc (s.ndof, sizeof *x), *y = pg_calloc (s.ndof, sizeof *y);
     size_t used = 0, best = solve_with (&broken, &fresh, b, y);
     check_ok (pg_multilevel_create (&m, &setting));
-    s.op.context = &broken;                            /* A of the old one is that of the broken body now                */
+    s.op.context = &broken;                            /* A of the old one is that of the broken body now */
     pg_preconditioner P = pg_multilevel_preconditioner (m);
     pg_operator op = { s.ndof, &broken, springs_apply_free, springs_diagonal };
     check_ok (pg_conjugate_gradients_with (&op, &P, b, x, 1e-10, 500, &used));
@@ -168,10 +186,12 @@ static void an_old_one_serves_after_a_break (void **state)
 }
 
 static int held_left (const double *x) { return x[0] < 1.5; }
-/* One part hangs free, pulled by two opposite forces, one point has no spring at all: both stay about where they are. */
+/* One part hangs free, pulled by two opposite forces, one point has no spring at all: both stay about where
+ * they are. */
 static int around_one (const double *a, const double *b)
 {
-    int alone = (fabs (a[0] - 10) < 0.1 && fabs (a[1] - 10) < 0.1) || (fabs (b[0] - 10) < 0.1 && fabs (b[1] - 10) < 0.1);
+    int alone = (fabs (a[0] - 10) < 0.1 && fabs (a[1] - 10) < 0.1)
+                || (fabs (b[0] - 10) < 0.1 && fabs (b[1] - 10) < 0.1);
     return alone || over_cut (a, b);
 }
 
@@ -182,7 +202,8 @@ static void loose_parts_stay_put (void **state)
     pg_multilevel_setting setting = springs_setting (&s, 1);
     double *b = draw (&s), *x = pg_calloc (s.ndof, sizeof *x), top = 0, loose = 0;
     for (size_t i = 0; i < s.n; i++)
-        if (s.x[2*i] > 29.3 || (fabs (s.x[2*i] - 10) < 0.1 && fabs (s.x[2*i + 1] - 10) < 0.1)) b[2*i] = b[2*i + 1] = 0;
+        if (s.x[2 * i] > 29.3 || (fabs (s.x[2 * i] - 10) < 0.1 && fabs (s.x[2 * i + 1] - 10) < 0.1))
+            b[2 * i] = b[2 * i + 1] = 0;
     b[2 * (50 + 60 * 30)] = 1, b[2 * (55 + 60 * 30)] = -1;
     assert_true (solve_with (&s, &setting, b, x) <= 30);
     for (size_t i = 0; i < s.n; i++) {
@@ -214,7 +235,8 @@ static void threads_do_not_change_a_bit (void **state)
 static void cells_that_are_alike_are_summed_once (void **state)
 {
     (void) state;
-    static const springs_rule rules[] = { { 2, 2, { 64, 51 }, 0, 3.015, round_notch, held_below }, { 3, 3, { 20, 17, 19 }, 0, 2.1, NULL, held_below } };
+    static const springs_rule rules[] = { { 2, 2, { 64, 51 }, 0, 3.015, round_notch, held_below },
+                                          { 3, 3, { 20, 17, 19 }, 0, 2.1, NULL, held_below } };
     for (size_t k = 0; k < sizeof rules / sizeof *rules; k++) {
         springs s = springs_of (&rules[k]);
         double *b = draw (&s), *x = pg_calloc (s.ndof, sizeof *x), *y = pg_calloc (s.ndof, sizeof *y);
@@ -249,7 +271,7 @@ static void wrong_settings_are_told (void **state)
     wrong = setting, wrong.rows.reach = 0;
     check_fails (pg_multilevel_create (&m, &wrong), PG_E_USAGE);
     check_contains (pg_last_error (), "reach");
-    wrong = setting, wrong.rows.reach = 1, wrong.step = 1.5;            /* springs go further than they say                */
+    wrong = setting, wrong.rows.reach = 1, wrong.step = 1.5;            /* springs go further than they say */
     check_fails (pg_multilevel_create (&m, &wrong), PG_E_USAGE);
     check_contains (pg_last_error (), "reach");
     assert_null (m);

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Linear solvers: every entry of the catalogue on lattices in 1, 2 and 3 dimensions with 1 to 3 unknowns per node; what each
- * refuses; one analysis for many factorizations; memory that runs out. */
+ * Linear solvers: every entry of the catalogue on lattices in 1, 2 and 3 dimensions with 1 to 3 unknowns per
+ * node; what each refuses; one analysis for many factorizations; memory that runs out. */
 #include <malloc.h>
 #include "systems.h"
 
 static const char *const names[] = { "cholmod", "umfpack", "pcg" };
 enum { NAMES = 3, MOST_RHS = 4 };
 
-static pg_status solve_with (const char *name, const pg_sparse *A, const pg_linear_options *options, size_t nrhs, const double *b, double *x)
+static pg_status solve_with (const char *name, const pg_sparse *A, const pg_linear_options *options,
+                             size_t nrhs, const double *b, double *x)
 {
     pg_status status = PG_OK;
     const pg_linear_type *type = pg_linear_find (name);
@@ -59,12 +60,14 @@ static void every_solver_on_every_lattice (void **state)
         for (size_t block = 1; block <= 3; block++) {
             dense D = random_laplacian (lattices[l].side, lattices[l].dim, block);
             pg_sparse A = sparse_of (&D, 1);
-            double *b = pg_calloc (MOST_RHS * D.nrow, sizeof *b), *x = pg_calloc (MOST_RHS * D.nrow, sizeof *x);
+            double *b = pg_calloc (MOST_RHS * D.nrow, sizeof *b),
+                   *x = pg_calloc (MOST_RHS * D.nrow, sizeof *x);
             for (size_t i = 0; i < MOST_RHS * D.nrow; i++) b[i] = random_number ();
             for (int k = 0; k < NAMES; k++)
                 for (size_t nrhs = 1; nrhs <= MOST_RHS; nrhs += MOST_RHS - 1) {
                     pg_linear_options o = { (int) block, lattices[l].dim, 1, 1e-13 };
-                    memset (x, 0xff, MOST_RHS * D.nrow * sizeof *x);               /* NaN: the old content must not count */
+                    /* NaN: the old content must not count */
+                    memset (x, 0xff, MOST_RHS * D.nrow * sizeof *x);
                     check_ok (solve_with (names[k], &A, &o, nrhs, b, x));
                     check_below (misfit (&D, nrhs, x, b), 1e-11);
                 }
@@ -85,11 +88,14 @@ static void a_larger_body_is_ordered_by_metis (void **state)
         for (size_t b = 0; b < block; b++) {
             for (int k = 2; k >= 0; k--)
                 if (j / step[k] % side > 0)
-                    for (size_t a = 0; a < block; a++) A.row[nnz] = (long) ((j - step[k]) * block + a), A.value[nnz++] = a == b ? -1 : 0;
-            for (size_t a = 0; a <= b; a++) A.row[nnz] = (long) (j * block + a), A.value[nnz++] = a == b ? 6.5 : 0.3;
+                    for (size_t a = 0; a < block; a++)
+                        A.row[nnz] = (long) ((j - step[k]) * block + a), A.value[nnz++] = a == b ? -1 : 0;
+            for (size_t a = 0; a <= b; a++)
+                A.row[nnz] = (long) (j * block + a), A.value[nnz++] = a == b ? 6.5 : 0.3;
             A.start[j * block + b + 1] = (long) nnz;
         }
-    double *x = pg_calloc (n * block, sizeof *x), *b = pg_calloc (n * block, sizeof *b), *y = pg_calloc (n * block, sizeof *y);
+    double *x = pg_calloc (n * block, sizeof *x), *b = pg_calloc (n * block, sizeof *b),
+           *y = pg_calloc (n * block, sizeof *y);
     for (size_t i = 0; i < n * block; i++) b[i] = random_number ();
     const pg_linear_type *type = pg_linear_find ("cholmod");
     void *solver = NULL;
@@ -114,7 +120,8 @@ static void one_analysis_serves_many_factorizations (void **state)
     dense D = random_laplacian (9, 2, 2);
     size_t n = D.nrow;
     pg_sparse A = sparse_of (&D, 1);
-    double *b = pg_calloc (n, sizeof *b), *x = pg_calloc (n, sizeof *x), *fresh = pg_calloc (n, sizeof *fresh);
+    double *b = pg_calloc (n, sizeof *b), *x = pg_calloc (n, sizeof *x),
+           *fresh = pg_calloc (n, sizeof *fresh);
     for (size_t i = 0; i < n; i++) b[i] = random_number ();
     for (int k = 0; k < NAMES; k++) {
         const pg_linear_type *type = pg_linear_find (names[k]);
@@ -123,8 +130,9 @@ static void one_analysis_serves_many_factorizations (void **state)
         check_ok (type->analyse (&solver, &A, &o));
         for (int round = 0; round < 5; round++) {
             for (size_t i = 0; i < n; i++) dense_set (&D, i, i, dense_at (&D, i, i) * (1 + 0.3 * round));
-            if (round == 3)                            /* a broken tie stays in the pattern as a zero                     */
-                for (size_t i = 0; i < 2; i++) for (size_t j = 2; j < 4; j++) dense_set (&D, i, j, 0), dense_set (&D, j, i, 0);
+            if (round == 3)                            /* a broken tie stays in the pattern as a zero */
+                for (size_t i = 0; i < 2; i++)
+                    for (size_t j = 2; j < 4; j++) dense_set (&D, i, j, 0), dense_set (&D, j, i, 0);
             pg_sparse now = sparse_of (&D, 1);
             check_ok (type->factor (solver, &now));
             check_ok (type->solve (solver, 1, b, x));
@@ -159,7 +167,7 @@ static void cholesky_refuses_what_is_not_positive_definite (void **state)
         snprintf (row, sizeof row, "unknown %zu of %zu", bad, D.nrow);
         check_contains (pg_last_error (), row);
         A.value[A.start[bad + 1] - 1] = keep;
-        check_ok (type->factor (solver, &A));          /* and recovers                                                   */
+        check_ok (type->factor (solver, &A));          /* and recovers */
         check_ok (type->solve (solver, 1, b, x));
         check_below (misfit (&D, 1, x, b), 1e-12);
     }
@@ -197,9 +205,9 @@ static void conjugate_gradients_say_when_they_do_not_arrive (void **state)
     check_below (misfit (&D, 1, x, b), 1e-10);
     double y[162] = { 0 };
     check_ok (pg_conjugate_gradients (&op, b, y, 1e-12, 10000, &all));
-    assert_true (used < all);                          /* the first guess was used                                       */
+    assert_true (used < all);                          /* the first guess was used */
     check_ok (pg_conjugate_gradients (&op, b, y, 1e-11, 10000, &used));
-    assert_int_equal (used, 0);                        /* the answer is a fixed point                                    */
+    assert_int_equal (used, 0);                        /* the answer is a fixed point */
     double zero[162] = { 0 }, z[162] = { 0 };
     check_ok (pg_conjugate_gradients (&op, zero, z, 1e-12, 10000, &used));
     for (int i = 0; i < 162; i++) assert_true (z[i] == 0);
@@ -211,7 +219,7 @@ static void lu_sees_a_singular_matrix (void **state)
 {
     (void) state;
     dense D = random_laplacian (6, 2, 1);
-    for (size_t i = 0; i < 36; i++) {                  /* a free body: rows sum to zero, exactly                         */
+    for (size_t i = 0; i < 36; i++) {                  /* a free body: rows sum to zero, exactly */
         double sum = 0;
         for (size_t j = 0; j < 36; j++) if (j != i) {
             dense_set (&D, i, j, D.in[i*36 + j] ? -1 : 0);
@@ -235,7 +243,8 @@ static void lu_solves_indefinite_and_unsymmetric_systems (void **state)
         dense D = dense_new (n, n);
         for (size_t i = 0; i < n; i++) dense_set (&D, i, i, i % 3 ? random_number () : 0);
         for (size_t k = 0; k < 6 * n; k++) {
-            size_t i = (size_t) (n * (0.5 + 0.5 * random_number ())), j = (size_t) (n * (0.5 + 0.5 * random_number ()));
+            size_t i = (size_t) (n * (0.5 + 0.5 * random_number ())),
+                   j = (size_t) (n * (0.5 + 0.5 * random_number ()));
             dense_set (&D, i, j, random_number ());
             if (symmetric) dense_set (&D, j, i, dense_at (&D, i, j));
         }
@@ -273,8 +282,8 @@ static void each_failed_allocation_is_reported (void **state)
     dense_free (&D);
 }
 
-/* Bytes that malloc has given out: libraries allocate past pg_calloc, so pg_memory_used knows nothing of it. Sanitizers have a malloc of their own, which
- * says 0 here and looks for leaks itself. */
+/* Bytes that malloc has given out: libraries allocate past pg_calloc, so pg_memory_used knows nothing of it.
+ * Sanitizers have a malloc of their own, which says 0 here and looks for leaks itself. */
 static double given_out (void)
 {
 #if defined (__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
@@ -298,7 +307,7 @@ static void a_new_factor_takes_the_place_of_the_old_one (void **state)
     for (int k = 0; k < NAMES; k++) {
         const pg_linear_type *type = pg_linear_find (names[k]);
         pg_linear_options o = { 2, 2, 1, 1e-12 };
-        check_ok (solve_with (names[k], &A, &o, 1, b, x));     /* what a library keeps for good it has now               */
+        check_ok (solve_with (names[k], &A, &o, 1, b, x));     /* what a library keeps for good it has now */
         double empty = given_out (), one = 0;
         for (int round = 0; round < ROUNDS; round++) {
             void *solver = NULL;
@@ -315,7 +324,8 @@ static void a_new_factor_takes_the_place_of_the_old_one (void **state)
             check_below (given_out () - empty, 2 * one);
             type->free (&solver);
         }
-        printf ("# %s: %.0f bytes for a factor, %.0f left after %d of them\n", names[k], one, given_out () - empty, 2 * ROUNDS);
+        printf ("# %s: %.0f bytes for a factor, %.0f left after %d of them\n", names[k], one,
+                given_out () - empty, 2 * ROUNDS);
         check_below (given_out () - empty, one);
     }
     pg_free (b), pg_free (x);

@@ -67,7 +67,9 @@ static dense congruent (const dense *A, const dense *T)
     for (size_t m = 0; m < T->ncol; m++)
         for (size_t k = 0; k < T->ncol; k++) {
             double sum = 0;
-            for (size_t i = 0; i < A->nrow; i++) for (size_t j = 0; j < A->ncol; j++) sum += dense_at (T, i, m) * dense_at (A, i, j) * dense_at (T, j, k);
+            for (size_t i = 0; i < A->nrow; i++)
+                for (size_t j = 0; j < A->ncol; j++)
+                    sum += dense_at (T, i, m) * dense_at (A, i, j) * dense_at (T, j, k);
             dense_set (&B, m, k, sum);
         }
     return B;
@@ -78,7 +80,8 @@ static void congruence_equals_the_dense_one (void **state)
     (void) state;
     static const size_t cols[] = { 1, 7, 25, 40 };
     for (int s = 0; s < 4; s++) {
-        dense A = random_dense (40, 40, 0.1, 1), T = random_dense (40, cols[s], 0.1, 0), B = congruent (&A, &T);
+        dense A = random_dense (40, 40, 0.1, 1), T = random_dense (40, cols[s], 0.1, 0),
+              B = congruent (&A, &T);
         pg_sparse a = sparse_of (&A, 1), t = sparse_of (&T, 0), b;
         check_ok (pg_sparse_congruence (&b, &a, &t));
         assert_int_equal (b.ncol, cols[s]);
@@ -90,7 +93,8 @@ static void congruence_equals_the_dense_one (void **state)
                 check_absolute (b.value[p], dense_at (&B, (size_t) b.row[p], k), 1e-13);
                 dense_set (&B, (size_t) b.row[p], k, 0);
             }
-            for (size_t m = 0; m <= k; m++) check_absolute (dense_at (&B, m, k), 0, 1e-13);        /* nothing was left out  */
+            /* nothing was left out */
+            for (size_t m = 0; m <= k; m++) check_absolute (dense_at (&B, m, k), 0, 1e-13);
         }
         pg_sparse_clear (&a), pg_sparse_clear (&t), pg_sparse_clear (&b);
         dense_free (&A), dense_free (&T), dense_free (&B);

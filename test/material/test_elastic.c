@@ -10,7 +10,10 @@ static pg_material glass (pg_mode mode)
 {
     pg_scene *scene = NULL;
     pg_material m;
-    check_ok (pg_scene_parse (&scene, "dimension: 3\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2440}}\n", "glass.yaml"));
+    check_ok (pg_scene_parse (
+        &scene,
+        "dimension: 3\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2440}}\n",
+        "glass.yaml"));
     check_ok (pg_material_read (&m, scene, "glass", mode));
     check_relative (m.density, 2440, 1e-15);
     check_relative (m.modulus, E, 1e-15);
@@ -98,8 +101,9 @@ static void tangents_are_symmetric (void **state)
     }
 }
 
-/* State-based moduli give back the energy of Hooke's law: uniform dilatation A theta^2 / (2 d) + B theta^2 / (2 d^2) (all e.eta = r theta / d), uniform shear
- * gamma^2 / 2 of B mean ((2 x y)^2) / 4 with mean (x^2 y^2) = 1 / (d (d + 2)). */
+/* State-based moduli give back the energy of Hooke's law: uniform dilatation A theta^2 / (2 d) + B theta^2 /
+ * (2 d^2) (all e.eta = r theta / d), uniform shear gamma^2 / 2 of B mean ((2 x y)^2) / 4 with mean (x^2 y^2)
+ * = 1 / (d (d + 2)). */
 static void state_based_moduli_store_the_energy_of_hooke (void **state)
 {
     (void) state;

@@ -31,7 +31,12 @@ static void turned (const double *v, double *s)
 static void turned_tensor_gives_back_its_values (void **state)
 {
     (void) state;
-    const double set[7][3] = { { 3, 1, -2 }, { 3, 3, -2 }, { 3, -2, -2 }, { 5, 5, 5 }, { 1e-9, 0, -1e-9 }, { 1, 1 - 1e-7, -1 },
+    const double set[7][3] = { { 3, 1, -2 },
+                               { 3, 3, -2 },
+                               { 3, -2, -2 },
+                               { 5, 5, 5 },
+                               { 1e-9, 0, -1e-9 },
+                               { 1, 1 - 1e-7, -1 },
                                { 1e3, 999.9999, 999.9998 } };
     double s[6], p[3];
     for (int t = 0; t < 7; t++)

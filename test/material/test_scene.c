@@ -3,7 +3,9 @@
 #include "check.h"
 #include "perigal/material.h"
 
-#define GLASS "dimension: 2\nmaterials:\n  glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2440 kg/m3}\n"
+#define GLASS \
+    "dimension: 2\nmaterials:\n  glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2440 " \
+    "kg/m3}\n"
 
 static void a_material_is_read_with_units_and_default_model (void **state)
 {
@@ -46,7 +48,9 @@ static void density_may_be_left_out (void **state)
     (void) state;
     pg_scene *s = NULL;
     pg_material m;
-    check_ok (pg_scene_parse (&s, "dimension: 3\nmaterials: {a: {model: elastic, youngs_modulus: 1, poissons_ratio: 0}}\n", "a.yaml"));
+    check_ok (pg_scene_parse (
+        &s, "dimension: 3\nmaterials: {a: {model: elastic, youngs_modulus: 1, poissons_ratio: 0}}\n",
+        "a.yaml"));
     check_ok (pg_material_read (&m, s, "a", PG_SOLID));
     check_absolute (m.density, 0, 0);
     pg_scene_free (&s);
@@ -80,12 +84,19 @@ static void incompressible_and_missing_constants_are_faults (void **state)
 {
     (void) state;
     pg_scene *s = NULL;
-    check_fails (pg_scene_parse (&s, "dimension: 3\nmaterials: {a: {youngs_modulus: 1 Pa, poissons_ratio: 0.5}}\n", "a.yaml"), PG_E_SCENE);
+    check_fails (
+        pg_scene_parse (&s, "dimension: 3\nmaterials: {a: {youngs_modulus: 1 Pa, poissons_ratio: 0.5}}\n",
+                        "a.yaml"),
+        PG_E_SCENE);
     check_contains (pg_last_error (), "poissons_ratio");
-    check_fails (pg_scene_parse (&s, "dimension: 3\nmaterials: {a: {poissons_ratio: 0.3}}\n", "a.yaml"), PG_E_SCENE);
+    check_fails (pg_scene_parse (&s, "dimension: 3\nmaterials: {a: {poissons_ratio: 0.3}}\n", "a.yaml"),
+                 PG_E_SCENE);
     check_contains (pg_last_error (), "youngs_modulus");
-    check_fails (pg_scene_parse (&s,
-        "dimension: 3\nmaterials: {a: {model: plastic, youngs_modulus: 1 Pa, poissons_ratio: 0.3}}\n", "a.yaml"), PG_E_SCENE);
+    check_fails (
+        pg_scene_parse (
+            &s, "dimension: 3\nmaterials: {a: {model: plastic, youngs_modulus: 1 Pa, poissons_ratio: 0.3}}\n",
+            "a.yaml"),
+        PG_E_SCENE);
     check_contains (pg_last_error (), "plastic");
 }
 

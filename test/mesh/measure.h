@@ -8,7 +8,8 @@
 static inline void element_places (const pg_mesh *m, size_t e, int n, const int *node, double *x)
 {
     for (int k = 0; k < n; k++)
-        for (int a = 0; a < m->dim; a++) x[k * m->dim + a] = m->x[3 * m->node[m->start[e] + (size_t) (node ? node[k] : k)] + a];
+        for (int a = 0; a < m->dim; a++)
+            x[k * m->dim + a] = m->x[3 * m->node[m->start[e] + (size_t) (node ? node[k] : k)] + a];
 }
 
 static inline double mesh_volume (const pg_mesh *m)
@@ -17,13 +18,15 @@ static inline double mesh_volume (const pg_mesh *m)
     for (size_t e = 0; e < m->n; e++) {
         int n = pg_element_rule (m->kind[e], 4, xi, w);
         element_places (m, e, pg_element_types[m->kind[e]].nodes, NULL, x);
-        for (int q = 0; q < n; q++) sum += w[q] * pg_element_map (m->kind[e], m->dim, x, xi + q * m->dim, NULL, NULL);
+        for (int q = 0; q < n; q++)
+            sum += w[q] * pg_element_map (m->kind[e], m->dim, x, xi + q * m->dim, NULL, NULL);
     }
     return sum;
 }
 
 /* Area of n sides, and (1 / dim) integral of x.n: the volume inside where they are closed. */
-static inline double sides_area (const pg_mesh *m, size_t n, const int *element, const int *side, double *inside)
+static inline double sides_area (const pg_mesh *m, size_t n, const int *element, const int *side,
+                                 double *inside)
 {
     double area = 0, x[27], xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS], place[3], normal[3];
     *inside = 0;
@@ -54,8 +57,10 @@ static inline double surface_area (const pg_mesh *m, double *inside)
 /* Corners (of the cell's) of the k-th element of `kind` in a cell; 0: there are no more. */
 static inline const int *cell_part (pg_element kind, int k)
 {
-    static const int whole[8] = { 0, 1, 2, 3, 4, 5, 6, 7 }, tri[2][3] = { { 0, 1, 2 }, { 0, 2, 3 } }, wedge[2][6] = { { 0, 1, 2, 4, 5, 6 }, { 0, 2, 3, 4, 6, 7 } };
-    static const int tet[6][4] = { { 0, 1, 2, 6 }, { 0, 2, 3, 6 }, { 0, 3, 7, 6 }, { 0, 7, 4, 6 }, { 0, 4, 5, 6 }, { 0, 5, 1, 6 } };
+    static const int whole[8] = { 0, 1, 2, 3, 4, 5, 6, 7 }, tri[2][3] = { { 0, 1, 2 }, { 0, 2, 3 } },
+                     wedge[2][6] = { { 0, 1, 2, 4, 5, 6 }, { 0, 2, 3, 4, 6, 7 } };
+    static const int tet[6][4] = { { 0, 1, 2, 6 }, { 0, 2, 3, 6 }, { 0, 3, 7, 6 },
+                                   { 0, 7, 4, 6 }, { 0, 4, 5, 6 }, { 0, 5, 1, 6 } };
     int corners = pg_element_types[kind].corners, dim = pg_element_types[kind].dim;
     if (corners == 3) return k < 2 ? tri[k] : NULL;
     if (corners == 6) return k < 2 ? wedge[k] : NULL;
@@ -66,17 +71,20 @@ static inline const int *cell_part (pg_element kind, int k)
 /* The cube (square, line) [-1, 1]^d in n^d cells cut into elements, every node moved by `map`. */
 static inline pg_mesh block_mesh (pg_element kind, int n, void (*map) (double *x))
 {
-    static const int corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+    static const int corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+                                      { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
     static const pg_element linear[9] = { [2] = PG_BAR2, [3] = PG_TRI3, [6] = PG_WEDGE6, [8] = PG_HEX8 };
-    int dim = pg_element_types[kind].dim, corners = pg_element_types[kind].corners, width = 2 * n + 1, cells = 1, id = 1;
+    int dim = pg_element_types[kind].dim, corners = pg_element_types[kind].corners, width = 2 * n + 1,
+        cells = 1, id = 1;
     pg_element parent = corners == 4 ? (dim == 2 ? PG_QUAD4 : PG_TET4) : linear[corners];
-    pg_mesh_maker *m = NULL;
+    pg_mesh_builder *m = NULL;
     pg_mesh mesh;
-    check_ok (pg_maker_create (&m, "block"));
+    check_ok (pg_mesh_builder_create (&m, "block"));
     for (int k = 0; k < (dim > 1 ? width : 1) * (dim > 2 ? width : 1) * width; k++) {
-        double x[3] = { (double) (k % width) / n - 1, dim > 1 ? (double) (k / width % width) / n - 1 : 0, dim > 2 ? (double) (k / width / width) / n - 1 : 0 };
+        double x[3] = { (double) (k % width) / n - 1, dim > 1 ? (double) (k / width % width) / n - 1 : 0,
+                        dim > 2 ? (double) (k / width / width) / n - 1 : 0 };
         if (map) map (x);
-        check_ok (pg_maker_node (m, k, x));
+        check_ok (pg_mesh_builder_node (m, k, x));
     }
     for (int a = 0; a < dim; a++) cells *= n;
     for (int c = 0; c < cells; c++)
@@ -87,13 +95,14 @@ static inline pg_mesh block_mesh (pg_element kind, int n, void (*map) (double *x
                 double xi[3] = { 0 }, N[8], at[3] = { 0 };
                 pg_element_node (kind, k, xi);
                 pg_element_shape (parent, xi, N, NULL);
-                for (int i = 0; i < corners; i++) for (int a = 0; a < dim; a++) at[a] += 2 * N[i] * (low[a] + corner[list[i]][a]);
+                for (int i = 0; i < corners; i++)
+                    for (int a = 0; a < dim; a++) at[a] += 2 * N[i] * (low[a] + corner[list[i]][a]);
                 node[k] = lround (at[0]) + width * (lround (at[1]) + width * lround (at[2]));
             }
-            check_ok (pg_maker_element (m, id++, kind, node, 0, 0));
+            check_ok (pg_mesh_builder_element (m, id++, kind, node, 0, 0));
         }
-    check_ok (pg_maker_finish (m, &mesh));
-    pg_maker_free (&m);
+    check_ok (pg_mesh_builder_finish (m, &mesh));
+    pg_mesh_builder_free (&m);
     return mesh;
 }
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Input files of Abaqus and CalculiX: every element type, order of nodes and faces, sets, surfaces, include files, faults. */
+ * Input files of Abaqus and CalculiX: every element type, order of nodes and faces, sets, surfaces, include
+ * files, faults. */
 #include "check.h"
 #include "measure.h"
 #include "mesh/mesh_private.h"
@@ -7,7 +8,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static pg_status parse (pg_mesh *m, const char *text) { return mesh_parse (m, &(mesh_bytes) { "job.inp", text, strlen (text) }); }
+static pg_status parse (pg_mesh *m, const char *text)
+{
+    return mesh_parse (m, &(mesh_bytes){ "job.inp", text, strlen (text) });
+}
 
 static void wrong (const char *text, const char *why)
 {
@@ -34,20 +38,48 @@ static const pg_mesh_sides *sides_of (const pg_mesh *m, const char *name)
     return NULL;
 }
 
-/* Edges on which the middle nodes of an element lie, in the order of Abaqus (its manual, "Solid element library"), corners from 1. */
+/* Edges on which the middle nodes of an element lie, in the order of Abaqus (its manual, "Solid element
+ * library"), corners from 1. */
 typedef struct { const char *type; pg_element kind; int edge[12][2]; int face[6][4]; } sort;
 static const sort sorts[] = {
     { "CPE3", PG_TRI3, { { 0 } }, { { 1, 2 }, { 2, 3 }, { 3, 1 } } },
     { "CPS4R", PG_QUAD4, { { 0 } }, { { 1, 2 }, { 2, 3 }, { 3, 4 }, { 4, 1 } } },
     { "cps6", PG_TRI6, { { 1, 2 }, { 2, 3 }, { 3, 1 } }, { { 1, 2 }, { 2, 3 }, { 3, 1 } } },
-    { "CPE8RH", PG_QUAD8, { { 1, 2 }, { 2, 3 }, { 3, 4 }, { 4, 1 } }, { { 1, 2 }, { 2, 3 }, { 3, 4 }, { 4, 1 } } },
+    { "CPE8RH",
+      PG_QUAD8,
+      { { 1, 2 }, { 2, 3 }, { 3, 4 }, { 4, 1 } },
+      { { 1, 2 }, { 2, 3 }, { 3, 4 }, { 4, 1 } } },
     { "C3D4", PG_TET4, { { 0 } }, { { 1, 2, 3 }, { 1, 4, 2 }, { 2, 4, 3 }, { 3, 4, 1 } } },
-    { "C3D10M", PG_TET10, { { 1, 2 }, { 2, 3 }, { 3, 1 }, { 1, 4 }, { 2, 4 }, { 3, 4 } }, { { 1, 2, 3 }, { 1, 4, 2 }, { 2, 4, 3 }, { 3, 4, 1 } } },
-    { "C3D8I", PG_HEX8, { { 0 } }, { { 1, 2, 3, 4 }, { 5, 8, 7, 6 }, { 1, 5, 6, 2 }, { 2, 6, 7, 3 }, { 3, 7, 8, 4 }, { 4, 8, 5, 1 } } },
-    { "C3D20R", PG_HEX20, { { 1, 2 }, { 2, 3 }, { 3, 4 }, { 4, 1 }, { 5, 6 }, { 6, 7 }, { 7, 8 }, { 8, 5 }, { 1, 5 }, { 2, 6 }, { 3, 7 }, { 4, 8 } },
+    { "C3D10M",
+      PG_TET10,
+      { { 1, 2 }, { 2, 3 }, { 3, 1 }, { 1, 4 }, { 2, 4 }, { 3, 4 } },
+      { { 1, 2, 3 }, { 1, 4, 2 }, { 2, 4, 3 }, { 3, 4, 1 } } },
+    { "C3D8I",
+      PG_HEX8,
+      { { 0 } },
       { { 1, 2, 3, 4 }, { 5, 8, 7, 6 }, { 1, 5, 6, 2 }, { 2, 6, 7, 3 }, { 3, 7, 8, 4 }, { 4, 8, 5, 1 } } },
-    { "C3D6", PG_WEDGE6, { { 0 } }, { { 1, 2, 3 }, { 4, 6, 5 }, { 1, 4, 5, 2 }, { 2, 5, 6, 3 }, { 3, 6, 4, 1 } } },
-    { "C3D15", PG_WEDGE15, { { 1, 2 }, { 2, 3 }, { 3, 1 }, { 4, 5 }, { 5, 6 }, { 6, 4 }, { 1, 4 }, { 2, 5 }, { 3, 6 } },
+    { "C3D20R",
+      PG_HEX20,
+      { { 1, 2 },
+        { 2, 3 },
+        { 3, 4 },
+        { 4, 1 },
+        { 5, 6 },
+        { 6, 7 },
+        { 7, 8 },
+        { 8, 5 },
+        { 1, 5 },
+        { 2, 6 },
+        { 3, 7 },
+        { 4, 8 } },
+      { { 1, 2, 3, 4 }, { 5, 8, 7, 6 }, { 1, 5, 6, 2 }, { 2, 6, 7, 3 }, { 3, 7, 8, 4 }, { 4, 8, 5, 1 } } },
+    { "C3D6",
+      PG_WEDGE6,
+      { { 0 } },
+      { { 1, 2, 3 }, { 4, 6, 5 }, { 1, 4, 5, 2 }, { 2, 5, 6, 3 }, { 3, 6, 4, 1 } } },
+    { "C3D15",
+      PG_WEDGE15,
+      { { 1, 2 }, { 2, 3 }, { 3, 1 }, { 4, 5 }, { 5, 6 }, { 6, 4 }, { 1, 4 }, { 2, 5 }, { 3, 6 } },
       { { 1, 2, 3 }, { 4, 6, 5 }, { 1, 4, 5, 2 }, { 2, 5, 6, 3 }, { 3, 6, 4, 1 } } },
 };
 
@@ -73,21 +105,26 @@ static int edge_between (pg_element kind, int p, int q)
 static int ours (const sort *s, int k)
 {
     int corners = pg_element_types[s->kind].corners;
-    return k < corners ? k : corners + edge_between (s->kind, s->edge[k - corners][0] - 1, s->edge[k - corners][1] - 1);
+    return k < corners
+               ? k
+               : corners + edge_between (s->kind, s->edge[k - corners][0] - 1, s->edge[k - corners][1] - 1);
 }
 
 static void write_job (FILE *f, const pg_mesh *m, const sort *s)
 {
     int nodes = pg_element_types[s->kind].nodes;
     fprintf (f, "*Heading\nabc\n**\n*Node, nset=all\n");
-    for (size_t i = 0; i < m->nnode; i++) fprintf (f, "%zu, %.17g, %.17g, %.17g\n", i + 10, m->x[3 * i], m->x[3 * i + 1], m->x[3 * i + 2]);
+    for (size_t i = 0; i < m->nnode; i++)
+        fprintf (f, "%zu, %.17g, %.17g, %.17g\n", i + 10, m->x[3 * i], m->x[3 * i + 1], m->x[3 * i + 2]);
     fprintf (f, "*Element, type = %s,\n** in between\n elset=body\n", s->type);
     for (size_t e = 0; e < m->n; e++) {
         fprintf (f, "%zu", 7 + 2 * e);
-        for (int k = 0; k < nodes; k++) fprintf (f, ",%s %d", k % 7 == 6 ? "\r\n" : "", m->node[m->start[e] + (size_t) ours (s, k)] + 10);
+        for (int k = 0; k < nodes; k++)
+            fprintf (f, ",%s %d", k % 7 == 6 ? "\r\n" : "", m->node[m->start[e] + (size_t) ours (s, k)] + 10);
         fprintf (f, "\n");
     }
-    for (int side = 0; side < pg_element_types[s->kind].faces; side++) fprintf (f, "*SURFACE, NAME=f%d\nbody, S%d\n", side, side + 1);
+    for (int side = 0; side < pg_element_types[s->kind].faces; side++)
+        fprintf (f, "*SURFACE, NAME=f%d\nbody, S%d\n", side, side + 1);
     fprintf (f, "*Step\n*cload\n11, 1, 5.\n*end step\n");
 }
 
@@ -98,7 +135,8 @@ static void check_faces (const pg_mesh *m, const sort *s)
         snprintf (name, sizeof name, "f%d", f);
         const pg_mesh_sides *set = sides_of (m, name);
         assert_int_equal (set->n, m->n);
-        int node[9], corners = pg_element_types[pg_element_face (s->kind, set->side[0], node)].corners, found = 0;
+        int node[9], corners = pg_element_types[pg_element_face (s->kind, set->side[0], node)].corners,
+                     found = 0;
         for (int k = 0; k < corners; k++) for (int j = 0; j < 4; j++) found += node[k] == s->face[f][j] - 1;
         if (found != corners) print_error ("%s: face %d\n", s->type, f + 1);
         assert_int_equal (found, corners);
@@ -129,7 +167,8 @@ static void every_type_is_read_back (void **state)
         check_relative (surface_area (&b, &inside_b), area, 1e-14);
         for (size_t e = 0; e < a.n; e++)
             for (size_t j = a.start[e]; j < a.start[e + 1]; j++)
-                for (size_t c = 0; c < 3; c++) check_scaled (b.x[3 * (size_t) b.node[j] + c], a.x[3 * (size_t) a.node[j] + c], 1e-15, 1);
+                for (size_t c = 0; c < 3; c++)
+                    check_scaled (b.x[3 * (size_t) b.node[j] + c], a.x[3 * (size_t) a.node[j] + c], 1e-15, 1);
         assert_int_equal (nodes_of (&b, "all")->n, a.nnode);
         check_faces (&b, s);
         pg_mesh_clear (&a), pg_mesh_clear (&b);
@@ -144,9 +183,12 @@ static void sets_are_read (void **state)
 {
     (void) state;
     pg_mesh m;
-    check_ok (parse (&m, SQUARES TWO "*NSET,NSET=low\n1,2,\n5\n*nset , nset=\"odd ones\", generate\n1,100000000,2\n"
-                     "*ELSET,ELSET=both\nA,B\n*ELSET,ELSET=first,GENERATE\n1,1\n*NSET,NSET=mixed\nLow, 6\n*NSET,NSET=ofB,ELSET=b\n"
-                     "*SURFACE,NAME=right,TYPE=ELEMENT\n2,S2\n*SURFACE,TYPE=NODE,NAME=spots\nlow, 1.\n6\n*SURFACE,NAME=rim\nboth,E1\na,S4\n"));
+    check_ok (parse (&m, SQUARES TWO
+                     "*NSET,NSET=low\n1,2,\n5\n*nset , nset=\"odd ones\", generate\n1,100000000,2\n"
+                     "*ELSET,ELSET=both\nA,B\n*ELSET,ELSET=first,GENERATE\n1,1\n*NSET,NSET=mixed\nLow, "
+                     "6\n*NSET,NSET=ofB,ELSET=b\n"
+                     "*SURFACE,NAME=right,TYPE=ELEMENT\n2,S2\n*SURFACE,TYPE=NODE,NAME=spots\nlow, "
+                     "1.\n6\n*SURFACE,NAME=rim\nboth,E1\na,S4\n"));
     assert_int_equal (m.nblock, 2);
     assert_string_equal (m.blocks[1].name, "B");
     assert_int_equal (m.block[1], 1);
@@ -178,10 +220,14 @@ static void parts_and_sections_are_read (void **state)
 {
     (void) state;
     pg_mesh m;
-    check_ok (parse (&m, "*Part, name=P\n" SQUARES "*Element, type=CPS4R\n1,1,2,3,4\n2,2,5,6,3\n*Nset, nset=S\n1,2\n*Elset, elset=steel\n 2,\n*Elset, elset=S\n1\n"
-                     "*Solid Section, elset=steel, material=M\n,\n*Solid Section, elset=S, material=N\n,\n*End Part\n*Assembly, name=A\n*Instance, name=P-1, part=P\n0.,0.,0.\n*End Instance\n"
-                     "*Nset, nset=top, instance=P-1\n 3, 4\n*Nset, nset=bottom\nP-1.1, P-1.5\n*Elset, elset=_s_S1, internal, instance=P-1\n 1, 2\n"
-                     "*Surface, type=ELEMENT, name=s\n_s_S1, S1\n*End Assembly\n"));
+    check_ok (
+        parse (&m, "*Part, name=P\n" SQUARES "*Element, type=CPS4R\n1,1,2,3,4\n2,2,5,6,3\n*Nset, "
+                                             "nset=S\n1,2\n*Elset, elset=steel\n 2,\n*Elset, elset=S\n1\n"
+                   "*Solid Section, elset=steel, material=M\n,\n*Solid Section, elset=S, material=N\n,\n*End "
+                   "Part\n*Assembly, name=A\n*Instance, name=P-1, part=P\n0.,0.,0.\n*End Instance\n"
+                   "*Nset, nset=top, instance=P-1\n 3, 4\n*Nset, nset=bottom\nP-1.1, P-1.5\n*Elset, "
+                   "elset=_s_S1, internal, instance=P-1\n 1, 2\n"
+                   "*Surface, type=ELEMENT, name=s\n_s_S1, S1\n*End Assembly\n"));
     assert_int_equal (m.nblock, 2);
     assert_string_equal (m.blocks[m.block[0]].name, "S");
     assert_string_equal (m.blocks[m.block[1]].name, "steel");
@@ -195,7 +241,8 @@ static void lines_and_springs_beside_a_body (void **state)
 {
     (void) state;
     pg_mesh m;
-    check_ok (parse (&m, SQUARES "8,9,9,9\n" TWO "*ELEMENT,TYPE=T3D2,ELSET=edge\n11,1,2\n12,2,5\n*ELEMENT,TYPE=SPRINGA,ELSET=s\n13,1,2\n*ELEMENT,TYPE=MASS\n14,8\n"));
+    check_ok (parse (&m, SQUARES "8,9,9,9\n" TWO "*ELEMENT,TYPE=T3D2,ELSET=edge\n11,1,2\n12,2,5\n*ELEMENT,"
+                                                 "TYPE=SPRINGA,ELSET=s\n13,1,2\n*ELEMENT,TYPE=MASS\n14,8\n"));
     assert_int_equal (m.n, 2);
     assert_int_equal (m.nnode, 6);
     assert_int_equal (sides_of (&m, "edge")->n, 2);
@@ -206,7 +253,8 @@ static void shells_in_a_plane_are_plane_elements (void **state)
 {
     (void) state;
     pg_mesh m;
-    check_ok (parse (&m, SQUARES "*ELEMENT,TYPE=S4R,ELSET=A\n1,1,2,3,4\n2,2,5,6,3\n*SURFACE,NAME=up\nA,SPOS\n*SURFACE,NAME=edge\n1,E4\n*SURFACE,NAME=same\n1,S6\n"));
+    check_ok (parse (&m, SQUARES "*ELEMENT,TYPE=S4R,ELSET=A\n1,1,2,3,4\n2,2,5,6,3\n*SURFACE,NAME=up\nA,"
+                                 "SPOS\n*SURFACE,NAME=edge\n1,E4\n*SURFACE,NAME=same\n1,S6\n"));
     assert_int_equal (m.dim, 2);
     assert_int_equal (m.nsides, 2);
     assert_int_equal (sides_of (&m, "edge")->side[0], 3);
@@ -234,7 +282,9 @@ static void files_are_included (void **state)
     snprintf (nodes, sizeof nodes, "%s/sub/n.inc", folder);
     assert_int_equal (mkdir (sub, 0700), 0);
     write_file (nodes, "1,0,0\n2,1,0\n3,0,1\n");
-    write_file (main_path, "*NODE, INPUT=sub/n.inc\n4,1,1\n*ELEMENT,TYPE=C2D3\n1,1,2,3\n2,2,4,3\n*INCLUDE,INPUT = sub/none.inc\n");
+    write_file (main_path,
+                "*NODE, INPUT=sub/n.inc\n4,1,1\n*ELEMENT,TYPE=C2D3\n1,1,2,3\n2,2,4,3\n*INCLUDE,INPUT = "
+                "sub/none.inc\n");
     check_fails (pg_mesh_read (&m, main_path), PG_E_FILE);
     check_contains (pg_last_error (), "a.inp, line 6: the file it includes: ");
     check_contains (pg_last_error (), "sub/none.inc");
@@ -259,7 +309,8 @@ static void faults_name_their_line (void **state)
     wrong ("*NODE\n1,0,0,1x\n", "line 2: coordinate 3 of node 1 is '1x'");
     wrong ("*NODE\n1,0,nan\n", "line 2: coordinate 2 of node 1 is 'nan'");
     wrong ("*NODE, SYSTEM=C\n1,0,0\n", "line 1: nodes with SYSTEM=C are not read");
-    wrong (SQUARES "*ELEMENT,TYPE=CPX4\n", "line 8: elements of type 'CPX4' are not known (did you mean 'CPS4'?)");
+    wrong (SQUARES "*ELEMENT,TYPE=CPX4\n",
+           "line 8: elements of type 'CPX4' are not known (did you mean 'CPS4'?)");
     wrong (SQUARES "*ELEMENT,TYPE=CAX4\n", "elements of type 'CAX4' are not known");
     wrong (SQUARES "*ELEMENT\n", "*ELEMENT without TYPE=");
     wrong (SQUARES "*ELEMENT,TYPE=CPS4\n1,1,2,3\n*NSET\n", "line 9: element 1 has 3 of 4 nodes");
@@ -286,7 +337,8 @@ static void faults_name_their_line (void **state)
 static void no_memory_is_a_fault_everywhere (void **state)
 {
     (void) state;
-    static const char *const text = SQUARES TWO "*NSET,NSET=low\n1,2\n*ELSET,ELSET=both\nA,B\n*SURFACE,NAME=right\n2,S2\n*SOLID SECTION,ELSET=both\n";
+    static const char *const text = SQUARES TWO
+        "*NSET,NSET=low\n1,2\n*ELSET,ELSET=both\nA,B\n*SURFACE,NAME=right\n2,S2\n*SOLID SECTION,ELSET=both\n";
     pg_mesh m;
     size_t used = pg_memory_used (), before = pg_memory_calls ();
     check_ok (parse (&m, text));

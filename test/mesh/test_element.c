@@ -51,7 +51,8 @@ static void slopes_are_those_of_the_shapes (void **state)
             xi[a] = keep + h, pg_element_shape (kind, xi, up, NULL);
             xi[a] = keep - h, pg_element_shape (kind, xi, down, NULL);
             xi[a] = keep;
-            for (int i = 0; i < nodes_of (kind); i++) check_absolute (dN[i * d + a], (up[i] - down[i]) / (2 * h), 1e-9), sum += dN[i * d + a];
+            for (int i = 0; i < nodes_of (kind); i++)
+                check_absolute (dN[i * d + a], (up[i] - down[i]) / (2 * h), 1e-9), sum += dN[i * d + a];
             check_absolute (sum, 0, 1e-13);
         }
     }
@@ -78,7 +79,7 @@ static void polynomials_of_the_order_are_carried (void **state)
     }
 }
 
-/* ---- faces and edges -------------------------------------------------------------------------------------------------- */
+/* ---- faces and edges ----------------------------------------------------------------------------------- */
 /* Coordinates of the nodes; bend: quadratic map, the same for all elements. */
 static void nodes_at (pg_element kind, double bend, double *x)
 {
@@ -86,7 +87,9 @@ static void nodes_at (pg_element kind, double bend, double *x)
     for (int i = 0; i < nodes_of (kind); i++) {
         double n[3] = { 0, 0, 0 };
         pg_element_node (kind, i, n);
-        double y[3] = { 3 + 2 * n[0] + 0.3 * n[1] + bend * n[1] * n[1], 1 + n[1] - 0.2 * n[2] + bend * n[0] * n[2], -1 + 0.7 * n[2] + 0.1 * n[0] + bend * n[0] * n[1] };
+        double y[3] = { 3 + 2 * n[0] + 0.3 * n[1] + bend * n[1] * n[1],
+                        1 + n[1] - 0.2 * n[2] + bend * n[0] * n[2],
+                        -1 + 0.7 * n[2] + 0.1 * n[0] + bend * n[0] * n[1] };
         for (int a = 0; a < d; a++) x[i * d + a] = y[a];
     }
 }
@@ -95,26 +98,31 @@ static void faces_look_outward_and_close_the_element (void **state)
 {
     (void) state;
     EACH (kind) {
-        double x[81], face_x[27], xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS], place[3], normal[3], flux = 0, total[3] = { 0, 0, 0 }, volume = 0;
+        double x[81], face_x[27], xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS], place[3], normal[3],
+            flux = 0, total[3] = { 0, 0, 0 }, volume = 0;
         int d = dim_of (kind), node[9];
         if (d == 0) continue;
         nodes_at (kind, pg_element_types[kind].order == 2 ? 0.05 : 0, x);
         for (int f = 0; f < pg_element_types[kind].faces; f++) {
             pg_element face = pg_element_face (kind, f, node);
             assert_int_equal (dim_of (face), d - 1);
-            for (int k = 0; k < nodes_of (face); k++) for (int a = 0; a < d; a++) face_x[k * d + a] = x[node[k] * d + a];
+            for (int k = 0; k < nodes_of (face); k++)
+                for (int a = 0; a < d; a++) face_x[k * d + a] = x[node[k] * d + a];
             int n = pg_element_rule (face, 5, xi, w);
             for (int q = 0; q < n; q++) {
-                double size = pg_element_map (face, d, face_x, xi + q * (d - 1), place, normal) * w[q], length = 0;
-                if (d == 1) normal[0] = f == 0 ? -1 : 1;           /* a point has no side of its own                             */
-                for (int a = 0; a < d; a++) flux += size * place[a] * normal[a], total[a] += size * normal[a], length += normal[a] * normal[a];
+                double size = pg_element_map (face, d, face_x, xi + q * (d - 1), place, normal) * w[q],
+                       length = 0;
+                if (d == 1) normal[0] = f == 0 ? -1 : 1;           /* a point has no side of its own */
+                for (int a = 0; a < d; a++)
+                    flux += size * place[a] * normal[a], total[a] += size * normal[a],
+                        length += normal[a] * normal[a];
                 check_relative (length, 1, 1e-13);
             }
         }
         int n = pg_element_rule (kind, 5, xi, w);
         for (int q = 0; q < n; q++) volume += w[q] * pg_element_map (kind, d, x, xi + q * d, place, NULL);
         assert_true (volume > 0);
-        check_relative (flux, d * volume, 1e-12);              /* divergence theorem                                         */
+        check_relative (flux, d * volume, 1e-12);              /* divergence theorem */
         for (int a = 0; a < d; a++) check_absolute (total[a], 0, 1e-12);
     }
 }
@@ -127,16 +135,22 @@ static void middles_of_edges_and_faces_lie_half_way (void **state)
         int end[2], node[9], d = dim_of (kind), corners = pg_element_types[kind].corners;
         for (int e = 0; pg_element_types[kind].order == 2 && e < pg_element_types[kind].edges; e++) {
             pg_element_edge (kind, e, end);
-            pg_element_node (kind, end[0], a), pg_element_node (kind, end[1], b), pg_element_node (kind, corners + e, c);
+            pg_element_node (kind, end[0], a), pg_element_node (kind, end[1], b),
+                pg_element_node (kind, corners + e, c);
             for (int k = 0; k < d; k++) check_absolute (c[k], (a[k] + b[k]) / 2, 0);
         }
         for (int f = 0; f < pg_element_types[kind].faces; f++) {
             pg_element face = pg_element_face (kind, f, node);
-            for (int k = 0; k < nodes_of (face); k++) {        /* node k of the face lies where its own reference says       */
+            /* node k of the face lies where its own reference says */
+            for (int k = 0; k < nodes_of (face); k++) {
                 double N[27], xi[2], at[3] = { 0, 0, 0 };
                 int flat = pg_element_types[face].corners;
                 pg_element_node (face, k, xi);
-                pg_element_shape (flat == 3 ? PG_TRI3 : flat == 4 ? PG_QUAD4 : flat == 2 ? PG_BAR2 : PG_POINT1, xi, N, NULL);
+                pg_element_shape (flat == 3   ? PG_TRI3
+                                  : flat == 4 ? PG_QUAD4
+                                  : flat == 2 ? PG_BAR2
+                                              : PG_POINT1,
+                                  xi, N, NULL);
                 for (int i = 0; i < flat; i++) {
                     pg_element_node (kind, node[i], a);
                     for (int l = 0; l < d; l++) at[l] += N[i] * a[l];
@@ -148,7 +162,8 @@ static void middles_of_edges_and_faces_lie_half_way (void **state)
     }
 }
 
-/* An element turned inside out: the other way round in space, each node between the same corners as before, twice turned the same again. */
+/* An element turned inside out: the other way round in space, each node between the same corners as before,
+ * twice turned the same again. */
 static void a_mirrored_element_keeps_its_middles (void **state)
 {
     (void) state;
@@ -168,7 +183,7 @@ static void a_mirrored_element_keeps_its_middles (void **state)
     }
 }
 
-/* ---- quadrature ------------------------------------------------------------------------------------------------------- */
+/* ---- quadrature ---------------------------------------------------------------------------------------- */
 static double factorial (int n) { return n < 2 ? 1 : n * factorial (n - 1); }
 
 static double line_moment (int e) { return e % 2 ? 0 : 2.0 / (e + 1); }
@@ -177,9 +192,15 @@ static double moment (pg_element kind, const int e[3])
 {
     switch (kind) {
     case PG_TRI3: case PG_TRI6: return factorial (e[0]) * factorial (e[1]) / factorial (e[0] + e[1] + 2);
-    case PG_TET4: case PG_TET10: return factorial (e[0]) * factorial (e[1]) * factorial (e[2]) / factorial (e[0] + e[1] + e[2] + 3);
-    case PG_WEDGE6: case PG_WEDGE15: return factorial (e[0]) * factorial (e[1]) / factorial (e[0] + e[1] + 2) * line_moment (e[2]);
-    default: return line_moment (e[0]) * (dim_of (kind) > 1 ? line_moment (e[1]) : 1) * (dim_of (kind) > 2 ? line_moment (e[2]) : 1);
+    case PG_TET4:
+    case PG_TET10:
+        return factorial (e[0]) * factorial (e[1]) * factorial (e[2]) / factorial (e[0] + e[1] + e[2] + 3);
+    case PG_WEDGE6:
+    case PG_WEDGE15:
+        return factorial (e[0]) * factorial (e[1]) / factorial (e[0] + e[1] + 2) * line_moment (e[2]);
+    default:
+        return line_moment (e[0]) * (dim_of (kind) > 1 ? line_moment (e[1]) : 1)
+               * (dim_of (kind) > 2 ? line_moment (e[2]) : 1);
     }
 }
 
@@ -190,8 +211,10 @@ static void rules_are_exact_positive_and_inside (void **state)
     for (pg_element kind = PG_BAR2; kind < PG_ELEMENTS; kind++)
         for (int order = 1; order <= 5; order++) {
             double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS];
-            int d = dim_of (kind), n = pg_element_rule (kind, order, xi, w), corners = pg_element_types[kind].corners;
-            int simplex = d > 1 && corners == d + 1, wedge = corners == 6, degree = simplex || wedge ? simplex_degree[order] : 2 * order - 1;
+            int d = dim_of (kind), n = pg_element_rule (kind, order, xi, w),
+                corners = pg_element_types[kind].corners;
+            int simplex = d > 1 && corners == d + 1, wedge = corners == 6,
+                degree = simplex || wedge ? simplex_degree[order] : 2 * order - 1;
             if (wedge && degree > 2 * order - 1) degree = 2 * order - 1;
             assert_true (n <= PG_ELEMENT_POINTS);
             for (int q = 0; q < n; q++) {
@@ -238,7 +261,7 @@ static void rules_of_simplices_have_their_symmetry (void **state)
         }
 }
 
-/* ---- map -------------------------------------------------------------------------------------------------------------- */
+/* ---- map ----------------------------------------------------------------------------------------------- */
 static void places_are_found_again (void **state)
 {
     (void) state;
@@ -249,7 +272,7 @@ static void places_are_found_again (void **state)
         nodes_at (kind, pg_element_types[kind].order == 2 ? 0.1 : 0.05, x);
         for (unsigned k = 0; k < 50; k++) {
             inside (kind, k, xi);
-            if (k % 5 == 0) xi[0] += 0.5;                     /* also outside                                               */
+            if (k % 5 == 0) xi[0] += 0.5;                     /* also outside */
             pg_element_map (kind, d, x, xi, place, NULL);
             assert_int_equal (pg_element_invert (kind, x, place, back), 1);
             for (int a = 0; a < d; a++) check_absolute (back[a], xi[a], 1e-11);
@@ -283,25 +306,31 @@ static void outside_is_measured_in_reference_units (void **state)
 static void sizes_and_normals_of_lower_elements (void **state)
 {
     (void) state;
-    double line[6] = { 0, 0, 0, 2, 2, 1 }, surface[12] = { 0, 0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2 }, flat[4] = { 0, 0, 3, 4 }, n[3], place[3];
+    double line[6] = { 0, 0, 0, 2, 2, 1 }, surface[12] = { 0, 0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2 },
+           flat[4] = { 0, 0, 3, 4 }, n[3], place[3];
     check_relative (pg_element_map (PG_BAR2, 3, line, (double[1]) { 0 }, place, n), 1.5, 1e-15);
     check_relative (place[1], 1, 1e-15);
     check_relative (pg_element_map (PG_QUAD4, 3, surface, (double[2]) { 0.1, 0.2 }, place, n), 1, 1e-15);
     check_relative (n[0], 1, 1e-15);
     check_relative (pg_element_map (PG_BAR2, 2, flat, (double[1]) { 0 }, NULL, n), 2.5, 1e-15);
-    check_relative (n[0], 0.8, 1e-15);                     /* the element to the left of its side                        */
+    check_relative (n[0], 0.8, 1e-15);                     /* the element to the left of its side */
     check_relative (n[1], -0.6, 1e-15);
 }
 
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (shapes_are_one_at_their_node_and_sum_to_one), cmocka_unit_test (slopes_are_those_of_the_shapes),
-        cmocka_unit_test (polynomials_of_the_order_are_carried), cmocka_unit_test (faces_look_outward_and_close_the_element),
-        cmocka_unit_test (middles_of_edges_and_faces_lie_half_way), cmocka_unit_test (a_mirrored_element_keeps_its_middles),
+        cmocka_unit_test (shapes_are_one_at_their_node_and_sum_to_one),
+        cmocka_unit_test (slopes_are_those_of_the_shapes),
+        cmocka_unit_test (polynomials_of_the_order_are_carried),
+        cmocka_unit_test (faces_look_outward_and_close_the_element),
+        cmocka_unit_test (middles_of_edges_and_faces_lie_half_way),
+        cmocka_unit_test (a_mirrored_element_keeps_its_middles),
         cmocka_unit_test (rules_are_exact_positive_and_inside),
-        cmocka_unit_test (rules_of_simplices_have_their_symmetry), cmocka_unit_test (places_are_found_again),
-        cmocka_unit_test (a_flat_element_is_not_inverted), cmocka_unit_test (outside_is_measured_in_reference_units),
+        cmocka_unit_test (rules_of_simplices_have_their_symmetry),
+        cmocka_unit_test (places_are_found_again),
+        cmocka_unit_test (a_flat_element_is_not_inverted),
+        cmocka_unit_test (outside_is_measured_in_reference_units),
         cmocka_unit_test (sizes_and_normals_of_lower_elements),
     };
     return cmocka_run_group_tests_name ("mesh/element", tests, NULL, NULL);

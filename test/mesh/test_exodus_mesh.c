@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Exodus II: files written here through netCDF after its manual (SAND92-2137), every kind of element, sets, numbers, results, faults. */
+ * Exodus II: files written here through netCDF after its manual (SAND92-2137), every kind of element, sets,
+ * numbers, results, faults. */
 #include "check.h"
 #include "measure.h"
 #include "mesh/mesh_private.h"
@@ -8,7 +9,12 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#define NC(call) do { int rc_ = (call); if (rc_ != NC_NOERR) print_error ("%s: %s\n", #call, nc_strerror (rc_)); assert_int_equal (rc_, NC_NOERR); } while (0)
+#define NC(call) \
+    do { \
+        int rc_ = (call); \
+        if (rc_ != NC_NOERR) print_error ("%s: %s\n", #call, nc_strerror (rc_)); \
+        assert_int_equal (rc_, NC_NOERR); \
+    } while (0)
 
 /* Classic files are either defined or filled. */
 #define DEFINE(call) do { nc_redef (nc); NC (call); } while (0)
@@ -61,9 +67,9 @@ static void put_names (int nc, const char *name, size_t n, const char *const *te
 }
 
 typedef struct {
-    const char *type;                                  /* NULL: the usual one                                            */
-    int  together;                                     /* `coord` of old files                                           */
-    int  maps, sets, results, short_of;                /* short_of: elements said, not there                             */
+    const char *type;                                  /* NULL: the usual one */
+    int  together;                                     /* `coord` of old files */
+    int  maps, sets, results, short_of;                /* short_of: elements said, not there */
     int  bad_node, bad_side;
 } options;
 
@@ -75,7 +81,9 @@ static void put_places (int nc, const pg_mesh *m, int nodes, const options *o)
         char name[8] = { 'c', 'o', 'o', 'r', 'd', "xyz"[a], 0 };
         if (!o->together) DEFINE (nc_def_var (nc, name, NC_DOUBLE, 1, &nodes, &var));
         for (size_t i = 0; i < m->nnode; i++)
-            PUT (nc_put_var1_double (nc, var, o->together ? (size_t[2]) { (size_t) a, i } : (size_t[2]) { i, 0 }, &m->x[3 * i + (size_t) a]));
+            PUT (nc_put_var1_double (nc, var,
+                                     o->together ? (size_t[2]){ (size_t) a, i } : (size_t[2]){ i, 0 },
+                                     &m->x[3 * i + (size_t) a]));
     }
 }
 
@@ -84,7 +92,8 @@ static void put_block (int nc, const pg_mesh *m, const options *o)
     const pg_element_type *type = &pg_element_types[m->kind[0]];
     const char *name = o->type ? o->type : type->name;
     int *node = pg_calloc (m->start[m->n], sizeof *node), var;
-    int dims[2] = { dim_of (nc, "num_el_in_blk1", m->n), dim_of (nc, "num_nod_per_el1", (size_t) type->nodes) };
+    int dims[2] = { dim_of (nc, "num_el_in_blk1", m->n),
+                    dim_of (nc, "num_nod_per_el1", (size_t) type->nodes) };
     dim_of (nc, "num_el_blk", 1);
     for (size_t k = 0; k < m->start[m->n]; k++) node[k] = m->node[k] + 1;
     if (o->bad_node) node[0] = o->bad_node;
@@ -100,7 +109,8 @@ static void put_sets (int nc, const pg_mesh *m, const options *o)
     size_t n;
     int *element, *side, nodes[3] = { 1, 2, 3 };
     check_ok (pg_mesh_surface (m, &n, &element, &side));
-    for (size_t k = 0; k < n; k++) element[k]++, side[k] += o->type && strcmp (o->type, "SHELL4") == 0 ? 3 : 1;
+    for (size_t k = 0; k < n; k++)
+        element[k]++, side[k] += o->type && strcmp (o->type, "SHELL4") == 0 ? 3 : 1;
     if (o->bad_side) side[0] = o->bad_side;
     dim_of (nc, "num_side_sets", 1);
     int d = dim_of (nc, "num_side_ss1", n);
@@ -141,7 +151,8 @@ static void put_results (int nc, const pg_mesh *m, int nodes)
         DEFINE (nc_def_var (nc, text, NC_DOUBLE, 2, dims, &var));
         for (size_t s = 0; s < 2; s++)
             for (size_t i = 0; i < m->nnode; i++)
-                PUT (nc_put_var1_double (nc, var, (size_t[2]) { s, i }, &(double) { 1000 * (double) s + 100 * v + (double) i }));
+                PUT (nc_put_var1_double (nc, var, (size_t[2]){ s, i },
+                                         &(double){ 1000 * (double) s + 100 * v + (double) i }));
     }
 }
 
@@ -149,7 +160,8 @@ static void write_exodus (const pg_mesh *m, int format, options o)
 {
     int nc;
     NC (nc_create (path, NC_CLOBBER | format, &nc));
-    int nodes = dim_of (nc, "num_nodes", m->nnode), elements = dim_of (nc, "num_elem", m->n + (size_t) o.short_of);
+    int nodes = dim_of (nc, "num_nodes", m->nnode),
+        elements = dim_of (nc, "num_elem", m->n + (size_t) o.short_of);
     put_places (nc, m, nodes, &o);
     put_block (nc, m, &o);
     if (o.sets) put_sets (nc, m, &o);
@@ -165,18 +177,27 @@ static void bend (double *x)
     x[0] += 0.05 * y * x[2] + 0.1 * y * y;
 }
 
-static const pg_element solid[] = { PG_TRI3, PG_TRI6, PG_QUAD4, PG_QUAD8, PG_QUAD9, PG_TET4, PG_TET10, PG_WEDGE6, PG_WEDGE15, PG_HEX8, PG_HEX20, PG_HEX27 };
+static const pg_element solid[] = { PG_TRI3,  PG_TRI6,   PG_QUAD4,   PG_QUAD8, PG_QUAD9, PG_TET4,
+                                    PG_TET10, PG_WEDGE6, PG_WEDGE15, PG_HEX8,  PG_HEX20, PG_HEX27 };
 static const int format[] = { 0, NC_64BIT_OFFSET, NC_64BIT_DATA, NC_NETCDF4 };
 
 static void every_kind_is_read_back (void **state)
 {
     (void) state;
-    static const char *const other[PG_ELEMENTS] = { [PG_TRI3] = "TRIANGLE", [PG_QUAD4] = "SHELL4", [PG_TET10] = "TETRA10", [PG_HEX8] = "HEX", [PG_WEDGE6] = "WEDGE" };
+    static const char *const other[PG_ELEMENTS] = { [PG_TRI3] = "TRIANGLE",
+                                                    [PG_QUAD4] = "SHELL4",
+                                                    [PG_TET10] = "TETRA10",
+                                                    [PG_HEX8] = "HEX",
+                                                    [PG_WEDGE6] = "WEDGE" };
     for (int k = 0; k < 12; k++)
         for (int f = 0; f < 4; f++) {
             pg_mesh a = block_mesh (solid[k], 2, bend), b;
             double in_a, in_b, area = surface_area (&a, &in_a);
-            write_exodus (&a, format[f], (options) { .type = f % 2 ? other[solid[k]] : NULL, .together = f == 1, .maps = f > 1, .sets = 1 });
+            write_exodus (&a, format[f],
+                          (options){ .type = f % 2 ? other[solid[k]] : NULL,
+                                     .together = f == 1,
+                                     .maps = f > 1,
+                                     .sets = 1 });
             check_ok (pg_mesh_read (&b, path));
             assert_int_equal (b.dim, a.dim);
             assert_int_equal (b.n, a.n);
@@ -187,7 +208,8 @@ static void every_kind_is_read_back (void **state)
             assert_int_equal (b.nsides, 1);
             assert_string_equal (b.sides[0].name, "boundary");
             assert_int_equal (b.sides[0].id, 77);
-            check_relative (sides_area (&b, b.sides[0].n, b.sides[0].element, b.sides[0].side, &in_b), area, 1e-14);
+            check_relative (sides_area (&b, b.sides[0].n, b.sides[0].element, b.sides[0].side, &in_b), area,
+                            1e-14);
             check_relative (in_b, mesh_volume (&a), 1e-13);
             assert_string_equal (b.nodes[0].name, "three");
             assert_int_equal (b.nodes[0].n, 3);
@@ -217,7 +239,9 @@ static void results_are_grouped_by_their_suffixes (void **state)
         assert_int_equal (f[2].components, 6);
         for (size_t i = 0; i < b.nnode; i++) {
             check_relative (f[0].value[i], 1000 + (double) i, 1e-15);
-            for (int c = 0; c < b.dim; c++) check_relative (f[1].value[i * (size_t) b.dim + (size_t) c], 1000 + (c < 2 ? 100 + 100 * c : 400) + (double) i, 1e-15);
+            for (int c = 0; c < b.dim; c++)
+                check_relative (f[1].value[i * (size_t) b.dim + (size_t) c],
+                                1000 + (c < 2 ? 100 + 100 * c : 400) + (double) i, 1e-15);
             check_relative (f[2].value[6 * i + 1], 1300 + (double) i, 1e-15);
             check_relative (f[2].value[6 * i], 1500 + (double) i, 1e-15);
             check_relative (f[2].value[6 * i + 3], 1600 + (double) i, 1e-15);
@@ -250,7 +274,8 @@ static void faults_say_what_is_wrong (void **state)
     pg_mesh m = block_mesh (PG_QUAD4, 2, NULL), b;
     pg_mesh_field *f;
     size_t n;
-    wrong (&m, (options) { .type = "PYRAMID" }, "block 1 has elements 'PYRAMID' of 4 nodes; known are BAR, TRI");
+    wrong (&m, (options){ .type = "PYRAMID" },
+           "block 1 has elements 'PYRAMID' of 4 nodes; known are BAR, TRI");
     wrong (&m, (options) { .type = "TRI3" }, "elements 'TRI3' of 4 nodes");
     wrong (&m, (options) { .short_of = 3 }, "its blocks have 4 of the 7 elements of the file");
     wrong (&m, (options) { .bad_node = 999 }, "element 1");
@@ -315,7 +340,9 @@ static void changed_headers_are_answered (void **state)
                 pg_status status = mesh_parse (&b, &file);
                 if (status == PG_OK) pg_mesh_clear (&b);
                 else assert_int_equal (status, PG_E_FILE);
-                if (status != PG_OK && strstr (pg_last_error (), "the header of this netCDF file is broken near byte")) broken++;
+                if (status != PG_OK
+                    && strstr (pg_last_error (), "the header of this netCDF file is broken near byte"))
+                    broken++;
             }
             text[n] = was;
         }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Search: every place inside curved meshes of every kind of element is found, ties, places outside, graded meshes; fields between nodes. */
+ * Search: every place inside curved meshes of every kind of element is found, ties, places outside, graded
+ * meshes; fields between nodes. */
 #include "check.h"
 #include "measure.h"
 
@@ -9,7 +10,8 @@ static double noise (unsigned k)
     return (double) k / 4294967296.0;
 }
 
-static const pg_element solid[] = { PG_BAR2, PG_BAR3, PG_TRI3, PG_TRI6, PG_QUAD4, PG_QUAD8, PG_QUAD9, PG_TET4, PG_TET10, PG_WEDGE6, PG_WEDGE15, PG_HEX8, PG_HEX20, PG_HEX27 };
+static const pg_element solid[] = { PG_BAR2, PG_BAR3,  PG_TRI3,   PG_TRI6,    PG_QUAD4, PG_QUAD8, PG_QUAD9,
+                                    PG_TET4, PG_TET10, PG_WEDGE6, PG_WEDGE15, PG_HEX8,  PG_HEX20, PG_HEX27 };
 enum { SOLIDS = sizeof solid / sizeof *solid };
 
 static void bend (double *x)
@@ -20,12 +22,15 @@ static void bend (double *x)
 
 static void bend_line (double *x) { x[0] += 0.2 * x[0] * x[0]; }
 
-static pg_mesh curved (pg_element kind, int n) { return block_mesh (kind, n, pg_element_types[kind].dim == 1 ? bend_line : bend); }
-
-static pg_mesh_finder *finder_of (const pg_mesh *m)
+static pg_mesh curved (pg_element kind, int n)
 {
-    pg_mesh_finder *f = NULL;
-    check_ok (pg_finder_create (&f, m));
+    return block_mesh (kind, n, pg_element_types[kind].dim == 1 ? bend_line : bend);
+}
+
+static pg_mesh_locator *locator_of (const pg_mesh *m)
+{
+    pg_mesh_locator *f = NULL;
+    check_ok (pg_mesh_locator_create (&f, m));
     return f;
 }
 
@@ -50,16 +55,16 @@ static void every_place_inside_is_found (void **state)
     (void) state;
     for (int k = 0; k < SOLIDS; k++) {
         pg_mesh m = curved (solid[k], 3);
-        pg_mesh_finder *f = finder_of (&m);
+        pg_mesh_locator *f = locator_of (&m);
         for (size_t e = 0; e < m.n; e++)
             for (unsigned s = 0; s < 5; s++) {
                 double xi[3], place[3], found[3], away = 1;
                 place_in (&m, e, 100 * (unsigned) e + s, xi, place);
-                assert_int_equal (pg_finder_find (f, place, found, &away), e);
+                assert_int_equal (pg_mesh_locator_find (f, place, found, &away), e);
                 assert_true (away == 0);
                 for (int a = 0; a < m.dim; a++) check_absolute (found[a], xi[a], 1e-10);
             }
-        pg_finder_free (&f);
+        pg_mesh_locator_free (&f);
         assert_null (f);
         pg_mesh_clear (&m);
     }
@@ -71,15 +76,15 @@ static void the_lowest_of_several_elements_is_taken (void **state)
     (void) state;
     for (int k = 0; k < SOLIDS; k++) {
         pg_mesh m = curved (solid[k], 3);
-        pg_mesh_finder *f = finder_of (&m);
+        pg_mesh_locator *f = locator_of (&m);
         for (size_t i = 0; i < m.nnode; i++) {
             double xi[3], away;
             size_t lowest = m.n;
             for (size_t e = m.n; e-- > 0; )
                 for (size_t j = m.start[e]; j < m.start[e + 1]; j++) if ((size_t) m.node[j] == i) lowest = e;
-            assert_int_equal (pg_finder_find (f, m.x + 3 * i, xi, &away), lowest);
+            assert_int_equal (pg_mesh_locator_find (f, m.x + 3 * i, xi, &away), lowest);
         }
-        pg_finder_free (&f), pg_mesh_clear (&m);
+        pg_mesh_locator_free (&f), pg_mesh_clear (&m);
     }
 }
 
@@ -89,7 +94,7 @@ static void places_outside_give_the_nearest_inside (void **state)
     (void) state;
     for (int k = 2; k < SOLIDS; k++) {
         pg_mesh m = block_mesh (solid[k], 4, NULL);
-        pg_mesh_finder *f = finder_of (&m);
+        pg_mesh_locator *f = locator_of (&m);
         int dim = m.dim;
         for (unsigned s = 0; s < 40; s++) {
             double place[3], near[3], xi[3], x[81], at[3], away, d = 0;
@@ -98,7 +103,7 @@ static void places_outside_give_the_nearest_inside (void **state)
                 near[a] = fmax (-1, fmin (1, place[a]));
                 d += (place[a] - near[a]) * (place[a] - near[a]);
             }
-            long e = pg_finder_find (f, place, xi, &away);
+            long e = pg_mesh_locator_find (f, place, xi, &away);
             if (sqrt (d) > 0.5 * (1 + 1e-12)) {
                 assert_int_equal (e, -1);
                 continue;
@@ -109,9 +114,9 @@ static void places_outside_give_the_nearest_inside (void **state)
             pg_element_map (solid[k], dim, x, xi, at, NULL);
             for (int a = 0; a < dim; a++) check_absolute (at[a], near[a], 1e-9);
             check_below (pg_element_outside (solid[k], xi), 1e-9);
-            assert_int_equal (pg_finder_find (f, place, xi, NULL), d > 0 ? -1 : e);
+            assert_int_equal (pg_mesh_locator_find (f, place, xi, NULL), d > 0 ? -1 : e);
         }
-        pg_finder_free (&f), pg_mesh_clear (&m);
+        pg_mesh_locator_free (&f), pg_mesh_clear (&m);
     }
 }
 
@@ -122,7 +127,7 @@ static void nearest_on_a_curved_boundary (void **state)
     static const pg_element kinds[] = { PG_TRI6, PG_QUAD8, PG_QUAD9 };
     for (int k = 0; k < 3; k++) {
         pg_mesh m = curved (kinds[k], 3);
-        pg_mesh_finder *f = finder_of (&m);
+        pg_mesh_locator *f = locator_of (&m);
         size_t n;
         int *element, *side;
         check_ok (pg_mesh_surface (&m, &n, &element, &side));
@@ -133,7 +138,7 @@ static void nearest_on_a_curved_boundary (void **state)
             element_places (&m, (size_t) element[j], 3, node, x);
             pg_element_map (face, 2, x, (double[1]) { 0.3 }, foot, normal);
             for (int a = 0; a < 2; a++) place[a] = foot[a] + 0.05 * normal[a];
-            long e = pg_finder_find (f, place, xi, &away);
+            long e = pg_mesh_locator_find (f, place, xi, &away);
             assert_true (e >= 0);
             element_places (&m, (size_t) e, pg_element_types[kinds[k]].nodes, NULL, all);
             pg_element_map (kinds[k], 2, all, xi, at, NULL);
@@ -148,11 +153,14 @@ static void nearest_on_a_curved_boundary (void **state)
             check_below (hypot (at[0] - place[0], at[1] - place[1]), least * (1 + 1e-9));
         }
         pg_free (element), pg_free (side);
-        pg_finder_free (&f), pg_mesh_clear (&m);
+        pg_mesh_locator_free (&f), pg_mesh_clear (&m);
     }
 }
 
-static void grade (double *x) { for (int a = 0; a < 2; a++) x[a] = (exp (12 * (x[a] + 1) / 2) - 1) / (exp (12.0) - 1); }
+static void grade (double *x)
+{
+    for (int a = 0; a < 2; a++) x[a] = (exp (12 * (x[a] + 1) / 2) - 1) / (exp (12.0) - 1);
+}
 
 static void graded_and_far_meshes_are_searched (void **state)
 {
@@ -160,14 +168,14 @@ static void graded_and_far_meshes_are_searched (void **state)
     pg_mesh m = block_mesh (PG_QUAD4, 30, grade);
     for (int far = 0; far < 2; far++) {
         for (size_t i = 0; far && i < m.nnode; i++) m.x[3 * i] += 1e3, m.x[3 * i + 1] -= 2e3;
-        pg_mesh_finder *f = finder_of (&m);
+        pg_mesh_locator *f = locator_of (&m);
         for (size_t e = 0; e < m.n; e++) {
             double xi[3], place[3], found[3], away;
             place_in (&m, e, (unsigned) e, xi, place);
-            if (far && e < m.n / 2) continue;                /* the smallest elements are lost in rounding there               */
-            assert_int_equal (pg_finder_find (f, place, found, &away), e);
+            if (far && e < m.n / 2) continue;  /* the smallest elements are lost in rounding there */
+            assert_int_equal (pg_mesh_locator_find (f, place, found, &away), e);
         }
-        pg_finder_free (&f);
+        pg_mesh_locator_free (&f);
     }
     pg_mesh_clear (&m);
 }
@@ -176,26 +184,30 @@ static void what_is_no_place_is_nowhere (void **state)
 {
     (void) state;
     pg_mesh m = block_mesh (PG_TRI3, 1, NULL), none = { .dim = 2 };
-    pg_mesh_finder *f = finder_of (&m);
+    pg_mesh_locator *f = locator_of (&m);
     double xi[3], away;
-    assert_int_equal (pg_finder_find (f, (double[2]) { NAN, 0 }, xi, &away), -1);
-    assert_int_equal (pg_finder_find (f, (double[2]) { HUGE_VAL, 0 }, xi, &away), -1);
-    assert_int_equal (pg_finder_find (f, (double[2]) { 1e300, 0 }, xi, &away), -1);
-    pg_finder_free (&f);
-    pg_finder_free (&f);
-    check_fails (pg_finder_create (&f, &none), PG_E_USAGE);
+    assert_int_equal (pg_mesh_locator_find (f, (double[2]) { NAN, 0 }, xi, &away), -1);
+    assert_int_equal (pg_mesh_locator_find (f, (double[2]) { HUGE_VAL, 0 }, xi, &away), -1);
+    assert_int_equal (pg_mesh_locator_find (f, (double[2]) { 1e300, 0 }, xi, &away), -1);
+    pg_mesh_locator_free (&f);
+    pg_mesh_locator_free (&f);
+    check_fails (pg_mesh_locator_create (&f, &none), PG_E_USAGE);
     size_t used = pg_memory_used ();
     for (size_t k = 1; k < 7; k++) {
         pg_memory_fail_at (k);
-        check_fails (pg_finder_create (&f, &m), PG_E_MEMORY);
+        check_fails (pg_mesh_locator_create (&f, &m), PG_E_MEMORY);
         assert_int_equal (pg_memory_used (), used);
     }
     pg_memory_fail_at (0);
     pg_mesh_clear (&m);
 }
 
-/* ---- fields ----------------------------------------------------------------------------------------------------------- */
-static double quadratic (const double *x) { return 1 + x[0] - 2 * x[1] + 0.5 * x[2] + x[0] * x[0] - x[0] * x[1] + 3 * x[1] * x[1] + x[2] * x[0] - x[2] * x[2]; }
+/* ---- fields -------------------------------------------------------------------------------------------- */
+static double quadratic (const double *x)
+{
+    return 1 + x[0] - 2 * x[1] + 0.5 * x[2] + x[0] * x[0] - x[0] * x[1] + 3 * x[1] * x[1] + x[2] * x[0]
+           - x[2] * x[2];
+}
 
 static void slope (const double *x, double *g)
 {
@@ -233,7 +245,9 @@ static void skew (double *x)
 static void quadratic_fields_are_exact_on_straight_elements (void **state)
 {
     (void) state;
-    static const pg_element kinds[] = { PG_TRI6, PG_QUAD8, PG_QUAD9, PG_TET10, PG_WEDGE15, PG_HEX20, PG_HEX27 };
+    static const pg_element kinds[] = {
+        PG_TRI6, PG_QUAD8, PG_QUAD9, PG_TET10, PG_WEDGE15, PG_HEX20, PG_HEX27
+    };
     for (int k = 0; k < 7; k++) {
         double value, gradient;
         errors (kinds[k], 2, skew, &value, &gradient);
@@ -251,7 +265,8 @@ static void fields_converge_on_curved_elements (void **state)
         int order = pg_element_types[solid[k]].order;
         errors (solid[k], 4, bend, &v[0], &g[0]);
         errors (solid[k], 8, bend, &v[1], &g[1]);
-        if (!(log2 (v[0] / v[1]) > order + 0.8) || !(log2 (g[0] / g[1]) > order - 0.2)) print_error ("%s: %g %g, %g %g\n", pg_element_types[solid[k]].name, v[0], v[1], g[0], g[1]);
+        if (!(log2 (v[0] / v[1]) > order + 0.8) || !(log2 (g[0] / g[1]) > order - 0.2))
+            print_error ("%s: %g %g, %g %g\n", pg_element_types[solid[k]].name, v[0], v[1], g[0], g[1]);
         assert_true (log2 (v[0] / v[1]) > order + 0.8);
         assert_true (log2 (g[0] / g[1]) > order - 0.2);
     }

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Results of CalculiX: patch tests of every element that ccx computed, between nodes; steps, plane elements made solid, faults. */
+ * Results of CalculiX: patch tests of every element that ccx computed, between nodes; steps, plane elements
+ * made solid, faults. */
 #include "check.h"
 #include "measure.h"
 #include "mesh/mesh_private.h"
 #include <stdlib.h>
 
-/* The displacement that data/mesh/ccx/make.py prescribes is A x. Text has six digits, binary results are floats. */
+/* The displacement that data/mesh/ccx/make.py prescribes is A x. Text has six digits, binary results are
+ * floats. */
 static const double A[3][3] = { { 1e-3, 2e-4, 0 }, { -1e-4, -3e-4, 1e-4 }, { 5e-5, 0, 2e-4 } };
 typedef struct { pg_mesh mesh; size_t n; pg_mesh_field *field; double time; } result;
 
@@ -32,8 +34,9 @@ static const pg_mesh_field *field_of (const result *r, const char *name)
     return NULL;
 }
 
-/* Displacement, its gradient and strain inside every element. The strains that ccx wrote at the nodes of these constant fields are up to 5e-5
- * off (read in c3d20.frd; the displacements are not): seen between the nodes 1.4e-4, allowed 2e-4. */
+/* Displacement, its gradient and strain inside every element. The strains that ccx wrote at the nodes of
+ * these constant fields are up to 5e-5 off (read in c3d20.frd; the displacements are not): seen between the
+ * nodes 1.4e-4, allowed 2e-4. */
 static void check_patch (const result *r, double factor, double tolerance)
 {
     static const int row[6] = { 0, 1, 2, 0, 1, 2 }, column[6] = { 0, 1, 2, 1, 2, 0 };
@@ -63,7 +66,8 @@ static void check_patch (const result *r, double factor, double tolerance)
             pg_mesh_value (m, strain, e, at, value);
             for (size_t k = 0; k < 6; k++)
                 if ((size_t) row[k] < dim && (size_t) column[k] < dim)
-                    check_scaled (value[k], factor * (A[row[k]][column[k]] + A[column[k]][row[k]]) / 2, 2e-4, factor * 1e-3);
+                    check_scaled (value[k], factor * (A[row[k]][column[k]] + A[column[k]][row[k]]) / 2, 2e-4,
+                                  factor * 1e-3);
         }
     }
 }
@@ -71,9 +75,11 @@ static void check_patch (const result *r, double factor, double tolerance)
 static void every_solid_element_passes_the_patch_test (void **state)
 {
     (void) state;
-    static const struct { const char *name; pg_element kind; double tolerance; } sample[] = {
-        { "c3d4", PG_TET4, 1e-5 }, { "c3d10", PG_TET10, 1e-5 }, { "c3d6", PG_WEDGE6, 1e-5 }, { "c3d15", PG_WEDGE15, 1e-5 }, { "c3d8", PG_HEX8, 1e-5 },
-        { "c3d20", PG_HEX20, 1e-5 }, { "c3d20_binary", PG_HEX20, 3e-7 } };
+    static const struct { const char *name; pg_element kind; double tolerance;
+    } sample[] = { { "c3d4", PG_TET4, 1e-5 },         { "c3d10", PG_TET10, 1e-5 },
+                   { "c3d6", PG_WEDGE6, 1e-5 },       { "c3d15", PG_WEDGE15, 1e-5 },
+                   { "c3d8", PG_HEX8, 1e-5 },         { "c3d20", PG_HEX20, 1e-5 },
+                   { "c3d20_binary", PG_HEX20, 3e-7 } };
     for (size_t k = 0; k < sizeof sample / sizeof *sample; k++) {
         result r = open_result (sample[k].name, -1);
         assert_int_equal (r.mesh.kind[0], sample[k].kind);
@@ -129,7 +135,9 @@ static void plane_elements_made_solid_become_plane (void **state)
 static void sets_stay_when_a_mesh_becomes_plane (void **state)
 {
     (void) state;
-    static const char *const text = "*NODE\n1,0,0,-1\n2,1,0,-1\n3,1,1,-1\n4,0,1,-1\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n*ELEMENT,TYPE=C3D8,ELSET=A\n1,1,2,3,4,5,6,7,8\n"
+    static const char *const text =
+        "*NODE\n1,0,0,-1\n2,1,0,-1\n3,1,1,-1\n4,0,1,-1\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n*ELEMENT,TYPE="
+        "C3D8,ELSET=A\n1,1,2,3,4,5,6,7,8\n"
         "*NSET,NSET=upper\n5,6\n*NSET,NSET=corner\n3\n*SURFACE,NAME=left\nA,S6\n*SURFACE,NAME=flat\nA,S2\n";
     pg_mesh m;
     check_ok (mesh_parse (&m, &(mesh_bytes) { "plate.inp", text, strlen (text) }));
@@ -152,17 +160,24 @@ static pg_status parse (result *r, const char *text, size_t n)
     return mesh_parse_result (&r->mesh, &(mesh_bytes) { "job.frd", text, n }, -1, &r->n, &r->field, &r->time);
 }
 
-#define COUNT(key, n, format) "    " key "                  " "           " n "                                     " format "\n"
-#define SHORT_NODES COUNT ("2C", "3", "0") " -1    1 0.00000E+00 0.00000E+00 0.00000E+00\n -1    2 2.00000E+00 0.00000E+00 0.00000E+00\n" \
+#define COUNT(key, n, format) \
+    "    " key "                  " \
+    "           " n "                                     " format "\n"
+#define SHORT_NODES \
+    COUNT ("2C", "3", "0") \
+    " -1    1 0.00000E+00 0.00000E+00 0.00000E+00\n -1    2 2.00000E+00 0.00000E+00 0.00000E+00\n" \
     " -1    3-1.00000E+00 1.00000E+00 0.00000E+00\n -3\n"
 #define SHORT_ELEMENT COUNT ("3C", "1", "0") " -1    7    7    0    2\n -2    1    2    3\n -3\n"
-#define HEAD(n) "  100CL  101 2.500000000           " n "                     0    1           0\n -4  TEMP        2    1\n -5  T           1    1    0    0\n" \
+#define HEAD(n) \
+    "  100CL  101 2.500000000           " n \
+    "                     0    1           0\n -4  TEMP        2    1\n -5  T           1    1    0    0\n" \
     " -5  ALL         1    1    0    0    1ALL\n"
 
 static void short_columns_are_read (void **state)
 {
     (void) state;
-    static const char *const text = "    1C\n" SHORT_NODES SHORT_ELEMENT HEAD ("3") " -1    1-1.00000E+00\n -1    2 2.00000E+00\n -1    3 3.00000E-01\n -3\n 9999\n";
+    static const char *const text = "    1C\n" SHORT_NODES SHORT_ELEMENT HEAD (
+        "3") " -1    1-1.00000E+00\n -1    2 2.00000E+00\n -1    3 3.00000E-01\n -3\n 9999\n";
     result r;
     check_ok (parse (&r, text, strlen (text)));
     check_relative (mesh_volume (&r.mesh), 1, 1e-15);
@@ -190,17 +205,25 @@ static void faults_name_their_line (void **state)
     wrong ("    1C\n", "job.frd");
     wrong ("    1C\n    2C\n", "job.frd, line 2: no number of nodes");
     wrong ("    1C\n" COUNT ("2C", "3", "7"), "line 2: the format of the nodes is none of 0");
-    wrong ("    1C\n" COUNT ("2C", "3", "0") " -1    1 0.00000E+00 x\n", "line 3: node 1: coordinate 2 is no number");
-    wrong ("    1C\n" COUNT ("2C", "3", "0") " -1    1 0.00000E+00 0.00000E+00 0.00000E+00\n -3\n", "line 4: 1 nodes, but the block says 3");
+    wrong ("    1C\n" COUNT ("2C", "3", "0") " -1    1 0.00000E+00 x\n",
+           "line 3: node 1: coordinate 2 is no number");
+    wrong ("    1C\n" COUNT ("2C", "3", "0") " -1    1 0.00000E+00 0.00000E+00 0.00000E+00\n -3\n",
+           "line 4: 1 nodes, but the block says 3");
     wrong ("    1C\n" COUNT ("2C", "9", "3") "short", "line 2: the file ends within node 1 of 9");
-    wrong ("    1C\n" SHORT_NODES COUNT ("3C", "1", "0") " -1    7   13    0    2\n", "line 8: element 7 is of kind 13");
-    wrong ("    1C\n" SHORT_NODES COUNT ("3C", "1", "0") " -1    7    7    0    2\n -2    1    2\n", "line 9: element 7 has 2 of 3 nodes");
-    wrong ("    1C\n" SHORT_NODES COUNT ("3C", "1", "0") " -1    7    7    0    2\n -2    1    2    9\n -3\n", "line 8: element 7");
+    wrong ("    1C\n" SHORT_NODES COUNT ("3C", "1", "0") " -1    7   13    0    2\n",
+           "line 8: element 7 is of kind 13");
+    wrong ("    1C\n" SHORT_NODES COUNT ("3C", "1", "0") " -1    7    7    0    2\n -2    1    2\n",
+           "line 9: element 7 has 2 of 3 nodes");
+    wrong ("    1C\n" SHORT_NODES COUNT ("3C", "1", "0") " -1    7    7    0    2\n -2    1    2    9\n -3\n",
+           "line 8: element 7");
     wrong ("    1C\n" SHORT_NODES COUNT ("3C", "9", "2") "short", "the file ends within element 1 of 9");
     wrong ("    1C\n" SHORT_NODES SHORT_ELEMENT, "job.frd holds a mesh and no results at nodes");
-    wrong ("    1C\n" SHORT_NODES SHORT_ELEMENT HEAD ("3") " -1    1-1.00000E+00\n", "the file ends within TEMP");
-    wrong ("    1C\n" SHORT_NODES SHORT_ELEMENT HEAD ("1") " -1    1-1.00000E+00\n -3\n", "TEMP is given at 1 of 3 nodes");
-    wrong ("    1C\n" SHORT_NODES SHORT_ELEMENT HEAD ("1") " -1    1 nan\n -3\n", "TEMP at node 1: value 1 is no number");
+    wrong ("    1C\n" SHORT_NODES SHORT_ELEMENT HEAD ("3") " -1    1-1.00000E+00\n",
+           "the file ends within TEMP");
+    wrong ("    1C\n" SHORT_NODES SHORT_ELEMENT HEAD ("1") " -1    1-1.00000E+00\n -3\n",
+           "TEMP is given at 1 of 3 nodes");
+    wrong ("    1C\n" SHORT_NODES SHORT_ELEMENT HEAD ("1") " -1    1 nan\n -3\n",
+           "TEMP at node 1: value 1 is no number");
 }
 
 /* Cut anywhere, a file is a fault or a smaller file, never more. */
@@ -229,7 +252,8 @@ static void cut_files_are_faults (void **state)
 static void no_memory_is_a_fault_everywhere (void **state)
 {
     (void) state;
-    static const char *const text = "    1C\n" SHORT_NODES SHORT_ELEMENT HEAD ("3") " -1    1-1.00000E+00\n -1    2 2.00000E+00\n -1    3 3.00000E-01\n -3\n";
+    static const char *const text = "    1C\n" SHORT_NODES SHORT_ELEMENT HEAD (
+        "3") " -1    1-1.00000E+00\n -1    2 2.00000E+00\n -1    3 3.00000E-01\n -3\n";
     result r;
     size_t before = pg_memory_calls ();
     check_ok (parse (&r, text, strlen (text)));

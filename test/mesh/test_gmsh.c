@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Gmsh files: samples of every kind of element and variant, both byte orders, groups, faults. Run from the top folder. */
+ * Gmsh files: samples of every kind of element and variant, both byte orders, groups, faults. Run from the
+ * top folder. */
 #include "check.h"
 #include "mesh/mesh_private.h"
 #include "measure.h"
@@ -30,15 +31,19 @@ static const pg_mesh_nodes *nodes (const pg_mesh *m, const char *name)
     return NULL;
 }
 
-/* ---- samples ---------------------------------------------------------------------------------------------------------- */
+/* ---- samples ------------------------------------------------------------------------------------------- */
 static void every_kind_is_read (void **state)
 {
     (void) state;
-    static const struct { const char *name; pg_element kind; double volume, area, off; } list[] = {
-        { "disk_tri3", PG_TRI3, 0.84, 2.8, 0.03 }, { "disk_tri6_41", PG_TRI6, 0.84, 2.8, 3e-4 }, { "disk_quad4", PG_QUAD4, 0.84, 2.8, 0.03 },
-        { "disk_quad8", PG_QUAD8, 0.84, 2.8, 3e-4 }, { "disk_quad9", PG_QUAD9, 0.84, 2.8, 3e-4 }, { "box_hex8", PG_HEX8, 0, 0, 1e-14 },
-        { "box_hex20_22", PG_HEX20, 0, 0, 1e-14 }, { "box_hex27", PG_HEX27, 0, 0, 1e-14 }, { "cylinder_wedge6", PG_WEDGE6, 1.5, 5, 0.11 },
-        { "cylinder_wedge15", PG_WEDGE15, 1.5, 5, 2e-3 }, { "ball_tet4", PG_TET4, 4.0 / 3, 4, 0.16 }, { "ball_tet10", PG_TET10, 4.0 / 3, 4, 0.02 } };
+    static const struct { const char *name; pg_element kind; double volume, area, off;
+    } list[] = {
+        { "disk_tri3", PG_TRI3, 0.84, 2.8, 0.03 },      { "disk_tri6_41", PG_TRI6, 0.84, 2.8, 3e-4 },
+        { "disk_quad4", PG_QUAD4, 0.84, 2.8, 0.03 },    { "disk_quad8", PG_QUAD8, 0.84, 2.8, 3e-4 },
+        { "disk_quad9", PG_QUAD9, 0.84, 2.8, 3e-4 },    { "box_hex8", PG_HEX8, 0, 0, 1e-14 },
+        { "box_hex20_22", PG_HEX20, 0, 0, 1e-14 },      { "box_hex27", PG_HEX27, 0, 0, 1e-14 },
+        { "cylinder_wedge6", PG_WEDGE6, 1.5, 5, 0.11 }, { "cylinder_wedge15", PG_WEDGE15, 1.5, 5, 2e-3 },
+        { "ball_tet4", PG_TET4, 4.0 / 3, 4, 0.16 },     { "ball_tet10", PG_TET10, 4.0 / 3, 4, 0.02 }
+    };
     for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
         pg_mesh mesh = sample (list[k].name);
         double inside, area = surface_area (&mesh, &inside), volume = mesh_volume (&mesh);
@@ -53,7 +58,8 @@ static void every_kind_is_read (void **state)
 static void groups_of_the_disk (void **state)
 {
     (void) state;
-    static const char *const names[] = { "disk_tri3", "disk_tri6_22", "disk_tri6_22b", "disk_tri6_41", "disk_tri6_41b", "disk_quad9" };
+    static const char *const names[] = { "disk_tri3",    "disk_tri6_22",  "disk_tri6_22b",
+                                         "disk_tri6_41", "disk_tri6_41b", "disk_quad9" };
     for (int k = 0; k < 6; k++) {
         pg_mesh mesh = sample (names[k]);
         double inside, off = k == 0 ? 0.03 : 5e-4;
@@ -69,17 +75,21 @@ static void groups_of_the_disk (void **state)
             for (int i = 0; i < corners; i++) r += hypot (x[2 * i], x[2 * i + 1]) / corners;
             assert_int_equal (mesh.block[e], r < 0.7);
         }
-        const pg_mesh_sides *rim = sides (&mesh, "rim"), *hole = sides (&mesh, "hole"), *interface = sides (&mesh, "interface");
+        const pg_mesh_sides *rim = sides (&mesh, "rim"), *hole = sides (&mesh, "hole"),
+                            *interface = sides (&mesh, "interface");
         check_relative (sides_area (&mesh, rim->n, rim->element, rim->side, &inside), 2 * pi, off);
         check_relative (inside, pi, 4 * off);
         check_relative (sides_area (&mesh, hole->n, hole->element, hole->side, &inside), 0.8 * pi, off);
-        check_relative (inside, -0.16 * pi, 4 * off);        /* outward: towards the centre                                */
-        check_relative (sides_area (&mesh, interface->n, interface->element, interface->side, &inside), 1.4 * pi, off);
-        for (size_t s = 0; s < interface->n; s++) assert_true (s == 0 || interface->element[s] > interface->element[s - 1]);
+        check_relative (inside, -0.16 * pi, 4 * off);        /* outward: towards the centre */
+        check_relative (sides_area (&mesh, interface->n, interface->element, interface->side, &inside),
+                        1.4 * pi, off);
+        for (size_t s = 0; s < interface->n; s++)
+            assert_true (s == 0 || interface->element[s] > interface->element[s - 1]);
         const pg_mesh_nodes *corner = nodes (&mesh, "corner"), *edge = nodes (&mesh, "hole");
         assert_int_equal (corner->n, 1);
         check_absolute (mesh.x[3 * corner->node[0]], 1, 1e-15);
-        for (size_t i = 0; i < edge->n; i++) check_relative (hypot (mesh.x[3 * edge->node[i]], mesh.x[3 * edge->node[i] + 1]), 0.4, 1e-7);
+        for (size_t i = 0; i < edge->n; i++)
+            check_relative (hypot (mesh.x[3 * edge->node[i]], mesh.x[3 * edge->node[i] + 1]), 0.4, 1e-7);
         assert_int_equal (edge->n, hole->n * (k == 0 ? 1 : 2));
         pg_mesh_clear (&mesh);
     }
@@ -115,7 +125,8 @@ static void same (const pg_mesh *a, const pg_mesh *b)
 static void variants_give_the_same_mesh (void **state)
 {
     (void) state;
-    static const char *const names[] = { "disk_tri6", "box_hex20", "disk_tri3_parametric" }, *const variant[] = { "22", "22b", "41", "41b" };
+    static const char *const names[] = { "disk_tri6", "box_hex20", "disk_tri3_parametric" },
+                             *const variant[] = { "22", "22b", "41", "41b" };
     for (int k = 0; k < 3; k++) {
         pg_mesh mesh[4];
         for (int v = 0; v < 4; v++) {
@@ -128,7 +139,7 @@ static void variants_give_the_same_mesh (void **state)
     }
 }
 
-/* ---- texts ------------------------------------------------------------------------------------------------------------ */
+/* ---- texts --------------------------------------------------------------------------------------------- */
 static pg_status parse (pg_mesh *mesh, const char *text)
 {
     return mesh_parse (mesh, &(mesh_bytes) { "part.msh", text, strlen (text) });
@@ -143,10 +154,12 @@ static void what_is_not_known_is_skipped (void **state)
 {
     (void) state;
     pg_mesh a, b;
-    check_ok (parse (&a, "$Comments\nby hand\n$EndComments\n" HEAD2 "$Periodic\n$Nodes\n$EndPeriodic\n\r\n" NODES2
-                         "$Elements\r\n1\r\n\r\n 9 3 3 -5 0 7 1 2 3 4\r\n$EndElements\r\n$NodeData\n1\n$EndNodeData\n"));
-    check_ok (parse (&b, HEAD4 "$PartitionedEntities\n1 2 3\n$EndPartitionedEntities\n$Entities\n0 0 1 0\n1 0 0 0 1 1 0 1 -5 0\n$EndEntities\n" NODES4
-                         "$Elements\n1 1 9 9\n2 1 3 1\n9 1 2 3 4 \n$EndElements\n"));
+    check_ok (parse (
+        &a, "$Comments\nby hand\n$EndComments\n" HEAD2 "$Periodic\n$Nodes\n$EndPeriodic\n\r\n" NODES2
+            "$Elements\r\n1\r\n\r\n 9 3 3 -5 0 7 1 2 3 4\r\n$EndElements\r\n$NodeData\n1\n$EndNodeData\n"));
+    check_ok (parse (&b, HEAD4 "$PartitionedEntities\n1 2 3\n$EndPartitionedEntities\n$Entities\n0 0 1 0\n1 "
+                               "0 0 0 1 1 0 1 -5 0\n$EndEntities\n" NODES4
+                               "$Elements\n1 1 9 9\n2 1 3 1\n9 1 2 3 4 \n$EndElements\n"));
     same (&a, &b);
     check_relative (mesh_volume (&a), 1.25, 1e-15);
     assert_int_equal (a.blocks[0].id, 5);
@@ -157,9 +170,10 @@ static void an_entity_of_two_groups (void **state)
 {
     (void) state;
     pg_mesh m;
-    check_ok (parse (&m, HEAD4 "$PhysicalNames\n3\n1 4 \"side \"\"a\"\n2 5 \"steel\"\n2 6 \"part\"\n$EndPhysicalNames\n"
-                         "$Entities\n0 1 1 0\n3 0 0 0 1 1 0 2 4 8 0\n1 0 0 0 1 1 0 2 5 6 0\n$EndEntities\n" NODES4
-                         "$Elements\n2 2 9 10\n2 1 3 1\n9 1 2 3 4 \n1 3 1 1\n10 2 1\n$EndElements\n"));
+    check_ok (parse (&m, HEAD4
+                     "$PhysicalNames\n3\n1 4 \"side \"\"a\"\n2 5 \"steel\"\n2 6 \"part\"\n$EndPhysicalNames\n"
+                     "$Entities\n0 1 1 0\n3 0 0 0 1 1 0 2 4 8 0\n1 0 0 0 1 1 0 2 5 6 0\n$EndEntities\n" NODES4
+                     "$Elements\n2 2 9 10\n2 1 3 1\n9 1 2 3 4 \n1 3 1 1\n10 2 1\n$EndElements\n"));
     assert_int_equal (m.n, 1);
     assert_string_equal (m.blocks[0].name, "steel");
     assert_int_equal (nodes (&m, "part")->n, 4);
@@ -200,7 +214,7 @@ static void both_byte_orders (void **state)
     pg_mesh_clear (&text);
 }
 
-/* ---- faults ----------------------------------------------------------------------------------------------------------- */
+/* ---- faults -------------------------------------------------------------------------------------------- */
 static void fault (const char *text, const char *words)
 {
     pg_mesh mesh;
@@ -216,7 +230,8 @@ static void faults_of_both (void **state)
     fault ("x y z\n1 2 3\n", "is none of the mesh files");
     fault ("$MeshFormat\n4 0 8\n$EndMeshFormat\n", "version 4 of Gmsh's format is not known");
     fault ("$MeshFormat\n1 0 8\n$EndMeshFormat\n", "version 1 of");
-    fault ("$MeshFormat\n2.2 0\n$EndMeshFormat\n", "line 2: $MeshFormat needs version, file type and data size");
+    fault ("$MeshFormat\n2.2 0\n$EndMeshFormat\n",
+           "line 2: $MeshFormat needs version, file type and data size");
     fault ("$MeshFormat\n2.2 0 4\n$EndMeshFormat\n", "line 2: the size of numbers is 4 bytes");
     fault ("$MeshFormat\n2.2 0 8\n$Nodes\n", "line 3: expected $EndMeshFormat, found '$Nodes'");
     fault ("$MeshFormat\n2.2 1 8\nabcd", "the number that tells the byte order is");
@@ -224,7 +239,8 @@ static void faults_of_both (void **state)
     fault (HEAD2, "there are no nodes");
     fault (HEAD4 NODES4, "points without elements");
     fault (HEAD2 "$PhysicalNames\n1\n2 1 steel\n$EndPhysicalNames\n", "line 6: name 1 of 1 is not in quotes");
-    fault (HEAD2 "$PhysicalNames\n1\n7 1 \"steel\"\n$EndPhysicalNames\n", "line 6: name 1 of 1 needs dimension (0 to 3)");
+    fault (HEAD2 "$PhysicalNames\n1\n7 1 \"steel\"\n$EndPhysicalNames\n",
+           "line 6: name 1 of 1 needs dimension (0 to 3)");
     fault (HEAD2 "$Odd\n1\n", "the file ends before $EndOdd");
 }
 
@@ -233,37 +249,49 @@ static void faults_of_2 (void **state)
     (void) state;
     fault (HEAD2 "$Nodes\n-4\n", "line 5: -4 nodes");
     fault (HEAD2 "$Nodes\n400000000000\n1 0 0 0\n", "the file ends before the last node");
-    fault (HEAD2 "$Nodes\n1\n1 0 nan 0\n$EndNodes\n", "line 6: coordinate 2 of a node is missing or no finite number");
+    fault (HEAD2 "$Nodes\n1\n1 0 nan 0\n$EndNodes\n",
+           "line 6: coordinate 2 of a node is missing or no finite number");
     fault (HEAD2 "$Nodes\n1\n1 0 1e999 0\n$EndNodes\n", "line 6: coordinate 2");
     fault (HEAD2 "$Nodes\n1\nx 0 0 0\n$EndNodes\n", "line 6: node 1 of 1 has no number");
     fault (HEAD2 "$Nodes\n1\n1 0 0 0\n2 0 0 0\n$EndNodes\n", "line 7: expected $EndNodes, found '2 0 0 0'");
-    fault (HEAD2 "$Nodes\n2\n1 0 0 0\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 1 0 1 1\n$EndElements\n", "node 1 is there twice");
+    fault (HEAD2 "$Nodes\n2\n1 0 0 0\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 1 0 1 1\n$EndElements\n",
+           "node 1 is there twice");
     fault (HEAD2 NODES2 "$Elements\n-1\n$EndElements\n", "-1 elements");
-    fault (HEAD2 NODES2 "$Elements\n1\n9 7 2 0 0 1 2 3 4 1\n$EndElements\n", "line 13: element 9 is a pyramid of 5 nodes (type 7 of Gmsh)");
-    fault (HEAD2 NODES2 "$Elements\n1\n9 92 2 0 0 1 2 3 4 1\n$EndElements\n", "element 9 is of a kind of its own (type 92 of Gmsh)");
-    fault (HEAD2 NODES2 "$Elements\n1\n9 3 2 0 0 1 2 3\n$EndElements\n", "line 13: element 9 (quad4): node 4 of 4 is missing");
+    fault (HEAD2 NODES2 "$Elements\n1\n9 7 2 0 0 1 2 3 4 1\n$EndElements\n",
+           "line 13: element 9 is a pyramid of 5 nodes (type 7 of Gmsh)");
+    fault (HEAD2 NODES2 "$Elements\n1\n9 92 2 0 0 1 2 3 4 1\n$EndElements\n",
+           "element 9 is of a kind of its own (type 92 of Gmsh)");
+    fault (HEAD2 NODES2 "$Elements\n1\n9 3 2 0 0 1 2 3\n$EndElements\n",
+           "line 13: element 9 (quad4): node 4 of 4 is missing");
     fault (HEAD2 NODES2 "$Elements\n1\n9 3 -2 0 0 1 2 3\n$EndElements\n", "element 9 has -2 tags");
-    fault (HEAD2 NODES2 "$Elements\n1\n9 3 200 0 0 1 2 3\n$EndElements\n", "element 9: tag 6 of 200 is missing");
+    fault (HEAD2 NODES2 "$Elements\n1\n9 3 200 0 0 1 2 3\n$EndElements\n",
+           "element 9: tag 6 of 200 is missing");
     fault (HEAD2 NODES2 "$Elements\n1\n9 3\n$EndElements\n", "an element needs number, type");
-    fault (HEAD2 NODES2 "$Elements\n1\n9 3 2 0 0 1 2 3 5\n$EndElements\n", "part.msh, line 13: element 9 (quad4): node 5 is not in the file");
-    fault (HEAD2 NODES2 "$Elements\n1\n9 3 2 0 0 1 2 3 99999999999999999999\n$EndElements\n", "node 4 of 4 is missing");
+    fault (HEAD2 NODES2 "$Elements\n1\n9 3 2 0 0 1 2 3 5\n$EndElements\n",
+           "part.msh, line 13: element 9 (quad4): node 5 is not in the file");
+    fault (HEAD2 NODES2 "$Elements\n1\n9 3 2 0 0 1 2 3 99999999999999999999\n$EndElements\n",
+           "node 4 of 4 is missing");
 }
 
 static void faults_of_4 (void **state)
 {
     (void) state;
     fault (HEAD4 "$Entities\n0 0 1\n", "line 5: the numbers of entities: number 4 of 4 is missing");
-    fault (HEAD4 "$Entities\n0 0 1 0\n1 0 0 0 1 1 0 -1\n", "line 6: entity 1: the number of its groups is missing or negative");
+    fault (HEAD4 "$Entities\n0 0 1 0\n1 0 0 0 1 1 0 -1\n",
+           "line 6: entity 1: the number of its groups is missing or negative");
     fault (HEAD4 "$Entities\n0 0 1 0\n1 0 0 0 1 1 0 2 3\n", "entity 1: group 2 of 2 is missing");
     fault (HEAD4 "$Entities\n1 0 0 0\n1 0 0\n", "entity 1: number 3 of its box is missing");
     fault (HEAD4 "$Nodes\n1 -4 1 4\n", "the number of nodes: 1 blocks with -4 members");
     fault (HEAD4 "$Nodes\n1 4 1 4\n2 1 0 5\n", "line 6: a block of nodes: 5 members where 4 are left");
     fault (HEAD4 "$Nodes\n1 4 1 4\n5 1 0 4\n", "an entity of dimension 5");
-    fault (HEAD4 "$Nodes\n1 400000000 1 4\n2 1 0 400000000\n1\n", "the file ends before the last number of a node");
+    fault (HEAD4 "$Nodes\n1 400000000 1 4\n2 1 0 400000000\n1\n",
+           "the file ends before the last number of a node");
     fault (HEAD4 "$Nodes\n1 1 1 4\n2 1 0 1\n1\n0 0 inf\n$EndNodes\n", "line 8: coordinate 3");
     fault (HEAD4 "$Nodes\n1 2 1 4\n2 1 0 1\n1\n0 0 0\n$EndNodes\n", "1 nodes are missing");
-    fault (HEAD4 NODES4 "$Elements\n1 1 9 9\n2 1 14 1\n9 1 2 3 4\n$EndElements\n", "element 9 is a pyramid of 14 nodes");
-    fault (HEAD4 NODES4 "$Elements\n1 1 9 9\n2 1 3 1\n9 1 2 3\n$EndElements\n", "element 9 (quad4): node 4 of 4 is missing");
+    fault (HEAD4 NODES4 "$Elements\n1 1 9 9\n2 1 14 1\n9 1 2 3 4\n$EndElements\n",
+           "element 9 is a pyramid of 14 nodes");
+    fault (HEAD4 NODES4 "$Elements\n1 1 9 9\n2 1 3 1\n9 1 2 3\n$EndElements\n",
+           "element 9 (quad4): node 4 of 4 is missing");
     fault (HEAD4 NODES4 "$Elements\n1 2 9 9\n2 1 3 1\n9 1 2 3 4\n$EndElements\n", "1 elements are missing");
 }
 
@@ -301,8 +329,22 @@ static void files_that_are_none (void **state)
 static void numbers_are_read_to_the_last_bit (void **state)
 {
     (void) state;
-    static const char *const good[] = { "1", "-0.5", "1e22", "123456789012345678", "0.1", "6.02214076e23", "4.9e-324", "1.7976931348623157e308", ".5", "3.", "+7e+2",
-                                        "0.30000000000000004", "9007199254740993", "1e-23", "-1.5e-7", "00001.50" };
+    static const char *const good[] = { "1",
+                                        "-0.5",
+                                        "1e22",
+                                        "123456789012345678",
+                                        "0.1",
+                                        "6.02214076e23",
+                                        "4.9e-324",
+                                        "1.7976931348623157e308",
+                                        ".5",
+                                        "3.",
+                                        "+7e+2",
+                                        "0.30000000000000004",
+                                        "9007199254740993",
+                                        "1e-23",
+                                        "-1.5e-7",
+                                        "00001.50" };
     for (size_t k = 0; k < sizeof good / sizeof *good; k++) {
         const char *at = good[k];
         double value;
@@ -310,7 +352,9 @@ static void numbers_are_read_to_the_last_bit (void **state)
         assert_true (value == strtod (good[k], NULL));
         assert_int_equal (*at, 0);
     }
-    static const char *const bad[] = { "", "  ", ".", "-", "e5", "nan", "inf", "1e", "1e999", "1e99999999999999999999", "1e +5" };
+    static const char *const bad[] = { "",     "  ",  ".",  "-",     "e5",
+                                       "nan",  "inf", "1e", "1e999", "1e99999999999999999999",
+                                       "1e +5" };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         const char *at = bad[k];
         double value;
@@ -338,11 +382,19 @@ static void every_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (every_kind_is_read), cmocka_unit_test (groups_of_the_disk), cmocka_unit_test (variants_give_the_same_mesh),
-        cmocka_unit_test (what_is_not_known_is_skipped), cmocka_unit_test (an_entity_of_two_groups), cmocka_unit_test (both_byte_orders),
-        cmocka_unit_test (faults_of_both), cmocka_unit_test (faults_of_2), cmocka_unit_test (faults_of_4),
-        cmocka_unit_test (faults_of_binary_files_name_the_byte), cmocka_unit_test (files_that_are_none),
-        cmocka_unit_test (numbers_are_read_to_the_last_bit), cmocka_unit_test (every_allocation_may_fail),
+        cmocka_unit_test (every_kind_is_read),
+        cmocka_unit_test (groups_of_the_disk),
+        cmocka_unit_test (variants_give_the_same_mesh),
+        cmocka_unit_test (what_is_not_known_is_skipped),
+        cmocka_unit_test (an_entity_of_two_groups),
+        cmocka_unit_test (both_byte_orders),
+        cmocka_unit_test (faults_of_both),
+        cmocka_unit_test (faults_of_2),
+        cmocka_unit_test (faults_of_4),
+        cmocka_unit_test (faults_of_binary_files_name_the_byte),
+        cmocka_unit_test (files_that_are_none),
+        cmocka_unit_test (numbers_are_read_to_the_last_bit),
+        cmocka_unit_test (every_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("mesh/gmsh", tests, NULL, NULL);
 }

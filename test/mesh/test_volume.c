@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Volume and surface of disks, cylinders and balls of elements converge to the exact ones: h^2 with straight edges, h^4 with curved ones. */
+ * Volume and surface of disks, cylinders and balls of elements converge to the exact ones: h^2 with straight
+ * edges, h^4 with curved ones. */
 #include "check.h"
 #include "measure.h"
 
@@ -21,7 +22,8 @@ static void to_cylinder (double *x)
 static void to_ball (double *x)
 {
     double u = x[0] * x[0], v = x[1] * x[1], w = x[2] * x[2];
-    x[0] *= sqrt (1 - v / 2 - w / 2 + v * w / 3), x[1] *= sqrt (1 - w / 2 - u / 2 + w * u / 3), x[2] *= sqrt (1 - u / 2 - v / 2 + u * v / 3);
+    x[0] *= sqrt (1 - v / 2 - w / 2 + v * w / 3), x[1] *= sqrt (1 - w / 2 - u / 2 + w * u / 3),
+        x[2] *= sqrt (1 - u / 2 - v / 2 + u * v / 3);
 }
 
 /* Errors with n and 2 n cells across: their ratio is 2^rate. */
@@ -52,13 +54,15 @@ static void disks (void **state)
 static void cylinders (void **state)
 {
     (void) state;
-    for (pg_element kind = PG_TET4; kind < PG_ELEMENTS; kind++) converges (kind, to_cylinder, 5, 1.5 * pi, 2 * pi + 3 * pi);
+    for (pg_element kind = PG_TET4; kind < PG_ELEMENTS; kind++)
+        converges (kind, to_cylinder, 5, 1.5 * pi, 2 * pi + 3 * pi);
 }
 
 static void balls (void **state)
 {
     (void) state;
-    for (pg_element kind = PG_TET4; kind < PG_ELEMENTS; kind++) converges (kind, to_ball, 5, 4 * pi / 3, 4 * pi);
+    for (pg_element kind = PG_TET4; kind < PG_ELEMENTS; kind++)
+        converges (kind, to_ball, 5, 4 * pi / 3, 4 * pi);
 }
 
 static void boxes_are_exact (void **state)
@@ -77,7 +81,10 @@ static void boxes_are_exact (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (boxes_are_exact), cmocka_unit_test (disks), cmocka_unit_test (cylinders), cmocka_unit_test (balls),
+        cmocka_unit_test (boxes_are_exact),
+        cmocka_unit_test (disks),
+        cmocka_unit_test (cylinders),
+        cmocka_unit_test (balls),
     };
     return cmocka_run_group_tests_name ("mesh/volume", tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * direct.h: bodies whose bonds carry the force themselves, built by hand for tests: cloud of a lattice of points, bonds of the sums, plain
- * stiffness matrix with some dofs held, equilibrium and lowest frequency by factorisation. */
+ * direct.h: bodies whose bonds carry the force themselves, built by hand for tests: cloud of a lattice of
+ * points, bonds of the sums, plain stiffness matrix with some dofs held, equilibrium and lowest frequency by
+ * factorisation. */
 #ifndef PERIGAL_TEST_DIRECT_H
 #define PERIGAL_TEST_DIRECT_H
 #include "check.h"
@@ -14,21 +15,26 @@ typedef struct {
     pg_cloud   cloud;
     pg_sums   *sums;
     pg_family  family;
-    double     c;                                      /* c_h, N/m^6                                                     */
-    size_t     n, bonds;                               /* points; bonds of the whole family of one                       */
-    unsigned char *held;                               /* per dof: does not move                                         */
-    pg_sparse  K;                                      /* upper triangle; held dofs: identity                            */
+    double     c;                                      /* c_h, N/m^6 */
+    size_t     n, bonds;                               /* points; bonds of the whole family of one */
+    unsigned char *held;                               /* per dof: does not move */
+    pg_sparse  K;                                      /* upper triangle; held dofs: identity */
 } direct;
 
 /* The body of a scene's text; E (Pa); plane stress. In place: the sums keep the address of the cloud. */
-static inline void direct_build (direct *b, const char *text, const char *kernel, double horizon, double E, int calibrate, pg_partial partial)
+static inline void direct_build (direct *b, const char *text, const char *kernel, double horizon, double E,
+                                 int calibrate, pg_partial partial)
 {
     *b = (direct) { 0 };
     check_ok (pg_scene_parse (&b->scene, text, "test.yaml"));
     check_ok (pg_body_read (&b->body, b->scene));
     check_ok (pg_cloud_build (&b->cloud, &b->lattice, &b->body, b->scene));
-    pg_sum_rule rule = { .mode = PG_PLANE_STRESS, .kernel = pg_kernel_find (kernel), .horizon = horizon, .partial = partial,
-                         .surface = PG_SURFACE_NONE, .calibrate = calibrate };
+    pg_sum_rule rule = { .mode = PG_PLANE_STRESS,
+                         .kernel = pg_kernel_find (kernel),
+                         .horizon = horizon,
+                         .partial = partial,
+                         .surface = PG_SURFACE_NONE,
+                         .calibrate = calibrate };
     check_ok (pg_sums_create (&b->sums, &rule, &b->cloud, &b->lattice));
     check_ok (pg_sums_family (&b->family, b->sums));
     b->n = b->cloud.n;
@@ -67,7 +73,8 @@ static inline void direct_blocks (const direct *b, size_t i, double *block, doub
     for (size_t k = 0; k < m; k++) {
         const double *e = xi + 2*k;
         size_t j = (size_t) b->family.node[first + k];
-        double r2 = e[0] * e[0] + e[1] * e[1], s = b->c * weight[k] * b->cloud.volume[i] * b->cloud.volume[j] / (r2 * sqrt (r2));
+        double r2 = e[0] * e[0] + e[1] * e[1],
+               s = b->c * weight[k] * b->cloud.volume[i] * b->cloud.volume[j] / (r2 * sqrt (r2));
         for (int a = 0; a < 4; a++) block[4*k + (size_t) a] = s * e[a / 2] * e[a % 2];
     }
 }
@@ -83,8 +90,12 @@ static inline void direct_enter (direct *b, size_t *nnz, size_t row, size_t colu
 static inline void direct_assemble (direct *b)
 {
     size_t most = 0, nnz = 0, all = b->family.start[b->n];
-    for (size_t i = 0; i < b->n; i++) most = b->family.start[i + 1] - b->family.start[i] > most ? b->family.start[i + 1] - b->family.start[i] : most;
-    double *xi = pg_calloc (2 * most, sizeof *xi), *weight = pg_calloc (most, sizeof *weight), *block = pg_calloc (4 * most, sizeof *block);
+    for (size_t i = 0; i < b->n; i++)
+        most = b->family.start[i + 1] - b->family.start[i] > most
+                   ? b->family.start[i + 1] - b->family.start[i]
+                   : most;
+    double *xi = pg_calloc (2 * most, sizeof *xi), *weight = pg_calloc (most, sizeof *weight),
+           *block = pg_calloc (4 * most, sizeof *block);
     check_ok (pg_sparse_create (&b->K, 2 * b->n, 2 * b->n, 2 * all + 3 * b->n, 1));
     for (size_t i = 0; i < b->n; i++) {
         size_t first = b->family.start[i], m = b->family.start[i + 1] - first;
@@ -93,7 +104,9 @@ static inline void direct_assemble (direct *b)
         for (size_t k = 0; k < m; k++) for (int a = 0; a < 4; a++) own[a] += block[4*k + (size_t) a];
         for (size_t l = 0; l < 2; l++) {
             for (size_t k = 0; k < m && (size_t) b->family.node[first + k] < i; k++)
-                for (size_t a = 0; a < 2; a++) direct_enter (b, &nnz, 2 * (size_t) b->family.node[first + k] + a, 2*i + l, -block[4*k + 2*a + l]);
+                for (size_t a = 0; a < 2; a++)
+                    direct_enter (b, &nnz, 2 * (size_t) b->family.node[first + k] + a, 2 * i + l,
+                                  -block[4 * k + 2 * a + l]);
             for (size_t a = 0; a <= l; a++) direct_enter (b, &nnz, 2*i + a, 2*i + l, own[2*a + l]);
             b->K.start[2*i + l + 1] = (long) nnz;
         }
@@ -123,7 +136,7 @@ static inline double direct_lowest (const direct *b, void *factor, double densit
         for (size_t i = 0; i < n; i++) x[i] *= density * b->cloud.volume[i / 2];
         check_ok (pg_linear_find ("cholmod")->solve (factor, 1, x, y));
         for (size_t i = 0; i < n; i++) xMy += x[i] * y[i];
-        omega2 = xMx / xMy;                            /* x M x / x M K^-1 M x, the quotient of K^-1 M                    */
+        omega2 = xMx / xMy;                            /* x M x / x M K^-1 M x, the quotient of K^-1 M */
         double size = sqrt (xMx);
         for (size_t i = 0; i < n; i++) x[i] = b->held[i] ? 0 : y[i] / size;
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * spectrum.h: the Galerkin force of a scene, its dense stiffness, the eigenvalues of a dense symmetric matrix. */
+ * spectrum.h: the Galerkin force of a scene, its dense stiffness, the eigenvalues of a dense symmetric
+ * matrix. */
 #ifndef PERIGAL_TEST_SPECTRUM_H
 #define PERIGAL_TEST_SPECTRUM_H
 #include "check.h"
@@ -8,7 +9,14 @@
 #include <gsl/gsl_errno.h>
 
 /* A problem with its force, every bond alive. */
-typedef struct { pg_scene *scene; pg_problem *problem; pg_state *state; const pg_force_type *force; void *self; size_t ndof; } assembled;
+typedef struct {
+    pg_scene *scene;
+    pg_problem *problem;
+    pg_state *state;
+    const pg_force_type *force;
+    void *self;
+    size_t ndof;
+} assembled;
 
 static inline assembled assemble (const char *text, const char *name)
 {

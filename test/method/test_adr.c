@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Adaptive dynamic relaxation (Kilic and Madenci 2010; theory B4) on a plate of 60 x 20 points: theory H, ADR-1. Three columns at the left end are held;
- * the right end is drawn by as many, or bent by forces on its last column. The solver `adr` arrives at the answer of a factorization, in so many
- * iterations. The update that Zhou's paper prints, u += dt v^n with v^n = (v^(n-1/2) + v^(n+1/2)) / 2, diverges: density D_i = 1/4 sum_j |K_ij|, dt = 1. */
+ * Adaptive dynamic relaxation (Kilic and Madenci 2010; theory B4) on a plate of 60 x 20 points: theory H,
+ * ADR-1. Three columns at the left end are held; the right end is drawn by as many, or bent by forces on its
+ * last column. The solver `adr` arrives at the answer of a factorization, in so many iterations. The update
+ * that Zhou's paper prints, u += dt v^n with v^n = (v^(n-1/2) + v^(n+1/2)) / 2, diverges: density D_i = 1/4
+ * sum_j |K_ij|, dt = 1. */
 #include "scene_runs/run.h"
 
-static const char plate[] = "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [60 mm, 20 mm]}}}]\nspacing: 1 mm\nlattice: cells\nthickness: 1 mm\n"
-    "materials: {iron: {youngs_modulus: 192 GPa, poissons_ratio: 0.333333333333333}}\nmethod: {force: bond, horizon: 3.015 spacing, partial_volume: none, surface_correction: none}\n"
+static const char plate[] =
+    "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [60 mm, 20 mm]}}}]\nspacing: 1 "
+    "mm\nlattice: cells\nthickness: 1 mm\n"
+    "materials: {iron: {youngs_modulus: 192 GPa, poissons_ratio: 0.333333333333333}}\nmethod: {force: bond, "
+    "horizon: 3.015 spacing, partial_volume: none, surface_correction: none}\n"
     "sets: {l: {where: x < 3 mm}, r: {where: x > 57 mm}, last: {where: x > 59 mm}}\n";
 #define DRAWN "boundary: [{set: l, displacement: {x: 0, y: 0}}, {set: r, displacement: {x: 60 um, y: 0}}]\n"
 #define BENT "boundary: [{set: l, displacement: {x: 0, y: 0}}, {set: last, force: {y: 20 N}}]\n"
@@ -30,7 +35,8 @@ static double error_at (const char *ends, const char *imbalance, long *iteration
 {
     char solver[100];
     snprintf (solver, sizeof solver, "kind: adr, stages: 1, imbalance: %s", imbalance);
-    run exact = solved (ends, "kind: static, linear: cholmod, stepping: fixed, steps: 1"), r = solved (ends, solver);
+    run exact = solved (ends, "kind: static, linear: cholmod, stepping: fixed, steps: 1"),
+        r = solved (ends, solver);
     double error = apart (r.state->ndof, r.state->d, exact.state->d);
     *iterations = r.step.iterations;
     print_message ("imbalance %s: error %.2e after %ld iterations\n", imbalance, error, *iterations);
@@ -38,7 +44,7 @@ static double error_at (const char *ends, const char *imbalance, long *iteration
     return error;
 }
 
-static void drawn (void **state)                       /* ADR-1                                                          */
+static void drawn (void **state)                       /* ADR-1 */
 {
     (void) state;
     long few, many;
@@ -59,9 +65,10 @@ static void bent (void **state)
     assert_true (many > few);
 }
 
-/* ---- as printed ------------------------------------------------------------------------------------------------------------------- */
+/* ---- as printed ---------------------------------------------------------------------------------------- */
 /* c^n of theory B4 from the forces of this and the last iteration */
-static double damping (const run *r, const double *D, const double *u, const double *f, const double *before, const double *v)
+static double damping (const run *r, const double *D, const double *u, const double *f, const double *before,
+                       const double *v)
 {
     double uku = 0, uu = 0;
     for (size_t i = 0; i < r->state->ndof; i++) {
@@ -79,7 +86,8 @@ static void the_printed_update_diverges (void **state)
     void *self;
     const pg_force_type *force = pg_solver_force (r.solver, &self);
     size_t n = r.state->ndof;
-    double *u = pg_calloc (n, sizeof *u), *f = pg_calloc (n, sizeof *f), *before = pg_calloc (n, sizeof *f), *v = pg_calloc (n, sizeof *f), *D = pg_calloc (n, sizeof *f);
+    double *u = pg_calloc (n, sizeof *u), *f = pg_calloc (n, sizeof *f), *before = pg_calloc (n, sizeof *f),
+           *v = pg_calloc (n, sizeof *f), *D = pg_calloc (n, sizeof *f);
     double reference, error[2] = { 0 };
     check_ok (force->row_sums (self, D));
     check_ok (force->impose (self, 1, u));
@@ -87,7 +95,8 @@ static void the_printed_update_diverges (void **state)
     for (int k = 0; k < 200; k++) {
         memcpy (before, f, n * sizeof *f);
         check_ok (force->balance (self, 1, u, f, &reference));
-        for (size_t i = 0; i < n; i++) if (r.problem->cloud.x[i / 2 * 2] < 0.003 || r.problem->cloud.x[i / 2 * 2] > 0.057) f[i] = 0;
+        for (size_t i = 0; i < n; i++)
+            if (r.problem->cloud.x[i / 2 * 2] < 0.003 || r.problem->cloud.x[i / 2 * 2] > 0.057) f[i] = 0;
         double c = k ? damping (&r, D, u, f, before, v) : 0;
         for (size_t i = 0; i < n; i++) {
             double a = f[i] / D[i], old = v[i];
@@ -104,6 +113,7 @@ static void the_printed_update_diverges (void **state)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (drawn), cmocka_unit_test (bent), cmocka_unit_test (the_printed_update_diverges) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (drawn), cmocka_unit_test (bent),
+                                        cmocka_unit_test (the_printed_update_diverges) };
     return cmocka_run_group_tests_name ("method/adr", tests, NULL, NULL);
 }

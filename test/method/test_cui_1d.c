@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The bar of Cui 2022 section 2.4 (theory E4, table H E-10): consistency of u and u', balance under constant stress, error of
- * -u'' = 1, for RKPM and PDDO; and the same bar as an ordinary scene. */
+ * The bar of Cui 2022 section 2.4 (theory E4, table H E-10): consistency of u and u', balance under constant
+ * stress, error of -u'' = 1, for RKPM and PDDO; and the same bar as an ordinary scene. */
 #include "check.h"
 #include "perigal.h"
 #include "../../bench/cui_1d.h"
@@ -14,7 +14,7 @@ static bar make (const char *approximation, size_t cells, double L, double a)
     return b;
 }
 
-/* ---- figure 1 ---------------------------------------------------------------------------------------------------------- */
+/* ---- figure 1 ------------------------------------------------------------------------------------------ */
 enum { PLACES = 1001 };
 static pg_rows sampled (const bar *b)
 {
@@ -61,12 +61,12 @@ static void the_two_derivatives_differ (void **state)
     }
 }
 
-/* ---- figure 2 ---------------------------------------------------------------------------------------------------------- */
+/* ---- figure 2 ------------------------------------------------------------------------------------------ */
 static void balance_under_constant_stress (void **state)
 {
     (void) state;
     static const int points[3] = { 0, 2, 5 };
-    static const double expected[3][3][2] = {          /* a = 2, 2.5, 3; nodal, 2, 5 points; RK, PDDO (0: rounding) */
+    static const double expected[3][3][2] = {  /* a = 2, 2.5, 3; nodal, 2, 5 points; RK, PDDO (0: rounding) */
         { { 0, 0 }, { 3.238e-3, 8.463e-3 }, { 1.065e-5, 1.251e-2 } },
         { { 6.142e-2, 3.701e-2 }, { 7.500e-4, 8.714e-2 }, { 2.009e-5, 8.682e-2 } },
         { { 6.602e-2, 8.138e-2 }, { 6.189e-4, 1.283e-1 }, { 1.305e-5, 1.288e-1 } } };
@@ -82,7 +82,7 @@ static void balance_under_constant_stress (void **state)
             }
 }
 
-/* ---- figure 3 ---------------------------------------------------------------------------------------------------------- */
+/* ---- figure 3 ------------------------------------------------------------------------------------------ */
 static const struct { double a; int points; double rk[4], pddo[4]; } errors[6] = {
     { 2,   0, { 2.203e-3, 5.68e-4, 1.44e-4, 3.63e-5 }, { 2.203e-3, 5.68e-4, 1.44e-4, 3.63e-5 } },
     { 2,   2, { 4.156e-4, 9.41e-5, 2.62e-5, 8.43e-6 }, { 6.83e-4, 1.91e-4, 5.96e-5, 1.98e-5 } },
@@ -98,7 +98,7 @@ static void check_column (const char *type, int pddo)
         for (int k = 0; k < 4; k++) {
             bar b = make (type, (size_t) 10 << k, 1, errors[row].a);
             double error = NAN, expected = (pddo ? errors[row].pddo : errors[row].rk)[k];
-            double tolerance = expected == 2.3e-4 ? 0.05 / 2.3 : 0.01;             /* printed with two digits */
+            double tolerance = expected == 2.3e-4 ? 0.05 / 2.3 : 0.01;  /* printed with two digits */
             check_ok (bar_error (&b, errors[row].points, &error));
             check_relative (error, expected, tolerance);
             bar_clear (&b);
@@ -108,7 +108,7 @@ static void check_column (const char *type, int pddo)
 static void rkpm_errors (void **state) { (void) state; check_column ("rkpm", 0); }
 static void pddo_errors (void **state) { (void) state; check_column ("pddo", 1); }
 
-/* ---- as a scene -------------------------------------------------------------------------------------------------------- */
+/* ---- as a scene ---------------------------------------------------------------------------------------- */
 /* Coefficients of the static solution of a scene (n of them). */
 static void solve_scene (pg_scene *scene, size_t n, double *d)
 {
@@ -139,11 +139,15 @@ static void a_scene_gives_the_same_bar (void **state)
         char text[1024];
         pg_scene *scene = NULL;
         bar b = make (k % 2 ? "pddo" : "rkpm", 20, 1, errors[k / 2].a);
-        snprintf (text, sizeof text,
-                  "dimension: 1\nbody: [{add: {box: {low: [0], high: [1 m]}}}]\nspacing: 0.05 m\nmaterials: {m: {youngs_modulus: 1 Pa, poissons_ratio: 0}}\n"
-                  "method: {approximation: %s, weights: unit, horizon: %g spacing, essential: transformation, %s}\n"
-                  "boundary: [{set: left, displacement: {x: 0}}, {set: all, body_force: {x: 1 N/m3}}]\nsolver: {steps: 1}\noutput: {at: {levels: 1}}\n",
-                  k % 2 ? "pddo" : "rkpm", errors[k / 2].a, points ? "integration: gauss, gauss_points: 2" : "integration: nodal");
+        snprintf (
+            text, sizeof text,
+            "dimension: 1\nbody: [{add: {box: {low: [0], high: [1 m]}}}]\nspacing: 0.05 m\nmaterials: {m: "
+            "{youngs_modulus: 1 Pa, poissons_ratio: 0}}\n"
+            "method: {approximation: %s, weights: unit, horizon: %g spacing, essential: transformation, %s}\n"
+            "boundary: [{set: left, displacement: {x: 0}}, {set: all, body_force: {x: 1 N/m3}}]\nsolver: "
+            "{steps: 1}\noutput: {at: {levels: 1}}\n",
+            k % 2 ? "pddo" : "rkpm", errors[k / 2].a,
+            points ? "integration: gauss, gauss_points: 2" : "integration: nodal");
         check_ok (pg_scene_parse (&scene, text, "bar.yaml"));
         solve_scene (scene, 21, d);
         check_ok (bar_solve (&b, points, e));

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Modes of a free block as Poisson's ratio goes to 1/2 at the same shear modulus: with the dilatation of patches none is free but the rigid ones,
- * the lowest ones converge, with the ratio and with the spacing; with the dilatation at the points they stiffen. */
+ * Modes of a free block as Poisson's ratio goes to 1/2 at the same shear modulus: with the dilatation of
+ * patches none is free but the rigid ones, the lowest ones converge, with the ratio and with the spacing;
+ * with the dilatation at the points they stiffen. */
 #include "method/spectrum.h"
 #include <gsl/gsl_sort_vector.h>
 
@@ -27,9 +28,12 @@ static void modes_of (const block *b, double *lambda, size_t most)
 {
     char text[800];
     const char *high = b->dim == 2 ? "low: [0, 0], high: [1, 1]" : "low: [0, 0, 0], high: [1, 1, 1]";
-    snprintf (text, sizeof text, "dimension: %d\n%sbody: [{add: {box: {%s}}}]\nspacing: %.17g\nmaterials: {soft: {youngs_modulus: %.17g, poissons_ratio: %.17g, density: 1}}\n"
-              "method: {%s, dilatation: %s}\nboundary: []\nsolver: {kind: static}\n", b->dim, b->dim == 2 ? "plane: strain\n" : "", high, 1.0 / b->cells,
-              2 * (1 + b->nu), b->nu, b->method, b->dilatation);
+    snprintf (text, sizeof text,
+              "dimension: %d\n%sbody: [{add: {box: {%s}}}]\nspacing: %.17g\nmaterials: {soft: "
+              "{youngs_modulus: %.17g, poissons_ratio: %.17g, density: 1}}\n"
+              "method: {%s, dilatation: %s}\nboundary: []\nsolver: {kind: static}\n",
+              b->dim, b->dim == 2 ? "plane: strain\n" : "", high, 1.0 / b->cells, 2 * (1 + b->nu), b->nu,
+              b->method, b->dilatation);
     assembled a = assemble (text, "block.yaml");
     size_t n = a.ndof;
     double *K = dense_stiffness (&a), *M = dense_mass (&a), *all = pg_calloc (n, sizeof *all);
@@ -47,7 +51,9 @@ static void modes_of (const block *b, double *lambda, size_t most)
     release (&a);
 }
 
-static const char *const methods[] = { "integration: gauss", "integration: consistent", "integration: gauss, basis: quadratic, horizon: 2.6 spacing", "integration: nodal" };
+static const char *const methods[] = { "integration: gauss", "integration: consistent",
+                                       "integration: gauss, basis: quadratic, horizon: 2.6 spacing",
+                                       "integration: nodal" };
 enum { SHOWN = 12 };
 
 static void check_block (int dim, int cells, const char *method)
@@ -57,10 +63,12 @@ static void check_block (int dim, int cells, const char *method)
     for (double gap = 0.2; gap > 5e-6; gap *= 0.1) {
         block b = { dim, cells, 0.5 - gap, method, "projected" };
         modes_of (&b, now, SHOWN);
-        print_message ("  %dD, %s, nu %.6g: %.3g | %.5g %.5g %.5g %.5g\n", dim, method, b.nu, now[rigid - 1], now[rigid], now[rigid + 1], now[rigid + 2], now[rigid + 3]);
+        print_message ("  %dD, %s, nu %.6g: %.3g | %.5g %.5g %.5g %.5g\n", dim, method, b.nu, now[rigid - 1],
+                       now[rigid], now[rigid + 1], now[rigid + 2], now[rigid + 3]);
         check_below (fabs (now[rigid - 1]), 1e-9 * now[rigid] * fmax (1, 1e-3 / gap));
-        assert_true (now[rigid] > 1);                  /* mu / edge^2 is 1: no mode of no energy                         */
-        for (size_t k = rigid; gap < 5e-3 && k < rigid + 4; k++) check_below (fabs (now[k] / before[k] - 1), 5 * gap * 10);
+        assert_true (now[rigid] > 1);                  /* mu / edge^2 is 1: no mode of no energy */
+        for (size_t k = rigid; gap < 5e-3 && k < rigid + 4; k++)
+            check_below (fabs (now[k] / before[k] - 1), 5 * gap * 10);
         memcpy (before, now, sizeof now);
     }
 }
@@ -86,10 +94,11 @@ static void they_converge_with_the_spacing (void **state)
         modes_of (&(block) { 2, 16, 0.4999, methods[m], "projected" }, fine, SHOWN);
         modes_of (&(block) { 2, 8, 0.4999, methods[m], "pointwise" }, locked, SHOWN);
         for (size_t k = 3; k < 7; k++) {
-            print_message ("  %s: mode %zu: 8 cells %.5g, 16 cells %.5g, 8 cells pointwise %.5g\n", methods[m], k - 2, coarse[k], fine[k], locked[k]);
+            print_message ("  %s: mode %zu: 8 cells %.5g, 16 cells %.5g, 8 cells pointwise %.5g\n",
+                           methods[m], k - 2, coarse[k], fine[k], locked[k]);
             check_below (fabs (coarse[k] / fine[k] - 1), 2e-3);
         }
-        check_below (fabs (coarse[4] / 19.739208802178716 - 1), 1e-3);       /* Lame's mode, 2 pi^2 at any ratio                */
+        check_below (fabs (coarse[4] / 19.739208802178716 - 1), 1e-3);  /* Lame's mode, 2 pi^2 at any ratio */
         for (size_t k = 4; k < 7; k++) assert_true (locked[k] > 1.05 * fine[k]);
     }
 }

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Nodal Galerkin with NOSB derivatives is NOSB-PD (theory D1, table H D-1): (K u)_i = -V_i L_i with the force-state sum
- * L_i = sum_j w_ij (sigma_i K_i + sigma_j K_j) xi_ij V_j, written here from the points alone, on clouds without any order. */
+ * Nodal Galerkin with NOSB derivatives is NOSB-PD (theory D1, table H D-1): (K u)_i = -V_i L_i with the
+ * force-state sum L_i = sum_j w_ij (sigma_i K_i + sigma_j K_j) xi_ij V_j, written here from the points alone,
+ * on clouds without any order. */
 #include "spectrum.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 enum { MOST = 300 };
-typedef struct { int dim; size_t n; double x[MOST][3], V[MOST], u[MOST][3], T[MOST][3][3]; } cloud;    /* T = sigma K */
+/* T = sigma K */
+typedef struct { int dim; size_t n; double x[MOST][3], V[MOST], u[MOST][3], T[MOST][3][3]; } cloud;
 
 static unsigned long long seed;
 static double rnd (void)                               /* in (-1, 1) */
@@ -16,11 +18,13 @@ static double rnd (void)                               /* in (-1, 1) */
     return (double) (seed >> 11) / 4503599627370496.0 - 1;
 }
 
-/* per_axis^dim points near a lattice of spacing h, moved by up to 0.3 h, volumes of their own, random displacements. */
+/* per_axis^dim points near a lattice of spacing h, moved by up to 0.3 h, volumes of their own, random
+ * displacements. */
 static void scatter (cloud *c, int dim, int per_axis, double h)
 {
     seed = 11 + (unsigned) dim;
-    *c = (cloud) { .dim = dim, .n = (size_t) (dim == 3 ? per_axis * per_axis * per_axis : per_axis * per_axis) };
+    *c = (cloud){ .dim = dim,
+                  .n = (size_t) (dim == 3 ? per_axis * per_axis * per_axis : per_axis * per_axis) };
     for (size_t i = 0; i < c->n; i++) {
         size_t rest = i;
         for (int k = 0; k < dim; k++, rest /= (size_t) per_axis) {
@@ -46,16 +50,21 @@ static assembled from_file (const cloud *c, const char *plane, const char *kerne
         fprintf (file, "%.17g\n", c->V[i]);
     }
     fclose (file);
-    snprintf (text, sizeof text,
-              "dimension: %d\n%s%s%spoints: %s\nmaterials: {m: {youngs_modulus: 3 GPa, poissons_ratio: 0.3}}\n"
-              "method: {approximation: nosb, integration: nodal, stabilization: none, kernel: %s, horizon: %.17g m}\n",
-              c->dim, plane ? "plane: " : "", plane ? plane : "", plane ? "\n" : "", path, kernel, horizon);
+    snprintf (
+        text, sizeof text,
+        "dimension: %d\n%s%s%spoints: %s\nmaterials: {m: {youngs_modulus: 3 GPa, poissons_ratio: 0.3}}\n"
+        "method: {approximation: nosb, integration: nodal, stabilization: none, kernel: %s, horizon: %.17g "
+        "m}\n",
+        c->dim, plane ? "plane: " : "", plane ? plane : "", plane ? "\n" : "", path, kernel, horizon);
     assembled a = assemble (text, "points.yaml");
     remove (path);
     return a;
 }
 
-static double kernel_value (const char *name, double q) { return strcmp (name, "constant") == 0 ? 1 : 1 - q * q; }
+static double kernel_value (const char *name, double q)
+{
+    return strcmp (name, "constant") == 0 ? 1 : 1 - q * q;
+}
 
 static void invert (int dim, double A[3][3], double B[3][3])
 {
@@ -86,12 +95,14 @@ static double bond (const cloud *c, size_t i, size_t j, const char *kernel, doub
 /* T_i = sigma_i K_i with sigma from eps = sym (sum w eta xi' V K): lambda tr eps I + 2 mu eps */
 static void force_state (cloud *c, size_t i, const char *kernel, double horizon, double lambda, double mu)
 {
-    double A[3][3] = { { 0 } }, K[3][3] = { { 0 } }, M[3][3] = { { 0 } }, H[3][3] = { { 0 } }, sigma[3][3], trace = 0, xi[3];
+    double A[3][3] = { { 0 } }, K[3][3] = { { 0 } }, M[3][3] = { { 0 } }, H[3][3] = { { 0 } }, sigma[3][3],
+           trace = 0, xi[3];
     int dim = c->dim;
     for (size_t j = 0; j < c->n; j++) {
         double w = bond (c, i, j, kernel, horizon, xi) * c->V[j];
         for (int a = 0; a < dim && w > 0; a++)
-            for (int b = 0; b < dim; b++) A[a][b] += w * xi[a] * xi[b], M[a][b] += w * (c->u[j][a] - c->u[i][a]) * xi[b];
+            for (int b = 0; b < dim; b++)
+                A[a][b] += w * xi[a] * xi[b], M[a][b] += w * (c->u[j][a] - c->u[i][a]) * xi[b];
     }
     invert (dim, A, K);
     for (int a = 0; a < dim; a++)
@@ -111,7 +122,8 @@ static void compare (int dim, int per_axis, const char *plane, const char *kerne
 {
     static cloud c;
     double h = 2e-3, horizon = (dim == 3 ? 2.4 : 3.015) * h, E = 3e9, nu = 0.3, mu = E / (2 * (1 + nu));
-    double lambda = plane && strcmp (plane, "stress") == 0 ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu));
+    double lambda = plane && strcmp (plane, "stress") == 0 ? E * nu / (1 - nu * nu)
+                                                           : E * nu / ((1 + nu) * (1 - 2 * nu));
     scatter (&c, dim, per_axis, h);
     assembled a = from_file (&c, plane, kernel, horizon);
     double *u = pg_calloc (a.ndof, sizeof *u), *Ku = pg_calloc (a.ndof, sizeof *Ku), worst = 0, size = 0;
@@ -137,9 +149,21 @@ static void compare (int dim, int per_axis, const char *plane, const char *kerne
     release (&a);
 }
 
-static void plane_stress_equals_the_force_state_formula (void **state) { (void) state; compare (2, 13, "stress", "constant"); }
-static void plane_strain_equals_the_force_state_formula (void **state) { (void) state; compare (2, 13, "strain", "quadratic"); }
-static void solid_equals_the_force_state_formula        (void **state) { (void) state; compare (3, 6, NULL, "constant"); }
+static void plane_stress_equals_the_force_state_formula (void **state)
+{
+    (void) state;
+    compare (2, 13, "stress", "constant");
+}
+static void plane_strain_equals_the_force_state_formula (void **state)
+{
+    (void) state;
+    compare (2, 13, "strain", "quadratic");
+}
+static void solid_equals_the_force_state_formula (void **state)
+{
+    (void) state;
+    compare (3, 6, NULL, "constant");
+}
 
 int main (void)
 {

@@ -5,7 +5,8 @@
 #include "check.h"
 #include "perigal/solve.h"
 
-#define PLATE "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.5]}}}]\nspacing: 0.1\nthickness: 0.2\n" \
+#define PLATE \
+    "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.5]}}}]\nspacing: 0.1\nthickness: 0.2\n" \
     "materials: {rock: {youngs_modulus: 10, poissons_ratio: 0.2, density: 3}}\n"
 
 typedef struct { pg_scene *scene; pg_problem *problem; } built;
@@ -24,7 +25,8 @@ static inline void unbuild (built *b)
     pg_scene_free (&b->scene);
 }
 
-/* Somewhere on the way to a solver the scene is refused, with this in the message, and nothing is left over. */
+/* Somewhere on the way to a solver the scene is refused, with this in the message, and nothing is left
+ * over. */
 static inline void refused_at (const char *text, const char *part, const char *file, int line)
 {
     pg_scene *scene = NULL;
@@ -35,14 +37,16 @@ static inline void refused_at (const char *text, const char *part, const char *f
     if (status == PG_OK) status = pg_problem_build (&problem, scene, 1);
     if (status == PG_OK) status = pg_solver_options_read (&options, problem, scene);
     if (status != PG_E_SCENE || !strstr (pg_last_error (), part)) {
-        print_error ("status '%s', message '%s' where '%s' was expected\n", pg_status_text (status), status ? pg_last_error () : "", part);
+        print_error ("status '%s', message '%s' where '%s' was expected\n", pg_status_text (status),
+                     status ? pg_last_error () : "", part);
         _fail (file, line);
     }
     pg_problem_free (&problem);
-    if (scene && pg_memory_used () > used + 4096) _fail (file, line);      /* the scene keeps its faults                 */
+    if (scene && pg_memory_used () > used + 4096) _fail (file, line);      /* the scene keeps its faults */
     pg_scene_free (&scene);
 }
-/* The problem of a scene built with each allocation failing in turn: told as that, and nothing is left behind. */
+/* The problem of a scene built with each allocation failing in turn: told as that, and nothing is left
+ * behind. */
 static inline void each_allocation_may_fail (const char *text)
 {
     pg_scene *scene = NULL;

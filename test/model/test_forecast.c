@@ -9,7 +9,9 @@
 
 #define ROCK "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}}\n"
 #define CUBE "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\n" ROCK
-#define ROUND "dimension: 2\nbody: [{add: {disk: {center: [0, 0], diameter: 1}}}, {subtract: {disk: {center: [0.1, 0], diameter: 0.2}}}]\n" ROCK
+#define ROUND \
+    "dimension: 2\nbody: [{add: {disk: {center: [0, 0], diameter: 1}}}, {subtract: {disk: {center: [0.1, " \
+    "0], diameter: 0.2}}}]\n" ROCK
 #define PUCK "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], diameter: 1, length: 0.1}}}]\n" ROCK
 #define DISK ROUND "cells: staircase\n"
 #define SLAB PUCK "cells: staircase\n"
@@ -25,7 +27,7 @@ static pg_forecast forecast (const char *text)
     return f;
 }
 
-/* ---- counts ----------------------------------------------------------------------------------------------------------- */
+/* ---- counts -------------------------------------------------------------------------------------------- */
 static void counts_as_built (const char *text)
 {
     pg_forecast f = forecast (text);
@@ -39,41 +41,77 @@ static void counts_as_built (const char *text)
     assert_true (f.bonds[PG_POINTS] == (double) (p->first_bond[2] - p->first_bond[1]));
     const pg_family *bulk = &p->rows[f.nodal ? PG_NODES : PG_POINTS].family;
     pg_sparse G;
-    check_ok (p->direct ? pg_stiffness_graph_direct (&G, bulk) : pg_stiffness_graph (&G, p->cloud.n, 1, &bulk));
+    check_ok (p->direct ? pg_stiffness_graph_direct (&G, bulk)
+                        : pg_stiffness_graph (&G, p->cloud.n, 1, &bulk));
     assert_true (f.pairs == (double) G.start[G.ncol]);
     pg_sparse_clear (&G);
     unbuild (&b);
 }
 
-static void test_bar (void **state)      { (void) state; counts_as_built ("dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.02\n" ROCK); }
+static void test_bar (void **state)
+{
+    (void) state;
+    counts_as_built ("dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.02\n" ROCK);
+}
 static void test_plane (void **state)    { (void) state; counts_as_built (DISK "spacing: 0.05\n"); }
 static void test_solid (void **state)    { (void) state; counts_as_built (SLAB "spacing: 0.06\n"); }
-static void test_nodal (void **state)    { (void) state; counts_as_built (DISK "spacing: 0.03\nmethod: {integration: nodal, approximation: nosb}\n"); }
-static void test_centres (void **state)  { (void) state; counts_as_built (DISK "spacing: 0.04\nlattice: cells\n"); }
-static void test_tensor (void **state)   { (void) state; counts_as_built (DISK "spacing: 0.05\nmethod: {support: tensor}\n"); }
-static void test_closed (void **state)   { (void) state; counts_as_built (DISK "spacing: 0.05\nmethod: {kernel: constant, approximation: pddo}\n"); }
+static void test_nodal (void **state)
+{
+    (void) state;
+    counts_as_built (DISK "spacing: 0.03\nmethod: {integration: nodal, approximation: nosb}\n");
+}
+static void test_centres (void **state)
+{
+    (void) state;
+    counts_as_built (DISK "spacing: 0.04\nlattice: cells\n");
+}
+static void test_tensor (void **state)
+{
+    (void) state;
+    counts_as_built (DISK "spacing: 0.05\nmethod: {support: tensor}\n");
+}
+static void test_closed (void **state)
+{
+    (void) state;
+    counts_as_built (DISK "spacing: 0.05\nmethod: {kernel: constant, approximation: pddo}\n");
+}
 static void test_bond (void **state)
 {
     (void) state;
-    static const char *const more[] = { "", ", partial_volume: none", ", partial_volume: linear", ", horizon: 4.3 spacing, kernel: quadratic" };
+    static const char *const more[] = { "", ", partial_volume: none", ", partial_volume: linear",
+                                        ", horizon: 4.3 spacing, kernel: quadratic" };
     char text[500];
     for (int k = 0; k < 4; k++) {
-        snprintf (text, sizeof text, DISK "spacing: 0.05\nmethod: {force: bond%s}\n", more[k]), counts_as_built (text);
-        snprintf (text, sizeof text, SLAB "spacing: 0.06\nlattice: cells\nmethod: {force: bond%s}\n", more[k]), counts_as_built (text);
+        snprintf (text, sizeof text, DISK "spacing: 0.05\nmethod: {force: bond%s}\n", more[k]),
+            counts_as_built (text);
+        snprintf (text, sizeof text, SLAB "spacing: 0.06\nlattice: cells\nmethod: {force: bond%s}\n",
+                  more[k]),
+            counts_as_built (text);
     }
 }
-static void test_metres (void **state)   { (void) state; counts_as_built (DISK "spacing: 0.05\nmethod: {horizon: 0.12 m}\n"); }
-static void test_quadratic (void **state) { (void) state; counts_as_built (DISK "spacing: 0.06\nmethod: {basis: quadratic, horizon: 3 spacing}\n"); }
+static void test_metres (void **state)
+{
+    (void) state;
+    counts_as_built (DISK "spacing: 0.05\nmethod: {horizon: 0.12 m}\n");
+}
+static void test_quadratic (void **state)
+{
+    (void) state;
+    counts_as_built (DISK "spacing: 0.06\nmethod: {basis: quadratic, horizon: 3 spacing}\n");
+}
 static void test_oblong (void **state)
 {
     (void) state;
-    counts_as_built ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.33]}}}]\nspacing: 0.06\nlattice_offset: [0.3, -0.2]\ncells: staircase\n" ROCK);
+    counts_as_built ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.33]}}}]\nspacing: "
+                     "0.06\nlattice_offset: [0.3, -0.2]\ncells: staircase\n" ROCK);
 }
 
 /* Cut cells are estimated: points of evaluation, their bonds and the pairs. */
 static void test_cut (void **state)
 {
-    static const char *const text[] = { ROUND "spacing: 0.05\n", ROUND "spacing: 0.02\n", ROUND "spacing: 0.03\nmethod: {basis: quadratic, horizon: 3 spacing}\n",
+    static const char *const text[] = { ROUND "spacing: 0.05\n", ROUND "spacing: 0.02\n",
+                                        ROUND
+                                        "spacing: 0.03\nmethod: {basis: quadratic, horizon: 3 spacing}\n",
                                         PUCK "spacing: 0.06\n", PUCK "spacing: 0.04\n" };
     (void) state;
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
@@ -102,7 +140,8 @@ static void test_a_sample_is_near_the_count (void **state)
     check_relative (f.bonds[PG_NODES], (double) b.problem->first_bond[1], 0.01);
     check_relative (f.bonds[PG_POINTS], (double) (b.problem->first_bond[2] - b.problem->first_bond[1]), 0.01);
     check_ok (pg_forecast_problem (&f, b.problem));
-    assert_true (f.counted && f.bonds[PG_POINTS] == (double) (b.problem->first_bond[2] - b.problem->first_bond[1]));
+    assert_true (f.counted
+                 && f.bonds[PG_POINTS] == (double) (b.problem->first_bond[2] - b.problem->first_bond[1]));
     unbuild (&b);
 }
 
@@ -124,7 +163,7 @@ static void test_wide_horizons_need_no_stencil (void **state)
     check_below ((double) (pg_memory_peak () - before), 1e7);
 }
 
-/* ---- factor ----------------------------------------------------------------------------------------------------------- */
+/* ---- factor -------------------------------------------------------------------------------------------- */
 static void factor_is_near (const char *text, double tolerance)
 {
     pg_forecast f = forecast (text);
@@ -144,7 +183,11 @@ static void factor_is_near (const char *text, double tolerance)
 static void test_law_of_a_disk (void **state)  { (void) state; factor_is_near (DISK "spacing: 0.01\n", 0.2); }
 static void test_law_of_a_cube (void **state)  { (void) state; factor_is_near (CUBE "spacing: 0.06\n", 0.2); }
 static void test_law_of_a_slab (void **state)  { (void) state; factor_is_near (SLAB "spacing: 0.02\n", 0.2); }
-static void test_law_of_wide_bonds (void **state) { (void) state; factor_is_near (DISK "spacing: 0.012\nmethod: {horizon: 3 spacing}\n", 0.2); }
+static void test_law_of_wide_bonds (void **state)
+{
+    (void) state;
+    factor_is_near (DISK "spacing: 0.012\nmethod: {horizon: 3 spacing}\n", 0.2);
+}
 
 static pg_forecast analysed (const built *b, const char *text)
 {
@@ -182,11 +225,13 @@ static void test_analysis_is_that_of_a_run (void **state)
 {
     (void) state;
     run_has_this_factor (PLATE HELD);
-    run_has_this_factor ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.02\n" ROCK HELD);
-    run_has_this_factor (CUBE "spacing: 0.125\nboundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, displacement: {y: 1 mm}}]\n");
+    run_has_this_factor (
+        "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.02\n" ROCK HELD);
+    run_has_this_factor (CUBE "spacing: 0.125\nboundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, "
+                              "{set: top, displacement: {y: 1 mm}}]\n");
 }
 
-/* ---- who solves --------------------------------------------------------------------------------------------------------- */
+/* ---- who solves ---------------------------------------------------------------------------------------- */
 static void test_small_time_steps_factor_nothing (void **state)
 {
     (void) state;
@@ -194,12 +239,13 @@ static void test_small_time_steps_factor_nothing (void **state)
     pg_forecast large = forecast (DISK "spacing: 0.01\nsolver: {kind: newmark, dt: 1 ms, end: 1 s}\n");
     assert_string_equal (small.linear, "cg");
     assert_string_equal (large.linear, "cholmod");
-    assert_true (small.bytes[PG_BYTES_FACTOR] == 0 && small.bytes[PG_BYTES_MATRIX] == 0 && large.bytes[PG_BYTES_FACTOR] > 0);
+    assert_true (small.bytes[PG_BYTES_FACTOR] == 0 && small.bytes[PG_BYTES_MATRIX] == 0
+                 && large.bytes[PG_BYTES_FACTOR] > 0);
     assert_string_equal (forecast (DISK "spacing: 0.01\nsolver: {linear: pcg}\n").linear, "cg");
     assert_string_equal (forecast (DISK "spacing: 0.01\nsolver: {linear: umfpack}\n").linear, "umfpack");
 }
 
-/* ---- refusals ----------------------------------------------------------------------------------------------------------- */
+/* ---- refusals ------------------------------------------------------------------------------------------ */
 static void test_what_fits_is_no_error (void **state)
 {
     (void) state;
@@ -247,7 +293,8 @@ static void test_astronomic_sizes (void **state)
     check_ok (pg_scene_parse (&scene, CUBE "spacing: 1e-9\n", "test.yaml"));
     check_fails (pg_forecast_scene (&f, scene), PG_E_SCENE);
     pg_scene_free (&scene);
-    check_refused (CUBE "spacing: 1e-6\n", "too fine for this body: 1e+18 cells, and 2147483647 are possible");
+    check_refused (CUBE "spacing: 1e-6\n",
+                   "too fine for this body: 1e+18 cells, and 2147483647 are possible");
 }
 
 static void test_faults_are_faults (void **state)
@@ -278,7 +325,7 @@ static void test_failing_allocations (void **state)
     pg_scene_free (&scene);
 }
 
-/* ---- what is left -------------------------------------------------------------------------------------------------------- */
+/* ---- what is left -------------------------------------------------------------------------------------- */
 static char root[64];
 
 static void put (const char *path, const char *text)
@@ -297,7 +344,8 @@ static int make_root (void **state)
     (void) state;
     snprintf (root, sizeof root, "/tmp/perigal-left-XXXXXX");
     if (!mkdtemp (root)) return -1;
-    put ("proc/meminfo", "MemTotal:       24000000 kB\nMemFree:         1000000 kB\nMemAvailable:   20000000 kB\n");
+    put ("proc/meminfo",
+         "MemTotal:       24000000 kB\nMemFree:         1000000 kB\nMemAvailable:   20000000 kB\n");
     return 0;
 }
 
@@ -356,16 +404,37 @@ static void test_this_machine (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (test_bar), cmocka_unit_test (test_plane), cmocka_unit_test (test_solid), cmocka_unit_test (test_nodal),
-        cmocka_unit_test (test_centres), cmocka_unit_test (test_tensor), cmocka_unit_test (test_closed), cmocka_unit_test (test_metres),
-        cmocka_unit_test (test_quadratic), cmocka_unit_test (test_bond), cmocka_unit_test (test_oblong), cmocka_unit_test (test_cut), cmocka_unit_test (test_a_sample_is_near_the_count),
-        cmocka_unit_test (test_a_coarser_lattice_is_near_the_count), cmocka_unit_test (test_wide_horizons_need_no_stencil),
-        cmocka_unit_test (test_law_of_a_disk), cmocka_unit_test (test_law_of_a_cube), cmocka_unit_test (test_law_of_a_slab),
-        cmocka_unit_test (test_law_of_wide_bonds), cmocka_unit_test (test_analysis_is_that_of_a_run),
-        cmocka_unit_test (test_small_time_steps_factor_nothing), cmocka_unit_test (test_what_fits_is_no_error),
-        cmocka_unit_test (test_refusal_has_the_numbers), cmocka_unit_test (test_the_spacing_that_fits_fits),
-        cmocka_unit_test (test_astronomic_sizes), cmocka_unit_test (test_faults_are_faults), cmocka_unit_test (test_failing_allocations),
-        LEFT (test_machine), LEFT (test_no_limit_in_the_group), LEFT (test_a_group_above_limits), LEFT (test_first_version_groups),
+        cmocka_unit_test (test_bar),
+        cmocka_unit_test (test_plane),
+        cmocka_unit_test (test_solid),
+        cmocka_unit_test (test_nodal),
+        cmocka_unit_test (test_centres),
+        cmocka_unit_test (test_tensor),
+        cmocka_unit_test (test_closed),
+        cmocka_unit_test (test_metres),
+        cmocka_unit_test (test_quadratic),
+        cmocka_unit_test (test_bond),
+        cmocka_unit_test (test_oblong),
+        cmocka_unit_test (test_cut),
+        cmocka_unit_test (test_a_sample_is_near_the_count),
+        cmocka_unit_test (test_a_coarser_lattice_is_near_the_count),
+        cmocka_unit_test (test_wide_horizons_need_no_stencil),
+        cmocka_unit_test (test_law_of_a_disk),
+        cmocka_unit_test (test_law_of_a_cube),
+        cmocka_unit_test (test_law_of_a_slab),
+        cmocka_unit_test (test_law_of_wide_bonds),
+        cmocka_unit_test (test_analysis_is_that_of_a_run),
+        cmocka_unit_test (test_small_time_steps_factor_nothing),
+        cmocka_unit_test (test_what_fits_is_no_error),
+        cmocka_unit_test (test_refusal_has_the_numbers),
+        cmocka_unit_test (test_the_spacing_that_fits_fits),
+        cmocka_unit_test (test_astronomic_sizes),
+        cmocka_unit_test (test_faults_are_faults),
+        cmocka_unit_test (test_failing_allocations),
+        LEFT (test_machine),
+        LEFT (test_no_limit_in_the_group),
+        LEFT (test_a_group_above_limits),
+        LEFT (test_first_version_groups),
         cmocka_unit_test (test_this_machine),
     };
     return cmocka_run_group_tests_name ("model/forecast", tests, NULL, NULL);

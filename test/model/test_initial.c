@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * initial.velocity: a free body flies and spins on, a stretching one has the velocity asked for, by every dynamic method; what is refused. */
+ * initial.velocity: a free body flies and spins on, a stretching one has the velocity asked for, by every
+ * dynamic method; what is refused. */
 #include <string.h>
 #include "../scene_runs/run.h"
 
-#define PLATE "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [-5 mm, -4 mm], high: [5 mm, 4 mm]}}}]\nspacing: 1 mm\nlattice: cells\n" \
+#define PLATE \
+    "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [-5 mm, -4 mm], high: [5 mm, 4 " \
+    "mm]}}}]\nspacing: 1 mm\nlattice: cells\n" \
     "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.3333333333333333, density: 2500 kg/m3}}\n"
 
 static void a_free_body_flies_on (void **state)
@@ -11,7 +14,10 @@ static void a_free_body_flies_on (void **state)
     (void) state;
     static const char *const kinds[3] = { "verlet", "central", "newmark" };
     for (int k = 0; k < 3; k++) {
-        run r = scene_of (1, PLATE "method: {force: bond}\ninitial: {velocity: {x: 3 m/s, y: -4 m/s}}\nsolver: {kind: %s, dt: 0.1 us, time_steps: 50}\n", kinds[k]);
+        run r = scene_of (1,
+                          PLATE "method: {force: bond}\ninitial: {velocity: {x: 3 m/s, y: -4 m/s}}\nsolver: "
+                                "{kind: %s, dt: 0.1 us, time_steps: 50}\n",
+                          kinds[k]);
         to_the_end (&r);
         for (size_t i = 0; i < r.problem->cloud.n; i++) {
             check_relative (r.state->d[2*i], 15e-6, 1e-9);
@@ -25,15 +31,18 @@ static void a_free_body_flies_on (void **state)
 static void each_point_has_its_own_velocity (void **state)
 {
     (void) state;
-    run r = scene_of (1, PLATE "method: {force: bond}\ninitial: {velocity: {y: 800 / s * y}}\nsolver: {kind: verlet, time_steps: 5}\n");
+    run r = scene_of (1, PLATE "method: {force: bond}\ninitial: {velocity: {y: 800 / s * y}}\nsolver: {kind: "
+                               "verlet, time_steps: 5}\n");
     for (size_t i = 0; i < r.problem->cloud.n; i++) {
         assert_true (r.state->v[2*i] == 0);
         check_scaled (r.state->v[2*i + 1], 800 * r.problem->cloud.x[2*i + 1], 1e-14, 3.2);
     }
     clear (&r);
-    r = scene_of (1, PLATE "method: {force: bond}\nboundary: [{set: left, displacement: {x: 0, y: 0}}]\ninitial: {velocity: {y: 1}}\nsolver: {kind: static, steps: 2}\n");
+    r = scene_of (1, PLATE "method: {force: bond}\nboundary: [{set: left, displacement: {x: 0, y: "
+                           "0}}]\ninitial: {velocity: {y: 1}}\nsolver: {kind: static, steps: 2}\n");
     int noted = 0;
-    for (size_t k = 0; k < r.problem->nnote; k++) noted |= strstr (r.problem->note[k], "without meaning for solver: static: initial") != NULL;
+    for (size_t k = 0; k < r.problem->nnote; k++)
+        noted |= strstr (r.problem->note[k], "without meaning for solver: static: initial") != NULL;
     assert_true (noted);
     assert_true (largest_of (r.state->v, r.state->ndof) == 0);
     clear (&r);
@@ -46,12 +55,18 @@ static void a_spinning_body_is_at_rest_in_itself (void **state)
     static const char *const kinds[3] = { "verlet", "central", "newmark" };
     for (int k = 0; k < 6; k++) {
         int dim = 2 + k / 3;
-        run r = scene_of (1, "dimension: %d\n%sbody: [{add: {box: {low: %s, high: %s}}}]\nspacing: 1 mm\nlattice: cells\nmethod: {force: gmpd}\n"
-            "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.2, density: 2500 kg/m3}}\ninitial: {velocity: {x: -300 / s * y, y: 300 / s * x%s}}\n"
-            "solver: {kind: %s, dt: 0.1 us, time_steps: 50}\n", dim, dim == 2 ? "plane: stress\nthickness: 1 mm\n" : "", dim == 2 ? "[-5 mm, -4 mm]" : "[-3 mm, -4 mm, -2 mm]",
-            dim == 2 ? "[5 mm, 4 mm]" : "[3 mm, 4 mm, 2 mm]", dim == 2 ? "" : " + 100 / s * z, z: -100 / s * y", kinds[k % 3]);
+        run r = scene_of (1,
+                          "dimension: %d\n%sbody: [{add: {box: {low: %s, high: %s}}}]\nspacing: 1 "
+                          "mm\nlattice: cells\nmethod: {force: gmpd}\n"
+                          "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.2, density: 2500 "
+                          "kg/m3}}\ninitial: {velocity: {x: -300 / s * y, y: 300 / s * x%s}}\n"
+                          "solver: {kind: %s, dt: 0.1 us, time_steps: 50}\n",
+                          dim, dim == 2 ? "plane: stress\nthickness: 1 mm\n" : "",
+                          dim == 2 ? "[-5 mm, -4 mm]" : "[-3 mm, -4 mm, -2 mm]",
+                          dim == 2 ? "[5 mm, 4 mm]" : "[3 mm, 4 mm, 2 mm]",
+                          dim == 2 ? "" : " + 100 / s * z, z: -100 / s * y", kinds[k % 3]);
         to_the_end (&r);
-        const pg_report *p = pg_solver_report_now (r.solver);
+        const pg_statistics *p = pg_solver_report_now (r.solver);
         assert_true (p->energy_kinetic > 0);
         check_below (p->energy_strain, (k % 3 == 2 ? 1e-12 : 1e-18) * p->energy_kinetic);
         size_t m = (size_t) (r.problem->dim + r.problem->turns);
@@ -80,13 +95,17 @@ static void must_refuse (const char *rest, const char *part)
 static void what_cannot_be_is_refused (void **state)
 {
     (void) state;
-    must_refuse ("method: {force: bond}\ninitial: {velocity: {z: 1 m/s}}\n", "initial.velocity.z = 1 m/s: a 2D body has no such component");
+    must_refuse ("method: {force: bond}\ninitial: {velocity: {z: 1 m/s}}\n",
+                 "initial.velocity.z = 1 m/s: a 2D body has no such component");
     must_refuse ("method: {force: bond}\ninitial: {velocity: {x: 1 m/s2 * t}}\n", "does not change with t");
     must_refuse ("initial: {velocity: {x: 1 m/s}}\n", "not with force: galerkin so far");
 }
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (a_free_body_flies_on), cmocka_unit_test (each_point_has_its_own_velocity), cmocka_unit_test (a_spinning_body_is_at_rest_in_itself), cmocka_unit_test (what_cannot_be_is_refused) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (a_free_body_flies_on),
+                                        cmocka_unit_test (each_point_has_its_own_velocity),
+                                        cmocka_unit_test (a_spinning_body_is_at_rest_in_itself),
+                                        cmocka_unit_test (what_cannot_be_is_refused) };
     return cmocka_run_group_tests_name ("model/initial", tests, NULL, NULL);
 }

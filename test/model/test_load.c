@@ -22,7 +22,8 @@ static void a_load_grows_linearly_unless_told (void **state)
     check_relative (value ("displacement: {x: 3 mm}", "", 0, 0.25), 0.75e-3, 1e-15);
     check_relative (value ("displacement: {x: 3 mm}", "", 0, 1), 3e-3, 1e-15);
     check_relative (value ("traction: {y: 3 MPa}, ramp: linear", "", 1, 0.5), 1.5e6, 1e-15);
-    check_relative (value ("traction: {y: 3 MPa}, ramp: linear", NEWMARK, 1, 0.5), 0.75e6, 1e-15);       /* over the run   */
+    /* over the run */
+    check_relative (value ("traction: {y: 3 MPa}, ramp: linear", NEWMARK, 1, 0.5), 0.75e6, 1e-15);
     check_relative (value ("traction: {y: 3 MPa}, ramp: constant", "", 1, 0), 3e6, 1e-15);
     assert_true (value ("displacement: {x: 3 mm}", "", 1, 1) == 0);
 }
@@ -52,7 +53,8 @@ static void a_ramp_is_an_expression_in_t (void **state)
     (void) state;
     check_relative (value ("force: {x: 2 N}, ramp: t^2", "", 0, 0.5), 0.5, 1e-15);
     check_relative (value ("force: {x: 2 N}, ramp: sin(3*t)", NEWMARK, 0, 1.7), 2 * sin (5.1), 1e-14);
-    check_relative (value ("displacement: {x: 1 mm * t^3}, ramp: constant", NEWMARK, 0, 1.5), 3.375e-3, 1e-14);
+    check_relative (value ("displacement: {x: 1 mm * t^3}, ramp: constant", NEWMARK, 0, 1.5), 3.375e-3,
+                    1e-14);
 }
 
 static void a_table_is_linear_between_and_constant_beyond (void **state)
@@ -81,7 +83,7 @@ static void a_velocity_table_is_integrated (void **state)
 {
     (void) state;
     const char *load = "velocity: {x: 2 m/s}, table: [[0.5, 1], [1, 3], [2, -1]]";
-    double sum = 0, step = 0.125;                      /* breaks of the table fall on steps: the trapezium rule is exact   */
+    double sum = 0, step = 0.125;  /* breaks of the table fall on steps: the trapezium rule is exact */
     for (double t = 0; t < 4; t += step) {
         check_absolute (value (load, NEWMARK, 0, t), 2 * sum, 1e-13);
         sum += 0.5 * step * (table_velocity (t) + table_velocity (t + step));
@@ -105,8 +107,10 @@ static void proportional_loads_are_recognised (void **state)
 {
     (void) state;
     assert_true (proportional ("{set: right, traction: {x: 1}}"));
-    assert_true (proportional ("{set: left, displacement: {x: 0, y: 0}, ramp: constant}, {set: right, displacement: {x: y}}"));
-    assert_false (proportional ("{set: left, displacement: {x: 1e-30}, ramp: constant}, {set: right, traction: {x: 1}}"));
+    assert_true (proportional (
+        "{set: left, displacement: {x: 0, y: 0}, ramp: constant}, {set: right, displacement: {x: y}}"));
+    assert_false (proportional (
+        "{set: left, displacement: {x: 1e-30}, ramp: constant}, {set: right, traction: {x: 1}}"));
     assert_false (proportional ("{set: right, traction: {x: 1}, ramp: constant}"));
     assert_false (proportional ("{set: right, traction: {x: 1 Pa * t}}"));
     assert_false (proportional ("{set: right, traction: {x: 1}, ramp: t^2}"));
@@ -124,32 +128,40 @@ static void the_way_of_prescribing_follows_the_method (void **state)
     };
     for (int i = 0; i < 4; i++) {
         char text[1000];
-        snprintf (text, sizeof text, PLATE "boundary: [{set: right, displacement: {x: 1}}]\n%s", cases[i].rest);
+        snprintf (text, sizeof text, PLATE "boundary: [{set: right, displacement: {x: 1}}]\n%s",
+                  cases[i].rest);
         built b = build (text);
         assert_int_equal (b.problem->load[0].essential, cases[i].how);
         unbuild (&b);
     }
-    built b = build (PLATE "sets: {mid: {where: \"abs(x - 0.5) < 0.01\"}}\nboundary: [{set: mid, displacement: {x: 1}}]\n");
-    assert_int_equal (b.problem->load[0].essential, PG_ESSENTIAL_TRANSFORMATION);       /* points inside have no facet      */
+    built b = build (
+        PLATE
+        "sets: {mid: {where: \"abs(x - 0.5) < 0.01\"}}\nboundary: [{set: mid, displacement: {x: 1}}]\n");
+    /* points inside have no facet */
+    assert_int_equal (b.problem->load[0].essential, PG_ESSENTIAL_TRANSFORMATION);
     unbuild (&b);
 }
 
 static void an_entry_may_choose_its_own_way (void **state)
 {
     (void) state;
-    built b = build (PLATE "method: {essential: nitsche}\nboundary: [{set: right, displacement: {x: 1}, essential: penalty}, {set: left, displacement: {x: 0}}]\n");
+    built b = build (PLATE "method: {essential: nitsche}\nboundary: [{set: right, displacement: {x: 1}, "
+                           "essential: penalty}, {set: left, displacement: {x: 0}}]\n");
     assert_int_equal (b.problem->load[0].essential, PG_ESSENTIAL_PENALTY);
     assert_int_equal (b.problem->load[1].essential, PG_ESSENTIAL_NITSCHE);
     unbuild (&b);
-    check_refused (PLATE "boundary: [{set: right, displacement: {x: 1}, essential: penalti}]\n", "boundary[0].essential");
+    check_refused (PLATE "boundary: [{set: right, displacement: {x: 1}, essential: penalti}]\n",
+                   "boundary[0].essential");
 }
 
 static void faults_name_key_and_reason (void **state)
 {
     (void) state;
 #define LOAD(inside) PLATE "boundary: [{" inside "}]\n"
-    check_refused (LOAD ("set: rigth, displacement: {x: 1}"), "boundary[0].set = rigth: there is no set of this name (did you mean right?)");
-    check_refused (LOAD ("set: right, displacement: {z: 1}"), "boundary[0].displacement.z = 1: a 2D body has no such component");
+    check_refused (LOAD ("set: rigth, displacement: {x: 1}"),
+                   "boundary[0].set = rigth: there is no set of this name (did you mean right?)");
+    check_refused (LOAD ("set: right, displacement: {z: 1}"),
+                   "boundary[0].displacement.z = 1: a 2D body has no such component");
     check_refused (LOAD ("set: right, displacement: {}"), "at least one component");
     check_refused (LOAD ("set: right, traction: {x: 1 mm}"), "boundary[0].traction.x");
     check_refused (LOAD ("set: right, velocity: {x: 1 m/s}"), "a static run has no velocity");
@@ -160,9 +172,12 @@ static void faults_name_key_and_reason (void **state)
     check_refused (LOAD ("set: right, traction: {x: 1}, pressure: 1"), "exactly one");
     check_refused (LOAD ("set: right"), "exactly one");
     check_refused (LOAD ("set: right, traction: {x: 1}, ramp: linaer"), "boundary[0].ramp = linaer");
-    check_refused (PLATE "sets: {mid: {where: \"abs(x - 0.5) < 0.01\"}}\nboundary: [{set: mid, traction: {x: 1}}]\n", "holds no boundary facet");
+    check_refused (
+        PLATE "sets: {mid: {where: \"abs(x - 0.5) < 0.01\"}}\nboundary: [{set: mid, traction: {x: 1}}]\n",
+        "holds no boundary facet");
     check_refused (LOAD ("set: right, velocity: {x: 1 m/s * t}") NEWMARK, "may not depend on t");
-    check_refused (LOAD ("set: right, velocity: {x: 1 m/s}, ramp: t^2") NEWMARK, "a velocity takes ramp constant or linear");
+    check_refused (LOAD ("set: right, velocity: {x: 1 m/s}, ramp: t^2") NEWMARK,
+                   "a velocity takes ramp constant or linear");
 }
 
 int main (void)

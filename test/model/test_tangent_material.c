@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A material that only a tangent describes (orthotropic, added to the catalogue by this program): forces made of bonds refuse it, the Galerkin force
- * carries it; and keys that a model does not read are faults. */
+ * A material that only a tangent describes (orthotropic, added to the catalogue by this program): forces made
+ * of bonds refuse it, the Galerkin force carries it; and keys that a model does not read are faults. */
 #include "scenes.h"
 #include <stdlib.h>
 
@@ -19,14 +19,24 @@ static void stress (const pg_material *m, size_t n, const double *strain, double
     for (size_t i = 0; i < n; i++) {
         for (int a = 0; a < 3; a++) {
             out[3 * i + (size_t) a] = 0;
-            for (int b = 0; b < 3; b++) out[3 * i + (size_t) a] += m->D[3 * a + b] * strain[3 * i + (size_t) b];
+            for (int b = 0; b < 3; b++)
+                out[3 * i + (size_t) a] += m->D[3 * a + b] * strain[3 * i + (size_t) b];
         }
         if (zz) zz[i] = 0;
     }
 }
 
-static const pg_material_type grain = { .name = "grain", .summary = "two moduli", .keys = "youngs_modulus poissons_ratio", .read = read, .stress = stress };
-static const pg_material_type rigid = { .name = "one_modulus", .summary = "no Poisson's ratio", .keys = "youngs_modulus", .isotropic = 1, .read = read, .stress = stress };
+static const pg_material_type grain = { .name = "grain",
+                                        .summary = "two moduli",
+                                        .keys = "youngs_modulus poissons_ratio",
+                                        .read = read,
+                                        .stress = stress };
+static const pg_material_type rigid = { .name = "one_modulus",
+                                        .summary = "no Poisson's ratio",
+                                        .keys = "youngs_modulus",
+                                        .isotropic = 1,
+                                        .read = read,
+                                        .stress = stress };
 
 #define BODY "dimension: 2\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.1\n"
 #define GRAIN BODY "materials:\n  wood:\n    model: grain\n    youngs_modulus: 1 GPa\n    poissons_ratio: 0\n"
@@ -46,8 +56,10 @@ static void bonds_refuse_a_material_that_depends_on_the_direction (void **state)
 static void the_galerkin_force_carries_it (void **state)
 {
     (void) state;
-    static const char *const along[2] = { "left, displacement: {x: 0}}, {name: c, set: bottom, displacement: {y: 0}}, {name: l, set: right, traction: {x: 1 MPa}}",
-                                          "bottom, displacement: {y: 0}}, {name: c, set: left, displacement: {x: 0}}, {name: l, set: top, traction: {y: 1 MPa}}" };
+    static const char *const along[2] = { "left, displacement: {x: 0}}, {name: c, set: bottom, displacement: "
+                                          "{y: 0}}, {name: l, set: right, traction: {x: 1 MPa}}",
+                                          "bottom, displacement: {y: 0}}, {name: c, set: left, displacement: "
+                                          "{x: 0}}, {name: l, set: top, traction: {y: 1 MPa}}" };
     for (int axis = 0; axis < 2; axis++) {
         char text[1200];
         pg_solver *solver = NULL;
@@ -56,7 +68,10 @@ static void the_galerkin_force_carries_it (void **state)
         pg_step step;
         double u[3], x[3] = { 1, 1, 0 };
         void *self;
-        snprintf (text, sizeof text, GRAIN "method: {integration: consistent}\nboundary: [{name: b, set: %s]\nsolver: {kind: static}\noutput: {at: {levels: 1}}\n", along[axis]);
+        snprintf (text, sizeof text,
+                  GRAIN "method: {integration: consistent}\nboundary: [{name: b, set: %s]\nsolver: {kind: "
+                        "static}\noutput: {at: {levels: 1}}\n",
+                  along[axis]);
         built b = build (text);
         check_ok (pg_solver_options_read (&o, b.problem, b.scene));
         check_ok (pg_solver_create (&solver, b.problem, &o));
@@ -73,9 +88,12 @@ static void a_key_that_the_model_does_not_read_is_a_fault (void **state)
 {
     (void) state;
     check_refused (BODY "materials: {m: {model: one_modulus, youngs_modulus: 1, poissons_ratio: 0.2}}\n",
-                   "materials.m.poissons_ratio = 0.2: is no key of model: one_modulus, which reads youngs_modulus and density");
-    check_refused (BODY "materials: {m: {youngs_modulus: 1, poissons_ratio: 0.2, youngs_modulus_y: 2}}\n", "youngs_modulus_y");
-    built b = build (BODY "materials: {m: {model: elastic, youngs_modulus: 1, poissons_ratio: 0.2, density: 3}}\n");
+                   "materials.m.poissons_ratio = 0.2: is no key of model: one_modulus, which reads "
+                   "youngs_modulus and density");
+    check_refused (BODY "materials: {m: {youngs_modulus: 1, poissons_ratio: 0.2, youngs_modulus_y: 2}}\n",
+                   "youngs_modulus_y");
+    built b = build (
+        BODY "materials: {m: {model: elastic, youngs_modulus: 1, poissons_ratio: 0.2, density: 3}}\n");
     unbuild (&b);
 }
 

@@ -1,12 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a run says of the tips of its pre-cracks: how well the opening of a crack is known that is few spacings long. */
+ * What a run says of the tips of its pre-cracks: how well the opening of a crack is known that is few
+ * spacings long. */
 #include "scenes.h"
 #include <stdlib.h>
 #include <string.h>
 
-#define BODY "materials: {a: {youngs_modulus: 1, poissons_ratio: 0.25}}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, traction: {y: 1}}]\n"
-#define SQUARE "dimension: 2\nthickness: 1\nbody: [{add: {box: {low: [-1, -1], high: [1, 1]}}}]\nlattice: cells\n" BODY
-#define CUBE "dimension: 3\nbody: [{add: {box: {low: [-1, -1, -1], high: [1, 1, 1]}}}]\nlattice: cells\nspacing: 0.2\nmethod: {gauss_points: 1}\n" BODY
+#define BODY \
+    "materials: {a: {youngs_modulus: 1, poissons_ratio: 0.25}}\nboundary: [{set: bottom, displacement: {x: " \
+    "0, y: 0}}, {set: top, traction: {y: 1}}]\n"
+#define SQUARE \
+    "dimension: 2\nthickness: 1\nbody: [{add: {box: {low: [-1, -1], high: [1, 1]}}}]\nlattice: cells\n" BODY
+#define CUBE \
+    "dimension: 3\nbody: [{add: {box: {low: [-1, -1, -1], high: [1, 1, 1]}}}]\nlattice: cells\nspacing: " \
+    "0.2\nmethod: {gauss_points: 1}\n" BODY
 #define STATIC "solver: {kind: static}\n"
 
 /* Per cent of the opening in the note; crack and spacings to its tip that it names. 0: no note. */
@@ -17,7 +23,7 @@ static double told (const char *scene, int *crack, double *spacings, int *warns)
     for (size_t k = 0; k < b.problem->nnote; k++) {
         const char *note = b.problem->note[k], *at = strstr (note, "the opening of crack ");
         if (!at) continue;
-        assert_true (percent == 0);                    /* one note                                                       */
+        assert_true (percent == 0);                    /* one note */
         *crack = atoi (at + 21);
         *spacings = strtod (strchr (at, '(') + 1, NULL);
         percent = strtod (strstr (at, "+-") + 2, NULL);
@@ -32,7 +38,7 @@ static void check_told (const char *scene, double percent, double spacings, int 
 {
     int crack = 0, warned = 0;
     double length = 0, share = told (scene, &crack, &length, &warned);
-    check_relative (share, percent, 0.06);             /* two digits                                                     */
+    check_relative (share, percent, 0.06);             /* two digits */
     check_relative (length, spacings, 0.03);
     assert_int_equal (crack, 1);
     assert_int_equal (warned, warns);
@@ -44,26 +50,40 @@ static void short_cracks_are_told_with_a_number (void **state)
     (void) state;
     check_told (SQUARE STATIC "spacing: 0.1\ncracks: [{from: [-1.5, 0], to: [-0.6, 0]}]\n", 7.5, 4, 1);
     check_told (SQUARE STATIC "spacing: 0.1\ncracks: [{from: [-0.6, 0], to: [-1, 0]}]\n", 7.5, 4, 1);
-    check_told (SQUARE STATIC "spacing: 0.1\nmethod: {tip_offset: 0}\ncracks: [{from: [-0.6, 0], to: [-1, 0]}]\n", 7.5, 4, 1);
+    check_told (SQUARE STATIC
+                "spacing: 0.1\nmethod: {tip_offset: 0}\ncracks: [{from: [-0.6, 0], to: [-1, 0]}]\n",
+                7.5, 4, 1);
     check_told (SQUARE STATIC "spacing: 0.1\ncracks: [{from: [0.03, 0.4], to: [0.03, 1]}]\n", 6.2, 6, 1);
     check_told (SQUARE STATIC "spacing: 0.025\ncracks: [{from: [-1, 0], to: [-0.6, 0]}]\n", 1.9, 16, 0);
     check_told (SQUARE STATIC "spacing: 0.1\ncracks: [{from: [-0.2, 0.01], to: [0.2, 0.01]}]\n", 11, 2, 1);
-    check_told (SQUARE STATIC "spacing: 0.1\nmethod: {basis: quadratic, horizon: 3 spacing}\ncracks: [{from: [-0.2, 0.01], to: [0.2, 0.01]}]\n", 15.9, 2, 1);
-    check_told (SQUARE STATIC "spacing: 0.1\nmethod: {integration: nodal}\ncracks: [{from: [-0.2, 0.01], to: [0.2, 0.01]}]\n", 41.2, 2, 1);
+    check_told (SQUARE STATIC "spacing: 0.1\nmethod: {basis: quadratic, horizon: 3 spacing}\ncracks: [{from: "
+                              "[-0.2, 0.01], to: [0.2, 0.01]}]\n",
+                15.9, 2, 1);
+    check_told (
+        SQUARE STATIC
+        "spacing: 0.1\nmethod: {integration: nodal}\ncracks: [{from: [-0.2, 0.01], to: [0.2, 0.01]}]\n",
+        41.2, 2, 1);
 }
 
 static void pieces_that_meet_are_one_crack (void **state)
 {
     (void) state;
-    check_told (SQUARE STATIC "spacing: 0.05\ncracks: [{from: [-1, 0.01], to: [-0.4, 0.01]}, {from: [-0.4, 0.01], to: [-0.2, 0.01]}, {from: [0, 0.01], to: [-0.2, 0.01]}]\n", 3, 20, 0);
-    check_told (SQUARE STATIC "spacing: 0.1\ncracks: [{from: [-0.4, 0.3], to: [-0.2, 0.4]}, {from: [0.4, -0.3], to: [0.2, -0.2]}, {from: [-0.2, 0.4], to: [0.2, -0.2]}]\n", 4.5, 5.84, 0);
+    check_told (SQUARE STATIC "spacing: 0.05\ncracks: [{from: [-1, 0.01], to: [-0.4, 0.01]}, {from: [-0.4, "
+                              "0.01], to: [-0.2, 0.01]}, {from: [0, 0.01], to: [-0.2, 0.01]}]\n",
+                3, 20, 0);
+    check_told (SQUARE STATIC "spacing: 0.1\ncracks: [{from: [-0.4, 0.3], to: [-0.2, 0.4]}, {from: [0.4, "
+                              "-0.3], to: [0.2, -0.2]}, {from: [-0.2, 0.4], to: [0.2, -0.2]}]\n",
+                4.5, 5.84, 0);
 }
 
 static void fronts_in_space (void **state)
 {
     (void) state;
-    check_told (CUBE STATIC "cracks: [{polygon: [[-1.2, 0.01, -1.2], [-0.2, 0.01, -1.2], [-0.2, 0.01, 1.2], [-1.2, 0.01, 1.2]]}]\n", 11.7, 4, 1);
-    check_told (CUBE STATIC "cracks: [{disc: {center: [0, 0.01, 0], normal: [0, 1, 0], radius: 0.4}}]\n", 12.7, 2, 1);
+    check_told (CUBE STATIC "cracks: [{polygon: [[-1.2, 0.01, -1.2], [-0.2, 0.01, -1.2], [-0.2, 0.01, 1.2], "
+                            "[-1.2, 0.01, 1.2]]}]\n",
+                11.7, 4, 1);
+    check_told (CUBE STATIC "cracks: [{disc: {center: [0, 0.01, 0], normal: [0, 1, 0], radius: 0.4}}]\n",
+                12.7, 2, 1);
 }
 
 /* A wave needs its front only where it passes; forces straight between points cut what crosses the crack. */
@@ -72,16 +92,25 @@ static void others_say_nothing (void **state)
     int crack, warns;
     double spacings;
     (void) state;
-    assert_true (told (SQUARE "spacing: 0.1\nsolver: {kind: verlet, end: 1 us}\ncracks: [{from: [-1, 0.01], to: [-0.6, 0.01]}]\n", &crack, &spacings, &warns) == 0);
-    assert_true (told (SQUARE STATIC "spacing: 0.1\nmethod: {force: lps}\ncracks: [{from: [-1, 0.01], to: [-0.6, 0.01]}]\n", &crack, &spacings, &warns) == 0);
-    assert_true (told (SQUARE STATIC "spacing: 0.1\ncracks: [{from: [-1.5, 0.01], to: [1.5, 0.01]}]\n", &crack, &spacings, &warns) == 0);
+    assert_true (told (SQUARE "spacing: 0.1\nsolver: {kind: verlet, end: 1 us}\ncracks: [{from: [-1, 0.01], "
+                              "to: [-0.6, 0.01]}]\n",
+                       &crack, &spacings, &warns)
+                 == 0);
+    assert_true (told (SQUARE STATIC
+                       "spacing: 0.1\nmethod: {force: lps}\ncracks: [{from: [-1, 0.01], to: [-0.6, 0.01]}]\n",
+                       &crack, &spacings, &warns)
+                 == 0);
+    assert_true (told (SQUARE STATIC "spacing: 0.1\ncracks: [{from: [-1.5, 0.01], to: [1.5, 0.01]}]\n",
+                       &crack, &spacings, &warns)
+                 == 0);
     assert_true (told (SQUARE STATIC "spacing: 0.1\n", &crack, &spacings, &warns) == 0);
 }
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test (short_cracks_are_told_with_a_number), cmocka_unit_test (pieces_that_meet_are_one_crack),
-        cmocka_unit_test (fronts_in_space), cmocka_unit_test (others_say_nothing) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (short_cracks_are_told_with_a_number),
+                                        cmocka_unit_test (pieces_that_meet_are_one_crack),
+                                        cmocka_unit_test (fronts_in_space),
+                                        cmocka_unit_test (others_say_nothing) };
     return cmocka_run_group_tests_name ("model/tips", tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * For programs that draw text: fontconfig keeps a few hundred bytes for good, which the leak checker need not report. */
+ * For programs that draw text: fontconfig keeps a few hundred bytes for good, which the leak checker need not
+ * report. */
 #ifndef PERIGAL_TEST_OUTPUT_FONTS_H
 #define PERIGAL_TEST_OUTPUT_FONTS_H
 const char *__lsan_default_suppressions (void);

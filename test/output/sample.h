@@ -34,7 +34,8 @@ static int remove_folder (void **unused)
     return system (command);
 }
 
-/* Kills a child a moment after it has told of `least` things done, by a byte each: however busy the machine is, those are done. */
+/* Kills a child a moment after it has told of `least` things done, by a byte each: however busy the machine
+ * is, those are done. */
 static inline void kill_after (pid_t child, int told[2], long least, long nanoseconds)
 {
     char byte;
@@ -48,7 +49,8 @@ static inline void kill_after (pid_t child, int told[2], long least, long nanose
     close (told[0]);
 }
 
-/* m points per axis, spacing h, first at (-1, 2, 5) h; uneven places and volumes, so that digits are lost if any can be. */
+/* m points per axis, spacing h, first at (-1, 2, 5) h; uneven places and volumes, so that digits are lost if
+ * any can be. */
 static inline void make_cloud (pg_cloud *c, int dim, int m, double h)
 {
     static const double first[] = { -1, 2, 5 };
@@ -65,7 +67,8 @@ static inline void make_cloud (pg_cloud *c, int dim, int m, double h)
     }
     for (size_t i = 0; i < c->n; i++) {
         size_t k = i;
-        for (int a = 0; a < dim; a++, k /= (size_t) m) c->x[i * (size_t) dim + (size_t) a] = (first[a] + (double) (k % (size_t) m)) * h;
+        for (int a = 0; a < dim; a++, k /= (size_t) m)
+            c->x[i * (size_t) dim + (size_t) a] = (first[a] + (double) (k % (size_t) m)) * h;
         c->volume[i] = h * h / (3 + (double) i);
         c->block[i] = i % 3 == 1 ? 4 : 0;
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Axes: round ticks, texts without noise, factors and prefixes in the label, room between texts; colour maps. */
+ * Axes: round ticks, texts without noise, factors and prefixes in the label, room between texts; colour
+ * maps. */
 #include "check.h"
 #include "fonts.h"
 #include "output/picture.h"
@@ -23,7 +24,8 @@ static int close_canvas (void **unused)
     return 0;
 }
 
-static pg_axis fit (double low, double high, double length, const char *label, pg_side side, int log, int grow)
+static pg_axis fit (double low, double high, double length, const char *label, pg_side side, int log,
+                    int grow)
 {
     pg_axis a;
     pg_axis_wish wish = { label, side, log, grow, 0 };
@@ -84,9 +86,15 @@ static void small_and_large_values_take_a_factor (void **state)
 static void units_take_prefixes (void **state)
 {
     (void) state;
-    static const struct { double top; const char *label, *expected; } row[] = {
-        { 4e6, "stress (Pa)", "stress (MPa)" }, { 2e-6, "u (m)", "u (\xc2\xb5m)" }, { 2e4, "F (N)", "F (kN)" },
-        { 3e-4, "t (s)", "t (\xc2\xb5s)" }, { 5e5, "k (N/m)", "k (kN/m)" }, { 2e10, "E (Pa)", "E (GPa)" }, { 2, "u (m)", "u (m)" },
+    static const struct { double top; const char *label, *expected;
+    } row[] = {
+        { 4e6, "stress (Pa)", "stress (MPa)" },
+        { 2e-6, "u (m)", "u (\xc2\xb5m)" },
+        { 2e4, "F (N)", "F (kN)" },
+        { 3e-4, "t (s)", "t (\xc2\xb5s)" },
+        { 5e5, "k (N/m)", "k (kN/m)" },
+        { 2e10, "E (Pa)", "E (GPa)" },
+        { 2, "u (m)", "u (m)" },
     };
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
         pg_axis a = fit (0, row[k].top, 500, row[k].label, PG_LEFT, 0, 0);
@@ -101,10 +109,13 @@ static void texts_never_touch (void **state)
     for (int o = 0; o < 4; o++)
         for (double length = 150; length < 1300; length *= 1.3)
             for (int log = 0; log < 2; log++) {
-                pg_axis a = fit (log ? 1e-9 : offset[o], log ? 3e5 : offset[o] + 17.3, length, "", PG_BOTTOM, log, 0);
+                pg_axis a = fit (log ? 1e-9 : offset[o], log ? 3e5 : offset[o] + 17.3, length, "", PG_BOTTOM,
+                                 log, 0);
                 for (int k = 0; k + 1 < a.n; k++) {
                     double gap = (pg_axis_at (&a, a.tick[k + 1]) - pg_axis_at (&a, a.tick[k])) * length;
-                    double need = 0.5 * (pg_text (cr, a.text[k], PG_FONT, 0, 0, 0, 0, 0) + pg_text (cr, a.text[k + 1], PG_FONT, 0, 0, 0, 0, 0));
+                    double need = 0.5
+                                  * (pg_text (cr, a.text[k], PG_FONT, 0, 0, 0, 0, 0)
+                                     + pg_text (cr, a.text[k + 1], PG_FONT, 0, 0, 0, 0, 0));
                     assert_true (gap > need);
                 }
             }
@@ -114,7 +125,11 @@ static void log_axes_have_decades (void **state)
 {
     (void) state;
     pg_axis a = fit (2e-5, 0.3, 600, "", PG_LEFT, 1, 1);
-    check_texts (&a, "10^{\xe2\x88\x92" "4} 10^{\xe2\x88\x92" "3} 10^{\xe2\x88\x92" "2} 10^{\xe2\x88\x92" "1}");
+    check_texts (&a, "10^{\xe2\x88\x92"
+                     "4} 10^{\xe2\x88\x92"
+                     "3} 10^{\xe2\x88\x92"
+                     "2} 10^{\xe2\x88\x92"
+                     "1}");
     assert_true (a.low < 2e-5 && a.high > 0.3 && a.nminor > 20);
     a = fit (0.00625, 0.1, 600, "", PG_LEFT, 1, 1);
     check_texts (&a, "0.005 0.01 0.02 0.05 0.1");
@@ -154,7 +169,8 @@ static double lightness (const double rgb[3])
 {
     static const double weight[] = { 0.2126, 0.7152, 0.0722 };
     double y = 0;
-    for (int c = 0; c < 3; c++) y += weight[c] * (rgb[c] <= 0.04045 ? rgb[c] / 12.92 : pow ((rgb[c] + 0.055) / 1.055, 2.4));
+    for (int c = 0; c < 3; c++)
+        y += weight[c] * (rgb[c] <= 0.04045 ? rgb[c] / 12.92 : pow ((rgb[c] + 0.055) / 1.055, 2.4));
     return 116 * cbrt (y) - 16;
 }
 
@@ -177,7 +193,8 @@ static void the_diverging_map_is_blue_white_red (void **state)
 {
     (void) state;
     double low[3], mid[3], high[3];
-    pg_colour_diverging (-7, low), pg_colour_diverging (0.5, mid), pg_colour_diverging (NAN, high), pg_colour_diverging (7, high);
+    pg_colour_diverging (-7, low), pg_colour_diverging (0.5, mid), pg_colour_diverging (NAN, high),
+        pg_colour_diverging (7, high);
     assert_true (low[2] > low[0] && high[0] > high[2] && mid[0] > 0.9 && mid[1] > 0.9 && mid[2] > 0.9);
     check_scaled (lightness (low), lightness (high), 0.1, 100);
 }
@@ -185,11 +202,17 @@ static void the_diverging_map_is_blue_white_red (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (ticks_are_round_and_without_noise), cmocka_unit_test (a_growing_axis_ends_on_ticks),
-        cmocka_unit_test (no_unit_is_special), cmocka_unit_test (small_and_large_values_take_a_factor),
-        cmocka_unit_test (units_take_prefixes), cmocka_unit_test (texts_never_touch), cmocka_unit_test (log_axes_have_decades),
-        cmocka_unit_test (equal_values_get_a_range), cmocka_unit_test (ranges_skip_what_cannot_be_drawn),
-        cmocka_unit_test (the_sequential_map_gets_lighter_evenly), cmocka_unit_test (the_diverging_map_is_blue_white_red),
+        cmocka_unit_test (ticks_are_round_and_without_noise),
+        cmocka_unit_test (a_growing_axis_ends_on_ticks),
+        cmocka_unit_test (no_unit_is_special),
+        cmocka_unit_test (small_and_large_values_take_a_factor),
+        cmocka_unit_test (units_take_prefixes),
+        cmocka_unit_test (texts_never_touch),
+        cmocka_unit_test (log_axes_have_decades),
+        cmocka_unit_test (equal_values_get_a_range),
+        cmocka_unit_test (ranges_skip_what_cannot_be_drawn),
+        cmocka_unit_test (the_sequential_map_gets_lighter_evenly),
+        cmocka_unit_test (the_diverging_map_is_blue_white_red),
     };
     return cmocka_run_group_tests_name ("output/axes", tests, open_canvas, close_canvas);
 }

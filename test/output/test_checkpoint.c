@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * checkpoint.nc: what a walk writes comes back bit by bit; at any instant there is the old file or the whole new one; what is missing,
- * of another length or cut off is refused by name. */
+ * checkpoint.nc: what a walk writes comes back bit by bit; at any instant there is the old file or the whole
+ * new one; what is missing, of another length or cut off is refused by name. */
 #include "check.h"
 #include "sample.h"
 #include <signal.h>
@@ -12,8 +12,8 @@ typedef struct {
     double number[5];
     long   count[3];
     char   text[7];
-    size_t n;                                          /* of the numbers                                                  */
-    const char *name;                                  /* of the counts                                                   */
+    size_t n;                                          /* of the numbers */
+    const char *name;                                  /* of the counts */
     pg_status answer;
 } thing;
 
@@ -32,7 +32,12 @@ done:
 
 static thing sample_thing (void)
 {
-    return (thing) { { 1.0 / 3, -0.0, NAN, INFINITY, 5e-324 }, { -1, 0, 0x7ffffffffffffff1 }, "a\0b\xff", 5, "a.count", PG_OK };
+    return (thing){ { 1.0 / 3, -0.0, NAN, INFINITY, 5e-324 },
+                    { -1, 0, 0x7ffffffffffffff1 },
+                    "a\0b\xff",
+                    5,
+                    "a.count",
+                    PG_OK };
 }
 
 static void all_comes_back (void **state)
@@ -104,7 +109,7 @@ static void a_full_disk_leaves_the_old_file (void **state)
     (void) state;
     thing a = sample_thing (), b = { .n = 5, .name = "a.count" };
     struct rlimit old, tight;
-    char path[160], fresh[160];                        /* file_at has four buffers                                       */
+    char path[160], fresh[160];                        /* file_at has four buffers */
     strcpy (path, file_at ("full.nc")), strcpy (fresh, file_at ("full.nc.new"));
     signal (SIGXFSZ, SIG_IGN);
     getrlimit (RLIMIT_FSIZE, &old);
@@ -155,7 +160,7 @@ static void a_changed_byte_is_refused (void **state)
         assert_int_equal (fclose (file), 0);
         b = (thing) { .n = 5, .name = "a.count" };
         pg_status status = pg_checkpoint_read (path, walk, &b);
-        if (status == PG_OK) {                         /* only what fills up to whole words, and nothing comes back wrong */
+        if (status == PG_OK) {  /* only what fills up to whole words, and nothing comes back wrong */
             padding++;
             assert_memory_equal (a.number, b.number, sizeof a.number);
             assert_memory_equal (a.count, b.count, sizeof a.count);
@@ -168,8 +173,8 @@ static void a_changed_byte_is_refused (void **state)
     check_ok (pg_checkpoint_read (path, walk, &b));
 }
 
-/* ---- several arrays of one length ---------------------------------------------------------------------------------------------- */
-enum { LONG = 40000 };                                 /* more than are summed at once                                   */
+/* ---- several arrays of one length ---------------------------------------------------------------------- */
+enum { LONG = 40000 };                                 /* more than are summed at once */
 typedef struct { double first[LONG], other[LONG]; } arrays;
 
 static pg_status walk_arrays (void *context, const pg_keeper *k)
@@ -194,7 +199,8 @@ static int exchange (const char *path, const char *one, const char *other)
         int is = memcmp (whole + k, one, n) == 0, was = memcmp (whole + k, other, n) == 0;
         if (is || was) memcpy (whole + k, is ? other : one, n), times++;
     }
-    assert_true (fseek (file, 0, SEEK_SET) == 0 && fwrite (whole, 1, bytes, file) == bytes && fclose (file) == 0);
+    assert_true (fseek (file, 0, SEEK_SET) == 0 && fwrite (whole, 1, bytes, file) == bytes
+                 && fclose (file) == 0);
     pg_free (whole);
     return times;
 }
@@ -234,7 +240,9 @@ static void no_instant_to_be_killed_at_is_bad (void **state)
         if (child == 0) {
             thing a = sample_thing ();
             for (a.count[0] = a.count[1] = last + 1;; a.count[0]++, a.count[1]++)
-                if (pg_checkpoint_write (path, walk, &a) != PG_OK || (a.count[0] < last + 6 && write (told[1], "", 1) != 1)) _exit (1);
+                if (pg_checkpoint_write (path, walk, &a) != PG_OK
+                    || (a.count[0] < last + 6 && write (told[1], "", 1) != 1))
+                    _exit (1);
         }
         kill_after (child, told, least, 131000 * round);
         if (last + least < 0 && access (path, F_OK) != 0) continue;
@@ -265,9 +273,14 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (all_comes_back), cmocka_unit_test (what_does_not_fit_is_named), cmocka_unit_test (a_name_used_twice_is_a_misuse),
-        cmocka_unit_test (a_walk_that_fails_leaves_the_old_file), cmocka_unit_test (a_full_disk_leaves_the_old_file),
-        cmocka_unit_test (a_file_cut_off_is_refused), cmocka_unit_test (a_changed_byte_is_refused), cmocka_unit_test (long_arrays_count_whole_and_by_their_names),
+        cmocka_unit_test (all_comes_back),
+        cmocka_unit_test (what_does_not_fit_is_named),
+        cmocka_unit_test (a_name_used_twice_is_a_misuse),
+        cmocka_unit_test (a_walk_that_fails_leaves_the_old_file),
+        cmocka_unit_test (a_full_disk_leaves_the_old_file),
+        cmocka_unit_test (a_file_cut_off_is_refused),
+        cmocka_unit_test (a_changed_byte_is_refused),
+        cmocka_unit_test (long_arrays_count_whole_and_by_their_names),
         cmocka_unit_test (no_instant_to_be_killed_at_is_bad),
         cmocka_unit_test (any_allocation_may_fail),
     };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * result.e: what is written comes back to the last bit, while the file is open and in the layout of Exodus; a kill at any instant or a
- * full disk costs nothing that was written before; a run that goes on appends where it was told. */
+ * result.e: what is written comes back to the last bit, while the file is open and in the layout of Exodus; a
+ * kill at any instant or a full disk costs nothing that was written before; a run that goes on appends where
+ * it was told. */
 #include "check.h"
 #include "sample.h"
 #include <netcdf.h>
@@ -16,7 +17,8 @@ typedef struct { pg_cloud cloud; pg_field_view view[FIELDS]; double *value[FIELD
 static void fill (sample *s, double step)
 {
     for (int v = 0; v < FIELDS; v++)
-        for (size_t k = 0; k < s->cloud.n * (size_t) s->view[v].components; k++) s->value[v][k] = sin ((double) k + step) / 3 * pow (10, v);
+        for (size_t k = 0; k < s->cloud.n * (size_t) s->view[v].components; k++)
+            s->value[v][k] = sin ((double) k + step) / 3 * pow (10, v);
 }
 
 static void begin (sample *s, int dim)
@@ -25,7 +27,9 @@ static void begin (sample *s, int dim)
     s->view[0] = (pg_field_view) { "displacement", "m", dim, NULL };
     s->view[1] = (pg_field_view) { "stress", "Pa", dim * (dim + 1) / 2, NULL };
     s->view[2] = (pg_field_view) { "damage", "", 1, NULL };
-    for (int v = 0; v < FIELDS; v++) s->view[v].value = s->value[v] = pg_calloc (s->cloud.n * (size_t) s->view[v].components, sizeof (double));
+    for (int v = 0; v < FIELDS; v++)
+        s->view[v].value = s->value[v] = pg_calloc (s->cloud.n * (size_t) s->view[v].components,
+                                                    sizeof (double));
 }
 
 static void end (sample *s)
@@ -184,8 +188,9 @@ static size_t length_of (int ncid, const char *name)
 static void the_layout_is_that_of_exodus (void **state)
 {
     (void) state;
-    static const char *const expected[] = { "displacement_x", "displacement_y", "displacement_z", "stress_xx", "stress_yy", "stress_zz",
-                                            "stress_xy", "stress_yz", "stress_zx", "damage", "volume" };
+    static const char *const expected[] = { "displacement_x", "displacement_y", "displacement_z", "stress_xx",
+                                            "stress_yy",      "stress_zz",      "stress_xy",      "stress_yz",
+                                            "stress_zx",      "damage",         "volume" };
     sample s;
     char name[66] = "", type[8] = "";
     int ncid, var, id[2], connect[64], kind;
@@ -290,8 +295,10 @@ static void no_instant_to_be_killed_at_is_bad (void **state)
             pg_exodus *file;
             if (pg_exodus_create (&file, path, &s.cloud, "", FIELDS, s.view) != PG_OK) _exit (1);
             for (int k = 0;; k++) {
-                for (int v = 0; v < FIELDS; v++) for (size_t i = 0; i < s.cloud.n * (size_t) s.view[v].components; i++) s.value[v][i] = k;
-                if (pg_exodus_write (file, k, s.view) != PG_OK || (k < 5 && write (told[1], "", 1) != 1)) _exit (1);
+                for (int v = 0; v < FIELDS; v++)
+                    for (size_t i = 0; i < s.cloud.n * (size_t) s.view[v].components; i++) s.value[v][i] = k;
+                if (pg_exodus_write (file, k, s.view) != PG_OK || (k < 5 && write (told[1], "", 1) != 1))
+                    _exit (1);
             }
         }
         kill_after (child, told, least, 137000 * round);
@@ -351,7 +358,7 @@ static void a_step_that_does_not_fit_costs_no_other (void **state)
         for (int v = 0; v < FIELDS; v++) check_field (&s, path, v, -1);
     }
     fill (&s, 2);
-    check_ok (pg_exodus_write (file, 2, s.view));      /* there is room again                                             */
+    check_ok (pg_exodus_write (file, 2, s.view));      /* there is room again */
     assert_int_equal (steps_of (path), 3);
     for (int v = 0; v < FIELDS; v++) check_field (&s, path, v, 2);
     pg_exodus_close (&file);
@@ -410,7 +417,8 @@ static void a_file_of_another_run_is_not_gone_on_with (void **state)
     check_fails (pg_exodus_open (&file, path, &s.cloud, FIELDS - 1, s.view, steps, bytes), PG_E_FILE);
     check_fails (pg_exodus_open (&file, path, &s.cloud, FIELDS, s.view, steps, bytes + 1), PG_E_FILE);
     check_contains (pg_last_error (), "another.e has");
-    check_fails (pg_exodus_open (&file, file_at ("absent.e"), &s.cloud, FIELDS, s.view, steps, bytes), PG_E_FILE);
+    check_fails (pg_exodus_open (&file, file_at ("absent.e"), &s.cloud, FIELDS, s.view, steps, bytes),
+                 PG_E_FILE);
     assert_null (file);
     assert_int_equal (steps_of (path), 1);
     end (&s), end (&other);
@@ -548,16 +556,26 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (fields_come_back_exactly_in_1d), cmocka_unit_test (fields_come_back_exactly_in_2d),
-        cmocka_unit_test (fields_come_back_exactly_in_3d), cmocka_unit_test (points_come_back_exactly),
-        cmocka_unit_test (points_come_back_before_the_first_step), cmocka_unit_test (names_and_units_come_back),
-        cmocka_unit_test (a_wrong_field_or_step_names_those_present), cmocka_unit_test (the_layout_is_that_of_exodus),
-        cmocka_unit_test (an_open_file_is_readable_from_outside), cmocka_unit_test (a_killed_writer_leaves_its_steps),
-        cmocka_unit_test (no_instant_to_be_killed_at_is_bad), cmocka_unit_test (a_step_that_does_not_fit_costs_no_other),
-        cmocka_unit_test (an_opened_file_goes_on_where_it_is_told), cmocka_unit_test (a_file_of_another_run_is_not_gone_on_with),
-        cmocka_unit_test (many_steps_append), cmocka_unit_test (nan_comes_back),
-        cmocka_unit_test (a_path_that_cannot_be_written_is_named), cmocka_unit_test (other_fields_than_announced_are_refused),
-        cmocka_unit_test (what_is_no_result_is_refused), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (fields_come_back_exactly_in_1d),
+        cmocka_unit_test (fields_come_back_exactly_in_2d),
+        cmocka_unit_test (fields_come_back_exactly_in_3d),
+        cmocka_unit_test (points_come_back_exactly),
+        cmocka_unit_test (points_come_back_before_the_first_step),
+        cmocka_unit_test (names_and_units_come_back),
+        cmocka_unit_test (a_wrong_field_or_step_names_those_present),
+        cmocka_unit_test (the_layout_is_that_of_exodus),
+        cmocka_unit_test (an_open_file_is_readable_from_outside),
+        cmocka_unit_test (a_killed_writer_leaves_its_steps),
+        cmocka_unit_test (no_instant_to_be_killed_at_is_bad),
+        cmocka_unit_test (a_step_that_does_not_fit_costs_no_other),
+        cmocka_unit_test (an_opened_file_goes_on_where_it_is_told),
+        cmocka_unit_test (a_file_of_another_run_is_not_gone_on_with),
+        cmocka_unit_test (many_steps_append),
+        cmocka_unit_test (nan_comes_back),
+        cmocka_unit_test (a_path_that_cannot_be_written_is_named),
+        cmocka_unit_test (other_fields_than_announced_are_refused),
+        cmocka_unit_test (what_is_no_result_is_refused),
+        cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/exodus", tests, NULL, remove_folder);
 }

@@ -17,7 +17,7 @@ static const char *slurp (const char *path)
     return text;
 }
 
-/* ---- a checker of the grammar: each function steps over one thing and returns NULL when it is not there ---------------- */
+/* ---- a checker of the grammar: each function steps over one thing and returns NULL when it is not there */
 static const char *value (const char *s);
 static const char *blank (const char *s) { return s + strspn (s, " \n\t\r"); }
 
@@ -86,7 +86,7 @@ static int valid (const char *s)
     return s && !*blank (s);
 }
 
-/* ---- tests ---------------------------------------------------------------------------------------------------------- */
+/* ---- tests --------------------------------------------------------------------------------------------- */
 static void a_report_is_valid_and_in_order (void **state)
 {
     (void) state;
@@ -112,8 +112,11 @@ static void a_report_is_valid_and_in_order (void **state)
     pg_json_shut (j);
     check_ok (pg_json_close (&j));
     assert_null (j);
-    assert_string_equal (slurp (path), "{\n  \"version\": \"0.1.0\",\n  \"points\": 1961,\n  \"energy\": {\n    \"strain\": 0.1,\n"
-        "    \"kinetic\": -1.5e-300\n  },\n  \"warnings\": [],\n  \"skipped\": [\n    {\n      \"what\": \"factor\"\n    },\n"
+    assert_string_equal (
+        slurp (path),
+        "{\n  \"version\": \"0.1.0\",\n  \"points\": 1961,\n  \"energy\": {\n    \"strain\": 0.1,\n"
+        "    \"kinetic\": -1.5e-300\n  },\n  \"warnings\": [],\n  \"skipped\": [\n    {\n      \"what\": "
+        "\"factor\"\n    },\n"
         "    \"two\",\n    null\n  ]\n}\n");
     assert_true (valid (text));
 }
@@ -121,7 +124,8 @@ static void a_report_is_valid_and_in_order (void **state)
 static void the_checker_refuses_what_is_wrong (void **state)
 {
     (void) state;
-    static const char *const wrong[] = { "{", "{\"a\":1,}", "[1 2]", "{a:1}", "[01]", "[\"\n\"]", "[\"\\x\"]", "[1.]", "{\"a\":1}}", "[nan]" };
+    static const char *const wrong[] = { "{",        "{\"a\":1,}", "[1 2]", "{a:1}",      "[01]",
+                                         "[\"\n\"]", "[\"\\x\"]",  "[1.]",  "{\"a\":1}}", "[nan]" };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) assert_false (valid (wrong[k]));
 }
 
@@ -156,7 +160,8 @@ static void texts_are_escaped (void **state)
 static void numbers_come_back_exactly (void **state)
 {
     (void) state;
-    const double number_of[] = { 0.1, 1.0 / 3, 2.0 / 3 * 1e-200, 1e300, 123456789012345680.0, -5e-324, INFINITY };
+    const double number_of[] = { 0.1,     1.0 / 3, 2.0 / 3 * 1e-200, 1e300, 123456789012345680.0,
+                                 -5e-324, INFINITY };
     pg_json *j;
     const char *path = file_at ("numbers.json");
     check_ok (pg_json_create (&j, path));
@@ -259,10 +264,14 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (a_report_is_valid_and_in_order), cmocka_unit_test (the_checker_refuses_what_is_wrong),
-        cmocka_unit_test (braces_may_be_left_to_the_writer), cmocka_unit_test (texts_are_escaped),
-        cmocka_unit_test (numbers_come_back_exactly), cmocka_unit_test (nothing_shows_before_close),
-        cmocka_unit_test (misuse_is_reported_and_leaves_no_file), cmocka_unit_test (a_folder_that_is_missing_is_named),
+        cmocka_unit_test (a_report_is_valid_and_in_order),
+        cmocka_unit_test (the_checker_refuses_what_is_wrong),
+        cmocka_unit_test (braces_may_be_left_to_the_writer),
+        cmocka_unit_test (texts_are_escaped),
+        cmocka_unit_test (numbers_come_back_exactly),
+        cmocka_unit_test (nothing_shows_before_close),
+        cmocka_unit_test (misuse_is_reported_and_leaves_no_file),
+        cmocka_unit_test (a_folder_that_is_missing_is_named),
         cmocka_unit_test (a_full_disk_leaves_the_old_file),
         cmocka_unit_test (any_allocation_may_fail),
     };

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Pictures: right size, not blank, the right colour at the right place, failures named and nothing left behind. */
+ * Pictures: right size, not blank, the right colour at the right place, failures named and nothing left
+ * behind. */
 #include "check.h"
 #include "fonts.h"
 #include "sample.h"
@@ -32,7 +33,8 @@ static size_t count_near (const image *m, unsigned colour, int slack)
         for (int x = 0; x < m->width; x++) {
             unsigned p = pixel (m, x, y);
             int near = 1;
-            for (int c = 0; c < 24; c += 8) near &= abs ((int) (p >> c & 255) - (int) (colour >> c & 255)) <= slack;
+            for (int c = 0; c < 24; c += 8)
+                near &= abs ((int) (p >> c & 255) - (int) (colour >> c & 255)) <= slack;
             n += (size_t) near;
         }
     return n;
@@ -135,7 +137,8 @@ static void equal_values_are_drawn (void **state)
         image m;
         const char *path = file_at ("equal.png");
         for (size_t i = 0; i < c.n; i++) value[i] = constant[k % 3];
-        check_ok (pg_picture_field (path, &c, value, &(pg_picture_style) { .label = "v", .diverging = k / 3 }));
+        check_ok (
+            pg_picture_field (path, &c, value, &(pg_picture_style){ .label = "v", .diverging = k / 3 }));
         open_image (&m, path);
         assert_true (variance (&m) > 10);
         cairo_surface_destroy (m.surface);
@@ -172,19 +175,22 @@ static void a_section_shows_its_own_layer (void **state)
     const char *path = file_at ("section.png");
     make_cloud (&c, 3, 5, 1e-3);
     double *value = pg_calloc (c.n, sizeof (double));
-    int named = 0;                                     /* height of a picture whose title says where it cuts: the layer nobody asked for */
+    int named = 0;  /* height of a picture whose title says where it cuts: the layer nobody asked for */
     for (int section = 0; section <= 3; section++) {
         int axis = section ? section - 1 : 2;
         double at = c.low[axis] + 2 * c.step[axis];
         for (size_t i = 0; i < c.n; i++) value[i] = fabs (c.x[3*i + (size_t) axis] - at) < 1e-9 ? 1 : 0;
-        check_ok (pg_picture_field (path, &c, value, &(pg_picture_style) { .label = "v", .low = 0, .high = 1, .section = section, .at = at }));
+        check_ok (pg_picture_field (path, &c, value,
+                                    &(pg_picture_style){
+                                        .label = "v", .low = 0, .high = 1, .section = section, .at = at }));
         open_image (&m, path);
         assert_true (count (&m, HIGH) > 400000 && count (&m, LOW) < 200);
         if (section == 0) named = m.height;
         else if (section == 3) assert_true (named > m.height + 30);
         cairo_surface_destroy (m.surface);
     }
-    check_fails (pg_picture_field (path, &c, value, &(pg_picture_style) { .section = 1, .at = 1 }), PG_E_USAGE);
+    check_fails (pg_picture_field (path, &c, value, &(pg_picture_style){ .section = 1, .at = 1 }),
+                 PG_E_USAGE);
     pg_free (value);
     drop_cloud (&c);
 }
@@ -196,7 +202,8 @@ static void points_on_a_line_make_a_chart (void **state)
     image m;
     const char *path = file_at ("line.png");
     make_cloud (&c, 1, 40, 1e-3);
-    check_ok (pg_picture_field (path, &c, c.volume, &(pg_picture_style) { .title = "bar", .label = "volume (m3)" }));
+    check_ok (
+        pg_picture_field (path, &c, c.volume, &(pg_picture_style){ .title = "bar", .label = "volume (m3)" }));
     open_image (&m, path);
     assert_true (m.width == 1200 && variance (&m) > 10);
     cairo_surface_destroy (m.surface);
@@ -210,13 +217,15 @@ static void every_curve_has_its_colour (void **state)
     pg_curve curves[] = { { "a", 4, x, y, 0 }, { "b", 4, x, z, 1 } };
     image m;
     const char *path = file_at ("chart.png");
-    check_ok (pg_picture_chart (path, 2, curves, &(pg_chart_style) { .title = "t", .xlabel = "x", .ylabel = "y" }));
+    check_ok (
+        pg_picture_chart (path, 2, curves, &(pg_chart_style){ .title = "t", .xlabel = "x", .ylabel = "y" }));
     open_image (&m, path);
     assert_true (count_near (&m, 0x124a99, 2) > 300 && count_near (&m, 0xd6540f, 2) > 300);
     cairo_surface_destroy (m.surface);
 }
 
-/* 12 curves: two colours occur twice, solid and dashed; the legend moves beside the frame where it would hide one. */
+/* 12 curves: two colours occur twice, solid and dashed; the legend moves beside the frame where it would hide
+ * one. */
 static void many_curves_stay_apart (void **state)
 {
     (void) state;
@@ -246,7 +255,8 @@ static void many_curves_stay_apart (void **state)
     cairo_surface_destroy (m.surface);
 }
 
-/* The triangle of the right slope is filled in the pale colour of its curve: half of its box of pixels; none on linear axes. */
+/* The triangle of the right slope is filled in the pale colour of its curve: half of its box of pixels; none
+ * on linear axes. */
 static void slopes_are_drawn_under_their_curve (void **state)
 {
     (void) state;
@@ -256,35 +266,42 @@ static void slopes_are_drawn_under_their_curve (void **state)
     image m;
     const char *path = file_at ("slope.png");
     for (int log = 0; log < 2; log++) {
-        check_ok (pg_picture_chart (path, 1, &curve, &(pg_chart_style) { .logx = log, .logy = 1, .nslope = 3, .slopes = slope }));
+        check_ok (
+            pg_picture_chart (path, 1, &curve,
+                              &(pg_chart_style){ .logx = log, .logy = 1, .nslope = 3, .slopes = slope }));
         open_image (&m, path);
         size_t pale = count_near (&m, 0xe1e8f2, 4);
-        double box = 0.6 * 1000 * 0.6 * 700;           /* share of the axes that ln 25 takes of about ln 1000             */
+        double box = 0.6 * 1000 * 0.6 * 700;  /* share of the axes that ln 25 takes of about ln 1000 */
         if (log) assert_true ((double) pale > 0.25 * box && (double) pale < 0.75 * box);
-        else assert_true (pale < 1000);                /* edges of curve and grid                                        */
+        else assert_true (pale < 1000);                /* edges of curve and grid */
         cairo_surface_destroy (m.surface);
     }
 }
 
-/* A path behind a curve is pale and in the legend; a mark is a ring around its place, with a text that hides no curve. */
+/* A path behind a curve is pale and in the legend; a mark is a ring around its place, with a text that hides
+ * no curve. */
 static void paths_are_pale_and_peaks_are_ringed (void **state)
 {
     (void) state;
-    double x[] = { 0, -1, -2, -2 }, y[] = { 0, -3, -4, -1 }, px[] = { -1, -0.5, -2, -0.4 }, py[] = { -3, -1, -2, -0.2 };
+    double x[] = { 0, -1, -2, -2 }, y[] = { 0, -3, -4, -1 }, px[] = { -1, -0.5, -2, -0.4 },
+           py[] = { -3, -1, -2, -0.2 };
     pg_curve curve = { "envelope", 4, x, y, PG_CURVE_LINE }, path = { "path", 4, px, py, PG_CURVE_LINE };
     pg_chart_mark mark = { 0, -2, -4, "peak" };
     size_t full[3], pale[3], dark[3];
     const char *file = file_at ("marks.png");
     image m;
     for (int k = 0; k < 3; k++) {
-        check_ok (pg_picture_chart (file, 1, &curve, &(pg_chart_style) { .npale = k > 0, .pale = &path, .nmark = k > 1, .marks = &mark }));
+        check_ok (pg_picture_chart (file, 1, &curve,
+                                    &(pg_chart_style){
+                                        .npale = k > 0, .pale = &path, .nmark = k > 1, .marks = &mark }));
         open_image (&m, file);
-        full[k] = count_near (&m, 0x124a99, 45), pale[k] = count_near (&m, 0xb5c6df, 28), dark[k] = count_near (&m, 0, 20);
+        full[k] = count_near (&m, 0x124a99, 45), pale[k] = count_near (&m, 0xb5c6df, 28),
+        dark[k] = count_near (&m, 0, 20);
         assert_int_equal (m.width, 1200);
         cairo_surface_destroy (m.surface);
     }
     assert_true (pale[1] > pale[0] + 300);
-    assert_true (full[1] > full[0] + 100);             /* the sample in the legend                                       */
+    assert_true (full[1] > full[0] + 100);             /* the sample in the legend */
     assert_true (full[2] > full[1] + 40);
     assert_true (dark[2] > dark[1] + 100);
 }
@@ -295,7 +312,8 @@ static void a_chart_of_nothing_is_drawn (void **state)
     double x[] = { NAN, -1 }, y[] = { 1, -1 };
     pg_curve curve = { NULL, 2, x, y, 0 };
     check_ok (pg_picture_chart (file_at ("nothing.png"), 0, NULL, &(pg_chart_style) { .logx = 1 }));
-    check_ok (pg_picture_chart (file_at ("negative.png"), 1, &curve, &(pg_chart_style) { .logx = 1, .logy = 1 }));
+    check_ok (
+        pg_picture_chart (file_at ("negative.png"), 1, &curve, &(pg_chart_style){ .logx = 1, .logy = 1 }));
 }
 
 static void svg_is_written_by_the_ending (void **state)
@@ -311,7 +329,8 @@ static void svg_is_written_by_the_ending (void **state)
     assert_true (fread (text, 1, sizeof text - 1, file) > 100);
     fclose (file);
     check_contains (text, "<svg");
-    check_fails (pg_picture_field (file_at ("disk.pdf"), &c, value, &(pg_picture_style) { .label = "" }), PG_E_USAGE);
+    check_fails (pg_picture_field (file_at ("disk.pdf"), &c, value, &(pg_picture_style){ .label = "" }),
+                 PG_E_USAGE);
     pg_free (value);
     drop_cloud (&c);
 }
@@ -322,7 +341,8 @@ static void a_failed_write_is_named (void **state)
     static const char *const name[] = { "full.png", "full.svg" };
     double x[] = { 0, 1 };
     pg_curve curve = { NULL, 2, x, x, 0 };
-    check_fails (pg_picture_chart (file_at ("missing/a.png"), 1, &curve, &(pg_chart_style) { .logx = 0 }), PG_E_FILE);
+    check_fails (pg_picture_chart (file_at ("missing/a.png"), 1, &curve, &(pg_chart_style){ .logx = 0 }),
+                 PG_E_FILE);
     check_contains (pg_last_error (), "missing/a.png: No such file");
     for (int k = 0; k < 2; k++) {
         const char *path = file_at (name[k]);
@@ -362,8 +382,17 @@ static void any_allocation_may_fail (void **state)
 static void a_time_is_told_in_its_own_unit (void **state)
 {
     (void) state;
-    static const struct { double t; const char *text; } of[] = { { 0, "0 s" }, { 1.33670000001e-5, "13.37 \xc2\xb5s" }, { 5e-5, "50 \xc2\xb5s" }, { 2.5, "2.5 s" },
-        { 1e-3, "1 ms" }, { 0.99996e-3, "1 ms" }, { 4e-11, "0.04 ns" }, { 7200, "7200 s" } };
+    static const struct {
+        double t;
+        const char *text;
+    } of[] = { { 0, "0 s" },
+               { 1.33670000001e-5, "13.37 \xc2\xb5s" },
+               { 5e-5, "50 \xc2\xb5s" },
+               { 2.5, "2.5 s" },
+               { 1e-3, "1 ms" },
+               { 0.99996e-3, "1 ms" },
+               { 4e-11, "0.04 ns" },
+               { 7200, "7200 s" } };
     char text[32];
     for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
         pg_picture_time (of[k].t, text, sizeof text);
@@ -375,11 +404,19 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_time_is_told_in_its_own_unit),
-        cmocka_unit_test (a_field_shows_the_right_colour_at_the_right_place), cmocka_unit_test (nan_is_grey),
-        cmocka_unit_test (equal_values_are_drawn), cmocka_unit_test (cracks_are_black_lines),
-        cmocka_unit_test (a_section_shows_its_own_layer), cmocka_unit_test (points_on_a_line_make_a_chart),
-        cmocka_unit_test (every_curve_has_its_colour), cmocka_unit_test (many_curves_stay_apart), cmocka_unit_test (slopes_are_drawn_under_their_curve), cmocka_unit_test (paths_are_pale_and_peaks_are_ringed), cmocka_unit_test (a_chart_of_nothing_is_drawn),
-        cmocka_unit_test (svg_is_written_by_the_ending), cmocka_unit_test (a_failed_write_is_named),
+        cmocka_unit_test (a_field_shows_the_right_colour_at_the_right_place),
+        cmocka_unit_test (nan_is_grey),
+        cmocka_unit_test (equal_values_are_drawn),
+        cmocka_unit_test (cracks_are_black_lines),
+        cmocka_unit_test (a_section_shows_its_own_layer),
+        cmocka_unit_test (points_on_a_line_make_a_chart),
+        cmocka_unit_test (every_curve_has_its_colour),
+        cmocka_unit_test (many_curves_stay_apart),
+        cmocka_unit_test (slopes_are_drawn_under_their_curve),
+        cmocka_unit_test (paths_are_pale_and_peaks_are_ringed),
+        cmocka_unit_test (a_chart_of_nothing_is_drawn),
+        cmocka_unit_test (svg_is_written_by_the_ending),
+        cmocka_unit_test (a_failed_write_is_named),
         cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/picture", tests, NULL, remove_folder);

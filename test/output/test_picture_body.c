@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields at the points of a body from a mesh: on its elements, middle nodes between the corners where only corners are points; as points
- * where elements would not do. */
+ * Fields at the points of a body from a mesh: on its elements, middle nodes between the corners where only
+ * corners are points; as points where elements would not do. */
 #include "check.h"
 #include "fonts.h"
 #include "sample.h"
 #include "meshes.h"
 #include "perigal/output.h"
 
-static const mesh_plan sheet = { to_box, { 4, 3, 1 }, 2, 0, PG_TRI6, NULL }, block = { to_box, { 3, 2, 2 }, 3, 0, PG_HEX20, NULL };
+static const mesh_plan sheet = { to_box, { 4, 3, 1 }, 2, 0, PG_TRI6, NULL },
+                       block = { to_box, { 3, 2, 2 }, 3, 0, PG_HEX20, NULL };
 static const pg_picture_style plain = { .title = "t", .label = "v", .length = 1, .magnify = 2 };
 typedef struct { pg_mesh_body body; pg_cloud cloud; double *value, *u, *node, *node_u; } made;
 
@@ -20,12 +21,16 @@ static made make (const mesh_plan *plan, int corners)
     size_t dim = (size_t) mesh->dim;
     m.cloud.dim = mesh->dim, m.cloud.h = 5, m.cloud.thickness = 1;
     m.body.point = pg_calloc (mesh->nnode, sizeof (int));
-    m.cloud.x = pg_calloc (3 * mesh->nnode, sizeof (double)), m.cloud.volume = pg_calloc (mesh->nnode, sizeof (double)), m.cloud.block = pg_calloc (mesh->nnode, sizeof (int));
+    m.cloud.x = pg_calloc (3 * mesh->nnode, sizeof (double)),
+    m.cloud.volume = pg_calloc (mesh->nnode, sizeof (double)),
+    m.cloud.block = pg_calloc (mesh->nnode, sizeof (int));
     m.value = pg_calloc (mesh->nnode, sizeof (double)), m.node = pg_calloc (mesh->nnode, sizeof (double));
-    m.u = pg_calloc (3 * mesh->nnode, sizeof (double)), m.node_u = pg_calloc (3 * mesh->nnode, sizeof (double));
+    m.u = pg_calloc (3 * mesh->nnode, sizeof (double)),
+    m.node_u = pg_calloc (3 * mesh->nnode, sizeof (double));
     for (size_t i = 0; i < mesh->nnode; i++) m.body.point[i] = corners ? -1 : 0;
     for (size_t e = 0; corners && e < mesh->n; e++)
-        for (int k = 0; k < pg_element_types[mesh->kind[e]].corners; k++) m.body.point[mesh->node[mesh->start[e] + (size_t) k]] = 0;
+        for (int k = 0; k < pg_element_types[mesh->kind[e]].corners; k++)
+            m.body.point[mesh->node[mesh->start[e] + (size_t) k]] = 0;
     for (size_t i = 0; i < mesh->nnode; i++) {
         const double *x = mesh->x + 3 * i;
         m.node[i] = 2 * x[0] - x[1], m.node_u[i * dim] = 0.1 * x[1];
@@ -71,7 +76,8 @@ static void elements_show_what_is_at_their_nodes (void **state)
     for (int k = 0; k < 4; k++) {
         made m = make (k < 2 ? &sheet : &block, k % 2);
         char a[400], b[400];
-        snprintf (a, sizeof a, "%s", file_at ("points.png")), snprintf (b, sizeof b, "%s", file_at ("nodes.png"));
+        snprintf (a, sizeof a, "%s", file_at ("points.png")),
+            snprintf (b, sizeof b, "%s", file_at ("nodes.png"));
         pg_picture_style style = plain;
         style.u = m.u;
         check_ok (pg_picture_body (a, &m.body, &m.cloud, m.value, &style));
@@ -134,7 +140,9 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (elements_show_what_is_at_their_nodes), cmocka_unit_test (points_where_elements_will_not_do), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (elements_show_what_is_at_their_nodes),
+        cmocka_unit_test (points_where_elements_will_not_do),
+        cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/picture_body", tests, NULL, remove_folder);
 }

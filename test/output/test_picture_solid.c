@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Solids on a screen: every side shows its own face and hides what is behind it, mirrored bodies give mirrored views, openings
- * stay open, outer half cells end at the body. */
+ * Solids on a screen: every side shows its own face and hides what is behind it, mirrored bodies give
+ * mirrored views, openings stay open, outer half cells end at the body. */
 #include "check.h"
 #include "output/picture.h"
 #include "fonts.h"
@@ -28,10 +28,14 @@ static void drop_body (body *b)
     drop_cloud (&b->cloud);
 }
 
-static int index_along (size_t i, int axis) { return (int) (axis == 0 ? i % M : axis == 1 ? i / M % M : i / (M * M)); }
+static int index_along (size_t i, int axis)
+{
+    return (int) (axis == 0 ? i % M : axis == 1 ? i / M % M : i / (M * M));
+}
 
 /* The frame is the box with a margin of one cell; 20 pixels a cell across for the sides. */
-static void draw (const body *b, int view, double magnify, const unsigned char *keep, pg_eye *eye, pg_screen *screen)
+static void draw (const body *b, int view, double magnify, const unsigned char *keep, pg_eye *eye,
+                  pg_screen *screen)
 {
     double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
     check_ok (pg_eye_open (eye, &b->cloud, &(pg_picture_style) { .view = view }));
@@ -44,9 +48,13 @@ static void draw (const body *b, int view, double magnify, const unsigned char *
         }
     }
     double room = fmax (high[0] - low[0], high[1] - low[1]) + 2e-3;
-    *screen = (pg_screen) { .left = 0.5 * (low[0] + high[0] - room), .top = 0.5 * (low[1] + high[1] + room), .scale = SIZE / room };
+    *screen = (pg_screen){ .left = 0.5 * (low[0] + high[0] - room),
+                           .top = 0.5 * (low[1] + high[1] + room),
+                           .scale = SIZE / room };
     check_ok (pg_screen_open (screen, SIZE, SIZE));
-    pg_solid_draw (&(pg_solid) { &b->cloud, &b->grid, eye, magnify != 0 ? b->u : NULL, magnify, keep, b->damage }, screen);
+    pg_solid_draw (&(pg_solid){ &b->cloud, &b->grid, eye, magnify != 0 ? b->u : NULL, magnify, keep,
+                                b->damage },
+                   screen);
 }
 
 static size_t count_of (const pg_screen *s, int owner)
@@ -59,8 +67,10 @@ static size_t count_of (const pg_screen *s, int owner)
 static void every_side_shows_its_own_face (void **state)
 {
     (void) state;
-    static const struct { int view, axis, at; } side[] = { { PG_VIEW_FRONT, 2, M - 1 }, { PG_VIEW_BACK, 2, 0 }, { PG_VIEW_LEFT, 0, 0 },
-        { PG_VIEW_RIGHT, 0, M - 1 }, { PG_VIEW_TOP, 1, M - 1 }, { PG_VIEW_BOTTOM, 1, 0 } };
+    static const struct {
+        int view, axis, at;
+    } side[] = { { PG_VIEW_FRONT, 2, M - 1 }, { PG_VIEW_BACK, 2, 0 },    { PG_VIEW_LEFT, 0, 0 },
+                 { PG_VIEW_RIGHT, 0, M - 1 }, { PG_VIEW_TOP, 1, M - 1 }, { PG_VIEW_BOTTOM, 1, 0 } };
     body b;
     make_body (&b);
     for (size_t k = 0; k < 6; k++) {
@@ -83,16 +93,19 @@ static void every_side_shows_its_own_face (void **state)
 static void sides_are_not_mirrored (void **state)
 {
     (void) state;
-    static const struct { int view, across, right, upward, top; } side[] = { { PG_VIEW_FRONT, 0, M - 1, 1, M - 1 },
-        { PG_VIEW_BACK, 0, 0, 1, M - 1 }, { PG_VIEW_LEFT, 2, M - 1, 1, M - 1 }, { PG_VIEW_RIGHT, 2, 0, 1, M - 1 },
-        { PG_VIEW_TOP, 0, M - 1, 2, 0 }, { PG_VIEW_BOTTOM, 0, M - 1, 2, M - 1 } };
+    static const struct {
+        int view, across, right, upward, top;
+    } side[] = { { PG_VIEW_FRONT, 0, M - 1, 1, M - 1 }, { PG_VIEW_BACK, 0, 0, 1, M - 1 },
+                 { PG_VIEW_LEFT, 2, M - 1, 1, M - 1 },  { PG_VIEW_RIGHT, 2, 0, 1, M - 1 },
+                 { PG_VIEW_TOP, 0, M - 1, 2, 0 },       { PG_VIEW_BOTTOM, 0, M - 1, 2, M - 1 } };
     body b;
     make_body (&b);
     for (size_t k = 0; k < 6; k++) {
         pg_eye eye;
         pg_screen s;
         draw (&b, side[k].view, 0, NULL, &eye, &s);
-        int right = s.owner[SIZE / 2 * SIZE + SIZE * 10 / 11 - 4], top = s.owner[(SIZE / 11 + 4) * SIZE + SIZE / 2];
+        int right = s.owner[SIZE / 2 * SIZE + SIZE * 10 / 11 - 4],
+            top = s.owner[(SIZE / 11 + 4) * SIZE + SIZE / 2];
         assert_true (right >= 0 && top >= 0);
         assert_int_equal (index_along ((size_t) right, side[k].across), side[k].right);
         assert_int_equal (index_along ((size_t) top, side[k].upward), side[k].top);
@@ -160,12 +173,14 @@ static void half_a_turn_swaps_front_and_back (void **state)
     size_t differ = 0;
     make_body (&b);
     for (size_t i = 0; i < b.cloud.n; i++) keep[i] = (i * 2246822519u >> 9 & 3) != 0;
-    for (size_t i = 0; i < b.cloud.n; i++) turned[i] = keep[(M - 1 - i / (M * M)) * M * M + i / M % M * M + (M - 1 - i % M)];
+    for (size_t i = 0; i < b.cloud.n; i++)
+        turned[i] = keep[(M - 1 - i / (M * M)) * M * M + i / M % M * M + (M - 1 - i % M)];
     draw (&b, PG_VIEW_FRONT, 0, keep, &eye, &one);
     draw (&b, PG_VIEW_BACK, 0, turned, &eye, &two);
     for (size_t p = 0; p < SIZE * SIZE; p++) {
         size_t i = (size_t) two.owner[p];
-        int back = two.owner[p] < 0 ? -1 : (int) ((M - 1 - i / (M * M)) * M * M + i / M % M * M + (M - 1 - i % M));
+        int back = two.owner[p] < 0 ? -1
+                                    : (int) ((M - 1 - i / (M * M)) * M * M + i / M % M * M + (M - 1 - i % M));
         differ += one.owner[p] != back;
     }
     assert_true (differ < SIZE * SIZE / 50);
@@ -196,7 +211,8 @@ static void an_opening_stays_open_and_a_stretch_leaves_no_gap (void **state)
     check_relative ((double) empty_between (0.8), 0.8 * SIZE / 11.0, 0.1);
 }
 
-/* Stretched to two and a half times its length, a whole body has no hole in it; one whose damage is not known is taken for torn. */
+/* Stretched to two and a half times its length, a whole body has no hole in it; one whose damage is not known
+ * is taken for torn. */
 static void whole_points_hold_together (void **state)
 {
     (void) state;
@@ -279,7 +295,7 @@ static void the_body_behind_a_choice_is_a_ghost (void **state)
     pg_screen s;
     unsigned char keep[M * M * M] = { 0 };
     make_body (&b);
-    keep[M * M * M / 2] = 1;                           /* the one in the middle                                          */
+    keep[M * M * M / 2] = 1;                           /* the one in the middle */
     draw (&b, PG_VIEW_FRONT, 0, keep, &eye, &s);
     check_relative ((double) count_of (&s, M * M * M / 2), SIZE * SIZE / 121.0, 0.15);
     check_ok (pg_ghost_draw (&(pg_solid) { &b.cloud, &b.grid, &eye, NULL, 0, keep, NULL }, &s));
@@ -296,7 +312,7 @@ static void an_oblique_slice_shows_the_cells_it_cuts (void **state)
     pg_eye eye;
     pg_picture_style style = { 0 };
     make_body (&b);
-    double middle = (-1 + 4 + 5 + 4) * 1e-3 / sqrt (2);  /* x + z of the middle                                          */
+    double middle = (-1 + 4 + 5 + 4) * 1e-3 / sqrt (2);  /* x + z of the middle */
     check_ok (pg_picture_section (&style, "1, 0, 1 = 1"));
     style.at = middle;
     check_ok (pg_eye_open (&eye, &b.cloud, &style));
@@ -323,8 +339,13 @@ static void any_allocation_may_fail (void **state)
     size_t before = pg_memory_used ();
     const char *path = file_at ("sweep.png");
     for (int view = 0; view < PG_VIEWS; view += 2) {
-        pg_panel panel[2] = { { "one", b.value, b.u, NULL, NULL }, { "two", b.value, b.u, view == PG_VIEW_CRACK ? b.value : NULL, NULL } };
-        pg_picture_style style = { .label = "v", .view = view, .magnify = view == PG_VIEW_LEFT, .by_depth = view == PG_VIEW_CRACK, .clip = 1 };
+        pg_panel panel[2] = { { "one", b.value, b.u, NULL, NULL },
+                              { "two", b.value, b.u, view == PG_VIEW_CRACK ? b.value : NULL, NULL } };
+        pg_picture_style style = { .label = "v",
+                                   .view = view,
+                                   .magnify = view == PG_VIEW_LEFT,
+                                   .by_depth = view == PG_VIEW_CRACK,
+                                   .clip = 1 };
         pg_status status = PG_E_MEMORY;
         size_t k = 1;
         for (; status != PG_OK && k < 100; k++) {
@@ -344,12 +365,19 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (every_side_shows_its_own_face), cmocka_unit_test (sides_are_not_mirrored),
-        cmocka_unit_test (iso_shows_three_faces_and_nothing_inside), cmocka_unit_test (a_mirrored_body_gives_the_mirrored_view),
-        cmocka_unit_test (half_a_turn_swaps_front_and_back), cmocka_unit_test (an_opening_stays_open_and_a_stretch_leaves_no_gap),
-        cmocka_unit_test (whole_points_hold_together), cmocka_unit_test (displaced_points_move_by_the_multiple), cmocka_unit_test (half_cells_end_at_the_body),
-        cmocka_unit_test (a_cloud_without_lattice_is_drawn_as_loose_cubes), cmocka_unit_test (the_body_behind_a_choice_is_a_ghost),
-        cmocka_unit_test (an_oblique_slice_shows_the_cells_it_cuts), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (every_side_shows_its_own_face),
+        cmocka_unit_test (sides_are_not_mirrored),
+        cmocka_unit_test (iso_shows_three_faces_and_nothing_inside),
+        cmocka_unit_test (a_mirrored_body_gives_the_mirrored_view),
+        cmocka_unit_test (half_a_turn_swaps_front_and_back),
+        cmocka_unit_test (an_opening_stays_open_and_a_stretch_leaves_no_gap),
+        cmocka_unit_test (whole_points_hold_together),
+        cmocka_unit_test (displaced_points_move_by_the_multiple),
+        cmocka_unit_test (half_cells_end_at_the_body),
+        cmocka_unit_test (a_cloud_without_lattice_is_drawn_as_loose_cubes),
+        cmocka_unit_test (the_body_behind_a_choice_is_a_ghost),
+        cmocka_unit_test (an_oblique_slice_shows_the_cells_it_cuts),
+        cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/picture_solid", tests, NULL, remove_folder);
 }

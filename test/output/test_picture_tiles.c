@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Pictures of plane bodies pixel by pixel: they end where the body does, have its area, show no hole inside of it however much the displacement is
- * magnified, and part only where a crack is; clouds of points without an outline have no holes. */
+ * Pictures of plane bodies pixel by pixel: they end where the body does, have its area, show no hole inside
+ * of it however much the displacement is magnified, and part only where a crack is; clouds of points without
+ * an outline have no holes. */
 #include "check.h"
 #include "fonts.h"
 #include "sample.h"
 #include "meshes.h"
 #include <cairo.h>
 
-enum { FILL = 0xfbec6e };                              /* value 1 of 0 to 1                                              */
-typedef struct { int width, height; unsigned char *on; double area; int box[4]; } image;       /* box: first and last column, row */
+enum { FILL = 0xfbec6e };                              /* value 1 of 0 to 1 */
+/* box: first and last column, row */
+typedef struct { int width, height; unsigned char *on; double area; int box[4]; } image;
 
 /* Which pixels of the frame have the colour. The colour bar's own lie apart on the right and are left out. */
 static void open_image (image *m, const char *path)
@@ -52,23 +54,41 @@ static size_t holes (const image *m)
     return n;
 }
 
-/* ---- bodies ----------------------------------------------------------------------------------------------------------------------- */
-typedef struct { pg_shape shape[2]; pg_body body; pg_outline outline; pg_cloud cloud; double *one, *u, *damage; } thing;
+/* ---- bodies -------------------------------------------------------------------------------------------- */
+typedef struct {
+    pg_shape shape[2];
+    pg_body body;
+    pg_outline outline;
+    pg_cloud cloud;
+    double *one, *u, *damage;
+} thing;
 
-/* A disk (round) or a square of size 2 with a round hole of radius 0.3 (hole), by points in or on the corners of cells of 0.1 times unit. */
+/* A disk (round) or a square of size 2 with a round hole of radius 0.3 (hole), by points in or on the corners
+ * of cells of 0.1 times unit. */
 static void make (thing *t, int round, int hole, int corners, double unit)
 {
-    *t = (thing) { .shape[0] = { .kind = round ? PG_DISK : PG_BOX, .add = 1, .radius = unit, .low = { -unit, -unit }, .high = { unit, unit } },
-                   .shape[1] = { .kind = PG_DISK, .radius = 0.3 * unit }, .cloud = { .dim = 2, .h = 0.1 * unit, .thickness = 1 } };
-    t->body = (pg_body) { .dim = 2, .shape = t->shape, .n = hole ? 2 : 1, .low = { -unit, -unit }, .high = { unit, unit } };
+    *t = (thing){ .shape[0] = { .kind = round ? PG_DISK : PG_BOX,
+                                .add = 1,
+                                .radius = unit,
+                                .low = { -unit, -unit },
+                                .high = { unit, unit } },
+                  .shape[1] = { .kind = PG_DISK, .radius = 0.3 * unit },
+                  .cloud = { .dim = 2, .h = 0.1 * unit, .thickness = 1 } };
+    t->body = (pg_body){
+        .dim = 2, .shape = t->shape, .n = hole ? 2 : 1, .low = { -unit, -unit }, .high = { unit, unit }
+    };
     pg_cloud *c = &t->cloud;
-    c->x = pg_calloc (2 * 484, sizeof (double)), c->volume = pg_calloc (484, sizeof (double)), c->block = pg_calloc (484, sizeof (int));
-    t->one = pg_calloc (484, sizeof (double)), t->u = pg_calloc (968, sizeof (double)), t->damage = pg_calloc (484, sizeof (double));
+    c->x = pg_calloc (2 * 484, sizeof (double)), c->volume = pg_calloc (484, sizeof (double)),
+    c->block = pg_calloc (484, sizeof (int));
+    t->one = pg_calloc (484, sizeof (double)), t->u = pg_calloc (968, sizeof (double)),
+    t->damage = pg_calloc (484, sizeof (double));
     for (int k = 0; k < 2; k++) c->step[k] = c->h, c->low[k] = -unit, c->high[k] = unit;
     for (int j = 0; j < 21; j++)
         for (int i = 0; i < 21; i++) {
             double x[2] = { (i - 10 + (corners ? 0 : 0.5)) * c->h, (j - 10 + (corners ? 0 : 0.5)) * c->h };
-            if (!pg_body_inside (&t->body, x, corners ? 0.8 * c->h : 1e-9 * unit) || (!corners && (i == 20 || j == 20))) continue;
+            if (!pg_body_inside (&t->body, x, corners ? 0.8 * c->h : 1e-9 * unit)
+                || (!corners && (i == 20 || j == 20)))
+                continue;
             memcpy (c->x + 2 * c->n, x, sizeof x);
             c->volume[c->n] = c->h * c->h, t->one[c->n++] = 1;
         }
@@ -90,7 +110,7 @@ static void draw (thing *t, pg_picture_style style, image *m)
     open_image (m, path);
 }
 
-/* ---- claims ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- claims -------------------------------------------------------------------------------------------- */
 static void the_body_ends_where_its_shapes_do (void **state)
 {
     (void) state;
@@ -100,14 +120,17 @@ static void the_body_ends_where_its_shapes_do (void **state)
         int hole = k >> 1 & 1;
         make (&t, k & 1, hole, k >> 2 & 1, k & 8 ? 1e-6 : 1e3);
         draw (&t, (pg_picture_style) { .label = "v" }, &m);
-        double size = m.box[1] + 1 - m.box[0], area = (k & 1 ? 3.14159265358979 : 4) - hole * 0.09 * 3.14159265358979;
+        double size = m.box[1] + 1 - m.box[0],
+               area = (k & 1 ? 3.14159265358979 : 4) - hole * 0.09 * 3.14159265358979;
         check_relative (m.box[3] + 1 - m.box[2], size, 0.003);
         check_relative (m.area, area * size * size / 4, 0.003);
         double cx = 0.5 * (m.box[0] + m.box[1]), cy = 0.5 * (m.box[2] + m.box[3]);
         for (int y = m.box[2]; y <= m.box[3]; y++)
             for (int x = m.box[0]; x <= m.box[1]; x++) {
-                double px = fabs (x - cx), py = fabs (y - cy), r = hypot (px, py), out = k & 1 ? r : fmax (px, py);
-                if (out < 0.5 * size - 2 && (!hole || r > 0.15 * size + 2)) assert_int_equal (m.on[y * m.width + x], 1);
+                double px = fabs (x - cx), py = fabs (y - cy), r = hypot (px, py),
+                       out = k & 1 ? r : fmax (px, py);
+                if (out < 0.5 * size - 2 && (!hole || r > 0.15 * size + 2))
+                    assert_int_equal (m.on[y * m.width + x], 1);
                 if (hole && r < 0.15 * size - 2) assert_int_equal (m.on[y * m.width + x], 0);
             }
         pg_free (m.on);
@@ -129,7 +152,8 @@ static void stairs_and_meshes_are_outlines_too (void **state)
     for (int k = 0; k < lattice.count[0] * lattice.count[1]; k++) cells += lattice.in[k];
     pg_outline stairs = { .body = &t.body, .lattice = &lattice }, elements = { .mesh = &sheet };
     const char *path = file_at ("outline.png");
-    check_ok (pg_picture_field (path, &t.cloud, t.one, &(pg_picture_style) { .label = "v", .high = 1, .outline = &stairs }));
+    check_ok (pg_picture_field (path, &t.cloud, t.one,
+                                &(pg_picture_style){ .label = "v", .high = 1, .outline = &stairs }));
     open_image (&m, path);
     double size = (m.box[1] + 1 - m.box[0]) / 20.0;    /* pixels of a cell */
     check_relative (m.area, cells * size * size, 0.003);
@@ -137,21 +161,27 @@ static void stairs_and_meshes_are_outlines_too (void **state)
     make_mesh (&sheet, &(mesh_plan) { to_box, { 4, 3, 1 }, 2, 0, PG_TRI6, NULL });
     pg_cloud c = { .dim = 2, .n = sheet.nnode, .x = x, .volume = volume, .h = 10, .thickness = 1 };
     assert_true (c.n < 200);
-    for (size_t i = 0; i < c.n; i++) one[i] = volume[i] = 1, memcpy (x + 2 * i, sheet.x + 3 * i, 2 * sizeof *x);
-    check_ok (pg_picture_field (path, &c, one, &(pg_picture_style) { .label = "v", .high = 1, .outline = &elements }));
+    for (size_t i = 0; i < c.n; i++)
+        one[i] = volume[i] = 1, memcpy (x + 2 * i, sheet.x + 3 * i, 2 * sizeof *x);
+    check_ok (pg_picture_field (path, &c, one,
+                                &(pg_picture_style){ .label = "v", .high = 1, .outline = &elements }));
     open_image (&m, path);
     assert_int_equal (holes (&m), 0);
     check_relative (m.area, (double) (m.box[1] + 1 - m.box[0]) * (m.box[3] + 1 - m.box[2]), 0.003);
     double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
-    for (size_t i = 0; i < c.n; i++) for (int k = 0; k < 2; k++) low[k] = fmin (low[k], x[2*i + (size_t) k]), high[k] = fmax (high[k], x[2*i + (size_t) k]);
-    check_relative ((double) (m.box[1] + 1 - m.box[0]) / (m.box[3] + 1 - m.box[2]), (high[0] - low[0]) / (high[1] - low[1]), 0.01);
+    for (size_t i = 0; i < c.n; i++)
+        for (int k = 0; k < 2; k++)
+            low[k] = fmin (low[k], x[2 * i + (size_t) k]), high[k] = fmax (high[k], x[2 * i + (size_t) k]);
+    check_relative ((double) (m.box[1] + 1 - m.box[0]) / (m.box[3] + 1 - m.box[2]),
+                    (high[0] - low[0]) / (high[1] - low[1]), 0.01);
     pg_free (m.on);
     pg_mesh_clear (&sheet);
     pg_lattice_clear (&lattice);
     drop (&t);
 }
 
-/* Any linear displacement, also one that stretches cells to twice their size: no hole, and the area grows by its determinant. */
+/* Any linear displacement, also one that stretches cells to twice their size: no hole, and the area grows by
+ * its determinant. */
 static void magnified_bodies_have_no_holes (void **state)
 {
     (void) state;
@@ -164,11 +194,15 @@ static void magnified_bodies_have_no_holes (void **state)
         draw (&t, (pg_picture_style) { .label = "v" }, &rest);
         double unit = (rest.box[1] + 1 - rest.box[0]) / 2.0, body = rest.area / (unit * unit);
         for (size_t i = 0; i < t.cloud.n; i++)
-            for (int c = 0; c < 2; c++) t.u[2*i + (size_t) c] = 1e-4 * (g[2*c] * t.cloud.x[2*i] + g[2*c + 1] * t.cloud.x[2*i + 1]);
+            for (int c = 0; c < 2; c++)
+                t.u[2 * i + (size_t) c] = 1e-4
+                                          * (g[2 * c] * t.cloud.x[2 * i]
+                                             + g[2 * c + 1] * t.cloud.x[2 * i + 1]);
         draw (&t, (pg_picture_style) { .label = "v", .magnify = 1e4 }, &m);
         assert_int_equal (holes (&m), 0);
         double det = (1 + g[0]) * (1 + g[3]) - g[1] * g[2], width = m.box[1] + 1 - m.box[0];
-        /* width of the sheared body, in units: of a square |1 + gxx| + |gxy| on either side, of a disk the root of the squares */
+        /* width of the sheared body, in units: of a square |1 + gxx| + |gxy| on either side, of a disk the
+         * root of the squares */
         double half = k / 3 & 1 ? hypot (1 + g[0], g[1]) : fabs (1 + g[0]) + fabs (g[1]);
         check_relative (m.area, body * det * (width / (2 * half)) * (width / (2 * half)), 0.01);
         pg_free (rest.on), pg_free (m.on);
@@ -176,7 +210,8 @@ static void magnified_bodies_have_no_holes (void **state)
     }
 }
 
-/* Halves that move apart along y = 0: a gap where a pre-crack or broken bonds are, none where all points are whole. */
+/* Halves that move apart along y = 0: a gap where a pre-crack or broken bonds are, none where all points are
+ * whole. */
 static void only_cracks_open (void **state)
 {
     (void) state;
@@ -192,7 +227,7 @@ static void only_cracks_open (void **state)
             t.u[2*i + 1] = y > 0 ? 0.2 : -0.2;
             if (kind && fabs (y) < 0.2) t.damage[i] = 0.4;
         }
-        draw (&t, (pg_picture_style) { .label = "v", .magnify = 1, .cracks = kind == 2 ? &cracks : NULL }, &m);
+        draw (&t, (pg_picture_style){ .label = "v", .magnify = 1, .cracks = kind == 2 ? &cracks : NULL }, &m);
         int middle = (m.box[0] + m.box[1]) / 2, gap = 0;
         for (int y = m.box[2]; y <= m.box[3]; y++) gap += !m.on[y * m.width + middle];
         double unit = (m.box[1] + 1 - m.box[0]) / 2.0;
@@ -203,13 +238,15 @@ static void only_cracks_open (void **state)
     }
 }
 
-/* A spiral of points whose distance grows fourfold outwards: no hole, and as much body as its volumes say, also displaced. */
+/* A spiral of points whose distance grows fourfold outwards: no hole, and as much body as its volumes say,
+ * also displaced. */
 static void clouds_are_filled (void **state)
 {
     (void) state;
     enum { POINTS = 900 };
     for (int moved = 0; moved < 2; moved++) {
-        double x[2 * POINTS], volume[POINTS], one[POINTS], u[2 * POINTS], damage[POINTS] = { 0 }, sum = 0, far = 0;
+        double x[2 * POINTS], volume[POINTS], one[POINTS], u[2 * POINTS], damage[POINTS] = { 0 }, sum = 0,
+                                                                          far = 0;
         pg_cloud c = { .dim = 2, .n = POINTS, .x = x, .volume = volume, .h = 0.03, .thickness = 0.5 };
         image m;
         for (int k = 0; k < POINTS; k++) {
@@ -220,10 +257,13 @@ static void clouds_are_filled (void **state)
             far = fmax (far, fabs (x[2*k]));
         }
         const char *path = file_at ("cloud.png");
-        check_ok (pg_picture_field (path, &c, one, &(pg_picture_style) { .label = "v", .high = 1, .magnify = moved, .u = u, .damage = damage }));
+        check_ok (
+            pg_picture_field (path, &c, one,
+                              &(pg_picture_style){
+                                  .label = "v", .high = 1, .magnify = moved, .u = u, .damage = damage }));
         open_image (&m, path);
         assert_int_equal (holes (&m), 0);
-        double unit = (m.box[1] + 1 - m.box[0]) / 2.0 / (moved ? 1.7 : 1);      /* about the radius of the disk */
+        double unit = (m.box[1] + 1 - m.box[0]) / 2.0 / (moved ? 1.7 : 1);  /* about the radius of the disk */
         check_relative (m.area, sum * (moved ? 1.7 : 1) * unit * unit, 0.06);
         pg_free (m.on);
     }
@@ -242,7 +282,12 @@ static void any_allocation_may_fail (void **state)
         pg_status status = PG_E_MEMORY;
         for (; status == PG_E_MEMORY; k++) {
             pg_memory_fail_at (k);
-            status = pg_picture_field (path, &t.cloud, t.one, &(pg_picture_style) { .label = "v", .outline = &t.outline, .u = t.u, .damage = t.damage, .magnify = kind });
+            status = pg_picture_field (path, &t.cloud, t.one,
+                                       &(pg_picture_style){ .label = "v",
+                                                            .outline = &t.outline,
+                                                            .u = t.u,
+                                                            .damage = t.damage,
+                                                            .magnify = kind });
             pg_memory_fail_at (0);
             assert_int_equal (pg_memory_used (), before);
             assert_true (k < 200);
@@ -253,7 +298,8 @@ static void any_allocation_may_fail (void **state)
     drop (&t);
 }
 
-/* Points on a pre-crack are on both sides of it: their cells show them, but for the line of the crack itself. */
+/* Points on a pre-crack are on both sides of it: their cells show them, but for the line of the crack
+ * itself. */
 static void points_on_a_crack_are_shown (void **state)
 {
     (void) state;
@@ -282,8 +328,12 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (points_on_a_crack_are_shown),
-        cmocka_unit_test (the_body_ends_where_its_shapes_do), cmocka_unit_test (stairs_and_meshes_are_outlines_too), cmocka_unit_test (magnified_bodies_have_no_holes), cmocka_unit_test (only_cracks_open),
-        cmocka_unit_test (clouds_are_filled), cmocka_unit_test (any_allocation_may_fail),
+        cmocka_unit_test (the_body_ends_where_its_shapes_do),
+        cmocka_unit_test (stairs_and_meshes_are_outlines_too),
+        cmocka_unit_test (magnified_bodies_have_no_holes),
+        cmocka_unit_test (only_cracks_open),
+        cmocka_unit_test (clouds_are_filled),
+        cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/picture_tiles", tests, NULL, remove_folder);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The rasteriser: cells tile without gaps or growth, the nearest point owns a pixel, moved points leave no holes, cracks stay open. */
+ * The rasteriser: cells tile without gaps or growth, the nearest point owns a pixel, moved points leave no
+ * holes, cracks stay open. */
 #include "check.h"
 #include "output/picture.h"
 #include <stdlib.h>
@@ -15,7 +16,8 @@ static pg_spots lattice (double step, double shake, double reach)
     for (int k = 0; k < SIDE * SIDE; k++)
         for (int a = 0; a < 2; a++) {
             seed = seed * 1664525u + 1013904223u;
-            place[2*k + a] = 10 + step * ((a ? k / SIDE : k % SIDE) + 0.5 + shake * (2 * (seed / 4294967296.0) - 1));
+            place[2 * k + a] =
+                10 + step * ((a ? k / SIDE : k % SIDE) + 0.5 + shake * (2 * (seed / 4294967296.0) - 1));
         }
     return (pg_spots) { .n = SIDE * SIDE, .place = place, .size = { step, step }, .reach = reach };
 }
@@ -38,7 +40,8 @@ static void cells_tile_without_gap_or_growth (void **state)
                 assert_int_equal (covered (x, y), inside);
                 if (!inside) continue;
                 int i = (int) ((cx - 10) / step), j = (int) ((cy - 10) / step), k = owner[y * SIZE + x];
-                assert_true (fabs (place[2*k] - cx) <= 0.5 * step + 1e-5 && fabs (place[2*k + 1] - cy) <= 0.5 * step + 1e-5);
+                assert_true (fabs (place[2 * k] - cx) <= 0.5 * step + 1e-5
+                             && fabs (place[2 * k + 1] - cy) <= 0.5 * step + 1e-5);
                 assert_true (abs (k % SIDE - i) <= 1 && abs (k / SIDE - j) <= 1);
             }
     }
@@ -92,8 +95,9 @@ static void points_outside_or_nowhere_do_no_harm (void **state)
     for (int p = 2; p < SIZE * SIZE; p++) if (p % SIZE > 3) assert_int_equal (owner[p], -1);
 }
 
-/* A spiral of 500 points of about equal density in a disk: each pixel inside belongs to the nearest point, none is left out, and the
- * disk grows by less than half a spacing; a straight cut opened by three spacings stays open. */
+/* A spiral of 500 points of about equal density in a disk: each pixel inside belongs to the nearest point,
+ * none is left out, and the disk grows by less than half a spacing; a straight cut opened by three spacings
+ * stays open. */
 static void points_of_no_lattice_fill_the_body (void **state)
 {
     (void) state;
@@ -103,7 +107,8 @@ static void points_of_no_lattice_fill_the_body (void **state)
     for (int open = 0; open < 2; open++) {
         for (int k = 0; k < POINTS; k++) {
             double r = R * sqrt ((k + 0.5) / POINTS), t = 2.399963229728653 * k;
-            at[2*k] = 100 + r * cos (t), at[2*k + 1] = 100 + r * sin (t) + (open ? (sin (t) > 0 ? 1.5 * h : -1.5 * h) : 0);
+            at[2 * k] = 100 + r * cos (t),
+                   at[2 * k + 1] = 100 + r * sin (t) + (open ? (sin (t) > 0 ? 1.5 * h : -1.5 * h) : 0);
             spacing[k] = h;
         }
         check_ok (pg_raster (&spots, SIZE, SIZE, owner));
@@ -120,7 +125,9 @@ static void points_of_no_lattice_fill_the_body (void **state)
                     if (d < best - 1e-4) best = d, nearest = k;
                 }
                 if (covered (x, y) && owner[y * SIZE + x] != nearest)
-                    check_relative (hypot (x + 0.5 - at[2 * owner[y * SIZE + x]], y + 0.5 - at[2 * owner[y * SIZE + x] + 1]), best, 1e-3);
+                    check_relative (hypot (x + 0.5 - at[2 * owner[y * SIZE + x]],
+                                           y + 0.5 - at[2 * owner[y * SIZE + x] + 1]),
+                                    best, 1e-3);
             }
     }
 }
@@ -134,8 +141,11 @@ static void lattices_are_told_from_other_points (void **state)
         pg_spots made = lattice (1, kind == 1 ? 0.2 : 0, 1);
         pg_cloud c = { .dim = 2, .n = SIDE * SIDE, .x = x, .volume = volume, .h = 1 };
         for (size_t i = 0; i < c.n; i++) {
-            for (int a = 0; a < 2; a++) x[2*i + (size_t) a] = made.place[2*i + (size_t) a] * (kind == 2 ? 1.07 : 1);
-            if (kind == 3) x[2*i] = sqrt ((double) i) * cos (2.4 * (double) i), x[2*i + 1] = sqrt ((double) i) * sin (2.4 * (double) i);
+            for (int a = 0; a < 2; a++)
+                x[2 * i + (size_t) a] = made.place[2 * i + (size_t) a] * (kind == 2 ? 1.07 : 1);
+            if (kind == 3)
+                x[2 * i] = sqrt ((double) i) * cos (2.4 * (double) i),
+                      x[2 * i + 1] = sqrt ((double) i) * sin (2.4 * (double) i);
             volume[i] = i % 23 ? 2 : 0.5;
         }
         check_ok (pg_loose_spacing (&c, &spacing));
@@ -149,9 +159,12 @@ static void lattices_are_told_from_other_points (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (cells_tile_without_gap_or_growth), cmocka_unit_test (the_nearest_point_owns_a_pixel),
-        cmocka_unit_test (moved_points_leave_no_holes), cmocka_unit_test (an_opened_crack_stays_open),
-        cmocka_unit_test (points_outside_or_nowhere_do_no_harm), cmocka_unit_test (points_of_no_lattice_fill_the_body),
+        cmocka_unit_test (cells_tile_without_gap_or_growth),
+        cmocka_unit_test (the_nearest_point_owns_a_pixel),
+        cmocka_unit_test (moved_points_leave_no_holes),
+        cmocka_unit_test (an_opened_crack_stays_open),
+        cmocka_unit_test (points_outside_or_nowhere_do_no_harm),
+        cmocka_unit_test (points_of_no_lattice_fill_the_body),
         cmocka_unit_test (lattices_are_told_from_other_points),
     };
     return cmocka_run_group_tests_name ("output/raster", tests, NULL, NULL);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Tables: numbers and texts come back exactly, a row is on the disk when the call returns, failures name the file. */
+ * Tables: numbers and texts come back exactly, a row is on the disk when the call returns, failures name the
+ * file. */
 #include "check.h"
 #include "sample.h"
 #include <signal.h>
@@ -20,7 +21,9 @@ static size_t slurp (const char *path, char *text, size_t size)
 static void numbers_come_back_exactly (void **state)
 {
     (void) state;
-    const double value[][3] = { { 0.1, 1.0 / 3, -2e-308 }, { 5e-324, 1.7976931348623157e308, -0.0 }, { 123456789.123456789, 1e22, 7 } };
+    const double value[][3] = { { 0.1, 1.0 / 3, -2e-308 },
+                                { 5e-324, 1.7976931348623157e308, -0.0 },
+                                { 123456789.123456789, 1e22, 7 } };
     const char *path = file_at ("numbers.csv");
     char text[1000], *s = text;
     pg_table *t;
@@ -63,7 +66,8 @@ static void texts_are_quoted_where_they_must_be (void **state)
     check_ok (pg_table_line (t, (const char *const[]) { "say \"x\"", "two\nlines", "" }));
     pg_table_close (&t);
     slurp (path, text, sizeof text);
-    assert_string_equal (text, "time [s],\"load, \"\"top\"\" [N]\",reaction [N]\nplain,\"a,b\",\n\"say \"\"x\"\"\",\"two\nlines\",\n");
+    assert_string_equal (text, "time [s],\"load, \"\"top\"\" [N]\",reaction [N]\nplain,\"a,b\",\n\"say "
+                               "\"\"x\"\"\",\"two\nlines\",\n");
 }
 
 static void a_folder_that_is_missing_is_named (void **state)
@@ -102,8 +106,8 @@ static void a_row_that_does_not_fit_is_reported (void **state)
     char text[1000];
     size_t n = slurp (file_at ("limited.csv"), text, sizeof text), lines = 0;
     for (size_t k = 0; k < n; k++) lines += text[k] == '\n';
-    assert_true (rows > 0 && (long) lines == rows + 1 && text[n - 1] == '\n');     /* whole rows only                    */
-    check_ok (pg_table_row (t, (double[]) { 4, 5, 6 }));                           /* there is room again                */
+    assert_true (rows > 0 && (long) lines == rows + 1 && text[n - 1] == '\n');     /* whole rows only */
+    check_ok (pg_table_row (t, (double[]) { 4, 5, 6 }));                           /* there is room again */
     slurp (file_at ("limited.csv"), text, sizeof text);
     check_contains (text, "0.29999999999999999\n4,5,6\n");
     pg_table_close (&t);
@@ -116,11 +120,12 @@ static void an_opened_table_goes_on_after_the_rows_kept (void **state)
     char text[1000];
     pg_table *t;
     check_ok (pg_table_create (&t, path, 2, (const char *const[]) { "a", "two\nlines" }));
-    for (int k = 0; k < 4; k++) check_ok (pg_table_line (t, (const char *const[]) { k == 1 ? "x\ny" : "x", "\"" }));
+    for (int k = 0; k < 4; k++)
+        check_ok (pg_table_line (t, (const char *const[]){ k == 1 ? "x\ny" : "x", "\"" }));
     assert_int_equal (pg_table_rows (t), 4);
     pg_table_close (&t);
     FILE *file = fopen (path, "a");
-    fputs ("x,half a ro", file);                       /* as a killed run may leave it                                    */
+    fputs ("x,half a ro", file);                       /* as a killed run may leave it */
     fclose (file);
     check_ok (pg_table_open (&t, path, 2, 2));
     assert_int_equal (pg_table_rows (t), 2);
@@ -157,9 +162,13 @@ static void any_allocation_may_fail (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (numbers_come_back_exactly), cmocka_unit_test (a_row_is_on_disk_at_once),
-        cmocka_unit_test (texts_are_quoted_where_they_must_be), cmocka_unit_test (a_folder_that_is_missing_is_named),
-        cmocka_unit_test (a_full_disk_is_reported), cmocka_unit_test (an_opened_table_goes_on_after_the_rows_kept), cmocka_unit_test (a_row_that_does_not_fit_is_reported),
+        cmocka_unit_test (numbers_come_back_exactly),
+        cmocka_unit_test (a_row_is_on_disk_at_once),
+        cmocka_unit_test (texts_are_quoted_where_they_must_be),
+        cmocka_unit_test (a_folder_that_is_missing_is_named),
+        cmocka_unit_test (a_full_disk_is_reported),
+        cmocka_unit_test (an_opened_table_goes_on_after_the_rows_kept),
+        cmocka_unit_test (a_row_that_does_not_fit_is_reported),
         cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/table", tests, NULL, remove_folder);

@@ -67,8 +67,10 @@ static void given_and_has_tell_written_from_default (void **state)
     pg_scene *s = read_all ();
     assert_true (pg_scene_given (s, "cracks[1].width") && pg_scene_has (s, "cracks[1].width"));
     assert_true (!pg_scene_given (s, "cracks[0].width") && pg_scene_has (s, "cracks[0].width"));
-    assert_true (!pg_scene_given (s, "materials.sand.density") && !pg_scene_has (s, "materials.sand.density"));
-    assert_true (pg_scene_given (s, "materials") && pg_scene_given (s, "materials.rock") && !pg_scene_has (s, "materials.clay"));
+    assert_true (!pg_scene_given (s, "materials.sand.density")
+                 && !pg_scene_has (s, "materials.sand.density"));
+    assert_true (pg_scene_given (s, "materials") && pg_scene_given (s, "materials.rock")
+                 && !pg_scene_has (s, "materials.clay"));
     assert_true (!pg_scene_has (s, "cracks[2].width") && !pg_scene_has (s, "materials.clay.poissons_ratio"));
     assert_true (!pg_scene_given (s, "output") && pg_scene_has (s, "output.fields"));
     assert_true (!pg_scene_has (s, "nonsense.of.any[3].kind") && !pg_scene_has (s, "spacing.deeper"));
@@ -131,7 +133,8 @@ static void lengths_may_count_spacings (void **state)
     assert_true (isnan (pg_scene_number (s, "method.horizon")));           /* nobody may forget the spacing */
     pg_scene_free (&s);
     check_ok (plate_read (&s, PLATE_HEAD "method: {horizon: 4 mm}\n"));
-    assert_true (pg_scene_length (s, 99, "method.horizon") == 0.004 && pg_scene_number (s, "method.horizon") == 0.004);
+    assert_true (pg_scene_length (s, 99, "method.horizon") == 0.004
+                 && pg_scene_number (s, "method.horizon") == 0.004);
     pg_scene_free (&s);
     check_ok (plate_read (&s, PLATE_HEAD));
     assert_true (pg_scene_length (s, 0.1, "method.horizon") == 0.2);
@@ -152,8 +155,15 @@ static void overrides_replace_add_and_grow (void **state)
 {
     (void) state;
     static const char *const set[] = {
-        "spacing=1 mm", "method.kernel=gaussian", "cracks[0].from=[1 mm, 2 mm]", "cracks[2].from=[3, 4]", "cracks[2].width=7 mm",
-        "output.fields=[stress]", "materials.clay={youngs_modulus: 5 MPa}", "method.levels=3", "method.levels=4",
+        "spacing=1 mm",
+        "method.kernel=gaussian",
+        "cracks[0].from=[1 mm, 2 mm]",
+        "cracks[2].from=[3, 4]",
+        "cracks[2].width=7 mm",
+        "output.fields=[stress]",
+        "materials.clay={youngs_modulus: 5 MPa}",
+        "method.levels=3",
+        "method.levels=4",
     };
     pg_scene *s = NULL;
     double v[3];
@@ -179,11 +189,13 @@ static void hash_is_that_of_the_file_and_changes_with_overrides (void **state)
     pg_scene *s = NULL;
     check_ok (plate_read (&s, "dimension: 2\nspacing: 2 mm\nmaterials: {}\n"));
     /* from sha256sum */
-    assert_string_equal (pg_scene_hash (s), "4d915754e3012153e8893271c43c141d13e876e5ed8fdc1e451206f4974e1b1d");
+    assert_string_equal (pg_scene_hash (s),
+                         "4d915754e3012153e8893271c43c141d13e876e5ed8fdc1e451206f4974e1b1d");
     pg_scene_free (&s);
     check_ok (plate_read_with (&s, "dimension: 2\nspacing: 2 mm\nmaterials: {}\n", 1, set));
     assert_int_equal (strlen (pg_scene_hash (s)), 64);
-    assert_string_not_equal (pg_scene_hash (s), "4d915754e3012153e8893271c43c141d13e876e5ed8fdc1e451206f4974e1b1d");
+    assert_string_not_equal (pg_scene_hash (s),
+                             "4d915754e3012153e8893271c43c141d13e876e5ed8fdc1e451206f4974e1b1d");
     pg_scene_free (&s);
 }
 
@@ -223,13 +235,18 @@ static void write_letters (const char *path, size_t n, char last)
 static void files_that_a_scene_names_are_summed (void **state)
 {
     (void) state;
-    static const char whole[] = "dimension: 2\nthickness: 1\npoints: points.csv\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0}}\nreference: {lines: [{file: %s}]}\n";
+    static const char whole[] = "dimension: 2\nthickness: 1\npoints: points.csv\nmaterials: {m: "
+                                "{youngs_modulus: 1, poissons_ratio: 0}}\nreference: {lines: [{file: %s}]}\n";
     char folder[] = "/tmp/perigal_files_XXXXXX", path[3][64];
     pg_scene *s;
     pg_named_file *file;
     size_t n;
     assert_non_null (mkdtemp (folder));
-    for (int k = 0; k < 3; k++) snprintf (path[k], sizeof path[k], "%s/%s", folder, k == 0 ? "points.csv" : k == 1 ? "line.csv" : "scene.yaml");
+    for (int k = 0; k < 3; k++)
+        snprintf (path[k], sizeof path[k], "%s/%s", folder,
+                  k == 0   ? "points.csv"
+                  : k == 1 ? "line.csv"
+                           : "scene.yaml");
     FILE *f = fopen (path[2], "w");
     assert_true (f && fprintf (f, whole, path[1]) > 0 && fclose (f) == 0);
     write_letters (path[0], 100000, 'a'), write_letters (path[1], 100000, 'b');
@@ -256,12 +273,18 @@ static void files_that_a_scene_names_are_summed (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (written_values_are_si), cmocka_unit_test (absent_values_take_the_default),
-        cmocka_unit_test (given_and_has_tell_written_from_default), cmocka_unit_test (absent_without_default_is_zero),
-        cmocka_unit_test (lists_and_maps_are_counted_and_named), cmocka_unit_test (vectors_have_as_many_numbers_as_dimensions),
-        cmocka_unit_test (lengths_may_count_spacings), cmocka_unit_test (empty_maps_and_lists_are_absent_contents),
-        cmocka_unit_test (overrides_replace_add_and_grow), cmocka_unit_test (hash_is_that_of_the_file_and_changes_with_overrides),
-        cmocka_unit_test (files_are_read_as_texts_are), cmocka_unit_test (files_that_a_scene_names_are_summed),
+        cmocka_unit_test (written_values_are_si),
+        cmocka_unit_test (absent_values_take_the_default),
+        cmocka_unit_test (given_and_has_tell_written_from_default),
+        cmocka_unit_test (absent_without_default_is_zero),
+        cmocka_unit_test (lists_and_maps_are_counted_and_named),
+        cmocka_unit_test (vectors_have_as_many_numbers_as_dimensions),
+        cmocka_unit_test (lengths_may_count_spacings),
+        cmocka_unit_test (empty_maps_and_lists_are_absent_contents),
+        cmocka_unit_test (overrides_replace_add_and_grow),
+        cmocka_unit_test (hash_is_that_of_the_file_and_changes_with_overrides),
+        cmocka_unit_test (files_are_read_as_texts_are),
+        cmocka_unit_test (files_that_a_scene_names_are_summed),
     };
     return cmocka_run_group_tests_name ("scene/access", tests, NULL, NULL);
 }

@@ -3,7 +3,9 @@
 #include "check.h"
 #include "perigal/scene.h"
 
-static const pg_place place = { .x = 0.03, .y = 0.04, .z = 0.2, .r = 0.05, .angle = 0.9272952180016122, .t = 0.5 };
+static const pg_place place = {
+    .x = 0.03, .y = 0.04, .z = 0.2, .r = 0.05, .angle = 0.9272952180016122, .t = 0.5
+};
 
 static double value (const char *text, const char *unit)
 {
@@ -15,8 +17,13 @@ static double value (const char *text, const char *unit)
     return v;
 }
 
-#define REFUSED(text, unit, words) do { pg_expression *e_ = NULL; check_fails (pg_expression_compile (&e_, (text), (unit)), PG_E_SCENE); \
-    assert_null (e_); assert_string_equal (pg_last_error (), (words)); } while (0)
+#define REFUSED(text, unit, words) \
+    do { \
+        pg_expression *e_ = NULL; \
+        check_fails (pg_expression_compile (&e_, (text), (unit)), PG_E_SCENE); \
+        assert_null (e_); \
+        assert_string_equal (pg_last_error (), (words)); \
+    } while (0)
 
 static void arithmetic_follows_the_usual_order (void **state)
 {
@@ -58,7 +65,7 @@ static void numbers_carry_units (void **state)
 {
     (void) state;
     assert_true (value ("10 GPa", "Pa") == 1e10);
-    assert_true (value ("x / 2 N/m * 4 N", "m2") == 0.03 / 2 * 4);       /* a unit is read as far as it goes */
+    assert_true (value ("x / 2 N/m * 4 N", "m2") == 0.03 / 2 * 4);  /* a unit is read as far as it goes */
     assert_true (value ("10 kN/m2", "Pa") == 1e4);
     check_relative (value ("10 kN/m * x", "N"), 300, 1e-15);
     check_relative (value ("5 % * y", "m"), 0.002, 1e-15);
@@ -210,13 +217,19 @@ static void no_memory_leaks_no_block (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (arithmetic_follows_the_usual_order), cmocka_unit_test (functions_have_their_values),
-        cmocka_unit_test (variables_stand_for_the_place), cmocka_unit_test (numbers_carry_units),
-            cmocka_unit_test (bare_numbers_fit_any_unit),
-        cmocka_unit_test (time_is_seconds_or_a_load_factor), cmocka_unit_test (conditions_are_true_or_false),
-        cmocka_unit_test (dimensions_must_agree), cmocka_unit_test (conditions_and_numbers_do_not_mix),
-        cmocka_unit_test (wrong_words_name_their_column), cmocka_unit_test (variables_used_are_known),
-        cmocka_unit_test (deep_and_long_texts_are_refused_not_fatal), cmocka_unit_test (no_memory_leaks_no_block),
+        cmocka_unit_test (arithmetic_follows_the_usual_order),
+        cmocka_unit_test (functions_have_their_values),
+        cmocka_unit_test (variables_stand_for_the_place),
+        cmocka_unit_test (numbers_carry_units),
+        cmocka_unit_test (bare_numbers_fit_any_unit),
+        cmocka_unit_test (time_is_seconds_or_a_load_factor),
+        cmocka_unit_test (conditions_are_true_or_false),
+        cmocka_unit_test (dimensions_must_agree),
+        cmocka_unit_test (conditions_and_numbers_do_not_mix),
+        cmocka_unit_test (wrong_words_name_their_column),
+        cmocka_unit_test (variables_used_are_known),
+        cmocka_unit_test (deep_and_long_texts_are_refused_not_fatal),
+        cmocka_unit_test (no_memory_leaks_no_block),
     };
     return cmocka_run_group_tests_name ("scene/expression", tests, NULL, NULL);
 }

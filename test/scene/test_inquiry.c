@@ -34,15 +34,16 @@ static void help_tells_all_of_a_key (void **state)
                                "  range    (0, inf)\n  default  none, required\n");
     free (text);
     text = help_of ("method.kernel");
-    assert_string_equal (text,
-        "method.kernel\n  Kernel.\n  kind     name\n  choices  constant, quadratic, gaussian\n  default  quadratic\n");
+    assert_string_equal (text, "method.kernel\n  Kernel.\n  kind     name\n  choices  constant, quadratic, "
+                               "gaussian\n  default  quadratic\n");
     free (text);
 }
 
 static void help_finds_keys_without_brackets_and_by_last_word (void **state)
 {
     (void) state;
-    static const char *const key[] = { "materials.youngs_modulus", "youngs_modulus", "materials.{}.youngs_modulus" };
+    static const char *const key[] = { "materials.youngs_modulus", "youngs_modulus",
+                                       "materials.{}.youngs_modulus" };
     for (size_t k = 0; k < 3; k++) {
         char *text = help_of (key[k]);
         check_contains (text, "materials.{}.youngs_modulus\n  Young's modulus.");
@@ -101,7 +102,8 @@ static void manual_has_every_key_once (void **state)
     check_contains (text, "\n### method\n");
     check_contains (text, "--set KEY=VALUE");
     check_contains (text, "| `hypot (a, b)` |");
-    check_contains (text, "| `method.kernel` | name | `constant`, `quadratic`, `gaussian` | `quadratic` | Kernel. |\n");
+    check_contains (
+        text, "| `method.kernel` | name | `constant`, `quadratic`, `gaussian` | `quadratic` | Kernel. |\n");
     free (text);
     pg_schema_clear (&s);
 }
@@ -138,10 +140,12 @@ static void nearest_names_forgive_small_slips (void **state)
 static void hash_agrees_with_published_values (void **state)
 {
     (void) state;
-    static const struct { const char *text, *hex; } row[] = {
+    static const struct { const char *text, *hex;
+    } row[] = {
         { "", "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855" },
         { "abc", "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad" },
-        { "abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq", "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1" },
+        { "abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq",
+          "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1" },
     };
     char hex[65];
     pg_sha256 s;
@@ -157,7 +161,7 @@ static void hash_agrees_with_published_values (void **state)
     assert_string_equal (hex, "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-static int same_shape (pg_kind a, pg_kind b)           /* two rows of one path are alternatives of different shape */
+static int same_shape (pg_kind a, pg_kind b)  /* two rows of one path are alternatives of different shape */
 {
     int la = a == PG_MAP ? 2 : a == PG_LIST || a == PG_VECTOR || a == PG_NUMBERS || a == PG_NAMES;
     int lb = b == PG_MAP ? 2 : b == PG_LIST || b == PG_VECTOR || b == PG_NUMBERS || b == PG_NAMES;
@@ -177,7 +181,8 @@ static void tables_of_all_folders_are_sound (void **state)
         pg_measure m;
         int wrong;
         assert_true (row->path && *row->path && row->doc && *row->doc);
-        if (row->unit && strcmp (row->unit, "bool") != 0) check_ok (pg_measure_read (&m, row->unit, strcspn (row->unit, "|")));
+        if (row->unit && strcmp (row->unit, "bool") != 0)
+            check_ok (pg_measure_read (&m, row->unit, strcspn (row->unit, "|")));
         pg_range_holds (row->range, 0, &wrong);
         if (wrong) print_error ("range of %s: %s\n", row->path, row->range);
         assert_false (wrong);
@@ -204,11 +209,16 @@ static void defaults_of_all_folders_hold (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (help_tells_all_of_a_key), cmocka_unit_test (help_finds_keys_without_brackets_and_by_last_word),
-        cmocka_unit_test (help_of_a_map_lists_what_is_below), cmocka_unit_test (help_names_the_partners_of_a_group),
-        cmocka_unit_test (unknown_help_names_the_nearest_key), cmocka_unit_test (manual_has_every_key_once),
-        cmocka_unit_test (public_inquiry_knows_the_scene_keys), cmocka_unit_test (nearest_names_forgive_small_slips),
-        cmocka_unit_test (hash_agrees_with_published_values), cmocka_unit_test (tables_of_all_folders_are_sound),
+        cmocka_unit_test (help_tells_all_of_a_key),
+        cmocka_unit_test (help_finds_keys_without_brackets_and_by_last_word),
+        cmocka_unit_test (help_of_a_map_lists_what_is_below),
+        cmocka_unit_test (help_names_the_partners_of_a_group),
+        cmocka_unit_test (unknown_help_names_the_nearest_key),
+        cmocka_unit_test (manual_has_every_key_once),
+        cmocka_unit_test (public_inquiry_knows_the_scene_keys),
+        cmocka_unit_test (nearest_names_forgive_small_slips),
+        cmocka_unit_test (hash_agrees_with_published_values),
+        cmocka_unit_test (tables_of_all_folders_are_sound),
         cmocka_unit_test (defaults_of_all_folders_hold),
     };
     return cmocka_run_group_tests_name ("scene/inquiry", tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Numbers of scenes have decimal points, also in a program whose locale has commas: its localeconv and strtod are those of this file, as there
- * is no such locale on every machine. */
+ * Numbers of scenes have decimal points, also in a program whose locale has commas: its localeconv and strtod
+ * are those of this file, as there is no such locale on every machine. */
 #include "check.h"
 #include "scene/unit.h"
 #include <locale.h>
@@ -21,7 +21,8 @@ double strtod (const char *restrict text, char **restrict end)
 {
     char copy[500];
     size_t n = 0;
-    for (; text[n] && n + 1 < sizeof copy && !(commas && text[n] == '.'); n++) copy[n] = commas && text[n] == ',' ? '.' : text[n];
+    for (; text[n] && n + 1 < sizeof copy && !(commas && text[n] == '.'); n++)
+        copy[n] = commas && text[n] == ',' ? '.' : text[n];
     copy[n] = 0;
     char *last;
     long double value = strtold (copy, &last);
@@ -32,7 +33,13 @@ double strtod (const char *restrict text, char **restrict end)
 static void points_are_read_where_commas_are_meant (void **state)
 {
     (void) state;
-    static const struct { const char *text; double expected; } row[] = { { "0.5", 0.5 }, { "12.25 mm", 12.25e-3 }, { "-1.5e-3 m", -1.5e-3 }, { ".125", 0.125 }, { "3", 3 }, { "2.", 2 } };
+    static const struct {
+        const char *text;
+        double expected;
+    } row[] = {
+        { "0.5", 0.5 }, { "12.25 mm", 12.25e-3 }, { "-1.5e-3 m", -1.5e-3 }, { ".125", 0.125 }, { "3", 3 },
+        { "2.", 2 }
+    };
     for (commas = 0; commas < 2; commas++)
         for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
             double value = NAN;
@@ -40,7 +47,7 @@ static void points_are_read_where_commas_are_meant (void **state)
             check_relative (value, row[k].expected, 1e-15);
         }
     commas = 1;
-    assert_true (strtod ("1,5", NULL) == 1.5 && strtod ("1.5", NULL) == 1);      /* it is in force                          */
+    assert_true (strtod ("1,5", NULL) == 1.5 && strtod ("1.5", NULL) == 1);      /* it is in force */
     commas = 0;
 }
 

@@ -4,7 +4,8 @@
 
 static const char text[] =
     "dimension: 2\nspacing: 2 mm\ncracks:\n  - {from: [-1 mm, 2e-3], width: 1 um}\n"
-    "materials:\n  rock: &r {youngs_modulus: 10 GPa}\n  more: *r\nfailure: {critical_stretch: 1 %, exclude: [top]}\n"
+    "materials:\n  rock: &r {youngs_modulus: 10 GPa}\n  more: *r\nfailure: {critical_stretch: 1 %, exclude: "
+    "[top]}\n"
     "sets: {top: {where: y > 3 mm and not x < 0, angle: [[80 deg, 100 deg]]}}\nload: {pressure: 1 MPa * t}\n";
 
 static void sweep (const char *scene, pg_status expected)
@@ -99,7 +100,8 @@ static void changed_expressions_never_crash (void **state)
         char wild[sizeof seedling];
         memcpy (wild, seedling, sizeof wild);
         wild[10 + next_random (&seed) % (sizeof wild - 10)] = '\0';
-        for (int k = 0; k < 3; k++) wild[next_random (&seed) % strlen (wild)] = bytes[next_random (&seed) % (sizeof bytes - 1)];
+        for (int k = 0; k < 3; k++)
+            wild[next_random (&seed) % strlen (wild)] = bytes[next_random (&seed) % (sizeof bytes - 1)];
         pg_expression *e = NULL;
         pg_place at = { .x = 1, .t = 0.5 };
         pg_status status = pg_expression_compile (&e, wild, round % 2 ? "m" : "bool");
@@ -113,8 +115,10 @@ static void changed_expressions_never_crash (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (every_failing_allocation_is_survived), cmocka_unit_test (the_whole_parser_survives_too),
-        cmocka_unit_test (changed_bytes_never_crash), cmocka_unit_test (changed_expressions_never_crash),
+        cmocka_unit_test (every_failing_allocation_is_survived),
+        cmocka_unit_test (the_whole_parser_survives_too),
+        cmocka_unit_test (changed_bytes_never_crash),
+        cmocka_unit_test (changed_expressions_never_crash),
     };
     return cmocka_run_group_tests_name ("scene/robustness", tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@ typedef struct {
     pg_solver  *solver;
     pg_state   *state;
     pg_solver_options options;
-    pg_step     step;                                  /* the last one                                                   */
+    pg_step     step;                                  /* the last one */
 } run;
 
 /* Problem, options, solver and state of a scene that is read. */
@@ -25,7 +25,8 @@ static inline void build (run *r, int threads)
 }
 
 /* The problem of a scene; text from a printf format. */
-static inline run scene_of (int threads, const char *format, ...) __attribute__ ((format (printf, 2, 3), unused));
+static inline run scene_of (int threads, const char *format, ...)
+    __attribute__ ((format (printf, 2, 3), unused));
 static inline run prepare (int threads, const char *text)
 {
     run r = { 0 };
@@ -66,7 +67,8 @@ static inline void clear (run *r)
     pg_scene_free (&r->scene);
 }
 
-/* A field at the nodes for coefficients d (NULL: those of the state), n x *components packed; freed by the caller. */
+/* A field at the nodes for coefficients d (NULL: those of the state), n x *components packed; freed by the
+ * caller. */
 static inline double *field_of (const run *r, const double *d, const char *name, int *components)
 {
     void *self;

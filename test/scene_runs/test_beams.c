@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Scenes of bonds that are beams, coarse: the crack of the L-shaped panel and what it takes; the first breaks of the cube in compression. */
+ * Scenes of bonds that are beams, coarse: the crack of the L-shaped panel and what it takes; the first breaks
+ * of the cube in compression. */
 #include "run.h"
 
-/* From the inner corner to the far side, level behind it; its energy is that of the fracture energy to the lattice's share. */
+/* From the inner corner to the far side, level behind it; its energy is that of the fracture energy to the
+ * lattice's share. */
 static void test_panel (void **unused)
 {
     (void) unused;
-    static const char *const set[] = { "spacing=25 mm", "body[2].add.box.low=[0, -75 mm]", "sets.lift.where=x >= 0.45 m and y <= 0.28 m", "sets.far.where=x <= 0.06 m" };
+    static const char *const set[] = { "spacing=25 mm", "body[2].add.box.low=[0, -75 mm]",
+                                       "sets.lift.where=x >= 0.45 m and y <= 0.28 m",
+                                       "sets.far.where=x <= 0.06 m" };
     run r = loaded ("data/l_panel/scene.yaml", sizeof set / sizeof *set, set);
     double first[2] = { 0 }, low[2] = { 1, 1 }, high[2] = { 0 };
     while (!pg_solver_done (r.solver, r.state)) {
@@ -17,7 +21,7 @@ static void test_panel (void **unused)
             for (int a = 0; a < 2; a++) low[a] = fmin (low[a], x[a]), high[a] = fmax (high[a], x[a]);
         }
     }
-    const pg_report *report = pg_solver_report (r.solver, r.state);
+    const pg_statistics *report = pg_solver_report (r.solver, r.state);
     assert_int_equal (report->nwarning, 1);
     check_contains (report->warning[0], "the crack has arrived");
     check_below (hypot (first[0] - 0.25, first[1] - 0.25), 0.05);
@@ -32,7 +36,8 @@ static void test_panel (void **unused)
     clear (&r);
 }
 
-/* How many of the bonds broken in this step lie opposite x through the middle: the cube with its flaw is its own image there. */
+/* How many of the bonds broken in this step lie opposite x through the middle: the cube with its flaw is its
+ * own image there. */
 static size_t images (const run *r, const double *x)
 {
     size_t found = 0;
@@ -43,7 +48,8 @@ static size_t images (const run *r, const double *x)
     return found;
 }
 
-/* Quasi-statically, event by event: force at the ends when the first bonds of the cube break, by tension, at the flaw's ends above and below. */
+/* Quasi-statically, event by event: force at the ends when the first bonds of the cube break, by tension, at
+ * the flaw's ends above and below. */
 static double first_break_at_rest (size_t nset, const char *const *set)
 {
     run r = loaded ("data/chen_cube/scene_static.yaml", nset, set);
@@ -59,12 +65,14 @@ static double first_break_at_rest (size_t nset, const char *const *set)
     }
     double force = r.step.reaction[1];
     check_relative (force, -r.step.reaction[4], 1e-8);
-    for (int k = 6; k < 12; k++) check_below (fabs (r.step.reaction[k]), 1e-6 * force);      /* pin and rail bear nothing */
+    /* pin and rail bear nothing */
+    for (int k = 6; k < 12; k++) check_below (fabs (r.step.reaction[k]), 1e-6 * force);
     clear (&r);
     return force;
 }
 
-/* In motion the first bonds break at the same place and, within 2 %, the same force; what breaks has its image through the middle. */
+/* In motion the first bonds break at the same place and, within 2 %, the same force; what breaks has its
+ * image through the middle. */
 static void test_cube (void **unused)
 {
     (void) unused;
@@ -87,23 +95,33 @@ static void test_cube (void **unused)
             shear += r.step.broken[k].kind == 's';
         }
     }
-    static const char *const still[] = { "spacing=2 mm", "solver={kind: static, stepping: event, max_events: 1}", "output.at.levels=1" };
+    static const char *const still[] = { "spacing=2 mm",
+                                         "solver={kind: static, stepping: event, max_events: 1}",
+                                         "output.at.levels=1" };
     double rest = first_break_at_rest (sizeof still / sizeof *still, still);
     check_relative (rest, 42146, 1e-3);
-    print_message ("%zu bonds, %zu by shear; the first at %.5g N, at rest %.5g N\n", broken, shear, start, rest);
+    print_message ("%zu bonds, %zu by shear; the first at %.5g N, at rest %.5g N\n", broken, shear, start,
+                   rest);
     assert_true (broken > 20 && shear > 0);
     check_relative (start, rest, 0.02);
     check_relative (r.step.reaction[1], -r.step.reaction[4], 1e-9);
     clear (&r);
 }
 
-/* With dilatation for a Poisson's ratio of 0.4 (the free sides kept whole: scene_0.4.yaml) the flaw opens at 0.7 of that load; motion and rest agree again. */
+/* With dilatation for a Poisson's ratio of 0.4 (the free sides kept whole: scene_0.4.yaml) the flaw opens at
+ * 0.7 of that load; motion and rest agree again. */
 static void test_cube_volumetric (void **unused)
 {
     (void) unused;
-    static const char *const set[] = { "spacing=2 mm", "sets.skin.where=abs(x) > 14 mm or abs(z) > 14 mm", "solver.end=0.27 ms", "solver.max_events=1", "output.at.rows=1000" };
-    static const char *const still[] = { "spacing=2 mm", "solver={kind: static, stepping: event, max_events: 1}", "output.at.levels=1", "method.volumetric=on",
-        "materials.resin.poissons_ratio=0.4", "sets.skin={where: \"abs(x) > 14 mm or abs(z) > 14 mm\"}", "failure.exclude=[foot, head, skin]" };
+    static const char *const set[] = { "spacing=2 mm", "sets.skin.where=abs(x) > 14 mm or abs(z) > 14 mm",
+                                       "solver.end=0.27 ms", "solver.max_events=1", "output.at.rows=1000" };
+    static const char *const still[] = { "spacing=2 mm",
+                                         "solver={kind: static, stepping: event, max_events: 1}",
+                                         "output.at.levels=1",
+                                         "method.volumetric=on",
+                                         "materials.resin.poissons_ratio=0.4",
+                                         "sets.skin={where: \"abs(x) > 14 mm or abs(z) > 14 mm\"}",
+                                         "failure.exclude=[foot, head, skin]" };
     run r = loaded ("data/chen_cube/scene_0.4.yaml", sizeof set / sizeof *set, set);
     while (!pg_solver_done (r.solver, r.state)) advance (&r);
     assert_int_equal (r.step.nbroken, 8);
@@ -117,6 +135,7 @@ static void test_cube_volumetric (void **unused)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (test_panel), cmocka_unit_test (test_cube), cmocka_unit_test (test_cube_volumetric) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (test_panel), cmocka_unit_test (test_cube),
+                                        cmocka_unit_test (test_cube_volumetric) };
     return cmocka_run_group_tests_name ("scene_runs/beams", tests, NULL, NULL);
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * After bonds broke: the partly redone K is the K of a fresh assembly, a dead bond leaves no trace in N, dN and K, and what a cut
- * separates is separate: zeros in K, and the parts move freely. */
+ * After bonds broke: the partly redone K is the K of a fresh assembly, a dead bond leaves no trace in N, dN
+ * and K, and what a cut separates is separate: zeros in K, and the parts move freely. */
 #include "run.h"
 
 typedef struct { const char *approximation, *integration, *essential, *basis; } method;
 static const method methods[] = {
     { "nosb", "nodal", "transformation", "linear" }, { "nosb", "gauss", "nitsche", "linear" },
-    { "pddo", "nodal", "transformation", "linear" },
-    { "pddo", "gauss", "nitsche", "linear" }, { "rkpm", "nodal", "penalty", "linear" }, { "rkpm", "gauss", "nitsche", "linear" },
+    { "pddo", "nodal", "transformation", "linear" }, { "pddo", "gauss", "nitsche", "linear" },
+    { "rkpm", "nodal", "penalty", "linear" },        { "rkpm", "gauss", "nitsche", "linear" },
     { "rkpm", "gauss", "transformation", "linear" }, { "rkpm", "gauss", "nitsche", "quadratic" },
     { "rkpm", "gauss", "penalty", "quadratic" },
 };
@@ -16,13 +16,17 @@ enum { METHODS = sizeof methods / sizeof *methods };
 /* 1 m x 0.8 m, points 0.1 m apart, moved at random; cracks: a list in YAML */
 static run plate (const method *m, double perturb, const char *cracks)
 {
-    return scene_of (1, "dimension: 2\nthickness: 20 mm\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\nspacing: 0.1\n"
+    return scene_of (
+        1,
+        "dimension: 2\nthickness: 20 mm\nbody: [{add: {box: {low: [0, 0], high: [1, 0.8]}}}]\nspacing: 0.1\n"
         "perturb: {amount: %g}\n%s\n"
         "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
         "method: {approximation: %s, integration: %s, essential: %s, basis: %s, horizon: %s spacing}\n"
-        "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {x: 0.2 mm, y: 1 mm}}\n"
+        "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {x: 0.2 mm, "
+        "y: 1 mm}}\n"
         "solver: {stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n",
-        perturb, cracks, m->approximation, m->integration, m->essential, m->basis, *m->basis == 'q' ? "3.01" : "2.2");
+        perturb, cracks, m->approximation, m->integration, m->essential, m->basis,
+        *m->basis == 'q' ? "3.01" : "2.2");
 }
 
 static unsigned long long seed = 11;
@@ -42,7 +46,8 @@ static pg_changes break_some (run *r, double probability)
         for (size_t p = 0; p < rows->n; p++)
             for (size_t e = rows->family.start[p]; e < rows->family.start[p + 1]; e++) {
                 size_t b = r->problem->first_bond[s] + e;
-                if (rows->family.node[e] == rows->own[p] || !r->state->alive[b] || chance () > probability) continue;
+                if (rows->family.node[e] == rows->own[p] || !r->state->alive[b] || chance () > probability)
+                    continue;
                 r->state->alive[b] = 0;
                 changes.bond[changes.n++] = b;
             }
@@ -81,7 +86,9 @@ static void partial_refresh_equals_fresh_assembly (void **state)
             pg_solver_force (fresh.solver, &self_fresh);
             const pg_sparse *T = force->basis (self), *U = force->basis (self_fresh);
             size_t ntransform = T ? (size_t) T->start[T->ncol] : 0;
-            if (T) check_below (largest_difference (T->value, U->value, ntransform), 1e-15 * largest_of (U->value, ntransform));
+            if (T)
+                check_below (largest_difference (T->value, U->value, ntransform),
+                             1e-15 * largest_of (U->value, ntransform));
             clear (&fresh);
             pg_free (changes.bond);
         }
@@ -156,19 +163,23 @@ static void separated_parts_move_freely (void **state)
         void *self;
         const pg_force_type *force = pg_solver_force (r.solver, &self);
         to_the_end (&r);
-        double *u = field_of (&r, NULL, "displacement", NULL), *s = field_of (&r, NULL, "stress", NULL), worst = 0;
+        double *u = field_of (&r, NULL, "displacement", NULL), *s = field_of (&r, NULL, "stress", NULL),
+               worst = 0;
         for (size_t i = 0; i < r.problem->cloud.n; i++) {
             int up = above (r.problem->cloud.x + 2*i) > 0;
-            worst = fmax (worst, largest_difference (u + 2*i, (double[2]) { up ? 2e-4 : 0, up ? 1e-3 : 0 }, 2));
+            worst = fmax (worst,
+                          largest_difference (u + 2 * i, (double[2]){ up ? 2e-4 : 0, up ? 1e-3 : 0 }, 2));
         }
         force->census (self, &degenerate, &isolated, &fragments);
-        print_message ("%s %s %s %s: displacement off by %.1e, stress %.1e of E pull / height, %ld step, %zu degenerate, %zu fragments\n",
-                       methods[m].approximation, methods[m].integration, methods[m].essential, methods[m].basis, worst / 1e-3,
+        print_message ("%s %s %s %s: displacement off by %.1e, stress %.1e of E pull / height, %ld step, %zu "
+                       "degenerate, %zu fragments\n",
+                       methods[m].approximation, methods[m].integration, methods[m].essential,
+                       methods[m].basis, worst / 1e-3,
                        largest_of (s, 3 * r.problem->cloud.n) / (10e9 * 1e-3 / 0.8), r.state->step,
                        degenerate, fragments);
         check_below (worst / 1e-3, 1e-9);
         check_below (largest_of (s, 3 * r.problem->cloud.n) / (10e9 * 1e-3 / 0.8), 1e-8);
-        assert_int_equal (fragments, 1);               /* two parts: the body and one fragment                           */
+        assert_int_equal (fragments, 1);               /* two parts: the body and one fragment */
         check_below (fabs (r.step.reaction[4]) / (10e9 * 1e-3 / 0.8 * 0.02), 1e-8);
         pg_free (u), pg_free (s);
         clear (&r);
@@ -178,8 +189,10 @@ static void separated_parts_move_freely (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (partial_refresh_equals_fresh_assembly), cmocka_unit_test (a_dead_node_is_absent_from_displacement_and_stress),
-        cmocka_unit_test (a_cut_leaves_exact_zeros_in_K), cmocka_unit_test (separated_parts_move_freely),
+        cmocka_unit_test (partial_refresh_equals_fresh_assembly),
+        cmocka_unit_test (a_dead_node_is_absent_from_displacement_and_stress),
+        cmocka_unit_test (a_cut_leaves_exact_zeros_in_K),
+        cmocka_unit_test (separated_parts_move_freely),
     };
     return cmocka_run_group_tests_name ("scene_runs/broken_bonds", tests, NULL, NULL);
 }

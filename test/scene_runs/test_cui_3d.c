@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cui's 3D scenes as shipped, on coarser points: what must hold at any spacing. The scenes themselves take minutes (their README). */
+ * Cui's 3D scenes as shipped, on coarser points: what must hold at any spacing. The scenes themselves take
+ * minutes (their README). */
 #include "scene_runs/run.h"
 #include <math.h>
 #include <string.h>
@@ -15,11 +16,13 @@ static run coarse (const char *scene, size_t n, const char *const *sets)
     return r;
 }
 
-/* Runs until `share` of the bonds has broken anew; returns the largest force of the first load along y up to there. */
+/* Runs until `share` of the bonds has broken anew; returns the largest force of the first load along y up to
+ * there. */
 static double until_broken (run *r, double share)
 {
     double top = 0;
-    while (!pg_solver_done (r->solver, r->state) && (double) r->state->broken < share * (double) r->state->nbond) {
+    while (!pg_solver_done (r->solver, r->state)
+           && (double) r->state->broken < share * (double) r->state->nbond) {
         advance (r);
         top = fmax (top, fabs (r->step.reaction[1]));
         assert_true (r->step.residual <= 1e-8);
@@ -33,13 +36,14 @@ static void the_shallower_the_crack_the_larger_the_load (void **state)
     (void) state;
     static const char *const sets[] = { "spacing=3.4 mm", "solver.stop={}" };
     double load[3];
-    static const char *const scene[3] = { "data/cui_disk_10/scene.yaml", "data/cui_disk_6/scene.yaml", "data/cui_disk_2/scene.yaml" };
+    static const char *const scene[3] = { "data/cui_disk_10/scene.yaml", "data/cui_disk_6/scene.yaml",
+                                          "data/cui_disk_2/scene.yaml" };
     for (int k = 0; k < 3; k++) {
         run r = coarse (scene[k], 2, sets);
         load[k] = until_broken (&r, 0.01);
-        const pg_report *report = pg_solver_report (r.solver, r.state);
-        print_message ("%s: %.1f N when 1 %% is broken, %ld steps, %ld rounds, %zu iterations\n", scene[k], load[k], report->steps, report->iterations,
-                       report->cg_iterations);
+        const pg_statistics *report = pg_solver_report (r.solver, r.state);
+        print_message ("%s: %.1f N when 1 %% is broken, %ld steps, %ld rounds, %zu iterations\n", scene[k],
+                       load[k], report->steps, report->iterations, report->cg_iterations);
         assert_int_equal (report->factorizations, 0);
         assert_int_equal (report->bonds_over_limit, 0);
         assert_true (report->nskipped > 0);
@@ -48,14 +52,19 @@ static void the_shallower_the_crack_the_larger_the_load (void **state)
     assert_true (load[0] < load[1] && load[1] < load[2]);
 }
 
-/* The same order from equilibrium, at 5 mm: the deeper the crack the softer the disk, and the less it bears over the first 25 events. */
+/* The same order from equilibrium, at 5 mm: the deeper the crack the softer the disk, and the less it bears
+ * over the first 25 events. */
 static void the_deeper_the_crack_the_softer_and_weaker_the_disk (void **state)
 {
     (void) state;
-    static const char *const sets[] = { "spacing=5 mm", "sets.platens.angle=[[80 deg, 100 deg], [260 deg, 280 deg]]",
-        "boundary=[{name: top, set: platens.top, displacement: {x: 0, y: -20 um}}, {name: bottom, set: platens.bottom, displacement: {x: 0, y: 20 um}}]",
-        "solver={kind: static, linear: pcg, stepping: event, max_events: 25}", "output={}" };
-    static const char *const scene[3] = { "data/cui_disk_10/scene.yaml", "data/cui_disk_6/scene.yaml", "data/cui_disk_2/scene.yaml" };
+    static const char *const sets[] = {
+        "spacing=5 mm", "sets.platens.angle=[[80 deg, 100 deg], [260 deg, 280 deg]]",
+        "boundary=[{name: top, set: platens.top, displacement: {x: 0, y: -20 um}}, {name: bottom, set: "
+        "platens.bottom, displacement: {x: 0, y: 20 um}}]",
+        "solver={kind: static, linear: pcg, stepping: event, max_events: 25}", "output={}"
+    };
+    static const char *const scene[3] = { "data/cui_disk_10/scene.yaml", "data/cui_disk_6/scene.yaml",
+                                          "data/cui_disk_2/scene.yaml" };
     double stiffness[3] = { 0 }, load[3] = { 0 };
     for (int k = 0; k < 3; k++) {
         run r = coarse (scene[k], 5, sets);
@@ -78,11 +87,13 @@ static void the_deeper_the_crack_the_softer_and_weaker_the_disk (void **state)
 static void a_through_crack_is_symmetric (void **state)
 {
     (void) state;
-    static const char *const sets[] = { "spacing=5 mm", "sets.platens.angle=[[80 deg, 100 deg], [260 deg, 280 deg]]" };
+    static const char *const sets[] = { "spacing=5 mm",
+                                        "sets.platens.angle=[[80 deg, 100 deg], [260 deg, 280 deg]]" };
     run r = coarse ("data/cui_disk_10/scene.yaml", 2, sets);
     until_broken (&r, 0.01);
-    const pg_report *report = pg_solver_report (r.solver, r.state);
-    print_message ("%ld steps, %ld rounds, %zu iterations\n", report->steps, report->iterations, report->cg_iterations);
+    const pg_statistics *report = pg_solver_report (r.solver, r.state);
+    print_message ("%ld steps, %ld rounds, %zu iterations\n", report->steps, report->iterations,
+                   report->cg_iterations);
     assert_int_equal (report->factorizations, 0);
     assert_int_equal (report->bonds_over_limit, 0);
     assert_true (report->nskipped > 0);
@@ -91,8 +102,10 @@ static void a_through_crack_is_symmetric (void **state)
     size_t n = r.problem->cloud.n, pairs = 0;
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++) {
-            int across = fabs (x[3*i] - x[3*j]) < 1e-9 && fabs (x[3*i + 1] - x[3*j + 1]) < 1e-9 && fabs (x[3*i + 2] + x[3*j + 2] - 0.01) < 1e-9;
-            int turned = fabs (x[3*i] + x[3*j]) < 1e-9 && fabs (x[3*i + 1] + x[3*j + 1]) < 1e-9 && fabs (x[3*i + 2] - x[3*j + 2]) < 1e-9;
+            int across = fabs (x[3 * i] - x[3 * j]) < 1e-9 && fabs (x[3 * i + 1] - x[3 * j + 1]) < 1e-9
+                         && fabs (x[3 * i + 2] + x[3 * j + 2] - 0.01) < 1e-9;
+            int turned = fabs (x[3 * i] + x[3 * j]) < 1e-9 && fabs (x[3 * i + 1] + x[3 * j + 1]) < 1e-9
+                         && fabs (x[3 * i + 2] - x[3 * j + 2]) < 1e-9;
             if (!across && !turned) continue;
             check_scaled (damage[i], damage[j], 1e-12, 1);
             pairs++;
@@ -102,7 +115,8 @@ static void a_through_crack_is_symmetric (void **state)
     clear (&r);
 }
 
-/* The crack leaves the tilted mouth and crosses the plate near the height of its middle, and it is upright there. */
+/* The crack leaves the tilted mouth and crosses the plate near the height of its middle, and it is upright
+ * there. */
 static void the_plate_parts_near_the_middle_of_the_mouth (void **state)
 {
     (void) state;
@@ -117,13 +131,16 @@ static void the_plate_parts_near_the_middle_of_the_mouth (void **state)
         int back = x[2] < 0.1;
         if (damage[i] > 0.2) height[back] += damage[i] * x[1], weight[back] += damage[i];
     }
-    const pg_report *report = pg_solver_report (r.solver, r.state);
-    print_message ("ends at t = %g s, %ld bonds, %ld rounds, %ld factorizations, %zu iterations\n", r.state->time, report->broken, report->iterations,
-                   report->factorizations, report->cg_iterations);
+    const pg_statistics *report = pg_solver_report (r.solver, r.state);
+    print_message ("ends at t = %g s, %ld bonds, %ld rounds, %ld factorizations, %zu iterations\n",
+                   r.state->time, report->broken, report->iterations, report->factorizations,
+                   report->cg_iterations);
     assert_true (weight[0] > 0 && weight[1] > 0);
-    print_message ("crack at y = %.3f m (front half), %.3f m (back half)\n", height[0] / weight[0], height[1] / weight[1]);
+    print_message ("crack at y = %.3f m (front half), %.3f m (back half)\n", height[0] / weight[0],
+                   height[1] / weight[1]);
     assert_true (fabs (height[0] / weight[0] - 1) < 0.1 && fabs (height[1] / weight[1] - 1) < 0.1);
-    assert_true (fabs (height[0] / weight[0] - height[1] / weight[1]) < 0.07);      /* the mouth: 0.1 m apart on average              */
+    /* the mouth: 0.1 m apart on average */
+    assert_true (fabs (height[0] / weight[0] - height[1] / weight[1]) < 0.07);
     assert_true (report->residual_max <= 1e-8);
     pg_free (damage);
     clear (&r);
@@ -136,7 +153,10 @@ int main (void)
         cmocka_unit_test (the_deeper_the_crack_the_softer_and_weaker_the_disk),
         cmocka_unit_test (a_through_crack_is_symmetric),
         cmocka_unit_test (the_plate_parts_near_the_middle_of_the_mouth),
-    }, minutes[] = { cmocka_unit_test (the_shallower_the_crack_the_larger_the_load) };     /* make test-long only            */
-    if (size && strcmp (size, "long") == 0 && cmocka_run_group_tests_name ("scene_runs/cui_3d, long", minutes, NULL, NULL) != 0) return 1;
+    /* make test-long only */
+    }, minutes[] = { cmocka_unit_test (the_shallower_the_crack_the_larger_the_load) };
+    if (size && strcmp (size, "long") == 0
+        && cmocka_run_group_tests_name ("scene_runs/cui_3d, long", minutes, NULL, NULL) != 0)
+        return 1;
     return cmocka_run_group_tests_name ("scene_runs/cui_3d", tests, NULL, NULL);
 }

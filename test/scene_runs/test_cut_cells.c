@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cut cells in whole runs: the pressed ring (Lame) converges at second order in 2D and 3D where the staircase does not; linear fields under
- * tractions and Nitsche's supports on arcs are found up to the quadrature, order by order; slivers do not spoil the equations; reactions. */
+ * Cut cells in whole runs: the pressed ring (Lame) converges at second order in 2D and 3D where the staircase
+ * does not; linear fields under tractions and Nitsche's supports on arcs are found up to the quadrature,
+ * order by order; slivers do not spoil the equations; reactions. */
 #include "run.h"
 
 static const double pi = 3.14159265358979323846;
 
-/* ---- ring, inner radius 1 m, outer 2 m, 1 Pa inside, E 1 kPa, nu 0.3 --------------------------------------------------------- */
-/* u_r = ((1 - nu') r / 3 + (1 + nu') 4 / (3 r)) / E', in plane strain E' = E / (1 - nu^2), nu' = nu / (1 - nu). */
+/* ---- ring, inner radius 1 m, outer 2 m, 1 Pa inside, E 1 kPa, nu 0.3 ----------------------------------- */
+/* u_r = ((1 - nu') r / 3 + (1 + nu') 4 / (3 r)) / E', in plane strain E' = E / (1 - nu^2), nu' = nu / (1 -
+ * nu). */
 static double radial (double r, int strain)
 {
     double nu = strain ? 0.3 / 0.7 : 0.3, E = strain ? 1000 / 0.91 : 1000;
@@ -20,7 +22,8 @@ static double ring_error (const run *r, int strain)
     double *u = field_of (r, NULL, "displacement", NULL), sum[2] = { 0 };
     for (size_t i = 0; i < r->problem->cloud.n; i++) {
         const double *x = r->problem->cloud.x + dim * i;
-        double radius = hypot (x[0], x[1]), V = r->problem->cloud.volume[i], exact = radial (radius, strain), d = 0;
+        double radius = hypot (x[0], x[1]), V = r->problem->cloud.volume[i], exact = radial (radius, strain),
+               d = 0;
         for (size_t k = 0; k < dim; k++) d += pow (u[dim*i + k] - (k < 2 ? exact * x[k] / radius : 0), 2);
         sum[0] += V * d, sum[1] += V * exact * exact;
     }
@@ -28,16 +31,21 @@ static double ring_error (const run *r, int strain)
     return sqrt (sum[0] / sum[1]);
 }
 
-#define RING "materials: {m: {youngs_modulus: 1000 Pa, poissons_ratio: 0.3}}\n" \
+#define RING \
+    "materials: {m: {youngs_modulus: 1000 Pa, poissons_ratio: 0.3}}\n" \
     "sets: {bore: {boundary: hole}, ax: {where: 'abs(x) < 1e-6'}, ay: {where: 'abs(y) < 1e-6'}}\n" \
     "method: {approximation: rkpm, integration: gauss, kernel: cubic_spline, horizon: 2 spacing}\n" \
     "solver: {kind: static}\noutput: {at: {levels: 1}}\n" \
-    "boundary:\n  - {set: bore, pressure: 1 Pa}\n  - {set: ax, displacement: {x: 0}}\n  - {set: ay, displacement: {y: 0}}\n"
+    "boundary:\n  - {set: bore, pressure: 1 Pa}\n  - {set: ax, displacement: {x: 0}}\n  - {set: ay, " \
+    "displacement: {y: 0}}\n"
 
 static double plane_ring (double spacing, const char *plane, const char *cells)
 {
-    run r = scene_of (1, "dimension: 2\nplane: %s\ncells: %s\nspacing: %g\nbody: [{add: {disk: {center: [0, 0], radius: 2}}}, "
-                      "{subtract: {disk: {center: [0, 0], radius: 1}}}]\n" RING, plane, cells, spacing);
+    run r = scene_of (
+        1,
+        "dimension: 2\nplane: %s\ncells: %s\nspacing: %g\nbody: [{add: {disk: {center: [0, 0], radius: 2}}}, "
+        "{subtract: {disk: {center: [0, 0], radius: 1}}}]\n" RING,
+        plane, cells, spacing);
     to_the_end (&r);
     check_below (r.step.residual, 1e-10);
     double e = ring_error (&r, !strcmp (plane, "strain"));
@@ -49,7 +57,8 @@ static void ring_in_plane (const char *plane)
 {
     double e[3], stairs = plane_ring (0.05, plane, "staircase");
     for (int k = 0; k < 3; k++) e[k] = plane_ring (0.2 / (1 << k), plane, "cut");
-    print_message ("ring, plane %s: %.2e, %.2e, %.2e (orders %.2f, %.2f); staircase %.2e\n", plane, e[0], e[1], e[2], log2 (e[0] / e[1]), log2 (e[1] / e[2]), stairs);
+    print_message ("ring, plane %s: %.2e, %.2e, %.2e (orders %.2f, %.2f); staircase %.2e\n", plane, e[0],
+                   e[1], e[2], log2 (e[0] / e[1]), log2 (e[1] / e[2]), stairs);
     check_below (e[2], 2e-4);
     check_below (e[1], e[0] / 3.5);
     check_below (e[2], e[1] / 3.5);
@@ -61,9 +70,12 @@ static void ring_in_plane_strain (void **state) { (void) state, ring_in_plane ("
 
 static double slice (double spacing)
 {
-    run r = scene_of (2, "dimension: 3\nspacing: %g\nbody: [{add: {cylinder: {center: [0, 0, 0], radius: 2, length: %g}}}, "
-                      "{subtract: {cylinder: {center: [0, 0, 0], radius: 1, length: %g}}}]\n" RING
-                      "  - {set: back, displacement: {z: 0}}\n  - {set: front, displacement: {z: 0}}\n", spacing, 2 * spacing, 2 * spacing);
+    run r = scene_of (
+        2,
+        "dimension: 3\nspacing: %g\nbody: [{add: {cylinder: {center: [0, 0, 0], radius: 2, length: %g}}}, "
+        "{subtract: {cylinder: {center: [0, 0, 0], radius: 1, length: %g}}}]\n" RING
+        "  - {set: back, displacement: {z: 0}}\n  - {set: front, displacement: {z: 0}}\n",
+        spacing, 2 * spacing, 2 * spacing);
     to_the_end (&r);
     check_below (r.step.residual, 1e-9);
     double e = ring_error (&r, 1);
@@ -80,7 +92,7 @@ static void slice_of_a_thick_cylinder (void **state)
     check_below (e[1], e[0] / 3);
 }
 
-/* ---- linear fields: u = (x, -0.3 y) / E under sigma_xx = 1 ---------------------------------------------------------------------- */
+/* ---- linear fields: u = (x, -0.3 y) / E under sigma_xx = 1 --------------------------------------------- */
 static double linear_error (const run *r)
 {
     double *u = field_of (r, NULL, "displacement", NULL), worst = 0;
@@ -92,21 +104,29 @@ static double linear_error (const run *r)
     return worst / 1e-3;
 }
 
-#define PATCH "dimension: 2\ncells: %s\nspacing: 0.13\nmaterials: {m: {youngs_modulus: 1000 Pa, poissons_ratio: 0.3}}\n" \
-    "method: {approximation: rkpm, integration: gauss, gauss_points: %d, kernel: cubic_spline, horizon: 2 spacing}\nsolver: {kind: static}\noutput: {at: {levels: 1}}\n"
-#define HELD "  - {set: ax, displacement: {x: '0.001 * x'}}\n  - {set: ay, displacement: {y: '-0.0003 * y'}}\n"
+#define PATCH \
+    "dimension: 2\ncells: %s\nspacing: 0.13\nmaterials: {m: {youngs_modulus: 1000 Pa, poissons_ratio: " \
+    "0.3}}\n" \
+    "method: {approximation: rkpm, integration: gauss, gauss_points: %d, kernel: cubic_spline, horizon: 2 " \
+    "spacing}\nsolver: {kind: static}\noutput: {at: {levels: 1}}\n"
+#define HELD \
+    "  - {set: ax, displacement: {x: '0.001 * x'}}\n  - {set: ay, displacement: {y: '-0.0003 * y'}}\n"
 static const char *const patches[3] = {
     /* tractions on the rim of a disk */
-    PATCH "body: [{add: {disk: {center: [0, 0], radius: 1}}}]\nsets: {around: {boundary: rim}, ax: {where: 'abs(x) < 1e-6'}, ay: {where: 'abs(y) < 1e-6'}}\n"
-    "boundary:\n  - {set: around, traction: {x: '1 Pa * x / (1 m)'}}\n" HELD,
+    PATCH "body: [{add: {disk: {center: [0, 0], radius: 1}}}]\nsets: {around: {boundary: rim}, ax: {where: "
+          "'abs(x) < 1e-6'}, ay: {where: 'abs(y) < 1e-6'}}\n"
+          "boundary:\n  - {set: around, traction: {x: '1 Pa * x / (1 m)'}}\n" HELD,
     /* plate with a hole whose wall carries what it would without one */
-    PATCH "body: [{add: {box: {low: [-1, -1], high: [1, 1]}}}, {subtract: {disk: {center: [0.2, 0.1], radius: 0.37}}}]\n"
-    "sets: {bore: {boundary: hole}, ax: {where: 'abs(x) < 0.01'}, ay: {where: 'abs(y) < 0.01'}}\n"
-    "boundary:\n  - {set: left, displacement: {x: '-0.001 * (1 m)', y: '-0.0003 * y'}}\n  - {set: right, traction: {x: 1 Pa}}\n"
-    "  - {set: bore, traction: {x: '-1 Pa * (x - 0.2 m) / (0.37 m)'}}\n",
+    PATCH "body: [{add: {box: {low: [-1, -1], high: [1, 1]}}}, {subtract: {disk: {center: [0.2, 0.1], "
+          "radius: 0.37}}}]\n"
+          "sets: {bore: {boundary: hole}, ax: {where: 'abs(x) < 0.01'}, ay: {where: 'abs(y) < 0.01'}}\n"
+          "boundary:\n  - {set: left, displacement: {x: '-0.001 * (1 m)', y: '-0.0003 * y'}}\n  - {set: "
+          "right, traction: {x: 1 Pa}}\n"
+          "  - {set: bore, traction: {x: '-1 Pa * (x - 0.2 m) / (0.37 m)'}}\n",
     /* Nitsche on the whole rim */
     PATCH "body: [{add: {disk: {center: [0, 0], radius: 1}}}]\nsets: {around: {boundary: rim}}\n"
-    "boundary:\n  - {set: around, displacement: {x: '0.001 * x', y: '-0.0003 * y'}}\n" };
+          "boundary:\n  - {set: around, displacement: {x: '0.001 * x', y: '-0.0003 * y'}}\n"
+};
 
 static void linear_fields_are_found_to_the_quadrature (void **state)
 {
@@ -116,7 +136,10 @@ static void linear_fields_are_found_to_the_quadrature (void **state)
         double e[3], stairs;
         for (int i = 0; i < 4; i++) {
             char text[2000];
-            snprintf (text, sizeof text, patches[k], i == 3 ? "staircase" : "cut", i == 0 ? 2 : i == 1 ? 3 : 5);
+            snprintf (text, sizeof text, patches[k], i == 3 ? "staircase" : "cut",
+                      i == 0   ? 2
+                      : i == 1 ? 3
+                               : 5);
             run r = prepare (1, text);
             to_the_end (&r);
             check_below (r.step.residual, 1e-10);
@@ -124,7 +147,8 @@ static void linear_fields_are_found_to_the_quadrature (void **state)
             else stairs = linear_error (&r);
             clear (&r);
         }
-        print_message ("%-20s: %.2e, %.2e, %.2e (2, 3, 5 Gauss points); staircase %.2e (5)\n", name[k], e[0], e[1], e[2], stairs);
+        print_message ("%-20s: %.2e, %.2e, %.2e (2, 3, 5 Gauss points); staircase %.2e (5)\n", name[k], e[0],
+                       e[1], e[2], stairs);
         check_below (e[0], 3e-3);
         check_below (e[2], 2e-4);
         assert_true (e[1] < 0.5 * e[0] && e[2] < 0.3 * e[1]);
@@ -138,9 +162,14 @@ static void slivers_do_no_harm (void **state)
     (void) state;
     for (int k = 0; k < 8; k++) {
         double radius = 0.3 + pow (10, -1 - k);
-        run r = scene_of (1, "dimension: 2\nspacing: 0.1\nbody: [{add: {box: {low: [-1, -1], high: [1, 1]}}}, {subtract: {disk: {center: [0, 0], radius: %.17g}}}]\n"
-                          "materials: {m: {youngs_modulus: 1000 Pa, poissons_ratio: 0.3}}\nmethod: {approximation: rkpm, integration: gauss, horizon: 2 spacing}\n"
-                          "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 1 mm, y: 0}}]\nsolver: {kind: static}\noutput: {at: {levels: 1}}\n", radius);
+        run r = scene_of (1,
+                          "dimension: 2\nspacing: 0.1\nbody: [{add: {box: {low: [-1, -1], high: [1, 1]}}}, "
+                          "{subtract: {disk: {center: [0, 0], radius: %.17g}}}]\n"
+                          "materials: {m: {youngs_modulus: 1000 Pa, poissons_ratio: 0.3}}\nmethod: "
+                          "{approximation: rkpm, integration: gauss, horizon: 2 spacing}\n"
+                          "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: "
+                          "{x: 1 mm, y: 0}}]\nsolver: {kind: static}\noutput: {at: {levels: 1}}\n",
+                          radius);
         to_the_end (&r);
         worst = fmax (worst, r.step.residual);
         check_relative (r.step.reaction[0], -r.step.reaction[3], 1e-9);
@@ -155,9 +184,11 @@ static void pressure_on_an_arc_carries_its_shadow (void **state)
 {
     (void) state;
     run r = scene_of (1, "dimension: 2\nspacing: 0.13\nbody: [{add: {disk: {center: [0, 0], radius: 1}}}]\n"
-                      "materials: {m: {youngs_modulus: 1000 Pa, poissons_ratio: 0.3}}\nmethod: {approximation: rkpm, integration: gauss, horizon: 2 spacing}\n"
-                      "sets: {up: {boundary: rim, where: 'y > 0'}, low: {boundary: rim, where: 'y < 0'}}\n"
-                      "boundary: [{set: up, pressure: 1 Pa}, {set: low, displacement: {x: 0, y: 0}}]\nsolver: {kind: static}\noutput: {at: {levels: 1}}\n");
+                         "materials: {m: {youngs_modulus: 1000 Pa, poissons_ratio: 0.3}}\nmethod: "
+                         "{approximation: rkpm, integration: gauss, horizon: 2 spacing}\n"
+                         "sets: {up: {boundary: rim, where: 'y > 0'}, low: {boundary: rim, where: 'y < 0'}}\n"
+                         "boundary: [{set: up, pressure: 1 Pa}, {set: low, displacement: {x: 0, y: "
+                         "0}}]\nsolver: {kind: static}\noutput: {at: {levels: 1}}\n");
     double shadow = 0, length = 0;
     const pg_set *up = r.problem->load[0].set;
     for (size_t k = 0; k < up->nfacet; k++) {
@@ -174,8 +205,11 @@ static void pressure_on_an_arc_carries_its_shadow (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (ring_in_plane_stress), cmocka_unit_test (ring_in_plane_strain), cmocka_unit_test (slice_of_a_thick_cylinder),
-        cmocka_unit_test (linear_fields_are_found_to_the_quadrature), cmocka_unit_test (slivers_do_no_harm),
+        cmocka_unit_test (ring_in_plane_stress),
+        cmocka_unit_test (ring_in_plane_strain),
+        cmocka_unit_test (slice_of_a_thick_cylinder),
+        cmocka_unit_test (linear_fields_are_found_to_the_quadrature),
+        cmocka_unit_test (slivers_do_no_harm),
         cmocka_unit_test (pressure_on_an_arc_carries_its_shadow),
     };
     return cmocka_run_group_tests_name ("scene_runs/cut_cells", tests, NULL, NULL);

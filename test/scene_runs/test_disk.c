@@ -1,22 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The Brazilian disk of data/cui_disk_plane, run once to its end: shape and symmetry of the cracks, equilibrium of every step.
- * A point is broken when its damage has reached solver.stop.damage (1/2); wing points are broken now and were not before the run. The
- * centre line of a wing holds one point per lattice row: the damage-weighted mean of the row's wing points. Measured values are printed. */
+ * The Brazilian disk of data/cui_disk_plane, run once to its end: shape and symmetry of the cracks,
+ * equilibrium of every step. A point is broken when its damage has reached solver.stop.damage (1/2); wing
+ * points are broken now and were not before the run. The centre line of a wing holds one point per lattice
+ * row: the damage-weighted mean of the row's wing points. Measured values are printed. */
 #include "check.h"
 #include "run.h"
 
 enum { ROWS = 64 };
-static const double tip[2] = { 10.6e-3, 10.6e-3 };     /* upper end of the pre-crack, m; the lower one is its mirror image */
+/* upper end of the pre-crack, m; the lower one is its mirror image */
+static const double tip[2] = { 10.6e-3, 10.6e-3 };
 static const double mm = 1e-3;
 
 typedef struct { double x, y; } place;
-typedef struct { place at[ROWS]; size_t n; } line;     /* from the tip outwards, in the upper half (lower wing: rotated)   */
+/* from the tip outwards, in the upper half (lower wing: rotated) */
+typedef struct { place at[ROWS]; size_t n; } line;
 
 static struct {
     run     r;
-    double *before, *after;                            /* damage of the points                                           */
-    double  residual, utilisation;                     /* largest over all steps                                         */
-    line    wing[2];                                   /* upper, lower                                                   */
+    double *before, *after;                            /* damage of the points */
+    double  residual, utilisation;                     /* largest over all steps */
+    line    wing[2];                                   /* upper, lower */
     double  h;
 } disk;
 
@@ -67,9 +70,12 @@ static int start (void **unused)
     }
     disk.after = field_of (r, NULL, "damage", NULL);
     disk.wing[0] = centre_line (1), disk.wing[1] = centre_line (-1);
-    const pg_report *report = pg_solver_report_now (r->solver);
-    print_message ("# %ld events, %ld bonds broken, load factor %.9g\n", report->events, report->broken, r->state->factor);
-    for (size_t k = 0; k < disk.wing[0].n; k++) print_message ("#   centre line %.3f %.3f mm\n", disk.wing[0].at[k].x / mm, disk.wing[0].at[k].y / mm);
+    const pg_statistics *report = pg_solver_report_now (r->solver);
+    print_message ("# %ld events, %ld bonds broken, load factor %.9g\n", report->events, report->broken,
+                   r->state->factor);
+    for (size_t k = 0; k < disk.wing[0].n; k++)
+        print_message ("#   centre line %.3f %.3f mm\n", disk.wing[0].at[k].x / mm,
+                       disk.wing[0].at[k].y / mm);
     return 0;
 }
 
@@ -81,7 +87,8 @@ static int stop (void **unused)
     return 0;
 }
 
-/* Direction (degrees from the x axis, 0..180) of the least-squares line through the points of l with first <= k < last. */
+/* Direction (degrees from the x axis, 0..180) of the least-squares line through the points of l with first <=
+ * k < last. */
 static double direction (const line *l, size_t first, size_t last)
 {
     double n = 0, mx = 0, my = 0, xx = 0, xy = 0, yy = 0;
@@ -95,7 +102,7 @@ static double direction (const line *l, size_t first, size_t last)
     return angle < 0 ? angle + 180 : angle;
 }
 
-/* ---- shape ------------------------------------------------------------------------------------------------------------ */
+/* ---- shape --------------------------------------------------------------------------------------------- */
 /* Direction of the line through the tip that is nearest to the points of l with first <= k < last. */
 static double direction_from_tip (const line *l, size_t first, size_t last)
 {
@@ -108,9 +115,10 @@ static double direction_from_tip (const line *l, size_t first, size_t last)
     return angle < 0 ? angle + 180 : angle;
 }
 
-/* The wing starts at the tip: its direction over the first 5 mm (and 1.5 spacings, the width of a crack of dead bonds) is that of the
- * line through the tip nearest to the centre line beyond the tip. A free line through the same rows is printed too; with a band of dead
- * bonds as wide as the 5 mm are long it is not a property of the crack (33 or 46 degrees with or without one row). */
+/* The wing starts at the tip: its direction over the first 5 mm (and 1.5 spacings, the width of a crack of
+ * dead bonds) is that of the line through the tip nearest to the centre line beyond the tip. A free line
+ * through the same rows is printed too; with a band of dead bonds as wide as the 5 mm are long it is not a
+ * property of the crack (33 or 46 degrees with or without one row). */
 static void test_wings_leave_the_tips_across_the_crack (void **unused)
 {
     (void) unused;
@@ -119,14 +127,20 @@ static void test_wings_leave_the_tips_across_the_crack (void **unused)
         const line *l = &disk.wing[w];
         size_t first = 0, last = 0;
         while (first < l->n && l->at[first].y < tip[1] - 0.5 * disk.h) first++;
-        for (last = first; last < l->n && hypot (l->at[last].x - tip[0], l->at[last].y - tip[1]) <= 5 * mm + 1.5 * disk.h; last++) continue;
+        for (last = first;
+             last < l->n && hypot (l->at[last].x - tip[0], l->at[last].y - tip[1]) <= 5 * mm + 1.5 * disk.h;
+             last++)
+            continue;
         assert_true (last >= first + 3);
         angle[w] = direction_from_tip (l, first + 1, last) - 45;
-        print_message ("# wing at the %s tip: %.2f degrees from the crack (%zu rows; a free line: %.2f with the row of the tip, %.2f without)\n",
-                       w ? "lower" : "upper", angle[w], last - first, direction (l, first, last) - 45, direction (l, first + 1, last) - 45);
+        print_message ("# wing at the %s tip: %.2f degrees from the crack (%zu rows; a free line: %.2f with "
+                       "the row of the tip, %.2f without)\n",
+                       w ? "lower" : "upper", angle[w], last - first, direction (l, first, last) - 45,
+                       direction (l, first + 1, last) - 45);
     }
     for (int w = 0; w < 2; w++) {
-        check_absolute (angle[w] / 90, 86 / 90.0, 3 / 90.0);           /* of this lattice: a row more or less is 2 degrees; 70 (closed) to 90 degrees (open crack) */
+        /* of this lattice: a row more or less is 2 degrees; 70 (closed) to 90 degrees (open crack) */
+        check_absolute (angle[w] / 90, 86 / 90.0, 3 / 90.0);
     }
 }
 
@@ -139,7 +153,8 @@ static void test_wings_turn_to_the_platens (void **unused)
         size_t first = l->n - 1;
         while (first > 0 && l->at[first - 1].y >= l->at[l->n - 1].y - 10 * mm) first--;
         double off = fabs (direction (l, first, l->n) - 90);
-        print_message ("# last 10 mm of the %s wing: %.2f degrees off the vertical\n", w ? "lower" : "upper", off);
+        print_message ("# last 10 mm of the %s wing: %.2f degrees off the vertical\n", w ? "lower" : "upper",
+                       off);
         check_absolute (off / 90, 13.8 / 90, 3 / 90.0);
     }
 }
@@ -151,7 +166,8 @@ static void test_wings_reach_the_platens_near_the_loading_axis (void **unused)
         const line *l = &disk.wing[w];
         assert_true (l->n > 0);
         place end = l->at[l->n - 1];
-        print_message ("# the %s wing ends at x = %.3f mm, y = %.3f mm\n", w ? "lower" : "upper", end.x / mm, end.y / mm);
+        print_message ("# the %s wing ends at x = %.3f mm, y = %.3f mm\n", w ? "lower" : "upper", end.x / mm,
+                       end.y / mm);
         check_below (40 * mm * (1 - 1e-9), end.y);
         check_below (fabs (end.x), 10 * mm);
     }
@@ -159,7 +175,8 @@ static void test_wings_reach_the_platens_near_the_loading_axis (void **unused)
 
 static double to_segment (place p, place a, place b)
 {
-    double ux = b.x - a.x, uy = b.y - a.y, s = ((p.x - a.x) * ux + (p.y - a.y) * uy) / fmax (ux * ux + uy * uy, 1e-300);
+    double ux = b.x - a.x, uy = b.y - a.y,
+           s = ((p.x - a.x) * ux + (p.y - a.y) * uy) / fmax (ux * ux + uy * uy, 1e-300);
     s = fmin (1, fmax (0, s));
     return hypot (p.x - a.x - s * ux, p.y - a.y - s * uy);
 }
@@ -169,11 +186,14 @@ static void test_broken_points_stay_within_three_spacings_of_the_cracks (void **
     size_t broken = 0, off = 0;
     (void) unused;
     for (size_t i = 0; i < disk.r.problem->cloud.n; i++) {
-        place p = { disk.r.problem->cloud.x[2 * i], disk.r.problem->cloud.x[2 * i + 1] }, turned = { -p.x, -p.y };
+        place p = { disk.r.problem->cloud.x[2 * i], disk.r.problem->cloud.x[2 * i + 1] },
+              turned = { -p.x, -p.y };
         if (!is_broken (disk.after[i])) continue;
         double nearest = to_segment (p, (place) { tip[0], tip[1] }, (place) { -tip[0], -tip[1] });
         for (int w = 0; w < 2; w++)
-            for (size_t k = 1; k < disk.wing[w].n; k++) nearest = fmin (nearest, to_segment (w ? turned : p, disk.wing[w].at[k - 1], disk.wing[w].at[k]));
+            for (size_t k = 1; k < disk.wing[w].n; k++)
+                nearest = fmin (nearest,
+                                to_segment (w ? turned : p, disk.wing[w].at[k - 1], disk.wing[w].at[k]));
         broken++, off += nearest > 3 * disk.h;
     }
     print_message ("# %zu points broken, %zu of them off the corridor\n", broken, off);
@@ -181,7 +201,7 @@ static void test_broken_points_stay_within_three_spacings_of_the_cracks (void **
     check_below ((double) off, 0.02 * (double) broken);
 }
 
-/* ---- symmetry ----------------------------------------------------------------------------------------------------------- */
+/* ---- symmetry ------------------------------------------------------------------------------------------ */
 /* image[p]: the point of the set at -x. */
 static size_t *rotation (size_t n, const double *x)
 {
@@ -189,7 +209,10 @@ static size_t *rotation (size_t n, const double *x)
     assert_non_null (image);
     for (size_t p = 0; p < n; p++) {
         size_t q = 0;
-        while (q < n && !(fabs (x[2 * q] + x[2 * p]) < 1e-6 * disk.h && fabs (x[2 * q + 1] + x[2 * p + 1]) < 1e-6 * disk.h)) q++;
+        while (q < n
+               && !(fabs (x[2 * q] + x[2 * p]) < 1e-6 * disk.h
+                    && fabs (x[2 * q + 1] + x[2 * p + 1]) < 1e-6 * disk.h))
+            q++;
         assert_true (q < n);
         image[p] = q;
     }
@@ -229,7 +252,7 @@ static void test_broken_bonds_are_point_symmetric (void **unused)
     assert_int_equal (different, 0);
 }
 
-/* ---- equilibrium ---------------------------------------------------------------------------------------------------------- */
+/* ---- equilibrium --------------------------------------------------------------------------------------- */
 static void test_every_step_is_in_equilibrium (void **unused)
 {
     (void) unused;
@@ -252,7 +275,8 @@ static void test_every_field_is_finite (void **unused)
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         int components;
         double *value = field_of (&disk.r, NULL, names[k], &components);
-        for (size_t i = 0; i < disk.r.problem->cloud.n * (size_t) components; i++) assert_true (isfinite (value[i]));
+        for (size_t i = 0; i < disk.r.problem->cloud.n * (size_t) components; i++)
+            assert_true (isfinite (value[i]));
         pg_free (value);
     }
 }

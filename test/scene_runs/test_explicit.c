@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Explicit and relaxed methods with bonds that break: energy, threads, units, mirror images, levels and rows, the state that a static run
- * ends in, stages that are raised, dead bonds. */
+ * Explicit and relaxed methods with bonds that break: energy, threads, units, mirror images, levels and rows,
+ * the state that a static run ends in, stages that are raised, dead bonds. */
 #include "run.h"
 
-#define NOTCHED "dimension: 2\nplane: stress\nthickness: 2 mm\nbody: [{add: {box: {low: [0, 0], high: [60 mm, 24 mm]}}}]\nspacing: 2 mm\nlattice: cells\n" \
+#define NOTCHED \
+    "dimension: 2\nplane: stress\nthickness: 2 mm\nbody: [{add: {box: {low: [0, 0], high: [60 mm, 24 " \
+    "mm]}}}]\nspacing: 2 mm\nlattice: cells\n" \
     "cracks: [{from: [30 mm, 0], to: [30 mm, 9 mm]}]\n" \
-    "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.33333333333333333, density: 2500 kg/m3}}\nmethod: {force: bond}\n" \
+    "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.33333333333333333, density: 2500 " \
+    "kg/m3}}\nmethod: {force: bond}\n" \
     "output: {at: {levels: 4}}\n"
 #define BREAKS "failure: {criterion: stretch, critical_stretch: 1e-3}\n"
-#define PULLED "boundary: [{name: left, set: left, displacement: {x: 0, y: 0}}, {name: right, set: right, velocity: {x: 2 m/s}}]\n"
+#define PULLED \
+    "boundary: [{name: left, set: left, displacement: {x: 0, y: 0}}, {name: right, set: right, velocity: " \
+    "{x: 2 m/s}}]\n"
 
 static void what_breaking_takes_is_never_given_back (void **state)
 {
@@ -20,13 +25,14 @@ static void what_breaking_takes_is_never_given_back (void **state)
         long broken = 0;
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
-            const pg_report *p = pg_solver_report_now (r.solver);
+            const pg_statistics *p = pg_solver_report_now (r.solver);
             assert_true (p->energy_dissipated >= taken - 1e-12 * p->energy_external);
             assert_true (r.step.nbroken > 0 || p->energy_dissipated <= taken + 1e-12 * p->energy_external);
             check_scaled (r.step.dissipated, p->energy_dissipated - taken, 1e-9, p->energy_external);
             taken = p->energy_dissipated, broken += (long) r.step.nbroken;
             for (size_t i = 0; i < r.step.nbroken; i++) {
-                assert_true (r.step.broken[i].time >= last && r.step.broken[i].time <= r.step.time && !r.state->alive[r.step.broken[i].bond]);
+                assert_true (r.step.broken[i].time >= last && r.step.broken[i].time <= r.step.time
+                             && !r.state->alive[r.step.broken[i].bond]);
                 last = r.step.broken[i].time;
             }
         }
@@ -57,15 +63,20 @@ static double apart (const run *a, const run *b, double scale)
 static void threads_do_not_change_a_bit (void **state)
 {
     (void) state;
-    static const char *const kinds[4] = { "verlet, end: 40 us", "central, end: 40 us", "adr, stages: 4", "relax, stages: 4" };
+    static const char *const kinds[4] = { "verlet, end: 40 us", "central, end: 40 us", "adr, stages: 4",
+                                          "relax, stages: 4" };
     for (int k = 0; k < 4; k++) {
-        const char *pull = k < 2 ? PULLED : "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 40 um}}]\n";
-        run one = scene_of (1, NOTCHED BREAKS "%ssolver: {kind: %s}\n", pull, kinds[k]), two = scene_of (2, NOTCHED BREAKS "%ssolver: {kind: %s}\n", pull, kinds[k]);
+        const char *pull = k < 2 ? PULLED
+                                 : "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, "
+                                   "displacement: {x: 40 um}}]\n";
+        run one = scene_of (1, NOTCHED BREAKS "%ssolver: {kind: %s}\n", pull, kinds[k]),
+            two = scene_of (2, NOTCHED BREAKS "%ssolver: {kind: %s}\n", pull, kinds[k]);
         to_the_end (&one), to_the_end (&two);
         assert_true (one.state->broken > 10);
         assert_memory_equal (one.state->d, two.state->d, one.state->ndof * sizeof (double));
         assert_memory_equal (one.state->alive, two.state->alive, one.state->nbond);
-        assert_true (pg_solver_report_now (one.solver)->energy_external == pg_solver_report_now (two.solver)->energy_external);
+        assert_true (pg_solver_report_now (one.solver)->energy_external
+                     == pg_solver_report_now (two.solver)->energy_external);
         clear (&one), clear (&two);
     }
 }
@@ -74,12 +85,18 @@ static void threads_do_not_change_a_bit (void **state)
 static void units_do_not_matter (void **state)
 {
     (void) state;
-    run m = scene_of (1, "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [30, 12]}}}]\nspacing: 1\nlattice: cells\n"
-                      "materials: {m: {youngs_modulus: 1e10, poissons_ratio: 0.33333333333333333, density: 2500}}\nmethod: {force: bond}\n" BREAKS
-                      "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, velocity: {x: 2}}]\nsolver: {kind: verlet, time_steps: 60}\n");
-    run mm = scene_of (1, "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [30 mm, 12 mm]}}}]\nspacing: 1 mm\nlattice: cells\n"
-                       "materials: {m: {youngs_modulus: 1e10, poissons_ratio: 0.33333333333333333, density: 2500}}\nmethod: {force: bond}\n" BREAKS
-                       "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, velocity: {x: 2}}]\nsolver: {kind: verlet, time_steps: 60}\n");
+    run m = scene_of (1, "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: "
+                         "[30, 12]}}}]\nspacing: 1\nlattice: cells\n"
+                         "materials: {m: {youngs_modulus: 1e10, poissons_ratio: 0.33333333333333333, "
+                         "density: 2500}}\nmethod: {force: bond}\n" BREAKS
+                         "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, velocity: {x: "
+                         "2}}]\nsolver: {kind: verlet, time_steps: 60}\n");
+    run mm = scene_of (1, "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], "
+                          "high: [30 mm, 12 mm]}}}]\nspacing: 1 mm\nlattice: cells\n"
+                          "materials: {m: {youngs_modulus: 1e10, poissons_ratio: 0.33333333333333333, "
+                          "density: 2500}}\nmethod: {force: bond}\n" BREAKS
+                          "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, velocity: {x: "
+                          "2}}]\nsolver: {kind: verlet, time_steps: 60}\n");
     to_the_end (&m), to_the_end (&mm);
     assert_true (m.state->broken > 0 && m.state->broken == mm.state->broken);
     check_below (apart (&m, &mm, 1000), 1e-10);
@@ -88,8 +105,10 @@ static void units_do_not_matter (void **state)
     clear (&m), clear (&mm);
 }
 
-/* ---- the end of a static run -------------------------------------------------------------------------------------------------- */
-#define STRETCHED "boundary: [{name: left, set: left, displacement: {x: 0, y: 0}}, {name: right, set: right, displacement: {x: %g um}}]\n"
+/* ---- the end of a static run --------------------------------------------------------------------------- */
+#define STRETCHED \
+    "boundary: [{name: left, set: left, displacement: {x: 0, y: 0}}, {name: right, set: right, " \
+    "displacement: {x: %g um}}]\n"
 
 static void relaxation_reaches_the_static_solution (void **state)
 {
@@ -98,34 +117,45 @@ static void relaxation_reaches_the_static_solution (void **state)
     run s = scene_of (1, NOTCHED STRETCHED "solver: {kind: static, stepping: fixed, steps: 3}\n", 10.0);
     to_the_end (&s);
     for (int k = 0; k < 2; k++) {
-        run r = scene_of (1, NOTCHED STRETCHED "solver: {kind: %s, stages: 3, imbalance: 1e-10}\n", 10.0, kinds[k]);
+        run r = scene_of (1, NOTCHED STRETCHED "solver: {kind: %s, stages: 3, imbalance: 1e-10}\n", 10.0,
+                          kinds[k]);
         to_the_end (&r);
         check_below (apart (&s, &r, 1), 1e-8);
         check_below (r.step.residual, 1e-10);
         check_relative (r.step.reaction[3], s.step.reaction[3], 1e-8);
-        check_relative (pg_solver_report_now (r.solver)->energy_external, pg_solver_report_now (s.solver)->energy_external, 1e-8);
+        check_relative (pg_solver_report_now (r.solver)->energy_external,
+                        pg_solver_report_now (s.solver)->energy_external, 1e-8);
         clear (&r);
     }
     clear (&s);
 }
 
-/* Breaking in balance is what fixed static steps with break: all do, crack and energies alike, down to the dead bonds. */
+/* Breaking in balance is what fixed static steps with break: all do, crack and energies alike, down to the
+ * dead bonds. */
 static void breaking_in_balance_is_the_static_path (void **state)
 {
     (void) state;
     static const char *const kinds[2] = { "adr", "relax" };
     static const char *const modes[2] = { "all", "fraction, break_fraction: 5 %" };
     for (int mode = 0; mode < 2; mode++) {
-        run s = scene_of (1, NOTCHED BREAKS STRETCHED "solver: {kind: static, stepping: fixed, steps: 4, break: %s}\n", 25.0, modes[mode]);
+        run s = scene_of (1,
+                          NOTCHED BREAKS STRETCHED
+                          "solver: {kind: static, stepping: fixed, steps: 4, break: %s}\n",
+                          25.0, modes[mode]);
         to_the_end (&s);
         assert_true (s.state->broken > 0);
         for (int k = 0; k < 2; k++) {
-            run r = scene_of (1, NOTCHED BREAKS STRETCHED "solver: {kind: %s, stages: 4, break: %s, imbalance: 1e-9}\n", 25.0, kinds[k], modes[mode]);
+            run r = scene_of (1,
+                              NOTCHED BREAKS STRETCHED
+                              "solver: {kind: %s, stages: 4, break: %s, imbalance: 1e-9}\n",
+                              25.0, kinds[k], modes[mode]);
             to_the_end (&r);
             assert_memory_equal (s.state->alive, r.state->alive, s.state->nbond);
             check_below (apart (&s, &r, 1), 1e-6);
-            check_relative (pg_solver_report_now (r.solver)->energy_external, pg_solver_report_now (s.solver)->energy_external, 1e-6);
-            check_scaled (pg_solver_report_now (r.solver)->energy_dissipated, pg_solver_report_now (s.solver)->energy_dissipated, 1e-5,
+            check_relative (pg_solver_report_now (r.solver)->energy_external,
+                            pg_solver_report_now (s.solver)->energy_external, 1e-6);
+            check_scaled (pg_solver_report_now (r.solver)->energy_dissipated,
+                          pg_solver_report_now (s.solver)->energy_dissipated, 1e-5,
                           pg_solver_report_now (s.solver)->energy_external);
             clear (&r);
         }
@@ -133,7 +163,8 @@ static void breaking_in_balance_is_the_static_path (void **state)
     }
 }
 
-/* The default lets bonds go at any iteration: the end is in balance and under every limit, and jolts of the load break nothing. */
+/* The default lets bonds go at any iteration: the end is in balance and under every limit, and jolts of the
+ * load break nothing. */
 static void bonds_that_go_on_the_way_leave_a_balanced_state (void **state)
 {
     (void) state;
@@ -141,7 +172,8 @@ static void bonds_that_go_on_the_way_leave_a_balanced_state (void **state)
     for (int k = 0; k < 2; k++) {
         run below = scene_of (1, NOTCHED BREAKS STRETCHED "solver: {kind: %s, stages: 1}\n", 12.0, kinds[k]);
         to_the_end (&below);
-        assert_int_equal (below.state->broken, 0);     /* one stage of 12 um at the end points alone would be far over the limit */
+        /* one stage of 12 um at the end points alone would be far over the limit */
+        assert_int_equal (below.state->broken, 0);
         clear (&below);
         run r = scene_of (1, NOTCHED BREAKS STRETCHED "solver: {kind: %s, stages: 4}\n", 40.0, kinds[k]);
         while (!pg_solver_done (r.solver, r.state)) {
@@ -151,7 +183,8 @@ static void bonds_that_go_on_the_way_leave_a_balanced_state (void **state)
             void *self;
             const pg_force_type *force = pg_solver_force (r.solver, &self);
             check_ok (force->utilisation (self, r.state, r.state->d, utilisation, kind, NULL));
-            for (size_t i = 0; i < r.state->nbond; i++) if (r.state->alive[i]) top = fmax (top, utilisation[i]);
+            for (size_t i = 0; i < r.state->nbond; i++)
+                if (r.state->alive[i]) top = fmax (top, utilisation[i]);
             check_below (top, 1);
             check_below (r.step.residual, 1e-5);
             pg_free (utilisation), pg_free (kind);
@@ -166,8 +199,9 @@ static void stages_are_raised_where_the_load_alone_would_break_bonds (void **sta
 {
     (void) state;
     run r = scene_of (1, NOTCHED "failure: {criterion: stretch, critical_stretch: 1e-6}\n"
-                      "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 100 MPa}}]\nsolver: {kind: relax, stages: 1}\n");
-    const pg_report *report = pg_solver_report_now (r.solver);
+                                 "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: "
+                                 "{x: 100 MPa}}]\nsolver: {kind: relax, stages: 1}\n");
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     assert_true (pg_solver_settled (r.solver)->stages > 1);
     assert_int_equal (report->nwarning, 1);
     check_contains (report->warning[0], "instead of 1");
@@ -177,7 +211,8 @@ static void stages_are_raised_where_the_load_alone_would_break_bonds (void **sta
 static void a_run_ends_when_the_crack_arrives (void **state)
 {
     (void) state;
-    run r = scene_of (1, NOTCHED BREAKS PULLED "solver: {kind: verlet, end: 200 us, stop: {set: top, damage: 40 %%}}\n");
+    run r = scene_of (1, NOTCHED BREAKS PULLED
+                      "solver: {kind: verlet, end: 200 us, stop: {set: top, damage: 40 %%}}\n");
     to_the_end (&r);
     assert_true (r.state->time < 200e-6);
     check_contains (pg_solver_report_now (r.solver)->warning[0], "the crack has arrived at top");
@@ -188,17 +223,20 @@ static void a_run_ends_when_the_crack_arrives (void **state)
     clear (&r);
 }
 
-/* With shape functions the supports act by Nitsche's terms; their work comes from the ledger. */
+/* With shape functions the supports act by Nitsche's terms; their work comes from the work balance. */
 static void galerkin_forces_march_too (void **state)
 {
     (void) state;
-    run r = scene_of (1, "dimension: 2\nplane: stress\nthickness: 2 mm\nbody: [{add: {box: {low: [0, 0], high: [40 mm, 16 mm]}}}]\nspacing: 4 mm\n"
-                      "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.2, density: 2500 kg/m3}}\nmethod: {approximation: rkpm, essential: nitsche}\n"
-                      "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa}}]\nsolver: {kind: verlet, end: 100 us}\n");
+    run r = scene_of (1, "dimension: 2\nplane: stress\nthickness: 2 mm\nbody: [{add: {box: {low: [0, 0], "
+                         "high: [40 mm, 16 mm]}}}]\nspacing: 4 mm\n"
+                         "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.2, density: 2500 "
+                         "kg/m3}}\nmethod: {approximation: rkpm, essential: nitsche}\n"
+                         "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 "
+                         "MPa}}]\nsolver: {kind: verlet, end: 100 us}\n");
     double most = 0;
     while (!pg_solver_done (r.solver, r.state)) {
         advance (&r);
-        const pg_report *p = pg_solver_report_now (r.solver);
+        const pg_statistics *p = pg_solver_report_now (r.solver);
         most = fmax (most, p->energy_strain);
         check_scaled (p->energy_dissipated, 0, 1e-3, most);
     }

@@ -1,34 +1,46 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Poisson's ratio near 1/2: with the dilatation of patches nothing locks and pressures do not oscillate; what was exact stays exact. */
+ * Poisson's ratio near 1/2: with the dilatation of patches nothing locks and pressures do not oscillate; what
+ * was exact stays exact. */
 #include "run.h"
 
-/* ---- thick cylinder, plane strain (Lame): radii 1 and 2, pressure 1 within, E 1 ---------------------------------------------- */
+/* ---- thick cylinder, plane strain (Lame): radii 1 and 2, pressure 1 within, E 1 ------------------------ */
 typedef struct { const char *integration, *basis, *essential; double horizon, spacing; } row;
 
 static run cylinder (const row *c, double nu, const char *dilatation, const char *approximation)
 {
-    return scene_of (1, "dimension: 2\nplane: strain\nthickness: 1 m\nbody:\n"
-                     "  - {name: outside, add: {disk: {center: [0, 0], radius: 2}}}\n  - {name: bore, subtract: {disk: {center: [0, 0], radius: 1}}}\n"
-                     "  - {name: axis_y, subtract: {box: {low: [-3, -3], high: [0, 3]}}}\n  - {name: axis_x, subtract: {box: {low: [-3, -3], high: [3, 0]}}}\n"
-                     "spacing: %g\nmaterials: {ring: {youngs_modulus: 1, poissons_ratio: %.10g}}\n"
-                     "sets: {bore: {boundary: bore}, axis_y: {boundary: axis_y}, axis_x: {boundary: axis_x}}\n"
-                     "method: {approximation: %s, integration: %s, basis: %s, essential: %s, horizon: %g spacing, dilatation: %s}\n"
-                     "boundary: [{set: bore, pressure: 1 Pa}, {set: axis_y, displacement: {x: 0}}, {set: axis_x, displacement: {y: 0}}]\n"
-                     "solver: {kind: static}\n", c->spacing, nu, approximation, c->integration, c->basis, c->essential, c->horizon, dilatation);
+    return scene_of (
+        1,
+        "dimension: 2\nplane: strain\nthickness: 1 m\nbody:\n"
+        "  - {name: outside, add: {disk: {center: [0, 0], radius: 2}}}\n  - {name: bore, subtract: {disk: "
+        "{center: [0, 0], radius: 1}}}\n"
+        "  - {name: axis_y, subtract: {box: {low: [-3, -3], high: [0, 3]}}}\n  - {name: axis_x, subtract: "
+        "{box: {low: [-3, -3], high: [3, 0]}}}\n"
+        "spacing: %g\nmaterials: {ring: {youngs_modulus: 1, poissons_ratio: %.10g}}\n"
+        "sets: {bore: {boundary: bore}, axis_y: {boundary: axis_y}, axis_x: {boundary: axis_x}}\n"
+        "method: {approximation: %s, integration: %s, basis: %s, essential: %s, horizon: %g spacing, "
+        "dilatation: %s}\n"
+        "boundary: [{set: bore, pressure: 1 Pa}, {set: axis_y, displacement: {x: 0}}, {set: axis_x, "
+        "displacement: {y: 0}}]\n"
+        "solver: {kind: static}\n",
+        c->spacing, nu, approximation, c->integration, c->basis, c->essential, c->horizon, dilatation);
 }
 
-typedef struct { double u, stress, pressure; } errors;     /* L2 over L2; pressure: largest at a node over the largest stress, 5/3 */
+/* L2 over L2; pressure: largest at a node over the largest stress, 5/3 */
+typedef struct { double u, stress, pressure; } errors;
 
 static errors lame_errors (const run *r, double nu)
 {
     size_t dim = (size_t) r->problem->dim;
     int nv;
-    double *u = field_of (r, NULL, "displacement", NULL), *s = field_of (r, NULL, "stress", &nv), du = 0, uu = 0, ds = 0, ss = 0;
+    double *u = field_of (r, NULL, "displacement", NULL), *s = field_of (r, NULL, "stress", &nv), du = 0,
+           uu = 0, ds = 0, ss = 0;
     errors e = { 0, 0, 0 };
     for (size_t i = 0; i < r->problem->cloud.n; i++) {
         const double *x = r->problem->cloud.x + i * dim, *t = s + i * (size_t) nv;
-        double V = r->problem->cloud.volume[i], r2 = x[0] * x[0] + x[1] * x[1], c2 = (x[0] * x[0] - x[1] * x[1]) / r2, s2 = 2 * x[0] * x[1] / r2;
-        double scale = (1 + nu) / 3 * ((1 - 2 * nu) + 4 / r2), xx = 1. / 3 - 4 / (3 * r2) * c2, yy = 1. / 3 + 4 / (3 * r2) * c2, xy = -4 / (3 * r2) * s2;
+        double V = r->problem->cloud.volume[i], r2 = x[0] * x[0] + x[1] * x[1],
+               c2 = (x[0] * x[0] - x[1] * x[1]) / r2, s2 = 2 * x[0] * x[1] / r2;
+        double scale = (1 + nu) / 3 * ((1 - 2 * nu) + 4 / r2), xx = 1. / 3 - 4 / (3 * r2) * c2,
+               yy = 1. / 3 + 4 / (3 * r2) * c2, xy = -4 / (3 * r2) * s2;
         double ux = u[i * dim] - scale * x[0], uy = u[i * dim + 1] - scale * x[1], shear = t[dim] - xy;
         du += V * (ux * ux + uy * uy), uu += V * scale * scale * r2;
         ds += V * ((t[0] - xx) * (t[0] - xx) + (t[1] - yy) * (t[1] - yy) + 2 * shear * shear);
@@ -45,15 +57,17 @@ static errors solved (const row *c, double nu, const char *dilatation, const cha
     run r = cylinder (c, nu, dilatation, approximation);
     to_the_end (&r);
     errors e = lame_errors (&r, nu);
-    print_message ("  %-4s %-10s %-9s %-8s nu %-8g %-9s displacement %.2e, stress %.2e, pressure at a node %.2e\n", approximation, c->integration, c->basis, c->essential,
-                   nu, dilatation, e.u, e.stress, e.pressure);
+    print_message (
+        "  %-4s %-10s %-9s %-8s nu %-8g %-9s displacement %.2e, stress %.2e, pressure at a node %.2e\n",
+        approximation, c->integration, c->basis, c->essential, nu, dilatation, e.u, e.stress, e.pressure);
     clear (&r);
     return e;
 }
 
 static const row rows[] = {
-    { "gauss", "linear", "nitsche", 2, 0.1 }, { "gauss", "linear", "penalty", 2, 0.1 }, { "gauss", "quadratic", "nitsche", 2.6, 0.1 },
-    { "gauss", "quadratic", "penalty", 2.6, 0.1 }, { "consistent", "linear", "nitsche", 2, 0.1 }, { "consistent", "linear", "penalty", 2, 0.1 },
+    { "gauss", "linear", "nitsche", 2, 0.1 },           { "gauss", "linear", "penalty", 2, 0.1 },
+    { "gauss", "quadratic", "nitsche", 2.6, 0.1 },      { "gauss", "quadratic", "penalty", 2.6, 0.1 },
+    { "consistent", "linear", "nitsche", 2, 0.1 },      { "consistent", "linear", "penalty", 2, 0.1 },
     { "consistent", "quadratic", "nitsche", 2.6, 0.1 }, { "consistent", "quadratic", "penalty", 2.6, 0.1 },
 };
 
@@ -73,16 +87,20 @@ static void a_thick_cylinder_does_not_lock (void **state)
     }
 }
 
-/* Nodal integration, and derivatives that are no gradients, have errors of their own: those of Poisson's ratio 0.3. */
+/* Nodal integration, and derivatives that are no gradients, have errors of their own: those of Poisson's
+ * ratio 0.3. */
 static void other_methods_are_as_good_as_at_lower_ratios (void **state)
 {
     (void) state;
-    static const struct { const char *approximation; row row; } cases[] = {
-        { "rkpm", { "nodal", "linear", "penalty", 2, 0.05 } }, { "rkpm", { "nodal", "quadratic", "nitsche", 2.6, 0.05 } },
-        { "pddo", { "nodal", "linear", "penalty", 2, 0.05 } }, { "nosb", { "nodal", "linear", "transformation", 2, 0.05 } },
-        { "pddo", { "gauss", "linear", "penalty", 2, 0.1 } } };
+    static const struct { const char *approximation; row row;
+    } cases[] = { { "rkpm", { "nodal", "linear", "penalty", 2, 0.05 } },
+                  { "rkpm", { "nodal", "quadratic", "nitsche", 2.6, 0.05 } },
+                  { "pddo", { "nodal", "linear", "penalty", 2, 0.05 } },
+                  { "nosb", { "nodal", "linear", "transformation", 2, 0.05 } },
+                  { "pddo", { "gauss", "linear", "penalty", 2, 0.1 } } };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        errors usual = solved (&cases[k].row, 0.3, "auto", cases[k].approximation), e = solved (&cases[k].row, 0.4999, "auto", cases[k].approximation);
+        errors usual = solved (&cases[k].row, 0.3, "auto", cases[k].approximation),
+               e = solved (&cases[k].row, 0.4999, "auto", cases[k].approximation);
         check_below (e.u, 1.6 * usual.u);
         check_below (e.stress, 1.3 * usual.stress);
     }
@@ -101,49 +119,66 @@ static void nor_does_a_slice_in_3d (void **state)
     (void) state;
     static const double nus[] = { 0.3, 0.4999 };
     for (int k = 0; k < 2; k++) {
-        run r = scene_of (1, "dimension: 3\nbody:\n"
-                          "  - {name: outside, add: {cylinder: {center: [0, 0, 0], length: 0.3, radius: 2}}}\n"
-                          "  - {name: bore, subtract: {cylinder: {center: [0, 0, -1], length: 3, radius: 1}}}\n"
-                          "  - {name: axis_y, subtract: {box: {low: [-3, -3, -1], high: [0, 3, 1]}}}\n"
-                          "  - {name: axis_x, subtract: {box: {low: [-3, -3, -1], high: [3, 0, 1]}}}\n"
-                          "spacing: 0.15\nmaterials: {ring: {youngs_modulus: 1, poissons_ratio: %g}}\n"
-                          "sets: {bore: {boundary: bore}, axis_y: {boundary: axis_y}, axis_x: {boundary: axis_x}}\n"
-                          "boundary: [{set: bore, pressure: 1 Pa}, {set: axis_y, displacement: {x: 0}}, {set: axis_x, displacement: {y: 0}}, "
-                          "{set: back, displacement: {z: 0}}, {set: front, displacement: {z: 0}}]\nsolver: {kind: static}\n", nus[k]);
+        run r = scene_of (
+            1,
+            "dimension: 3\nbody:\n"
+            "  - {name: outside, add: {cylinder: {center: [0, 0, 0], length: 0.3, radius: 2}}}\n"
+            "  - {name: bore, subtract: {cylinder: {center: [0, 0, -1], length: 3, radius: 1}}}\n"
+            "  - {name: axis_y, subtract: {box: {low: [-3, -3, -1], high: [0, 3, 1]}}}\n"
+            "  - {name: axis_x, subtract: {box: {low: [-3, -3, -1], high: [3, 0, 1]}}}\n"
+            "spacing: 0.15\nmaterials: {ring: {youngs_modulus: 1, poissons_ratio: %g}}\n"
+            "sets: {bore: {boundary: bore}, axis_y: {boundary: axis_y}, axis_x: {boundary: axis_x}}\n"
+            "boundary: [{set: bore, pressure: 1 Pa}, {set: axis_y, displacement: {x: 0}}, {set: axis_x, "
+            "displacement: {y: 0}}, "
+            "{set: back, displacement: {z: 0}}, {set: front, displacement: {z: 0}}]\nsolver: {kind: "
+            "static}\n",
+            nus[k]);
         to_the_end (&r);
         errors e = lame_errors (&r, nus[k]);
-        print_message ("  slice in 3D, nu %g: displacement %.2e, stress %.2e, pressure at a node %.2e\n", nus[k], e.u, e.stress, e.pressure);
+        print_message ("  slice in 3D, nu %g: displacement %.2e, stress %.2e, pressure at a node %.2e\n",
+                       nus[k], e.u, e.stress, e.pressure);
         check_below (e.u, 0.01);
         check_below (e.stress, 0.05);
         clear (&r);
     }
 }
 
-/* ---- Timoshenko's cantilever, plane strain: 48 x 12, clamped by Nitsche's terms as the closed form is ------------------------------ */
+/* ---- Timoshenko's cantilever, plane strain: 48 x 12, clamped by Nitsche's terms as the closed form is -- */
 static void nor_does_a_cantilever (void **state)
 {
     (void) state;
     static const double nus[] = { 0.3, 0.4999, 0.499999 };
     static const char *const integrations[] = { "gauss", "consistent" };
     for (int k = 0; k < 6; k++) {
-        double nu = nus[k % 3], E = 3e7 / (1 - nu * nu), v = nu / (1 - nu), P = 1000, I = 144, du = 0, uu = 0, ds = 0, ss = 0;
-        run r = scene_of (1, "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, -6], high: [48, 6]}}}]\nspacing: 1.5\n"
-                          "materials: {beam: {youngs_modulus: 3e7, poissons_ratio: %.17g}}\nmethod: {integration: %s, essential: nitsche}\n"
-                          "boundary: [{set: left, displacement: {x: '%.17g*y*(y^2 - 36 m^2)/(1 m^2)', y: '-%.17g*y^2/(1 m)'}},\n"
-                          "  {set: right, traction: {y: '-1000 Pa / 288 * (36 - y^2/(1 m^2))'}}]\nsolver: {kind: static}\n",
-                          nu, integrations[k / 3], P / (6 * E * I) * (2 + v), P / (6 * E * I) * 3 * v * 48);
+        double nu = nus[k % 3], E = 3e7 / (1 - nu * nu), v = nu / (1 - nu), P = 1000, I = 144, du = 0, uu = 0,
+               ds = 0, ss = 0;
+        run r = scene_of (
+            1,
+            "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, -6], high: [48, 6]}}}]\nspacing: 1.5\n"
+            "materials: {beam: {youngs_modulus: 3e7, poissons_ratio: %.17g}}\nmethod: {integration: %s, "
+            "essential: nitsche}\n"
+            "boundary: [{set: left, displacement: {x: '%.17g*y*(y^2 - 36 m^2)/(1 m^2)', y: '-%.17g*y^2/(1 "
+            "m)'}},\n"
+            "  {set: right, traction: {y: '-1000 Pa / 288 * (36 - y^2/(1 m^2))'}}]\nsolver: {kind: static}\n",
+            nu, integrations[k / 3], P / (6 * E * I) * (2 + v), P / (6 * E * I) * 3 * v * 48);
         to_the_end (&r);
         double *u = field_of (&r, NULL, "displacement", NULL), *s = field_of (&r, NULL, "stress", NULL);
         for (size_t i = 0; i < r.problem->cloud.n; i++) {
-            double x = r.problem->cloud.x[2 * i], y = r.problem->cloud.x[2 * i + 1], V = r.problem->cloud.volume[i];
+            double x = r.problem->cloud.x[2 * i], y = r.problem->cloud.x[2 * i + 1],
+                   V = r.problem->cloud.volume[i];
             double a = P * y / (6 * E * I) * ((288 - 3 * x) * x + (2 + v) * (y * y - 36));
-            double b = -P / (6 * E * I) * (3 * v * y * y * (48 - x) + (4 + 5 * v) * 36 * x + (144 - x) * x * x);
+            double b = -P / (6 * E * I)
+                       * (3 * v * y * y * (48 - x) + (4 + 5 * v) * 36 * x + (144 - x) * x * x);
             double xx = P / I * (48 - x) * y, xy = -P / (2 * I) * (36 - y * y);
-            du += V * ((u[2 * i] - a) * (u[2 * i] - a) + (u[2 * i + 1] - b) * (u[2 * i + 1] - b)), uu += V * (a * a + b * b);
-            ds += V * ((s[3 * i] - xx) * (s[3 * i] - xx) + s[3 * i + 1] * s[3 * i + 1] + 2 * (s[3 * i + 2] - xy) * (s[3 * i + 2] - xy));
+            du += V * ((u[2 * i] - a) * (u[2 * i] - a) + (u[2 * i + 1] - b) * (u[2 * i + 1] - b)),
+                uu += V * (a * a + b * b);
+            ds += V
+                  * ((s[3 * i] - xx) * (s[3 * i] - xx) + s[3 * i + 1] * s[3 * i + 1]
+                     + 2 * (s[3 * i + 2] - xy) * (s[3 * i + 2] - xy));
             ss += V * (xx * xx + 2 * xy * xy);
         }
-        print_message ("  cantilever, %s, nu %g: displacement %.2e, stress %.2e\n", integrations[k / 3], nu, sqrt (du / uu), sqrt (ds / ss));
+        print_message ("  cantilever, %s, nu %g: displacement %.2e, stress %.2e\n", integrations[k / 3], nu,
+                       sqrt (du / uu), sqrt (ds / ss));
         check_below (sqrt (du / uu), 1e-3);
         check_below (sqrt (ds / ss), 0.05);
         pg_free (u), pg_free (s);
@@ -151,14 +186,20 @@ static void nor_does_a_cantilever (void **state)
     }
 }
 
-/* Patches of a graded mesh, which gather around roots: Kirsch's plate with CalculiX's elements as cells; its largest stress is 3. */
+/* Patches of a graded mesh, which gather around roots: Kirsch's plate with CalculiX's elements as cells; its
+ * largest stress is 3. */
 static void nor_does_a_plate_on_a_mesh (void **state)
 {
     (void) state;
     static const char *const dilatations[] = { "method.dilatation=auto", "method.dilatation=pointwise" };
     double largest[2];
     for (int k = 0; k < 2; k++) {
-        const char *set[] = { "plane=strain", "materials.plate.poissons_ratio=0.4999", "method.basis=linear", "method.horizon=\"2 spacing\"", "method.essential=penalty", dilatations[k] };
+        const char *set[] = { "plane=strain",
+                              "materials.plate.poissons_ratio=0.4999",
+                              "method.basis=linear",
+                              "method.horizon=\"2 spacing\"",
+                              "method.essential=penalty",
+                              dilatations[k] };
         run r = loaded ("data/kirsch_mesh/scene.yaml", 6, set);
         to_the_end (&r);
         double *s = field_of (&r, NULL, "stress", NULL);
@@ -170,39 +211,58 @@ static void nor_does_a_plate_on_a_mesh (void **state)
     assert_true (largest[0] > 2.4 && largest[0] < 3.6 && largest[1] > 10);
 }
 
-/* ---- what was exact stays exact --------------------------------------------------------------------------------------------- */
-#define BLOCK "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [-1, -0.5], high: [1.1, 0.6]}}}]\nspacing: 0.1\nperturb: {amount: 0.2}\n" \
-              "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.4999}}\nsolver: {kind: static}\nsets: {rim: {where: 'x < -0.999 m or x > 1.099 m or y < -0.499 m or y > 0.599 m'}}\n"
+/* ---- what was exact stays exact ------------------------------------------------------------------------ */
+#define BLOCK \
+    "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [-1, -0.5], high: [1.1, 0.6]}}}]\nspacing: " \
+    "0.1\nperturb: {amount: 0.2}\n" \
+    "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.4999}}\nsolver: {kind: static}\nsets: {rim: " \
+    "{where: 'x < -0.999 m or x > 1.099 m or y < -0.499 m or y > 0.599 m'}}\n"
 
 /* Largest error of the displacement of a block whose rim is held at u, over the largest displacement */
-static double held_error (const char *method, const char *ux, const char *uy, void (*exact) (const double *x, double *u))
+static double held_error (const char *method, const char *ux, const char *uy,
+                          void (*exact) (const double *x, double *u))
 {
-    run r = scene_of (1, BLOCK "%sboundary: [{set: left, displacement: {x: '%s', y: '%s'}}, {set: right, displacement: {x: '%s', y: '%s'}}, "
-                      "{set: top, displacement: {x: '%s', y: '%s'}}, {set: bottom, displacement: {x: '%s', y: '%s'}}]\n", method, ux, uy, ux, uy, ux, uy, ux, uy);
+    run r = scene_of (
+        1,
+        BLOCK
+        "%sboundary: [{set: left, displacement: {x: '%s', y: '%s'}}, {set: right, displacement: {x: '%s', y: "
+        "'%s'}}, "
+        "{set: top, displacement: {x: '%s', y: '%s'}}, {set: bottom, displacement: {x: '%s', y: '%s'}}]\n",
+        method, ux, uy, ux, uy, ux, uy, ux, uy);
     assert_non_null (r.problem->patches);
     to_the_end (&r);
     double *u = field_of (&r, NULL, "displacement", NULL), off = 0, top = 0;
     for (size_t i = 0; i < r.problem->cloud.n; i++) {
         double v[2];
         exact (r.problem->cloud.x + 2 * i, v);
-        for (size_t k = 0; k < 2; k++) off = fmax (off, fabs (u[2 * i + k] - v[k])), top = fmax (top, fabs (v[k]));
+        for (size_t k = 0; k < 2; k++)
+            off = fmax (off, fabs (u[2 * i + k] - v[k])), top = fmax (top, fabs (v[k]));
     }
     pg_free (u);
     clear (&r);
     return off / top;
 }
 
-static void stretched (const double *x, double *u) { u[0] = 2e-3 * x[0] + 1e-3 * x[1], u[1] = -3e-3 * x[0] - 1e-3 * x[1]; }
+static void stretched (const double *x, double *u)
+{
+    u[0] = 2e-3 * x[0] + 1e-3 * x[1], u[1] = -3e-3 * x[0] - 1e-3 * x[1];
+}
 
 static const double turn = 0.4999 / (1 - 0.4999);
-static void bent (const double *x, double *u) { u[0] = 0.01 * x[0] * x[1], u[1] = -0.005 * x[0] * x[0] - 0.005 * turn * x[1] * x[1]; }
+static void bent (const double *x, double *u)
+{
+    u[0] = 0.01 * x[0] * x[1], u[1] = -0.005 * x[0] * x[0] - 0.005 * turn * x[1] * x[1];
+}
 
 static void linear_fields (void **state)
 {
     (void) state;
-    static const char *const methods[] = { "method: {integration: consistent, essential: nitsche}\n",
-                                           "method: {integration: consistent, essential: nitsche, basis: quadratic, horizon: 2.6 spacing}\n" };
-    for (int k = 0; k < 2; k++) check_below (held_error (methods[k], "2e-3*x + 1e-3*y", "-3e-3*x - 1e-3*y", stretched), 1e-9);
+    static const char *const methods[] = {
+        "method: {integration: consistent, essential: nitsche}\n",
+        "method: {integration: consistent, essential: nitsche, basis: quadratic, horizon: 2.6 spacing}\n"
+    };
+    for (int k = 0; k < 2; k++)
+        check_below (held_error (methods[k], "2e-3*x + 1e-3*y", "-3e-3*x - 1e-3*y", stretched), 1e-9);
 }
 
 /* Pressure is linear in pure bending, and so is the dilatation of a patch. */
@@ -211,14 +271,19 @@ static void bending_with_the_quadratic_basis (void **state)
     (void) state;
     char uy[100];
     snprintf (uy, sizeof uy, "-0.005*x*x/(1 m) - %.17g*y*y/(1 m)", 0.005 * turn);
-    check_below (held_error ("method: {integration: consistent, essential: nitsche, basis: quadratic, horizon: 2.6 spacing}\n", "0.01*x*y/(1 m)", uy, bent), 1e-8);
+    check_below (
+        held_error (
+            "method: {integration: consistent, essential: nitsche, basis: quadratic, horizon: 2.6 spacing}\n",
+            "0.01*x*y/(1 m)", uy, bent),
+        1e-8);
 }
 
 static void other_materials_have_the_same_bits (void **state)
 {
     (void) state;
     for (int k = 0; k < 2; k++) {
-        run usual = cylinder (&rows[2 * k], k ? 0.3 : 0.449, "auto", "rkpm"), plain = cylinder (&rows[2 * k], k ? 0.3 : 0.449, "pointwise", "rkpm");
+        run usual = cylinder (&rows[2 * k], k ? 0.3 : 0.449, "auto", "rkpm"),
+            plain = cylinder (&rows[2 * k], k ? 0.3 : 0.449, "pointwise", "rkpm");
         assert_null (usual.problem->patches);
         to_the_end (&usual), to_the_end (&plain);
         assert_memory_equal (usual.state->d, plain.state->d, plain.state->ndof * sizeof *plain.state->d);
@@ -229,21 +294,27 @@ static void other_materials_have_the_same_bits (void **state)
     clear (&r);
 }
 
-/* ---- symmetry and cracks ----------------------------------------------------------------------------------------------------- */
-#define NOTCHED "dimension: 2\nplane: strain\nbody: [{add: {polygon: {vertices: [[0, 0], [%g, 0], [%g, 1], [0, 1.3]]}}}]\nspacing: 0.1\n" \
-                "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.4999}}\nmethod: {integration: %s}\ncracks: [{from: [%g, 0], to: [%g, 0.52]}]\n" \
-                "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: polygon.edge 3, traction: {y: 1e-3 Pa}}]\nsolver: {kind: static}\n"
+/* ---- symmetry and cracks ------------------------------------------------------------------------------- */
+#define NOTCHED \
+    "dimension: 2\nplane: strain\nbody: [{add: {polygon: {vertices: [[0, 0], [%g, 0], [%g, 1], [0, " \
+    "1.3]]}}}]\nspacing: 0.1\n" \
+    "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.4999}}\nmethod: {integration: %s}\ncracks: " \
+    "[{from: [%g, 0], to: [%g, 0.52]}]\n" \
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: polygon.edge 3, traction: {y: 1e-3 " \
+    "Pa}}]\nsolver: {kind: static}\n"
 
 static void a_mirrored_body_has_the_mirrored_answer (void **state)
 {
     (void) state;
     static const char *const integrations[] = { "gauss", "consistent", "nodal" };
     for (int k = 0; k < 3; k++) {
-        run a = scene_of (1, NOTCHED, 1.1, 1.1, integrations[k], 0.53, 0.53), b = scene_of (1, NOTCHED, -1.1, -1.1, integrations[k], -0.53, -0.53);
+        run a = scene_of (1, NOTCHED, 1.1, 1.1, integrations[k], 0.53, 0.53),
+            b = scene_of (1, NOTCHED, -1.1, -1.1, integrations[k], -0.53, -0.53);
         to_the_end (&a), to_the_end (&b);
         size_t n = a.problem->cloud.n, found = 0;
         assert_true (n == b.problem->cloud.n);
-        double *u = field_of (&a, NULL, "displacement", NULL), *v = field_of (&b, NULL, "displacement", NULL), top = largest_of (u, 2 * n);
+        double *u = field_of (&a, NULL, "displacement", NULL), *v = field_of (&b, NULL, "displacement", NULL),
+               top = largest_of (u, 2 * n);
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j < n; j++) {
                 const double *x = a.problem->cloud.x + 2 * i, *y = b.problem->cloud.x + 2 * j;
@@ -258,21 +329,28 @@ static void a_mirrored_body_has_the_mirrored_answer (void **state)
     }
 }
 
-/* Patches lie across a crack through the whole body: stretching the upper half must not move the lower one by a common pressure. */
+/* Patches lie across a crack through the whole body: stretching the upper half must not move the lower one by
+ * a common pressure. */
 static void a_crack_parts_the_patches_that_it_crosses (void **state)
 {
     (void) state;
     static const char *const integrations[] = { "gauss", "consistent", "nodal" };
     for (int k = 0; k < 3; k++) {
-        run r = scene_of (1, "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.1\n"
-                          "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.4999}}\nmethod: {integration: %s}\ncracks: [{from: [-0.1, 0.53], to: [1.1, 0.57]}]\n"
-                          "sets: {upper: {where: y > 0.58 m}}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, "
-                          "{set: upper, displacement: {x: 1e-3*x, y: 2e-3*y}, essential: penalty}]\nsolver: {kind: static}\n", integrations[k]);
+        run r = scene_of (
+            1,
+            "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.1\n"
+            "materials: {soft: {youngs_modulus: 1, poissons_ratio: 0.4999}}\nmethod: {integration: "
+            "%s}\ncracks: [{from: [-0.1, 0.53], to: [1.1, 0.57]}]\n"
+            "sets: {upper: {where: y > 0.58 m}}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, "
+            "{set: upper, displacement: {x: 1e-3*x, y: 2e-3*y}, essential: penalty}]\nsolver: {kind: "
+            "static}\n",
+            integrations[k]);
         to_the_end (&r);
         double *u = field_of (&r, NULL, "displacement", NULL), lower = 0;
         for (size_t i = 0; i < r.problem->cloud.n; i++)
             if (r.problem->cloud.x[2 * i + 1] < 0.52) lower = fmax (lower, hypot (u[2 * i], u[2 * i + 1]));
-        print_message ("  %s: the lower half moves %.2e of the upper\n", integrations[k], lower / largest_of (u, 2 * r.problem->cloud.n));
+        print_message ("  %s: the lower half moves %.2e of the upper\n", integrations[k],
+                       lower / largest_of (u, 2 * r.problem->cloud.n));
         check_below (lower, 1e-12 * largest_of (u, 2 * r.problem->cloud.n));
         pg_free (u);
         clear (&r);
@@ -283,7 +361,10 @@ static void a_crack_parts_the_patches_that_it_crosses (void **state)
 static void places_have_the_pressure_of_their_patches (void **state)
 {
     (void) state;
-    static const char *const methods[] = { "method: {integration: gauss}\n", "method: {integration: nodal}\n", "method: {integration: consistent, basis: quadratic, horizon: 2.6 spacing}\n" };
+    static const char *const methods[] = {
+        "method: {integration: gauss}\n", "method: {integration: nodal}\n",
+        "method: {integration: consistent, basis: quadratic, horizon: 2.6 spacing}\n"
+    };
     static const double places[] = { 0.013, -0.21, 0.77, 0.31, -0.95, 0.55, 1.05, -0.45 };
     double mu = 1 / (2 * 1.4999), lambda = 0.4999 / (1.4999 * 2e-4), volume = 1e-3;
     for (int k = 0; k < 3; k++) {

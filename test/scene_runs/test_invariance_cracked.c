@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A plate with an oblique edge crack, about 350 points, 100 break events: the same bonds break in the same order for every observer.
- * Bonds are compared as sets of places (middle of the bond) per event, mapped back. */
+ * A plate with an oblique edge crack, about 350 points, 100 break events: the same bonds break in the same
+ * order for every observer. Bonds are compared as sets of places (middle of the bond) per event, mapped
+ * back. */
 #include <unistd.h>
 #include "view.h"
 
@@ -44,19 +45,22 @@ static void check_same (const view *v, history *a, history *b)
     double factor = 0;
     assert_int_equal (a->n, b->n);
     for (size_t k = 0; k < a->n; k++) {
-        if (a->event[k].n != b->event[k].n) print_error ("event %zu: %zu and %zu bonds\n", k + 1, a->event[k].n, b->event[k].n);
+        if (a->event[k].n != b->event[k].n)
+            print_error ("event %zu: %zu and %zu bonds\n", k + 1, a->event[k].n, b->event[k].n);
         assert_int_equal (a->event[k].n, b->event[k].n);
         factor = fmax (factor, fabs (b->event[k].factor / a->event[k].factor - 1));
         for (size_t i = 0; i < a->event[k].n; i++) {
             int found = has_image (v, &a->event[k].bond[i], &b->event[k], b->r.problem->cloud.h);
-            if (!found) print_error ("event %zu, bond %zu at (%g, %g): no image\n", k + 1, i, a->event[k].bond[i].place[0],
-                a->event[k].bond[i].place[1]);
+            if (!found)
+                print_error ("event %zu, bond %zu at (%g, %g): no image\n", k + 1, i,
+                             a->event[k].bond[i].place[0], a->event[k].bond[i].place[1]);
             assert_true (found);
         }
         bonds += a->event[k].n;
     }
     double u = displacement_difference (v, &a->r, &b->r, NULL);
-    print_message ("%s: %zu events, %zu bonds, factor %.1e, displacement %.1e\n", v->name, a->n, bonds, factor, u);
+    print_message ("%s: %zu events, %zu bonds, factor %.1e, displacement %.1e\n", v->name, a->n, bonds,
+                   factor, u);
     check_below (u, 1e-8);
     check_below (factor, 1e-8);
 }
@@ -64,12 +68,14 @@ static void check_same (const view *v, history *a, history *b)
 typedef struct { const char *name, *method, *failure; enum { STRETCH, STRESS, ENERGY } limit; } kind;
 static const kind kinds[] = {
     { "rkpm gauss, nitsche, stress", "approximation: rkpm, integration: gauss, essential: nitsche",
-        "criterion: principal_stress, tensile_strength", STRESS },
-    { "rkpm gauss, transformation, stretch", "approximation: rkpm, integration: gauss, essential: transformation",
-        "criterion: stretch, critical_stretch", STRETCH },
-    { "rkpm consistent, stress", "approximation: rkpm, integration: consistent", "criterion: principal_stress, tensile_strength", STRESS },
+      "criterion: principal_stress, tensile_strength", STRESS },
+    { "rkpm gauss, transformation, stretch",
+      "approximation: rkpm, integration: gauss, essential: transformation",
+      "criterion: stretch, critical_stretch", STRETCH },
+    { "rkpm consistent, stress", "approximation: rkpm, integration: consistent",
+      "criterion: principal_stress, tensile_strength", STRESS },
     { "nosb nodal, stretch", "approximation: nosb, integration: nodal, essential: transformation",
-        "criterion: stretch, critical_stretch", STRETCH },
+      "criterion: stretch, critical_stretch", STRETCH },
     { "bond", "force: bond", "criterion: stretch, critical_stretch", STRETCH },
     { "gmpd", "force: gmpd", "criterion: beam_limits, fracture_energy", ENERGY },
 };
@@ -85,16 +91,20 @@ static void plate (history *h, const view *v, const kind *k)
     seen (v, (double[2]) { -0.1, 0.553 }, from);
     seen (v, (double[2]) { 0.31, 0.672 }, to);
     *h = (history) { 0 };
-    h->r = scene_of (v->threads, "dimension: 2\nthickness: %.17g\nbody: [{add: {box: %s}}]\nspacing: %.17g\n"
+    h->r = scene_of (
+        v->threads,
+        "dimension: 2\nthickness: %.17g\nbody: [{add: {box: %s}}]\nspacing: %.17g\n"
         "cracks: [{from: [%.17g, %.17g], to: [%.17g, %.17g]}]\n"
-        "materials: {rock: {youngs_modulus: %.17g, poissons_ratio: 0.25}}\nfailure: {%s: %.17g, exclude: [bottom, top]}\n"
+        "materials: {rock: {youngs_modulus: %.17g, poissons_ratio: 0.25}}\nfailure: {%s: %.17g, exclude: "
+        "[bottom, top]}\n"
         "method: {%s, horizon: 2.01 spacing}\nboundary:\n  - {set: %s, displacement: {x: 0, y: %.17g}}\n"
-            "  - {set: %s, displacement: {x: %.17g, y: %.17g}}\n"
-        "solver: {stepping: event, break: worst, max_events: %d, stop: {stiffness: 0.01}}\noutput: {at: {levels: 1}}\n",
+        "  - {set: %s, displacement: {x: %.17g, y: %.17g}}\n"
+        "solver: {stepping: event, break: worst, max_events: %d, stop: {stiffness: 0.01}}\noutput: {at: "
+        "{levels: 1}}\n",
         0.02 * v->length, box, v->length / 16, from[0], from[1], to[0], to[1], 10e9 * v->stress, k->failure,
-            limit_of[k->limit] * (k->limit == STRETCH ? 1 : v->stress) * (k->limit == ENERGY ? v->length : 1), k->method,
-        v->sy > 0 ? "bottom" : "top", -1e-3 * v->length * v->sy, v->sy > 0 ? "top" : "bottom", 2e-4 * v->length * v->sx,
-            1e-3 * v->length * v->sy, EVENTS);
+        limit_of[k->limit] * (k->limit == STRETCH ? 1 : v->stress) * (k->limit == ENERGY ? v->length : 1),
+        k->method, v->sy > 0 ? "bottom" : "top", -1e-3 * v->length * v->sy, v->sy > 0 ? "top" : "bottom",
+        2e-4 * v->length * v->sx, 1e-3 * v->length * v->sy, EVENTS);
     run_events (h);
 }
 
@@ -126,22 +136,35 @@ static void check_view (const view *v)
     }
 }
 
-static void millimetres_and_megapascals (void **state) { (void) state, check_view (&(view) { "", 1000, 1e-6, 1, 1, 0, 0, 1 }); }
-static void mirrored_left_to_right (void **state) { (void) state, check_view (&(view) { "", 1, 1, -1, 1, 0, 0, 1 }); }
-static void rotated_by_180_degrees (void **state) { (void) state, check_view (&(view) { "", 1, 1, -1, -1, 0, 0, 1 }); }
+static void millimetres_and_megapascals (void **state)
+{
+    (void) state, check_view (&(view){ "", 1000, 1e-6, 1, 1, 0, 0, 1 });
+}
+static void mirrored_left_to_right (void **state)
+{
+    (void) state, check_view (&(view){ "", 1, 1, -1, 1, 0, 0, 1 });
+}
+static void rotated_by_180_degrees (void **state)
+{
+    (void) state, check_view (&(view){ "", 1, 1, -1, -1, 0, 0, 1 });
+}
 static void two_threads (void **state) { (void) state, check_view (&(view) { "", 1, 1, 1, 1, 0, 0, 2 }); }
 
 static void cloud_plate (history *h, const char *path, const char *approximation, const char *failure)
 {
     *h = (history) { 0 };
-    h->r = scene_of (1, "dimension: 2\nthickness: 0.02\npoints: %s\ncracks: [{from: [-0.1, 0.553], to: [0.31, 0.672]}]\n"
+    h->r = scene_of (
+        1,
+        "dimension: 2\nthickness: 0.02\npoints: %s\ncracks: [{from: [-0.1, 0.553], to: [0.31, 0.672]}]\n"
         "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
-            "failure: {criterion: %s, exclude: [low, high]}\n"
+        "failure: {criterion: %s, exclude: [low, high]}\n"
         "sets: {low: {where: 'y < 0.07 m'}, high: {where: 'y > 1.18 m'}}\n"
-            "method: {approximation: %s, integration: nodal, horizon: 0.14}\n"
-        "boundary:\n  - {set: low, displacement: {x: 0, y: -1e-3}}\n  - {set: high, displacement: {x: 2e-4, y: 1e-3}}\n"
-        "solver: {stepping: event, break: worst, max_events: %d, stop: {stiffness: 0.01}}\noutput: {at: {levels: 1}}\n", path,
-            failure, approximation, EVENTS);
+        "method: {approximation: %s, integration: nodal, horizon: 0.14}\n"
+        "boundary:\n  - {set: low, displacement: {x: 0, y: -1e-3}}\n  - {set: high, displacement: {x: 2e-4, "
+        "y: 1e-3}}\n"
+        "solver: {stepping: event, break: worst, max_events: %d, stop: {stiffness: 0.01}}\noutput: {at: "
+        "{levels: 1}}\n",
+        path, failure, approximation, EVENTS);
     run_events (h);
 }
 
@@ -173,5 +196,6 @@ int main (void)
             cmocka_unit_test (rotated_by_180_degrees),
         cmocka_unit_test (two_threads), cmocka_unit_test (points_in_another_order),
     };
-    return cmocka_run_group_tests_name ("scene_runs/invariance_cracked", tests, run_reference, free_reference);
+    return cmocka_run_group_tests_name ("scene_runs/invariance_cracked", tests, run_reference,
+                                        free_reference);
 }

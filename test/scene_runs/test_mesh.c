@@ -23,13 +23,15 @@ static int drop_folder (void **state)
 }
 
 #define rock "materials: {steel: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
-static const char *const both = "materials: {steel: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}, foam: {youngs_modulus: 1 GPa, poissons_ratio: 0.1}}\n";
+static const char *const both = "materials: {steel: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}, foam: "
+                                "{youngs_modulus: 1 GPa, poissons_ratio: 0.1}}\n";
 #define STATIC "solver: {steps: 1, stepping: fixed}\noutput: {at: {levels: 1}}\n"
 
 static pg_status scene_text (pg_scene **scene, const grid *g, const char *mesh, const char *more)
 {
     char text[4000], file[128];
-    snprintf (text, sizeof text, "dimension: %d\nmesh: {file: grid.msh%s}\n%s", pg_element_types[g->kind].dim, mesh, more);
+    snprintf (text, sizeof text, "dimension: %d\nmesh: {file: grid.msh%s}\n%s", pg_element_types[g->kind].dim,
+              mesh, more);
     snprintf (file, sizeof file, "%s/scene.yaml", folder);
     return pg_scene_parse (scene, text, file);
 }
@@ -71,7 +73,7 @@ static void faulty (const grid *g, const char *mesh, const char *more, const cha
 
 static int side_of (int dim) { return dim == 3 ? 4 : dim == 2 ? 6 : 8; }
 
-/* ---- geometry --------------------------------------------------------------------------------------------------------- */
+/* ---- geometry ------------------------------------------------------------------------------------------ */
 static void volumes_areas_and_sets_of_every_element (void **state)
 {
     (void) state;
@@ -87,7 +89,8 @@ static void volumes_areas_and_sets_of_every_element (void **state)
         for (size_t c = 0; c < p->cells.n; c++) cells += p->cells.volume[c];
         for (size_t f = 0; f < p->cells.nfacet; f++) {
             area += p->cells.area[f];
-            for (int k = 0; k < t->dim; k++) sum[k] += p->cells.area[f] * p->cells.normal[f * (size_t) t->dim + (size_t) k];
+            for (int k = 0; k < t->dim; k++)
+                sum[k] += p->cells.area[f] * p->cells.normal[f * (size_t) t->dim + (size_t) k];
         }
         check_relative (volume, 1, 1e-12);
         check_relative (cells, 1, 1e-12);
@@ -118,7 +121,8 @@ static void spacings_follow_the_edges (void **state)
     for (int corners = 0; corners < 2; corners++) {
         grid g = { PG_QUAD8, 6, 0, 1, 1 };
         pg_problem *p = problem_of (&g, corners ? ", points: corners" : "", rock);
-        for (size_t i = 0; i < p->cloud.n; i++) check_relative (p->cloud.size[i], corners ? 1.0 / 6 : 1.0 / 12, 1e-12);
+        for (size_t i = 0; i < p->cloud.n; i++)
+            check_relative (p->cloud.size[i], corners ? 1.0 / 6 : 1.0 / 12, 1e-12);
         check_relative (p->approx.horizon, 2 * p->cloud.h, 1e-14);
         pg_problem_free (&p);
         p = problem_of (&g, ", support: equal", rock);
@@ -139,8 +143,10 @@ static void a_perturbed_mesh_keeps_its_cells_and_surface (void **state)
     size_t moved = 0;
     const pg_set *all = pg_sets_find (&p->sets, "left");
     for (size_t i = 0; i < p->cloud.n; i++) {
-        double d = fmax (fabs (p->cloud.x[2*i] - q->cloud.x[2*i]), fabs (p->cloud.x[2*i + 1] - q->cloud.x[2*i + 1]));
-        int rim = p->cloud.x[2*i] == 0 || p->cloud.x[2*i] == 1 || p->cloud.x[2*i + 1] == 0 || p->cloud.x[2*i + 1] == 1;
+        double d = fmax (fabs (p->cloud.x[2 * i] - q->cloud.x[2 * i]),
+                         fabs (p->cloud.x[2 * i + 1] - q->cloud.x[2 * i + 1]));
+        int rim = p->cloud.x[2 * i] == 0 || p->cloud.x[2 * i] == 1 || p->cloud.x[2 * i + 1] == 0
+                  || p->cloud.x[2 * i + 1] == 1;
         if (rim) assert_true (d == 0);
         else check_below (d, 0.2 * p->cloud.size[i]);
         moved += d > 0;
@@ -151,17 +157,22 @@ static void a_perturbed_mesh_keeps_its_cells_and_surface (void **state)
     pg_problem_free (&p), pg_problem_free (&q);
 }
 
-/* ---- blocks ----------------------------------------------------------------------------------------------------------- */
-/* A bar of two materials in series, pulled at its end: each half stretches by its own modulus. Smooth shape functions round the kink off:
- * an error of the order of the spacing, 1.2 % here. */
+/* ---- blocks -------------------------------------------------------------------------------------------- */
+/* A bar of two materials in series, pulled at its end: each half stretches by its own modulus. Smooth shape
+ * functions round the kink off: an error of the order of the spacing, 1.2 % here. */
 static void blocks_have_their_own_materials (void **state)
 {
     (void) state;
-    const char *const how[3] = { "", "blocks: [{block: steel, material: steel}, {block: 2, material: foam}]\n",
-                                 "blocks: [{block: 1, material: steel}, {where: 'x > 0.5', material: foam}]\n" };
+    const char *const how[3] = {
+        "", "blocks: [{block: steel, material: steel}, {block: 2, material: foam}]\n",
+        "blocks: [{block: 1, material: steel}, {where: 'x > 0.5', material: foam}]\n"
+    };
     for (int k = 0; k < 3; k++) {
         char more[1200];
-        snprintf (more, sizeof more, "%s%smethod: {approximation: rkpm, integration: consistent}\nboundary: [{set: clamp, displacement: {x: 0}}, {set: tip, traction: {x: 1 MPa}}]\n" STATIC, both, how[k]);
+        snprintf (more, sizeof more,
+                  "%s%smethod: {approximation: rkpm, integration: consistent}\nboundary: [{set: clamp, "
+                  "displacement: {x: 0}}, {set: tip, traction: {x: 1 MPa}}]\n" STATIC,
+                  both, how[k]);
         grid g = { PG_BAR2, 32, 0, 1, 0 };
         run r = run_of (&g, 1, "", more);
         to_the_end (&r);
@@ -179,7 +190,8 @@ static void chosen_blocks_are_a_mesh_of_their_own (void **state)
     (void) state;
     for (int kind = PG_BAR2; kind < PG_ELEMENTS; kind += 4) {
         grid g = { (pg_element) kind, 4, 0, 1, 0 };
-        pg_problem *p = problem_of (&g, ", blocks: [foam]", "materials: {foam: {youngs_modulus: 1, poissons_ratio: 0.2}}\n");
+        pg_problem *p = problem_of (&g, ", blocks: [foam]",
+                                    "materials: {foam: {youngs_modulus: 1, poissons_ratio: 0.2}}\n");
         double volume = 0;
         for (size_t i = 0; i < p->cloud.n; i++) volume += p->cloud.volume[i];
         check_relative (volume, 0.5, 1e-12);
@@ -191,16 +203,19 @@ static void chosen_blocks_are_a_mesh_of_their_own (void **state)
     }
 }
 
-/* ---- faults ----------------------------------------------------------------------------------------------------------- */
+/* ---- faults -------------------------------------------------------------------------------------------- */
 static void what_is_wrong_is_named (void **state)
 {
     (void) state;
     grid g = { PG_TRI3, 4, 0, 1, 0 }, bent = { PG_QUAD9, 2, 0.6, 1, 1 }, square = { PG_QUAD4, 4, 0, 1, 1 };
-    faulty (&g, ", blocks: [steel, cork]", both, "mesh.blocks[1] = cork: the mesh has no block of this name; there are steel|foam");
+    faulty (&g, ", blocks: [steel, cork]", both,
+            "mesh.blocks[1] = cork: the mesh has no block of this name; there are steel|foam");
     faulty (&g, ", unit: kg", both, "mesh.unit = kg: is no unit of length");
-    faulty (&g, "", rock "blocks: [{block: 7, material: steel}]\n", "blocks[0].block = 7: the mesh has no block of this name or number; there are steel|foam");
+    faulty (&g, "", rock "blocks: [{block: 7, material: steel}]\n",
+            "blocks[0].block = 7: the mesh has no block of this name or number; there are steel|foam");
     faulty (&g, "", rock "blocks: [{block: steel, material: steel}]\n", "no entry claims");
-    faulty (&g, "", rock "sets: {clamp: {where: 'x > 0'}}\n", "this set is always there or comes with the mesh");
+    faulty (&g, "", rock "sets: {clamp: {where: 'x > 0'}}\n",
+            "this set is always there or comes with the mesh");
     faulty (&bent, "", rock, "turns inside out: its Jacobian falls to");
     faulty (&square, "", rock "method: {horizon: 1 spacing}\n", "too few or too flat a set for a strain");
 }
@@ -245,7 +260,7 @@ static void each_failed_allocation_is_reported (void **state)
     pg_scene_free (&scene);
 }
 
-/* ---- patches ---------------------------------------------------------------------------------------------------------- */
+/* ---- patches ------------------------------------------------------------------------------------------- */
 static const double slope[3] = { 1e-3, -2e-4, 5e-4 };
 
 /* Linear field on the whole surface by Nitsche; error at the nodes over the largest displacement. */
@@ -253,14 +268,17 @@ static double patch_error (const grid *g, int threads, const char *mesh, const c
 {
     char more[1000];
     int dim = pg_element_types[g->kind].dim;
-    snprintf (more, sizeof more, "%smethod: {approximation: rkpm, %s}\nsets: {rim: {boundary: all}}\nboundary: [{set: rim, displacement: {x: '1e-3*x'%s%s}}]\n" STATIC,
+    snprintf (more, sizeof more,
+              "%smethod: {approximation: rkpm, %s}\nsets: {rim: {boundary: all}}\nboundary: [{set: rim, "
+              "displacement: {x: '1e-3*x'%s%s}}]\n" STATIC,
               rock, method, dim > 1 ? ", y: '-2e-4*y'" : "", dim > 2 ? ", z: '5e-4*z'" : "");
     run r = run_of (g, threads, mesh, more);
     size_t n = r.problem->cloud.n * (size_t) dim;
     double *exact = pg_calloc (n, sizeof *exact);
     for (size_t i = 0; i < n; i++) exact[i] = slope[i % (size_t) dim] * r.problem->cloud.x[i];
     to_the_end (&r);
-    double *u = field_of (&r, NULL, "displacement", NULL), error = largest_difference (u, exact, n) / largest_of (exact, n);
+    double *u = field_of (&r, NULL, "displacement", NULL),
+           error = largest_difference (u, exact, n) / largest_of (exact, n);
     if (keep) memcpy (keep, u, n * sizeof *u);
     pg_free (exact), pg_free (u);
     clear (&r);
@@ -278,10 +296,13 @@ static void patches_on_every_element (void **state)
         if (t->dim == 3) g.n = 2;
         for (int k = 0; k < 4; k++) {
             char method[200];
-            snprintf (method, sizeof method, "basis: %s, horizon: %s spacing, gauss_points: %d", k < 2 ? "linear" : "quadratic", k < 2 ? "2" : "3.1", (int) fmin (5, (k < 2 ? 2 : 3) + k % 2 + fine));
+            snprintf (method, sizeof method, "basis: %s, horizon: %s spacing, gauss_points: %d",
+                      k < 2 ? "linear" : "quadratic", k < 2 ? "2" : "3.1",
+                      (int) fmin (5, (k < 2 ? 2 : 3) + k % 2 + fine));
             e[k] = patch_error (&g, 1, "", method, NULL);
         }
-        print_message ("%-8s linear, default points and 1 more: %.2g %.2g; quadratic: %.2g %.2g\n", t->name, e[0], e[1], e[2], e[3]);
+        print_message ("%-8s linear, default points and 1 more: %.2g %.2g; quadratic: %.2g %.2g\n", t->name,
+                       e[0], e[1], e[2], e[3]);
         for (int k = 0; k < 4; k++) check_below (e[k], 0.007);
     }
 }
@@ -304,10 +325,15 @@ static void consistent_patches_on_every_element (void **state)
         double e[4];
         for (int k = 0; k < 4; k++) {
             grid g = { (pg_element) kind, t->dim == 3 ? 2 : side_of (t->dim), k % 2 ? 0.03 : 0, 1, 1 };
-            e[k] = patch_error (&g, 1, "", k < 2 ? "integration: consistent" : "integration: consistent, basis: quadratic, horizon: 3.1 spacing", NULL);
+            e[k] = patch_error (&g, 1, "",
+                                k < 2 ? "integration: consistent"
+                                      : "integration: consistent, basis: quadratic, horizon: 3.1 spacing",
+                                NULL);
         }
-        for (int k = 0; k < 4; k++) check_below (e[k], k == 1 ? 5e-7 : 1e-11);     /* hex8, tet10 bent: 2e-7, 1e-8     */
-        print_message ("%-8s consistent, straight and bent: linear %.2g %.2g, quadratic %.2g %.2g\n", t->name, e[0], e[1], e[2], e[3]);
+        /* hex8, tet10 bent: 2e-7, 1e-8 */
+        for (int k = 0; k < 4; k++) check_below (e[k], k == 1 ? 5e-7 : 1e-11);
+        print_message ("%-8s consistent, straight and bent: linear %.2g %.2g, quadratic %.2g %.2g\n", t->name,
+                       e[0], e[1], e[2], e[3]);
     }
 }
 

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What every run says of its own discretisation (pg_patch_probe) against what uniform tension then comes out as. */
-#define _DEFAULT_SOURCE                                 /* mkstemp                                                       */
+ * What every run says of its own discretisation (pg_patch_probe) against what uniform tension then comes out
+ * as. */
+#define _DEFAULT_SOURCE                                 /* mkstemp */
 #include "run.h"
 #include <unistd.h>
 
-typedef struct { const char *method, *more; int dim; double spacing, size[3], least, most; } tension;   /* of the patch error over that of the run */
+/* of the patch error over that of the run */
+typedef struct { const char *method, *more; int dim; double spacing, size[3], least, most; } tension;
 
 /* Uniform tension along x on rollers, of length `unit` m a side. */
 static pg_scene *scene_for (const tension *c, double unit, const char *more)
@@ -12,14 +14,26 @@ static pg_scene *scene_for (const tension *c, double unit, const char *more)
     static const char *const side[] = { "left", "bottom", "back" };
     pg_scene *scene = NULL;
     char text[2048];
-    int at = snprintf (text, sizeof text, "dimension: %d\nspacing: %.17g\nbody: [{add: {box: {low: [", c->dim, c->spacing * unit);
-    for (int k = 0; k < c->dim; k++) at += snprintf (text + at, sizeof text - (size_t) at, "%s0", k ? ", " : "");
+    int at = snprintf (text, sizeof text, "dimension: %d\nspacing: %.17g\nbody: [{add: {box: {low: [", c->dim,
+                       c->spacing * unit);
+    for (int k = 0; k < c->dim; k++)
+        at += snprintf (text + at, sizeof text - (size_t) at, "%s0", k ? ", " : "");
     at += snprintf (text + at, sizeof text - (size_t) at, "], high: [");
-    for (int k = 0; k < c->dim; k++) at += snprintf (text + at, sizeof text - (size_t) at, "%s%.17g", k ? ", " : "", c->size[k] * unit);
-    at += snprintf (text + at, sizeof text - (size_t) at, "]}}}]\n%smaterials: {m: {youngs_modulus: 1 GPa, poissons_ratio: %s}}\nmethod: {%s}\n%s%sboundary:\n",
-                    c->dim == 2 ? "thickness: 1\n" : "", c->dim == 2 ? "0.3333333333333333" : c->dim == 3 ? "0.25" : "0", c->method, c->more, more);
-    for (int k = 0; k < c->dim; k++) at += snprintf (text + at, sizeof text - (size_t) at, "  - {name: hold%d, set: %s, displacement: {%c: 0}}\n", k, side[k], "xyz"[k]);
-    snprintf (text + at, sizeof text - (size_t) at, "  - {name: pull, set: right, traction: {x: 1 MPa}}\nsolver: {kind: static}\n");
+    for (int k = 0; k < c->dim; k++)
+        at += snprintf (text + at, sizeof text - (size_t) at, "%s%.17g", k ? ", " : "", c->size[k] * unit);
+    at += snprintf (
+        text + at, sizeof text - (size_t) at,
+        "]}}}]\n%smaterials: {m: {youngs_modulus: 1 GPa, poissons_ratio: %s}}\nmethod: {%s}\n%s%sboundary:\n",
+        c->dim == 2 ? "thickness: 1\n" : "",
+        c->dim == 2   ? "0.3333333333333333"
+        : c->dim == 3 ? "0.25"
+                      : "0",
+        c->method, c->more, more);
+    for (int k = 0; k < c->dim; k++)
+        at += snprintf (text + at, sizeof text - (size_t) at,
+                        "  - {name: hold%d, set: %s, displacement: {%c: 0}}\n", k, side[k], "xyz"[k]);
+    snprintf (text + at, sizeof text - (size_t) at,
+              "  - {name: pull, set: right, traction: {x: 1 MPa}}\nsolver: {kind: static}\n");
     check_ok (pg_scene_parse (&scene, text, "patch.yaml"));
     return scene;
 }
@@ -43,7 +57,10 @@ static double tension_error (const tension *c)
     run r = { .scene = scene_for (c, 1, "") };
     build (&r, 1);
     to_the_end (&r);
-    double *u = field_of (&r, NULL, "displacement", NULL), wrong = 0, all = 0, nu = c->dim == 1 ? 0 : c->dim == 2 ? 1. / 3 : 0.25;
+    double *u = field_of (&r, NULL, "displacement", NULL), wrong = 0, all = 0,
+           nu = c->dim == 1   ? 0
+                : c->dim == 2 ? 1. / 3
+                              : 0.25;
     for (size_t i = 0; i < r.problem->cloud.n; i++)
         for (int k = 0; k < c->dim; k++) {
             size_t at = i * (size_t) c->dim + (size_t) k;
@@ -57,15 +74,24 @@ static double tension_error (const tension *c)
 
 #define MOVED "perturb: {amount: 0.2}\n"
 static const tension cases[] = {
-    { "force: bond", "lattice: cells\n", 2, 0.1, { 1, 0.1, 0 }, 0.9, 1.5 }, { "force: bond", "lattice: cells\n", 2, 0.1, { 1, 0.3, 0 }, 0.9, 3.5 },
-    { "force: bond", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "force: bond", "", 2, 0.025, { 1, 1, 0 }, 0.9, 2 }, { "force: bond", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
-    { "force: bond", "", 3, 0.2, { 1, 1, 1 }, 0.9, 2 }, { "force: bond", "", 1, 0.05, { 1, 0, 0 }, 0.9, 2 }, { "force: lps", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
-    { "force: gmpd", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "force: gmpd, volumetric: on", "", 3, 0.2, { 1, 1, 1 }, 0.9, 2 },
-    { "approximation: nosb, horizon: 2.5 spacing", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "approximation: pddo, horizon: 3 spacing", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
-    { "approximation: pddo, integration: nodal", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "approximation: nosb, integration: nodal", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "force: bond", "lattice: cells\n", 2, 0.1, { 1, 0.1, 0 }, 0.9, 1.5 },
+    { "force: bond", "lattice: cells\n", 2, 0.1, { 1, 0.3, 0 }, 0.9, 3.5 },
+    { "force: bond", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "force: bond", "", 2, 0.025, { 1, 1, 0 }, 0.9, 2 },
+    { "force: bond", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "force: bond", "", 3, 0.2, { 1, 1, 1 }, 0.9, 2 },
+    { "force: bond", "", 1, 0.05, { 1, 0, 0 }, 0.9, 2 },
+    { "force: lps", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "force: gmpd", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "force: gmpd, volumetric: on", "", 3, 0.2, { 1, 1, 1 }, 0.9, 2 },
+    { "approximation: nosb, horizon: 2.5 spacing", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "approximation: pddo, horizon: 3 spacing", "", 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "approximation: pddo, integration: nodal", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "approximation: nosb, integration: nodal", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
     { "approximation: nosb, integration: consistent, horizon: 6 spacing", "", 1, 0.1, { 1, 0, 0 }, 0.9, 2 },
     { "approximation: nosb, integration: consistent, horizon: 4.5 spacing", "", 2, 0.1, { 1, 1, 0 }, 0.9, 6 },
-    { "kernel: constant", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 }, { "kernel: linear_r", "", 3, 0.2, { 1, 1, 1 }, 0.9, 2 },
+    { "kernel: constant", MOVED, 2, 0.1, { 1, 1, 0 }, 0.9, 2 },
+    { "kernel: linear_r", "", 3, 0.2, { 1, 1, 1 }, 0.9, 2 },
 };
 
 static void it_tells_what_uniform_tension_comes_out_as (void **state)
@@ -74,7 +100,9 @@ static void it_tells_what_uniform_tension_comes_out_as (void **state)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         pg_patch p = measured (&cases[k], 1, "");
         double error = tension_error (&cases[k]);
-        print_message ("  %dD, h %g, %-45s patch error %.3g (%+.2g), tension %.3g: ratio %.2f\n", cases[k].dim, cases[k].spacing, cases[k].method, p.error, p.compliance, error, p.error / error);
+        print_message ("  %dD, h %g, %-45s patch error %.3g (%+.2g), tension %.3g: ratio %.2f\n",
+                       cases[k].dim, cases[k].spacing, cases[k].method, p.error, p.compliance, error,
+                       p.error / error);
         assert_true (p.settled);
         assert_true (p.error / error > cases[k].least && p.error / error < cases[k].most);
     }
@@ -84,10 +112,19 @@ static void sound_ones_are_told_to_be (void **state)
 {
     (void) state;
     static const tension sound[] = {
-        { "horizon: 2 spacing", MOVED, 2, 0.1, { 1, 1, 0 }, 0, 0.01 }, { "basis: quadratic, horizon: 2.8 spacing", "", 3, 0.2, { 1, 1, 1 }, 0, 0.01 },
-        { "integration: consistent", MOVED, 2, 0.1, { 1, 1, 0 }, 0, 1e-12 }, { "integration: consistent", MOVED, 3, 0.2, { 1, 1, 1 }, 0, 1e-12 },
-        { "approximation: nosb, integration: consistent, essential: nitsche, horizon: 4.5 spacing", "", 2, 0.1, { 1, 1, 0 }, 0, 1e-12 },
-        { "integration: consistent", "plane: strain\n", 2, 0.1, { 1, 1, 0 }, 0, 1e-12 }, { "integration: consistent", "", 1, 0.1, { 1, 0, 0 }, 0, 1e-12 },
+        { "horizon: 2 spacing", MOVED, 2, 0.1, { 1, 1, 0 }, 0, 0.01 },
+        { "basis: quadratic, horizon: 2.8 spacing", "", 3, 0.2, { 1, 1, 1 }, 0, 0.01 },
+        { "integration: consistent", MOVED, 2, 0.1, { 1, 1, 0 }, 0, 1e-12 },
+        { "integration: consistent", MOVED, 3, 0.2, { 1, 1, 1 }, 0, 1e-12 },
+        { "approximation: nosb, integration: consistent, essential: nitsche, horizon: 4.5 spacing",
+          "",
+          2,
+          0.1,
+          { 1, 1, 0 },
+          0,
+          1e-12 },
+        { "integration: consistent", "plane: strain\n", 2, 0.1, { 1, 1, 0 }, 0, 1e-12 },
+        { "integration: consistent", "", 1, 0.1, { 1, 0, 0 }, 0, 1e-12 },
     };
     for (size_t k = 0; k < sizeof sound / sizeof *sound; k++) {
         pg_patch p = measured (&sound[k], 1, "");
@@ -100,15 +137,21 @@ static void sound_ones_are_told_to_be (void **state)
 static void units_and_cracks_leave_it_as_it_is (void **state)
 {
     (void) state;
-    static const tension of[] = { { "force: bond", "", 2, 0.1, { 1, 1, 0 }, 0, 0 }, { "approximation: pddo, horizon: 3 spacing", "", 2, 0.1, { 1, 1, 0 }, 0, 0 } };
+    static const tension of[] = {
+        { "force: bond", "", 2, 0.1, { 1, 1, 0 }, 0, 0 },
+        { "approximation: pddo, horizon: 3 spacing", "", 2, 0.1, { 1, 1, 0 }, 0, 0 }
+    };
     for (size_t k = 0; k < 2; k++) {
-        pg_patch p = measured (&of[k], 1, ""), cracked = measured (&of[k], 1, "cracks: [{from: [-0.1, 0.53], to: [0.5, 0.53]}]\n");
+        pg_patch p = measured (&of[k], 1, ""),
+                 cracked = measured (&of[k], 1, "cracks: [{from: [-0.1, 0.53], to: [0.5, 0.53]}]\n");
         check_relative (cracked.error, p.error, 1e-12);
-        for (double unit = 1e-9; unit < 1e4; unit *= 1e6) check_relative (measured (&of[k], unit, "").error, p.error, 2e-3);
+        for (double unit = 1e-9; unit < 1e4; unit *= 1e6)
+            check_relative (measured (&of[k], unit, "").error, p.error, 2e-3);
     }
 }
 
-/* Points of a file have no surface: the rim is held as the uniform strain moves it, and the points inside tell. */
+/* Points of a file have no surface: the rim is held as the uniform strain moves it, and the points inside
+ * tell. */
 static void points_without_a_surface_are_measured_inside (void **state)
 {
     (void) state;
@@ -120,11 +163,15 @@ static void points_without_a_surface_are_measured_inside (void **state)
     fputs ("x,y,volume,block\n", f);
     for (int i = 0; i < 400; i++) {
         double move[2];
-        for (int k = 0; k < 2; k++) seed = seed * 1664525u + 1013904223u, move[k] = 0.01 * ((double) (seed >> 8) / 8388608.0 - 1);
+        for (int k = 0; k < 2; k++)
+            seed = seed * 1664525u + 1013904223u, move[k] = 0.01 * ((double) (seed >> 8) / 8388608.0 - 1);
         fprintf (f, "%.17g,%.17g,0.0025,0\n", 0.05 * (i % 20) + move[0], 0.05 * (i / 20) + move[1]);
     }
     assert_int_equal (fclose (f), 0);
-    snprintf (text, sizeof text, "dimension: 2\nthickness: 1\npoints: %s\nmaterials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0.3333333333333333}}\nmethod: {force: bond, horizon: 0.15}\n", name);
+    snprintf (text, sizeof text,
+              "dimension: 2\nthickness: 1\npoints: %s\nmaterials: {m: {youngs_modulus: 1 GPa, "
+              "poissons_ratio: 0.3333333333333333}}\nmethod: {force: bond, horizon: 0.15}\n",
+              name);
     pg_scene *scene;
     pg_problem *p;
     check_ok (pg_scene_parse (&scene, text, "patch.yaml"));
@@ -142,8 +189,11 @@ static void points_without_a_surface_are_measured_inside (void **state)
 static void softness_is_a_pure_number (void **state)
 {
     (void) state;
-    static const tension few = { "integration: consistent", "", 2, 0.1, { 1, 1, 0 }, 0, 0 }, many = { "integration: consistent", "", 2, 0.04, { 1, 1, 0 }, 0, 0 }, bonds = { "force: bond", "", 2, 0.1, { 1, 1, 0 }, 0, 0 };
-    double a = measured (&few, 1, "").softness, b = measured (&many, 1, "").softness, c = measured (&few, 1e-9, "").softness, d = measured (&bonds, 1, "").softness;
+    static const tension few = { "integration: consistent", "", 2, 0.1, { 1, 1, 0 }, 0, 0 },
+                         many = { "integration: consistent", "", 2, 0.04, { 1, 1, 0 }, 0, 0 },
+                         bonds = { "force: bond", "", 2, 0.1, { 1, 1, 0 }, 0, 0 };
+    double a = measured (&few, 1, "").softness, b = measured (&many, 1, "").softness,
+           c = measured (&few, 1e-9, "").softness, d = measured (&bonds, 1, "").softness;
     print_message ("  softness %g, %g, %g, %g\n", a, b, c, d);
     assert_true (a > 0.3 && a < 30 && d > 0.3 && d < 30);
     assert_true (b > 0.5 * a && b < 2 * a);
@@ -166,16 +216,31 @@ static void refused (const tension *c, const char *more, const char *const *word
 static void too_wrong_is_refused (void **state)
 {
     (void) state;
-    static const tension bar = { "force: bond", "lattice: cells\n", 2, 0.1, { 1, 0.1, 0 }, 0, 0 }, wide = { "approximation: nosb, horizon: 4.5 spacing", "", 2, 0.1, { 1, 1, 0 }, 0, 0 },
-        accepted = { "approximation: nosb, horizon: 4.5 spacing, accept_inexact: yes", "", 2, 0.1, { 1, 1, 0 }, 0, 0 },
-        blind = { "basis: quadratic, horizon: 1.01 spacing, accept_inexact: yes", "", 2, 0.1, { 1, 1, 0 }, 0, 0 };
-    refused (&bar, "", (const char *const[]) { "patch.yaml:", "under uniform stress", "too soft", "points across, four horizons, and this body has 1", "accept_inexact", NULL });
+    static const tension
+        bar = { "force: bond", "lattice: cells\n", 2, 0.1, { 1, 0.1, 0 }, 0, 0 },
+        wide = { "approximation: nosb, horizon: 4.5 spacing", "", 2, 0.1, { 1, 1, 0 }, 0, 0 },
+        accepted = { "approximation: nosb, horizon: 4.5 spacing, accept_inexact: yes",
+                     "",
+                     2,
+                     0.1,
+                     { 1, 1, 0 },
+                     0,
+                     0 },
+        blind = {
+            "basis: quadratic, horizon: 1.01 spacing, accept_inexact: yes", "", 2, 0.1, { 1, 1, 0 }, 0, 0
+        };
+    refused (&bar, "",
+             (const char *const[]){ "patch.yaml:", "under uniform stress", "too soft",
+                                    "points across, four horizons, and this body has 1", "accept_inexact",
+                                    NULL });
     refused (&wide, "", (const char *const[]) { "under uniform stress", "integration: consistent", NULL });
-    refused (&blind, "", (const char *const[]) { "method.horizon", "400 of 900 evaluation points see too few points", NULL });
+    refused (&blind, "",
+             (const char *const[]){ "method.horizon", "400 of 900 evaluation points see too few points",
+                                    NULL });
     pg_scene *scene = scene_for (&accepted, 1, "");
     pg_problem *p = NULL;
     pg_solver_options o;
-    pg_report doubts = { 0 };
+    pg_statistics doubts = { 0 };
     check_ok (pg_problem_build (&p, scene, 1));
     check_ok (pg_patch_probe (p));
     check_ok (pg_patch_refuse (p, scene));
@@ -193,10 +258,13 @@ static void remark (const char *more, const char *expected)
     pg_scene *scene = NULL;
     pg_problem *p = NULL;
     pg_solver_options o;
-    pg_report doubts = { 0 };
+    pg_statistics doubts = { 0 };
     char text[2048];
-    snprintf (text, sizeof text, "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\n%s"
-              "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa}}]\nsolver: {kind: static}\n", more);
+    snprintf (text, sizeof text,
+              "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\n%s"
+              "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 "
+              "MPa}}]\nsolver: {kind: static}\n",
+              more);
     check_ok (pg_scene_parse (&scene, text, "patch.yaml"));
     check_ok (pg_problem_build (&p, scene, 1));
     check_ok (pg_patch_probe (p));
@@ -210,8 +278,10 @@ static void remark (const char *more, const char *expected)
 }
 
 #define ONE "materials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}}\n"
-#define TWO(E) "materials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0}, hard: {youngs_modulus: " E ", poissons_ratio: 0}}\n" \
-               "blocks: [{material: m, where: 'x <= 0.5'}, {material: hard, where: 'x > 0.5'}]\n"
+#define TWO(E) \
+    "materials: {m: {youngs_modulus: 1 GPa, poissons_ratio: 0}, hard: {youngs_modulus: " E \
+    ", poissons_ratio: 0}}\n" \
+    "blocks: [{material: m, where: 'x <= 0.5'}, {material: hard, where: 'x > 0.5'}]\n"
 
 static void what_was_hardly_meant_is_said (void **state)
 {
@@ -219,9 +289,11 @@ static void what_was_hardly_meant_is_said (void **state)
     remark (ONE "spacing: 0.1\n", "");
     remark (ONE "spacing: 2\n", "the spacing, 2 m, is larger than the body, which measures 1 m along x");
     remark (ONE "spacing: 0.02\ncracks: [{from: [-0.1, 0.53], to: [0.5, 0.53]}]\n", "");
-    remark (ONE "spacing: 0.1\ncracks: [{from: [-0.1, 0.53], to: [1.1, 0.53]}]\n", "the cracks cut the body into 2 parts: 55 of its 121 points");
+    remark (ONE "spacing: 0.1\ncracks: [{from: [-0.1, 0.53], to: [1.1, 0.53]}]\n",
+            "the cracks cut the body into 2 parts: 55 of its 121 points");
     remark (TWO ("1e11 Pa") "spacing: 0.1\n", "");
-    remark (TWO ("1e15 Pa") "spacing: 0.1\n", "material hard is 1e+06 times as stiff as m, and sees 36 % of it");
+    remark (TWO ("1e15 Pa") "spacing: 0.1\n",
+            "material hard is 1e+06 times as stiff as m, and sees 36 % of it");
     remark (TWO ("1e15 Pa") "spacing: 0.02\n", "sees 7.8 % of it");
     remark (TWO ("1e15 Pa") "spacing: 0.01\n", "");
 }

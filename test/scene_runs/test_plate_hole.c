@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The shipped plate with a hole, clamped and sliding, against the tables along its axes and first rows of points: every column within a
- * thousandth of its largest value. But u across an axis, on the row beside it, is 15 to 150 times smaller than u along: of that,
- * within 1e-4 of the largest displacement of the row. */
+ * The shipped plate with a hole, clamped and sliding, against the tables along its axes and first rows of
+ * points: every column within a thousandth of its largest value. But u across an axis, on the row beside it,
+ * is 15 to 150 times smaller than u along: of that, within 1e-4 of the largest displacement of the row. */
 #include "measured.h"
 
 static int across (const pg_line_norms *l)
@@ -13,7 +13,8 @@ static int across (const pg_line_norms *l)
 static double largest_on (const pg_errors *e, const pg_line_norms *l)
 {
     double top = 0;
-    for (size_t i = 0; i < e->nline; i++) if (!strcmp (e->line[i].file, l->file)) top = fmax (top, e->line[i].maximum.reference);
+    for (size_t i = 0; i < e->nline; i++)
+        if (!strcmp (e->line[i].file, l->file)) top = fmax (top, e->line[i].maximum.reference);
     return top;
 }
 
@@ -22,18 +23,22 @@ static void within_a_thousandth (const char *path, double force)
 {
     pg_errors e;
     run r = measured (path, 0, NULL, &e);
-    if (r.problem->nload > 2) assert_int_equal (r.problem->load[2].set->nfacet, 0);        /* the pin is one point inside */
+    /* the pin is one point inside */
+    if (r.problem->nload > 2) assert_int_equal (r.problem->load[2].set->nfacet, 0);
     assert_int_equal (e.nline, 6);
     for (size_t i = 0; i < e.nline; i++) {
         const pg_line_norms *l = &e.line[i];
         double of_row = l->maximum.difference / largest_on (&e, l);
-        print_message ("%s %s: %.2e of its largest value, %.2e of the largest displacement in the table, L2 %.2e\n", l->file,
-            pg_column_name (l->column), l->maximum.relative, of_row, l->l2.relative);
+        print_message (
+            "%s %s: %.2e of its largest value, %.2e of the largest displacement in the table, L2 %.2e\n",
+            l->file, pg_column_name (l->column), l->maximum.relative, of_row, l->l2.relative);
         assert_int_equal (l->missed, 0);
         assert_true (l->rows >= 40);
         check_below (of_row, across (l) ? 1e-4 : 1e-3);
         if (across (l)) check_below (l->maximum.reference, 0.1 * largest_on (&e, l));
-        check_below (l->maximum.relative, across (l) ? (l->column == 1 ? 1e-3 : 3e-3) : l->column == 1 ? 1.5e-4 : 5e-4);
+        check_below (l->maximum.relative, across (l)       ? (l->column == 1 ? 1e-3 : 3e-3)
+                                          : l->column == 1 ? 1.5e-4
+                                                           : 5e-4);
     }
     check_relative (r.step.reaction[1], force, 1e-4);
     check_relative (r.step.reaction[4], -r.step.reaction[1], 1e-8);
@@ -41,7 +46,10 @@ static void within_a_thousandth (const char *path, double force)
     clear (&r);
 }
 
-static void clamped (void **state) { (void) state, within_a_thousandth ("data/plate_hole/scene.yaml", 358072.80); }
+static void clamped (void **state)
+{
+    (void) state, within_a_thousandth ("data/plate_hole/scene.yaml", 358072.80);
+}
 
 static void sliding (void **state)
 {
@@ -49,12 +57,17 @@ static void sliding (void **state)
     within_a_thousandth ("data/plate_hole/scene_sliding.yaml", 350159.338);
 }
 
-/* The point that holds the sliding plate carries nothing: neither its place nor its motion changes the force. */
+/* The point that holds the sliding plate carries nothing: neither its place nor its motion changes the
+ * force. */
 static void the_pin_carries_nothing (void **state)
 {
-    static const char *const coarse[] = { "spacing=1 mm", "sets.pin.where=x > 0 mm and x < 0.6 mm and abs (y - 20.5 mm) < 0.1 mm" };
-    static const char *const other[] = { "spacing=1 mm", "sets.pin.where=x > 20 mm and x < 21 mm and abs (y - 0.5 mm) < 0.1 mm",
-                                         "boundary[2].displacement.x=0.1 mm" };
+    static const char *const coarse[] = {
+        "spacing=1 mm", "sets.pin.where=x > 0 mm and x < 0.6 mm and abs (y - 20.5 mm) < 0.1 mm"
+    };
+    static const char *const other[] = {
+        "spacing=1 mm", "sets.pin.where=x > 20 mm and x < 21 mm and abs (y - 0.5 mm) < 0.1 mm",
+        "boundary[2].displacement.x=0.1 mm"
+    };
     pg_errors e;
     (void) state;
     run a = measured ("data/plate_hole/scene_sliding.yaml", 2, coarse, &e);
@@ -70,6 +83,7 @@ static void the_pin_carries_nothing (void **state)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (clamped), cmocka_unit_test (sliding), cmocka_unit_test (the_pin_carries_nothing) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (clamped), cmocka_unit_test (sliding),
+                                        cmocka_unit_test (the_pin_carries_nothing) };
     return cmocka_run_group_tests_name ("scene_runs/plate_hole", tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Scenes zhou_2 and glass_branching, coarser: both sides of every axis of symmetry break bond by bond alike, the crack waits for the waves,
- * runs along its axis no faster than Rayleigh waves, and in glass splits into two where the scene at its own spacing does. */
+ * Scenes zhou_2 and glass_branching, coarser: both sides of every axis of symmetry break bond by bond alike,
+ * the crack waits for the waves, runs along its axis no faster than Rayleigh waves, and in glass splits into
+ * two where the scene at its own spacing does. */
 #include "run.h"
 
 /* Of each point the one at the mirrored place: x[axis] -> -x[axis]. */
@@ -13,7 +14,9 @@ static int *mirror_of (const pg_cloud *cloud, int axis)
         double x[2] = { cloud->x[2*i], cloud->x[2*i + 1] };
         x[axis] = -x[axis];
         mirror[i] = (int) pg_nearest_find (nearest, x, NULL, NULL);
-        assert_true (hypot (cloud->x[2 * (size_t) mirror[i]] - x[0], cloud->x[2 * (size_t) mirror[i] + 1] - x[1]) < 1e-6 * cloud->h);
+        assert_true (
+            hypot (cloud->x[2 * (size_t) mirror[i]] - x[0], cloud->x[2 * (size_t) mirror[i] + 1] - x[1])
+            < 1e-6 * cloud->h);
     }
     pg_nearest_free (&nearest);
     return mirror;
@@ -42,7 +45,8 @@ static size_t unlike_their_image (const run *r, int axis, size_t *dead)
     return unlike;
 }
 
-/* The damaged points: how far along x, off the axis, and along x among those of the two rows next to the axis. */
+/* The damaged points: how far along x, off the axis, and along x among those of the two rows next to the
+ * axis. */
 typedef struct { double tip, off, fork; } extent;
 static extent look (const run *r)
 {
@@ -73,7 +77,8 @@ static double arrives (run *r, double x)
 static void a_centre_crack_runs_straight_and_alike_to_both_sides (void **state)
 {
     (void) state;
-    static const char *const set[] = { "spacing=0.25 mm", "failure.critical_stretch=0.028283", "solver={kind: verlet, dt: 3.34175e-8 s, time_steps: 400}",
+    static const char *const set[] = { "spacing=0.25 mm", "failure.critical_stretch=0.028283",
+                                       "solver={kind: verlet, dt: 3.34175e-8 s, time_steps: 400}",
                                        "output.at={levels: 1, rows: 400}" };
     run r = loaded ("data/zhou_2/scene.yaml", 4, set);
     pg_waves w = pg_material_waves (&r.problem->material[0]);
@@ -87,9 +92,11 @@ static void a_centre_crack_runs_straight_and_alike_to_both_sides (void **state)
     double early = arrives (&r, 7e-3), late = arrives (&r, 13e-3);
     to_the_end (&r);
     extent e = look (&r);
-    print_message ("first bond at %.3g us (waves: %.3g us), %.2f of c_R between 7 and 13 mm, tip at %.4g mm, damaged up to %.3g mm off the axis\n", 1e6 * start,
-                   25e-3 / w.pressure * 1e6, 6e-3 / (late - early) / w.rayleigh, 1e3 * e.tip, 1e3 * e.off);
-    assert_true (start > 25e-3 / w.pressure);          /* no bond breaks before the waves from the grips are there    */
+    print_message ("first bond at %.3g us (waves: %.3g us), %.2f of c_R between 7 and 13 mm, tip at %.4g mm, "
+                   "damaged up to %.3g mm off the axis\n",
+                   1e6 * start, 25e-3 / w.pressure * 1e6, 6e-3 / (late - early) / w.rayleigh, 1e3 * e.tip,
+                   1e3 * e.off);
+    assert_true (start > 25e-3 / w.pressure);  /* no bond breaks before the waves from the grips are there */
     check_below (start, 1.3 * 25e-3 / w.pressure);
     assert_true (6e-3 / (late - early) > 0.3 * w.rayleigh && 6e-3 / (late - early) < w.rayleigh);
     assert_true (e.tip > 15e-3 && e.tip < 18e-3);
@@ -114,8 +121,9 @@ static void a_crack_in_glass_branches_in_two_alike (void **state)
     extent straight = look (&r);
     double far = arrives (&r, 85e-3);
     extent e = look (&r);
-    print_message ("%.2f of c_R between 52 and 62 mm, fork at %.4g mm, branches %.2f of c_R along the axis, %.3g mm off it at 85 mm\n", 10e-3 / (late - early) / c_R,
-                   1e3 * e.fork, 23e-3 / (far - late) / c_R, 1e3 * e.off);
+    print_message ("%.2f of c_R between 52 and 62 mm, fork at %.4g mm, branches %.2f of c_R along the axis, "
+                   "%.3g mm off it at 85 mm\n",
+                   10e-3 / (late - early) / c_R, 1e3 * e.fork, 23e-3 / (far - late) / c_R, 1e3 * e.off);
     check_below (straight.off, 1.5e-3);
     assert_true (e.fork > 62e-3 && e.fork < 68e-3);
     assert_true (e.off > 5e-3 && e.off < 12e-3);
@@ -128,6 +136,8 @@ static void a_crack_in_glass_branches_in_two_alike (void **state)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (a_centre_crack_runs_straight_and_alike_to_both_sides), cmocka_unit_test (a_crack_in_glass_branches_in_two_alike) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (
+                                            a_centre_crack_runs_straight_and_alike_to_both_sides),
+                                        cmocka_unit_test (a_crack_in_glass_branches_in_two_alike) };
     return cmocka_run_group_tests_name ("scene_runs/running_cracks", tests, NULL, NULL);
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Brazilian disk without crack: centre stresses 2P/(pi D t) and -6P/(pi D t) of two point loads P (measured reaction). The platens are
- * smooth and two facets wide, so that they shrink to points with the spacing; x = 0 is held on the axis of symmetry, where it takes
- * no force. Rough platens add a pair of opposite shear forces that shifts both stresses by 1 to 2 % at the same width: no error. */
+ * Brazilian disk without crack: centre stresses 2P/(pi D t) and -6P/(pi D t) of two point loads P (measured
+ * reaction). The platens are smooth and two facets wide, so that they shrink to points with the spacing; x =
+ * 0 is held on the axis of symmetry, where it takes no force. Rough platens add a pair of opposite shear
+ * forces that shifts both stresses by 1 to 2 % at the same width: no error. */
 #include "run.h"
 
 static const double pi = 3.14159265358979323846;
@@ -12,7 +13,8 @@ static void centre_errors (const run *r, double *error, double *P)
     size_t centre = 0;
     const double *x = r->problem->cloud.x;
     double *stress = field_of (r, NULL, "stress", NULL), unit;
-    for (size_t i = 1; i < r->problem->cloud.n; i++) if (hypot (x[2*i], x[2*i + 1]) < hypot (x[2*centre], x[2*centre + 1])) centre = i;
+    for (size_t i = 1; i < r->problem->cloud.n; i++)
+        if (hypot (x[2 * i], x[2 * i + 1]) < hypot (x[2 * centre], x[2 * centre + 1])) centre = i;
     check_below (hypot (x[2*centre], x[2*centre + 1]), 1e-9);
     *P = -r->step.reaction[1];
     unit = 2 * *P / (pi * 0.1 * 0.01);
@@ -30,13 +32,18 @@ static void check_reactions (const run *r, double P)
 
 static run disk_of (double mm, const char *essential)
 {
-    return scene_of (1, "dimension: 2\nthickness: 10 mm\nbody: [{add: {disk: {center: [0, 0], diameter: 100 mm}}}]\nspacing: %g mm\n"
+    return scene_of (
+        1,
+        "dimension: 2\nthickness: 10 mm\nbody: [{add: {disk: {center: [0, 0], diameter: 100 mm}}}]\nspacing: "
+        "%g mm\n"
         "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
         "sets: {platens: {boundary: rim, where: 'abs(x) < %g mm'}, axis: {where: 'abs(x) < 0.001 mm'}}\n"
         "method: {approximation: rkpm, integration: gauss, essential: %s}\n"
-        "boundary:\n  - {set: platens.top, displacement: {y: -20 um}}\n  - {set: platens.bottom, displacement: {y: 20 um}}\n"
-        "  - {set: axis, displacement: {x: 0}}\nsolver: {stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n", mm, 1.01 * mm,
-            essential);
+        "boundary:\n  - {set: platens.top, displacement: {y: -20 um}}\n  - {set: platens.bottom, "
+        "displacement: {y: 20 um}}\n"
+        "  - {set: axis, displacement: {x: 0}}\nsolver: {stepping: fixed, steps: 1}\noutput: {at: {levels: "
+        "1}}\n",
+        mm, 1.01 * mm, essential);
 }
 
 static void convergence (const char *essential)
@@ -47,8 +54,8 @@ static void convergence (const char *essential)
         to_the_end (&r);
         centre_errors (&r, error[k], &P[k]);
         check_reactions (&r, P[k]);
-        print_message ("%s, spacing %4.2f mm: P = %.1f N, across %+.3f %%, along %+.3f %%\n", essential, 5 / pow (2, k), P[k],
-            100 * error[k][0], 100 * error[k][1]);
+        print_message ("%s, spacing %4.2f mm: P = %.1f N, across %+.3f %%, along %+.3f %%\n", essential,
+                       5 / pow (2, k), P[k], 100 * error[k][0], 100 * error[k][1]);
         clear (&r);
     }
     for (int c = 0; c < 2; c++) {
@@ -59,7 +66,10 @@ static void convergence (const char *essential)
 }
 
 static void centre_stresses_converge_with_nitsche (void **state) { (void) state, convergence ("auto"); }
-static void centre_stresses_converge_with_transformation (void **state) { (void) state, convergence ("transformation"); }
+static void centre_stresses_converge_with_transformation (void **state)
+{
+    (void) state, convergence ("transformation");
+}
 
 static void the_shipped_scene_is_within_one_percent (void **state)
 {
@@ -82,7 +92,8 @@ static void the_shipped_scene_is_within_one_percent (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (centre_stresses_converge_with_nitsche), cmocka_unit_test (centre_stresses_converge_with_transformation),
+        cmocka_unit_test (centre_stresses_converge_with_nitsche),
+        cmocka_unit_test (centre_stresses_converge_with_transformation),
         cmocka_unit_test (the_shipped_scene_is_within_one_percent),
     };
     return cmocka_run_group_tests_name ("scene_runs/uncracked_disk", tests, NULL, NULL);

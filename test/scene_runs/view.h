@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * view.h: one plate seen in other coordinates and units. What does not depend on the observer must not change. */
+ * view.h: one plate seen in other coordinates and units. What does not depend on the observer must not
+ * change. */
 #ifndef PERIGAL_TEST_VIEW_H
 #define PERIGAL_TEST_VIEW_H
 #include "run.h"
@@ -19,8 +20,8 @@ static inline void check_box (const view *v, double width, double height, char *
     double a[2], b[2];
     seen (v, (double[2]) { 0, 0 }, a);
     seen (v, (double[2]) { width, height }, b);
-    snprintf (out, size, "{low: [%.17g, %.17g], high: [%.17g, %.17g]}", fmin (a[0], b[0]), fmin (a[1], b[1]), fmax (a[0], b[0]),
-        fmax (a[1], b[1]));
+    snprintf (out, size, "{low: [%.17g, %.17g], high: [%.17g, %.17g]}", fmin (a[0], b[0]), fmin (a[1], b[1]),
+              fmax (a[0], b[0]), fmax (a[1], b[1]));
 }
 
 /* For each node of `from` the node of `to` at its image (within 1e-6 spacings). */
@@ -42,7 +43,8 @@ static inline int *images (const view *v, const run *from, const run *to)
     return image;
 }
 
-/* Largest difference of the rotations of points in the plane, relative to the largest; 0 where points do not turn */
+/* Largest difference of the rotations of points in the plane, relative to the largest; 0 where points do not
+ * turn */
 static inline double rotation_difference (const view *v, const run *a, const run *b, const int *image)
 {
     size_t n = a->problem->cloud.n;
@@ -50,19 +52,21 @@ static inline double rotation_difference (const view *v, const run *a, const run
     assert_int_equal (a->problem->turns, b->problem->turns);
     if (!a->problem->turns) return 0;
     double *ra = field_of (a, NULL, "rotation", NULL), *rb = field_of (b, NULL, "rotation", NULL);
-    for (size_t i = 0; i < n; i++) top = fmax (top, fabs (ra[i])), worst = fmax (worst, fabs (rb[image[i]] * v->sx * v->sy - ra[i]));
+    for (size_t i = 0; i < n; i++)
+        top = fmax (top, fabs (ra[i])), worst = fmax (worst, fabs (rb[image[i]] * v->sx * v->sy - ra[i]));
     assert_true (top > 0 && isfinite (top));
     pg_free (ra), pg_free (rb);
     return worst / top;
 }
 
-/* Largest difference of displacement and rotation (and, stress != NULL, of stress) at image points, relative to the largest value */
+/* Largest difference of displacement and rotation (and, stress != NULL, of stress) at image points, relative
+ * to the largest value */
 static inline double displacement_difference (const view *v, const run *a, const run *b, double *stress)
 {
     size_t n = a->problem->cloud.n;
     int *image = images (v, a, b);
-    double *ua = field_of (a, NULL, "displacement", NULL), *ub = field_of (b, NULL, "displacement", NULL), top = largest_of (ua, 2 * n),
-        worst = 0;
+    double *ua = field_of (a, NULL, "displacement", NULL), *ub = field_of (b, NULL, "displacement", NULL),
+           top = largest_of (ua, 2 * n), worst = 0;
     for (size_t i = 0; i < n; i++) {
         const double *u = ub + 2 * (size_t) image[i];
         worst = fmax (worst, fabs (u[0] / (v->length * v->sx) - ua[2*i]));
@@ -71,7 +75,8 @@ static inline double displacement_difference (const view *v, const run *a, const
     assert_true (top > 0 && isfinite (top));
     double turn = rotation_difference (v, a, b, image);
     if (stress) {
-        double *sa = field_of (a, NULL, "stress", NULL), *sb = field_of (b, NULL, "stress", NULL), strength = largest_of (sa, 3 * n);
+        double *sa = field_of (a, NULL, "stress", NULL), *sb = field_of (b, NULL, "stress", NULL),
+               strength = largest_of (sa, 3 * n);
         *stress = 0;
         for (size_t i = 0; i < n; i++) {
             const double *s = sb + 3 * (size_t) image[i], back[3] = { s[0] / v->stress, s[1] / v->stress,
@@ -84,9 +89,10 @@ static inline double displacement_difference (const view *v, const run *a, const
     return fmax (worst / top, turn);
 }
 
-/* A points file of an nx by ny grid h apart from the origin on, moved at random by up to amount h, in an order that the seed shuffles
- * (0: by rows). The positions do not depend on the seed. */
-static inline void write_points (const char *path, int nx, int ny, double h, double amount, unsigned long long seed)
+/* A points file of an nx by ny grid h apart from the origin on, moved at random by up to amount h, in an
+ * order that the seed shuffles (0: by rows). The positions do not depend on the seed. */
+static inline void write_points (const char *path, int nx, int ny, double h, double amount,
+                                 unsigned long long seed)
 {
     int n = nx * ny, *order = pg_calloc ((size_t) n, sizeof *order);
     double *x = pg_calloc (2 * (size_t) n, sizeof *x);
@@ -94,7 +100,9 @@ static inline void write_points (const char *path, int nx, int ny, double h, dou
     for (int i = 0; i < n; i++)
         for (int k = 0; k < 2; k++) {
             place = place * 6364136223846793005ull + 1442695040888963407ull;
-            x[2*i + k] = h * ((k ? i / nx : i % nx) + amount * ((double) (place >> 11) / 4503599627370496.0 - 1));
+            x[2 * i + k] = h
+                           * ((k ? i / nx : i % nx)
+                              + amount * ((double) (place >> 11) / 4503599627370496.0 - 1));
         }
     for (int i = 0; i < n; i++) order[i] = i;
     for (int i = n - 1; seed && i > 0; i--) {
@@ -104,7 +112,8 @@ static inline void write_points (const char *path, int nx, int ny, double h, dou
     }
     FILE *file = fopen (path, "w");
     assert_non_null (file);
-    for (int i = 0; i < n; i++) fprintf (file, "%.17g, %.17g, %.17g\n", x[2*order[i]], x[2*order[i] + 1], h * h * 0.02);
+    for (int i = 0; i < n; i++)
+        fprintf (file, "%.17g, %.17g, %.17g\n", x[2 * order[i]], x[2 * order[i] + 1], h * h * 0.02);
     fclose (file);
     pg_free (x), pg_free (order);
 }

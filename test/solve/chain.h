@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * chain.h: masses in a row, springs between them, the first one prescribed or held by a spring, a load on the last one: a force of our own
- * for explicit and relaxed methods, of which everything is known in closed form. */
+ * chain.h: masses in a row, springs between them, the first one prescribed or held by a spring, a load on the
+ * last one: a force of our own for explicit and relaxed methods, of which everything is known in closed
+ * form. */
 #ifndef PERIGAL_TEST_CHAIN_H
 #define PERIGAL_TEST_CHAIN_H
 #include "check.h"
@@ -8,22 +9,28 @@
 
 enum { MOST = 400 };
 typedef struct {
-    size_t n;                                          /* masses                                                         */
-    double k, ground, m;                               /* springs, that to the ground at the first mass, mass            */
-    double (*push) (double t);                         /* load on the last mass; NULL: none                              */
-    double (*lead) (double t);                         /* motion of the first mass; NULL: free                           */
-    int tied;                                          /* basis that is no selection                                     */
-    pg_sparse T, K; long Tstart[MOST + 1], Trow[2 * MOST], Kstart[MOST + 1], Krow[2 * MOST]; double Tvalue[2 * MOST], Kvalue[2 * MOST];
+    size_t n;                                          /* masses */
+    double k, ground, m;  /* springs, that to the ground at the first mass, mass */
+    double (*push) (double t);                         /* load on the last mass; NULL: none */
+    double (*lead) (double t);                         /* motion of the first mass; NULL: free */
+    int tied;                                          /* basis that is no selection */
+    pg_sparse T, K;
+    long Tstart[MOST + 1], Trow[2 * MOST], Kstart[MOST + 1], Krow[2 * MOST];
+    double Tvalue[2 * MOST], Kvalue[2 * MOST];
     pg_operator op;
 } chain;
 static chain the;
 
-static double chain_pull (const chain *c, size_t i, const double *d)       /* internal force on mass i, to be subtracted */
+/* internal force on mass i, to be subtracted */
+static double chain_pull (const chain *c, size_t i, const double *d)
 {
     double f = i == 0 ? c->ground * d[0] : c->k * (d[i] - d[i - 1]);
     return i + 1 < c->n ? f - c->k * (d[i + 1] - d[i]) : f;
 }
-static void chain_apply (void *context, const double *x, double *y) { for (size_t i = 0; i < the.n; i++) y[i] = chain_pull (context, i, x); }
+static void chain_apply (void *context, const double *x, double *y)
+{
+    for (size_t i = 0; i < the.n; i++) y[i] = chain_pull (context, i, x);
+}
 static void chain_diagonal (void *context, double *d)
 {
     const chain *c = context;
@@ -34,7 +41,9 @@ static pg_status chain_create (void **self, const pg_problem *problem)
     size_t n = the.n;
     (void) problem;
     the.op = (pg_operator) { n, &the, chain_apply, chain_diagonal };
-    the.T = (pg_sparse) { .nrow = n, .ncol = n - 1, .start = the.Tstart, .row = the.Trow, .value = the.Tvalue };
+    the.T = (pg_sparse){
+        .nrow = n, .ncol = n - 1, .start = the.Tstart, .row = the.Trow, .value = the.Tvalue
+    };
     the.K = (pg_sparse) { .nrow = n, .ncol = n, .start = the.Kstart, .row = the.Krow, .value = the.Kvalue };
     long at = 0;
     for (size_t j = 0; j + 1 < n; j++) {
@@ -84,7 +93,8 @@ static pg_status chain_impose (void *self, double t, double *d)
     if (the.lead) d[0] = ((chain *) self)->lead (t);
     return PG_OK;
 }
-static pg_status chain_ledger (void *self, double t, const double *d, const double *inertia, pg_ledger *out)
+static pg_status chain_work_balance (void *self, double t, const double *d, const double *inertia,
+                                     pg_work_balance *out)
 {
     pg_status status = PG_OK;
     const chain *c = self;
@@ -96,7 +106,8 @@ static pg_status chain_ledger (void *self, double t, const double *d, const doub
         PG_ALLOC (out->reaction, 3);
     }
     chain_balance (self, t, d, r, NULL);
-    out->force[0] = c->lead ? -(r[0] + (inertia ? inertia[0] : 0)) : 0, out->displacement[0] = c->lead ? d[0] : 0;
+    out->force[0] = c->lead ? -(r[0] + (inertia ? inertia[0] : 0)) : 0,
+    out->displacement[0] = c->lead ? d[0] : 0;
     out->reaction[0] = out->force[0];
     out->force[1] = c->push ? c->push (t) : 0, out->displacement[1] = d[c->n - 1];
     out->strain = 0.5 * c->ground * d[0] * d[0];
@@ -114,15 +125,25 @@ static pg_status chain_external (void *self, double t, double *P)
 static pg_status chain_row_sums (void *self, double *sum)
 {
     const chain *c = self;
-    for (size_t i = 0; i < c->n; i++) sum[i] = (i == 0 ? c->ground : 2 * c->k) + (i + 1 < c->n ? 2 * c->k : 0);
+    for (size_t i = 0; i < c->n; i++)
+        sum[i] = (i == 0 ? c->ground : 2 * c->k) + (i + 1 < c->n ? 2 * c->k : 0);
     return PG_OK;
 }
-static const pg_force_type chain_type = {
-    .name = "chain", .create = chain_create, .free = chain_free, .fields = chain_fields, .balance = chain_balance, .mass = chain_mass,
-    .operator_ = chain_operator, .matrix = chain_matrix, .basis = chain_basis, .impose = chain_impose, .ledger = chain_ledger,
-    .external = chain_external, .row_sums = chain_row_sums };
+static const pg_force_type chain_type = { .name = "chain",
+                                          .create = chain_create,
+                                          .free = chain_free,
+                                          .fields = chain_fields,
+                                          .balance = chain_balance,
+                                          .mass = chain_mass,
+                                          .operator_ = chain_operator,
+                                          .matrix = chain_matrix,
+                                          .basis = chain_basis,
+                                          .impose = chain_impose,
+                                          .work_balance = chain_work_balance,
+                                          .external = chain_external,
+                                          .row_sums = chain_row_sums };
 
-/* ---- a problem around it ---------------------------------------------------------------------------------------------------- */
+/* ---- a problem around it ------------------------------------------------------------------------------- */
 typedef struct {
     double x[MOST], volume[MOST]; int block[MOST];
     pg_load load; pg_set set; pg_material material; pg_criterion none;
@@ -138,15 +159,26 @@ static inline pg_status try_link (linked *l, const pg_solver_options *o, const p
     l->load.kind = the.lead ? PG_DISPLACEMENT : PG_POINT_FORCE;
     l->load.essential = PG_ESSENTIAL_TRANSFORMATION;
     if (the.push) l->load.kind = PG_POINT_FORCE;
-    l->problem = (pg_problem) { .dim = 1, .threads = 1, .cloud = { .dim = 1, .n = the.n, .x = l->x, .volume = l->volume, .block = l->block, .h = 1 },
-                                .criterion = &l->none, .material = &l->material, .nmaterial = 1, .load = &l->load, .nload = the.push || the.lead };
+    l->problem = (pg_problem){
+        .dim = 1,
+        .threads = 1,
+        .cloud = { .dim = 1, .n = the.n, .x = l->x, .volume = l->volume, .block = l->block, .h = 1 },
+        .criterion = &l->none,
+        .material = &l->material,
+        .nmaterial = 1,
+        .load = &l->load,
+        .nload = the.push || the.lead
+    };
     PG_TRY (pg_solver_create_with (&l->solver, &l->problem, o, type));
     PG_TRY (pg_state_create (&l->state, &l->problem, 1));
 done:
     return status;
 }
 
-static inline void link_up (linked *l, const pg_solver_options *o, const pg_force_type *type) { check_ok (try_link (l, o, type)); }
+static inline void link_up (linked *l, const pg_solver_options *o, const pg_force_type *type)
+{
+    check_ok (try_link (l, o, type));
+}
 
 static inline void unlink_all (linked *l)
 {
@@ -154,7 +186,8 @@ static inline void unlink_all (linked *l)
     pg_solver_free (&l->solver);
 }
 
-/* Making the solver and one step with each allocation failing in turn: told as that, and nothing is left behind. */
+/* Making the solver and one step with each allocation failing in turn: told as that, and nothing is left
+ * behind. */
 static inline void each_allocation_may_fail (const pg_solver_options *o)
 {
     linked l;

@@ -21,13 +21,27 @@ done:
     return status;
 }
 static int reading;
-static inline pg_status keep_numbers (void *c, const char *name, size_t n, double *v) { (void) name; return run_tape (c, n * sizeof *v, v, reading); }
-static inline pg_status keep_counts (void *c, const char *name, size_t n, long *v) { (void) name; return run_tape (c, n * sizeof *v, v, reading); }
-static inline pg_status keep_bytes (void *c, const char *name, size_t n, void *v) { (void) name; return run_tape (c, n, v, reading); }
+static inline pg_status keep_numbers (void *c, const char *name, size_t n, double *v)
+{
+    (void) name;
+    return run_tape (c, n * sizeof *v, v, reading);
+}
+static inline pg_status keep_counts (void *c, const char *name, size_t n, long *v)
+{
+    (void) name;
+    return run_tape (c, n * sizeof *v, v, reading);
+}
+static inline pg_status keep_bytes (void *c, const char *name, size_t n, void *v)
+{
+    (void) name;
+    return run_tape (c, n, v, reading);
+}
 
 static inline void keep (run *r, tape *t, int read)
 {
-    pg_keeper k = { .context = t, .reading = read, .numbers = keep_numbers, .counts = keep_counts, .bytes = keep_bytes };
+    pg_keeper k = {
+        .context = t, .reading = read, .numbers = keep_numbers, .counts = keep_counts, .bytes = keep_bytes
+    };
     reading = read, t->at = 0;
     check_ok (pg_solver_keep (r->solver, r->state, &k));
 }

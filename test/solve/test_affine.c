@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Event stepping under loads with a constant part: closed forms, the proportional path, fixed steps, every criterion, resume; a constant part that
- * drives the crack by itself; what is no such load. */
+ * Event stepping under loads with a constant part: closed forms, the proportional path, fixed steps, every
+ * criterion, resume; a constant part that drives the crack by itself; what is no such load. */
 #include "scene_runs/run.h"
 #include "tape.h"
 
-#define PLATE "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 10 mm]}}}]\nspacing: 1 mm\ncracks: [{from: [0, 5 mm], to: [6 mm, 5 mm]}]\n" \
+#define PLATE \
+    "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 10 " \
+    "mm]}}}]\nspacing: 1 mm\ncracks: [{from: [0, 5 mm], to: [6 mm, 5 mm]}]\n" \
     "materials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: %s}}\n"
 #define HELD "  - {set: bottom, displacement: {x: 0, y: 0}}\n"
 #define PULL "  - {set: top, displacement: {y: 10 um}}\n"
@@ -13,16 +15,27 @@
 static void a_bar_breaks_in_closed_form (void **state)
 {
     (void) state;
-    static const struct { const char *limit; double expected; } laws[] = {
-        { "criterion: principal_stress, tensile_strength: 2.5 MPa", 0.75 }, { "criterion: stretch, critical_stretch: 2.5e-4, stretch: linear", 0.75 },
-        { "criterion: stretch, critical_stretch: 2.5e-4, stretch: finite", 0.75 }, { "criterion: mohr_coulomb, tensile_strength: 2.5 MPa, cohesion: 100 MPa, friction_angle: 30 deg", 0.75 },
+    static const struct { const char *limit; double expected;
+    } laws[] = {
+        { "criterion: principal_stress, tensile_strength: 2.5 MPa", 0.75 },
+        { "criterion: stretch, critical_stretch: 2.5e-4, stretch: linear", 0.75 },
+        { "criterion: stretch, critical_stretch: 2.5e-4, stretch: finite", 0.75 },
+        { "criterion: mohr_coulomb, tensile_strength: 2.5 MPa, cohesion: 100 MPa, friction_angle: 30 deg",
+          0.75 },
     };
     for (int l = 0; l < 4; l++)
         for (int way = 0; way < 2; way++) {
-            static const char *const loads[] = { "  - {set: right, traction: {x: 1 MPa}, ramp: constant}\n  - {set: right, traction: {x: 2 MPa}}\n", "  - {set: right, traction: {x: 1 MPa}, ramp: 1 + 2*t}\n" };
-            run r = scene_of (1, "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [0, 0], high: [1, 0.4]}}}]\nspacing: 0.1\nmaterials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0}}\n"
-                              "method: {integration: consistent}\nfailure: {%s, exclude: [left]}\nboundary:\n  - {set: left, displacement: {x: 0, y: 0}}\n%ssolver: {stepping: event, max_events: 1}\noutput: {at: {levels: 2}}\n",
-                              laws[l].limit, loads[way]);
+            static const char *const loads[] = { "  - {set: right, traction: {x: 1 MPa}, ramp: constant}\n  "
+                                                 "- {set: right, traction: {x: 2 MPa}}\n",
+                                                 "  - {set: right, traction: {x: 1 MPa}, ramp: 1 + 2*t}\n" };
+            run r = scene_of (
+                1,
+                "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [0, 0], high: [1, "
+                "0.4]}}}]\nspacing: 0.1\nmaterials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0}}\n"
+                "method: {integration: consistent}\nfailure: {%s, exclude: [left]}\nboundary:\n  - {set: "
+                "left, displacement: {x: 0, y: 0}}\n%ssolver: {stepping: event, max_events: 1}\noutput: {at: "
+                "{levels: 2}}\n",
+                laws[l].limit, loads[way]);
             advance (&r);
             assert_true (r.state->factor == 0 && r.step.nbroken == 0 && r.step.level);
             check_relative (r.step.reaction[3], 0.4e6, 1e-12);
@@ -41,9 +54,13 @@ static void a_bar_breaks_in_closed_form (void **state)
 static void a_run_without_events_ends_with_its_last_level (void **state)
 {
     (void) state;
-    run r = scene_of (1, "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [0, 0], high: [1, 0.4]}}}]\nspacing: 0.1\nmaterials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0}}\n"
-                      "failure: {criterion: principal_stress, tensile_strength: 5 GPa}\nboundary:\n  - {set: left, displacement: {x: 0, y: 0}}\n  - {set: right, traction: {x: 1 MPa}, ramp: 1 + 2*t}\n"
-                      "solver: {stepping: event}\noutput: {at: {levels: 4}}\n");
+    run r =
+        scene_of (1,
+                  "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [0, 0], high: [1, "
+                  "0.4]}}}]\nspacing: 0.1\nmaterials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0}}\n"
+                  "failure: {criterion: principal_stress, tensile_strength: 5 GPa}\nboundary:\n  - {set: "
+                  "left, displacement: {x: 0, y: 0}}\n  - {set: right, traction: {x: 1 MPa}, ramp: 1 + 2*t}\n"
+                  "solver: {stepping: event}\noutput: {at: {levels: 4}}\n");
     for (int level = 0; level <= 4; level++) {
         assert_false (pg_solver_done (r.solver, r.state));
         advance (&r);
@@ -54,15 +71,23 @@ static void a_run_without_events_ends_with_its_last_level (void **state)
     clear (&r);
 }
 
-static const struct { const char *nu, *keys; } cases[] = {
+static const struct { const char *nu, *keys;
+} cases[] = {
     { "0.22", "failure: {criterion: principal_stress, tensile_strength: 30 MPa, exclude: [right]}\n" },
-    { "0.22", "failure: {criterion: mohr_coulomb, tensile_strength: 30 MPa, cohesion: 60 MPa, friction_angle: 40 deg, exclude: [right]}\nmethod: {integration: nodal}\n" },
-    { "0.22", "failure: {criterion: stretch, critical_stretch: 4e-4, exclude: [right]}\nmethod: {essential: transformation}\n" },
-    { "0.22", "failure: {criterion: principal_stress, tensile_strength: 30 MPa, exclude: [right]}\nmethod: {approximation: nosb, integration: nodal, horizon: 2.5 spacing}\n" },
-    { "0.3333333333333333", "failure: {criterion: stretch, critical_stretch: 4e-4, exclude: [right]}\nmethod: {force: bond, horizon: 3 spacing}\n" },
-    { "0.3333333333333333", "failure: {fracture_energy: 20 J/m2, exclude: [right]}\nmethod: {force: fcbm, horizon: 3 spacing}\n" },
-    { "0.22", "failure: {criterion: stretch, critical_stretch: 4e-4, exclude: [right]}\nmethod: {force: lps, horizon: 3 spacing}\n" },
-    { "0.22", "failure: {criterion: beam_limits, fracture_energy: 20 J/m2, exclude: [right]}\nmethod: {force: gmpd, horizon: 3 spacing}\n" },
+    { "0.22", "failure: {criterion: mohr_coulomb, tensile_strength: 30 MPa, cohesion: 60 MPa, "
+              "friction_angle: 40 deg, exclude: [right]}\nmethod: {integration: nodal}\n" },
+    { "0.22", "failure: {criterion: stretch, critical_stretch: 4e-4, exclude: [right]}\nmethod: {essential: "
+              "transformation}\n" },
+    { "0.22", "failure: {criterion: principal_stress, tensile_strength: 30 MPa, exclude: [right]}\nmethod: "
+              "{approximation: nosb, integration: nodal, horizon: 2.5 spacing}\n" },
+    { "0.3333333333333333", "failure: {criterion: stretch, critical_stretch: 4e-4, exclude: "
+                            "[right]}\nmethod: {force: bond, horizon: 3 spacing}\n" },
+    { "0.3333333333333333",
+      "failure: {fracture_energy: 20 J/m2, exclude: [right]}\nmethod: {force: fcbm, horizon: 3 spacing}\n" },
+    { "0.22", "failure: {criterion: stretch, critical_stretch: 4e-4, exclude: [right]}\nmethod: {force: lps, "
+              "horizon: 3 spacing}\n" },
+    { "0.22", "failure: {criterion: beam_limits, fracture_energy: 20 J/m2, exclude: [right]}\nmethod: "
+              "{force: gmpd, horizon: 3 spacing}\n" },
 };
 enum { CASES = sizeof cases / sizeof *cases, EVENTS = 12 };
 
@@ -71,8 +96,14 @@ static void without_a_constant_part_the_events_are_the_same (void **state)
 {
     (void) state;
     for (int c = 0; c < CASES; c++) {
-        run a = scene_of (1, PLATE "%sboundary:\n" HELD PULL "solver: {stepping: event, max_events: %d}\noutput: {at: {levels: 1}}\n", cases[c].nu, cases[c].keys, EVENTS),
-            b = scene_of (1, PLATE "%sboundary:\n" HELD PULL "  - {set: right, force: {x: 0}, ramp: constant}\nsolver: {stepping: event, max_events: %d}\noutput: {at: {levels: 1}}\n",
+        run a = scene_of (1,
+                          PLATE "%sboundary:\n" HELD PULL
+                                "solver: {stepping: event, max_events: %d}\noutput: {at: {levels: 1}}\n",
+                          cases[c].nu, cases[c].keys, EVENTS),
+            b = scene_of (1,
+                          PLATE "%sboundary:\n" HELD PULL
+                                "  - {set: right, force: {x: 0}, ramp: constant}\nsolver: {stepping: event, "
+                                "max_events: %d}\noutput: {at: {levels: 1}}\n",
                           cases[c].nu, cases[c].keys, EVENTS);
         assert_true (!a.options.affine && b.options.affine);
         advance (&b);
@@ -80,20 +111,27 @@ static void without_a_constant_part_the_events_are_the_same (void **state)
             advance (&a), advance (&b);
             check_relative (b.state->factor, a.state->factor, 1e-8);
             assert_true (a.step.nbroken == b.step.nbroken && a.step.nbroken > 0);
-            for (size_t k = 0; k < a.step.nbroken; k++) assert_int_equal (a.step.broken[k].bond, b.step.broken[k].bond);
-            check_scaled (pg_solver_report_now (b.solver)->energy_external, pg_solver_report_now (a.solver)->energy_external, 1e-6, pg_solver_report_now (a.solver)->energy_external);
+            for (size_t k = 0; k < a.step.nbroken; k++)
+                assert_int_equal (a.step.broken[k].bond, b.step.broken[k].bond);
+            check_scaled (pg_solver_report_now (b.solver)->energy_external,
+                          pg_solver_report_now (a.solver)->energy_external, 1e-6,
+                          pg_solver_report_now (a.solver)->energy_external);
         }
         clear (&a), clear (&b);
     }
 }
 
-/* With one: no live bond over its limit in any accepted state, forces and energies those of a fixed step to the same factor, and no factor before the first event breaks a bond. */
+/* With one: no live bond over its limit in any accepted state, forces and energies those of a fixed step to
+ * the same factor, and no factor before the first event breaks a bond. */
 static void states_under_a_constant_part_are_admitted (void **state)
 {
     (void) state;
     for (int c = 0; c < CASES; c++) {
         static const char *const side = "  - {set: right, traction: {x: 3 MPa}, ramp: constant}\n";
-        run r = scene_of (1, PLATE "%sboundary:\n" HELD PULL "%ssolver: {stepping: event, max_events: %d}\noutput: {at: {levels: 1}}\n", cases[c].nu, cases[c].keys, side, EVENTS);
+        run r = scene_of (1,
+                          PLATE "%sboundary:\n" HELD PULL
+                                "%ssolver: {stepping: event, max_events: %d}\noutput: {at: {levels: 1}}\n",
+                          cases[c].nu, cases[c].keys, side, EVENTS);
         advance (&r), advance (&r);
         double first = r.state->factor, reaction = r.step.reaction[4], constant = r.step.reaction[6];
         assert_true (first > 0 && r.step.nbroken > 0);
@@ -105,9 +143,12 @@ static void states_under_a_constant_part_are_admitted (void **state)
         }
         assert_int_equal (pg_solver_report_now (r.solver)->bonds_over_limit, 0);
         clear (&r);
-        for (int beyond = 0; beyond < 2; beyond++) {       /* one fixed step to just before, just behind that                */
-            run f = scene_of (1, PLATE "%sboundary:\n" HELD "  - {set: top, displacement: {y: %.17g um}}\n%ssolver: {stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n", cases[c].nu,
-                              cases[c].keys, 10 * first * (beyond ? 1 + 1e-6 : 1 - 1e-6), side);
+        for (int beyond = 0; beyond < 2; beyond++) {  /* one fixed step to just before, just behind that */
+            run f = scene_of (1,
+                              PLATE "%sboundary:\n" HELD
+                                    "  - {set: top, displacement: {y: %.17g um}}\n%ssolver: {stepping: "
+                                    "fixed, steps: 1}\noutput: {at: {levels: 1}}\n",
+                              cases[c].nu, cases[c].keys, 10 * first * (beyond ? 1 + 1e-6 : 1 - 1e-6), side);
             advance (&f);
             assert_int_equal (f.step.nbroken > 0, beyond);
             if (!beyond) check_relative (f.step.reaction[4], reaction, 1e-5);
@@ -120,14 +161,20 @@ static void states_under_a_constant_part_are_admitted (void **state)
 static void a_constant_part_that_drives_the_crack_is_told (void **state)
 {
     (void) state;
-    run r = scene_of (1, PLATE "failure: {criterion: principal_stress, tensile_strength: 30 MPa}\nboundary:\n" HELD "  - {set: top, displacement: {y: 10 um}, ramp: constant}\n"
-                      "  - {set: right, traction: {x: 1 MPa}}\nsolver: {stepping: event, max_events: 20}\noutput: {at: {levels: 1}}\n", "0.22");
+    run r = scene_of (1,
+                      PLATE
+                      "failure: {criterion: principal_stress, tensile_strength: 30 MPa}\nboundary:\n" HELD
+                      "  - {set: top, displacement: {y: 10 um}, ramp: constant}\n"
+                      "  - {set: right, traction: {x: 1 MPa}}\nsolver: {stepping: event, max_events: "
+                      "20}\noutput: {at: {levels: 1}}\n",
+                      "0.22");
     advance (&r);
     assert_true (r.state->factor == 0 && r.step.nbroken > 0);
     while (!pg_solver_done (r.solver, r.state)) advance (&r);
-    const pg_report *report = pg_solver_report_now (r.solver);
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     int told = 0;
-    for (size_t k = 0; k < report->nwarning; k++) told |= strstr (report->warning[k], "the constant loads drive the crack") != NULL;
+    for (size_t k = 0; k < report->nwarning; k++)
+        told |= strstr (report->warning[k], "the constant loads drive the crack") != NULL;
     assert_true (told);
     clear (&r);
 }
@@ -135,8 +182,10 @@ static void a_constant_part_that_drives_the_crack_is_told (void **state)
 static void a_resumed_run_goes_on_bit_by_bit (void **state)
 {
     (void) state;
-    static const char *const keys = "failure: {criterion: principal_stress, tensile_strength: 30 MPa}\nboundary:\n" HELD PULL
-                                    "  - {set: right, traction: {x: 3 MPa}, ramp: constant}\nsolver: {stepping: event, max_events: 12}\noutput: {at: {levels: 3}}\n";
+    static const char *const keys =
+        "failure: {criterion: principal_stress, tensile_strength: 30 MPa}\nboundary:\n" HELD PULL
+        "  - {set: right, traction: {x: 3 MPa}, ramp: constant}\nsolver: {stepping: event, max_events: "
+        "12}\noutput: {at: {levels: 3}}\n";
     run a = scene_of (1, PLATE "%s", "0.22", keys), b = scene_of (1, PLATE "%s", "0.22", keys);
     tape t = { 0 };
     for (int step = 0; step < 6; step++) advance (&a);
@@ -144,7 +193,8 @@ static void a_resumed_run_goes_on_bit_by_bit (void **state)
     keep (&b, &t, 1);
     while (!pg_solver_done (a.solver, a.state)) {
         advance (&a), advance (&b);
-        assert_true (a.state->factor == b.state->factor && a.step.nbroken == b.step.nbroken && a.step.dissipated == b.step.dissipated);
+        assert_true (a.state->factor == b.state->factor && a.step.nbroken == b.step.nbroken
+                     && a.step.dissipated == b.step.dissipated);
         assert_memory_equal (a.state->d, b.state->d, a.state->ndof * sizeof *a.state->d);
         assert_memory_equal (a.state->alive, b.state->alive, a.state->nbond);
     }
@@ -155,20 +205,31 @@ static void a_resumed_run_goes_on_bit_by_bit (void **state)
 static void other_loads_are_refused (void **state)
 {
     (void) state;
-    static const struct { const char *load; int fine; } loads[] = {
-        { "traction: {x: 1 MPa}, ramp: t^2", 0 }, { "traction: {x: 1 MPa}, table: [[0, 0], [0.5, 1], [1, 0]]", 0 }, { "traction: {x: 1 MPa}, table: [[0, 0.2], [1, 0.9]]", 1 },
-        { "traction: {x: 1 MPa}, ramp: 0.3 + 0.4*t", 1 }, { "displacement: {x: '1 um * sin (3*t)'}", 0 }, { "displacement: {x: '1 um * (1 + t)', y: 0}, ramp: constant", 1 }, { "displacement: {x: '1 um * (1 + t)', y: 0}", 0 },
+    static const struct { const char *load; int fine;
+    } loads[] = {
+        { "traction: {x: 1 MPa}, ramp: t^2", 0 },
+        { "traction: {x: 1 MPa}, table: [[0, 0], [0.5, 1], [1, 0]]", 0 },
+        { "traction: {x: 1 MPa}, table: [[0, 0.2], [1, 0.9]]", 1 },
+        { "traction: {x: 1 MPa}, ramp: 0.3 + 0.4*t", 1 },
+        { "displacement: {x: '1 um * sin (3*t)'}", 0 },
+        { "displacement: {x: '1 um * (1 + t)', y: 0}, ramp: constant", 1 },
+        { "displacement: {x: '1 um * (1 + t)', y: 0}", 0 },
     };
     for (int k = 0; k < 7; k++) {
         char text[1024];
         pg_scene *scene;
         pg_problem *problem;
         pg_solver_options options;
-        snprintf (text, sizeof text, PLATE "boundary:\n" HELD "  - {set: right, %s}\nsolver: {stepping: event}\n", "0.22", loads[k].load);
+        snprintf (text, sizeof text,
+                  PLATE "boundary:\n" HELD "  - {set: right, %s}\nsolver: {stepping: event}\n", "0.22",
+                  loads[k].load);
         check_ok (pg_scene_parse (&scene, text, "test.yaml"));
         check_ok (pg_problem_build (&problem, scene, 1));
         check_fails (pg_solver_options_read (&options, problem, scene), loads[k].fine ? PG_OK : PG_E_SCENE);
-        if (!loads[k].fine) check_contains (pg_last_error (), "solver.stepping = event: event stepping needs loads that grow with the load factor");
+        if (!loads[k].fine)
+            check_contains (
+                pg_last_error (),
+                "solver.stepping = event: event stepping needs loads that grow with the load factor");
         pg_problem_free (&problem);
         pg_scene_free (&scene);
     }
@@ -177,9 +238,13 @@ static void other_loads_are_refused (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (a_bar_breaks_in_closed_form), cmocka_unit_test (a_run_without_events_ends_with_its_last_level), cmocka_unit_test (without_a_constant_part_the_events_are_the_same),
-        cmocka_unit_test (states_under_a_constant_part_are_admitted), cmocka_unit_test (a_constant_part_that_drives_the_crack_is_told),
-        cmocka_unit_test (a_resumed_run_goes_on_bit_by_bit), cmocka_unit_test (other_loads_are_refused),
+        cmocka_unit_test (a_bar_breaks_in_closed_form),
+        cmocka_unit_test (a_run_without_events_ends_with_its_last_level),
+        cmocka_unit_test (without_a_constant_part_the_events_are_the_same),
+        cmocka_unit_test (states_under_a_constant_part_are_admitted),
+        cmocka_unit_test (a_constant_part_that_drives_the_crack_is_told),
+        cmocka_unit_test (a_resumed_run_goes_on_bit_by_bit),
+        cmocka_unit_test (other_loads_are_refused),
     };
     return cmocka_run_group_tests_name ("solve/affine", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * verlet and central on chains of masses: frequency, order, energy, momentum, supports that move, loads, stable time steps, rows, looks in
- * between, refusals (theory A4, B4, G4). */
+ * verlet and central on chains of masses: frequency, order, energy, momentum, supports that move, loads,
+ * stable time steps, rows, looks in between, refusals (theory A4, B4, G4). */
 #include "chain.h"
 #include <float.h>
 
@@ -9,7 +9,13 @@ static const char *const kinds[2] = { "verlet", "central" };
 
 static pg_solver_options options_of (const char *kind, double dt, long steps)
 {
-    pg_solver_options o = { .linear = "auto", .tolerance = 1e-8, .dt = dt, .time_steps = steps, .levels = 1, .rows = 1, .max_events = 1000000 };
+    pg_solver_options o = { .linear = "auto",
+                            .tolerance = 1e-8,
+                            .dt = dt,
+                            .time_steps = steps,
+                            .levels = 1,
+                            .rows = 1,
+                            .max_events = 1000000 };
     strcpy (o.kind, kind);
     return o;
 }
@@ -18,12 +24,14 @@ static pg_solver_options options_of (const char *kind, double dt, long steps)
 static double amplitude (const double *d, double p)
 {
     double up = 0, down = 0;
-    for (size_t i = 0; i < the.n; i++) up += d[i] * sin ((double) (i + 1) * p), down += pow (sin ((double) (i + 1) * p), 2);
+    for (size_t i = 0; i < the.n; i++)
+        up += d[i] * sin ((double) (i + 1) * p), down += pow (sin ((double) (i + 1) * p), 2);
     return up / down;
 }
 
-/* Both ends held: the ground spring of stiffness k on the left, an own mass at the right end that does not move (lead of a mirrored chain
- * would do the same): modes of the fixed-free chain, p = (j - 1/2) pi / (n + 1/2), omega = 2 sqrt (k / m) sin (p / 2). */
+/* Both ends held: the ground spring of stiffness k on the left, an own mass at the right end that does not
+ * move (lead of a mirrored chain would do the same): modes of the fixed-free chain, p = (j - 1/2) pi / (n +
+ * 1/2), omega = 2 sqrt (k / m) sin (p / 2). */
 static double mode_of (size_t n, int j) { return (j - 0.5) * pi / ((double) n + 0.5); }
 
 static void a_mode_moves_with_the_discrete_frequency (void **state)
@@ -33,14 +41,16 @@ static void a_mode_moves_with_the_discrete_frequency (void **state)
         for (int j = 1; j <= 13; j += 4) {
             linked l;
             the = (chain) { .n = 13, .k = 1e6, .ground = 1e6, .m = 0.5 };
-            double p = mode_of (13, j), omega = 2 * sqrt (the.k / the.m) * sin (p / 2), dt = 0.3 / sqrt (the.k / the.m);
+            double p = mode_of (13, j), omega = 2 * sqrt (the.k / the.m) * sin (p / 2),
+                   dt = 0.3 / sqrt (the.k / the.m);
             double W = acos (1 - omega * omega * dt * dt / 2);
             pg_solver_options o = options_of (kinds[kind], dt, 997);
             link_up (&l, &o, &chain_type);
             for (size_t i = 0; i < the.n; i++) l.state->d[i] = 1e-3 * sin ((double) (i + 1) * p);
             run_all (&l);
             check_scaled (amplitude (l.state->d, p), 1e-3 * cos (997 * W), 1e-9, 1e-3);
-            for (size_t i = 0; i < the.n; i++) check_scaled (l.state->d[i], 1e-3 * cos (997 * W) * sin ((double) (i + 1) * p), 1e-9, 1e-3);
+            for (size_t i = 0; i < the.n; i++)
+                check_scaled (l.state->d[i], 1e-3 * cos (997 * W) * sin ((double) (i + 1) * p), 1e-9, 1e-3);
             unlink_all (&l);
         }
 }
@@ -55,7 +65,8 @@ static double oscillator_error (const char *kind, double c, long steps)
     link_up (&l, &o, &chain_type);
     l.state->d[0] = 0.3, l.state->v[0] = 2;
     run_all (&l);
-    double decay = 0.5 * c, omega = sqrt (100 - decay * decay), B = (2 + decay * 0.3) / omega, u = exp (-decay * 2) * (0.3 * cos (2 * omega) + B * sin (2 * omega));
+    double decay = 0.5 * c, omega = sqrt (100 - decay * decay), B = (2 + decay * 0.3) / omega,
+           u = exp (-decay * 2) * (0.3 * cos (2 * omega) + B * sin (2 * omega));
     double error = l.state->d[0] - u;
     check_relative (l.state->time, 2, 1e-15);
     unlink_all (&l);
@@ -67,7 +78,9 @@ static void second_order_in_the_time_step (void **state)
     (void) state;
     for (int kind = 0; kind < 2; kind++)
         for (double c = 0; c < 5; c += 2) {
-            double coarse = oscillator_error (kinds[kind], c, 800), middle = oscillator_error (kinds[kind], c, 1600), fine = oscillator_error (kinds[kind], c, 3200);
+            double coarse = oscillator_error (kinds[kind], c, 800),
+                   middle = oscillator_error (kinds[kind], c, 1600),
+                   fine = oscillator_error (kinds[kind], c, 3200);
             check_relative (coarse / middle, 4, 0.02);
             check_relative (middle / fine, 4, 0.01);
         }
@@ -83,17 +96,20 @@ static void both_writings_are_one_method (void **state)
         pg_solver_options o = options_of (kinds[kind], 1e-3, 1000);
         o.rayleigh_mass = 3;
         link_up (&l, &o, &chain_type);
-        for (size_t i = 0; i < 20; i++) l.state->d[i] = sin (3.0 * (double) i), l.state->v[i] = 100 * cos (5.0 * (double) i);
+        for (size_t i = 0; i < 20; i++)
+            l.state->d[i] = sin (3.0 * (double) i), l.state->v[i] = 100 * cos (5.0 * (double) i);
         run_all (&l);
         memcpy (end[kind], l.state->d, sizeof end[kind]);
         if (kind == 0) memcpy (v, l.state->v, sizeof v), memcpy (a, l.state->a, sizeof a);
-        for (size_t i = 0; kind == 1 && i < 20; i++) check_scaled (l.state->v[i], v[i] + 5e-4 * a[i], 1e-9, 100);     /* half a step ahead */
+        /* half a step ahead */
+        for (size_t i = 0; kind == 1 && i < 20; i++)
+            check_scaled (l.state->v[i], v[i] + 5e-4 * a[i], 1e-9, 100);
         unlink_all (&l);
     }
     for (size_t i = 0; i < 20; i++) check_scaled (end[1][i], end[0][i], 1e-10, 1);
 }
 
-/* ---- what is kept ----------------------------------------------------------------------------------------------------------- */
+/* ---- what is kept -------------------------------------------------------------------------------------- */
 static void free_flight_and_momentum (void **state)
 {
     (void) state;
@@ -108,7 +124,9 @@ static void free_flight_and_momentum (void **state)
         unlink_all (&l);
         link_up (&l, &o, &chain_type);
         double before = 0, after = 0, size = 0;
-        for (size_t i = 0; i < 50; i++) l.state->v[i] = sin (7.0 * (double) i), l.state->d[i] = 1e-3 * cos (5.0 * (double) i), before += l.state->v[i], size += 1;
+        for (size_t i = 0; i < 50; i++)
+            l.state->v[i] = sin (7.0 * (double) i), l.state->d[i] = 1e-3 * cos (5.0 * (double) i),
+            before += l.state->v[i], size += 1;
         run_all (&l);
         for (size_t i = 0; i < 50; i++) after += l.state->v[i];
         check_scaled (after, before, 1e-11, size);
@@ -126,11 +144,12 @@ static void energy_stays_over_ten_thousand_steps (void **state)
         pg_solver_options o = options_of (kinds[kind], 0, 10000);      /* 0.9 of the stable one */
         o.rows = 100;
         link_up (&l, &o, &chain_type);
-        for (size_t i = 0; i < 60; i++) l.state->v[i] = sin (7.0 * (double) i), l.state->d[i] = 1e-3 * cos (5.0 * (double) i);
+        for (size_t i = 0; i < 60; i++)
+            l.state->v[i] = sin (7.0 * (double) i), l.state->d[i] = 1e-3 * cos (5.0 * (double) i);
         double first = 0;
         while (!pg_solver_done (l.solver, l.state)) {
             check_ok (pg_solver_step (l.solver, l.state, &step));
-            const pg_report *r = pg_solver_report_now (l.solver);
+            const pg_statistics *r = pg_solver_report_now (l.solver);
             if (first == 0) first = r->energy_strain + r->energy_kinetic;
             assert_true (first > 0);
             check_relative (r->energy_strain + r->energy_kinetic, first, 1e-11);
@@ -151,19 +170,24 @@ static void damping_and_loads_close_the_balance (void **state)
     for (int kind = 0; kind < 2; kind++)
         for (int held = 0; held < 2; held++) {
             linked l;
-            the = (chain) { .n = 40, .k = 1e4, .ground = held ? 0 : 1e4, .m = 1, .push = swing, .lead = held ? throw : NULL };
+            the = (chain){ .n = 40,
+                           .k = 1e4,
+                           .ground = held ? 0 : 1e4,
+                           .m = 1,
+                           .push = swing,
+                           .lead = held ? throw : NULL };
             pg_solver_options o = options_of (kinds[kind], 0, 3000);
             o.rayleigh_mass = 4, o.rows = 7;
             link_up (&l, &o, &chain_type);
             run_all (&l);
-            const pg_report *r = pg_solver_report_now (l.solver);
+            const pg_statistics *r = pg_solver_report_now (l.solver);
             assert_true (r->energy_damping > 0.01 * fabs (r->energy_external));
             check_scaled (r->energy_dissipated, 0, 1e-11, fabs (r->energy_external));
             unlink_all (&l);
         }
 }
 
-/* ---- supports ----------------------------------------------------------------------------------------------------------------- */
+/* ---- supports ------------------------------------------------------------------------------------------ */
 static void supports_move_as_they_are_told (void **state)
 {
     (void) state;
@@ -177,7 +201,8 @@ static void supports_move_as_they_are_told (void **state)
         check_relative (l.state->d[0], 0.2, 1e-15);
         check_relative (l.state->v[0], 2, 1e-12);
         check_scaled (l.state->a[0], 0, 1e-8, 1);
-        check_relative (pg_solver_report_now (l.solver)->energy_external, 0.5 * 2 * 4, 1e-12);        /* set off at once: m v^2 / 2 */
+        /* set off at once: m v^2 / 2 */
+        check_relative (pg_solver_report_now (l.solver)->energy_external, 0.5 * 2 * 4, 1e-12);
         check_relative (pg_solver_report_now (l.solver)->energy_kinetic, 0.5 * 2 * 4, 1e-12);
         unlink_all (&l);
         the.lead = throw;
@@ -186,7 +211,7 @@ static void supports_move_as_they_are_told (void **state)
         check_relative (l.state->d[0], 0.5 * 3 * 0.01, 1e-14);
         check_relative (l.state->v[0], 3 * (0.1 + (kind ? 5e-4 : 0)), 1e-9);
         check_relative (l.state->a[0], 3, 1e-9);
-        check_relative (step.reaction[0], 2 * 3, 1e-9);                 /* m a, the spring is nothing                     */
+        check_relative (step.reaction[0], 2 * 3, 1e-9);                 /* m a, the spring is nothing */
         unlink_all (&l);
     }
 }
@@ -210,14 +235,14 @@ static void a_pulled_chain_follows_its_closed_form (void **state)
     }
 }
 
-/* ---- stable time steps ------------------------------------------------------------------------------------------------------- */
+/* ---- stable time steps --------------------------------------------------------------------------------- */
 static void time_steps_beyond_the_stable_one_are_refused (void **state)
 {
     (void) state;
     linked l;
     for (int kind = 0; kind < 2; kind++) {
         the = (chain) { .n = 300, .k = 1e4, .ground = 0, .m = 1 };
-        double limit = 2 / (200 * sin (pi * 299 / 600)), bound = 2 / 200.0;      /* free-free chain; row sums */
+        double limit = 2 / (200 * sin (pi * 299 / 600)), bound = 2 / 200.0;  /* free-free chain; row sums */
         pg_solver_options o = options_of (kinds[kind], 1.2 * limit, 10000);
         size_t used = pg_memory_used ();
         check_fails (try_link (&l, &o, &chain_type), PG_E_SCENE);
@@ -235,7 +260,8 @@ static void time_steps_beyond_the_stable_one_are_refused (void **state)
         check_contains (from, "row sums");
         unlink_all (&l);
     }
-    /* the row sum of a free end is not reached: a mass on one spring of stiffness 2 k, omega^2 = 2 k / m against 4 k / m by rows */
+    /* the row sum of a free end is not reached: a mass on one spring of stiffness 2 k, omega^2 = 2 k / m
+     * against 4 k / m by rows */
     the = (chain) { .n = 2, .k = 1e4, .ground = 0, .m = 1 };
     pg_force_type rough = chain_type;
     rough.bound = NULL;
@@ -244,7 +270,11 @@ static void time_steps_beyond_the_stable_one_are_refused (void **state)
     unlink_all (&l);
 }
 
-static pg_status wide_bound (void *self, double *omega) { *omega = 3 * sqrt (4 * ((chain *) self)->k / the.m); return PG_OK; }
+static pg_status wide_bound (void *self, double *omega)
+{
+    *omega = 3 * sqrt (4 * ((chain *) self)->k / the.m);
+    return PG_OK;
+}
 
 static void the_frequency_itself_decides_beyond_the_bound (void **state)
 {
@@ -269,7 +299,7 @@ static void the_frequency_itself_decides_beyond_the_bound (void **state)
     unlink_all (&l);
 }
 
-/* ---- rows, looks ------------------------------------------------------------------------------------------------------------- */
+/* ---- rows, looks --------------------------------------------------------------------------------------- */
 static void rows_and_levels_are_met (void **state)
 {
     (void) state;
@@ -286,7 +316,9 @@ static void rows_and_levels_are_met (void **state)
                 check_ok (pg_solver_step (l.solver, l.state, &step));
                 n++, levels += step.level, last = l.state->iterations;
                 check_relative (step.time, 1e-3 * (double) last, 1e-14);
-                assert_true (step.level == (last == (total + 3) / 4 || last == (2 * total + 3) / 4 || last == (3 * total + 3) / 4 || last == total));
+                assert_true (step.level
+                             == (last == (total + 3) / 4 || last == (2 * total + 3) / 4
+                                 || last == (3 * total + 3) / 4 || last == total));
             }
             assert_int_equal (last, total);
             assert_true (n <= (rows > 4 ? rows : 4) && (n == total || n >= (rows > 4 ? rows / 4 * 4 : 4)));
@@ -321,8 +353,9 @@ static void final_state (const char *kind, long rows, int threads, int stops, do
     }
     memcpy (out, l.state->d, the.n * sizeof *out);
     memcpy (out + the.n, l.state->v, the.n * sizeof *out);
-    const pg_report *r = pg_solver_report_now (l.solver);
-    out[2 * the.n] = r->energy_external, out[2 * the.n + 1] = r->energy_damping, out[2 * the.n + 2] = r->energy_kinetic;
+    const pg_statistics *r = pg_solver_report_now (l.solver);
+    out[2 * the.n] = r->energy_external, out[2 * the.n + 1] = r->energy_damping,
+            out[2 * the.n + 2] = r->energy_kinetic;
     unlink_all (&l);
 }
 
@@ -343,7 +376,7 @@ static void bits_do_not_depend_on_rows_threads_or_looks (void **state)
     }
 }
 
-/* ---- refusals ------------------------------------------------------------------------------------------------------------------ */
+/* ---- refusals ------------------------------------------------------------------------------------------ */
 static double burst (double t) { return t > 0.05 ? DBL_MAX : 0; }
 
 static void refusals_say_what_to_do (void **state)
@@ -376,7 +409,8 @@ static void refusals_say_what_to_do (void **state)
         check_ok (pg_solver_step (l.solver, l.state, &step));
         l.state->v[0] = 0;
         pg_status status = PG_OK;
-        while (status == PG_OK && !pg_solver_done (l.solver, l.state)) status = pg_solver_step (l.solver, l.state, &step);
+        while (status == PG_OK && !pg_solver_done (l.solver, l.state))
+            status = pg_solver_step (l.solver, l.state, &step);
         assert_int_equal (status, PG_E_EQUILIBRIUM);
         check_contains (pg_last_error (), "no longer finite");
         assert_int_equal (l.state->step, 2);

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a solver keeps for later: read back and written again it is the same, and what cannot be of this problem is refused by name before it is used. */
+ * What a solver keeps for later: read back and written again it is the same, and what cannot be of this
+ * problem is refused by name before it is used. */
 #include "scene_runs/run.h"
 
 typedef struct { char name[64]; size_t n, size; unsigned char *value; } item;
-typedef struct { item kept[300]; size_t n; const char *wrong; size_t at; long to; int reading; } memory;      /* wrong: of this name, value `at` is `to` */
+/* wrong: of this name, value `at` is `to` */
+typedef struct { item kept[300]; size_t n; const char *wrong; size_t at; long to; int reading; } memory;
 
 static pg_status one (void *context, const char *name, size_t n, size_t size, void *value)
 {
@@ -18,7 +20,8 @@ static pg_status one (void *context, const char *name, size_t n, size_t size, vo
         if (n) memcpy (fresh->value, value, n * size);
         return PG_OK;
     }
-    if (k == m->n || m->kept[k].n != n || m->kept[k].size != size) return pg_error (PG_E_FILE, PG_HERE, "no %zu values of %s", n, name);
+    if (k == m->n || m->kept[k].n != n || m->kept[k].size != size)
+        return pg_error (PG_E_FILE, PG_HERE, "no %zu values of %s", n, name);
     if (n) memcpy (value, m->kept[k].value, n * size);
     if (m->wrong && strcmp (m->wrong, name) == 0) {
         assert_true (m->at < n);
@@ -27,8 +30,14 @@ static pg_status one (void *context, const char *name, size_t n, size_t size, vo
     }
     return PG_OK;
 }
-static pg_status numbers (void *c, const char *name, size_t n, double *v) { return one (c, name, n, sizeof *v, v); }
-static pg_status counts (void *c, const char *name, size_t n, long *v) { return one (c, name, n, sizeof *v, v); }
+static pg_status numbers (void *c, const char *name, size_t n, double *v)
+{
+    return one (c, name, n, sizeof *v, v);
+}
+static pg_status counts (void *c, const char *name, size_t n, long *v)
+{
+    return one (c, name, n, sizeof *v, v);
+}
 static pg_status bytes (void *c, const char *name, size_t n, void *v) { return one (c, name, n, 1, v); }
 
 static pg_status walk (memory *m, run *r, int reading)
@@ -50,12 +59,19 @@ static const item *item_of (const memory *m, const char *name)
 
 static run plate (const char *solver)
 {
-    return scene_of (1, "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 10 mm]}}}]\nspacing: 1 mm\ncracks: [{from: [0, 5 mm], to: [6 mm, 5 mm]}]\n"
-                     "materials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2500 kg/m3}}\nfailure: {criterion: principal_stress, tensile_strength: 30 MPa, exclude: [top]}\n"
-                     "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {y: 10 um}}\nsolver: {%s}\noutput: {at: {levels: 3}}\n", solver);
+    return scene_of (
+        1,
+        "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 10 "
+        "mm]}}}]\nspacing: 1 mm\ncracks: [{from: [0, 5 mm], to: [6 mm, 5 mm]}]\n"
+        "materials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2500 kg/m3}}\nfailure: "
+        "{criterion: principal_stress, tensile_strength: 30 MPa, exclude: [top]}\n"
+        "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {y: 10 "
+        "um}}\nsolver: {%s}\noutput: {at: {levels: 3}}\n",
+        solver);
 }
 
-static const char *const solvers[] = { "stepping: event, max_events: 9", "stepping: fixed, steps: 8", "kind: newmark, dt: 1 us, end: 20 us", "kind: verlet, end: 20 us" };
+static const char *const solvers[] = { "stepping: event, max_events: 9", "stepping: fixed, steps: 8",
+                                       "kind: newmark, dt: 1 us, end: 20 us", "kind: verlet, end: 20 us" };
 
 /* To a step in which bonds broke. */
 static run broken (const char *solver)
@@ -76,7 +92,8 @@ static void what_is_read_back_is_written_again (void **state)
         memory first = { .n = 0 }, again = { .n = 0 };
         long died = 0;
         for (size_t i = 0; i < a.state->nbond; i++) died += b.state->alive[i] && !a.state->alive[i];
-        assert_true (died == (long) a.step.nbroken && a.state->broken == died && pg_solver_report_now (a.solver)->broken == died);
+        assert_true (died == (long) a.step.nbroken && a.state->broken == died
+                     && pg_solver_report_now (a.solver)->broken == died);
         check_ok (walk (&first, &a, 0));
         check_ok (walk (&first, &b, 1));
         check_ok (walk (&again, &b, 0));
@@ -84,11 +101,12 @@ static void what_is_read_back_is_written_again (void **state)
         for (size_t k = 0; k < first.n; k++) {
             const item *x = &first.kept[k], *y = item_of (&again, x->name);
             assert_int_equal (y->n, x->n);
-            size_t n = strcmp (x->name, "report.numbers") == 0 ? 10 : x->n;    /* behind them: seconds                   */
+            size_t n = strcmp (x->name, "report.numbers") == 0 ? 10 : x->n;    /* behind them: seconds */
             if (memcmp (x->value, y->value, n * x->size) != 0) print_error ("%s: %s\n", solvers[s], x->name);
             assert_memory_equal (x->value, y->value, n * x->size);
         }
-        assert_true (*(const long *) (const void *) item_of (&first, "solver.broken_count")->value == (long) a.step.nbroken);
+        assert_true (*(const long *) (const void *) item_of (&first, "solver.broken_count")->value
+                     == (long) a.step.nbroken);
         forget (&first), forget (&again);
         clear (&a), clear (&b);
     }
@@ -101,16 +119,30 @@ static void what_cannot_be_is_refused (void **state)
     memory m = { .n = 0 };
     check_ok (walk (&m, &a, 0));
     long nbond = (long) a.problem->first_bond[PG_BOND_SETS];
-    const struct { const char *name; size_t at; long to; const char *words; } wrong[] = {
-        { "state.counts", 0, -1, "state is -1, not from 0" }, { "backup.counts", 3, -1, "backup is -1, not from 0" }, { "state.alive", 3, 2, "state.alive is 2, not from 0 to 1" },
-        { "solver.broken.bonds", 0, nbond, "a broken bond is" }, { "solver.broken.bonds", 0, -1, "a broken bond is -1" },
-        { "solver.broken.bonds", 1, PG_BOND_SETS, "the set of a broken bond is" }, { "solver.broken.bonds", 1, -1, "the set of a broken bond is -1" },
-        { "solver.broken.bonds", 2, 128, "the kind of a broken bond is 128" }, { "solver.broken_count", 0, -1, "the number of broken bonds is -1" },
-        { "solver.broken_count", 0, nbond + 1, "the number of broken bonds is" }, { "ledger.counts", 0, 1L << 20, "ledger.counts is 1048576" }, { "ledger.counts", 1, 2, "ledger.counts is 2" },
-        { "solver.counts", 4, 5, "the next level is 5, not from 0 to 4" }, { "solver.counts", 5, 64, "the end of the run is 64" }, { "solver.counts", 7, -1, "the round is -1" },
-        { "report.counts", 0, -1, "a count of the report is -1" }, { "report.counts", 13, 1000, "the number of skipped things is 1000" },
-        { "report.counts", 14, 1000, "the number of warnings is 1000" }, { "system.counts", 0, 99, "the way to solve is 99" }, { "system.counts", 4, 2, "a kept factor is 2" },
-        { "system.multilevel", 0, 2, "the multilevel preconditioner is 2" }, { "system.touched", 0, 3, "system.touched is 3" },
+    const struct { const char *name; size_t at; long to; const char *words;
+    } wrong[] = {
+        { "state.counts", 0, -1, "state is -1, not from 0" },
+        { "backup.counts", 3, -1, "backup is -1, not from 0" },
+        { "state.alive", 3, 2, "state.alive is 2, not from 0 to 1" },
+        { "solver.broken.bonds", 0, nbond, "a broken bond is" },
+        { "solver.broken.bonds", 0, -1, "a broken bond is -1" },
+        { "solver.broken.bonds", 1, PG_BOND_SETS, "the set of a broken bond is" },
+        { "solver.broken.bonds", 1, -1, "the set of a broken bond is -1" },
+        { "solver.broken.bonds", 2, 128, "the kind of a broken bond is 128" },
+        { "solver.broken_count", 0, -1, "the number of broken bonds is -1" },
+        { "solver.broken_count", 0, nbond + 1, "the number of broken bonds is" },
+        { "work_balance.counts", 0, 1L << 20, "work_balance.counts is 1048576" },
+        { "work_balance.counts", 1, 2, "work_balance.counts is 2" },
+        { "solver.counts", 4, 5, "the next level is 5, not from 0 to 4" },
+        { "solver.counts", 5, 64, "the end of the run is 64" },
+        { "solver.counts", 7, -1, "the round is -1" },
+        { "report.counts", 0, -1, "a count of the report is -1" },
+        { "report.counts", 13, 1000, "the number of skipped things is 1000" },
+        { "report.counts", 14, 1000, "the number of warnings is 1000" },
+        { "system.counts", 0, 99, "the way to solve is 99" },
+        { "system.counts", 4, 2, "a kept factor is 2" },
+        { "system.multilevel", 0, 2, "the multilevel preconditioner is 2" },
+        { "system.touched", 0, 3, "system.touched is 3" },
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         run b = plate (solvers[0]);
@@ -128,7 +160,7 @@ static void texts_end_whatever_was_read (void **state)
 {
     (void) state;
     run a = broken (solvers[0]), b = plate (solvers[0]);
-    memory m = { .wrong = "report.solver", .at = sizeof ((pg_report *) NULL)->solver - 1, .to = 'x' };
+    memory m = { .wrong = "report.solver", .at = sizeof ((pg_statistics *) NULL)->solver - 1, .to = 'x' };
     check_ok (walk (&m, &a, 0));
     check_ok (walk (&m, &b, 1));
     assert_int_equal (pg_solver_report_now (b.solver)->solver[m.at], 0);
@@ -138,6 +170,8 @@ static void texts_end_whatever_was_read (void **state)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (what_is_read_back_is_written_again), cmocka_unit_test (what_cannot_be_is_refused), cmocka_unit_test (texts_end_whatever_was_read) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (what_is_read_back_is_written_again),
+                                        cmocka_unit_test (what_cannot_be_is_refused),
+                                        cmocka_unit_test (texts_end_whatever_was_read) };
     return cmocka_run_group_tests_name ("solve/kept", tests, NULL, NULL);
 }

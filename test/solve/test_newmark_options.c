@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#define BAR "dimension: 1\ncross_section: 1 m2\nbody: [{add: {box: {low: [0], high: [1 m]}}}]\nspacing: %g m\n" \
+#define BAR \
+    "dimension: 1\ncross_section: 1 m2\nbody: [{add: {box: {low: [0], high: [1 m]}}}]\nspacing: %g m\n" \
     "materials: {rock: {youngs_modulus: 1 Pa, poissons_ratio: 0, density: 1}}\n" \
     "boundary: [{set: left, displacement: {x: 0}, ramp: constant}]\nmethod: {essential: transformation}\n" \
     "solver: {kind: newmark, dt: %g s, end: %g s, mass: %s, alpha: %g, tolerance: 1e-9}\n"
@@ -17,7 +18,8 @@ static dynamic bar (double h, double dt, double end, const char *mass, double al
     return open_run (text);
 }
 
-/* Starts in the mode sin (m pi x / 2), m odd, of a bar that is held on the left; returns the displacement of the free end after the run. */
+/* Starts in the mode sin (m pi x / 2), m odd, of a bar that is held on the left; returns the displacement of
+ * the free end after the run. */
 static double free_end (dynamic *r, int m)
 {
     for (size_t i = 0; i < r->n; i++) r->state->d[i] = sin (m * pi * r->problem->cloud.x[i] / 2);
@@ -39,13 +41,16 @@ static void both_masses_give_the_frequency_of_the_bar (void **state)
     close_run (&a), close_run (&b);
 }
 
-/* Fields 1 and x are reproduced, so their kinetic energy is exact: rho int 1 and rho int |x|^2; that of the lumped mass is not. */
+/* Fields 1 and x are reproduced, so their kinetic energy is exact: rho int 1 and rho int |x|^2; that of the
+ * lumped mass is not. */
 static void consistent_mass_is_exact_for_linear_motion (void **state)
 {
     (void) state;
-    dynamic r = open_run ("dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.4, 0.3, 0.5]}}}]\nspacing: 0.1\nperturb: {amount: 0.2}\n"
+    dynamic r = open_run ("dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.4, 0.3, "
+                          "0.5]}}}]\nspacing: 0.1\nperturb: {amount: 0.2}\n"
                           "materials: {rock: {youngs_modulus: 1, poissons_ratio: 0.2, density: 2500}}\n"
-                          "boundary: [{set: left, displacement: {x: 0}, ramp: constant}]\nsolver: {kind: newmark, dt: 1, end: 2, mass: consistent}\n");
+                          "boundary: [{set: left, displacement: {x: 0}, ramp: constant}]\nsolver: {kind: "
+                          "newmark, dt: 1, end: 2, mass: consistent}\n");
     advance (&r);
     const pg_sparse *M;
     check_ok (r.force->mass_matrix (r.self, &M));
@@ -74,7 +79,7 @@ static void energy_stays_with_consistent_mass (void **state)
     (void) state;
     dynamic r = bar (0.05, 5e-3, 4, "consistent", 0);
     free_end (&r, 3);
-    const pg_report *report = pg_solver_report_now (r.solver);
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     double energy = report->energy_strain + report->energy_kinetic;
     assert_true (energy > 0);
     check_scaled (report->energy_dissipated, 0, 1e-8, energy);
@@ -99,7 +104,8 @@ static void numerical_damping_keeps_second_order (void **state)
     }
 }
 
-/* A mode that the step does not resolve dies out; the lowest one hardly feels it. Without alpha neither does. */
+/* A mode that the step does not resolve dies out; the lowest one hardly feels it. Without alpha neither
+ * does. */
 static void numerical_damping_takes_what_the_step_cannot_resolve (void **state)
 {
     (void) state;
@@ -108,11 +114,12 @@ static void numerical_damping_takes_what_the_step_cannot_resolve (void **state)
         for (int m = 0; m < 2; m++) {
             dynamic r = bar (0.05, 0.1, 20, "lumped", a ? -0.3 : 0);
             free_end (&r, m ? 31 : 1);
-            const pg_report *report = pg_solver_report_now (r.solver);
+            const pg_statistics *report = pg_solver_report_now (r.solver);
             kept[a][m] = (report->energy_strain + report->energy_kinetic) / (report->energy_external);
             close_run (&r);
         }
-    print_message ("energy kept: without %.4f and %.4f, with alpha %.4f (lowest) and %.2e (high)\n", kept[0][0], kept[0][1], kept[1][0], kept[1][1]);
+    print_message ("energy kept: without %.4f and %.4f, with alpha %.4f (lowest) and %.2e (high)\n",
+                   kept[0][0], kept[0][1], kept[1][0], kept[1][1]);
     assert_true (kept[0][0] > 0.99 && kept[0][1] > 0.99);
     assert_true (kept[1][0] > 0.9 && kept[1][1] < 1e-3);
 }

@@ -1,11 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Newmark's method on one degree of freedom, m u'' + c u' + k u = p, through the solver and a force of our own (theory F5, table H
- * F-1, F-2). Every run is made with the matrix and matrix-free. */
+ * Newmark's method on one degree of freedom, m u'' + c u' + k u = p, through the solver and a force of our
+ * own (theory F5, table H F-1, F-2). Every run is made with the matrix and matrix-free. */
 #include "check.h"
 #include "perigal/solve.h"
 
-/* ---- the force ---------------------------------------------------------------------------------------------------------- */
-typedef struct { pg_sparse K; long start[2], row[1]; double value[1]; pg_operator op; double k, m, p, hold; } spring;   /* hold: p acts up to here, s */
+/* ---- the force ----------------------------------------------------------------------------------------- */
+/* hold: p acts up to here, s */
+typedef struct {
+    pg_sparse K;
+    long start[2], row[1];
+    double value[1];
+    pg_operator op;
+    double k, m, p, hold;
+} spring;
 static spring the;
 
 static void apply (void *context, const double *x, double *y) { y[0] = ((spring *) context)->k * x[0]; }
@@ -44,19 +51,40 @@ static pg_status spring_mass (void *self, double *mass) { mass[0] = ((spring *) 
 static const pg_operator *spring_operator (void *self) { return &((spring *) self)->op; }
 static const pg_sparse *spring_matrix (void *self) { return &((spring *) self)->K; }
 
-static const pg_force_type spring_types[2] = {
-    { .name = "spring", .create = spring_create, .free = spring_free, .fields = spring_fields, .refresh = spring_refresh, .balance = spring_balance,
-      .mass = spring_mass, .operator_ = spring_operator, .matrix = spring_matrix },
-    { .name = "spring", .create = spring_create, .free = spring_free, .fields = spring_fields, .refresh = spring_refresh, .balance = spring_balance,
-      .mass = spring_mass, .operator_ = spring_operator } };
+static const pg_force_type spring_types[2] = { { .name = "spring",
+                                                 .create = spring_create,
+                                                 .free = spring_free,
+                                                 .fields = spring_fields,
+                                                 .refresh = spring_refresh,
+                                                 .balance = spring_balance,
+                                                 .mass = spring_mass,
+                                                 .operator_ = spring_operator,
+                                                 .matrix = spring_matrix },
+                                               { .name = "spring",
+                                                 .create = spring_create,
+                                                 .free = spring_free,
+                                                 .fields = spring_fields,
+                                                 .refresh = spring_refresh,
+                                                 .balance = spring_balance,
+                                                 .mass = spring_mass,
+                                                 .operator_ = spring_operator } };
 
-/* ---- runs ----------------------------------------------------------------------------------------------------------------- */
+/* ---- runs ---------------------------------------------------------------------------------------------- */
 typedef struct { double u, v, a; } motion;
 
 static pg_solver_options options_of (double dt, long steps, double c)
 {
-    pg_solver_options o = { .kind = "newmark", .linear = "auto", .tolerance = 1e-8, .steps = steps, .max_iterations = 10, .dt = dt,
-                            .end = dt * (double) steps, .beta = 0.25, .gamma = 0.5, .rayleigh_mass = c / the.m, .levels = 1 };
+    pg_solver_options o = { .kind = "newmark",
+                            .linear = "auto",
+                            .tolerance = 1e-8,
+                            .steps = steps,
+                            .max_iterations = 10,
+                            .dt = dt,
+                            .end = dt * (double) steps,
+                            .beta = 0.25,
+                            .gamma = 0.5,
+                            .rayleigh_mass = c / the.m,
+                            .levels = 1 };
     return o;
 }
 
@@ -67,7 +95,10 @@ static void run (const pg_solver_options *o, int matrix_free, motion start, moti
 {
     double x = 0, volume = 1;
     int block = 0;
-    pg_problem problem = { .dim = 1, .threads = 1, .cloud = { .dim = 1, .n = 1, .x = &x, .volume = &volume, .block = &block, .h = 1 } };
+    pg_problem problem = { .dim = 1,
+                           .threads = 1,
+                           .cloud = {
+                               .dim = 1, .n = 1, .x = &x, .volume = &volume, .block = &block, .h = 1 } };
     pg_solver *solver = NULL;
     pg_state *state = NULL;
     pg_step step;
@@ -86,7 +117,7 @@ static void run (const pg_solver_options *o, int matrix_free, motion start, moti
     pg_solver_free (&solver);
 }
 
-/* ---- F-1, F-2 --------------------------------------------------------------------------------------------------------------- */
+/* ---- F-1, F-2 ------------------------------------------------------------------------------------------ */
 static void five_steps_of_the_damped_oscillator (void **state)
 {
     (void) state;
@@ -111,7 +142,7 @@ static void coefficients (void **state)
     for (int k = 0; k < 8; k++) assert_true (b[k] == expected[k]);
 }
 
-/* ---- against the exact motion ------------------------------------------------------------------------------------------------- */
+/* ---- against the exact motion -------------------------------------------------------------------------- */
 enum { LONG = 1600 };
 
 /* Largest error of u over a run from (u0, v0) without load, relative to the amplitude; period 2 pi / 10 s. */
@@ -123,10 +154,12 @@ static double worst_error (double dt, long steps, double c, motion start, double
     if (by_stiffness) o.rayleigh_stiffness = c / the.k, o.rayleigh_mass = 0;
     o.gamma = gamma, o.beta = 0.25 * (gamma + 0.5) * (gamma + 0.5);
     run (&o, free, start, path);
-    double decay = 0.5 * c, omega = sqrt (100 - decay * decay), B = (start.v + decay * start.u) / omega, worst = 0;
+    double decay = 0.5 * c, omega = sqrt (100 - decay * decay), B = (start.v + decay * start.u) / omega,
+           worst = 0;
     for (long k = 0; k <= steps; k++) {
         double t = dt * (double) k;
-        worst = fmax (worst, fabs (path[k].u - exp (-decay * t) * (start.u * cos (omega * t) + B * sin (omega * t))));
+        worst = fmax (worst, fabs (path[k].u
+                                   - exp (-decay * t) * (start.u * cos (omega * t) + B * sin (omega * t))));
     }
     return worst / hypot (start.u, B);
 }
@@ -134,7 +167,8 @@ static double worst_error (double dt, long steps, double c, motion start, double
 static void second_order (double c, motion start)
 {
     for (int free = 0; free < 2; free++) {
-        double coarse = worst_error (4e-3, 200, c, start, 0.5, free), middle = worst_error (2e-3, 400, c, start, 0.5, free);
+        double coarse = worst_error (4e-3, 200, c, start, 0.5, free),
+               middle = worst_error (2e-3, 400, c, start, 0.5, free);
         double fine = worst_error (1e-3, 800, c, start, 0.5, free);
         check_relative (coarse / middle, 4, 0.03);
         check_relative (middle / fine, 4, 0.01);
@@ -142,9 +176,21 @@ static void second_order (double c, motion start)
     }
 }
 
-static void free_vibration_is_of_second_order   (void **state) { (void) state; second_order (0, (motion) { .u = 1e-3 }); }
-static void start_with_a_velocity               (void **state) { (void) state; second_order (0, (motion) { .v = 1e-2 }); }
-static void damping_counts_from_the_first_step  (void **state) { (void) state; second_order (4, (motion) { .u = 1e-3, .v = 1e-2 }); }
+static void free_vibration_is_of_second_order (void **state)
+{
+    (void) state;
+    second_order (0, (motion){ .u = 1e-3 });
+}
+static void start_with_a_velocity (void **state)
+{
+    (void) state;
+    second_order (0, (motion){ .v = 1e-2 });
+}
+static void damping_counts_from_the_first_step (void **state)
+{
+    (void) state;
+    second_order (4, (motion){ .u = 1e-3, .v = 1e-2 });
+}
 static void damping_by_stiffness                (void **state)
 {
     (void) state;
@@ -157,7 +203,8 @@ static void gamma_above_a_half_is_of_first_order (void **state)
 {
     (void) state;
     motion start = { .u = 1e-3 };
-    check_relative (worst_error (2e-3, 400, 0, start, 0.6, 0) / worst_error (1e-3, 800, 0, start, 0.6, 0), 2, 0.1);
+    check_relative (worst_error (2e-3, 400, 0, start, 0.6, 0) / worst_error (1e-3, 800, 0, start, 0.6, 0), 2,
+                    0.1);
 }
 
 /* beta = 1/4, gamma = 1/2 keep k u^2 + m v^2, at any step: here 0.6 to 60 steps a period. */
@@ -172,7 +219,8 @@ static void energy_is_kept (void **state)
         pg_solver_options o = options_of (dt, 200, 0);
         run (&o, 0, start, path);
         for (int i = 1; i <= 200; i++)
-            check_relative (100 * path[i].u * path[i].u + path[i].v * path[i].v, 100 * start.u * start.u + start.v * start.v, 1e-9);
+            check_relative (100 * path[i].u * path[i].u + path[i].v * path[i].v,
+                            100 * start.u * start.u + start.v * start.v, 1e-9);
     }
 }
 

@@ -3,7 +3,9 @@
 #include "model/scenes.h"
 
 #define PULLED PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1}}]\n"
-#define HELD   PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1}, ramp: constant}]\n"
+#define HELD \
+    PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1}, ramp: " \
+          "constant}]\n"
 #define BREAKS "failure: {criterion: stretch, critical_stretch: 1e-3}\n"
 
 static pg_solver_options options_of (const char *text)
@@ -51,7 +53,7 @@ static void steps_follow_levels_unless_given (void **state)
 static void time_steps_fill_the_run (void **state)
 {
     (void) state;
-    assert_int_equal (options_of (HELD "solver: {kind: newmark, dt: 0.1, end: 1}\n").steps, 10);       /* not 11           */
+    assert_int_equal (options_of (HELD "solver: {kind: newmark, dt: 0.1, end: 1}\n").steps, 10);  /* not 11 */
     assert_int_equal (options_of (HELD "solver: {kind: newmark, dt: 0.3, end: 1}\n").steps, 4);
     assert_int_equal (options_of (HELD "solver: {kind: newmark, dt: 1 us, end: 1 ms}\n").steps, 1000);
 }
@@ -71,7 +73,8 @@ static void kinds_tell_what_they_do (void **state)
     o = options_of (MOVED "solver: {kind: central, end: 10}\n");
     assert_true (!o.quasi_static && o.marching && !o.staged);
     o = options_of (BONDS "solver: {kind: adr}\n");
-    assert_true (o.quasi_static && !o.marching && o.staged && o.hold && o.stages == 10 && o.break_mode == PG_BREAK_PASSING);
+    assert_true (o.quasi_static && !o.marching && o.staged && o.hold && o.stages == 10
+                 && o.break_mode == PG_BREAK_PASSING);
     check_relative (o.imbalance, 1e-5, 1e-15);
     o = options_of (BONDS "solver: {kind: relax, hold: off, stages: 7, damping: 5e6, dt: 1 us}\n");
     assert_true (o.quasi_static && !o.marching && o.staged && !o.hold && o.stages == 7);
@@ -99,7 +102,8 @@ static void newmark_coefficients_are_those_of_the_method (void **state)
 {
     (void) state;
     pg_solver_options o = { .dt = 0.1, .beta = 0.3, .gamma = 0.55 };
-    double b[8], goal[8] = { 1 / 0.003, 1 / 0.03, 1 / 0.6, 0.55 / 0.03, 0.55 / 0.3, 0.1 * (0.55 / 0.6 - 1), 0.1 * 0.45, 0.055 };
+    double b[8], goal[8] = { 1 / 0.003,  1 / 0.03, 1 / 0.6, 0.55 / 0.03, 0.55 / 0.3, 0.1 * (0.55 / 0.6 - 1),
+                             0.1 * 0.45, 0.055 };
     pg_newmark_coefficients (&o, b);
     for (int k = 0; k < 8; k++) check_relative (b[k], goal[k], 1e-14);
 }
@@ -107,7 +111,9 @@ static void newmark_coefficients_are_those_of_the_method (void **state)
 static void break_modes_are_read (void **state)
 {
     (void) state;
-    pg_solver_options o = options_of (PULLED BREAKS "solver: {break: fraction, break_fraction: 5 %, max_events: 7, stop: {set: right, damage: 30 %, stiffness: 0}}\n");
+    pg_solver_options o = options_of (PULLED BREAKS
+                                      "solver: {break: fraction, break_fraction: 5 %, max_events: 7, stop: "
+                                      "{set: right, damage: 30 %, stiffness: 0}}\n");
     assert_int_equal (o.break_mode, PG_BREAK_FRACTION);
     check_relative (o.break_fraction, 0.05, 1e-15);
     assert_int_equal (o.max_events, 7);
@@ -122,17 +128,26 @@ static void faults_name_key_and_reason (void **state)
     check_refused (PULLED "solver: {kind: newmark, end: 1}\n", "solver.dt: newmark needs a time step");
     check_refused (PULLED "solver: {kind: newmark, dt: 1}\n", "solver.end: newmark needs an end time");
     check_refused (PULLED "solver: {kind: newmark, dt: 1e-12, end: 1}\n", "time steps are too many");
-    check_refused (PULLED "solver: {kind: newmark, dt: 1, end: 10, beta: 0.2, gamma: 0.5}\n", "unconditionally stable only for 2 beta >= gamma");
-    assert_true (options_of (HELD BREAKS "solver: {stepping: event}\n").affine && !options_of (PULLED BREAKS).affine);
-    check_refused (PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1}, ramp: t^2}]\n" BREAKS "solver: {stepping: event}\n", "solver.stepping = event: event stepping needs loads that grow with the load factor (ramp: linear), stay (ramp: constant), or both: use fixed");
-    check_refused (PULLED BREAKS "solver: {stepping: event, break: all}\n", "solver.break = all: all goes with stepping: fixed");
-    check_refused (PULLED "solver: {stop: {set: nowhere}}\n", "solver.stop.set = nowhere: there is no set of this name");
+    check_refused (PULLED "solver: {kind: newmark, dt: 1, end: 10, beta: 0.2, gamma: 0.5}\n",
+                   "unconditionally stable only for 2 beta >= gamma");
+    assert_true (options_of (HELD BREAKS "solver: {stepping: event}\n").affine
+                 && !options_of (PULLED BREAKS).affine);
+    check_refused (PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1}, "
+                         "ramp: t^2}]\n" BREAKS "solver: {stepping: event}\n",
+                   "solver.stepping = event: event stepping needs loads that grow with the load factor "
+                   "(ramp: linear), stay (ramp: constant), or both: use fixed");
+    check_refused (PULLED BREAKS "solver: {stepping: event, break: all}\n",
+                   "solver.break = all: all goes with stepping: fixed");
+    check_refused (PULLED "solver: {stop: {set: nowhere}}\n",
+                   "solver.stop.set = nowhere: there is no set of this name");
     check_refused (PULLED "solver: {kind: sttaic}\n", "did you mean static");
     check_refused (PULLED "solver: {tolerance: 1}\n", "solver.tolerance");
     check_refused (PULLED "solver: {steps: 0}\n", "solver.steps");
     check_refused (PULLED "solver: {linear: mumps}\n", "solver.linear");
-    check_refused ("dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0}}\n"
-                   "solver: {kind: newmark, dt: 1, end: 10}\n", "newmark needs the density of material m");
+    check_refused ("dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1\nmaterials: {m: "
+                   "{youngs_modulus: 1, poissons_ratio: 0}}\n"
+                   "solver: {kind: newmark, dt: 1, end: 10}\n",
+                   "newmark needs the density of material m");
 }
 
 static void unknown_solvers_are_refused (void **state)

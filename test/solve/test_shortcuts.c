@@ -1,16 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Work that a run skips changes nothing: Newmark steps without a matrix or factor, conjugate gradients by the factor of an earlier K, K x
- * without K - each against the plain path, on bodies that break. */
+ * Work that a run skips changes nothing: Newmark steps without a matrix or factor, conjugate gradients by the
+ * factor of an earlier K, K x without K - each against the plain path, on bodies that break. */
 #include "scene_runs/run.h"
 #include <stdint.h>
 #include <string.h>
 
-#define BLOCK "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.8 m, 1 m, 0.4 m]}}}]\nspacing: 0.1 m\nperturb: {amount: 0.1}\n" \
+#define BLOCK \
+    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.8 m, 1 m, 0.4 m]}}}]\nspacing: 0.1 " \
+    "m\nperturb: {amount: 0.1}\n" \
     "cracks: [{polygon: [[-0.1, 0.55, -0.1], [0.25, 0.55, -0.1], [0.25, 0.45, 0.5], [-0.1, 0.45, 0.5]]}]\n" \
     "materials: {rock: {youngs_modulus: 30 GPa, poissons_ratio: 0.2, density: 2500}}\n" \
     "failure: {criterion: stretch, critical_stretch: 1e-4, exclude: [bottom, top]}\n"
-#define PULLED "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, velocity: {y: 0.5 m/s}}]\nmethod: {essential: transformation}\n"
-#define SMALL "solver: {kind: newmark, dt: 12 us, end: 2.4 ms, tolerance: 1e-11, break: fraction, break_fraction: 10 %%, linear: %s}\n"
+#define PULLED \
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, velocity: {y: 0.5 " \
+    "m/s}}]\nmethod: {essential: transformation}\n"
+#define SMALL \
+    "solver: {kind: newmark, dt: 12 us, end: 2.4 ms, tolerance: 1e-11, break: fraction, break_fraction: 10 " \
+    "%%, linear: %s}\n"
 
 /* Both runs step by step: the same bonds die, displacements agree. */
 static void compare (run *a, run *b, long steps, double tolerance)
@@ -29,13 +35,17 @@ static void a_small_step_factors_nothing_and_says_so (void **state)
     (void) state;
     run a = scene_of (1, BLOCK PULLED SMALL, "auto"), b = scene_of (1, BLOCK PULLED SMALL, "cholmod");
     compare (&a, &b, 18, 1e-9);
-    const pg_report *r = pg_solver_report (a.solver, a.state), *plain = pg_solver_report (b.solver, b.state);
-    print_message ("%ld bonds broken, %zu iterations in %ld solves; plain: %ld factorizations\n", r->broken, r->cg_iterations, r->solves, plain->factorizations);
+    const pg_statistics *r = pg_solver_report (a.solver, a.state),
+                        *plain = pg_solver_report (b.solver, b.state);
+    print_message ("%ld bonds broken, %zu iterations in %ld solves; plain: %ld factorizations\n", r->broken,
+                   r->cg_iterations, r->solves, plain->factorizations);
     assert_true (r->broken > 5);
     assert_int_equal (r->factorizations, 0);
     assert_true (plain->factorizations > 2);
     int told = 0;
-    for (size_t k = 0; k < r->nskipped; k++) told |= strstr (r->skipped[k].what, "factorization") && strstr (r->skipped[k].why, "the mass dominates");
+    for (size_t k = 0; k < r->nskipped; k++)
+        told |= strstr (r->skipped[k].what, "factorization")
+                && strstr (r->skipped[k].why, "the mass dominates");
     assert_true (told);
     clear (&a), clear (&b);
 }
@@ -43,17 +53,20 @@ static void a_small_step_factors_nothing_and_says_so (void **state)
 static void a_large_step_factors (void **state)
 {
     (void) state;
-    run a = scene_of (1, "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.8 m, 1 m, 0.4 m]}}}]\nspacing: 0.1 m\n"
-                      "materials: {rock: {youngs_modulus: 30 GPa, poissons_ratio: 0.2, density: 2500}}\n" PULLED
-                      "solver: {kind: newmark, dt: 1 ms, end: 10 ms}\n");
+    run a = scene_of (
+        1, "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.8 m, 1 m, 0.4 m]}}}]\nspacing: 0.1 m\n"
+           "materials: {rock: {youngs_modulus: 30 GPa, poissons_ratio: 0.2, density: 2500}}\n" PULLED
+           "solver: {kind: newmark, dt: 1 ms, end: 10 ms}\n");
     advance (&a);
-    const pg_report *r = pg_solver_report (a.solver, a.state);
+    const pg_statistics *r = pg_solver_report (a.solver, a.state);
     assert_true (r->factorizations >= 1);
     assert_int_equal (r->nskipped, 0);
     clear (&a);
 }
 
-#define STRIP "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1 m, 1 m, 0.5 m]}}}]\nspacing: 0.1 m\nperturb: {amount: 0.1}\n" \
+#define STRIP \
+    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1 m, 1 m, 0.5 m]}}}]\nspacing: 0.1 " \
+    "m\nperturb: {amount: 0.1}\n" \
     "cracks: [{polygon: [[-0.1, 0.55, -0.1], [0.25, 0.55, -0.1], [0.25, 0.45, 0.6], [-0.1, 0.45, 0.6]]}]\n" \
     "materials: {rock: {youngs_modulus: 30 GPa, poissons_ratio: 0.2, density: 2500}}\n" \
     "failure: {criterion: stretch, critical_stretch: 1e-4, exclude: [bottom, top]}\n" \
@@ -62,11 +75,14 @@ static void a_large_step_factors (void **state)
 static void a_kept_factor_gives_the_same_crack (void **state)
 {
     (void) state;
-    static const char solver[] = STRIP "solver: {stepping: fixed, steps: 40, tolerance: 1e-11, break: fraction, break_fraction: 10 %%, linear: %s}\n";
+    static const char solver[] = STRIP "solver: {stepping: fixed, steps: 40, tolerance: 1e-11, break: "
+                                       "fraction, break_fraction: 10 %%, linear: %s}\n";
     run a = scene_of (1, solver, "auto"), b = scene_of (1, solver, "cholmod");
     compare (&a, &b, 14, 1e-9);
-    const pg_report *r = pg_solver_report (a.solver, a.state), *plain = pg_solver_report (b.solver, b.state);
-    print_message ("%ld bonds broken, %ld factorizations, %zu iterations; plain: %ld\n", r->broken, r->factorizations, r->cg_iterations, plain->factorizations);
+    const pg_statistics *r = pg_solver_report (a.solver, a.state),
+                        *plain = pg_solver_report (b.solver, b.state);
+    print_message ("%ld bonds broken, %ld factorizations, %zu iterations; plain: %ld\n", r->broken,
+                   r->factorizations, r->cg_iterations, plain->factorizations);
     assert_true (r->broken > 5);
     assert_true (r->factorizations < plain->factorizations);
     assert_true (r->nskipped > 0);
@@ -86,19 +102,23 @@ static void events_with_a_kept_factor_are_the_same (void **state)
         if (k == 0) first = a.state->factor;
     }
     assert_true (first > 0);
-    assert_true (pg_solver_report (a.solver, a.state)->factorizations < pg_solver_report (b.solver, b.state)->factorizations);
+    assert_true (pg_solver_report (a.solver, a.state)->factorizations
+                 < pg_solver_report (b.solver, b.state)->factorizations);
     clear (&a), clear (&b);
 }
 
 static void the_frequency_that_bounds_explicit_steps (void **state)
 {
     (void) state;
-    /* a row of masses and the bar between them: theory of the linear element with its ends: omega^2 = 4 E / (rho h^2) for a = 2 h in 1D,
-     * where shape functions at the Gauss points are those of the bar's own cell and its neighbours; found here by brute force instead */
-    run r = scene_of (1, "dimension: 1\nbody: [{add: {box: {low: [0], high: [2 m]}}}]\nspacing: 0.1 m\n"
-                      "materials: {rock: {youngs_modulus: 4 Pa, poissons_ratio: 0, density: 1}}\n"
-                      "boundary: [{set: left, displacement: {x: 0}, ramp: constant}]\nmethod: {essential: transformation}\n"
-                      "solver: {kind: newmark, dt: 1 ms, end: 1 s}\n");
+    /* a row of masses and the bar between them: theory of the linear element with its ends: omega^2 = 4 E /
+     * (rho h^2) for a = 2 h in 1D, where shape functions at the Gauss points are those of the bar's own cell
+     * and its neighbours; found here by brute force instead */
+    run r = scene_of (
+        1,
+        "dimension: 1\nbody: [{add: {box: {low: [0], high: [2 m]}}}]\nspacing: 0.1 m\n"
+        "materials: {rock: {youngs_modulus: 4 Pa, poissons_ratio: 0, density: 1}}\n"
+        "boundary: [{set: left, displacement: {x: 0}, ramp: constant}]\nmethod: {essential: transformation}\n"
+        "solver: {kind: newmark, dt: 1 ms, end: 1 s}\n");
     double omega, best = 0;
     void *self;
     check_ok (pg_solver_fastest (r.solver, r.state, &omega));
@@ -127,9 +147,14 @@ static void damping_is_in_the_matrix (void **state)
     (void) state;
     size_t solves[2];
     for (int damped = 0; damped < 2; damped++) {
-        run r = scene_of (1, "dimension: 2\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 10 mm]}}}]\nspacing: 1 mm\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2500 kg/m3}}\n"
-                          "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, traction: {y: 1 MPa}}\nsolver: {kind: newmark, linear: cholmod, dt: 1 us, end: 20 us%s}\n",
-                          damped ? ", rayleigh: {stiffness: 2 us}" : "");
+        run r =
+            scene_of (1,
+                      "dimension: 2\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 10 "
+                      "mm]}}}]\nspacing: 1 mm\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: "
+                      "0.22, density: 2500 kg/m3}}\n"
+                      "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: top, traction: "
+                      "{y: 1 MPa}}\nsolver: {kind: newmark, linear: cholmod, dt: 1 us, end: 20 us%s}\n",
+                      damped ? ", rayleigh: {stiffness: 2 us}" : "");
         to_the_end (&r);
         solves[damped] = (size_t) pg_solver_report_now (r.solver)->solves;
         clear (&r);
@@ -145,7 +170,8 @@ int main (void)
         cmocka_unit_test (a_large_step_factors),
         cmocka_unit_test (a_kept_factor_gives_the_same_crack),
         cmocka_unit_test (events_with_a_kept_factor_are_the_same),
-        cmocka_unit_test (the_frequency_that_bounds_explicit_steps), cmocka_unit_test (damping_is_in_the_matrix),
+        cmocka_unit_test (the_frequency_that_bounds_explicit_steps),
+        cmocka_unit_test (damping_is_in_the_matrix),
     };
     return cmocka_run_group_tests_name ("solve/shortcuts", tests, NULL, NULL);
 }

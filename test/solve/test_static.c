@@ -1,17 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Static equilibrium: reactions balance every kind of load, external work is strain energy, supports by three methods and four
- * linear solvers agree, and a support that is too soft for Cholesky still gives equilibrium. */
+ * Static equilibrium: reactions balance every kind of load, external work is strain energy, supports by three
+ * methods and four linear solvers agree, and a support that is too soft for Cholesky still gives
+ * equilibrium. */
 #include "scene_runs/run.h"
 
-#define PLATE "dimension: 2\nplane: stress\nthickness: 0.2 m\nbody: [{add: {box: {low: [0, 0], high: [1 m, 0.5 m]}}}]\nspacing: 0.05 m\n" \
+#define PLATE \
+    "dimension: 2\nplane: stress\nthickness: 0.2 m\nbody: [{add: {box: {low: [0, 0], high: [1 m, 0.5 " \
+    "m]}}}]\nspacing: 0.05 m\n" \
     "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
-#define CUBE "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.4 m, 0.3 m, 0.3 m]}}}]\nspacing: 0.1 m\n" \
+#define CUBE \
+    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [0.4 m, 0.3 m, 0.3 m]}}}]\nspacing: 0.1 m\n" \
     "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
-#define BAR "dimension: 1\ncross_section: 0.2 m2\nbody: [{add: {box: {low: [0], high: [1 m]}}}]\nspacing: 0.05 m\n" \
+#define BAR \
+    "dimension: 1\ncross_section: 0.2 m2\nbody: [{add: {box: {low: [0], high: [1 m]}}}]\nspacing: 0.05 m\n" \
     "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0}}\n"
 static const char *const ways[] = { "nitsche", "transformation", "penalty" };
 
-/* ---- balance ------------------------------------------------------------------------------------------------------------- */
+/* ---- balance ------------------------------------------------------------------------------------------- */
 /* Sum of the forces of loads first .. last - 1 along k. */
 static double sum_of (const run *r, size_t first, size_t last, int k)
 {
@@ -43,7 +48,9 @@ static void reactions_balance_every_load (void **state)
         for (int w = 0; w < 3; w++) {
             int dim = loads[i].body[strlen ("dimension: ")] - '0';
             static const char *const fixed[] = { "", "x: 0", "x: 0, y: 0", "x: 0, y: 0, z: 0" };
-            run r = scene_of (1, "%sboundary: [{%s}, {set: left, displacement: {%s}}]\nmethod: {essential: %s}\n", loads[i].body, loads[i].load, fixed[dim], ways[w]);
+            run r =
+                scene_of (1, "%sboundary: [{%s}, {set: left, displacement: {%s}}]\nmethod: {essential: %s}\n",
+                          loads[i].body, loads[i].load, fixed[dim], ways[w]);
             to_the_end (&r);
             double size = 0;
             for (int k = 0; k < dim; k++) size = fmax (size, fabs (r.step.reaction[k]));
@@ -60,7 +67,9 @@ static void reactions_balance_every_load (void **state)
 static void a_pressure_around_the_body_has_no_sum (void **state)
 {
     (void) state;
-    run r = scene_of (1, CUBE "boundary: [{set: all, pressure: 1 MPa}, {set: left, displacement: {x: 0, y: 0, z: 0}}]\n");
+    run r =
+        scene_of (1, CUBE
+                  "boundary: [{set: all, pressure: 1 MPa}, {set: left, displacement: {x: 0, y: 0, z: 0}}]\n");
     to_the_end (&r);
     for (int k = 0; k < 3; k++) {
         check_scaled (r.step.reaction[k], 0, 1e-10, 1e5);
@@ -73,32 +82,39 @@ static void two_supports_pull_against_each_other (void **state)
 {
     (void) state;
     for (int w = 0; w < 3; w++) {
-        run r = scene_of (1, PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 1 mm, y: 0.2 mm}}]\nmethod: {essential: %s}\n", ways[w]);
+        run r = scene_of (1,
+                          PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, "
+                                "displacement: {x: 1 mm, y: 0.2 mm}}]\nmethod: {essential: %s}\n",
+                          ways[w]);
         to_the_end (&r);
-        for (int k = 0; k < 2; k++) check_scaled (r.step.reaction[k], -r.step.reaction[3 + k], 1e-9, fabs (r.step.reaction[3]));
-        check_relative (r.step.reaction[3], 10e9 * 0.2 * 0.5 * 1e-3, 0.05);            /* E A u / L, and clamped ends        */
+        for (int k = 0; k < 2; k++)
+            check_scaled (r.step.reaction[k], -r.step.reaction[3 + k], 1e-9, fabs (r.step.reaction[3]));
+        check_relative (r.step.reaction[3], 10e9 * 0.2 * 0.5 * 1e-3, 0.05);  /* E A u / L, and clamped ends */
         assert_true (r.step.reaction[4] > 0);
         clear (&r);
     }
 }
 
-/* ---- energy -------------------------------------------------------------------------------------------------------------- */
+/* ---- energy -------------------------------------------------------------------------------------------- */
 static void external_work_is_strain_energy (void **state)
 {
     (void) state;
-    static const char *const steppings[] = { "stepping: event", "stepping: fixed, steps: 1", "stepping: fixed, steps: 7" };
+    static const char *const steppings[] = { "stepping: event", "stepping: fixed, steps: 1",
+                                             "stepping: fixed, steps: 7" };
     static const char *const cases[] = {
         "{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa, y: 1 MPa}}",
         "{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 1 mm, y: 2 mm}}",
-        "{set: left, displacement: {x: 0, y: 0}}, {set: top, pressure: 1 MPa}, {set: all, body_force: {x: 1 MN/m3}}, {set: right, force: {y: -1 MN}}",
+        "{set: left, displacement: {x: 0, y: 0}}, {set: top, pressure: 1 MPa}, {set: all, body_force: {x: 1 "
+        "MN/m3}}, {set: right, force: {y: -1 MN}}",
     };
     for (int c = 0; c < 3; c++)
         for (int w = 0; w < 3; w++)
             for (int s = 0; s < 3; s++) {
-                run r = scene_of (1, PLATE "boundary: [%s]\nmethod: {essential: %s}\nsolver: {%s}\n", cases[c], ways[w], steppings[s]);
+                run r = scene_of (1, PLATE "boundary: [%s]\nmethod: {essential: %s}\nsolver: {%s}\n",
+                                  cases[c], ways[w], steppings[s]);
                 while (!pg_solver_done (r.solver, r.state)) {
                     advance (&r);
-                    const pg_report *report = pg_solver_report_now (r.solver);
+                    const pg_statistics *report = pg_solver_report_now (r.solver);
                     assert_true (report->energy_external > 0);
                     check_relative (report->energy_strain, report->energy_external, 1e-8);
                     check_scaled (report->energy_dissipated, 0, 1e-8, report->energy_external);
@@ -112,19 +128,27 @@ static void external_work_is_strain_energy (void **state)
 static void events_and_fixed_steps_reach_the_same_place (void **state)
 {
     (void) state;
-    run a = scene_of (1, PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa, y: 1 MPa}}]\nsolver: {stepping: event}\n"),
-        b = scene_of (1, PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa, y: 1 MPa}}]\nsolver: {stepping: fixed, steps: 3}\n");
+    run a = scene_of (1, PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: "
+                               "{x: 1 MPa, y: 1 MPa}}]\nsolver: {stepping: event}\n"),
+        b = scene_of (1, PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: "
+                               "{x: 1 MPa, y: 1 MPa}}]\nsolver: {stepping: fixed, steps: 3}\n");
     to_the_end (&a), to_the_end (&b);
-    check_below (largest_difference (a.state->d, b.state->d, a.state->ndof), 1e-9 * largest_of (b.state->d, b.state->ndof));
+    check_below (largest_difference (a.state->d, b.state->d, a.state->ndof),
+                 1e-9 * largest_of (b.state->d, b.state->ndof));
     for (int k = 0; k < 6; k++) check_scaled (a.step.reaction[k], b.step.reaction[k], 1e-9, 1e5);
-    check_below ((double) pg_solver_report_now (a.solver)->solves, 13);    /* one solve, refined, for all levels          */
+    /* one solve, refined, for all levels */
+    check_below ((double) pg_solver_report_now (a.solver)->solves, 13);
     clear (&a), clear (&b);
 }
 
-/* ---- choices that must not matter ---------------------------------------------------------------------------------------- */
+/* ---- choices that must not matter ---------------------------------------------------------------------- */
 static double *displacement (const char *rest)
 {
-    run r = scene_of (1, PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 1 mm}}]\n%s", rest);
+    run r = scene_of (
+        1,
+        PLATE
+        "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 1 mm}}]\n%s",
+        rest);
     to_the_end (&r);
     double *u = field_of (&r, NULL, "displacement", NULL);
     clear (&r);
@@ -140,8 +164,10 @@ static void three_ways_to_prescribe_agree (void **state)
         snprintf (rest, sizeof rest, "method: {essential: %s}\n", ways[w]);
         u[w] = displacement (rest);
     }
-    check_below (largest_difference (u[1], u[2], 21 * 11 * 2), 1e-6 * 1e-3);       /* both at the nodes: 1 / penalty      */
-    check_below (largest_difference (u[0], u[1], 21 * 11 * 2), 1e-3 * 1e-3);       /* nodes against facets: 1 / 1000      */
+    /* both at the nodes: 1 / penalty */
+    check_below (largest_difference (u[1], u[2], 21 * 11 * 2), 1e-6 * 1e-3);
+    /* nodes against facets: 1 / 1000 */
+    check_below (largest_difference (u[0], u[1], 21 * 11 * 2), 1e-3 * 1e-3);
     for (int w = 0; w < 3; w++) pg_free (u[w]);
 }
 
@@ -154,7 +180,8 @@ static void linear_solvers_agree (void **state)
         double *u[4];
         for (int s = 0; s < 4; s++) {
             char rest[120];
-            snprintf (rest, sizeof rest, "method: {essential: %s}\nsolver: {linear: %s}\n", methods[m], solvers[s]);
+            snprintf (rest, sizeof rest, "method: {essential: %s}\nsolver: {linear: %s}\n", methods[m],
+                      solvers[s]);
             u[s] = displacement (rest);
             check_below (largest_difference (u[0], u[s], 21 * 11 * 2), 1e-8 * 1e-3);
         }
@@ -165,19 +192,25 @@ static void linear_solvers_agree (void **state)
 static void a_soft_nitsche_support_falls_back_on_umfpack (void **state)
 {
     (void) state;
-    run r = scene_of (1, PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa}}]\n"
-                      "method: {essential: nitsche, nitsche_factor: 0.05}\n");
+    run r =
+        scene_of (1, PLATE
+                  "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa}}]\n"
+                  "method: {essential: nitsche, nitsche_factor: 0.05}\n");
     to_the_end (&r);
-    const pg_report *report = pg_solver_report_now (r.solver);
+    const pg_statistics *report = pg_solver_report_now (r.solver);
     int told = 0;
-    for (size_t k = 0; k < report->nwarning; k++) told |= strstr (report->warning[k], "not positive definite") && strstr (report->warning[k], "nitsche_factor");
+    for (size_t k = 0; k < report->nwarning; k++)
+        told |= strstr (report->warning[k], "not positive definite")
+                && strstr (report->warning[k], "nitsche_factor");
     assert_true (told);
     assert_string_equal (report->solver, "umfpack");
     check_below (report->residual_max, 1e-8);
     check_relative (r.step.reaction[0], -1e5, 1e-9);
     clear (&r);
-    run c = scene_of (1, PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa}}]\n"
-                      "method: {essential: nitsche, nitsche_factor: 0.05}\nsolver: {linear: cholmod}\n");
+    run c =
+        scene_of (1, PLATE
+                  "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa}}]\n"
+                  "method: {essential: nitsche, nitsche_factor: 0.05}\nsolver: {linear: cholmod}\n");
     check_fails (pg_solver_step (c.solver, c.state, &c.step), PG_E_NOT_SPD);
     check_contains (pg_last_error (), "nitsche_factor");
     clear (&c);
@@ -187,17 +220,24 @@ static void a_soft_nitsche_support_falls_back_on_umfpack (void **state)
 static void nitsche_holds_up_to_a_poissons_ratio_of_one_half (void **state)
 {
     (void) state;
-    static const char *const methods[] = { "", "integration: nodal, ", "integration: consistent, ", "basis: quadratic, horizon: 3 spacing, " };
+    static const char *const methods[] = { "", "integration: nodal, ", "integration: consistent, ",
+                                           "basis: quadratic, horizon: 3 spacing, " };
     static const double ratios[] = { 0.48, 0.49, 0.495, 0.4999 };
     for (int body = 0; body < 2; body++)
         for (int m = 0; m < 4; m++)
             for (int k = 0; k < 4; k++)
                 for (int pointwise = 0; pointwise < 2; pointwise++) {
-                    run r = scene_of (1, "%smaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: %g}}\nmethod: {%sdilatation: %s, essential: nitsche}\n"
-                                      "boundary: [{set: left, displacement: {x: 0, y: 0%s}}, {set: right, traction: {y: 1 kPa}}]\nsolver: {linear: cholmod}\n",
-                                      body ? "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1 m, 0.5 m, 0.5 m]}}}]\nspacing: 0.25 m\n"
-                                           : "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [2 m, 1 m]}}}]\nspacing: 0.2 m\n",
-                                      ratios[k], methods[m], pointwise ? "pointwise" : "auto", body ? ", z: 0" : "");
+                    run r = scene_of (1,
+                                      "%smaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: "
+                                      "%g}}\nmethod: {%sdilatation: %s, essential: nitsche}\n"
+                                      "boundary: [{set: left, displacement: {x: 0, y: 0%s}}, {set: right, "
+                                      "traction: {y: 1 kPa}}]\nsolver: {linear: cholmod}\n",
+                                      body ? "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1 m, "
+                                             "0.5 m, 0.5 m]}}}]\nspacing: 0.25 m\n"
+                                           : "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], "
+                                             "high: [2 m, 1 m]}}}]\nspacing: 0.2 m\n",
+                                      ratios[k], methods[m], pointwise ? "pointwise" : "auto",
+                                      body ? ", z: 0" : "");
                     advance (&r);
                     assert_true (r.step.residual <= 1e-8);
                     clear (&r);
@@ -207,19 +247,22 @@ static void nitsche_holds_up_to_a_poissons_ratio_of_one_half (void **state)
 static void a_body_that_nothing_holds_is_no_equilibrium (void **state)
 {
     (void) state;
-    run r = scene_of (1, PLATE "boundary: [{set: right, traction: {x: 1 MPa}}]\nsolver: {stepping: fixed, steps: 2}\n");
+    run r =
+        scene_of (1, PLATE
+                  "boundary: [{set: right, traction: {x: 1 MPa}}]\nsolver: {stepping: fixed, steps: 2}\n");
     pg_status status = pg_solver_step (r.solver, r.state, &r.step);
     assert_true (status == PG_E_EQUILIBRIUM || status == PG_E_NOT_SPD || status == PG_E_SINGULAR);
-    assert_true (largest_of (r.state->d, r.state->ndof) == 0);     /* the last accepted state                             */
+    assert_true (largest_of (r.state->d, r.state->ndof) == 0);     /* the last accepted state */
     assert_int_equal (r.state->step, 0);
     clear (&r);
 }
 
-/* ---- places ---------------------------------------------------------------------------------------------------------------- */
+/* ---- places -------------------------------------------------------------------------------------------- */
 static void gauges_see_linear_fields_exactly (void **state)
 {
     (void) state;
-    static const char *const methods[] = { "{approximation: rkpm}", "{approximation: nosb, integration: nodal, horizon: 2.5 spacing}",
+    static const char *const methods[] = { "{approximation: rkpm}",
+                                           "{approximation: nosb, integration: nodal, horizon: 2.5 spacing}",
                                            "{approximation: rkpm, basis: quadratic, horizon: 3 spacing}" };
     for (int m = 0; m < 3; m++) {
         run r = scene_of (1, PLATE "method: %s\n", methods[m]);
@@ -244,7 +287,8 @@ static void gauges_see_linear_fields_exactly (void **state)
 static void a_steady_run_allocates_nothing_more (void **state)
 {
     (void) state;
-    run r = scene_of (1, PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa}, ramp: t^2}]\nsolver: {stepping: fixed, steps: 10}\n");
+    run r = scene_of (1, PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: "
+                               "{x: 1 MPa}, ramp: t^2}]\nsolver: {stepping: fixed, steps: 10}\n");
     advance (&r), advance (&r);
     size_t used = pg_memory_used (), calls = pg_memory_calls ();
     to_the_end (&r);

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The row-owned gather against a naive dense assembly of random families; redoing rows and adding threads change no bit. */
+ * The row-owned gather against a naive dense assembly of random families; redoing rows and adding threads
+ * change no bit. */
 #include "check.h"
 #include "perigal/stiffness.h"
 
-/* Points see random nodes; point p brings sum_r g_r g_r', g_r (p, node, component) from a hash, times a factor of the point. */
+/* Points see random nodes; point p brings sum_r g_r g_r', g_r (p, node, component) from a hash, times a
+ * factor of the point. */
 typedef struct { pg_family family; int block, salt; double *factor; } random_source;
 
 static uint64_t mix (uint64_t h)
@@ -14,17 +16,22 @@ static uint64_t mix (uint64_t h)
 
 static double hash (int salt, size_t p, size_t node, int r, int k)
 {
-    uint64_t h = mix ((uint64_t) salt * 1000003 + mix (p * 7919 + mix (node * 104729 + (uint64_t) (10 * r + k))));
+    uint64_t h = mix ((uint64_t) salt * 1000003
+                      + mix (p * 7919 + mix (node * 104729 + (uint64_t) (10 * r + k))));
     return (double) (h >> 11) / 4503599627370496.0 - 1;
 }
 
 static random_source random_points (size_t npoint, size_t n, double share, int block, int salt)
 {
-    random_source s = { { npoint, pg_calloc (npoint + 1, sizeof (size_t)), pg_calloc (npoint * n, sizeof (int)) }, block, salt,
+    random_source s = { { npoint, pg_calloc (npoint + 1, sizeof (size_t)),
+                          pg_calloc (npoint * n, sizeof (int)) },
+                        block,
+                        salt,
                         pg_calloc (npoint, sizeof (double)) };
     size_t at = 0;
     for (size_t p = 0; p < npoint; p++) {
-        for (size_t i = 0; i < n; i++) if (hash (salt, p, i, 7, 7) < 2 * share - 1) s.family.node[at++] = (int) i;
+        for (size_t i = 0; i < n; i++)
+            if (hash (salt, p, i, 7, 7) < 2 * share - 1) s.family.node[at++] = (int) i;
         s.family.start[p + 1] = at;
         s.factor[p] = 1 + (double) (p % 5);
     }
@@ -35,7 +42,8 @@ static void random_free (random_source *s) { pg_family_clear (&s->family), pg_fr
 
 static void entry (const random_source *s, size_t p, size_t i, size_t j, int alpha, int beta, double *out)
 {
-    for (int r = 0; r < 3; r++) *out += s->factor[p] * hash (s->salt, p, i, r, alpha) * hash (s->salt, p, j, r, beta);
+    for (int r = 0; r < 3; r++)
+        *out += s->factor[p] * hash (s->salt, p, i, r, alpha) * hash (s->salt, p, j, r, beta);
 }
 
 static void blocks (void *context, size_t p, size_t a, size_t m, double *out)
@@ -44,7 +52,8 @@ static void blocks (void *context, size_t p, size_t a, size_t m, double *out)
     const int *node = s->family.node + s->family.start[p];
     for (size_t b = 0; b < m; b++)
         for (int k = 0; k < s->block * s->block; k++)
-            entry (s, p, (size_t) node[a], (size_t) node[b], k / s->block, k % s->block, out + b * (size_t) (s->block * s->block) + k);
+            entry (s, p, (size_t) node[a], (size_t) node[b], k / s->block, k % s->block,
+                   out + b * (size_t) (s->block * s->block) + k);
 }
 
 static double *assemble (size_t n, int block, size_t nsource, const random_source *sources)
@@ -57,7 +66,8 @@ static double *assemble (size_t n, int block, size_t nsource, const random_sourc
                 for (size_t b = sources[s].family.start[p]; b < sources[s].family.start[p + 1]; b++)
                     for (size_t k = 0; k < m * m; k++) {
                         size_t i = (size_t) sources[s].family.node[a], j = (size_t) sources[s].family.node[b];
-                        entry (&sources[s], p, i, j, (int) (k / m), (int) (k % m), &K[(i * m + k / m) * ndof + j * m + k % m]);
+                        entry (&sources[s], p, i, j, (int) (k / m), (int) (k % m),
+                               &K[(i * m + k / m) * ndof + j * m + k % m]);
                     }
     return K;
 }
@@ -75,7 +85,8 @@ static pg_stiffness *gathered (size_t n, int block, size_t nsource, random_sourc
 static void well_formed (const pg_sparse *A)
 {
     for (size_t j = 0; j < A->ncol; j++) {
-        assert_true (A->start[j + 1] > A->start[j] && A->row[A->start[j + 1] - 1] == (long) j);    /* ends on its diagonal  */
+        /* ends on its diagonal */
+        assert_true (A->start[j + 1] > A->start[j] && A->row[A->start[j + 1] - 1] == (long) j);
         for (long p = A->start[j] + 1; p < A->start[j + 1]; p++) assert_true (A->row[p] > A->row[p - 1]);
     }
 }
@@ -86,7 +97,8 @@ static void equals_the_naive_assembly (void **state)
     for (int block = 1; block <= 3; block++)
         for (size_t nsource = 1; nsource <= 3; nsource++) {
             size_t n = 40, ndof = n * (size_t) block;
-            random_source s[3] = { random_points (60, n, 0.12, block, 1), random_points (9, n, 0.3, block, 2), random_points (1, n, 0.0, block, 3) };
+            random_source s[3] = { random_points (60, n, 0.12, block, 1), random_points (9, n, 0.3, block, 2),
+                                   random_points (1, n, 0.0, block, 3) };
             pg_stiffness *K = gathered (n, block, nsource, s, 1);
             const pg_sparse *A = pg_stiffness_matrix (K);
             double *D = assemble (n, block, nsource, s);
@@ -98,7 +110,9 @@ static void equals_the_naive_assembly (void **state)
                     check_scaled (A->value[p], D[at], 1e-13, 10);
                     D[at] = 0;
                 }
-            for (size_t j = 0; j < ndof; j++) for (size_t i = 0; i <= j; i++) assert_true (D[i * ndof + j] == 0);    /* none is missing */
+            /* none is missing */
+            for (size_t j = 0; j < ndof; j++)
+                for (size_t i = 0; i <= j; i++) assert_true (D[i * ndof + j] == 0);
             pg_free (D);
             pg_stiffness_free (&K);
             assert_null (K);
@@ -111,7 +125,8 @@ static void redone_rows_equal_a_full_gather (void **state)
     (void) state;
     for (int block = 1; block <= 3; block++) {
         size_t n = 120;
-        random_source s[2] = { random_points (150, n, 0.05, block, 4), random_points (30, n, 0.04, block, 5) };
+        random_source s[2] = { random_points (150, n, 0.05, block, 4),
+                               random_points (30, n, 0.04, block, 5) };
         pg_stiffness *K = gathered (n, block, 2, s, 1);
         static const size_t touched[] = { 3, 4, 77, 149 };
         unsigned char mark[120] = { 0 };
@@ -119,7 +134,8 @@ static void redone_rows_equal_a_full_gather (void **state)
         size_t count = 0;
         for (int k = 0; k < 4; k++) {
             s[0].factor[touched[k]] = k ? 0.37 * k : 0;
-            for (size_t e = s[0].family.start[touched[k]]; e < s[0].family.start[touched[k] + 1]; e++) mark[s[0].family.node[e]] = 1;
+            for (size_t e = s[0].family.start[touched[k]]; e < s[0].family.start[touched[k] + 1]; e++)
+                mark[s[0].family.node[e]] = 1;
         }
         for (int i = 0; i < 120; i++) if (mark[i]) list[count++] = i;
         assert_true (count > 0 && count < n);
@@ -141,7 +157,8 @@ static void threads_change_no_bit (void **state)
     const pg_sparse *A = pg_stiffness_matrix (one);
     for (int threads = 2; threads <= 7; threads += 5) {
         pg_stiffness *many = gathered (n, 2, 1, s, threads);
-        assert_memory_equal (A->value, pg_stiffness_matrix (many)->value, (size_t) A->start[A->ncol] * sizeof *A->value);
+        assert_memory_equal (A->value, pg_stiffness_matrix (many)->value,
+                             (size_t) A->start[A->ncol] * sizeof *A->value);
         pg_stiffness_free (&many);
     }
     pg_stiffness_free (&one);
@@ -190,7 +207,8 @@ static void each_failed_allocation_is_reported (void **state)
     random_free (&s[0]), random_free (&s[1]);
 }
 
-/* Graphs for forecasts: two nodes are coupled where a point sees both, or where a bond ties them; every node to itself. */
+/* Graphs for forecasts: two nodes are coupled where a point sees both, or where a bond ties them; every node
+ * to itself. */
 static void graphs_hold_the_pairs_and_the_diagonal (void **state)
 {
     (void) state;
@@ -202,10 +220,12 @@ static void graphs_hold_the_pairs_and_the_diagonal (void **state)
     for (int k = 0; k < 2; k++)
         for (size_t p = 0; p < of[k]->n; p++)
             for (size_t a = of[k]->start[p]; a < of[k]->start[p + 1]; a++)
-                for (size_t b = of[k]->start[p]; b < of[k]->start[p + 1]; b++) seen[0][of[k]->node[a]][of[k]->node[b]] = 1;
+                for (size_t b = of[k]->start[p]; b < of[k]->start[p + 1]; b++)
+                    seen[0][of[k]->node[a]][of[k]->node[b]] = 1;
     for (size_t i = 0, at = 0; i < N; i++) {
         for (size_t j = 0; j < N; j++)
-            if (i != j && hash (5, i < j ? i : j, i < j ? j : i, 0, 0) > 0.6) bonds.node[at++] = (int) j, seen[1][i][j] = 1;
+            if (i != j && hash (5, i < j ? i : j, i < j ? j : i, 0, 0) > 0.6)
+                bonds.node[at++] = (int) j, seen[1][i][j] = 1;
         bonds.start[i + 1] = at;
         seen[0][i][i] = seen[1][i][i] = 1;
     }

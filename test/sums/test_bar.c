@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A bar of plane stress drawn at its ends: what missing bonds at its sides cost, and what factors for the surface make of it (theory A3). */
+ * A bar of plane stress drawn at its ends: what missing bonds at its sides cost, and what factors for the
+ * surface make of it (theory A3). */
 #include "check.h"
 #include "perigal/sums.h"
 #include <stdlib.h>
 
-typedef struct { pg_family family; size_t n; double *K; } matrix;          /* K (3 per bond): xx xy yy of c k beta g / r e x e V V */
+/* K (3 per bond): xx xy yy of c k beta g / r e x e V V */
+typedef struct { pg_family family; size_t n; double *K; } matrix;
 
 static void multiply (const matrix *A, const double *u, double *f)
 {
@@ -47,13 +49,18 @@ static void solve (const matrix *A, const double *b, double *u)
 
 static pg_sums *sums_of (pg_cloud *cloud, int nx, int ny, double m, pg_surface surface)
 {
-    pg_sum_rule rule = {.mode = PG_PLANE_STRESS, .kernel = pg_kernel_find ("constant"), .horizon = m, .surface = surface, .calibrate = 1};
+    pg_sum_rule rule = { .mode = PG_PLANE_STRESS,
+                         .kernel = pg_kernel_find ("constant"),
+                         .horizon = m,
+                         .surface = surface,
+                         .calibrate = 1 };
     pg_lattice lattice = {.dim = 2, .count = {nx, ny, 1}, .step = {1, 1, 1}};
     pg_sums *s;
     *cloud = (pg_cloud) {.dim = 2, .n = (size_t) nx * (size_t) ny, .h = 1, .step = {1, 1, 1}, .thickness = 1};
     cloud->x = malloc (2 * cloud->n * sizeof (double)), cloud->volume = malloc (cloud->n * sizeof (double));
     for (size_t i = 0; i < cloud->n; i++)
-        cloud->x[2*i] = (double) (i % (size_t) nx), cloud->x[2*i + 1] = (double) (i / (size_t) nx), cloud->volume[i] = 1;
+        cloud->x[2 * i] = (double) (i % (size_t) nx), cloud->x[2 * i + 1] = (double) (i / (size_t) nx),
+                     cloud->volume[i] = 1;
     check_ok (pg_sums_create (&s, &rule, cloud, &lattice));
     return s;
 }
@@ -67,14 +74,16 @@ static matrix assemble (const pg_sums *s, double c)
     for (size_t i = 0; i < A.n; i++) {
         pg_sums_bonds (s, &A.family, i, xi, weight, NULL);
         for (size_t e = 0; e < A.family.start[i + 1] - A.family.start[i]; e++) {
-            double *K = A.K + 3 * (A.family.start[i] + e), x = xi[2*e], y = xi[2*e + 1], k = c * weight[e] / pow (x*x + y*y, 1.5);
+            double *K = A.K + 3 * (A.family.start[i] + e), x = xi[2 * e], y = xi[2 * e + 1],
+                   k = c * weight[e] / pow (x * x + y * y, 1.5);
             K[0] = k * x * x, K[1] = k * x * y, K[2] = k * y * y;
         }
     }
     return A;
 }
 
-/* Strains under stress 1 and E = 1: along, over the middle half; across, from side to side in the middle. Elasticity: 1, -1/3 */
+/* Strains under stress 1 and E = 1: along, over the middle half; across, from side to side in the middle.
+ * Elasticity: 1, -1/3 */
 static void strains (int ny, double m, pg_surface surface, double *along, double *across)
 {
     int nx = 4 * ny, a = nx / 4, b = nx - 1 - a;
@@ -86,7 +95,8 @@ static void strains (int ny, double m, pg_surface surface, double *along, double
     solve (&A, load, u);
     *along = *across = 0;
     for (int y = 0; y < ny; y++) *along += (u[2 * (y * nx + b)] - u[2 * (y * nx + a)]) / (b - a) / ny;
-    for (int x = nx / 2 - 1; x <= nx / 2; x++) *across += (u[2 * ((ny - 1) * nx + x) + 1] - u[2*x + 1]) / (ny - 1) / 2;
+    for (int x = nx / 2 - 1; x <= nx / 2; x++)
+        *across += (u[2 * ((ny - 1) * nx + x) + 1] - u[2 * x + 1]) / (ny - 1) / 2;
     pg_family_clear (&A.family);
     pg_sums_free (&s);
     free (A.K), free (load), free (u), free (cloud.x), free (cloud.volume);
@@ -95,10 +105,17 @@ static void strains (int ny, double m, pg_surface surface, double *along, double
 static void strains_of_a_bar_are_the_printed_ones (void **state)
 {
     (void) state;
-    static const struct { int ny; double m; pg_surface surface; double along, across; } rows[] = {
-        {20, 3.015, PG_SURFACE_NONE, 1.0063, -0.3360}, {20, 3.015, PG_SURFACE_VOLUME, 0.9315, -0.3108}, {20, 3.015, PG_SURFACE_PRODUCT, 0.9306, -0.3100},
-        {20, 6, PG_SURFACE_NONE, 1.0969, -0.4273}, {20, 6, PG_SURFACE_VOLUME, 0.9507, -0.3733}, {20, 6, PG_SURFACE_PRODUCT, 0.9482, -0.3707},
-        {40, 6, PG_SURFACE_NONE, 1.0555, 0}, {40, 6, PG_SURFACE_VOLUME, 0.9828, 0}, {40, 6, PG_SURFACE_PRODUCT, 0.9815, 0},
+    static const struct { int ny; double m; pg_surface surface; double along, across;
+    } rows[] = {
+        { 20, 3.015, PG_SURFACE_NONE, 1.0063, -0.3360 },
+        { 20, 3.015, PG_SURFACE_VOLUME, 0.9315, -0.3108 },
+        { 20, 3.015, PG_SURFACE_PRODUCT, 0.9306, -0.3100 },
+        { 20, 6, PG_SURFACE_NONE, 1.0969, -0.4273 },
+        { 20, 6, PG_SURFACE_VOLUME, 0.9507, -0.3733 },
+        { 20, 6, PG_SURFACE_PRODUCT, 0.9482, -0.3707 },
+        { 40, 6, PG_SURFACE_NONE, 1.0555, 0 },
+        { 40, 6, PG_SURFACE_VOLUME, 0.9828, 0 },
+        { 40, 6, PG_SURFACE_PRODUCT, 0.9815, 0 },
     };
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         double along, across;

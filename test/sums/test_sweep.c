@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Loops over the bonds of a lattice against the plain double loop: forces, energy, broken bonds; any number of threads gives the same bits,
- * and so do the instruction sets that fuse products and sums. */
+ * Loops over the bonds of a lattice against the plain double loop: forces, energy, broken bonds; any number
+ * of threads gives the same bits, and so do the instruction sets that fuse products and sums. */
 #include "sweeps.h"
 
 static const body_wish wishes[] = {
@@ -14,7 +14,8 @@ static const body_wish wishes[] = {
     { { 150, 1, 1 }, 0.05, 0, 0, 1, 4.2, PG_SURFACE_NONE, PG_PARTIAL_LINEAR, 1, PG_EVALUATE_STENCIL },
     { { 17, 9, 8 }, 0.1, 0, 0, 3, 3.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 0, PG_EVALUATE_STENCIL },
     { { 35, 5, 6 }, 0.1, 1, 1, 3, 3.015, PG_SURFACE_PRODUCT, PG_PARTIAL_NONE, 1, PG_EVALUATE_STENCIL },
-    { { 40, 1, 1 }, 0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_NONE, 0, PG_EVALUATE_STENCIL },      /* thin ones */
+    /* thin ones */
+    { { 40, 1, 1 }, 0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_NONE, 0, PG_EVALUATE_STENCIL },
     { { 2, 40, 1 }, 0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 0, PG_EVALUATE_STENCIL },
     { { 3, 3, 40 }, 0, 0, 0, 3, 3.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 1, PG_EVALUATE_STENCIL },
     { { 40, 1, 2 }, 0, 0, 0, 3, 3.015, PG_SURFACE_PRODUCT, PG_PARTIAL_LINEAR, 0, PG_EVALUATE_STENCIL },
@@ -23,10 +24,22 @@ static const body_wish wishes[] = {
 static void wish (body *b, size_t w, uint64_t seed) { body_create (b, &wishes[w], seed); }
 static const swept stencils = { "stencil", wish, sizeof wishes / sizeof *wishes, 1 };
 
-static void forces_and_energy_equal_the_plain_loop (void **state) { (void) state, sums_equal_the_plain_loop (&stencils); }
-static void bonds_break_as_in_the_plain_loop (void **state) { (void) state, breaking_equals_the_plain_loop (&stencils); }
-static void changes_equal_a_whole_update (void **state) { (void) state, updates_by_changes_equal_whole_ones (&stencils); }
-static void steady_sums_allocate_nothing (void **state) { (void) state, steady_sums_cost_what_is_said (&stencils, 2, 0.12, 1); }
+static void forces_and_energy_equal_the_plain_loop (void **state)
+{
+    (void) state, sums_equal_the_plain_loop (&stencils);
+}
+static void bonds_break_as_in_the_plain_loop (void **state)
+{
+    (void) state, breaking_equals_the_plain_loop (&stencils);
+}
+static void changes_equal_a_whole_update (void **state)
+{
+    (void) state, updates_by_changes_equal_whole_ones (&stencils);
+}
+static void steady_sums_allocate_nothing (void **state)
+{
+    (void) state, steady_sums_cost_what_is_said (&stencils, 2, 0.12, 1);
+}
 
 /* Unless they are asked for, nothing breaks. */
 static void nothing_breaks_unasked (void **state)
@@ -38,71 +51,81 @@ static void nothing_breaks_unasked (void **state)
     double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g);
     for (size_t i = 0; i < values; i++) b.u[i] *= 1e3;
     body_plain (&b, 0, g, NULL);
-    pg_sweep *s = NULL;
+    pg_bond_loop *s = NULL;
     pg_changes broken = { 0 };
     make_sweep (&s, &b, NULL, 1, 1, 0);
-    check_ok (pg_sweep_force (s, b.u, f, NULL));
+    check_ok (pg_bond_loop_force (s, b.u, f, NULL));
     close_to (f, g, values, 1e-13);
-    pg_sweep_free (&s);
+    pg_bond_loop_free (&s);
     make_sweep (&s, &b, NULL, 1, 0, 0);
-    check_ok (pg_sweep_force (s, b.u, f, &broken));
+    check_ok (pg_bond_loop_force (s, b.u, f, &broken));
     assert_int_equal (broken.n, 0);
     close_to (f, g, values, 1e-13);
-    pg_sweep_free (&s);
+    pg_bond_loop_free (&s);
     pg_free (f), pg_free (g);
     body_free (&b);
 }
 
-/* A stretch exactly at the limit on a lattice line: both directions of all bonds of that length and direction decide alike. */
+/* A stretch exactly at the limit on a lattice line: both directions of all bonds of that length and direction
+ * decide alike. */
 static void ties_break_together (void **state)
 {
     (void) state;
     for (int finite = 0; finite < 2; finite++)
         for (int k = 0; k < SETS; k++) {
-            body_wish wish = { { 45, 9, 1 }, 0, 0, 0, 2, 3, PG_SURFACE_NONE, PG_PARTIAL_NONE, finite, PG_EVALUATE_STENCIL };
+            body_wish wish = { { 45, 9, 1 },       0, 0, 0, 2, 3, PG_SURFACE_NONE, PG_PARTIAL_NONE, finite,
+                               PG_EVALUATE_STENCIL };
             body b;
             body_create (&b, &wish, 1);
-            for (size_t i = 0; i < b.cloud.n; i++) b.u[2*i] = (b.cloud.x[2*i] > 22 * cell_side) * 1e-6, b.u[2*i + 1] = 0;
+            for (size_t i = 0; i < b.cloud.n; i++)
+                b.u[2 * i] = (b.cloud.x[2 * i] > 22 * cell_side) * 1e-6, b.u[2 * i + 1] = 0;
             double *f = pg_calloc (b.cloud.n * 2, sizeof *f);
             pg_changes broken = { 0 };
-            pg_sweep *s = NULL;
+            pg_bond_loop *s = NULL;
             if (make_sweep (&s, &b, sets[k], 2, 1, 0)) {
-                check_ok (pg_sweep_force (s, b.u, f, &broken));
-                /* the bond of one step across the middle is stretched by 1e-3, its limit: nine rows, two directions */
+                check_ok (pg_bond_loop_force (s, b.u, f, &broken));
+                /* the bond of one step across the middle is stretched by 1e-3, its limit: nine rows, two
+                 * directions */
                 assert_int_equal (broken.n, 18);
                 for (size_t c = 0; c < broken.n; c++) b.alive[broken.bond[c]] = 0;
                 for (size_t i = 0; i < b.cloud.n; i++)
-                    for (size_t e = b.family.start[i]; e < b.family.start[i + 1]; e++) assert_int_equal (b.alive[e], b.alive[body_reverse (&b, i, e)]);
+                    for (size_t e = b.family.start[i]; e < b.family.start[i + 1]; e++)
+                        assert_int_equal (b.alive[e], b.alive[body_reverse (&b, i, e)]);
             }
-            pg_sweep_free (&s);
+            pg_bond_loop_free (&s);
             pg_free (broken.bond), pg_free (f);
             body_free (&b);
         }
 }
 
-/* All bonds stretched to within rounding of the limit: those die whose measure, as the loops round it, is not below it, from both ends. */
+/* All bonds stretched to within rounding of the limit: those die whose measure, as the loops round it, is not
+ * below it, from both ends. */
 static void rounding_decides_alike_everywhere (void **state)
 {
     (void) state;
     for (int k = 0; k < SETS; k++) {
-        body_wish wish = { { 64, 20, 1 }, 0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_NONE, 0, PG_EVALUATE_STENCIL };
+        body_wish wish = { { 64, 20, 1 },      0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_NONE, 0,
+                           PG_EVALUATE_STENCIL };
         body b;
         body_create (&b, &wish, 1);
         for (size_t i = 0; i < b.cloud.n * 2; i++) b.u[i] = 1e-3 * b.cloud.x[i];
         double *f = pg_calloc (b.cloud.n * 2, sizeof *f), *xi = pg_calloc (b.cloud.n, sizeof *xi);
         pg_changes broken = { 0 };
-        pg_sweep *s = NULL;
+        pg_bond_loop *s = NULL;
         size_t at = 0, live = 0, differ = 0;
         if (make_sweep (&s, &b, sets[k], 1, 1, 0)) {
-            check_ok (pg_sweep_force (s, b.u, f, &broken));
+            check_ok (pg_bond_loop_force (s, b.u, f, &broken));
             for (size_t i = 0; i < b.cloud.n; i++) {
                 pg_sums_bonds (b.sums, &b.family, i, xi, NULL, NULL);
                 for (size_t e = b.family.start[i]; e < b.family.start[i + 1]; e++) {
-                    const double *x = xi + 2 * (e - b.family.start[i]), *v = b.u + 2 * (size_t) b.family.node[e], *u = b.u + 2*i;
-                    double r = sqrt (x[0] * x[0] + x[1] * x[1]), plain = x[0] * (v[0] - u[0]) + x[1] * (v[1] - u[1]);
+                    const double *x = xi + 2 * (e - b.family.start[i]),
+                                 *v = b.u + 2 * (size_t) b.family.node[e], *u = b.u + 2 * i;
+                    double r = sqrt (x[0] * x[0] + x[1] * x[1]),
+                           plain = x[0] * (v[0] - u[0]) + x[1] * (v[1] - u[1]);
                     double fused = fma (x[1], v[1] - u[1], x[0] * (v[0] - u[0])), limit = 1e-3 * (r * r);
                     int dead = at < broken.n && broken.bond[at] == e;
-                    at += (size_t) dead, live += (size_t) !dead, differ += (plain >= limit) != (fused >= limit);
+                    at += (size_t) dead, live += (size_t) !dead,
+                        differ += (plain >= limit) != (fused >= limit);
 #ifndef __FP_FAST_FMA
                     if (k == 0) fused = plain;
 #endif
@@ -113,15 +136,17 @@ static void rounding_decides_alike_everywhere (void **state)
             assert_int_equal (at, broken.n);
             assert_true (at > 0 && live > 0 && differ > 0);
             for (size_t i = 0; i < b.cloud.n; i++)
-                for (size_t e = b.family.start[i]; e < b.family.start[i + 1]; e++) assert_int_equal (b.alive[e], b.alive[body_reverse (&b, i, e)]);
+                for (size_t e = b.family.start[i]; e < b.family.start[i + 1]; e++)
+                    assert_int_equal (b.alive[e], b.alive[body_reverse (&b, i, e)]);
         }
-        pg_sweep_free (&s);
+        pg_bond_loop_free (&s);
         pg_free (broken.bond), pg_free (f), pg_free (xi);
         body_free (&b);
     }
 }
 
-/* Finite: a rigid motion, however large, pulls at nothing; linear: a shift does not. Forces on the whole are none. */
+/* Finite: a rigid motion, however large, pulls at nothing; linear: a shift does not. Forces on the whole are
+ * none. */
 static void rigid_motions_pull_at_nothing (void **state)
 {
     (void) state;
@@ -130,19 +155,20 @@ static void rigid_motions_pull_at_nothing (void **state)
         body_create (&b, &wishes[w], 3);
         size_t values = b.cloud.n * 2;
         double *f = pg_calloc (values, sizeof *f), angle = wishes[w].finite ? 1.1 : 0, sum[2] = { 0, 0 };
-        pg_sweep *s = NULL;
+        pg_bond_loop *s = NULL;
         make_sweep (&s, &b, NULL, 1, 0, 0);
-        check_ok (pg_sweep_force (s, b.u, f, NULL));
+        check_ok (pg_bond_loop_force (s, b.u, f, NULL));
         double size = largest (f, values);
         for (size_t i = 0; i < values; i++) sum[i % 2] += f[i];
         for (int d = 0; d < 2; d++) check_scaled (sum[d], 0, 1e-12, size);
         for (size_t i = 0; i < b.cloud.n; i++) {
             const double *x = b.cloud.x + 2*i;
-            b.u[2*i] = 0.25 + cos (angle) * x[0] - sin (angle) * x[1] - x[0], b.u[2*i + 1] = 0.5 + sin (angle) * x[0] + cos (angle) * x[1] - x[1];
+            b.u[2 * i] = 0.25 + cos (angle) * x[0] - sin (angle) * x[1] - x[0],
+                    b.u[2 * i + 1] = 0.5 + sin (angle) * x[0] + cos (angle) * x[1] - x[1];
         }
-        check_ok (pg_sweep_force (s, b.u, f, NULL));
+        check_ok (pg_bond_loop_force (s, b.u, f, NULL));
         check_below (largest (f, values), 1e-9 * size);
-        pg_sweep_free (&s);
+        pg_bond_loop_free (&s);
         pg_free (f);
         body_free (&b);
     }
@@ -153,24 +179,31 @@ static void wrong_wishes_are_refused (void **state)
     (void) state;
     body b;
     body_create (&b, &wishes[0], 3);
-    pg_sweep *s = NULL;
-    pg_sweep_setting setting = { .sums = b.sums, .family = &b.family, .modulus = b.modulus, .limit = b.limit, .threads = 1, .instructions = "neon" };
-    check_fails (pg_sweep_create (&s, &setting), PG_E_USAGE);
+    pg_bond_loop *s = NULL;
+    pg_bond_loop_setting setting = { .sums = b.sums,
+                                     .family = &b.family,
+                                     .modulus = b.modulus,
+                                     .limit = b.limit,
+                                     .threads = 1,
+                                     .instructions = "neon" };
+    check_fails (pg_bond_loop_create (&s, &setting), PG_E_USAGE);
     check_contains (pg_last_error (), "neon");
     assert_null (s);
     setting.instructions = NULL;
     b.modulus[7] *= 2;
-    check_fails (pg_sweep_create (&s, &setting), PG_E_USAGE);
+    check_fails (pg_bond_loop_create (&s, &setting), PG_E_USAGE);
     check_contains (pg_last_error (), "several moduli");
     b.modulus[7] = b.modulus[0], b.limit[3] *= 2;
-    check_fails (pg_sweep_create (&s, &setting), PG_E_USAGE);
+    check_fails (pg_bond_loop_create (&s, &setting), PG_E_USAGE);
     check_contains (pg_last_error (), "several critical stretches");
     body_free (&b);
     body_wish wish = wishes[0];
     wish.surface = PG_SURFACE_VOLUME;
     body_create (&b, &wish, 3);
-    setting = (pg_sweep_setting) { .sums = b.sums, .family = &b.family, .modulus = b.modulus, .threads = 1 };
-    check_fails (pg_sweep_create (&s, &setting), PG_E_USAGE);
+    setting = (pg_bond_loop_setting){
+        .sums = b.sums, .family = &b.family, .modulus = b.modulus, .threads = 1
+    };
+    check_fails (pg_bond_loop_create (&s, &setting), PG_E_USAGE);
     check_contains (pg_last_error (), "volume");
     body_free (&b);
 }
@@ -181,16 +214,16 @@ static void lack_of_memory_is_reported (void **state)
     body b;
     body_create (&b, &wishes[4], 3);
     b.exempt[0] = 1;
-    pg_sweep *s = NULL;
+    pg_bond_loop *s = NULL;
     creation_survives_lack_of_memory (&s, &b, 50);
     /* ... and when bonds break */
     double *f = pg_calloc (b.cloud.n * 2, sizeof *f);
     pg_changes broken = { 0 };
     for (size_t i = 0; i < b.cloud.n * 2; i++) b.u[i] *= 100;
     pg_memory_fail_at (1);
-    check_fails (pg_sweep_force (s, b.u, f, &broken), PG_E_MEMORY);
+    check_fails (pg_bond_loop_force (s, b.u, f, &broken), PG_E_MEMORY);
     pg_memory_fail_at (0);
-    pg_sweep_free (&s);
+    pg_bond_loop_free (&s);
     pg_free (f), pg_free (broken.bond);
     body_free (&b);
 }
@@ -209,5 +242,5 @@ int main (void)
         cmocka_unit_test (lack_of_memory_is_reported),
         cmocka_unit_test (steady_sums_allocate_nothing),
     };
-    return cmocka_run_group_tests_name ("sums/sweep", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("sums/bond_loop", tests, NULL, NULL);
 }

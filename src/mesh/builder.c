@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * A mesh under construction: the readers hand over nodes, elements and sets in the numbers of their file. */
+#include "builder.h"
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+pg_status pg_mesh_builder_create (pg_mesh_builder **out, const char *path)
+{
+    pg_status status = PG_OK;
+    pg_mesh_builder *m = NULL;
+    PG_ALLOC (m, 1);
+    PG_GROW (m->start, m->start_cap, 1);
+    m->path = pg_strdup (path);
+    if (!m->path) PG_FAIL (PG_E_MEMORY, "no memory for the name of a file");
+done:
+    if (status != PG_OK) pg_mesh_builder_free (&m);
+    *out = m;
+    return status;
+}
+
+void pg_mesh_builder_free (pg_mesh_builder **builder)
+{
+    pg_mesh_builder *m = *builder;
+    if (!m) return;
+    pg_free (m->path), pg_free (m->node_id), pg_free (m->x);
+    pg_free (m->element_id), pg_free (m->group), pg_free (m->line), pg_free (m->kind), pg_free (m->start),
+        pg_free (m->list);
+    pg_free (m->groups), pg_free (m->sets), pg_free (m->side_sets), pg_free (m->set_node),
+        pg_free (m->side_element), pg_free (m->side);
+    pg_free (m->index), pg_free (m->solid), pg_free (m->turned), pg_free (m->kept);
+    id_table_clear (&m->nodes);
+    pg_free (m);
+    *builder = NULL;
+}
+
+pg_status pg_mesh_builder_node (pg_mesh_builder *m, long id, const double *x)
+{
+    enum { EXPONENT = 100 };                               /* 1e100: its cube is still a number */
+    pg_status status = PG_OK;
+    for (int a = 0; a < 3; a++)
+        if (!(fabs (x[a]) <= pow (10, EXPONENT)))
+            PG_FAIL (PG_E_FILE, "%s: node %ld: coordinate %d is %g; it must be a number below 1e%d", m->path,
+                     id, a + 1, x[a], EXPONENT);
+    if (m->nnode >= INT_MAX) PG_FAIL (PG_E_LIMIT, "%s: more than %d nodes", m->path, INT_MAX);
+    PG_GROW (m->node_id, m->node_cap, m->nnode + 1);
+    PG_GROW (m->x, m->x_cap, 3 * (m->nnode + 1));
+    m->node_id[m->nnode] = id;
+    memcpy (m->x + 3 * m->nnode, x, 3 * sizeof *x);
+    m->nnode++;
+done:
+    return status;
+}
+
+pg_status pg_mesh_builder_element (pg_mesh_builder *m, long id, pg_element kind, const long *node, long group,
+                                   long line)
+{
+    pg_status status = PG_OK;
+    if ((unsigned) kind >= PG_ELEMENTS)
+        PG_FAIL (PG_E_USAGE, "%s: element %ld: there is no kind %d", m->path, id, (int) kind);
+    if (m->n >= INT_MAX) PG_FAIL (PG_E_LIMIT, "%s: more than %d elements", m->path, INT_MAX);
+    size_t nodes = (size_t) pg_element_types[kind].nodes, first = m->start[m->n];
+    PG_GROW (m->element_id, m->element_cap, m->n + 1);
+    PG_GROW (m->group, m->group_cap, m->n + 1);
+    PG_GROW (m->line, m->line_cap, m->n + 1);
+    PG_GROW (m->kind, m->kind_cap, m->n + 1);
+    PG_GROW (m->start, m->start_cap, m->n + 2);
+    PG_GROW (m->list, m->list_cap, first + nodes);
+    m->element_id[m->n] = id, m->group[m->n] = group, m->line[m->n] = line,
+    m->kind[m->n] = (unsigned char) kind;
+    memcpy (m->list + first, node, nodes * sizeof *node);
+    m->start[++m->n] = m->nlist = first + nodes;
+done:
+    return status;
+}
+
+/* Letters that cannot be written in one line become _; what is too long is cut between characters of
+ * UTF-8. */
+static void copy_name (char to[64], const char *name)
+{
+    size_t n = strlen (name);
+    if (n > 63) for (n = 63; n > 0 && ((unsigned char) name[n] & 0xC0) == 0x80; ) n--;
+    for (size_t k = 0; k < n; k++) to[k] = (unsigned char) name[k] < ' ' || name[k] == 127 ? '_' : name[k];
+    to[n] = '\0';
+}
+
+pg_status pg_mesh_builder_group (pg_mesh_builder *m, int dim, long group, const char *name)
+{
+    pg_status status = PG_OK;
+    if (!*name) return PG_OK;
+    PG_GROW (m->groups, m->groups_cap, m->ngroup + 1);
+    mesh_group *g = &m->groups[m->ngroup++];
+    g->dim = dim, g->group = group;
+    copy_name (g->name, name);
+done:
+    return status;
+}
+
+static void name_list (mesh_list *l, const char *name, long id, size_t first)
+{
+    memset (l, 0, sizeof *l);
+    l->id = id, l->first = l->end = first;
+    if (name && *name) copy_name (l->name, name);
+    else snprintf (l->name, sizeof l->name, "%ld", id);
+}
+
+pg_status pg_mesh_builder_nodeset (pg_mesh_builder *m, const char *name, long id)
+{
+    pg_status status = PG_OK;
+    PG_GROW (m->sets, m->set_cap, m->nset + 1);
+    name_list (&m->sets[m->nset++], name, id, m->nset_node);
+done:
+    return status;
+}
+
+pg_status pg_mesh_builder_nodeset_add (pg_mesh_builder *m, long node)
+{
+    pg_status status = PG_OK;
+    if (m->nset == 0) PG_FAIL (PG_E_USAGE, "%s: a node is added to a set before there is one", m->path);
+    PG_GROW (m->set_node, m->set_node_cap, m->nset_node + 1);
+    m->set_node[m->nset_node++] = node;
+    m->sets[m->nset - 1].end = m->nset_node;
+done:
+    return status;
+}
+
+pg_status pg_mesh_builder_sideset (pg_mesh_builder *m, const char *name, long id)
+{
+    pg_status status = PG_OK;
+    PG_GROW (m->side_sets, m->side_set_cap, m->nside_set + 1);
+    name_list (&m->side_sets[m->nside_set++], name, id, m->nside);
+done:
+    return status;
+}
+
+pg_status pg_mesh_builder_sideset_add (pg_mesh_builder *m, long element, int side)
+{
+    pg_status status = PG_OK;
+    if (m->nside_set == 0) PG_FAIL (PG_E_USAGE, "%s: a side is added to a set before there is one", m->path);
+    PG_GROW (m->side_element, m->side_element_cap, m->nside + 1);
+    PG_GROW (m->side, m->side_cap, m->nside + 1);
+    m->side_element[m->nside] = element, m->side[m->nside] = side;
+    m->side_sets[m->nside_set - 1].end = ++m->nside;
+done:
+    return status;
+}
+
+void builder_where (const pg_mesh_builder *m, size_t e, char *text, size_t size)
+{
+    if (m->line[e] > 0)
+        snprintf (text, size, "%.400s, line %ld: element %ld", m->path, m->line[e], m->element_id[e]);
+    else snprintf (text, size, "%.400s: element %ld", m->path, m->element_id[e]);
+}
+
+static int by_group (const void *p, const void *q)
+{
+    const mesh_group *a = p, *b = q;
+    if (a->dim != b->dim) return a->dim < b->dim ? -1 : 1;
+    return (a->group > b->group) - (a->group < b->group);
+}
+
+static int by_group_and_name (const void *p, const void *q)
+{
+    int c = by_group (p, q);
+    return c ? c : strcmp (((const mesh_group *) p)->name, ((const mesh_group *) q)->name);
+}
+
+void builder_name (const pg_mesh_builder *m, int dim, long group, char name[64])
+{
+    snprintf (name, 64, "%ld", group);
+    mesh_group key = { .dim = dim, .group = group },
+               *g = group && m->ngroup ? bsearch (&key, m->groups, m->ngroup, sizeof key, by_group) : NULL;
+    while (g && g > m->groups && by_group (g - 1, &key) == 0) g--;
+    if (g) memcpy (name, g->name, 64);
+}
+
+pg_status pg_mesh_builder_finish (pg_mesh_builder *m, pg_mesh *out)
+{
+    pg_status status = PG_OK;
+    memset (out, 0, sizeof *out);
+    m->out = out;
+    if (m->ngroup) qsort (m->groups, m->ngroup, sizeof *m->groups, by_group_and_name);
+    PG_TRY (builder_resolve (m));
+    PG_TRY (builder_solids (m));
+    PG_TRY (builder_sets (m));
+done:
+    if (status != PG_OK) pg_mesh_clear (out);
+    return status;
+}

@@ -1,0 +1,398 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Node sets and side sets of a mesh: those of the file, those that elements of lower dimension name, the
+ * nodes of every side set. Sets of equal name are one. Members are gathered as pairs (set, member) in one
+ * sorted list. */
+#include "builder.h"
+#include "element.h"
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* place: order of appearance; sides: also a side set */
+typedef struct { char name[64]; long id; size_t place; int sides; } named;
+typedef struct { int dim; long group; size_t set; } source;      /* a group that names a set */
+typedef struct { size_t n, cap; uint64_t *pair; } pairs;       /* (set, node), or (set, element, side) */
+typedef struct {
+    pg_mesh_builder *m;
+    size_t  n, cap;                                    /* sets before equal names are one */
+    named  *set;
+    size_t *final;                                     /* number of the set in the mesh (n) */
+    size_t  nfinal;
+    size_t  nsource, source_cap;
+    source *source;
+    pairs   nodes, sides;
+} builder;
+
+enum { MOST_SETS = 1 << 28 };
+
+static pg_status add_pair (pairs *p, uint64_t pair)
+{
+    pg_status status = PG_OK;
+    PG_GROW (p->pair, p->cap, p->n + 1);
+    p->pair[p->n++] = pair;
+done:
+    return status;
+}
+
+static pg_status add_node (builder *b, size_t set, int node)
+{
+    return node < 0 ? PG_OK : add_pair (&b->nodes, (uint64_t) b->final[set] << 32 | (unsigned) node);
+}
+
+static pg_status add_side (builder *b, size_t set, size_t e, int side)
+{
+    pg_status status = PG_OK;
+    const pg_mesh *out = b->m->out;
+    int node[9], n = pg_element_types[pg_element_face (out->kind[e], side, node)].nodes;
+    PG_TRY (add_pair (&b->sides, (uint64_t) b->final[set] << 34 | (uint64_t) e << 3 | (unsigned) side));
+    for (int k = 0; k < n; k++) PG_TRY (add_node (b, set, out->node[out->start[e] + (size_t) node[k]]));
+done:
+    return status;
+}
+
+/* ---- names --------------------------------------------------------------------------------------------- */
+static pg_status add_name (builder *b, const char *name, long id, int sides)
+{
+    pg_status status = PG_OK;
+    if (b->n >= MOST_SETS) PG_FAIL (PG_E_LIMIT, "%s: more than %d sets", b->m->path, MOST_SETS);
+    PG_GROW (b->set, b->cap, b->n + 1);
+    named *s = &b->set[b->n];
+    memset (s, 0, sizeof *s);
+    snprintf (s->name, sizeof s->name, "%s", name);
+    s->id = id, s->place = b->n++, s->sides = sides;
+done:
+    return status;
+}
+
+static int by_source (const void *p, const void *q)    /* solid twins first, then faces, lines, points */
+{
+    const source *a = p, *b = q;
+    if (a->dim != b->dim) return a->dim > b->dim ? -1 : 1;
+    return (a->group > b->group) - (a->group < b->group);
+}
+
+/* Elements that do no more than name a set. */
+static int names_a_set (const pg_mesh_builder *m, size_t e)
+{
+    return m->group[e] && m->solid[e] < 0;
+}
+
+static pg_status add_sources (builder *b)
+{
+    pg_status status = PG_OK;
+    const pg_mesh_builder *m = b->m;
+    size_t n = 0;
+    for (size_t e = 0; e < m->n; e++) {
+        source s = { pg_element_types[m->kind[e]].dim, m->group[e], 0 };
+        if (!names_a_set (m, e) || (b->nsource && by_source (&s, &b->source[b->nsource - 1]) == 0)) continue;
+        PG_GROW (b->source, b->source_cap, b->nsource + 1);
+        b->source[b->nsource++] = s;
+    }
+    if (b->nsource) qsort (b->source, b->nsource, sizeof *b->source, by_source);
+    for (size_t k = 0; k < b->nsource; k++)
+        if (n == 0 || by_source (&b->source[k], &b->source[n - 1]) != 0) b->source[n++] = b->source[k];
+    b->nsource = n;
+    for (size_t k = 0; k < n; k++) {
+        char name[64];
+        builder_name (m, b->source[k].dim, b->source[k].group, name);
+        b->source[k].set = b->n;
+        PG_TRY (add_name (b, name, b->source[k].group, 0));
+    }
+done:
+    return status;
+}
+
+static int by_name (const void *p, const void *q)
+{
+    const named *a = p, *b = q;
+    int c = strcmp (a->name, b->name);
+    return c ? c : (a->place > b->place) - (a->place < b->place);
+}
+
+static int by_place (const void *p, const void *q)
+{
+    const named *a = p, *b = q;
+    return (a->place > b->place) - (a->place < b->place);
+}
+
+/* Sets of equal name get the number of the first of them. */
+static pg_status unite (builder *b)
+{
+    pg_status status = PG_OK;
+    size_t *first = NULL;
+    PG_ALLOC (first, b->n);
+    PG_ALLOC (b->final, b->n);
+    if (b->n) qsort (b->set, b->n, sizeof *b->set, by_name);
+    for (size_t k = 0; k < b->n; k++)
+        first[b->set[k].place] = k > 0 && !strcmp (b->set[k].name, b->set[k - 1].name)
+                                     ? first[b->set[k - 1].place]
+                                     : b->set[k].place;
+    if (b->n) qsort (b->set, b->n, sizeof *b->set, by_place);
+    for (size_t k = 0; k < b->n; k++) {
+        b->final[k] = first[k] == k ? b->nfinal++ : b->final[first[k]];
+        b->set[b->final[k]].sides |= b->set[k].sides;      /* final[k] <= k: nothing is lost */
+        if (first[k] == k) b->set[b->final[k]] = b->set[k];
+    }
+done:
+    pg_free (first);
+    return status;
+}
+
+static pg_status collect_names (builder *b)
+{
+    pg_status status = PG_OK;
+    pg_mesh_builder *m = b->m;
+    for (size_t k = 0; k < m->nset; k++) PG_TRY (add_name (b, m->sets[k].name, m->sets[k].id, 0));
+    for (size_t k = 0; k < m->nside_set; k++)
+        PG_TRY (add_name (b, m->side_sets[k].name, m->side_sets[k].id, 1));
+    PG_TRY (add_sources (b));
+    PG_TRY (unite (b));
+done:
+    return status;
+}
+
+/* ---- sets of the file ---------------------------------------------------------------------------------- */
+static pg_status add_node_sets (builder *b)
+{
+    pg_status status = PG_OK;
+    const pg_mesh_builder *m = b->m;
+    for (size_t s = 0; s < m->nset; s++)
+        for (size_t k = m->sets[s].first; k < m->sets[s].end; k++) {
+            long at = id_table_find (&m->nodes, m->set_node[k]);
+            if (at < 0)
+                PG_FAIL (PG_E_FILE, "%s: node set '%s': node %ld is not in the file", m->path,
+                         m->sets[s].name, m->set_node[k]);
+            PG_TRY (add_node (b, s, m->kept[at]));
+        }
+done:
+    return status;
+}
+
+/* Side `side` of an element that was given inside out, after its nodes were mirrored. */
+static int mirrored_side (pg_element kind, int side)
+{
+    const signed char *mirror = element_mirror (kind);
+    int was[4], now[4], n = element_face_corners (kind, side, was);
+    for (int f = 0; f < pg_element_types[kind].faces; f++) {
+        int found = 0, corners = element_face_corners (kind, f, now);
+        for (int i = 0; i < n; i++) for (int j = 0; j < corners; j++) found += mirror[was[i]] == now[j];
+        if (found == n && corners == n) return f;
+    }
+    return side;
+}
+
+static pg_status add_side_sets (builder *b, const id_table *elements)
+{
+    pg_status status = PG_OK;
+    const pg_mesh_builder *m = b->m;
+    for (size_t s = 0; s < m->nside_set; s++)
+        for (size_t k = m->side_sets[s].first; k < m->side_sets[s].end; k++) {
+            const char *name = m->side_sets[s].name;
+            long e = id_table_find (elements, m->side_element[k]);
+            if (e < 0)
+                PG_FAIL (PG_E_FILE, "%s: side set '%s': element %ld is none of the solid elements", m->path,
+                         name, m->side_element[k]);
+            pg_element kind = m->out->kind[e];
+            if (m->side[k] < 0 || m->side[k] >= pg_element_types[kind].faces)
+                PG_FAIL (PG_E_FILE,
+                         "%s: side set '%s': element %ld (%s) has no side %d; its sides are 1 to %d", m->path,
+                         name, m->side_element[k], pg_element_types[kind].name, m->side[k] + 1,
+                         pg_element_types[kind].faces);
+            PG_TRY (add_side (b, m->nset + s, (size_t) e,
+                              m->turned[e] ? mirrored_side (kind, m->side[k]) : m->side[k]));
+        }
+done:
+    return status;
+}
+
+/* ---- sets by elements of lower dimension --------------------------------------------------------------- */
+static size_t set_of (const builder *b, size_t e)
+{
+    source key = { pg_element_types[b->m->kind[e]].dim, b->m->group[e], 0 };
+    return ((source *) bsearch (&key, b->source, b->nsource, sizeof key, by_source))->set;
+}
+
+static pg_status add_lower_nodes (builder *b)
+{
+    pg_status status = PG_OK;
+    const pg_mesh_builder *m = b->m;
+    for (size_t e = 0; e < m->n; e++) {
+        if (!names_a_set (m, e)) continue;
+        size_t set = set_of (b, e);
+        for (size_t k = m->start[e]; k < m->start[e + 1]; k++)
+            PG_TRY (add_node (b, set, m->kept[m->index[k]]));
+    }
+done:
+    return status;
+}
+
+typedef struct { int key[4]; size_t set; int found; } lower;
+
+static int by_corners (const void *p, const void *q)
+{
+    const lower *a = p, *b = q;
+    for (int k = 0; k < 4; k++) if (a->key[k] != b->key[k]) return a->key[k] < b->key[k] ? -1 : 1;
+    return 0;
+}
+
+static int by_corners_and_set (const void *p, const void *q)
+{
+    const lower *a = p, *b = q;
+    int c = by_corners (p, q);
+    return c ? c : (a->set > b->set) - (a->set < b->set);
+}
+
+/* Elements that may be faces of solid ones, by their corners; mark: nodes of theirs. */
+static pg_status list_lower (const builder *b, size_t *n, lower **list, unsigned char *mark)
+{
+    pg_status status = PG_OK;
+    const pg_mesh_builder *m = b->m;
+    size_t cap = 0;
+    for (size_t e = 0; e < m->n; e++) {
+        const pg_element_type *type = &pg_element_types[m->kind[e]];
+        lower l = { { -1, -1, -1, -1 }, 0, 0 };
+        int usable = 1;
+        if (!names_a_set (m, e) || type->dim != m->dim - 1) continue;
+        for (int k = 0; k < type->corners; k++) {
+            int v = m->kept[m->index[m->start[e] + (size_t) k]], at = k;
+            for (; at > 0 && l.key[at - 1] > v; at--) l.key[at] = l.key[at - 1];
+            l.key[at] = v, usable &= v >= 0;
+        }
+        if (!usable) continue;
+        l.set = set_of (b, e);
+        PG_GROW (*list, cap, *n + 1);
+        (*list)[(*n)++] = l;
+        for (int k = 0; k < type->corners; k++) mark[l.key[k]] = 1;
+    }
+    if (*n) qsort (*list, *n, sizeof **list, by_corners_and_set);
+done:
+    return status;
+}
+
+static int all_marked (const unsigned char *mark, const int key[4])
+{
+    for (int k = 0; k < 4 && key[k] >= 0; k++) if (!mark[key[k]]) return 0;
+    return 1;
+}
+
+/* A face between two solid elements becomes a side of the first of them. */
+static pg_status add_lower_sides (builder *b)
+{
+    pg_status status = PG_OK;
+    const pg_mesh *out = b->m->out;
+    lower *list = NULL;
+    unsigned char *mark = NULL;
+    size_t n = 0;
+    PG_ALLOC (mark, out->nnode);
+    PG_TRY (list_lower (b, &n, &list, mark));
+    for (size_t e = 0; n > 0 && e < out->n; e++)
+        for (int f = 0; f < pg_element_types[out->kind[e]].faces; f++) {
+            lower key = { { -1, -1, -1, -1 }, 0, 0 };
+            mesh_face_key (out, e, f, key.key);
+            if (!all_marked (mark, key.key)) continue;
+            lower *l = bsearch (&key, list, n, sizeof key, by_corners);
+            while (l && l > list && by_corners (l - 1, &key) == 0) l--;
+            for (; l && l < list + n && by_corners (l, &key) == 0; l++) {
+                if (!l->found) PG_TRY (add_side (b, l->set, e, f));
+                l->found = 1;
+            }
+        }
+done:
+    pg_free (list), pg_free (mark);
+    return status;
+}
+
+/* ---- sorted, into the mesh ----------------------------------------------------------------------------- */
+static int by_pair (const void *p, const void *q)
+{
+    uint64_t a = *(const uint64_t *) p, b = *(const uint64_t *) q;
+    return (a > b) - (a < b);
+}
+
+static void sort_pairs (pairs *p)
+{
+    size_t n = 0;
+    if (p->n) qsort (p->pair, p->n, sizeof *p->pair, by_pair);
+    for (size_t k = 0; k < p->n; k++) if (n == 0 || p->pair[k] != p->pair[n - 1]) p->pair[n++] = p->pair[k];
+    p->n = n;
+}
+
+/* End of the run of pairs that belong to one set. */
+static size_t run_end (const pairs *p, size_t first, size_t set, int shift)
+{
+    while (first < p->n && p->pair[first] >> shift == set) first++;
+    return first;
+}
+
+static pg_status put_nodes (builder *b)
+{
+    pg_status status = PG_OK;
+    pg_mesh *out = b->m->out;
+    PG_ALLOC (out->nodes, b->nfinal);
+    for (size_t s = 0, at = 0; s < b->nfinal; s++) {
+        size_t end = run_end (&b->nodes, at, s, 32);
+        pg_mesh_nodes *set = &out->nodes[out->nnodes++];
+        snprintf (set->name, sizeof set->name, "%s", b->set[s].name);
+        set->id = (int) b->set[s].id, set->n = end - at;
+        PG_ALLOC (set->node, set->n);
+        for (size_t k = 0; k < set->n; k++) set->node[k] = (int) (b->nodes.pair[at + k] & 0xFFFFFFFF);
+        at = end;
+    }
+done:
+    return status;
+}
+
+static pg_status put_sides (builder *b)
+{
+    pg_status status = PG_OK;
+    pg_mesh *out = b->m->out;
+    PG_ALLOC (out->sides, b->nfinal);
+    for (size_t s = 0, at = 0; s < b->nfinal; s++) {
+        size_t end = run_end (&b->sides, at, s, 34);
+        if (end == at && !b->set[s].sides) continue;
+        pg_mesh_sides *set = &out->sides[out->nsides++];
+        snprintf (set->name, sizeof set->name, "%s", b->set[s].name);
+        set->id = (int) b->set[s].id, set->n = end - at;
+        PG_ALLOC (set->element, set->n);
+        PG_ALLOC (set->side, set->n);
+        for (size_t k = 0; k < set->n; k++) {
+            set->element[k] = (int) (b->sides.pair[at + k] >> 3 & 0x7FFFFFFF);
+            set->side[k] = (int) (b->sides.pair[at + k] & 7);
+        }
+        at = end;
+    }
+done:
+    return status;
+}
+
+static pg_status check_ids (const pg_mesh_builder *m, id_table *elements)
+{
+    pg_status status = PG_OK;
+    size_t twice;
+    PG_TRY (id_table_build (elements, m->out->n, m->out->element_id, &twice));
+    if (twice < m->out->n)
+        PG_FAIL (PG_E_FILE, "%s: element %ld is there twice", m->path, m->out->element_id[twice]);
+done:
+    return status;
+}
+
+pg_status builder_sets (pg_mesh_builder *m)
+{
+    pg_status status = PG_OK;
+    builder b = { .m = m };
+    id_table elements = { 0 };
+    PG_TRY (check_ids (m, &elements));
+    PG_TRY (collect_names (&b));
+    PG_TRY (add_node_sets (&b));
+    PG_TRY (add_side_sets (&b, &elements));
+    PG_TRY (add_lower_nodes (&b));
+    PG_TRY (add_lower_sides (&b));
+    sort_pairs (&b.nodes), sort_pairs (&b.sides);
+    PG_TRY (put_nodes (&b));
+    PG_TRY (put_sides (&b));
+done:
+    id_table_clear (&elements);
+    pg_free (b.set), pg_free (b.final), pg_free (b.source), pg_free (b.nodes.pair), pg_free (b.sides.pair);
+    return status;
+}

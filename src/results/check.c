@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What of output a body of this dimension can show: names of pictures (a scalar, a vector's size, or a part),
+ * views, names given once. */
+#include "result.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* "damage|displacement|displacement.x|...|stress.xx|..." */
+static void picture_names (int dim, int turns, char *out, size_t size)
+{
+    static const char *const vector[] = { "displacement", "velocity" }, *const tensor[] = { "stress",
+                                                                                            "strain" };
+    size_t at = (size_t) snprintf (out, size, "damage");
+    for (int f = 0; f < 2; f++) {
+        at += (size_t) snprintf (out + at, size - at, "|%s", vector[f]);
+        for (int k = 0; k < dim; k++)
+            at += (size_t) snprintf (out + at, size - at, "|%s.%c", vector[f], "xyz"[k]);
+    }
+    for (int f = 0; f < 2; f++) {
+        if (dim == 1) at += (size_t) snprintf (out + at, size - at, "|%s", tensor[f]);
+        for (int k = 0; k < pg_voigt_size (dim); k++)
+            at += (size_t) snprintf (out + at, size - at, "|%s.%s", tensor[f], result_voigt (dim, k));
+    }
+    if (turns)
+        at += (size_t) snprintf (out + at, size - at, "|rotation%s",
+                                 turns == 3 ? "|rotation.x|rotation.y|rotation.z" : "");
+    snprintf (out + at, size - at, "|error_estimate");
+}
+
+static int among (const char *names, const char *name)
+{
+    char framed_names[600], framed[128];
+    snprintf (framed_names, sizeof framed_names, "|%s|", names);
+    snprintf (framed, sizeof framed, "|%.100s|", name);
+    return !strchr (name, '|') && strstr (framed_names, framed) != NULL;
+}
+
+static void given_once (const pg_scene *scene, const char *key)
+{
+    const char *a, *b;
+    char path[64];
+    for (size_t i = 1; (a = pg_scene_name (scene, i, "%s", key)); i++)
+        for (size_t k = 0; k < i && (b = pg_scene_name (scene, k, "%s", key)); k++) {
+            if (strcmp (a, b) != 0) continue;
+            snprintf (path, sizeof path, "%s[%zu]", key, i);
+            pg_scene_fault (scene, path, "is given twice");
+            break;
+        }
+}
+
+static void fault_of_picture (const pg_scene *scene, const char *path, const char *name, const char *names)
+{
+    char listed[800];
+    size_t n = 0;
+    for (const char *c = names; *c; c++) {
+        if (*c == '|') listed[n++] = ',', listed[n++] = ' ';
+        else listed[n++] = *c;
+    }
+    listed[n] = 0;
+    const char *near = pg_nearest_name (name, names);
+    if (near)
+        pg_scene_fault (scene, path, "there is no such picture; did you mean %s? One of %s", near, listed);
+    else pg_scene_fault (scene, path, "there is no such picture: one of %s", listed);
+}
+
+/* ---- views --------------------------------------------------------------------------------------------- */
+/* Which plane of this body, and does it meet it? */
+static void check_section (const pg_scene *scene, const pg_problem *p, const char *path, const char *text)
+{
+    pg_picture_style style = { 0 };
+    if (pg_picture_section (&style, text) != PG_OK) {
+        pg_scene_fault (scene, path,
+                        "expected AXIS = PLACE, such as z = 5 mm, or NORMAL = DISTANCE: 1, 0, 1 = 5 mm");
+        return;
+    }
+    double normal[3] = { style.section == 1, style.section == 2, style.section == 3 }, size = 0, low = 0,
+           high = 0;
+    for (int k = 0; k < 3 && style.section == 4; k++) normal[k] = style.direction[k];
+    for (int k = 0; k < 3; k++) size = hypot (size, normal[k]);
+    for (int k = 0; k < 3; k++) {
+        double a = normal[k] / size * p->cloud.low[k], b = normal[k] / size * p->cloud.high[k];
+        low += fmin (a, b), high += fmax (a, b);
+    }
+    if (style.at < low - 0.5 * p->cloud.h || style.at > high + 0.5 * p->cloud.h)
+        pg_scene_fault (scene, path, "misses the body, which lies between %.6g and %.6g m", low, high);
+}
+
+static void check_3d (const pg_scene *scene, const pg_problem *p, size_t i)
+{
+    static const char *const solid[] = { "view", "section", "direction", "above" };
+    char path[64];
+    for (int k = 0; k < 4; k++) {
+        snprintf (path, sizeof path, "output.views[%zu].%s", i, solid[k]);
+        if (!pg_scene_given (scene, "%s", path)) continue;
+        if (p->dim < 3) pg_scene_fault (scene, path, "is for dimension 3");
+        else if (k == 1) check_section (scene, p, path, pg_scene_text (scene, "%s", path));
+        else if (k == 2) {
+            double d[3] = { 0 };
+            pg_scene_vector (scene, 3, d, "%s", path);
+            if (!(hypot (hypot (d[0], d[1]), d[2]) > 0)) pg_scene_fault (scene, path, "must not be zero");
+        }
+    }
+}
+
+/* File names: of its own letters, and not one that another picture has. */
+static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
+    char path[64];
+    const char *given = pg_scene_given (scene, "output.views[%zu].name", i)
+                            ? pg_scene_text (scene, "output.views[%zu].name", i)
+                            : NULL,
+               *word;
+    result_view mine, other;
+    int twice = 0;
+    snprintf (path, sizeof path, given ? "output.views[%zu].name" : "output.views[%zu]", i);
+    if (given
+        && (!*given || *given == '.' || strlen (given) > 60 || strspn (given, plain) < strlen (given))) {
+        pg_scene_fault (scene, path, "a file name of at most 60 letters, digits, '-', '_' and '.'");
+        return;
+    }
+    if (result_view_read (&mine, scene, i, p->dim) != PG_OK) return;
+    for (size_t k = 0; (word = pg_scene_name (scene, k, "output.pictures")); k++)
+        twice |= strcmp (word, mine.name) == 0;
+    for (size_t k = 0; k < i; k++)
+        twice |= result_view_read (&other, scene, k, p->dim) == PG_OK && strcmp (other.name, mine.name) == 0;
+    if (twice || strcmp (mine.name, "load_displacement") == 0 || strcmp (mine.name, "error") == 0
+        || strcmp (mine.name, "tip") == 0 || strcmp (mine.name, "tip_speed") == 0)
+        pg_scene_fault (scene, path, "another picture is called %s.png; give another name", mine.name);
+}
+
+static void check_view (const pg_scene *scene, const pg_problem *p, size_t i, const char *names)
+{
+    char path[64];
+    double range[2] = { 0 };
+    snprintf (path, sizeof path, "output.views[%zu].field", i);
+    const char *field = pg_scene_given (scene, "%s", path) ? pg_scene_text (scene, "%s", path) : "damage";
+    if (!among (names, field)) fault_of_picture (scene, path, field, names);
+    check_3d (scene, p, i);
+    snprintf (path, sizeof path, "output.views[%zu].range", i);
+    if (pg_scene_given (scene, "%s", path)
+        && (pg_scene_count (scene, "%s", path) != 2 || pg_scene_vector (scene, 2, range, "%s", path) != 2
+            || !(range[0] < range[1])))
+        pg_scene_fault (scene, path, "must be two ascending numbers, [low, high]");
+    check_name (scene, p, i);
+}
+
+/* An error estimate smooths the stress of shape functions. */
+static void check_estimate (const pg_scene *scene, const pg_problem *problem)
+{
+    static const char *const keys[] = { "output.fields", "output.pictures" };
+    const char *name;
+    char path[64];
+    for (int k = 0; k < 2 && problem->direct; k++)
+        for (size_t i = 0; (name = pg_scene_name (scene, i, "%s", keys[k])); i++) {
+            if (strcmp (name, "error_estimate") != 0) continue;
+            snprintf (path, sizeof path, "%s[%zu]", keys[k], i);
+            pg_scene_fault (scene, path,
+                            "force: %s has no shape functions whose stress could be smoothed: leave it out, "
+                            "or use force: galerkin",
+                            problem->force);
+        }
+}
+
+/* How many there are. */
+static size_t check_pictures (const pg_scene *scene, const char *names)
+{
+    size_t count = 0;
+    const char *name;
+    char path[64];
+    for (; (name = pg_scene_name (scene, count, "output.pictures")); count++)
+        if (!among (names, name)) {
+            snprintf (path, sizeof path, "output.pictures[%zu]", count);
+            fault_of_picture (scene, path, name, names);
+        }
+    return count;
+}
+
+void pg_result_check_names (const pg_scene *scene)
+{
+    char names[512];
+    const char *force = pg_scene_text (scene, "method.force");
+    int dim = (int) pg_scene_integer (scene, "dimension"),
+        turns = force && strcmp (force, "gmpd") == 0 ? dim == 3 ? 3 : 1 : 0;
+    /* no list: told already */
+    if (dim < 1 || dim > 3 || !pg_scene_given (scene, "output.pictures[0]")) return;
+    picture_names (dim, turns, names, sizeof names);
+    check_pictures (scene, names);
+}
+
+pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
+{
+    char names[512], path[64];
+    const char *name;
+    pg_reference *reference = NULL;
+    picture_names (problem->dim, problem->turns, names, sizeof names);
+    size_t count = check_pictures (scene, names);
+    for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")); k++)
+        if (strcmp (name, "rotation") == 0 && !problem->turns) {
+            snprintf (path, sizeof path, "output.fields[%zu]", k);
+            pg_scene_fault (scene, path, "is for force: gmpd: points of force: %s do not turn",
+                            problem->force);
+        }
+    for (size_t i = 0; i < pg_scene_count (scene, "output.views"); i++, count++)
+        check_view (scene, problem, i, names);
+    if (count >= MOST_PICTURES)
+        pg_scene_fault (scene, "output.pictures", "at most %d pictures", MOST_PICTURES - 1);
+    check_estimate (scene, problem);
+    result_averages_check (scene, problem);
+    if (result_tips_check (scene, problem) != PG_OK) return PG_E_MEMORY;
+    if (pg_reference_read (&reference, scene, problem) == PG_E_MEMORY) return PG_E_MEMORY;
+    pg_reference_free (&reference);
+    given_once (scene, "output.pictures");
+    given_once (scene, "output.fields");
+    return pg_scene_verdict (scene);
+}

@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The load-displacement curve of a run: force with its sign over the mean displacement of what is loaded, its
+ * picture, its peak, its stiffness. Event stepping: the envelope of pg_envelope is the line, the path of
+ * events is pale behind it. */
+#include "result.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { STEP, TIME, FACTOR, FIRST_GAUGE };
+
+/* A pressure acts along the axis nearest to its first normal. */
+static int pushes_along (const pg_problem *p, const pg_load *load, int k)
+{
+    if (load->kind == PG_TRACTION || load->kind == PG_POINT_FORCE) return load->value[k] != NULL;
+    if (load->kind != PG_PRESSURE) return 0;
+    const double *normal = p->cells.normal + (size_t) load->set->facet[0] * (size_t) p->dim;
+    for (int c = 0; c < p->dim; c++) if (fabs (normal[c]) > fabs (normal[k])) return 0;
+    return 1;
+}
+
+/* The curve follows the prescribed component that moves most, else the first load with a force. */
+void result_curve_choose (pg_result *r)
+{
+    const pg_problem *p = r->problem;
+    double most = 0;
+    r->curve_load = -1;
+    for (size_t l = 0; l < p->nload; l++)
+        for (int k = 0; k < p->dim; k++) {
+            const pg_load *load = &p->load[l];
+            if (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_turns (load)) continue;
+            double end = load->kind == PG_VELOCITY ? 1e-9 : 1, size = 0;
+            for (size_t i = 0; i < load->set->npoint; i++)
+                size = fmax (size,
+                             fabs (pg_load_value (load, k, p->dim,
+                                                  p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim,
+                                                  end)));
+            if (size > most) most = size, r->curve_load = (int) l, r->curve_component = k;
+        }
+    for (size_t l = 0; l < p->nload && r->curve_load < 0; l++)
+        for (int k = 0; k < p->dim && r->curve_load < 0; k++)
+            if (pushes_along (p, &p->load[l], k)) r->curve_load = (int) l, r->curve_component = k;
+}
+
+
+/* ---- rows ---------------------------------------------------------------------------------------------- */
+pg_status result_curve_row (pg_result *r, double x, double y, const double *gauges, const pg_step *step)
+{
+    pg_status status = PG_OK;
+    size_t width = FIRST_GAUGE + r->problem->ngauge, i = r->npoint;
+    PG_GROW (r->curve_x, r->cap_x, i + 1);
+    PG_GROW (r->curve_y, r->cap_y, i + 1);
+    PG_GROW (r->curve_more, r->cap_more, (i + 1) * width);
+    double *more = r->curve_more + i * width;
+    r->curve_x[i] = x, r->curve_y[i] = y;
+    more[STEP] = (double) step->number, more[TIME] = step->time, more[FACTOR] = step->factor;
+    for (size_t g = 0; g < r->problem->ngauge; g++) more[FIRST_GAUGE + g] = gauges[g];
+    r->npoint++;
+done:
+    return status;
+}
+
+pg_status result_curve_keep (pg_result *r, size_t n, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    size_t width = FIRST_GAUGE + r->problem->ngauge;
+    PG_GROW (r->curve_x, r->cap_x, n);
+    PG_GROW (r->curve_y, r->cap_y, n);
+    PG_GROW (r->curve_more, r->cap_more, n * width);
+    if (k->reading) r->npoint = n;
+    PG_TRY (k->numbers (k->context, "curve.x", n, r->curve_x));
+    PG_TRY (k->numbers (k->context, "curve.y", n, r->curve_y));
+    PG_TRY (k->numbers (k->context, "curve.more", n * width, r->curve_more));
+done:
+    return status;
+}
+
+/* ---- what it says -------------------------------------------------------------------------------------- */
+/* Does nothing load the body at the start? Then the curve begins at the origin. (A velocity has moved nothing
+ * yet.) */
+static int from_rest (const pg_problem *p)
+{
+    for (size_t l = 0; l < p->nload; l++)
+        for (int k = 0; p->load[l].kind != PG_VELOCITY && k < pg_load_components (&p->load[l], p->dim); k++)
+            for (size_t i = 0; i < p->load[l].set->npoint; i++)
+                if (pg_load_value (&p->load[l], k, p->dim,
+                                   p->cloud.x + (size_t) p->load[l].set->point[i] * (size_t) p->dim, 0)
+                    != 0)
+                    return 0;
+    return 1;
+}
+
+static int by_events (const pg_result *r) { return pg_solver_settled (r->solver)->event; }
+
+/* Slope through the origin of the rows up to the peak that carry at most 40 % of it, by least squares; of the
+ * first row where there are none, and under event stepping, whose first row is the unbroken body at any load
+ * and whose later ones have lost bonds at every load. */
+static double initial_stiffness (const pg_result *r, size_t peak)
+{
+    double xy = 0, xx = 0;
+    for (size_t i = 0; i <= peak && !by_events (r); i++)
+        if (fabs (r->curve_y[i]) <= 0.4 * fabs (r->curve_y[peak]))
+            xy += r->curve_x[i] * r->curve_y[i], xx += r->curve_x[i] * r->curve_x[i];
+    if (xx > 0 && xy != 0) return xy / xx;
+    return r->curve_x[0] != 0 ? r->curve_y[0] / r->curve_x[0] : NAN;
+}
+
+/* The row of largest |force|; under event stepping among those that the envelope passes. */
+pg_status result_curve_read (pg_result *r)
+{
+    pg_status status = PG_OK;
+    double *x = NULL, *y = NULL;
+    size_t n = r->npoint, row = 0, top = 0;
+    r->peak = (result_peak) { 0 };
+    if (r->curve_load < 0 || n == 0) return PG_OK;
+    for (size_t i = 0; i < n; i++) if (fabs (r->curve_y[i]) > fabs (r->curve_y[row])) row = i;
+    if (by_events (r)) {
+        PG_ALLOC (x, 2 * n + 2);
+        PG_ALLOC (y, 2 * n + 2);
+        pg_envelope (n, r->curve_x, r->curve_y, 0, x, y, &top);
+        for (row = 0; row + 1 < n && (r->curve_x[row] != x[top] || r->curve_y[row] != y[top]); row++);
+    }
+    const double *more = r->curve_more + row * (FIRST_GAUGE + r->problem->ngauge);
+    r->peak = (result_peak){ 1,   row, r->curve_y[row], r->curve_x[row], more[STEP], more[TIME], more[FACTOR],
+                             NAN, NAN };
+    if (!from_rest (r->problem)) goto done;
+    r->peak.initial = initial_stiffness (r, row);
+    if (r->peak.displacement != 0) r->peak.secant = r->peak.force / r->peak.displacement;
+done:
+    pg_free (x), pg_free (y);
+    return status;
+}
+
+void result_curve_json (pg_json *j, const pg_result *r)
+{
+    const result_peak *k = &r->peak;
+    const pg_problem *p = r->problem;
+    if (!k->found) return;
+    const double *gauge = r->curve_more + k->row * (FIRST_GAUGE + p->ngauge) + FIRST_GAUGE;
+    pg_json_open (j, "curve", '{');
+    pg_json_text (j, "load", p->load[r->curve_load].name);
+    pg_json_text (j, "component", (const char[2]) { "xyz"[r->curve_component], 0 });
+    pg_json_open (j, "peak", '{');
+    pg_json_number (j, "force", k->force);
+    pg_json_number (j, "displacement", k->displacement);
+    pg_json_count (j, "step", (size_t) k->step);
+    pg_json_number (j, r->dynamic ? "time" : "load_factor", r->dynamic ? k->time : k->factor);
+    pg_json_open (j, "gauges", '{');
+    for (size_t g = 0; g < p->ngauge; g++) pg_json_number (j, p->gauge[g].name, gauge[g]);
+    pg_json_shut (j);
+    pg_json_shut (j);
+    pg_json_number (j, "stiffness_initial", k->initial);
+    pg_json_number (j, "stiffness_at_peak", k->secant);
+    pg_json_shut (j);
+}
+
+static void tell_peak (const pg_result *r, char *out, size_t size)
+{
+    const result_peak *k = &r->peak;
+    const pg_problem *p = r->problem;
+    const double *gauge = r->curve_more + k->row * (FIRST_GAUGE + p->ngauge) + FIRST_GAUGE;
+    char force[48], place[48], time[48];
+    pg_picture_quantity (k->force, "N", force, sizeof force);
+    pg_picture_quantity (k->displacement, "m", place, sizeof place);
+    pg_picture_time (k->time, time, sizeof time);
+    int n = snprintf (out, size, "peak load: %s (force of %s along %c) at displacement %s (step %.0f, ",
+                      force, p->load[r->curve_load].name, "xyz"[r->curve_component], place, k -> step);
+    n += r->dynamic ? snprintf (out + n, size - (size_t) n, "time %s)", time)
+                    : snprintf (out + n, size - (size_t) n, "load factor %.4g)", k->factor);
+    for (size_t g = 0; g < p->ngauge && (size_t) n < size; g++) {
+        pg_picture_quantity (gauge[g], "m", place, sizeof place);
+        n += snprintf (out + n, size - (size_t) n, ", %s %s", p->gauge[g].name, place);
+    }
+}
+
+static void tell_crack (const pg_result *r, char *out, size_t size)
+{
+    const result_crack *c = &r->crack;
+    char length[48], spent[48];
+    pg_picture_quantity (r->problem->dim == 2 ? c->length : c->area, r->problem->dim == 2 ? "m" : "m2",
+                         length, sizeof length);
+    pg_picture_quantity (c->dissipated, "J/m2", spent, sizeof spent);
+    snprintf (
+        out, size,
+        "new crack by the count of broken bonds (an estimate): %s %s; dissipated energy per area of it %s",
+        r->problem->dim == 2 ? "length" : "area", length, spent);
+}
+
+int pg_result_words (const pg_result *r, size_t k, char *out, size_t size)
+{
+    const result_peak *p = &r->peak;
+    char first[48], second[48];
+    int stiff = p->found && isfinite (p->initial) && isfinite (p->secant);
+    out[0] = 0;
+    if (k == 0 && p->found) tell_peak (r, out, size);
+    else if (k == (size_t) p->found && stiff) {
+        pg_picture_quantity (p->initial, "N/m", first, sizeof first);
+        pg_picture_quantity (p->secant, "N/m", second, sizeof second);
+        snprintf (out, size, "secant stiffness: %s initially, %s at the peak load", first, second);
+    } else if (k == (size_t) (p->found + stiff) && r->crack.found) tell_crack (r, out, size);
+    return out[0] != 0;
+}
+
+/* ---- its picture --------------------------------------------------------------------------------------- */
+pg_status result_curve_picture (pg_result *r)
+{
+    pg_status status = PG_OK;
+    double *x = NULL, *y = NULL;
+    const pg_load *load = &r->problem->load[r->curve_load];
+    char ylabel[128], xlabel[128], path[4096], force[48], place[48], note[128];
+    int events = by_events (r), rest = from_rest (r->problem);
+    size_t n = 0, peak = 0;
+    snprintf (ylabel, sizeof ylabel, "force of %s along %c (N)", load->name, "xyz"[r->curve_component]);
+    snprintf (xlabel, sizeof xlabel, "mean displacement of %s along %c (m)", load->name,
+              "xyz"[r->curve_component]);
+    PG_ALLOC (x, 2 * r->npoint + 2);
+    PG_ALLOC (y, 2 * r->npoint + 2);
+    if (events)
+        n = pg_envelope (r->npoint, r->curve_x, r->curve_y, rest && pg_problem_proportional (r->problem), x,
+                         y, &peak);
+    else {
+        n = (size_t) rest;                             /* the origin */
+        for (size_t i = 0; i < r->npoint; i++) x[n] = r->curve_x[i], y[n++] = r->curve_y[i];
+    }
+    pg_picture_quantity (r->peak.force, "N", force, sizeof force);
+    pg_picture_quantity (r->peak.displacement, "m", place, sizeof place);
+    snprintf (note, sizeof note, "peak %s at %s", force, place);
+    pg_curve curve = { "at rising displacement", n, x, y, PG_CURVE_LINE },
+             path_of_events = { "path of events", r->npoint, r->curve_x, r->curve_y, PG_CURVE_LINE };
+    pg_chart_mark mark = { 0, r->peak.displacement, r->peak.force, note };
+    pg_chart_style style = { .title = r->problem->title,
+                             .xlabel = xlabel,
+                             .ylabel = ylabel,
+                             .npale = events && r->npoint > 1,
+                             .pale = &path_of_events,
+                             .nmark = (size_t) r->peak.found,
+                             .marks = &mark,
+                             .zero = 1 };
+    snprintf (path, sizeof path, "%s/load_displacement.png", r->folder);
+    PG_TRY (pg_picture_chart (path, 1, &curve, &style));
+    memcpy (r->written[r->nwritten++], path, sizeof path);
+done:
+    pg_free (x), pg_free (y);
+    return status;
+}

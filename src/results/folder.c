@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Who may write into a result folder: one run at a time, and none over what another one left for later or
+ * over a scene that no run put there. */
+#include "result.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char copied[] = "\n# copied by perigal run from ";
+
+/* ---- one run at a time --------------------------------------------------------------------------------- */
+/* The process and the host that are named in the lock; 0: none is. */
+static long owner_of (int file, char host[128])
+{
+    char text[200] = "";
+    long process = 0;
+    host[0] = 0;
+    if (pread (file, text, sizeof text - 1, 0) <= 0 || sscanf (text, "%ld %127s", &process, host) != 2)
+        return 0;
+    return process;
+}
+
+/* The system's lock ends with its process, also a killed one; where a file system has none, or another host
+ * may hold it, what the file says counts. */
+static pg_status claim (int file, const char *path, const char *folder, int *retry)
+{
+    pg_status status = PG_OK;
+    char host[128], here[128] = "", text[200];
+    struct stat own, present;
+    gethostname (here, sizeof here - 1);
+    for (char *c = here; *c; c++) if (*c == ' ') *c = '_';
+    int held = flock (file, LOCK_EX | LOCK_NB) != 0, none = held && errno != EWOULDBLOCK;
+    long process = owner_of (file, host);
+    if (none && process && strcmp (host, here) == 0) held = kill ((pid_t) process, 0) == 0 || errno == EPERM;
+    else if (none) held = 0;
+    if (held)
+        PG_FAIL (PG_E_USAGE, "%s is in use by another run (process %ld on %s): name another folder with -o",
+                 folder, process, *host ? host : "this host");
+    *retry = fstat (file, &own) != 0 || stat (path, &present) != 0 || own.st_ino != present.st_ino
+             || own.st_dev != present.st_dev;
+    if (*retry) goto done;                             /* its owner has removed it in between */
+    if (process && strcmp (host, here) != 0)
+        PG_FAIL (
+            PG_E_USAGE,
+            "%s may be in use by a run on another host (process %ld on %s): if that run is over, remove %s",
+            folder, process, host, path);
+    int n = snprintf (text, sizeof text, "%ld %s\n", (long) getpid (), *here ? here : "unknown");
+    if (ftruncate (file, 0) != 0 || pwrite (file, text, (size_t) n, 0) != n)
+        PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+done:
+    return status;
+}
+
+pg_status result_lock (const char *folder, int *lock)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    int file = -1, retry = 1;
+    snprintf (path, sizeof path, "%s/run.lock", folder);
+    while (retry) {
+        if (file >= 0) close (file);
+        file = open (path, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (file < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+        PG_TRY (claim (file, path, folder, &retry));
+    }
+    *lock = file + 1;
+    file = -1;
+done:
+    if (file >= 0) close (file);
+    return status;
+}
+
+void result_unlock (const char *folder, int *lock)
+{
+    char path[4096];
+    if (!*lock) return;
+    snprintf (path, sizeof path, "%s/run.lock", folder);
+    unlink (path);
+    close (*lock - 1);
+    *lock = 0;
+}
+
+/* ---- the copy of the scene ----------------------------------------------------------------------------- */
+static pg_status append (char **text, size_t *n, size_t *cap, const char *more, size_t length)
+{
+    pg_status status = PG_OK;
+    PG_GROW (*text, *cap, *n + length + 1);
+    memcpy (*text + *n, more, length);
+    *n += length;
+    (*text)[*n] = 0;
+done:
+    return status;
+}
+
+/* A comment in one line. */
+static pg_status append_line (char **text, size_t *n, size_t *cap, const char *mark, const char *words)
+{
+    pg_status status = PG_OK;
+    PG_TRY (append (text, n, cap, mark, strlen (mark)));
+    size_t from = *n;
+    PG_TRY (append (text, n, cap, words, strlen (words)));
+    for (; from < *n; from++) if ((*text)[from] == '\n' || (*text)[from] == '\r') (*text)[from] = ' ';
+    PG_TRY (append (text, n, cap, "\n", 1));
+done:
+    return status;
+}
+
+/* The scene as text, behind a line's end as comments where it comes from, the files it names and what --set
+ * changed: pg_stored_scene takes them off again. */
+static pg_status copy_text (char **text, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    size_t n = 0, cap = 0;
+    const char *source = pg_scene_source (scene), *file = pg_scene_file (scene), *set;
+    char whole[PATH_MAX], words[PATH_MAX + 300];
+    pg_named_file *named = NULL;
+    size_t nnamed = 0;
+    PG_TRY (pg_scene_files (scene, &nnamed, &named));
+    PG_TRY (append (text, &n, &cap, source, strlen (source)));
+    PG_TRY (append (text, &n, &cap, "\n", 1));
+    PG_TRY (append_line (text, &n, &cap, copied + 1, realpath (file, whole) ? whole : file));
+    for (size_t k = 0; k < nnamed; k++) {
+        snprintf (words, sizeof words, "%s = %s, sha256 %s", named[k].key,
+                  realpath (named[k].path, whole) ? whole : named[k].path, named[k].hash);
+        PG_TRY (append_line (text, &n, &cap, "# with ", words));
+    }
+    for (size_t k = 0; (set = pg_scene_setting (scene, k)); k++)
+        PG_TRY (append_line (text, &n, &cap, "# --set ", set));
+done:
+    pg_scene_files_free (nnamed, &named);
+    return status;
+}
+
+static pg_status read_text (const char *path, char **text)
+{
+    pg_status status = PG_OK;
+    size_t n = 0, cap = 0, got;
+    FILE *f = fopen (path, "rb");
+    if (!f) return PG_OK;
+    do {
+        PG_GROW (*text, cap, n + 65537);
+        got = fread (*text + n, 1, 65536, f);
+        n += got;
+        (*text)[n] = 0;
+    } while (got > 0);
+done:
+    if (f) fclose (f);
+    return status;
+}
+
+static int same_file (const char *a, const char *b)
+{
+    struct stat one, other;
+    return stat (a, &one) == 0 && stat (b, &other) == 0 && one.st_ino == other.st_ino
+           && one.st_dev == other.st_dev;
+}
+
+/* A run in the folder of its own scene leaves that as it is. */
+pg_status result_copy_scene (const char *folder, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    char path[4096], *text = NULL;
+    FILE *f = NULL;
+    snprintf (path, sizeof path, "%s/scene.yaml", folder);
+    if (same_file (path, pg_scene_file (scene))) goto done;
+    PG_TRY (copy_text (&text, scene));
+    PG_TRY (pg_file_create (&f, path));
+    size_t n = strlen (text), wrote = fwrite (text, 1, n, f);
+    int bad = fclose (f);
+    f = NULL;
+    if (bad != 0 || wrote != n) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
+done:
+    if (f) fclose (f);
+    pg_free (text);
+    return status;
+}
+
+/* ---- what another run left ----------------------------------------------------------------------------- */
+static int there_is (const char *folder, const char *name)
+{
+    char path[4096];
+    struct stat s;
+    snprintf (path, sizeof path, "%s/%s", folder, name);
+    return lstat (path, &s) == 0;
+}
+
+/* Lines behind the header of history.csv. */
+static pg_status count_rows (const char *folder, long *rows)
+{
+    char path[4096], *text = NULL;
+    snprintf (path, sizeof path, "%s/history.csv", folder);
+    pg_status status = read_text (path, &text);
+    *rows = -1;
+    for (const char *c = text; c && (c = strchr (c, '\n')); c++) *rows += 1;
+    if (*rows < 0) *rows = 0;
+    pg_free (text);
+    return status;
+}
+
+/* scene.yaml of the folder: this run's own, put there by a run, or the user's. */
+static pg_status must_not_be_the_users (const char *folder, const pg_scene *scene, const char *present)
+{
+    pg_status status = PG_OK;
+    char path[4096], *report = NULL;
+    snprintf (path, sizeof path, "%s/scene.yaml", folder);
+    if (same_file (path, pg_scene_file (scene))) {
+        if (pg_scene_setting (scene, 0) || strstr (present, "\n# --set "))
+            PG_FAIL (PG_E_USAGE,
+                     "%s is the scene itself, and a run notes its --set options there: name another folder "
+                     "with -o",
+                     path);
+        goto done;
+    }
+    if (strstr (present, copied)) goto done;
+    snprintf (path, sizeof path, "%s/report.json", folder);
+    PG_TRY (read_text (path, &report));  /* runs before this version left no mark, but a report */
+    if (!report)
+        PG_FAIL (
+            PG_E_USAGE,
+            "%s/scene.yaml was not put there by a run and would be written over: name another folder with -o",
+            folder);
+done:
+    pg_free (report);
+    return status;
+}
+
+pg_status pg_result_may_open (const char *folder, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    char path[4096], *present = NULL, *copy = NULL;
+    long rows;
+    struct stat s;
+    if (stat (folder, &s) != 0) return PG_OK;
+    if (!S_ISDIR (s.st_mode))
+        PG_FAIL (PG_E_USAGE, "%s is a file: results need a folder, name another with -o", folder);
+    snprintf (path, sizeof path, "%s/scene.yaml", folder);
+    PG_TRY (read_text (path, &present));
+    if (present) PG_TRY (must_not_be_the_users (folder, scene, present));
+    PG_TRY (count_rows (folder, &rows));
+    if (there_is (folder, "checkpoint.nc"))
+        PG_FAIL (PG_E_USAGE,
+                 "%s holds a run that is not finished, %ld rows of history.csv and a checkpoint: go on with "
+                 "--resume, begin anew with --force, or name "
+                 "another folder with -o",
+                 folder, rows);
+    if (rows < 1 || there_is (folder, "report.json")) goto done;
+    PG_TRY (copy_text (&copy, scene));
+    if (!present || strcmp (present, copy) != 0)
+        PG_FAIL (PG_E_USAGE,
+                 "%s holds %ld rows of history.csv of another run that did not come to its end: replace them "
+                 "with --force, or name another folder with -o",
+                 folder, rows);
+done:
+    pg_free (present), pg_free (copy);
+    return status;
+}
+
+pg_status pg_result_discard (const char *folder)
+{
+    pg_status status = PG_OK;
+    static const char *const name[] = { "checkpoint.nc", "history.csv" };
+    char path[4096];
+    int lock = 0;
+    struct stat s;
+    if (stat (folder, &s) != 0 || !S_ISDIR (s.st_mode)) return PG_OK;
+    PG_TRY (result_lock (folder, &lock));
+    for (size_t k = 0; k < 2; k++) {
+        snprintf (path, sizeof path, "%s/%s", folder, name[k]);
+        if (unlink (path) != 0 && errno != ENOENT)
+            PG_FAIL (PG_E_FILE, "cannot remove %s: %s", path, strerror (errno));
+    }
+done:
+    result_unlock (folder, &lock);
+    return status;
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * history.csv: one row a step with reactions and mean displacements of every load, gauges, energies;
+ * events.csv: one row a bond. */
+#include "result.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const first_columns[] = { "step [1]", "time [s]", "load_factor [1]" };
+static const char *const last_columns[] = { "energy_strain [J]",   "energy_kinetic [J]",
+                                            "energy_external [J]", "energy_dissipated [J]",
+                                            "broken [1]",          "iterations [1]",
+                                            "residual [1]",        "utilisation [1]",
+                                            "event [1]",           "level [1]" };
+
+enum { EVENT_NUMBERS = 10, EVENT_COLUMNS = EVENT_NUMBERS + 2 };
+
+pg_status result_history_create (pg_result *r, const result_marks *from)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
+    char path[4096], (*name)[128] = NULL;
+    const char **column = NULL;
+    size_t n = 0, most = 13 + 6 * p->nload + p->ngauge + r->naverage + r->ntip + 1;
+    PG_ALLOC (name, most);
+    PG_ALLOC (column, most);
+    for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
+    for (size_t l = 0; l < p->nload; l++)
+        for (int k = 0; k < pg_load_components (&p->load[l], p->dim); k++) {
+            char axis = pg_load_axis (&p->load[l], p->dim, k);
+            int turns = pg_load_turns (&p->load[l]);
+            snprintf (name[n++], sizeof *name, turns ? "%s.moment_%c [N m]" : "%s.force_%c [N]",
+                      p->load[l].name, axis);
+            snprintf (name[n++], sizeof *name, turns ? "%s.rotation_%c [rad]" : "%s.displacement_%c [m]",
+                      p->load[l].name, axis);
+        }
+    for (size_t g = 0; g < p->ngauge; g++) snprintf (name[n++], sizeof *name, "%s [m]", p->gauge[g].name);
+    for (size_t a = 0; a < r->naverage; a++) result_average_column (r, a, name[n++], sizeof *name);
+    for (size_t t = 0; t < r->ntip; t++) snprintf (name[n++], sizeof *name, "%s [m]", r->tip[t].name);
+    for (size_t k = 0; k < sizeof last_columns / sizeof *last_columns; k++)
+        snprintf (name[n++], sizeof *name, "%s", last_columns[k]);
+    for (size_t k = 0; k < n; k++) column[k] = name[k];
+    r->ncolumn = n;
+    PG_ALLOC (r->row, n);
+    PG_ALLOC (r->u, p->cloud.n * 6);
+    snprintf (path, sizeof path, "%s/history.csv", r->folder);
+    PG_TRY (from ? pg_table_open (&r->history, path, n, from->history)
+                 : pg_table_create (&r->history, path, n, column));
+    static const char *const event_columns[] = {
+        "step [1]",      "load_factor [1]", "time [s]",        "x [m]",
+        "y [m]",         "z [m]",           "utilisation [1]", "energy_of_step [J]",
+        "bond_code [1]", "kind_code [1]",   "bond [name]",     "kind [name]"
+    };
+    snprintf (path, sizeof path, "%s/events.csv", r->folder);
+    PG_TRY (from ? pg_table_open (&r->events, path, EVENT_COLUMNS, from->events)
+                 : pg_table_create (&r->events, path, EVENT_COLUMNS, event_columns));
+done:
+    pg_free (name), pg_free (column);
+    return status;
+}
+
+static double mean_of (const pg_set *set, const double *u, int dim, int k)
+{
+    double sum = 0;
+    for (size_t i = 0; i < set->npoint; i++) sum += u[(size_t) set->point[i] * (size_t) dim + (size_t) k];
+    return set->npoint ? sum / (double) set->npoint : 0;
+}
+
+static double opening (const pg_gauge *g, int dim, const double *a, const double *b)
+{
+    double length = 0, sum = 0;
+    for (int k = 0; k < dim; k++) {
+        length += (g->to[k] - g->from[k]) * (g->to[k] - g->from[k]);
+        sum += (g->to[k] - g->from[k]) * (b[k] - a[k]);
+    }
+    return length > 0 ? sum / sqrt (length) : 0;
+}
+
+/* Numbers first, so that a reader of numbers takes all of a row but its two names. */
+static pg_status event_rows (pg_result *r, const pg_step *step)
+{
+    pg_status status = PG_OK;
+    static const char *const set_name[] = { "node-node", "point-node", "facet-node" }, *const kind_name[] = {
+        "tension", "shear", "bending", "energy"
+    };
+    for (size_t i = 0; i < step->nbroken; i++) {
+        const pg_broken *b = &step->broken[i];
+        char text[EVENT_NUMBERS][40];
+        int kind = b->kind == 's' ? 1 : b->kind == 'b' ? 2 : b->kind == 'e' ? 3 : 0;
+        const char *cell[EVENT_COLUMNS];
+        double factor = b->time == step->time || !(step->time > 0) ? step->factor
+                                                                   : step->factor * b->time / step->time;
+        double number[EVENT_NUMBERS] = { (double) step->number,
+                                         factor,
+                                         b->time,
+                                         b->place[0],
+                                         b->place[1],
+                                         b->place[2],
+                                         b->utilisation,
+                                         i == 0 ? step->dissipated : 0,
+                                         b->set,
+                                         kind };
+        cell[EVENT_NUMBERS] = set_name[b->set], cell[EVENT_NUMBERS + 1] = kind_name[kind];
+        for (int k = 0; k < EVENT_NUMBERS; k++) {
+            cell[k] = text[k];
+            text[k][0] = '\0';                         /* empty: not known */
+            if (!isnan (number[k])) snprintf (text[k], sizeof text[k], "%.10g", number[k]);
+        }
+        PG_TRY (pg_table_line (r->events, cell));
+    }
+done:
+    return status;
+}
+
+pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    const pg_statistics *report = pg_solver_report_now (r->solver);
+    size_t n = 0;
+    double x = 0, y = 0;                               /* of the load-displacement curve */
+    int components;
+    const char *unit;
+    r->row[n++] = (double) step->number, r->row[n++] = step->time, r->row[n++] = step->factor;
+    if (force->field) PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, r->u));
+    if (force->field && p->turns)
+        PG_TRY (force->field (self, state, state->d, "rotation", &components, &unit, r->u + 3 * p->cloud.n));
+    for (size_t l = 0; l < p->nload; l++)
+        for (int k = 0; k < pg_load_components (&p->load[l], p->dim); k++) {
+            int turns = pg_load_turns (&p->load[l]);
+            double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0;
+            double u = mean_of (p->load[l].set, turns ? r->u + 3 * p->cloud.n : r->u,
+                                turns ? p->turns : p->dim, k);
+            if ((int) l == r->curve_load && k == r->curve_component) x = u, y = f;
+            r->row[n++] = f, r->row[n++] = u;
+        }
+    const double *gauges = r->row + n;
+    for (size_t g = 0; g < p->ngauge; g++) {
+        double a[3] = { NAN, NAN, NAN }, b[3] = { NAN, NAN, NAN };
+        if (force->sample) {
+            PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].from, a, NULL));
+            PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].to, b, NULL));
+        }
+        r->row[n++] = opening (&p->gauge[g], p->dim, a, b);
+    }
+    if (r->curve_load >= 0) PG_TRY (result_curve_row (r, x, y, gauges, step));
+    PG_TRY (result_averages_row (r, state, r->row + n, r->u));
+    n += r->naverage;
+    PG_TRY (result_tips_row (r, state, step, r->row + n, r->u));
+    n += r->ntip;
+    r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic,
+    r->row[n++] = report->energy_external;
+    r->row[n++] = report->energy_dissipated, r->row[n++] = (double) report->broken,
+    r->row[n++] = (double) step->iterations;
+    r->row[n++] = step->residual, r->row[n++] = step->utilisation, r->row[n++] = step->event,
+    r->row[n++] = step->level;
+    PG_TRY (pg_table_row (r->history, r->row));
+    PG_TRY (event_rows (r, step));
+done:
+    return status;
+}

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * report.json: what the run did, in fixed keys (doc/output.md). */
+#include "result.h"
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics *r, double search,
+                           double total)
+{
+    const pg_estimate *e = pg_result_estimate (res);
+    pg_json_open (j, "seconds", '{');
+    pg_json_number (j, "search", search);
+    pg_json_number (j, "shape", r->seconds[PG_SECONDS_SHAPE]);
+    pg_json_number (j, "assemble", r->seconds[PG_SECONDS_ASSEMBLE]);
+    pg_json_number (j, "analyse", r->seconds[PG_SECONDS_ANALYSE]);
+    pg_json_number (j, "factor", r->seconds[PG_SECONDS_FACTOR]);
+    pg_json_number (j, "update", r->seconds[PG_SECONDS_UPDATE]);
+    pg_json_number (j, "solve", r->seconds[PG_SECONDS_SOLVE]);
+    pg_json_number (j, "force", r->seconds[PG_SECONDS_FORCE]);
+    pg_json_number (j, "break", r->seconds[PG_SECONDS_BREAK]);
+    pg_json_number (j, "write", res->seconds);
+    if (e) pg_json_number (j, "estimate", e->seconds);
+    if (res->measured) pg_json_number (j, "error", res->errors.seconds);
+    pg_json_number (j, "total", total);
+    pg_json_shut (j);
+}
+
+static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r, const pg_state *state)
+{
+    const pg_problem *p = res->problem;
+    pg_json_count (j, "points", p->cloud.n);
+    pg_json_count (j, "bonds", p->first_bond[PG_BOND_SETS]);
+    pg_json_count (j, "dofs", state->ndof);
+    pg_json_count (j, "evaluation_points", p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n);
+    pg_json_count (j, "eroded_points", p->eroded);
+    pg_json_count (j, "steps", (size_t) r->steps);
+    pg_json_count (j, "events", (size_t) r->events);
+    pg_json_count (j, "iterations", (size_t) r->iterations);
+    pg_json_count (j, "broken", (size_t) r->broken);
+    pg_json_count (j, "bonds_over_limit", (size_t) r->bonds_over_limit);
+    pg_json_number (j, "utilisation_max", r->utilisation_max);
+    pg_json_number (j, "residual_max", r->residual_max);
+    pg_json_count (j, "factorizations", (size_t) r->factorizations);
+    pg_json_count (j, "updates", (size_t) r->updates);
+    pg_json_count (j, "solves", (size_t) r->solves);
+    pg_json_count (j, "cg_iterations", r->cg_iterations);
+    pg_json_count (j, "degenerate_points", r->degenerate_points);
+    pg_json_count (j, "isolated_nodes", r->isolated_nodes);
+    pg_json_count (j, "fragments", r->fragments);
+    pg_json_number (j, "overlap_max", r->overlap_max);
+    pg_json_text (j, "linear_solver", r->solver);
+    pg_json_text (j, "ordering", r->ordering);
+    pg_json_text (j, "preconditioner", r->preconditioner);
+    pg_json_count (j, "preconditioners", (size_t) r->preconditioners);
+    pg_json_number (j, "factor_entries", r->factor_entries);
+    pg_json_open (j, "energy", '{');
+    pg_json_number (j, "strain", r->energy_strain);
+    pg_json_number (j, "kinetic", r->energy_kinetic);
+    pg_json_number (j, "external", r->energy_external);
+    pg_json_number (j, "damping", r->energy_damping);
+    pg_json_number (j, "dissipated", r->energy_dissipated);
+    pg_json_shut (j);
+}
+
+/* Files that the scene names, as they were. */
+static void files_block (pg_json *j, const pg_result *res)
+{
+    char whole[PATH_MAX];
+    pg_json_open (j, "files", '[');
+    for (size_t k = 0; k < res->nnamed; k++) {
+        const pg_named_file *f = &res->named[k];
+        pg_json_open (j, NULL, '{');
+        pg_json_text (j, "key", f->key);
+        pg_json_text (j, "path", realpath (f->path, whole) ? whole : f->path);
+        pg_json_text (j, "sha256", f->hash);
+        pg_json_shut (j);
+    }
+    pg_json_shut (j);
+}
+
+/* lower_bound: integrated at the nodes, recovery sees roughness only. */
+static void estimate_block (pg_json *j, const pg_result *res)
+{
+    const pg_estimate *e = pg_result_estimate (res);
+    if (!e) return;
+    pg_json_open (j, "error_estimate", '{');
+    pg_json_number (j, "relative", e->relative);
+    pg_json_number (j, "error", e->error);
+    pg_json_number (j, "norm", e->norm);
+    pg_json_text (j, "kind", res->problem->integration->at_nodes ? "lower bound" : "estimate");
+    pg_json_count (j, "points", e->points);
+    pg_json_count (j, "left_out", e->left_out);
+    pg_json_shut (j);
+}
+
+/* Of the discretisation, before the first step */
+static void patch_block (pg_json *j, const pg_problem *p)
+{
+    if (!p->patch.measured) return;
+    pg_json_number (j, "patch_error", p->patch.error);
+    pg_json_open (j, "patch", '{');
+    pg_json_text (j, "stress", pg_patch_state (p));
+    pg_json_number (j, "compliance", p->patch.compliance);
+    pg_json_text (j, "loaded", p->patch.held ? "outermost points held" : "whole surface");
+    pg_json_text (j, "kind", p->patch.settled ? "measured" : "lower bound");
+    pg_json_count (j, "iterations", p->patch.iterations);
+    pg_json_shut (j);
+}
+
+static void crack_block (pg_json *j, const pg_result *res)
+{
+    if (!res->crack.found) return;
+    pg_json_open (j, "new_crack", '{');
+    pg_json_text (j, "kind", "estimate");
+    pg_json_number (j, "area", res->crack.area);
+    if (res->problem->dim == 2) pg_json_number (j, "length", res->crack.length);
+    pg_json_number (j, "dissipated_per_area", res->crack.dissipated);
+    pg_json_shut (j);
+}
+
+/* One line; of several materials one each. */
+static void criteria (pg_json *j, const pg_problem *p)
+{
+    char text[512] = "";
+    if (!p->criterion->type) return;
+    if (p->nmaterial > 1) pg_json_open (j, "criteria", '{');
+    for (size_t i = 0; i < p->nmaterial; i++) {
+        pg_criterion_describe (&p->criterion[i], text, sizeof text);
+        pg_json_text (j, p->nmaterial > 1 ? p->material[i].name : "criterion", text);
+    }
+    if (p->nmaterial > 1) pg_json_shut (j);
+}
+
+pg_status result_json (pg_result *res, const pg_state *state, const char *failure, double search,
+                       double total)
+{
+    pg_status status = PG_OK;
+    pg_json *j = NULL;
+    char path[4096], note[400];
+    const pg_statistics *r = pg_solver_report (res->solver, state);
+    snprintf (path, sizeof path, "%s/report.json", res->folder);
+    PG_TRY (pg_json_create (&j, path));
+    pg_json_open (j, NULL, '{');
+    pg_json_text (j, "version", PG_VERSION);
+    pg_json_text (j, "scene", res->scene);
+    pg_json_text (j, "scene_sha256", res->hash);
+    files_block (j, res);
+    pg_json_text (j, "outcome", failure ? failure : "done");
+    run_block (j, res, r, state);
+    result_curve_json (j, res);
+    crack_block (j, res);
+    patch_block (j, res->problem);
+    estimate_block (j, res);
+    seconds_block (j, res, r, search, total);
+    if (res->measured) {
+        pg_json_open (j, "error", '{');
+        pg_errors_json (j, &res->errors);
+        pg_json_shut (j);
+    }
+    result_tips_json (j, res);
+    pg_json_count (j, "peak_bytes", pg_memory_process_peak ());
+    pg_json_count (j, "threads", (size_t) res->problem->threads);
+    criteria (j, res->problem);
+    pg_json_open (j, "skipped", '[');
+    for (size_t k = 0; k < r->nskipped; k++) {
+        pg_json_open (j, NULL, '{');
+        pg_json_text (j, "what", r->skipped[k].what);
+        pg_json_text (j, "why", r->skipped[k].why);
+        pg_json_number (j, "seconds_saved", r->skipped[k].seconds_saved);
+        pg_json_shut (j);
+    }
+    pg_json_shut (j);
+    pg_json_open (j, "warnings", '[');
+    for (size_t k = 0; k < r->nwarning; k++) pg_json_text (j, NULL, r->warning[k]);
+    pg_json_shut (j);
+    pg_json_open (j, "notes", '[');
+    for (size_t k = 0; pg_solver_note (res->problem, pg_solver_settled (res->solver), k, note, sizeof note);
+         k++)
+        pg_json_text (j, NULL, note);
+    pg_json_shut (j);
+    pg_json_shut (j);
+    PG_TRY (pg_json_close (&j));
+done:
+    if (j) pg_json_close (&j);
+    return status;
+}

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Pictures of the last state or of a stage. */
+#include "result.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *result_voigt (int dim, int k)
+{
+    static const char *const part[4][6] = {
+        { "" }, { "xx" }, { "xx", "yy", "xy" }, { "xx", "yy", "zz", "xy", "yz", "zx" }
+    };
+    return part[dim][k];
+}
+
+/* "stress.xx" -> component; -1: magnitude of a vector, or the only one */
+static int part_of (const char *dot, int dim, int components)
+{
+    if (!dot) return components == 1 ? 0 : components == dim ? -1 : 0;
+    if (components == dim && dot[1] && !dot[2])
+        return dot[1] >= 'x' && dot[1] < 'x' + dim ? dot[1] - 'x' : -2;
+    for (int k = 0; k < components; k++) if (strcmp (dot + 1, result_voigt (dim, k)) == 0) return k;
+    return -2;
+}
+
+/* The part of a field that `name` means, n values to be freed with pg_free; work holds 6 a point. unit as the
+ * force names it. */
+static pg_status read_part (pg_result *r, const pg_state *state, const char *name, double *work, double **out,
+                            const char **unit)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    const char *dot = strchr (name, '.');
+    char field[32];
+    int components;
+    snprintf (field, sizeof field, "%.*s", (int) (dot ? (size_t) (dot - name) : strlen (name)), name);
+    PG_TRY (force->field (self, state, state->d, field, &components, unit, work));
+    int part = components ? part_of (dot, p->dim, components) : -2;
+    if (part == -2) PG_FAIL (PG_E_USAGE, "output.pictures: there is no field %s", name);
+    PG_ALLOC (*out, p->cloud.n);
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        double s = 0;
+        const double *v = work + i * (size_t) components;
+        for (int k = 0; k < components; k++) s += v[k] * v[k];
+        (*out)[i] = part < 0 ? sqrt (s) : v[part];
+    }
+done:
+    return status;
+}
+
+/* "Disk: damage, back, load factor 0.5" */
+static void write_title (const pg_result *r, const pg_state *state, const result_view *v, const char *unit,
+                         char *title, size_t size)
+{
+    char limit[48] = "", time[32];
+    pg_picture_time (state->time, time, sizeof time);
+    if (v->limited || v->by_damage)
+        snprintf (limit, sizeof limit, " (%s\xe2\x89\xa5 %.4g%s%s)", v->by_damage ? "damage " : "",
+                  v->style.above, v->limited && *unit ? " " : "", v->limited ? unit : "");
+    int used = snprintf (title, size, "%.200s%s%s%s, ", r->problem->title, v->look[0] ? ", " : "", v->look,
+                         limit);
+    if (r->dynamic) snprintf (title + used, size - (size_t) used, "time %s", time);
+    else snprintf (title + used, size - (size_t) used, "load factor %.4g", state->factor);
+}
+
+/* Where the body is: its plane elements, its shapes, or the whole cells that stand for it; of a file of
+ * points nothing is known. */
+static pg_outline result_outline (const pg_result *r)
+{
+    const pg_problem *p = r->problem;
+    if (p->part.mesh.n) return (pg_outline) { .mesh = p->dim == 2 ? &p->part.mesh : NULL };
+    if (!p->lattice.dim || !p->body.n) return (pg_outline) { 0 };
+    return (pg_outline) { .body = &p->body, .lattice = r->stairs ? &p->lattice : NULL };
+}
+
+static pg_status one_picture (pg_result *r, const pg_state *state, const result_view *v, const char *path,
+                              double *work, double *u)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    const char *unit, *none;
+    char label[96], title[400];
+    int components;
+    double *one = NULL, *damage = NULL;
+    PG_TRY (read_part (r, state, v->field, work, &one, &unit));
+    if (v->by_damage || p->part.mesh.n || v->style.magnify != 0)
+        PG_TRY (read_part (r, state, "damage", work, &damage, &none));
+    PG_TRY (force->field (self, state, state->d, "displacement", &components, &none, u));
+    snprintf (label, sizeof label, "%s%s%s%s", v->field, *unit ? " (" : "", unit, *unit ? ")" : "");
+    write_title (r, state, v, unit, title, sizeof title);
+    pg_picture_style style = v->style;
+    style.title = title, style.label = label, style.u = u, style.cracks = &p->cracks;
+    style.diverging = style.low < style.high ? style.low == -style.high
+                                             : strncmp (v->field, "stress", 6) == 0;
+    style.clip = strncmp (v->field, "damage", 6) != 0;
+    style.select = v->by_damage ? damage : v->limited ? one : NULL;
+    pg_outline outline = result_outline (r);
+    style.outline = outline.body || outline.mesh ? &outline : NULL, style.damage = damage;
+    int whole = p->part.mesh.n > 0;                        /* elements would hide a crack */
+    for (size_t i = 0; whole && i < p->cloud.n; i++) whole = !(damage[i] > 0);
+    PG_TRY (pg_picture_body (path, whole ? &p->part : NULL, &p->cloud, one, &style));
+done:
+    pg_free (one), pg_free (damage);
+    return status;
+}
+
+/* All pictures; suffix: what follows their names. listed: they belong to those the run names at its end. */
+static pg_status draw_all (pg_result *r, const pg_state *state, const char *within, const char *suffix,
+                           int listed)
+{
+    pg_status status = PG_OK;
+    double *work = NULL, *u = NULL;
+    char path[4096];
+    PG_ALLOC (work, 6 * r->problem->cloud.n);
+    PG_ALLOC (u, 6 * r->problem->cloud.n);
+    for (size_t k = 0; pg_solver_force (r->solver, NULL)->field && k < r->npicture; k++) {
+        snprintf (path, sizeof path, "%s/%s%s%s.png", r->folder, within, r->picture[k].name, suffix);
+        PG_TRY (one_picture (r, state, &r->picture[k], path, work, u));
+        if (listed) memcpy (r->written[r->nwritten++], path, sizeof path);
+    }
+done:
+    pg_free (work), pg_free (u);
+    return status;
+}
+
+pg_status result_stage (pg_result *r, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    char path[4096], suffix[32];
+    snprintf (path, sizeof path, "%s/stages", r->folder);
+    PG_TRY (pg_folder_make (path));
+    snprintf (suffix, sizeof suffix, "_%04ld", r->exodus_steps - 1);
+    PG_TRY (draw_all (r, state, "stages/", suffix, 0));
+done:
+    return status;
+}
+
+static pg_status error_picture (pg_result *r, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    const pg_norms *n = &r->errors.norms;
+    char path[4096], title[400];
+    pg_outline outline = result_outline (r);
+    pg_picture_style style = { .label = "|u - u_{ref}| (m)",
+                               .cracks = &r->problem->cracks,
+                               .title = title,
+                               .outline = outline.body || outline.mesh ? &outline : NULL };
+    snprintf (title, sizeof title, "%s: difference from the reference, L2 %.2e, largest %.2e",
+              r->problem->title, n->l2.relative, n->maximum.relative);
+    snprintf (path, sizeof path, "%s/error.png", r->folder);
+    PG_TRY (pg_picture_body (path, state->broken ? NULL : &r->problem->part, &r->problem->cloud,
+                             r->errors.difference, &style));
+    memcpy (r->written[r->nwritten++], path, sizeof path);
+done:
+    return status;
+}
+
+pg_status result_errors (pg_result *r, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    pg_sampler solution = { 0 };
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    if (!r->reference) return PG_OK;
+    PG_TRY (pg_sampler_solution (&solution, r->problem, force, self, state));
+    PG_TRY (pg_errors_measure (&r->errors, r->reference, r->problem, &solution,
+                               r->dynamic ? state->time : state->factor));
+    r->measured = 1;
+    if (r->errors.difference && r->errors.norms.displacement) PG_TRY (error_picture (r, state));
+done:
+    pg_sampler_clear (&solution);
+    return status;
+}
+
+pg_status result_pictures (pg_result *r, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    PG_TRY (draw_all (r, state, "", "", 1));
+    if (r->curve_load >= 0 && r->npoint > 1) PG_TRY (result_curve_picture (r));
+    PG_TRY (result_tips_pictures (r));
+done:
+    return status;
+}

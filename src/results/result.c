@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The result folder: opened before the first step, every row on disk when its step is over. */
+#include "result.h"
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <math.h>
+
+static pg_status read_wishes (pg_result *r, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const char *name;
+    int with_u = 0;
+    r->magnify = pg_scene_number (scene, "output.magnify");
+    r->estimating = pg_scene_bool (scene, "output.estimate")
+                    && strcmp (pg_scene_text (scene, "solver.kind"), "static") == 0;
+    r->interval = pg_scene_number (scene, "output.checkpoint");
+    r->every = pg_scene_has (scene, "output.at.events") ? pg_scene_integer (scene, "output.at.events") : 0;
+    r->broken_share = pg_scene_has (scene, "output.at.broken") ? pg_scene_number (scene, "output.at.broken")
+                                                               : 0;
+    for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")) && r->nfield < MOST_FIELDS; k++) {
+        pg_field_view *f = &r->field[r->nfield++];
+        snprintf (f->name, sizeof f->name, "%s", name);
+        with_u |= strcmp (name, "displacement") == 0;
+    }
+    /* shape functions that do not interpolate: the field between points is that of the coefficients */
+    if (with_u && r->nfield < MOST_FIELDS && strcmp (r->problem->approx.type->name, "nosb") != 0)
+        snprintf (r->field[r->nfield++].name, sizeof r->field[0].name, "coefficient");
+    PG_TRY (result_views_read (r, scene));
+    for (size_t k = 0; k < r->nfield; k++) {
+        pg_field_view *f = &r->field[k];
+        int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0
+                     || strcmp (f->name, "coefficient") == 0;
+        PG_ALLOC (r->value[k], 6 * r->problem->cloud.n);
+        int turns = strcmp (f->name, "rotation") == 0;
+        f->components = turns ? r->problem->turns
+                        : strcmp (f->name, "damage") == 0 || strcmp (f->name, "error_estimate") == 0 ? 1
+                        : vector ? r->problem->dim
+                                 : pg_voigt_size (r->problem->dim);
+        snprintf (f->unit, sizeof f->unit, "%s",
+                  strcmp (f->name, "stress") == 0 || *f->name == 'e' ? "Pa"
+                  : !vector                                          ? ""
+                  : f->name[0] == 'v'                                ? "m/s"
+                                                                     : "m");
+        if (turns) snprintf (f->unit, sizeof f->unit, "rad");
+        f->value = r->value[k];
+    }
+done:
+    return status;
+}
+
+pg_status result_remove (const pg_result *r, const char *name)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    snprintf (path, sizeof path, "%s/%s", r->folder, name);
+    if (remove (path) != 0 && errno != ENOENT)
+        PG_FAIL (PG_E_FILE, "cannot remove %s: %s", path, strerror (errno));
+done:
+    return status;
+}
+
+/* What new and resumed results have in common; leaves the folder as it is. */
+pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem,
+                          pg_solver *solver)
+{
+    pg_status status = PG_OK;
+    r->problem = problem, r->solver = solver;
+    r->opened = r->checkpoint_at = pg_seconds ();
+    snprintf (r->folder, sizeof r->folder, "%s", folder);
+    snprintf (r->hash, sizeof r->hash, "%s", pg_scene_hash (scene));
+    snprintf (r->scene, sizeof r->scene, "%.3000s", pg_scene_file (scene));
+    PG_TRY (pg_scene_files (scene, &r->nnamed, &r->named));
+    const pg_solver_options *settled = pg_solver_settled (solver);
+    r->length = (settled->quasi_static ? 1 : settled->end) / (double) settled->steps;
+    PG_TRY (read_wishes (r, scene));
+    PG_TRY (result_averages_read (r, scene));
+    PG_TRY (result_tips_read (r, scene));
+    PG_TRY (pg_reference_read (&r->reference, scene, problem));
+    result_curve_choose (r);
+    r->next_broken = r->broken_share > 0 ? 1 : 0;
+done:
+    return status;
+}
+
+/* Nothing of an earlier run may be taken for this one's: its report goes first. */
+pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *scene,
+                          const pg_problem *problem, pg_solver *solver)
+{
+    pg_status status = PG_OK;
+    pg_result *r = NULL;
+    char path[4096];
+    double t0 = pg_seconds ();
+    PG_TRY (pg_result_check (scene, problem));
+    PG_ALLOC (r, 1);
+    PG_TRY (result_prepare (r, folder, scene, problem, solver));
+    PG_TRY (pg_folder_make (folder));
+    PG_TRY (result_lock (folder, &r->lock));
+    PG_TRY (pg_result_may_open (folder, scene));
+    PG_TRY (result_remove (r, "report.json"));
+    PG_TRY (result_copy_scene (folder, scene));
+    PG_TRY (result_history_create (r, NULL));
+    snprintf (path, sizeof path, "%s/result.e", folder);
+    PG_TRY (pg_exodus_create (&r->file, path, &problem->cloud, problem->title, r->nfield, r->field));
+    r->done = result_marks_now (r);
+    r->seconds += pg_seconds () - t0;
+    *out = r;
+    r = NULL;
+done:
+    pg_result_free (&r);
+    return status;
+}
+
+result_marks result_marks_now (const pg_result *r)
+{
+    result_marks m = {
+        pg_table_rows (r->history), pg_table_rows (r->events), 0,        0,      r->next_broken,
+        (long) r->npoint,           r->last_written,           r->stamp, r->time
+    };
+    pg_exodus_size (r->file, &m.steps, &m.bytes);
+    return m;
+}
+
+/* Times in result.e ascend, whatever is written. */
+static pg_status write_fields (pg_result *r, const pg_state *state, double time)
+{
+    pg_status status = PG_OK;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    for (size_t k = 0; force->field && k < r->nfield; k++) {
+        const char *unit;
+        int components;
+        PG_TRY (force->field (self, state, state->d, r->field[k].name, &components, &unit, r->value[k]));
+    }
+    if (r->exodus_steps > 0 && !(time > r->time)) time = nextafter (r->time, INFINITY);
+    PG_TRY (pg_exodus_write (r->file, time, r->field));
+    r->exodus_steps++;
+    r->time = time;
+    if (r->stages) PG_TRY (result_stage (r, state));
+done:
+    return status;
+}
+
+/* Has another share of the bonds broken? */
+static int share_has_broken (pg_result *r, const pg_state *state)
+{
+    if (!(r->broken_share > 0)
+        || (double) state->broken < r->broken_share * (double) r->next_broken * (double) state->nbond)
+        return 0;
+    r->next_broken = (long) ((double) state->broken / (r->broken_share * (double) state->nbond)) + 1;
+    return 1;
+}
+
+/* Within a step there is no time: its rounds stand for it, from the last step's towards the end of this
+ * one's. */
+static double time_within (const pg_result *r)
+{
+    return r->stamp + r->length * (double) r->rounds / ((double) r->rounds + 100);
+}
+
+pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *so_far)
+{
+    pg_status status = PG_OK;
+    double t0 = pg_seconds ();
+    long next = r->next_broken;
+    r->rounds = so_far->iterations;
+    r->now = result_marks_now (r);
+    r->last_written = share_has_broken (r, state);
+    if (r->last_written) status = write_fields (r, state, time_within (r));
+    if (status == PG_OK) r->now = result_marks_now (r);
+    else r->last_written = 0, r->next_broken = next;
+    r->seconds += pg_seconds () - t0;
+    return status;
+}
+
+void pg_result_refused (pg_result *r)
+{
+    r->rounds = 0;
+    /* stages of the refused step stay the last */
+    r->last_written = r->done.last_written || r->time > r->stamp;
+}
+
+pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *step)
+{
+    pg_status status = PG_OK;
+    double t0 = pg_seconds ();
+    r->done = result_marks_now (r);
+    r->pending = *step, r->is_pending = 1;
+    r->rounds = 0;
+    r->last_written = 0;
+    r->stamp = step->stamp;
+    PG_TRY (result_history_row (r, state, step));
+    int due = r->every > 0 && step->event && state->events % r->every == 0;
+    due |= share_has_broken (r, state) || step->level;
+    if (due) PG_TRY (write_fields (r, state, step->stamp));
+    r->last_written = due;
+    r->done = result_marks_now (r);
+    r->is_pending = 0;
+done:
+    r->seconds += pg_seconds () - t0;
+    return status;
+}
+
+/* A run does not fail for want of memory for this. */
+static pg_status estimate (pg_result *r, const pg_state *state)
+{
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    if (!r->estimating || !force->estimate) return PG_OK;
+    pg_status status = force->estimate (self, state->d, &r->estimate, NULL);
+    r->estimated = status == PG_OK;
+    return status == PG_E_MEMORY ? PG_OK : status;
+}
+
+const pg_estimate *pg_result_estimate (const pg_result *r) { return r->estimated ? &r->estimate : NULL; }
+
+pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *failure, double search,
+                            double total)
+{
+    pg_status status = PG_OK;
+    double t0 = pg_seconds ();
+    if (!r->last_written) PG_TRY (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp));
+    r->last_written = 1;
+    PG_TRY (result_curve_read (r));
+    PG_TRY (result_crack_measure (r, state));
+    PG_TRY (result_pictures (r, state));
+    PG_TRY (result_errors (r, state));
+    if (!failure) PG_TRY (estimate (r, state));
+done:
+    r->seconds += pg_seconds () - t0;
+    /* the report comes also without pictures */
+    pg_status written = result_json (r, state, failure, search, r->earlier + total);
+    if (status == PG_OK) status = written;
+    if (status == PG_OK && !failure) status = result_remove (r, "checkpoint.nc");
+    return status;
+}
+
+void pg_result_free (pg_result **result)
+{
+    pg_result *r = *result;
+    if (!r) return;
+    pg_exodus_close (&r->file);
+    pg_table_close (&r->history);
+    pg_table_close (&r->events);
+    result_unlock (r->folder, &r->lock);
+    pg_scene_files_free (r->nnamed, &r->named);
+    for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);
+    pg_reference_free (&r->reference);
+    pg_errors_clear (&r->errors);
+    result_tips_free (r);
+    pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve_x), pg_free (r->curve_y),
+        pg_free (r->curve_more);
+    pg_free (r);
+    *result = NULL;
+}
+
+const pg_errors *pg_result_errors (const pg_result *r) { return r->measured ? &r->errors : NULL; }
+const char *pg_result_folder (const pg_result *r) { return r->folder; }
+size_t pg_result_pictures (const pg_result *r) { return r->nwritten; }
+const char *pg_result_picture (const pg_result *r, size_t i)
+{
+    return i < r->nwritten ? r->written[i] : NULL;
+}

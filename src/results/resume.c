@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * checkpoint.nc of a result folder: the marks of its files, what the result remembers, a step that could not
+ * be written, and all that the solver keeps. Reading it back cuts the files to their marks, so that what a
+ * killed run has added since does not count. */
+#include "result.h"
+#include <errno.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { WORD = 64 };
+typedef struct {
+    pg_result *r;
+    pg_state  *state;
+    const char *path;
+    result_marks now;                                  /* where the files are to be cut */
+    long       rounds, is_pending, threads;
+    double     seconds;                                /* of the run so far */
+    pg_step    pending;
+    pg_broken *broken;  double *reaction;              /* of the pending step, when read back */
+} memory;
+
+static uint64_t print_of (uint64_t hash, const void *data, size_t bytes)
+{
+    const unsigned char *byte = data;
+    for (size_t i = 0; data && i < bytes; i++) hash = (hash ^ byte[i]) * 1099511628211u;
+    return hash;
+}
+
+/* Places, volumes and blocks: also of files that the scene does not name itself. */
+static long fingerprint (const pg_cloud *cloud)
+{
+    uint64_t hash = print_of (14695981039346656037u, cloud->x,
+                              cloud->n * (size_t) cloud->dim * sizeof *cloud->x);
+    hash = print_of (hash, cloud->volume, cloud->n * sizeof *cloud->volume);
+    return (long) (print_of (hash, cloud->block, cloud->n * sizeof *cloud->block) >> 1);
+}
+
+/* Each file of the scene must hold what it held. */
+static pg_status keep_files (memory *m, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    const pg_result *r = m->r;
+    char (*hash)[WORD] = NULL;
+    PG_ALLOC (hash, r->nnamed + 1);
+    for (size_t i = 0; i < r->nnamed; i++) memcpy (hash[i], r->named[i].hash, WORD);
+    PG_TRY (k->bytes (k->context, "files.sha256", r->nnamed * WORD, hash));
+    for (size_t i = 0; i < r->nnamed; i++)
+        if (memcmp (hash[i], r->named[i].hash, WORD) != 0)
+            PG_FAIL (PG_E_USAGE,
+                     "%s (%s of the scene) has changed since %s was written: bring back what it was, or "
+                     "begin anew with --force",
+                     r->named[i].path, r->named[i].key, m->path);
+done:
+    pg_free (hash);
+    return status;
+}
+
+/* Version, scene and points must be those of this run; the number of threads may differ. */
+static pg_status keep_identity (memory *m, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = m->r->problem;
+    char version[WORD] = PG_VERSION, hash[WORD + 1] = "";
+    long size[] = { (long) p->cloud.n,       (long) p->first_bond[PG_BOND_SETS],
+                    (long) m->state->ndof,   (long) p->nload,
+                    fingerprint (&p->cloud), (long) m->r->ntip };
+    enum { SIZES = sizeof size / sizeof *size };
+    long found[SIZES];
+    memcpy (hash, m->r->hash, WORD);
+    memcpy (found, size, sizeof size);
+    PG_TRY (k->bytes (k->context, "version", WORD, version));
+    version[WORD - 1] = 0;
+    if (strcmp (version, PG_VERSION) != 0)
+        PG_FAIL (PG_E_USAGE, "%s was written by perigal %s, this is %s: run without --resume", m->path,
+                 version, PG_VERSION);
+    PG_TRY (k->bytes (k->context, "scene_sha256", WORD, hash));
+    if (strncmp (hash, m->r->hash, WORD) != 0)
+        PG_FAIL (PG_E_USAGE,
+                 "%s is of another scene (sha256 %.12s..., now %.12s...): the scene or its --set options "
+                 "have changed since; "
+                 "%s/scene.yaml has those it was made with",
+                 m->path, hash, m->r->hash, m->r->folder);
+    PG_TRY (keep_files (m, k));
+    PG_TRY (k->counts (k->context, "sizes", SIZES, found));
+    if (memcmp (found, size, sizeof size) != 0)
+        PG_FAIL (PG_E_USAGE,
+                 "%s is of other points or bonds (%ld points, %ld bonds, %ld unknowns; now %ld, %ld, %ld): "
+                 "run without --resume",
+                 m->path, found[0], found[1], found[2], size[0], size[1], size[2]);
+    PG_TRY (k->counts (k->context, "threads", 1, &m->threads));
+done:
+    return status;
+}
+
+/* No more rows than history.csv has bytes. */
+static pg_status check_marks (const memory *m, const char *name, const long *count)
+{
+    pg_status status = PG_OK;
+    struct stat s;
+    char path[4096];
+    snprintf (path, sizeof path, "%s/history.csv", m->r->folder);
+    if (stat (path, &s) != 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    for (int i = 0; i < 7; i++)
+        if (count[i] < 0 || count[i] > 1L << 50)
+            PG_FAIL (PG_E_FILE, "%s is not of this run: mark %d of %s is %ld", m->path, i, name, count[i]);
+    if (count[0] > s.st_size)
+        PG_FAIL (PG_E_FILE, "%s has %ld bytes, not %ld rows: it was changed since", path, (long) s.st_size,
+                 count[0]);
+    if (count[5] > count[0])
+        PG_FAIL (PG_E_FILE, "%s is not of this run: %ld points of the curve of %ld rows", m->path, count[5],
+                 count[0]);
+done:
+    return status;
+}
+
+static pg_status keep_marks (const memory *of, result_marks *m, const char *name, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    char part[WORD];
+    long count[7] = { m->history, m->events, m->steps, m->bytes, m->next_broken, m->points, m->last_written };
+    double number[2] = { m->stamp, m->time };
+    snprintf (part, sizeof part, "%s.counts", name);
+    PG_TRY (k->counts (k->context, part, 7, count));
+    snprintf (part, sizeof part, "%s.numbers", name);
+    PG_TRY (k->numbers (k->context, part, 2, number));
+    if (k->reading) PG_TRY (check_marks (of, name, count));
+    *m = (result_marks){ count[0], count[1], count[2],  count[3], count[4],
+                         count[5], count[6], number[0], number[1] };
+done:
+    return status;
+}
+
+/* A step that was made and could not be written: its rows are made again. */
+static pg_status keep_pending (memory *m, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    pg_step *s = &m->pending;
+    size_t nload = m->r->problem->nload;
+    long count[5] = { s->number, s->iterations, s->level, s->event, (long) s->nbroken };
+    double number[6] = { s->stamp, s->time, s->factor, s->residual, s->utilisation, s->dissipated };
+    if (!m->is_pending) goto done;
+    PG_TRY (k->counts (k->context, "pending.counts", 5, count));
+    PG_TRY (k->numbers (k->context, "pending.numbers", 6, number));
+    if (k->reading) {
+        if (count[4] < 0 || count[4] > (long) m->r->problem->first_bond[PG_BOND_SETS])
+            PG_FAIL (PG_E_FILE, "%s is not of this run: %ld bonds broken in a step", m->path, count[4]);
+        PG_ALLOC (m->broken, (size_t) count[4]);
+        PG_ALLOC (m->reaction, 3 * nload);
+        *s = (pg_step){ .number = count[0],
+                        .iterations = count[1],
+                        .level = (int) count[2],
+                        .event = (int) count[3],
+                        .nbroken = (size_t) count[4],
+                        .broken = m->broken,
+                        .reaction = m->reaction,
+                        .stamp = number[0],
+                        .time = number[1],
+                        .factor = number[2],
+                        .residual = number[3],
+                        .utilisation = number[4],
+                        .dissipated = number[5] };
+    }
+    PG_TRY (pg_broken_keep (m->r->problem, "pending.broken", s->nbroken, (pg_broken *) s->broken, k));
+    PG_TRY (k->numbers (k->context, "pending.reaction", s->reaction ? 3 * nload : 0, (double *) s->reaction));
+done:
+    return status;
+}
+
+static pg_status keep_all (void *context, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    memory *m = context;
+    pg_result *r = m->r;
+    long flag[2] = { m->rounds, m->is_pending };
+    double seconds[2] = { m->seconds, r->seconds };
+    PG_TRY (keep_identity (m, k));
+    PG_TRY (k->counts (k->context, "result.counts", 2, flag));
+    PG_TRY (k->numbers (k->context, "result.seconds", 2, seconds));
+    if (flag[0] < 0 || flag[0] > 1L << 50)
+        PG_FAIL (PG_E_FILE, "%s is not of this run: %ld rounds of a step", m->path, flag[0]);
+    m->rounds = flag[0], m->is_pending = flag[1], m->seconds = seconds[0];
+    if (k->reading) r->seconds = seconds[1];
+    PG_TRY (keep_marks (m, &m->now, "now", k));
+    PG_TRY (keep_marks (m, &r->done, "done", k));
+    PG_TRY (result_curve_keep (r, (size_t) m->now.points, k));
+    PG_TRY (result_tips_keep (r, (size_t) m->now.history, k));
+    PG_TRY (keep_pending (m, k));
+    PG_TRY (pg_solver_keep (r->solver, m->state, k));
+done:
+    return status;
+}
+
+/* ---- writing ------------------------------------------------------------------------------------------- */
+static memory memory_of (pg_result *r, pg_state *state, const char *path)
+{
+    return (memory){ .r = r,
+                     .state = state,
+                     .path = path,
+                     .now = r->rounds > 0 ? r->now : r->done,
+                     .rounds = r->rounds,
+                     .is_pending = r->is_pending,
+                     .threads = r->problem->threads,
+                     .seconds = r->earlier + pg_seconds () - r->opened,
+                     .pending = r->pending };
+}
+
+pg_status pg_result_keep (pg_result *r, pg_state *state, const pg_keeper *keeper)
+{
+    memory m = memory_of (r, state, "the checkpoint");
+    return keeper->reading ? pg_error (PG_E_USAGE, PG_HERE, "pg_result_resume reads") : keep_all (&m, keeper);
+}
+
+pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    double t0 = pg_seconds ();
+    snprintf (path, sizeof path, "%s/checkpoint.nc", r->folder);
+    memory m = memory_of (r, state, path);
+    PG_TRY (pg_table_sync (r->history));
+    PG_TRY (pg_table_sync (r->events));
+    PG_TRY (pg_exodus_sync (r->file));
+    PG_TRY (pg_checkpoint_write (path, keep_all, &m));
+done:
+    r->checkpoint_at = pg_seconds ();
+    r->checkpoint_cost = r->checkpoint_at - t0;
+    r->seconds += r->checkpoint_cost;
+    return status;
+}
+
+/* Never more than a tenth of the time goes into checkpoints. */
+int pg_result_due (const pg_result *r)
+{
+    double passed = pg_seconds () - r->checkpoint_at;
+    return r->interval > 0 && passed >= r->interval && passed >= 10 * r->checkpoint_cost;
+}
+
+/* ---- going on ------------------------------------------------------------------------------------------ */
+static pg_status open_files (pg_result *r, const result_marks *at)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    PG_TRY (result_history_create (r, at));
+    snprintf (path, sizeof path, "%s/result.e", r->folder);
+    PG_TRY (pg_exodus_open (&r->file, path, &r->problem->cloud, r->nfield, r->field, at->steps, at->bytes));
+    r->exodus_steps = at->steps;
+    r->next_broken = at->next_broken, r->last_written = (int) at->last_written, r->stamp = at->stamp,
+    r->time = at->time;
+done:
+    return status;
+}
+
+/* What was due when the checkpoint was written and could not be done. */
+static pg_status catch_up (memory *m)
+{
+    pg_status status = PG_OK;
+    pg_step so_far = { .number = m->state->step + 1, .iterations = m->rounds };
+    int written = m->r->last_written;
+    if (m->is_pending) PG_TRY (pg_result_step (m->r, m->state, &m->pending));
+    if (m->rounds > 0) {
+        PG_TRY (pg_result_stage (m->r, m->state, &so_far));
+        m->r->last_written |= written;
+    }
+done:
+    return status;
+}
+
+pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene *scene,
+                            const pg_problem *problem, pg_solver *solver, pg_state *state, pg_resumed *from)
+{
+    pg_status status = PG_OK;
+    pg_result *r = NULL;
+    memory m = { .state = state };
+    char path[4096];
+    snprintf (path, sizeof path, "%s/checkpoint.nc", folder);
+    m.path = path;
+    PG_TRY (pg_result_check (scene, problem));
+    if (access (path, F_OK) != 0)
+        PG_FAIL (PG_E_USAGE, "there is no %s to go on from: run without --resume", path);
+    PG_ALLOC (r, 1);
+    m.r = r;
+    PG_TRY (result_prepare (r, folder, scene, problem, solver));
+    PG_TRY (result_lock (folder, &r->lock));
+    PG_TRY (pg_checkpoint_read (path, keep_all, &m));
+    PG_TRY (open_files (r, &m.now));
+    PG_TRY (result_remove (r, "report.json"));
+    r->earlier = m.seconds;
+    PG_TRY (catch_up (&m));
+    *from = (pg_resumed) { state->step, m.rounds, m.seconds, (int) m.threads };
+    *out = r;
+    r = NULL;
+done:
+    pg_free (m.broken), pg_free (m.reaction);
+    pg_result_free (&r);
+    return status;
+}
+
+int pg_result_finished (const char *folder, const pg_scene *scene)
+{
+    char path[4096], text[16384] = "", hash[128];
+    snprintf (path, sizeof path, "%s/checkpoint.nc", folder);
+    if (access (path, F_OK) == 0) return 0;
+    snprintf (path, sizeof path, "%s/report.json", folder);
+    FILE *file = fopen (path, "r");
+    if (!file) return 0;
+    text[fread (text, 1, sizeof text - 1, file)] = 0;
+    fclose (file);
+    snprintf (hash, sizeof hash, "\"scene_sha256\": \"%s\"", pg_scene_hash (scene));
+    return strstr (text, hash) && strstr (text, "\"outcome\": \"done\"");
+}

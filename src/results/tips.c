@@ -1,0 +1,376 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * output.tips: how far a crack has come along a direction, a column of history.csv each; pictures of length
+ * and speed, and their summary for report.json. */
+#include "result.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- from the scene ------------------------------------------------------------------------------------ */
+/* The points in question, and how far along they lie; none behind `from`. */
+static pg_status find_points (result_tip *tip, const pg_problem *p, const pg_expression *where)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) p->dim;
+    PG_ALLOC (tip->along, p->cloud.n);
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        const double *x = p->cloud.x + i * dim;
+        pg_place at = pg_place_of (p->dim, x, 0);
+        double s = 0;
+        for (size_t k = 0; k < dim; k++) s += (x[k] - tip->from[k]) * tip->direction[k];
+        tip->along[i] = s > 0 && (!where || pg_expression_value (where, &at) != 0) ? s : 0;
+    }
+done:
+    return status;
+}
+
+static pg_status read_tip (result_tip *tip, const pg_scene *scene, size_t i, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_expression *e = NULL;
+    const char *where = pg_scene_text (scene, "output.tips[%zu].where", i);
+    double size = 0;
+    snprintf (tip->name, sizeof tip->name, "%s", pg_scene_text (scene, "output.tips[%zu].name", i));
+    tip->damage = pg_scene_number (scene, "output.tips[%zu].damage", i);
+    pg_scene_vector (scene, 3, tip->from, "output.tips[%zu].from", i);
+    pg_scene_vector (scene, 3, tip->direction, "output.tips[%zu].along", i);
+    for (int k = 0; k < p->dim; k++) size = hypot (size, tip->direction[k]);
+    for (int k = 0; k < p->dim; k++) tip->direction[k] /= size;
+    if (where && *where) PG_TRY (pg_expression_compile (&e, where, "bool"));
+    PG_TRY (find_points (tip, p, e));
+done:
+    pg_expression_free (&e);
+    return status;
+}
+
+/* What a length needs: a direction, and places of the body that do not change. */
+static pg_status check_tip (const pg_scene *scene, size_t i, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    result_tip tip = { .along = NULL };
+    char path[64];
+    int turns, timeless = 1, any = 0;
+    pg_expression *e = NULL;
+    const char *where = pg_scene_text (scene, "output.tips[%zu].where", i);
+    snprintf (path, sizeof path, "output.tips[%zu].where", i);
+    if (where && *where) {
+        PG_TRY (pg_expression_compile (&e, where, "bool"));
+        timeless = !pg_expression_uses (e, 't');
+        if (!timeless) pg_scene_fault (scene, path, "the places do not change with t");
+    }
+    snprintf (path, sizeof path, "output.tips[%zu].along", i);
+    pg_scene_vector (scene, 3, tip.direction, "%s", path);
+    turns = hypot (hypot (tip.direction[0], tip.direction[1]), tip.direction[2]) > 0;
+    if (!turns) pg_scene_fault (scene, path, "must not be zero");
+    if (turns && timeless) {
+        PG_TRY (read_tip (&tip, scene, i, p));
+        for (size_t k = 0; k < p->cloud.n; k++) any |= tip.along[k] > 0;
+        if (!any)
+            pg_scene_fault (scene, path, "no point of the body lies that way%s",
+                            where && *where ? " where the condition holds" : "");
+    }
+done:
+    pg_expression_free (&e);
+    pg_free (tip.along);
+    return status;
+}
+
+pg_status result_tips_check (const pg_scene *scene, const pg_problem *problem)
+{
+    pg_status status = PG_OK;
+    size_t n = pg_scene_count (scene, "output.tips");
+    for (size_t i = 0; i < n; i++) PG_TRY (check_tip (scene, i, problem));
+    if (n > 0 && problem->criterion->type == NULL)
+        pg_scene_fault (scene, "output.tips", "nothing can break: there is no failure criterion");
+done:
+    return status;
+}
+
+pg_status result_tips_read (pg_result *r, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    r->ntip = pg_scene_count (scene, "output.tips");
+    r->tip_broken = -1;
+    PG_ALLOC (r->tip, r->ntip);
+    for (size_t i = 0; i < r->ntip; i++) PG_TRY (read_tip (&r->tip[i], scene, i, r->problem));
+done:
+    return status;
+}
+
+void result_tips_free (pg_result *r)
+{
+    for (size_t i = 0; r->tip && i < r->ntip; i++) pg_free (r->tip[i].along), pg_free (r->tip[i].length);
+    pg_free (r->tip), pg_free (r->tip_time);
+}
+
+/* ---- rows ---------------------------------------------------------------------------------------------- */
+static double distance (const pg_problem *p, size_t i, const double *x)
+{
+    double s = 0;
+    for (size_t k = 0; k < (size_t) p->dim; k++) s = hypot (s, p->cloud.x[i * (size_t) p->dim + k] - x[k]);
+    return s;
+}
+
+/* The damaged points of the crack: those nearest to `from` (all within a spacing more), and all that hang
+ * together with them, each no further than REACH spacings from the next, so that no whole point lies between.
+ * queue: their numbers (n); seen: n, zeroed. */
+static size_t follow (const result_tip *tip, const pg_problem *p, const double *damage, int *queue,
+                      unsigned char *seen)
+{
+    const double REACH = 1.9;
+    const pg_family *f = &p->rows[PG_NODES].family;
+    double nearest = INFINITY;
+    size_t n = 0;
+    for (size_t i = 0; i < p->cloud.n; i++)
+        if (damage[i] >= tip->damage) nearest = fmin (nearest, distance (p, i, tip->from));
+    for (size_t i = 0; i < p->cloud.n; i++)
+        if (damage[i] >= tip->damage
+            && distance (p, i, tip->from) <= nearest + pg_problem_spacing (p, PG_NODES, i))
+            seen[i] = 1, queue[n++] = (int) i;
+    for (size_t at = 0; at < n; at++) {
+        size_t i = (size_t) queue[at];
+        double reach = REACH * pg_problem_spacing (p, PG_NODES, i);
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
+            size_t j = (size_t) f->node[e];
+            if (seen[j] || !(damage[j] >= tip->damage)
+                || distance (p, j, p->cloud.x + i * (size_t) p->dim) > reach)
+                continue;
+            seen[j] = 1, queue[n++] = (int) j;
+        }
+    }
+    return n;
+}
+
+static pg_status farthest (const result_tip *tip, const pg_problem *p, const double *damage, double *length)
+{
+    pg_status status = PG_OK;
+    int *queue = NULL;
+    unsigned char *seen = NULL;
+    PG_ALLOC (queue, p->cloud.n);
+    PG_ALLOC (seen, p->cloud.n);
+    size_t n = follow (tip, p, damage, queue, seen);
+    *length = 0;
+    for (size_t k = 0; k < n; k++) *length = fmax (*length, tip->along[queue[k]]);
+done:
+    pg_free (queue), pg_free (seen);
+    return status;
+}
+
+pg_status result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row,
+                           double *work)
+{
+    pg_status status = PG_OK;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    const char *unit;
+    int components = 0, fresh = r->ntip > 0 && force->field && state->broken != r->tip_broken;
+    size_t n = r->tips;
+    if (fresh) PG_TRY (force->field (self, state, state->d, "damage", &components, &unit, work));
+    for (size_t i = 0; i < r->ntip; i++) {
+        result_tip *tip = &r->tip[i];
+        PG_GROW (tip->length, tip->capacity, n + 1);
+        tip->length[n] = n > 0 ? tip->length[n - 1] : 0;
+        if (components == 1) PG_TRY (farthest (tip, r->problem, work, &tip->length[n]));
+        row[i] = tip->length[n];
+    }
+    if (r->ntip == 0) goto done;
+    PG_GROW (r->tip_time, r->tip_capacity, n + 1);
+    r->tip_time[n] = r->dynamic ? step->time : step->factor;
+    r->tips = n + 1;
+    r->tip_broken = state->broken;
+done:
+    return status;
+}
+
+pg_status result_tips_keep (pg_result *r, size_t n, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    if (r->ntip == 0) goto done;
+    if (k->reading) r->tips = n, r->tip_broken = -1;
+    PG_GROW (r->tip_time, r->tip_capacity, n);
+    PG_TRY (k->numbers (k->context, "tips.time", n, r->tip_time));
+    for (size_t i = 0; i < r->ntip; i++) {
+        char name[64];
+        snprintf (name, sizeof name, "tips.%zu", i);
+        PG_GROW (r->tip[i].length, r->tip[i].capacity, n);
+        PG_TRY (k->numbers (k->context, name, n, r->tip[i].length));
+    }
+done:
+    return status;
+}
+
+/* ---- speeds -------------------------------------------------------------------------------------------- */
+double result_tips_rayleigh (const pg_result *r)
+{
+    double speed = 0;
+    for (size_t m = 0; m < r->problem->nmaterial; m++)
+        speed = fmax (speed, pg_material_waves (&r->problem->material[m]).rayleigh);
+    return speed;
+}
+
+/* Length is known in steps of the spacing: the slope of the straight line that fits it best within `half` s
+ * to both sides, and within two rows. */
+static double slope (const result_tip *tip, const double *time, size_t first, size_t n, size_t i, double half)
+{
+    size_t a = i, b = i;
+    double t = 0, s = 0, tt = 0, ts = 0;
+    while (a > first && (time[i] - time[a - 1] <= half || i - a < 2)) a--;
+    while (b + 1 < n && (time[b + 1] - time[i] <= half || b - i < 2)) b++;
+    for (size_t k = a; k <= b; k++) t += time[k], s += tip->length[k];
+    t /= (double) (b - a + 1), s /= (double) (b - a + 1);
+    for (size_t k = a; k <= b; k++)
+        tt += (time[k] - t) * (time[k] - t), ts += (time[k] - t) * (tip->length[k] - s);
+    return tt > 0 ? ts / tt : 0;
+}
+
+void result_tips_run (const pg_result *r, size_t i, result_tip_run *out, double *speed)
+{
+    const result_tip *tip = &r->tip[i];
+    const double *time = r->tip_time, rayleigh = result_tips_rayleigh (r);
+    size_t n = r->tips, start, stop;
+    *out = (result_tip_run) { .first = 0 };
+    while (out->first < n && !(tip->length[out->first] > 0)) out->first++;
+    if (out->first == n) return;
+    for (start = out->first + 1; start < n && !(tip->length[start] > tip->length[out->first]); ) start++;
+    for (stop = n - 1; stop > start && !(tip->length[stop] > tip->length[stop - 1]); ) stop--;
+    out->start = start, out->stop = stop, out->moved = start < n;
+    if (!r->dynamic || !out->moved) return;
+    double half = rayleigh > 0 ? 2 * r->problem->approx.horizon / rayleigh : 0;
+    for (size_t k = out->first; k < n; k++) {
+        double v = slope (tip, time, out->first, n, k, half);
+        if (v > out->largest) out->largest = v, out->fastest = k;
+        if (speed) speed[k] = v;
+    }
+    if (stop > start) out->mean = (tip->length[stop] - tip->length[start]) / (time[stop] - time[start]);
+}
+
+/* ---- pictures, report ---------------------------------------------------------------------------------- */
+static pg_status chart (pg_result *r, const char *name, size_t ncurve, const pg_curve *curve,
+                        const char *ylabel)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    pg_chart_style style = { .title = r->problem->title,
+                             .xlabel = r->dynamic ? "time (s)" : "load factor",
+                             .ylabel = ylabel };
+    snprintf (path, sizeof path, "%s/%s.png", r->folder, name);
+    PG_TRY (pg_picture_chart (path, ncurve, curve, &style));
+    memcpy (r->written[r->nwritten++], path, sizeof path);
+done:
+    return status;
+}
+
+/* Tips that move alike to the last bit would hide each other: the first of them stands for all, under all
+ * their names. */
+static int like_an_earlier (const pg_result *r, size_t i)
+{
+    for (size_t k = 0; k < i; k++)
+        if (memcmp (r->tip[k].length, r->tip[i].length, r->tips * sizeof *r->tip->length) == 0) return 1;
+    return 0;
+}
+
+static void write_names (const pg_result *r, size_t i, char *out, size_t size)
+{
+    int used = snprintf (out, size, "%s", r->tip[i].name);
+    for (size_t k = i + 1; k < r->ntip && used < (int) size; k++)
+        if (memcmp (r->tip[k].length, r->tip[i].length, r->tips * sizeof *r->tip->length) == 0)
+            used += snprintf (out + used, size - (size_t) used, " = %s", r->tip[k].name);
+}
+
+pg_status result_tips_pictures (pg_result *r)
+{
+    enum { ROOM = 256 };
+    pg_status status = PG_OK;
+    size_t n = r->tips, alone = 0, moving = 0;
+    pg_curve *curve = NULL, *fast = NULL;
+    char *names = NULL;
+    double *speed = NULL, limit[2] = { result_tips_rayleigh (r), result_tips_rayleigh (r) },
+           ends[2] = { 0, 0 };
+    result_tip_run run;
+    if (r->ntip == 0 || n < 2) return PG_OK;
+    PG_ALLOC (curve, r->ntip);
+    PG_ALLOC (fast, r->ntip + 1);
+    PG_ALLOC (names, r->ntip * ROOM);
+    PG_ALLOC (speed, r->ntip * n);
+    for (size_t i = 0; i < r->ntip; i++) {
+        double *v = speed + i * n;
+        if (like_an_earlier (r, i)) continue;
+        write_names (r, i, names + i * ROOM, ROOM);
+        curve[alone++] = (pg_curve) { names + i * ROOM, n, r->tip_time, r->tip[i].length, 0 };
+        result_tips_run (r, i, &run, v);
+        if (run.moved && r->dynamic)
+            fast[moving++] = (pg_curve){ names + i * ROOM, n - run.first, r->tip_time + run.first,
+                                         v + run.first, 0 };
+    }
+    PG_TRY (chart (r, "tip", alone, curve, "length of the crack (m)"));
+    ends[0] = r->tip_time[0], ends[1] = r->tip_time[n - 1];
+    if (moving == 0) goto done;
+    if (limit[0] > 0) fast[moving++] = (pg_curve) { "c_{R}", 2, ends, limit, 0 };
+    PG_TRY (chart (r, "tip_speed", moving, fast, "speed of the tip (m/s)"));
+done:
+    pg_free (curve), pg_free (fast), pg_free (names), pg_free (speed);
+    return status;
+}
+
+/* "crack right: 4.95 to 15.95 mm long; runs from 6.20 us to the end, at 1520 m/s = 0.55 c_R on average, 1870
+ * m/s = 0.68 c_R at most (at 9.52 us, 9.35 mm)" */
+int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
+{
+    double rayleigh = result_tips_rayleigh (r);
+    result_tip_run run;
+    char until[32] = "the end";
+    if (i >= r->ntip || r->tips == 0) return 0;
+    const result_tip *tip = &r->tip[i];
+    result_tips_run (r, i, &run, NULL);
+    int used = snprintf (out, size, "%s: ", tip->name);
+    out += used, size -= (size_t) used;
+    if (!run.moved)
+        return snprintf (out, size, "%s", tip->length[r->tips - 1] > 0 ? "does not run" : "there is none"), 1;
+    used = snprintf (out, size, "%.4g to %.4g mm", 1e3 * tip->length[run.first],
+                     1e3 * tip->length[r->tips - 1]);
+    out += used, size -= (size_t) used;
+    if (!r->dynamic)
+        return snprintf (out, size, ", from load factor %.4g to %.4g", r->tip_time[run.start],
+                         r->tip_time[run.stop]),
+               1;
+    if (run.stop + 2 < r->tips) snprintf (until, sizeof until, "%.4g us", 1e6 * r->tip_time[run.stop]);
+    used = snprintf (out, size,
+                     ", from %.4g us to %s, %.4g m/s on average, %.4g m/s at most (at %.4g mm, %.4g us)",
+                     1e6 * r->tip_time[run.start], until, run.mean, run.largest,
+                     1e3 * tip->length[run.fastest], 1e6 * r->tip_time[run.fastest]);
+    if (rayleigh > 0)
+        snprintf (out + used, size - (size_t) used, ": %.2f and %.2f of c_R", run.mean / rayleigh,
+                  run.largest / rayleigh);
+    return 1;
+}
+
+void result_tips_json (pg_json *j, const pg_result *r)
+{
+    double rayleigh = result_tips_rayleigh (r);
+    const char *when[2] = { r->dynamic ? "started" : "started_at_factor",
+                            r->dynamic ? "stopped" : "stopped_at_factor" };
+    if (r->ntip == 0) return;
+    pg_json_open (j, "tips", '[');
+    for (size_t i = 0; i < r->ntip; i++) {
+        const result_tip *tip = &r->tip[i];
+        result_tip_run run;
+        result_tips_run (r, i, &run, NULL);
+        pg_json_open (j, NULL, '{');
+        pg_json_text (j, "name", tip->name);
+        pg_json_number (j, "damage", tip->damage);
+        pg_json_number (j, "first", run.first < r->tips ? tip->length[run.first] : 0);
+        pg_json_number (j, "last", r->tips ? tip->length[r->tips - 1] : 0);
+        pg_json_number (j, when[0], run.moved ? r->tip_time[run.start] : NAN);
+        pg_json_number (j, when[1], run.moved ? r->tip_time[run.stop] : NAN);
+        if (r->dynamic) {
+            pg_json_number (j, "mean_speed", run.mean);
+            pg_json_number (j, "largest_speed", run.largest);
+            pg_json_number (j, "largest_at", run.moved ? r->tip_time[run.fastest] : NAN);
+            pg_json_number (j, "rayleigh_speed", rayleigh);
+            pg_json_number (j, "mean_over_rayleigh", rayleigh > 0 ? run.mean / rayleigh : NAN);
+            pg_json_number (j, "largest_over_rayleigh", rayleigh > 0 ? run.largest / rayleigh : NAN);
+        }
+        pg_json_shut (j);
+    }
+    pg_json_shut (j);
+}

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What pictures a scene wants: the words of output.pictures, then the maps of output.views, each with a file
+ * name of its own. */
+#include "result.h"
+#include <stdio.h>
+#include <string.h>
+
+static int place_of (const char *word, const char *names)
+{
+    int k = 0;
+    for (const char *s = names; *s; s += strcspn (s, "|"), s += *s == '|', k++)
+        if (strlen (word) == strcspn (s, "|") && strncmp (s, word, strlen (word)) == 0) return k;
+    return -1;
+}
+
+static const char *text_of (const pg_scene *scene, size_t i, const char *key)
+{
+    return pg_scene_has (scene, "output.views[%zu].%s", i, key)
+               ? pg_scene_text (scene, "output.views[%zu].%s", i, key)
+               : NULL;
+}
+
+/* What is given in SI units of the field. */
+static void read_limits (result_view *v, const pg_scene *scene, size_t i)
+{
+    double range[2] = { 0 };
+    if (pg_scene_vector (scene, 2, range, "output.views[%zu].range", i) == 2)
+        v->style.low = range[0], v->style.high = range[1];
+    else if (strcmp (v->field, "damage") == 0) v->style.high = 1;
+    v->limited = pg_scene_given (scene, "output.views[%zu].above", i);
+    v->style.above = v->limited ? pg_scene_number (scene, "output.views[%zu].above", i) : PG_CRACK_DAMAGE;
+    v->by_damage = !v->limited && v->style.view == PG_VIEW_CRACK;
+    v->style.by_depth = v->style.view == PG_VIEW_CRACK && strcmp (v->field, "damage") == 0;
+}
+
+/* Direction and section must have been checked (or their faults are the status). */
+pg_status result_view_read (result_view *v, const pg_scene *scene, size_t i, int dim)
+{
+    pg_status status = PG_OK;
+    const char *field = text_of (scene, i, "field"), *view = text_of (scene, i, "view"),
+               *section = text_of (scene, i, "section");
+    const char *name = text_of (scene, i, "name");
+    *v = (result_view) { .style.magnify = pg_scene_number (scene, "output.magnify") };
+    if (pg_scene_given (scene, "output.views[%zu].magnify", i))
+        v->style.magnify = pg_scene_number (scene, "output.views[%zu].magnify", i);
+    snprintf (v->field, sizeof v->field, "%s", field ? field : "damage");
+    if (dim == 3) v->style.view = view ? place_of (view, pg_view_names) : section ? PG_SECTION : PG_VIEW_ISO;
+    if (v->style.view >= PG_VIEW_ISO)
+        pg_scene_vector (scene, 3, v->style.direction, "output.views[%zu].direction", i);
+    read_limits (v, scene, i);
+    if (section && dim == 3) PG_TRY (pg_picture_section (&v->style, section));
+    snprintf (v->look, sizeof v->look, "%.40s%s",
+              dim < 3   ? ""
+              : section ? "section "
+              : view    ? view
+                        : "iso",
+              section && dim == 3 ? section : "");
+    pg_picture_name (v->name, sizeof v->name, name ? name : v->field);
+    if (!name && v->look[0]) {
+        size_t n = strlen (v->name);
+        if (n + 2 < sizeof v->name) v->name[n] = '_', v->name[n + 1] = 0;
+        pg_picture_name (v->name, sizeof v->name, section ? section : v->look);
+    }
+done:
+    return status;
+}
+
+pg_status result_views_read (pg_result *r, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const char *name;
+    r->stages = pg_scene_bool (scene, "output.stages");
+    r->stairs = strcmp (pg_scene_text (scene, "cells"), "staircase") == 0;
+    r->dynamic = !pg_kind_quasi_static (pg_scene_text (scene, "solver.kind"));
+    for (size_t k = 0;
+         (name = pg_scene_name (scene, k, "output.pictures")) && r->npicture < MOST_PICTURES - 1; k++) {
+        result_view *v = &r->picture[r->npicture++];
+        *v = (result_view) { .style = { .magnify = r->magnify, .high = strcmp (name, "damage") == 0 } };
+        snprintf (v->name, sizeof v->name, "%s", name);
+        snprintf (v->field, sizeof v->field, "%s", name);
+    }
+    for (size_t k = 0; k < pg_scene_count (scene, "output.views") && r->npicture < MOST_PICTURES - 1; k++)
+        PG_TRY (result_view_read (&r->picture[r->npicture++], scene, k, r->problem->dim));
+done:
+    return status;
+}

@@ -1,0 +1,495 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Stages of a load, each brought to rest by damped motion (Kilic and Madenci 2010; Shen 2016; theory B4, C).
+ * While a stage is held, bonds do not break before its load has come to act, for the jolt of the load's
+ * arrival is not part of a quasi-static path. */
+#include "relaxation.h"
+#include <math.h>
+#include <string.h>
+
+enum { BLOCK = 2048, SUM_R = 0, SUM_STIFF = 1, SUM_MASS = 2 };
+static const double least = 1e-2;  /* of the largest reference so far: a body apart bears nothing */
+/* hold: off, on: of Rayleigh's quotient, an iteration: from one alone damping jumps, and blows rounding up */
+static const double memory[2] = { 0.98, 0.9 };
+/* hold: off: least damping, of the critical one of the shape that the loads give the body */
+static const double share = 0.5;
+static const double arrival = 1e-2;  /* imbalance at which the load of a stage has come to act */
+
+pg_status relaxation_create (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    struct relaxation *x = NULL;
+    PG_TRY (explicit_create (s));
+    PG_ALLOC (s->motion->relaxation, 1);
+    x = s->motion->relaxation;
+    PG_ALLOC (x->mass, s->break_loop.system.ndof);
+done:
+    return status;
+}
+
+void relaxation_free (pg_solver *s)
+{
+    struct relaxation *x = s->motion ? s->motion->relaxation : NULL;
+    if (x) pg_free (x->mass), pg_free (x->rate);
+    pg_free (x);
+    explicit_free (s);
+}
+
+static int breaks (const pg_solver *s)
+{
+    const pg_force_type *force = s->break_loop.system.force;
+    return (force->march || force->utilisation) && s->problem->criterion->type;
+}
+
+/* ---- stages -------------------------------------------------------------------------------------------- */
+/* The smallest stretch that breaks a bond, by the criterion itself; INFINITY where stretch does not
+ * decide. */
+static double smallest_stretch (const pg_problem *p)
+{
+    double xi[3] = { p->cloud.h, 0, 0 }, eta[3] = { p->cloud.h, 0, 0 }, utilisation, s0 = INFINITY;
+    pg_bond_measures m = { .n = 1, .dim = p->dim, .xi = xi, .eta = eta };
+    for (size_t k = 0; k < p->nmaterial; k++) {
+        const pg_criterion *c = &p->criterion[k];
+        if (!c->type || c->never || c->type->needs != PG_NEEDS_STRETCH) continue;
+        c->type->utilisation (c, &m, &utilisation, NULL);
+        if (utilisation > 0) s0 = fmin (s0, 1 / utilisation);
+    }
+    return s0;
+}
+
+/* Shen 2016 eqs (21), (22): a stage must not stretch bonds to their limit by its mere arrival, d_lambda |b| <
+ * 2 rho s0 h / dt^2. */
+static pg_status limit_stages (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    motion *m = s->motion;
+    pg_solver_options *o = &s->options;
+    const struct relaxation *x = m->relaxation;
+    double most = 0;
+    if (!m->P || !breaks (s)) goto done;
+    double s0 = smallest_stretch (s->problem);
+    if (!isfinite (s0)) goto done;
+    PG_TRY (s->break_loop.system.force->external (s->break_loop.system.self, 1, m->P));
+    for (size_t i = 0; i < s->break_loop.system.ndof; i++)
+        if (x->mass[i] > 0) most = fmax (most, fabs (m->P[i]) / x->mass[i]);
+    double needed = ceil (most * x->dt * x->dt / (2 * s0 * s->problem->cloud.h) * (1 - 1e-12));
+    if (needed > 1e9)
+        PG_TRY (solver_fault (s, "solver.stages",
+                              "the load would need %g stages so that its mere arrival breaks no bond: it is "
+                              "too large for these limits",
+                              needed));
+    if (needed > (double) o->stages) {
+        pg_statistics_warn (&s->report,
+                            "the load comes in %.0f stages instead of %ld, so that its mere arrival breaks "
+                            "no bond (Shen 2016 eq (22))",
+                            needed, o->stages);
+        o->stages = (long) needed;
+    }
+done:
+    return status;
+}
+
+pg_status relaxation_stages (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    pg_solver_options *o = &s->options;
+    if (o->stages < 1) PG_FAIL (PG_E_USAGE, "%s needs a number of stages", o->kind);
+    if (!(o->imbalance > 0)) PG_FAIL (PG_E_USAGE, "%s needs an imbalance to end at", o->kind);
+    PG_TRY (limit_stages (s));
+    o->steps = o->hold ? o->stages : 0;
+    for (long n = 0; !o->hold && n < o->stages; n = explicit_row (s, o->stages, n)) o->steps++;
+done:
+    return status;
+}
+
+pg_status relaxation_start (pg_solver *s, pg_state *state)
+{
+    pg_status status = PG_OK;
+    struct relaxation *x = s->motion->relaxation;
+    s->next_level = 1;
+    x->resting = 1;
+    PG_TRY (system_refresh (&s->break_loop.system, state, NULL));
+    if (x->weigh) PG_TRY (x->weigh (s));
+done:
+    return status;
+}
+
+static double factor_at (const pg_solver *s, long stage)
+{
+    return stage == s->options.stages ? 1 : (double) stage / (double) s->options.stages;
+}
+
+/* ---- one iteration ------------------------------------------------------------------------------------- */
+typedef struct {
+    const struct relaxation *x;
+    double *d, *v, *a;
+    const double *r, *inverse;
+    double *sum, c;
+    size_t ndof;
+    int resting;
+} iterating;
+
+/* r r; v K v dt = v (r' - r), r' the last residual; v M v */
+static void measure (void *context, size_t first, size_t last, int thread)
+{
+    const iterating *w = context;
+    const double *d = w->d, *v = w->v, *a = w->a, *r = w->r, *mass = w->x->mass;
+    (void) thread;
+    for (size_t b = first; b < last; b++) {
+        size_t i = b * BLOCK, end = i + BLOCK < w->ndof ? i + BLOCK : w->ndof;
+        double stiff[8] = { 0 }, heavy[8] = { 0 }, *sum = w->sum + b * SUMS;
+        sum[SUM_R] = sweep_dot (r, r, i, end);
+        sum[SUM_BAD] = sweep_bad (d, i, end);
+        for (; i < end; i++) {
+            size_t k = i & 7;
+            stiff[k] += v[i] * (a[i] - r[i]);
+            heavy[k] += v[i] * (v[i] * mass[i]);
+        }
+        sum[SUM_STIFF] = sweep_sum (stiff), sum[SUM_MASS] = sweep_sum (heavy);
+    }
+}
+
+static void move (void *context, size_t first, size_t last, int thread)
+{
+    const iterating *w = context;
+    double dt = w->x->dt, *d = w->d, *v = w->v, *a = w->a;
+    const double *r = w->r, *inverse = w->inverse, *rate = w->x->rate;
+    (void) thread;
+    for (size_t b = first; b < last; b++) {
+        size_t i = b * BLOCK, end = i + BLOCK < w->ndof ? i + BLOCK : w->ndof;
+        if (w->resting) for (size_t k = i; k < end; k++) v[k] = 0.5 * dt * (r[k] * inverse[k]);
+        else if (rate)
+            for (size_t k = i; k < end; k++)
+                v[k] = ((2 - rate[k] * dt) * v[k] + 2 * dt * (r[k] * inverse[k])) / (2 + rate[k] * dt);
+        else {
+            double keep = (2 - w->c * dt) / (2 + w->c * dt), push = 2 * dt / (2 + w->c * dt);
+            for (size_t k = i; k < end; k++) v[k] = keep * v[k] + push * (r[k] * inverse[k]);
+        }
+        for (; i < end; i++) d[i] += dt * v[i], a[i] = r[i];
+    }
+}
+
+static double norm (const double *a, size_t n) { return sqrt (sweep_dot (a, a, 0, n)); }
+
+/* The residual at d, free of the forces of supports; its size over that of loads and reactions; damping from
+ * it. */
+static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
+{
+    pg_status status = PG_OK;
+    motion *m = s->motion;
+    struct relaxation *x = m->relaxation;
+    pg_system *sys = &s->break_loop.system;
+    const pg_solver_options *o = &s->options;
+    double reference = 0, total[SUMS];
+    PG_TRY (explicit_force (s, state, t, breaking, &reference));
+    x->broke = breaking && s->break_loop.changes.n > 0;
+    if (x->broke && x->weigh) PG_TRY (x->weigh (s));
+    double t0 = pg_seconds ();
+    for (size_t k = 0; k < m->nheld; k++)
+        m->push[k] = -sys->residual[m->held[k]], sys->residual[m->held[k]] = 0;
+    if (m->P) reference = 0;
+    reference = fmax (reference, fmax (m->P ? norm (m->P, sys->ndof) : 0, norm (m->push, m->nheld)));
+    if (x->armed || !o->hold) x->most = fmax (x->most, reference);
+    reference = fmax (reference, least * x->most);
+    iterating all = { x, state->d, state->v, state->a, sys->residual, m->inverse, m->sum, 0, sys->ndof, 0 };
+    pg_parallel (s->problem->threads, m->nblock, measure, &all);
+    explicit_total (s, total);
+    double size = sqrt (total[SUM_R]);
+    if (total[SUM_BAD] != 0 || !isfinite (size)) PG_TRY (explicit_lost (s, state, t));
+    x->imbalance = reference > 0 ? size / reference : size > 0 ? 1 : 0;
+    if (x->resting) x->stiff = x->heavy = 0;
+    else if (!x->broke && total[SUM_MASS] > 0) {
+        x->stiff = memory[o->hold] * x->stiff + total[SUM_STIFF],
+        x->heavy = memory[o->hold] * x->heavy + total[SUM_MASS];
+        x->c = fmin (1.9 / x->dt, fmax (x->floor, 2 * sqrt (fmax (0, x->stiff / (x->heavy * x->dt)))));
+    }
+    s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
+done:
+    return status;
+}
+
+static void iterate (pg_solver *s, pg_state *state)
+{
+    motion *m = s->motion;
+    struct relaxation *x = m->relaxation;
+    const pg_system *sys = &s->break_loop.system;
+    double t0 = pg_seconds ();
+    iterating all = { x,          state->d, state->v, state->a,  sys->residual,
+                      m->inverse, m->sum,   x->c,     sys->ndof, x->resting };
+    pg_parallel (s->problem->threads, m->nblock, move, &all);
+    x->resting = 0;
+    s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
+}
+
+/* ---- a stage that is held ------------------------------------------------------------------------------ */
+static void impose (const pg_solver *s, pg_state *state)
+{
+    const motion *m = s->motion;
+    for (size_t k = 0; k < m->nheld; k++)
+        state->d[m->held[k]] = m->goal[k], state->v[m->held[k]] = state->a[m->held[k]] = 0;
+}
+
+/* Under proportional loads the last balanced state times the ratio of loads is the next one, until bonds
+ * break. */
+static void open_stage (pg_solver *s, pg_state *state)
+{
+    struct relaxation *x = s->motion->relaxation;
+    double ratio = state->step > 0 && pg_problem_proportional (s->problem)
+                       ? (double) (state->step + 1) / (double) state->step
+                       : 1;
+    for (size_t i = 0; i < state->ndof; i++) state->d[i] *= ratio, state->v[i] = state->a[i] = 0;
+    x->resting = 1, x->armed = x->pending = 0;
+    s->break_loop.nbroken = 0;
+    impose (s, state);
+}
+
+/* The work up to the state before the first break, as far as the load has come to act. */
+static pg_status arm (pg_solver *s, const pg_state *state, double t, int breaking)
+{
+    pg_status status = PG_OK;
+    struct relaxation *x = s->motion->relaxation;
+    pg_system *sys = &s->break_loop.system;
+    x->armed = 1;
+    if (!sys->force->work_balance || !breaking) return PG_OK;
+    PG_TRY (sys->force->work_balance (sys->self, t, state->d, NULL, &s->break_loop.work_balance));
+    x->pending = 1;
+done:
+    return status;
+}
+
+static pg_status book_pending (pg_solver *s)
+{
+    struct relaxation *x = s->motion->relaxation;
+    if (!x->pending) return PG_OK;
+    x->pending = 0;
+    return break_loop_book (&s->break_loop, 1);
+}
+
+/* Balanced: break what is over its limit as options.break_mode has it; *died: how many did. */
+static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_step *step, size_t *died)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    pg_system *sys = &b->system;
+    const pg_solver_options *o = &s->options;
+    double top = 0, t0 = pg_seconds ();
+    b->changes.n = 0;
+    if (o->break_mode == PG_BREAK_PASSING || (o->break_mode == PG_BREAK_ALL && sys->force->march))
+        PG_TRY (examine (s, state, t, 1));
+    else {
+        PG_TRY (break_loop_ready (b));
+        PG_TRY (sys->force->utilisation (sys->self, state, state->d, b->utilisation, b->kind, NULL));
+        for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
+        step->utilisation = top;
+        double cut =
+            o->break_mode == PG_BREAK_ALL
+                ? 1
+                : top * (1 - (o->break_mode == PG_BREAK_WORST ? o->tie : fmax (o->break_fraction, o->tie)));
+        if (o->break_mode != PG_BREAK_WORST) cut = fmax (cut, 1);
+        if (top > 1) PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
+        s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
+        if (b->changes.n) {
+            PG_TRY (system_refresh (sys, state, &b->changes));
+            if (s->motion->relaxation->weigh) PG_TRY (s->motion->relaxation->weigh (s));
+            state->events++, s->report.events++;
+        }
+    }
+    *died = b->changes.n;
+done:
+    return status;
+}
+
+static pg_status too_long (const pg_solver *s, const pg_state *state, long iterations)
+{
+    const pg_problem *p = s->problem;
+    const pg_system *sys = &s->break_loop.system;
+    size_t worst = 0, dim = (size_t) p->dim;
+    for (size_t i = 1; i < state->ndof; i++)
+        if (fabs (sys->residual[i]) > fabs (sys->residual[worst])) worst = i;
+    const double *x = p->cloud.x + worst / (size_t) sys->components * dim;
+    return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+                     "no balance after %ld iterations: the out-of-balance force is %.3g of the loads "
+                     "(allowed %.3g), largest at point %zu "
+                     "(%g, %g, %g) m: probably a loaded part has come loose; try prescribed displacements or "
+                     "more solver.stages, else raise "
+                     "solver.max_iterations or solver.imbalance",
+                     iterations, s->motion->relaxation->imbalance, s->options.imbalance,
+                     worst / (size_t) sys->components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0);
+}
+
+static pg_status look (pg_solver *s, pg_state *state, pg_step *step)
+{
+    break_loop *b = &s->break_loop;
+    step->nbroken = b->nbroken, step->broken = b->broken, step->iterations = b->round;
+    b->stopped = 1;
+    pg_status status = b->watch (b->watching, state, step);
+    if (status == PG_OK) b->stopped = 0;
+    return status;
+}
+
+/* Iterates until the stage is balanced and no bond is over its limit. */
+static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    struct relaxation *x = s->motion->relaxation;
+    const pg_solver_options *o = &s->options;
+    int can = breaks (s), passing = can && o->break_mode == PG_BREAK_PASSING;
+    for (;; b->round++) {
+        if (b->watch && b->round > b->began && b->round % s->motion->between == 0)
+            PG_TRY (look (s, state, step));
+        int tested = passing && x->armed;
+        PG_TRY (examine (s, state, t, tested));
+        if (x->broke) PG_TRY (book_pending (s));
+        if (x->imbalance <= o->imbalance) {
+            size_t died = x->broke;
+            if (can && !tested) {
+                if (!x->armed) PG_TRY (arm (s, state, t, 1));
+                PG_TRY (break_in_balance (s, state, t, step, &died));
+                if (died) PG_TRY (book_pending (s));
+                if (died && o->break_mode != PG_BREAK_PASSING) PG_TRY (examine (s, state, t, 0));
+                x->broke = died > 0;
+            }
+            if (!died) break;
+        }
+        if (!x->armed && x->imbalance <= arrival) PG_TRY (arm (s, state, t, passing));
+        if (b->round >= o->max_iterations) PG_TRY (too_long (s, state, b->round));
+        iterate (s, state);
+    }
+    step->iterations = b->round;
+done:
+    return status;
+}
+
+static pg_status step_held (pg_solver *s, pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    double t = factor_at (s, state->step + 1);
+    s->motion->fresh = 0;
+    PG_TRY (explicit_follow (s, t, t, t));
+    if (b->round == 0) open_stage (s, state);
+    PG_TRY (hold (s, state, t, step));
+    PG_TRY (break_loop_account (b, t, state->d, NULL, 1));
+    memset (state->v, 0, state->ndof * sizeof *state->v);
+    memset (state->a, 0, state->ndof * sizeof *state->a);
+    b->round = 0;
+    step->residual = s->motion->relaxation->imbalance;
+    state->factor = t;
+    while ((double) s->next_level / (double) s->options.levels <= t * (1 + 1e-12))
+        s->next_level++, step->level = 1;
+    PG_TRY (explicit_end (s, state, state->step + 1 >= s->options.stages, "load factor", t));
+done:
+    return status;
+}
+
+/* ---- one iteration a stage ----------------------------------------------------------------------------- */
+/* The body that follows slow loads moves without strain rates to speak of: v K v would tell no damping, and
+ * what then swings grows out of rounding. Rayleigh's quotient of the displacement itself, but for its mean,
+ * does: d . (P - r) is d K d. */
+static double steady_damping (const pg_solver *s, const pg_state *state)
+{
+    const motion *m = s->motion;
+    const pg_system *sys = &s->break_loop.system;
+    const double *d = state->d, *mass = m->relaxation->mass;
+    double stiff = 0, heavy = 0;
+    for (size_t i = 0; i < sys->ndof; i++) stiff += d[i] * ((m->P ? m->P[i] : 0) - sys->residual[i]);
+    for (size_t k = 0; k < m->nheld; k++) stiff += d[m->held[k]] * m->push[k];
+    for (size_t c = 0; c < (size_t) sys->components; c++) {
+        double sum = 0, first = 0, second = 0;
+        for (size_t i = c; i < sys->ndof; i += (size_t) sys->components)
+            sum += mass[i], first += mass[i] * d[i], second += mass[i] * d[i] * d[i];
+        if (sum > 0) heavy += second - first * first / sum;
+    }
+    return heavy > 0 && stiff > 0 ? share * 2 * sqrt (stiff / heavy) : 0;
+}
+
+static int is_due (long n) { return n % 64 == 0 || (n < 64 && (n & (n - 1)) == 0); }
+
+static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    struct relaxation *x = s->motion->relaxation;
+    long n = state->iterations + b->round, last = explicit_row (s, s->options.stages, state->iterations);
+    if (b->round == 0) b->nbroken = 0, x->worst = 0;
+    explicit_release (s, state);
+    s->motion->fresh = 0;
+    while (n < last) {
+        double t = factor_at (s, ++n);
+        s->motion->fresh = 0;
+        PG_TRY (explicit_follow (s, t, t, t));
+        impose (s, state);
+        PG_TRY (examine (s, state, t, 1));
+        if (is_due (n)) x->floor = steady_damping (s, state);
+        x->worst = fmax (x->worst, x->imbalance);
+        iterate (s, state);
+        b->round = n - state->iterations;
+        if (b->watch && n % s->motion->between == 0 && n < last) {
+            step->time = t;
+            PG_TRY (look (s, state, step));
+        }
+    }
+    step->iterations = b->round;
+    double t = factor_at (s, n);
+    PG_TRY (break_loop_account (b, t, state->d, NULL, 1));
+    b->round = 0;
+    step->residual = x->worst;
+    state->factor = t;
+    step->level = explicit_level (s, s->options.stages, n);
+    PG_TRY (explicit_end (s, state, n == s->options.stages, "load factor", t));
+    if (s->finished)
+        pg_statistics_warn (&s->report,
+                            "hold: off takes one iteration a stage: its states are not in equilibrium, the "
+                            "out-of-balance force is up to %.2g of the loads",
+                            fmax (x->worst, s->report.residual_max));
+done:
+    return status;
+}
+
+pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    PG_TRY (s->options.hold ? step_held (s, state, step) : step_on (s, state, step));
+    s->report.energy_strain = b->work_balance.strain;
+    step->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);
+    state->time = step->time = step->factor = state->factor;
+    step->nbroken = b->nbroken, step->broken = b->broken;
+    if (b->work_balance.reaction)
+        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+done:
+    return status;
+}
+
+int relaxation_done (const pg_solver *s, const pg_state *state)
+{
+    return (s->options.hold ? state->step : state->iterations) >= s->options.stages;
+}
+
+double relaxation_progress (const pg_solver *s, const pg_state *state)
+{
+    return (double) (s->options.hold ? state->step : state->iterations + s->break_loop.round)
+           / (double) s->options.stages;
+}
+
+void relaxation_refused (pg_solver *s)
+{
+    struct relaxation *x = s->motion->relaxation;
+    x->resting = 1, x->armed = x->pending = 0;
+}
+
+pg_status relaxation_keep (pg_solver *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    struct relaxation *x = s->motion->relaxation;
+    double number[7] = { x->c, x->imbalance, x->worst, x->most, x->stiff, x->heavy, x->floor };
+    long count[4] = { x->armed, x->resting, x->pending, x->broke };
+    PG_TRY (k->numbers (k->context, "relaxation.numbers", 7, number));
+    PG_TRY (k->counts (k->context, "relaxation.counts", 4, count));
+    x->c = number[0], x->imbalance = number[1], x->worst = number[2], x->most = number[3],
+    x->stiff = number[4], x->heavy = number[5], x->floor = number[6];
+    x->armed = (int) count[0], x->resting = (int) count[1], x->pending = (int) count[2],
+    x->broke = (int) count[3];
+done:
+    return status;
+}

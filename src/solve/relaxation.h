@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: equilibrium by damped motion (theory B4 as corrected, C), for adr and relax. One iteration, with
+ * masses m, a time step dt and damping c:
+ *   v(n+1/2) = ((2 - c dt) v(n-1/2) + 2 dt r_n / m) / (2 + c dt), u_n+1 = u_n + dt v(n+1/2); from rest v(1/2)
+ *     = dt r_0 / (2 m). Between iterations state->v is v(n-1/2), state->a the last residual (N); a balanced
+ *     state shows both as 0. */
+#ifndef PG_RELAXATION_H
+#define PG_RELAXATION_H
+#include "explicit.h"
+
+struct relaxation {
+    double *mass;                                      /* of every unknown (ndof) */
+    /* masses anew where bonds that broke may have stiffened the body; NULL: never */
+    pg_status (*weigh) (pg_solver *s);
+    double *rate;                                      /* given damping, 1/s; NULL: c (ndof) */
+    double dt, c;                                      /* 1/s, by Rayleigh's quotient stiff / heavy */
+    double stiff, heavy;  /* v K v dt and v M v of the last iterations, older ones count less */
+    double floor;                                      /* hold: off: least c, 1/s */
+    double imbalance, worst;                           /* of the last residual; hold: off: the largest */
+    double most;  /* largest reference of a state that the load has come to, N */
+    /* bonds may break; the next iteration starts from rest; the work balance at hand is that before the first
+     * break of the stage and not booked; bonds broke at the last residual */
+    int    armed, resting, pending, broke;
+};
+pg_status relaxation_create  (pg_solver *s);  /* s->motion with it; masses and dt are the caller's */
+pg_status relaxation_stages  (pg_solver *s);  /* limit (22), number of steps; after masses and dt */
+void      relaxation_free    (pg_solver *s);
+pg_status relaxation_start   (pg_solver *s, pg_state *state);
+pg_status relaxation_step    (pg_solver *s, pg_state *state, pg_step *step);
+int       relaxation_done    (const pg_solver *s, const pg_state *state);
+double    relaxation_progress (const pg_solver *s, const pg_state *state);
+void      relaxation_refused (pg_solver *s);
+pg_status relaxation_keep    (pg_solver *s, const pg_keeper *keeper);
+#endif

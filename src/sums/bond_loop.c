@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Which loop sums the bonds: the first kind that can, or transforms where these are faster, with the best
+ * instructions that this machine has. */
+#include "bond_loop.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct pg_bond_loop {
+    const pg_bond_loop_kind *kind;
+    void *self;
+    char  name[32], reason[160];
+};
+
+static const pg_bond_loop_kind *const kinds[] = { &pg_bond_loop_stencil,      &pg_bond_loop_list,
+                                                  &pg_bond_loop_fft,          &pg_bond_loop_state_stencil,
+                                                  &pg_bond_loop_state_list,   &pg_bond_loop_state_fft,
+                                                  &pg_bond_loop_beam_stencil, &pg_bond_loop_beam_list,
+                                                  &pg_bond_loop_beam_volume };
+enum { KINDS = sizeof kinds / sizeof *kinds };
+static const char *const set_name[PG_INSTRUCTION_SETS] = { "scalar", "avx2", "avx512" };
+
+const char *pg_instructions_name (pg_instructions set) { return set_name[set]; }
+
+int pg_instructions_here (pg_instructions set)
+{
+    if (set == PG_SCALAR) return 1;
+#ifdef __x86_64__
+    int avx2 = __builtin_cpu_supports ("avx2") && __builtin_cpu_supports ("fma");
+    if (set == PG_AVX2) return avx2;
+    return avx2 && __builtin_cpu_supports ("avx512f") && __builtin_cpu_supports ("avx512bw")
+           && __builtin_cpu_supports ("avx512dq") && __builtin_cpu_supports ("avx512vl");
+#else
+    return 0;
+#endif
+}
+
+static pg_status choose_instructions (pg_instructions *out, const char *name)
+{
+    pg_status status = PG_OK;
+    int set = PG_INSTRUCTION_SETS - 1;
+    if (!name) {
+        while (!pg_instructions_here (set)) set--;
+    } else {
+        while (set >= 0 && strcmp (name, set_name[set]) != 0) set--;
+        if (set < 0) PG_FAIL (PG_E_USAGE, "instructions %s: unknown; there are scalar, avx2, avx512", name);
+        if (!pg_instructions_here (set))
+            PG_FAIL (PG_E_USAGE, "instructions %s: this machine has none; leave the choice to the program",
+                     name);
+    }
+    *out = (pg_instructions) set;
+done:
+    return status;
+}
+
+/* Transforms, where they save at least a fifth of the stencil's time: cracks will cost some of it. */
+static void compare_transforms (const pg_bond_loop_kind **kind, const pg_bond_loop_setting *setting,
+                                pg_instructions set, char *reason, size_t size)
+{
+    if (*kind != &pg_bond_loop_stencil || pg_bond_loop_fft.refusal (setting)) return;
+    double n = (double) setting->sums->cloud->n, direct = pg_bond_loop_stencil.time (setting, set) / n,
+           fast = pg_bond_loop_fft.time (setting, set) / n;
+    if (fast < 0.8 * direct) *kind = &pg_bond_loop_fft;
+    snprintf (reason, size, "auto: about %.2g ns a point by transforms, %.2g by stencil", fast, direct);
+}
+
+static pg_status choose_kind (const pg_bond_loop_kind **out, const pg_bond_loop_setting *setting)
+{
+    static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL,
+                                         [PG_EVALUATE_STENCIL] = "stencil",
+                                         [PG_EVALUATE_LIST] = "list",
+                                         [PG_EVALUATE_FFT] = "fft" };
+    pg_status status = PG_OK;
+    const char *only = asked[setting->sums->rule.evaluation], *why = "there is no such loop";
+    int theory = (setting->beams ? 2 : 0) + (setting->sums->rule.state != 0);
+    *out = NULL;
+    for (size_t k = 0; k < KINDS && !*out; k++) {
+        if (kinds[k]->state != theory || (only && theory < 3 && strcmp (only, kinds[k]->name) != 0)) continue;
+        why = kinds[k]->refusal (setting);
+        if (!why) *out = kinds[k];
+    }
+    if (!*out)
+        PG_FAIL (PG_E_USAGE, "evaluation %s cannot sum these bonds: %s; try evaluation: auto",
+                 only ? only : "auto", why);
+done:
+    return status;
+}
+
+pg_status pg_bond_loop_create (pg_bond_loop **out, const pg_bond_loop_setting *setting)
+{
+    pg_status status = PG_OK;
+    pg_bond_loop *s = NULL;
+    pg_instructions set = PG_SCALAR;
+    *out = NULL;
+    PG_ALLOC (s, 1);
+    PG_TRY (choose_instructions (&set, setting->instructions));
+    PG_TRY (choose_kind (&s->kind, setting));
+    if (setting->sums->rule.evaluation != PG_EVALUATE_AUTO) strcpy (s->reason, "asked for");
+    else compare_transforms (&s->kind, setting, set, s->reason, sizeof s->reason);
+    strcpy (s->name, s->kind->name);
+    if (!s->kind->plain) strcat (strcat (s->name, " "), set_name[set]);
+    PG_TRY (s->kind->create (&s->self, setting, set));
+    if (s->kind->remark) {
+        size_t used = strlen (s->reason);
+        snprintf (s->reason + used, sizeof s->reason - used, "%s%s", used ? "; " : "",
+                  s->kind->remark (s->self));
+    }
+    *out = s, s = NULL;
+done:
+    pg_bond_loop_free (&s);
+    return status;
+}
+
+void pg_bond_loop_free (pg_bond_loop **sweep)
+{
+    if (!sweep || !*sweep) return;
+    if ((*sweep)->kind) (*sweep)->kind->free ((*sweep)->self);
+    pg_free (*sweep);
+    *sweep = NULL;
+}
+
+const char *pg_bond_loop_name (const pg_bond_loop *sweep) { return sweep->name; }
+
+const char *pg_bond_loop_reason (const pg_bond_loop *sweep) { return sweep->reason; }
+
+void pg_bond_loop_counted (const pg_bond_loop *sweep, pg_bond_loop_counts *out)
+{
+    *out = (pg_bond_loop_counts) { 0 };
+    if (sweep->kind->counts) sweep->kind->counts (sweep->self, out);
+}
+
+void pg_bond_loop_bytes (const pg_bond_loop *sweep, double *per_bond, double *per_point)
+{
+    sweep->kind->bytes (sweep->self, per_bond, per_point);
+}
+
+void pg_bond_loop_update (pg_bond_loop *sweep, const unsigned char *alive, const pg_changes *changes)
+{
+    sweep->kind->update (sweep->self, alive, changes);
+}
+
+pg_status pg_bond_loop_force (pg_bond_loop *sweep, const double *u, double *f, pg_changes *broken)
+{
+    return sweep->kind->force (sweep->self, u, f, broken);
+}
+
+double pg_bond_loop_energy (pg_bond_loop *sweep, const double *u)
+{
+    return sweep->kind->energy (sweep->self, u);
+}
+
+pg_status pg_bond_loop_energies (pg_bond_loop *sweep, const double *u, double *W)
+{
+    return sweep->kind->energies (sweep->self, u, W);
+}
+
+pg_status pg_bond_loop_dilatation (pg_bond_loop *sweep, const double *u, double *theta, double *q)
+{
+    if (!sweep->kind->dilatation)
+        return pg_error (PG_E_USAGE, PG_HERE, "a dilatation is known to state-based sums only");
+    return sweep->kind->dilatation (sweep->self, u, theta, q);
+}
+
+static int ascending (const void *a, const void *b)
+{
+    size_t x = *(const size_t *) a, y = *(const size_t *) b;
+    return x < y ? -1 : x > y;
+}
+
+pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond)
+{
+    pg_status status = PG_OK;
+    if (n == 0) return PG_OK;
+    qsort (bond, n, sizeof *bond, ascending);
+    PG_GROW (to->bond, to->cap, to->n + n);
+    memcpy (to->bond + to->n, bond, n * sizeof *bond);
+    to->n += n;
+done:
+    return status;
+}
+
+pg_status sweep_collect (pg_changes *to, int threads, pg_changes *found, pg_status *failed)
+{
+    pg_status status = PG_OK;
+    for (int t = 0; t < threads; t++) if (failed[t] != PG_OK) status = failed[t], failed[t] = PG_OK;
+    if (status != PG_OK) PG_FAIL (status, "no memory to note the bonds that broke");
+    for (int t = 1; t < threads; t++) {
+        if (found[t].n == 0) continue;
+        PG_GROW (found->bond, found->cap, found->n + found[t].n);
+        memcpy (found->bond + found->n, found[t].bond, found[t].n * sizeof *found->bond);
+        found->n += found[t].n;
+    }
+    PG_TRY (pg_changes_append (to, found->n, found->bond));
+done:
+    for (int t = 0; t < threads; t++) found[t].n = 0;
+    return status;
+}

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * again.h: small runs that are stopped at some moment with a checkpoint, and go on from it. */
+#ifndef PERIGAL_TEST_AGAIN_H
+#define PERIGAL_TEST_AGAIN_H
+#include "folder.h"
+
+#define BODY \
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.6, 0.5]}}}]\nspacing: 0.1\n" \
+    "cracks: [{from: [-0.1, 0.25], to: [0.15, 0.25]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, " \
+    "poissons_ratio: 0.2, density: 2000}}\n" \
+    "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\n"
+#define PULL \
+    "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: top, " \
+    "displacement: {y: 2 mm}}]\n"
+static const struct { const char *name, *text;
+} scenes[] = {
+    { "event", BODY PULL
+      "solver: {stepping: event}\noutput: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
+    { "fixed", BODY PULL
+      "solver: {stepping: fixed, steps: 3}\noutput: {pictures: [], at: {levels: 2, broken: 4 %}}\n" },
+    { "transformation", BODY PULL "method: {essential: transformation}\nsolver: {stepping: fixed, steps: 3, "
+                                  "stop: {set: right}}\noutput: {pictures: [], at: {broken: 4 %}}\n" },
+    { "nodal", BODY PULL
+      "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty}\n"
+      "solver: {stepping: fixed, steps: 3, break: fraction, break_fraction: 5 %}\noutput: {pictures: [], at: "
+      "{broken: 4 %}}\n" },
+    { "newmark", BODY "boundary: [{set: bottom, velocity: {x: 0, y: -4 m/s}}, {set: top, velocity: {y: 4 "
+                      "m/s}, table: [[0, 0], [1e-3, 1]]}]\n"
+                      "method: {essential: transformation}\nsolver: {kind: newmark, dt: 0.1 ms, end: 1 ms, "
+                      "rayleigh: {stiffness: 1 us}, break: fraction, break_fraction: 5 %}\n"
+                      "output: {pictures: [], at: {levels: 5, broken: 4 %}}\n" },
+    { "multilevel",
+      "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.8, 0.9]}}}]\nspacing: 0.1\n"
+      "materials: {rock: {youngs_modulus: 1e9, poissons_ratio: 0.3333, density: 2500}}\ncracks: [{from: "
+      "[-0.1, 0.45], to: [0.22, 0.45]}]\n"
+      "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\nmethod: {force: "
+      "bond}\n" PULL "solver: {stepping: event, linear: pcg, max_events: 16}\noutput: {at: {levels: 4, "
+                     "broken: 2 %}, pictures: []}\n" },
+};
+enum { SCENES = sizeof scenes / sizeof *scenes };
+
+/* left: looks until it stops; negative: it stops after this step */
+typedef struct { pg_result *result; pg_state *state; long left; int within; } visit;
+
+static inline pg_status look (void *context, const pg_state *state, const pg_step *so_far)
+{
+    visit *v = context;
+    pg_status status = pg_result_stage (v->result, state, so_far);
+    if (status == PG_OK && v->left > 0 && --v->left == 0)
+        v->within = 1, status = pg_error (PG_E_INTERRUPTED, PG_HERE, "a test");
+    return status;
+}
+
+/* Steps until it is done or the `left`-th look at it (between rounds, after steps). 1: it was stopped. */
+static inline int go (run *r, visit *v)
+{
+    v->state = r->state, v->within = 0;
+    pg_solver_watch (r->solver, look, v);
+    while (!pg_solver_done (r->solver, r->state)) {
+        pg_status status = pg_solver_step (r->solver, r->state, &r->step);
+        if (v->within) return 1;
+        check_ok (status);
+        check_ok (pg_result_step (v->result, r->state, &r->step));
+        if (v->left == -r->state->step || (v->left > 0 && --v->left == 0)) return 1;
+    }
+    check_ok (pg_result_finish (v->result, r->state, NULL, 0, 0));
+    return 0;
+}
+
+/* Stops at the k-th look, leaves a checkpoint and a little more than it knows of. 0: the run was over
+ * before. */
+static inline int stop_at (const char *text, const char *where, long k)
+{
+    run r = prepare (1, text);
+    visit v = { .left = k };
+    check_ok (pg_result_discard (where));
+    check_ok (pg_result_open (&v.result, where, r.scene, r.problem, r.solver));
+    int stopped = go (&r, &v);
+    if (stopped) {
+        check_ok (pg_result_checkpoint (v.result, r.state));
+        check_ok (pg_result_finish (v.result, r.state, "stopped", 0, 0));
+    }
+    pg_result_free (&v.result);
+    clear (&r);
+    return stopped;
+}
+
+static inline pg_status resume (const char *text, const char *where, run *r, visit *v, pg_resumed *from)
+{
+    *r = prepare (1, text);
+    *v = (visit) { 0 };
+    return pg_result_resume (&v->result, where, r->scene, r->problem, r->solver, r->state, from);
+}
+#endif

@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The load-displacement curve of a run: its sign, where it begins, unloading, the peak and the stiffness in
+ * report.json and in words; the crack that broken bonds amount to. */
+#include "folder.h"
+#include "output/fonts.h"
+#include <cairo.h>
+
+#define PLATE \
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.1\n" \
+    "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\noutput: {pictures: [], estimate: " \
+    "off, at: {levels: 1}, gauges: [{name: mouth, from: [0.5, 0.2], to: [0.5, 0.8]}]}\n"
+
+static char where[64], *report, *history, words[3][400];
+
+static void play (const char *format, const char *more)
+{
+    run r = scene_of (1, "%s%s", format, more);
+    pg_result *result = NULL;
+    make_folder (where);
+    check_ok (pg_result_open (&result, where, r.scene, r.problem, r.solver));
+    while (!pg_solver_done (r.solver, r.state)) {
+        advance (&r);
+        check_ok (pg_result_step (result, r.state, &r.step));
+    }
+    check_ok (pg_result_finish (result, r.state, NULL, 0, 0));
+    for (size_t k = 0; k < 3; k++)
+        if (!pg_result_words (result, k, words[k], sizeof words[k])) words[k][0] = 0;
+    report = slurp (inside (where, "report.json")), history = slurp (inside (where, "history.csv"));
+    pg_result_free (&result);
+    clear (&r);
+}
+
+static void tidy (void)
+{
+    pg_free (report), pg_free (history);
+    remove_folder (where);
+}
+
+/* Pixels of the curve's colour in the upper right corner of the chart (0, 0 when all is negative) and in the
+ * lower left one. */
+static void corners (size_t *upper, size_t *lower)
+{
+    cairo_surface_t *s = cairo_image_surface_create_from_png (inside (where, "load_displacement.png"));
+    assert_int_equal (cairo_surface_status (s), CAIRO_STATUS_SUCCESS);
+    int w = cairo_image_surface_get_width (s), h = cairo_image_surface_get_height (s);
+    size_t all = 0;
+    *upper = *lower = 0;
+    for (int y = 0; y < h; y++)
+        for (int x = 0; x < w; x++) {
+            unsigned p;
+            memcpy (&p, cairo_image_surface_get_data (s) + y * cairo_image_surface_get_stride (s) + 4 * x, 4);
+            if (abs ((int) (p >> 16 & 255) - 0x12) > 2 || abs ((int) (p >> 8 & 255) - 0x4a) > 2
+                || abs ((int) (p & 255) - 0x99) > 2)
+                continue;
+            all++, *upper += x > w - 100 && y < 125, *lower += x < 200 && y > h - 160;
+        }
+    assert_true (all > 500);
+    cairo_surface_destroy (s);
+}
+
+/* Pushed down, the force on the body points down: the line runs from the origin at the upper right to the
+ * lower left, and the ring with it. */
+static void a_push_is_negative (void **state)
+{
+    (void) state;
+    size_t upper, lower;
+    for (int pull = 0; pull < 2; pull++) {
+        char more[300];
+        snprintf (more, sizeof more,
+                  "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: top, "
+                  "displacement: {y: %d mm}}]\n"
+                  "solver: {kind: static, stepping: fixed, steps: 4}\n",
+                  pull ? 1 : -1);
+        play (PLATE, more);
+        double force = json_number (report, "peak", "force"),
+               place = json_number (report, "peak", "displacement");
+        assert_true (pull ? force > 0 && place > 0 : force < 0 && place < 0);
+        check_relative (force, number_at (history, 4, "head.force_y [N]"), 1e-15);
+        check_relative (place, number_at (history, 4, "head.displacement_y [m]"), 1e-15);
+        check_relative (json_number (report, "gauges", "mouth"), number_at (history, 4, "mouth [m]"), 1e-15);
+        check_relative (json_number (report, "peak", "step"), 4, 0);
+        check_relative (json_number (report, "peak", "load_factor"), 1, 1e-15);
+        check_relative (json_number (report, "curve", "stiffness_initial"), force / place, 1e-9);
+        check_relative (json_number (report, "curve", "stiffness_at_peak"), force / place, 1e-14);
+        assert_null (strstr (report, "new_crack"));
+        check_contains (words[0], pull ? "peak load: 1" : "peak load: -1");
+        check_contains (words[0], "mouth");
+        check_contains (words[1], "secant stiffness");
+        corners (&upper, &lower);                      /* the origin; beyond the other end the axes go on */
+        assert_true ((pull ? lower : upper) > 20);
+        tidy ();
+    }
+}
+
+/* A cycle: the curve comes back, and the peak is on its way. */
+static void unloading_is_drawn_and_a_constant_load_has_no_origin (void **state)
+{
+    (void) state;
+    size_t upper, lower;
+    static const char ends[] =
+        "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: top, "
+        "displacement: {y: 1 mm}, table: [[0, 0], [0.5, 1], [1, 0.2]]}";
+    char more[400];
+    snprintf (more, sizeof more, "%s]\nsolver: {kind: static, stepping: fixed, steps: 10}\n", ends);
+    play (PLATE, more);
+    check_relative (json_number (report, "peak", "step"), 5, 0);
+    check_relative (json_number (report, "peak", "force"), number_at (history, 5, "head.force_y [N]"), 1e-15);
+    check_relative (json_number (report, "curve", "stiffness_initial"),
+                    json_number (report, "curve", "stiffness_at_peak"), 1e-9);
+    corners (&upper, &lower);
+    assert_true (lower > 20);
+    tidy ();
+    snprintf (more, sizeof more,
+              "%s, {set: all, body_force: {y: -1 kN/m3}, ramp: 1}]\nsolver: {kind: static, stepping: fixed, "
+              "steps: 10}\n",
+              ends);
+    play (PLATE, more);
+    check_contains (report, "\"stiffness_initial\": null");
+    assert_string_equal (words[1], "");
+    tidy ();
+}
+
+/* Event stepping: the largest force of all rows is the peak, and the secant there is no larger than the
+ * first: bonds of bond-type forces take with them what they bear (shape functions that lose a bond share its
+ * part out anew, and a single component may stiffen by a percent). */
+static void the_peak_of_events_is_that_of_the_history (void **state)
+{
+    (void) state;
+    play (PLATE,
+          "method: {force: bond}\ncracks: [{from: [-0.1, 0.55], to: [0.35, 0.55]}]\nfailure: {criterion: "
+          "stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\n"
+          "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: top, "
+          "displacement: {y: 0, x: 3 mm}}]\n"
+          "solver: {kind: static, stepping: event, max_events: 30, break: fraction, break_fraction: 5 %}\n");
+    double most = 0, force = json_number (report, "peak", "force");
+    for (size_t k = 1; k < count_lines (history); k++)
+        most = fmax (most, fabs (number_at (history, k, "head.force_x [N]")));
+    check_relative (fabs (force), most, 1e-15);
+    size_t step = (size_t) json_number (report, "peak", "step");
+    check_relative (force, number_at (history, step, "head.force_x [N]"), 1e-15);
+    check_below (json_number (report, "curve", "stiffness_at_peak"),
+                 json_number (report, "curve", "stiffness_initial") * (1 + 1e-9));
+    check_relative (json_number (report, "curve", "stiffness_initial"),
+                    number_at (history, 1, "head.force_x [N]")
+                        / number_at (history, 1, "head.displacement_x [m]"),
+                    1e-12);
+    double area = json_number (report, "new_crack", "area");
+    assert_true (area > 0);
+    check_relative (json_number (report, "new_crack", "length"), area / 0.1, 1e-14);
+    check_relative (json_number (report, "new_crack", "dissipated_per_area"),
+                    json_number (report, "energy", "dissipated") / area, 1e-12);
+    check_contains (words[2], "an estimate");
+    tidy ();
+}
+
+/* ---- cracks -------------------------------------------------------------------------------------------- */
+/* All bonds that cross a plane through the middle of the body, given by its angle about z, are dead: the
+ * estimate is the plane's area. */
+static double estimate_of (const char *scene, double angle)
+{
+    run r = scene_of (1, "%soutput: {pictures: [], estimate: off}\n", scene);
+    const pg_problem *p = r.problem;
+    pg_result *result = NULL;
+    void *self;
+    make_folder (where);
+    check_ok (pg_result_open (&result, where, r.scene, r.problem, r.solver));
+    for (int set = 0; set < PG_BOND_SETS; set++)
+        for (size_t i = 0; i < p->rows[set].n; i++)
+            for (size_t b = p->rows[set].family.start[i]; b < p->rows[set].family.start[i + 1]; b++) {
+                const double *a = p->rows[set].x + i * (size_t) p->dim,
+                             *c = p->cloud.x + (size_t) p->rows[set].family.node[b] * (size_t) p->dim;
+                double s = -sin (angle) * (a[0] - 0.501) + cos (angle) * (a[1] - 0.503),
+                       e = -sin (angle) * (c[0] - 0.501) + cos (angle) * (c[1] - 0.503);
+                if (s * e < 0) r.state->alive[p->first_bond[set] + b] = 0, r.state->broken++;
+            }
+    check_ok (pg_solver_force (r.solver, &self)->refresh (self, r.state, NULL));
+    check_ok (pg_result_finish (result, r.state, NULL, 0, 0));
+    report = slurp (inside (where, "report.json"));
+    double area = json_number (report, "new_crack", "area");
+    pg_free (report), report = NULL;
+    pg_result_free (&result);
+    clear (&r);
+    remove_folder (where);
+    return area;
+}
+
+static void a_plane_of_broken_bonds_has_its_area (void **state)
+{
+    (void) state;
+    static const char *const scene[] = {
+        "dimension: 2\nthickness: 0.2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: "
+        "0.025\nlattice: cells\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.333333333333333}}\n"
+        "failure: {criterion: stretch, critical_stretch: 1}\nmethod: {force: bond, horizon: 3.015 spacing}\n",
+        "dimension: 2\nthickness: 0.2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: "
+        "0.025\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.2}}\n"
+        "failure: {criterion: stretch, critical_stretch: 1}\nmethod: {integration: gauss, horizon: 2 "
+        "spacing}\n",
+        "dimension: 2\nthickness: 0.2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: "
+        "0.025\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.2}}\n"
+        "failure: {criterion: stretch, critical_stretch: 1}\nmethod: {integration: nodal, horizon: 2.5 "
+        "spacing}\n",
+        "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 0.2]}}}]\nspacing: 0.05\nlattice: "
+        "cells\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.25}}\n"
+        "failure: {criterion: stretch, critical_stretch: 1}\nmethod: {force: bond, horizon: 3.015 spacing}\n",
+    };
+    for (size_t k = 0; k < sizeof scene / sizeof *scene; k++) {
+        check_relative (estimate_of (scene[k], 0), 0.2, 0.12);
+        check_relative (estimate_of (scene[k], 0.55), 0.2 / cos (0.55), 0.12);
+    }
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (a_push_is_negative),
+        cmocka_unit_test (unloading_is_drawn_and_a_constant_load_has_no_origin),
+        cmocka_unit_test (the_peak_of_events_is_that_of_the_history),
+        cmocka_unit_test (a_plane_of_broken_bonds_has_its_area),
+    };
+    return cmocka_run_group_tests_name ("results/curve", tests, NULL, NULL);
+}
