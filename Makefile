@@ -1,4 +1,4 @@
-# Perigal: make [MODE=release|debug|asan|tsan] [V=1];  targets: all demo test test-long stress fresh fuzz mutate compilers lint doc bench install clean
+# Perigal: make [MODE=release|debug|asan|tsan] [V=1];  targets: all demo test test-long stress fresh fuzz mutate compilers lint doc accuracy bench install clean
 MODE    ?= release
 prefix  ?= /usr/local
 CC      ?= gcc
@@ -145,11 +145,17 @@ lint:                ## one-way includes, file and function lengths
 doc: perigal         ## doc/input.md, from the tables that check a scene
 	$(Q)./perigal help --manual > doc/input.md.new && mv doc/input.md.new doc/input.md
 
-bench: packages
+bench: packages      ## measures the tables of doc/benchmarks.md with the spread of repeats and rewrites them (T="group group")
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal bench-programs
-	$(Q)bench/run $(BUILD)
+	$(Q)bench/run $(BUILD) $(T)
+
+accuracy: packages   ## measures the tables of doc/accuracy*.md and rewrites them (T="group group": of some)
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal bench-programs $(ACCURACY:%=$(BUILD)/test/%)
+	$(Q)bench/accuracy $(BUILD) -j $(JOBS) $(T)
 
 bench-programs: $(BENCHBIN)
+# tests that print what doc/accuracy_tables.md shows
+ACCURACY := cells/test_cut force/test_estimate $(addprefix scene_runs/test_,disk incompressible mesh notch uncracked_disk)
 
 install: all
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig $(DESTDIR)$(prefix)/include/perigal
@@ -174,6 +180,6 @@ FORCE:
 print-%:
 	@echo '$($*)'
 
-.PHONY: FORCE all perigal packages demo test test-long test-programs stress fresh fuzz mutate compilers lint doc bench bench-programs install clean
+.PHONY: FORCE all perigal packages demo test test-long test-programs stress fresh fuzz mutate compilers lint doc accuracy bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(TESTBIN:=.d) $(BENCHBIN:=.d)

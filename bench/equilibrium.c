@@ -1,29 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Equilibrium of bodies of bonds: plate with a hole, the same with a crack through most of it, cantilever,
- * points off a lattice, cube; of micropolar ones the same plate and the cube with a penny-shaped flaw of
- * data/chen_cube. One CSV row per body, size and way to solve: conjugate gradients with the multilevel
- * preconditioner and with the diagonal, the factorization of K. equilibrium [BODY [POINTS ALONG]]; without:
- * all. Seconds are processor time of all threads (min of 3 set-ups and solves), wall: of the solve; relative
- * residual 1e-8; error: largest difference to the factorization over the largest displacement, where that was
- * made. PERIGAL_BENCH_THREADS: threads (1). The factorization only up to 4e4 unknowns in 2D and 15e3 in 3D,
- * the diagonal up to 5e5. */
+ * Times the equilibrium of bond-based bodies (plate with a hole, the same with a crack through most of it, cantilever, irregular
+ * points, cube) and of micropolar ones (the same plate, and the cube with a penny-shaped flaw of data/chen_cube). A CSV row for
+ * each body, size and method: conjugate gradients with the multilevel preconditioner, conjugate gradients with the diagonal, and
+ * the factorization of K by CHOLMOD.
+ *     equilibrium [BODY [POINTS ALONG ITS EDGE]]      without arguments: all
+ * Set-up and solution in processor seconds of all threads, the solution in wall seconds too, each as least, median and largest
+ * of three (CHOLMOD: one). Relative residual 1e-8. error: largest difference to the factorization, over the largest
+ * displacement, where a factorization was made: up to 4e4 unknowns in 2D and 15e3 in 3D. The diagonal is tried up to 5e5
+ * unknowns. PERIGAL_BENCH_THREADS: threads (1). */
 #include "perigal/force.h"
 #include "perigal/scene.h"
+#include "spread.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 static const double tolerance = 1e-8;
 enum { REPEATS = 3 };
-
-static double processor (void)
-{
-    struct timespec t;
-    clock_gettime (CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double) t.tv_sec + 1e-9 * (double) t.tv_nsec;
-}
 
 /* ---- bodies -------------------------------------------------------------------------------------------- */
 #define ROCK2 \
@@ -147,15 +141,18 @@ static void apply (void *context, const double *x, double *y)
 
 static void diagonal (void *context, double *d) { const job *j = context; j->K->diagonal (j->K->context, d); }
 
-/* ---- ways ---------------------------------------------------------------------------------------------- */
-static void row (const job *j, const char *way, const char *levels, size_t iterations, double set_up,
-                 double solve, double wall)
+/* ---- methods ------------------------------------------------------------------------------------------- */
+static void row (const job *j, const char *way, const char *levels, size_t iterations, spread *set_up,
+                 spread *solve, spread *wall)
 {
     double worst = 0, top = 0;
     for (size_t i = 0; j->exact && i < j->n; i++)
         worst = fmax (worst, fabs (j->x[i] - j->exact[i])), top = fmax (top, fabs (j->exact[i]));
-    printf ("%s,%zu,%zu,%d,%s,%s,%zu,%.4f,%.4f,%.4f,", j->name, j->problem->cloud.n, j->n,
-            j->problem->threads, way, levels, iterations, set_up, solve, wall);
+    printf ("%s,%zu,%zu,%d,%s,%s,%zu,", j->name, j->problem->cloud.n, j->n, j->problem->threads, way, levels,
+            iterations);
+    spread_print (set_up, 1);
+    spread_print (solve, 1);
+    spread_print (wall, 1);
     if (j->exact) printf ("%.2e\n", worst / top);
     else puts ("");
     fflush (stdout);
@@ -168,7 +165,8 @@ static pg_status by_factor (job *j)
     const pg_sparse *T = j->force->basis (j->self);
     pg_sparse A = { 0 };
     void *factor = NULL;
-    double t0 = processor (), *b = NULL, *q = NULL;
+    spread set_up = { 0 }, solve = { 0 }, wall = { 0 };
+    double t0 = spread_processor (), *b = NULL, *q = NULL;
     pg_linear_options o = { 1, j->problem->dim, j->problem->threads, 0 };
     PG_ALLOC (b, j->n);
     PG_ALLOC (q, j->n);
@@ -177,13 +175,14 @@ static pg_status by_factor (job *j)
     PG_TRY (pg_sparse_congruence (&A, j->force->matrix (j->self), T));
     PG_TRY (cholmod->analyse (&factor, &A, &o));
     PG_TRY (cholmod->factor (factor, &A));
-    double t1 = processor (), w1 = pg_seconds ();
+    double t1 = spread_processor (), w1 = pg_seconds ();
     pg_sparse_multiply_transposed (T, j->r, b);
     PG_TRY (cholmod->solve (factor, 1, b, q));
     pg_sparse_multiply (T, q, j->exact);
-    double t2 = processor (), wall = pg_seconds () - w1;
+    spread_add (&set_up, t1 - t0), spread_add (&solve, spread_processor () - t1);
+    spread_add (&wall, pg_seconds () - w1);
     memcpy (j->x, j->exact, j->n * sizeof *j->x);
-    row (j, "cholmod", "", 0, t1 - t0, t2 - t1, wall);
+    row (j, "cholmod", "", 0, &set_up, &solve, &wall);
 done:
     if (factor) cholmod->free (&factor);
     pg_sparse_clear (&A);
@@ -204,26 +203,26 @@ static pg_status by_gradients (job *j, int multilevel)
     pg_operator A = { j->n, j, apply, diagonal };
     pg_multilevel *m = NULL;
     pg_multilevel_info info = { 0 };
-    double set_up = INFINITY, solve = INFINITY, wall = INFINITY;
+    spread set_up = { 0 }, solve = { 0 }, wall = { 0 };
     size_t used = 0;
     char levels[100] = "";
-    for (int k = 0; k < (multilevel ? REPEATS : 1); k++) {
+    for (int k = 0; k < REPEATS; k++) {
         pg_multilevel_free (&m);
-        double t0 = processor ();
+        double t0 = spread_processor ();
         if (multilevel) PG_TRY (j->force->couplings (j->self, &s.rows));
         if (multilevel) PG_TRY (pg_multilevel_create (&m, &s));
-        double t1 = processor (), w1 = pg_seconds ();
+        double t1 = spread_processor (), w1 = pg_seconds ();
         pg_preconditioner P = { 0 };
         if (m) P = pg_multilevel_preconditioner (m);
         memset (j->x, 0, j->n * sizeof *j->x);
         PG_TRY (pg_conjugate_gradients_with (&A, m ? &P : NULL, j->r, j->x, tolerance, 100000, &used));
-        set_up = fmin (set_up, t1 - t0), solve = fmin (solve, processor () - t1),
-        wall = fmin (wall, pg_seconds () - w1);
+        spread_add (&set_up, t1 - t0), spread_add (&solve, spread_processor () - t1);
+        spread_add (&wall, pg_seconds () - w1);
     }
     if (m) pg_multilevel_describe (m, &info);
     for (int k = 0, at = 0; k < info.levels; k++)
         at += snprintf (levels + at, sizeof levels - (size_t) at, "%s%zu", k ? " " : "", info.unknowns[k]);
-    row (j, m ? "multilevel" : "diagonal", levels, used, set_up, solve, wall);
+    row (j, m ? "multilevel" : "diagonal", levels, used, &set_up, &solve, &wall);
 done:
     pg_multilevel_free (&m);
     return status;
@@ -234,7 +233,8 @@ int main (int argc, char **argv)
     pg_status status = PG_OK;
     const char *text = getenv ("PERIGAL_BENCH_THREADS");
     int threads = text ? atoi (text) : 1;
-    puts ("body,points,dofs,threads,way,levels,iterations,set_up_s,solve_s,wall_s,error");
+    puts ("body,points,dofs,threads,way,levels,iterations,set_up_s_min,set_up_s_median,set_up_s_max,"
+          "solve_s_min,solve_s_median,solve_s_max,wall_s_min,wall_s_median,wall_s_max,error");
     for (int b = 0; b < BODIES; b++) {
         if (argc > 1 && strcmp (argv[1], bodies[b].name) != 0) continue;
         for (int k = 0; k < 5 && bodies[b].sizes[k]; k++) {

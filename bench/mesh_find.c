@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Prints the CPU seconds of a million questions to the search for elements, and of building it, for each kind
- * of element. */
+ * Times the search for the element that holds a place, for each kind of element: a CSV row with the processor seconds of building
+ * the search and of a million places inside the body, and the microseconds of one place outside, each as least, median, largest. */
 #include "perigal/mesh.h"
+#include "spread.h"
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
-
-static double seconds (void) { return (double) clock () / CLOCKS_PER_SEC; }
 
 /* n^dim cells of [0, 1]^dim; tri, tet: cells halved, cut in six. */
 static int make (pg_mesh *out, pg_element kind, int n)
@@ -47,35 +45,61 @@ static int make (pg_mesh *out, pg_element kind, int n)
     return failed;
 }
 
-static void measure (const pg_mesh *m, const char *name)
+enum { QUESTIONS = 1000000, REPEATS = 5 };
+
+/* A place in the box [0, 1]^dim by a generator that is the same everywhere. */
+static void place_of (const pg_mesh *m, unsigned *seed, double *place)
 {
-    enum { QUESTIONS = 1000000 };
+    for (int a = 0; a < m->dim; a++) {
+        *seed = *seed * 1664525u + 1013904223u;
+        place[a] = *seed / 4294967296.0;
+    }
+}
+
+/* One repeat: seconds of building the search, of a million places inside, microseconds of one place outside. Returns the places found. */
+static long repeat (const pg_mesh *m, spread *build, spread *inside, spread *outside)
+{
     pg_mesh_locator *f = NULL;
-    double begin = seconds (), build, inside, away, xi[3], place[3];
+    double away, xi[3], place[3], begin = spread_processor ();
     long found = 0;
     unsigned seed = 1;
     if (pg_mesh_locator_create (&f, m)) { fprintf (stderr, "%s\n", pg_last_error ()); exit (1); }
-    build = seconds () - begin;
-    begin = seconds ();
+    spread_add (build, spread_processor () - begin);
+    begin = spread_processor ();
     for (long k = 0; k < QUESTIONS; k++) {
-        for (int a = 0; a < m->dim; a++) seed = seed * 1664525u + 1013904223u, place[a] = seed / 4294967296.0;
+        place_of (m, &seed, place);
         found += pg_mesh_locator_find (f, place, xi, NULL) >= 0;
     }
-    inside = seconds () - begin;
-    begin = seconds ();
+    spread_add (inside, spread_processor () - begin);
+    begin = spread_processor ();
     for (long k = 0; k < QUESTIONS / 100; k++) {
-        for (int a = 0; a < m->dim; a++) seed = seed * 1664525u + 1013904223u, place[a] = seed / 4294967296.0;
+        place_of (m, &seed, place);
         place[0] = 1 + 0.005 * place[0];
         found += pg_mesh_locator_find (f, place, xi, &away) >= 0;
     }
-    printf ("%-8s %8zu elements: build %.2f s, 1e6 places inside %.2f s, one outside %.1f us (%ld found)\n",
-            name, m->n, build, inside, 1e6 * (seconds () - begin) / (QUESTIONS / 100), found);
+    spread_add (outside, 1e6 * (spread_processor () - begin) / (QUESTIONS / 100));
     pg_mesh_locator_free (&f);
+    return found;
+}
+
+static void measure (const pg_mesh *m, const char *name)
+{
+    spread build = { 0 }, inside = { 0 }, outside = { 0 };
+    long found = 0;
+    for (int k = 0; k < REPEATS; k++) found = repeat (m, &build, &inside, &outside);
+    printf ("%s,%zu,", name, m->n);
+    spread_print (&build, 1);
+    spread_print (&inside, 1);
+    spread_print (&outside, 1);
+    printf ("%ld\n", found);
+    fflush (stdout);
 }
 
 int main (void)
 {
     static const pg_element kind[] = { PG_QUAD4, PG_QUAD8, PG_TET4, PG_TET10, PG_HEX8, PG_HEX20 };
+    puts ("element,elements,build_s_min,build_s_median,build_s_max,inside_s_min,inside_s_median,inside_s_max,"
+          "outside_us_min,outside_us_median,outside_us_max,found");
     for (int k = 0; k < 6; k++) {
         pg_mesh m;
         const pg_element_type *type = &pg_element_types[kind[k]];

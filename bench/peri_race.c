@@ -6,8 +6,10 @@
  * neighbour's volume by (horizon + step/2 - r) / step where r > horizon - step/2, but has no bonds beyond the
  * horizon: the sums called `peri` here do the same; `linear` are Perigal's own, with bonds up to horizon +
  * step/2. Stiffness: under equal stretches, over that of a body without gaps; it is why the two move apart.
- * Seconds are those of the processor. */
+ * Milliseconds are processor time of one sum of forces, and with bonds per second and the ratio to LAMMPS
+ * (package PERI, its mean) they are given as least, median and largest of the steps. */
 #include "lattice.h"
+#include "spread.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -71,14 +73,14 @@ done:
     return status;
 }
 
-/* Velocity Verlet from the start to the end; seconds of one sum of forces: the shortest one. */
-static pg_status go (runner *r, const char *set, char *name, double *best)
+/* Velocity Verlet from the start to the end; seconds of each sum of forces. */
+static pg_status go (runner *r, const char *set, char *name, spread *times)
 {
     pg_status status = PG_OK;
     lattice_body *b = &r->body;
     size_t values = b->cloud.n * (size_t) b->cloud.dim;
     double half = r->shape->dt / 2 / (rho * b->cloud.volume[0]);
-    pg_bond_loop *sweep = NULL;
+    pg_bond_loop *loop = NULL;
     pg_changes broken = { 0 };
     pg_bond_loop_setting setting = { .sums = b->sums,
                                      .family = &b->family,
@@ -86,21 +88,21 @@ static pg_status go (runner *r, const char *set, char *name, double *best)
                                      .limit = r->limit,
                                      .threads = 1,
                                      .instructions = set };
-    PG_TRY (pg_bond_loop_create (&sweep, &setting));
-    strcpy (name, pg_bond_loop_name (sweep));
+    PG_TRY (pg_bond_loop_create (&loop, &setting));
+    strcpy (name, pg_bond_loop_name (loop));
     start (r);
-    *best = INFINITY;
+    *times = (spread){ 0 };
     for (int k = 0; k <= r->shape->steps; k++) {
         double now = lattice_seconds (1);
-        PG_TRY (pg_bond_loop_force (sweep, b->u, b->f, &broken));
-        *best = fmin (*best, lattice_seconds (1) - now);
+        PG_TRY (pg_bond_loop_force (loop, b->u, b->f, &broken));
+        spread_add (times, lattice_seconds (1) - now);
         for (size_t i = 0; k > 0 && i < values; i++) r->v[i] += half * b->f[i];
         for (size_t i = 0; k < r->shape->steps && i < values; i++)
             r->v[i] += half * b->f[i], b->u[i] += r->shape->dt * r->v[i];
     }
     if (broken.n > 0) PG_FAIL (PG_E_EQUILIBRIUM, "%zu bonds broke", broken.n);
 done:
-    pg_bond_loop_free (&sweep);
+    pg_bond_loop_free (&loop);
     pg_free (broken.bond);
     return status;
 }
@@ -168,16 +170,19 @@ done:
     return status;
 }
 
-static void row (const runner *b, const char *program, const char *sums, double bonds, double time,
+static void row (const runner *b, const char *program, const char *sums, double bonds, spread *times,
                  const rival *r, double off)
 {
     const pg_sums *of = b->body.sums;
-    double rate = bonds / time, pair = r->bonds * b->shape->steps / r->pair;
-    printf ("%s,%zu,%.0f,%s,%s,%d,%.4f,%.4f,", b->shape->name, b->body.cloud.n, bonds, program, sums,
-            b->shape->steps, time * 1e3, rate * 1e-9);
+    double pair = r->bonds * b->shape->steps / r->pair;
+    printf ("%s,%zu,%.0f,%s,%s,%d,", b->shape->name, b->body.cloud.n, bonds, program, sums, b->shape->steps);
+    spread_print (times, 1e3);
+    spread_print_rate (times, bonds * 1e-9);
     printf ("%.4f,", 1 / pg_stencil_calibration (&of->stencil, &of->rule));
-    if (r->bonds > 0) printf ("%.1f,%.3g\n", rate / pair, off);
-    else printf (",\n");
+    if (r->bonds > 0) {
+        spread_print_rate (times, bonds / pair);
+        printf ("%.3g\n", off);
+    } else printf (",,,\n");
     fflush (stdout);
 }
 
@@ -193,24 +198,25 @@ static pg_status race (const shape *s)
     pg_status status = PG_OK;
     runner b = { 0 };
     rival r = { 0, 0, 0 };
+    spread times;
     double *other = NULL;
     for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
         char name[64];
-        double best;
         PG_TRY (build (&b, s, runs[k].peri, runs[k].evaluation));
         if (k == 0) {
             PG_TRY (run_lammps (&b, &r));
             other = b.body.plain, b.body.plain = NULL;
-            double zero = 0;
+            spread pair = { .n = 1, .value = { r.pair / s->steps } };
+            spread whole = { .n = 1, .value = { r.loop / s->steps } };
             if (r.bonds > 0) {
-                row (&b, "lammps pair", "peri", r.bonds, r.pair / s->steps, &r, zero);
-                row (&b, "lammps step", "peri", r.bonds, r.loop / s->steps, &r, zero);
+                row (&b, "lammps pair", "peri", r.bonds, &pair, &r, 0);
+                row (&b, "lammps step", "peri", r.bonds, &whole, &r, 0);
             }
         }
-        status = go (&b, runs[k].set, name, &best);
+        status = go (&b, runs[k].set, name, &times);
         if (status == PG_OK)
             row (&b, name, runs[k].peri ? "peri" : "linear", (double) b.body.family.start[b.body.cloud.n],
-                 best, &r, lattice_apart (&b.body, b.body.u, other));
+                 &times, &r, lattice_apart (&b.body, b.body.u, other));
         else if (status != PG_E_USAGE) goto done;      /* usage: instructions that this machine lacks */
         status = PG_OK;
         clear (&b);
@@ -223,8 +229,9 @@ done:
 
 int main (void)
 {
-    printf ("body,points,directed_bonds,program,sums,steps,ms_per_sweep,Gbonds_per_s,stiffness,times_lammps,"
-            "displacement_difference\n");
+    puts ("body,points,directed_bonds,program,sums,steps,ms_per_sum_min,ms_per_sum_median,ms_per_sum_max,"
+          "Gbonds_per_s_min,Gbonds_per_s_median,Gbonds_per_s_max,stiffness,"
+          "times_lammps_min,times_lammps_median,times_lammps_max,displacement_difference");
     fflush (stdout);
     for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
         if (race (&shapes[k]) != PG_OK) {
