@@ -130,18 +130,14 @@ int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
 {
     double x[3], y[3];
     pg_tiles_space (t, a[0], a[1], x), pg_tiles_space (t, b[0], b[1], y);
-    for (size_t c = 0; t->cracks && c < t->cracks->n; c++)
-        if (pg_crack_cuts (&t->cracks->crack[c], t->dim, x, y, 0)) return 1;
-    return 0;
+    return t->cracks && pg_cracks_cut (t->cracks, t->dim, x, y, 0);
 }
 
 static int on_crack (const pg_tiles *t, size_t k)
 {
     double x[3];
     pg_tiles_space (t, t->place[2*k], t->place[2*k + 1], x);
-    for (size_t c = 0; c < t->cracks->n; c++)
-        if (pg_crack_touches (&t->cracks->crack[c], t->dim, x, 1e-9 * t->spacing[k])) return 1;
-    return 0;
+    return pg_cracks_touch (t->cracks, t->dim, x, 1e-9 * t->spacing[k]) != NULL;
 }
 
 /* Points with a pre-crack within two spacings. */
