@@ -9,6 +9,8 @@
 #include "perigal/integration.h"
 #include "perigal/sums.h"
 
+PG_API_BEGIN
+
 /* ---- loads and supports -------------------------------------------------------------------------------- */
 typedef enum {
     PG_DISPLACEMENT,
@@ -239,4 +241,5 @@ const char *pg_forecast_item  (int item);              /* "bonds", ... */
 /* Bytes that this process may still take: least of free memory, control groups (v2, v1) and RLIMIT_AS. root:
  * "" (tests: a folder that holds proc and sys). */
 double      pg_available_memory (const char *root);
+PG_API_END
 #endif

@@ -6,6 +6,8 @@
 #include "perigal/mesh.h"
 #include <stdio.h>
 
+PG_API_BEGIN
+
 /* ---- fields on points ---------------------------------------------------------------------------------- */
 typedef struct {
     char   name[32];                                   /* "displacement", "damage", "stress" */
@@ -73,4 +75,5 @@ void      pg_json_number (pg_json *j, const char *key, double value);     /* NaN
 void      pg_json_count  (pg_json *j, const char *key, size_t value);
 void      pg_json_text   (pg_json *j, const char *key, const char *value);
 pg_status pg_json_close  (pg_json **j);
+PG_API_END
 #endif

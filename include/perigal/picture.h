@@ -7,6 +7,8 @@
 #include "perigal/cloud.h"
 #include "perigal/mesh.h"
 
+PG_API_BEGIN
+
 /* ---- pictures (PNG or SVG by the file's ending) -------------------------------------------------------- */
 /* The body behind the points, one of the three: its shapes, the cells of a lattice that are in (dim > 0;
  * before the shapes), plane elements (m). */
@@ -127,4 +129,5 @@ pg_status pg_picture_chart (const char *path, size_t ncurve, const pg_curve *cur
  * |y|. */
 size_t pg_envelope (size_t n, const double *x, const double *y, int linear, double *ex, double *ey,
                     size_t *peak);
+PG_API_END
 #endif
