@@ -6,6 +6,7 @@
  *   fig3: relative L2 error of -u'' = 1 against the number of cells, one picture per support. */
 #include "cui_1d.h"
 #include "perigal/output.h"
+#include "perigal/picture.h"
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>

@@ -33,6 +33,7 @@
 #include "perigal/symbol.h"
 #include "perigal/solve.h"
 #include "perigal/output.h"
+#include "perigal/picture.h"
 #include "perigal/compare.h"
 #include "perigal/results.h"
 #endif

@@ -9,6 +9,8 @@
 #include "perigal/cloud.h"
 #include "perigal/kernel.h"
 
+PG_API_BEGIN
+
 /* What a point could still do with its live bonds. */
 enum { PG_GRADE_FULL,      /* the basis asked for */
        PG_GRADE_LOWERED,   /* quadratic asked, linear used */
@@ -68,4 +70,5 @@ pg_status pg_rows_create (pg_rows *out, const pg_approx *a, const pg_cloud *clou
                           const double *weight, const int *own, const int *cell);
 void      pg_rows_clear  (pg_rows *rows);
 size_t    pg_rows_count  (const pg_rows *rows, int grade);
+PG_API_END
 #endif

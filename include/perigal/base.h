@@ -4,6 +4,12 @@
 #define PERIGAL_BASE_H
 #include <stddef.h>
 
+/* The shared library exports what the headers of include/perigal declare between PG_API_BEGIN and PG_API_END.
+ * Everything else is compiled with -fvisibility=hidden: it can be neither called nor replaced from outside. */
+#define PG_API_BEGIN _Pragma ("GCC visibility push (default)")
+#define PG_API_END   _Pragma ("GCC visibility pop")
+PG_API_BEGIN
+
 /* ---- status
  * ---------------------------------------------------------------------------------------------------------
  * Three families: input (the user can mend the scene), resource (memory, files), numerical (the mechanics
@@ -93,4 +99,5 @@ void pg_dense_solve    (int n, const double *L, double *b);          /* b <- (L 
  * (kept). Jacobi. */
 void pg_dense_eigen    (int n, const double *A, double *lambda, double *V);
 double pg_dense_det    (int n, const double *A);                     /* n = 1, 2, 3 */
+PG_API_END
 #endif

@@ -6,6 +6,8 @@
 #include "perigal/cloud.h"
 #include "perigal/mesh.h"
 
+PG_API_BEGIN
+
 /* kind of a cell or facet that the surface of the body cuts: its points come from `cut`; its corners are
  * those of the lattice cell, or the facet's box */
 enum { PG_CUT = PG_ELEMENTS };
@@ -109,4 +111,5 @@ int           pg_sets_empty_side (const pg_sets *sets, const pg_set *set);
  * nearest, an empty side one that says what to name. */
 const pg_set *pg_sets_named (const pg_sets *sets, const pg_scene *scene, const char *path, const char *name);
 void          pg_sets_clear (pg_sets *sets);
+PG_API_END
 #endif

@@ -5,6 +5,8 @@
 #include "perigal/scene.h"
 #include "perigal/mesh.h"
 
+PG_API_BEGIN
+
 /* ---- shapes -------------------------------------------------------------------------------------------- */
 enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM, PG_MESH, PG_STAIRS };
 typedef struct {
@@ -168,4 +170,9 @@ void      pg_cracks_clear (pg_cracks *cracks);
 int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance);
 /* x lies on the crack */
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance);
+/* The same asked of several cracks: the first of them that the bond x - y meets, or that x lies on; NULL: none does. */
+const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,
+                               double tolerance);
+const pg_crack *pg_cracks_touch (const pg_cracks *cracks, int dim, const double *x, double tolerance);
+PG_API_END
 #endif

@@ -8,6 +8,8 @@
 #include "perigal/output.h"
 #include "perigal/solve.h"
 
+PG_API_BEGIN
+
 /* ---- samplers ------------------------------------------------------------------------------------------ */
 /* x: n x dim, m; u: n x 3, m, 0 beyond dim; stress: n x 6, Pa, xx yy zz xy yz zx, or NULL: not wanted. What
  * is not known is NAN. Borrows what it was made of; pg_sampler_clear frees what it made itself. */
@@ -182,4 +184,5 @@ pg_observed pg_observed_of_errors (size_t n, const double *h, const double *erro
  * given; the first crossing counts. NAN: no two neighbours enclose it (nothing is extrapolated), or they are
  * not positive. */
 double      pg_loglog_at (size_t n, const double *x, const double *y, double at);
+PG_API_END
 #endif

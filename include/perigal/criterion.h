@@ -5,6 +5,8 @@
 #define PERIGAL_CRITERION_H
 #include "perigal/material.h"
 
+PG_API_BEGIN
+
 enum {
     PG_NEEDS_STRETCH = 1,
     PG_NEEDS_STRESS = 2,
@@ -87,4 +89,5 @@ double pg_state_fracture_energy (const pg_criterion_setting *setting, double s0)
 /* That integral over horizon, Pa, with A and B (Pa) as given; 0: no such kernel. */
 double pg_state_cut_share (pg_mode mode, const char *kernel, double A, double B);
 double pg_energy_from_stretch (const pg_criterion_setting *setting, double s0);
+PG_API_END
 #endif

@@ -7,6 +7,8 @@
 #include "perigal/linalg.h"
 #include "perigal/model.h"
 
+PG_API_BEGIN
+
 typedef struct { const char *name, *unit; int components; } pg_field;
 
 /* What the boundary does: pairs of generalised force and displacement whose product is work, and sums per
@@ -120,4 +122,5 @@ pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, c
 const pg_force_type *pg_force_find  (const char *name);
 const char          *pg_force_names (void);
 void pg_work_balance_clear (pg_work_balance *work_balance);
+PG_API_END
 #endif

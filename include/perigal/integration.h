@@ -6,6 +6,8 @@
 #include "perigal/approx.h"
 #include "perigal/cells.h"
 
+PG_API_BEGIN
+
 typedef struct {
     size_t  n;
     double *x;                                         /* m (n x dim) */
@@ -106,4 +108,5 @@ void      pg_patches_free   (pg_patches **patches);
  * Gs mu (Pa), volume of the point (m^3). */
 void pg_silling_add (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t a, size_t m, double modulus,
                      double volume, double *blocks);
+PG_API_END
 #endif

@@ -5,6 +5,8 @@
 #define PERIGAL_KERNEL_H
 #include "perigal/base.h"
 
+PG_API_BEGIN
+
 typedef struct {
     const char *name;                                  /* as in the scene file */
     const char *summary;                               /* formula and source */
@@ -18,4 +20,5 @@ double           pg_kernel_moment (const pg_kernel *kernel, int n);
 const pg_kernel *pg_kernel_find  (const char *name);   /* NULL: unknown */
 const pg_kernel *pg_kernel_entry (size_t i);           /* NULL past the end */
 const char      *pg_kernel_names (void);               /* "constant|quadratic|..." */
+PG_API_END
 #endif

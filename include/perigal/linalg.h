@@ -5,6 +5,8 @@
 #define PERIGAL_LINALG_H
 #include "perigal/base.h"
 
+PG_API_BEGIN
+
 /* ---- operators and matrices ---------------------------------------------------------------------------- */
 typedef struct {                                       /* y = A x without a matrix */
     size_t n;
@@ -121,4 +123,5 @@ pg_status pg_multilevel_create (pg_multilevel **out, const pg_multilevel_setting
 void      pg_multilevel_free   (pg_multilevel **multilevel);
 pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *multilevel);
 void      pg_multilevel_describe (const pg_multilevel *multilevel, pg_multilevel_info *info);
+PG_API_END
 #endif

@@ -6,6 +6,8 @@
 #include "perigal/base.h"
 #include "perigal/scene.h"
 
+PG_API_BEGIN
+
 typedef enum { PG_LINE, PG_PLANE_STRESS, PG_PLANE_STRAIN, PG_SOLID } pg_mode;   /* 1D bar, 2D, 2D, 3D */
 int pg_voigt_size (int dim);                           /* 1, 3, 6 */
 
@@ -63,4 +65,5 @@ double pg_rayleigh_speed (double pressure, double shear);
 /* sigma_1 >= sigma_2 >= sigma_3 of n stresses (n x nv) with out-of-plane zz (n or NULL = 0). principal is n x
  * 3. */
 void pg_principal (int dim, size_t n, const double *stress, const double *zz, double *principal);
+PG_API_END
 #endif

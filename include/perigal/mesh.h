@@ -6,6 +6,8 @@
 #define PERIGAL_MESH_H
 #include "perigal/base.h"
 
+PG_API_BEGIN
+
 /* ---- elements ------------------------------------------------------------------------------------------ */
 /* Nodes in the order of Exodus II: corners, then middles of edges, (QUAD9, HEX27) centre and faces. Reference
  * elements: bars, quads and hexes [-1, 1]^d; triangles and tets 0 <= xi, sum <= 1; wedges triangle x [-1,
@@ -158,4 +160,5 @@ double    pg_skin_distance (const pg_mesh_skin *skin, const double *place, doubl
 void      pg_skin_face   (const pg_mesh_skin *skin, size_t face, int *element, int *side);
 void      pg_skin_box    (const pg_mesh_skin *skin, double *low, double *high);
 double    pg_skin_size   (const pg_mesh_skin *skin);
+PG_API_END
 #endif

@@ -9,6 +9,8 @@
 #include "perigal/integration.h"
 #include "perigal/sums.h"
 
+PG_API_BEGIN
+
 /* ---- loads and supports -------------------------------------------------------------------------------- */
 typedef enum {
     PG_DISPLACEMENT,
@@ -171,6 +173,10 @@ typedef struct {
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components /* dofs per node */);
 pg_status pg_state_copy   (pg_state *to, const pg_state *from);
 void      pg_state_free   (pg_state **state);
+/* The cracks that exist in a state (NULL: at the start), for all who ask whether one lies between two places:
+ * bonds, sampling, gauges, pictures. So far these are the pre-cracks of the scene, whatever the state; damage is
+ * not among them. */
+const pg_cracks *pg_state_cracks (const pg_problem *problem, const pg_state *state);
 
 /* ---- forecast: sizes and memory of a run before anything large is allocated ---------------------------- */
 enum {
@@ -235,4 +241,5 @@ const char *pg_forecast_item  (int item);              /* "bonds", ... */
 /* Bytes that this process may still take: least of free memory, control groups (v2, v1) and RLIMIT_AS. root:
  * "" (tests: a folder that holds proc and sys). */
 double      pg_available_memory (const char *root);
+PG_API_END
 #endif

@@ -7,6 +7,8 @@
 #include "perigal/output.h"
 #include "perigal/solve.h"
 
+PG_API_BEGIN
+
 /* Faults of output.fields and output.pictures that only the dimension shows; also part of pg_result_open. */
 pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem);
 /* Of that what needs no problem: pictures that no body of this dimension has, as faults of a scene that
@@ -63,4 +65,5 @@ int       pg_result_words  (const pg_result *result, size_t k, char *out, size_t
 const char *pg_result_folder (const pg_result *result);
 size_t    pg_result_pictures (const pg_result *result);     /* written */
 const char *pg_result_picture (const pg_result *result, size_t i);
+PG_API_END
 #endif

@@ -7,6 +7,8 @@
 #include "perigal/base.h"
 #include <stdio.h>
 
+PG_API_BEGIN
+
 /* ---- keys ---------------------------------------------------------------------------------------------- */
 typedef enum {
     PG_MAP,  /* a mapping; entries below it as path.name; `path.{}` stands for a name the user chooses */
@@ -145,4 +147,5 @@ pg_status pg_scene_help     (FILE *to, const char *key);
 pg_status pg_scene_manual   (FILE *to);                      /* doc/input.md */
 /* of "a|b|c"; NULL when nothing is near */
 const char *pg_nearest_name (const char *word, const char *choices);
+PG_API_END
 #endif

@@ -5,6 +5,8 @@
 #define PERIGAL_SOLVE_H
 #include "perigal/force.h"
 
+PG_API_BEGIN
+
 /* PASSING (adr, relax): at any iteration once the stage's load has come to act, not only in balance. */
 typedef enum { PG_BREAK_WORST, PG_BREAK_FRACTION, PG_BREAK_ALL, PG_BREAK_PASSING } pg_break;
 typedef struct {
@@ -163,4 +165,5 @@ const char *pg_solver_names (void);
 const char *pg_solver_summary (const char *name);                                  /* NULL: unknown */
 /* b0..b7 of Newmark's method (theory F5) for dt, beta, gamma of the options. */
 void pg_newmark_coefficients (const pg_solver_options *options, double *b);
+PG_API_END
 #endif

@@ -7,6 +7,8 @@
 #include "perigal/linalg.h"
 #include "perigal/cloud.h"
 
+PG_API_BEGIN
+
 typedef struct {
     const pg_family *family;                           /* points -> nodes, nodes ascending */
     void *context;
@@ -30,4 +32,5 @@ void      pg_stiffness_free   (pg_stiffness **K);
 pg_status pg_stiffness_gather (pg_stiffness *K, size_t count, const int *list, int threads);
 /* borrowed; upper triangle; explicit zeros keep the pattern */
 pg_sparse *pg_stiffness_matrix (pg_stiffness *K);
+PG_API_END
 #endif

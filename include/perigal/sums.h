@@ -9,6 +9,8 @@
 #include "perigal/kernel.h"
 #include "perigal/material.h"
 
+PG_API_BEGIN
+
 /* ---- constants (theory A1) ----------------------------------------------------------------------------- */
 /* the only Poisson ratio: 1/3 plane stress, 1/4 plane strain and solid, 0 line */
 double pg_bond_poisson (pg_mode mode);
@@ -231,4 +233,5 @@ pg_status   pg_bond_loop_energies (pg_bond_loop *sweep, const double *u, double 
  * times m^3 over the unit of w), both n or NULL (theta NULL: u is not read); 0 where no bond counts.
  * PG_E_USAGE: bonds alone have none. */
 pg_status   pg_bond_loop_dilatation (pg_bond_loop *sweep, const double *u, double *theta, double *q);
+PG_API_END
 #endif

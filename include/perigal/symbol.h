@@ -10,6 +10,8 @@
 #define PERIGAL_SYMBOL_H
 #include "perigal/force.h"
 
+PG_API_BEGIN
+
 enum { PG_UNKNOWNS = 6 };                              /* of a point at most */
 typedef struct {
     int     dim, unknowns, threads;                    /* unknowns: m */
@@ -96,4 +98,5 @@ void        pg_motion_where (const pg_motion *motion, const pg_symbol *symbol, c
  * it (rad/m) and its name ("" between); returns how many there are. */
 size_t pg_symbol_path (const pg_symbol *symbol, size_t leg, size_t i, double *k, double *length,
                        const char **name);
+PG_API_END
 #endif

@@ -37,7 +37,7 @@ static pg_status field_picture (const comparison *c, const compare_request *q, c
     snprintf (title, sizeof title, "%s: difference from the reference", c->own->problem->title);
     double most = fmax (fabs (low), fabs (high));
     pg_picture_style style = {
-        .title = title, .label = label, .cracks = &p->cracks, .diverging = column < PG_COMPARE_U
+        .title = title, .label = label, .cracks = pg_state_cracks (p, NULL), .diverging = column < PG_COMPARE_U
     };
     if (style.diverging && most > 0) style.low = -most, style.high = most;
     PG_TRY (pg_picture_field (path, &p->cloud, value, &style));

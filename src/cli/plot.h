@@ -3,6 +3,7 @@
 #ifndef PERIGAL_CLI_PLOT_H
 #define PERIGAL_CLI_PLOT_H
 #include "perigal/output.h"
+#include "perigal/picture.h"
 
 int pg_cli_plot (int argc, char **argv);               /* argv[0] = "plot"; returns the exit code */
 

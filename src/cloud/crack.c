@@ -195,6 +195,19 @@ int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double to
     return pg_crack_cuts (crack, dim, x, x, tolerance);
 }
 
+const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,
+                               double tolerance)
+{
+    for (size_t c = 0; c < cracks->n; c++)
+        if (pg_crack_cuts (&cracks->crack[c], dim, x, y, tolerance)) return &cracks->crack[c];
+    return NULL;
+}
+
+const pg_crack *pg_cracks_touch (const pg_cracks *cracks, int dim, const double *x, double tolerance)
+{
+    return pg_cracks_cut (cracks, dim, x, x, tolerance);
+}
+
 void pg_cracks_clear (pg_cracks *cracks)
 {
     for (size_t i = 0; cracks->crack && i < cracks->n; i++)

@@ -69,11 +69,8 @@ typedef struct {
 
 static int cut (const pg_problem *p, const double *x, int node)
 {
-    for (size_t c = 0; c < p->cracks.n; c++)
-        if (pg_crack_cuts (&p->cracks.crack[c], p->dim, x, p->cloud.x + (size_t) node * (size_t) p->dim,
-                           1e-9 * p->cloud.h))
-            return 1;
-    return 0;
+    return pg_cracks_cut (pg_state_cracks (p, NULL), p->dim, x, p->cloud.x + (size_t) node * (size_t) p->dim,
+                          1e-9 * p->cloud.h) != NULL;
 }
 
 /* Does a place reach a torn point? Then it has the displacement of the nearest point. */

@@ -287,26 +287,28 @@ static pg_status make_near (bond *b)
     return b->near ? PG_OK : pg_nearest_create (&b->near, b->dim, b->n, b->problem->cloud.x);
 }
 
+/* Which points a place does not see: those behind a crack. */
+typedef struct { const pg_problem *problem; const pg_cracks *cracks; } view;
+
 static int hidden (void *context, const double *place, size_t point)
 {
-    const pg_problem *p = ((const bond *) context)->problem;
-    for (size_t c = 0; c < p->cracks.n; c++)
-        if (pg_crack_cuts (&p->cracks.crack[c], p->dim, place, p->cloud.x + point * (size_t) p->dim,
-                           1e-9 * p->cloud.h))
-            return 1;
-    return 0;
+    const view *v = context;
+    const pg_problem *p = v->problem;
+    return pg_cracks_cut (v->cracks, p->dim, place, p->cloud.x + point * (size_t) p->dim,
+                          1e-9 * p->cloud.h) != NULL;
 }
 
 /* First-order expansion about the nearest point on the same side of the pre-cracks; returns that point. */
-static size_t expand (bond *b, const unsigned char *alive, const double *d, const double *x, point_bonds *s,
+static size_t expand (bond *b, const pg_state *state, const double *d, const double *x, point_bonds *s,
                       double *u)
 {
     size_t dim = (size_t) b->dim;
     double H[9];
-    long found = pg_nearest_find (b->near, x, b->problem->cracks.n ? hidden : NULL, b);
+    view v = { b->problem, pg_state_cracks (b->problem, state) };
+    long found = pg_nearest_find (b->near, x, v.cracks->n ? hidden : NULL, &v);
     size_t i = (size_t) (found >= 0 ? found : pg_nearest_find (b->near, x, NULL, NULL));
     point_bonds_at (b, i, 0, s);
-    gradient_at (b, alive, d, i, s, H);
+    gradient_at (b, state->alive, d, i, s, H);
     memset (u, 0, 3 * sizeof *u);
     for (size_t a = 0; a < dim; a++) {
         u[a] = d[i * (size_t) b->stride + a];
@@ -324,7 +326,7 @@ pg_status bond_sample (void *self, const pg_state *state, const double *d, size_
     PG_TRY (make_near (b));
     for (size_t k = 0; k < n; k++) {
         double v[6], *out = stress ? stress + 6 * k : NULL;
-        size_t i = expand (b, state->alive, d, x + k * (size_t) b->dim, &s, u + 3 * k);
+        size_t i = expand (b, state, d, x + k * (size_t) b->dim, &s, u + 3 * k);
         if (!out) continue;
         stress_at (b, state->alive, d, i, &s, v);
         memset (out, 0, 6 * sizeof *out);

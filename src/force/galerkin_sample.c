@@ -20,11 +20,11 @@ typedef struct {
     const double *pressure;                            /* of patches, at the nodes (n), Pa; NULL: none */
 } sampling;
 
-static int cut (const pg_problem *p, const double *x, const double *y)
+/* Does a crack lie between two places? */
+static int cut (const sampling *s, const double *x, const double *y)
 {
-    for (size_t c = 0; c < p->cracks.n; c++)
-        if (pg_crack_cuts (&p->cracks.crack[c], p->dim, x, y, 1e-9 * p->cloud.h)) return 1;
-    return 0;
+    const pg_problem *p = s->g->problem;
+    return pg_cracks_cut (pg_state_cracks (p, s->state), p->dim, x, y, 1e-9 * p->cloud.h) != NULL;
 }
 
 static const double *node_at (const galerkin *g, int node)
@@ -34,14 +34,14 @@ static const double *node_at (const galerkin *g, int node)
 
 static int point_hidden (void *context, const double *place, size_t point)
 {
-    const galerkin *g = ((const sampling *) context)->g;
-    return cut (g->problem, place, g->rows[g->bulk].x + point * (size_t) g->dim);
+    const sampling *s = context;
+    return cut (s, place, s->g->rows[s->g->bulk].x + point * (size_t) s->g->dim);
 }
 
 static int node_hidden (void *context, const double *place, size_t node)
 {
-    const galerkin *g = ((const sampling *) context)->g;
-    return cut (g->problem, place, node_at (g, (int) node));
+    const sampling *s = context;
+    return cut (s, place, node_at (s->g, (int) node));
 }
 
 /* Is bond e of a point dead for another reason than a pre-crack? */
@@ -50,7 +50,7 @@ static int broken (const sampling *s, int set, size_t point, size_t e)
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[set];
     if (s->state->alive[g->problem->first_bond[set] + e] || r->family.node[e] == r->own[point]) return 0;
-    return !cut (g->problem, r->x + point * (size_t) g->dim, node_at (g, r->family.node[e]));
+    return !cut (s, r->x + point * (size_t) g->dim, node_at (g, r->family.node[e]));
 }
 
 static int hurt (const sampling *s, int set, size_t point)
@@ -88,7 +88,7 @@ static int sees (const sampling *s, size_t q, size_t i, int lost /* i has lost b
 /* The nearest that no pre-crack hides, else the nearest. */
 static size_t nearest_seen (sampling *s, const pg_nearest *grid, const double *x, pg_refuse refuse)
 {
-    long found = pg_nearest_find (grid, x, s->g->problem->cracks.n ? refuse : NULL, s);
+    long found = pg_nearest_find (grid, x, pg_state_cracks (s->g->problem, s->state)->n ? refuse : NULL, s);
     return (size_t) (found >= 0 ? found : pg_nearest_find (grid, x, NULL, NULL));
 }
 
@@ -106,7 +106,7 @@ static void find_bonds (void *context, size_t first, size_t last, int thread)
         for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
             int j = f->node[e];
             s->alive[e] = j == s->rows.own[p]
-                          || (!cut (g->problem, x, node_at (g, j)) && sees (s, q, i, lost, j));
+                          || (!cut (s, x, node_at (g, j)) && sees (s, q, i, lost, j));
         }
     }
 }

@@ -239,14 +239,12 @@ static void count_eroded (pg_problem *p, const pg_scene *scene)
 {
     const pg_crack *first = NULL;
     char way[96] = "move them off it";
-    for (size_t i = 0; i < p->cloud.n; i++)
-        for (size_t c = 0; c < p->cracks.n; c++)
-            if (pg_crack_touches (&p->cracks.crack[c], p->dim, p->cloud.x + i * (size_t) p->dim,
-                                  1e-9 * p->cloud.h)) {
-                p->eroded++;
-                if (!first) first = &p->cracks.crack[c];
-                break;
-            }
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        const pg_crack *on = pg_cracks_touch (pg_state_cracks (p, NULL), p->dim,
+                                              p->cloud.x + i * (size_t) p->dim, 1e-9 * p->cloud.h);
+        p->eroded += on != NULL;
+        if (!first) first = on;
+    }
     if (!first) return;
     if (p->lattice.dim) {
         int across = 0, n = 0;
@@ -304,16 +302,16 @@ void pg_problem_locate (const pg_problem *p, size_t bond, int *set, size_t *poin
 
 void pg_bonds_cut (const pg_problem *p, unsigned char *alive)
 {
+    const pg_cracks *cracks = pg_state_cracks (p, NULL);
     size_t dim = (size_t) p->dim;
     for (int s = 0; s < PG_BOND_SETS; s++) {
         const pg_rows *rows = &p->rows[s];
         for (size_t q = 0; q < rows->n; q++)
             for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++) {
-                int j = rows->family.node[e], dead = 0;
-                for (size_t c = 0; c < p->cracks.n && !dead && j != rows->own[q]; c++)
-                    dead = pg_crack_cuts (&p->cracks.crack[c], p->dim, rows->x + q * dim,
-                                          p->cloud.x + (size_t) j * dim, 1e-9 * p->cloud.h);
-                alive[p->first_bond[s] + e] = !dead;
+                int j = rows->family.node[e];
+                alive[p->first_bond[s] + e] =
+                    j == rows->own[q] || !pg_cracks_cut (cracks, p->dim, rows->x + q * dim,
+                                                         p->cloud.x + (size_t) j * dim, 1e-9 * p->cloud.h);
             }
     }
 }

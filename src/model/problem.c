@@ -229,15 +229,12 @@ static pg_status read_gauges (pg_problem *p, const pg_scene *scene)
             const double *place = end ? g->to : g->from;
             if (!sees_points (p, place))
                 pg_scene_fault (scene, path, "lies outside the body: no point within the horizon");
-            for (size_t c = 0; c < p->cracks.n; c++)
-                if (pg_crack_touches (&p->cracks.crack[c], p->dim, place, 1e-9 * p->cloud.h)) {
-                    pg_problem_note (p,
-                                     PG_WARNING "gauge %s: %s lies on a crack, whose two faces move apart: "
-                                                "which of them it follows is chance; "
-                                                "put it beside the crack, however near",
-                                     g->name, end ? "to" : "from");
-                    break;
-                }
+            if (pg_cracks_touch (pg_state_cracks (p, NULL), p->dim, place, 1e-9 * p->cloud.h))
+                pg_problem_note (p,
+                                 PG_WARNING "gauge %s: %s lies on a crack, whose two faces move apart: "
+                                            "which of them it follows is chance; "
+                                            "put it beside the crack, however near",
+                                 g->name, end ? "to" : "from");
         }
     }
 done:

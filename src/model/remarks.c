@@ -44,20 +44,14 @@ static int root (int *parent, int i)
 static int is_cut (const pg_problem *p, size_t i, size_t j)
 {
     size_t dim = (size_t) p->dim;
-    for (size_t c = 0; c < p->cracks.n; c++)
-        if (pg_crack_cuts (&p->cracks.crack[c], p->dim, p->cloud.x + i * dim, p->cloud.x + j * dim,
-                           1e-9 * p->cloud.h))
-            return 1;
-    return 0;
+    return pg_cracks_cut (pg_state_cracks (p, NULL), p->dim, p->cloud.x + i * dim, p->cloud.x + j * dim,
+                          1e-9 * p->cloud.h) != NULL;
 }
 
 static int on_a_crack (const pg_problem *p, size_t i)
 {
-    for (size_t c = 0; c < p->cracks.n; c++)
-        if (pg_crack_touches (&p->cracks.crack[c], p->dim, p->cloud.x + i * (size_t) p->dim,
-                              1e-9 * p->cloud.h))
-            return 1;
-    return 0;
+    return pg_cracks_touch (pg_state_cracks (p, NULL), p->dim, p->cloud.x + i * (size_t) p->dim,
+                            1e-9 * p->cloud.h) != NULL;
 }
 
 static void write_place (const pg_problem *p, size_t i, char *out, size_t size)

@@ -37,4 +37,10 @@ pg_status pg_state_copy (pg_state *to, const pg_state *from)
     return PG_OK;
 }
 
+const pg_cracks *pg_state_cracks (const pg_problem *problem, const pg_state *state)
+{
+    (void) state;                                      /* pre-cracks do not change */
+    return &problem->cracks;
+}
+
 void pg_state_free (pg_state **state) { pg_free (*state), *state = NULL; }

@@ -164,7 +164,7 @@ static pg_status write_file (checkpoint *c, pg_keep walk, void *context)
     PG_TRY (make_walk (c, walk, context));
     c->open = 0;
     NC_TRY (c->path, nc_close (c->ncid));
-    PG_TRY (disk_sync (c->path));
+    PG_TRY (pg_disk_sync (c->path));
 done:
     if (c->open) nc_close (c->ncid);
     return status;
@@ -176,7 +176,7 @@ static pg_status sync_folder_of (const char *path, char *work)
     size_t n = slash == path ? 1 : slash ? (size_t) (slash - path) : 1;
     memcpy (work, slash ? path : ".", n);
     work[n] = 0;
-    return disk_sync (work);
+    return pg_disk_sync (work);
 }
 
 pg_status pg_checkpoint_write (const char *path, pg_keep walk, void *context)

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-pg_status disk_write (const char *path, int file, const void *data, size_t bytes, long offset)
+pg_status pg_disk_write (const char *path, int file, const void *data, size_t bytes, long offset)
 {
     pg_status status = PG_OK;
     const char *from = data;
@@ -24,13 +24,13 @@ done:
     return status;
 }
 
-pg_status disk_cut (const char *path, int file, long bytes)
+pg_status pg_disk_cut (const char *path, int file, long bytes)
 {
     return ftruncate (file, bytes) == 0 ? PG_OK
                                         : pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
 }
 
-pg_status disk_create (const char *path, int *file)
+pg_status pg_disk_create (const char *path, int *file)
 {
     pg_status status = PG_OK;
     struct stat s;
@@ -54,7 +54,7 @@ pg_status pg_file_create (FILE **out, const char *path)
 {
     int file;
     *out = NULL;
-    pg_status status = disk_create (path, &file);
+    pg_status status = pg_disk_create (path, &file);
     if (status != PG_OK) return status;
     *out = fdopen (file, "wb");
     if (*out) return PG_OK;
@@ -62,7 +62,7 @@ pg_status pg_file_create (FILE **out, const char *path)
     return pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
 }
 
-pg_status disk_sync (const char *path)
+pg_status pg_disk_sync (const char *path)
 {
     int file = open (path, O_RDONLY);
     if (file < 0) return pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));

@@ -98,7 +98,7 @@ static pg_status create_file (pg_exodus *f, const pg_cloud *cloud, const char *t
     exodus_layout layout = {
         fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume
     };
-    PG_TRY (exodus_layout_write (&layout));
+    PG_TRY (pg_exodus_layout_write (&layout));
     if (rename (fresh, f->path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", f->path, strerror (errno));
     PG_TRY (open_file (f, &f->begin));
 done:
@@ -129,7 +129,7 @@ static pg_status count_records (pg_exodus *f, size_t count)
     unsigned char bytes[8];
     size_t m = f->wide ? 8 : 4;
     for (size_t k = 0; k < m; k++) bytes[m - 1 - k] = (unsigned char) ((uint64_t) count >> (8 * k));
-    return disk_write (f->path, f->file, bytes, m, 4);
+    return pg_disk_write (f->path, f->file, bytes, m, 4);
 }
 
 /* Points and components must be those the file was made for. */
@@ -171,7 +171,7 @@ pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *clo
     f->begin = bytes - steps * f->record;
     f->step = (size_t) steps;
     PG_TRY (count_records (f, f->step));
-    PG_TRY (disk_cut (path, f->file, bytes));
+    PG_TRY (pg_disk_cut (path, f->file, bytes));
     *out = f;
     f = NULL;
 done:
@@ -206,7 +206,7 @@ static pg_status write_view (pg_exodus *f, const pg_field_view *view, long *at)
     for (size_t c = 0; c < m; c++, *at += (long) bytes) {
         for (size_t i = 0; i < f->n; i++) f->buffer[i] = view->value[i * m + c];
         most_significant_first (f->buffer, f->n);
-        PG_TRY (disk_write (f->path, f->file, f->buffer, bytes, *at));
+        PG_TRY (pg_disk_write (f->path, f->file, f->buffer, bytes, *at));
     }
 done:
     return status;
@@ -219,7 +219,7 @@ static pg_status write_record (pg_exodus *f, double time, const pg_field_view *f
     for (size_t v = 0; v < f->nfield; v++) PG_TRY (write_view (f, &fields[v], &at));
     if (f->extra) PG_TRY (write_view (f, &f->field[f->nfield], &at));
     most_significant_first (&time, 1);
-    PG_TRY (disk_write (f->path, f->file, &time, sizeof time, start));
+    PG_TRY (pg_disk_write (f->path, f->file, &time, sizeof time, start));
     PG_TRY (count_records (f, f->step + 1));
 done:
     return status;
@@ -244,7 +244,7 @@ done:
     return status;
 }
 
-pg_status pg_exodus_sync (const pg_exodus *f) { return disk_sync (f->path); }
+pg_status pg_exodus_sync (const pg_exodus *f) { return pg_disk_sync (f->path); }
 
 void pg_exodus_close (pg_exodus **file)
 {

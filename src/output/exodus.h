@@ -14,7 +14,8 @@
     } while (0)
 
 enum { EXODUS_COMPONENTS = 64 };
-/* ---- exodus_layout.c: a whole result.e without steps; records: time_whole, the components of the fields - */
+/* ---- exodus_layout.c: a whole result.e without steps -------------------------------------------------- */
+/* Its records: time_whole, then the nvar components of the fields. */
 typedef struct {
     const char     *path;
     const pg_cloud *cloud;
@@ -23,5 +24,5 @@ typedef struct {
     const pg_field_view *field;
     const double   *volume;                            /* n */
 } exodus_layout;
-pg_status exodus_layout_write (const exodus_layout *layout);
+pg_status pg_exodus_layout_write (const exodus_layout *layout);
 #endif

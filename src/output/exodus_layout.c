@@ -294,7 +294,7 @@ done:
     return status;
 }
 
-pg_status exodus_layout_write (const exodus_layout *layout)
+pg_status pg_exodus_layout_write (const exodus_layout *layout)
 {
     pg_status status = PG_OK;
     writer w = { .l = layout, .dim = layout->cloud->dim, .n = layout->cloud->n };

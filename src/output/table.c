@@ -70,7 +70,7 @@ static pg_status prepare (pg_table **out, const char *path, int fresh)
     t->file = -1;
     t->path = pg_strdup (path);
     if (!t->path) PG_FAIL (PG_E_MEMORY, "no memory for a path");
-    if (fresh) PG_TRY (disk_create (path, &t->file));
+    if (fresh) PG_TRY (pg_disk_create (path, &t->file));
     else if ((t->file = open (path, O_RDWR | O_NOFOLLOW | O_CLOEXEC)) < 0)
         PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
     *out = t;
@@ -123,7 +123,7 @@ pg_status pg_table_open (pg_table **out, const char *path, size_t n, long rows)
     PG_TRY (prepare (&t, path, 0));
     t->n = n;
     PG_TRY (skip_rows (t, rows));
-    PG_TRY (disk_cut (path, t->file, t->bytes));
+    PG_TRY (pg_disk_cut (path, t->file, t->bytes));
     if (lseek (t->file, t->bytes, SEEK_SET) < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
     *out = t;
 done:
@@ -163,7 +163,7 @@ done:
     return status;
 }
 
-pg_status pg_table_sync (const pg_table *t) { return disk_sync (t->path); }
+pg_status pg_table_sync (const pg_table *t) { return pg_disk_sync (t->path); }
 
 void pg_table_close (pg_table **table)
 {

@@ -93,7 +93,7 @@ static pg_status one_picture (pg_result *r, const pg_state *state, const result_
     snprintf (label, sizeof label, "%s%s%s%s", v->field, *unit ? " (" : "", unit, *unit ? ")" : "");
     write_title (r, state, v, unit, title, sizeof title);
     pg_picture_style style = v->style;
-    style.title = title, style.label = label, style.u = u, style.cracks = &p->cracks;
+    style.title = title, style.label = label, style.u = u, style.cracks = pg_state_cracks (p, state);
     style.diverging = style.low < style.high ? style.low == -style.high
                                              : strncmp (v->field, "stress", 6) == 0;
     style.clip = strncmp (v->field, "damage", 6) != 0;
@@ -146,7 +146,7 @@ static pg_status error_picture (pg_result *r, const pg_state *state)
     char path[4096], title[400];
     pg_outline outline = result_outline (r);
     pg_picture_style style = { .label = "|u - u_{ref}| (m)",
-                               .cracks = &r->problem->cracks,
+                               .cracks = pg_state_cracks (r->problem, state),
                                .title = title,
                                .outline = outline.body || outline.mesh ? &outline : NULL };
     snprintf (title, sizeof title, "%s: difference from the reference, L2 %.2e, largest %.2e",

@@ -2,6 +2,7 @@
  * Private: the open result folder. */
 #ifndef PG_RESULT_PRIVATE_H
 #define PG_RESULT_PRIVATE_H
+#include "perigal/picture.h"
 #include "perigal/results.h"
 
 enum { MOST_FIELDS = 16, MOST_PICTURES = 32 };

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The envelope of an event path: what a test with steadily rising displacement would show of it. */
+#include "perigal/picture.h"
+#include <math.h>
+
+/* The sign of the value farthest from zero. */
+static double direction_of (size_t n, const double *x)
+{
+    double most = 0;
+    for (size_t i = 0; i < n; i++) if (fabs (x[i]) > fabs (most)) most = x[i];
+    return most < 0 ? -1 : 1;
+}
+
+size_t pg_envelope (size_t n, const double *x, const double *y, int linear, double *ex, double *ey,
+                    size_t *peak)
+{
+    double sign = direction_of (n, x), top = linear ? 0 : -INFINITY;
+    size_t m = 0, last = n;
+    if (linear) ex[0] = ey[0] = 0, m = 1;
+    for (size_t i = 0; i < n; i++) {
+        int fell = linear && last < n;
+        if (!isfinite (x[i]) || !isfinite (y[i])) continue;
+        if (sign * x[i] > top) {
+            double line = fell ? y[i] / x[i] * ex[m - 1] : 0;
+            if (fell && fabs (line - ey[m - 1]) > 1e-9 * fabs (ey[m - 1]))
+                ex[m] = ex[m - 1], ey[m] = line, m++;
+            ex[m] = x[i], ey[m] = y[i], m++;
+            top = sign * x[i], last = i;
+        } else if (fell && i + 1 == n && x[i] != 0) ex[m] = ex[m - 1], ey[m] = y[i] / x[i] * ex[m - 1], m++;
+    }
+    *peak = 0;
+    for (size_t k = 0; k < m; k++) if (fabs (ey[k]) > fabs (ey[*peak])) *peak = k;
+    return m;
+}

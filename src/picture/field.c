@@ -1,0 +1,514 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Fields as pictures: which points are seen, the frame they fill, their colours; one state or several side by
+ * side. 2D: a coloured cell per point; 3D: a section, or the body from outside; 1D: value over x. */
+#include "tiles.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const pg_cloud *cloud;
+    const pg_picture_style *style;
+    size_t  n;                                         /* panels */
+    const pg_panel *panel;
+    pg_grid grid;                                      /* 3D */
+    pg_sheet sheet;
+    unsigned char *seen;                               /* points in the section, or all */
+    unsigned char *keep;                               /* points above the limit, of the panel at work */
+    double *own;  /* coloured by depth: coordinate in the picture's unit */
+    int    *index, layer;                              /* of a spot's point; of the section */
+    pg_spots spots;
+    double *spacing;  /* of the points of a 2D cloud that is no lattice, m, or NULL */
+    double *face;  size_t nface, cap_face;  /* displaced faces of pre-cracks, FACE places each, m (2D) */
+    char    label[32], title[440];
+} drawing;
+
+static const double *displaced (const drawing *d, size_t panel)
+{
+    return d->style->magnify != 0 ? d->panel[panel].u : NULL;
+}
+
+static const double *value_of (const drawing *d, size_t panel)
+{
+    return d->own ? d->own : d->panel[panel].value;
+}
+
+/* ---- points -------------------------------------------------------------------------------------------- */
+/* A section shows the layer of points it lies in (the lower of two when it lies between them). */
+static pg_status choose_layer (drawing *d)
+{
+    pg_status status = PG_OK;
+    const pg_eye *e = &d->sheet.eye;
+    const pg_grid *g = &d->grid;
+    double t = (e->at - g->origin[e->cut]) / g->step[e->cut];
+    d->layer = (int) fmin (fmax (ceil (t - 0.5 - 1e-6), -2), g->count[e->cut]);
+    if (d->layer == -1 && t > -0.5 - 1e-6) d->layer = 0;
+    if (d->layer < 0 || d->layer >= g->count[e->cut])
+        PG_FAIL (PG_E_USAGE, "the section %c = %g m meets no points: they lie between %g and %g m",
+                 "xyz"[e->cut], e -> at, g -> low[e->cut], g -> high[e->cut]);
+    for (size_t i = 0; i < d->cloud->n; i++)
+        d->seen[i] = pg_grid_place (g, e->cut, d->cloud->x[3 * i + (size_t) e->cut]) == d->layer;
+done:
+    return status;
+}
+
+/* How far a cell reaches from its point along a direction, m. */
+static double half_cell (const drawing *d, const double *direction)
+{
+    double s = 0;
+    for (int a = 0; a < d->cloud->dim; a++) {
+        double step = d->cloud->dim == 3      ? d->grid.step[a]
+                      : d->cloud->step[a] > 0 ? d->cloud->step[a]
+                                              : d->cloud->h;
+        s += 0.5 * step * fabs (direction[a]);
+    }
+    return s;
+}
+
+static pg_status choose_points (drawing *d)
+{
+    pg_status status = PG_OK;
+    const pg_eye *e = &d->sheet.eye;
+    size_t found = 0;
+    PG_ALLOC (d->seen, d->cloud->n);
+    PG_ALLOC (d->keep, d->cloud->n);
+    memset (d->seen, 1, d->cloud->n);
+    if (e->kind == PG_LAYER) PG_TRY (choose_layer (d));
+    for (size_t i = 0; e->kind == PG_SLICE && i < d->cloud->n; i++)
+        d->seen[i] = fabs (pg_along (e->toward, d->cloud->x + 3 * i, 3) - e->at)
+                     <= half_cell (d, e->toward) * (1 + 1e-6);
+    for (size_t i = 0; i < d->cloud->n; i++) found += d->seen[i];
+    if (found == 0) PG_FAIL (PG_E_USAGE, "the section meets no points");
+done:
+    return status;
+}
+
+/* ---- frame --------------------------------------------------------------------------------------------- */
+/* Places of the points of one panel along a direction; NAN for those not seen and, displaced, for fragments
+ * that fly far. */
+static pg_status places (const drawing *d, size_t panel, const double *direction, double *out)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) d->cloud->dim;
+    const double *u = displaced (d, panel);
+    double low = 0, high = 0;
+    int found;
+    for (size_t i = 0; i < d->cloud->n; i++)
+        out[i] = u ? d->style->magnify * pg_along (direction, u + i * dim, (int) dim) : 0;
+    if (u) PG_TRY (pg_picture_range (d->cloud->n, out, 2, &low, &high, &found));
+    double slack = 0.5 * (high - low);
+    for (size_t i = 0; i < d->cloud->n; i++) {
+        int near = out[i] >= low - slack && out[i] <= high + slack;
+        out[i] = d->seen[i] && near ? out[i] + pg_along (direction, d->cloud->x + i * dim, (int) dim) : NAN;
+    }
+done:
+    return status;
+}
+
+/* Not displaced, the body ends where its box does. */
+static void end_at_body (const drawing *d, const double *direction, double *low, double *high)
+{
+    const pg_body *body = d->style->outline->body;
+    for (size_t k = 0; k < d->n; k++) if (displaced (d, k)) return;
+    for (int c = 0; c < d->cloud->dim; c++) {
+        if (fabs (fabs (direction[c]) - 1) > 1e-12) continue;
+        *low = fmax (*low, direction[c] > 0 ? body->low[c] : -body->high[c]),
+        *high = fmin (*high, direction[c] > 0 ? body->high[c] : -body->low[c]);
+    }
+}
+
+/* Range of the cells drawn along one axis of the picture, over all panels. */
+static pg_status extent (const drawing *d, const double *direction, double *low, double *high)
+{
+    pg_status status = PG_OK;
+    double *place = NULL, from, to;
+    int any = 0;
+    PG_ALLOC (place, d->cloud->n);
+    for (size_t k = 0; k < d->n; k++) {
+        PG_TRY (places (d, k, direction, place));
+        if (!pg_range_of (d->cloud->n, place, 0, &from, &to)) continue;
+        *low = any ? fmin (*low, from) : from, *high = any ? fmax (*high, to) : to;
+        any = 1;
+    }
+    double half = half_cell (d, direction);
+    if (!(half > 0)) half = *high > *low ? 0.5 * (*high - *low) / sqrt ((double) d->cloud->n) : 0.5;
+    *low -= half, *high += half;
+    if (d->style->outline && d->style->outline->body && d->style->outline->body->n)
+        end_at_body (d, direction, low, high);
+done:
+    pg_free (place);
+    return status;
+}
+
+/* The box of a solid, which may end at the points themselves. */
+static void extent_of_box (const drawing *d, const double *direction, double *low, double *high)
+{
+    for (int corner = 0; corner < 8; corner++) {
+        double x[3];
+        for (int a = 0; a < 3; a++) x[a] = corner >> a & 1 ? d->grid.high[a] : d->grid.low[a];
+        double s = pg_along (direction, x, 3);
+        *low = corner ? fmin (*low, s) : s, *high = corner ? fmax (*high, s) : s;
+    }
+}
+
+static pg_status choose_frame (drawing *d)
+{
+    pg_status status = PG_OK;
+    static const double unit[] = { 1e3, 1, 1e-3, 1e-6 };
+    pg_sheet *p = &d->sheet;
+    double size = 0, margin = p->eye.framed ? 0.025 : 0.015;
+    int deformed = 0;
+    for (size_t k = 0; k < d->n; k++) deformed |= displaced (d, k) != NULL;
+    for (int a = 0; a < 2; a++) {
+        const double *direction = a ? p->eye.up : p->eye.right;
+        if (p->eye.kind == PG_SOLID && !deformed) extent_of_box (d, direction, &p->low[a], &p->high[a]);
+        else PG_TRY (extent (d, direction, &p->low[a], &p->high[a]));
+        size = fmax (size, p->high[a] - p->low[a]);
+    }
+    for (int a = 0; a < 2; a++) p->low[a] -= margin * size, p->high[a] += margin * size;
+    p->unit = 1e-9;
+    for (int k = 3; k >= 0; k--) if (size >= 0.999 * unit[k]) p->unit = unit[k];
+done:
+    return status;
+}
+
+/* ---- colours ------------------------------------------------------------------------------------------- */
+static int above (const drawing *d, size_t panel, size_t i)
+{
+    const double *select = d->panel[panel].select;
+    return !select || select[i] >= d->style->above;
+}
+
+static pg_status colour_by_depth (drawing *d)
+{
+    pg_status status = PG_OK;
+    const double *toward = d->sheet.eye.toward;
+    int axis = fabs (toward[1]) > fabs (toward[0]) ? 1 : 0;
+    if (fabs (toward[2]) >= fabs (toward[axis])) axis = 2;
+    PG_ALLOC (d->own, d->cloud->n);
+    for (size_t i = 0; i < d->cloud->n; i++) d->own[i] = d->cloud->x[3 * i + (size_t) axis] / d->sheet.unit;
+    snprintf (d->label, sizeof d->label, "%c (%s)", "xyz"[axis], pg_sheet_unit (&d->sheet));
+done:
+    return status;
+}
+
+/* Range of what is shown in all panels; a point that is not seen counts as no number. */
+static pg_status range_of_panels (const drawing *d, double *low, double *high)
+{
+    pg_status status = PG_OK;
+    double *shown = NULL, from, to;
+    int any = 0, found;
+    PG_ALLOC (shown, d->cloud->n);
+    *low = 0, *high = 1;
+    for (size_t k = 0; k < d->n; k++) {
+        for (size_t i = 0; i < d->cloud->n; i++) {
+            double v = value_of (d, k)[i];
+            shown[i] = !d->seen[i] || !(d->own || above (d, k, i)) ? NAN
+                       : !d->style->log                            ? v
+                       : v != 0                                    ? fabs (v)
+                                                                   : NAN;
+        }
+        PG_TRY (pg_picture_range (d->cloud->n, shown, d->style->clip && !d->own ? 2 : 0, &from, &to, &found));
+        if (found) *low = any ? fmin (*low, from) : from, *high = any ? fmax (*high, to) : to;
+        any |= found;
+    }
+done:
+    pg_free (shown);
+    return status;
+}
+
+static pg_status choose_colours (drawing *d, double *low, double *high)
+{
+    pg_status status = PG_OK;
+    const pg_picture_style *style = d->style;
+    d->sheet.colour = style->diverging && !style->log ? pg_colour_diverging : pg_colour_sequential;
+    *low = style->low, *high = style->high;
+    if (*low < *high && !d->own) return PG_OK;
+    PG_TRY (range_of_panels (d, low, high));
+    if (style->log) pg_range_decades (low, high);
+    if (!style->diverging || style->log || d->own) goto done;
+    double top = fmax (fabs (*low), fabs (*high));
+    if (!(top > 0)) top = 1;
+    *low = -top, *high = top;
+done:
+    return status;
+}
+
+static pg_status choose_note (drawing *d, const char *label, double low, double high)
+{
+    pg_status status = PG_OK;
+    double *shown = NULL;
+    if (d->own || d->style->log) return PG_OK;
+    PG_ALLOC (shown, d->n * d->cloud->n);
+    for (size_t k = 0; k < d->n; k++)
+        for (size_t i = 0; i < d->cloud->n; i++)
+            shown[k * d->cloud->n + i] = d->seen[i] && above (d, k, i) ? value_of (d, k)[i] : NAN;
+    pg_sheet_leave_out (&d->sheet, label, d->n * d->cloud->n, shown, low, high);
+done:
+    pg_free (shown);
+    return status;
+}
+
+/* Does the bar end before the values do? */
+static void choose_arrows (drawing *d)
+{
+    const pg_axis *bar = &d->sheet.bar;
+    double slack = 1e-9 * (bar->log ? bar->low : bar->high - bar->low);
+    for (size_t k = 0; k < d->n; k++)
+        for (size_t i = 0; i < d->cloud->n; i++) {
+            double v = value_of (d, k)[i];
+            if (!isfinite (v) || !d->seen[i] || !above (d, k, i)) continue;
+            if (bar->log) v = v != 0 ? fabs (v) : bar->low;
+            d->sheet.beyond[0] |= v < bar->low - slack, d->sheet.beyond[1] |= v > bar->high + slack;
+        }
+}
+
+/* How far the cell of a point reaches along an axis of the picture, m; of points without a spacing by their
+ * number. */
+static double half_of_points (const drawing *d, int a)
+{
+    double half = half_cell (d, a ? d->sheet.eye.up : d->sheet.eye.right);
+    return half > 0 ? half : 0.5 * (d->sheet.high[a] - d->sheet.low[a]) / sqrt ((double) d->cloud->n);
+}
+
+/* ---- painting ------------------------------------------------------------------------------------------ */
+enum { FACE = 129 };
+static pg_status find_faces (drawing *d, const pg_tiles *t)
+{
+    pg_status status = PG_OK;
+    d->nface = 0;
+    if (!t->shift || d->cloud->dim != 2 || !d->style->cracks) goto done;
+    for (size_t c = 0; c < d->style->cracks->n; c++)
+        for (int side = 0; side < 2; side++) {
+            const double *v = d->style->cracks->crack[c].vertex;
+            PG_GROW (d->face, d->cap_face, 2 * FACE * (d->nface + 1));
+            pg_tiles_face (t, v, v + 2, side, FACE, d->face + 2 * FACE * d->nface++);
+        }
+done:
+    return status;
+}
+
+/* The parts of the points in the plane, as 2D bodies and layers show them. */
+static pg_status paint_tiles (drawing *d, size_t panel, pg_screen *s)
+{
+    pg_status status = PG_OK;
+    const pg_eye *e = &d->sheet.eye;
+    const double *u = displaced (d, panel), *damage = d->panel[panel].damage,
+                 *size = d->cloud->size ? d->cloud->size : d->spacing;
+    size_t dim = (size_t) d->cloud->dim, n = d->cloud->n;
+    double *place = NULL, *shift = NULL, *harm = NULL, *local = NULL;
+    pg_tiles t = { .dim = d->cloud->dim,
+                   .loose = d->spacing || d->cloud->size || d->grid.loose,
+                   .eye = e,
+                   .outline = d->style->outline,
+                   .cracks = d->style->cracks };
+    PG_ALLOC (place, 2 * n);
+    if (u) PG_ALLOC (shift, 2 * n);
+    if (damage) PG_ALLOC (harm, n);
+    if (size) PG_ALLOC (local, n);
+    for (size_t i = 0; i < n; i++) {
+        if (!d->seen[i] || !isfinite (d->cloud->x[i * dim]) || !isfinite (d->cloud->x[i * dim + 1])) continue;
+        size_t k = t.n++;
+        for (int a = 0; a < 2; a++) {
+            const double *direction = a ? e->up : e->right;
+            place[2*k + (size_t) a] = pg_along (direction, d->cloud->x + i * dim, (int) dim);
+            if (u) shift[2*k + (size_t) a] = d->style->magnify * pg_along (direction, u + i * dim, (int) dim);
+        }
+        if (damage) harm[k] = damage[i];
+        if (size) local[k] = size[i];
+        if (dim == 2 && d->cloud->volume && d->cloud->thickness > 0)
+            t.area += d->cloud->volume[i] / d->cloud->thickness;
+        d->index[k] = (int) i;
+    }
+    for (int a = 0; a < 2; a++) t.step[a] = 2 * half_of_points (d, a);
+    if (e->kind == PG_LAYER)
+        t.at = e->toward[e->cut] * (d->grid.origin[e->cut] + d->layer * d->grid.step[e->cut]);
+    t.place = place, t.shift = shift, t.damage = harm, t.size = d->cloud->size ? local : NULL;
+    PG_TRY (pg_tiles_open (&t));
+    PG_TRY (pg_tiles_draw (&t, s));
+    PG_TRY (find_faces (d, &t));
+    for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++) {
+        if (s->owner[p] < 0) continue;
+        s->owner[p] = d->index[s->owner[p]];
+        if (!d->keep[s->owner[p]]) s->owner[p] = PG_GHOST;
+    }
+done:
+    pg_tiles_close (&t);
+    pg_free (place), pg_free (shift), pg_free (harm), pg_free (local);
+    return status;
+}
+
+/* Cells of the points near an oblique plane. */
+static pg_status paint_spots (drawing *d, size_t panel, pg_screen *s)
+{
+    pg_status status = PG_OK;
+    const double *u = displaced (d, panel);
+    const pg_eye *e = &d->sheet.eye;
+    size_t dim = (size_t) d->cloud->dim, cells = (size_t) s->width * (size_t) s->height;
+    d->spots.n = 0;
+    for (size_t i = 0; i < d->cloud->n; i++) {
+        const double *x = d->cloud->x + i * dim;
+        if (!d->seen[i] || !d->keep[i]) continue;
+        size_t k = d->spots.n++;
+        for (int a = 0; a < 2; a++) {
+            const double *direction = a ? e->up : e->right;
+            double place = pg_along (direction, x, (int) dim)
+                           + (u ? d->style->magnify * pg_along (direction, u + i * dim, (int) dim) : 0);
+            d->spots.place[2 * k + (size_t) a] = a ? (s->top - place) * s->scale
+                                                   : (place - s->left) * s->scale;
+        }
+        d->index[k] = (int) i;
+    }
+    for (int a = 0; a < 2; a++) {
+        d->spots.size[a] = 2 * half_of_points (d, a) * s->scale;
+    }
+    d->spots.reach = u ? 1.3 : 1.9;                    /* opened cracks stay open */
+    PG_TRY (pg_raster (&d->spots, s->width, s->height, s->owner));
+    for (size_t p = 0; p < cells; p++) if (s->owner[p] >= 0) s->owner[p] = d->index[s->owner[p]];
+done:
+    return status;
+}
+
+static void paint_slice (drawing *d, pg_screen *s)
+{
+    pg_slice_draw (&d->grid, &d->sheet.eye, s);
+    for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++)
+        if (s->owner[p] >= 0 && !d->keep[s->owner[p]]) s->owner[p] = PG_GHOST;
+}
+
+static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
+{
+    pg_status status = PG_OK;
+    const pg_sheet *p = &d->sheet;
+    const pg_eye *e = &p->eye;
+    const double *u = displaced (d, panel);
+    pg_screen s = { .left = p->low[0],
+                    .top = p->high[1],
+                    .scale = fine * p->width / (p->high[0] - p->low[0]) };
+    PG_TRY (pg_screen_open (&s, (int) p->width * fine, (int) p->height * fine));
+    for (size_t i = 0; i < d->cloud->n; i++) d->keep[i] = (unsigned char) above (d, panel, i);
+    pg_solid solid = { d->cloud, &d->grid, e, u, d->style->magnify, d->keep, d->panel[panel].damage };
+    if (e->kind == PG_SOLID) {
+        pg_solid_draw (&solid, &s);
+        if (d->panel[panel].select) PG_TRY (pg_ghost_draw (&solid, &s));
+    } else if (e->kind == PG_SLICE && !d->grid.loose && !u) paint_slice (d, &s);
+    else if (e->kind == PG_SLICE) PG_TRY (paint_spots (d, panel, &s));
+    else PG_TRY (paint_tiles (d, panel, &s));
+    int box = e->kind == PG_SOLID && !e->framed && d->panel[panel].select;
+    if (box) pg_wire_box (p, cr, panel, &d->grid, 1);
+    PG_TRY (pg_panel_paint (p, cr, panel, &s, value_of (d, panel), fine));
+    if (box) pg_wire_box (p, cr, panel, &d->grid, 0);
+    if (u && d->cloud->dim == 2) pg_wire_faces (p, cr, panel, d->nface, FACE, d->face);
+    else if (d->style->cracks && !u)
+        pg_wire_cracks (p, cr, panel, &d->grid, d->style->cracks, d->panel[panel].select ? NULL : &s);
+    pg_panel_draw (p, cr, panel, d->panel[panel].title);
+done:
+    pg_screen_close (&s);
+    return status;
+}
+
+/* The cut that nobody asked for is named. */
+static const char *name_layer (drawing *d)
+{
+    const char *given = d->style->title ? d->style->title : "";
+    char axis = "xyz"[d->sheet.eye.cut];
+    double at = d->grid.origin[d->sheet.eye.cut] + d->layer * d->grid.step[d->sheet.eye.cut];
+    snprintf (d->title, sizeof d->title, "%.380s%ssection %c = %.4g %s", given, *given ? ", " : "", axis,
+              at / d->sheet.unit + 0.0, pg_sheet_unit (&d->sheet));
+    return d->title;
+}
+
+static pg_status draw_sheet (drawing *d, const char *path)
+{
+    pg_status status = PG_OK;
+    pg_canvas canvas = { 0 };
+    pg_picture_style style = *d->style;
+    double low, high;
+    if (style.by_depth && d->sheet.eye.kind == PG_SOLID) PG_TRY (colour_by_depth (d));
+    if (d->own) style.label = d->label;
+    PG_TRY (choose_colours (d, &low, &high));
+    PG_TRY (choose_note (d, style.label, low, high));
+    if (d->sheet.eye.kind == PG_LAYER && !style.section) style.title = name_layer (d);
+    pg_sheet_fit (&d->sheet, &style, low, high);
+    choose_arrows (d);
+    PG_ALLOC (d->spots.place, 2 * d->cloud->n);
+    PG_ALLOC (d->index, d->cloud->n);
+    PG_TRY (pg_canvas_open (&canvas, path, d->sheet.total[0], d->sheet.total[1]));
+    for (size_t k = 0; k < d->n; k++)
+        PG_TRY (paint_panel (d, canvas.cr, k, canvas.svg || !d->sheet.eye.framed ? 2 : 1));
+    pg_sheet_draw (&d->sheet, canvas.cr, d->cloud, &d->grid, &style);
+done:
+    return canvas.path ? pg_canvas_close (&canvas, status) : status;
+}
+
+/* ---- 1D ------------------------------------------------------------------------------------------------ */
+static int by_place (const void *a, const void *b)
+{
+    double p = *(const double *) a, q = *(const double *) b;
+    return (p > q) - (p < q);
+}
+
+static pg_status draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, const pg_panel *panel,
+                            const pg_picture_style *style)
+{
+    pg_status status = PG_OK;
+    double *pair = NULL, *x = NULL, *y = NULL;
+    pg_curve *curve = NULL;
+    size_t n = cloud->n;
+    PG_ALLOC (pair, 2 * n);
+    PG_ALLOC (x, n * npanel);
+    PG_ALLOC (y, n * npanel);
+    PG_ALLOC (curve, npanel);
+    for (size_t k = 0; k < npanel; k++) {
+        const double *u = panel[k].u;
+        for (size_t i = 0; i < n; i++)
+            pair[2 * i] = cloud->x[i] + (u ? style->magnify * u[i] : 0), pair[2 * i + 1] = panel[k].value[i];
+        qsort (pair, n, 2 * sizeof (double), by_place);
+        for (size_t i = 0; i < n; i++) x[k * n + i] = pair[2*i], y[k * n + i] = pair[2*i + 1];
+        curve[k] = (pg_curve) { panel[k].title, n, x + k * n, y + k * n, n <= 60 };
+    }
+    PG_TRY (pg_picture_chart (path, npanel, curve,
+                              &(pg_chart_style){
+                                  .title = style->title, .xlabel = "x (m)", .ylabel = style->label }));
+done:
+    pg_free (curve);
+    pg_free (y);
+    pg_free (x);
+    pg_free (pair);
+    return status;
+}
+
+pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel,
+                             int columns, const pg_picture_style *style)
+{
+    pg_status status = PG_OK;
+    drawing *d = NULL;
+    if (cloud->n == 0 || n == 0) PG_FAIL (PG_E_USAGE, "%s: no points to draw", path);
+    if (cloud->dim == 1) return draw_bars (path, cloud, n, panel, style);
+    PG_ALLOC (d, 1);
+    d->cloud = cloud, d->style = style, d->n = n, d->panel = panel;
+    d->sheet.panels = n, d->sheet.columns = columns;
+    for (size_t k = 0; k < n; k++) d->sheet.titles |= panel[k].title && panel[k].title[0];
+    PG_TRY (pg_eye_open (&d->sheet.eye, cloud, style));
+    if (cloud->dim == 3) PG_TRY (pg_grid_build (&d->grid, cloud));
+    else PG_TRY (pg_loose_spacing (cloud, &d->spacing));
+    PG_TRY (choose_points (d));
+    PG_TRY (choose_frame (d));
+    PG_TRY (draw_sheet (d, path));
+done:
+    if (d) {
+        pg_grid_clear (&d->grid);
+        pg_free (d->seen), pg_free (d->keep), pg_free (d->own), pg_free (d->index), pg_free (d->spots.place);
+        pg_free (d->spacing), pg_free (d->face);
+    }
+    pg_free (d);
+    return status;
+}
+
+pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value,
+                            const pg_picture_style *style)
+{
+    pg_panel panel = { NULL, value, style->u, style->select, style->damage };
+    return pg_picture_panels (path, cloud, 1, &panel, 1, style);
+}

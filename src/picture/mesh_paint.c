@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Faces of elements on a screen: cut into small triangles along their own coordinates, so that curved edges
+ * look curved and values vary as the shape functions do; then the edges that are in sight. */
+#include "mesh_drawing.h"
+#include <math.h>
+#include <string.h>
+
+enum { FINEST = 8, SPOTS = (FINEST + 1) * (FINEST + 1) };
+
+/* ---- faces --------------------------------------------------------------------------------------------- */
+static int is_triangle (pg_element kind) { return pg_element_types[kind].corners == 3; }
+
+/* How many parts along an edge: straight triangles are one. */
+static int parts_of (const mesh_drawing *d, pg_element kind)
+{
+    int most = d->nface > 20000 ? 2 : d->nface > 4000 ? 4 : FINEST;
+    if (pg_element_types[kind].order == 2) return most;
+    return is_triangle (kind) ? 1 : d->value ? (most + 1) / 2 : 1;
+}
+
+/* Place on the screen and value of place xi of a face. */
+static void spot_of (const mesh_drawing *d, const pg_screen *s, pg_element kind, const int *node,
+                     const double *xi, double *at, double *x, double *value)
+{
+    double N[PG_ELEMENT_NODES];
+    pg_element_shape (kind, xi, N, NULL);
+    memset (x, 0, 3 * sizeof *x);
+    *value = 0;
+    for (int a = 0; a < pg_element_types[kind].nodes; a++) {
+        for (int k = 0; k < 3; k++) x[k] += N[a] * d->x[3 * (size_t) node[a] + (size_t) k];
+        if (d->value) *value += N[a] * d->value[node[a]];
+    }
+    at[0] = (pg_along (d->sheet.eye.right, x, 3) - s->left) * s->scale;
+    at[1] = (s->top - pg_along (d->sheet.eye.up, x, 3)) * s->scale;
+    at[2] = pg_along (d->sheet.eye.toward, x, 3);
+}
+
+/* As pg_light_on, but without its step on the round faces of a side view. */
+static float light_of (const mesh_drawing *d, const double (*x)[3])
+{
+    double a[3], b[3], n[3];
+    if (d->mesh->dim < 3) return 1;
+    for (int k = 0; k < 3; k++) a[k] = x[1][k] - x[0][k], b[k] = x[2][k] - x[0][k];
+    n[0] = a[1] * b[2] - a[2] * b[1], n[1] = a[2] * b[0] - a[0] * b[2], n[2] = a[0] * b[1] - a[1] * b[0];
+    double size = sqrt (pg_along (n, n, 3)), toward = pg_along (d->sheet.eye.toward, n, 3);
+    for (int k = 0; k < 3; k++) n[k] *= size > 0 ? (toward < 0 ? -1 : 1) / size : 0;
+    return d->sheet.eye.framed ? (float) (0.7 + 0.3 * pg_along (d->sheet.eye.toward, n, 3))
+                               : pg_light_on (&d->sheet.eye, n);
+}
+
+static void paint_face (const mesh_drawing *d, pg_screen *s, size_t f)
+{
+    int node[9], row = 0;
+    pg_element kind = pg_drawn_face (d, d->element[f], d->side[f], node);
+    int triangle = is_triangle (kind), m = parts_of (d, kind), stride = m + 1;
+    double at[SPOTS][3], x[SPOTS][3], value[SPOTS];
+    for (int j = 0; j <= m; j++)
+        for (int i = 0; i <= (triangle ? m - j : m); i++) {
+            double xi[2] = { (double) i / m, (double) j / m };
+            if (!triangle) xi[0] = 2 * xi[0] - 1, xi[1] = 2 * xi[1] - 1;
+            spot_of (d, s, kind, node, xi, at[j * stride + i], x[j * stride + i], &value[j * stride + i]);
+            if (d->own) value[j * stride + i] = d->own[f];
+        }
+    for (row = 0; row < m; row++)
+        for (int i = 0; i < (triangle ? m - row : m); i++)
+            for (int half = 0; half < (triangle && i == m - row - 1 ? 1 : 2); half++) {
+                int a = row * stride + i,
+                    corner[3] = { half ? a + 1 : a, half ? a + 1 + stride : a + 1, a + stride };
+                double v[3][3], y[3][3], w[3];
+                for (int k = 0; k < 3; k++) {
+                    memcpy (v[k], at[corner[k]], sizeof v[k]), memcpy (y[k], x[corner[k]], sizeof y[k]);
+                    w[k] = value[corner[k]];
+                }
+                if (isfinite (v[0][0] + v[0][1] + v[1][0] + v[1][1] + v[2][0] + v[2][1]))
+                    pg_triangle (s, (const double (*)[3]) v, 0, light_of (d, (const double (*)[3]) y), w);
+            }
+}
+
+/* Owner of a pixel: the pixel itself, whose value it is. */
+pg_status pg_mesh_drawing_paint (mesh_drawing *d, pg_screen *s)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (s->value, (size_t) s->width * (size_t) s->height);
+    for (size_t f = 0; f < d->nface; f++) paint_face (d, s, f);
+    for (int p = 0; p < s->width * s->height; p++) if (s->owner[p] >= 0) s->owner[p] = p;
+    if (d->mesh->dim < 3) goto done;
+    double size = fmax (d->sheet.high[0] - d->sheet.low[0], d->sheet.high[1] - d->sheet.low[1]);
+    for (int j = 0; j < s->height; j++)
+        for (int i = 0; i < s->width; i++) {
+            int *owner = &s->owner[j * s->width + i];
+            if (*owner >= 0 && pg_on_outline (s, i, j, 0.03 * size)) *owner = PG_EDGE;
+        }
+done:
+    return status;
+}
+
+/* ---- lines --------------------------------------------------------------------------------------------- */
+/* Is a place in front of, or in, what the screen shows around it? */
+static int in_sight (const pg_screen *s, const double *at, double slack)
+{
+    for (int k = 0; k < 9; k++) {
+        double i = floor (at[0]) + k % 3 - 1, j = floor (at[1]) + k / 3 - 1;
+        if (!(i >= 0 && i < s->width && j >= 0 && j < s->height)) return 1;
+        if (s->depth[(size_t) j * (size_t) s->width + (size_t) i] <= at[2] + slack) return 1;
+    }
+    return 0;
+}
+
+/* Side `e` of a face, from corner to corner, what of it is in sight. */
+static void path_of_side (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, pg_element kind,
+                          const int *node, int e)
+{
+    static const double tri[3][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 } },
+                        quad[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
+    int corners = pg_element_types[kind].corners, solid = d->mesh->dim == 3,
+        m = pg_element_types[kind].order == 2 ? FINEST : 1, pen = 0;
+    const double *from = corners == 3 ? tri[e] : quad[e],
+                 *to = corners == 3 ? tri[(e + 1) % 3] : quad[(e + 1) % 4];
+    double size = fmax (d->sheet.high[0] - d->sheet.low[0], d->sheet.high[1] - d->sheet.low[1]);
+    if (solid) m = d->nface > 2000 ? 4 : 16;
+    for (int k = 0; k <= m; k++) {
+        double t = (double) k / m,
+               xi[2] = { from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]) }, at[3], x[3],
+               value;
+        spot_of (d, s, kind, node, xi, at, x, &value);
+        int seen = !solid || in_sight (s, at, 0.004 * size);
+        if (seen && pen) cairo_line_to (cr, at[0], at[1]);
+        else if (seen) cairo_move_to (cr, at[0], at[1]);
+        pen = seen;
+    }
+}
+
+static void path_of_rim (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, int element, int side)
+{
+    int node[9];
+    pg_element kind = pg_drawn_face (d, element, -1, node);
+    path_of_side (d, cr, s, kind, node, side);
+}
+
+static void draw_edges (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, double pixel)
+{
+    int edges = d->style->edges, node[9];
+    if (edges < 0 || (edges == 0 && d->nface >= 5000)) return;
+    for (size_t f = 0; f < d->nface; f++) {
+        pg_element kind = pg_drawn_face (d, d->element[f], d->side[f], node);
+        for (int e = 0; e < pg_element_types[kind].corners; e++) path_of_side (d, cr, s, kind, node, e);
+    }
+    cairo_set_source_rgba (cr, 0.1, 0.1, 0.1, 0.75);
+    cairo_set_line_width (cr, (d->nface < 1000 ? 1.2 : 0.7) * pixel);
+    cairo_stroke (cr);
+}
+
+/* Sets of 2D as broad lines on the rim; sets of nodes as dots. */
+static void draw_sets (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, double pixel)
+{
+    const pg_mesh *m = d->mesh;
+    double rgb[3], size = fmax (d->sheet.high[0] - d->sheet.low[0], d->sheet.high[1] - d->sheet.low[1]);
+    int k = 1;
+    for (size_t t = 0; t < m->nsides && k <= d->categories; t++, k++) {
+        if (m->dim == 3) continue;
+        for (size_t i = 0; i < m->sides[t].n; i++)
+            path_of_rim (d, cr, s, m->sides[t].element[i], m->sides[t].side[i]);
+        d->sheet.colour ((double) k / PG_CATEGORIES, rgb);
+        cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
+        cairo_set_line_width (cr, 7 * pixel);
+        cairo_stroke (cr);
+    }
+    for (size_t t = 0; t < m->nnodes && k <= d->categories; t++) {
+        if (strcmp (d->name[k], m->nodes[t].name) != 0) continue;
+        d->sheet.colour ((double) k++ / PG_CATEGORIES, rgb);
+        cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
+        for (size_t i = 0; i < m->nodes[t].n; i++) {
+            const double *x = d->x + 3 * (size_t) m->nodes[t].node[i];
+            double at[3] = { (pg_along (d->sheet.eye.right, x, 3) - s->left) * s->scale,
+                             (s->top - pg_along (d->sheet.eye.up, x, 3)) * s->scale,
+                             pg_along (d->sheet.eye.toward, x, 3) };
+            if (m->dim == 3 && !in_sight (s, at, 0.004 * size)) continue;
+            cairo_new_sub_path (cr);
+            cairo_arc (cr, at[0], at[1], 5 * pixel, 0, 6.283185307179586);
+            cairo_fill (cr);
+        }
+    }
+}
+
+void pg_mesh_drawing_lines (const mesh_drawing *d, cairo_t *cr, const pg_screen *s)
+{
+    const pg_sheet *p = &d->sheet;
+    double pixel = s->width / p->width;
+    cairo_save (cr);
+    cairo_rectangle (cr, p->left, p->top, p->width, p->height);
+    cairo_clip (cr);
+    cairo_translate (cr, p->left, p->top);
+    cairo_scale (cr, 1 / pixel, 1 / pixel);
+    cairo_set_line_cap (cr, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_join (cr, CAIRO_LINE_JOIN_ROUND);
+    draw_edges (d, cr, s, pixel);
+    for (size_t i = 0; i < d->nrim; i++) path_of_rim (d, cr, s, d->rim_element[i], d->rim_side[i]);
+    cairo_set_source_rgb (cr, 0, 0, 0);
+    cairo_set_line_width (cr, 2.2 * pixel);
+    cairo_stroke (cr);
+    if (d->style->sets) draw_sets (d, cr, s, pixel);
+    cairo_restore (cr);
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The range of values of a picture: all finite ones, or without the few that lie far from the rest. */
+#include "picture_private.h"
+#include <math.h>
+#include <stdlib.h>
+
+static int ascending (const void *a, const void *b)
+{
+    double p = *(const double *) a, q = *(const double *) b;
+    return (p > q) - (p < q);
+}
+
+pg_status pg_picture_range (size_t n, const double *value, double excess, double *low, double *high,
+                            int *found)
+{
+    pg_status status = PG_OK;
+    double *sorted = NULL;
+    size_t m = 0;
+    *found = pg_range_of (n, value, 0, low, high);
+    if (!*found || !(excess > 0)) goto done;
+    PG_ALLOC (sorted, n);
+    for (size_t i = 0; i < n; i++) if (isfinite (value[i])) sorted[m++] = value[i];
+    qsort (sorted, m, sizeof *sorted, ascending);
+    size_t cut = m / 100 ? m / 100 : m >= 50;
+    double from = sorted[cut], to = sorted[m - 1 - cut];
+    if (to > from && *high - *low > excess * (to - from)) *low = from, *high = to;
+done:
+    pg_free (sorted);
+    return status;
+}

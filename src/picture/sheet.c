@@ -1,0 +1,318 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The sheet of a picture: one frame or several of equal scales in rows, axes with the length unit, a common
+ * colour bar, title. */
+#include "picture_private.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    WIDE = 1120,
+    BROAD = 900,
+    TALL = 1000,
+    SHARED = 1440,
+    LEAST_FRAME = 340,
+    BAR = 30,
+    BAR_GAP = 34,
+    LEAST = 640,
+    STRIP = 128,
+    TITLE = 74,
+    PANEL_TITLE = 48,
+    GAP = 34,
+    SIDE = 24,
+    NOTE = 36
+};
+
+const char *pg_sheet_unit (const pg_sheet *p)
+{
+    return p->bare           ? ""
+           : p->unit > 1     ? "km"
+           : p->unit == 1    ? "m"
+           : p->unit == 1e-3 ? "mm"
+           : p->unit == 1e-6 ? "\xc2\xb5m"
+                             : "nm";
+}
+
+static double most_of (double share, int parts)
+{
+    return fmax (LEAST_FRAME, share / parts);
+}
+
+/* Size of one frame; one wider than the body keeps the scale. */
+static void size_frame (pg_sheet *p)
+{
+    double w = p->high[0] - p->low[0], h = p->high[1] - p->low[1];
+    int n = (int) p->panels;
+    if (p->columns < 1) p->columns = n < 2 || (w > 2.2 * h && n < 6) ? 1 : n < 5 ? 2 : n < 10 ? 3 : 4;
+    if (p->columns > n) p->columns = n;
+    p->rows = (n + p->columns - 1) / p->columns;
+    p->flat = n == 1 && w > 2.2 * h && p->eye.framed && !p->nlegend;
+    double broad = p->columns > 1 ? most_of (SHARED, p->columns) : w > 2.2 * h ? WIDE : BROAD;
+    double scale = fmin (broad / w, (p->rows > 1 ? most_of (SHARED, p->rows) : TALL) / h);
+    p->width = ceil (fmax (w * scale, 0.15 * broad)), p->height = ceil (fmax (h * scale, 60));
+    for (int a = 0; a < 2; a++) {
+        double extra = 0.5 * ((a ? p->height : p->width) / scale - (a ? h : w));
+        p->low[a] -= extra, p->high[a] += extra;
+    }
+}
+
+static void fit_axis (const pg_sheet *p, pg_axis *axis, cairo_t *cr, int a)
+{
+    char text[32];
+    int k = p->eye.axis[a], reverse = k >= 0 && p->eye.sign[a] < 0;
+    snprintf (text, sizeof text, p->bare ? "%c" : "%c (%s)", k < 0 ? (a ? 't' : 's') : "xyz"[k],
+              pg_sheet_unit (p));
+    double low = (reverse ? -p->high[a] : p->low[a]) / p->unit,
+           high = (reverse ? -p->low[a] : p->high[a]) / p->unit;
+    pg_axis_request request = { text, a ? PG_LEFT : PG_BOTTOM, 0, 0, 1 };
+    pg_axis_fit (axis, cr, low, high, a ? p->height : p->width, &request);
+    axis->reverse = reverse;
+}
+
+/* Pixels beside the bar, or of the names of the legend. */
+static double width_beside_bar (const pg_sheet *p, cairo_t *cr)
+{
+    double w = 0;
+    for (size_t k = 0; k < p->nlegend; k++) w = fmax (w, pg_text (cr, p->legend[k], PG_FONT, 0, 0, 0, 0, 0));
+    return p->nlegend ? ceil (w) + 24 : pg_axis_margin (&p->bar, cr);
+}
+
+static void place_parts (pg_sheet *p, cairo_t *cr, const pg_picture_style *style)
+{
+    double bar = width_beside_bar (p, cr);
+    double beside = p->eye.framed ? ceil (pg_axis_margin (&p->y, cr)) + 6 : SIDE;
+    double below = p->eye.framed ? pg_axis_margin (&p->x, cr) : STRIP, above = p->titles ? PANEL_TITLE : 0;
+    p->left = beside, p->top = (style->title && style->title[0] ? TITLE : SIDE) + above;
+    p->pitch[0] = p->width + GAP, p->pitch[1] = p->height + GAP + above;
+    double w = p->width + (p->columns - 1) * p->pitch[0], h = p->height + (p->rows - 1) * p->pitch[1];
+    p->total[0] = p->left + w + (p->flat ? 46 : BAR_GAP + BAR + bar + 4);
+    p->total[1] = ceil (p->top + h + below + (p->flat ? 14 + BAR + bar : 0) + 6);
+    if (p->note[0]) p->total[1] += NOTE;
+    if (p->total[0] < LEAST) p->left += floor (0.5 * (LEAST - p->total[0])), p->total[0] = LEAST;
+    p->total[0] = ceil (p->total[0]);
+    p->bar_at[0] = p->flat ? p->left : p->left + w + BAR_GAP, p->bar_at[2] = p->flat ? w : BAR;
+    p->bar_at[1] = p->flat ? p->top + h + ceil (below) + 14 : p->top, p->bar_at[3] = p->flat ? BAR : h;
+}
+
+void pg_sheet_fit (pg_sheet *p, const pg_picture_style *style, double low, double high)
+{
+    cairo_surface_t *scratch = cairo_image_surface_create (CAIRO_FORMAT_A8, 1, 1);  /* to measure texts on */
+    cairo_t *cr = cairo_create (scratch);
+    size_frame (p);
+    fit_axis (p, &p->x, cr, 0);
+    fit_axis (p, &p->y, cr, 1);
+    const char *label = style->label ? style->label : "";
+    pg_axis_request request = { label, p->flat ? PG_BOTTOM : PG_RIGHT, style->log, 0, 0 };
+    double h = p->height + (p->rows - 1) * (p->height + GAP + (p->titles ? PANEL_TITLE : 0));
+    pg_axis_fit (&p->bar, cr, low, high, p->flat ? p->width : h, &request);
+    if (p->nlegend) p->bar.low = 0, p->bar.high = PG_CATEGORIES, p->bar.log = 0;
+    place_parts (p, cr, style);
+    cairo_destroy (cr);
+    cairo_surface_destroy (scratch);
+}
+
+static void corner_of (const pg_sheet *p, size_t panel, double *x, double *y)
+{
+    *x = p->left + (double) (panel % (size_t) p->columns) * p->pitch[0];
+    *y = p->top + (double) (panel / (size_t) p->columns) * p->pitch[1];
+}
+
+void pg_sheet_to (const pg_sheet *p, size_t panel, double a, double b, double *px, double *py)
+{
+    double x, y;
+    corner_of (p, panel, &x, &y);
+    *px = x + (a - p->low[0]) / (p->high[0] - p->low[0]) * p->width;
+    *py = y + (p->high[1] - b) / (p->high[1] - p->low[1]) * p->height;
+}
+
+static void draw_frame (cairo_t *cr, double x, double y, double w, double h)
+{
+    cairo_set_source_rgb (cr, 0, 0, 0);
+    cairo_set_line_width (cr, 2);
+    cairo_rectangle (cr, floor (x) + 0.5, floor (y) + 0.5, floor (w), floor (h));
+    cairo_stroke (cr);
+}
+
+/* The end of a bar beyond which there are values, in the colour they have. */
+static void draw_arrow (const pg_sheet *p, cairo_t *cr, int high)
+{
+    double x = p->bar_at[0], y = p->bar_at[1], w = p->bar_at[2], h = p->bar_at[3], rgb[3], size = 0.6 * BAR;
+    p->colour (high, rgb);
+    if (p->flat) {
+        double end = high ? x + w : x;
+        cairo_move_to (cr, end, y);
+        cairo_line_to (cr, end + (high ? size : -size), y + 0.5 * h);
+        cairo_line_to (cr, end, y + h);
+    } else {
+        double end = high ? y : y + h;
+        cairo_move_to (cr, x, end);
+        cairo_line_to (cr, x + 0.5 * w, end + (high ? -size : size));
+        cairo_line_to (cr, x + w, end);
+    }
+    cairo_close_path (cr);
+    cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
+    cairo_fill_preserve (cr);
+    cairo_set_source_rgb (cr, 0, 0, 0);
+    cairo_set_line_width (cr, 2);
+    cairo_stroke (cr);
+}
+
+static void draw_bar (const pg_sheet *p, cairo_t *cr)
+{
+    double x = p->bar_at[0], y = p->bar_at[1], w = p->bar_at[2], h = p->bar_at[3], rgb[3];
+    cairo_pattern_t *shade = cairo_pattern_create_linear (x, y + (p->flat ? 0 : h), x + (p->flat ? w : 0), y);
+    for (int k = 0; k <= 64; k++) {
+        p->colour (k / 64.0, rgb);
+        cairo_pattern_add_color_stop_rgb (shade, k / 64.0, rgb[0], rgb[1], rgb[2]);
+    }
+    cairo_rectangle (cr, x, y, w, h);
+    cairo_set_source (cr, shade);
+    cairo_fill (cr);
+    cairo_pattern_destroy (shade);
+    draw_frame (cr, x, y, w, h);
+    for (int side = 0; side < 2; side++) if (p->beyond[side]) draw_arrow (p, cr, side);
+    pg_axis_draw (&p->bar, cr, x, y, w, h);
+}
+
+static void draw_legend (const pg_sheet *p, cairo_t *cr)
+{
+    double x = p->bar_at[0], y = p->bar_at[1], rgb[3];
+    for (size_t k = 0; k < p->nlegend; k++, y += 1.6 * PG_FONT) {
+        p->colour ((double) k / PG_CATEGORIES, rgb);
+        cairo_rectangle (cr, x + 0.5, floor (y) + 0.5, BAR, 0.9 * PG_FONT);
+        cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
+        cairo_fill_preserve (cr);
+        cairo_set_source_rgb (cr, 0.25, 0.25, 0.25);
+        cairo_set_line_width (cr, 1.5);
+        cairo_stroke (cr);
+        cairo_set_source_rgb (cr, 0, 0, 0);
+        pg_text (cr, p->legend[k], PG_FONT, x + BAR + 12, y + 0.45 * PG_FONT, 0, 0, 1);
+    }
+}
+
+/* Below a picture without axes: the triad and the size of the body. */
+static void draw_strip (const pg_sheet *p, cairo_t *cr, const pg_grid *g)
+{
+    char text[160];
+    double room = p->total[0] - 2 * SIDE - 130, size = PG_FONT,
+           y = p->total[1] - 0.5 * STRIP - 4 - (p->note[0] ? NOTE : 0);
+    snprintf (text, sizeof text, "%.4g \xc3\x97 %.4g \xc3\x97 %.4g %s%s(x \xc3\x97 y \xc3\x97 z)",
+              (g->high[0] - g->low[0]) / p->unit, (g->high[1] - g->low[1]) / p->unit,
+              (g->high[2] - g->low[2]) / p->unit, pg_sheet_unit (p), p->bare ? "" : " ");
+    double w = pg_text (cr, text, size, 0, 0, 0, 0, 0);
+    if (w > room) size *= room / w;
+    pg_wire_triad (p, cr, SIDE + 52, y + 10, 42);
+    cairo_set_source_rgb (cr, 0, 0, 0);
+    pg_text (cr, text, size, SIDE + 130, y, 0, 0, 1);
+}
+
+static void draw_note (const pg_sheet *p, cairo_t *cr)
+{
+    double size = 0.8 * PG_FONT, room = p->total[0] - 2 * SIDE,
+           w = pg_text (cr, p->note, size, 0, 0, 0, 0, 0);
+    if (w > room) size *= room / w;
+    cairo_set_source_rgb (cr, 0.25, 0.25, 0.25);
+    pg_text (cr, p->note, size, 0.5 * p->total[0], p->total[1] - 0.5 * NOTE - 4, 0.5, 0, 1);
+}
+
+void pg_sheet_leave_out (pg_sheet *p, const char *label, size_t n, const double *value, double low,
+                         double high)
+{
+    double least = INFINITY, most = -INFINITY, slack = 1e-9 * (high - low), all = 0, in = 0;
+    char unit[32] = "", end[2][48];
+    const char *open = label ? strrchr (label, '(') : NULL;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite (value[i])) continue;
+        least = fmin (least, value[i]), most = fmax (most, value[i]);
+        all++, in += value[i] >= low - slack && value[i] <= high + slack;
+    }
+    p->note[0] = 0;
+    if (!(in < all)) return;
+    if (open) snprintf (unit, sizeof unit, "%.*s", (int) strcspn (open + 1, ")"), open + 1);
+    for (int k = 0; k < 2; k++) {
+        if (*unit && strchr ("NmPJ", *unit))
+            pg_picture_quantity (k ? most : least, unit, end[k], sizeof end[k]);
+        else snprintf (end[k], sizeof end[k], "%.4g%s%s", k ? most : least, *unit ? " " : "", unit);
+    }
+    snprintf (p->note, sizeof p->note, "colours end at %.3g %% of the points; values from %s to %s",
+              floor (1000 * in / all) / 10, end[0], end[1]);
+}
+
+void pg_sheet_draw (const pg_sheet *p, cairo_t *cr, const pg_cloud *cloud, const pg_grid *grid,
+                    const pg_picture_style *style)
+{
+    double w = p->width + (p->columns - 1) * p->pitch[0];
+    if (p->nlegend) draw_legend (p, cr);
+    else draw_bar (p, cr);
+    if (!p->eye.framed && cloud->dim == 3) draw_strip (p, cr, grid);
+    if (p->note[0]) draw_note (p, cr);
+    cairo_set_source_rgb (cr, 0, 0, 0);
+    if (style->title)
+        pg_title (cr, style->title, p->left + 0.5 * w, p->top - (p->titles ? PANEL_TITLE : 0) - 36,
+                  p->total[0]);
+}
+
+/* Frame and title of a panel; axes along the left and the lower rim of the sheet only. */
+void pg_panel_draw (const pg_sheet *p, cairo_t *cr, size_t panel, const char *title)
+{
+    double x, y, size = PG_FONT;
+    corner_of (p, panel, &x, &y);
+    if (p->eye.framed) draw_frame (cr, x, y, p->width, p->height);
+    if (p->eye.framed && panel + (size_t) p->columns >= p->panels)
+        pg_axis_draw (&p->x, cr, x, y, p->width, p->height);
+    if (p->eye.framed && panel % (size_t) p->columns == 0)
+        pg_axis_draw (&p->y, cr, x, y, p->width, p->height);
+    if (!p->titles || !title) return;
+    double w = pg_text (cr, title, size, 0, 0, 0, 0, 0);
+    if (w > p->pitch[0]) size *= p->pitch[0] / w;
+    cairo_set_source_rgb (cr, 0, 0, 0);
+    pg_text (cr, title, size, x + 0.5 * p->width, y - 0.5 * PANEL_TITLE, 0.5, 0, 1);
+}
+
+/* The colour of a pixel: of its point's value, NaN grey, the body behind a choice of points almost white. */
+static uint32_t pixel_of (const pg_sheet *p, const pg_screen *s, size_t at, const double *value)
+{
+    int k = s->owner[at];
+    double rgb[3] = { 0.62, 0.62, 0.62 }, shade = s->shade[at];
+    if (k == PG_EMPTY) return 0;
+    if (k == PG_GHOST) for (int c = 0; c < 3; c++) rgb[c] = 0.96, shade = 0.55 + 0.45 * s->shade[at];
+    else if (k == PG_EDGE) for (int c = 0; c < 3; c++) rgb[c] = 0.50, shade = 1;
+    else {
+        double t = pg_axis_at (&p->bar, p->bar.log ? fmax (fabs (value[k]), p->bar.low) : value[k]);
+        if (isfinite (value[k]) && isfinite (t))
+            p->colour (lround (1023 * fmin (fmax (t, 0), 1)) / 1023.0, rgb);
+    }
+    uint32_t pixel = 0xff000000u;
+    for (int c = 0; c < 3; c++) pixel |= (uint32_t) lround (255 * shade * rgb[c]) << (16 - 8 * c);
+    return pixel;
+}
+
+pg_status pg_panel_paint (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_screen *s,
+                          const double *value, int fine)
+{
+    pg_status status = PG_OK;
+    double x, y;
+    corner_of (p, panel, &x, &y);
+    cairo_surface_t *image = cairo_image_surface_create (CAIRO_FORMAT_ARGB32, s->width, s->height);
+    if (cairo_surface_status (image) != CAIRO_STATUS_SUCCESS)
+        PG_FAIL (PG_E_MEMORY, "no memory for %d x %d pixels", s->width, s->height);
+    unsigned char *bytes = cairo_image_surface_get_data (image);
+    for (int j = 0; j < s->height; j++)
+        for (int i = 0; i < s->width; i++) {
+            uint32_t pixel = pixel_of (p, s, (size_t) j * (size_t) s->width + (size_t) i, value);
+            memcpy (bytes + (size_t) j * (size_t) cairo_image_surface_get_stride (image) + 4 * (size_t) i,
+                    &pixel, 4);
+        }
+    cairo_surface_mark_dirty (image);
+    cairo_save (cr);
+    cairo_translate (cr, x, y);
+    cairo_scale (cr, 1.0 / fine, 1.0 / fine);
+    cairo_set_source_surface (cr, image, 0, 0);
+    cairo_pattern_set_filter (cairo_get_source (cr),
+                              p->eye.framed ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
+    cairo_paint (cr);
+    cairo_restore (cr);
+done:
+    cairo_surface_destroy (image);
+    return status;
+}

@@ -1,0 +1,401 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The body at rest on the pixels of its plane: where it is, by its outline or by its points alone, and whose
+ * pixel each is: of the nearest point that no pre-crack parts from it. */
+#include "tiles.h"
+#include <math.h>
+#include <string.h>
+
+void pg_tiles_space (const pg_tiles *t, double a, double b, double *x)
+{
+    for (int k = 0; k < 3; k++)
+        x[k] = t->dim == 2 ? (k == 0   ? a
+                              : k == 1 ? b
+                                       : 0)
+                           : a * t->eye->right[k] + b * t->eye->up[k] + t->at * t->eye->toward[k];
+}
+
+/* ---- points in buckets --------------------------------------------------------------------------------- */
+static long bucket_of (const pg_tiles *t, int axis, double place)
+{
+    double k = floor ((place - t->low[axis]) / t->pitch);
+    return k < 0 ? 0 : k >= t->buckets[axis] ? t->buckets[axis] - 1 : (long) k;
+}
+
+static pg_status sort_points (pg_tiles *t)
+{
+    pg_status status = PG_OK;
+    t->pitch = fmax (1.6 * t->widest, 1e-300);
+    for (int a = 0; a < 2; a++) {
+        double high = t->low[a] = t->place[a];
+        for (size_t k = 0; k < t->n; k++)
+            t->low[a] = fmin (t->low[a], t->place[2 * k + (size_t) a]),
+            high = fmax (high, t->place[2 * k + (size_t) a]);
+        t->buckets[a] = (long) fmin ((high - t->low[a]) / t->pitch + 1, 4096);
+    }
+    size_t all = (size_t) (t->buckets[0] * t->buckets[1]);
+    PG_ALLOC (t->first, all + 1);
+    PG_ALLOC (t->sorted, t->n);
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t k = 0; k < t->n; k++) {
+            size_t b = (size_t) (bucket_of (t, 1, t->place[2 * k + 1]) * t->buckets[0]
+                                 + bucket_of (t, 0, t->place[2 * k]));
+            if (pass) t->sorted[--t->first[b + 1]] = (int) k;
+            else t->first[b + 1]++;
+        }
+        for (size_t b = 0; !pass && b < all; b++) t->first[b + 1] += t->first[b];
+        for (size_t b = 0; pass && b < all; b++) t->first[b] = t->first[b + 1];
+        if (pass) t->first[all] = t->n;
+    }
+done:
+    return status;
+}
+
+size_t pg_tiles_near (const pg_tiles *t, const double *at, double reach, size_t most, int *out)
+{
+    size_t n = 0;
+    long from[2], to[2];
+    for (int a = 0; a < 2; a++)
+        from[a] = bucket_of (t, a, at[a] - reach), to[a] = bucket_of (t, a, at[a] + reach);
+    for (long j = from[1]; j <= to[1]; j++)
+        for (long i = from[0]; i <= to[0]; i++)
+            for (size_t s = t->first[j * t->buckets[0] + i]; s < t->first[j * t->buckets[0] + i + 1]; s++) {
+                const double *p = t->place + 2 * (size_t) t->sorted[s];
+                double dx = p[0] - at[0], dy = p[1] - at[1];
+                if (dx * dx + dy * dy <= reach * reach && n < most) out[n++] = t->sorted[s];
+            }
+    return n;
+}
+
+/* ---- spacing ------------------------------------------------------------------------------------------- */
+/* Each spacing the mean of those around it. */
+static pg_status smooth_spacing (pg_tiles *t)
+{
+    pg_status status = PG_OK;
+    enum { MOST = 64 };
+    int near[MOST];
+    double *mean = NULL;
+    PG_ALLOC (mean, t->n);
+    for (size_t k = 0; k < t->n; k++) {
+        size_t m = pg_tiles_near (t, t->place + 2 * k, 2 * t->spacing[k], MOST, near);
+        for (size_t i = 0; i < m; i++) mean[k] += t->spacing[near[i]] / (double) m;
+    }
+    t->widest = 0;
+    for (size_t k = 0; k < t->n; k++) t->spacing[k] = mean[k], t->widest = fmax (t->widest, mean[k]);
+done:
+    pg_free (mean);
+    return status;
+}
+
+/* Local spacings: given, or, of points of no lattice, the distance of the third nearest neighbour; of a
+ * lattice its step. */
+static pg_status measure_spacing (pg_tiles *t)
+{
+    pg_status status = PG_OK;
+    int *near = NULL;
+    enum { MOST = 512 };
+    PG_ALLOC (near, MOST);
+    PG_ALLOC (t->spacing, t->n);
+    for (size_t k = 0; k < t->n; k++) t->spacing[k] = t->size ? t->size[k] : fmax (t->step[0], t->step[1]);
+    for (size_t k = 0; k < t->n; k++) t->widest = fmax (t->widest, t->spacing[k]);
+    PG_TRY (sort_points (t));
+    if (!t->loose || t->size) goto done;
+    for (size_t k = 0; k < t->n; k++) {
+        double third[3] = { INFINITY, INFINITY, INFINITY }, reach = t->spacing[k];
+        for (int more = 0; more < 6 && !isfinite (third[2]); more++, reach *= 2) {
+            size_t m = pg_tiles_near (t, t->place + 2 * k, reach, MOST, near);
+            third[0] = third[1] = third[2] = INFINITY;
+            for (size_t i = 0; i < m; i++) {
+                double d = hypot (t->place[2 * (size_t) near[i]] - t->place[2 * k],
+                                  t->place[2 * (size_t) near[i] + 1] - t->place[2 * k + 1]);
+                if (!(d > 0) || d >= third[2]) continue;
+                third[2] = d;
+                for (int s = 1; s >= 0 && third[s] > third[s + 1]; s--)
+                    d = third[s], third[s] = third[s + 1], third[s + 1] = d;
+            }
+        }
+        if (isfinite (third[2])) t->spacing[k] = third[2];
+    }
+    PG_TRY (smooth_spacing (t));
+    pg_free (t->first), pg_free (t->sorted), t->first = NULL, t->sorted = NULL;
+    PG_TRY (sort_points (t));
+done:
+    pg_free (near);
+    return status;
+}
+
+enum { NEAR_CRACK = 1, ON_CRACK };
+
+/* ---- cracks -------------------------------------------------------------------------------------------- */
+int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
+{
+    double x[3], y[3];
+    pg_tiles_space (t, a[0], a[1], x), pg_tiles_space (t, b[0], b[1], y);
+    return t->cracks && pg_cracks_cut (t->cracks, t->dim, x, y, 0);
+}
+
+static int on_crack (const pg_tiles *t, size_t k)
+{
+    double x[3];
+    pg_tiles_space (t, t->place[2*k], t->place[2*k + 1], x);
+    return pg_cracks_touch (t->cracks, t->dim, x, 1e-9 * t->spacing[k]) != NULL;
+}
+
+/* Points with a pre-crack within two spacings. */
+static pg_status find_cracked (pg_tiles *t)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (t->cracked, t->n);
+    for (size_t k = 0; t->cracks && t->cracks->n && k < t->n; k++) {
+        for (int s = 0; s < 16 && !t->cracked[k]; s++) {
+            double r = 2.1 * t->spacing[k], end[2] = { t->place[2 * k] + r * cos (0.39269908 * s + 0.1),
+                                                       t->place[2 * k + 1] + r * sin (0.39269908 * s + 0.1) };
+            t->cracked[k] = (unsigned char) pg_tiles_cut (t, t->place + 2 * k, end);
+        }
+        if (t->cracked[k] && on_crack (t, k)) t->cracked[k] = ON_CRACK;
+    }
+done:
+    return status;
+}
+
+pg_status pg_tiles_open (pg_tiles *t)
+{
+    pg_status status = PG_OK;
+    PG_TRY (measure_spacing (t));
+    PG_TRY (find_cracked (t));
+done:
+    return status;
+}
+
+void pg_tiles_close (pg_tiles *t)
+{
+    pg_free (t->spacing), pg_free (t->first), pg_free (t->sorted), pg_free (t->cracked),
+        pg_free (t->gradient);
+    t->spacing = t->gradient = NULL, t->first = NULL, t->sorted = NULL, t->cracked = NULL;
+}
+
+/* ---- the outline --------------------------------------------------------------------------------------- */
+static int in_lattice (const pg_lattice *l, const double *x)
+{
+    size_t at = 0, stride = 1;
+    for (int k = 0; k < l->dim; k++) {
+        double t = (x[k] - l->origin[k]) / l->step[k],
+               i = t >= l->count[k] && t < l->count[k] + 1e-6 ? l->count[k] - 1 : floor (t + 1e-9);
+        if (!(i >= 0 && i < l->count[k])) return 0;
+        at += stride * (size_t) i, stride *= (size_t) l->count[k];
+    }
+    return l->in[at];
+}
+
+static void fill_element (const pg_mesh *m, size_t e, pg_screen *s)
+{
+    static const unsigned char round[3][9] = { { 0, 3, 1, 4, 2, 5 },
+                                               { 0, 4, 1, 5, 2, 6, 3, 7 },
+                                               { 0, 1, 2, 3 } };
+    const pg_element_type *type = &pg_element_types[m->kind[e]];
+    const unsigned char *order = round[type->order == 2 ? type->corners == 4 : 2];
+    int last = (type->order == 2 ? 2 * type->corners : type->corners) - 1;
+    double v[3][3] = { { 0 } };
+    for (int k = 1; k < last; k++) {
+        const int corner[3] = { order[0], order[k], order[k + 1] };
+        for (int i = 0; i < 3; i++) {
+            const double *x = m->x + 3 * (size_t) m->node[m->start[e] + (size_t) corner[i]];
+            v[i][0] = (x[0] - s->left) * s->scale, v[i][1] = (s->top - x[1]) * s->scale;
+        }
+        pg_triangle (s, (const double (*)[3]) v, 0, 1, NULL);
+    }
+}
+
+int pg_tiles_inside (const pg_tiles *t, const double *at)
+{
+    const pg_outline *o = t->outline;
+    double x[3];
+    if (!o || o->mesh) return 1;
+    pg_tiles_space (t, at[0], at[1], x);
+    return o->lattice && o->lattice->dim ? in_lattice (o->lattice, x)
+                                         : pg_body_inside (o->body, x, 1e-6 * t->widest);
+}
+
+/* 1 where the body is. */
+static pg_status mask_of (const pg_tiles *t, const pg_screen *s, unsigned char *mask)
+{
+    pg_status status = PG_OK;
+    const pg_outline *o = t->outline;
+    pg_screen m = { .left = s->left, .top = s->top, .scale = s->scale };
+    if (o->mesh) {
+        PG_TRY (pg_screen_open (&m, s->width, s->height));
+        for (size_t e = 0; e < o->mesh->n; e++) fill_element (o->mesh, e, &m);
+    }
+    for (int j = 0; j < s->height; j++)
+        for (int i = 0; i < s->width; i++) {
+            size_t p = (size_t) j * (size_t) s->width + (size_t) i;
+            double at[2] = { s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale };
+            mask[p] = o->mesh ? m.owner[p] >= 0 : pg_tiles_inside (t, at);
+        }
+done:
+    pg_screen_close (&m);
+    return status;
+}
+
+/* ---- owners -------------------------------------------------------------------------------------------- */
+/* Distance of a place from point k: lattice cells are nearest in steps. */
+static double distance_to (const pg_tiles *t, size_t k, double a, double b)
+{
+    double dx = a - t->place[2*k], dy = b - t->place[2*k + 1];
+    if (!t->loose) dy *= t->step[0] / t->step[1];
+    return hypot (dx, dy);
+}
+
+/* Nearest point of every pixel within `reach` spacings; across a pre-crack only where there is no other. What
+ * lies on a crack is on both sides of it. */
+static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
+{
+    const double *at = t->place + 2 * k;
+    int from[2], to[2], most[2] = { s->width, s->height };
+    for (int a = 0; a < 2; a++) {
+        double middle = a ? (s->top - at[1]) * s->scale : (at[0] - s->left) * s->scale,
+               r = reach * t->spacing[k] * s->scale;
+        from[a] = (int) fmin (fmax (floor (middle - r), 0), most[a]),
+        to[a] = (int) fmin (fmax (ceil (middle + r), 0), most[a]);
+    }
+    for (int j = from[1]; j < to[1]; j++)
+        for (int i = from[0]; i < to[0]; i++) {
+            size_t p = (size_t) j * (size_t) s->width + (size_t) i;
+            double place[2] = { s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale },
+                   d = distance_to (t, k, place[0], place[1]);
+            if (d > reach * t->spacing[k] || (s->owner[p] >= 0 && d >= s->depth[p])) continue;
+            if (t->cracked[k] == NEAR_CRACK && pg_tiles_cut (t, at, place)) d += 1e3 * t->widest;
+            if (s->owner[p] < 0 || d < s->depth[p]) s->owner[p] = (int) k, s->depth[p] = (float) d;
+        }
+}
+
+/* Pixels of the body beyond the reach of every point take the nearest one. */
+static pg_status adopt (const pg_tiles *t, const unsigned char *mask, pg_screen *s)
+{
+    pg_status status = PG_OK;
+    pg_nearest *nearest = NULL;
+    for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++) {
+        if (!mask[p]) s->owner[p] = PG_EMPTY;
+        if (!mask[p] || s->owner[p] >= 0) continue;
+        double place[2] = { s->left + ((double) (p % (size_t) s->width) + 0.5) / s->scale,
+                            s->top - ((double) (p / (size_t) s->width) + 0.5) / s->scale };
+        if (!nearest) PG_TRY (pg_nearest_create (&nearest, 2, t->n, t->place));
+        s->owner[p] = (int) pg_nearest_find (nearest, place, NULL, NULL);
+    }
+done:
+    pg_nearest_free (&nearest);
+    return status;
+}
+
+/* ---- clouds without an outline ------------------------------------------------------------------------- */
+/* One pass of the exact distance transform (lower envelope of parabolas) along n values, `step` apart. v: n,
+ * z: n + 1 */
+static void transform_line (float *f, size_t step, int n, float *out, int *v, double *z)
+{
+    int k = 0;
+    v[0] = 0, z[0] = -INFINITY, z[1] = INFINITY;
+    for (int q = 1; q < n; q++) {
+        double s;
+        for (;;) {
+            int r = v[k];
+            s = ((f[(size_t) q * step] + (double) q * q) - (f[(size_t) r * step] + (double) r * r))
+                / (2.0 * (q - r));
+            if (s > z[k] || k == 0) break;
+            k--;
+        }
+        if (s <= z[k]) v[k] = q, z[k + 1] = INFINITY;
+        else k++, v[k] = q, z[k] = s, z[k + 1] = INFINITY;
+    }
+    for (int q = 0, e = 0; q < n; q++) {
+        while (z[e + 1] < q) e++;
+        out[q] = (float) ((double) (q - v[e]) * (q - v[e]) + f[(size_t) v[e] * step]);
+    }
+    for (int q = 0; q < n; q++) f[(size_t) q * step] = out[q];
+}
+
+/* Distance of every pixel to the nearest one without an owner, pixels; what lies outside of the screen has
+ * none. */
+static pg_status distance_to_nothing (const pg_screen *s, float *f)
+{
+    pg_status status = PG_OK;
+    int w = s->width, h = s->height, n = w > h ? w : h, *v = NULL;
+    double *z = NULL;
+    float *out = NULL;
+    PG_ALLOC (v, n + 1);
+    PG_ALLOC (z, n + 2);
+    PG_ALLOC (out, n);
+    for (int p = 0; p < w * h; p++) f[p] = s->owner[p] < 0 ? 0 : 1e12f;
+    for (int i = 0; i < w; i++) transform_line (f + i, (size_t) w, h, out, v, z);
+    for (int j = 0; j < h; j++) transform_line (f + (size_t) j * (size_t) w, 1, w, out, v, z);
+    for (int p = 0; p < w * h; p++) f[p] = sqrtf (f[p]);
+done:
+    pg_free (v), pg_free (z), pg_free (out);
+    return status;
+}
+
+enum { GROWN = 5 };                                    /* quarters of a spacing */
+/* Pixels that stay when the outline lies `rim` spacings outside the outer points. */
+static double kept (const pg_tiles *t, const pg_screen *s, const float *inward, double rim, int drop)
+{
+    double n = 0;
+    for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++) {
+        if (s->owner[p] < 0) continue;
+        int in = inward[p] >= (0.25 * GROWN - rim) * t->spacing[s->owner[p]] * s->scale;
+        n += in;
+        if (drop && !in) s->owner[p] = PG_EMPTY;
+    }
+    return n;
+}
+
+/* Discs of one and a quarter spacings around the points close every gap between them; then the outline is
+ * drawn in, so far that the area is that of the points together. */
+static pg_status close_gaps (const pg_tiles *t, pg_screen *s)
+{
+    pg_status status = PG_OK;
+    float *inward = NULL;
+    double low = 0, high = 0.75, rim = 0.4;
+    PG_ALLOC (inward, (size_t) s->width * (size_t) s->height);
+    PG_TRY (distance_to_nothing (s, inward));
+    for (int k = 0; k < 16 && t->area > 0; k++) {
+        rim = 0.5 * (low + high);
+        if (kept (t, s, inward, rim, 0) / (s->scale * s->scale) < t->area) low = rim;
+        else high = rim;
+    }
+    kept (t, s, inward, rim, 1);
+done:
+    pg_free (inward);
+    return status;
+}
+
+/* Points of a lattice of which no more is known: their cells. */
+static pg_status lay_cells (const pg_tiles *t, pg_screen *s)
+{
+    pg_status status = PG_OK;
+    pg_spots spots = { .n = t->n, .size = { t->step[0] * s->scale, t->step[1] * s->scale }, .reach = 1.9 };
+    PG_ALLOC (spots.place, 2 * t->n);
+    for (size_t k = 0; k < t->n; k++)
+        spots.place[2 * k] = (t->place[2 * k] - s->left) * s->scale,
+                        spots.place[2 * k + 1] = (s->top - t->place[2 * k + 1]) * s->scale;
+    PG_TRY (pg_raster (&spots, s->width, s->height, s->owner));
+done:
+    pg_free (spots.place);
+    return status;
+}
+
+pg_status pg_tiles_rest (const pg_tiles *t, pg_screen *s)
+{
+    pg_status status = PG_OK;
+    unsigned char *mask = NULL;
+    if (!t->outline && !t->loose) return lay_cells (t, s);
+    for (size_t k = 0; k < t->n; k++) stamp (t, k, t->outline ? 1.5 : 0.25 * GROWN, s);
+    if (!t->outline) {
+        PG_TRY (close_gaps (t, s));
+        goto done;
+    }
+    PG_ALLOC (mask, (size_t) s->width * (size_t) s->height);
+    PG_TRY (mask_of (t, s, mask));
+    PG_TRY (adopt (t, mask, s));
+done:
+    pg_free (mask);
+    for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++) s->depth[p] = -INFINITY;
+    return status;
+}
