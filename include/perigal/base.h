@@ -99,5 +99,11 @@ void pg_dense_solve    (int n, const double *L, double *b);          /* b <- (L 
  * (kept). Jacobi. */
 void pg_dense_eigen    (int n, const double *A, double *lambda, double *V);
 double pg_dense_det    (int n, const double *A);                     /* n = 1, 2, 3 */
+
+/* ---- disjoint sets ------------------------------------------------------------------------------------- */
+/* parent[i] leads from a member towards the root of its set; two members of one set have the same root. */
+void pg_disjoint_start (int *parent, size_t n);        /* every member is a set of its own */
+int  pg_disjoint_root  (int *parent, int i);
+int  pg_disjoint_join  (int *parent, int a, int b);    /* one set of two; the root of b is that of both */
 PG_API_END
 #endif

@@ -10,6 +10,7 @@ PG_API_BEGIN
 
 typedef enum { PG_LINE, PG_PLANE_STRESS, PG_PLANE_STRAIN, PG_SOLID } pg_mode;   /* 1D bar, 2D, 2D, 3D */
 int pg_voigt_size (int dim);                           /* 1, 3, 6 */
+int pg_voigt_at   (int dim, int i, int j);             /* where component ij stands in that order */
 
 typedef struct pg_material_type pg_material_type;
 typedef struct {

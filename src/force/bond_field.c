@@ -384,24 +384,18 @@ double bond_overlap (void *self, const pg_state *state, const double *d)
     return worst;
 }
 
-static int root (int *parent, int i)
-{
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 void bond_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
 {
     bond *b = self;
     int *parent = pg_calloc (b->n, sizeof *parent), *size = pg_calloc (b->n, sizeof *size);
     *degenerate = *isolated = *fragments = 0;
     if (parent && size) {
-        for (size_t i = 0; i < b->n; i++) parent[i] = (int) i;
+        pg_disjoint_start (parent, b->n);
         for (size_t i = 0; i < b->n; i++)
             for (size_t e = b->family->start[i];
                  e < b->family->start[i + 1] && (size_t) b->family->node[e] < i; e++)
-                if (bond_lives (b, e)) parent[root (parent, b->family->node[e])] = root (parent, (int) i);
-        for (size_t i = 0; i < b->n; i++) size[root (parent, (int) i)]++;
+                if (bond_lives (b, e)) pg_disjoint_join (parent, b->family->node[e], (int) i);
+        for (size_t i = 0; i < b->n; i++) size[pg_disjoint_root (parent, (int) i)]++;
         for (size_t i = 0; i < b->n; i++) *isolated += size[i] == 1, *fragments += size[i] > 1;
         if (*fragments) --*fragments;                  /* the body itself is none */
     }

@@ -199,12 +199,6 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
     return worst;
 }
 
-static int root (int *parent, int i)
-{
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
 {
     galerkin *g = self;
@@ -213,17 +207,17 @@ void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *
     *degenerate = *isolated = *fragments = 0;
     for (size_t p = 0; p < r->n; p++) *degenerate += r->grade[p] >= PG_GRADE_SHEPARD;
     if (parent && size) {
-        for (size_t i = 0; i < g->n; i++) parent[i] = (int) i;
+        pg_disjoint_start (parent, g->n);
         for (size_t p = 0; p < r->n; p++) {
             int first = -1;
             if (r->grade[p] >= PG_GRADE_SHEPARD) continue;
             for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
                 if (r->w[e] == 0 && r->family.node[e] != r->own[p]) continue;
-                if (first < 0) first = root (parent, r->family.node[e]);
-                else parent[root (parent, r->family.node[e])] = first = root (parent, first);
+                if (first < 0) first = r->family.node[e];
+                else pg_disjoint_join (parent, r->family.node[e], first);
             }
         }
-        for (size_t i = 0; i < g->n; i++) size[root (parent, (int) i)]++;
+        for (size_t i = 0; i < g->n; i++) size[pg_disjoint_root (parent, (int) i)]++;
         for (size_t i = 0; i < g->n; i++) *isolated += size[i] == 1, *fragments += size[i] > 1;
         if (*fragments) --*fragments;                  /* the body itself is none */
     }

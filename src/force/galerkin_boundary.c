@@ -103,10 +103,8 @@ void galerkin_boundary_free (galerkin *g)
 /* Q . sigma = (sigma n)_k in Voigt form */
 static void traction_row (int dim, int k, const double *n, double *Q)
 {
-    static const int voigt3[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } },
-                     voigt2[2][2] = { { 0, 2 }, { 2, 1 } };
     memset (Q, 0, 6 * sizeof *Q);
-    for (int c = 0; c < dim; c++) Q[dim == 3 ? voigt3[k][c] : dim == 2 ? voigt2[k][c] : 0] += n[c];
+    for (int c = 0; c < dim; c++) Q[pg_voigt_at (dim, k, c)] += n[c];
 }
 
 /* In units of E, or of a quarter of lambda + 2 mu where that is more (Poisson's ratio above 0.455): the

@@ -105,12 +105,6 @@ static void sum_rows (const galerkin *g, size_t c, int k, part *a)
 }
 
 /* ---- parts --------------------------------------------------------------------------------------------- */
-static int root (int *parent, int i)
-{
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 static int whole (const galerkin *g, const pg_state *state, size_t c)
 {
     const pg_patches *q = g->problem->patches;
@@ -151,7 +145,7 @@ static void join (galerkin *g, const pg_state *state, size_t c, int *parent)
     const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
     size_t n = q->first[c + 1] - q->first[c];
     for (size_t e = q->family.start[c]; e < q->family.start[c + 1]; e++) d->stamp[q->family.node[e]] = -1;
-    for (size_t i = 0; i < n; i++) parent[i] = (int) i;
+    pg_disjoint_start (parent, n);
     for (size_t i = 0; i < n; i++) {
         size_t p = q->point[q->first[c] + i];
         double reach = nearby * pg_problem_spacing (g->problem, g->bulk, p), shortest = INFINITY;
@@ -161,7 +155,7 @@ static void join (galerkin *g, const pg_state *state, size_t c, int *parent)
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
             if (!alive[e] && r->family.node[e] != r->own[p]) continue;
             if (length_of (g, p, e) > fmax (reach, shortest * (1 + 1e-6))) continue;
-            parent[root (parent, stamped (d, r->family.node[e], (int) i))] = root (parent, (int) i);
+            pg_disjoint_join (parent, stamped (d, r->family.node[e], (int) i), (int) i);
         }
     }
 }
@@ -184,7 +178,7 @@ static pg_status divide (galerkin *g, const pg_state *state, size_t c, int *coun
     for (size_t i = 0; i < n; i++) name[i] = -1;
     for (size_t i = 0; i < n; i++) {
         size_t p = q->point[q->first[c] + i];
-        int r = root (parent, (int) i);
+        int r = pg_disjoint_root (parent, (int) i);
         d->part_of[p] = -1;
         if (g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD) continue;
         if (name[r] < 0) name[r] = (*count)++;

@@ -4,8 +4,6 @@
 
 pg_status galerkin_surface (void *self, const double *stress, double *P)
 {
-    static const int at3[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } },
-                     at2[2][2] = { { 0, 2 }, { 2, 1 } };
     galerkin *g = self;
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim;
@@ -14,7 +12,7 @@ pg_status galerkin_surface (void *self, const double *stress, double *P)
         double t[3] = { 0 };
         for (size_t k = 0; k < dim; k++)
             for (size_t c = 0; c < dim && !(g->problem->borne && g->problem->borne[r->cell[q]] >> k & 1); c++)
-                t[k] += stress[dim == 3 ? at3[k][c] : dim == 2 ? at2[k][c] : 0] * n[c] * r->weight[q];
+                t[k] += stress[pg_voigt_at (g->dim, (int) k, (int) c)] * n[c] * r->weight[q];
         for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++)
             for (size_t k = 0; k < dim; k++) P[(size_t) r->family.node[e] * dim + k] += r->N[e] * t[k];
     }

@@ -145,8 +145,6 @@ void nodal_add (nodal *s, double t, double *P)
 
 pg_status nodal_surface (const nodal *s, int load, const double *stress, double *P)
 {
-    static const int at3[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } },
-                     at2[2][2] = { { 0, 2 }, { 2, 1 } };
     pg_status status = PG_OK;
     nodal_load l = { .load = load };
     PG_TRY (nodal_parts (&l, s, load));
@@ -155,11 +153,7 @@ pg_status nodal_surface (const nodal *s, int load, const double *stress, double 
         double *p = P + (size_t) l.point[q->at] * (size_t) s->stride;
         for (int k = 0; k < s->dim; k++)
             for (int c = 0; c < s->dim; c++)
-                p[k] += q->weight
-                        * stress[s->dim == 3   ? at3[k][c]
-                                 : s->dim == 2 ? at2[k][c]
-                                               : 0]
-                        * q->normal[c];
+                p[k] += q->weight * stress[pg_voigt_at (s->dim, k, c)] * q->normal[c];
     }
 done:
     pg_free (l.point), pg_free (l.part);

@@ -47,6 +47,13 @@ done:
 
 int pg_voigt_size (int dim) { return dim * (dim + 1) / 2; }
 
+int pg_voigt_at (int dim, int i, int j)
+{
+    static const int solid[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } },
+                     plane[2][2] = { { 0, 2 }, { 2, 1 } };
+    return dim == 3 ? solid[i][j] : dim == 2 ? plane[i][j] : 0;
+}
+
 /* Is `name` one of the words of `list`? */
 static int listed (const char *list, const char *name)
 {

@@ -218,11 +218,9 @@ static double deepest (const pg_problem *problem, const pg_set *set)
     size_t dim = (size_t) problem->dim;
     double most = 0, size[3] = { 0 };
     for (size_t k = 0; k < dim; k++) {
-        double low = INFINITY, high = -INFINITY;
+        double low = cloud->low[k], high = cloud->high[k];
         for (size_t f = 0; f < c->nfacet; f++)
             low = fmin (low, c->facet_centre[f * dim + k]), high = fmax (high, c->facet_centre[f * dim + k]);
-        for (size_t i = 0; i < cloud->n; i++)
-            low = fmin (low, cloud->x[i * dim + k]), high = fmax (high, cloud->x[i * dim + k]);
         size[k] = high - low;
     }
     for (size_t f = 0; f < set->nfacet; f++) {

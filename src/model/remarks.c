@@ -8,14 +8,9 @@
 
 void pg_problem_box (const pg_problem *p, double *low, double *high)
 {
-    size_t dim = (size_t) p->dim;
-    for (size_t k = 0; k < dim; k++) {
-        low[k] = INFINITY, high[k] = -INFINITY;
-        if (p->lattice.dim) low[k] = p->body.low[k], high[k] = p->body.high[k];
-        for (size_t i = 0; i < p->cloud.n && !p->lattice.dim; i++)
-            low[k] = fmin (low[k], p->cloud.x[i * dim + k]),
-            high[k] = fmax (high[k], p->cloud.x[i * dim + k]);
-    }
+    for (int k = 0; k < p->dim; k++)
+        low[k] = p->lattice.dim ? p->body.low[k] : p->cloud.low[k],
+        high[k] = p->lattice.dim ? p->body.high[k] : p->cloud.high[k];
 }
 
 void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
@@ -35,12 +30,6 @@ void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
 }
 
 /* ---- parts --------------------------------------------------------------------------------------------- */
-static int root (int *parent, int i)
-{
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 static int is_cut (const pg_problem *p, size_t i, size_t j)
 {
     size_t dim = (size_t) p->dim;
@@ -73,17 +62,17 @@ pg_status pg_remark_parts (pg_problem *p)
     if (!p->cracks.n) return PG_OK;
     PG_ALLOC (parent, n);
     PG_ALLOC (size, n);
-    for (size_t i = 0; i < n; i++) parent[i] = (int) i;
+    pg_disjoint_start (parent, n);
     for (size_t i = 0; i < n; i++)
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e];
-            if (j < i && root (parent, (int) i) != root (parent, (int) j) && !is_cut (p, i, j))
-                parent[root (parent, (int) i)] = root (parent, (int) j);
+            if (j >= i || pg_disjoint_root (parent, (int) i) == pg_disjoint_root (parent, (int) j)) continue;
+            if (!is_cut (p, i, j)) pg_disjoint_join (parent, (int) i, (int) j);
         }
-    for (size_t i = 0; i < n; i++) size[root (parent, (int) i)]++;
+    for (size_t i = 0; i < n; i++) size[pg_disjoint_root (parent, (int) i)]++;
     for (size_t i = 0; i < n; i++) if (size[i] > size[largest]) largest = (int) i;
     for (size_t i = 0; i < n; i++) {
-        int r = root (parent, (int) i);
+        int r = pg_disjoint_root (parent, (int) i);
         if (size[r] == 1 && n > 1 && !on_a_crack (p, i) && !alone++) lonely = i;
         if (r == largest || size[r] < 2) continue;
         if (r == (int) i) parts++;

@@ -119,6 +119,19 @@ static double length_inside (const surroundings *s, const double *a, const doubl
     return hypot (b[0] - a[0], b[1] - a[1]) * (double) in / PLACES;
 }
 
+/* Signed area of the triangle of the first vertex of a polygon with its edge from vertex i to the next, m^2;
+ * those of a polygon that is not convex cancel in the sum over i = 1 .. nvertex - 2. */
+static double triangle_area (const pg_crack *c, size_t i)
+{
+    const double *o = c->vertex, *u = o + 3*i, *v = u + 3;
+    double area = 0;
+    for (int k = 0; k < 3; k++) {
+        int m = (k + 1) % 3, n = (k + 2) % 3;
+        area += 0.5 * c->normal[k] * ((u[m] - o[m]) * (v[n] - o[n]) - (u[n] - o[n]) * (v[m] - o[m]));
+    }
+    return area;
+}
+
 /* Area of a polygon inside the body, by triangles that one vertex has with the edges; those of a polygon that
  * is not convex cancel. */
 static double area_inside (const surroundings *s, const pg_crack *c)
@@ -127,18 +140,14 @@ static double area_inside (const surroundings *s, const pg_crack *c)
     double area = 0;
     for (size_t i = 1; i + 1 < c->nvertex; i++) {
         const double *o = c->vertex, *u = o + 3*i, *v = u + 3;
-        double whole = 0, in = 0, all = 0;
-        for (int k = 0; k < 3; k++) {
-            int m = (k + 1) % 3, n = (k + 2) % 3;
-            whole += 0.5 * c->normal[k] * ((u[m] - o[m]) * (v[n] - o[n]) - (u[n] - o[n]) * (v[m] - o[m]));
-        }
+        double in = 0, all = 0;
         for (int a = 0; a < PLACES * PLACES; a++) {    /* strips across, weighed by their length */
             double r = (0.5 + a / PLACES) / PLACES, t = (0.5 + a % PLACES) / PLACES, x[3];
             for (int k = 0; k < 3; k++) x[k] = o[k] + r * ((1 - t) * (u[k] - o[k]) + t * (v[k] - o[k]));
             all += r;
             if (has_body (s, x, spacing_at (s, x))) in += r;
         }
-        area += whole * in / all;
+        area += triangle_area (c, i) * in / all;
     }
     return area;
 }
@@ -177,32 +186,28 @@ static void retreat_segment (const surroundings *s, size_t k, pg_crack *c, doubl
     }
 }
 
-/* Outward in the plane, across an edge; and the area. */
-static double outward (const pg_crack *c, const double *a, const double *b, double *out)
+/* The unit vector in the plane of a polygon that points outward across its edge from a to b. */
+static void outward (const pg_crack *c, const double *a, const double *b, double *out)
 {
-    double area = 0, length = 0;
-    for (size_t i = 1; i + 1 < c->nvertex; i++)
-        for (int k = 0; k < 3; k++) {
-            const double *o = c->vertex, *u = o + 3*i, *v = u + 3;
-            int m = (k + 1) % 3, n = (k + 2) % 3;
-            area += 0.5 * c->normal[k] * ((u[m] - o[m]) * (v[n] - o[n]) - (u[n] - o[n]) * (v[m] - o[m]));
-        }
+    double length = 0;
     for (int k = 0; k < 3; k++) {
         int m = (k + 1) % 3, n = (k + 2) % 3;
         out[k] = (b[m] - a[m]) * c->normal[n] - (b[n] - a[n]) * c->normal[m];
         length = hypot (length, out[k]);
     }
     for (int k = 0; k < 3; k++) out[k] /= length;
-    return area;
 }
 
 /* An edge is a front where the body goes on ahead of some of it. */
 static void retreat_polygon (const surroundings *s, size_t k, pg_crack *c, double *out)
 {
     enum { MOST = 200 };
+    double area = 0;
+    for (size_t i = 1; i + 1 < c->nvertex; i++) area += triangle_area (c, i);
     for (size_t i = 0; i < c->nvertex; i++) {
         const double *a = c->vertex + 3*i, *b = c->vertex + 3*((i + 1) % c->nvertex);
-        double ahead[3], area = outward (c, a, b, ahead), length = 0, x[3];
+        double ahead[3], length = 0, x[3];
+        outward (c, a, b, ahead);
         for (int m = 0; m < 3; m++) length = hypot (length, b[m] - a[m]);
         size_t n = (size_t) fmin (MOST, 3 + 2 * length / s->p->cloud.h);
         out[i] = 0;

@@ -35,14 +35,10 @@ void pg_patch_words (const pg_problem *p, char *out, size_t size)
 /* Points across the thinnest side of the box around all points */
 static double thinnest (const pg_problem *p)
 {
-    size_t dim = (size_t) p->dim;
+    const pg_cloud *c = &p->cloud;
     double least = INFINITY;
-    for (size_t k = 0; k < dim; k++) {
-        double low = INFINITY, high = -INFINITY;
-        for (size_t i = 0; i < p->cloud.n; i++)
-            low = fmin (low, p->cloud.x[i * dim + k]), high = fmax (high, p->cloud.x[i * dim + k]);
-        least = fmin (least, (high - low) / (p->lattice.dim ? p->cloud.step[k] : p->cloud.h) + 1);
-    }
+    for (int k = 0; k < p->dim; k++)
+        least = fmin (least, (c->high[k] - c->low[k]) / (p->lattice.dim ? c->step[k] : c->h) + 1);
     return round (least);
 }
 
