@@ -12,6 +12,9 @@ report "every link leads to a file" "$(for page in "${pages[@]}"; do
 report "doc/input.md is what the program prints (make doc)" "$("$perigal" help --manual | diff doc/input.md - | head -20)"
 report "files named by doc/method.md exist" "$(grep -oE '`(src/)?[a-z]+/[a-z0-9_]+\.[ch]`' doc/method.md | tr -d '\`' | sort -u |
     while read -r f; do [ -e "src/$f" ] || [ -e "$f" ] || echo "$f"; done)"
+report "files named by doc/notation.md, accuracy.md and architecture.md exist" "$(cat doc/notation.md doc/accuracy*.md doc/architecture.md |
+    grep -oE '`(src/)?[a-z]+/[a-z0-9_]+\.[ch]`' | tr -d '\`' | sort -u |
+    while read -r f; do [ -e "src/$f" ] || [ -e "$f" ] || echo "$f"; done)"
 report "functions named by doc/method.md exist" "$(grep -oE '`[a-z_]+/[a-z0-9_]+\.c` (`[a-zA-Z_]+`(, )?)+' doc/method.md | while read -r line; do
     file=src/$(cut -d'`' -f2 <<< "$line"); for f in $(cut -d' ' -f2- <<< "$line" | tr -d '`,'); do grep -qE "(^| |\*)$f \(" "$file" || echo "$file: $f"; done; done)"
 report "headings cited as 'theory X' exist" "$(grep -rhoE 'theory [A-H][0-9][a-z]?' src include | sort -u |
