@@ -40,7 +40,7 @@ typedef struct {
 typedef struct {  /* what the criterion may need to derive its constants */
     pg_mode mode;
     double  horizon;                                   /* m */
-    double  modulus, poisson;                          /* Pa, 1 */
+    double  modulus, poisson;  /* Pa, 1; NAN: the stiffness depends on the direction */
     double  thickness;                                 /* m; 1D: cross-section, m^2 */
     const char *kernel;
     const char *material;  /* its name in the scene; NULL: limits of `failure` only */

@@ -18,25 +18,35 @@ typedef struct {
     char    name[64];                                  /* as in the scene */
     pg_mode mode;
     double  density;                                   /* kg/m^3 */
-    double  parameter[8];                              /* of the type: elastic {E Pa, nu} */
+    /* Constants of an isotropic material: Young's modulus (Pa), Poisson's ratio; NAN where the stiffness
+     * depends on the direction: ask type->can before they are used. */
+    double  E, nu;
+    double  mu;                                        /* shear modulus, or the mean of several, Pa */
+    double  parameter[16];                             /* of the type, for its own file alone */
     double  D[36];                                     /* tangent, nv x nv row-major, Pa */
     double  out_of_plane[6];  /* sigma_zz = out_of_plane . strain (plane strain), Pa */
     /* Pa: stress = lambda (trace of strain) 1 + what the rest of D and of out_of_plane makes of the strain,
      * the rest positive definite; 0: no such part is told (plane stress, a bar) */
     double  lambda;
-    double  modulus;                                   /* Young's modulus, the scale of stiffness, Pa */
+    double  modulus;  /* the largest Young's modulus: the scale of stiffness, Pa */
 } pg_material;
+
+/* PG_MATERIAL_ISOTROPIC: E and nu say all. Without it only the tangent D does, which not every force can
+ * carry. */
+enum { PG_MATERIAL_ISOTROPIC = 1 };
 
 struct pg_material_type {
     const char *name, *summary;
-    /* of materials.<name> that it reads, beside model and density: "youngs_modulus poissons_ratio" */
-    const char *keys;
-    /* 1: E and nu (parameter[0], [1]) say all; 0: only the tangent D does, which not every force can carry */
-    int isotropic;
+    unsigned can;                                      /* PG_MATERIAL_...: what else may be said of it */
+    /* Keys of materials.<name> that it reads beside model and density: at most three tables of
+     * `materials.{}.KEY`. Those of another model are faults. */
+    const pg_key_table *keys[4];
     /* Fills `m` (mode set by the caller) from materials.<name>; faults go to the scene. */
     pg_status (*read) (pg_material *m, const pg_scene *scene);
     /* n strains (n x nv) -> stresses (n x nv, Pa) and, unless NULL, sigma_zz (n; 0 in plane stress). */
     void (*stress) (const pg_material *m, size_t n, const double *strain, double *stress, double *zz);
+    /* One line with its constants for plans and reports. */
+    void (*describe) (const pg_material *m, char *text, size_t size);
 };
 const pg_material_type *pg_material_find (const char *name);
 const char *pg_material_names (void);                  /* "elastic|..." */
@@ -47,6 +57,15 @@ pg_status pg_material_add (const pg_material_type *type);
 /* The material materials.<name> of the scene, for a mode. A key that its model does not read is a fault of
  * the scene. */
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode);
+/* Keys youngs_modulus and poissons_ratio, and constants of an isotropic material from E and nu: D,
+ * out_of_plane and all that follows from them. The mode is set by the caller. */
+extern const pg_key_table pg_keys_elastic;
+void pg_elastic_set (pg_material *m, double E, double nu);
+/* stress = D strain, sigma_zz = out_of_plane . strain: `stress` of every linear material. */
+void pg_tangent_stress (const pg_material *m, size_t n, const double *strain, double *stress, double *zz);
+/* A stiffness (6 x 6, Pa) from the axes of a material to those of the scene. R (3 x 3): its rows are the axes
+ * of the material. */
+void pg_rotate_stiffness (const double R[9], const double C[36], double D[36]);
 /* Isotropic tangent for a mode (theory section 0). D is nv x nv. */
 void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D);
 /* Of state-based peridynamics (Silling et al. 2007; theory B6), Pa: A = d kappa - (d + 2) mu and B = d (d +
@@ -54,7 +73,8 @@ void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D);
  * solid lambda + 2/3 mu. Energy of a point, J/m^3, with w = k / r and q = sum w r^2 V: 1/2 [A theta^2 / d + B
  * / q sum w (e.eta)^2 V]. A line has A = 0, B = E. */
 void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation);
-/* Of the mode (plane stress: waves in a thin plate). */
+/* Of the mode (plane stress: waves in a thin plate). Anisotropic: the fastest and the slowest of all
+ * directions, within about 0.1 %; lambda and mu are NAN, rayleigh is 0. */
 typedef struct {
     double lambda, mu;                                 /* Pa */
     double pressure, shear, rayleigh;                  /* speeds, m/s; 0: no density, or no such wave */

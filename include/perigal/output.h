@@ -16,7 +16,7 @@ typedef struct {
     const double *value;                               /* n x components */
 } pg_field_view;
 
-/* ---- result.e: Exodus layout in classic netCDF, one SPHERE element and one node per point --------------- */
+/* ---- result.e: Exodus layout in classic netCDF, one SPHERE element and one node per point -------------- */
 typedef struct pg_exodus pg_exodus;
 pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
                             size_t nfield, const pg_field_view *fields /* values ignored */);

@@ -226,12 +226,16 @@ static void print_materials (const pg_problem *p)
     for (size_t k = 0; k < p->nmaterial; k++) {
         const pg_material *m = &p->material[k];
         pg_waves w = pg_material_waves (m);
-        printf ("  constants %-9s E %.6g Pa, nu %.6g", m->name, m->modulus, m->parameter[1]);
-        if (p->dim > 1)
+        int isotropic = (m->type->can & PG_MATERIAL_ISOTROPIC) != 0;
+        char text[200];
+        m->type->describe (m, text, sizeof text);
+        printf ("  constants %-9s %s", m->name, text);
+        if (p->dim > 1 && isotropic)
             printf (", lambda %.6g Pa, mu %.6g Pa%s", w.lambda, w.mu,
                     p->mode == PG_PLANE_STRESS ? " (plane stress)" : "");
         if (m->density > 0) printf (", density %.6g kg/m3, c_p %.5g m/s", m->density, w.pressure);
-        if (m->density > 0 && p->dim > 1) printf (", c_s %.5g m/s, c_R %.5g m/s", w.shear, w.rayleigh);
+        if (m->density > 0 && p->dim > 1) printf (", c_s %.5g m/s", w.shear);
+        if (m->density > 0 && p->dim > 1 && isotropic) printf (", c_R %.5g m/s", w.rayleigh);
         printf ("\n");
     }
 }

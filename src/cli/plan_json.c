@@ -46,8 +46,12 @@ static void constants (pg_json *j, const pg_problem *p)
         pg_waves w = pg_material_waves (m);
         pg_json_open (j, NULL, '{');
         pg_json_text (j, "name", m->name);
-        pg_json_number (j, "youngs_modulus", m->modulus);
-        pg_json_number (j, "poissons_ratio", m->parameter[1]);
+        pg_json_number (j, "youngs_modulus", m->E);
+        pg_json_number (j, "poissons_ratio", m->nu);
+        if (!(m->type->can & PG_MATERIAL_ISOTROPIC)) {
+            m->type->describe (m, text, sizeof text);
+            pg_json_text (j, "constants", text);
+        }
         pg_json_number (j, "density", m->density);
         pg_json_number (j, "lambda", w.lambda);
         pg_json_number (j, "mu", w.mu);

@@ -79,5 +79,6 @@ double pg_stretch_from_energy (const pg_criterion_setting *setting, double G0)
 double pg_energy_from_stretch (const pg_criterion_setting *setting, double s0)
 {
     double r = ratio (setting);
+    if (isnan (r)) return NAN;  /* no one Young's modulus: stiffness depends on the direction */
     return r > 0 ? s0 * s0 / r : 0;
 }

@@ -31,7 +31,11 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     else c->parameter[ENERGY] = pg_energy_from_stretch (setting, c->parameter[LIMIT]);
     if (!(c->parameter[LIMIT] > 0) || !isfinite (c->parameter[LIMIT])) {
         snprintf (path, sizeof path, "%s.fracture_energy", map);
-        pg_scene_fault (scene, path, "gives no critical stretch with this horizon and Young's modulus");
+        if (isnan (setting->modulus))
+            pg_scene_fault (scene, path,
+                            "gives no critical stretch: that takes one Young's modulus, and the stiffness "
+                            "of this material depends on the direction: give critical_stretch");
+        else pg_scene_fault (scene, path, "gives no critical stretch with this horizon and Young's modulus");
     }
     return PG_OK;
 }
@@ -91,6 +95,12 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
     int energy = c->parameter[FROM_ENERGY] > 0;
+    if (isnan (c->parameter[ENERGY])) {
+        snprintf (text, size,
+                  "%s stretch >= %.6g (given), fracture energy not known: it depends on the direction",
+                  c->parameter[FINITE] > 0 ? "finite" : "linear", c->parameter[LIMIT]);
+        return;
+    }
     snprintf (text, size, "%s stretch >= %.6g (%s%s), fracture energy %.6g J/m2 (%s)",
               c->parameter[FINITE] > 0 ? "finite" : "linear", c->parameter[LIMIT],
               energy ? "derived" : "given",

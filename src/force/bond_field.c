@@ -334,7 +334,7 @@ pg_status bond_sample (void *self, const pg_state *state, const double *d, size_
         else out[0] = v[0];
         if (b->dim == 2) out[1] = v[1], out[3] = v[2];
         if (b->problem->mode == PG_PLANE_STRAIN)
-            out[2] = b->problem->material[b->problem->block[PG_NODES][i]].parameter[1] * (v[0] + v[1]);
+            out[2] = b->problem->material[b->problem->block[PG_NODES][i]].nu * (v[0] + v[1]);
     }
 done:
     return status;

@@ -41,7 +41,7 @@ static void say_constant (const bond *b, size_t m, char *text, size_t size)
     const pg_sum_rule *rule = &p->sums->rule;
     if (rule->state && !b->shear) {
         const pg_material *a = &p->material[m];
-        double E = a->modulus, nu = a->parameter[1], A, B, d = p->dim;
+        double E = a->modulus, nu = a->nu, A, B, d = p->dim;
         pg_state_moduli (p->mode, E, nu, &A, &B);
         snprintf (text, size,
                   "%s%s%slinear peridynamic solid, bulk modulus %.6g Pa%s, shear modulus %.6g Pa; weighted "
@@ -91,7 +91,7 @@ static void say_toughness (const bond *b, char *text, size_t size)
     else if (s->stencil.n)
         snprintf (text, size,
                   "a straight crack along the lattice consumes %.5g of theory's energy at the same stretch%s",
-                  pg_sums_toughness (s, b->problem->material->modulus, b->problem->material->parameter[1]),
+                  pg_sums_toughness (s, b->problem->material->modulus, b->problem->material->nu),
                   s->rule.calibrate ? ": allowed for where one follows from the other" : "");
     else
         snprintf (text, size,

@@ -35,7 +35,7 @@ void galerkin_B_transpose (int dim, const double *q, const double *s, double *f)
 static double stabilisation (const galerkin *g, size_t p)
 {
     const pg_material *m = galerkin_material (g, g->bulk, p);
-    double mu = m->parameter[0] / (2 * (1 + m->parameter[1]));
+    double mu = m->mu;
     return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->problem->silling * mu;
 }
 

@@ -77,7 +77,14 @@ done:
     return status;
 }
 
-/* Exact for isotropic tangents. */
+/* Shears couple with nothing in D: bulk_diagonal counts all there is. */
+static int all_isotropic (const pg_problem *p)
+{
+    for (size_t m = 0; m < p->nmaterial; m++)
+        if (!(p->material[m].type->can & PG_MATERIAL_ISOTROPIC)) return 0;
+    return 1;
+}
+
 void galerkin_diagonal (void *context, double *d)
 {
     galerkin *g = context;
@@ -85,7 +92,7 @@ void galerkin_diagonal (void *context, double *d)
     if (g->diagonal_of != g->revision || g->revision == 0) {
         memset (g->diagonal, 0, ndof * sizeof *g->diagonal);
         if (g->dilatation) galerkin_dilatation_diagonal (g, g->diagonal);
-        if (!(g->problem->silling > 0)) bulk_diagonal (g, g->diagonal);
+        if (!(g->problem->silling > 0) && all_isotropic (g->problem)) bulk_diagonal (g, g->diagonal);
         else add_diagonal_blocks (g, &g->sums.family, galerkin_bulk_blocks, g->wide, g->diagonal);
         if (g->npin)
             add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, g->wide, g->diagonal);

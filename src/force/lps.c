@@ -38,7 +38,7 @@ pg_status lps_create (bond *b)
         double E, nu;
         if (p->sums->rule.beams)
             pg_problem_beams (p, (size_t) p->block[PG_NODES][i], &E, &nu, &b->dilation[i]);
-        else pg_state_moduli (p->mode, m->modulus, m->parameter[1], &b->dilation[i], &b->deviation[i]);
+        else pg_state_moduli (p->mode, m->modulus, m->nu, &b->dilation[i], &b->deviation[i]);
     }
     PG_TRY (count_bonds (b));
 done:

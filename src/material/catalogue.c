@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The table of materials, and a material as the scene describes it. */
 #include "entries.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -54,33 +55,47 @@ int pg_voigt_at (int dim, int i, int j)
     return dim == 3 ? solid[i][j] : dim == 2 ? plane[i][j] : 0;
 }
 
-/* Is `name` one of the words of `list`? */
-static int listed (const char *list, const char *name)
+/* ---- keys ---------------------------------------------------------------------------------------------- */
+static const pg_material_type *entry (size_t i)
 {
-    size_t length = strlen (name);
-    for (const char *at = list; (at = strstr (at, name)); at += length)
-        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) return 1;
-    return 0;
+    size_t own = sizeof table / sizeof *table;
+    return i < own ? table[i] : i - own < nadded ? added[i - own] : NULL;
+}
+
+static const char *name_of (size_t i) { return entry (i) ? entry (i)->name : NULL; }
+static pg_key_tables keys_of (size_t i) { return entry (i)->keys; }
+
+const pg_key_catalogue pg_entry_keys_material = { .selector = "materials.{}.model",
+                                                  .name = name_of,
+                                                  .keys = keys_of };
+
+/* "a, b", the keys that a model reads */
+static void list_keys (const pg_material_type *type, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (pg_key_tables t = type->keys; *t; t++)
+        for (size_t k = 0; k < (*t)->n && used < size; k++)
+            used += (size_t) snprintf (text + used, size - used, "%s%s", used ? ", " : "",
+                                       strrchr ((*t)->key[k].path, '.') + 1);
 }
 
 /* Every model brings keys of its own, and the scene knows them all: those of another model would do nothing,
  * without a word. */
 static void check_keys (const pg_material *m, const pg_scene *scene)
 {
-    const char *key;
-    for (size_t k = 0; (key = pg_scene_name (scene, k, "materials.%s", m->name)); k++) {
-        char path[160];
-        if (listed ("model density failure", key) || listed (m->type->keys, key)) continue;
-        snprintf (path, sizeof path, "materials.%s.%s", m->name, key);
+    char map[96], path[PG_STRAY_PATH], reads[400];
+    snprintf (map, sizeof map, "materials.%s", m->name);
+    list_keys (m->type, reads, sizeof reads);
+    for (size_t k = 0; pg_scene_stray (scene, k, map, path); k++)
         pg_scene_fault (scene, path, "is no key of model: %s, which reads %s and density", m->type->name,
-                        m->type->keys);
-    }
+                        reads);
 }
 
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode)
 {
     pg_status status = PG_OK;
-    *out = (pg_material) { .mode = mode };
+    *out = (pg_material) { .mode = mode, .E = NAN, .nu = NAN };
     size_t length = strlen (name);
     if (length >= sizeof out->name || !pg_scene_given (scene, "materials.%s", name)) {
         pg_scene_fault (scene, "materials", "there is no material '%s'", name);

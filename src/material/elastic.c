@@ -4,8 +4,6 @@
 #include "entries.h"
 #include <string.h>
 
-enum { E_YOUNG, POISSON };
-
 static int size_of (pg_mode mode)
 {
     return mode == PG_SOLID ? 6 : mode == PG_LINE ? 1 : 3;
@@ -33,40 +31,41 @@ void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, doubl
     *deviation = mode == PG_LINE ? E : d * (d + 2) * mu;
 }
 
-static pg_status read (pg_material *m, const pg_scene *scene)
+void pg_elastic_set (pg_material *m, double E, double nu)
 {
-    double E = pg_scene_number (scene, "materials.%s.youngs_modulus", m->name);
-    double nu = pg_scene_number (scene, "materials.%s.poissons_ratio", m->name);
-    m->parameter[E_YOUNG] = m->modulus = E;
-    m->parameter[POISSON] = nu;
+    m->E = m->modulus = E, m->nu = nu, m->mu = E / (2 * (1 + nu));
     pg_elastic_tangent (m->mode, E, nu, m->D);
     if (m->mode == PG_PLANE_STRAIN || m->mode == PG_SOLID) m->lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
     if (m->mode == PG_PLANE_STRAIN)
         m->out_of_plane[0] = m->out_of_plane[1] = E * nu / ((1 + nu) * (1 - 2 * nu));
+}
+
+static pg_status read (pg_material *m, const pg_scene *scene)
+{
+    pg_elastic_set (m, pg_scene_number (scene, "materials.%s.youngs_modulus", m->name),
+                    pg_scene_number (scene, "materials.%s.poissons_ratio", m->name));
     return PG_OK;
 }
 
-static void stress (const pg_material *m, size_t n, const double *strain, double *stress_out, double *zz)
+static void describe (const pg_material *m, char *text, size_t size)
 {
-    int nv = size_of (m->mode);
-    for (size_t i = 0; i < n; i++) {
-        const double *e = strain + i * (size_t) nv;
-        double *s = stress_out + i * (size_t) nv, normal = 0;
-        for (int a = 0; a < nv; a++) {
-            double sum = 0;
-            for (int b = 0; b < nv; b++) sum += m->D[a*nv + b] * e[b];
-            s[a] = sum;
-        }
-        for (int b = 0; b < nv; b++) normal += m->out_of_plane[b] * e[b];
-        if (zz) zz[i] = normal;
-    }
+    snprintf (text, size, "E %.6g Pa, nu %.6g", m->E, m->nu);
 }
+
+static const pg_key keys[] = {
+    { .path = "materials.{}.youngs_modulus", .kind = PG_NUMBER, .unit = "Pa", .range = "(0, inf)",
+      .doc = "Young's modulus E." },
+    { .path = "materials.{}.poissons_ratio", .kind = PG_NUMBER, .unit = "1", .range = "(-1, 0.5)",
+      .doc = "Poisson's ratio nu." },
+};
+const pg_key_table pg_keys_elastic = { "material", keys, sizeof keys / sizeof *keys };
 
 const pg_material_type pg_material_elastic = {
     .name = "elastic",
     .summary = "isotropic, linear: Young's modulus and Poisson's ratio",
-    .keys = "youngs_modulus poissons_ratio",
-    .isotropic = 1,
+    .can = PG_MATERIAL_ISOTROPIC,
+    .keys = { &pg_keys_elastic },
     .read = read,
-    .stress = stress
+    .stress = pg_tangent_stress,
+    .describe = describe,
 };

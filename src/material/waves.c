@@ -16,9 +16,48 @@ double pg_rayleigh_speed (double pressure, double shear)
     return 0.5 * (low + high) * shear;
 }
 
+/* ---- anisotropic: Christoffel's equation --------------------------------------------------------------- */
+/* Largest and smallest eigenvalue of Gamma_ik = C_ijkl n_j n_l along the unit vector n: density times speed
+ * squared of the fastest and the slowest plane wave (Ting 1996, section 1.3). */
+static void christoffel (const pg_material *m, const double *n, double *most, double *least)
+{
+    int dim = m->mode == PG_SOLID ? 3 : 2, nv = pg_voigt_size (dim);
+    double G[9], value[3];
+    for (int i = 0; i < dim; i++)
+        for (int k = 0; k < dim; k++) {
+            G[i * dim + k] = 0;
+            for (int j = 0; j < dim; j++)
+                for (int l = 0; l < dim; l++) {
+                    int a = pg_voigt_at (dim, i, j), b = pg_voigt_at (dim, k, l);
+                    G[i * dim + k] += m->D[a * nv + b] * n[j] * n[l];
+                }
+        }
+    pg_dense_eigen (dim, G, value, NULL);
+    *most = fmax (*most, value[0]), *least = fmin (*least, value[dim - 1]);
+}
+
+enum { DIRECTIONS = 2000 };                            /* speeds within about 0.1 % in three dimensions */
+
+/* The fastest and the slowest of all directions: a spiral of equal areas over half the sphere, or half the
+ * circle. Surface waves depend on the direction and are not given. */
+static pg_waves anisotropic_waves (const pg_material *m)
+{
+    static const double pi = 3.14159265358979323846, golden = 2.39996322972865332;
+    double most = 0, least = INFINITY;
+    for (int k = 0; k < DIRECTIONS; k++) {
+        double angle = m->mode == PG_SOLID ? golden * k : pi * k / DIRECTIONS;
+        double z = m->mode == PG_SOLID ? (k + 0.5) / DIRECTIONS : 0, across = sqrt (1 - z * z);
+        christoffel (m, (const double[3]) { across * cos (angle), across * sin (angle), z }, &most, &least);
+    }
+    pg_waves w = { .lambda = NAN, .mu = NAN };
+    if (m->density > 0) w.pressure = sqrt (most / m->density), w.shear = sqrt (fmax (0, least) / m->density);
+    return w;
+}
+
 pg_waves pg_material_waves (const pg_material *m)
 {
     pg_waves w = {0, 0, 0, 0, 0};
+    if (m->type && !(m->type->can & PG_MATERIAL_ISOTROPIC)) return anisotropic_waves (m);
     if (m->mode != PG_LINE) w.lambda = m->D[1], w.mu = m->D[m->mode == PG_SOLID ? 21 : 8];
     if (m->density > 0) w.pressure = sqrt (m->D[0] / m->density), w.shear = sqrt (w.mu / m->density);
     w.rayleigh = pg_rayleigh_speed (w.pressure, w.shear);

@@ -2,6 +2,7 @@
  * A problem without its loads, supports and cracks, of one material: what is left is the discretisation, with
  * a load on its whole surface. */
 #include "model.h"
+#include <math.h>
 #include <stdio.h>
 
 /* The material whose dilatation is the hardest to carry. */
@@ -9,7 +10,7 @@ static const pg_material *stiffest (const pg_problem *p)
 {
     size_t most = 0;
     for (size_t m = 1; m < p->nmaterial; m++)
-        if (p->material[m].parameter[1] > p->material[most].parameter[1]) most = m;
+        if (p->material[m].nu > p->material[most].nu || isnan (p->material[most].nu)) most = m;
     return &p->material[most];
 }
 

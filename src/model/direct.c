@@ -171,16 +171,13 @@ static void take_poisson (pg_problem *p)
     double nu = pg_bond_poisson (p->mode);
     for (size_t m = 0; m < p->nmaterial && p->mode != PG_LINE; m++) {
         pg_material *a = &p->material[m];
-        double E = a->modulus, asked = a->parameter[1];
+        double E = a->modulus, asked = a->nu;
         if (fabs (asked - nu) > 0.005)
             pg_problem_note (p,
                              "warning: material %.40s: Poisson's ratio is %.4g, not %.4g: bonds alone leave "
                              "no choice (Young's modulus is kept)",
                              a->name, nu, asked);
-        a->parameter[1] = nu;
-        pg_elastic_tangent (a->mode, E, nu, a->D);
-        if (a->mode == PG_PLANE_STRAIN)
-            a->out_of_plane[0] = a->out_of_plane[1] = E * nu / ((1 + nu) * (1 - 2 * nu));
+        pg_elastic_set (a, E, nu);
     }
 }
 
@@ -190,7 +187,7 @@ static void refuse_tangents (const pg_problem *p, const pg_scene *scene)
 {
     for (size_t m = 0; m < p->nmaterial; m++) {
         char path[120];
-        if (p->material[m].type->isotropic) continue;
+        if (p->material[m].type->can & PG_MATERIAL_ISOTROPIC) continue;
         snprintf (path, sizeof path, "materials.%.63s.model", p->material[m].name);
         pg_scene_fault (scene, path,
                         "force: %s makes its bonds from Young's modulus and Poisson's ratio and cannot carry "
@@ -231,10 +228,10 @@ static void check_state (pg_problem *p, const pg_scene *scene, const pg_sum_rule
 void pg_problem_beams (const pg_problem *p, size_t material, double *E, double *nu, double *dilation)
 {
     const pg_material *m = &p->material[material];
-    *E = m->modulus, *nu = m->parameter[1], *dilation = 0;
+    *E = m->modulus, *nu = m->nu, *dilation = 0;
     if (!p->sums->rule.state) return;
     *nu = isnan (p->bond_poisson) ? fmin (*nu, usual_poisson (p->mode)) : p->bond_poisson;
-    pg_beam_split (E, dilation, p->mode, m->modulus, m->parameter[1], *nu);
+    pg_beam_split (E, dilation, p->mode, m->modulus, m->nu, *nu);
 }
 
 /* The bonds' own Poisson's ratio may be neither more than they bear nor more than the material's: dilatation
@@ -249,11 +246,11 @@ static void check_volumetric (pg_problem *p, const pg_scene *scene)
         pg_scene_fault (scene, key, "%.6g is more than %.6g, the largest of micropolar bonds%s",
                         p->bond_poisson, most, p->mode == PG_PLANE_STRESS ? " in plane stress" : "");
     for (size_t m = 0; m < p->nmaterial; m++)
-        if (p->bond_poisson > p->material[m].parameter[1])
+        if (p->bond_poisson > p->material[m].nu)
             pg_scene_fault (scene, key,
                             "%.6g is more than that of material %.63s, %.6g: less energy of dilatation than "
                             "none; choose at most that",
-                            p->bond_poisson, p->material[m].name, p->material[m].parameter[1]);
+                            p->bond_poisson, p->material[m].name, p->material[m].nu);
 }
 
 /* B / C_t of a beam: Euler and Bernoulli 1; with shear, phi = 12 EI / (k G A r^2), 1 + phi; Chen's 4 C_M - 3
@@ -283,7 +280,7 @@ static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule 
     else if (pg_scene_given (scene, "method.bond_poisson"))
         pg_scene_fault (scene, "method.bond_poisson", "is for method.volumetric: on");
     for (size_t m = 0; m < p->nmaterial && p->mode != PG_LINE; m++) {
-        double nu = rule->state ? 0 : p->material[m].parameter[1], most = pg_beam_poisson (p->mode);
+        double nu = rule->state ? 0 : p->material[m].nu, most = pg_beam_poisson (p->mode);
         char path[120];
         snprintf (path, sizeof path, "materials.%.63s.poissons_ratio", p->material[m].name);
         double axial, shear;
@@ -363,7 +360,7 @@ void pg_direct_check_laws (const pg_problem *p, const pg_scene *scene)
         int at_points = a->type && (a->type->needs & PG_NEEDS_ENERGY);  /* the loops know of no limit */
         int alike = (p->sums->rule.state && !p->turns) /* whose loops know each point's constants */
                     || (p->material[m].modulus == p->material[0].modulus
-                        && (!p->turns || p->material[m].parameter[1] == p->material[0].parameter[1]));
+                        && (!p->turns || p->material[m].nu == p->material[0].nu));
         int same = alike
                    && (at_points
                        || (a->never == b->never

@@ -99,15 +99,15 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
         setting[i] = (pg_criterion_setting){
             .mode = p->mode,
             .horizon = p->approx.horizon,
-            .modulus = p->material[i].modulus,
-            .poisson = p->material[i].parameter[1],
+            .modulus = p->material[i].E,
+            .poisson = p->material[i].nu,
             .thickness = p->cloud.thickness,
             .kernel = p->approx.kernel->name,
             .material = p->material[i].name,
             .graded = p->cloud.size != NULL && !p->direct,
             .toughness = p->direct && p->sums->rule.calibrate
                              ? pg_sums_toughness (p->sums, p->material[i].modulus,
-                                                  p->material[i].parameter[1])
+                                                  p->material[i].nu)
                              : 0,
             .stretch = !p->direct             ? NULL
                        : p->sums->rule.finite ? "finite"

@@ -83,6 +83,7 @@ static void check_missing (pg_scene *s, const pg_node *node, const char *pattern
         const char *name = pg_schema_below (row, pattern);
         if (!name || row->fallback || row->group || present (node, name) || !first_of_path (&s->schema, k))
             continue;
+        if (!pg_key_wanted (s, row, node, pattern)) continue;
         size_t n = write_path (path, ".", name);
         FAULT (node, 0, "is missing: %s", row->doc ? row->doc : "required");
         path[n] = '\0';

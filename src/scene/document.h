@@ -24,4 +24,6 @@ pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin);
 /* Checks the tree and the defaults against the rows; faults are collected, only lack of memory or of the unit
  * database fails. */
 pg_status pg_scene_check (pg_scene *s);
+/* 0: the key is of entries of a catalogue, and another one is chosen in the map `node` of this pattern. */
+int pg_key_wanted (const pg_scene *s, const pg_key *key, const pg_node *node, const char *pattern);
 #endif

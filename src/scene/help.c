@@ -28,6 +28,16 @@ static void plain_path (char out[PG_PATTERN], const char *path)
     out[n] = '\0';
 }
 
+void pg_help_meaning (FILE *to, const pg_key *key)
+{
+    const char *entries = pg_key_entries (key, NULL);
+    for (; entries && *entries; entries++) {
+        if (*entries == '|') fprintf (to, ", ");
+        else fputc (*entries, to);
+    }
+    fprintf (to, "%s%s", entries ? ": " : "", key->doc ? key->doc : "");
+}
+
 /* 3: the row's path is the key; 2: it ends with the key; 1: it lies below the key; 0: neither. */
 static int match (const pg_key *row, const char *key)
 {
@@ -72,7 +82,9 @@ static void print_key (FILE *to, const pg_schema *s, const pg_key *key)
 {
     const char *choices = pg_key_choices (key);
     char example[PG_LEVEL_NAMES];
-    fprintf (to, "%s\n  %s\n  kind     %s\n", key->path, key->doc ? key->doc : "", pg_key_kind (key));
+    fprintf (to, "%s\n  ", key->path);
+    pg_help_meaning (to, key);
+    fprintf (to, "\n  kind     %s\n", pg_key_kind (key));
     if (key->kind == PG_NUMBER) {
         pg_schema_wanted (s, key->path, example, sizeof example);
         fprintf (to, "  value    %s\n", example);
@@ -90,7 +102,9 @@ static void print_below (FILE *to, const pg_schema *s, const char *key)
     const char *title = "  below it:\n";
     for (size_t k = 0; k < s->n; k++) {
         if (match (s->row[k], key) != 1) continue;
-        fprintf (to, "%s    %-44s %s\n", title, s->row[k]->path, s->row[k]->doc ? s->row[k]->doc : "");
+        fprintf (to, "%s    %-44s ", title, s->row[k]->path);
+        pg_help_meaning (to, s->row[k]);
+        fprintf (to, "\n");
         title = "";
     }
 }

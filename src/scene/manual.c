@@ -74,7 +74,8 @@ static void write_row (FILE *to, const pg_key *key)
     fprintf (to, " | ");
     if (key->fallback && *key->fallback) fprintf (to, "`%s`", key->fallback);
     else if (!key->fallback && !key->group) fprintf (to, "**required**");
-    fprintf (to, " | %s", key->doc ? key->doc : "");
+    fprintf (to, " | ");
+    pg_help_meaning (to, key);
     if (key->group) {
         const char *rule = strrchr (key->group, ':');
         int one = rule && strcmp (rule, ":one") == 0;

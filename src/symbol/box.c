@@ -135,6 +135,12 @@ pg_status box_steps (box_size *out, const pg_scene *scene, const pg_problem *p)
         PG_FAIL (PG_E_USAGE, "the points are moved away from their lattice at random (perturb), so that "
                              "there are no plane waves to be told: that of the lattice "
                              "itself is seen with --set perturb.amount=0");
+    if (!(p->material[0].type->can & PG_MATERIAL_ISOTROPIC))
+        PG_FAIL (
+            PG_E_USAGE,
+            "the plane waves of a lattice are compared with those of an isotropic material, and material "
+            "%s is %s: use model: elastic",
+            p->material[0].name, p->material[0].type->name);
     for (int k = 0; k < p->dim; k++) out->step[k] = p->lattice.step[k], product *= out->step[k];
     out->h = pow (product, 1.0 / p->dim);
     for (int k = 1; k < p->dim; k++)                   /* the odd one out */

@@ -73,7 +73,7 @@ static const known cantilever = { "cantilever", cantilever_scene, timoshenko, 1 
 /* s C s of plane stress */
 static double twice_energy (const pg_material *m, const double *s)
 {
-    double E = m->parameter[0], nu = m->parameter[1];
+    double E = m->E, nu = m->nu;
     return (s[0] * s[0] + s[1] * s[1] - 2 * nu * s[0] * s[1] + 2 * (1 + nu) * s[2] * s[2]) / E;
 }
 

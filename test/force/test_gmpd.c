@@ -159,7 +159,7 @@ static double cut_energy (const bonded *b, int axis, int mode)
     const pg_problem *p = b->problem;
     const pg_family *f = &p->rows[PG_NODES].family;
     const double *limit = p->criterion->parameter, *x = p->cloud.x;
-    double E = p->material->modulus, nu = p->material->parameter[1], axial, shear, sum = 0, h = p->cloud.h;
+    double E = p->material->modulus, nu = p->material->nu, axial, shear, sum = 0, h = p->cloud.h;
     pg_beam_sums sums;
     check_ok (pg_beam_measure (&sums, p->sums));
     check_ok (pg_beam_moduli (&axial, &shear, p->mode, p->sums->rule.kernel, p->sums->rule.horizon, E, nu,

@@ -95,7 +95,7 @@ static double strained (bonded *b, const double *H, double *worst_stress)
     double *dilation = pg_calloc (b->n, sizeof *dilation), *deviation = pg_calloc (b->n, sizeof *deviation);
     const pg_material *m = b->problem->material;
     for (size_t i = 0; i < b->n; i++)
-        pg_state_moduli (rule.mode, m->modulus, m->parameter[1], &dilation[i], &deviation[i]);
+        pg_state_moduli (rule.mode, m->modulus, m->nu, &dilation[i], &deviation[i]);
     pg_bond_loop_setting setting = { .sums = b->problem->sums,
                                      .family = &b->problem->rows[PG_NODES].family,
                                      .dilation = dilation,

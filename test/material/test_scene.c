@@ -19,8 +19,8 @@ static void a_material_is_read_with_units_and_default_model (void **state)
     assert_string_equal (m.type->name, "elastic");
     assert_int_equal (m.mode, PG_PLANE_STRAIN);
     check_relative (m.modulus, 72e9, 1e-15);
-    check_relative (m.parameter[0], 72e9, 1e-15);
-    check_relative (m.parameter[1], 0.22, 1e-15);
+    check_relative (m.E, 72e9, 1e-15);
+    check_relative (m.nu, 0.22, 1e-15);
     check_relative (m.density, 2440, 1e-15);
     pg_elastic_tangent (PG_PLANE_STRAIN, 72e9, 0.22, D);
     for (int k = 0; k < 9; k++) check_scaled (m.D[k], D[k], 1e-15, 72e9);

@@ -26,17 +26,32 @@ static void stress (const pg_material *m, size_t n, const double *strain, double
     }
 }
 
+static void describe (const pg_material *m, char *text, size_t size)
+{
+    snprintf (text, size, "E %.6g Pa", m->modulus);
+}
+
+static const pg_key stiffness[] = {
+    { .path = "materials.{}.stiffness",
+      .kind = PG_NUMBER,
+      .unit = "Pa",
+      .fallback = "",
+      .doc = "Its only modulus." },
+};
+static const pg_key_table rigid_keys = { "test", stiffness, 1 };
 static const pg_material_type grain = { .name = "grain",
                                         .summary = "two moduli",
-                                        .keys = "youngs_modulus poissons_ratio",
+                                        .keys = { &pg_keys_elastic },
                                         .read = read,
-                                        .stress = stress };
+                                        .stress = stress,
+                                        .describe = describe };
 static const pg_material_type rigid = { .name = "one_modulus",
                                         .summary = "no Poisson's ratio",
-                                        .keys = "youngs_modulus",
-                                        .isotropic = 1,
+                                        .keys = { &rigid_keys },
+                                        .can = PG_MATERIAL_ISOTROPIC,
                                         .read = read,
-                                        .stress = stress };
+                                        .stress = stress,
+                                        .describe = describe };
 
 #define BODY "dimension: 2\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.1\n"
 #define GRAIN BODY "materials:\n  wood:\n    model: grain\n    youngs_modulus: 1 GPa\n    poissons_ratio: 0\n"
@@ -87,9 +102,9 @@ static void the_galerkin_force_carries_it (void **state)
 static void a_key_that_the_model_does_not_read_is_a_fault (void **state)
 {
     (void) state;
-    check_refused (BODY "materials: {m: {model: one_modulus, youngs_modulus: 1, poissons_ratio: 0.2}}\n",
+    check_refused (BODY "materials: {m: {model: one_modulus, stiffness: 1, poissons_ratio: 0.2}}\n",
                    "materials.m.poissons_ratio = 0.2: is no key of model: one_modulus, which reads "
-                   "youngs_modulus and density");
+                   "stiffness and density");
     check_refused (BODY "materials: {m: {youngs_modulus: 1, poissons_ratio: 0.2, youngs_modulus_y: 2}}\n",
                    "youngs_modulus_y");
     built b = build (
@@ -101,7 +116,7 @@ static void names_are_taken_once (void **state)
 {
     (void) state;
     assert_ptr_equal (pg_material_find ("grain"), &grain);
-    assert_string_equal (pg_material_names (), "elastic|grain|one_modulus");
+    assert_string_equal (pg_material_names (), "elastic|orthotropic|grain|one_modulus");
     check_fails (pg_material_add (&grain), PG_E_USAGE);
     check_contains (pg_last_error (), "there is a material model grain already");
 }

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Keys that belong to entries of a catalogue (pg_key_catalogue): whether the entry chosen in a scene knows
+ * them. */
+#include "document.h"
+#include <string.h>
+
+int pg_listed (const char *names, const char *name)
+{
+    size_t length = strlen (name);
+    for (const char *at = names; *at; at += *at == '|') {
+        size_t n = strcspn (at, "|");
+        if (n == length && memcmp (at, name, n) == 0) return 1;
+        at += n;
+    }
+    return 0;
+}
+
+/* Puts the names of `map` into a pattern that begins alike: "materials.{}.density" below "materials.glass"
+ * becomes "materials.glass.density". 0: it begins otherwise. */
+static int concrete (char out[PG_PATTERN], const char *pattern, const char *map)
+{
+    const char *at = map;
+    while (*at) {
+        size_t n = strcspn (at, "."), m = strcspn (pattern, ".");
+        int any = m == 2 && memcmp (pattern, "{}", 2) == 0;
+        if (!any && (n != m || memcmp (at, pattern, n) != 0)) return 0;
+        at += n, pattern += m;
+        if (*pattern != '.' || (*at && *at != '.')) return 0;
+        if (*at) at++, pattern++;
+    }
+    if (strpbrk (pattern, "{[")) return 0;             /* below another name that the user chooses */
+    return snprintf (out, PG_PATTERN, "%s%s", map, pattern) < PG_PATTERN;
+}
+
+const char *pg_scene_stray (const pg_scene *s, size_t k, const char *map, char path[PG_STRAY_PATH])
+{
+    char own[PG_PATTERN], chosen[PG_PATTERN];
+    for (size_t row = 0; row < s->schema.n; row++) {
+        const char *selector, *entries = pg_key_entries (s->schema.row[row], &selector);
+        if (!entries || !concrete (own, s->schema.row[row]->path, map) || !concrete (chosen, selector, map))
+            continue;
+        const char *name = pg_scene_text (s, "%s", chosen);
+        if (!name || pg_listed (entries, name) || !pg_scene_given (s, "%s", own) || k-- > 0) continue;
+        snprintf (path, PG_STRAY_PATH, "%s", own);
+        return path + strlen (map) + 1;
+    }
+    return NULL;
+}
+
+/* What is written for the selector of a key, or its default: when selector and key stand in the same map,
+ * `node` of the pattern; NULL: not known here. */
+static const char *chosen_entry (const pg_scene *s, const pg_node *node, const char *pattern,
+                                 const char *selector)
+{
+    size_t n = strlen (pattern);
+    if (strncmp (selector, pattern, n) != 0 || selector[n] != '.' || strchr (selector + n + 1, '.'))
+        return NULL;
+    const pg_node *child = pg_node_child (node, selector + n + 1, strlen (selector + n + 1));
+    if (child) return child->shape == PG_SCALAR ? child->text : NULL;
+    const pg_key *row = pg_schema_row (&s->schema, selector, PG_SCALAR);
+    return row ? row->fallback : NULL;
+}
+
+int pg_key_wanted (const pg_scene *s, const pg_key *key, const pg_node *node, const char *pattern)
+{
+    const char *selector, *entries = pg_key_entries (key, &selector);
+    if (!entries) return 1;
+    const char *chosen = chosen_entry (s, node, pattern, selector);
+    return chosen && pg_listed (entries, chosen);
+}
