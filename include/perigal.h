@@ -36,4 +36,5 @@
 #include "perigal/picture.h"
 #include "perigal/compare.h"
 #include "perigal/results.h"
+#include "perigal/study.h"
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal compare: opens both sides, tells the kind of the reference, measures. */
-#include "compare.h"
+#include "perigal/study.h"
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -31,7 +31,7 @@ static int is_result (const char *reference, char *folder)
 }
 
 /* Norms over the finer of two results. */
-static pg_status against_result (comparison *c, const compare_request *q, const char *folder)
+static pg_status against_result (pg_comparison *c, const pg_comparison_request *q, const char *folder)
 {
     pg_status status = PG_OK;
     pg_sampler plain = { 0 };
@@ -56,7 +56,7 @@ done:
     return status;
 }
 
-static pg_status against_table (comparison *c, const compare_request *q)
+static pg_status against_table (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
     static const double origin[3] = { 0 };
@@ -75,7 +75,7 @@ done:
     return status;
 }
 
-static pg_status against_scene (comparison *c, const compare_request *q)
+static pg_status against_scene (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
     PG_TRY (pg_reference_read (&c->scene, c->own->scene, c->own->problem));
@@ -89,7 +89,7 @@ done:
 }
 
 /* Norms over the cells of the result. */
-static pg_status against_mesh (comparison *c, const compare_request *q)
+static pg_status against_mesh (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
     size_t outside = 0;
@@ -120,7 +120,7 @@ done:
     return status;
 }
 
-pg_status compare_sides (comparison *c, const compare_request *q)
+pg_status pg_comparison_open (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
     char folder[4096];
@@ -135,7 +135,7 @@ done:
     return status;
 }
 
-void compare_clear (comparison *c)
+void pg_comparison_clear (pg_comparison *c)
 {
     pg_errors_clear (&c->errors);
     pg_sampler_clear (&c->reference);

@@ -17,15 +17,15 @@ static double of_lines (const pg_errors *e)
     return reference > 0 ? sqrt (difference / reference) : NAN;
 }
 
-void trial_take (trial *t, const pg_errors *e)
+void pg_trial_take (pg_trial *t, const pg_errors *e)
 {
     if (e->norms.displacement)
-        t->value[TRIAL_L2] = e->norms.l2.relative, t->value[TRIAL_MAXIMUM] = e->norms.maximum.relative;
-    if (e->norms.stress) t->value[TRIAL_ENERGY] = e->norms.energy.relative;
-    if (e->nline) t->value[TRIAL_LINES] = of_lines (e);
+        t->value[PG_TRIAL_L2] = e->norms.l2.relative, t->value[PG_TRIAL_MAXIMUM] = e->norms.maximum.relative;
+    if (e->norms.stress) t->value[PG_TRIAL_ENERGY] = e->norms.energy.relative;
+    if (e->nline) t->value[PG_TRIAL_LINES] = of_lines (e);
 }
 
-pg_status trial_errors (trial *t, const pg_scene *scene, const pg_problem *problem, pg_solver *solver,
+pg_status pg_trial_errors (pg_trial *t, const pg_scene *scene, const pg_problem *problem, pg_solver *solver,
                         const pg_state *state, int dynamic)
 {
     pg_status status = PG_OK;
@@ -39,7 +39,7 @@ pg_status trial_errors (trial *t, const pg_scene *scene, const pg_problem *probl
     if (!reference) goto done;
     PG_TRY (pg_sampler_solution (&value, problem, force, self, state));
     PG_TRY (pg_errors_measure (&errors, reference, problem, &value, dynamic ? state->time : state->factor));
-    trial_take (t, &errors);
+    pg_trial_take (t, &errors);
 done:
     pg_errors_clear (&errors);
     pg_sampler_clear (&value);

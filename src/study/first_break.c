@@ -2,12 +2,12 @@
  * Why does no bond break? One static solve at load factor 1 in which nothing may break, then the criterion on
  * what it shows: the load factor and the place of the first break. Also the largest frequency, which bounds
  * explicit time steps. */
-#include "cli.h"
+#include "perigal/study.h"
 #include <math.h>
 #include <string.h>
 
 /* The bond with the smallest load factor; without proportional loads that of the largest utilisation. */
-static size_t worst_bond (const first_break *b, size_t n, const double *factor, const double *utilisation)
+static size_t worst_bond (const pg_first_break *b, size_t n, const double *factor, const double *utilisation)
 {
     size_t worst = 0;
     for (size_t i = 1; i < n; i++)
@@ -15,7 +15,7 @@ static size_t worst_bond (const first_break *b, size_t n, const double *factor, 
     return worst;
 }
 
-static void locate (first_break *b, const pg_problem *p, size_t bond)
+static void locate (pg_first_break *b, const pg_problem *p, size_t bond)
 {
     size_t point, dim = (size_t) p->dim;
     pg_problem_locate (p, bond, &b->set, &point);
@@ -24,7 +24,7 @@ static void locate (first_break *b, const pg_problem *p, size_t bond)
     for (size_t k = 0; k < dim; k++) b->place[k] = 0.5 * (r->x[point * dim + k] + end[k]);
 }
 
-static pg_status judge (first_break *b, const pg_problem *p, pg_solver *solver, const pg_state *state)
+static pg_status judge (pg_first_break *b, const pg_problem *p, pg_solver *solver, const pg_state *state)
 {
     pg_status status = PG_OK;
     void *self;
@@ -52,7 +52,7 @@ static int all_dense (const pg_problem *p)
     return 1;
 }
 
-pg_status first_break_find (first_break *b, const pg_problem *p, const pg_solver_options *o)
+pg_status pg_first_break_find (pg_first_break *b, const pg_problem *p, const pg_solver_options *o)
 {
     pg_status status = PG_OK;
     pg_problem bare = *p;  /* the same body, of which nothing breaks while it is solved */

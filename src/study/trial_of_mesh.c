@@ -2,8 +2,7 @@
  * A finite element result measured against the reference of a scene, by the norms that Perigal's own results
  * are measured with: over its own elements (5 Gauss points a direction), stresses from the gradient of its
  * displacement; on the lines of the reference. */
-#include "cli.h"
-#include "bench.h"
+#include "trial.h"
 #include <math.h>
 #include <string.h>
 
@@ -57,7 +56,7 @@ done:
     return status;
 }
 
-static pg_status measure (trial *t, solution *s, const pg_scene *scene, const pg_problem *problem)
+static pg_status measure (pg_trial *t, solution *s, const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
     pg_reference *reference = NULL;
@@ -77,7 +76,7 @@ static pg_status measure (trial *t, solution *s, const pg_scene *scene, const pg
         PG_TRY (places_of (&q, s, problem->dim == 2 ? problem->cloud.thickness : 1));
         PG_TRY (pg_norms_measure (&e.norms, &q, &value, &exact, &options));
     }
-    trial_take (t, &e);
+    pg_trial_take (t, &e);
 done:
     pg_quadrature_clear (&q);
     pg_sampler_clear (&exact);
@@ -104,35 +103,24 @@ done:
     return status;
 }
 
-int bench_fem_main (int argc, char **argv)
+pg_status pg_trial_of_mesh (pg_trial *t, const pg_scene *scene, const char *path, double unit)
 {
     pg_status status = PG_OK;
-    pg_scene *scene = NULL;
     pg_problem *problem = NULL;
     pg_mesh mesh = { 0 };
     pg_mesh_field *fields = NULL;
-    size_t nfield = 0, nset = 0;
-    const char *set[TRIAL_SETS];
-    solution s = { 0 };
-    trial t;
-    trial_read (&t, "");
-    if (argc < 4) PG_FAIL (PG_E_USAGE, "--fem-row needs SCENE FILE UNIT");
-    for (int k = 4; k + 1 < argc && nset < TRIAL_SETS; k += 2) set[nset++] = argv[k + 1];
-    char unit[64];
-    snprintf (unit, sizeof unit, "1 %.48s", argv[3]);
-    PG_TRY (pg_unit_parse (&s.unit, unit, "m"));
-    PG_TRY (pg_scene_load_with (&scene, argv[1], nset, set));
+    size_t nfield = 0;
+    solution s = { .unit = unit };
+    pg_trial_read (t, "");
     PG_TRY (pg_problem_build (&problem, scene, 1));
-    PG_TRY (read_solution (&s, &mesh, &nfield, &fields, argv[2], problem));
-    PG_TRY (measure (&t, &s, scene, problem));
-    t.value[TRIAL_POINTS] = (double) mesh.nnode, t.value[TRIAL_DOFS] = (double) mesh.nnode * problem->dim;
-    trial_tell (&t);
+    PG_TRY (read_solution (&s, &mesh, &nfield, &fields, path, problem));
+    PG_TRY (measure (t, &s, scene, problem));
+    t->value[PG_TRIAL_POINTS] = (double) mesh.nnode;
+    t->value[PG_TRIAL_DOFS] = (double) mesh.nnode * problem->dim;
 done:
-    if (status != PG_OK) command_complain (status, pg_last_error ());
     pg_mesh_locator_free (&s.locator);
     pg_mesh_fields_clear (nfield, &fields);
     pg_mesh_clear (&mesh);
     pg_problem_free (&problem);
-    pg_scene_free (&scene);
-    return exit_code (status);
+    return status;
 }

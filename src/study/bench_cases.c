@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The cases of a benchmark: every combination of what the catalogues hold or the command line names. */
-#include "cli.h"
 #include "bench.h"
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +16,7 @@ static void name_of (const char *path, char *name, size_t size)
     else snprintf (name, size, "%.*s%.*s", (int) (file - 1 - folder), folder, dot - 5, file + 5);
 }
 
-pg_status bench_look (bench_base *b, const char *path, size_t nset, const char *const *set)
+pg_status pg_bench_look (pg_bench_base *b, const char *path, size_t nset, const char *const *set)
 {
     pg_status status = PG_OK;
     pg_scene *scene = NULL;
@@ -33,32 +32,32 @@ done:
     return status == PG_E_FILE ? PG_E_SCENE : status;
 }
 
-static void fill (bench_words *w, const char *names)
+static void fill (pg_word_list *w, const char *names)
 {
     if (w->given) return;
-    for (const char *s = names; *s && w->n < BENCH_WORDS; s += strcspn (s, "|"), s += *s == '|')
-        snprintf (w->word[w->n++], BENCH_TEXT, "%.*s", (int) strcspn (s, "|"), s);
+    for (const char *s = names; *s && w->n < PG_LIST_WORDS; s += strcspn (s, "|"), s += *s == '|')
+        snprintf (w->word[w->n++], PG_LIST_TEXT, "%.*s", (int) strcspn (s, "|"), s);
 }
 
 /* A number alone counts spacings, as in `converge --horizon`. */
-static void count_spacings (bench_words *w)
+static void count_spacings (pg_word_list *w)
 {
     for (size_t k = 0; k < w->n; k++) {
         char *end;
         size_t n = strlen (w->word[k]);
         strtod (w->word[k], &end);
-        if (!*end && n + 9 < BENCH_TEXT) snprintf (w->word[k] + n, BENCH_TEXT - n, " spacing");
+        if (!*end && n + 9 < PG_LIST_TEXT) snprintf (w->word[k] + n, PG_LIST_TEXT - n, " spacing");
     }
 }
 
-static void put (bench_case *c, const char *key, const char *value)
+static void put (pg_bench_case *c, const char *key, const char *value)
 {
     if (value) snprintf (c->set[c->nset++], sizeof *c->set, "%s=%s", key, value);
 }
 
 /* The horizon follows the basis where only the basis is asked to change: 2 spacings for the linear one, 2.5
  * for the quadratic one. */
-static const char *horizon_for (const bench_base *b, const bench_request *q, const char *basis)
+static const char *horizon_for (const pg_bench_base *b, const pg_bench_request *q, const char *basis)
 {
     for (size_t k = 0; k < q->nset; k++) if (strncmp (q->set[k], "method.horizon=", 15) == 0) return NULL;
     int quadratic = strcmp (basis, "quadratic") == 0;
@@ -68,21 +67,21 @@ static const char *horizon_for (const bench_base *b, const bench_request *q, con
 
 typedef struct { const char *force, *approximation, *integration, *basis, *cells, *perturb, *horizon; } mix;
 
-static pg_status add_curve (bench_cases *out, const bench_request *q, size_t s, const bench_base *b,
+static pg_status add_curve (pg_bench_cases *out, const pg_bench_request *q, size_t s, const pg_bench_base *b,
                             const mix *m)
 {
     pg_status status = PG_OK;
     static const double factor[3] = { 2, 1, 0.5 };
-    const bench_body *body = bench_body_find (b->name);
-    int meshed = b->mesh && body && body->own && !bench_mesh_missing (q->scene[s], b->name);
+    const pg_bench_body *body = pg_bench_body_find (b->name);
+    int meshed = b->mesh && body && body->own && !pg_bench_mesh_missing (q->scene[s], b->name);
     size_t sizes = meshed ? q->mesh.n : b->mesh ? 1 : q->spacing.n ? q->spacing.n : b->spacing > 0 ? 3 : 1;
     char number[32];
     for (size_t k = 0; k < sizes; k++) {
         PG_GROW (out->at, out->cap, out->n + 1);
-        bench_case *c = &out->at[out->n++];
+        pg_bench_case *c = &out->at[out->n++];
         memset (c, 0, sizeof *c);
         c->scene = s, c->curve = out->ncurve;
-        trial_read (&c->best, "");
+        pg_trial_read (&c->best, "");
         snprintf (c->name, sizeof c->name, "%s", b->name);
         snprintf (c->group, sizeof c->group, "%s", body ? body->group : b->name);
         snprintf (c->perturb, sizeof c->perturb, "%s", m->perturb ? m->perturb : "");
@@ -112,24 +111,24 @@ done:
     return status;
 }
 
-static const char *word_of (const bench_words *w, size_t k, size_t of)
+static const char *word_of (const pg_word_list *w, size_t k, size_t of)
 {
     return w->n ? w->word[k / of % w->n] : NULL;
 }
 
 /* Scenes of one group share the runs of CalculiX. */
-static int has_fem (const bench_cases *cases, const char *name)
+static int has_fem (const pg_bench_cases *cases, const char *name)
 {
-    const bench_body *body = bench_body_find (name);
+    const pg_bench_body *body = pg_bench_body_find (name);
     for (size_t i = 0; body && i < cases->n; i++)
         if (cases->at[i].fem && strcmp (cases->at[i].group, body->group) == 0) return 1;
     return 0;
 }
 
-pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
+pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *asked)
 {
     pg_status status = PG_OK;
-    bench_request *q = NULL;
+    pg_bench_request *q = NULL;
     PG_ALLOC (q, 1);
     *q = *asked;
     fill (&q->force, "galerkin"), fill (&q->approximation, pg_approx_names ()),
@@ -140,11 +139,11 @@ pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
     if (!q->mesh.n) fill (&q->mesh, "8|16|32");
     count_spacings (&q->horizon);
     for (size_t s = 0; s < q->nscene; s++) {
-        bench_base b;
-        const bench_words *list[7] = { &q->force, &q->approximation, &q->integration, &q->basis,
+        pg_bench_base b;
+        const pg_word_list *list[7] = { &q->force, &q->approximation, &q->integration, &q->basis,
                                        &q->cells, &q->perturb,       &q->horizon };
         size_t of[7], all = 1;
-        PG_TRY (bench_look (&b, q->scene[s], q->nset, q->set));
+        PG_TRY (pg_bench_look (&b, q->scene[s], q->nset, q->set));
         for (int k = 6; k >= 0; k--) of[k] = all, all *= list[k]->n ? list[k]->n : 1;
         for (size_t k = 0; k < all; k++) {
             mix m = { word_of (list[0], k, of[0]), word_of (list[1], k, of[1]), word_of (list[2], k, of[2]),
@@ -156,7 +155,7 @@ pg_status bench_cases_make (bench_cases *out, const bench_request *asked)
             }
             PG_TRY (add_curve (out, q, s, &b, &m));
         }
-        if (q->fem && !has_fem (out, b.name)) PG_TRY (bench_fem_add (out, q, s, b.name));
+        if (q->fem && !has_fem (out, b.name)) PG_TRY (pg_bench_fem_add (out, q, s, b.name));
     }
 done:
     pg_free (q);

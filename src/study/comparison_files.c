@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal compare: compare.csv, compare.json and the picture, in the result folder. */
-#include "compare.h"
+#include "perigal/picture.h"
+#include "perigal/study.h"
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const pg_problem *finer (const comparison *c)
+static const pg_problem *finer (const pg_comparison *c)
 {
     return c->other && c->other->problem->cloud.h < c->own->problem->cloud.h ? c->other->problem
                                                                              : c->own->problem;
@@ -20,7 +21,7 @@ static void name_difference (int column, char *label, size_t size)
     else snprintf (label, size, "%s - reference (%s)", pg_column_name (column), pg_column_unit (column));
 }
 
-static pg_status field_picture (const comparison *c, const compare_request *q, const char *path)
+static pg_status field_picture (const pg_comparison *c, const pg_comparison_request *q, const char *path)
 {
     pg_status status = PG_OK;
     const pg_problem *p = finer (c);
@@ -36,9 +37,8 @@ static pg_status field_picture (const comparison *c, const compare_request *q, c
     name_difference (column, label, sizeof label);
     snprintf (title, sizeof title, "%s: difference from the reference", c->own->problem->title);
     double most = fmax (fabs (low), fabs (high));
-    pg_picture_style style = {
-        .title = title, .label = label, .cracks = pg_state_cracks (p, NULL), .diverging = column < PG_COMPARE_U
-    };
+    pg_picture_style style = { .title = title, .label = label, .diverging = column < PG_COMPARE_U };
+    style.cracks = pg_state_cracks (p, NULL);
     if (style.diverging && most > 0) style.low = -most, style.high = most;
     PG_TRY (pg_picture_field (path, &p->cloud, value, &style));
 done:
@@ -47,7 +47,7 @@ done:
 }
 
 /* |u - u_ref| on the elements of a finite element reference. */
-static pg_status mesh_picture (const comparison *c, const compare_request *q, const pg_mesh *mesh,
+static pg_status mesh_picture (const pg_comparison *c, const pg_comparison_request *q, const pg_mesh *mesh,
                                const char *path)
 {
     pg_status status = PG_OK;
@@ -89,7 +89,7 @@ static int main_axis (const pg_line *l)
 }
 
 /* Both sides of the columns of one kind: that of --field, else displacements if there are any. */
-static pg_status line_picture (const comparison *c, const compare_request *q, const pg_line *l,
+static pg_status line_picture (const pg_comparison *c, const pg_comparison_request *q, const pg_line *l,
                                const char *path)
 {
     pg_status status = PG_OK;
@@ -130,7 +130,7 @@ done:
 }
 
 /* ---- files --------------------------------------------------------------------------------------------- */
-static pg_status json_file (const comparison *c, const compare_request *q, const char *path)
+static pg_status json_file (const pg_comparison *c, const pg_comparison_request *q, const char *path)
 {
     pg_status status = PG_OK;
     pg_json *j = NULL;
@@ -150,27 +150,14 @@ done:
     return status;
 }
 
-static pg_status print_file (const char *path)
+static void tell (const pg_comparison_request *q, const char *what, const char *path)
 {
-    pg_status status = PG_OK;
-    char part[4096];
-    size_t n;
-    FILE *f = fopen (path, "r");
-    if (!f) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-    while ((n = fread (part, 1, sizeof part, f)) > 0) fwrite (part, 1, n, stdout);
-done:
-    if (f) fclose (f);
-    return status;
-}
-
-static void tell (const compare_request *q, const char *what, const char *path)
-{
-    if (!q->json && !q->quiet) printf ("  %s %s\n", what, path);
+    if (q->out) fprintf (q->out, "  %s %s\n", what, path);
 }
 
 /* The tables of the scene follow its field: compare_2.csv ... */
-static pg_status table_files (const comparison *c, const compare_request *q, const pg_line *line, size_t n,
-                              size_t before)
+static pg_status table_files (const pg_comparison *c, const pg_comparison_request *q, const pg_line *line,
+                              size_t n, size_t before)
 {
     pg_status status = PG_OK;
     char path[4096];
@@ -180,7 +167,7 @@ static pg_status table_files (const comparison *c, const compare_request *q, con
         PG_TRY (pg_compare_line (path, &line[k], &c->own->sampler));
         tell (q, "table", path);
         if (k + before > 0) snprintf (path, sizeof path, "%s/compare_%zu.png", q->folder, k + before + 1);
-        else snprintf (path, sizeof path, "%s", q->out ? q->out : "");
+        else snprintf (path, sizeof path, "%s", q->picture ? q->picture : "");
         if (!path[0]) snprintf (path, sizeof path, "%s/compare.png", q->folder);
         PG_TRY (line_picture (c, q, &line[k], path));
         tell (q, "picture", path);
@@ -189,7 +176,7 @@ done:
     return status;
 }
 
-pg_status compare_files (const comparison *c, const compare_request *q)
+pg_status pg_comparison_write (const pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
     char path[4096];
@@ -198,7 +185,7 @@ pg_status compare_files (const comparison *c, const compare_request *q)
         snprintf (path, sizeof path, "%s/compare.csv", q->folder);
         PG_TRY (pg_compare_points (path, &finer (c)->cloud, &c->own->sampler, &c->reference));
         tell (q, "table", path);
-        if (q->out) snprintf (path, sizeof path, "%s", q->out);
+        if (q->picture) snprintf (path, sizeof path, "%s", q->picture);
         else snprintf (path, sizeof path, "%s/compare.png", q->folder);
         const pg_mesh *mesh = pg_sampler_mesh_of (&c->fem, NULL, NULL);
         if (mesh && mesh->dim > 1) PG_TRY (mesh_picture (c, q, mesh, path));
@@ -210,7 +197,6 @@ pg_status compare_files (const comparison *c, const compare_request *q)
     PG_TRY (table_files (c, q, own, n, fields));
     snprintf (path, sizeof path, "%s/compare.json", q->folder);
     PG_TRY (json_file (c, q, path));
-    if (q->json) PG_TRY (print_file (path));
 done:
     return status;
 }

@@ -3,14 +3,15 @@
  * from the system anew and is cleared page by page, which costs up to 40 % of a short run. Kept in the
  * process, and in large pages where the system grants them on request (transparent huge pages: madvise), they
  * are cleared once. Results do not depend on it. */
-#include "cli.h"
+#include "perigal/base.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #if defined (__GLIBC__)
 #include <malloc.h>
 #endif
 
-void memory_keep (void)
+void pg_memory_keep (void)
 {
 #if defined (__GLIBC__)
     mallopt (M_MMAP_THRESHOLD, 1 << 30);
@@ -19,12 +20,12 @@ void memory_keep (void)
 }
 
 /* Read by glibc when a program starts. */
-void memory_large_pages (void)
+void pg_memory_large_pages (void)
 {
-    static const char wish[] = "glibc.malloc.hugetlb=1";
+    static const char large[] = "glibc.malloc.hugetlb=1";
     const char *given = getenv ("GLIBC_TUNABLES");
     char all[1024];
     if (given && (strstr (given, "glibc.malloc.hugetlb") || strlen (given) > 900)) return;
-    snprintf (all, sizeof all, "%s%s%s", given ? given : "", given && *given ? ":" : "", wish);
+    snprintf (all, sizeof all, "%s%s%s", given ? given : "", given && *given ? ":" : "", large);
     setenv ("GLIBC_TUNABLES", all, 1);
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Processes with their own seconds and memory. */
 #define _DEFAULT_SOURCE                                /* wait4 */
-#include "cli.h"
-#include "spawn.h"
+#include "process.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -34,7 +33,7 @@ static void become (const char *program, char *const argv[], const char *folder,
     settle_environment (threads);
     if (dup2 (nothing, 0) < 0 || dup2 (to, 1) < 0 || dup2 (errors, 2) < 0 || (folder && chdir (folder) != 0))
         _exit (127);
-    if (!program) memory_large_pages ();
+    if (!program) pg_memory_large_pages ();
     if (program) execvp (program, argv);
     else execv ("/proc/self/exe", argv);
     _exit (127);
@@ -57,7 +56,7 @@ static size_t drain (int from, char *text, size_t size)
 
 static double seconds_of (const struct timeval *t) { return (double) t->tv_sec + 1e-6 * (double) t->tv_usec; }
 
-pg_status spawn_run (spawned *out, const char *program, char *const argv[], const char *folder,
+pg_status pg_process_run (pg_process *out, const char *program, char *const argv[], const char *folder,
                      const char *log, int threads)
 {
     pg_status status = PG_OK;
@@ -88,7 +87,7 @@ done:
     return status;
 }
 
-int spawn_finds (const char *program)
+int pg_process_finds (const char *program)
 {
     const char *s = getenv ("PATH");
     char path[4096];
@@ -101,7 +100,7 @@ int spawn_finds (const char *program)
     return 0;
 }
 
-void spawn_complaint (const char *log, char *text, size_t size)
+void pg_process_complaint (const char *log, char *text, size_t size)
 {
     FILE *f = fopen (log, "r");
     text[0] = 0;
