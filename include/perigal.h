@@ -22,6 +22,7 @@
 #include "perigal/criterion.h"
 #include "perigal/linalg.h"
 #include "perigal/mesh.h"
+#include "perigal/mesh_files.h"
 #include "perigal/cloud.h"
 #include "perigal/cells.h"
 #include "perigal/approx.h"

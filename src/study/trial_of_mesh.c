@@ -3,6 +3,7 @@
  * are measured with: over its own elements (5 Gauss points a direction), stresses from the gradient of its
  * displacement; on the lines of the reference. */
 #include "trial.h"
+#include "perigal/mesh_files.h"
 #include <math.h>
 #include <string.h>
 

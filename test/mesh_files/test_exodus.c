@@ -2,8 +2,8 @@
  * Exodus II: files written here through netCDF after its manual (SAND92-2137), every kind of element, sets,
  * numbers, results, faults. */
 #include "check.h"
-#include "measure.h"
-#include "mesh/mesh_private.h"
+#include "mesh/measure.h"
+#include "mesh_files/format.h"
 #include "perigal/output.h"
 #include <netcdf.h>
 #include <stdlib.h>
@@ -306,13 +306,13 @@ static void cut_files_are_faults (void **state)
     (void) state;
     for (int f = 0; f < 4; f++) {
         pg_mesh a = block_mesh (PG_TRI3, 2, NULL), b;
-        mesh_bytes file;
+        mesh_file file;
         write_exodus (&a, format[f], (options) { .sets = 1, .maps = 1 });
         check_ok (mesh_load (&file, path));
         for (size_t n = 0; n < file.size; n += 41) {
             char *copy = pg_calloc (n + 1, 1);
             memcpy (copy, file.text, n);
-            pg_status status = mesh_parse (&b, &(mesh_bytes) { path, copy, n });
+            pg_status status = mesh_parse (&b, &(mesh_file) { path, copy, n });
             if (status == PG_OK) pg_mesh_clear (&b);
             else assert_int_equal (status, PG_E_FILE);
             pg_free (copy);
@@ -328,7 +328,7 @@ static void changed_headers_are_answered (void **state)
     (void) state;
     for (int f = 0; f < 3; f++) {
         pg_mesh a = block_mesh (PG_TRI3, 1, NULL), b;
-        mesh_bytes file;
+        mesh_file file;
         write_exodus (&a, format[f], (options) { .sets = 1, .maps = 1 });
         check_ok (mesh_load (&file, path));
         char *text = (char *) file.text;

@@ -56,8 +56,9 @@ static pg_status add_element (reader *r)
     long node[PG_ELEMENT_NODES];
     abaqus *a = &r->data;
     for (int k = 0; k < r->type.nodes; k++) node[k] = r->node[r->order[k]];
-    PG_GROW (a->shell, a->workspace, a->builder->n + 1);
-    a->shell[a->builder->n] = (unsigned char) r->type.shell;
+    size_t n = pg_mesh_builder_given (a->builder).n;
+    PG_GROW (a->shell, a->capacity, n + 1);
+    a->shell[n] = (unsigned char) r->type.shell;
     PG_TRY (pg_mesh_builder_element (a->builder, r->element, r->type.kind, node, r->set + 1,
                                      r->depth ? 0 : r->element_line));
     if (r->set >= 0)
@@ -167,7 +168,7 @@ static pg_status surface_line (reader *r)
         f.set = abaqus_set_find (&r->data.elset, word);
         if (f.set < 0) PG_TRY (ABAQUS_WRONG (r, "there is no element set '%.63s' before this line", word));
     }
-    PG_GROW (surface->face, surface->workspace, surface->n + 1);
+    PG_GROW (surface->face, surface->capacity, surface->n + 1);
     surface->face[surface->n++] = f;
 done:
     return status;

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * pg_mesh_result: mesh and fields of one step. */
-#include "result.h"
+#include "format.h"
 #include <stdio.h>
 #include <string.h>
 
-pg_status fields_add (mesh_fields *f, size_t nnode, const char *name, int components, pg_mesh_field **field)
+pg_status mesh_fields_add (mesh_fields *f, size_t nnode, const char *name, int components,
+                           pg_mesh_field **field)
 {
     pg_status status = PG_OK;
-    PG_GROW (f->field, f->workspace, f->n + 1);
+    PG_GROW (f->field, f->capacity, f->n + 1);
     pg_mesh_field *new = &f->field[f->n];
     memset (new, 0, sizeof *new);
     snprintf (new->name, sizeof new->name, "%.31s", name);
@@ -19,7 +20,7 @@ done:
     return status;
 }
 
-pg_status result_step (const char *path, size_t steps, int step, size_t *out)
+pg_status mesh_fields_step (const char *path, size_t steps, int step, size_t *out)
 {
     pg_status status = PG_OK;
     if (steps == 0) PG_FAIL (PG_E_FILE, "%.400s holds a mesh and no results at nodes", path);
@@ -28,14 +29,6 @@ pg_status result_step (const char *path, size_t steps, int step, size_t *out)
     *out = step < 0 ? steps - 1 : (size_t) step;
 done:
     return status;
-}
-
-void pg_mesh_fields_clear (size_t n, pg_mesh_field **fields)
-{
-    if (!fields || !*fields) return;
-    for (size_t k = 0; k < n; k++) pg_free ((*fields)[k].value);
-    pg_free (*fields);
-    *fields = NULL;
 }
 
 /* Vectors of a plane mesh have two components. */
@@ -50,21 +43,18 @@ static void flatten_vectors (const pg_mesh *mesh, mesh_fields *f)
     }
 }
 
-pg_status mesh_parse_result (pg_mesh *out, const mesh_bytes *file, int step, size_t *nfield,
+pg_status mesh_parse_result (pg_mesh *out, const mesh_file *file, int step, size_t *nfield,
                              pg_mesh_field **fields, double *time)
 {
-    static const result_format *const formats[] = { &result_format_frd, &result_format_exodus };
-    enum { FORMATS = sizeof formats / sizeof *formats };
     pg_status status = PG_OK;
     mesh_fields found = { 0 };
-    size_t k = 0;
     memset (out, 0, sizeof *out);
-    while (k < FORMATS && !formats[k]->format->knows (file)) k++;
-    if (k == FORMATS)
+    const mesh_format *format = mesh_format_of (file);
+    if (!format || !format->fields)
         PG_FAIL (PG_E_FILE, "%.400s holds no fields of a kind that is known: CalculiX .frd, Exodus",
                  file->path);
     PG_TRY (mesh_parse (out, file));
-    PG_TRY (formats[k]->fields (&found, out, file, step));
+    PG_TRY (format->fields (&found, out, file, step));
     flatten_vectors (out, &found);
     *nfield = found.n, *fields = found.field;
     if (time) *time = found.time;
@@ -79,7 +69,7 @@ done:
 pg_status pg_mesh_result (pg_mesh *out, const char *path, int step, size_t *nfield, pg_mesh_field **fields,
                           double *time)
 {
-    mesh_bytes file;
+    mesh_file file;
     memset (out, 0, sizeof *out);
     *nfield = 0, *fields = NULL;
     pg_status status = mesh_load (&file, path);

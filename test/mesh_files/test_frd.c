@@ -2,8 +2,8 @@
  * Results of CalculiX: patch tests of every element that ccx computed, between nodes; steps, plane elements
  * made solid, faults. */
 #include "check.h"
-#include "measure.h"
-#include "mesh/mesh_private.h"
+#include "mesh/measure.h"
+#include "mesh_files/format.h"
 #include <stdlib.h>
 
 /* The displacement that data/mesh/ccx/make.py prescribes is A x. Text has six digits, binary results are
@@ -140,7 +140,7 @@ static void sets_stay_when_a_mesh_becomes_plane (void **state)
         "C3D8,ELSET=A\n1,1,2,3,4,5,6,7,8\n"
         "*NSET,NSET=upper\n5,6\n*NSET,NSET=corner\n3\n*SURFACE,NAME=left\nA,S6\n*SURFACE,NAME=flat\nA,S2\n";
     pg_mesh m;
-    check_ok (mesh_parse (&m, &(mesh_bytes) { "plate.inp", text, strlen (text) }));
+    check_ok (mesh_parse (&m, &(mesh_file) { "plate.inp", text, strlen (text) }));
     check_ok (pg_mesh_flatten (&m, 0, NULL));
     assert_string_equal (m.blocks[0].name, "A");
     assert_int_equal (m.nsides, 1);
@@ -157,7 +157,7 @@ static void sets_stay_when_a_mesh_becomes_plane (void **state)
 
 static pg_status parse (result *r, const char *text, size_t n)
 {
-    return mesh_parse_result (&r->mesh, &(mesh_bytes) { "job.frd", text, n }, -1, &r->n, &r->field, &r->time);
+    return mesh_parse_result (&r->mesh, &(mesh_file) { "job.frd", text, n }, -1, &r->n, &r->field, &r->time);
 }
 
 #define COUNT(key, n, format) \
@@ -232,7 +232,7 @@ static void cut_files_are_faults (void **state)
     (void) state;
     static const char *const name[] = { "data/mesh/ccx/cps8_solid.frd", "data/mesh/ccx/c3d4.frd" };
     for (int k = 0; k < 2; k++) {
-        mesh_bytes file;
+        mesh_file file;
         size_t used = pg_memory_used ();
         check_ok (mesh_load (&file, name[k]));
         for (size_t n = 0; n < file.size; n += 37) {

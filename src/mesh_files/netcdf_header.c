@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The header of classic netCDF files, by the published grammar of the format: lists of dimensions, attributes
  * and variables. */
-#include "netcdf_header.h"
+#include "format.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
@@ -99,7 +99,7 @@ static int header (walker *w)
     return 1;
 }
 
-pg_status netcdf_check_header (const mesh_bytes *file)
+pg_status mesh_netcdf_check_header (const mesh_file *file)
 {
     walker w = { .text = (const unsigned char *) file->text, .size = file->size, .at = 4 };
     if (file->size < 4 || memcmp (file->text, "CDF", 3)) return PG_OK;
@@ -124,7 +124,7 @@ pg_status pg_netcdf_check_header (const char *path)
     if (about.st_size == 0) PG_FAIL (PG_E_FILE, "%.400s: is empty", path);
     text = mmap (NULL, (size_t) about.st_size, PROT_READ, MAP_PRIVATE, file, 0);
     if (text == MAP_FAILED) PG_FAIL (PG_E_FILE, "%.400s: %s", path, strerror (errno));
-    PG_TRY (netcdf_check_header (&(mesh_bytes) { path, text, (size_t) about.st_size }));
+    PG_TRY (mesh_netcdf_check_header (&(mesh_file) { path, text, (size_t) about.st_size }));
 done:
     if (text != MAP_FAILED) munmap (text, (size_t) about.st_size);
     if (file >= 0) close (file);

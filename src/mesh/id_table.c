@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Numbers of nodes and elements as a file gives them, found again in constant time. */
-#include "builder.h"
+#include "perigal/mesh.h"
 #include <stdint.h>
 #include <string.h>
 
-static size_t slot_of (const id_table *t, long id)
+static size_t slot_of (const pg_id_table *t, long id)
 {
     uint64_t h = (uint64_t) id * UINT64_C (0x9E3779B97F4A7C15);
     return (size_t) (h >> 32) & t->mask;
 }
 
 /* Places in `direct` hold the number of the entry + 1. */
-static pg_status build_dense (id_table *t, size_t *twice)
+static pg_status build_dense (pg_id_table *t, size_t *twice)
 {
     pg_status status = PG_OK;
     PG_ALLOC (t->direct, t->range);
@@ -24,7 +24,7 @@ done:
     return status;
 }
 
-static pg_status build_hash (id_table *t, size_t *twice)
+static pg_status build_hash (pg_id_table *t, size_t *twice)
 {
     pg_status status = PG_OK;
     size_t slots = 16;
@@ -41,7 +41,7 @@ done:
     return status;
 }
 
-pg_status id_table_build (id_table *t, size_t n, const long *id, size_t *twice)
+pg_status pg_id_table_build (pg_id_table *t, size_t n, const long *id, size_t *twice)
 {
     long low = n ? id[0] : 0, high = low;
     memset (t, 0, sizeof *t);
@@ -56,7 +56,7 @@ pg_status id_table_build (id_table *t, size_t n, const long *id, size_t *twice)
     return t->range ? build_dense (t, twice) : build_hash (t, twice);
 }
 
-long id_table_find (const id_table *t, long id)
+long pg_id_table_find (const pg_id_table *t, long id)
 {
     if (t->n == 0) return -1;
     if (t->range) {
@@ -68,7 +68,7 @@ long id_table_find (const id_table *t, long id)
     return -1;
 }
 
-void id_table_clear (id_table *t)
+void pg_id_table_clear (pg_id_table *t)
 {
     pg_free (t->direct);
     memset (t, 0, sizeof *t);

@@ -17,7 +17,7 @@ pg_status abaqus_set_get (abaqus_sets *sets, const char *name, int *set)
     pg_status status = PG_OK;
     *set = abaqus_set_find (sets, name);
     if (*set >= 0) goto done;
-    PG_GROW (sets->set, sets->workspace, sets->n + 1);
+    PG_GROW (sets->set, sets->capacity, sets->n + 1);
     memset (&sets->set[sets->n], 0, sizeof *sets->set);
     snprintf (sets->set[sets->n].name, ABAQUS_NAME, "%s", name);
     *set = (int) sets->n++;
@@ -35,7 +35,7 @@ pg_status abaqus_set_add (abaqus_set *set, abaqus_range range)
         last->last = range.last;
         goto done;
     }
-    PG_GROW (set->range, set->workspace, set->n + 1);
+    PG_GROW (set->range, set->capacity, set->n + 1);
     set->range[set->n++] = range;
 done:
     return status;
@@ -52,18 +52,18 @@ void abaqus_sets_free (abaqus_sets *sets)
 typedef struct {
     const char *what;                                  /* "node", "element" */
     const abaqus_sets *sets;
-    id_table table;
+    pg_id_table table;
     const long *id;
     size_t   all, n;                                   /* of the file, in the set */
     int     *place;                                    /* of those in the set */
     unsigned char *in, *seen;                          /* of places, of sets */
     int     *todo;                                     /* sets */
 } gather;
-typedef struct { abaqus *a; gather node, element; } resolver;
+typedef struct { abaqus *a; pg_mesh_given given; gather node, element; } resolver;
 
 static void gather_clear (gather *g)
 {
-    id_table_clear (&g->table);
+    pg_id_table_clear (&g->table);
     pg_free (g->place), pg_free (g->in), pg_free (g->seen), pg_free (g->todo);
 }
 
@@ -72,7 +72,8 @@ static pg_status gather_start (gather *g, const char *what, const abaqus_sets *s
     pg_status status = PG_OK;
     size_t twice;
     g->what = what, g->sets = sets, g->all = n, g->id = id;
-    PG_TRY (id_table_build (&g->table, n, id, &twice));  /* numbers given twice are for the builder to tell */
+    /* numbers given twice are for the builder to tell */
+    PG_TRY (pg_id_table_build (&g->table, n, id, &twice));
     PG_ALLOC (g->place, n);
     PG_ALLOC (g->in, n);
     PG_ALLOC (g->seen, sets->n);
@@ -109,7 +110,7 @@ static pg_status put_range (const resolver *r, gather *g, const abaqus_range *ra
                        : ((size_t) range->last - (size_t) range->first) / (size_t) range->step + 1;
     if (count > g->all && range->line) {               /* more than there are: one is missing */
         for (long id = range->first;; id++)
-            if (id_table_find (&g->table, id) < 0) return fault (r, range->line, g->what, id, set);
+            if (pg_id_table_find (&g->table, id) < 0) return fault (r, range->line, g->what, id, set);
     }
     if (count > g->all) {
         for (size_t k = 0; k < g->all; k++)
@@ -120,7 +121,7 @@ static pg_status put_range (const resolver *r, gather *g, const abaqus_range *ra
     }
     long id = range->first;
     for (size_t k = 0; k < count; k++, id += k < count ? range->step : 0) {
-        long place = id_table_find (&g->table, id);
+        long place = pg_id_table_find (&g->table, id);
         if (place < 0 && range->line) return fault (r, range->line, g->what, id, set);
         put (g, place);
     }
@@ -131,9 +132,9 @@ static pg_status put_range (const resolver *r, gather *g, const abaqus_range *ra
 static pg_status collect (resolver *r, gather *g, int set);
 static void put_nodes (resolver *r, int e)
 {
-    const pg_mesh_builder *m = r->a->builder;
+    const pg_mesh_given *m = &r->given;
     for (size_t j = m->start[e]; j < m->start[e + 1]; j++)
-        put (&r->node, id_table_find (&r->node.table, m->list[j]));
+        put (&r->node, pg_id_table_find (&r->node.table, m->node[j]));
 }
 
 static pg_status put_nodes_of (resolver *r, int element_set)
@@ -173,8 +174,10 @@ static pg_status resolve_blocks (resolver *r)
         int used = 0;
         PG_TRY (collect (r, &r->element, a->section[k]));
         for (size_t i = 0; i < r->element.n; i++) {
-            long *group = &a->builder->group[r->element.place[i]];
-            if (*group == 0) *group = a->section[k] + 1, used = 1;
+            size_t e = (size_t) r->element.place[i];
+            if (r->given.group[e] != 0) continue;
+            pg_mesh_builder_regroup (a->builder, e, a->section[k] + 1);
+            used = 1;
         }
         if (used) a->elset.set[a->section[k]].named = 1;
     }
@@ -214,7 +217,7 @@ done:
     return status;
 }
 
-static int top_dimension (const pg_mesh_builder *m)
+static int top_dimension (const pg_mesh_given *m)
 {
     int dim = 0;
     for (size_t e = 0; e < m->n; e++)
@@ -227,7 +230,7 @@ static pg_status side_of (const resolver *r, const abaqus_surface *surface, cons
                           int place, int dim, int *side)
 {
     pg_status status = PG_OK;
-    const pg_mesh_builder *m = r->a->builder;
+    const pg_mesh_given *m = &r->given;
     char at[32] = "";
     pg_element kind = (pg_element) m->kind[place];
     *side = abaqus_side (kind, r->a->shell[place], face->face);
@@ -246,7 +249,7 @@ done:
 static pg_status collect_face (resolver *r, const abaqus_surface *surface, const abaqus_face *face)
 {
     if (face->set >= 0) return collect (r, &r->element, face->set);
-    long place = id_table_find (&r->element.table, face->element);
+    long place = pg_id_table_find (&r->element.table, face->element);
     if (place < 0) return fault (r, face->line, "element", face->element, surface->name);
     forget (&r->element);
     put (&r->element, place);
@@ -282,10 +285,10 @@ done:
 pg_status abaqus_resolve (abaqus *a)
 {
     pg_status status = PG_OK;
-    resolver r = { .a = a };
-    int dim = top_dimension (a->builder);
-    PG_TRY (gather_start (&r.node, "node", &a->nset, a->builder->nnode, a->builder->node_id));
-    PG_TRY (gather_start (&r.element, "element", &a->elset, a->builder->n, a->builder->element_id));
+    resolver r = { .a = a, .given = pg_mesh_builder_given (a->builder) };
+    int dim = top_dimension (&r.given);
+    PG_TRY (gather_start (&r.node, "node", &a->nset, r.given.nnode, r.given.node_id));
+    PG_TRY (gather_start (&r.element, "element", &a->elset, r.given.n, r.given.element_id));
     PG_TRY (resolve_blocks (&r));
     PG_TRY (resolve_sets (&r));
     for (size_t s = 0; s < a->nsurface; s++)

@@ -2,8 +2,8 @@
  * Gmsh files: samples of every kind of element and variant, both byte orders, groups, faults. Run from the
  * top folder. */
 #include "check.h"
-#include "mesh/mesh_private.h"
-#include "measure.h"
+#include "mesh_files/format.h"
+#include "mesh/measure.h"
 #include <stdlib.h>
 
 static const double pi = 3.14159265358979323846;
@@ -142,7 +142,7 @@ static void variants_give_the_same_mesh (void **state)
 /* ---- texts --------------------------------------------------------------------------------------------- */
 static pg_status parse (pg_mesh *mesh, const char *text)
 {
-    return mesh_parse (mesh, &(mesh_bytes) { "part.msh", text, strlen (text) });
+    return mesh_parse (mesh, &(mesh_file) { "part.msh", text, strlen (text) });
 }
 
 #define HEAD2 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
@@ -207,7 +207,7 @@ static void both_byte_orders (void **state)
         const int element[10] = { 3, 1, 2, 9, 5, 7, 1, 2, 3, 4 };
         for (int k = 0; k < 10; k++) put (&at, &element[k], 4, swap);
         at += sprintf (at, "\n$EndElements\n");
-        check_ok (mesh_parse (&mesh, &(mesh_bytes) { "part.msh", file, (size_t) (at - file) }));
+        check_ok (mesh_parse (&mesh, &(mesh_file) { "part.msh", file, (size_t) (at - file) }));
         same (&mesh, &text);
         pg_mesh_clear (&mesh);
     }
@@ -300,11 +300,11 @@ static void faults_of_binary_files_name_the_byte (void **state)
     (void) state;
     static const char *const names[] = { "data/mesh/box_hex20_41b.msh", "data/mesh/disk_tri6_22b.msh" };
     for (int k = 0; k < 2; k++) {
-        mesh_bytes file;
+        mesh_file file;
         pg_mesh mesh;
         check_ok (mesh_load (&file, names[k]));
         for (size_t n = 0; n < file.size; n += 7) {
-            pg_status status = mesh_parse (&mesh, &(mesh_bytes) { "part.msh", file.text, n });
+            pg_status status = mesh_parse (&mesh, &(mesh_file) { "part.msh", file.text, n });
             if (status == PG_OK) assert_true (n + 16 > file.size);
             else assert_int_equal (status, PG_E_FILE);
             if (n == 4200) check_contains (pg_last_error (), "part.msh, byte ");
@@ -396,5 +396,5 @@ int main (void)
         cmocka_unit_test (numbers_are_read_to_the_last_bit),
         cmocka_unit_test (every_allocation_may_fail),
     };
-    return cmocka_run_group_tests_name ("mesh/gmsh", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("mesh_files/gmsh", tests, NULL, NULL);
 }

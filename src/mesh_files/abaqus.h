@@ -3,8 +3,7 @@
  * is resolved (abaqus.c fills it), and the way from there into a mesh (abaqus_sets.c). */
 #ifndef MESH_ABAQUS_H
 #define MESH_ABAQUS_H
-#include "builder.h"
-#include "mesh_private.h"
+#include "format.h"
 
 /* ---- abaqus_type.c ------------------------------------------------------------------------------------- */
 typedef struct {
@@ -28,18 +27,19 @@ typedef struct { long first, last, step, line; } abaqus_range;  /* line: of entr
  * element set number `first`. */
 enum { ABAQUS_SET = 0, ABAQUS_NODES_OF = -1 };
 /* named: by *ELEMENT: a block */
-typedef struct { char name[ABAQUS_NAME]; size_t n, workspace; abaqus_range *range; int named; } abaqus_set;
-typedef struct { size_t n, workspace; abaqus_set *set; } abaqus_sets;
+typedef struct { char name[ABAQUS_NAME]; size_t n, capacity; abaqus_range *range; int named; } abaqus_set;
+typedef struct { size_t n, capacity; abaqus_set *set; } abaqus_sets;
 typedef struct { long element, line; int set; char face[8]; } abaqus_face;  /* set -1: one element */
-typedef struct { char name[ABAQUS_NAME]; size_t n, workspace; abaqus_face *face; } abaqus_surface;
+typedef struct { char name[ABAQUS_NAME]; size_t n, capacity; abaqus_face *face; } abaqus_surface;
 typedef struct {
     pg_mesh_builder *builder;
     const char *path;
     int    included;                                   /* files by *INCLUDE so far */
-    size_t workspace;  unsigned char *shell;                /* of every element of the builder */
+    size_t capacity;  unsigned char *shell;                /* of every element of the builder */
     abaqus_sets nset, elset;
-    size_t nsection, section_room;  int *section;      /* element sets of *SOLID SECTION, in their order */
-    size_t nsurface, surface_room;  abaqus_surface *surface;
+    /* element sets of *SOLID SECTION, in their order */
+    size_t nsection, section_capacity;  int *section;
+    size_t nsurface, surface_capacity;  abaqus_surface *surface;
 } abaqus;
 
 /* ---- abaqus.c, abaqus_data.c: a file being read -------------------------------------------------------- */
@@ -55,7 +55,7 @@ typedef enum {
     ABAQUS_INSTANCE
 } abaqus_mode;
 /* line: the one now, up to its end */
-typedef struct { char *path; mesh_bytes bytes; mesh_cursor c; const char *line, *end; } abaqus_file;
+typedef struct { char *path; mesh_file bytes; mesh_cursor c; const char *line, *end; } abaqus_file;
 typedef struct { char key[32], value[ABAQUS_WORD]; } abaqus_parameter;
 typedef struct {
     abaqus      data;

@@ -3,7 +3,7 @@
  * elements, binary numbers. */
 #ifndef MESH_GMSH_H
 #define MESH_GMSH_H
-#include "mesh_private.h"
+#include "format.h"
 #include <stdio.h>
 
 typedef struct {
@@ -20,9 +20,9 @@ const char *gmsh_at (const gmsh_reader *g, char text[40]);
 #define GMSH_FAIL(g, ...) do { char why_[400], at_[40]; snprintf (why_, sizeof why_, __VA_ARGS__); \
     PG_FAIL (PG_E_FILE, "%.400s, %s: %s", (g)->c.file->path, gmsh_at ((g), at_), why_); } while (0)
 
-int       gmsh_knows   (const mesh_bytes *file, double *version);
+int       gmsh_knows   (const mesh_file *file, double *version);
 /* up to and with $EndMeshFormat */
-pg_status gmsh_open    (gmsh_reader *g, pg_mesh_builder *m, const mesh_bytes *file);
+pg_status gmsh_open    (gmsh_reader *g, pg_mesh_builder *m, const mesh_file *file);
 int       gmsh_section (gmsh_reader *g, char name[64]);  /* next "$Name"; 0: end of file */
 pg_status gmsh_skip    (gmsh_reader *g, const char *name);  /* past "$EndName" */
 pg_status gmsh_end     (gmsh_reader *g, const char *name);  /* here must be "$EndName" */
@@ -37,8 +37,8 @@ pg_status gmsh_kind    (gmsh_reader *g, long type, long element, gmsh_type *out)
 pg_status gmsh_element (gmsh_reader *g, const gmsh_type *type, long id, const long *node, long group,
                         long line);
 /* Are there n records of `size` bytes left? */
-pg_status gmsh_room    (gmsh_reader *g, const char *what, size_t n, size_t size);
-int       gmsh_int     (gmsh_reader *g);  /* after gmsh_room */
+pg_status gmsh_has_left    (gmsh_reader *g, const char *what, size_t n, size_t size);
+int       gmsh_int     (gmsh_reader *g);  /* after gmsh_has_left */
 long      gmsh_long    (gmsh_reader *g);
 double    gmsh_double  (gmsh_reader *g);
 #endif

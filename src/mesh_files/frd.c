@@ -2,7 +2,7 @@
  * Results of CalculiX (.frd; format by the manual of its viewer cgx): blocks of nodes, elements and results,
  * each as text in short or long columns, or binary. Numbers stand in fixed columns, often without blanks
  * between them. */
-#include "result.h"
+#include "format.h"
 #include <ctype.h>
 #include <math.h>
 #include <stdint.h>
@@ -21,7 +21,7 @@ typedef struct {
     mesh_cursor    c;
     const char    *first, *last;                       /* the line now */
     pg_mesh_builder *builder;                              /* NULL: only the results count */
-    size_t  nblock, workspace;
+    size_t  nblock, capacity;
     block  *block;
 } reader;
 
@@ -257,7 +257,7 @@ static pg_status read_block (reader *r)
     }
     b.data = r->c;
     PG_TRY (skip_values (r, &b));
-    PG_GROW (r->block, r->workspace, r->nblock + 1);
+    PG_GROW (r->block, r->capacity, r->nblock + 1);
     r->block[r->nblock++] = b;
 done:
     return status;
@@ -290,14 +290,14 @@ done:
     return status;
 }
 
-static int knows_frd (const mesh_bytes *file)
+static int knows_frd (const mesh_file *file)
 {
     return file->size > 6
            && (!memcmp (file->text, "    1C", 6) || !memcmp (file->text, "    2C", 6)
                || !memcmp (file->text, "    1U", 6));
 }
 
-static pg_status read_frd (pg_mesh_builder *m, const mesh_bytes *file)
+static pg_status read_frd (pg_mesh_builder *m, const mesh_file *file)
 {
     reader r = { .c = mesh_begin (file), .builder = m };
     pg_status status = read_all (&r);
@@ -345,7 +345,7 @@ static const char *field_name (const char *name)
                                             : name;
 }
 
-static pg_status read_field (mesh_fields *out, const pg_mesh *mesh, const id_table *nodes, reader *r,
+static pg_status read_field (mesh_fields *out, const pg_mesh *mesh, const pg_id_table *nodes, reader *r,
                              const block *b, unsigned char *have)
 {
     pg_status status = PG_OK;
@@ -353,14 +353,14 @@ static pg_status read_field (mesh_fields *out, const pg_mesh *mesh, const id_tab
     double value[MOST_COMPONENTS];
     size_t n = (size_t) b->components, found = 0;
     int more = 1;
-    PG_TRY (fields_add (out, mesh->nnode, field_name (b->name), b->components, &field));
+    PG_TRY (mesh_fields_add (out, mesh->nnode, field_name (b->name), b->components, &field));
     memset (have, 0, mesh->nnode);
     r->c = b->data;
     for (long k = 0; b->format < FLOATS || k < b->nodes; k++) {
         long id = 0;
         PG_TRY (next_values (r, b, &id, value, &more));
         if (!more) break;
-        long at = id_table_find (nodes, id);
+        long at = pg_id_table_find (nodes, id);
         if (at < 0) continue;
         for (size_t c = 0; c < n; c++)
             if (!isfinite (value[c])) MESH_FAIL (&r->c, "%s at node %ld is not finite", b->name, id);
@@ -374,17 +374,17 @@ done:
     return status;
 }
 
-static pg_status fields_frd (mesh_fields *out, const pg_mesh *mesh, const mesh_bytes *file, int step)
+static pg_status fields_frd (mesh_fields *out, const pg_mesh *mesh, const mesh_file *file, int step)
 {
     pg_status status = PG_OK;
     reader r = { .c = mesh_begin (file) };
-    id_table nodes = { 0 };
+    pg_id_table nodes = { 0 };
     unsigned char *have = NULL;
     size_t steps = 0, chosen, twice, k = 0;
     PG_TRY (read_all (&r));
     for (size_t b = 0; b < r.nblock; b++) steps += b == 0 || !same_step (&r.block[b], &r.block[b - 1]);
-    PG_TRY (result_step (file->path, steps, step, &chosen));
-    PG_TRY (id_table_build (&nodes, mesh->nnode, mesh->node_id, &twice));
+    PG_TRY (mesh_fields_step (file->path, steps, step, &chosen));
+    PG_TRY (pg_id_table_build (&nodes, mesh->nnode, mesh->node_id, &twice));
     PG_ALLOC (have, mesh->nnode);
     for (size_t b = 0; b < r.nblock; b++) {
         k += b > 0 && !same_step (&r.block[b], &r.block[b - 1]);
@@ -393,10 +393,9 @@ static pg_status fields_frd (mesh_fields *out, const pg_mesh *mesh, const mesh_b
         PG_TRY (read_field (out, mesh, &nodes, &r, &r.block[b], have));
     }
 done:
-    id_table_clear (&nodes);
+    pg_id_table_clear (&nodes);
     pg_free (have), pg_free (r.block);
     return status;
 }
 
-const mesh_format mesh_format_frd = { "CalculiX .frd", knows_frd, read_frd };
-const result_format result_format_frd = { &mesh_format_frd, fields_frd };
+const mesh_format mesh_format_frd = { "CalculiX .frd", knows_frd, read_frd, fields_frd };

@@ -67,17 +67,17 @@ static pg_status entity_of_bytes (reader *r, int dim)
     pg_status status = PG_OK;
     gmsh_reader *g = &r->g;
     size_t box = dim ? 48 : 24;
-    PG_TRY (gmsh_room (g, "an entity", 1, 4 + box + 8));
+    PG_TRY (gmsh_has_left (g, "an entity", 1, 4 + box + 8));
     long tag = gmsh_int (g);
     g->c.at += box;
     long n = gmsh_long (g);
-    PG_TRY (gmsh_room (g, "groups of an entity", (size_t) n, 4));
+    PG_TRY (gmsh_has_left (g, "groups of an entity", (size_t) n, 4));
     PG_TRY (add_entity (r, dim, tag));
     for (long k = 0; k < n; k++) PG_TRY (add_group (r, gmsh_int (g)));
     if (dim == 0) goto done;
-    PG_TRY (gmsh_room (g, "the bounds of an entity", 1, 8));
+    PG_TRY (gmsh_has_left (g, "the bounds of an entity", 1, 8));
     n = gmsh_long (g);
-    PG_TRY (gmsh_room (g, "the bounds of an entity", (size_t) n, 4));
+    PG_TRY (gmsh_has_left (g, "the bounds of an entity", (size_t) n, 4));
     g->c.at += 4 * (size_t) n;
 done:
     return status;
@@ -96,7 +96,7 @@ static pg_status read_entities (reader *r)
     gmsh_reader *g = &r->g;
     long count[4];
     if (g->binary) {
-        PG_TRY (gmsh_room (g, "the numbers of entities", 4, 8));
+        PG_TRY (gmsh_has_left (g, "the numbers of entities", 4, 8));
         for (int k = 0; k < 4; k++) count[k] = gmsh_long (g);
     } else PG_TRY (gmsh_wholes (g, "the numbers of entities", 4, count));
     for (int dim = 0; dim < 4; dim++)
@@ -115,7 +115,7 @@ static pg_status section_head (gmsh_reader *g, const char *what, long *blocks, l
     pg_status status = PG_OK;
     long head[4];
     if (g->binary) {
-        PG_TRY (gmsh_room (g, what, 4, 8));
+        PG_TRY (gmsh_has_left (g, what, 4, 8));
         for (int k = 0; k < 4; k++) head[k] = gmsh_long (g);
     } else PG_TRY (gmsh_wholes (g, what, 4, head));
     if (head[0] < 0 || head[1] < 0) GMSH_FAIL (g, "%s: %ld blocks with %ld members", what, head[0], head[1]);
@@ -129,7 +129,7 @@ static pg_status block_head (gmsh_reader *g, const char *what, long head[4], lon
 {
     pg_status status = PG_OK;
     if (g->binary) {
-        PG_TRY (gmsh_room (g, what, 1, 20));
+        PG_TRY (gmsh_has_left (g, what, 1, 20));
         for (int k = 0; k < 3; k++) head[k] = gmsh_int (g);
         head[3] = gmsh_long (g);
     } else PG_TRY (gmsh_wholes (g, what, 4, head));
@@ -165,7 +165,7 @@ static pg_status nodes_of_bytes (gmsh_reader *g, long n, size_t parameters)
 {
     pg_status status = PG_OK;
     gmsh_reader number = *g;
-    PG_TRY (gmsh_room (g, "nodes", (size_t) n, 8 + 8 * (3 + parameters)));
+    PG_TRY (gmsh_has_left (g, "nodes", (size_t) n, 8 + 8 * (3 + parameters)));
     g->c.at += 8 * (size_t) n;
     for (long k = 0; k < n; k++) {
         double x[3];
@@ -229,7 +229,7 @@ static pg_status elements_of_bytes (reader *r, const entity *e, const gmsh_type 
 {
     pg_status status = PG_OK;
     int nodes = pg_element_types[t->kind].nodes;
-    PG_TRY (gmsh_room (&r->g, "elements", (size_t) n, 8 * (1 + (size_t) nodes)));
+    PG_TRY (gmsh_has_left (&r->g, "elements", (size_t) n, 8 * (1 + (size_t) nodes)));
     for (long k = 0; k < n; k++) {
         long id = gmsh_long (&r->g), node[PG_ELEMENT_NODES];
         for (int i = 0; i < nodes; i++) node[i] = gmsh_long (&r->g);
@@ -279,7 +279,7 @@ done:
 }
 
 /* ---- file ---------------------------------------------------------------------------------------------- */
-static pg_status read (pg_mesh_builder *m, const mesh_bytes *file)
+static pg_status read (pg_mesh_builder *m, const mesh_file *file)
 {
     pg_status status = PG_OK;
     reader r = { .nentity = 0 };
@@ -301,10 +301,10 @@ done:
     return status;
 }
 
-static int knows (const mesh_bytes *file)
+static int knows (const mesh_file *file)
 {
     double version;
     return gmsh_knows (file, &version) && !(version >= 2 && version < 3);
 }
 
-const mesh_format mesh_format_gmsh4 = { "Gmsh .msh 4.1", knows, read };
+const mesh_format mesh_format_gmsh4 = { "Gmsh .msh 4.1", knows, read, NULL };

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Meshes and nodal results of Exodus II (any netCDF): nodes and elements go by their place in the file while
  * it is read; the numbers that node_num_map and elem_map give them come last. */
-#include "netcdf_header.h"
-#include "result.h"
+#include "format.h"
 #include <ctype.h>
 #include <math.h>
 #include <netcdf.h>
@@ -108,11 +107,11 @@ static void name_of (const reader *r, const char *table, size_t k, char name[NAM
  * takes a bit at least. */
 static int too_many (const reader *r, size_t n) { return n > 4096 * r->bytes || n > 0x7fffffff; }
 
-static pg_status open_file (reader *r, const mesh_bytes *file)
+static pg_status open_file (reader *r, const mesh_file *file)
 {
     pg_status status = PG_OK;
     r->path = file->path, r->bytes = file->size;
-    PG_TRY (netcdf_check_header (file));
+    PG_TRY (mesh_netcdf_check_header (file));
     NC_TRY (r, nc_open_mem (file->path, NC_NOWRITE, file->size, (void *) file->text, &r->ncid));
     r->open = 1;
     r->nnode = length_of (r->ncid, "num_nodes");
@@ -252,7 +251,8 @@ done:
 static pg_status check_points (const reader *r)
 {
     pg_status status = PG_OK;
-    for (size_t e = 0; e < r->builder->n; e++) if (r->builder->kind[e] != PG_POINT1) goto done;
+    const pg_mesh_given given = pg_mesh_builder_given (r->builder);
+    for (size_t e = 0; e < given.n; e++) if (given.kind[e] != PG_POINT1) goto done;
     PG_FAIL (PG_E_FILE, "%.400s: points without elements (SPHERE): a result of points is no mesh", r->path);
 done:
     return status;
@@ -327,26 +327,16 @@ done:
 static pg_status renumber (const reader *r)
 {
     pg_status status = PG_OK;
-    pg_mesh_builder *m = r->builder;
     long *node = NULL, *element = NULL;
     PG_TRY (whole_numbers (r, "node_num_map", r->nnode, &node));
     PG_TRY (whole_numbers (r, "elem_num_map", r->n, &element));
-    /* the builder tells */
-    for (size_t i = 0; node && i < m->nlist; i++)
-        if (m->list[i] < 1 || (size_t) m->list[i] > r->nnode) goto done;
-    for (size_t i = 0; node && i < m->nset_node; i++)
-        if (m->set_node[i] < 1 || (size_t) m->set_node[i] > r->nnode) goto done;
-    for (size_t i = 0; node && i < m->nnode; i++) m->node_id[i] = node[i];
-    for (size_t i = 0; node && i < m->nlist; i++) m->list[i] = node[m->list[i] - 1];
-    for (size_t i = 0; node && i < m->nset_node; i++) m->set_node[i] = node[m->set_node[i] - 1];
-    for (size_t i = 0; element && i < m->n; i++) m->element_id[i] = element[i];
-    for (size_t i = 0; element && i < m->nside; i++) m->side_element[i] = element[m->side_element[i] - 1];
+    pg_mesh_builder_renumber (r->builder, r->nnode, node, element);
 done:
     pg_free (node), pg_free (element);
     return status;
 }
 
-static pg_status read_exodus (pg_mesh_builder *m, const mesh_bytes *file)
+static pg_status read_exodus (pg_mesh_builder *m, const mesh_file *file)
 {
     pg_status status = PG_OK;
     reader r = { .builder = m };
@@ -368,7 +358,7 @@ done:
     return status;
 }
 
-static int knows_exodus (const mesh_bytes *file)
+static int knows_exodus (const mesh_file *file)
 {
     return file->size > 8
            && (!memcmp (file->text, "CDF\1", 4) || !memcmp (file->text, "CDF\2", 4)
@@ -437,18 +427,18 @@ static pg_status find_nodes (const reader *r, const pg_mesh *mesh, int *at)
 {
     pg_status status = PG_OK;
     long *number = NULL;
-    id_table t = { 0 };
+    pg_id_table t = { 0 };
     size_t twice;
     PG_TRY (whole_numbers (r, "node_num_map", r->nnode, &number));
-    if (number) PG_TRY (id_table_build (&t, r->nnode, number, &twice));
+    if (number) PG_TRY (pg_id_table_build (&t, r->nnode, number, &twice));
     for (size_t i = 0; i < mesh->nnode; i++) {
-        long place = number ? id_table_find (&t, mesh->node_id[i]) : mesh->node_id[i] - 1;
+        long place = number ? pg_id_table_find (&t, mesh->node_id[i]) : mesh->node_id[i] - 1;
         if (place < 0 || (size_t) place >= r->nnode)
             PG_FAIL (PG_E_FILE, "%.400s: node %ld is not there", r->path, mesh->node_id[i]);
         at[i] = (int) place;
     }
 done:
-    id_table_clear (&t);
+    pg_id_table_clear (&t);
     pg_free (number);
     return status;
 }
@@ -467,7 +457,7 @@ static pg_status read_fields (mesh_fields *out, const reader *r, const pg_mesh *
         size_t j = 0;
         while (j < k && !together (&v[j], &v[k])) j++;
         if (j < k) continue;                               /* read with the first of its components */
-        PG_TRY (fields_add (out, mesh->nnode, v[k].base, components_of (&v[k]), &field));
+        PG_TRY (mesh_fields_add (out, mesh->nnode, v[k].base, components_of (&v[k]), &field));
         for (j = k; j < n; j++)
             if (j == k || together (&v[j], &v[k]))
                 PG_TRY (read_values (r, &v[j], step, mesh, at, work, field));
@@ -477,7 +467,7 @@ done:
     return status;
 }
 
-static pg_status fields_exodus (mesh_fields *out, const pg_mesh *mesh, const mesh_bytes *file, int step)
+static pg_status fields_exodus (mesh_fields *out, const pg_mesh *mesh, const mesh_file *file, int step)
 {
     pg_status status = PG_OK;
     reader r = { 0 };
@@ -487,7 +477,7 @@ static pg_status fields_exodus (mesh_fields *out, const pg_mesh *mesh, const mes
     PG_TRY (open_file (&r, file));
     size_t steps = length_of (r.ncid, "time_step"), n = length_of (r.ncid, "num_nod_var");
     if (n > r.bytes) PG_FAIL (PG_E_FILE, "%.400s: %zu variables are more than it can hold", r.path, n);
-    PG_TRY (result_step (r.path, n ? steps : 0, step, &chosen));
+    PG_TRY (mesh_fields_step (r.path, n ? steps : 0, step, &chosen));
     PG_ALLOC (v, n);
     PG_TRY (list_variables (&r, steps, n, v));
     if (nc_inq_varid (r.ncid, "time_whole", &time) == NC_NOERR)
@@ -499,5 +489,4 @@ done:
     return status;
 }
 
-const mesh_format mesh_format_exodus = { "Exodus II", knows_exodus, read_exodus };
-const result_format result_format_exodus = { &mesh_format_exodus, fields_exodus };
+const mesh_format mesh_format_exodus = { "Exodus II", knows_exodus, read_exodus, fields_exodus };

@@ -28,14 +28,14 @@ static int find_header (mesh_cursor *c)
     return 0;
 }
 
-int gmsh_knows (const mesh_bytes *file, double *version)
+int gmsh_knows (const mesh_file *file, double *version)
 {
     mesh_cursor c = mesh_begin (file);
     const char *first, *last;
     return find_header (&c) && mesh_line (&c, &first, &last) && mesh_real (&first, last, version);
 }
 
-pg_status gmsh_open (gmsh_reader *g, pg_mesh_builder *m, const mesh_bytes *file)
+pg_status gmsh_open (gmsh_reader *g, pg_mesh_builder *m, const mesh_file *file)
 {
     pg_status status = PG_OK;
     const char *at, *last;
@@ -50,7 +50,7 @@ pg_status gmsh_open (gmsh_reader *g, pg_mesh_builder *m, const mesh_bytes *file)
     if (size != 8) GMSH_FAIL (g, "the size of numbers is %ld bytes; only 8 is known", size);
     g->binary = binary != 0;
     if (g->binary) {
-        PG_TRY (gmsh_room (g, "the test of the byte order", 1, 4));
+        PG_TRY (gmsh_has_left (g, "the test of the byte order", 1, 4));
         int one = gmsh_int (g);
         g->swap = one == 1 << 24;
         if (one != 1 && !g->swap) GMSH_FAIL (g, "the number that tells the byte order is %d, not 1", one);
@@ -214,7 +214,7 @@ pg_status gmsh_element (gmsh_reader *g, const gmsh_type *type, long id, const lo
 }
 
 /* ---- binary numbers ------------------------------------------------------------------------------------ */
-pg_status gmsh_room (gmsh_reader *g, const char *what, size_t n, size_t size)
+pg_status gmsh_has_left (gmsh_reader *g, const char *what, size_t n, size_t size)
 {
     pg_status status = PG_OK;
     size_t left = (size_t) (g->c.end - g->c.at);

@@ -2,15 +2,15 @@
  * Input files of Abaqus and CalculiX: every element type, order of nodes and faces, sets, surfaces, include
  * files, faults. */
 #include "check.h"
-#include "measure.h"
-#include "mesh/mesh_private.h"
+#include "mesh/measure.h"
+#include "mesh_files/format.h"
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 static pg_status parse (pg_mesh *m, const char *text)
 {
-    return mesh_parse (m, &(mesh_bytes){ "job.inp", text, strlen (text) });
+    return mesh_parse (m, &(mesh_file){ "job.inp", text, strlen (text) });
 }
 
 static void wrong (const char *text, const char *why)

@@ -61,17 +61,17 @@ done:
 static pg_status nodes_of_bytes (gmsh_reader *g, long n, int parametric)
 {
     pg_status status = PG_OK;
-    PG_TRY (gmsh_room (g, "nodes", (size_t) n, parametric ? 36 : 28));
+    PG_TRY (gmsh_has_left (g, "nodes", (size_t) n, parametric ? 36 : 28));
     for (long k = 0; k < n; k++) {
         double x[3];
-        PG_TRY (gmsh_room (g, "a node", 1, parametric ? 36 : 28));
+        PG_TRY (gmsh_has_left (g, "a node", 1, parametric ? 36 : 28));
         int id = gmsh_int (g);
         for (int a = 0; a < 3; a++) x[a] = gmsh_double (g);
         PG_TRY (pg_mesh_builder_node (g->m, id, x));
         if (!parametric) continue;
         int dim = gmsh_int (g), more = dim == 1 || dim == 2 ? dim : 0;
         gmsh_int (g);
-        PG_TRY (gmsh_room (g, "parameters of a node", (size_t) more, 8));
+        PG_TRY (gmsh_has_left (g, "parameters of a node", (size_t) more, 8));
         g->c.at += 8 * more;
     }
 done:
@@ -83,16 +83,16 @@ static pg_status block_of_bytes (gmsh_reader *g, long *left)
 {
     pg_status status = PG_OK;
     gmsh_type t;
-    PG_TRY (gmsh_room (g, "a block of elements", 3, 4));
+    PG_TRY (gmsh_has_left (g, "a block of elements", 3, 4));
     int type = gmsh_int (g), n = gmsh_int (g), tags = gmsh_int (g);
     if (n < 1 || n > *left || tags < 0)
         GMSH_FAIL (g, "a block of %d elements with %d tags each where %ld elements are left", n, tags, *left);
-    PG_TRY (gmsh_room (g, "tags", (size_t) tags, 4));
-    PG_TRY (gmsh_room (g, "an element", 1, 4));
+    PG_TRY (gmsh_has_left (g, "tags", (size_t) tags, 4));
+    PG_TRY (gmsh_has_left (g, "an element", 1, 4));
     gmsh_reader peek = *g;
     PG_TRY (gmsh_kind (g, type, gmsh_int (&peek), &t));
     int nodes = pg_element_types[t.kind].nodes;
-    PG_TRY (gmsh_room (g, "elements", (size_t) n, 4 * (1 + (size_t) tags + (size_t) nodes)));
+    PG_TRY (gmsh_has_left (g, "elements", (size_t) n, 4 * (1 + (size_t) tags + (size_t) nodes)));
     for (int k = 0; k < n; k++) {
         long node[PG_ELEMENT_NODES], id = gmsh_int (g), group = 0;
         for (int i = 0; i < tags; i++) {
@@ -133,7 +133,7 @@ done:
     return status;
 }
 
-static pg_status read (pg_mesh_builder *m, const mesh_bytes *file)
+static pg_status read (pg_mesh_builder *m, const mesh_file *file)
 {
     pg_status status = PG_OK;
     gmsh_reader g;
@@ -148,10 +148,10 @@ done:
     return status;
 }
 
-static int knows (const mesh_bytes *file)
+static int knows (const mesh_file *file)
 {
     double version;
     return gmsh_knows (file, &version) && version >= 2 && version < 3;
 }
 
-const mesh_format mesh_format_gmsh2 = { "Gmsh .msh 2.2", knows, read };
+const mesh_format mesh_format_gmsh2 = { "Gmsh .msh 2.2", knows, read, NULL };

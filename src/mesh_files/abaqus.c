@@ -187,7 +187,7 @@ static pg_status begin_surface (reader *r)
         goto done;
     }
     abaqus *a = &r->data;
-    PG_GROW (a->surface, a->surface_room, a->nsurface + 1);
+    PG_GROW (a->surface, a->surface_capacity, a->nsurface + 1);
     memset (&a->surface[a->nsurface], 0, sizeof *a->surface);
     snprintf (a->surface[a->nsurface].name, ABAQUS_NAME, "%s", name);
     r->surface = (int) a->nsurface++;
@@ -203,7 +203,7 @@ static pg_status begin_section (reader *r)
     int set = of ? abaqus_set_find (&r->data.elset, of) : -1;
     r->mode = ABAQUS_SKIP;
     if (set < 0) goto done;
-    PG_GROW (r->data.section, r->data.section_room, r->data.nsection + 1);
+    PG_GROW (r->data.section, r->data.section_capacity, r->data.nsection + 1);
     r->data.section[r->data.nsection++] = set;
 done:
     return status;
@@ -315,7 +315,7 @@ static pg_status read_all (reader *r)
         else if (r->mode != ABAQUS_SKIP) PG_TRY (abaqus_data (r));
     }
     PG_TRY (finish_element (r));
-    if (r->data.builder->n == 0)
+    if (pg_mesh_builder_given (r->data.builder).n == 0)
         PG_FAIL (PG_E_FILE, "%s: no *ELEMENT: there is no mesh in this file", r->file[0].bytes.path);
 done:
     return status;
@@ -331,7 +331,7 @@ static void reader_free (reader *r)
     pg_free (r);
 }
 
-static pg_status read_abaqus (pg_mesh_builder *m, const mesh_bytes *file)
+static pg_status read_abaqus (pg_mesh_builder *m, const mesh_file *file)
 {
     pg_status status = PG_OK;
     reader *r = NULL;
@@ -349,7 +349,7 @@ done:
 }
 
 /* The first line that is no comment begins with * and a letter. */
-static int knows_abaqus (const mesh_bytes *file)
+static int knows_abaqus (const mesh_file *file)
 {
     mesh_cursor c = mesh_begin (file);
     const char *s, *end;
@@ -360,4 +360,4 @@ static int knows_abaqus (const mesh_bytes *file)
     return 0;
 }
 
-const mesh_format mesh_format_abaqus = { "Abaqus or CalculiX .inp", knows_abaqus, read_abaqus };
+const mesh_format mesh_format_abaqus = { "Abaqus or CalculiX .inp", knows_abaqus, read_abaqus, NULL };
