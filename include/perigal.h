@@ -22,6 +22,7 @@
 #include "perigal/criterion.h"
 #include "perigal/linalg.h"
 #include "perigal/mesh.h"
+#include "perigal/mesh_files.h"
 #include "perigal/cloud.h"
 #include "perigal/cells.h"
 #include "perigal/approx.h"
@@ -36,4 +37,5 @@
 #include "perigal/picture.h"
 #include "perigal/compare.h"
 #include "perigal/results.h"
+#include "perigal/study.h"
 #endif

@@ -61,6 +61,10 @@ size_t pg_memory_peak  (void);                         /* largest value of pg_me
 size_t pg_memory_calls (void);                         /* number of allocations so far */
 void   pg_memory_fail_at (size_t k);  /* testing: the k-th allocation from now fails (0: never) */
 size_t pg_memory_process_peak (void);                  /* peak resident bytes of the whole process */
+/* allocator.c: how glibc hands out memory. This process keeps what it frees; programs that are started from here
+ * on ask for large pages. */
+void   pg_memory_keep (void);
+void   pg_memory_large_pages (void);
 
 #define PG_ALLOC(p, n) do { (p) = pg_calloc ((n), sizeof *(p)); \
     if (!(p)) PG_FAIL (PG_E_MEMORY, "no memory for %zu x %zu bytes", (size_t) (n), sizeof *(p)); } while (0)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * mesh.h: finite elements (shape functions, faces, quadrature), meshes read from files, fields on them, and
+ * mesh.h: finite elements (shape functions, faces, quadrature), meshes, fields on them, and
  * search for the element that holds a place. Knows no scene: faults are returned as pg_error (PG_E_FILE) that
  * names file and line, or element. */
 #ifndef PERIGAL_MESH_H
@@ -70,13 +70,7 @@ typedef struct {
     pg_mesh_nodes *nodes;  /* node sets: those of the file, and the nodes of every side set */
     pg_mesh_sides *sides;
 } pg_mesh;
-/* Gmsh .msh 2.2 and 4.1 (ASCII, binary), Abaqus and CalculiX .inp, Exodus .e/.exo (any netCDF), CalculiX
- * .frd: told by content, not by name. Physical groups and sets become blocks, side and node sets. Nodes that
- * no solid element uses are dropped. Elements turned inside out are put right; flat ones and nodes that are
- * not there are faults. Groups of lower dimension become node sets, and side sets where they are faces of
- * solid elements (a face between two belongs to the first of them); sets of equal name are one; groups and
- * sets without a name have their number as name. Cracked shells of lower dimension are no fault. */
-pg_status pg_mesh_read  (pg_mesh *out, const char *path);
+/* Frees what the mesh holds and zeroes it. */
 void      pg_mesh_clear (pg_mesh *mesh);
 /* A mesh under construction (readers, generators, tests). Nodes and elements have any numbers; the nodes of
  * an element come in the order of Exodus II (pg_element), whatever the order of the file. Faults are
@@ -99,6 +93,36 @@ pg_status pg_mesh_builder_sideset (pg_mesh_builder *m, const char *name, long id
 pg_status pg_mesh_builder_sideset_add (pg_mesh_builder *m, long element,
                                        int side /* from 0, as pg_element_face */);
 pg_status pg_mesh_builder_finish  (pg_mesh_builder *m, pg_mesh *out);  /* resolves ids, checks, sorts */
+/* What the builder was given so far, in the numbers of the file; borrowed, until the next call that adds
+ * to it. */
+typedef struct {
+    size_t nnode;                                      /* nodes */
+    const long *node_id;                               /* their numbers (nnode) */
+    size_t n;                                          /* elements of all dimensions */
+    const long *element_id;                            /* their numbers (n) */
+    const long *group;                                 /* as given by pg_mesh_builder_element (n) */
+    const unsigned char *kind;                         /* pg_element (n) */
+    /* nodes of element e: node[start[e]..start[e + 1])  (n + 1) */
+    const size_t *start;
+    const long *node;                                  /* numbers of nodes */
+} pg_mesh_given;
+pg_mesh_given pg_mesh_builder_given (const pg_mesh_builder *m);
+/* Puts the element at place e of what was given into another group. */
+void pg_mesh_builder_regroup (pg_mesh_builder *m, size_t e, long group);
+/* Gives nodes and elements the numbers of a map, for files that first count them from 1 and then say how
+ * they are called: what is called k becomes node[k - 1] or element[k - 1], in elements and sets as well.
+ * NULL leaves the numbers as they are. A number beyond the map (nnode, n entries) leaves everything as it
+ * is: the builder finds that fault when it finishes. */
+void pg_mesh_builder_renumber (pg_mesh_builder *m, size_t nnode, const long *node, const long *element);
+
+/* ---- numbers of a file --------------------------------------------------------------------------------- */
+/* Where in a list does a number stand? In constant time: by a table where the numbers are dense, else by
+ * hash. */
+typedef struct { long low; size_t range, n; int *direct; const long *id; unsigned mask; } pg_id_table;
+/* Table of n numbers, borrowed; a number given twice is found as *twice (its second place; n: none). */
+pg_status pg_id_table_build (pg_id_table *t, size_t n, const long *id, size_t *twice);
+long      pg_id_table_find  (const pg_id_table *t, long id);                           /* -1: not there */
+void      pg_id_table_clear (pg_id_table *t);
 
 /* Faces that belong to one solid element only: n, element and side (pg_free both). */
 pg_status pg_mesh_surface (const pg_mesh *mesh, size_t *n, int **element, int **side);
@@ -106,14 +130,7 @@ pg_status pg_mesh_surface (const pg_mesh *mesh, size_t *n, int **element, int **
 /* ---- fields -------------------------------------------------------------------------------------------- */
 /* at nodes: nnode x components; tensors xx yy zz xy yz zx */
 typedef struct { char name[32]; int components; double *value; } pg_mesh_field;
-/* Mesh and the nodal fields of one step (-1: the last): CalculiX .frd (ASCII and binary; DISP ->
- * displacement, STRESS -> stress, TOSTRAIN -> strain), Exodus nodal variables (grouped by their suffixes _x
- * _y _z, _xx ...). time: of that step. */
-pg_status pg_mesh_result (pg_mesh *out, const char *path, int step, size_t *nfield, pg_mesh_field **fields,
-                          double *time);
 void      pg_mesh_fields_clear (size_t n, pg_mesh_field **fields);
-/* Vectors (3 components) of a plane mesh come with 2; strains are those of the tensor (xy: half the angle),
- * as CalculiX writes them. A field that is not given at every node is a fault. */
 /* Plane elements that CalculiX made solid: a mesh one element thick between two planes z = const becomes the
  * plane mesh between them, its nodes named as those at the lower z, x and y and fields the mean of both sides
  * (vectors: without z). PG_E_USAGE: it is not one. */
@@ -124,13 +141,6 @@ void pg_mesh_value (const pg_mesh *mesh, const pg_mesh_field *field, size_t elem
 /* Its gradient, out[components x dim] = d value_c / d x_a; 0: the element is turned inside out there. */
 int pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi,
                       double *out);
-
-/* ---- netCDF -------------------------------------------------------------------------------------------- */
-/* Before the library netCDF opens a file (mesh, result, checkpoint): does its header, by the published
- * grammar of the classic formats, fit into the file? netCDF trusts its counts: a few bytes of a broken file
- * make it take gigabytes. PG_E_FILE: no, near which byte; or no such file, an empty one, no regular one.
- * Files of netCDF-4 (HDF5) have no such header and are PG_OK. */
-pg_status pg_netcdf_check_header (const char *path);
 
 /* ---- search -------------------------------------------------------------------------------------------- */
 typedef struct pg_mesh_locator pg_mesh_locator;  /* a tree of boxes over the elements; borrows the mesh */

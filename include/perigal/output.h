@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * output.h: files from plain arrays: Exodus, CSV, JSON, checkpoints. Knows columns, fields and points, no method. */
+ * output.h: files from plain arrays: Exodus, CSV, JSON, checkpoints. Knows columns, fields and points, no
+ * method. */
 #ifndef PERIGAL_OUTPUT_H
 #define PERIGAL_OUTPUT_H
 #include "perigal/cloud.h"
@@ -56,6 +57,18 @@ pg_status pg_table_sync   (const pg_table *table);     /* to the disk itself */
 pg_status pg_table_row    (pg_table *table, const double *values);
 pg_status pg_table_line   (pg_table *table, const char *const *values);
 void      pg_table_close  (pg_table **table);
+/* A table read back, whole: names as the header has them, with their units, and the rows as numbers. */
+typedef struct {
+    size_t  ncolumn, nrow;
+    char  **name;                                      /* "force [N]" (ncolumn) */
+    double *value;                                     /* NAN: empty, or no number (nrow x ncolumn) */
+    char   *text;                                      /* holds the names */
+} pg_csv;
+pg_status pg_csv_read   (pg_csv *csv, const char *path);
+void      pg_csv_clear  (pg_csv *csv);
+/* Column of a name, given as in the header or without its unit; -1: there is none. */
+long      pg_csv_column (const pg_csv *csv, const char *wanted);
+size_t    pg_csv_name   (const char *column);          /* length of the name alone, without " [unit]" */
 
 /* ---- checkpoint.nc: what a run must remember, in classic netCDF ---------------------------------------- */
 typedef pg_status (*pg_keep) (void *context, const pg_keeper *keeper);

@@ -2,31 +2,16 @@
  * perigal bench: scenes x methods x sizes, each run a process of its own, repeated, measured against the
  * scene's reference. */
 #include "cli.h"
-#include "spawn.h"
-#include "bench.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-int bench_split (bench_words *out, const char *text)
-{
-    memset (out, 0, sizeof *out);
-    out->given = 1;
-    for (const char *s = text;; s++) {
-        size_t n = strcspn (s, ",");
-        if (n == 0 || n >= BENCH_TEXT || out->n >= BENCH_WORDS) return 0;
-        snprintf (out->word[out->n++], BENCH_TEXT, "%.*s", (int) n, s);
-        s += n;
-        if (!*s) return 1;
-    }
-}
 
 /* ---- command line -------------------------------------------------------------------------------------- */
 static const char basis_names[] = "linear|quadratic", cell_names[] = "cut|staircase";
 static const char *bases (void) { return basis_names; }
 static const char *cell_kinds (void) { return cell_names; }
 
-typedef struct { const char *option; bench_words *words; const char *(*names) (void); } list_option;
+typedef struct { const char *option; pg_word_list *words; const char *(*names) (void); } list_option;
 
 static int is_one_of (const char *word, const char *names)
 {
@@ -39,9 +24,9 @@ static int is_one_of (const char *word, const char *names)
 static pg_status read_list (const list_option *o, const char *value)
 {
     pg_status status = PG_OK;
-    if (!bench_split (o->words, value))
+    if (!pg_word_list_split (o->words, value))
         PG_FAIL (PG_E_USAGE, "%s %s: expected words separated by commas, at most %d", o->option, value,
-                 BENCH_WORDS);
+                 PG_LIST_WORDS);
     for (size_t k = 0; o->names && k < o->words->n; k++) {
         const char *word = o->words->word[k], *near;
         if (is_one_of (word, o->names ())) continue;
@@ -65,7 +50,7 @@ done:
     return status;
 }
 
-static pg_status read_option (bench_request *q, const char *name, const char *value)
+static pg_status read_option (pg_bench_request *q, const char *name, const char *value)
 {
     pg_status status = PG_OK;
     const list_option lists[] = {
@@ -95,17 +80,17 @@ static pg_status read_option (bench_request *q, const char *name, const char *va
     else if (strcmp (name, "--repeat") == 0) PG_TRY (read_count (&q->repeat, name, value, 100));
     else if (strcmp (name, "--threads") == 0) PG_TRY (read_count (&q->threads, name, value, 64));
     else if (!strchr (value, '=')) PG_FAIL (PG_E_USAGE, "--set %s: KEY=VALUE is needed", value);
-    else if (q->nset >= TRIAL_SETS / 2) PG_FAIL (PG_E_USAGE, "--set: at most %d times", TRIAL_SETS / 2);
+    else if (q->nset >= PG_TRIAL_SETS / 2) PG_FAIL (PG_E_USAGE, "--set: at most %d times", PG_TRIAL_SETS / 2);
     else q->set[q->nset++] = value;
 done:
     return status;
 }
 
-static pg_status read_arguments (bench_request *q, int argc, char **argv)
+static pg_status read_arguments (pg_bench_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;
     memset (q, 0, sizeof *q);
-    q->repeat = q->threads = 1, q->folder = "out/bench";
+    q->repeat = q->threads = 1, q->folder = "out/bench", q->out = stdout;
     char unquoted[1200];
     if (command_unquoted (unquoted, sizeof unquoted, argc, argv)) PG_FAIL (PG_E_USAGE, "%s", unquoted);
     for (int k = 1; k < argc; k++) {
@@ -114,83 +99,14 @@ static pg_status read_arguments (bench_request *q, int argc, char **argv)
                            : strcmp (argv[k], "-q") == 0 ? "--quiet"
                                                          : argv[k];
         if (strcmp (name, "--fem") == 0) q->fem = 1;
-        else if (strcmp (name, "--quiet") == 0) q->quiet = 1;
+        else if (strcmp (name, "--quiet") == 0) q->out = NULL;
         else if (name[0] == '-') {
             PG_TRY (read_option (q, name, k + 1 < argc ? argv[k + 1] : NULL));
             k++;
-        } else if (q->nscene < BENCH_WORDS) q->scene[q->nscene++] = argv[k];
-        else PG_FAIL (PG_E_USAGE, "at most %d scenes at once", BENCH_WORDS);
+        } else if (q->nscene < PG_LIST_WORDS) q->scene[q->nscene++] = argv[k];
+        else PG_FAIL (PG_E_USAGE, "at most %d scenes at once", PG_LIST_WORDS);
     }
     if (!q->nscene) q->scene[q->nscene++] = "data/textbook_cantilever/scene.yaml";
-done:
-    return status;
-}
-
-/* ---- runs ---------------------------------------------------------------------------------------------- */
-static pg_status make_folders (const bench_request *q)
-{
-    char path[4096];
-    snprintf (path, sizeof path, "%s/run", q->folder);
-    return pg_folder_make (path);
-}
-
-static pg_status run_once (bench_case *c, const bench_request *q, trial *t)
-{
-    pg_status status = PG_OK;
-    char folder[4096];
-    trial_request run = { .scene = q->scene[c->scene], .folder = folder, .threads = q->threads };
-    snprintf (folder, sizeof folder, "%s/run", q->folder);
-    for (size_t k = 0; k < q->nset; k++) run.set[run.nset++] = q->set[k];
-    for (size_t k = 0; k < c->nset; k++) run.set[run.nset++] = c->set[k];
-    if (c->element[0] && !c->mesh[0]) PG_TRY (bench_mesh_set (c, q));
-    if (c->mesh[0]) run.set[run.nset++] = c->mesh;
-    PG_TRY (trial_run (t, &run));
-done:
-    return status;
-}
-
-static void tell_error (const char *name, double error)
-{
-    if (isnan (error)) printf ("  %s         -", name);
-    else printf ("  %s %9.2e", name, error);
-}
-
-static void tell (const bench_case *c)
-{
-    const double *v = c->best.value;
-    printf ("  %-22s %-34s", c->name, c->method);
-    if (c->runs) {
-        printf (" %8.0f dofs", v[TRIAL_DOFS]);
-        tell_error ("L2", isnan (v[TRIAL_L2]) ? v[TRIAL_LINES] : v[TRIAL_L2]);
-        tell_error ("energy", v[TRIAL_ENERGY]);
-        printf ("  %7.2f s CPU  %5.0f MB\n", v[TRIAL_CPU], 1e-6 * v[TRIAL_PEAK]);
-    } else printf (" %s\n", c->trouble);
-    fflush (stdout);
-}
-
-/* A curve of which one size cannot be is left out at once; sizes that fail later only end with a note. */
-static pg_status run_all (bench_cases *cases, const bench_request *q)
-{
-    pg_status status = PG_OK;
-    for (int r = 0; r < q->repeat; r++)
-        for (size_t k = 0; k < cases->n; k++) {
-            bench_case *c = &cases->at[k];
-            trial t;
-            if (c->trouble[0]) {
-                if (!q->quiet && r == 0) tell (c);
-                continue;
-            }
-            pg_status outcome = c->fem ? bench_fem_run (c, q) : run_once (c, q, &t);
-            if (outcome == PG_E_INTERRUPTED) PG_TRY (outcome);
-            if (outcome != PG_OK) {
-                snprintf (c->trouble, sizeof c->trouble, "%s: %s",
-                          outcome == PG_E_SCENE ? "skipped" : "failed", pg_last_error ());
-                for (size_t i = k + 1;
-                     outcome == PG_E_SCENE && i < cases->n && cases->at[i].curve == c->curve; i++)
-                    snprintf (cases->at[i].trouble, sizeof c->trouble, "skipped: see the size before");
-            } else if (!c->fem && (!c->runs++ || t.value[TRIAL_CPU] < c->best.value[TRIAL_CPU])) c->best = t;
-            if (!q->quiet && r == 0) tell (c);
-        }
 done:
     return status;
 }
@@ -198,23 +114,18 @@ done:
 int pg_cli_bench (int argc, char **argv)
 {
     pg_status status = PG_OK;
-    bench_request *q = NULL;
-    bench_cases cases = { 0 };
-    if (argc > 1 && strcmp (argv[1], "--row") == 0) return trial_main (argc - 1, argv + 1);
-    if (argc > 1 && strcmp (argv[1], "--fem-row") == 0) return bench_fem_main (argc - 1, argv + 1);
+    pg_bench_request *q = NULL;
+    if (argc > 1 && strcmp (argv[1], "--row") == 0) return pg_cli_trial (argc - 1, argv + 1);
+    if (argc > 1 && strcmp (argv[1], "--fem-row") == 0) return pg_cli_trial_of_mesh (argc - 1, argv + 1);
     for (int k = 1; k < argc; k++)
         if (strcmp (argv[k], "--help") == 0 || strcmp (argv[k], "-h") == 0)
-            return command_usage (stdout, "bench") ? EXIT_DONE : EXIT_USAGE;
+            return command_usage (stdout, "bench") ? PG_EXIT_DONE : PG_EXIT_USAGE;
     PG_ALLOC (q, 1);
     PG_TRY (read_arguments (q, argc, argv));
-    PG_TRY (make_folders (q));
-    PG_TRY (bench_cases_make (&cases, q));
-    PG_TRY (run_all (&cases, q));
-    PG_TRY (bench_report (&cases, q));
+    PG_TRY (pg_bench_run (q));
 done:
     if (status == PG_E_SCENE) fprintf (stderr, "%s\n", pg_last_error ());
     else if (status != PG_OK) fprintf (stderr, "perigal bench: %s\n", pg_last_error ());
-    pg_free (cases.at);
     pg_free (q);
-    return exit_code (status);
+    return pg_exit_code (status);
 }

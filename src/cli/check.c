@@ -11,7 +11,7 @@ int pg_cli_check (int argc, char **argv)
     pg_problem *p = NULL;
     pg_solver_options o;
     pg_forecast f;
-    first_break first = { 0 };
+    pg_first_break first = { 0 };
     spectrum waves = { 0 };
     pg_solver *solver = NULL;
     const char *from = "";
@@ -29,7 +29,7 @@ int pg_cli_check (int argc, char **argv)
         stable = pg_solver_stable (solver, &from);
     }
     PG_TRY (pg_patch_refuse (p, scene));
-    if (c.solve) PG_TRY (first_break_find (&first, p, &o));
+    if (c.solve) PG_TRY (pg_first_break_find (&first, p, &o));
     if (c.spectrum) PG_TRY (spectrum_find (&waves, scene, p));
     plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from };
     if (c.json) PG_TRY (plan_print_json (&all));
@@ -43,5 +43,5 @@ done:
     pg_solver_free (&solver);
     pg_problem_free (&p);
     pg_scene_free (&scene);
-    return exit_code (status);
+    return pg_exit_code (status);
 }

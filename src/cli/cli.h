@@ -4,7 +4,6 @@
 #define PERIGAL_CLI_H
 #include "perigal.h"
 
-enum { EXIT_DONE = 0, EXIT_USAGE = 64, EXIT_SCENE = 65, EXIT_FAILED = 70, EXIT_INTERRUPTED = 130 };
 int pg_cli_run   (int argc, char **argv);
 int pg_cli_check (int argc, char **argv);
 int pg_cli_compare (int argc, char **argv);
@@ -12,10 +11,9 @@ int pg_cli_list  (int argc, char **argv);
 int pg_cli_help  (int argc, char **argv);
 int pg_cli_bench (int argc, char **argv);
 int pg_cli_converge (int argc, char **argv);
-
-/* memory.c: for the whole process; for the programs started from here on */
-void memory_keep (void);
-void memory_large_pages (void);
+/* trial.c: what bench and converge start */
+int pg_cli_trial (int argc, char **argv);
+int pg_cli_trial_of_mesh (int argc, char **argv);
 
 /* progress.c: on a terminal one line that rewrites itself and fits; elsewhere a line every tenth, and now and
  * then between. */
@@ -50,7 +48,6 @@ pg_status command_problem (const command *c, const pg_scene *scene, pg_problem *
                            pg_solver_options *o);
 void      command_complain (pg_status status, const char *text);
 void      command_again (const command *c);                    /* how to go on with this run, on stderr */
-int       exit_code     (pg_status status);
 
 /* afford.c: PG_E_LIMIT where the run would need more than is available (--memory, else what the machine
  * grants). */
@@ -61,16 +58,6 @@ int       afford_tiny      (const pg_scene *scene);
 pg_status afford_scene     (const command *c, pg_forecast *f); /* a wrong scene gives an empty forecast */
 pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p,
                           int thorough /* analyse whatever is free */);
-
-/* first_break.c: one solve at load factor 1 without failure */
-typedef struct {
-    int    asked, is_static, solved, proportional, nload; /* solved: the fields below hold */
-    double omega;                                      /* rad/s; 0: no density */
-    double factor, utilisation, place[3];  /* INFINITY: no bond can break; largest at load factor 1 */
-    char   kind;  int set;                             /* of the first bond */
-    double residual, displacement;                     /* m, largest */
-} first_break;
-pg_status first_break_find (first_break *out, const pg_problem *p, const pg_solver_options *o);
 
 /* check_spectrum.c: plane waves of the scene's lattice; symbol NULL: not asked for */
 typedef struct { pg_symbol *symbol; pg_survey survey; char verdict[400]; } spectrum;
@@ -89,7 +76,7 @@ typedef struct {
     const pg_solver_options *options;
     const pg_forecast *forecast;
     double available;
-    const first_break *first;
+    const pg_first_break *first;
     const spectrum *waves;
     double stable;
     const char *from;

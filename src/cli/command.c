@@ -109,7 +109,7 @@ static int read_threads (command *c, const char *text)
     long n = strtol (text, &end, 10);
     if (end == text || *end || n < 0 || n > 64) {
         fprintf (stderr, "perigal: --threads %s: a number from 0 (all) to 64 is needed\n", text);
-        return EXIT_USAGE;
+        return PG_EXIT_USAGE;
     }
     c->threads = (int) n, c->given = text;
     return -1;
@@ -120,7 +120,7 @@ static int read_memory (command *c, const char *text)
     c->memory = afford_size (text);
     if (c->memory > 0) return -1;
     fprintf (stderr, "perigal: --memory %s: a size is needed, such as 500MB or 8GB\n", text);
-    return EXIT_USAGE;
+    return PG_EXIT_USAGE;
 }
 
 static int read_set (command *c, const char *text)
@@ -128,7 +128,7 @@ static int read_set (command *c, const char *text)
     if (c->nset >= sizeof c->set / sizeof *c->set || !strchr (text, '=')) {
         fprintf (stderr, "perigal: --set %s: KEY=VALUE is needed, at most %zu times\n", text,
                  sizeof c->set / sizeof *c->set);
-        return EXIT_USAGE;
+        return PG_EXIT_USAGE;
     }
     c->set[c->nset++] = text;
     return -1;
@@ -147,7 +147,7 @@ static int refuse (const char *name, int option, const char *argument)
                  near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     }
     command_usage (stderr, name);
-    return EXIT_USAGE;
+    return PG_EXIT_USAGE;
 }
 
 static int is_scene (const char *word)
@@ -194,7 +194,7 @@ int command_parse (command *c, int argc, char **argv)
     memset (c, 0, sizeof *c);
     optind = 1, opterr = 0;
     for (int k, wrong = -1; (k = getopt_long (argc, argv, ":o:qs:h", options, NULL)) != -1;) {
-        if (k == 'h') return command_usage (stdout, argv[0]) ? EXIT_DONE : EXIT_USAGE;
+        if (k == 'h') return command_usage (stdout, argv[0]) ? PG_EXIT_DONE : PG_EXIT_USAGE;
         if (k == 'o') c->folder = optarg;
         else if (k == 't') wrong = read_threads (c, optarg);
         else if (k == 's') wrong = read_set (c, optarg);
@@ -210,16 +210,16 @@ int command_parse (command *c, int argc, char **argv)
     }
     if (lost) {
         fprintf (stderr, "perigal: %s\n", unquoted);
-        return EXIT_USAGE;
+        return PG_EXIT_USAGE;
     }
     if (optind + 1 != argc) {
         fprintf (stderr, "perigal: %s needs exactly one scene file\n", argv[0]);
         command_usage (stderr, argv[0]);
-        return EXIT_USAGE;
+        return PG_EXIT_USAGE;
     }
     if (c->force && c->resume) {
         fprintf (stderr, "perigal: --resume and --force exclude each other: go on, or begin anew\n");
-        return EXIT_USAGE;
+        return PG_EXIT_USAGE;
     }
     c->scene = argv[optind];
     if (c->threads < 1) c->threads = (int) sysconf (_SC_NPROCESSORS_ONLN);
@@ -275,10 +275,4 @@ void command_again (const command *c)
     for (size_t k = 0; k < c->nset; k++) fputs (" --set ", stderr), put_word (c->set[k]);
     if (c->given) fprintf (stderr, " --threads %s", c->given);
     fputs (" --resume\n", stderr);
-}
-
-int exit_code (pg_status status)
-{
-    return status == PG_OK ? EXIT_DONE : status == PG_E_SCENE ? EXIT_SCENE : status == PG_E_USAGE ? EXIT_USAGE
-         : status == PG_E_INTERRUPTED ? EXIT_INTERRUPTED : EXIT_FAILED;
 }

@@ -2,7 +2,7 @@
  * perigal compare DIR [REFERENCE]: a result against its scene's reference, a table, another result or a
  * finite element result. */
 #include "cli.h"
-#include "compare.h"
+#include <errno.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@ static int complain (const char *format, const char *text)
     fputs ("perigal compare: ", stderr);
     fprintf (stderr, format, text);
     fputc ('\n', stderr);
-    return EXIT_USAGE;
+    return PG_EXIT_USAGE;
 }
 
 /* "1, -2 mm, 0": lengths */
@@ -69,7 +69,7 @@ static int read_number (const char *text, double *out)
     return end != text && !*end && isfinite (*out);
 }
 
-static int read_option (compare_request *q, int option, const char *text)
+static int read_option (pg_comparison_request *q, int *json, int option, const char *text)
 {
     double threads = 0;
     switch (option) {
@@ -100,13 +100,13 @@ static int read_option (compare_request *q, int option, const char *text)
             return complain ("--threads %s: a number from 0 (all) to 64 is needed", text);
         q->threads = (int) threads;
         return -1;
-    case 'o': q->out = text; return -1;
-    case 'j': q->json = 1; return -1;
-    default:  q->quiet = 1; return -1;
+    case 'o': q->picture = text; return -1;
+    case 'j': *json = 1; return -1;
+    default:  q->out = NULL; return -1;
     }
 }
 
-static int parse (compare_request *q, int argc, char **argv)
+static int parse (pg_comparison_request *q, int *json, int argc, char **argv)
 {
     static const struct option options[] = {
         { "step", required_argument, NULL, 'n' },    { "reference-step", required_argument, NULL, 'm' },
@@ -116,27 +116,29 @@ static int parse (compare_request *q, int argc, char **argv)
         { "json", no_argument, NULL, 'j' },          { "quiet", no_argument, NULL, 'q' },
         { "help", no_argument, NULL, 'h' },          { NULL, 0, NULL, 0 }
     };
-    *q = (compare_request) { .step = -1, .other_step = -1, .unit = 1, .scale = 1, .column = -1 };
+    *q = (pg_comparison_request) { .step = -1, .other_step = -1, .unit = 1, .scale = 1, .column = -1 };
+    q->out = stdout;
     optind = 1, opterr = 0;
     for (int k, wrong = -1; (k = getopt_long (argc, argv, ":o:qh", options, NULL)) != -1;) {
-        if (k == 'h') return command_usage (stdout, argv[0]) ? EXIT_DONE : EXIT_USAGE;
+        if (k == 'h') return command_usage (stdout, argv[0]) ? PG_EXIT_DONE : PG_EXIT_USAGE;
         if (k == ':') wrong = complain ("%s needs a value", argv[optind - 1]);
         else if (k == '?') wrong = complain ("there is no option %s", argv[optind - 1]);
-        else wrong = read_option (q, k, optarg);
+        else wrong = read_option (q, json, k, optarg);
         if (wrong >= 0) return wrong;
     }
     if (optind >= argc || optind + 2 < argc) {
         complain ("%s", "a result folder is needed, and at most one reference");
         command_usage (stderr, argv[0]);
-        return EXIT_USAGE;
+        return PG_EXIT_USAGE;
     }
     q->folder = argv[optind], q->reference = optind + 1 < argc ? argv[optind + 1] : NULL;
     if (strlen (q->folder) > 2000) return complain ("%s", "the path is too long");
+    if (*json) q->out = NULL;
     if (q->threads < 1) q->threads = (int) sysconf (_SC_NPROCESSORS_ONLN);
     return -1;
 }
 
-static void print_rows (const comparison *c, const compare_request *q)
+static void print_rows (const pg_comparison *c, const pg_comparison_request *q)
 {
     char row[400];
     printf ("%s, step %d, against %s\n  %s", q->folder, c->own->step,
@@ -146,18 +148,34 @@ static void print_rows (const comparison *c, const compare_request *q)
     for (size_t k = 0; pg_errors_row (&c->errors, k, row, sizeof row); k++) printf ("  %s\n", row);
 }
 
+static pg_status print_json (const pg_comparison_request *q)
+{
+    pg_status status = PG_OK;
+    char path[4096], part[4096];
+    size_t n;
+    snprintf (path, sizeof path, "%s/compare.json", q->folder);
+    FILE *f = fopen (path, "r");
+    if (!f) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    while ((n = fread (part, 1, sizeof part, f)) > 0) fwrite (part, 1, n, stdout);
+done:
+    if (f) fclose (f);
+    return status;
+}
+
 int pg_cli_compare (int argc, char **argv)
 {
     pg_status status = PG_OK;
-    compare_request q;
-    comparison c = { 0 };
-    int wrong = parse (&q, argc, argv);
+    pg_comparison_request q;
+    pg_comparison c = { 0 };
+    int json = 0;
+    int wrong = parse (&q, &json, argc, argv);
     if (wrong >= 0) return wrong;
-    PG_TRY (compare_sides (&c, &q));
-    if (!q.json && !q.quiet) print_rows (&c, &q);
-    PG_TRY (compare_files (&c, &q));
+    PG_TRY (pg_comparison_open (&c, &q));
+    if (q.out) print_rows (&c, &q);
+    PG_TRY (pg_comparison_write (&c, &q));
+    if (json) PG_TRY (print_json (&q));
 done:
     if (status != PG_OK) command_complain (status, pg_last_error ());
-    compare_clear (&c);
-    return exit_code (status);
+    pg_comparison_clear (&c);
+    return pg_exit_code (status);
 }

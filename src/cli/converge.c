@@ -1,19 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal converge: a scene at falling sizes, each run a process of its own; orders of all that it gives. */
 #include "cli.h"
-#include "bench.h"
-#include "converge.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-typedef struct {
-    const char *scene, *folder, *set[TRIAL_SETS / 2];
-    size_t      nset, sizes;
-    double      ratio, horizon[CONVERGE_STUDIES];
-    size_t      nhorizon;
-    int         fixed, quiet, threads;                 /* fixed: the horizon stays */
-} request;
 
 static pg_status read_number (double *out, const char *name, const char *text, double low, double high)
 {
@@ -26,13 +16,14 @@ done:
     return status;
 }
 
-static pg_status read_horizons (request *q, const char *value)
+static pg_status read_horizons (pg_converge_request *q, const char *value)
 {
     pg_status status = PG_OK;
-    bench_words *words = NULL;
+    pg_word_list *words = NULL;
     PG_ALLOC (words, 1);
-    if (!bench_split (words, value) || words->n > CONVERGE_STUDIES)
-        PG_FAIL (PG_E_USAGE, "--horizon %s: at most %d numbers separated by commas", value, CONVERGE_STUDIES);
+    if (!pg_word_list_split (words, value) || words->n > PG_CONVERGE_STUDIES)
+        PG_FAIL (PG_E_USAGE, "--horizon %s: at most %d numbers separated by commas", value,
+                 PG_CONVERGE_STUDIES);
     for (q->nhorizon = 0; q->nhorizon < words->n; q->nhorizon++)
         PG_TRY (read_number (&q->horizon[q->nhorizon], "--horizon", words->word[q->nhorizon], 1, 50));
 done:
@@ -40,7 +31,7 @@ done:
     return status;
 }
 
-static pg_status read_option (request *q, const char *name, const char *value)
+static pg_status read_option (pg_converge_request *q, const char *name, const char *value)
 {
     pg_status status = PG_OK;
     static const char names[] = "--spacing|--ratio|--horizon|--delta|--m|--out|--set|--threads|--quiet";
@@ -55,7 +46,7 @@ static pg_status read_option (request *q, const char *name, const char *value)
     }
     if (!value) PG_FAIL (PG_E_USAGE, "%s needs a value", name);
     if (k == 0) {
-        PG_TRY (read_number (&number, name, value, 2, CONVERGE_SIZES));
+        PG_TRY (read_number (&number, name, value, 2, PG_CONVERGE_SIZES));
         q->sizes = (size_t) number;
     } else if (k == 1) PG_TRY (read_number (&q->ratio, name, value, 1.05, 10));
     else if (k == 2) PG_TRY (read_horizons (q, value));
@@ -64,18 +55,18 @@ static pg_status read_option (request *q, const char *name, const char *value)
         PG_TRY (read_number (&number, name, value, 1, 64));
         q->threads = (int) number;
     } else if (!strchr (value, '=')) PG_FAIL (PG_E_USAGE, "--set %s: KEY=VALUE is needed", value);
-    else if (q->nset >= TRIAL_SETS / 2) PG_FAIL (PG_E_USAGE, "--set: at most %d times", TRIAL_SETS / 2);
+    else if (q->nset >= PG_TRIAL_SETS / 2) PG_FAIL (PG_E_USAGE, "--set: at most %d times", PG_TRIAL_SETS / 2);
     else q->set[q->nset++] = value;
 done:
     return status;
 }
 
-static pg_status read_arguments (request *q, int argc, char **argv)
+static pg_status read_arguments (pg_converge_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;
     int delta = 0;
     memset (q, 0, sizeof *q);
-    q->threads = 1, q->ratio = 2, q->folder = "out/converge";
+    q->threads = 1, q->ratio = 2, q->folder = "out/converge", q->out = stdout;
     char unquoted[1200];
     if (command_unquoted (unquoted, sizeof unquoted, argc, argv)) PG_FAIL (PG_E_USAGE, "%s", unquoted);
     for (int k = 1; k < argc; k++) {
@@ -85,7 +76,7 @@ static pg_status read_arguments (request *q, int argc, char **argv)
                                                          : argv[k];
         if (strcmp (name, "--m") == 0) q->fixed = 1;
         else if (strcmp (name, "--delta") == 0) delta = 1;
-        else if (strcmp (name, "--quiet") == 0) q->quiet = 1;
+        else if (strcmp (name, "--quiet") == 0) q->out = NULL;
         else if (name[0] == '-') {
             PG_TRY (read_option (q, name, k + 1 < argc ? argv[k + 1] : NULL));
             k++;
@@ -99,99 +90,18 @@ done:
     return status;
 }
 
-/* ---- runs ---------------------------------------------------------------------------------------------- */
-static pg_status take_errors (study *s, size_t k, const trial *t)
-{
-    pg_status status = PG_OK;
-    static const struct { int id; const char *name;
-    } errors[] = { { TRIAL_L2, "L2 error" },
-                   { TRIAL_ENERGY, "energy error" },
-                   { TRIAL_MAXIMUM, "maximum error" },
-                   { TRIAL_LINES, "error on lines" } };
-    for (size_t e = 0; e < sizeof errors / sizeof *errors; e++) {
-        if (isnan (t->value[errors[e].id])) continue;
-        quantity *q = study_quantity (s, errors[e].name, "1");
-        if (!q) PG_FAIL (PG_E_MEMORY, "no memory for %s", errors[e].name);
-        q->error = 1, q->value[k] = t->value[errors[e].id];
-    }
-done:
-    return status;
-}
-
-static pg_status run_study (study *s, const request *q, const bench_base *b)
-{
-    pg_status status = PG_OK;
-    for (size_t k = 0; k < q->sizes; k++) {
-        char folder[4096], spacing[64], horizon[64];
-        double h = b->spacing / pow (q->ratio, (double) k);
-        trial_request run = { .scene = q->scene, .folder = folder, .threads = q->threads };
-        trial t;
-        snprintf (folder, sizeof folder, "%s/%s%g_%zu", q->folder, q->fixed ? "m" : "h", s->horizon, k + 1);
-        snprintf (spacing, sizeof spacing, "spacing=%.15g", h);
-        if (q->fixed) snprintf (horizon, sizeof horizon, "method.horizon=%.15g m", s->horizon * b->spacing);
-        else snprintf (horizon, sizeof horizon, "method.horizon=%.15g spacing", s->horizon);
-        for (size_t i = 0; i < q->nset; i++) run.set[run.nset++] = q->set[i];
-        run.set[run.nset++] = spacing, run.set[run.nset++] = horizon;              /* the later one counts */
-        PG_TRY (trial_run (&t, &run));
-        if (k && !(t.value[TRIAL_SPACING] < s->h[k - 1]))
-            PG_FAIL (PG_E_SCENE,
-                     "%s: spacing %g m is no smaller than the one before: does the scene take its points "
-                     "from a file?",
-                     q->scene, t.value[TRIAL_SPACING]);
-        s->h[k] = t.value[TRIAL_SPACING], s->n = k + 1;
-        PG_TRY (take_errors (s, k, &t));
-        PG_TRY (converge_history (s, k, folder));
-        if (!q->quiet)
-            printf ("  horizon %g, spacing %.6g m: %.0f points, %.2f s CPU\n", s->horizon, s->h[k],
-                    t.value[TRIAL_POINTS], t.value[TRIAL_CPU]),
-                fflush (stdout);
-    }
-done:
-    return status;
-}
-
-static pg_status study_all (study *list, request *q)
-{
-    pg_status status = PG_OK;
-    bench_base b;
-    PG_TRY (bench_look (&b, q->scene, q->nset, q->set));
-    if (!(b.spacing > 0))
-        PG_FAIL (PG_E_SCENE,
-                 "%s: converge changes the spacing, and this scene has none: it needs a body and spacing",
-                 q->scene);
-    if (!q->nhorizon) q->horizon[q->nhorizon++] = b.horizon;
-    PG_TRY (pg_folder_make (q->folder));
-    for (size_t k = 0; k < q->nhorizon; k++) {
-        list[k].horizon = q->horizon[k];
-        PG_TRY (run_study (&list[k], q, &b));
-    }
-    for (size_t k = 0; k < q->nhorizon && !q->quiet; k++) converge_print (&list[k], q->fixed);
-    PG_TRY (converge_table (list, q->nhorizon, q->folder));
-    int drawn = 0;
-    PG_TRY (converge_picture (list, q->nhorizon, q->folder, b.name, &drawn));
-    if (!q->quiet)
-        printf ("  table %s/convergence.csv%s%s%s\n", q->folder, drawn ? ", picture " : "",
-                drawn ? q->folder : "", drawn ? "/convergence.png" : "");
-done:
-    return status;
-}
-
 int pg_cli_converge (int argc, char **argv)
 {
     pg_status status = PG_OK;
-    request q;
-    study *list = NULL;
+    pg_converge_request q;
     for (int k = 1; k < argc; k++)
         if (strcmp (argv[k], "--help") == 0 || strcmp (argv[k], "-h") == 0)
-            return command_usage (stdout, "converge") ? EXIT_DONE : EXIT_USAGE;
+            return command_usage (stdout, "converge") ? PG_EXIT_DONE : PG_EXIT_USAGE;
     PG_TRY (read_arguments (&q, argc, argv));
-    PG_ALLOC (list, CONVERGE_STUDIES);
-    PG_TRY (study_all (list, &q));
+    PG_TRY (pg_converge_run (&q));
 done:
     if (status == PG_E_SCENE) fprintf (stderr, "%s\n", pg_last_error ());
     else if (status != PG_OK) fprintf (stderr, "perigal converge: %s\n", pg_last_error ());
     if (status == PG_E_USAGE) command_usage (stderr, "converge");
-    for (size_t k = 0; list && k < CONVERGE_STUDIES; k++) pg_free (list[k].list);
-    pg_free (list);
-    return exit_code (status);
+    return pg_exit_code (status);
 }

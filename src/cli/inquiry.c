@@ -63,7 +63,7 @@ int pg_cli_list (int argc, char **argv)
     if (argc > 1) {
         int asked = strcmp (argv[1], "--help") == 0;
         fprintf (asked ? stdout : stderr, "usage: perigal list     (no arguments)\n");
-        return asked ? EXIT_DONE : EXIT_USAGE;
+        return asked ? PG_EXIT_DONE : PG_EXIT_USAGE;
     }
     for (size_t k = 0; k < sizeof catalogues / sizeof *catalogues; k++) {
         printf ("%s\n", catalogues[k].key);
@@ -73,7 +73,7 @@ int pg_cli_list (int argc, char **argv)
             printf ("  %-18s%s%s\n", name, *text ? " " : "", text);
         }
     }
-    return EXIT_DONE;
+    return PG_EXIT_DONE;
 }
 
 static void all_keys (void)
@@ -90,7 +90,7 @@ int pg_cli_help (int argc, char **argv)
     pg_status status = PG_OK;
     if (argc < 2) all_keys ();
     else if (strcmp (argv[1], "--manual") == 0) status = pg_scene_manual (stdout);
-    else if (command_usage (stdout, argv[1])) return EXIT_DONE;
+    else if (command_usage (stdout, argv[1])) return PG_EXIT_DONE;
     else status = pg_scene_help (stdout, argv[1]);
     const char *near = status == PG_E_USAGE
                            ? pg_nearest_name (argv[1], "run|check|plot|compare|bench|converge|list|help")
@@ -98,5 +98,5 @@ int pg_cli_help (int argc, char **argv)
     if (status != PG_OK)
         fprintf (stderr, "perigal: %s%s%s%s\n", pg_last_error (), near ? "; or the command " : "",
                  near ? near : "", near ? "?" : "");
-    return exit_code (status);
+    return pg_exit_code (status);
 }

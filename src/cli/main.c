@@ -47,7 +47,7 @@ static void settle_threads (int argc, char **argv)
     setenv ("OMP_THREAD_LIMIT", "1", 1);
     setenv ("OMP_WAIT_POLICY", "passive", 1);
     setenv ("OPENBLAS_NUM_THREADS", count, 0);
-    memory_large_pages ();
+    pg_memory_large_pages ();
     execv ("/proc/self/exe", argv);                    /* goes on below where this fails */
 }
 
@@ -55,20 +55,20 @@ int main (int argc, char **argv)
 {
     if (argc < 2) {
         usage (stderr);
-        return EXIT_USAGE;
+        return PG_EXIT_USAGE;
     }
     if (strcmp (argv[1], "--version") == 0) {
         printf ("perigal " PG_VERSION "\n");
-        return EXIT_DONE;
+        return PG_EXIT_DONE;
     }
     if (strcmp (argv[1], "--help") == 0 || strcmp (argv[1], "-h") == 0) {
         usage (stdout);
-        return EXIT_DONE;
+        return PG_EXIT_DONE;
     }
     for (size_t k = 0; k < sizeof commands / sizeof *commands; k++)
         if (strcmp (argv[1], commands[k].name) == 0) {
             if (k <= 1) settle_threads (argc, argv);
-            memory_keep ();
+            pg_memory_keep ();
             return commands[k].run (argc - 1, argv + 1);
         }
     const char *near = pg_nearest_name (argv[1],
@@ -76,5 +76,5 @@ int main (int argc, char **argv)
     fprintf (stderr, "perigal: there is no %s %s%s%s%s\n", argv[1][0] == '-' ? "option" : "command", argv[1],
              near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     usage (stderr);
-    return EXIT_USAGE;
+    return PG_EXIT_USAGE;
 }

@@ -297,7 +297,7 @@ static void print_memory (const plan *p)
 static void print_first_break (const plan *p)
 {
     static const char *const sets[PG_BOND_SETS] = { "node-node", "point-node", "facet-node" };
-    const first_break *b = p->first;
+    const pg_first_break *b = p->first;
     if (!b->asked) return;
     if (!b->is_static) printf ("  %-18s  only for static scenes\n", "first break");
     if (!b->solved) return;

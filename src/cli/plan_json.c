@@ -111,7 +111,7 @@ static void memory (pg_json *j, const plan *p)
 
 static void first (pg_json *j, const plan *p)
 {
-    const first_break *b = p->first;
+    const pg_first_break *b = p->first;
     if (!b->solved) return;
     pg_json_open (j, "first_break", '{');
     pg_json_number (j, "load_factor", b->factor);

@@ -2,13 +2,12 @@
  * perigal plot DIR|FILE: a mesh, one field of DIR/result.e, or with --curve columns of DIR/history.csv, as
  * PNG or SVG. */
 #include "plot.h"
+#include "perigal/study.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-enum { EXIT_USAGE = 64, EXIT_FAILED = 70 };
 
 static const char usage[] =
     "usage: perigal plot DIR [--field NAME[.x|.xx|.magnitude]] [--component NUMBER|x|xx|magnitude] [--step "
@@ -278,5 +277,5 @@ int pg_cli_plot (int argc, char **argv)
 done:
     if (status == PG_OK) return 0;
     fprintf (stderr, "perigal plot: %s\n", pg_last_error ());
-    return status == PG_E_USAGE ? EXIT_USAGE : EXIT_FAILED;
+    return status == PG_E_USAGE ? PG_EXIT_USAGE : PG_EXIT_FAILED;
 }

@@ -2,6 +2,7 @@
  * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs, or of other tables,
  * as a chart. */
 #include "plot.h"
+#include "perigal/study.h"
 #include "perigal/compare.h"
 #include "perigal/model.h"
 #include <errno.h>
@@ -11,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { CELL = 256, LIST = 4096, MOST = 24, EXIT_USAGE = 64, EXIT_FAILED = 70 };
+enum { CELL = 256, LIST = 4096, MOST = 24 };
 
 typedef struct {
     const char *directory[MOST], *x, *y, *out;
@@ -465,5 +466,5 @@ int pg_cli_plot_curve (int argc, char **argv)
 done:
     if (status == PG_OK) return 0;
     fprintf (stderr, "perigal plot: %s\n", pg_last_error ());
-    return status == PG_E_USAGE ? EXIT_USAGE : EXIT_FAILED;
+    return status == PG_E_USAGE ? PG_EXIT_USAGE : PG_EXIT_FAILED;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A mesh file as a picture: its blocks, its sets, or a field at its nodes. */
 #include "plot.h"
+#include "perigal/mesh_files.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -265,5 +265,5 @@ done:
     pg_solver_free (&solver);
     pg_problem_free (&problem);
     pg_scene_free (&scene);
-    return exit_code (status);
+    return pg_exit_code (status);
 }

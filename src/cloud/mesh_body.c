@@ -2,6 +2,7 @@
  * The body as a mesh: file, unit, blocks in use, and whether its elements are fit to be cells. */
 #include "place.h"
 #include "mesh_body.h"
+#include "perigal/mesh_files.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

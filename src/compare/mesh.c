@@ -2,6 +2,7 @@
  * A finite element result as a sampler: displacement by its shape functions, stress from their gradients and
  * the scene's materials. */
 #include "compare.h"
+#include "perigal/mesh_files.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * perigal-mesh: anything that Gmsh opens (.geo, .step, .iges, .brep, .stl, .msh, .unv, .med ...) to a .msh
  * file that Perigal reads. A program of its own, built where Gmsh's library is installed (Debian:
  * libgmsh-dev), because loading that library takes longer than many a run. */
-#include "perigal/mesh.h"
+#include "perigal/mesh_files.h"
 #include <gmshc.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -31,7 +31,7 @@ void pg_mesh_builder_free (pg_mesh_builder **builder)
     pg_free (m->groups), pg_free (m->sets), pg_free (m->side_sets), pg_free (m->set_node),
         pg_free (m->side_element), pg_free (m->side);
     pg_free (m->index), pg_free (m->solid), pg_free (m->turned), pg_free (m->kept);
-    id_table_clear (&m->nodes);
+    pg_id_table_clear (&m->nodes);
     pg_free (m);
     *builder = NULL;
 }
@@ -145,6 +145,40 @@ pg_status pg_mesh_builder_sideset_add (pg_mesh_builder *m, long element, int sid
     m->side_sets[m->nside_set - 1].end = ++m->nside;
 done:
     return status;
+}
+
+pg_mesh_given pg_mesh_builder_given (const pg_mesh_builder *m)
+{
+    return (pg_mesh_given) { .nnode = m->nnode, .node_id = m->node_id, .n = m->n, .element_id = m->element_id,
+                             .group = m->group, .kind = m->kind, .start = m->start, .node = m->list };
+}
+
+void pg_mesh_builder_regroup (pg_mesh_builder *m, size_t e, long group) { m->group[e] = group; }
+
+/* Are all numbers of the list 1 to `most`? */
+static int counted (const long *list, size_t n, size_t most)
+{
+    for (size_t i = 0; i < n; i++) if (list[i] < 1 || (size_t) list[i] > most) return 0;
+    return 1;
+}
+
+static void replace (long *list, size_t n, const long *by)
+{
+    for (size_t i = 0; i < n; i++) list[i] = by[list[i] - 1];
+}
+
+void pg_mesh_builder_renumber (pg_mesh_builder *m, size_t nnode, const long *node, const long *element)
+{
+    if (node && (!counted (m->list, m->nlist, nnode) || !counted (m->set_node, m->nset_node, nnode))) return;
+    if (node) {
+        memcpy (m->node_id, node, m->nnode * sizeof *node);
+        replace (m->list, m->nlist, node);
+        replace (m->set_node, m->nset_node, node);
+    }
+    if (element) {
+        memcpy (m->element_id, element, m->n * sizeof *element);
+        replace (m->side_element, m->nside, element);
+    }
 }
 
 void builder_where (const pg_mesh_builder *m, size_t e, char *text, size_t size)

@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * builder.h: a mesh under construction: what the readers gave, in the numbers of the file. */
-#ifndef MESH_MAKER_H
-#define MESH_MAKER_H
+#ifndef MESH_BUILDER_H
+#define MESH_BUILDER_H
 #include "perigal/mesh.h"
 
 typedef struct { int dim; long group; char name[64]; } mesh_group;
 /* a set of the file: entries [first, end) */
 typedef struct { char name[64]; long id; size_t first, end; } mesh_list;
-
-/* Numbers of a file, found again: direct where they are dense, else by hash. */
-typedef struct { long low; size_t range, n; int *direct; const long *id; unsigned mask; } id_table;
 
 struct pg_mesh_builder {
     char      *path;
@@ -33,18 +30,13 @@ struct pg_mesh_builder {
     int       *side;
     /* while finishing */
     int        dim;                                    /* largest of all elements */
-    id_table   nodes;
+    pg_id_table   nodes;
     int       *index;  /* node of each entry of list, by its place in node_id */
     int       *solid;  /* number of element e among the solid ones; -1: it is none; -2: a twin */
     unsigned char *turned;  /* 1: nodes of this solid element were mirrored (out->n) */
     int       *kept;  /* number of node k in the mesh; -1: no solid element uses it */
     pg_mesh   *out;
 };
-
-/* Table of n numbers; a number given twice is found as *twice (its second place; n: none). Borrows id. */
-pg_status id_table_build (id_table *t, size_t n, const long *id, size_t *twice);
-long      id_table_find  (const id_table *t, long id);     /* place; -1: not there */
-void      id_table_clear (id_table *t);
 
 /* Steps of pg_mesh_builder_finish, in this order. */
 pg_status builder_resolve (pg_mesh_builder *m);            /* ids to places; dimension; twins */

@@ -159,7 +159,7 @@ static pg_status add_node_sets (builder *b)
     const pg_mesh_builder *m = b->m;
     for (size_t s = 0; s < m->nset; s++)
         for (size_t k = m->sets[s].first; k < m->sets[s].end; k++) {
-            long at = id_table_find (&m->nodes, m->set_node[k]);
+            long at = pg_id_table_find (&m->nodes, m->set_node[k]);
             if (at < 0)
                 PG_FAIL (PG_E_FILE, "%s: node set '%s': node %ld is not in the file", m->path,
                          m->sets[s].name, m->set_node[k]);
@@ -182,14 +182,14 @@ static int mirrored_side (pg_element kind, int side)
     return side;
 }
 
-static pg_status add_side_sets (builder *b, const id_table *elements)
+static pg_status add_side_sets (builder *b, const pg_id_table *elements)
 {
     pg_status status = PG_OK;
     const pg_mesh_builder *m = b->m;
     for (size_t s = 0; s < m->nside_set; s++)
         for (size_t k = m->side_sets[s].first; k < m->side_sets[s].end; k++) {
             const char *name = m->side_sets[s].name;
-            long e = id_table_find (elements, m->side_element[k]);
+            long e = pg_id_table_find (elements, m->side_element[k]);
             if (e < 0)
                 PG_FAIL (PG_E_FILE, "%s: side set '%s': element %ld is none of the solid elements", m->path,
                          name, m->side_element[k]);
@@ -366,11 +366,11 @@ done:
     return status;
 }
 
-static pg_status check_ids (const pg_mesh_builder *m, id_table *elements)
+static pg_status check_ids (const pg_mesh_builder *m, pg_id_table *elements)
 {
     pg_status status = PG_OK;
     size_t twice;
-    PG_TRY (id_table_build (elements, m->out->n, m->out->element_id, &twice));
+    PG_TRY (pg_id_table_build (elements, m->out->n, m->out->element_id, &twice));
     if (twice < m->out->n)
         PG_FAIL (PG_E_FILE, "%s: element %ld is there twice", m->path, m->out->element_id[twice]);
 done:
@@ -381,7 +381,7 @@ pg_status builder_sets (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
     builder b = { .m = m };
-    id_table elements = { 0 };
+    pg_id_table elements = { 0 };
     PG_TRY (check_ids (m, &elements));
     PG_TRY (collect_names (&b));
     PG_TRY (add_node_sets (&b));
@@ -392,7 +392,7 @@ pg_status builder_sets (pg_mesh_builder *m)
     PG_TRY (put_nodes (&b));
     PG_TRY (put_sides (&b));
 done:
-    id_table_clear (&elements);
+    pg_id_table_clear (&elements);
     pg_free (b.set), pg_free (b.final), pg_free (b.source), pg_free (b.nodes.pair), pg_free (b.sides.pair);
     return status;
 }

@@ -27,7 +27,7 @@ static pg_status find_nodes (pg_mesh_builder *m)
     PG_ALLOC (m->index, m->nlist);
     for (size_t e = 0; e < m->n; e++)
         for (size_t k = m->start[e]; k < m->start[e + 1]; k++) {
-            m->index[k] = (int) id_table_find (&m->nodes, m->list[k]);
+            m->index[k] = (int) pg_id_table_find (&m->nodes, m->list[k]);
             if (m->index[k] < 0) ELEMENT_FAIL (m, e, "node %ld is not in the file", m->list[k]);
             for (size_t l = m->start[e]; dimension (m, e) == m->dim && l < k; l++)
                 if (m->index[l] == m->index[k])
@@ -102,7 +102,7 @@ pg_status builder_resolve (pg_mesh_builder *m)
                  "%s: points without elements: a mesh needs lines, triangles, quadrilaterals, tetrahedra, "
                  "hexahedra or wedges",
                  m->path);
-    PG_TRY (id_table_build (&m->nodes, m->nnode, m->node_id, &twice));
+    PG_TRY (pg_id_table_build (&m->nodes, m->nnode, m->node_id, &twice));
     if (twice < m->nnode) PG_FAIL (PG_E_FILE, "%s: node %ld is there twice", m->path, m->node_id[twice]);
     PG_TRY (find_nodes (m));
     PG_TRY (number_solids (m));

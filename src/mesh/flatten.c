@@ -170,7 +170,7 @@ static void take_means (const plate *p, const pg_mesh *flat, const int *at, pg_m
 static pg_status flatten_fields (const plate *p, const pg_mesh *flat, size_t nfield, pg_mesh_field *fields)
 {
     pg_status status = PG_OK;
-    id_table t = { 0 };
+    pg_id_table t = { 0 };
     int *at = NULL;
     double *work = NULL;
     size_t twice, most = 1;
@@ -178,11 +178,11 @@ static pg_status flatten_fields (const plate *p, const pg_mesh *flat, size_t nfi
         if ((size_t) fields[k].components > most) most = (size_t) fields[k].components;
     PG_ALLOC (at, flat->nnode);
     PG_ALLOC (work, flat->nnode * most);
-    PG_TRY (id_table_build (&t, p->mesh->nnode, p->mesh->node_id, &twice));
-    for (size_t i = 0; i < flat->nnode; i++) at[i] = (int) id_table_find (&t, flat->node_id[i]);
+    PG_TRY (pg_id_table_build (&t, p->mesh->nnode, p->mesh->node_id, &twice));
+    for (size_t i = 0; i < flat->nnode; i++) at[i] = (int) pg_id_table_find (&t, flat->node_id[i]);
     for (size_t k = 0; k < nfield; k++) take_means (p, flat, at, &fields[k], work);
 done:
-    id_table_clear (&t);
+    pg_id_table_clear (&t);
     pg_free (at), pg_free (work);
     return status;
 }

@@ -51,3 +51,11 @@ int pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, size_t el
         }
     return 1;
 }
+
+void pg_mesh_fields_clear (size_t n, pg_mesh_field **fields)
+{
+    if (!fields || !*fields) return;
+    for (size_t k = 0; k < n; k++) pg_free ((*fields)[k].value);
+    pg_free (*fields);
+    *fields = NULL;
+}

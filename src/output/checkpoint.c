@@ -5,7 +5,7 @@
  * walk. */
 #include "disk.h"
 #include "exodus.h"
-#include "perigal/mesh.h"
+#include "perigal/mesh_files.h"
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>

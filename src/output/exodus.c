@@ -6,7 +6,7 @@
  * 8 bytes from byte 4 on, last. A step that cannot be written whole is cut off again. */
 #include "disk.h"
 #include "exodus.h"
-#include "perigal/mesh.h"
+#include "perigal/mesh_files.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>

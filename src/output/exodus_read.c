@@ -2,7 +2,7 @@
  * Reads result.e back: points and volumes, and fields whose components are grouped by the attribute `field`
  * of vals_nod_var<k> (files of other programs, without it: every variable is a field of one component). */
 #include "exodus.h"
-#include "perigal/mesh.h"
+#include "perigal/mesh_files.h"
 #include <stdio.h>
 #include <string.h>
 

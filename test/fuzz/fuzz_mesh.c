@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Any bytes as a mesh file of any format: a mesh whose parts fit together, or a fault that names the file. */
 #include "fuzz.h"
-#include "mesh/mesh_private.h"
+#include "mesh_files/format.h"
 #include <math.h>
 
 static void check_sets (const pg_mesh *m)
@@ -50,7 +50,7 @@ static void check_search (const pg_mesh *m)
     pg_mesh_locator_free (&f);
 }
 
-static void check_result (const mesh_bytes *file)
+static void check_result (const mesh_file *file)
 {
     pg_mesh m;
     pg_mesh_field *fields = NULL;
@@ -76,12 +76,12 @@ int LLVMFuzzerTestOneInput (const uint8_t *data, size_t size)
     char *text = pg_calloc (size + 1, 1);
     if (!text) FUZZ_BROKEN ("no memory");
     memcpy (text, data, size);
-    pg_status status = mesh_parse (&mesh, &(mesh_bytes) { "part.msh", text, size });
+    pg_status status = mesh_parse (&mesh, &(mesh_file) { "part.msh", text, size });
     FUZZ_EXPECT (status == PG_OK || status == PG_E_FILE);
     if (status == PG_OK) check_mesh (&mesh), check_search (&mesh);
     else FUZZ_EXPECT (strstr (pg_last_error (), "part.msh"));
     pg_mesh_clear (&mesh);
-    if (status == PG_OK) check_result (&(mesh_bytes) { "part.msh", text, size });
+    if (status == PG_OK) check_result (&(mesh_file) { "part.msh", text, size });
     pg_free (text);
     FUZZ_EXPECT (pg_memory_used () == used);
 #ifndef FUZZ_REPLAY

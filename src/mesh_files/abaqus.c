@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Input files of Abaqus and CalculiX: nodes, elements, sets, surfaces; files by *INCLUDE; all other keywords
+ * are passed over. Keywords and names count without regard to case and blanks around them. */
+#include "abaqus.h"
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+enum { MOST_INCLUDES = 1000 };
+typedef abaqus_reader reader;
+static const abaqus_file *now (const reader *r) { return &r->file[r->depth]; }
+
+pg_status abaqus_wrong (const reader *r, const char *where, const char *format, ...)
+{
+    char why[400];
+    va_list args;
+    va_start (args, format);
+    vsnprintf (why, sizeof why, format, args);
+    va_end (args);
+    return pg_error (PG_E_FILE, where, "%s, line %ld: %s", now (r)->bytes.path, now (r)->c.line, why);
+}
+
+static int next_line (abaqus_file *f) { return mesh_line (&f->c, &f->line, &f->end); }
+
+static void file_close (abaqus_file *f)
+{
+    pg_free ((void *) f->bytes.text), pg_free (f->path);
+    *f = (abaqus_file) { 0 };
+}
+
+/* ---- keyword lines ------------------------------------------------------------------------------------- */
+void abaqus_trim (char *to, size_t size, const char *s, const char *end)
+{
+    while (s < end && isspace ((unsigned char) *s)) s++;
+    while (end > s && isspace ((unsigned char) end[-1])) end--;
+    if (end - s >= 2 && *s == '"' && end[-1] == '"') s++, end--;
+    size_t n = (size_t) (end - s) < size ? (size_t) (end - s) : size - 1;
+    memcpy (to, s, n);
+    to[n] = 0;
+}
+
+static void copy_key (char *to, size_t size, const char *s, const char *end)
+{
+    size_t n = 0;
+    for (; s < end && n + 1 < size; s++)
+        if (!isspace ((unsigned char) *s)) to[n++] = (char) toupper ((unsigned char) *s);
+    to[n] = 0;
+}
+
+static int is_comment (const abaqus_file *f)
+{
+    return f->end - f->line >= 2 && f->line[0] == '*' && f->line[1] == '*';
+}
+
+static void add_parameter (reader *r, const char *s, const char *end)
+{
+    const char *equal = memchr (s, '=', (size_t) (end - s));
+    if (r->nparameter == ABAQUS_PARAMETERS) return;
+    abaqus_parameter *p = &r->parameter[r->nparameter];
+    copy_key (p->key, sizeof p->key, s, equal ? equal : end);
+    p->value[0] = 0;
+    if (equal) abaqus_trim (p->value, sizeof p->value, equal + 1, end);
+    if (p->key[0]) r->nparameter++;
+}
+
+/* *KEYWORD, KEY=VALUE, KEY ...; a line that ends with a comma goes on. */
+static void read_keyword (reader *r)
+{
+    abaqus_file *f = &r->file[r->depth];
+    const char *s = f->line + 1, *end;
+    r->nparameter = 0;
+    for (int first = 1; ; first = 0) {
+        int quoted = 0, open = 0;
+        for (end = s; end < f->end && (quoted || *end != ','); end++) quoted ^= *end == '"';
+        if (first) copy_key (r->keyword, sizeof r->keyword, s, end);
+        else add_parameter (r, s, end);
+        if (end < f->end) {
+            s = end + 1;
+            for (const char *p = s; p < f->end; p++) if (!isspace ((unsigned char) *p)) open = 1;
+            if (open) continue;
+            do if (!next_line (f)) return; while (is_comment (f));
+            s = f->line;
+        }
+        else return;
+    }
+}
+
+static const char *value_of (const reader *r, const char *key)
+{
+    for (int k = 0; k < r->nparameter; k++)
+        if (strcmp (r->parameter[k].key, key) == 0) return r->parameter[k].value;
+    return NULL;
+}
+
+/* Name of a set or surface; one that an assembly writes as INSTANCE.NAME is that of the one instance. */
+static pg_status name_of (const reader *r, const char *key, const char *fallback, char name[ABAQUS_NAME])
+{
+    const char *value = value_of (r, key);
+    if (!value && fallback) value = value_of (r, fallback);
+    if (!value || !*value) return ABAQUS_WRONG (r, "*%s without %s=NAME", r->keyword, key);
+    snprintf (name, ABAQUS_NAME, "%.63s", value);
+    return PG_OK;
+}
+
+static pg_status begin_nodes (reader *r)
+{
+    pg_status status = PG_OK;
+    const char *set = value_of (r, "NSET"), *system = value_of (r, "SYSTEM");
+    char name[ABAQUS_NAME];
+    if (system && strcasecmp (system, "R") != 0)
+        PG_TRY (ABAQUS_WRONG (r,
+                              "nodes with SYSTEM=%.20s are not read: write them in rectangular coordinates",
+                              system));
+    r->set = -1;
+    if (set && *set) {
+        PG_TRY (name_of (r, "NSET", NULL, name));
+        PG_TRY (abaqus_set_get (&r->data.nset, name, &r->set));
+    }
+    r->mode = ABAQUS_NODE_LINES;
+done:
+    return status;
+}
+
+static pg_status begin_elements (reader *r)
+{
+    pg_status status = PG_OK;
+    const char *type = value_of (r, "TYPE"), *set = value_of (r, "ELSET");
+    char near[32], name[ABAQUS_NAME], capitals[32];
+    if (!type || !*type) PG_TRY (ABAQUS_WRONG (r, "*ELEMENT without TYPE="));
+    copy_key (capitals, sizeof capitals, type, type + strlen (type));
+    int found = abaqus_find_type (capitals, &r->type, near);
+    if (!found)
+        PG_TRY (ABAQUS_WRONG (r,
+                              "elements of type '%.30s' are not known%s%s%s; known are C3D4, 6, 8, 10, 15, "
+                              "20, CPS and CPE 3, 4, 6, 8, S3, 4, 6, 8, "
+                              "M3D3, 4, 6, 8, T3D2, B31, with letters behind them as in C3D8R",
+                              type, near[0] ? " (did you mean '" : "", near, near[0] ? "'?)" : ""));
+    r->mode = found == 1 ? ABAQUS_ELEMENT_LINES : ABAQUS_SKIP;
+    r->have = -1;
+    r->set = -1;
+    if (found != 1) goto done;
+    abaqus_node_order (r->type.kind, r->order);
+    if (set && *set) {
+        PG_TRY (name_of (r, "ELSET", NULL, name));
+        PG_TRY (abaqus_set_get (&r->data.elset, name, &r->set));
+        r->data.elset.set[r->set].named = 1;
+    }
+done:
+    return status;
+}
+
+static pg_status begin_set (reader *r, int nodes)
+{
+    pg_status status = PG_OK;
+    char name[ABAQUS_NAME];
+    const char *of = value_of (r, "ELSET");
+    PG_TRY (name_of (r, nodes ? "NSET" : "ELSET", NULL, name));
+    PG_TRY (abaqus_set_get (nodes ? &r->data.nset : &r->data.elset, name, &r->set));
+    r->mode = nodes ? ABAQUS_NODE_SET : ABAQUS_ELEMENT_SET;
+    r->generate = value_of (r, "GENERATE") != NULL;
+    if (nodes && of) {
+        int other = abaqus_set_find (&r->data.elset, of);
+        if (other < 0) PG_TRY (ABAQUS_WRONG (r, "there is no element set '%.63s' before this line", of));
+        PG_TRY (
+            abaqus_set_add (&r->data.nset.set[r->set], (abaqus_range){ other, other, ABAQUS_NODES_OF, 0 }));
+    }
+done:
+    return status;
+}
+
+static pg_status begin_surface (reader *r)
+{
+    pg_status status = PG_OK;
+    const char *type = value_of (r, "TYPE");
+    char name[ABAQUS_NAME];
+    r->mode = ABAQUS_SKIP;
+    if (value_of (r, "COMBINE")
+        || (type && strcasecmp (type, "ELEMENT") != 0 && strcasecmp (type, "NODE") != 0))
+        goto done;
+    PG_TRY (name_of (r, "NAME", NULL, name));
+    if (type && strcasecmp (type, "NODE") == 0) {
+        PG_TRY (abaqus_set_get (&r->data.nset, name, &r->set));
+        r->mode = ABAQUS_NODE_SURFACE;
+        goto done;
+    }
+    abaqus *a = &r->data;
+    PG_GROW (a->surface, a->surface_capacity, a->nsurface + 1);
+    memset (&a->surface[a->nsurface], 0, sizeof *a->surface);
+    snprintf (a->surface[a->nsurface].name, ABAQUS_NAME, "%s", name);
+    r->surface = (int) a->nsurface++;
+    r->mode = ABAQUS_SURFACE;
+done:
+    return status;
+}
+
+static pg_status begin_section (reader *r)
+{
+    pg_status status = PG_OK;
+    const char *of = value_of (r, "ELSET");
+    int set = of ? abaqus_set_find (&r->data.elset, of) : -1;
+    r->mode = ABAQUS_SKIP;
+    if (set < 0) goto done;
+    PG_GROW (r->data.section, r->data.section_capacity, r->data.nsection + 1);
+    r->data.section[r->data.nsection++] = set;
+done:
+    return status;
+}
+
+/* A file named relative to the one that includes it. */
+static pg_status begin_include (reader *r, const char *name)
+{
+    pg_status status = PG_OK;
+    char *path = NULL;
+    const char *slash = strrchr (now (r)->bytes.path, '/');
+    if (!name || !*name) PG_TRY (ABAQUS_WRONG (r, "*%s without INPUT=FILE", r->keyword));
+    if (r->depth + 1 == ABAQUS_DEEPEST || r->data.included == MOST_INCLUDES)
+        PG_TRY (ABAQUS_WRONG (r, "files include one another more than %d deep or %d times", ABAQUS_DEEPEST,
+                              MOST_INCLUDES));
+    size_t folder = slash && *name != '/' ? (size_t) (slash - now (r)->bytes.path) + 1 : 0;
+    PG_ALLOC (path, folder + strlen (name) + 1);
+    memcpy (path, now (r)->bytes.path, folder);
+    memcpy (path + folder, name, strlen (name));
+    abaqus_file *f = &r->file[r->depth + 1];
+    status = mesh_load (&f->bytes, path);
+    if (status == PG_E_FILE) {
+        char why[300];
+        snprintf (why, sizeof why, "%.299s", pg_last_error ());
+        PG_TRY (ABAQUS_WRONG (r, "the file it includes: %s", why));
+    }
+    if (status != PG_OK) goto done;
+    f->path = path, path = NULL;
+    f->c = mesh_begin (&f->bytes);
+    r->depth++, r->data.included++;
+done:
+    pg_free (path);
+    return status;
+}
+
+static pg_status begin_instance (reader *r)
+{
+    pg_status status = PG_OK;
+    const char *name = value_of (r, "NAME");
+    r->mode = ABAQUS_INSTANCE;
+    if (++r->instances > 1)
+        PG_TRY (ABAQUS_WRONG (r, "a second *INSTANCE: an assembly of several bodies is not read; merge them "
+                                 "into one part (no bodies in contact)"));
+    if (name) snprintf (r->instance, sizeof r->instance, "%s", name);
+done:
+    return status;
+}
+
+/* What makes nodes or elements from others: without it the mesh would be another. */
+static int generates (const char *keyword)
+{
+    static const char *const word[] = { "NGEN",   "NFILL",  "NCOPY",  "NMAP",    "ELGEN",
+                                        "ELCOPY", "SYSTEM", "IMPORT", "SUBMODEL" };
+    for (size_t k = 0; k < sizeof word / sizeof *word; k++) if (strcmp (keyword, word[k]) == 0) return 1;
+    return 0;
+}
+
+static pg_status finish_element (const reader *r)
+{
+    if (r->have < 0) return PG_OK;
+    return pg_error (PG_E_FILE, PG_HERE, "%s, line %ld: element %ld has %d of %d nodes", now (r)->bytes.path,
+                     r->element_line, r->element, r->have, r->type.nodes);
+}
+
+static pg_status begin (reader *r)
+{
+    pg_status status = finish_element (r);
+    if (status != PG_OK) return status;
+    read_keyword (r);
+    const char *k = r->keyword;
+    r->mode = ABAQUS_SKIP;
+    if (strcmp (k, "NODE") == 0) status = begin_nodes (r);
+    else if (strcmp (k, "ELEMENT") == 0) status = begin_elements (r);
+    else if (strcmp (k, "NSET") == 0) status = begin_set (r, 1);
+    else if (strcmp (k, "ELSET") == 0) status = begin_set (r, 0);
+    else if (strcmp (k, "SURFACE") == 0) status = begin_surface (r);
+    else if (strcmp (k, "INCLUDE") == 0) status = begin_include (r, value_of (r, "INPUT"));
+    else if (strcmp (k, "INSTANCE") == 0) status = begin_instance (r);
+    else if (strcmp (k, "SOLIDSECTION") == 0 || strcmp (k, "SHELLSECTION") == 0
+             || strcmp (k, "MEMBRANESECTION") == 0)
+        status = begin_section (r);
+    else if (strcmp (k, "PART") == 0 && ++r->parts > 1)
+        status = ABAQUS_WRONG (r,
+                               "a second *PART: only files of one part are read; merge the parts into one");
+    else if (generates (k))
+        status =
+            ABAQUS_WRONG (r,
+                          "*%s is not read: write out all nodes and elements (most programs do so on export)",
+                          k);
+    if (status == PG_OK && r->mode != ABAQUS_SKIP && strcmp (k, "INCLUDE") != 0 && value_of (r, "INPUT"))
+        status = begin_include (r, value_of (r, "INPUT"));
+    return status;
+}
+
+/* ---- the file ------------------------------------------------------------------------------------------ */
+static pg_status read_all (reader *r)
+{
+    pg_status status = PG_OK;
+    for (;;) {
+        abaqus_file *f = &r->file[r->depth];
+        if (!next_line (f)) {
+            if (r->depth == 0) break;
+            file_close (f);
+            r->depth--;
+        }
+        else if (f->line < f->end && f->line[0] == '*') {
+            if (!is_comment (f)) PG_TRY (begin (r));
+        }
+        else if (r->mode != ABAQUS_SKIP) PG_TRY (abaqus_data (r));
+    }
+    PG_TRY (finish_element (r));
+    if (pg_mesh_builder_given (r->data.builder).n == 0)
+        PG_FAIL (PG_E_FILE, "%s: no *ELEMENT: there is no mesh in this file", r->file[0].bytes.path);
+done:
+    return status;
+}
+
+static void reader_free (reader *r)
+{
+    abaqus *a = &r->data;
+    for (int k = 1; k < ABAQUS_DEEPEST; k++) file_close (&r->file[k]);
+    for (size_t k = 0; k < a->nsurface; k++) pg_free (a->surface[k].face);
+    abaqus_sets_free (&a->nset), abaqus_sets_free (&a->elset);
+    pg_free (a->surface), pg_free (a->section), pg_free (a->shell);
+    pg_free (r);
+}
+
+static pg_status read_abaqus (pg_mesh_builder *m, const mesh_file *file)
+{
+    pg_status status = PG_OK;
+    reader *r = NULL;
+    PG_ALLOC (r, 1);
+    r->file[0].bytes = *file;
+    r->file[0].c = mesh_begin (file);
+    r->data.path = file->path;
+    r->data.builder = m;
+    r->have = -1;
+    PG_TRY (read_all (r));
+    PG_TRY (abaqus_resolve (&r->data));
+done:
+    if (r) reader_free (r);
+    return status;
+}
+
+/* The first line that is no comment begins with * and a letter. */
+static int knows_abaqus (const mesh_file *file)
+{
+    mesh_cursor c = mesh_begin (file);
+    const char *s, *end;
+    while (mesh_line (&c, &s, &end)) {
+        if (s == end || (end - s >= 2 && s[0] == '*' && s[1] == '*')) continue;
+        return *s == '*' && end - s > 3 && isalpha ((unsigned char) s[1 + (s[1] == ' ')]);
+    }
+    return 0;
+}
+
+const mesh_format mesh_format_abaqus = { "Abaqus or CalculiX .inp", knows_abaqus, read_abaqus, NULL };

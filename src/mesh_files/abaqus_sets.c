@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Sets of a .inp: numbers, ranges and other sets by name, resolved when all nodes and elements are known. */
+#include "abaqus.h"
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+/* ---- the sets as written ------------------------------------------------------------------------------- */
+int abaqus_set_find (const abaqus_sets *sets, const char *name)
+{
+    for (size_t k = 0; k < sets->n; k++) if (strcasecmp (sets->set[k].name, name) == 0) return (int) k;
+    return -1;
+}
+
+pg_status abaqus_set_get (abaqus_sets *sets, const char *name, int *set)
+{
+    pg_status status = PG_OK;
+    *set = abaqus_set_find (sets, name);
+    if (*set >= 0) goto done;
+    PG_GROW (sets->set, sets->capacity, sets->n + 1);
+    memset (&sets->set[sets->n], 0, sizeof *sets->set);
+    snprintf (sets->set[sets->n].name, ABAQUS_NAME, "%s", name);
+    *set = (int) sets->n++;
+done:
+    return status;
+}
+
+/* Numbers that follow one another share an entry. */
+pg_status abaqus_set_add (abaqus_set *set, abaqus_range range)
+{
+    pg_status status = PG_OK;
+    abaqus_range *last = set->n ? &set->range[set->n - 1] : NULL;
+    if (last && last->step == 1 && range.step == 1 && range.first == range.last
+        && range.first == last->last + 1 && !last->line == !range.line) {
+        last->last = range.last;
+        goto done;
+    }
+    PG_GROW (set->range, set->capacity, set->n + 1);
+    set->range[set->n++] = range;
+done:
+    return status;
+}
+
+void abaqus_sets_free (abaqus_sets *sets)
+{
+    for (size_t k = 0; k < sets->n; k++) pg_free (sets->set[k].range);
+    pg_free (sets->set);
+    *sets = (abaqus_sets) { 0 };
+}
+
+/* ---- what is in a set ---------------------------------------------------------------------------------- */
+typedef struct {
+    const char *what;                                  /* "node", "element" */
+    const abaqus_sets *sets;
+    pg_id_table table;
+    const long *id;
+    size_t   all, n;                                   /* of the file, in the set */
+    int     *place;                                    /* of those in the set */
+    unsigned char *in, *seen;                          /* of places, of sets */
+    int     *todo;                                     /* sets */
+} gather;
+typedef struct { abaqus *a; pg_mesh_given given; gather node, element; } resolver;
+
+static void gather_clear (gather *g)
+{
+    pg_id_table_clear (&g->table);
+    pg_free (g->place), pg_free (g->in), pg_free (g->seen), pg_free (g->todo);
+}
+
+static pg_status gather_start (gather *g, const char *what, const abaqus_sets *sets, size_t n, const long *id)
+{
+    pg_status status = PG_OK;
+    size_t twice;
+    g->what = what, g->sets = sets, g->all = n, g->id = id;
+    /* numbers given twice are for the builder to tell */
+    PG_TRY (pg_id_table_build (&g->table, n, id, &twice));
+    PG_ALLOC (g->place, n);
+    PG_ALLOC (g->in, n);
+    PG_ALLOC (g->seen, sets->n);
+    PG_ALLOC (g->todo, sets->n);
+done:
+    return status;
+}
+
+static void put (gather *g, long place)
+{
+    if (place < 0 || g->in[place]) return;
+    g->in[place] = 1;
+    g->place[g->n++] = (int) place;
+}
+
+static void forget (gather *g)
+{
+    for (size_t k = 0; k < g->n; k++) g->in[g->place[k]] = 0;
+    g->n = 0;
+}
+
+static pg_status fault (const resolver *r, long line, const char *what, long id, const char *set)
+{
+    char at[32] = "";
+    if (line > 0 && !r->a->included) snprintf (at, sizeof at, ", line %ld", line);
+    return pg_error (PG_E_FILE, PG_HERE, "%s%s: %s %ld of set '%s' is not there", r->a->path, at, what, id,
+                     set);
+}
+
+static pg_status put_range (const resolver *r, gather *g, const abaqus_range *range, const char *set)
+{
+    size_t count = range->last < range->first
+                       ? 0
+                       : ((size_t) range->last - (size_t) range->first) / (size_t) range->step + 1;
+    if (count > g->all && range->line) {               /* more than there are: one is missing */
+        for (long id = range->first;; id++)
+            if (pg_id_table_find (&g->table, id) < 0) return fault (r, range->line, g->what, id, set);
+    }
+    if (count > g->all) {
+        for (size_t k = 0; k < g->all; k++)
+            if (g->id[k] >= range->first && g->id[k] <= range->last
+                && ((size_t) g->id[k] - (size_t) range->first) % (size_t) range->step == 0)
+                put (g, (long) k);
+        return PG_OK;
+    }
+    long id = range->first;
+    for (size_t k = 0; k < count; k++, id += k < count ? range->step : 0) {
+        long place = pg_id_table_find (&g->table, id);
+        if (place < 0 && range->line) return fault (r, range->line, g->what, id, set);
+        put (g, place);
+    }
+    return PG_OK;
+}
+
+/* Sets named by sets are walked once each, so that sets that name one another end. */
+static pg_status collect (resolver *r, gather *g, int set);
+static void put_nodes (resolver *r, int e)
+{
+    const pg_mesh_given *m = &r->given;
+    for (size_t j = m->start[e]; j < m->start[e + 1]; j++)
+        put (&r->node, pg_id_table_find (&r->node.table, m->node[j]));
+}
+
+static pg_status put_nodes_of (resolver *r, int element_set)
+{
+    pg_status status = collect (r, &r->element, element_set);
+    for (size_t k = 0; status == PG_OK && k < r->element.n; k++) put_nodes (r, r->element.place[k]);
+    return status;
+}
+
+static pg_status collect (resolver *r, gather *g, int set)
+{
+    pg_status status = PG_OK;
+    size_t todo = 0, done_with = 0;
+    forget (g);
+    g->todo[todo++] = set;
+    g->seen[set] = 1;
+    while (done_with < todo) {
+        const abaqus_set *s = &g->sets->set[g->todo[done_with++]];
+        for (size_t k = 0; status == PG_OK && k < s->n; k++) {
+            const abaqus_range *range = &s->range[k];
+            if (range->step == ABAQUS_NODES_OF) status = put_nodes_of (r, (int) range->first);
+            else if (range->step != ABAQUS_SET) status = put_range (r, g, range, s->name);
+            else if (!g->seen[range->first]) g->seen[range->first] = 1, g->todo[todo++] = (int) range->first;
+        }
+    }
+    for (size_t k = 0; k < todo; k++) g->seen[g->todo[k]] = 0;
+    return status;
+}
+
+/* ---- into the builder ---------------------------------------------------------------------------------- */
+/* Elements without a set of their own: the set of the section they were given. */
+static pg_status resolve_blocks (resolver *r)
+{
+    pg_status status = PG_OK;
+    abaqus *a = r->a;
+    for (size_t k = 0; k < a->nsection; k++) {
+        int used = 0;
+        PG_TRY (collect (r, &r->element, a->section[k]));
+        for (size_t i = 0; i < r->element.n; i++) {
+            size_t e = (size_t) r->element.place[i];
+            if (r->given.group[e] != 0) continue;
+            pg_mesh_builder_regroup (a->builder, e, a->section[k] + 1);
+            used = 1;
+        }
+        if (used) a->elset.set[a->section[k]].named = 1;
+    }
+    for (size_t k = 0; k < a->elset.n; k++)
+        for (int dim = 0; dim <= 3 && a->elset.set[k].named; dim++)
+            PG_TRY (pg_mesh_builder_group (a->builder, dim, (long) k + 1, a->elset.set[k].name));
+done:
+    return status;
+}
+
+static pg_status emit_nodes (resolver *r, const char *name, long id)
+{
+    pg_status status = PG_OK;
+    if (r->node.n == 0) goto done;
+    PG_TRY (pg_mesh_builder_nodeset (r->a->builder, name, id));
+    for (size_t i = 0; i < r->node.n; i++)
+        PG_TRY (pg_mesh_builder_nodeset_add (r->a->builder, r->node.id[r->node.place[i]]));
+done:
+    return status;
+}
+
+static pg_status resolve_sets (resolver *r)
+{
+    pg_status status = PG_OK;
+    abaqus *a = r->a;
+    for (size_t k = 0; k < a->nset.n; k++) {
+        PG_TRY (collect (r, &r->node, (int) k));
+        PG_TRY (emit_nodes (r, a->nset.set[k].name, (long) k + 1));
+    }
+    for (size_t k = 0; k < a->elset.n; k++) {
+        if (a->elset.set[k].named || abaqus_set_find (&a->nset, a->elset.set[k].name) >= 0) continue;
+        forget (&r->node);
+        PG_TRY (put_nodes_of (r, (int) k));
+        PG_TRY (emit_nodes (r, a->elset.set[k].name, (long) (a->nset.n + k) + 1));
+    }
+done:
+    return status;
+}
+
+static int top_dimension (const pg_mesh_given *m)
+{
+    int dim = 0;
+    for (size_t e = 0; e < m->n; e++)
+        if (pg_element_types[m->kind[e]].dim > dim) dim = pg_element_types[m->kind[e]].dim;
+    return dim;
+}
+
+/* Side that a line of a surface means for one element; -2: it is the face of a shell. */
+static pg_status side_of (const resolver *r, const abaqus_surface *surface, const abaqus_face *face,
+                          int place, int dim, int *side)
+{
+    pg_status status = PG_OK;
+    const pg_mesh_given *m = &r->given;
+    char at[32] = "";
+    pg_element kind = (pg_element) m->kind[place];
+    *side = abaqus_side (kind, r->a->shell[place], face->face);
+    if (!r->a->included) snprintf (at, sizeof at, ", line %ld", face->line);
+    if (*side == -1 || pg_element_types[kind].dim < dim)
+        PG_FAIL (PG_E_FILE,
+                 "%s%s: surface '%s': element %ld (%s) has no face '%s'; faces are called S1, S2 ... "
+                 "(shells: E1, E2 ...)",
+                 r->a->path, at, surface->name, m->element_id[place], pg_element_types[kind].name,
+                 face->face);
+done:
+    return status;
+}
+
+/* The elements of one line of a surface. */
+static pg_status collect_face (resolver *r, const abaqus_surface *surface, const abaqus_face *face)
+{
+    if (face->set >= 0) return collect (r, &r->element, face->set);
+    long place = pg_id_table_find (&r->element.table, face->element);
+    if (place < 0) return fault (r, face->line, "element", face->element, surface->name);
+    forget (&r->element);
+    put (&r->element, place);
+    return PG_OK;
+}
+
+/* The faces of shells are no sides of plane elements: their nodes become a set. */
+static pg_status resolve_surface (resolver *r, const abaqus_surface *surface, long id, int dim)
+{
+    pg_status status = PG_OK;
+    int side, begun = 0;
+    forget (&r->node);
+    for (size_t k = 0; k < surface->n; k++) {
+        PG_TRY (collect_face (r, surface, &surface->face[k]));
+        for (size_t i = 0; i < r->element.n; i++) {
+            int e = r->element.place[i];
+            PG_TRY (side_of (r, surface, &surface->face[k], e, dim, &side));
+            if (side == -2) {
+                put_nodes (r, e);
+                continue;
+            }
+            if (!begun) PG_TRY (pg_mesh_builder_sideset (r->a->builder, surface->name, id));
+            PG_TRY (pg_mesh_builder_sideset_add (r->a->builder, r->element.id[e], side));
+            begun = 1;
+        }
+    }
+    if (!begun && abaqus_set_find (&r->a->nset, surface->name) < 0)
+        PG_TRY (emit_nodes (r, surface->name, id));
+done:
+    return status;
+}
+
+pg_status abaqus_resolve (abaqus *a)
+{
+    pg_status status = PG_OK;
+    resolver r = { .a = a, .given = pg_mesh_builder_given (a->builder) };
+    int dim = top_dimension (&r.given);
+    PG_TRY (gather_start (&r.node, "node", &a->nset, r.given.nnode, r.given.node_id));
+    PG_TRY (gather_start (&r.element, "element", &a->elset, r.given.n, r.given.element_id));
+    PG_TRY (resolve_blocks (&r));
+    PG_TRY (resolve_sets (&r));
+    for (size_t s = 0; s < a->nsurface; s++)
+        PG_TRY (resolve_surface (&r, &a->surface[s], (long) (a->nset.n + a->elset.n + s) + 1, dim));
+done:
+    gather_clear (&r.node), gather_clear (&r.element);
+    return status;
+}

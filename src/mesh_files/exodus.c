@@ -1,0 +1,492 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Meshes and nodal results of Exodus II (any netCDF): nodes and elements go by their place in the file while
+ * it is read; the numbers that node_num_map and elem_map give them come last. */
+#include "format.h"
+#include <ctype.h>
+#include <math.h>
+#include <netcdf.h>
+#include <netcdf_mem.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+enum { NAME = 256 };
+typedef struct {
+    const char *path;
+    int    ncid, open;
+    size_t nnode, n, nblock, bytes;
+    pg_mesh_builder *builder;
+    unsigned char *shell;                              /* of each element: its sides 1, 2 are faces (n) */
+} reader;
+
+#define NC_TRY(r, call) \
+    do { \
+        int rc_ = (call); \
+        if (rc_ != NC_NOERR) \
+            PG_FAIL (rc_ == NC_ENOMEM ? PG_E_MEMORY : PG_E_FILE, "%.400s: %s", (r)->path, \
+                     nc_strerror (rc_)); \
+    } while (0)
+
+/* ---- netCDF -------------------------------------------------------------------------------------------- */
+/* Length of a dimension; 0 when there is none. */
+static size_t length_of (int ncid, const char *name)
+{
+    int dim;
+    size_t n = 0;
+    if (nc_inq_dimid (ncid, name, &dim) != NC_NOERR || nc_inq_dimlen (ncid, dim, &n) != NC_NOERR) return 0;
+    return n;
+}
+
+/* Variable of a name, whose values must be n in number. *var -1: there is none. */
+static pg_status find (const reader *r, const char *name, size_t n, int *var)
+{
+    pg_status status = PG_OK;
+    int dims[NC_MAX_VAR_DIMS], ndims;
+    size_t all = 1, length;
+    *var = -1;
+    if (nc_inq_varid (r->ncid, name, var) != NC_NOERR) {
+        *var = -1;
+        goto done;
+    }
+    NC_TRY (r, nc_inq_varndims (r->ncid, *var, &ndims));
+    if (ndims > 4) PG_FAIL (PG_E_FILE, "%.400s: '%s' has %d dimensions", r->path, name, ndims);
+    NC_TRY (r, nc_inq_vardimid (r->ncid, *var, dims));
+    for (int k = 0; k < ndims; k++) {
+        NC_TRY (r, nc_inq_dimlen (r->ncid, dims[k], &length));
+        all *= length;
+    }
+    if (all != n) PG_FAIL (PG_E_FILE, "%.400s: '%s' has %zu values, expected %zu", r->path, name, all, n);
+done:
+    return status;
+}
+
+/* The n whole numbers of a variable; *value NULL: there is none. A file says less than it holds: n is bounded
+ * by its bytes. */
+static pg_status whole_numbers (const reader *r, const char *name, size_t n, long **value)
+{
+    pg_status status = PG_OK;
+    int var;
+    *value = NULL;
+    PG_TRY (find (r, name, n, &var));
+    if (var < 0) goto done;
+    PG_ALLOC (*value, n);
+    NC_TRY (r, nc_get_var_long (r->ncid, var, *value));
+done:
+    if (status != PG_OK) pg_free (*value), *value = NULL;
+    return status;
+}
+
+static pg_status must (const reader *r, const char *name, size_t n, long **value)
+{
+    pg_status status = whole_numbers (r, name, n, value);
+    if (status == PG_OK && !*value)
+        status = pg_error (PG_E_FILE, PG_HERE, "%.400s: no '%s': not a whole Exodus file", r->path, name);
+    return status;
+}
+
+/* Row k of a table of names; "" when there is none. */
+static void name_of (const reader *r, const char *table, size_t k, char name[NAME])
+{
+    int var, dims[NC_MAX_VAR_DIMS], ndims;
+    size_t rows = 0, width = 0;
+    memset (name, 0, NAME);
+    if (nc_inq_varid (r->ncid, table, &var) != NC_NOERR || nc_inq_varndims (r->ncid, var, &ndims) != NC_NOERR
+        || ndims != 2)
+        return;
+    if (nc_inq_vardimid (r->ncid, var, dims) != NC_NOERR
+        || nc_inq_dimlen (r->ncid, dims[0], &rows) != NC_NOERR)
+        return;
+    if (nc_inq_dimlen (r->ncid, dims[1], &width) != NC_NOERR || k >= rows) return;
+    if (width > NAME - 1) width = NAME - 1;
+    if (nc_get_vara_text (r->ncid, var, (size_t[2]){ k, 0 }, (size_t[2]){ 1, width }, name) != NC_NOERR)
+        name[0] = 0;
+    for (size_t m = strlen (name); m > 0 && name[m - 1] == ' '; m--) name[m - 1] = 0;
+}
+
+/* Dimensions are bounded by what the file can hold, before anything is made of them; 1: a compressed value
+ * takes a bit at least. */
+static int too_many (const reader *r, size_t n) { return n > 4096 * r->bytes || n > 0x7fffffff; }
+
+static pg_status open_file (reader *r, const mesh_file *file)
+{
+    pg_status status = PG_OK;
+    r->path = file->path, r->bytes = file->size;
+    PG_TRY (mesh_netcdf_check_header (file));
+    NC_TRY (r, nc_open_mem (file->path, NC_NOWRITE, file->size, (void *) file->text, &r->ncid));
+    r->open = 1;
+    r->nnode = length_of (r->ncid, "num_nodes");
+    r->n = length_of (r->ncid, "num_elem");
+    r->nblock = length_of (r->ncid, "num_el_blk");
+    if (r->nnode == 0) PG_FAIL (PG_E_FILE, "%.400s: no nodes: not an Exodus file", r->path);
+    if (too_many (r, r->nnode) || too_many (r, r->n) || r->nblock > r->bytes)
+        PG_FAIL (PG_E_FILE, "%.400s: %zu nodes and %zu elements are more than it can hold", r->path, r->nnode,
+                 r->n);
+done:
+    return status;
+}
+
+static void close_file (reader *r)
+{
+    if (r->open) nc_close (r->ncid);
+    pg_free (r->shell);
+}
+
+/* ---- mesh ---------------------------------------------------------------------------------------------- */
+static pg_status read_nodes (reader *r)
+{
+    pg_status status = PG_OK;
+    double *x[3] = { NULL, NULL, NULL }, *together = NULL;
+    char name[16];
+    int var;
+    size_t dim = length_of (r->ncid, "num_dim");
+    if (dim < 1 || dim > 3) PG_FAIL (PG_E_FILE, "%.400s: %zu dimensions", r->path, dim);
+    for (size_t a = 0; a < 3; a++) PG_ALLOC (x[a], r->nnode);
+    PG_TRY (find (r, "coord", dim * r->nnode, &var));      /* of old files: all in one */
+    if (var >= 0) {
+        PG_ALLOC (together, dim * r->nnode);
+        NC_TRY (r, nc_get_var_double (r->ncid, var, together));
+        for (size_t a = 0; a < dim; a++) memcpy (x[a], together + a * r->nnode, r->nnode * sizeof (double));
+    }
+    for (size_t a = 0; var < 0 && a < dim; a++) {
+        int one;
+        snprintf (name, sizeof name, "coord%c", "xyz"[a]);
+        PG_TRY (find (r, name, r->nnode, &one));
+        if (one < 0) PG_FAIL (PG_E_FILE, "%.400s: no '%s'", r->path, name);
+        NC_TRY (r, nc_get_var_double (r->ncid, one, x[a]));
+    }
+    for (size_t i = 0; i < r->nnode; i++)
+        PG_TRY (pg_mesh_builder_node (r->builder, (long) i + 1, (double[3]){ x[0][i], x[1][i], x[2][i] }));
+done:
+    for (size_t a = 0; a < 3; a++) pg_free (x[a]);
+    pg_free (together);
+    return status;
+}
+
+/* Names of element types begin so; the number of nodes tells the rest. PG_ELEMENTS: unknown. */
+static pg_element kind_of (const char *type, size_t nodes, int *shell)
+{
+    static const struct { const char *begin; int shell; pg_element kind[4];
+    } table[] = { { "SPH", 0, { PG_POINT1 } },
+                  { "CIRC", 0, { PG_POINT1 } },
+                  { "POINT", 0, { PG_POINT1 } },
+                  { "NODE", 0, { PG_POINT1 } },
+                  { "BAR", 0, { PG_BAR2, PG_BAR3 } },
+                  { "BEAM", 0, { PG_BAR2, PG_BAR3 } },
+                  { "TRUSS", 0, { PG_BAR2, PG_BAR3 } },
+                  { "ROD", 0, { PG_BAR2, PG_BAR3 } },
+                  { "EDGE", 0, { PG_BAR2, PG_BAR3 } },
+                  { "LINE", 0, { PG_BAR2, PG_BAR3 } },
+                  { "TRIS", 1, { PG_TRI3, PG_TRI6 } },
+                  { "TRI", 0, { PG_TRI3, PG_TRI6 } },
+                  { "QUA", 0, { PG_QUAD4, PG_QUAD8, PG_QUAD9 } },
+                  { "SHE", 1, { PG_QUAD4, PG_QUAD8, PG_QUAD9, PG_TRI3 } },
+                  { "TET", 0, { PG_TET4, PG_TET10 } },
+                  { "HEX", 0, { PG_HEX8, PG_HEX20, PG_HEX27 } },
+                  { "WED", 0, { PG_WEDGE6, PG_WEDGE15 } } };
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        if (strncasecmp (type, table[k].begin, strlen (table[k].begin)) != 0) continue;
+        *shell = table[k].shell;
+        for (int j = 0; j < 4; j++)                        /* PG_POINT1 = 0 fills what the table leaves out */
+            if ((j == 0 || table[k].kind[j]) && (size_t) pg_element_types[table[k].kind[j]].nodes == nodes)
+                return table[k].kind[j];
+    }
+    return PG_ELEMENTS;
+}
+
+static pg_status block_kind (const reader *r, size_t k, size_t *count, pg_element *kind, int *shell)
+{
+    pg_status status = PG_OK;
+    char name[64], type[NAME] = "";
+    int var;
+    size_t length = 0;
+    snprintf (name, sizeof name, "num_el_in_blk%zu", k + 1);
+    *count = length_of (r->ncid, name);
+    snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);
+    size_t nodes = length_of (r->ncid, name);
+    *kind = PG_ELEMENTS;
+    if (*count == 0) goto done;                            /* an empty block has no connect */
+    snprintf (name, sizeof name, "connect%zu", k + 1);
+    NC_TRY (r, nc_inq_varid (r->ncid, name, &var));
+    if (nc_inq_attlen (r->ncid, var, "elem_type", &length) == NC_NOERR && length < NAME)
+        NC_TRY (r, nc_get_att_text (r->ncid, var, "elem_type", type));
+    *kind = kind_of (type, nodes, shell);
+    if (*kind == PG_ELEMENTS)
+        PG_FAIL (PG_E_FILE,
+                 "%.400s: block %zu has elements '%.30s' of %zu nodes; known are BAR, TRI, QUAD, SHELL, TET, "
+                 "WEDGE and HEX of first and second order",
+                 r->path, k + 1, type, nodes);
+done:
+    return status;
+}
+
+static pg_status read_block (reader *r, size_t k, size_t *first)
+{
+    pg_status status = PG_OK;
+    size_t count;
+    pg_element kind;
+    int shell = 0;
+    long *connect = NULL, group = (long) k + 1;
+    char name[NAME];
+    PG_TRY (block_kind (r, k, &count, &kind, &shell));
+    if (kind == PG_ELEMENTS) goto done;
+    size_t nodes = (size_t) pg_element_types[kind].nodes;
+    if (count > r->n - *first)
+        PG_FAIL (PG_E_FILE, "%.400s: its blocks have more than the %zu elements of the file", r->path, r->n);
+    snprintf (name, sizeof name, "connect%zu", k + 1);
+    PG_TRY (must (r, name, count * nodes, &connect));
+    for (size_t e = 0; e < count; e++) {
+        PG_TRY (pg_mesh_builder_element (r->builder, (long) (*first + e) + 1, kind, connect + e * nodes,
+                                         group, 0));
+        r->shell[*first + e] = (unsigned char) shell;
+    }
+    *first += count;
+    name_of (r, "eb_names", k, name);
+    if (name[0]) PG_TRY (pg_mesh_builder_group (r->builder, pg_element_types[kind].dim, group, name));
+done:
+    pg_free (connect);
+    return status;
+}
+
+/* Files of Perigal, and of other codes without a mesh: every element is a point. */
+static pg_status check_points (const reader *r)
+{
+    pg_status status = PG_OK;
+    const pg_mesh_given given = pg_mesh_builder_given (r->builder);
+    for (size_t e = 0; e < given.n; e++) if (given.kind[e] != PG_POINT1) goto done;
+    PG_FAIL (PG_E_FILE, "%.400s: points without elements (SPHERE): a result of points is no mesh", r->path);
+done:
+    return status;
+}
+
+static pg_status read_node_sets (reader *r)
+{
+    pg_status status = PG_OK;
+    long *id = NULL, *node = NULL;
+    size_t n = length_of (r->ncid, "num_node_sets");
+    char name[NAME];
+    if (n == 0 || n > r->bytes) goto done;
+    PG_TRY (whole_numbers (r, "ns_prop1", n, &id));
+    for (size_t k = 0; k < n; k++) {
+        snprintf (name, sizeof name, "num_nod_ns%zu", k + 1);
+        size_t m = length_of (r->ncid, name);
+        name_of (r, "ns_names", k, name);
+        PG_TRY (pg_mesh_builder_nodeset (r->builder, name, id ? id[k] : (long) k + 1));
+        if (m == 0) continue;
+        snprintf (name, sizeof name, "node_ns%zu", k + 1);
+        PG_TRY (must (r, name, m, &node));
+        for (size_t i = 0; i < m; i++) PG_TRY (pg_mesh_builder_nodeset_add (r->builder, node[i]));
+        pg_free (node), node = NULL;
+    }
+done:
+    pg_free (id), pg_free (node);
+    return status;
+}
+
+/* Sides of shells: 1, 2 the faces (no sides of a plane element), 3 ... the edges. */
+static pg_status add_side (const reader *r, long element, long side)
+{
+    pg_status status = PG_OK;
+    if (element < 1 || (size_t) element > r->n)
+        PG_FAIL (PG_E_FILE, "%.400s: a side set has element %ld of %zu", r->path, element, r->n);
+    if (side < 1 || side > 6)
+        PG_FAIL (PG_E_FILE, "%.400s: a side set has side %ld of element %ld", r->path, side, element);
+    int first = r->shell[element - 1] ? 3 : 1;
+    if (side < first) goto done;
+    PG_TRY (pg_mesh_builder_sideset_add (r->builder, element, (int) side - first));
+done:
+    return status;
+}
+
+static pg_status read_side_sets (reader *r)
+{
+    pg_status status = PG_OK;
+    long *id = NULL, *element = NULL, *side = NULL;
+    size_t n = length_of (r->ncid, "num_side_sets");
+    char name[NAME];
+    if (n == 0 || n > r->bytes) goto done;
+    PG_TRY (whole_numbers (r, "ss_prop1", n, &id));
+    for (size_t k = 0; k < n; k++) {
+        snprintf (name, sizeof name, "num_side_ss%zu", k + 1);
+        size_t m = length_of (r->ncid, name);
+        name_of (r, "ss_names", k, name);
+        PG_TRY (pg_mesh_builder_sideset (r->builder, name, id ? id[k] : (long) k + 1));
+        if (m == 0) continue;
+        snprintf (name, sizeof name, "elem_ss%zu", k + 1);
+        PG_TRY (must (r, name, m, &element));
+        snprintf (name, sizeof name, "side_ss%zu", k + 1);
+        PG_TRY (must (r, name, m, &side));
+        for (size_t i = 0; i < m; i++) PG_TRY (add_side (r, element[i], side[i]));
+        pg_free (element), pg_free (side), element = side = NULL;
+    }
+done:
+    pg_free (id), pg_free (element), pg_free (side);
+    return status;
+}
+
+/* The numbers a file gives its nodes and elements, in place of their places; those of sets follow. */
+static pg_status renumber (const reader *r)
+{
+    pg_status status = PG_OK;
+    long *node = NULL, *element = NULL;
+    PG_TRY (whole_numbers (r, "node_num_map", r->nnode, &node));
+    PG_TRY (whole_numbers (r, "elem_num_map", r->n, &element));
+    pg_mesh_builder_renumber (r->builder, r->nnode, node, element);
+done:
+    pg_free (node), pg_free (element);
+    return status;
+}
+
+static pg_status read_exodus (pg_mesh_builder *m, const mesh_file *file)
+{
+    pg_status status = PG_OK;
+    reader r = { .builder = m };
+    size_t first = 0;
+    PG_TRY (open_file (&r, file));
+    if (r.n == 0) PG_FAIL (PG_E_FILE, "%.400s: no elements", r.path);
+    PG_ALLOC (r.shell, r.n);
+    PG_TRY (read_nodes (&r));
+    for (size_t k = 0; k < r.nblock; k++) PG_TRY (read_block (&r, k, &first));
+    if (first < r.n)
+        PG_FAIL (PG_E_FILE, "%.400s: its blocks have %zu of the %zu elements of the file", r.path, first,
+                 r.n);
+    PG_TRY (check_points (&r));
+    PG_TRY (read_node_sets (&r));
+    PG_TRY (read_side_sets (&r));
+    PG_TRY (renumber (&r));
+done:
+    close_file (&r);
+    return status;
+}
+
+static int knows_exodus (const mesh_file *file)
+{
+    return file->size > 8
+           && (!memcmp (file->text, "CDF\1", 4) || !memcmp (file->text, "CDF\2", 4)
+               || !memcmp (file->text, "CDF\5", 4) || !memcmp (file->text, "\x89HDF\r\n\x1a\n", 8));
+}
+
+/* ---- fields -------------------------------------------------------------------------------------------- */
+/* part: which component, -1 the name has no suffix */
+typedef struct { char base[NAME]; int part, var; } variable;
+
+/* "stress_xy" -> "stress", 3. */
+static void split_name (const char *name, variable *v)
+{
+    static const char *const suffix[] = { "xx", "yy", "zz", "xy", "yz", "zx", "xz", "x", "y", "z" };
+    static const int part[] = { 0, 1, 2, 3, 4, 5, 5, 10, 11, 12 };      /* 10 on: of a vector */
+    const char *bar = strrchr (name, '_');
+    snprintf (v->base, sizeof v->base, "%s", name);
+    v->part = -1;
+    for (size_t k = 0; bar && bar > name && k < sizeof suffix / sizeof *suffix; k++)
+        if (strcasecmp (bar + 1, suffix[k]) == 0) v->part = part[k], v->base[bar - name] = 0;
+}
+
+static int together (const variable *a, const variable *b)
+{
+    return a->part >= 0 && b->part >= 0 && a->part / 10 == b->part / 10 && strcmp (a->base, b->base) == 0;
+}
+
+/* Components a field has in a mesh; those that the file leaves out are 0. */
+static int components_of (const variable *v) { return v->part < 0 ? 1 : v->part >= 10 ? 3 : 6; }
+
+static pg_status read_values (const reader *r, const variable *v, size_t step, const pg_mesh *mesh,
+                              const int *at, double *work, pg_mesh_field *field)
+{
+    pg_status status = PG_OK;
+    size_t c = v->part < 0 ? 0 : (size_t) v->part % 10, m = (size_t) field->components;
+    NC_TRY (r,
+            nc_get_vara_double (r->ncid, v->var, (size_t[2]){ step, 0 }, (size_t[2]){ 1, r->nnode }, work));
+    for (size_t i = 0; i < mesh->nnode; i++) {
+        double value = work[at[i]];
+        if (!isfinite (value))
+            PG_FAIL (PG_E_FILE, "%.400s: %s at node %ld is not finite", r->path, v->base, mesh->node_id[i]);
+        field->value[i * m + c] = value;
+    }
+done:
+    return status;
+}
+
+static pg_status list_variables (const reader *r, size_t steps, size_t n, variable *v)
+{
+    pg_status status = PG_OK;
+    char name[NAME];
+    for (size_t k = 0; k < n; k++) {
+        snprintf (name, sizeof name, "vals_nod_var%zu", k + 1);
+        PG_TRY (find (r, name, steps * r->nnode, &v[k].var));
+        if (v[k].var < 0) PG_FAIL (PG_E_FILE, "%.400s: no '%s'", r->path, name);
+        name_of (r, "name_nod_var", k, name);
+        if (!name[0]) snprintf (name, sizeof name, "variable %zu", k + 1);
+        split_name (name, &v[k]);
+    }
+done:
+    return status;
+}
+
+/* at[i]: place in the file of node i of the mesh. */
+static pg_status find_nodes (const reader *r, const pg_mesh *mesh, int *at)
+{
+    pg_status status = PG_OK;
+    long *number = NULL;
+    pg_id_table t = { 0 };
+    size_t twice;
+    PG_TRY (whole_numbers (r, "node_num_map", r->nnode, &number));
+    if (number) PG_TRY (pg_id_table_build (&t, r->nnode, number, &twice));
+    for (size_t i = 0; i < mesh->nnode; i++) {
+        long place = number ? pg_id_table_find (&t, mesh->node_id[i]) : mesh->node_id[i] - 1;
+        if (place < 0 || (size_t) place >= r->nnode)
+            PG_FAIL (PG_E_FILE, "%.400s: node %ld is not there", r->path, mesh->node_id[i]);
+        at[i] = (int) place;
+    }
+done:
+    pg_id_table_clear (&t);
+    pg_free (number);
+    return status;
+}
+
+static pg_status read_fields (mesh_fields *out, const reader *r, const pg_mesh *mesh, size_t n,
+                              const variable *v, size_t step)
+{
+    pg_status status = PG_OK;
+    double *work = NULL;
+    int *at = NULL;
+    PG_ALLOC (work, r->nnode);
+    PG_ALLOC (at, mesh->nnode);
+    PG_TRY (find_nodes (r, mesh, at));
+    for (size_t k = 0; k < n; k++) {
+        pg_mesh_field *field;
+        size_t j = 0;
+        while (j < k && !together (&v[j], &v[k])) j++;
+        if (j < k) continue;                               /* read with the first of its components */
+        PG_TRY (mesh_fields_add (out, mesh->nnode, v[k].base, components_of (&v[k]), &field));
+        for (j = k; j < n; j++)
+            if (j == k || together (&v[j], &v[k]))
+                PG_TRY (read_values (r, &v[j], step, mesh, at, work, field));
+    }
+done:
+    pg_free (work), pg_free (at);
+    return status;
+}
+
+static pg_status fields_exodus (mesh_fields *out, const pg_mesh *mesh, const mesh_file *file, int step)
+{
+    pg_status status = PG_OK;
+    reader r = { 0 };
+    variable *v = NULL;
+    int time;
+    size_t chosen;
+    PG_TRY (open_file (&r, file));
+    size_t steps = length_of (r.ncid, "time_step"), n = length_of (r.ncid, "num_nod_var");
+    if (n > r.bytes) PG_FAIL (PG_E_FILE, "%.400s: %zu variables are more than it can hold", r.path, n);
+    PG_TRY (mesh_fields_step (r.path, n ? steps : 0, step, &chosen));
+    PG_ALLOC (v, n);
+    PG_TRY (list_variables (&r, steps, n, v));
+    if (nc_inq_varid (r.ncid, "time_whole", &time) == NC_NOERR)
+        NC_TRY (&r, nc_get_var1_double (r.ncid, time, &chosen, &out->time));
+    PG_TRY (read_fields (out, &r, mesh, n, v, chosen));
+done:
+    close_file (&r);
+    pg_free (v);
+    return status;
+}
+
+const mesh_format mesh_format_exodus = { "Exodus II", knows_exodus, read_exodus, fields_exodus };

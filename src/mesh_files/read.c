@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * pg_mesh_read: a file into memory, its format told by content; lines and numbers of text. */
+#include "format.h"
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define PG_MESH_FORMAT(name) extern const mesh_format mesh_format_##name;
+#include "list.h"
+#undef PG_MESH_FORMAT
+static const mesh_format *const formats[] = {
+#define PG_MESH_FORMAT(name) &mesh_format_##name,
+#include "list.h"
+#undef PG_MESH_FORMAT
+};
+enum { FORMATS = sizeof formats / sizeof *formats };
+
+pg_status mesh_load (mesh_file *out, const char *path)
+{
+    pg_status status = PG_OK;
+    char *text = NULL;
+    struct stat about;
+    FILE *file = fopen (path, "rb");
+    out->path = path, out->text = NULL, out->size = 0;
+    if (!file || fstat (fileno (file), &about))
+        PG_FAIL (PG_E_FILE, "%.400s: cannot be read: %s", path, strerror (errno));
+    if (!S_ISREG (about.st_mode)) PG_FAIL (PG_E_FILE, "%.400s: is not a file", path);
+    PG_ALLOC (text, (size_t) about.st_size + 1);
+    out->size = fread (text, 1, (size_t) about.st_size, file);
+    if (out->size < (size_t) about.st_size) PG_FAIL (PG_E_FILE, "%.400s: could not be read to its end", path);
+done:
+    if (file) fclose (file);
+    if (status != PG_OK) pg_free (text), out->size = 0;
+    else out->text = text;
+    return status;
+}
+
+static pg_status unknown (const mesh_file *file)
+{
+    char names[400] = "";
+    for (size_t k = 0, at = 0; k < FORMATS && at < sizeof names; k++)
+        at += (size_t) snprintf (names + at, sizeof names - at, "%s%s", k ? ", " : "", formats[k]->name);
+    return pg_error (
+        PG_E_FILE, PG_HERE,
+        "%.400s: is none of the mesh files that are known: %s (perigal-mesh turns others into Gmsh files)",
+        file->path, names);
+}
+
+const mesh_format *mesh_format_of (const mesh_file *file)
+{
+    for (size_t k = 0; k < FORMATS; k++) if (formats[k]->knows (file)) return formats[k];
+    return NULL;
+}
+
+pg_status mesh_parse (pg_mesh *out, const mesh_file *file)
+{
+    pg_status status = PG_OK;
+    pg_mesh_builder *m = NULL;
+    memset (out, 0, sizeof *out);
+    const mesh_format *format = mesh_format_of (file);
+    if (!format) PG_TRY (unknown (file));
+    PG_TRY (pg_mesh_builder_create (&m, file->path));
+    PG_TRY (format->read (m, file));
+    PG_TRY (pg_mesh_builder_finish (m, out));
+done:
+    pg_mesh_builder_free (&m);
+    return status;
+}
+
+pg_status pg_mesh_read (pg_mesh *out, const char *path)
+{
+    mesh_file file;
+    memset (out, 0, sizeof *out);
+    pg_status status = mesh_load (&file, path);
+    if (status == PG_OK) status = mesh_parse (out, &file);
+    pg_free ((void *) file.text);
+    return status;
+}

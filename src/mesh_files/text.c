@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Lines and numbers of text files. Files of meshes are long, so that reading a number must be quick: the
+ * usual ones need no strtod. */
+#include "format.h"
+#include <limits.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+mesh_cursor mesh_begin (const mesh_file *file)
+{
+    size_t mark = file->size >= 3 && !memcmp (file->text, "\xEF\xBB\xBF", 3) ? 3 : 0;
+    return (mesh_cursor) { file, file->text + mark, file->text + file->size, 0 };
+}
+
+int mesh_line (mesh_cursor *c, const char **first, const char **last)
+{
+    if (c->at >= c->end) return 0;
+    const char *stop = memchr (c->at, '\n', (size_t) (c->end - c->at));
+    *first = c->at;
+    *last = stop ? stop : c->end;
+    c->at = stop ? stop + 1 : c->end;
+    if (*last > *first && (*last)[-1] == '\r') --*last;
+    c->line++;
+    return 1;
+}
+
+static void skip_blanks (const char **at, const char *last)
+{
+    while (*at < last && (**at == ' ' || **at == '\t')) ++*at;
+}
+
+int mesh_whole (const char **at, const char *last, long *value)
+{
+    skip_blanks (at, last);
+    const char *p = *at;
+    int minus = p < last && *p == '-';
+    unsigned long sum = 0;
+    p += p < last && (*p == '-' || *p == '+');
+    const char *digits = p;
+    for (; p < last && *p >= '0' && *p <= '9'; p++) {
+        if (sum > (LONG_MAX - 9) / 10) return 0;
+        sum = 10 * sum + (unsigned long) (*p - '0');
+    }
+    if (p == digits) return 0;
+    *value = minus ? -(long) sum : (long) sum;
+    *at = p;
+    return 1;
+}
+
+/* What the quick way cannot do to the last bit. */
+static int slow_real (const char *first, const char *last, double *value)
+{
+    enum { LONGEST = 400 };
+    char text[LONGEST], *end;
+    size_t n = (size_t) (last - first);
+    if (n >= LONGEST) return 0;
+    for (size_t k = 0; k < n; k++) text[k] = first[k] == 'D' || first[k] == 'd' ? 'e' : first[k];
+    text[n] = '\0';
+    *value = strtod (text, &end);
+    return end == text + n && isfinite (*value);
+}
+
+/* Exact where the digits fit 2^53 and the power of ten is at most 22: one rounding (Clinger 1990). */
+int mesh_real (const char **at, const char *last, double *value)
+{
+    static const double power[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
+    skip_blanks (at, last);
+    const char *p = *at, *first = p;
+    uint64_t sum = 0;
+    long digits = 0, point = 0, exponent = 0;
+    int minus = p < last && *p == '-', exact = 1, dot = 0;
+    p += p < last && (*p == '-' || *p == '+');
+    for (; p < last && ((*p >= '0' && *p <= '9') || (*p == '.' && !dot)); p++) {
+        if (*p == '.') { dot = 1; continue; }
+        digits++, point += dot;
+        if (sum < UINT64_C (900719925474099)) sum = 10 * sum + (uint64_t) (*p - '0');
+        else exact = 0;
+    }
+    if (digits == 0) return 0;
+    if (p < last && (*p == 'e' || *p == 'E' || *p == 'd' || *p == 'D')) {
+        const char *q = p + 1;
+        if (q < last && *q != ' ' && *q != '\t' && mesh_whole (&q, last, &exponent)) p = q;
+        else return 0;
+    }
+    *at = p;
+    exponent -= point;
+    if (!exact || exponent < -22 || exponent > 22) return slow_real (first, p, value);
+    *value = exponent < 0 ? (double) sum / power[-exponent] : (double) sum * power[exponent];
+    if (minus) *value = -*value;
+    return 1;
+}

@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Tables read back: CSV by RFC 4180, a header of names and rows of numbers. The text is cut in place:
+ * quotes are taken off the cells, and each cell ends in a zero byte where its comma was. */
+#include "perigal/output.h"
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The whole file, with a zero byte at its end. */
+static pg_status read_text (const char *path, char **text)
+{
+    pg_status status = PG_OK;
+    size_t n = 0, cap = 0, got;
+    FILE *f = fopen (path, "rb");
+    if (!f) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    do {
+        PG_GROW (*text, cap, n + 65537);
+        got = fread (*text + n, 1, 65536, f);
+        n += got;
+        (*text)[n] = 0;
+    } while (got > 0);
+    if (ferror (f)) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+done:
+    if (f) fclose (f);
+    return status;
+}
+
+/* The cell at *at, cut out of the text, which is stepped over. Returns what ended it: ',' when another
+ * cell of the row follows, '\n' at the end of the row, 0 at the end of the text. */
+static char cut_cell (char **at, char **cell)
+{
+    char *from = *at, *to = from;
+    int quoted = *from == '"';
+    *cell = to;
+    if (quoted) from++;
+    for (; *from && (quoted || !strchr (",\n", *from)); from++) {
+        if (quoted && *from == '"' && from[1] != '"') {
+            quoted = 0;
+            continue;
+        }
+        if (quoted && *from == '"') from++;            /* two quotes stand for one */
+        *to++ = *from;
+    }
+    char end = *from;
+    if (to > *cell && to[-1] == '\r') to--;
+    *at = end ? from + 1 : from;
+    *to = 0;
+    return end;
+}
+
+/* Names of the columns, from the first row of the text at *at. */
+static pg_status read_header (pg_csv *csv, char **at)
+{
+    pg_status status = PG_OK;
+    size_t cap = 0;
+    char *cell, end = ',';
+    while (end == ',') {
+        end = cut_cell (at, &cell);
+        PG_GROW (csv->name, cap, csv->ncolumn + 1);
+        csv->name[csv->ncolumn++] = cell;
+    }
+done:
+    return status;
+}
+
+/* The rows below the header. A row that lacks cells lacks these values; cells beyond the header are
+ * dropped. */
+static pg_status read_rows (pg_csv *csv, char *at)
+{
+    pg_status status = PG_OK;
+    size_t cap = 0;
+    while (*at) {
+        size_t column = 0;
+        char *cell, *rest, end = ',';
+        if (*at == '\n') {
+            at++;
+            continue;
+        }
+        PG_GROW (csv->value, cap, (csv->nrow + 1) * csv->ncolumn);
+        double *row = csv->value + csv->nrow++ * csv->ncolumn;
+        for (size_t k = 0; k < csv->ncolumn; k++) row[k] = NAN;
+        for (; end == ','; column++) {
+            end = cut_cell (&at, &cell);
+            double value = strtod (cell, &rest);
+            if (column < csv->ncolumn && rest != cell) row[column] = value;
+        }
+    }
+done:
+    return status;
+}
+
+pg_status pg_csv_read (pg_csv *csv, const char *path)
+{
+    pg_status status = PG_OK;
+    memset (csv, 0, sizeof *csv);
+    PG_TRY (read_text (path, &csv->text));
+    if (!csv->text[0]) PG_FAIL (PG_E_FILE, "%s is empty", path);
+    char *at = csv->text;
+    PG_TRY (read_header (csv, &at));
+    PG_TRY (read_rows (csv, at));
+done:
+    if (status != PG_OK) pg_csv_clear (csv);
+    return status;
+}
+
+void pg_csv_clear (pg_csv *csv)
+{
+    pg_free (csv->text), pg_free (csv->name), pg_free (csv->value);
+    memset (csv, 0, sizeof *csv);
+}
+
+size_t pg_csv_name (const char *column)
+{
+    size_t n = strcspn (column, "[");
+    while (n > 0 && column[n - 1] == ' ') n--;
+    return n;
+}
+
+long pg_csv_column (const pg_csv *csv, const char *wanted)
+{
+    size_t n = strlen (wanted);
+    for (size_t k = 0; k < csv->ncolumn; k++) {
+        const char *column = csv->name[k];
+        if (strcmp (column, wanted) == 0) return (long) k;
+        if (n == pg_csv_name (column) && strncmp (column, wanted, n) == 0) return (long) k;
+    }
+    return -1;
+}

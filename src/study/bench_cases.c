@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The cases of a benchmark: every combination of what the catalogues hold or the command line names. */
+#include "bench.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* FOLDER/scene.yaml: FOLDER; FOLDER/scene_X.yaml: FOLDER_X; else the file without .yaml. */
+static void name_of (const char *path, char *name, size_t size)
+{
+    const char *file = strrchr (path, '/'), *folder = path;
+    file = file ? file + 1 : path;
+    int rest = (int) strlen (file),
+        dot = rest > 5 && strcmp (file + rest - 5, ".yaml") == 0 ? rest - 5 : rest;
+    if (file > path) for (const char *p = path; p + 1 < file; p++) if (*p == '/') folder = p + 1;
+    if (file == path || strncmp (file, "scene", 5) != 0) snprintf (name, size, "%.*s", dot, file);
+    else snprintf (name, size, "%.*s%.*s", (int) (file - 1 - folder), folder, dot - 5, file + 5);
+}
+
+pg_status pg_bench_look (pg_bench_base *b, const char *path, size_t nset, const char *const *set)
+{
+    pg_status status = PG_OK;
+    pg_scene *scene = NULL;
+    PG_TRY (pg_scene_load_with (&scene, path, nset, set));
+    b->spacing = pg_scene_given (scene, "spacing") ? pg_scene_number (scene, "spacing") : 0;
+    b->horizon = b->spacing > 0 ? pg_scene_length (scene, b->spacing, "method.horizon") / b->spacing : 0;
+    b->has_horizon = pg_scene_given (scene, "method.horizon");
+    b->mesh = pg_scene_given (scene, "mesh.file");
+    b->quadratic = strcmp (pg_scene_text (scene, "method.basis"), "quadratic") == 0;
+    name_of (path, b->name, sizeof b->name);
+done:
+    pg_scene_free (&scene);
+    return status == PG_E_FILE ? PG_E_SCENE : status;
+}
+
+static void fill (pg_word_list *w, const char *names)
+{
+    if (w->given) return;
+    for (const char *s = names; *s && w->n < PG_LIST_WORDS; s += strcspn (s, "|"), s += *s == '|')
+        snprintf (w->word[w->n++], PG_LIST_TEXT, "%.*s", (int) strcspn (s, "|"), s);
+}
+
+/* A number alone counts spacings, as in `converge --horizon`. */
+static void count_spacings (pg_word_list *w)
+{
+    for (size_t k = 0; k < w->n; k++) {
+        char *end;
+        size_t n = strlen (w->word[k]);
+        strtod (w->word[k], &end);
+        if (!*end && n + 9 < PG_LIST_TEXT) snprintf (w->word[k] + n, PG_LIST_TEXT - n, " spacing");
+    }
+}
+
+static void put (pg_bench_case *c, const char *key, const char *value)
+{
+    if (value) snprintf (c->set[c->nset++], sizeof *c->set, "%s=%s", key, value);
+}
+
+/* The horizon follows the basis where only the basis is asked to change: 2 spacings for the linear one, 2.5
+ * for the quadratic one. */
+static const char *horizon_for (const pg_bench_base *b, const pg_bench_request *q, const char *basis)
+{
+    for (size_t k = 0; k < q->nset; k++) if (strncmp (q->set[k], "method.horizon=", 15) == 0) return NULL;
+    int quadratic = strcmp (basis, "quadratic") == 0;
+    if (b->has_horizon && quadratic == b->quadratic) return NULL;
+    return quadratic ? "2.5 spacing" : "2 spacing";
+}
+
+typedef struct { const char *force, *approximation, *integration, *basis, *cells, *perturb, *horizon; } mix;
+
+static pg_status add_curve (pg_bench_cases *out, const pg_bench_request *q, size_t s, const pg_bench_base *b,
+                            const mix *m)
+{
+    pg_status status = PG_OK;
+    static const double factor[3] = { 2, 1, 0.5 };
+    const pg_bench_body *body = pg_bench_body_find (b->name);
+    int meshed = b->mesh && body && body->own && !pg_bench_mesh_missing (q->scene[s], b->name);
+    size_t sizes = meshed ? q->mesh.n : b->mesh ? 1 : q->spacing.n ? q->spacing.n : b->spacing > 0 ? 3 : 1;
+    char number[32];
+    for (size_t k = 0; k < sizes; k++) {
+        PG_GROW (out->at, out->cap, out->n + 1);
+        pg_bench_case *c = &out->at[out->n++];
+        memset (c, 0, sizeof *c);
+        c->scene = s, c->curve = out->ncurve;
+        pg_trial_read (&c->best, "");
+        snprintf (c->name, sizeof c->name, "%s", b->name);
+        snprintf (c->group, sizeof c->group, "%s", body ? body->group : b->name);
+        snprintf (c->perturb, sizeof c->perturb, "%s", m->perturb ? m->perturb : "");
+        snprintf (c->cells, sizeof c->cells, "%s", m->cells ? m->cells : "");
+        const char *shape = m->approximation ? m->approximation : "",
+                   *where = m->integration ? m->integration : "", *basis = m->basis ? m->basis : "";
+        int named = q->force.n > 1 || !m->basis, shaped = m->basis != NULL;
+        snprintf (c->method, sizeof c->method, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s", named ? m->force : "",
+                  named && shaped ? " " : "", shape, shaped ? " " : "", where, shaped ? " " : "", basis,
+                  m->horizon ? " " : "", m->horizon ? m->horizon : "",
+                  m->perturb && strcmp (m->perturb, "0") != 0 ? " perturbed " : "",
+                  m->perturb && strcmp (m->perturb, "0") != 0 ? m->perturb : "", m->cells ? " " : "",
+                  m->cells ? m->cells : "", b->mesh ? " mesh" : "");
+        put (c, "method.force", m->force), put (c, "method.approximation", m->approximation),
+            put (c, "method.integration", m->integration);
+        put (c, "method.basis", m->basis), put (c, "cells", m->cells), put (c, "perturb.amount", m->perturb);
+        put (c, "method.horizon", m->horizon || !m->basis ? m->horizon : horizon_for (b, q, m->basis));
+        snprintf (number, sizeof number, "%.15g", b->spacing * factor[k < 3 ? k : 2]);
+        if (meshed)
+            snprintf (c->element, sizeof c->element, "CPS8"), c->size = strtol (q->mesh.word[k], NULL, 10);
+        if (b->mesh) continue;
+        if (q->spacing.n) put (c, "spacing", q->spacing.word[k]);
+        else if (b->spacing > 0) put (c, "spacing", number);
+    }
+    out->ncurve++;
+done:
+    return status;
+}
+
+static const char *word_of (const pg_word_list *w, size_t k, size_t of)
+{
+    return w->n ? w->word[k / of % w->n] : NULL;
+}
+
+/* Scenes of one group share the runs of CalculiX. */
+static int has_fem (const pg_bench_cases *cases, const char *name)
+{
+    const pg_bench_body *body = pg_bench_body_find (name);
+    for (size_t i = 0; body && i < cases->n; i++)
+        if (cases->at[i].fem && strcmp (cases->at[i].group, body->group) == 0) return 1;
+    return 0;
+}
+
+pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *asked)
+{
+    pg_status status = PG_OK;
+    pg_bench_request *q = NULL;
+    PG_ALLOC (q, 1);
+    *q = *asked;
+    fill (&q->force, "galerkin"), fill (&q->approximation, pg_approx_names ()),
+        fill (&q->integration, pg_integration_names ());
+    fill (&q->basis, "linear|quadratic");
+    if (!q->mesh.n) q->mesh = q->size;
+    else if (!q->size.n) q->size = q->mesh;
+    if (!q->mesh.n) fill (&q->mesh, "8|16|32");
+    count_spacings (&q->horizon);
+    for (size_t s = 0; s < q->nscene; s++) {
+        pg_bench_base b;
+        const pg_word_list *list[7] = { &q->force, &q->approximation, &q->integration, &q->basis,
+                                       &q->cells, &q->perturb,       &q->horizon };
+        size_t of[7], all = 1;
+        PG_TRY (pg_bench_look (&b, q->scene[s], q->nset, q->set));
+        for (int k = 6; k >= 0; k--) of[k] = all, all *= list[k]->n ? list[k]->n : 1;
+        for (size_t k = 0; k < all; k++) {
+            mix m = { word_of (list[0], k, of[0]), word_of (list[1], k, of[1]), word_of (list[2], k, of[2]),
+                      word_of (list[3], k, of[3]), word_of (list[4], k, of[4]), word_of (list[5], k, of[5]),
+                      word_of (list[6], k, of[6]) };
+            if (strcmp (m.force, "galerkin") != 0) {  /* once: it has no shape functions to choose among */
+                if (k / of[1] % list[1]->n || k / of[2] % list[2]->n || k / of[3] % list[3]->n) continue;
+                m.approximation = m.integration = m.basis = NULL;
+            }
+            PG_TRY (add_curve (out, q, s, &b, &m));
+        }
+        if (q->fem && !has_fem (out, b.name)) PG_TRY (pg_bench_fem_add (out, q, s, b.name));
+    }
+done:
+    pg_free (q);
+    return status;
+}

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What a benchmark leaves: bench.csv, pictures of error over CPU seconds and over unknowns, ratios at equal
+ * error. */
+#include "perigal/picture.h"
+#include "bench.h"
+#include <math.h>
+#include <string.h>
+
+enum { FIRST = 8, COLUMNS = FIRST + PG_TRIAL_COUNT + 2, CURVES = 10 };
+
+/* The error a case is judged by: over the body, else on the lines of its reference. */
+static double error_of (const pg_bench_case *c)
+{
+    double l2 = c->best.value[PG_TRIAL_L2];
+    return isnan (l2) ? c->best.value[PG_TRIAL_LINES] : l2;
+}
+
+static pg_status write_table (const pg_bench_cases *cases, const pg_bench_request *q)
+{
+    pg_status status = PG_OK;
+    static const char *const first[FIRST] = { "case",  "method",  "approximation", "integration",
+                                              "basis", "perturb", "cells",         "fem" };
+    static const char *const key[FIRST] = {
+        NULL, NULL, "method.approximation=", "method.integration=", "method.basis=", NULL, NULL, NULL
+    };
+    char title[COLUMNS][64], number[PG_TRIAL_COUNT + 1][32], path[4096];
+    const char *column[COLUMNS], *cell[COLUMNS];
+    pg_table *table = NULL;
+    for (int k = 0; k < COLUMNS; k++) column[k] = title[k];
+    for (int k = 0; k < FIRST; k++) snprintf (title[k], sizeof *title, "%s [name]", first[k]);
+    for (int k = 0; k < PG_TRIAL_COUNT; k++)
+        snprintf (title[FIRST + k], sizeof *title, "%s [%s]", pg_trial_name[k], pg_trial_unit[k]);
+    snprintf (title[COLUMNS - 2], sizeof *title, "runs [1]"),
+        snprintf (title[COLUMNS - 1], sizeof *title, "outcome [name]");
+    snprintf (path, sizeof path, "%s/bench.csv", q->folder);
+    PG_TRY (pg_table_create (&table, path, COLUMNS, column));
+    for (size_t i = 0; i < cases->n; i++) {
+        const pg_bench_case *c = &cases->at[i];
+        const char *text[FIRST] = { c->name, c->method,  "",       "",
+                                    "",      c->perturb, c->cells, c->fem ? c->element : "" };
+        for (int k = 0; k < FIRST; k++)
+            for (size_t s = 0; key[k] && s < c->nset; s++)
+                if (strncmp (c->set[s], key[k], strlen (key[k])) == 0) text[k] = c->set[s] + strlen (key[k]);
+        for (int k = 0; k < FIRST; k++) cell[k] = text[k];
+        for (int k = 0; k < PG_TRIAL_COUNT; k++) {
+            snprintf (number[k], sizeof *number, "%.8g", c->best.value[k]);
+            cell[FIRST + k] = isnan (c->best.value[k]) ? "" : number[k];
+        }
+        snprintf (number[PG_TRIAL_COUNT], sizeof *number, "%d", c->runs);
+        cell[COLUMNS - 2] = number[PG_TRIAL_COUNT], cell[COLUMNS - 1] = c->trouble[0] ? c->trouble : "done";
+        PG_TRY (pg_table_line (table, cell));
+    }
+done:
+    pg_table_close (&table);
+    return status;
+}
+
+/* ---- curves -------------------------------------------------------------------------------------------- */
+typedef struct { size_t n, cap; double *x, *y; const char *name; int fem; } curve;
+
+/* Cases of a curve that came to an end with an error > 0, over what; in their order. */
+static pg_status curve_of (curve *out, const pg_bench_cases *cases, const char *group, size_t id, int over)
+{
+    pg_status status = PG_OK;
+    size_t cap = 0;
+    memset (out, 0, sizeof *out);
+    for (size_t i = 0; i < cases->n; i++) {
+        const pg_bench_case *c = &cases->at[i];
+        if (strcmp (c->group, group) != 0 || c->curve != id || !c->runs || !(error_of (c) > 0)
+            || !(c->best.value[over] > 0))
+            continue;
+        PG_GROW (out->x, out->cap, out->n + 1);
+        PG_GROW (out->y, cap, out->n + 1);
+        out->x[out->n] = c->best.value[over], out->y[out->n++] = error_of (c);
+        out->name = c->method, out->fem = c->fem;
+    }
+done:
+    return status;
+}
+
+static void curves_free (curve **list, size_t n)
+{
+    for (size_t k = 0; *list && k < n; k++) pg_free ((*list)[k].x), pg_free ((*list)[k].y);
+    pg_free (*list), *list = NULL;
+}
+
+static pg_status curves_of (curve **out, size_t *n, const pg_bench_cases *cases, const char *group, int over)
+{
+    pg_status status = PG_OK;
+    *n = 0;
+    PG_ALLOC (*out, cases->ncurve + 1);
+    for (size_t id = 0; id < cases->ncurve; id++) {
+        PG_TRY (curve_of (&(*out)[*n], cases, group, id, over));
+        if ((*out)[*n].n) ++*n;
+    }
+done:
+    return status;
+}
+
+/* Leaves the curves of CalculiX and those of the least error times seconds (or unknowns), so many as can be
+ * told apart. */
+static void thin_out (curve *list, size_t *n, size_t most)
+{
+    while (*n > most) {
+        size_t worst = 0;
+        double highest = 0;
+        for (size_t k = 0; k < *n; k++) {
+            double least = list[k].fem ? 0 : INFINITY;
+            for (size_t i = 0; i < list[k].n; i++) least = fmin (least, list[k].x[i] * list[k].y[i]);
+            if (least >= highest) highest = least, worst = k;
+        }
+        pg_free (list[worst].x), pg_free (list[worst].y);
+        --*n;
+        memmove (list + worst, list + worst + 1, (*n - worst) * sizeof *list);
+    }
+}
+
+static pg_status draw (const pg_bench_cases *cases, const pg_bench_request *q, const char *name, int alone,
+                       int over)
+{
+    pg_status status = PG_OK;
+    curve *list = NULL;
+    pg_curve *lines = NULL;
+    size_t n = 0, all;
+    char path[4096], suffix[80] = "", title[128];
+    pg_chart_style style = {
+        .title = title, .xlabel = over == PG_TRIAL_CPU ? "CPU seconds" : "unknowns", .logx = 1, .logy = 1
+    };
+    style.ylabel = "relative L^{2} error of the displacement";
+    for (size_t i = 0; i < cases->n; i++)
+        if (strcmp (cases->at[i].group, name) == 0 && cases->at[i].runs
+            && isnan (cases->at[i].best.value[PG_TRIAL_L2]))
+            style.ylabel = "relative error of the displacement on the lines";
+    if (!alone) snprintf (suffix, sizeof suffix, "_%s", name);
+    PG_TRY (curves_of (&list, &n, cases, name, over));
+    if (!n) goto done;
+    all = n;
+    thin_out (list, &n, CURVES);
+    snprintf (title, sizeof title, "%s", name);
+    if (n < all) snprintf (title, sizeof title, "%s, the best %zu of %zu curves", name, n, all);
+    PG_ALLOC (lines, n);
+    for (size_t k = 0; k < n; k++)
+        lines[k] = (pg_curve){
+            .name = list[k].name, .n = list[k].n, .x = list[k].x, .y = list[k].y, .points = PG_CURVE_BOTH
+        };
+    snprintf (path, sizeof path, "%s/%s%s.png", q->folder, over == PG_TRIAL_CPU ? "time_error" : "dofs_error",
+              suffix);
+    PG_TRY (pg_picture_chart (path, n, lines, &style));
+    if (q->out) fprintf (q->out, "  picture %s\n", path);
+done:
+    pg_free (lines);
+    curves_free (&list, n);
+    return status;
+}
+
+/* Least CPU seconds that reach the error, of a run or between two neighbours of a curve, and whose. */
+static double cheapest (const curve *list, size_t n, int fem, double error, const char **name)
+{
+    double least = INFINITY;
+    for (size_t k = 0; k < n; k++) {
+        if (list[k].fem != fem) continue;
+        double s = pg_loglog_at (list[k].n, list[k].y, list[k].x, error);
+        for (size_t i = 0; i < list[k].n; i++)
+            if (list[k].y[i] <= error && !(s <= list[k].x[i])) s = list[k].x[i];
+        if (s < least) least = s, *name = list[k].name;
+    }
+    return least;
+}
+
+static pg_status print_ratios (const pg_bench_cases *cases, const pg_bench_request *q, const char *name)
+{
+    pg_status status = PG_OK;
+    static const double level[] = { 1e-3, 1e-4, 1e-5 };
+    curve *list = NULL;
+    size_t n = 0;
+    PG_TRY (curves_of (&list, &n, cases, name, PG_TRIAL_CPU));
+    fprintf (q->out, "%s: least CPU seconds that reach an error (between sizes log-log)\n", name);
+    for (size_t k = 0; k < sizeof level / sizeof *level; k++) {
+        const char *ours = "", *theirs = "";
+        double a = cheapest (list, n, 0, level[k], &ours), b = cheapest (list, n, 1, level[k], &theirs);
+        fprintf (q->out, "  L2 %.0e: ", level[k]);
+        if (isfinite (a)) fprintf (q->out, "perigal %.3g s (%s)", a, ours);
+        else fprintf (q->out, "perigal: not reached");
+        if (isfinite (b)) fprintf (q->out, ", ccx %.3g s (%s)", b, theirs);
+        if (isfinite (a) && isfinite (b)) fprintf (q->out, ", perigal / ccx = %.3g", a / b);
+        fputc ('\n', q->out);
+    }
+done:
+    curves_free (&list, n);
+    return status;
+}
+
+/* The group of a scene if it is the first of the group, else NULL. */
+static const char *group_of (const pg_bench_cases *cases, size_t scene)
+{
+    const char *name = NULL;
+    for (size_t i = 0; i < cases->n && !name; i++) if (cases->at[i].scene == scene) name = cases->at[i].group;
+    for (size_t i = 0; i < cases->n && name; i++)
+        if (cases->at[i].scene < scene && strcmp (cases->at[i].group, name) == 0) name = NULL;
+    return name;
+}
+
+pg_status pg_bench_report (const pg_bench_cases *cases, const pg_bench_request *q)
+{
+    pg_status status = PG_OK;
+    PG_TRY (write_table (cases, q));
+    if (q->out) fprintf (q->out, "  table %s/bench.csv\n", q->folder);
+    int groups = 0;
+    for (size_t s = 0; s < q->nscene; s++) groups += group_of (cases, s) != NULL;
+    for (size_t s = 0; s < q->nscene; s++) {
+        const char *name = group_of (cases, s);
+        if (!name) continue;
+        PG_TRY (draw (cases, q, name, groups == 1, PG_TRIAL_CPU));
+        PG_TRY (draw (cases, q, name, groups == 1, PG_TRIAL_DOFS));
+        if (q->out) PG_TRY (print_ratios (cases, q, name));
+    }
+done:
+    return status;
+}

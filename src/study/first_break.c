@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Why does no bond break? One static solve at load factor 1 in which nothing may break, then the criterion on
+ * what it shows: the load factor and the place of the first break. Also the largest frequency, which bounds
+ * explicit time steps. */
+#include "perigal/study.h"
+#include <math.h>
+#include <string.h>
+
+/* The bond with the smallest load factor; without proportional loads that of the largest utilisation. */
+static size_t worst_bond (const pg_first_break *b, size_t n, const double *factor, const double *utilisation)
+{
+    size_t worst = 0;
+    for (size_t i = 1; i < n; i++)
+        if (b->proportional ? factor[i] < factor[worst] : utilisation[i] > utilisation[worst]) worst = i;
+    return worst;
+}
+
+static void locate (pg_first_break *b, const pg_problem *p, size_t bond)
+{
+    size_t point, dim = (size_t) p->dim;
+    pg_problem_locate (p, bond, &b->set, &point);
+    const pg_rows *r = &p->rows[b->set];
+    const double *end = p->cloud.x + (size_t) r->family.node[bond - p->first_bond[b->set]] * dim;
+    for (size_t k = 0; k < dim; k++) b->place[k] = 0.5 * (r->x[point * dim + k] + end[k]);
+}
+
+static pg_status judge (pg_first_break *b, const pg_problem *p, pg_solver *solver, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    void *self;
+    const pg_force_type *force = pg_solver_force (solver, &self);
+    double *factor = NULL, *utilisation = NULL;
+    char *kind = NULL;
+    b->factor = INFINITY;
+    if (!p->criterion->type || !force->utilisation || state->nbond == 0) return PG_OK;
+    PG_ALLOC (factor, state->nbond);
+    PG_ALLOC (utilisation, state->nbond);
+    PG_ALLOC (kind, state->nbond);
+    PG_TRY (force->utilisation (self, state, state->d, utilisation, kind, factor));
+    size_t worst = worst_bond (b, state->nbond, factor, utilisation);
+    b->factor = factor[worst], b->utilisation = utilisation[worst], b->kind = kind[worst];
+    if (!b->proportional) b->factor = b->utilisation > 0 ? 1 / b->utilisation : INFINITY;
+    locate (b, p, worst);
+done:
+    pg_free (factor), pg_free (utilisation), pg_free (kind);
+    return status;
+}
+
+static int all_dense (const pg_problem *p)
+{
+    for (size_t i = 0; i < p->nmaterial; i++) if (!(p->material[i].density > 0)) return 0;
+    return 1;
+}
+
+pg_status pg_first_break_find (pg_first_break *b, const pg_problem *p, const pg_solver_options *o)
+{
+    pg_status status = PG_OK;
+    pg_problem bare = *p;  /* the same body, of which nothing breaks while it is solved */
+    pg_criterion *none = NULL;
+    pg_solver_options once = *o;
+    pg_solver *solver = NULL;
+    pg_state *state = NULL;
+    pg_step step;
+    b->asked = 1, b->is_static = o->quasi_static && !o->staged, b->proportional = pg_problem_proportional (p);
+    once.event = 0, once.steps = once.levels = 1, once.stop_set = NULL;
+    PG_ALLOC (none, p->nmaterial);
+    bare.criterion = none;
+    PG_TRY (pg_solver_create (&solver, &bare, &once));
+    PG_TRY (pg_state_create (&state, &bare, pg_solver_components (solver)));
+    if (all_dense (p)) PG_TRY (pg_solver_fastest (solver, state, &b->omega));
+    if (!b->is_static) goto done;
+    PG_TRY (pg_solver_step (solver, state, &step));
+    b->residual = step.residual;
+    for (size_t i = 0; i < state->ndof; i++) b->displacement = fmax (b->displacement, fabs (state->d[i]));
+    bare.criterion = p->criterion;
+    PG_TRY (judge (b, &bare, solver, state));
+    b->solved = 1;
+done:
+    pg_state_free (&state);
+    pg_solver_free (&solver);
+    pg_free (none);
+    return status;
+}

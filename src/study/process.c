@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Processes with their own seconds and memory. */
+#define _DEFAULT_SOURCE                                /* wait4 */
+#include "process.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static void settle_environment (int threads)
+{
+    static const char *const counts[] = { "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS",
+                                          "CCX_NPROC_EQUATION_SOLVER", "CCX_NPROC_RESULTS",
+                                          "CCX_NPROC_STIFFNESS" };
+    char text[16];
+    snprintf (text, sizeof text, "%d", threads < 1 ? 1 : threads);
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) setenv (counts[k], text, 1);
+    setenv ("OMP_THREAD_LIMIT", "1", 1);
+    setenv ("OMP_WAIT_POLICY", "passive", 1);
+}
+
+/* In the new process: never returns. */
+static void become (const char *program, char *const argv[], const char *folder, const char *log, int to,
+                    int threads)
+{
+    int errors = open (log ? log : "/dev/null", O_WRONLY | O_CREAT | O_TRUNC, 0666),
+        nothing = open ("/dev/null", O_RDONLY);
+    settle_environment (threads);
+    if (dup2 (nothing, 0) < 0 || dup2 (to, 1) < 0 || dup2 (errors, 2) < 0 || (folder && chdir (folder) != 0))
+        _exit (127);
+    if (!program) pg_memory_large_pages ();
+    if (program) execvp (program, argv);
+    else execv ("/proc/self/exe", argv);
+    _exit (127);
+}
+
+static size_t drain (int from, char *text, size_t size)
+{
+    char rest[4096];
+    size_t n = 0;
+    for (;;) {
+        int full = n + 1 >= size;
+        ssize_t got = read (from, full ? rest : text + n, full ? sizeof rest : size - 1 - n);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) break;
+        if (!full) n += (size_t) got;
+    }
+    text[n] = 0;
+    return n;
+}
+
+static double seconds_of (const struct timeval *t) { return (double) t->tv_sec + 1e-6 * (double) t->tv_usec; }
+
+pg_status pg_process_run (pg_process *out, const char *program, char *const argv[], const char *folder,
+                     const char *log, int threads)
+{
+    pg_status status = PG_OK;
+    int ends[2] = { -1, -1 }, how = 0;
+    struct rusage used;
+    double start = pg_seconds ();
+    memset (out, 0, sizeof *out);
+    if (pipe (ends) != 0) PG_FAIL (PG_E_FILE, "%s: no pipe: %s", argv[0], strerror (errno));
+    fflush (NULL);
+    pid_t child = fork ();
+    if (child < 0) PG_FAIL (PG_E_MEMORY, "%s: no process: %s", argv[0], strerror (errno));
+    if (child == 0) {
+        close (ends[0]);
+        become (program, argv, folder, log, ends[1], threads);
+    }
+    close (ends[1]), ends[1] = -1;
+    drain (ends[0], out->text, sizeof out->text);
+    while (wait4 (child, &how, 0, &used) < 0 && errno == EINTR) continue;
+    out->wall = pg_seconds () - start;
+    out->cpu = seconds_of (&used.ru_utime) + seconds_of (&used.ru_stime);
+    out->peak = (size_t) used.ru_maxrss * 1024;
+    out->code = WIFEXITED (how) ? WEXITSTATUS (how) : 128 + WTERMSIG (how);
+    if (out->code == 127) PG_FAIL (PG_E_FILE, "%s cannot be started", argv[0]);
+    if (out->code == 128 + SIGINT) PG_FAIL (PG_E_INTERRUPTED, "%s was interrupted", argv[0]);
+done:
+    if (ends[0] >= 0) close (ends[0]);
+    if (ends[1] >= 0) close (ends[1]);
+    return status;
+}
+
+int pg_process_finds (const char *program)
+{
+    const char *s = getenv ("PATH");
+    char path[4096];
+    while (s && *s) {
+        size_t n = strcspn (s, ":");
+        snprintf (path, sizeof path, "%.*s/%s", (int) n, s, program);
+        if (access (path, X_OK) == 0) return 1;
+        s += n + (s[n] == ':');
+    }
+    return 0;
+}
+
+void pg_process_complaint (const char *log, char *text, size_t size)
+{
+    FILE *f = fopen (log, "r");
+    text[0] = 0;
+    if (!f) return;
+    while (fgets (text, (int) size, f)) {
+        text[strcspn (text, "\r\n")] = 0;
+        if (text[0]) break;
+    }
+    fclose (f);
+}

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * trial.h: the errors of a trial (trial_errors.c), shared by runs and finite element results. */
+#ifndef PG_STUDY_TRIAL_H
+#define PG_STUDY_TRIAL_H
+#include "perigal/study.h"
+
+/* Takes l2, energy, maximum and lines from errors that are measured already. */
+void      pg_trial_take   (pg_trial *t, const pg_errors *errors);
+/* Measures a state against the reference of its scene; a scene without one leaves the numbers unknown. */
+pg_status pg_trial_errors (pg_trial *t, const pg_scene *scene, const pg_problem *problem, pg_solver *solver,
+                           const pg_state *state, int dynamic);
+#endif
