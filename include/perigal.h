@@ -29,7 +29,6 @@
 #include "perigal/integration.h"
 #include "perigal/sums.h"
 #include "perigal/model.h"
-#include "perigal/stiffness.h"
 #include "perigal/force.h"
 #include "perigal/symbol.h"
 #include "perigal/solve.h"

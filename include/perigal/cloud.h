@@ -3,6 +3,7 @@
 #ifndef PERIGAL_CLOUD_H
 #define PERIGAL_CLOUD_H
 #include "perigal/scene.h"
+#include "perigal/linalg.h"
 #include "perigal/mesh.h"
 
 PG_API_BEGIN
@@ -130,8 +131,8 @@ int       pg_mesh_body_block  (const pg_mesh *mesh, const char *name);
 void      pg_mesh_body_blocks (const pg_mesh *mesh, char *out, size_t size);
 
 /* ---- families ------------------------------------------------------------------------------------------ */
-/* CSR: entries start[i]..start[i+1], nodes ascending */
-typedef struct { size_t n; size_t *start; int *node; } pg_family;
+/* The nodes that each of n centres sees. */
+typedef pg_adjacency pg_family;
 enum { PG_RADIAL, PG_TENSOR };  /* ball |x_j - c| | cube max_k |x_jk - c_k| */
 /* Cloud points within `reach` of each of n centres; where the cloud has local spacings, point j is within
  * reach * size[j] / h: a node may see another that does not see it. closed: a distance of exactly reach
@@ -170,7 +171,8 @@ void      pg_cracks_clear (pg_cracks *cracks);
 int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance);
 /* x lies on the crack */
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance);
-/* The same asked of several cracks: the first of them that the bond x - y meets, or that x lies on; NULL: none does. */
+/* The same asked of several cracks: the first of them that the bond x - y meets, or that x lies on; NULL:
+ * none does. */
 const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,
                                double tolerance);
 const pg_crack *pg_cracks_touch (const pg_cracks *cracks, int dim, const double *x, double tolerance);

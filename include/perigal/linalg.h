@@ -30,6 +30,40 @@ void      pg_sparse_multiply_transposed (const pg_sparse *A, const double *x, do
 pg_status pg_sparse_congruence (pg_sparse *B, const pg_sparse *A, const pg_sparse *T);
 pg_operator pg_sparse_operator (pg_sparse *A);
 
+/* ---- assembly ------------------------------------------------------------------------------------------ */
+/* Lists of nodes, compressed: those of item i are node[start[i]..start[i + 1]), ascending. */
+typedef struct { size_t n; size_t *start; int *node; } pg_adjacency;
+
+/* A global matrix of dense node blocks is the sum of what its sources couple. A source is a list of
+ * points, each of which couples all pairs of the nodes that it sees (an element of a mesh, an evaluation
+ * point, a bond). Assembly goes by rows: the row of a node collects from all points that see the node. So
+ * no two threads write to the same place, sums have the same order for any number of threads, and redoing
+ * some rows after a change is the same routine as the first assembly. */
+typedef struct {
+    const pg_adjacency *seen;                          /* points -> nodes, borrowed */
+    void *context;
+    /* Blocks (block x block, row-major) K_ab of point p between its local nodes a and b = 0..m-1, written
+     * to out (zero on entry). */
+    void (*blocks) (void *context, size_t p, size_t a, size_t m, double *out);
+} pg_assembly_source;
+
+typedef struct pg_assembly pg_assembly;
+/* The pattern of all sources on n nodes with `block` dofs each. The sources are copied, their lists
+ * borrowed. */
+pg_status pg_assembly_create (pg_assembly **out, size_t n, int block, size_t nsource,
+                              const pg_assembly_source *sources);
+void      pg_assembly_free   (pg_assembly **assembly);
+/* Computes the rows of the nodes list[0..count) anew (NULL: those of all n). */
+pg_status pg_assembly_gather (pg_assembly *assembly, size_t count, const int *list, int threads);
+/* The matrix, borrowed: its upper triangle; zeros that the pattern holds are stored. */
+pg_sparse *pg_assembly_matrix (pg_assembly *assembly);
+
+/* The graph of the nodes alone: entry (J, I), J <= I, where a point of some list sees both (values NULL). */
+pg_status pg_assembly_graph (pg_sparse *out, size_t n, size_t nlist, const pg_adjacency *const *lists);
+/* The same for pairwise forces: a node, and the nodes that it sees itself (symmetric lists, without the
+ * node's own number). */
+pg_status pg_assembly_graph_pairwise (pg_sparse *out, const pg_adjacency *seen);
+
 /* ---- solvers ------------------------------------------------------------------------------------------- */
 typedef struct {
     int    block;  /* dofs per node when dofs are numbered node by node, else 1 */

@@ -173,9 +173,9 @@ typedef struct {
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components /* dofs per node */);
 pg_status pg_state_copy   (pg_state *to, const pg_state *from);
 void      pg_state_free   (pg_state **state);
-/* The cracks that exist in a state (NULL: at the start), for all who ask whether one lies between two places:
- * bonds, sampling, gauges, pictures. So far these are the pre-cracks of the scene, whatever the state; damage is
- * not among them. */
+/* The cracks that exist in a state (NULL: at the start), for all who ask whether one lies between two
+ * places: bonds, sampling, gauges, pictures. So far these are the pre-cracks of the scene, whatever the
+ * state; damage is not among them. */
 const pg_cracks *pg_state_cracks (const pg_problem *problem, const pg_state *state);
 
 /* ---- forecast: sizes and memory of a run before anything large is allocated ---------------------------- */
@@ -227,7 +227,7 @@ int         pg_direct_large (int told, int dim, double dofs);
 pg_status pg_forecast_scene   (pg_forecast *out, const pg_scene *scene);
 /* Replaces counts by those of the problem built from that scene. */
 pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *problem);
-/* Replaces pairs and factor by those of an analysis (pg_stiffness_graph, pg_linear_forecast). */
+/* Replaces pairs and factor by those of an analysis (pg_assembly_graph, pg_linear_forecast). */
 void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, double entries, double flops);
 /* The same body at another spacing, by scaling; another linear solver or integration: set linear, nodal and
  * sum anew. */

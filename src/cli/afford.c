@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Before anything large is allocated: what will the run need, and is there that much? */
 #include "cli.h"
-#include "perigal/stiffness.h"
+#include "perigal/linalg.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -76,8 +76,8 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
         pinned += pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
     n += pinned > 0;
     if (p->patches) seen[n++] = &p->patches->family;
-    if (p->direct) PG_TRY (pg_stiffness_graph_direct (&G, &p->rows[PG_NODES].family));
-    else PG_TRY (pg_stiffness_graph (&G, p->cloud.n, n, seen));
+    if (p->direct) PG_TRY (pg_assembly_graph_pairwise (&G, &p->rows[PG_NODES].family));
+    else PG_TRY (pg_assembly_graph (&G, p->cloud.n, n, seen));
     PG_TRY (pg_linear_forecast (&G, p->dim + p->turns, &info));
     pg_forecast_analysed (f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
     if (f->slaves > 0) f->analysed = 0;                /* elimination joins the masters: a little more */

@@ -22,8 +22,8 @@ static void galerkin_free (void **self)
         pg_free (g->strain[s]), pg_free (g->stress[s]), pg_free (g->zz[s]), pg_free (g->u[s]);
         pg_free (g->s1[s]), pg_free (g->s3[s]), pg_free (g->seen[s]), pg_free (g->list[s]);
     }
-    pg_stiffness_free (&g->K);
-    pg_stiffness_free (&g->M);
+    pg_assembly_free (&g->K);
+    pg_assembly_free (&g->M);
     galerkin_boundary_free (g);
     galerkin_basis_free (g);
     galerkin_slices_free (g);

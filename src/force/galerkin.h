@@ -7,7 +7,7 @@
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
 #include "perigal/force.h"
-#include "perigal/stiffness.h"
+#include "perigal/linalg.h"
 
 typedef struct {                                       /* a prescribed component at a facet point */
     size_t point;
@@ -43,8 +43,8 @@ typedef struct {
     int      fresh[PG_BOND_SETS];  /* the measure is that of `seen` and of the rows as they are */
     galerkin_slices *slices;
     galerkin_dilatation *dilatation;                   /* NULL: at the points everywhere */
-    pg_stiffness *K;                                   /* NULL until someone asks for the matrix */
-    pg_stiffness *M;                                   /* consistent mass, NULL until asked for */
+    pg_assembly *K;                                   /* NULL until someone asks for the matrix */
+    pg_assembly *M;                                   /* consistent mass, NULL until asked for */
     int      all_stale;  /* rows of K to be gathered again: all, or those marked */
     unsigned char *stale;
     pg_operator   op;

@@ -121,16 +121,16 @@ void galerkin_mark_stale (galerkin *g, const size_t *count)
 
 static pg_status create_matrix (galerkin *g)
 {
-    pg_source source[4];
+    pg_assembly_source source[4];
     size_t n = 0;
-    if (g->whole) source[n++] = (pg_source){ &g->problem->consistency->cell_family, g, galerkin_cell_blocks };
-    else source[n++] = (pg_source) { &g->sums.family, g, galerkin_bulk_blocks };
-    if (g->npin) source[n++] = (pg_source) { &g->rows[PG_FACETS].family, g, galerkin_facet_blocks };
+    if (g->whole) source[n++] = (pg_assembly_source){ &g->problem->consistency->cell_family, g, galerkin_cell_blocks };
+    else source[n++] = (pg_assembly_source) { &g->sums.family, g, galerkin_bulk_blocks };
+    if (g->npin) source[n++] = (pg_assembly_source) { &g->rows[PG_FACETS].family, g, galerkin_facet_blocks };
     if (g->dilatation)
-        source[n++] = (pg_source){ galerkin_dilatation_family (g), g, galerkin_dilatation_blocks };
-    if (g->npeg) source[n++] = (pg_source) { &g->peg_family, g, galerkin_peg_blocks };
+        source[n++] = (pg_assembly_source){ galerkin_dilatation_family (g), g, galerkin_dilatation_blocks };
+    if (g->npeg) source[n++] = (pg_assembly_source) { &g->peg_family, g, galerkin_peg_blocks };
     g->all_stale = 1;
-    return pg_stiffness_create (&g->K, g->n, g->dim, n, source);
+    return pg_assembly_create (&g->K, g->n, g->dim, n, source);
 }
 
 pg_status galerkin_assemble (void *self)
@@ -140,11 +140,11 @@ pg_status galerkin_assemble (void *self)
     int *node = NULL;
     size_t nnode = 0;
     if (!g->K) PG_TRY (create_matrix (g));
-    if (g->all_stale) PG_TRY (pg_stiffness_gather (g->K, g->n, NULL, g->threads));
+    if (g->all_stale) PG_TRY (pg_assembly_gather (g->K, g->n, NULL, g->threads));
     else {
         PG_ALLOC (node, g->n);
         for (size_t i = 0; i < g->n; i++) if (g->stale[i]) node[nnode++] = (int) i;
-        if (nnode) PG_TRY (pg_stiffness_gather (g->K, nnode, node, g->threads));
+        if (nnode) PG_TRY (pg_assembly_gather (g->K, nnode, node, g->threads));
     }
     g->all_stale = 0;
     memset (g->stale, 0, g->n);
@@ -156,7 +156,7 @@ done:
 const pg_sparse *galerkin_matrix (void *self)
 {
     galerkin *g = self;
-    return g->K ? pg_stiffness_matrix (g->K) : NULL;
+    return g->K ? pg_assembly_matrix (g->K) : NULL;
 }
 
 /* ---- consistent mass ----------------------------------------------------------------------------------- */
@@ -175,11 +175,11 @@ pg_status galerkin_mass_matrix (void *self, const pg_sparse **M)
     pg_status status = PG_OK;
     galerkin *g = self;
     if (!g->M) {
-        pg_source source = { &g->sums.family, g, mass_blocks };
-        PG_TRY (pg_stiffness_create (&g->M, g->n, 1, 1, &source));
-        PG_TRY (pg_stiffness_gather (g->M, g->n, NULL, g->threads));
+        pg_assembly_source source = { &g->sums.family, g, mass_blocks };
+        PG_TRY (pg_assembly_create (&g->M, g->n, 1, 1, &source));
+        PG_TRY (pg_assembly_gather (g->M, g->n, NULL, g->threads));
     }
-    *M = pg_stiffness_matrix (g->M);
+    *M = pg_assembly_matrix (g->M);
 done:
     return status;
 }

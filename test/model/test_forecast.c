@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include "scenes.h"
-#include "perigal/stiffness.h"
+#include "perigal/linalg.h"
 
 #define ROCK "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}}\n"
 #define CUBE "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\n" ROCK
@@ -41,8 +41,8 @@ static void counts_as_built (const char *text)
     assert_true (f.bonds[PG_POINTS] == (double) (p->first_bond[2] - p->first_bond[1]));
     const pg_family *bulk = &p->rows[f.nodal ? PG_NODES : PG_POINTS].family;
     pg_sparse G;
-    check_ok (p->direct ? pg_stiffness_graph_direct (&G, bulk)
-                        : pg_stiffness_graph (&G, p->cloud.n, 1, &bulk));
+    check_ok (p->direct ? pg_assembly_graph_pairwise (&G, bulk)
+                        : pg_assembly_graph (&G, p->cloud.n, 1, &bulk));
     assert_true (f.pairs == (double) G.start[G.ncol]);
     pg_sparse_clear (&G);
     unbuild (&b);
@@ -171,7 +171,7 @@ static void factor_is_near (const char *text, double tolerance)
     built b = build (text);
     const pg_family *bulk = &b.problem->rows[f.nodal ? PG_NODES : PG_POINTS].family;
     pg_sparse G;
-    check_ok (pg_stiffness_graph (&G, b.problem->cloud.n, 1, &bulk));
+    check_ok (pg_assembly_graph (&G, b.problem->cloud.n, 1, &bulk));
     check_ok (pg_linear_forecast (&G, f.dim, &info));
     assert_false (f.analysed);
     check_relative (f.factor_entries, info.factor_entries, tolerance);
@@ -196,7 +196,7 @@ static pg_forecast analysed (const built *b, const char *text)
     pg_sparse G;
     pg_linear_info info;
     check_ok (pg_forecast_problem (&f, b->problem));
-    check_ok (pg_stiffness_graph (&G, b->problem->cloud.n, 2, seen));
+    check_ok (pg_assembly_graph (&G, b->problem->cloud.n, 2, seen));
     check_ok (pg_linear_forecast (&G, b->problem->dim, &info));
     pg_forecast_analysed (&f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
     pg_sparse_clear (&G);

@@ -1,34 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * K_IJ = sum over sources and their points of the blocks K_ab: pattern once, then a row-owned gather of all
  * or of some node rows. */
-#include "perigal/stiffness.h"
+#include "perigal/linalg.h"
 #include <string.h>
 
 typedef struct { size_t *start; size_t *point, *local; } inverse;      /* node -> (point, local index) */
 
-struct pg_stiffness {
+struct pg_assembly {
     size_t     n, nsource, widest;                     /* nodes; sources; most nodes a point sees */
     int        block;
-    pg_source *source;
+    pg_assembly_source *source;
     inverse   *inverse;                                /* per source */
-    pg_family  lower;                                  /* node I -> nodes J <= I, ascending */
+    pg_adjacency lower;                                /* node I -> nodes J <= I, ascending */
     pg_sparse  K;
 };
 
-static pg_status invert (inverse *out, const pg_family *family, size_t n)
+static pg_status invert (inverse *out, const pg_adjacency *seen, size_t n)
 {
     pg_status status = PG_OK;
-    size_t nnz = family->start[family->n], *fill = NULL;
+    size_t nnz = seen->start[seen->n], *fill = NULL;
     PG_ALLOC (out->start, n + 1);
     PG_ALLOC (out->point, nnz);
     PG_ALLOC (out->local, nnz);
     PG_ALLOC (fill, n);
-    for (size_t e = 0; e < nnz; e++) out->start[family->node[e] + 1]++;
+    for (size_t e = 0; e < nnz; e++) out->start[seen->node[e] + 1]++;
     for (size_t I = 0; I < n; I++) out->start[I + 1] += out->start[I], fill[I] = out->start[I];
-    for (size_t p = 0; p < family->n; p++)
-        for (size_t e = family->start[p]; e < family->start[p + 1]; e++) {
-            size_t k = fill[family->node[e]]++;
-            out->point[k] = p, out->local[k] = e - family->start[p];
+    for (size_t p = 0; p < seen->n; p++)
+        for (size_t e = seen->start[p]; e < seen->start[p + 1]; e++) {
+            size_t k = fill[seen->node[e]]++;
+            out->point[k] = p, out->local[k] = e - seen->start[p];
         }
 done:
     pg_free (fill);
@@ -36,12 +36,12 @@ done:
 }
 
 /* Counts (node NULL) or lists the nodes J <= I that share a point with I; mark[J] = I + 1 once seen. */
-static size_t neighbours (const pg_stiffness *K, size_t I, size_t *mark, int *node)
+static size_t neighbours (const pg_assembly *K, size_t I, size_t *mark, int *node)
 {
     size_t count = 0;
     for (size_t s = 0; s < K->nsource; s++)
         for (size_t k = K->inverse[s].start[I]; k < K->inverse[s].start[I + 1]; k++) {
-            const pg_family *f = K->source[s].family;
+            const pg_adjacency *f = K->source[s].seen;
             size_t first = f->start[K->inverse[s].point[k]];
             for (size_t b = 0; b <= K->inverse[s].local[k]; b++) {
                 int J = f->node[first + b];
@@ -71,7 +71,7 @@ static void sort_nodes (int *a, size_t n)              /* insertion sort of near
 }
 
 /* K->lower: which nodes share a point. */
-static pg_status couple (pg_stiffness *K)
+static pg_status couple (pg_assembly *K)
 {
     pg_status status = PG_OK;
     size_t *mark = NULL;
@@ -91,7 +91,7 @@ done:
     return status;
 }
 
-static pg_status pattern (pg_stiffness *K)
+static pg_status pattern (pg_assembly *K)
 {
     pg_status status = PG_OK;
     size_t nnz = 0, m = (size_t) K->block;
@@ -113,16 +113,16 @@ done:
 }
 
 /* Sources and their inverses; no pattern yet. */
-static pg_status create (pg_stiffness **out, size_t n, int block, size_t nsource, const pg_source *sources)
+static pg_status create (pg_assembly **out, size_t n, int block, size_t nsource, const pg_assembly_source *sources)
 {
     pg_status status = PG_OK;
-    pg_stiffness *K = NULL;
+    pg_assembly *K = NULL;
     PG_ALLOC (K, 1);
     K->n = n, K->block = block, K->nsource = nsource;
     PG_ALLOC (K->source, nsource);
     PG_ALLOC (K->inverse, nsource);
     for (size_t s = 0; s < nsource; s++) {
-        const pg_family *f = sources[s].family;
+        const pg_adjacency *f = sources[s].seen;
         K->source[s] = sources[s];
         PG_TRY (invert (&K->inverse[s], f, n));
         for (size_t p = 0; p < f->n; p++)
@@ -131,32 +131,32 @@ static pg_status create (pg_stiffness **out, size_t n, int block, size_t nsource
     *out = K;
     K = NULL;
 done:
-    pg_stiffness_free (&K);
+    pg_assembly_free (&K);
     return status;
 }
 
-pg_status pg_stiffness_create (pg_stiffness **out, size_t n, int block, size_t nsource,
-                               const pg_source *sources)
+pg_status pg_assembly_create (pg_assembly **out, size_t n, int block, size_t nsource,
+                               const pg_assembly_source *sources)
 {
     pg_status status = PG_OK;
-    pg_stiffness *K = NULL;
+    pg_assembly *K = NULL;
     PG_TRY (create (&K, n, block, nsource, sources));
     PG_TRY (pattern (K));
     *out = K;
     K = NULL;
 done:
-    pg_stiffness_free (&K);
+    pg_assembly_free (&K);
     return status;
 }
 
-pg_status pg_stiffness_graph (pg_sparse *out, size_t n, size_t nfamily, const pg_family *const *families)
+pg_status pg_assembly_graph (pg_sparse *out, size_t n, size_t nlist, const pg_adjacency *const *lists)
 {
     pg_status status = PG_OK;
-    pg_stiffness *K = NULL;
-    pg_source *source = NULL;
-    PG_ALLOC (source, nfamily);
-    for (size_t s = 0; s < nfamily; s++) source[s].family = families[s];
-    PG_TRY (create (&K, n, 1, nfamily, source));
+    pg_assembly *K = NULL;
+    pg_assembly_source *source = NULL;
+    PG_ALLOC (source, nlist);
+    for (size_t s = 0; s < nlist; s++) source[s].seen = lists[s];
+    PG_TRY (create (&K, n, 1, nlist, source));
     PG_TRY (couple (K));
     *out = (pg_sparse) { .nrow = n, .ncol = n, .symmetric = 1 };
     PG_ALLOC (out->start, n + 1);
@@ -165,12 +165,12 @@ pg_status pg_stiffness_graph (pg_sparse *out, size_t n, size_t nfamily, const pg
     for (size_t e = 0; e < K->lower.start[n]; e++) out->row[e] = K->lower.node[e];
 done:
     if (status != PG_OK) pg_sparse_clear (out);
-    pg_stiffness_free (&K);
+    pg_assembly_free (&K);
     pg_free (source);
     return status;
 }
 
-pg_status pg_stiffness_graph_direct (pg_sparse *out, const pg_family *f)
+pg_status pg_assembly_graph_pairwise (pg_sparse *out, const pg_adjacency *f)
 {
     pg_status status = PG_OK;
     size_t count = f->n;
@@ -191,7 +191,7 @@ done:
     return status;
 }
 
-void pg_stiffness_free (pg_stiffness **K)
+void pg_assembly_free (pg_assembly **K)
 {
     if (!*K) return;
     for (size_t s = 0; (*K)->inverse && s < (*K)->nsource; s++) {
@@ -199,19 +199,19 @@ void pg_stiffness_free (pg_stiffness **K)
         pg_free (v->start), pg_free (v->point), pg_free (v->local);
     }
     pg_free ((*K)->inverse), pg_free ((*K)->source);
-    pg_family_clear (&(*K)->lower);
+    pg_free ((*K)->lower.start), pg_free ((*K)->lower.node);
     pg_sparse_clear (&(*K)->K);
     pg_free (*K);
     *K = NULL;
 }
 
-pg_sparse *pg_stiffness_matrix (pg_stiffness *K) { return &K->K; }
+pg_sparse *pg_assembly_matrix (pg_assembly *K) { return &K->K; }
 
 /* ---- gather -------------------------------------------------------------------------------------------- */
-typedef struct { pg_stiffness *K; const int *list; size_t *slot; double *blocks; } gathering;
+typedef struct { pg_assembly *K; const int *list; size_t *slot; double *blocks; } gathering;
 
 /* Adds block b of a row of blocks (row-major m x m, transposed into the columns of node I). */
-static void add_block (pg_stiffness *K, size_t I, size_t J, size_t slot, const double *block)
+static void add_block (pg_assembly *K, size_t I, size_t J, size_t slot, const double *block)
 {
     size_t m = (size_t) K->block;
     for (size_t beta = 0; beta < m; beta++) {
@@ -223,17 +223,17 @@ static void add_block (pg_stiffness *K, size_t I, size_t J, size_t slot, const d
 
 static void gather_row (gathering *g, size_t I, size_t *slot, double *blocks)
 {
-    pg_stiffness *K = g->K;
+    pg_assembly *K = g->K;
     size_t m = (size_t) K->block, mm = m * m;
     memset (K->K.value + K->K.start[I * m], 0,
             (size_t) (K->K.start[(I + 1) * m] - K->K.start[I * m]) * sizeof (double));
     for (size_t k = K->lower.start[I]; k < K->lower.start[I + 1]; k++)
         slot[K->lower.node[k]] = k - K->lower.start[I];
     for (size_t s = 0; s < K->nsource; s++) {
-        const pg_source *source = &K->source[s];
+        const pg_assembly_source *source = &K->source[s];
         for (size_t k = K->inverse[s].start[I]; k < K->inverse[s].start[I + 1]; k++) {
             size_t p = K->inverse[s].point[k], a = K->inverse[s].local[k];
-            const int *node = source->family->node + source->family->start[p];
+            const int *node = source->seen->node + source->seen->start[p];
             memset (blocks, 0, (a + 1) * mm * sizeof *blocks);
             source->blocks (source->context, p, a, a + 1, blocks);
             for (size_t b = 0; b <= a; b++)
@@ -251,7 +251,7 @@ static void gather (void *context, size_t first, size_t last, int thread)
                     g->blocks + (size_t) thread * wide * mm);
 }
 
-pg_status pg_stiffness_gather (pg_stiffness *K, size_t count, const int *list, int threads)
+pg_status pg_assembly_gather (pg_assembly *K, size_t count, const int *list, int threads)
 {
     pg_status status = PG_OK;
     gathering g = { K, list, NULL, NULL };

@@ -2,11 +2,11 @@
  * The row-owned gather against a naive dense assembly of random families; redoing rows and adding threads
  * change no bit. */
 #include "check.h"
-#include "perigal/stiffness.h"
+#include "perigal/linalg.h"
 
 /* Points see random nodes; point p brings sum_r g_r g_r', g_r (p, node, component) from a hash, times a
  * factor of the point. */
-typedef struct { pg_family family; int block, salt; double *factor; } random_source;
+typedef struct { pg_adjacency family; int block, salt; double *factor; } random_source;
 
 static uint64_t mix (uint64_t h)
 {
@@ -38,7 +38,7 @@ static random_source random_points (size_t npoint, size_t n, double share, int b
     return s;
 }
 
-static void random_free (random_source *s) { pg_family_clear (&s->family), pg_free (s->factor); }
+static void random_free (random_source *s) { pg_free (s->family.start), pg_free (s->family.node), pg_free (s->factor); }
 
 static void entry (const random_source *s, size_t p, size_t i, size_t j, int alpha, int beta, double *out)
 {
@@ -72,13 +72,13 @@ static double *assemble (size_t n, int block, size_t nsource, const random_sourc
     return K;
 }
 
-static pg_stiffness *gathered (size_t n, int block, size_t nsource, random_source *sources, int threads)
+static pg_assembly *gathered (size_t n, int block, size_t nsource, random_source *sources, int threads)
 {
-    pg_source list[3];
-    pg_stiffness *K = NULL;
-    for (size_t s = 0; s < nsource; s++) list[s] = (pg_source) { &sources[s].family, &sources[s], blocks };
-    check_ok (pg_stiffness_create (&K, n, block, nsource, list));
-    check_ok (pg_stiffness_gather (K, n, NULL, threads));
+    pg_assembly_source list[3];
+    pg_assembly *K = NULL;
+    for (size_t s = 0; s < nsource; s++) list[s] = (pg_assembly_source) { &sources[s].family, &sources[s], blocks };
+    check_ok (pg_assembly_create (&K, n, block, nsource, list));
+    check_ok (pg_assembly_gather (K, n, NULL, threads));
     return K;
 }
 
@@ -99,8 +99,8 @@ static void equals_the_naive_assembly (void **state)
             size_t n = 40, ndof = n * (size_t) block;
             random_source s[3] = { random_points (60, n, 0.12, block, 1), random_points (9, n, 0.3, block, 2),
                                    random_points (1, n, 0.0, block, 3) };
-            pg_stiffness *K = gathered (n, block, nsource, s, 1);
-            const pg_sparse *A = pg_stiffness_matrix (K);
+            pg_assembly *K = gathered (n, block, nsource, s, 1);
+            const pg_sparse *A = pg_assembly_matrix (K);
             double *D = assemble (n, block, nsource, s);
             assert_true (A->symmetric && A->nrow == ndof && A->ncol == ndof);
             well_formed (A);
@@ -114,7 +114,7 @@ static void equals_the_naive_assembly (void **state)
             for (size_t j = 0; j < ndof; j++)
                 for (size_t i = 0; i <= j; i++) assert_true (D[i * ndof + j] == 0);
             pg_free (D);
-            pg_stiffness_free (&K);
+            pg_assembly_free (&K);
             assert_null (K);
             for (int k = 0; k < 3; k++) random_free (&s[k]);
         }
@@ -127,7 +127,7 @@ static void redone_rows_equal_a_full_gather (void **state)
         size_t n = 120;
         random_source s[2] = { random_points (150, n, 0.05, block, 4),
                                random_points (30, n, 0.04, block, 5) };
-        pg_stiffness *K = gathered (n, block, 2, s, 1);
+        pg_assembly *K = gathered (n, block, 2, s, 1);
         static const size_t touched[] = { 3, 4, 77, 149 };
         unsigned char mark[120] = { 0 };
         int list[120];
@@ -139,11 +139,11 @@ static void redone_rows_equal_a_full_gather (void **state)
         }
         for (int i = 0; i < 120; i++) if (mark[i]) list[count++] = i;
         assert_true (count > 0 && count < n);
-        check_ok (pg_stiffness_gather (K, count, list, 1));
-        pg_stiffness *fresh = gathered (n, block, 2, s, 1);
-        const pg_sparse *A = pg_stiffness_matrix (K), *B = pg_stiffness_matrix (fresh);
+        check_ok (pg_assembly_gather (K, count, list, 1));
+        pg_assembly *fresh = gathered (n, block, 2, s, 1);
+        const pg_sparse *A = pg_assembly_matrix (K), *B = pg_assembly_matrix (fresh);
         assert_memory_equal (A->value, B->value, (size_t) A->start[A->ncol] * sizeof *A->value);
-        pg_stiffness_free (&K), pg_stiffness_free (&fresh);
+        pg_assembly_free (&K), pg_assembly_free (&fresh);
         random_free (&s[0]), random_free (&s[1]);
     }
 }
@@ -153,15 +153,15 @@ static void threads_change_no_bit (void **state)
     (void) state;
     size_t n = 200;
     random_source s[1] = { random_points (250, n, 0.05, 2, 6) };
-    pg_stiffness *one = gathered (n, 2, 1, s, 1);
-    const pg_sparse *A = pg_stiffness_matrix (one);
+    pg_assembly *one = gathered (n, 2, 1, s, 1);
+    const pg_sparse *A = pg_assembly_matrix (one);
     for (int threads = 2; threads <= 7; threads += 5) {
-        pg_stiffness *many = gathered (n, 2, 1, s, threads);
-        assert_memory_equal (A->value, pg_stiffness_matrix (many)->value,
+        pg_assembly *many = gathered (n, 2, 1, s, threads);
+        assert_memory_equal (A->value, pg_assembly_matrix (many)->value,
                              (size_t) A->start[A->ncol] * sizeof *A->value);
-        pg_stiffness_free (&many);
+        pg_assembly_free (&many);
     }
-    pg_stiffness_free (&one);
+    pg_assembly_free (&one);
     random_free (&s[0]);
 }
 
@@ -172,8 +172,8 @@ static void a_node_that_no_point_sees_keeps_its_diagonal (void **state)
     int node[] = { 1, 3, 1 };
     double factor[] = { 1, 1 };
     random_source s = { { 2, start, node }, 2, 8, factor };
-    pg_stiffness *K = gathered (5, 2, 1, &s, 1);
-    const pg_sparse *A = pg_stiffness_matrix (K);
+    pg_assembly *K = gathered (5, 2, 1, &s, 1);
+    const pg_sparse *A = pg_assembly_matrix (K);
     well_formed (A);
     assert_int_equal (A->start[10], 5 * 3 + 4);
     for (size_t j = 0; j < 10; j++)
@@ -181,25 +181,25 @@ static void a_node_that_no_point_sees_keeps_its_diagonal (void **state)
             if (j / 2 != 1 && j / 2 != 3) assert_true (A->value[p] == 0);
             else assert_true (A->value[p] != 0);
         }
-    pg_stiffness_free (&K);
+    pg_assembly_free (&K);
 }
 
 static void each_failed_allocation_is_reported (void **state)
 {
     (void) state;
     random_source s[2] = { random_points (20, 30, 0.2, 2, 9), random_points (5, 30, 0.2, 2, 10) };
-    pg_source list[2] = { { &s[0].family, &s[0], blocks }, { &s[1].family, &s[1], blocks } };
+    pg_assembly_source list[2] = { { &s[0].family, &s[0], blocks }, { &s[1].family, &s[1], blocks } };
     size_t used = pg_memory_used (), k = 0;
     pg_status status = PG_E_MEMORY;
     while (status != PG_OK) {
-        pg_stiffness *K = NULL;
+        pg_assembly *K = NULL;
         pg_memory_fail_at (++k);
-        status = pg_stiffness_create (&K, 30, 2, 2, list);
+        status = pg_assembly_create (&K, 30, 2, 2, list);
         if (status != PG_OK) assert_null (K);
-        else status = pg_stiffness_gather (K, 30, NULL, 2);
+        else status = pg_assembly_gather (K, 30, NULL, 2);
         pg_memory_fail_at (0);
         if (status != PG_OK) assert_int_equal (status, PG_E_MEMORY);
-        pg_stiffness_free (&K);
+        pg_assembly_free (&K);
         assert_int_equal (pg_memory_used (), used);
         assert_true (k < 100);
     }
@@ -214,8 +214,8 @@ static void graphs_hold_the_pairs_and_the_diagonal (void **state)
     (void) state;
     enum { N = 40 };
     random_source s[2] = { random_points (25, N, 0.1, 1, 3), random_points (10, N, 0.2, 1, 4) };
-    const pg_family *of[2] = { &s[0].family, &s[1].family };
-    pg_family bonds = { N, pg_calloc (N + 1, sizeof (size_t)), pg_calloc (N * N, sizeof (int)) };
+    const pg_adjacency *of[2] = { &s[0].family, &s[1].family };
+    pg_adjacency bonds = { N, pg_calloc (N + 1, sizeof (size_t)), pg_calloc (N * N, sizeof (int)) };
     unsigned char seen[2][N][N] = { { { 0 } } };
     for (int k = 0; k < 2; k++)
         for (size_t p = 0; p < of[k]->n; p++)
@@ -232,7 +232,7 @@ static void graphs_hold_the_pairs_and_the_diagonal (void **state)
     for (int k = 0; k < 2; k++) {
         pg_sparse G;
         size_t at = 0;
-        check_ok (k ? pg_stiffness_graph_direct (&G, &bonds) : pg_stiffness_graph (&G, N, 2, of));
+        check_ok (k ? pg_assembly_graph_pairwise (&G, &bonds) : pg_assembly_graph (&G, N, 2, of));
         assert_true (G.symmetric && G.nrow == N && G.ncol == N);
         for (size_t j = 0; j < N; j++) {
             assert_int_equal (G.start[j], at);
@@ -242,7 +242,7 @@ static void graphs_hold_the_pairs_and_the_diagonal (void **state)
         assert_true (at > 2 * N);
         pg_sparse_clear (&G);
     }
-    pg_family_clear (&bonds);
+    pg_free (bonds.start), pg_free (bonds.node);
     random_free (&s[0]), random_free (&s[1]);
 }
 
@@ -256,5 +256,5 @@ int main (void)
         cmocka_unit_test (graphs_hold_the_pairs_and_the_diagonal),
         cmocka_unit_test (each_failed_allocation_is_reported),
     };
-    return cmocka_run_group_tests_name ("stiffness/gather", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("linalg/assembly", tests, NULL, NULL);
 }
