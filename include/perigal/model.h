@@ -151,10 +151,22 @@ double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);
  * It has no direction and no stretch: no criterion judges it, it never breaks, and damage does not count
  * it. */
 int       pg_problem_no_bond (const pg_problem *problem, int set, size_t point, size_t e);
-/* solver.kind: 1: the t of loads is the load factor, 0 to 1 (static, adr, relax); 0: seconds. */
-int       pg_kind_quasi_static (const char *kind);
-/* 1: by steps or iterations without linear systems, which stiff springs would shorten */
-int       pg_kind_marches (const char *kind);
+/* What is true of an entry of the catalogue of solvers; each says so of itself in src/solve/<name>.c. Loads,
+ * supports, forces, forecasts, results and commands ask for these, never for a name. */
+enum {
+    PG_SOLVER_QUASI_STATIC = 1,                        /* the t of loads is the load factor, 0 to 1; else s */
+    PG_SOLVER_IMPLICIT = 2,                            /* solves linear systems: forces must be linear in d */
+    PG_SOLVER_EXPLICIT = 4,                            /* time steps of a stable length, by the force alone */
+    PG_SOLVER_STAGED = 8,  /* stages of the load, each relaxed by the force alone */
+    PG_SOLVER_EVENTS = 16,                             /* knows event stepping */
+    PG_SOLVER_NEEDS_DENSITY = 32,
+    PG_SOLVER_STATIC = PG_SOLVER_QUASI_STATIC | PG_SOLVER_IMPLICIT     /* equilibria by linear systems */
+};
+/* The flags of solver.kind (NULL: of the first in the list, the default); 0: unknown. Defined with the
+ * catalogue in src/solve, declared here for the folders below it. */
+unsigned  pg_solver_flags (const char *kind);
+/* 1: it has all of these flags. */
+int       pg_solver_is (const char *kind, unsigned flags);
 int       pg_problem_proportional (const pg_problem *problem);  /* every load is a constant pattern times t */
 /* every load is a constant pattern and t times another, t from 0 to 1 */
 int       pg_problem_affine (const pg_problem *problem);

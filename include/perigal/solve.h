@@ -7,38 +7,49 @@
 
 PG_API_BEGIN
 
-/* PASSING (adr, relax): at any iteration once the stage's load has come to act, not only in balance. */
+/* PASSING (stages): at any iteration once the stage's load has come to act, not only in balance. */
 typedef enum { PG_BREAK_WORST, PG_BREAK_FRACTION, PG_BREAK_ALL, PG_BREAK_PASSING } pg_break;
+/* Options common to all methods. What one method or family of methods knows alone is a struct of its own in
+ * `own`: PG_OWN (pg_newmark_options, options)->alpha. */
+enum { PG_SOLVER_OWN = 64 };
 typedef struct {
-    char     kind[16], linear[16];  /* an entry of src/solve; auto | cholmod | umfpack | pcg */
+    char     kind[32], linear[16];  /* an entry of src/solve; "auto" or an entry of src/linalg */
     char     preconditioner[16];  /* of linear: pcg; auto | jacobi | multilevel; "": auto */
-    int      quasi_static;                             /* static, adr, relax: t of loads is the load factor */
-    int      marching;                                 /* verlet, central: explicit time steps */
-    int      staged;                                   /* adr, relax: stages of the load, each relaxed */
-    int      event;                                    /* static: event stepping */
-    int      affine;                                   /* event: loads have a constant part */
-    int      consistent;                               /* newmark: consistent mass, not lumped */
+    unsigned flags;                                    /* of the kind, PG_SOLVER_...: perigal/model.h */
+    int      event;                                    /* steps go from break to break (PG_SOLVER_EVENTS) */
     pg_break break_mode;
     double   break_fraction, tie;  /* bonds within this share of the worst break with it */
     double   tolerance;                                /* of the residual, relative to the reference force */
-    /* steps: calls of pg_solver_step up to the end; marching: 0 until the solver is made */
+    /* steps: calls of pg_solver_step up to the end; 0: the solver finds it when it is made */
     long     steps, max_iterations, max_events;
-    /* marching: 0: by dt and end; most rows of history.csv, 0: by the number of time steps */
-    long     time_steps, rows;
-    long     stages;                                   /* staged */
-    int      hold;  /* staged: 1: each stage until balanced, 0: one iteration a stage */
-    /* staged: accepted residual over reference; relax: kg/(m^3 s), 0: by Rayleigh's quotient */
-    double   imbalance, damping;
-    /* s (marching, relax: 0: from the largest frequency), s, 1, 1, 1, 1/s, s */
-    double   dt, end, alpha, beta, gamma, rayleigh_mass, rayleigh_stiffness;
-    double   stop_stiffness;  /* event stepping: stop when the secant stiffness fell below it */
+    long     time_steps;                               /* of explicit dynamics; 0: by dt and end */
+    long     rows;  /* most rows of history.csv, 0: by the number of time steps */
+    double   dt, end;                                  /* s; dt 0: 0.9 of the stable time step */
     /* stop when a point of the set is damaged so far; NULL: never */
     const pg_set *stop_set; double stop_damage;
     long     levels;  /* reports at k / levels of the load (or of the end time) */
-    char     unused[256];  /* keys of the scene's solver that this kind does not heed, "dt, end"; "": none */
+    char     unused[256];  /* keys of the scene's solver that belong to others, "dt, end" */
+    union { double align; unsigned char byte[PG_SOLVER_OWN]; } own;    /* of the method alone: PG_OWN */
     /* that they were read from: pg_solver_create places there what it finds wrong; NULL: none */
     const pg_scene *scene;
 } pg_solver_options;
+#define PG_OWN(type, options) ((type *) (void *) (options)->own.byte)
+#define PG_ALIAS __attribute__ ((may_alias))
+typedef struct {                                       /* equilibria by linear systems */
+    int    affine;                                     /* event stepping: loads have a constant part */
+    double stop_stiffness;  /* event stepping: stop when the secant stiffness fell below it */
+} PG_ALIAS pg_static_options;
+typedef struct {                                       /* Newmark's method; 1, 1, 1, 1/s, s */
+    int    consistent;                                 /* consistent mass, not lumped */
+    double alpha, beta, gamma, rayleigh_mass, rayleigh_stiffness;
+} PG_ALIAS pg_newmark_options;
+typedef struct { double rayleigh_mass; } PG_ALIAS pg_explicit_options;      /* explicit dynamics; 1/s */
+typedef struct {                                       /* stages of the load, each relaxed */
+    long   stages;
+    int    hold;  /* 1: each until it is balanced, 0: one iteration a stage */
+    double imbalance;                                  /* accepted residual over the reference force */
+    double damping;                                    /* kg/(m^3 s); 0: by Rayleigh's quotient */
+} PG_ALIAS pg_stages_options;
 pg_status pg_solver_options_read (pg_solver_options *out, const pg_problem *problem, const pg_scene *scene);
 
 /* ---- patch test ---------------------------------------------------------------------------------------- */
@@ -114,6 +125,32 @@ typedef struct {  /* of one step: a user level, a time step or an event */
 
 /* ---- solver -------------------------------------------------------------------------------------------- */
 typedef struct pg_solver pg_solver;
+struct pg_dynamics;                                    /* what a matrix holds besides K: src/solve/solve.h */
+
+/* An entry of the catalogue: src/solve/<name>.c. Entries that are NULL: nothing to do, but for `step`. */
+typedef struct {
+    const char *name, *summary;
+    unsigned flags;                                    /* PG_SOLVER_...: perigal/model.h */
+    /* Tables of its keys below `solver`, its own and those that several share; the last one NULL. */
+    const pg_key_table *keys[8];
+    /* Its part of the options from the scene; what is wrong becomes a fault. The common part is there
+     * already. */
+    void      (*read)    (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
+    pg_status (*prepare) (pg_solver *s);  /* when the solver is made: fills in what options leave open */
+    pg_status (*start)   (pg_solver *s, pg_state *state);              /* before the first step */
+    pg_status (*step)    (pg_solver *s, pg_state *state, pg_step *step);
+    int       (*done)    (const pg_solver *s, const pg_state *state);
+    void      (*refused) (pg_solver *s);  /* a step failed: the state goes back to the last accepted one */
+    void      (*free)    (pg_solver *s);
+    /* What it carries from step to step, written to or read from a checkpoint. */
+    pg_status (*keep)    (pg_solver *s, const pg_keeper *keeper);
+    double    (*progress) (const pg_solver *s, const pg_state *state); /* NULL: steps done of options.steps */
+    /* How a plan calls its steps: ", event stepping". NULL: nothing to say. */
+    const char *(*manner) (const pg_solver_options *o);
+    const struct pg_dynamics *(*dynamics) (pg_solver *s);              /* NULL: the matrix is K alone */
+} pg_solver_type;
+const pg_solver_type *pg_solver_find (const char *name);               /* NULL: unknown */
+
 pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg_solver_options *options);
 /* The same with a force of the caller's (tests, experiments). */
 pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, const pg_solver_options *options,
@@ -162,7 +199,6 @@ const pg_statistics *pg_solver_report_now (const pg_solver *solver);  /* counts 
 /* The force behind it, for fields and gauges. */
 const pg_force_type *pg_solver_force (const pg_solver *solver, void **self);
 const char *pg_solver_names (void);
-const char *pg_solver_summary (const char *name);                                  /* NULL: unknown */
 /* b0..b7 of Newmark's method (theory F5) for dt, beta, gamma of the options. */
 void pg_newmark_coefficients (const pg_solver_options *options, double *b);
 PG_API_END

@@ -23,7 +23,7 @@ int pg_cli_check (int argc, char **argv)
     PG_TRY (command_problem (&c, scene, &p, &o));
     PG_TRY (afford_problem (&c, &f, p, 1));
     PG_TRY (pg_patch_probe (p));
-    if (o.marching || o.staged) {
+    if ((o.flags & PG_SOLVER_EXPLICIT) || (o.flags & PG_SOLVER_STAGED)) {
         PG_TRY (pg_solver_create (&solver, p, &o));
         o = *pg_solver_settled (solver);
         stable = pg_solver_stable (solver, &from);

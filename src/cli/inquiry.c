@@ -41,8 +41,8 @@ static const char *of_linear (const char *n)
 }
 static const char *of_solver (const char *n)
 {
-    const char *text = pg_solver_summary (n);
-    return text ? text : "";
+    const pg_solver_type *t = pg_solver_find (n);
+    return t ? t->summary : "";
 }
 
 static const struct { const char *key; const char *(*names) (void); summary_of summary;

@@ -6,8 +6,8 @@
 
 static const char *stepping (const pg_solver_options *o)
 {
-    if (o->staged) return o->hold ? ", each stage held until balanced" : ", one iteration a stage";
-    return !o->quasi_static ? "" : o->event ? ", event stepping" : ", fixed load steps";
+    const pg_solver_type *type = pg_solver_find (o->kind);
+    return type && type->manner ? type->manner (o) : "";
 }
 
 /* The criterion; of several materials one line each, with their points. */
@@ -87,8 +87,8 @@ void plan_settled (const pg_solver *solver)
     const pg_solver_options *o = pg_solver_settled (solver);
     const char *from;
     double stable = pg_solver_stable (solver, &from);
-    if (o->marching) printf ("  %ld time steps of %.6g s", o->time_steps, o->dt);
-    else if (o->staged) printf ("  %ld stages", o->stages);
+    if ((o->flags & PG_SOLVER_EXPLICIT)) printf ("  %ld time steps of %.6g s", o->time_steps, o->dt);
+    else if ((o->flags & PG_SOLVER_STAGED)) printf ("  %ld stages", PG_OWN (pg_stages_options, o)->stages);
     else return;
     if (isfinite (stable)) printf (", stable up to %.4g s (%s)", stable, from);
     printf ("\n");
@@ -114,12 +114,14 @@ plan_times plan_times_of (const plan *p)
     t.omega = fmax (2 * speed, nitsche ? sqrt (2 * q->nitsche * stiff) : 0) / pg_cloud_finest (&q->cloud);
     if (isfinite (p->stable)) {
         t.omega = 2 / p->stable, t.dt = p->stable, t.measured = 2;
-        t.courant = !p->options->quasi_static ? speed * p->options->dt / pg_cloud_finest (&q->cloud) : 0;
+        t.courant = !(p->options->flags & PG_SOLVER_QUASI_STATIC)
+                        ? speed * p->options->dt / pg_cloud_finest (&q->cloud)
+                        : 0;
         return t;
     }
     if (p->first->omega > 0) t.omega = p->first->omega, t.measured = 1;
     t.dt = 2 / t.omega;
-    t.courant = !p->options->quasi_static && p->options->dt > 0
+    t.courant = !(p->options->flags & PG_SOLVER_QUASI_STATIC) && p->options->dt > 0
                     ? speed * p->options->dt / pg_cloud_finest (&q->cloud)
                     : 0;
     return t;
@@ -136,13 +138,14 @@ static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, c
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
 {
     const pg_solver_options *o = p->options;
-    int is_static = o->quasi_static, breaks = p->problem->criterion->type != NULL,
+    int is_static = (o->flags & PG_SOLVER_QUASI_STATIC), breaks = p->problem->criterion->type != NULL,
         none = strcmp (p->forecast->linear, "cg") == 0;
     size_t n = 0;
-    if (o->marching || o->staged) {
+    if ((o->flags & PG_SOLVER_EXPLICIT) || (o->flags & PG_SOLVER_STAGED)) {
         if (!breaks) add_skip (skip, &n, most, "bond sweeps", "there is no failure criterion");
         add_skip (skip, &n, most, "stiffness matrix and factorization",
-                  o->marching ? "explicit time steps need neither" : "relaxation needs neither");
+                  (o->flags & PG_SOLVER_EXPLICIT) ? "explicit time steps need neither"
+                                                  : "relaxation needs neither");
         return n;
     }
     if (!breaks) add_skip (skip, &n, most, "bond sweeps", "there is no failure criterion");
@@ -244,10 +247,11 @@ static void print_times (const plan *p)
 {
     plan_times t = plan_times_of (p);
     const pg_solver_options *o = p->options;
-    if (o->staged) printf ("  %-18s  %ld\n", "stages", o->stages);
-    else if (!o->quasi_static && !(o->time_steps && o->dt > 0))
+    if ((o->flags & PG_SOLVER_STAGED))
+        printf ("  %-18s  %ld\n", "stages", PG_OWN (pg_stages_options, o)->stages);
+    else if (!(o->flags & PG_SOLVER_QUASI_STATIC) && !(o->time_steps && o->dt > 0))
         printf ("  %-18s  0.9 of the stable one\n", "time steps");
-    else if (!o->quasi_static) {
+    else if (!(o->flags & PG_SOLVER_QUASI_STATIC)) {
         printf ("  %-18s  %ld of %.6g s", "time steps", o->time_steps ? o->time_steps : o->steps, o->dt);
         if (t.courant > 0) printf (", c_p dt / h = %.4g", t.courant);
         printf ("\n");
@@ -351,7 +355,8 @@ void plan_print_long (const plan *p)
     print_materials (q);
     printf ("  %-18s  %s%s\n", "solver", p->options->kind, stepping (p->options));
     print_times (p);
-    if (!p->options->marching && !p->options->staged) print_factor (p->forecast);
+    if (!(p->options->flags & PG_SOLVER_EXPLICIT) && !(p->options->flags & PG_SOLVER_STAGED))
+        print_factor (p->forecast);
     for (size_t s = 0; s < q->nload; s++)
         printf ("  boundary %-9s  %zu points, %zu facets\n", q->load[s].name, q->load[s].set->npoint,
                 q->load[s].set->nfacet);

@@ -69,12 +69,15 @@ static void steps (pg_json *j, const plan *p)
 {
     plan_times t = plan_times_of (p);
     pg_json_text (j, "solver", p->options->kind);
-    if (p->options->staged) pg_json_count (j, "stages", (size_t) p->options->stages);
-    else if (p->options->quasi_static) pg_json_text (j, "stepping", p->options->event ? "event" : "fixed");
+    if ((p->options->flags & PG_SOLVER_STAGED))
+        pg_json_count (j, "stages", (size_t) PG_OWN (pg_stages_options, p->options)->stages);
+    else if ((p->options->flags & PG_SOLVER_QUASI_STATIC))
+        pg_json_text (j, "stepping", p->options->event ? "event" : "fixed");
     else {
         pg_json_number (j, "dt", p->options->dt);
         pg_json_count (j, "steps",
-                       (size_t) (p->options->marching ? p->options->time_steps : p->options->steps));
+                       (size_t) ((p->options->flags & PG_SOLVER_EXPLICIT) ? p->options->time_steps
+                                                                          : p->options->steps));
         pg_json_number (j, "courant", t.courant);
     }
     pg_json_number (j, "explicit_dt", t.omega > 0 ? t.dt : NAN);

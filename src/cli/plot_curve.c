@@ -160,8 +160,8 @@ static void read_kind (run_kind *out, const char *directory, const char *const *
         if (pg_scene_given (scene, "boundary[%zu].ramp", i)
             || pg_scene_given (scene, "boundary[%zu].table", i))
             out->linear = 0;
-    out->at_rest = pg_kind_quasi_static (kind) && out->linear;
-    out->events = strcmp (kind, "static") == 0;
+    out->at_rest = pg_solver_is (kind, PG_SOLVER_QUASI_STATIC) && out->linear;
+    out->events = pg_solver_is (kind, PG_SOLVER_EVENTS);
     for (int k = 0; k < 2; k++) {
         if (starts_elsewhere (scene, wanted[k])) out->at_rest = out->events = 0;
         if (is_one_of (

@@ -197,10 +197,11 @@ static void name_stage (const plot_request *q, const source *s, int step, char *
     long events;
     /* load factors end at 1 */
     int event = strcmp (stepping, "event") == 0 || (strcmp (stepping, "auto") == 0 && last > 1);
-    if (*kind && !pg_kind_quasi_static (kind))
+    if (*kind && !pg_solver_is (kind, PG_SOLVER_QUASI_STATIC))
         pg_picture_time (time, text + snprintf (text, size, "time "), size - 5);
     else if (!*kind) snprintf (text, size, "step %d, time %.6g", step, time);
-    else if (!event || strcmp (kind, "static") != 0) snprintf (text, size, "load factor %.4g", time);
+    else if (!event || !pg_solver_is (kind, PG_SOLVER_EVENTS))
+        snprintf (text, size, "load factor %.4g", time);
     else if (!pg_plot_event (q->directory, time, &events, &factor)) snprintf (text, size, "step %.0f", time);
     else if (events) snprintf (text, size, "event %ld, load factor %.4g", events, factor);
     else snprintf (text, size, "load factor %.4g", factor);

@@ -15,8 +15,8 @@ void progress_start (progress *p, int quiet, const pg_solver_options *o)
                      .last = now,
                      .tty = isatty (2),
                      .quiet = quiet,
-                     .marching = o->marching,
-                     .staged = o->staged };
+                     .marching = (o->flags & PG_SOLVER_EXPLICIT) != 0,
+                     .staged = (o->flags & PG_SOLVER_STAGED) != 0 };
     p->mark[0].at = p->mark[1].at = now;
 }
 

@@ -24,13 +24,13 @@ static void settle_signals (void)
 
 static void print_counts (const pg_statistics *r, const pg_solver_options *o)
 {
-    if (o->marching)
+    if ((o->flags & PG_SOLVER_EXPLICIT))
         printf ("  %ld time steps in %ld rows of history.csv, %ld of them broke bonds, %ld bonds broken",
                 r->iterations, r->steps, r->events, r->broken);
-    else if (o->staged)
+    else if ((o->flags & PG_SOLVER_STAGED))
         printf ("  %ld %s, %ld iterations, %ld of them broke bonds, %ld bonds broken, largest imbalance %.2e",
-                o->hold ? r->steps : r->iterations, "stages", r->iterations, r->events, r->broken,
-                r->residual_max);
+                PG_OWN (pg_stages_options, o)->hold ? r->steps : r->iterations, "stages", r->iterations,
+                r->events, r->broken, r->residual_max);
     else
         printf ("  %ld steps, %ld events, %ld break rounds, %ld bonds broken, %ld factorizations, %ld "
                 "solves\n  largest residual %.2e, largest utilisation "
@@ -38,11 +38,11 @@ static void print_counts (const pg_statistics *r, const pg_solver_options *o)
                 r->steps, r->events, r->iterations, r->broken, r->factorizations, r->solves, r->residual_max,
                 r->utilisation_max);
     printf (", %zu degenerate points, %zu fragments\n", r->degenerate_points, r->fragments);
-    if (r->cg_iterations && !o->marching && !o->staged)
+    if (r->cg_iterations && !(o->flags & PG_SOLVER_EXPLICIT) && !(o->flags & PG_SOLVER_STAGED))
         printf ("  %zu iterations of conjugate gradients%s%s%s\n", r->cg_iterations,
                 *r->preconditioner ? ", preconditioner " : "", r->preconditioner,
                 r->preconditioners > 1 ? ", made anew as bonds broke" : "");
-    if (o->marching)
+    if ((o->flags & PG_SOLVER_EXPLICIT))
         printf (
             "  energy: external work %.4g J = strain %.4g + kinetic %.4g + damping %.4g + breaking %.4g J\n",
             r->energy_external, r->energy_strain, r->energy_kinetic, r->energy_damping, r->energy_dissipated);

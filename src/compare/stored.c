@@ -198,7 +198,7 @@ static pg_status find_step (pg_stored *s, const char *folder, const char *path, 
         PG_FAIL (PG_E_USAGE, "%s has no step %d; its steps are 0 to %zu", path, step, nstep - 1);
     s->step = step < 0 ? (int) nstep - 1 : step;
     s->stamp = time[s->step];
-    int dynamic = !o.quasi_static;
+    int dynamic = !(o.flags & PG_SOLVER_QUASI_STATIC);
     PG_TRY (compare_history (folder,
                              dynamic   ? "time"
                              : o.event ? "step"

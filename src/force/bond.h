@@ -147,7 +147,7 @@ char      gmpd_kind_of (void *self, const double *d, size_t entry);
 void      gmpd_free   (bond *b);
 /* words */
 int         bond_describe (const void *self, size_t line, char *text, size_t size);
-const char *bond_refuses  (const pg_problem *problem, const char *kind);
+const char *bond_refuses  (const pg_problem *problem, unsigned solver);
 
 /* All of it, for every force whose bonds are these; BOND_COMMON: without a matrix. */
 #define BOND_ENTRIES \

@@ -119,12 +119,11 @@ int bond_describe (const void *self, size_t line, char *text, size_t size)
     return 1;
 }
 
-const char *bond_refuses (const pg_problem *problem, const char *kind)
+const char *bond_refuses (const pg_problem *problem, unsigned solver)
 {
-    int implicit = strcmp (kind, "static") == 0 || strcmp (kind, "newmark") == 0;
-    if (implicit && problem->sums && problem->sums->rule.finite)
-        return "method.stretch: finite makes forces that are not linear in the displacement; static and "
-               "newmark need linear ones: use stretch: linear, or verlet, "
-               "central, adr or relax";
+    if ((solver & PG_SOLVER_IMPLICIT) && problem->sums && problem->sums->rule.finite)
+        return "method.stretch: finite makes forces that are not linear in the displacement, and this solver "
+               "needs "
+               "linear ones: use stretch: linear";
     return NULL;
 }

@@ -81,7 +81,7 @@ static double sweeps_of (const pg_scene *scene)
 {
     if (pg_scene_has (scene, "solver.time_steps"))
         return (double) pg_scene_integer (scene, "solver.time_steps");
-    if (is (scene, "solver.kind", "static")) return 200;
+    if (pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC)) return 200;
     return 1000;
 }
 

@@ -61,8 +61,8 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
     double alpha = pg_scene_number (scene, "solver.alpha"), beta = pg_scene_number (scene, "solver.beta"),
            dt = pg_scene_number (scene, "solver.dt");
     f->automatic = !linear || is (linear, "auto");
-    f->dynamic = kind && !is (kind, "static");
-    f->explicit_ = is (kind, "verlet") || is (kind, "central") || is (kind, "adr") || is (kind, "relax");
+    f->dynamic = !pg_solver_is (kind, PG_SOLVER_STATIC);
+    f->explicit_ = !pg_solver_is (kind, PG_SOLVER_IMPLICIT);
     snprintf (f->linear, sizeof f->linear, "%s",
               f->automatic         ? "cholmod"
               : is (linear, "pcg") ? "cg"

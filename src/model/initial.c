@@ -28,7 +28,7 @@ pg_status pg_initial_read (pg_problem *p, const pg_scene *scene)
     pg_status status = PG_OK;
     const char *kind = pg_scene_text (scene, "solver.kind");
     if (!pg_scene_given (scene, "initial.velocity")) return PG_OK;
-    if (pg_kind_quasi_static (kind)) {
+    if (pg_solver_is (kind, PG_SOLVER_QUASI_STATIC)) {
         pg_problem_note (p, "without meaning for solver: %s: initial", kind);
         return PG_OK;
     }

@@ -294,7 +294,7 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
         && (load->set->ninner || (load->set->nfacet == 0 && load->set->npoint > PG_MOST_ELIMINATED))) {
         load->essential = PG_ESSENTIAL_PENALTY;  /* a set with an inside: its facets would leave that free */
         /* no shorter time step */
-        if (pg_kind_marches (pg_scene_text (scene, "solver.kind")))
+        if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT))
             load->penalty = fmin (problem->penalty, problem->nitsche);
     }
     check_place (problem, load, scene, i);
@@ -328,8 +328,7 @@ static void name_apart (pg_problem *problem, const pg_scene *scene)
 pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    const char *kind = pg_scene_text (scene, "solver.kind");
-    int is_static = pg_kind_quasi_static (kind);
+    int is_static = pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_QUASI_STATIC);
     double duration = is_static ? 1 : pg_scene_number (scene, "solver.end");
     if (!is_static && !(duration > 0) && pg_scene_has (scene, "solver.time_steps"))
         duration = (double) pg_scene_integer (scene, "solver.time_steps")

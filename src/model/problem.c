@@ -331,16 +331,6 @@ void pg_problem_note (pg_problem *p, const char *format, ...)
     va_end (args);
 }
 
-int pg_kind_marches (const char *kind)
-{
-    return strcmp (kind, "static") != 0 && strcmp (kind, "newmark") != 0;
-}
-
-int pg_kind_quasi_static (const char *kind)
-{
-    return !kind || strcmp (kind, "static") == 0 || strcmp (kind, "adr") == 0 || strcmp (kind, "relax") == 0;
-}
-
 int pg_problem_proportional (const pg_problem *p)
 {
     for (size_t i = 0; i < p->nload; i++) {

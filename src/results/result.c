@@ -13,7 +13,7 @@ static pg_status read_wishes (pg_result *r, const pg_scene *scene)
     int with_u = 0;
     r->magnify = pg_scene_number (scene, "output.magnify");
     r->estimating = pg_scene_bool (scene, "output.estimate")
-                    && strcmp (pg_scene_text (scene, "solver.kind"), "static") == 0;
+                    && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC);
     r->interval = pg_scene_number (scene, "output.checkpoint");
     r->every = pg_scene_has (scene, "output.at.events") ? pg_scene_integer (scene, "output.at.events") : 0;
     r->broken_share = pg_scene_has (scene, "output.at.broken") ? pg_scene_number (scene, "output.at.broken")
@@ -72,7 +72,7 @@ pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scen
     snprintf (r->scene, sizeof r->scene, "%.3000s", pg_scene_file (scene));
     PG_TRY (pg_scene_files (scene, &r->nnamed, &r->named));
     const pg_solver_options *settled = pg_solver_settled (solver);
-    r->length = (settled->quasi_static ? 1 : settled->end) / (double) settled->steps;
+    r->length = ((settled->flags & PG_SOLVER_QUASI_STATIC) ? 1 : settled->end) / (double) settled->steps;
     PG_TRY (read_wishes (r, scene));
     PG_TRY (result_averages_read (r, scene));
     PG_TRY (result_tips_read (r, scene));

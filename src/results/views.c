@@ -71,7 +71,7 @@ pg_status result_views_read (pg_result *r, const pg_scene *scene)
     const char *name;
     r->stages = pg_scene_bool (scene, "output.stages");
     r->stairs = strcmp (pg_scene_text (scene, "cells"), "staircase") == 0;
-    r->dynamic = !pg_kind_quasi_static (pg_scene_text (scene, "solver.kind"));
+    r->dynamic = !pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_QUASI_STATIC);
     for (size_t k = 0;
          (name = pg_scene_name (scene, k, "output.pictures")) && r->npicture < MOST_PICTURES - 1; k++) {
         result_view *v = &r->picture[r->npicture++];

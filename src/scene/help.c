@@ -31,11 +31,12 @@ static void plain_path (char out[PG_PATTERN], const char *path)
 void pg_help_meaning (FILE *to, const pg_key *key)
 {
     const char *entries = pg_key_entries (key, NULL);
-    for (; entries && *entries; entries++) {
-        if (*entries == '|') fprintf (to, ", ");
-        else fputc (*entries, to);
+    if (entries) fputc ('(', to);
+    for (const char *c = entries; c && *c; c++) {
+        if (*c == '|') fprintf (to, ", ");
+        else fputc (*c, to);
     }
-    fprintf (to, "%s%s", entries ? ": " : "", key->doc ? key->doc : "");
+    fprintf (to, "%s%s", entries ? ") " : "", key->doc ? key->doc : "");
 }
 
 /* 3: the row's path is the key; 2: it ends with the key; 1: it lies below the key; 0: neither. */

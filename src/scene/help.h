@@ -5,7 +5,7 @@
 #include "schema.h"
 
 const char *pg_key_kind (const pg_key *key);           /* "whole number" */
-/* What a key is for, after the names of the entries that own it: "adr, relax: ...". */
+/* What a key is for, after the names of the entries that own it: "(adr, relax) Number of ...". */
 void      pg_help_meaning (FILE *to, const pg_key *key);
 pg_status pg_help_write   (FILE *to, const char *key, const pg_schema *s);
 pg_status pg_manual_write (FILE *to, const pg_schema *s);

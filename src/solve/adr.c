@@ -61,14 +61,19 @@ done:
     return status;
 }
 
-const pg_solver_type pg_solver_adr = { "adr",
-                                       "quasi-static stages by adaptive dynamic relaxation",
-                                       relaxation_start,
-                                       relaxation_step,
-                                       relaxation_done,
-                                       relaxation_free,
-                                       .way = RELAXES,
-                                       .prepare = prepare,
-                                       .refused = relaxation_refused,
-                                       .keep = relaxation_keep,
-                                       .progress = relaxation_progress };
+const pg_solver_type pg_solver_adr = {
+    .name = "adr",
+    .summary = "quasi-static stages by adaptive dynamic relaxation",
+    .flags = PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED,
+    .keys = { &solver_keys_stages, &solver_keys_breaking },
+    .read = relaxation_read,
+    .prepare = prepare,
+    .start = relaxation_start,
+    .step = relaxation_step,
+    .done = relaxation_done,
+    .refused = relaxation_refused,
+    .free = relaxation_free,
+    .keep = relaxation_keep,
+    .progress = relaxation_progress,
+    .manner = relaxation_manner,
+};

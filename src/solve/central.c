@@ -43,14 +43,18 @@ static pg_status step (pg_solver *s, pg_state *state, pg_step *out)
     return march_step (s, state, out, range, 1);
 }
 
-const pg_solver_type pg_solver_central = { "central",
-                                           "explicit dynamics, central differences",
-                                           march_start,
-                                           step,
-                                           march_done,
-                                           explicit_free,
-                                           .way = MARCHES,
-                                           .prepare = march_prepare,
-                                           .refused = march_refused,
-                                           .keep = explicit_keep,
-                                           .progress = march_progress };
+const pg_solver_type pg_solver_central = {
+    .name = "central",
+    .summary = "explicit dynamics, central differences",
+    .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY,
+    .keys = { &solver_keys_step, &solver_keys_time },
+    .read = march_read,
+    .prepare = march_prepare,
+    .start = march_start,
+    .step = step,
+    .done = march_done,
+    .refused = march_refused,
+    .free = explicit_free,
+    .keep = explicit_keep,
+    .progress = march_progress,
+};

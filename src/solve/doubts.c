@@ -61,10 +61,10 @@ static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg
 {
     int moving = 0, everywhere = 1;
     for (int k = 0; k < p->dim; k++) {
-        int held = !o->quasi_static;
+        int held = !(o->flags & PG_SOLVER_QUASI_STATIC);
         for (size_t l = 0; l < p->nload; l++) {
             held |= pg_load_prescribes (&p->load[l]) && !pg_load_turns (&p->load[l]) && p->load[l].value[k];
-            moving |= acts (p, &p->load[l], k, o->quasi_static ? 1 : o->end)
+            moving |= acts (p, &p->load[l], k, (o->flags & PG_SOLVER_QUASI_STATIC) ? 1 : o->end)
                       || p->load[l].kind == PG_PRESSURE;
         }
         everywhere &= held;
@@ -73,7 +73,7 @@ static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg
                 report, "nothing holds the body along %c: no displacement along %c is prescribed anywhere",
                 "xyz"[k], "xyz"[k]);
     }
-    if (everywhere && o->quasi_static && p->nload && may_turn (p))
+    if (everywhere && (o->flags & PG_SOLVER_QUASI_STATIC) && p->nload && may_turn (p))
         pg_statistics_warn (
             report,
             "nothing keeps the body from turning: the prescribed displacements leave a rotation free");

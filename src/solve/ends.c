@@ -18,9 +18,11 @@ void pg_solver_progress (const pg_solver *s, const pg_state *state, pg_progress 
     *out = (pg_progress) { .event = o->event, .stiffness = NAN, .damage = NAN };
     if (o->stop_set && b->looked) out->damage = b->nearest;
     if (s->type->progress)
-        offer (out, s->type->progress (s, state), o->marching ? "the time steps" : "the stages", 1);
+        offer (out, s->type->progress (s, state),
+               (o->flags & PG_SOLVER_EXPLICIT) ? "the time steps" : "the stages", 1);
     else if (!o->event)
-        offer (out, (double) state->step / (double) o->steps, o->quasi_static ? "the load" : "the time", 1);
+        offer (out, (double) state->step / (double) o->steps,
+               (o->flags & PG_SOLVER_QUASI_STATIC) ? "the load" : "the time", 1);
     if (!o->event) return;
     if (s->secant > 0) out->stiffness = s->secant;
     offer (out, fmax (s->top_factor, (double) (s->next_level - 1) / (double) o->levels), "the load",

@@ -269,7 +269,8 @@ pg_status explicit_lost (const pg_solver *s, const pg_state *state, double t)
                      "or prescribed motions are too "
                      "large for it, or breaking has made the body stiffer",
                      i / components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0,
-                     s->options.quasi_static ? "load factor" : "t =", t, s->options.quasi_static ? "" : " s");
+                     (s->options.flags & PG_SOLVER_QUASI_STATIC) ? "load factor" : "t =", t,
+                     (s->options.flags & PG_SOLVER_QUASI_STATIC) ? "" : " s");
 }
 
 /* ---- rows and levels ----------------------------------------------------------------------------------- */
@@ -309,7 +310,7 @@ pg_status explicit_end (pg_solver *s, const pg_state *state, int last, const cha
     pg_status status = PG_OK;
     int arrived;
     PG_TRY (break_loop_arrived (&s->break_loop, state, state->d, &arrived));
-    const char *unit = s->options.quasi_static ? "" : " s";
+    const char *unit = (s->options.flags & PG_SOLVER_QUASI_STATIC) ? "" : " s";
     if (arrived)
         pg_statistics_warn (&s->report, "the crack has arrived at %s: the run ends at %s %.6g%s",
                             s->options.stop_set->name, what, t, unit);

@@ -61,6 +61,7 @@ typedef struct {
     int    settle, launch;
 } sweep;
 typedef void (*sweep_range) (const sweep *w, size_t first, size_t last, double *sum);
+void      march_read    (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
 pg_status march_prepare (pg_solver *s);
 pg_status march_start   (pg_solver *s, pg_state *state);
 pg_status march_step    (pg_solver *s, pg_state *state, pg_step *step, sweep_range range, int staggered);

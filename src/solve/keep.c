@@ -334,7 +334,7 @@ pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
     PG_TRY (keep_state (state, "state", k));
     PG_TRY (keep_state (s->backup, "backup", k));
     PG_TRY (keep_solver (s, k));
-    PG_TRY (keep_system (&s->break_loop.system, s->type->way == SOLVES, k));
+    PG_TRY (keep_system (&s->break_loop.system, (s->type->flags & PG_SOLVER_IMPLICIT) != 0, k));
     if (s->type->keep) PG_TRY (s->type->keep (s, k));
     if (k->reading) PG_TRY (rebuild (s, state));
 done:

@@ -104,7 +104,8 @@ static pg_status move (pg_solver *s, pg_state *state, sweep_range range, int set
     pg_status status = PG_OK;
     motion *m = s->motion;
     const pg_system *sys = &s->break_loop.system;
-    double t0 = pg_seconds (), total[SUMS], c = s->options.rayleigh_mass, dt = s->options.dt;
+    double t0 = pg_seconds (), total[SUMS], c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
+           dt = s->options.dt;
     sweeping all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, dt, c,
                        settle, launch },
                      range,
@@ -177,7 +178,8 @@ done:
 static void inertia (pg_solver *s, const pg_state *state, int staggered, double *out)
 {
     const pg_system *sys = &s->break_loop.system;
-    double c = s->options.rayleigh_mass, half = staggered ? 0.5 * s->options.dt : 0;
+    double c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
+           half = staggered ? 0.5 * s->options.dt : 0;
     for (size_t i = 0; i < sys->ndof; i++)
         out[i] = -sys->mass[i] * (state->a[i] + c * (state->v[i] - half * state->a[i]));
     for (size_t k = 0; c > 0 && k < s->motion->nheld; k++)
@@ -208,7 +210,7 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
     pg_status status = PG_OK;
     motion *m = s->motion;
     pg_system *sys = &s->break_loop.system;
-    double dt = s->options.dt, c = s->options.rayleigh_mass, kinetic = 0;
+    double dt = s->options.dt, c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass, kinetic = 0;
     PG_TRY (explicit_follow (s, 0, 0, dt));
     for (size_t k = 0; k < m->nheld; k++) {
         size_t i = m->held[k];
@@ -341,4 +343,18 @@ int march_done (const pg_solver *s, const pg_state *state)
 double march_progress (const pg_solver *s, const pg_state *state)
 {
     return (double) (state->iterations + s->break_loop.round) / (double) s->options.time_steps;
+}
+
+/* ---- options ------------------------------------------------------------------------------------------- */
+void march_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    PG_OWN (pg_explicit_options, o)->rayleigh_mass = pg_scene_number (scene, "solver.rayleigh.mass");
+    if (strcmp (pg_scene_text (scene, "solver.mass"), "consistent") == 0)
+        pg_scene_fault (scene, "solver.mass", "%s needs the lumped mass", o->kind);
+    if (pg_scene_number (scene, "solver.rayleigh.stiffness") > 0)
+        pg_scene_fault (
+            scene, "solver.rayleigh.stiffness",
+            "%s is damped by the mass alone: damping by the stiffness would shrink the stable time step",
+            o->kind);
+    options_read_times (o, problem, scene);
 }

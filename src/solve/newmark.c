@@ -17,7 +17,8 @@ typedef struct { double b[8]; } coefficients;
 
 static coefficients coefficients_of (const pg_solver_options *o)
 {
-    double dt = o->dt, be = o->beta, ga = o->gamma;
+    const pg_newmark_options *own = PG_OWN (pg_newmark_options, o);
+    double dt = o->dt, be = own->beta, ga = own->gamma;
     return (coefficients){ { 1 / (be * dt * dt), 1 / (be * dt), 1 / (2 * be), ga / (be * dt), ga / be,
                              dt * (ga / (2 * be) - 1), dt * (1 - ga), ga * dt } };
 }
@@ -59,7 +60,8 @@ static void add_inertia (void *context, const double *d, double *residual, doubl
     const course *m = context;
     pg_system *sys = &m->s->break_loop.system;
     const pg_state *f = m->from;
-    double *v = m->s->work1, *a = m->s->work3, size = 0, parts = 0, alpha = m->s->options.alpha;
+    double *v = m->s->work1, *a = m->s->work3, size = 0, parts = 0,
+           alpha = PG_OWN (pg_newmark_options, &m->s->options)->alpha;
     rates (m, d, v, a);
     newmark_damp (m->s, v, residual);
     for (size_t i = 0; alpha != 0 && i < sys->ndof; i++)
@@ -76,10 +78,11 @@ static void add_inertia (void *context, const double *d, double *residual, doubl
 
 static const dynamics *newmark_dynamics (pg_solver *s)
 {
-    double b[8], share = 1 + s->options.alpha;
+    const pg_newmark_options *own = PG_OWN (pg_newmark_options, &s->options);
+    double b[8], share = 1 + own->alpha;
     pg_newmark_coefficients (&s->options, b);
-    s->dyn.k = share * (1 + b[3] * s->options.rayleigh_stiffness);
-    s->dyn.m = b[0] + share * b[3] * s->options.rayleigh_mass;
+    s->dyn.k = share * (1 + b[3] * own->rayleigh_stiffness);
+    s->dyn.m = b[0] + share * b[3] * own->rayleigh_mass;
     return &s->dyn;
 }
 
@@ -97,7 +100,7 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     if (b->round == 0) predict (&m, state->d);
     PG_TRY (equilibrate (b, state, t, state->d, &dyn, step));
     rates (&m, state->d, state->v, state->a);
-    if (s->options.alpha != 0) PG_TRY (newmark_remember (s, t, state));
+    if (PG_OWN (pg_newmark_options, &s->options)->alpha != 0) PG_TRY (newmark_remember (s, t, state));
     s->report.energy_kinetic = newmark_kinetic (s, state->v);
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (s->report.energy_strain + s->report.energy_kinetic - b->stored0);
@@ -117,5 +120,44 @@ done:
     return status;
 }
 
-const pg_solver_type pg_solver_newmark = { "newmark", "implicit dynamics, Newmark's method", newmark_start,
-                                           newmark_step, .dynamics = newmark_dynamics };
+/* ---- the entry ----------------------------------------------------------------------------------------- */
+static void newmark_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    const pg_force_type *force = pg_force_find (problem->force);
+    pg_newmark_options *own = PG_OWN (pg_newmark_options, o);
+    options_read_times (o, problem, scene);
+    own->rayleigh_mass = pg_scene_number (scene, "solver.rayleigh.mass");
+    own->rayleigh_stiffness = pg_scene_number (scene, "solver.rayleigh.stiffness");
+    own->consistent = strcmp (pg_scene_text (scene, "solver.mass"), "consistent") == 0;
+    if (own->consistent && force && !force->mass_matrix)
+        pg_scene_fault (scene, "solver.mass", "force: %s has no consistent mass: use lumped", problem->force);
+    own->alpha = pg_scene_number (scene, "solver.alpha");
+    own->beta = pg_scene_given (scene, "solver.beta") ? pg_scene_number (scene, "solver.beta")
+                                           : (1 - own->alpha) * (1 - own->alpha) / 4;
+    own->gamma = pg_scene_given (scene, "solver.gamma") ? pg_scene_number (scene, "solver.gamma")
+                                                        : 0.5 - own->alpha;
+    if (own->gamma > 2 * own->beta)
+        pg_scene_fault (scene, "solver.beta", "newmark is unconditionally stable only for 2 beta >= gamma");
+}
+
+#define ROW PG_SOLVER_KEY
+static const pg_key keys[] = {
+    ROW ("solver.alpha", PG_NUMBER, "1", "[-0.3333333333333334, 0]", "0", NULL,
+         "Numerical damping of Hilber, Hughes and Taylor; 0 none, -0.05 light, -1/3 most. It damps "
+         "what the time step does not resolve."),
+    ROW ("solver.beta", PG_NUMBER, "1", "(0, 1]", "", NULL,
+         "Parameter; default (1 - alpha)^2 / 4, so 0.25 without alpha."),
+    ROW ("solver.gamma", PG_NUMBER, "1", "[0.5, 1.5]", "", NULL, "Parameter; default 0.5 - alpha."),
+};
+static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
+
+const pg_solver_type pg_solver_newmark = {
+    .name = "newmark",
+    .summary = "implicit dynamics, Newmark's method",
+    .flags = PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY,
+    .keys = { &table, &solver_keys_breaking, &solver_keys_linear, &solver_keys_step, &solver_keys_time },
+    .read = newmark_read,
+    .start = newmark_start,
+    .step = newmark_step,
+    .dynamics = newmark_dynamics,
+};

@@ -15,7 +15,8 @@ static const pg_sparse *elimination (const pg_system *sys)
 void newmark_damp (pg_solver *s, const double *v, double *residual)
 {
     pg_system *sys = &s->break_loop.system;
-    double *Kv = s->work2, cm = s->options.rayleigh_mass, ck = s->options.rayleigh_stiffness;
+    const pg_newmark_options *own = PG_OWN (pg_newmark_options, &s->options);
+    double *Kv = s->work2, cm = own->rayleigh_mass, ck = own->rayleigh_stiffness;
     system_add_mass (sys, -cm, v, residual);
     if (ck == 0) return;
     system_multiply (sys, v, Kv);
@@ -159,9 +160,9 @@ pg_status newmark_start (pg_solver *s, pg_state *state)
     s->next_level = 1;
     if (!s->work3) PG_ALLOC (s->work3, ndof);
     if (!s->work4) PG_ALLOC (s->work4, 3 * ndof);
-    PG_TRY (system_mass (sys));
+    PG_TRY (system_mass (sys, PG_OWN (pg_newmark_options, &s->options)->consistent));
     if (!s->support) PG_ALLOC (s->support, 3 * ndof);
-    if (s->options.alpha != 0 && !s->force0) PG_ALLOC (s->force0, ndof);
+    if (PG_OWN (pg_newmark_options, &s->options)->alpha != 0 && !s->force0) PG_ALLOC (s->force0, ndof);
     if (state->step > 0) goto done;
     for (size_t i = 0; i < ndof; i++)
         if (!(sys->mass[i] > 0))

@@ -14,25 +14,45 @@ static pg_status prepare (pg_solver *s)
     struct relaxation *x = s->motion->relaxation;
     x->dt = s->options.dt;
     for (size_t i = 0; i < sys->ndof; i++) x->mass[i] = sys->mass[i];
-    if (s->options.damping > 0) {
+    if (PG_OWN (pg_stages_options, &s->options)->damping > 0) {
         PG_ALLOC (x->rate, sys->ndof);
         for (size_t i = 0; i < sys->ndof; i++)
-            x->rate[i] = s->options.damping * s->problem->cloud.volume[i / components]
-                         / sys->mass[i / components * components];
+            x->rate[i] = PG_OWN (pg_stages_options, &s->options)->damping
+                         * s->problem->cloud.volume[i / components] / sys->mass[i / components * components];
     }
     PG_TRY (relaxation_stages (s));
 done:
     return status;
 }
 
-const pg_solver_type pg_solver_relax = { "relax",
-                                         "quasi-static stages by damped relaxation",
-                                         relaxation_start,
-                                         relaxation_step,
-                                         relaxation_done,
-                                         relaxation_free,
-                                         .way = RELAXES,
-                                         .prepare = prepare,
-                                         .refused = relaxation_refused,
-                                         .keep = relaxation_keep,
-                                         .progress = relaxation_progress };
+static void read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    relaxation_read (o, problem, scene);
+    o->dt = options_number (scene, "solver.dt");
+    PG_OWN (pg_stages_options, o)->damping = options_number (scene, "solver.damping");
+}
+
+#define ROW PG_SOLVER_KEY
+static const pg_key keys[] = {
+    ROW ("solver.damping", PG_NUMBER, "kg/m^3/s", "(0, inf)", "", NULL,
+         "Artificial damping C; found anew at every iteration from the lowest frequency (Rayleigh's "
+         "quotient) if not given."),
+};
+static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
+
+const pg_solver_type pg_solver_relax = {
+    .name = "relax",
+    .summary = "quasi-static stages by damped relaxation",
+    .flags = PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED | PG_SOLVER_NEEDS_DENSITY,
+    .keys = { &table, &solver_keys_step, &solver_keys_stages, &solver_keys_breaking },
+    .read = read,
+    .prepare = prepare,
+    .start = relaxation_start,
+    .step = relaxation_step,
+    .done = relaxation_done,
+    .refused = relaxation_refused,
+    .free = relaxation_free,
+    .keep = relaxation_keep,
+    .progress = relaxation_progress,
+    .manner = relaxation_manner,
+};

@@ -14,6 +14,8 @@ static const double memory[2] = { 0.98, 0.9 };
 static const double share = 0.5;
 static const double arrival = 1e-2;  /* imbalance at which the load of a stage has come to act */
 
+static pg_stages_options *stages_of (const pg_solver *s) { return PG_OWN (pg_stages_options, &s->options); }
+
 pg_status relaxation_create (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -62,7 +64,6 @@ static pg_status limit_stages (pg_solver *s)
 {
     pg_status status = PG_OK;
     motion *m = s->motion;
-    pg_solver_options *o = &s->options;
     const struct relaxation *x = m->relaxation;
     double most = 0;
     if (!m->P || !breaks (s)) goto done;
@@ -77,12 +78,12 @@ static pg_status limit_stages (pg_solver *s)
                               "the load would need %g stages so that its mere arrival breaks no bond: it is "
                               "too large for these limits",
                               needed));
-    if (needed > (double) o->stages) {
+    if (needed > (double) stages_of (s)->stages) {
         pg_statistics_warn (&s->report,
                             "the load comes in %.0f stages instead of %ld, so that its mere arrival breaks "
                             "no bond (Shen 2016 eq (22))",
-                            needed, o->stages);
-        o->stages = (long) needed;
+                            needed, stages_of (s)->stages);
+        stages_of (s)->stages = (long) needed;
     }
 done:
     return status;
@@ -92,11 +93,13 @@ pg_status relaxation_stages (pg_solver *s)
 {
     pg_status status = PG_OK;
     pg_solver_options *o = &s->options;
-    if (o->stages < 1) PG_FAIL (PG_E_USAGE, "%s needs a number of stages", o->kind);
-    if (!(o->imbalance > 0)) PG_FAIL (PG_E_USAGE, "%s needs an imbalance to end at", o->kind);
+    if (stages_of (s)->stages < 1) PG_FAIL (PG_E_USAGE, "%s needs a number of stages", o->kind);
+    if (!(stages_of (s)->imbalance > 0)) PG_FAIL (PG_E_USAGE, "%s needs an imbalance to end at", o->kind);
     PG_TRY (limit_stages (s));
-    o->steps = o->hold ? o->stages : 0;
-    for (long n = 0; !o->hold && n < o->stages; n = explicit_row (s, o->stages, n)) o->steps++;
+    o->steps = stages_of (s)->hold ? stages_of (s)->stages : 0;
+    for (long n = 0; !stages_of (s)->hold && n < stages_of (s)->stages;
+         n = explicit_row (s, stages_of (s)->stages, n))
+        o->steps++;
 done:
     return status;
 }
@@ -115,7 +118,7 @@ done:
 
 static double factor_at (const pg_solver *s, long stage)
 {
-    return stage == s->options.stages ? 1 : (double) stage / (double) s->options.stages;
+    return stage == stages_of (s)->stages ? 1 : (double) stage / (double) stages_of (s)->stages;
 }
 
 /* ---- one iteration ------------------------------------------------------------------------------------- */
@@ -178,7 +181,6 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     motion *m = s->motion;
     struct relaxation *x = m->relaxation;
     pg_system *sys = &s->break_loop.system;
-    const pg_solver_options *o = &s->options;
     double reference = 0, total[SUMS];
     PG_TRY (explicit_force (s, state, t, breaking, &reference));
     x->broke = breaking && s->break_loop.changes.n > 0;
@@ -188,7 +190,7 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
         m->push[k] = -sys->residual[m->held[k]], sys->residual[m->held[k]] = 0;
     if (m->P) reference = 0;
     reference = fmax (reference, fmax (m->P ? norm (m->P, sys->ndof) : 0, norm (m->push, m->nheld)));
-    if (x->armed || !o->hold) x->most = fmax (x->most, reference);
+    if (x->armed || !stages_of (s)->hold) x->most = fmax (x->most, reference);
     reference = fmax (reference, least * x->most);
     iterating all = { x, state->d, state->v, state->a, sys->residual, m->inverse, m->sum, 0, sys->ndof, 0 };
     pg_parallel (s->problem->threads, m->nblock, measure, &all);
@@ -198,8 +200,8 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     x->imbalance = reference > 0 ? size / reference : size > 0 ? 1 : 0;
     if (x->resting) x->stiff = x->heavy = 0;
     else if (!x->broke && total[SUM_MASS] > 0) {
-        x->stiff = memory[o->hold] * x->stiff + total[SUM_STIFF],
-        x->heavy = memory[o->hold] * x->heavy + total[SUM_MASS];
+        x->stiff = memory[stages_of (s)->hold] * x->stiff + total[SUM_STIFF],
+        x->heavy = memory[stages_of (s)->hold] * x->heavy + total[SUM_MASS];
         x->c = fmin (1.9 / x->dt, fmax (x->floor, 2 * sqrt (fmax (0, x->stiff / (x->heavy * x->dt)))));
     }
     s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
@@ -312,7 +314,7 @@ static pg_status too_long (const pg_solver *s, const pg_state *state, long itera
                      "(%g, %g, %g) m: probably a loaded part has come loose; try prescribed displacements or "
                      "more solver.stages, else raise "
                      "solver.max_iterations or solver.imbalance",
-                     iterations, s->motion->relaxation->imbalance, s->options.imbalance,
+                     iterations, s->motion->relaxation->imbalance, stages_of (s)->imbalance,
                      worst / (size_t) sys->components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0);
 }
 
@@ -340,7 +342,7 @@ static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
         int tested = passing && x->armed;
         PG_TRY (examine (s, state, t, tested));
         if (x->broke) PG_TRY (book_pending (s));
-        if (x->imbalance <= o->imbalance) {
+        if (x->imbalance <= stages_of (s)->imbalance) {
             size_t died = x->broke;
             if (can && !tested) {
                 if (!x->armed) PG_TRY (arm (s, state, t, 1));
@@ -377,7 +379,7 @@ static pg_status step_held (pg_solver *s, pg_state *state, pg_step *step)
     state->factor = t;
     while ((double) s->next_level / (double) s->options.levels <= t * (1 + 1e-12))
         s->next_level++, step->level = 1;
-    PG_TRY (explicit_end (s, state, state->step + 1 >= s->options.stages, "load factor", t));
+    PG_TRY (explicit_end (s, state, state->step + 1 >= stages_of (s)->stages, "load factor", t));
 done:
     return status;
 }
@@ -410,7 +412,7 @@ static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     struct relaxation *x = s->motion->relaxation;
-    long n = state->iterations + b->round, last = explicit_row (s, s->options.stages, state->iterations);
+    long n = state->iterations + b->round, last = explicit_row (s, stages_of (s)->stages, state->iterations);
     if (b->round == 0) b->nbroken = 0, x->worst = 0;
     explicit_release (s, state);
     s->motion->fresh = 0;
@@ -435,8 +437,8 @@ static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
     b->round = 0;
     step->residual = x->worst;
     state->factor = t;
-    step->level = explicit_level (s, s->options.stages, n);
-    PG_TRY (explicit_end (s, state, n == s->options.stages, "load factor", t));
+    step->level = explicit_level (s, stages_of (s)->stages, n);
+    PG_TRY (explicit_end (s, state, n == stages_of (s)->stages, "load factor", t));
     if (s->finished)
         pg_statistics_warn (&s->report,
                             "hold: off takes one iteration a stage: its states are not in equilibrium, the "
@@ -450,7 +452,7 @@ pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
-    PG_TRY (s->options.hold ? step_held (s, state, step) : step_on (s, state, step));
+    PG_TRY (stages_of (s)->hold ? step_held (s, state, step) : step_on (s, state, step));
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);
     state->time = step->time = step->factor = state->factor;
@@ -463,13 +465,13 @@ done:
 
 int relaxation_done (const pg_solver *s, const pg_state *state)
 {
-    return (s->options.hold ? state->step : state->iterations) >= s->options.stages;
+    return (stages_of (s)->hold ? state->step : state->iterations) >= stages_of (s)->stages;
 }
 
 double relaxation_progress (const pg_solver *s, const pg_state *state)
 {
-    return (double) (s->options.hold ? state->step : state->iterations + s->break_loop.round)
-           / (double) s->options.stages;
+    return (double) (stages_of (s)->hold ? state->step : state->iterations + s->break_loop.round)
+           / (double) stages_of (s)->stages;
 }
 
 void relaxation_refused (pg_solver *s)
@@ -492,4 +494,25 @@ pg_status relaxation_keep (pg_solver *s, const pg_keeper *k)
     x->broke = (int) count[3];
 done:
     return status;
+}
+
+/* ---- options ------------------------------------------------------------------------------------------- */
+void relaxation_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    pg_stages_options *own = PG_OWN (pg_stages_options, o);
+    (void) problem;
+    own->stages = pg_scene_integer (scene, "solver.stages");
+    own->hold = pg_scene_bool (scene, "solver.hold");
+    own->imbalance = pg_scene_number (scene, "solver.imbalance");
+    if (!pg_scene_given (scene, "solver.break")) o->break_mode = PG_BREAK_PASSING;
+    if (!own->hold && o->break_mode != PG_BREAK_PASSING)
+        pg_scene_fault (scene, "solver.break",
+                        "%s goes by balanced states, which there are none with hold: off",
+                        pg_scene_text (scene, "solver.break"));
+}
+
+const char *relaxation_manner (const pg_solver_options *o)
+{
+    return PG_OWN (pg_stages_options, o)->hold ? ", each stage held until balanced"
+                                               : ", one iteration a stage";
 }

@@ -24,6 +24,8 @@ struct relaxation {
 };
 pg_status relaxation_create  (pg_solver *s);  /* s->motion with it; masses and dt are the caller's */
 pg_status relaxation_stages  (pg_solver *s);  /* limit (22), number of steps; after masses and dt */
+void      relaxation_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
+const char *relaxation_manner (const pg_solver_options *o);
 void      relaxation_free    (pg_solver *s);
 pg_status relaxation_start   (pg_solver *s, pg_state *state);
 pg_status relaxation_step    (pg_solver *s, pg_state *state, pg_step *step);

@@ -5,7 +5,7 @@
 #include "perigal/solve.h"
 
 /* ---- system.c: equilibrium of a force at given alive bits ---------------------------------------------- */
-typedef struct {                                       /* what inertia and damping add (NULL: static) */
+typedef struct pg_dynamics {                           /* what inertia and damping add (NULL: static) */
     double k, m;                                       /* matrix = k K + m M */
     /* reference: at least its size */
     void (*add) (void *context, const double *d, double *residual, double *reference);
@@ -73,7 +73,8 @@ pg_status system_remember_alive (pg_system *s);        /* in `factored` */
 pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 
 /* mass.c: y += factor M x; d += factor diag M; value += factor M */
-pg_status system_mass (pg_system *s);                  /* after the first refresh */
+/* After the first refresh; consistent: by the force, not lumped. */
+pg_status system_mass (pg_system *s, int consistent);
 void system_add_mass (const pg_system *s, double factor, const double *x, double *y);
 void system_add_mass_diagonal (const pg_system *s, double factor, double *d);
 void system_add_mass_matrix (const pg_system *s, double factor, const pg_sparse *K, double *value);
@@ -120,21 +121,26 @@ pg_status break_loop_book    (break_loop *b, double scale);
 pg_status break_loop_arrived (break_loop *b, const pg_state *state, const double *d, int *arrived);
 
 /* ---- methods ------------------------------------------------------------------------------------------- */
-typedef struct {
-    const char *name, *summary;
-    pg_status (*start) (pg_solver *s, pg_state *state);           /* before the first step */
-    pg_status (*step)  (pg_solver *s, pg_state *state, pg_step *step);
-    int       (*done)  (const pg_solver *s, const pg_state *state);
-    void      (*free)  (pg_solver *s);
-    const dynamics *(*dynamics) (pg_solver *s);        /* what the matrix holds besides K (NULL: nothing) */
-    enum { SOLVES, MARCHES, RELAXES } way;  /* by linear systems; explicit time steps; stages of relaxation */
-    pg_status (*prepare) (pg_solver *s);  /* when the solver is made: settles s->options; NULL: nothing */
-    void      (*refused) (pg_solver *s);               /* the state goes back to s->backup; NULL: nothing */
-    /* what it carries from step to step; NULL: nothing */
-    pg_status (*keep)    (pg_solver *s, const pg_keeper *keeper);
-    double    (*progress) (const pg_solver *s, const pg_state *state); /* NULL: steps done of options.steps */
-} pg_solver_type;
-const pg_solver_type *solver_type_find (const char *name);             /* NULL: unknown */
+/* A row of a table of keys without a catalogue of its own. */
+#define PG_SOLVER_KEY(path, kind, unit, range, fallback, choices, doc) \
+    { path, kind, unit, range, fallback, choices, NULL, NULL, doc }
+
+/* Keys that several solvers share (keys.c): how bonds break between solves; the linear systems; the time
+ * step; the time axis and Rayleigh's damping; stages of the load. */
+extern const pg_key_table solver_keys_breaking, solver_keys_linear, solver_keys_step, solver_keys_time,
+    solver_keys_stages;
+
+/* "adr, relax": the names of all entries that fit. */
+void solver_names_that (int (*fits) (const pg_solver_type *type, const void *context), const void *context,
+                        char *text, size_t size);
+
+/* ---- options.c: parts of `read` of several solvers ----------------------------------------------------- */
+/* A number or a whole number of the scene, 0 where it is not given. */
+double options_number  (const pg_scene *scene, const char *key);
+long   options_integer (const pg_scene *scene, const char *key);
+/* solver.dt, end and time_steps. The caller says whether the step may be left to the solver: then one of the
+ * last two is enough; else two of the three are needed. */
+void   options_read_times (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
 /* PG_E_SCENE: what is found wrong with a key while the solver is made, placed in the scene if options.scene
  * knows it. */
 pg_status solver_fault (const pg_solver *s, const char *key, const char *format, ...)

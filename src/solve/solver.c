@@ -1,45 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The solver object: the list of methods, steps with refusal, the report of the run. */
+ * The solver object: steps with refusal, the report of the run. */
 #include "solve.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-#define PG_SOLVER(name) extern const pg_solver_type pg_solver_##name;
-#include "list.h"
-#undef PG_SOLVER
-
-static const pg_solver_type *const entries[] = {
-#define PG_SOLVER(name) &pg_solver_##name,
-#include "list.h"
-#undef PG_SOLVER
-};
-enum { COUNT = sizeof entries / sizeof *entries };
-
-const char *pg_solver_names (void)
-{
-    static char names[256];
-    size_t at = 0;
-    if (names[0]) return names;
-    char text[256];
-    for (size_t i = 0; i < COUNT; i++)
-        at += (size_t) snprintf (text + at, sizeof text - at, "%s%s", i ? "|" : "", entries[i]->name);
-    memcpy (names, text, sizeof names);
-    return names;
-}
-
-const pg_solver_type *solver_type_find (const char *name)
-{
-    for (size_t i = 0; i < COUNT; i++) if (strcmp (entries[i]->name, name) == 0) return entries[i];
-    return NULL;
-}
-
-const char *pg_solver_summary (const char *name)
-{
-    const pg_solver_type *type = solver_type_find (name);
-    return type ? type->summary : NULL;
-}
 
 pg_status solver_fault (const pg_solver *s, const char *key, const char *format, ...)
 {
@@ -67,12 +32,11 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     pg_solver *s = NULL;
     PG_ALLOC (s, 1);
     s->problem = problem, s->options = *options;
-    s->type = solver_type_find (options->kind);
+    s->type = pg_solver_find (options->kind);
     if (!s->type) PG_FAIL (PG_E_USAGE, "there is no solver %s", options->kind);
-    const char *why = force->refuses ? force->refuses (problem, options->kind) : NULL;
+    const char *why = force->refuses ? force->refuses (problem, s->type->flags) : NULL;
     if (why) PG_FAIL (PG_E_USAGE, "%s", why);
-    s->options.quasi_static = pg_kind_quasi_static (options->kind);
-    s->options.marching = s->type->way == MARCHES, s->options.staged = s->type->way == RELAXES;
+    s->options.flags = s->type->flags;
     pg_system *sys = &s->break_loop.system;
     sys->problem = problem, sys->force = force, sys->options = &s->options, sys->report = &s->report;
     pg_solver_doubts (&s->report, problem, &s->options);
@@ -146,7 +110,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
 done:
     if (status != PG_OK && s->started && !s->break_loop.stopped) {
         char text[2048];
-        int quasi = s->options.quasi_static;
+        int quasi = (s->options.flags & PG_SOLVER_QUASI_STATIC);
         snprintf (text, sizeof text, "%s", pg_last_error ());
         /* fields asked for now are those of the accepted state */
         system_refresh (&s->break_loop.system, s->backup, NULL);

@@ -19,7 +19,7 @@ static pg_status static_start (pg_solver *s, pg_state *state)
     double residual;
     PG_TRY (system_refresh (&s->break_loop.system, state, NULL));
     s->next_level = 1;
-    if (s->options.event && s->options.affine) {
+    if (s->options.event && PG_OWN (pg_static_options, &s->options)->affine) {
         PG_ALLOC (s->unit, state->ndof);
         PG_ALLOC (s->base, state->ndof);
         memcpy (s->unit, state->d, state->ndof * sizeof *s->unit);
@@ -111,8 +111,10 @@ pg_status event_stops (pg_solver *s, const pg_state *state, double factor, doubl
                             o->stop_set->name, state->events, factor);
         s->finished = 1;
     }
+    double least = PG_OWN (pg_static_options, o)->stop_stiffness;
     double share = s->secant = secant / s->secant0;
-    if (s->problem->nload && (share < o->stop_stiffness || share > 1 / fmax (o->stop_stiffness, 1e-12))) {
+    if (s->problem->nload
+        && (share < least || share > 1 / fmax (least, 1e-12))) {
         pg_statistics_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g",
                             state->events, factor);
         s->finished = 1;
@@ -222,7 +224,7 @@ static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     if (s->ended != PG_OK) return pg_error (s->ended, PG_HERE, "%s", s->why);
     pg_status status = !s->options.event   ? step_fixed (s, state, step)
-                       : s->options.affine ? affine_step (s, state, step)
+                       : PG_OWN (pg_static_options, &s->options)->affine ? affine_step (s, state, step)
                                            : step_event (s, state, step);
     if (status == PG_OK && !s->options.event && s->break_loop.work_balance.reaction)
         memcpy (s->reaction, s->break_loop.work_balance.reaction,
@@ -230,6 +232,54 @@ static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
     return status;
 }
 
-const pg_solver_type pg_solver_static_ = { "static",
-                                           "quasi-static equilibrium, event by event or in fixed load steps",
-                                           static_start, static_step, .way = SOLVES };
+/* ---- the entry ----------------------------------------------------------------------------------------- */
+static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
+
+static void static_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    const char *stepping = pg_scene_text (scene, "solver.stepping");
+    int proportional = pg_problem_proportional (problem);
+    pg_static_options *own = PG_OWN (pg_static_options, o);
+    own->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
+    o->steps = pg_scene_integer (scene, "solver.steps");
+    o->event = is (stepping, "event")
+               || (is (stepping, "auto") && proportional && o->break_mode != PG_BREAK_ALL);
+    own->affine = o->event && !proportional;
+    if (own->affine && !pg_problem_affine (problem))
+        pg_scene_fault (scene, "solver.stepping",
+                        "event stepping needs loads that grow with the load factor (ramp: linear), stay "
+                        "(ramp: constant), or both: use fixed");
+    if (o->event && o->break_mode == PG_BREAK_ALL)
+        pg_scene_fault (scene, "solver.break", "all goes with stepping: fixed");
+    if (!pg_scene_given (scene, "solver.steps") && o->levels > o->steps) o->steps = o->levels;
+}
+
+static const char *static_manner (const pg_solver_options *o)
+{
+    return o->event ? ", event stepping" : ", fixed load steps";
+}
+
+#define ROW PG_SOLVER_KEY
+static const pg_key keys[] = {
+    ROW ("solver.stepping", PG_NAME, NULL, NULL, "auto", "auto|event|fixed",
+         "From break to break (event), or in equal load steps (fixed). event takes loads that grow "
+         "with the load factor (in closed form), stay constant (ramp: constant; the first "
+         "step is then at load factor 0), or both; auto: event when all loads are proportional."),
+    ROW ("solver.steps", PG_INTEGER, NULL, "[1, 100000000]", "20", NULL,
+         "Number of equal load steps, with stepping: fixed."),
+    ROW ("solver.stop.stiffness", PG_NUMBER, "1", "[0, 1)", "1e-3", NULL,
+         "Event stepping ends when breaking has brought the work per squared load factor below this share of "
+         "its first value (the body is apart)."),
+};
+static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
+
+const pg_solver_type pg_solver_static_ = {
+    .name = "static",
+    .summary = "quasi-static equilibrium, event by event or in fixed load steps",
+    .flags = PG_SOLVER_STATIC | PG_SOLVER_EVENTS,
+    .keys = { &table, &solver_keys_breaking, &solver_keys_linear },
+    .read = static_read,
+    .start = static_start,
+    .step = static_step,
+    .manner = static_manner,
+};

@@ -61,7 +61,8 @@ pg_status pg_first_break_find (pg_first_break *b, const pg_problem *p, const pg_
     pg_solver *solver = NULL;
     pg_state *state = NULL;
     pg_step step;
-    b->asked = 1, b->is_static = o->quasi_static && !o->staged, b->proportional = pg_problem_proportional (p);
+    b->asked = 1, b->is_static = (o->flags & PG_SOLVER_QUASI_STATIC) && !(o->flags & PG_SOLVER_STAGED),
+    b->proportional = pg_problem_proportional (p);
     once.event = 0, once.steps = once.levels = 1, once.stop_set = NULL;
     PG_ALLOC (none, p->nmaterial);
     bare.criterion = none;

@@ -61,7 +61,7 @@ static pg_status solve_and_measure (pg_trial *t, const char *folder, const pg_sc
     count (t, problem, state, pg_solver_report_now (solver));
     t->value[PG_TRIAL_WALL] = pg_seconds () - start, t->value[PG_TRIAL_CPU] = cpu_now (),
     t->value[PG_TRIAL_PEAK] = peak_now ();
-    PG_TRY (pg_trial_errors (t, scene, problem, solver, state, !options.quasi_static));
+    PG_TRY (pg_trial_errors (t, scene, problem, solver, state, !(options.flags & PG_SOLVER_QUASI_STATIC)));
 done:
     pg_result_free (&result);
     pg_state_free (&state);

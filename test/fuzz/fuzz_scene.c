@@ -58,8 +58,10 @@ static void advance (const pg_scene *scene, const pg_problem *problem)
     FUZZ_EXPECT (answered (status));
     /* break rounds take their time */
     options.max_iterations = options.max_iterations < 20 ? options.max_iterations : 20;
-    if (options.marching) options.end = 0, options.time_steps = 50;
-    if (options.staged && !options.hold && options.stages > 50) options.stages = 50;
+    if ((options.flags & PG_SOLVER_EXPLICIT)) options.end = 0, options.time_steps = 50;
+    if ((options.flags & PG_SOLVER_STAGED) && !PG_OWN (pg_stages_options, &options)->hold
+        && PG_OWN (pg_stages_options, &options)->stages > 50)
+        PG_OWN (pg_stages_options, &options)->stages = 50;
     if (status == PG_OK) {
         FUZZ_EXPECT (honest (status = pg_solver_create (&solver, problem, &options)) || answered (status));
         if (status == PG_OK) status = pg_state_create (&state, problem, pg_solver_components (solver));

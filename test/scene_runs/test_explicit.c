@@ -202,7 +202,7 @@ static void stages_are_raised_where_the_load_alone_would_break_bonds (void **sta
                                  "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: "
                                  "{x: 100 MPa}}]\nsolver: {kind: relax, stages: 1}\n");
     const pg_statistics *report = pg_solver_report_now (r.solver);
-    assert_true (pg_solver_settled (r.solver)->stages > 1);
+    assert_true (PG_OWN (pg_stages_options, pg_solver_settled (r.solver))->stages > 1);
     assert_int_equal (report->nwarning, 1);
     check_contains (report->warning[0], "instead of 1");
     clear (&r);

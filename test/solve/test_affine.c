@@ -105,7 +105,8 @@ static void without_a_constant_part_the_events_are_the_same (void **state)
                                 "  - {set: right, force: {x: 0}, ramp: constant}\nsolver: {stepping: event, "
                                 "max_events: %d}\noutput: {at: {levels: 1}}\n",
                           cases[c].nu, cases[c].keys, EVENTS);
-        assert_true (!a.options.affine && b.options.affine);
+        assert_true (!PG_OWN (pg_static_options, &a.options)->affine
+                     && PG_OWN (pg_static_options, &b.options)->affine);
         advance (&b);
         for (int e = 0; e < EVENTS; e++) {
             advance (&a), advance (&b);

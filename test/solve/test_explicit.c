@@ -61,7 +61,7 @@ static double oscillator_error (const char *kind, double c, long steps)
     linked l;
     the = (chain) { .n = 1, .k = 1, .ground = 100, .m = 1 };
     pg_solver_options o = options_of (kind, 2.0 / (double) steps, steps);
-    o.rayleigh_mass = c;
+    PG_OWN (pg_explicit_options, &o)->rayleigh_mass = c;
     link_up (&l, &o, &chain_type);
     l.state->d[0] = 0.3, l.state->v[0] = 2;
     run_all (&l);
@@ -94,7 +94,7 @@ static void both_writings_are_one_method (void **state)
         linked l;
         the = (chain) { .n = 20, .k = 1e5, .ground = 1e5, .m = 1 };
         pg_solver_options o = options_of (kinds[kind], 1e-3, 1000);
-        o.rayleigh_mass = 3;
+        PG_OWN (pg_explicit_options, &o)->rayleigh_mass = 3;
         link_up (&l, &o, &chain_type);
         for (size_t i = 0; i < 20; i++)
             l.state->d[i] = sin (3.0 * (double) i), l.state->v[i] = 100 * cos (5.0 * (double) i);
@@ -177,7 +177,7 @@ static void damping_and_loads_close_the_balance (void **state)
                            .push = swing,
                            .lead = held ? throw : NULL };
             pg_solver_options o = options_of (kinds[kind], 0, 3000);
-            o.rayleigh_mass = 4, o.rows = 7;
+            PG_OWN (pg_explicit_options, &o)->rayleigh_mass = 4, o.rows = 7;
             link_up (&l, &o, &chain_type);
             run_all (&l);
             const pg_statistics *r = pg_solver_report_now (l.solver);
@@ -341,7 +341,7 @@ static void final_state (const char *kind, long rows, int threads, int stops, do
     pg_step step;
     the = (chain) { .n = 130, .k = 1e4, .m = 1, .push = swing, .lead = throw };
     pg_solver_options o = options_of (kind, 0, 2500);
-    o.rows = rows, o.rayleigh_mass = 0.7;
+    o.rows = rows, PG_OWN (pg_explicit_options, &o)->rayleigh_mass = 0.7;
     link_up (&l, &o, &chain_type);
     l.problem.threads = threads;
     int left = stops;

@@ -81,10 +81,9 @@ static pg_solver_options options_of (double dt, long steps, double c)
                             .max_iterations = 10,
                             .dt = dt,
                             .end = dt * (double) steps,
-                            .beta = 0.25,
-                            .gamma = 0.5,
-                            .rayleigh_mass = c / the.m,
                             .levels = 1 };
+    *PG_OWN (pg_newmark_options,
+             &o) = (pg_newmark_options){ .beta = 0.25, .gamma = 0.5, .rayleigh_mass = c / the.m };
     return o;
 }
 
@@ -135,7 +134,8 @@ static void five_steps_of_the_damped_oscillator (void **state)
 static void coefficients (void **state)
 {
     (void) state;
-    pg_solver_options o = { .dt = 1e-4, .beta = 0.25, .gamma = 0.5 };
+    pg_solver_options o = { .dt = 1e-4 };
+    *PG_OWN (pg_newmark_options, &o) = (pg_newmark_options) { .beta = 0.25, .gamma = 0.5 };
     static const double expected[8] = { 4e8, 4e4, 2, 2e4, 2, 0, 5e-5, 5e-5 };
     double b[8];
     pg_newmark_coefficients (&o, b);
@@ -151,8 +151,11 @@ static double worst_error (double dt, long steps, double c, motion start, double
     static motion path[LONG + 1];
     the = (spring) { .k = 100, .m = 1 };
     pg_solver_options o = options_of (dt, steps, c);
-    if (by_stiffness) o.rayleigh_stiffness = c / the.k, o.rayleigh_mass = 0;
-    o.gamma = gamma, o.beta = 0.25 * (gamma + 0.5) * (gamma + 0.5);
+    if (by_stiffness)
+        PG_OWN (pg_newmark_options, &o)->rayleigh_stiffness = c / the.k,
+                                    PG_OWN (pg_newmark_options, &o)->rayleigh_mass = 0;
+    PG_OWN (pg_newmark_options, &o)->gamma = gamma,
+                                PG_OWN (pg_newmark_options, &o)->beta = 0.25 * (gamma + 0.5) * (gamma + 0.5);
     run (&o, free, start, path);
     double decay = 0.5 * c, omega = sqrt (100 - decay * decay), B = (start.v + decay * start.u) / omega,
            worst = 0;
@@ -249,7 +252,7 @@ static void a_huge_step_is_static (void **state)
     for (int free = 0; free < 2; free++) {
         the = (spring) { .k = 100, .m = 1, .p = 5, .hold = INFINITY };
         pg_solver_options o = options_of (6e7, 1, 0);
-        o.beta = 0.5, o.gamma = 1;
+        PG_OWN (pg_newmark_options, &o)->beta = 0.5, PG_OWN (pg_newmark_options, &o)->gamma = 1;
         run (&o, free, (motion) { 0 }, path);
         check_relative (path[1].u, 0.05, 1e-12);
     }

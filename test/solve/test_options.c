@@ -65,20 +65,22 @@ static void kinds_tell_what_they_do (void **state)
 {
     (void) state;
     pg_solver_options o = options_of (PULLED);
-    assert_true (o.quasi_static && !o.marching && !o.staged);
+    assert_true (o.flags == (PG_SOLVER_STATIC | PG_SOLVER_EVENTS));
     o = options_of (HELD "solver: {kind: newmark, dt: 1, end: 10}\n");
-    assert_true (!o.quasi_static && !o.marching && !o.staged);
+    assert_true (o.flags == (PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY));
     o = options_of (MOVED "solver: {kind: verlet, end: 10}\n");
-    assert_true (!o.quasi_static && o.marching && !o.staged);
+    assert_true (o.flags == (PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY));
     o = options_of (MOVED "solver: {kind: central, end: 10}\n");
-    assert_true (!o.quasi_static && o.marching && !o.staged);
+    assert_true (o.flags == (PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY));
     o = options_of (BONDS "solver: {kind: adr}\n");
-    assert_true (o.quasi_static && !o.marching && o.staged && o.hold && o.stages == 10
+    assert_true ((o.flags & ~PG_SOLVER_NEEDS_DENSITY) == (PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED)
+                 && PG_OWN (pg_stages_options, &o)->hold && PG_OWN (pg_stages_options, &o)->stages == 10
                  && o.break_mode == PG_BREAK_PASSING);
-    check_relative (o.imbalance, 1e-5, 1e-15);
+    check_relative (PG_OWN (pg_stages_options, &o)->imbalance, 1e-5, 1e-15);
     o = options_of (BONDS "solver: {kind: relax, hold: off, stages: 7, damping: 5e6, dt: 1 us}\n");
-    assert_true (o.quasi_static && !o.marching && o.staged && !o.hold && o.stages == 7);
-    check_relative (o.damping, 5e6, 1e-15);
+    assert_true ((o.flags & ~PG_SOLVER_NEEDS_DENSITY) == (PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED)
+                 && !PG_OWN (pg_stages_options, &o)->hold && PG_OWN (pg_stages_options, &o)->stages == 7);
+    check_relative (PG_OWN (pg_stages_options, &o)->damping, 5e6, 1e-15);
     check_relative (o.dt, 1e-6, 1e-15);
 }
 
@@ -101,7 +103,8 @@ static void explicit_times_from_two_of_three (void **state)
 static void newmark_coefficients_are_those_of_the_method (void **state)
 {
     (void) state;
-    pg_solver_options o = { .dt = 0.1, .beta = 0.3, .gamma = 0.55 };
+    pg_solver_options o = { .dt = 0.1 };
+    *PG_OWN (pg_newmark_options, &o) = (pg_newmark_options) { .beta = 0.3, .gamma = 0.55 };
     double b[8], goal[8] = { 1 / 0.003,  1 / 0.03, 1 / 0.6, 0.55 / 0.03, 0.55 / 0.3, 0.1 * (0.55 / 0.6 - 1),
                              0.1 * 0.45, 0.055 };
     pg_newmark_coefficients (&o, b);
@@ -117,7 +120,7 @@ static void break_modes_are_read (void **state)
     assert_int_equal (o.break_mode, PG_BREAK_FRACTION);
     check_relative (o.break_fraction, 0.05, 1e-15);
     assert_int_equal (o.max_events, 7);
-    assert_true (o.stop_stiffness == 0);
+    assert_true (PG_OWN (pg_static_options, &o)->stop_stiffness == 0);
     check_relative (o.stop_damage, 0.3, 1e-15);
     assert_int_equal (options_of (PULLED BREAKS "solver: {break: all}\n").break_mode, PG_BREAK_ALL);
 }
@@ -130,8 +133,9 @@ static void faults_name_key_and_reason (void **state)
     check_refused (PULLED "solver: {kind: newmark, dt: 1e-12, end: 1}\n", "time steps are too many");
     check_refused (PULLED "solver: {kind: newmark, dt: 1, end: 10, beta: 0.2, gamma: 0.5}\n",
                    "unconditionally stable only for 2 beta >= gamma");
-    assert_true (options_of (HELD BREAKS "solver: {stepping: event}\n").affine
-                 && !options_of (PULLED BREAKS).affine);
+    pg_solver_options held = options_of (HELD BREAKS "solver: {stepping: event}\n"),
+                      pulled = options_of (PULLED BREAKS);
+    assert_true (PG_OWN (pg_static_options, &held)->affine && !PG_OWN (pg_static_options, &pulled)->affine);
     check_refused (PLATE "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1}, "
                          "ramp: t^2}]\n" BREAKS "solver: {stepping: event}\n",
                    "solver.stepping = event: event stepping needs loads that grow with the load factor "

@@ -9,14 +9,13 @@ static pg_solver_options options_of (const char *kind, long stages, double imbal
 {
     pg_solver_options o = { .linear = "auto",
                             .tolerance = 1e-8,
-                            .stages = stages,
-                            .hold = 1,
-                            .imbalance = imbalance,
                             .levels = 1,
                             .max_iterations = 100000,
                             .max_events = 1000000,
                             .break_mode = PG_BREAK_PASSING };
     strcpy (o.kind, kind);
+    *PG_OWN (pg_stages_options,
+             &o) = (pg_stages_options){ .stages = stages, .hold = 1, .imbalance = imbalance };
     return o;
 }
 
@@ -34,7 +33,8 @@ static void equilibrium_under_a_load (void **state)
             the = (chain) { .n = 60, .k = 1e4, .ground = 1e4, .m = 3, .push = push };
             pg_solver_options o = options_of (kinds[kind], 1, 1e-11);
             double omega = sqrt (1e4 / 3) * 2 * sin (0.25 * 3.14159265358979 / 60.5);
-            o.damping = given ? 2 * 3 * omega : 0;     /* critical for the lowest frequency, volume 1 */
+            /* critical for the lowest frequency, volume 1 */
+            PG_OWN (pg_stages_options, &o)->damping = given ? 2 * 3 * omega : 0;
             link_up (&l, &o, &chain_type);
             run_all (&l);
             for (size_t i = 0; i < the.n; i++) check_relative (l.state->d[i], 7e-4 * (double) (i + 1), 1e-8);
@@ -173,7 +173,7 @@ static void one_iteration_a_stage_follows_slow_loads (void **state)
             pg_step step;
             the = (chain) { .n = 20, .k = 1e4, .ground = 0, .m = 3, .lead = lead };
             pg_solver_options o = options_of (kinds[kind], fine ? 8000 : 1000, 1e-6);
-            o.hold = 0, o.rows = 30;
+            PG_OWN (pg_stages_options, &o)->hold = 0, o.rows = 30;
             link_up (&l, &o, &chain_type);
             while (!pg_solver_done (l.solver, l.state)) check_ok (pg_solver_step (l.solver, l.state, &step));
             error[fine] = fabs (l.state->d[19] / 0.1 - 1);
@@ -201,7 +201,7 @@ static void final_state (const char *kind, int hold, int threads, int stops, dou
     pg_step step;
     the = (chain) { .n = 390, .k = 1e4, .m = 1, .push = push, .lead = away };
     pg_solver_options o = options_of (kind, hold ? 3 : 5000, 1e-9);
-    o.hold = hold, o.rows = 2;
+    PG_OWN (pg_stages_options, &o)->hold = hold, o.rows = 2;
     link_up (&l, &o, &chain_type);
     l.problem.threads = threads;
     int left = stops, stopped = 0;
