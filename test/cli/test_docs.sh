@@ -19,7 +19,7 @@ report "functions named by doc/method.md exist" "$(grep -oE '`[a-z_]+/[a-z0-9_]+
     file=src/$(cut -d'`' -f2 <<< "$line"); for f in $(cut -d' ' -f2- <<< "$line" | tr -d '`,'); do grep -qE "(^| |\*)$f \(" "$file" || echo "$file: $f"; done; done)"
 report "headings cited as 'theory X' exist" "$(grep -rhoE 'theory [A-H][0-9][a-z]?' src include | sort -u |
     while read -r _ key; do grep -q "^## $key " doc/method.md || echo "$key"; done)"
-report "folders of doc/architecture.md are those of src, in the order of make lint" "$(diff <(grep -oE '^\| `[a-z]+` \|' doc/architecture.md | tr -d '|` ') \
+report "folders of doc/architecture.md are those of src, in the order of make lint" "$(diff <(grep -oE '^\| `[a-z_]+` \|' doc/architecture.md | tr -d '|` ') \
     <(make -s --no-print-directory print-ORDER | tr ' ' '\n'))"
 report "every scene of data/ is right" "$(for s in data/*/scene*.yaml; do "$perigal" check "$s" -q 2>&1 > /dev/null; done)"
 report "every scene of data/ has a README" "$(for s in data/*/; do [ -e "$s/README.md" ] || echo "$s"; done)"
