@@ -132,11 +132,9 @@ typedef struct { size_t n, capacity; double *x, *weight, *normal; } pg_cut_point
  * cells->cut_order: of a cell or a facet of kind PG_CUT. The only error is PG_E_MEMORY. Not thread-safe:
  * all calls for one pg_cells share a workspace. */
 pg_status pg_cut_cell   (pg_cut_points *out, const pg_cells *cells, size_t cell, int order);
+pg_status pg_cut_facet  (pg_cut_points *out, const pg_cells *cells, size_t facet, int order);
 /* The part of a face (number -x +x -y +y -z +z) of a cell, of any kind in a lattice, that has the body on
  * both of its sides: where two cells are connected. dim > 1; normals stay zero. */
-pg_status pg_cut_facet  (pg_cut_points *out, const pg_cells *cells, size_t facet, int order);
-/* The part of a face (-x +x -y +y -z +z) of a cell of any lattice kind that has the body on both of its
- * sides; dim > 1, no normals. */
 pg_status pg_cut_face   (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order);
 void      pg_cut_points_clear (pg_cut_points *points);
 /* Of a surface (facet_surface >= 0): the index of the shape of the body it belongs to; whether it is one of

@@ -20,10 +20,11 @@
 typedef struct cut_work cut_work;
 /* A surface this near to a face of the cell, in local coordinates, counts as lying on it: far above
  * rounding, far below any length that matters. */
-static const double cut_snap = 1e-10;  /* a surface so near to a face of the cell (local) lies on it */
+static const double cut_snap = 1e-10;
 
 /* The quadratic function x.A x + b.x + c; A is symmetric, entries beyond dim are zero. */
-typedef struct { double A[3][3], b[3], c; } cut_quadric;           /* A symmetric */
+typedef struct { double A[3][3], b[3], c; } cut_quadric;
+
 /* One surface: a quadric, and the box of the part of it that may bound the body. */
 typedef struct {
     /* Taken about `origin`, so that no digits are lost far from zero; scaled so that |grad psi| = 1 where
@@ -37,6 +38,7 @@ typedef struct {
     /* Which part of the shape it is, numbered as in parts.c. */
     int    part;
 } cut_surface;
+
 /* Everything that the quadrature of cut cells needs; part of pg_cells. */
 struct pg_cut {
     int dim;
@@ -72,7 +74,7 @@ void cut_gauss (int n, double *x, double *w);
 
 /* ---- surfaces ------------------------------------------------------------------------------------------ */
 /* At most so many dividing half-planes take part in one cell; any more there are ignored. */
-enum { CUT_KNIVES = 4 };                               /* in one cell at most */
+enum { CUT_KNIVES = 4 };
 /* Fills cut->surface from the shapes of the body, followed by one dividing half-plane for each ray. */
 pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattice *lattice, size_t nray,
                         const pg_ray *ray);
