@@ -62,8 +62,7 @@ static int body_reaches (const pg_marks *m, size_t f, int side)
     return 0;
 }
 
-/* The normal must point outward through the side, by more than 60 degrees off the plane or so (cosine >
- * 1/2). */
+/* The normal must point outward through the side, within 60 degrees of its direction (cosine > 1/2). */
 int cells_facet_on_side (const pg_marks *m, size_t f, int side)
 {
     const pg_cells *c = m->cells;
