@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * cells.h: background cells for integration and boundary facets with normals; named sets of points and
- * facets. */
+ * cells.h: background cells for integration, boundary facets with outward normals, and named sets of points
+ * and facets.
+ *
+ * The cells tile the body. They come from a lattice of equal boxes, whole (`cells: staircase`) or cut
+ * exactly along the surface of the body (`cells: cut`), or they are the elements of a mesh. Facets are the
+ * pieces of the boundary: faces of whole cells, pieces of the exact surface in cut cells, or outer faces of
+ * a mesh. Loads, supports and contact are integrated over facets, the weak form over cells. Volumes and
+ * areas include the thickness (2D) or the cross section (1D), so they are m^3 and m^2 always. */
 #ifndef PERIGAL_CELLS_H
 #define PERIGAL_CELLS_H
 #include "perigal/cloud.h"
@@ -8,64 +14,108 @@
 
 PG_API_BEGIN
 
-/* kind of a cell or facet that the surface of the body cuts: its points come from `cut`; its corners are
- * those of the lattice cell, or the facet's box */
+/* Kind of a cell or facet that the surface of the body crosses, beside the kinds of pg_element. Its
+ * quadrature points come from `cut`. The nodes stored for such a cell are the corners of the uncut lattice
+ * cell; such a facet has no nodes at all (facet_start does not advance). */
 enum { PG_CUT = PG_ELEMENTS };
+/* A named group of points and facets. Indices are ascending and refer to pg_cloud and pg_cells. */
 typedef struct {
     char    name[64];
+    /* Numbers of points and of facets in the set. */
     size_t  npoint, nfacet;
-    int    *point, *facet;                             /* ascending */
-    /* points that none of its facets reaches: a set with an inside. None where it was made of faces */
+    /* Indices of points (npoint) and of facets (nfacet), ascending. */
+    int    *point, *facet;
+    /* Points of the set that belong to none of its facets (pg_marks in src/cells: a facet's points are its
+     * own nodes or those of the cell behind it). A set that has an inside, such as a layer or `where: x < 1
+     * mm`, must constrain these points one by one, beside integrating over its facets. Not filled (0, NULL)
+     * where the set was chosen by its faces. */
     size_t  ninner;  int *inner;
 } pg_set;
 
+/* The cells and facets of a body. Arrays of variable length per cell or facet are stored in compressed
+ * form: the entries of item c are start[c] .. start[c + 1] - 1. */
 typedef struct {
+    /* Dimension of space, 1 to 3. */
     int     dim;
+    /* Number of cells. */
     size_t  n;
-    unsigned char *kind;                               /* pg_element or PG_CUT (n) */
-    size_t *start;                                     /* nodes of cell c: start[c]..start[c + 1] (n + 1) */
-    double *x;                                         /* their places, m, in Exodus order (start[n] x dim) */
-    double *volume;                                    /* m^3, thickness included (n) */
-    int    *block;                                     /* block of the mesh; 0 (n) */
+    /* Kind of each cell: a value of pg_element, or PG_CUT (n). */
+    unsigned char *kind;
+    /* First node of each cell in `x` (n + 1). */
+    size_t *start;
+    /* Positions of the nodes, m, in the node order of Exodus (start[n] x dim). Cells share no nodes here:
+     * each has copies of its own. */
+    double *x;
+    /* Volume of each cell, of a cut cell that of its part in the body; m^3, thickness included (n). */
+    double *volume;
+    /* Index of the mesh block that the cell belongs to; 0 in a lattice (n). */
+    int    *block;
+    /* Number of facets. */
     size_t  nfacet;
-    unsigned char *facet_kind;                         /* pg_element or PG_CUT (nfacet) */
-    size_t *facet_start;                               /* as start (nfacet + 1) */
-    double *facet_x;                                   /* m (facet_start[nfacet] x dim) */
-    double *facet_centre;                              /* centroid, m (nfacet x dim) */
-    double *normal;                                    /* mean outward normal, unit (nfacet x dim) */
-    double *area;                                      /* m^2, thickness included (nfacet) */
-    int    *facet_cell;                                /* cell behind the facet (nfacet) */
-    int    *facet_surface;  /* surface of `cut`; -1: a face of a whole cell (nfacet) */
-    /* of a mesh: point of the cloud at each node of a facet, -1: none (facet_start[nfacet]) */
+    /* Kind of each facet: a value of pg_element of dimension dim - 1, or PG_CUT (nfacet). */
+    unsigned char *facet_kind;
+    /* First node of each facet in `facet_x` (nfacet + 1). */
+    size_t *facet_start;
+    /* Positions of the nodes of the facets, m (facet_start[nfacet] x dim). */
+    double *facet_x;
+    /* Centroid of each facet, m (nfacet x dim). */
+    double *facet_centre;
+    /* Mean outward normal of each facet, of unit length (nfacet x dim). */
+    double *normal;
+    /* Area of each facet, m^2, thickness included (nfacet). */
+    double *area;
+    /* The cell that each facet bounds (nfacet). */
+    int    *facet_cell;
+    /* Number of the surface of the body, within `cut`, of which the facet is a piece; -1: the facet is a
+     * face of a whole cell or element (nfacet). */
+    int    *facet_surface;
+    /* Only with a mesh, else NULL: the point of the cloud at each node of the facets, -1 where the node is
+     * no point (facet_start[nfacet]). */
     int    *facet_point;
-    pg_set *given;  size_t ngiven;                     /* sets that the mesh brought */
-    double  thickness;                                 /* 2D m; 1D cross-section m^2; 3D 1 */
-    const struct pg_cut *cut;                          /* owned; NULL without cut cells */
-    int     cut_order;  /* least order of quadrature in cut cells and on cut facets */
+    /* The sets that the mesh file brought; empty in a lattice (ngiven). */
+    pg_set *given;  size_t ngiven;
+    /* Thickness in 2D (m), cross section in 1D (m^2), 1 in 3D. */
+    double  thickness;
+    /* Geometry of the cut cells, owned by this structure; NULL where no cell is cut. */
+    const struct pg_cut *cut;
+    /* Least number of Gauss points per direction in cut cells and on cut facets, whatever a caller asks
+     * for. */
+    int     cut_order;
 } pg_cells;
-/* All arrays for n cells with nx nodes and nfacet facets with nfx nodes together, zeroed; dim and thickness
- * set. */
+/* Allocates all arrays, zeroed, for n cells with nx nodes together and nfacet facets with nfx nodes
+ * together, and sets dim and thickness. PG_E_LIMIT where a number exceeds the range of int; on failure
+ * nothing remains. */
 pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, size_t nx, size_t nfacet,
                             size_t nfx);
-/* The kept cells of a lattice: bars, quads, hexes. */
+/* Cells from those boxes of the lattice whose centre lies in the body: bars, quadrilaterals or hexahedra;
+ * facets from their faces that border on none (a staircase). An empty lattice (points from a file) gives no
+ * cells. */
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness);
-/* The same lattice over the exact body: cells that its surface crosses are cut (kind PG_CUT) and kept while
- * their share of volume is above 1e-13, wherever their centre lies; facets are pieces of the surface, one for
- * each cell and surface, parted by the rays given. The shapes of the body must outlive the cells. */
+/* A ray in the xy plane (in 3D a half-plane parallel to z) from `centre` (m) in the unit vector
+ * `direction`. */
 typedef struct { double centre[2], direction[2]; } pg_ray;  /* in the xy plane; direction of unit length */
+/* The same lattice over the exact body. A box that the surface crosses becomes a cell of kind PG_CUT; it is
+ * kept while its share of the volume of a whole box exceeds 1e-13, wherever its centre lies. Facets are
+ * pieces of the surface, one for each pair of cell and surface, divided further along the rays given (ends
+ * of the angle ranges of sets, so that every facet is wholly inside or outside a range). The shapes of the
+ * body are borrowed and must outlive the cells. Where nothing is cut the result is that of
+ * pg_cells_from_lattice. */
 pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness,
                         size_t nray, const pg_ray *ray);
-/* The ends of the angle ranges of all sets of the scene (pg_free): facets are parted there. */
+/* The rays at the ends of the angle ranges of all sets of the scene, for pg_cells_cut; the caller frees
+ * *out by pg_free. They start at the centre of the body's bounding box. */
 pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg_body *body);
-/* Volumes of the points become those of the cells: each cell is shared equally by its points (vertices, or
- * its centre); one without any goes to the nearest point, or in equal parts to those equally near. */
+/* Recomputes the volumes of the points from cut cells: each cell is shared equally among its points (its
+ * vertices, or its centre). A cell without any gives its volume to the nearest point, in equal parts to all
+ * those equally near. Does nothing where no cell is cut: the volumes from the lattice are exact then. */
 pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_lattice *lattice);
-/* The elements of a mesh (block: index into its blocks) and its surface, after pg_mesh_body_cloud. Its side
- * sets become sets of facets and of their points, without faces inside the body; its node sets become sets of
- * points and of the facets whose nodes all belong to them. */
+/* Cells and facets from the elements and the surface of a mesh, after pg_mesh_body_cloud has numbered the
+ * points. Side sets become sets of facets and of all nodes of their faces; their faces inside the body are
+ * left out as facets. Node sets become sets of points and of those facets whose nodes all belong to the
+ * set. */
 pg_status pg_cells_from_mesh (pg_cells *out, const pg_mesh_body *body, double thickness);
-/* The name of a mesh's set as the scene writes it: what is no letter, digit, - or _ becomes _; at most 56
- * letters; all: mesh_all. */
+/* The name under which a scene refers to a set of a mesh: characters other than letters, digits, - and _
+ * become _; at most 56 bytes; "all" becomes mesh_all, an empty name mesh_set. */
 void      pg_set_name (char out[57], const char *name);
 void      pg_cells_clear (pg_cells *cells);
 
@@ -73,42 +123,54 @@ void      pg_cells_clear (pg_cells *cells);
 /* Quadrature of given order in a cell of kind PG_CUT, or on a facet of that kind, appended to `out` (zero at
  * first): all weights positive, m^3 or m^2 with the thickness, their sum exact to the order only. Errors:
  * PG_E_MEMORY. Dimension reduction: Saye 2015, doi 10.1137/140966290. */
-/* normal: of facets, outward, unit; n x dim */
+/* Quadrature points in the part of a cell that lies in the body: positions x (m, n x dim), weights (m^3 in
+ * cells, m^2 on facets, thickness included) and, on facets, outward unit normals (n x dim; zero in cells).
+ * Method: dimension reduction after Saye 2015, doi 10.1137/140966290 (src/cells/cut_points.c). All weights
+ * are positive; as the boundary is curved, their sum equals the volume only to the accuracy of the order. */
 typedef struct { size_t n, capacity; double *x, *weight, *normal; } pg_cut_points;
+/* Append points to `out` (zero at first) with `order` Gauss points per direction, at least
+ * cells->cut_order: of a cell or a facet of kind PG_CUT. The only error is PG_E_MEMORY. Not thread-safe:
+ * all calls for one pg_cells share a workspace. */
 pg_status pg_cut_cell   (pg_cut_points *out, const pg_cells *cells, size_t cell, int order);
 pg_status pg_cut_facet  (pg_cut_points *out, const pg_cells *cells, size_t facet, int order);
-/* The part of a face (-x +x -y +y -z +z) of a cell of any lattice kind that has the body on both of its
- * sides; dim > 1, no normals. */
+/* The part of a face (number -x +x -y +y -z +z) of a cell, of any kind in a lattice, that has the body on
+ * both of its sides: where two cells are connected. dim > 1; normals stay zero. */
 pg_status pg_cut_face   (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order);
 void      pg_cut_points_clear (pg_cut_points *points);
-/* Of a surface (facet_surface >= 0): the shape of the body it belongs to; whether it is a flat end of a
- * cylinder. */
+/* Of a surface (facet_surface >= 0): the index of the shape of the body it belongs to; whether it is one of
+ * the two flat ends of a cylinder. */
 int       pg_cut_shape  (const struct pg_cut *cut, int surface);
 int       pg_cut_is_end (const struct pg_cut *cut, int surface);
 
-/* Named groups: `sets: NAME: {boundary: ..., angle: ..., where: ...}`.
- * NAME.top/.bottom/.left/.right/.front/.back is the part on that side of the centre of the body's bounding
- * box. */
+/* Named sets of a scene: `sets: NAME: {boundary: ..., angle: ..., where: ...}`. For every set NAME there
+ * are also NAME.left, .right, .bottom, .top, .back and .front, its halves on that side of the centre of the
+ * body's bounding box. */
 typedef struct {
     pg_set *set; size_t n;
-    double plane[6];  /* of left right bottom top back front, m; NAN: none in this dimension */
-    char   parts[320];                                 /* SHAPE.PART of all shapes, for messages */
+    /* Coordinates, m, of the planes of the bounding box, in the order left right bottom top back front; NAN
+     * for sides that this dimension does not have. */
+    double plane[6];
+    /* Names SHAPE.PART of all parts of shapes, for messages. */
+    char   parts[320];
 } pg_sets;
-/* Makes the predefined sets left right bottom top back front (the facets that lie in the planes of the
- * bounding box, and their points; of a body without facets the points within half their spacing of the
- * planes) and all (every point and facet), the sets of the scene, the parts of shapes (SHAPE.PART) that
- * loads, averages, exclude and stop name, and the parts of each. What has no side in this dimension does not
- * exist. An empty set of the scene is a fault; an empty predefined set or part is not (npoint = nfacet = 0).
- * Sets of a mesh come before those of the scene, with their parts, and take the place of predefined ones of
- * the same name. With PG_E_SCENE all sets are there all the same, for the caller to look for more faults and
- * to clear. */
+/* Builds all sets, in this order:
+ * - the predefined sides left right bottom top back front (facets in the planes of the bounding box and
+ * their points; for a body without facets the points within half their spacing of the planes) and all;
+ * - the sets of the mesh, which take the place of predefined ones of the same name;
+ * - boundary layers; the sets of the scene; the parts of shapes (SHAPE.PART) that loads, averages,
+ * `failure.exclude` and `solver.stop` name.
+ *
+ * Each comes with its halves. Sides that the dimension lacks do not exist. An empty set of the scene is a
+ * fault; an empty predefined set or half is not. With PG_E_SCENE all sets are there all the same, so that
+ * the caller can look for further faults; it clears them. */
 pg_status pg_sets_build (pg_sets *out, const pg_scene *scene, const pg_body *body, const pg_lattice *lattice,
                          const pg_cloud *cloud, const pg_cells *cells);
+/* The set of that name, NULL: there is none. */
 const pg_set *pg_sets_find  (const pg_sets *sets, const char *name);
-/* 1: a predefined side in whose plane the body has no face (a disk's top). */
+/* 1: the set is a predefined side in whose plane the body has no face (the top of a disk), hence empty. */
 int           pg_sets_empty_side (const pg_sets *sets, const pg_set *set);
-/* As pg_sets_find, for a name that the scene gives at `path`: an unknown one is a fault there that names the
- * nearest, an empty side one that says what to name. */
+/* As pg_sets_find, for a name that the scene gives under the key `path`: an unknown name becomes a fault
+ * there that suggests the nearest one, an empty side a fault that says what to name instead. */
 const pg_set *pg_sets_named (const pg_sets *sets, const pg_scene *scene, const char *path, const char *name);
 void          pg_sets_clear (pg_sets *sets);
 PG_API_END

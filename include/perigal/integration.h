@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * integration.h: where the weak form is evaluated. Catalogue: src/integration/<name>.c + one line in list.h.
- * Cui 2022 section 2.5. (SCNI, NSNI and VC integration are entries to come.) */
+ * integration.h: where the weak form is evaluated: quadrature points in cells and on facets, faces between
+ * cells, corrected (consistent) derivatives, patches of the dilatation, and the stabilisation of nodal
+ * integration. Cui 2022, section 2.5. A way to integrate is an entry of the catalogue:
+ * src/integration/NAME.c and one line in list.h. */
 #ifndef PERIGAL_INTEGRATION_H
 #define PERIGAL_INTEGRATION_H
 #include "perigal/approx.h"
@@ -8,104 +10,160 @@
 
 PG_API_BEGIN
 
+/* Quadrature points in cells or on facets. */
 typedef struct {
+    /* Number of points. */
     size_t  n;
-    double *x;                                         /* m (n x dim) */
-    double *weight;                                    /* m^3, of facets m^2, thickness included (n) */
-    double *normal;  /* outward unit normal of facets; NULL for cells (n x dim) */
-    int    *cell;                                      /* cell or facet (n) */
+    /* Positions, m (n x dim). */
+    double *x;
+    /* Weights, thickness included: m^3 in cells, m^2 on facets (n). */
+    double *weight;
+    /* Outward unit normals on facets; NULL for cells (n x dim). */
+    double *normal;
+    /* The cell, or the facet, that each point lies in; ascending (n). */
+    int    *cell;
 } pg_quadrature;
+/* Frees the arrays and zeroes the structure. */
 void pg_quadrature_clear (pg_quadrature *q);
 
+/* An entry of the catalogue. */
 typedef struct {
+    /* The value of `method.integration` in a scene, and one line of description. */
     const char *name, *summary;
-    int at_nodes;  /* 1: the evaluation points are the nodes, weight = volume */
-    int consistent;                                    /* 1: derivatives are corrected by pg_consistency */
-    /* unless at_nodes */
+    /* 1: the evaluation points are the nodes themselves, and their weights the volumes of the nodes. */
+    int at_nodes;
+    /* 1: derivatives are corrected by pg_consistency. */
+    int consistent;
+    /* Makes the points in all cells with `order` Gauss points per direction; thickness (2D, m; 1D: cross
+     * section, m^2). NULL where at_nodes is set. */
     pg_status (*points) (pg_quadrature *out, const pg_cells *cells, double thickness, int order);
 } pg_integration_type;
+/* The entry of that name, NULL: there is none; all names, separated by |. */
 const pg_integration_type *pg_integration_find (const char *name);
 const char *pg_integration_names (void);
 
-/* Points on each facet (order^(dim-1) on bars and quads); cell holds the facet's number; the weights of a
- * facet sum to its area. */
+/* Gauss points on every facet (order^(dim - 1) on bars and quadrilaterals), with normals; cell holds the
+ * number of the facet, and the weights of each facet sum to its area. PG_E_MEMORY. */
 pg_status pg_facet_points (pg_quadrature *out, const pg_cells *cells, int order);
 
 /* ---- faces --------------------------------------------------------------------------------------------- */
-/* Faces of the cells, each once, with their points: those between two cells, and the facets of the
- * boundary. */
+/* The faces of cells, each once, with quadrature points: those between two cells first, then the facets
+ * of the boundary. The divergence identity of consistent integration needs integrals over all faces of
+ * a cell. */
 typedef struct {
+    /* Dimension of space. */
     int     dim;
+    /* Number of faces, and of points on all of them. */
     size_t  n, npoint;
-    double *x;                                         /* m (npoint x dim) */
-    double *flux;  /* normal times weight, outward of cell[0], m^2 (npoint x dim) */
-    size_t *start;                                     /* points of face f: start[f]..start[f + 1] (n + 1) */
-    int    *cell;  /* the cells on both sides, second -1 on the boundary (n x 2) */
-    size_t *of;  int *face;                            /* faces of cell c: face[of[c]..of[c + 1]) */
+    /* Positions of the points, m (npoint x dim). */
+    double *x;
+    /* Unit normal, outward of the first cell of the face, times the weight of the point, m^2 (npoint x
+     * dim). */
+    double *flux;
+    /* Points of face f: start[f] .. start[f + 1] - 1 (n + 1). */
+    size_t *start;
+    /* The cells on the two sides of each face; the second is -1 on the boundary (n x 2). */
+    int    *cell;
+    /* Faces of cell c, ascending: face[of[c]] .. face[of[c + 1] - 1] (of: cells + 1). */
+    size_t *of;  int *face;
 } pg_faces;
-/* Gauss points of `order` on faces between cells (of cut cells: on what lies in the body), those of
- * pg_facet_points on the boundary. Two cells share a face when its corners are the same, bit by bit. */
+/* Gauss points of that order on faces between cells (of cut cells on the part in the body), and the points
+ * of pg_facet_points on the boundary. Two cells share a face where its corners are equal bit by bit.
+ * PG_E_MEMORY. */
 pg_status pg_faces_build (pg_faces *out, const pg_cells *cells, int order);
 void      pg_faces_clear (pg_faces *faces);
 
-/* ---- consistent derivatives
- * ------------------------------------------------------------------------------------------------ In a whole
- * cell the derivatives of every shape function are so corrected that they obey the divergence identity for
- * polynomials p,
- *     sum_g w_g p (g) N_I,k (g) = oint p N_I n_k dS - sum_g w_g p,k (g) N_I (g), by the smallest change
- *       dN_I,k (g) += sum_m c_m p_m (g); with as many points as polynomials nothing of the direct derivatives
- *       is left. p = 1, x, y, z and their products (1, x, xy; fewer for fewer points). Then linear fields are
- *       solved exactly on any points and K stays symmetric. Duan, Li, Belytschko 2012 (quadratically
- *       consistent integration); Chen, Hillman, Rueter 2013. */
+/* ---- consistent derivatives --------------------------------------------------------------------------- */
+/* Gauss points integrate the rational shape functions of irregular points badly: the weak form misses the
+ * integration constraint int N_I,k dV = oint N_I n_k dS (Krongauz and Belytschko 1997), and a linear field
+ * is no longer a solution. Here, in every whole cell, the derivatives of every shape function N_I at the
+ * points g are corrected so that they obey the divergence identity for polynomials p,
+ *
+ *     sum_g w_g p (g) N_I,k (g) = oint p N_I n_k dS - sum_g w_g p,k (g) N_I (g),
+ *
+ * by the smallest change dN_I,k (g) += sum_m c_m p_m (g). p = 1, x, y, z and their products (2D: 1, x, y,
+ * xy; fewer where a cell has fewer points). With as many points as polynomials nothing of the direct
+ * derivatives remains. Linear fields are then solved exactly on any points, and K stays symmetric. Duan,
+ * Li, Belytschko 2012 (quadratically consistent integration); Chen, Hillman, Rueter 2013 (variational
+ * consistency). Tables that do not change while bonds break: */
 typedef struct {
-    const pg_cells *cells;                             /* borrowed */
+    /* The cells; borrowed. */
+    const pg_cells *cells;
+    /* All faces of the cells. */
     pg_faces  faces;
-    pg_rows   face;                                    /* N at the points of the faces, all bonds alive */
-    pg_family cell_family;  /* nodes that the points of a cell, or of its faces, see */
-    pg_family family;                                  /* of the evaluation points: that of their cell */
-    size_t   *first;                                   /* points of cell c: first[c]..first[c + 1] */
+    /* Shape functions at the points of the faces, all bonds alive; values only, no derivatives. */
+    pg_rows   face;
+    /* The nodes that the points of each cell, or the points of its faces, see. */
+    pg_family cell_family;
+    /* The same for every evaluation point: the list of its cell. */
+    pg_family family;
+    /* Evaluation points of cell c: first[c] .. first[c + 1] - 1 (cells + 1). */
+    size_t   *first;
 } pg_consistency;
+/* Finds the faces (face_order Gauss points per direction), their shape functions, and the lists of nodes.
+ * points: the evaluation points with their families. PG_E_MEMORY, and whatever the approximation reports. */
 pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, const pg_approx *approx,
                                  const pg_cloud *cloud, const pg_rows *points, int face_order, int threads);
 void      pg_consistency_free   (pg_consistency **c);
-/* wide->N, wide->dN (family of c) of cells list[0..count) (NULL: all) from the direct values of `points`:
- * corrected where whole[cell], copied elsewhere. */
+/* Writes wide->N and wide->dN (in the layout of c->family) for the cells list[0..count), or for all cells
+ * where list is NULL, from the direct values in `points`: corrected in cells with whole[cell] set, copied
+ * in others. Each cell writes only its own points, so that results do not depend on the number of threads. */
 pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, pg_rows *wide,
                                 const unsigned char *whole, size_t count, const size_t *list, int threads);
 
-/* ---- patches of the dilatation
- * -------------------------------------------------------------------------------------------- Near Poisson's
- * ratio 1/2 a condition on the dilatation at every evaluation point leaves the displacement too little
- * freedom (locking). The dilatation that carries the pressure is then that of patches of about 2 cells, or 3
- * points of nodal integration, per axis: of one material, disjoint, none of less than 0.4 of that volume
- * where there is a neighbour to join. */
+/* ---- patches of the dilatation ------------------------------------------------------------------------ */
+/* Near Poisson's ratio 1/2 a condition on the dilatation at every evaluation point leaves the displacement
+ * too little freedom (volumetric locking). The dilatation that carries the pressure is then the mean over
+ * patches of about 2 cells, or 3 points of nodal integration, per axis. Patches are disjoint, of one
+ * material each, and none has less than 0.4 of the full volume where there is a neighbour to join. */
 typedef struct {
-    size_t  n;                                         /* patches */
-    size_t *first, *point;  /* points of patch c, ascending: point[first[c]..first[c + 1]) */
-    long   *of;  /* patch of an evaluation point; -1: none (its material has no lambda) */
-    pg_family family;                                  /* nodes that the points of a patch see */
-    double *full;  /* volume of so many cells at the patch, m^3 (fewer where the body is thinner) (n) */
-    double *lambda;  /* of every material, Pa; 0: dilatation at the points */
+    /* Number of patches. */
+    size_t  n;
+    /* Evaluation points of patch c, ascending: point[first[c]] .. point[first[c + 1] - 1]. */
+    size_t *first, *point;
+    /* Patch of each evaluation point; -1: none, its material needs no projection. */
+    long   *of;
+    /* The nodes that the points of each patch see. */
+    pg_family family;
+    /* Volume that a complete patch has there, m^3 (less where the body is thinner than a patch) (n). */
+    double *full;
+    /* First Lame constant of every material, Pa; 0: the dilatation is taken at the points (materials). */
+    double *lambda;
 } pg_patches;
-typedef struct {                                       /* all borrowed */
-    const pg_rows    *points;                          /* of evaluation: places, weights, cells */
-    const pg_family  *family;                          /* nodes that they see */
+
+/* What patches are made from; everything is borrowed. */
+typedef struct {
+    /* Evaluation points: positions, weights, cells. */
+    const pg_rows    *points;
+    /* The nodes that the evaluation points see. */
+    const pg_family  *family;
+    /* The nodes. */
     const pg_cloud   *cloud;
-    const pg_cells   *cells;                           /* NULL: the points are the nodes */
-    const pg_lattice *lattice;                         /* NULL: none */
-    int               centred;  /* the nodes lie in the middle of the cells of the lattice */
-    const int        *block;                           /* material of every point */
-    const double     *spacing;                         /* local, of every point, m; NULL: the cloud's */
-    int               across;                          /* cells or points of a patch per axis */
+    /* Background cells; NULL: the evaluation points are the nodes. */
+    const pg_cells   *cells;
+    /* The lattice; NULL: irregular points, or a mesh. */
+    const pg_lattice *lattice;
+    /* 1: the nodes lie at the centres of the cells of the lattice. */
+    int               centred;
+    /* Material of every evaluation point. */
+    const int        *block;
+    /* Local spacing at every evaluation point, m; NULL: that of the cloud. */
+    const double     *spacing;
+    /* Cells, or points, per axis of a patch. */
+    int               across;
+    /* Number of materials. */
     size_t            materials;
-    const double     *lambda;                          /* of every material, Pa; 0: not projected */
+    /* First Lame constant of every material, Pa; 0: not projected. */
+    const double     *lambda;
 } pg_patch_source;
+/* Forms the patches; they depend on the order of points only where distances tie. PG_E_MEMORY. */
 pg_status pg_patches_create (pg_patches **out, const pg_patch_source *source);
 void      pg_patches_free   (pg_patches **patches);
 
-/* Silling 2017 stabilisation of nodally integrated NOSB (theory D3a): adds S_ab I to the blocks (dim x dim
- * each) of local nodes b = 0..m-1 against a, the energy of point p being (1/2) sum_ab S_ab d_a.d_b; modulus =
- * Gs mu (Pa), volume of the point (m^3). */
+/* Stabilisation of nodally integrated NOSB (Silling 2017; doc/method.md D3a). Adds S_ab times the unit
+ * matrix to the blocks (dim x dim each) of the nodes b = 0 .. m - 1 of point p against its node a (local
+ * numbers within the family of p). The energy is (1/2) sum_ab S_ab d_a . d_b; it vanishes for linear
+ * fields. modulus: Gs mu (Pa); volume: that of the point (m^3). */
 void pg_silling_add (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t a, size_t m, double modulus,
                      double volume, double *blocks);
 PG_API_END

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Background cells of the kept lattice cells, and the facets between a kept cell and none, with outward
- * normals. */
+ * Background cells from a lattice without cutting: each kept box is a cell, each of its faces that borders
+ * on no kept box is a facet with an outward normal. Their order is that of the lattice, x fastest, so that
+ * facets of one cell follow one another. Also allocation and release of pg_cells, whatever built them. */
 #include "cut.h"
 #include <limits.h>
 #include <string.h>
@@ -15,6 +16,7 @@ static const unsigned char face[3][6][4] = {
     {{0,4,7,3}, {1,2,6,5}, {0,1,5,4}, {3,7,6,2}, {0,3,2,1}, {4,5,6,7}},
 };
 
+/* Is lattice cell i within the lattice and its centre in the body? */
 static int kept (const pg_lattice *l, const int *i)
 {
     for (int k = 0; k < 3; k++) if (i[k] < 0 || i[k] >= l->count[k]) return 0;
@@ -22,6 +24,7 @@ static int kept (const pg_lattice *l, const int *i)
         ->in[((size_t) i[2] * (size_t) l->count[1] + (size_t) i[1]) * (size_t) l->count[0] + (size_t) i[0]];
 }
 
+/* Is face f of cell i part of the boundary? */
 static int open_face (const pg_lattice *l, const int *i, int f)
 {
     int beside[3] = {i[0], i[1], i[2]};
@@ -29,11 +32,13 @@ static int open_face (const pg_lattice *l, const int *i, int f)
     return !kept (l, beside);
 }
 
+/* Position (m) of corner c of cell i. */
 static void corner_at (const pg_lattice *l, const int *i, int c, double *x)
 {
     for (int k = 0; k < l->dim; k++) x[k] = pg_lattice_at (l, k, i[k] + corner[c][k]);
 }
 
+/* Counts cells and facets, so that arrays can be allocated before they are filled. */
 static void count (size_t *n, size_t *nfacet, const pg_lattice *l)
 {
     int i[3];
@@ -46,6 +51,7 @@ static void count (size_t *n, size_t *nfacet, const pg_lattice *l)
             }
 }
 
+/* Writes nodes, kind and volume of lattice cell i as cell `at`. */
 static void put_cell (pg_cells *out, size_t at, const pg_lattice *l, const int *i)
 {
     static const pg_element kind[3] = {PG_BAR2, PG_QUAD4, PG_HEX8};
@@ -77,12 +83,14 @@ void cells_put_face (pg_cells *out, size_t at, int f, const double *step)
     out->area[at] = area;
 }
 
+/* Writes face f of cell number `cell` as facet `at`. */
 static void put_facet (pg_cells *out, size_t at, const pg_lattice *l, int f, size_t cell)
 {
     out->facet_cell[at] = (int) cell, out->facet_surface[at] = -1;
     cells_put_face (out, at, f, l->step);
 }
 
+/* The same walk as in `count`, now writing. */
 static void fill (pg_cells *out, const pg_lattice *l)
 {
     size_t cell = 0, facet = 0;
@@ -126,6 +134,7 @@ done:
     return status;
 }
 
+/* A box has 2^dim corners, a face half as many. */
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness)
 {
     size_t n = 0, nfacet = 0, corners = (size_t) 1 << lattice->dim;

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Elements of a mesh as background cells, its surface as facets, its node and side sets as sets. */
+ * Background cells from a mesh: its elements become cells, its outer faces facets, its node and side sets
+ * named sets. Areas, centroids and normals of facets are integrals over the (possibly curved) faces. */
 #include "perigal/cells.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /* ---- names --------------------------------------------------------------------------------------------- */
+/* Bytes from 0x80 on are parts of letters in UTF-8 and are kept; a name is not cut off within a letter. */
 void pg_set_name (char out[57], const char *name)
 {
     size_t n = 0;
@@ -22,8 +24,10 @@ void pg_set_name (char out[57], const char *name)
 }
 
 /* ---- cells and facets ---------------------------------------------------------------------------------- */
+/* The mesh and the list of its outer faces: element and side number of each (nfacet). */
 typedef struct { const pg_mesh_body *body; size_t nfacet; int *element, *side; } source;
 
+/* Kind of a face of element e, and the numbers of its nodes in the mesh. */
 static pg_element face_of (const pg_mesh *m, int e, int side, int node[9])
 {
     pg_element kind = pg_element_face ((pg_element) m->kind[e], side, node);
@@ -31,11 +35,13 @@ static pg_element face_of (const pg_mesh *m, int e, int side, int node[9])
     return kind;
 }
 
+/* Copies the dim coordinates of a node (a mesh always stores three). */
 static void put_place (double *to, const pg_mesh *m, int node)
 {
     memcpy (to, m->x + 3 * (size_t) node, (size_t) m->dim * sizeof *to);
 }
 
+/* Nodes, kinds, volumes and blocks of all elements. */
 static void put_cells (pg_cells *out, const pg_mesh_body *b)
 {
     const pg_mesh *m = &b->mesh;
@@ -46,7 +52,8 @@ static void put_cells (pg_cells *out, const pg_mesh_body *b)
     }
 }
 
-/* Area, centroid and mean normal. */
+/* Area, centroid and mean normal of facet f by quadrature of order 4, exact for flat faces and sufficient
+ * for quadratic ones. The mean normal is the integral of the normals, scaled to unit length. */
 static void measure_facet (pg_cells *out, size_t f)
 {
     enum { ORDER = 4 };
@@ -69,7 +76,7 @@ static void measure_facet (pg_cells *out, size_t f)
     out->area[f] = area * out->thickness;
 }
 
-/* A point that ends a line has the direction away from the line for its normal. */
+/* In 1D a facet is an end of a line: its normal points away from the middle of element e. */
 static void point_normal (pg_cells *out, size_t f, const pg_mesh *m, int e)
 {
     double middle = 0.5
@@ -79,6 +86,7 @@ static void point_normal (pg_cells *out, size_t f, const pg_mesh *m, int e)
     out->area[f] = out->thickness;
 }
 
+/* Nodes, points and measures of all outer faces. */
 static void put_facets (pg_cells *out, const source *s)
 {
     const pg_mesh *m = &s->body->mesh;
@@ -99,8 +107,11 @@ static void put_facets (pg_cells *out, const source *s)
 }
 
 /* ---- sets ---------------------------------------------------------------------------------------------- */
+/* Marks from which one set is gathered. first: compressed rows from elements to their outer faces (n + 1).
+ * node: nodes of the mesh; point: points of the cloud (npoint); facet: outer faces. */
 typedef struct { const source *s; size_t npoint, *first; unsigned char *node, *point, *facet; } marks;
 
+/* The indices, ascending, at which `mark` is set (newly allocated). */
 static pg_status pick (int **out, size_t *n, const unsigned char *mark, size_t all)
 {
     pg_status status = PG_OK;
@@ -113,6 +124,7 @@ done:
     return status;
 }
 
+/* Is `name` what the scene calls the mesh's set `of_mesh`? */
 static int same_name (const char *name, const char *of_mesh)
 {
     char clean[57];
@@ -120,8 +132,8 @@ static int same_name (const char *name, const char *of_mesh)
     return !strcmp (clean, name);
 }
 
-/* Marks what the side sets of that name hold; faces inside the body are left out. Returns how many such sets
- * there are. */
+/* Marks outer faces and nodes of all side sets of that name. Faces inside the body bring their nodes but no
+ * facet. Returns how many such sets there are. */
 static int mark_sides (marks *k, const char *name)
 {
     const pg_mesh *m = &k->s->body->mesh;
@@ -140,7 +152,7 @@ static int mark_sides (marks *k, const char *name)
     return found;
 }
 
-/* Of a set of nodes: the facets whose nodes all belong to it. */
+/* For node sets: marks the outer faces whose nodes all belong to the set. */
 static void mark_whole_facets (marks *k)
 {
     const pg_mesh *m = &k->s->body->mesh;
@@ -151,6 +163,9 @@ static void mark_whole_facets (marks *k)
     }
 }
 
+/* Appends the set called `of_mesh` in the mesh, the union of all side and node sets of that name. Where
+ * there is a side set it determines the facets, else the nodes do. A name that is there already is
+ * skipped. */
 static pg_status add_given (pg_cells *out, size_t *capacity, marks *k, const char *of_mesh)
 {
     pg_status status = PG_OK;
@@ -177,6 +192,7 @@ done:
     return status;
 }
 
+/* All sets of the mesh, side sets first. */
 static pg_status put_sets (pg_cells *out, const source *s)
 {
     pg_status status = PG_OK;

@@ -1,92 +1,153 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: cells cut by the surfaces of the body. Every surface is a quadric psi (x) = x.A x + b.x + c = 0.
- * Within a cell all is done in local coordinates: the cell is [-1, 1]^dim. Files: cut_poly.c (roots),
- * cut_surface.c (the body as quadrics), cut_solve.c (where three quadrics meet), cut_split.c (where the shape
- * of a slice changes), cut_points.c (quadrature), cut_cells.c and cut_share.c (cells). */
+ * Private: cells of a lattice that the surface of the body cuts.
+ *
+ * Every surface of the body is a quadric psi (x) = x.A x + b.x + c = 0 (planes, cylinders, spheres). Within
+ * a cell all computation is in local coordinates in which the cell is the cube [-1, 1]^dim; tolerances are
+ * relative to that. Quadrature is by dimension reduction (Saye 2015, doi 10.1137/140966290): the cell is
+ * divided into slices along one axis, slices into lines along the next, and lines into pieces at their
+ * intersections with the surfaces; Gauss points on every piece.
+ *
+ * Files: cut_poly.c (roots of polynomials), cut_surface.c (the body as quadrics), cut_solve.c (points where
+ * three quadrics meet), cut_split.c (positions at which slices change their topology), cut_points.c (the
+ * quadrature), cut_cells.c (which cells are cut, their facets).
+ *
+ * Beside the surfaces of the body there are dividing half-planes parallel to z (in 2D: rays). They bound
+ * nothing, but divide facets into parts, so that a named set can end inside a cell. */
 #ifndef PERIGAL_CELLS_CUT_H
 #define PERIGAL_CELLS_CUT_H
 #include "perigal/cells.h"
 
 typedef struct cut_work cut_work;
-static const double cut_snap = 1e-10;  /* a surface so near to a face of the cell (local) lies on it */
+/* A surface this near to a face of the cell, in local coordinates, counts as lying on it: far above
+ * rounding, far below any length that matters. */
+static const double cut_snap = 1e-10;
 
-typedef struct { double A[3][3], b[3], c; } cut_quadric;           /* A symmetric */
+/* The quadratic function x.A x + b.x + c; A is symmetric, entries beyond dim are zero. */
+typedef struct { double A[3][3], b[3], c; } cut_quadric;
+
+/* One surface: a quadric, and the box of the part of it that may bound the body. */
 typedef struct {
-    cut_quadric psi;                                   /* about `origin`; |grad psi| = 1 on the surface */
-    double origin[3], low[3], high[3];                 /* m; box of the part that may bound the body */
-    /* of the body, -1 a knife; a plane; end of a cylinder; normal axis or -1 */
+    /* Taken about `origin`, so that no digits are lost far from zero; scaled so that |grad psi| = 1 where
+     * psi = 0. */
+    cut_quadric psi;
+    /* Reference point; corners of the box that holds the part of the surface that can bound the body. m. */
+    double origin[3], low[3], high[3];
+    /* shape: index of the shape of the body, -1 for a dividing half-plane. flat: it is a plane. end: it is
+     * a flat end of a cylinder. axis: the coordinate axis that the plane is normal to, -1: none. */
     int    shape, flat, end, axis;
-    int    part;                                       /* of the shape (parts.c) */
+    /* Which part of the shape it is, numbered as in parts.c. */
+    int    part;
 } cut_surface;
+
+/* Everything that the quadrature of cut cells needs; part of pg_cells. */
 struct pg_cut {
     int dim;
-    pg_body body;  /* its shapes are borrowed; of a mesh: as the lattice sees it */
-    pg_shape *own;  /* then these are the shapes (body.n), NULL: there is no mesh */
+    /* The body; its shapes are borrowed. A shape from a mesh is replaced by its cells of the lattice
+     * (PG_STAIRS). */
+    pg_body body;
+    /* The shapes after that replacement (body.n); NULL where the body has no mesh. */
+    pg_shape *own;
+    /* All surfaces, those of the body first, dividing half-planes last. */
     cut_surface *surface;  size_t n;
-    size_t *start;  int *near;                         /* surfaces near each cell of pg_cells (n + 1) */
-    int *part;                                         /* of each facet: on which sides of the knives */
+    /* Numbers of the surfaces that come near each cell of pg_cells, ascending (compressed rows: start has n
+     * + 1 entries). */
+    size_t *start;  int *near;
+    /* For each facet: on which sides of the dividing half-planes of its cell it lies, one bit each. */
+    int *part;
+    /* Workspace of the quadrature, shared by all calls: hence not thread-safe. */
     cut_work *work;
 };
+/* Frees all of it; NULL is allowed. */
 void cut_free (struct pg_cut *cut);
-/* Facet `at` becomes that face (-x +x -y +y -z +z) of its cell, a lattice cell of these edges (m). */
+/* Makes facet `at` a whole face (number -x +x -y +y -z +z) of its cell (facet_cell must be set), a lattice
+ * cell with the edges `step` (m): nodes, centroid, normal and area. */
 void cells_put_face (pg_cells *out, size_t at, int face, const double *step);
 
 /* ---- polynomials --------------------------------------------------------------------------------------- */
+/* Degree of the polynomials that arise at most: the resultant of two conics has degree 4. */
 enum { CUT_DEGREE = 4 };
-/* Real roots of sum c[k] x^k within [low, high], ascending; those that only touch zero (to rounding) too. */
+/* Real roots of sum_k c[k] x^k within [low, high], ascending; also double roots that only touch zero, to
+ * rounding. Returns how many; `root` has room for degree + 2. */
 int  cut_roots (int degree, const double *c, double low, double high, double *root);
-void cut_gauss (int n, double *x, double *w);          /* Gauss-Legendre on [0, 1] */
+/* Gauss-Legendre points and weights on [0, 1]. */
+void cut_gauss (int n, double *x, double *w);
 
 /* ---- surfaces ------------------------------------------------------------------------------------------ */
-/* Of the body, then the knives: half-planes along z that part facets and bound nothing. */
-enum { CUT_KNIVES = 4 };                               /* in one cell at most */
+/* At most so many dividing half-planes take part in one cell; any more there are ignored. */
+enum { CUT_KNIVES = 4 };
+/* Fills cut->surface from the shapes of the body, followed by one dividing half-plane for each ray. */
 pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattice *lattice, size_t nray,
                         const pg_ray *ray);
-/* In the coordinates of the cell with this centre and these half edges, scaled to coefficients of size 1. */
+/* The surface in the local coordinates of the cell with this centre and these half edges (m), scaled so
+ * that its largest coefficient is about 1. */
 cut_quadric cut_local (const cut_surface *s, int dim, const double *centre, const double *half);
+/* Value and gradient of the quadric at x (3 numbers). */
 double cut_value (const cut_quadric *q, const double *x);
 void   cut_gradient (const cut_quadric *q, const double *x, double *g);
-void   cut_restrict (cut_quadric *q, int axis, double at);         /* x[axis] = at; the axis drops out */
-/* may be 0 in the box? */
+/* Sets x[axis] = at: the function of the remaining coordinates, in which the axis no longer occurs. */
+void   cut_restrict (cut_quadric *q, int axis, double at);
+/* Can the quadric vanish in the box (centre, half edges)? 0 only if it certainly cannot: a bound from
+ * value, gradient and second derivatives at the centre. slack widens the answer. */
 int    cut_meets (const cut_quadric *q, const double *centre, const double *half, double slack);
 
 /* ---- splits -------------------------------------------------------------------------------------------- */
-/* Solutions of three quadrics = 0 in [-reach, reach]^3, at most CUT_MEETINGS of them (x: n x 3). */
+/* At most so many points are returned by cut_solve. */
 enum { CUT_MEETINGS = 24 };
+/* All points in [-reach, reach]^3 where the three quadrics q[0..2] vanish (x: n x 3). Returns n, at most
+ * CUT_MEETINGS; only isolated solutions are meant. */
 int cut_solve (const cut_quadric *q, double reach, double *x);
 
+/* A growing list of coordinates. */
 typedef struct { double *at; size_t n, capacity; } cut_list;
+/* One level of the recursion from the cell to slices to lines. */
 typedef struct {
+    /* Coordinates that divide the level's axis. hard: the interval of integration ends here, in [-1, 1].
+     * soft: near here the height of a surface behaves like a square root, also a little outside [-1, 1];
+     * the quadrature of the neighbouring interval substitutes it away. */
     cut_list hard, soft;  /* soft: square roots begin here, also outside [-1, 1] */
-    cut_quadric *q;                                    /* the surfaces, restricted to the slice */
+    /* The surfaces, restricted to the present slice. */
+    cut_quadric *q;
 } cut_level;
+/* State of the recursion over one cell. */
 typedef struct {
-    int    dim, axis[3];                               /* outermost first; the last is the height */
-    size_t n, capacity;                                /* surfaces */
-    int   *number;                                     /* of the surfaces in the body */
-    double *low, *high;                                /* their boxes, local (n x 3) */
+    /* axis: order of the coordinate axes, outermost first; the last one is the height, along which lines
+     * run. */
+    int    dim, axis[3];
+    /* Number of surfaces that take part, and for how many there is memory. */
+    size_t n, capacity;
+    /* Their numbers within pg_cut (n). */
+    int   *number;
+    /* Their boxes in local coordinates (n x 3). */
+    double *low, *high;
     cut_level level[3];
-    double at[3];                                      /* where the walk is */
+    /* The present position, local. */
+    double at[3];
+    /* First failure on the way (memory). */
     pg_status status;
 } cut_slices;
-/* Values of x[axis[k]] between which nothing changes its order, for the slice level k < dim - 1. */
+/* Fills level[k].hard and .soft, k < dim - 1: the values of x[axis[k]] between which the intersections of
+ * the surfaces with the slice keep their number and order. */
 void cut_split (cut_slices *s, int k);
-/* the part of surface i that may bound the body holds s->at? */
+/* Is s->at within the box of surface i, to 1e-7 of the cell? */
 int  cut_within (const cut_slices *s, size_t i);
 
 /* ---- quadrature ---------------------------------------------------------------------------------------- */
+/* Creates and frees the workspace. PG_E_MEMORY. */
 pg_status cut_work_create (cut_work **out, const struct pg_cut *cut, double thickness);
 void      cut_work_free   (cut_work **work);
-/* The cell low..high (m) and the surfaces near it. */
+/* Prepares for the cell low..high (m) and the n surfaces `near` it, dividing half-planes last. */
 pg_status cut_work_cell   (cut_work *w, const double *low, const double *high, size_t n, const int *near);
-/* Points within the body (surface < 0), or on that surface where it bounds the body, of one part between
- * knives; appended. */
+/* Appends quadrature points: surface < 0: within the body; else on that surface, where it bounds the body,
+ * only of the given part between the dividing half-planes. */
 pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut_points *out);
-size_t    cut_work_knives (const cut_work *w);         /* in the cell: 2^knives parts */
-/* Points of the face (-x +x -y +y -z +z) of the cell that lie in the body on both of its sides; weights
- * without normals. dim > 1. */
+/* Number of dividing half-planes that take part in this cell: its facets have 2^number parts. */
+size_t    cut_work_knives (const cut_work *w);
+/* Appends points on a face (-x +x -y +y -z +z) of the cell where the body lies on both of its sides. dim >
+ * 1; normals stay zero. */
 pg_status cut_work_face   (cut_work *w, int face, int order, pg_cut_points *out);
-/* Size (thickness included), centroid and integral of the normal, to rounding. */
+/* Measure (volume or area, thickness included), centroid and integral of the outward normal. */
 typedef struct { double size, centre[3], normal[3]; } cut_piece;
+/* These of the body in the cell, or of one part of a surface, by raising the order until the size changes
+ * by less than 1e-13 of the cell. */
 pg_status cut_work_piece  (cut_work *w, int surface, int part, cut_piece *piece);
 #endif

@@ -1,26 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The cells of a lattice over the exact body: whole, cut or none; and their facets, one for each cell and
- * surface. */
+ * The cells of a lattice over the exact body: which boxes are whole, cut or empty, and the facets, one for
+ * each pair of cell and surface (and part between dividing half-planes).
+ *
+ * Steps: for every box a list of the surfaces that come near it (find_near); the volume of the body in each
+ * box that a surface crosses, by quadrature (classify); the area, centroid and mean normal of each surface
+ * in each cell (find_facets); the arrays of pg_cells (fill). A box whose near surfaces all lie on its faces
+ * is whole or empty by its centre, without quadrature, so that a body that follows the lattice gets the
+ * cells and facets of the uncut lattice. Results do not depend on threads: everything here runs in the
+ * order of the lattice. */
 #include "cut.h"
 #include <math.h>
 #include <string.h>
 
-static const double least_share = 1e-13;               /* of a cell's volume; less is no cell */
+/* A box that holds less than this share of its volume is no cell: it is rounding. */
+static const double least_share = 1e-13;
 enum { NONE, WHOLE, CUT };
-/* face: of the lattice cell, -1: a piece */
+/* A facet to be: cell number in pg_cells, surface number in pg_cut, face of the box if it covers one
+ * entirely (else -1), part between dividing half-planes, and its measures. */
 typedef struct { int cell, surface, face, part; cut_piece piece; } one_facet;
+
+/* What is collected before the arrays of pg_cells can be allocated. */
 typedef struct {
     const pg_lattice *l;
     struct pg_cut *cut;
-    size_t  n;                                         /* lattice cells */
-    size_t *start;  int *near;                         /* surfaces near each (CSR) */
-    unsigned char *state, *aligned;                    /* aligned: near surfaces only lie on its faces */
-    double *volume;                                    /* m^3 */
-    double  whole;                                     /* volume of a whole cell */
+    /* Number of boxes of the lattice. */
+    size_t  n;
+    /* Surfaces near each box, in compressed rows (start: n + 1). */
+    size_t *start;  int *near;
+    /* state: NONE, WHOLE or CUT. aligned: all surfaces near the box lie on its faces (n each). */
+    unsigned char *state, *aligned;
+    /* Volume of the body in each box, thickness included, m^3 (n). */
+    double *volume;
+    /* Volume of a whole box, thickness included, m^3. */
+    double  whole;
     one_facet *facet;  size_t nfacet, capacity;
+    /* Totals over the cells: how many, the entries of their lists of near surfaces, how many differ from
+     * what the uncut lattice would have. */
     size_t  ncell, nnear, ncut;
 } builder;
 
+/* Number of box i (three indices), x fastest, and back. */
 static size_t number_of (const pg_lattice *l, const int *i)
 {
     return ((size_t) i[2] * (size_t) l->count[1] + (size_t) i[1]) * (size_t) l->count[0] + (size_t) i[0];
@@ -32,15 +51,17 @@ static void index_of (const pg_lattice *l, size_t c, int *i)
     i[1] = (int) (c % (size_t) l->count[1]), i[2] = (int) (c / (size_t) l->count[1]);
 }
 
+/* Corners of box i, m. */
 static void box_of (const pg_lattice *l, const int *i, double *low, double *high)
 {
     for (int k = 0; k < l->dim; k++)
         low[k] = pg_lattice_at (l, k, i[k]), high[k] = pg_lattice_at (l, k, i[k] + 1);
 }
 
+/* Is entry k of the lists a dividing half-plane? They come last in each list. */
 static int is_knife (const builder *m, size_t k) { return m->cut->surface[m->near[k]].shape < 0; }
 
-/* The face of the cell on which a plane lies, -1: none. */
+/* The face of box i (-x +x -y +y -z +z) on which a plane surface lies, to half of cut_snap; -1: none. */
 static int face_of (const builder *m, const int *i, int surface)
 {
     const cut_surface *s = &m->cut->surface[surface];
@@ -53,6 +74,8 @@ static int face_of (const builder *m, const int *i, int surface)
 }
 
 /* ---- which surfaces are near --------------------------------------------------------------------------- */
+/* Can the surface come within 2 cut_snap of box i? First by its bounding box, then by a bound of psi in
+ * local coordinates (cut_meets). */
 static int is_near (const builder *m, const cut_surface *s, const int *i)
 {
     double low[3], high[3], centre[3], half[3], all[3] = {1, 1, 1}, origin[3] = {0, 0, 0};
@@ -65,14 +88,15 @@ static int is_near (const builder *m, const cut_surface *s, const int *i)
     return cut_meets (&q, origin, all, 2 * cut_snap);
 }
 
-/* Does the mesh end at the face of the cell on which this plane lies? */
+/* For the planes of a mesh seen as a staircase: does the staircase have a step at that face of box i? */
 static int is_step (const builder *m, size_t number, const int *i)
 {
     int face = face_of (m, i, (int) number);
     return face >= 0 && pg_stairs_step (&m->cut->body.shape[m->cut->surface[number].shape], i, face);
 }
 
-/* Counts (near NULL), or writes from the end of each list on. */
+/* Visits the boxes within the bounding box of a surface. near NULL: counts, into start[c + 1]; else writes
+ * from start[c] on, which advances to the end of each list. */
 static void visit_near (builder *m, size_t number, int *near)
 {
     const cut_surface *s = &m->cut->surface[number];
@@ -95,6 +119,7 @@ static void visit_near (builder *m, size_t number, int *near)
             }
 }
 
+/* Counts, sums, writes, and moves the starts back by one. */
 static pg_status find_near (builder *m)
 {
     pg_status status = PG_OK;
@@ -110,6 +135,7 @@ done:
 }
 
 /* ---- cells --------------------------------------------------------------------------------------------- */
+/* Prepares the workspace of the quadrature for box c. */
 static pg_status into_cell (const builder *m, size_t c)
 {
     double low[3], high[3];
@@ -119,6 +145,8 @@ static pg_status into_cell (const builder *m, size_t c)
     return cut_work_cell (m->cut->work, low, high, m->start[c + 1] - m->start[c], m->near + m->start[c]);
 }
 
+/* Is box c whole, cut or empty? By its centre where all surfaces lie on its faces, else by the share of its
+ * volume that the quadrature finds. */
 static pg_status classify (builder *m, size_t c)
 {
     pg_status status = PG_OK;
@@ -144,7 +172,7 @@ done:
 }
 
 /* ---- facets -------------------------------------------------------------------------------------------- */
-/* What lies behind a face: NONE and WHOLE if that is the same all over it, else CUT. */
+/* The state beyond a face of box i: NONE or WHOLE where it is the same all over the face, else CUT. */
 static int beyond (const builder *m, const int *i, int face)
 {
     int at[3] = {i[0], i[1], i[2]};
@@ -154,6 +182,8 @@ static int beyond (const builder *m, const int *i, int face)
     return m->aligned[c] ? m->state[c] : CUT;
 }
 
+/* Appends a facet. Two shapes that share a side would give the same whole face twice; the second is
+ * dropped. */
 static pg_status put (builder *m, const one_facet *f)
 {
     pg_status status = PG_OK;
@@ -165,7 +195,8 @@ done:
     return status;
 }
 
-/* The parts of one surface in a cell that has been entered; one that covers a face is that face. */
+/* Adds the parts of surface f.surface in the prepared cell that have an area. A part that covers a whole
+ * face of the box (to 1e-12) becomes that face, with nodes of its own. */
 static pg_status find_parts (builder *m, one_facet f)
 {
     pg_status status = PG_OK;
@@ -181,6 +212,9 @@ done:
     return status;
 }
 
+/* The facets of box c, cell number `cell`. Where box and neighbour are whole or empty, the answer is known:
+ * a face between whole and empty is a facet as a whole, a face between two whole boxes is none. The
+ * quadrature decides all other cases. */
 static pg_status find_facets (builder *m, size_t c, int cell)
 {
     pg_status status = PG_OK;
@@ -201,9 +235,11 @@ done:
 }
 
 /* ---- from the builder to the cells --------------------------------------------------------------------- */
+/* Corners in the order of Exodus, as steps along x, y, z. */
 static const unsigned char corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
                                             { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
 
+/* Writes box c as cell `at`, with its list of near surfaces. */
 static void fill_cell (pg_cells *out, const builder *m, size_t c, size_t at)
 {
     static const pg_element kind[3] = {PG_BAR2, PG_QUAD4, PG_HEX8};
@@ -221,6 +257,8 @@ static void fill_cell (pg_cells *out, const builder *m, size_t c, size_t at)
     memcpy (cut->near + cut->start[at], m->near + m->start[c], near * sizeof *cut->near);
 }
 
+/* Writes facet `at`: a whole face of a box, or a piece of a surface with its mean normal scaled to unit
+ * length. */
 static void fill_facet (pg_cells *out, const builder *m, const one_facet *f, size_t at)
 {
     size_t dim = (size_t) out->dim;
@@ -240,6 +278,7 @@ static void fill_facet (pg_cells *out, const builder *m, const one_facet *f, siz
     }
 }
 
+/* Allocates and writes all of pg_cells; the geometry (pg_cut) passes into its ownership. */
 static pg_status fill (pg_cells *out, builder *m, double thickness)
 {
     pg_status status = PG_OK;
@@ -259,6 +298,7 @@ done:
     return status;
 }
 
+/* Surfaces, workspace, lists of near surfaces and memory for the states. */
 static pg_status prepare (builder *m, const pg_body *body, double thickness, size_t nray, const pg_ray *ray)
 {
     pg_status status = PG_OK;
@@ -276,6 +316,8 @@ done:
     return status;
 }
 
+/* Where all cells and facets are those of the uncut lattice, they are built by pg_cells_from_lattice and no
+ * geometry is kept, so that aligned bodies have the same bits with and without `cells: cut`. */
 pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *lattice, double thickness,
                         size_t nray, const pg_ray *ray)
 {
@@ -310,6 +352,8 @@ void cut_free (struct pg_cut *cut)
 }
 
 /* ---- use ----------------------------------------------------------------------------------------------- */
+/* Prepares the workspace for a cell of pg_cells: its first and its diagonally opposite corner span the
+ * box. */
 static pg_status enter (const pg_cells *cells, size_t cell)
 {
     const struct pg_cut *cut = cells->cut;
@@ -319,6 +363,7 @@ static pg_status enter (const pg_cells *cells, size_t cell)
                           cut->near + cut->start[cell]);
 }
 
+/* The larger of the order asked for and the least order of these cells. */
 static int finer (const pg_cells *cells, int order)
 {
     return order > cells->cut_order ? order : cells->cut_order;

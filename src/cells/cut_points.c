@@ -1,23 +1,46 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Quadrature in a cell and on the surfaces in it, by dimension reduction (in the manner of Saye 2015): slices
- * along the outermost axis, lines in the slices, pieces of the lines that lie in the body; Gauss points on
- * every interval between splits, all weights positive. Where heights begin like square roots at e, x = e +-
- * s^2 takes the root away. */
+ * Quadrature in a cut cell and on the surfaces in it, by dimension reduction after Saye 2015 (SIAM J. Sci.
+ * Comput. 37(2), A993-A1019, doi 10.1137/140966290).
+ *
+ * The cell [-1, 1]^dim is divided along its outermost axis at the values that cut_split finds (hard
+ * splits); between them Gauss points; each Gauss point is a slice in which the same is done with the next
+ * axis; on the innermost axis, the height, a line remains. A line is divided at its intersections with the
+ * surfaces, and each piece that lies in the body gets Gauss points (volume), or each intersection that
+ * bounds the body becomes one point (surface). All weights are positive, because they are products of
+ * positive ones.
+ *
+ * Where a surface turns back along the height, the length of the lines begins like a square root at some e
+ * (a soft split). The substitution x = e +- s^2 makes the integrand smooth again, so that the error falls
+ * exponentially with the order there too. */
 #include "cut.h"
 #include <math.h>
 #include <string.h>
 
+/* Largest number of Gauss points per interval. */
 enum { RULE = 40 };
-static const double beyond = 2e-7;                     /* just off a face (local) */
+/* A position this far off a face (local) lies on the other side of it for certain: farther than cut_snap. */
+static const double beyond = 2e-7;
+
+/* The workspace: one cell, one walk at a time. */
 struct cut_work {
     const struct pg_cut *cut;
+    /* Thickness in 2D or cross section in 1D; centre and half edges of the present cell, m. */
     double thickness, centre[3], half[3];
+    /* Surfaces of the cell and state of the recursion. */
     cut_slices slices;
-    double *node;  int *owner;                         /* roots along a line (2 n + 2), and whose */
-    int    surface, order, face, part;  /* of this walk; index into slices.number, or -1; a face, or -1 */
-    size_t real, all;                                  /* surfaces of the cell without and with knives */
+    /* Roots along the present line with the two ends of the line (2 n + 2), and the surface that each
+     * belongs to. */
+    double *node;  int *owner;
+    /* Of the present walk: index of the surface within slices.number, -1: the volume; Gauss points per
+     * interval; the face of the cell to which the walk is confined, -1: none; the part between dividing
+     * half-planes. */
+    int    surface, order, face, part;
+    /* Number of surfaces near the cell without and with the dividing half-planes, which come last. */
+    size_t real, all;
+    /* Receives the points. */
     pg_cut_points *out;
-    double *x, *w;                                     /* Gauss rules of RULE points at most, by order */
+    /* Gauss points and weights on [0, 1] of all orders up to RULE, one behind the other. */
+    double *x, *w;
 };
 
 void pg_cut_points_clear (pg_cut_points *p)
@@ -27,10 +50,12 @@ void pg_cut_points_clear (pg_cut_points *p)
 }
 
 /* ---- rules --------------------------------------------------------------------------------------------- */
+/* Points and weights of the rule of n points. */
 static const double *rule_x (const cut_work *w, int n) { return w->x + n * (n - 1) / 2; }
 static const double *rule_w (const cut_work *w, int n) { return w->w + n * (n - 1) / 2; }
 
 /* ---- life cycle ---------------------------------------------------------------------------------------- */
+/* All Gauss rules are computed once, here. */
 pg_status cut_work_create (cut_work **out, const struct pg_cut *cut, double thickness)
 {
     pg_status status = PG_OK;
@@ -60,6 +85,7 @@ void cut_work_free (cut_work **work)
     *work = NULL;
 }
 
+/* Memory for n surfaces. All arrays of the workspace grow together. */
 static pg_status widen (cut_work *w, size_t n)
 {
     pg_status status = PG_OK;
@@ -78,6 +104,7 @@ done:
     return status;
 }
 
+/* Restates the surfaces and their boxes in the local coordinates of the cell. */
 pg_status cut_work_cell (cut_work *w, const double *low, const double *high, size_t n, const int *near)
 {
     cut_slices *s = &w->slices;
@@ -101,7 +128,8 @@ pg_status cut_work_cell (cut_work *w, const double *low, const double *high, siz
 }
 
 /* ---- lines --------------------------------------------------------------------------------------------- */
-/* Is the place on the present line at height z in the body? */
+/* Is the position at height z on the present line in the body? In a walk within a face: is the body on both
+ * sides of the face there? */
 static int inside (const cut_work *w, double z)
 {
     const cut_slices *s = &w->slices;
@@ -116,7 +144,8 @@ static int inside (const cut_work *w, double z)
     return pg_body_inside (&w->cut->body, x, 0);
 }
 
-/* On which sides of the knives: bit i for the i-th. */
+/* On which sides of the dividing half-planes a local position lies: bit i is set where it is on the
+ * positive side of half-plane i. */
 static int side_of_knives (const cut_work *w, const double *at)
 {
     int part = 0;
@@ -125,6 +154,8 @@ static int side_of_knives (const cut_work *w, const double *at)
     return part;
 }
 
+/* Appends a point at height z of the present line. A failed allocation is noted in slices.status, which
+ * ends the walk. */
 static void emit (cut_work *w, double z, double weight, const double *normal)
 {
     pg_status status = PG_OK;
@@ -149,8 +180,8 @@ done:
     if (status != PG_OK) s->status = status;
 }
 
-/* Roots of all surfaces along the line, sorted, those next to the ends moved onto them; node[0] and node[m +
- * 1] are -1 and 1. */
+/* Intersections of the present line with all surfaces, ascending in node[1..m] with their owners; those
+ * within cut_snap of an end are moved onto it. node[0] = -1 and node[m + 1] = 1 are the ends. Returns m. */
 static int line_roots (cut_work *w, const cut_quadric *q)
 {
     const cut_slices *s = &w->slices;
@@ -170,6 +201,7 @@ static int line_roots (cut_work *w, const cut_quadric *q)
     return m;
 }
 
+/* Gauss points on the piece from..to of the line; nothing where it is empty. */
 static void fill_piece (cut_work *w, double from, double to, double weight)
 {
     for (int g = 0; to > from && g < w->order; g++)
@@ -177,7 +209,8 @@ static void fill_piece (cut_work *w, double from, double to, double weight)
               NULL);
 }
 
-/* Neighbouring pieces in the body are one: no surface of the body lies between them. */
+/* Volume points on the present line. Neighbouring pieces that both lie in the body are joined, as no
+ * surface of the body separates them, only the continuation of one; fewer points suffice then. */
 static void line_volume (cut_work *w, const cut_quadric *q, double weight)
 {
     int m = line_roots (w, q), dim = w->slices.dim;
@@ -192,7 +225,8 @@ static void line_volume (cut_work *w, const cut_quadric *q, double weight)
     fill_piece (w, from, to, weight);
 }
 
-/* Root k is that of the surface, and no earlier one lies upon it. */
+/* Is root k (of m) an intersection with the surface of this walk, within its box, and the first surface
+ * that claims this position? Coincident surfaces would count twice otherwise. */
 static int owned (cut_work *w, int k, int m)
 {
     cut_slices *s = &w->slices;
@@ -207,7 +241,10 @@ static int owned (cut_work *w, int k, int m)
     return 1;
 }
 
-/* A root on an end of the line counts if the body lies on this side of it. */
+/* Surface points on the present line: intersections with the surface of this walk that have the body on
+ * exactly one side. The element of area is that of the projection on the plane across the height, divided
+ * by the cosine between normal and height. A root at an end of the line lies on a face between two cells:
+ * it counts for the cell that has the body. */
 static void line_surface (cut_work *w, const cut_quadric *q, double weight)
 {
     const cut_slices *s = &w->slices;
@@ -239,8 +276,10 @@ static void line_surface (cut_work *w, const cut_quadric *q, double weight)
 }
 
 /* ---- the walk ------------------------------------------------------------------------------------------ */
+/* Level k of the recursion, k = 0 first; weight: product of the weights so far. */
 static void walk (cut_work *w, int k, double weight);
 
+/* Fixes the coordinate of level k and descends into that slice. */
 static void go_on (cut_work *w, int k, double at, double weight)
 {
     cut_slices *s = &w->slices;
@@ -252,7 +291,8 @@ static void go_on (cut_work *w, int k, double at, double weight)
     walk (w, k + 1, weight);
 }
 
-/* Points on [a, b]; root: NAN, or where square roots begin, outside or at an end: x = root +- s^2. */
+/* Gauss points on [a, b] of level k. root: NAN, or a soft split at a or below, or at b or above; then x =
+ * root +- s^2, with half as many points again, because the substitution doubles the degree. */
 static void interval (cut_work *w, int k, double a, double b, double root, double weight)
 {
     int order = w->order, rooted = !isnan (root), up = rooted && root <= a;
@@ -267,8 +307,8 @@ static void interval (cut_work *w, int k, double a, double b, double root, doubl
     }
 }
 
-/* The nearest root at or before a (or at or behind b) that matters for an interval of this length, NAN:
- * none. */
+/* The soft split nearest to the end `at` of an interval, on its outer side (before: below it) and no
+ * farther away than the interval is long; NAN: none. Farther ones leave the integrand smooth enough. */
 static double nearest (const cut_list *soft, double at, int before, double length)
 {
     double best = NAN;
@@ -281,6 +321,7 @@ static double nearest (const cut_list *soft, double at, int before, double lengt
     return best;
 }
 
+/* Insertion sort: lists are short. */
 static void sort (cut_list *list)
 {
     for (size_t i = 1; i < list->n; i++) {
@@ -291,6 +332,7 @@ static void sort (cut_list *list)
     }
 }
 
+/* An interval with soft splits at both ends is halved, so that each half has one. */
 static void walk (cut_work *w, int k, double weight)
 {
     cut_slices *s = &w->slices;
@@ -317,7 +359,9 @@ static void walk (cut_work *w, int k, double weight)
     }
 }
 
-/* The height follows the normals at the centre; the axis with the least of them is outermost. */
+/* Orders the axes for this walk: the height is the axis that the normals at the centre of the cell follow
+ * most, so that surfaces are graphs over the other axes as far as possible; the axis they follow least is
+ * outermost. */
 static void choose_axes (cut_work *w)
 {
     cut_slices *s = &w->slices;
@@ -354,8 +398,8 @@ pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut
     return s->status;
 }
 
-/* The height of the walk within a face is steepest there; the place is in the body when it is on both sides
- * of the face. */
+/* The face's axis becomes the outermost, fixed at the face; the walk covers the other axes. The weight of
+ * the outermost axis, half an edge, is divided out again. */
 pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
 {
     cut_slices *s = &w->slices;
@@ -373,6 +417,7 @@ pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
 }
 
 /* ---- to rounding --------------------------------------------------------------------------------------- */
+/* Sum of weights, their centroid and the integral of the normal. */
 static cut_piece sum_up (const pg_cut_points *p, size_t dim)
 {
     cut_piece s = {0, {0, 0, 0}, {0, 0, 0}};
@@ -387,6 +432,7 @@ static cut_piece sum_up (const pg_cut_points *p, size_t dim)
     return s;
 }
 
+/* Orders grow by about 1.5 each; convergence is relative to the cell (for a surface: to its largest face). */
 pg_status cut_work_piece (cut_work *w, int surface, int part, cut_piece *piece)
 {
     static const int orders[] = {3, 5, 8, 12, 18, 27, 40};

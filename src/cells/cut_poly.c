@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Real roots of polynomials of low degree: between the roots of the derivative the polynomial is monotone.
- * Gauss rules. */
+ * Real roots of polynomials of degree 4 at most, and Gauss-Legendre rules on [0, 1].
+ *
+ * Degrees 1 and 2 in closed form. Higher degrees by recursion: between two neighbouring roots of the
+ * derivative a polynomial is monotone, so that an interval with a change of sign holds exactly one root,
+ * which Newton's method with bisection finds safely. */
 #include "cut.h"
 #include <math.h>
 
+/* Value at x by Horner's scheme; c[k] belongs to x^k. */
 static double value (int degree, const double *c, double x)
 {
     double v = c[degree];
@@ -11,6 +15,7 @@ static double value (int degree, const double *c, double x)
     return v;
 }
 
+/* Sum of the sizes of all terms at |x| = far: the scale against which a value counts as zero. */
 static double size_of (int degree, const double *c, double far)
 {
     double size = 0, power = 1;
@@ -18,7 +23,9 @@ static double size_of (int degree, const double *c, double far)
     return size;
 }
 
-/* Roots that differ by 1e-7 of their size are one: a tangent, torn apart by rounding. */
+/* Roots of c[0] + c[1] x + c[2] x^2, ascending. A discriminant within 1e-14 of zero, relative to its terms,
+ * is zero: the surfaces touch, and rounding alone would tear the double root apart or lose it (the two
+ * roots then differ by no more than 1e-7 of their size). The formula for q avoids cancellation. */
 static int quadratic (const double *c, double *root)
 {
     double D = c[1] * c[1] - 4 * c[0] * c[2], tiny = 1e-14 * (c[1] * c[1] + fabs (4 * c[0] * c[2]));
@@ -32,7 +39,8 @@ static int quadratic (const double *c, double *root)
     return 2;
 }
 
-/* The root in [a, b], where the signs differ: Newton, and bisection where it leaves. */
+/* The root in [a, b], at whose ends the signs differ: Newton's method, with bisection where a step leaves
+ * the interval, which shrinks with every step. */
 static double between (int degree, const double *c, double a, double b)
 {
     double slope[CUT_DEGREE], x = 0.5 * (a + b);
@@ -50,6 +58,8 @@ static double between (int degree, const double *c, double a, double b)
     return x;
 }
 
+/* Roots of a polynomial of degree 3 or 4 in [low, high]. A stationary point (or an end) where the value is
+ * within `touch` of zero is a root itself: there the polynomial touches zero. */
 static int wider (int degree, const double *c, double low, double high, double touch, double *root)
 {
     double slope[CUT_DEGREE], turn[CUT_DEGREE + 2];
@@ -69,6 +79,8 @@ static int wider (int degree, const double *c, double low, double high, double t
     return n < degree ? n : degree;
 }
 
+/* Leading coefficients that contribute less than 1e-14 of the size are dropped, as they would only produce
+ * roots far outside. A polynomial that is constant has no roots. */
 int cut_roots (int degree, const double *c, double low, double high, double *root)
 {
     double far = fmax (fabs (low), fabs (high)), size = size_of (degree, c, far), found[2];
@@ -82,7 +94,8 @@ int cut_roots (int degree, const double *c, double low, double high, double *roo
     return kept;
 }
 
-/* Gauss-Legendre on [0, 1]: Newton on the Legendre polynomial. */
+/* Newton's method on the Legendre polynomial P_n by its three-term recurrence, from Tricomi's approximation
+ * of the roots; weights 2 / ((1 - t^2) P_n'(t)^2), halved for the interval of length 1. */
 void cut_gauss (int n, double *x, double *w)
 {
     for (int i = 0; i < n; i++) {

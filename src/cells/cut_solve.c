@@ -1,13 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where three quadrics meet in a cube: boxes are halved and thrown away where one of them has no zero; Newton
- * in those that are left. */
+ * Where three quadrics meet in a cube [-reach, reach]^3: the corners of a body, and the points where the
+ * curve of two surfaces turns back. Subdivision: a box in which one of the three certainly has no zero is
+ * discarded, others are divided into eight; in the boxes that remain at an edge of a tenth of the cell,
+ * Newton's method. This finds all isolated solutions without a first guess. */
 #include "cut.h"
 #include <math.h>
 #include <string.h>
 
-enum { BOXES = 4000 };                                 /* curves of solutions would have no end */
+/* Boxes visited at most. Three surfaces with a curve in common have infinitely many solutions; no box on
+ * the curve could ever be discarded. */
+enum { BOXES = 4000 };
+/* The three quadrics, the solutions so far (n x 3), half the edge of the cube, number of solutions and
+ * boxes. */
 typedef struct { const cut_quadric *q; double *x, reach; int n, boxes; } search;
 
+/* Newton's method by Cramer's rule, from x. 1: converged (step below 1e-15, or values below 1e-12 after 20
+ * steps) without moving more than `reach` in any coordinate; a singular Jacobian ends it. */
 static int newton (const cut_quadric *q, double *x, double reach)
 {
     double from[3];
@@ -34,6 +42,7 @@ static int newton (const cut_quadric *q, double *x, double reach)
     return size < 1e-12;
 }
 
+/* Adds a solution unless it is outside the cube or known already, to 1e-9. */
 static void keep (search *s, const double *x)
 {
     for (int k = 0; k < 3; k++) if (fabs (x[k]) > s->reach + 1e-9) return;
@@ -45,6 +54,7 @@ static void keep (search *s, const double *x)
     if (s->n < CUT_MEETINGS) memcpy (s->x + 3 * s->n++, x, 3 * sizeof *x);
 }
 
+/* Visits the box around `centre` with half edge `half`. */
 static void halve (search *s, const double *centre, double half)
 {
     const double edges[3] = {half, half, half};

@@ -1,12 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where slices of a cell change: between the values found here the surfaces keep their number and order along
- * the height. Hard values end intervals of the quadrature; at soft ones, also beyond the cell, heights begin
- * like square roots (a tangent along the height). */
+ * Where the slices of a cell change: values of the outer coordinate between which the surfaces keep their
+ * number and order along the height, so that the integrand of the outer quadrature is smooth there (Saye
+ * 2015).
+ *
+ * Hard splits end intervals of the quadrature: a surface crosses the low or high face of the height, two
+ * surfaces meet, or a surface or curve turns back inside the cell. Soft splits mark where heights begin
+ * like a square root (a tangent along the height), also somewhat outside the cell, where they still spoil
+ * convergence.
+ *
+ * In a plane slice with coordinates y and z (the height) a surface is a conic a z^2 + B (y) z + C (y) = 0,
+ * so that all splits are roots of polynomials in y of degree 4 at most. In a solid the splits along x are
+ * points where three quadrics vanish (cut_solve.c), and the splits of the four side faces of the cell. */
 #include "cut.h"
 #include <math.h>
 
+/* near_box: positions this near outside the cell count as in it. flat: a coefficient below this is zero
+ * (coefficients have size 1). */
 static const double near_box = 1 + 1e-9, flat = 1e-13;
 
+/* Appends a value. A failed allocation is noted in s->status. */
 static void push (cut_slices *s, cut_list *list, double value)
 {
     pg_status status = PG_OK;
@@ -16,7 +28,7 @@ done:
     if (status != PG_OK) s->status = status;
 }
 
-/* The part of surface i that may bound the body holds the place s->at? */
+/* The box of a surface is closed by 1e-7 of the cell, more than the error of any intersection found here. */
 int cut_within (const cut_slices *s, size_t i)
 {
     for (int k = 0; k < s->dim; k++)
@@ -25,6 +37,7 @@ int cut_within (const cut_slices *s, size_t i)
     return 1;
 }
 
+/* Do the boxes of surfaces i and j have a place in common? */
 static int overlap (const cut_slices *s, size_t i, size_t j)
 {
     for (size_t k = 0; k < (size_t) s->dim; k++)
@@ -33,6 +46,7 @@ static int overlap (const cut_slices *s, size_t i, size_t j)
 }
 
 /* ---- slices: psi = a z^2 + B (y) z + C (y) ------------------------------------------------------------- */
+/* A surface within a plane slice: a z^2 + (B[0] + B[1] y) z + C[0] + C[1] y + C[2] y^2. */
 typedef struct { double a, B[2], C[3]; } conic;
 
 static conic conic_of (const cut_quadric *q, int y, int z)
@@ -40,10 +54,11 @@ static conic conic_of (const cut_quadric *q, int y, int z)
     return (conic) {q->A[z][z], {q->b[z], 2 * q->A[y][z]}, {q->c, q->b[y], q->A[y][y]}};
 }
 
+/* B and C at y. */
 static double at_B (const conic *p, double y) { return p->B[0] + p->B[1] * y; }
 static double at_C (const conic *p, double y) { return p->C[0] + y * (p->C[1] + y * p->C[2]); }
 
-/* On the low and the high face. */
+/* Splits where the conic crosses the low and the high face of the height, z = -1 and z = 1. */
 static void split_faces (cut_slices *s, cut_level *out, size_t i, const conic *p, int y, int z)
 {
     for (int side = -1; side <= 1; side += 2) {
@@ -56,7 +71,8 @@ static void split_faces (cut_slices *s, cut_level *out, size_t i, const conic *p
     }
 }
 
-/* Tangents along z: B^2 = 4 a C. */
+/* Splits where the conic is tangent to the height: its discriminant B^2 - 4 a C is zero. They are soft, up
+ * to |y| = 3 and |z| = 2, and hard as well inside the cell. */
 static void split_turns (cut_slices *s, cut_level *out, const conic *p)
 {
     double root[2];
@@ -72,7 +88,10 @@ static void split_turns (cut_slices *s, cut_level *out, const conic *p)
     }
 }
 
-/* Polynomial whose roots hold the y at which two conics have a z in common; its degree, 0: none. */
+/* Polynomial R (y) whose roots include all y at which both conics have a z in common; returns its degree.
+ * With both linear in z: B_p C_q - B_q C_p. Otherwise z^2 is eliminated first, which leaves B z + C = 0
+ * with B = a_p B_q - a_q B_p and C alike, and R = a_p C^2 - B_p B C + C_p B^2. Where B vanishes the conics
+ * differ by C alone and every z at its roots is common. */
 static int resultant (const conic *p, const conic *q, double *R)
 {
     double B[2], C[3], scale = 0;
@@ -104,7 +123,8 @@ static int resultant (const conic *p, const conic *q, double *R)
     return 4;
 }
 
-/* The heights of surface p at y within the box (and a little beyond). */
+/* The heights z of conic p at y, within the cell and 1e-6 beyond it. Near a tangent the discriminant may
+ * come out slightly negative; the double root counts then. */
 static int heights (const conic *p, double y, double *z)
 {
     double c[3] = {at_C (p, y), at_B (p, y), p->a};
@@ -115,6 +135,8 @@ static int heights (const conic *p, double y, double *z)
     return n;
 }
 
+/* Splits where conics i and j meet: roots of the resultant at which both really vanish at the same height,
+ * within the boxes of both surfaces. */
 static void split_pair (cut_slices *s, cut_level *out, size_t i, size_t j, const conic *p, const conic *q,
                         int y, int z)
 {
@@ -131,6 +153,8 @@ static void split_pair (cut_slices *s, cut_level *out, size_t i, size_t j, const
     }
 }
 
+/* All splits of a plane slice with outer coordinate y and height z; q: the surfaces restricted to the
+ * slice. */
 static void split_slice (cut_slices *s, const cut_quadric *surface, cut_level *out, int y, int z)
 {
     for (size_t i = 0; i < s->n; i++) {
@@ -145,7 +169,9 @@ static void split_slice (cut_slices *s, const cut_quadric *surface, cut_level *o
 }
 
 /* ---- solids -------------------------------------------------------------------------------------------- */
-/* Where a surface has its ends along x inside the cell: psi_y = psi_z = 0. */
+/* Where surface q has an extreme value along x inside the cell: d psi / dy = d psi / dz = 0 and psi = 0.
+ * The first two are linear and give y and z as linear functions of x, evaluated at x = -1, 0, 1; psi along
+ * them is a quadratic polynomial through three values. */
 static void split_ends (cut_slices *s, cut_level *out, const cut_quadric *q, int x, int y, int z)
 {
     double a = 2 * q->A[y][y], b = 2 * q->A[y][z], c = 2 * q->A[z][z], det = a * c - b * b, v[3], root[2];
@@ -166,7 +192,9 @@ static void split_ends (cut_slices *s, cut_level *out, const cut_quadric *q, int
     }
 }
 
-/* Where three surfaces meet, or (number 2) where the curve of two has its ends along x. */
+/* Splits along x at the points where the three quadrics vanish: number 3: three surfaces meet; number 2:
+ * the third quadric is the Jacobian of the first two, and the curve of their intersection has an extreme
+ * value along x (soft as well). which: the `number` surfaces whose boxes must hold the point. */
 static void split_points (cut_slices *s, cut_level *out, const cut_quadric *three, const size_t *which,
                           int number, int x)
 {
@@ -181,7 +209,8 @@ static void split_points (cut_slices *s, cut_level *out, const cut_quadric *thre
     }
 }
 
-/* p_y q_z - p_z q_y */
+/* p_y q_z - p_z q_y, a quadric again as the gradients are linear: where it vanishes on the curve p = q = 0,
+ * the tangent of the curve has no component along x. */
 static cut_quadric jacobian (const cut_quadric *p, const cut_quadric *q, int y, int z)
 {
     cut_quadric J = {{{0}}, {0}, 0};
@@ -199,6 +228,7 @@ static cut_quadric jacobian (const cut_quadric *p, const cut_quadric *q, int y, 
     return J;
 }
 
+/* Is the surface a plane? */
 static int straight (const cut_quadric *q)
 {
     double size = 0;
@@ -206,6 +236,8 @@ static int straight (const cut_quadric *q)
     return size == 0;
 }
 
+/* All splits of a cell along x: extreme values of surfaces and of curves of two (two planes meet in a line,
+ * which has none), corners of three, and the splits of the four side faces, each a plane slice. */
 static void split_solid (cut_slices *s, const cut_quadric *q, cut_level *out)
 {
     int x = s->axis[0], y = s->axis[1], z = s->axis[2];

@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The surface of the body as planes, circles, cylinders and spheres: |grad psi| = 1 where psi = 0. */
+ * The surface of the body as quadrics: planes, circles, cylinders and spheres, scaled so that |grad psi| =
+ * 1 where psi = 0. Each comes with the box of the part that may bound the body. Whether a piece of a
+ * surface really bounds the body is not decided here but at each quadrature point, by asking the body on
+ * both sides. */
 #include "cut.h"
 #include <math.h>
 #include <string.h>
 
 /* ---- quadrics ------------------------------------------------------------------------------------------ */
+/* The loops run to 3 in every dimension: coefficients beyond dim are zero. */
 double cut_value (const cut_quadric *q, const double *x)
 {
     double v = q->c;
@@ -15,6 +19,7 @@ double cut_value (const cut_quadric *q, const double *x)
     return v;
 }
 
+/* grad = b + 2 A x. */
 void cut_gradient (const cut_quadric *q, const double *x, double *g)
 {
     for (int i = 0; i < 3; i++) {
@@ -23,6 +28,7 @@ void cut_gradient (const cut_quadric *q, const double *x, double *g)
     }
 }
 
+/* Collects the terms with x[axis] in the others, then erases the axis. */
 void cut_restrict (cut_quadric *q, int axis, double at)
 {
     q->c += q->b[axis] * at + q->A[axis][axis] * at * at;
@@ -33,6 +39,8 @@ void cut_restrict (cut_quadric *q, int axis, double at)
     q->b[axis] = 0;
 }
 
+/* |psi (x) - psi (centre)| <= sum_i |g_i| half_i + sum_ik |A_ik| half_i half_k in the box: exact for a
+ * quadric. */
 int cut_meets (const cut_quadric *q, const double *centre, const double *half, double slack)
 {
     double g[3], reach = slack;
@@ -44,6 +52,8 @@ int cut_meets (const cut_quadric *q, const double *centre, const double *half, d
     return fabs (cut_value (q, centre)) <= reach;
 }
 
+/* Substitution x = centre + half X, about the surface's own origin; then all is divided by the largest
+ * |b_i| + |A_ii|. */
 cut_quadric cut_local (const cut_surface *s, int dim, const double *centre, const double *half)
 {
     cut_quadric q = {{{0}}, {0}, 0};
@@ -65,8 +75,11 @@ cut_quadric cut_local (const cut_surface *s, int dim, const double *centre, cons
 }
 
 /* ---- surfaces of shapes -------------------------------------------------------------------------------- */
+/* The list under construction. */
 typedef struct { struct pg_cut *cut; size_t capacity; } builder;
 
+/* Are these the same surface with the same box, up to the sign of psi? Compared in the local coordinates of
+ * the box, to 1e-13. */
 static int same (const cut_surface *a, const cut_surface *b, int dim)
 {
     double centre[3], half[3] = {1, 1, 1}, size = 0, plus = 0, minus = 0;
@@ -85,6 +98,7 @@ static int same (const cut_surface *a, const cut_surface *b, int dim)
     return fmin (plus, minus) < 1e-13;
 }
 
+/* Appends a surface unless it is there already (a shape that shares a side with another). */
 static pg_status add (builder *m, const cut_surface *s)
 {
     pg_status status = PG_OK;
@@ -95,7 +109,7 @@ done:
     return status;
 }
 
-/* A plane through a point, with a unit normal. */
+/* A plane through a point with a unit normal; where it is normal to an axis its box is flat. */
 static pg_status add_plane (builder *m, cut_surface s, const double *point, const double *normal)
 {
     s.flat = 1, s.axis = -1;
@@ -107,6 +121,7 @@ static pg_status add_plane (builder *m, cut_surface s, const double *point, cons
     return add (m, &s);
 }
 
+/* The 2 dim sides of a box; part: side number. */
 static pg_status add_box (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
@@ -122,7 +137,7 @@ done:
     return status;
 }
 
-/* Circle, sphere; cylinder: at right angles to its axis. */
+/* Circle, sphere: psi = (|x - c|^2 - R^2) / 2R; cylinder: the same with the distance from its axis. */
 static pg_status add_round (builder *m, cut_surface s, const pg_shape *shape)
 {
     double R = shape->radius;
@@ -136,6 +151,8 @@ static pg_status add_round (builder *m, cut_surface s, const pg_shape *shape)
     return add (m, &s);
 }
 
+/* The round surface and the two flat ends (part 1 at the centre, 2 at the far end); a disc with axis a
+ * extends R sqrt (1 - a_k^2) along axis k. */
 static pg_status add_cylinder (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
@@ -156,6 +173,7 @@ done:
     return status;
 }
 
+/* One plane for each edge (part: number of its first vertex); of a prism also the ends along z. */
 static pg_status add_polygon (builder *m, cut_surface s, const pg_shape *shape)
 {
     pg_status status = PG_OK;
@@ -178,7 +196,7 @@ done:
     return status;
 }
 
-/* Box of the shape. */
+/* Bounding box of a shape of any kind, into s->low and s->high. */
 static void bound (cut_surface *s, const pg_shape *shape, int dim)
 {
     for (int k = 0; k < dim; k++) {
@@ -195,7 +213,8 @@ static void bound (cut_surface *s, const pg_shape *shape, int dim)
     }
 }
 
-/* From the centre on in one direction. */
+/* A dividing half-plane along a ray: the plane holds the ray and z, its box is open in the ray's direction
+ * only. */
 static pg_status add_knife (builder *m, const pg_ray *ray)
 {
     const pg_body *body = &m->cut->body;
@@ -210,7 +229,8 @@ static pg_status add_knife (builder *m, const pg_ray *ray)
     return add_plane (m, s, point, n);
 }
 
-/* Planes of the lattice, of which cells see those at their steps (cut_cells.c). */
+/* For a mesh seen as a staircase: all planes of the lattice. cut_cells.c gives a cell only those at which
+ * the staircase has a step. */
 static pg_status add_stairs (builder *m, cut_surface s, const pg_lattice *l)
 {
     pg_status status = PG_OK;
@@ -229,7 +249,7 @@ done:
     return status;
 }
 
-/* Meshes become stairs. */
+/* Replaces meshes by their staircases on the lattice; such a body needs a list of shapes of its own. */
 static pg_status own_shapes (struct pg_cut *cut, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;

@@ -2,6 +2,7 @@
  * Keys of cells and of named sets of points and boundary facets. */
 #include "perigal/cells.h"
 
+/* Each row is one key of a scene: path, kind, unit, default, choices and the text of `perigal help`. */
 static const pg_key keys[] = {
     { .path = "cells",
       .kind = PG_NAME,

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which points and facets lie on the surface of a shape, or bear a name that the mesh brought? (sides of the
- * box: sides.c; parts of shapes: parts.c) */
+ * Which points and facets lie on the surface of a shape, or belong to a set that the mesh brought. (Sides
+ * of the bounding box: sides.c; parts of shapes: parts.c.) Marks of points and facets go together: a facet
+ * marks the points linked to it, so that a load on the facets and a support of the points refer to the same
+ * place. */
 #include "cut.h"
 #include "mark.h"
 #include "sites.h"
@@ -10,7 +12,8 @@
 const char *const pg_side_names[PG_SIDES] = {"left", "right", "bottom", "top", "back", "front"};
 
 /* ---- points of facets ---------------------------------------------------------------------------------- */
-/* A piece of a face of the cell: only the points of that face count, if there are any. */
+/* A facet in a cut cell that lies on a face of the cell: of the n points of the cell keeps those on that
+ * face, if there are any. Returns how many are left. */
 static int on_the_face (const pg_marks *m, size_t f, int n, int *point)
 {
     const cut_surface *s = m->cells->cut && m->cells->facet_surface[f] >= 0
@@ -26,7 +29,8 @@ static int on_the_face (const pg_marks *m, size_t f, int n, int *point)
     return kept ? kept : n;
 }
 
-/* Points of facet f, at most 8: at the corners of a whole face; of a piece the outer points of its cell. */
+/* The points of facet f, at most 8: those at the corners of a whole face; for a piece of the surface those
+ * points of its cell that are not surrounded by kept cells; for points at the centres of cells the centre. */
 static int lattice_points (const pg_marks *m, const cells_sites *s, size_t f, int *point)
 {
     const pg_cells *c = m->cells;
@@ -42,7 +46,7 @@ static int lattice_points (const pg_marks *m, const cells_sites *s, size_t f, in
     return n;
 }
 
-/* Sites NULL: of a mesh, whose facets know their points. */
+/* The points of facet f of any kind; sites NULL: a mesh, whose facets know their points. */
 static int points_of (const pg_marks *m, const cells_sites *s, size_t f, int *point)
 {
     const pg_cells *c = m->cells;
@@ -53,6 +57,7 @@ static int points_of (const pg_marks *m, const cells_sites *s, size_t f, int *po
     return n;
 }
 
+/* Lists the points of all facets: counts, then writes. */
 static pg_status link_facets (pg_marks *m)
 {
     pg_status status = PG_OK;
@@ -73,6 +78,8 @@ done:
     return status;
 }
 
+/* The shape each facet belongs to: known for a piece of the exact surface, else the shape whose surface is
+ * nearest to the centroid. */
 static pg_status find_shapes (pg_marks *m)
 {
     pg_status status = PG_OK;
@@ -89,6 +96,7 @@ done:
 }
 
 /* ---- life cycle ---------------------------------------------------------------------------------------- */
+/* The box is that of the body where there is a lattice, else that of the points read from a file. */
 pg_status pg_marks_create (pg_marks *m, const pg_body *body, const pg_lattice *lattice, const pg_cloud *cloud,
                            const pg_cells *cells)
 {
@@ -130,6 +138,7 @@ void pg_marks_fill (pg_marks *m, int value)
 }
 
 /* ---- boundary ------------------------------------------------------------------------------------------ */
+/* Number of the side of that name, -1: none in this dimension. */
 static int side_named (int dim, const char *name)
 {
     for (int s = 0; s < 2 * dim; s++) if (!strcmp (name, pg_side_names[s])) return s;
@@ -142,7 +151,9 @@ void cells_mark_facet (pg_marks *m, size_t f)
     for (size_t k = m->facet_first[f]; k < m->facet_first[f + 1]; k++) m->point[m->facet_point[k]] = 1;
 }
 
-/* The flat ends of a cylinder, whose round surface is called rim. */
+/* A facet of the exact surface knows. A face of a staircase counts if its normal is nearer to the axis than
+ * to the plane across it (cosine^2 > 1/2) and its centroid lies within 3/4 of a step of one of the two
+ * ends. */
 int cells_is_end (const pg_marks *m, size_t f)
 {
     const pg_shape *s = &m->body->shape[m->facet_shape[f]];
@@ -161,7 +172,7 @@ int cells_is_end (const pg_marks *m, size_t f)
     return turn * turn > 0.5 && fmin (fabs (along), fabs (along - s->length)) <= 0.75 * step;
 }
 
-/* By the name of the surface, or of a side set of a mesh. */
+/* Does facet f carry this name, that of its shape's surface or of a side set of its shape's mesh? */
 static int is_of_shape (const pg_marks *m, size_t f, const char *name)
 {
     const pg_shape *s = &m->body->shape[m->facet_shape[f]];
@@ -170,6 +181,8 @@ static int is_of_shape (const pg_marks *m, size_t f, const char *name)
                && pg_shape_on_side (s, m->cells->facet_centre + f * (size_t) m->cells->dim, name));
 }
 
+/* Marks the facets of all shapes whose surface has this name; "side" also means the flat ends of cylinders,
+ * which the name "rim" excludes. 0: no shape has such a surface. */
 static int mark_shape (pg_marks *m, const char *name)
 {
     int known = 0, side = !strcmp (name, "side");
@@ -185,7 +198,7 @@ static int mark_shape (pg_marks *m, const char *name)
     return known;
 }
 
-/* A set that the mesh brought */
+/* Marks a set that the mesh brought; 0: there is none of that name. */
 static int mark_given (pg_marks *m, const char *name)
 {
     for (size_t i = 0; i < m->cells->ngiven; i++) {
@@ -198,6 +211,8 @@ static int mark_given (pg_marks *m, const char *name)
     return 0;
 }
 
+/* Sets of the mesh come first and so hide predefined names. Without facets (points from a file) the sides
+ * mark points. */
 int pg_marks_boundary (pg_marks *m, const char *name)
 {
     if (mark_given (m, name)) return 1;
@@ -212,12 +227,14 @@ int pg_marks_boundary (pg_marks *m, const char *name)
 }
 
 /* ---- tests --------------------------------------------------------------------------------------------- */
+/* A point in the middle plane itself, to rounding, belongs to neither half. */
 int pg_marks_beyond (const pg_marks *m, int side, const double *x)
 {
     double d = x[side / 2] - m->centre[side / 2];
     return (side % 2 ? d : -d) > 1e-9 * m->size;
 }
 
+/* Facets are judged by their centroid. */
 void pg_marks_keep (pg_marks *m, pg_mark_test test, const void *context)
 {
     size_t dim = (size_t) m->cloud->dim;

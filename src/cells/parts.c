@@ -10,19 +10,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Shapes whose curved surface is called rim. */
 static int is_round (const pg_shape *s)
 {
     return s->kind == PG_DISK || s->kind == PG_SPHERE || s->kind == PG_CYLINDER;
 }
 
 /* ---- names --------------------------------------------------------------------------------------------- */
+/* Number of the side called `part` among first .. 2 dim - 1, -1: none. */
 static int side_named (const char *part, int first, int dim)
 {
     for (int k = first; k < 2 * dim; k++) if (!strcmp (part, pg_side_names[k])) return k;
     return -1;
 }
 
-/* "edge 3", "edge_3": 2; -1: no such edge. */
+/* The number from 0 of an edge called "edge 3" or "edge_3" (both 2), of n; -1: no such edge. */
 static int edge_named (const char *part, size_t n)
 {
     char *end;
@@ -31,6 +33,7 @@ static int edge_named (const char *part, size_t n)
     return end > part + 5 && !*end && k >= 1 && k <= (long) n ? (int) k - 1 : -1;
 }
 
+/* The ends of a prism are numbered behind its n edges: n at low z, n + 1 at high z. */
 int cells_part_named (const pg_shape *s, int dim, const char *part)
 {
     int side;
@@ -46,7 +49,7 @@ int cells_part_named (const pg_shape *s, int dim, const char *part)
     }
 }
 
-/* Those of one shape in words, behind its name. */
+/* The names of the parts of one shape, for messages; NULL: it has none. */
 static const char *parts_of (const pg_shape *s, int dim)
 {
     return s->kind == PG_BOX        ? dim == 1   ? "{left, right}"
@@ -59,7 +62,8 @@ static const char *parts_of (const pg_shape *s, int dim)
                                     : NULL;
 }
 
-/* 1: the shape is called so. Layers only by their own names. */
+/* Is shape i called `name` (of that length): by its own name, or by what it is ("disk")? Shapes made by
+ * boundary layers only by their own. */
 static int is_called (const pg_body *body, size_t i, const char *name, size_t length)
 {
     const pg_shape *s = &body->shape[i];
@@ -68,6 +72,7 @@ static int is_called (const pg_body *body, size_t i, const char *name, size_t le
     return i + body->nlayer < body->n && strlen (kind) == length && !strncmp (kind, name, length);
 }
 
+/* Shapes that bear a default name (rim, side, hole) are listed by what they are; equal ones once. */
 void cells_parts_list (const pg_body *body, char *out, size_t size)
 {
     size_t used = 0;
@@ -87,7 +92,8 @@ void cells_parts_list (const pg_body *body, char *out, size_t size)
 }
 
 /* ---- facets -------------------------------------------------------------------------------------------- */
-/* The edge of the polygon that is nearest to x among those that look where the facet does. */
+/* The edge of the polygon nearest to x (m) among those whose outward normal has a positive component along
+ * the facet's normal n; -1: there is none. */
 static int nearest_edge (const pg_shape *s, const double *x, const double *n)
 {
     int best = -1;
@@ -106,7 +112,9 @@ static int nearest_edge (const pg_shape *s, const double *x, const double *n)
     return best;
 }
 
-/* Of the face of a lattice cell that stands for the surface of this shape. */
+/* The part of shape s that face f of a lattice cell stands for, where the surface is a staircase: by the
+ * direction of its normal, for edges by distance; -1: none. The normal of a subtracted shape is turned
+ * round. */
 static int part_of_stair (const pg_marks *m, const pg_shape *s, size_t f)
 {
     const double *x = m->cells->facet_centre + f * (size_t) m->cells->dim,
@@ -123,8 +131,8 @@ static int part_of_stair (const pg_marks *m, const pg_shape *s, size_t f)
     return along < 0.5 * s->length ? 1 : 2;
 }
 
-/* At the last point, before the number of an edge: "disk.rim", "left.edge 2". Returns the length of SHAPE; 0:
- * no such form. */
+/* Splits SHAPE.PART at the first dot: returns the length of SHAPE and lets *part begin behind it; 0: there
+ * is no dot. */
 static size_t split (const char *name, const char **part)
 {
     const char *dot = strchr (name, '.');
@@ -132,6 +140,7 @@ static size_t split (const char *name, const char **part)
     return dot ? (size_t) (dot - name) : 0;
 }
 
+/* Every shape that is called so counts. In a mesh facets have no shapes, so that there are no parts. */
 int cells_mark_part (pg_marks *m, const char *name)
 {
     const char *part;

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Named sets: the sides of the bounding box and all, layers, then those of the scene; each with its parts
- * NAME.left, NAME.top, ... */
+ * Named sets: the sides of the bounding box and `all`, the sets of the mesh, boundary layers, the sets of
+ * the scene, and the parts of shapes that the scene names elsewhere; each with its halves NAME.left,
+ * NAME.top, ... A set of the scene begins with its boundary, or with everything, and its other conditions
+ * take points and facets away. Faults of the user are collected: one wrong set does not hide the faults of
+ * the next. */
 #include "mark.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* faces: the marks are those of faces */
+/* The sets under construction. faces: the present marks are those of faces, so that the set has no inside. */
 typedef struct { pg_sets *out; size_t capacity; pg_marks marks; const pg_scene *scene; int faces; } builder;
 
 /* ---- from marks to sets -------------------------------------------------------------------------------- */
-/* Indices of marked items; side >= 0: only those beyond the centre on that side. */
+/* Indices, ascending, of the marked items among `all`; side >= 0: only those whose position x is beyond the
+ * centre on that side. */
 static pg_status gather (int **out, size_t *n, const pg_marks *m, const unsigned char *mark, size_t all,
                          const double *x, int side)
 {
@@ -25,7 +29,7 @@ done:
     return status;
 }
 
-/* Points of s that lie behind its facets; to be held apart from them. */
+/* The points of s that belong to none of its facets: they have to be constrained apart from the facets. */
 static pg_status gather_inner (pg_set *s, const pg_marks *m)
 {
     pg_status status = PG_OK;
@@ -45,6 +49,7 @@ done:
     return status;
 }
 
+/* Appends the set `name`, or its half on one side, from the present marks. */
 static pg_status add_one (builder *b, const char *name, int side)
 {
     pg_status status = PG_OK;
@@ -62,6 +67,7 @@ done:
     return status;
 }
 
+/* Appends the set and all its halves. */
 static pg_status add_set (builder *b, const char *name)
 {
     pg_status status = PG_OK;
@@ -70,6 +76,7 @@ done:
     return status;
 }
 
+/* The sides, `all`, and what the mesh brought and is not there yet. */
 static pg_status add_predefined (builder *b)
 {
     pg_status status = PG_OK;
@@ -93,8 +100,9 @@ done:
     return status;
 }
 
-/* Points of a layer: of nodes those beyond the body's face (half a step tells them from its own, also where
- * they are moved). */
+/* One set for each boundary layer: the points in it and the facets of its cells. Points at vertices count
+ * as the layer's beyond half a step from the body's face: the face itself belongs to the body, also where
+ * points are perturbed. */
 static pg_status add_layers (builder *b)
 {
     pg_status status = PG_OK;
@@ -122,12 +130,14 @@ done:
 }
 
 /* ---- conditions ---------------------------------------------------------------------------------------- */
+/* Angle in [0, 2 pi), counter-clockwise from the x axis. */
 static double angle_of (double y, double x)
 {
     double a = atan2 (y, x);
     return a < 0 ? a + 2 * acos (-1) : a;
 }
 
+/* Condition `where`: the expression (context) is true at x. */
 static int holds (const pg_marks *m, const double *x, const void *context)
 {
     pg_place at = {0};
@@ -139,9 +149,11 @@ static int holds (const pg_marks *m, const double *x, const void *context)
     return pg_expression_value (context, &at) != 0;
 }
 
-typedef struct { size_t n; double *range; } ranges;        /* n x {from, span} */
+/* Ranges of angles: n pairs {from, span}, rad. */
+typedef struct { size_t n; double *range; } ranges;
 
-/* No point at the centre itself has an angle. Ends count, to 1e-9 rad. */
+/* Condition `angle`: the direction from the centre of the body to x lies in one of the ranges, ends
+ * included to 1e-9 rad. A position at the centre itself has no direction and does not meet it. */
 static int in_ranges (const pg_marks *m, const double *x, const void *context)
 {
     const ranges *r = context;
@@ -155,6 +167,7 @@ static int in_ranges (const pg_marks *m, const double *x, const void *context)
     return 0;
 }
 
+/* Ranges that are no pairs are passed over here; keep_angles reports them. */
 pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg_body *body)
 {
     pg_status status = PG_OK;
@@ -178,6 +191,8 @@ done:
     return status;
 }
 
+/* Reads the ranges of a set and applies them. [350 deg, 10 deg] passes through 0; a span of a full turn or
+ * more is the whole circle. */
 static pg_status keep_angles (builder *b, const char *name)
 {
     pg_status status = PG_OK;
@@ -206,6 +221,7 @@ done:
     return status;
 }
 
+/* Reads and applies `where`. An expression that depends on the time is a fault. */
 static pg_status keep_where (builder *b, const char *name)
 {
     pg_status status = PG_OK;
@@ -220,7 +236,7 @@ done:
     return status;
 }
 
-/* What to say of a side in whose plane the body has no face. */
+/* Remembers the planes of the bounding box and the names of all parts, for messages about empty sides. */
 static void describe_empty (pg_sets *out, const builder *b)
 {
     const pg_marks *m = &b->marks;
@@ -229,6 +245,7 @@ static void describe_empty (pg_sets *out, const builder *b)
         out->plane[side] = side % 2 ? m->high[side / 2] : m->low[side / 2];
 }
 
+/* Number of the predefined side of that name, -1: none in this dimension. */
 static int side_of (const pg_sets *sets, const char *name)
 {
     for (int side = 0; side < PG_SIDES; side++)
@@ -241,6 +258,7 @@ int pg_sets_empty_side (const pg_sets *sets, const pg_set *set)
     return set->npoint == 0 && set->nfacet == 0 && side_of (sets, set->name) >= 0;
 }
 
+/* The fault of naming a side without a face: says where its plane is and what could be meant. */
 static void fault_empty_side (const pg_sets *sets, const pg_scene *scene, const char *path, const char *name)
 {
     int side = side_of (sets, name);
@@ -253,6 +271,7 @@ static void fault_empty_side (const pg_sets *sets, const pg_scene *scene, const 
                     *sets->parts ? ")" : "");
 }
 
+/* The fault of an unknown `boundary`: lists all names, and suggests the nearest. */
 static void unknown_boundary (const builder *b, const char *at, const char *name)
 {
     char names[800] = "";
@@ -285,7 +304,8 @@ static void unknown_boundary (const builder *b, const char *at, const char *name
     else pg_scene_fault (b->scene, at, "no boundary is called '%.40s'; there are %s", name, names);
 }
 
-/* 0 when a name is unknown. */
+/* Marks all boundaries that the set names; a fault for each unknown name or empty side. 0 if there was
+ * one. */
 static int mark_boundaries (builder *b, const char *name)
 {
     const char *part;
@@ -304,9 +324,11 @@ static int mark_boundaries (builder *b, const char *name)
 }
 
 /* ---- sets of the scene --------------------------------------------------------------------------------- */
+/* Is any of n marks set? */
 static int marked (const unsigned char *mark, size_t n) { return n > 0 && memchr (mark, 1, n) != NULL; }
 
-/* What is wrong becomes a fault; the other sets are looked at all the same. */
+/* Adds a set of the scene. After a fault in it, it is added empty, so that the rest of the scene that names
+ * it brings no fault of its own. */
 static pg_status add_named (builder *b, const char *name)
 {
     pg_status status = PG_OK;
@@ -349,7 +371,8 @@ done:
     return status;
 }
 
-/* A part of a shape needs no set of its own: `set: disk.rim`, also disk.rim.top. */
+/* Adds the set for a name SHAPE.PART, or SHAPE.PART.HALF, that is used directly (`set: disk.rim`); nothing
+ * where the name is no such form or is there already. */
 static pg_status add_part (builder *b, const char *name)
 {
     pg_status status = PG_OK;
@@ -369,6 +392,7 @@ done:
     return status;
 }
 
+/* All places of a scene where a part of a shape may be named. */
 static pg_status add_parts (builder *b)
 {
     pg_status status = PG_OK;

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Volumes of points from cut cells. */
+ * Volumes of points from cut cells: the volume of each cell is shared equally among its points, as in an
+ * uncut lattice, so that the sum over the points is the volume of the body. */
 #include "sites.h"
 #include <math.h>
 #include <string.h>
 
+/* Points equally near to one place, at most. */
 enum { MOST = 16 };
+/* The points found so far. */
 typedef struct { int point[MOST]; size_t n; } found;
 
+/* Refuses the points that were found already (a pg_refuse). */
 static int is_found (void *context, const double *place, size_t point)
 {
     const found *f = context;
@@ -15,8 +19,8 @@ static int is_found (void *context, const double *place, size_t point)
     return 0;
 }
 
-/* The nearest points, those within a millionth of a spacing alike: mirror images of a body get mirror images
- * of volumes. */
+/* All points as near to `place` as the nearest, to a millionth of the spacing: with ties decided by number,
+ * mirror images of a body would have volumes that are no mirror images. */
 static void find_nearest (found *f, const pg_cloud *cloud, const pg_nearest *nearest, const double *place)
 {
     double first = 0;
@@ -33,6 +37,8 @@ static void find_nearest (found *f, const pg_cloud *cloud, const pg_nearest *nea
     }
 }
 
+/* A cell none of whose vertices (or whose centre) is a point is a sliver beyond the kept boxes of the
+ * lattice. */
 pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;

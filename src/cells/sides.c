@@ -1,23 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which facets lie in the planes of the bounding box: left right bottom top back front. Those of the exact
- * surface by the surface itself; of a mesh by their nodes; stairs (cells: staircase, a mesh laid over a
- * lattice) stand for the surface within half a step where the body ends in that plane. */
+ * Which facets lie in the planes of the bounding box: left right bottom top back front. Pieces of the exact
+ * surface are judged by their surface, facets of a mesh by their nodes. Faces of a staircase (`cells:
+ * staircase`, or a mesh laid over a lattice) stand for the surface within half a step, where the body
+ * really ends in that plane. */
 #include "cut.h"
 #include "mark.h"
 #include <float.h>
 #include <math.h>
 
+/* Coordinate of the plane of a side, m. */
 static double plane_of (const pg_marks *m, int side)
 {
     return side % 2 ? m->high[side / 2] : m->low[side / 2];
 }
 
-/* Relative to the size of the body, and rounding far from the origin. */
+/* Distance (m) within which a surface lies in the plane at `face`: relative to the size of the body, and
+ * the rounding of coordinates far from the origin. */
 static double slack (const pg_marks *m, double face)
 {
     return 1e-9 * m->size + 8 * DBL_EPSILON * fabs (face);
 }
 
+/* A flat surface whose box lies in the plane. */
 static int surface_lies_in (const pg_marks *m, const cut_surface *s, int side)
 {
     double face = plane_of (m, side), tolerance = slack (m, face);
@@ -25,7 +29,7 @@ static int surface_lies_in (const pg_marks *m, const cut_surface *s, int side)
            && fabs (s->high[side / 2] - face) <= tolerance;
 }
 
-/* Files of meshes round coordinates to six or seven digits. */
+/* All nodes within a millionth of the body's size: mesh files round coordinates to six or seven digits. */
 static int nodes_lie_in (const pg_marks *m, size_t f, int side)
 {
     const pg_cells *c = m->cells;
@@ -58,6 +62,7 @@ static int body_reaches (const pg_marks *m, size_t f, int side)
     return 0;
 }
 
+/* The normal must point outward through the side, within 60 degrees of its direction (cosine > 1/2). */
 int cells_facet_on_side (const pg_marks *m, size_t f, int side)
 {
     const pg_cells *c = m->cells;
@@ -72,6 +77,7 @@ int cells_facet_on_side (const pg_marks *m, size_t f, int side)
     return off <= 0.5 * m->cloud->step[side / 2] * (1 + 1e-9) && body_reaches (m, f, side);
 }
 
+/* Half a spacing: points from a file need not lie in the plane itself. */
 int cells_point_on_side (const pg_marks *m, size_t i, int side)
 {
     double x = m->cloud->x[i * (size_t) m->cloud->dim + (size_t) side / 2];

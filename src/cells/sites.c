@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Points are numbered as the sites that some kept cell uses, in the order of the lattice. */
+ * Which sites of a lattice are points: a vertex that some kept cell touches, or the centre of a kept cell,
+ * in the order of the lattice, x fastest. This repeats the numbering of the points themselves, so that the
+ * numbers need not be stored with the cloud. */
 #include "sites.h"
 #include <math.h>
 #include <string.h>
 
+/* Number of site i (three indices), x fastest. */
 static size_t site_at (const cells_sites *s, const int *i)
 {
     return ((size_t) i[2] * (size_t) s->size[1] + (size_t) i[1]) * (size_t) s->size[0] + (size_t) i[0];
@@ -27,6 +30,7 @@ static void count (cells_sites *s)
             }
 }
 
+/* Points are centres if there are as many as kept cells; vertices are always more. */
 pg_status cells_sites_create (cells_sites *s, const pg_lattice *l, const pg_cloud *cloud)
 {
     pg_status status = PG_OK;
@@ -65,7 +69,7 @@ int cells_sites_at (const cells_sites *s, const double *x)
     return s->centred ? -1 : s->number[site_at (s, i)];
 }
 
-/* Points across the faces of cell i. */
+/* The points at the centres of the cells across the faces of cell i; returns how many. */
 static int beside (const cells_sites *s, const int *i, int *point)
 {
     int n = 0;

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The list of integrations. */
+ * The catalogue of integrations: the entries of list.h as a table and as a string of names. */
 #include "perigal/integration.h"
 #include <string.h>
 
+/* Each pass over list.h gives the macro another meaning: declarations, table, names. */
 #define PG_INTEGRATION(name) extern const pg_integration_type pg_integration_##name;
 #include "list.h"
 #undef PG_INTEGRATION
 
+/* Pointers to all entries, in the order of list.h. */
 static const pg_integration_type *const entries[] = {
 #define PG_INTEGRATION(name) &pg_integration_##name,
 #include "list.h"
@@ -20,6 +22,7 @@ const pg_integration_type *pg_integration_find (const char *name)
     return NULL;
 }
 
+/* The literal begins with a separator, which is skipped. */
 const char *pg_integration_names (void)
 {
     static const char names[] = ""

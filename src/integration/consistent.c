@@ -1,22 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Consistent integration: the points of gauss, with derivatives that obey the divergence identity cell by
- * cell (see integration.h). */
+ * Consistent integration: Gauss points in cells, with derivatives that obey the divergence identity cell by
+ * cell (integration.h has identity and sources; doc/method.md, Consistent integration).
+ *
+ * In one cell, with polynomials p_a, M = sum_g w_g p p' and the residual R_a = oint p_a N n dS - sum_g w_g
+ * (p_a,k N + p_a dN,k) of each node, the smallest change in the norm weighted by w_g is dN (g) += p (g)'
+ * M^-1 R. The solve is done once per point, not per node: c = M^-1 p (g), then dN += sum_a c_a R_a. */
 #include "perigal/integration.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* 1, x, y, z, xy, yz, xz, xyz in 3D. */
 enum { POLYNOMIALS = 8 };
 
 /* ---- set-up -------------------------------------------------------------------------------------------- */
+/* For qsort: ascending. */
 static int compare_nodes (const void *a, const void *b)
 {
     int i = *(const int *) a, j = *(const int *) b;
     return (i > j) - (i < j);
 }
 
-/* Nodes that the points first..last of a family see and that `seen` does not yet hold at `stamp`, appended to
- * list. */
+/* Appends to `list` (n entries so far) the nodes that the points first .. last - 1 of a family see and that
+ * are not in it yet: `seen` holds the stamp of the list that each node was last put into. Returns the new
+ * length. */
 static size_t collect (const pg_family *f, size_t first, size_t last, int *seen, int stamp, int *list,
                        size_t n)
 {
@@ -29,7 +36,9 @@ static size_t collect (const pg_family *f, size_t first, size_t last, int *seen,
     return n;
 }
 
-/* One list of nodes for all points of a cell: those that its points or those of its faces see. */
+/* One list of nodes, ascending, for all points of a cell: those that its points or the points of its faces
+ * see. The identity must hold for each of these nodes, so that every point of the cell needs a derivative
+ * for them. */
 static pg_status unite (pg_consistency *c, const pg_rows *points, size_t nodes)
 {
     pg_status status = PG_OK;
@@ -65,6 +74,8 @@ done:
     return status;
 }
 
+/* Points come cell by cell, so that `first` is a running count. The derivatives at faces are dropped at
+ * once. */
 pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, const pg_approx *approx,
                                  const pg_cloud *cloud, const pg_rows *points, int face_order, int threads)
 {
@@ -100,13 +111,18 @@ void pg_consistency_free (pg_consistency **out)
 }
 
 /* ---- one cell ------------------------------------------------------------------------------------------ */
+/* The polynomials of one cell. */
 typedef struct {
-    int    dim, n;                                     /* polynomials in use */
-    double centre[3], size;                            /* m: z = (x - centre) / size */
-    double L[POLYNOMIALS * POLYNOMIALS];               /* Cholesky factor of sum w p p' */
+    /* Dimension, and number of polynomials in use. */
+    int    dim, n;
+    /* Polynomials are in z = (x - centre) / size (m), so that their values are of size 1 at the points: the
+     * moment matrix is well conditioned at any spacing. */
+    double centre[3], size;
+    /* Cholesky factor of sum w p p' (n x n). */
+    double L[POLYNOMIALS * POLYNOMIALS];
 } space;
 
-/* 1, z_k, products; slope (n x dim): 1/m */
+/* Values p (n) and derivatives slope (n x dim, 1/m) of the polynomials at x: 1, z_k, then products. */
 static void polynomials (const space *s, const double *x, double *p, double *slope)
 {
     static const int products[4][3] = { { 1, 1, 0 }, { 0, 1, 1 }, { 1, 0, 1 }, { 1, 1, 1 } };
@@ -127,14 +143,16 @@ static void polynomials (const space *s, const double *x, double *p, double *slo
     }
 }
 
-/* Is the cell so thin along an axis that what its quadrature misses would be amplified? */
+/* Is the cell so thin along an axis (its spread below 1 % of its size) that what its quadrature misses
+ * would be amplified? */
 static int thin (const space *s)
 {
     for (int k = 1; k <= s->dim && k < s->n; k++) if (s->L[k * s->n + k] < 1e-2 * s->L[0]) return 1;
     return 0;
 }
 
-/* As many polynomials as the points bear; 0: not even the constant. */
+/* Chooses as many polynomials as the points first .. last - 1 can tell apart: with products, linear,
+ * constant; n = 0: not even the constant. */
 static void find_space (space *s, const pg_rows *points, size_t first, size_t last)
 {
     size_t dim = (size_t) points->dim, n = last - first;
@@ -161,7 +179,8 @@ static void find_space (space *s, const pg_rows *points, size_t first, size_t la
     for (int k = 0; k < s->n * s->n; k++) s->L[k] *= sqrt (volume);
 }
 
-/* Values of an ascending list of nodes, put at their places in a wider one. */
+/* Copies the values of n nodes (stride numbers each) from one ascending list of nodes into the places that
+ * these nodes have in a wider one. */
 static void spread (size_t n, const int *node, size_t stride, const double *value, const int *wide_node,
                     double *wide)
 {
@@ -171,27 +190,33 @@ static void spread (size_t n, const int *node, size_t stride, const double *valu
     }
 }
 
+/* What all threads share. */
 typedef struct {
     const pg_consistency *c;
     const pg_rows *points;
     pg_rows *wide;
     const unsigned char *whole;
     const size_t *list;
-    double **workspace;  /* per thread: residual of the identity, POLYNOMIALS x dim per node, and N */
+    /* Per thread: the residual of the identity (POLYNOMIALS x nodes x dim) and N at one point of a face
+     * (nodes). */
+    double **workspace;
 } job;
 
-/* rest (m x dim) += rate_k N */
+/* rest (m x dim) += rate (dim) times N (m), the outer product. Inlined with a constant dim, so that the
+ * compiler can vectorise it. */
 static inline void add_slope (size_t m, size_t dim, const double *rate, const double *N, double *rest)
 {
     for (size_t i = 0; i < m; i++)
         for (size_t k = 0; k < dim; k++) rest[i * dim + k] += rate[k] * N[i];
 }
 
+/* rest (n) += p dN (n). */
 static void add_value (size_t n, double p, const double *dN, double *rest)
 {
     for (size_t i = 0; i < n; i++) rest[i] += p * dN[i];
 }
 
+/* add_slope with the dimension as a constant. */
 static void add_rate (size_t m, size_t dim, const double *rate, const double *N, double *rest)
 {
     if (dim == 2) add_slope (m, 2, rate, N, rest);
@@ -199,7 +224,7 @@ static void add_rate (size_t m, size_t dim, const double *rate, const double *N,
     else add_slope (m, 1, rate, N, rest);
 }
 
-/* rest (n x nodes x dim) = oint p N n dS - sum w (p,k N + p dN,k) */
+/* Adds the volume terms of the residual, - sum w (p,k N + p dN,k), into rest (polynomials x nodes x dim). */
 static void add_points (const job *j, const space *s, size_t cell, size_t m, double *rest)
 {
     const pg_rows *w = j->wide;
@@ -217,6 +242,8 @@ static void add_points (const job *j, const space *s, size_t cell, size_t m, dou
     }
 }
 
+/* Adds the surface term, oint p N n dS, over all faces of the cell; flux points out of the first cell of a
+ * face. */
 static void add_faces (const job *j, const space *s, size_t cell, size_t m, const int *node, double *rest,
                        double *N)
 {
@@ -241,7 +268,7 @@ static void add_faces (const job *j, const space *s, size_t cell, size_t m, cons
     }
 }
 
-/* dN += sum_a c_a rest_a, c = (L L')^-1 p at each point: one solution a point, none for each node. */
+/* dN += sum_a c_a rest_a with c = (L L')^-1 p at each point: one solve per point, none per node. */
 static void correct (const job *j, const space *s, size_t cell, size_t m, const double *rest)
 {
     size_t dim = (size_t) s->dim, n = (size_t) s->n;
@@ -254,6 +281,7 @@ static void correct (const job *j, const space *s, size_t cell, size_t m, const 
     }
 }
 
+/* One cell: copies the direct values into the wider lists, then corrects them if the cell is whole. */
 static void treat (const job *j, size_t cell, double *workspace)
 {
     const pg_consistency *c = j->c;
@@ -281,12 +309,14 @@ static void treat (const job *j, size_t cell, double *workspace)
     correct (j, &s, cell, m, rest);
 }
 
+/* The cells first .. last - 1 of a thread. */
 static void work (void *context, size_t first, size_t last, int thread)
 {
     const job *j = context;
     for (size_t k = first; k < last; k++) treat (j, j->list ? j->list[k] : k, j->workspace[thread]);
 }
 
+/* Workspaces have room for the longest list of nodes. */
 pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, pg_rows *wide,
                                 const unsigned char *whole, size_t count, const size_t *list, int threads)
 {
@@ -306,6 +336,7 @@ done:
     return status;
 }
 
+/* The points are those of Gauss integration; only the derivatives differ. */
 static pg_status points (pg_quadrature *out, const pg_cells *cells, double thickness, int order)
 {
     return pg_integration_find ("gauss")->points (out, cells, thickness, order);

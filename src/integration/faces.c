@@ -1,17 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The faces between cells and on the boundary, each once, with points and normals: what the divergence
- * identity of consistent integration needs. A face is known by its corners, which cells that share nodes hold
- * with the same bits. */
+ * Faces between cells and on the boundary, each once, with points and normals. A face is identified by the
+ * coordinates of its corners, which cells that share nodes hold with the same bits; all faces are sorted by
+ * these, so that equal ones become neighbours: n log n, without tables of nodes. */
 #include "perigal/integration.h"
 #include <stdlib.h>
 #include <string.h>
 
+/* One face of one cell, before faces are paired. */
 typedef struct {
-    size_t at;                                         /* which face of which cell, counted cell by cell */
+    /* Its number, counted cell by cell and side by side. */
+    size_t at;
+    /* Cell, side in the numbering of Exodus, number of corners. */
     int    cell, side, corners;
-    double corner[12];                                 /* sorted */
+    /* The corners (up to 4 x 3), sorted, so that the order in which a cell lists them does not matter. */
+    double corner[12];
 } candidate;
 
+/* Lexicographic order of two positions. */
 static int compare_places (const void *a, const void *b)
 {
     const double *x = a, *y = b;
@@ -19,6 +24,7 @@ static int compare_places (const void *a, const void *b)
     return 0;
 }
 
+/* Order of two faces by number and position of their corners; 0: the same face. */
 static int compare_corners (const candidate *c, const candidate *d)
 {
     if (c->corners != d->corners) return c->corners < d->corners ? -1 : 1;
@@ -27,6 +33,7 @@ static int compare_corners (const candidate *c, const candidate *d)
     return 0;
 }
 
+/* The same; equal faces in the order of their numbers, so that the sorted order is unique. */
 static int compare (const void *a, const void *b)
 {
     const candidate *c = a, *d = b;
@@ -34,15 +41,18 @@ static int compare (const void *a, const void *b)
     return order ? order : c->at < d->at ? -1 : 1;
 }
 
-/* A cut cell has the faces of its lattice cell. */
+/* The element that describes the shape of cell c: a cut cell has the faces of its lattice cell. */
 static pg_element kind_of (const pg_cells *cells, size_t c)
 {
     static const pg_element box[] = { PG_BAR2, PG_QUAD4, PG_HEX8 };
     return cells->kind[c] == PG_CUT ? box[cells->dim - 1] : (pg_element) cells->kind[c];
 }
 
+/* Number of faces of cell c. */
 static int faces_of (const pg_cells *cells, size_t c) { return pg_element_types[kind_of (cells, c)].faces; }
 
+/* Fills c with face `side` of a cell. Adding 0.0 turns -0 into +0, which compare equal but have different
+ * bits. */
 static void describe (candidate *c, const pg_cells *cells, size_t at, int cell, int side)
 {
     size_t dim = (size_t) cells->dim;
@@ -56,7 +66,7 @@ static void describe (candidate *c, const pg_cells *cells, size_t at, int cell, 
     qsort (c->corner, (size_t) c->corners, 3 * sizeof *c->corner, compare_places);
 }
 
-/* partner[at]: the same face of the other cell, or -1 */
+/* partner[at]: the number of the same face of the other cell, or -1 on the boundary (n faces). */
 static pg_status pair_up (long *partner, size_t n, const pg_cells *cells)
 {
     pg_status status = PG_OK;
@@ -78,8 +88,10 @@ done:
 }
 
 /* ---- points -------------------------------------------------------------------------------------------- */
+/* The faces under construction. */
 typedef struct { pg_faces *out; size_t cap_x, cap_flux; const pg_cells *cells; int order; } builder;
 
+/* Appends a quadrature point to the present face. */
 static pg_status add_point (builder *b, const double *x, double weight, const double *normal)
 {
     pg_status status = PG_OK;
@@ -94,6 +106,7 @@ done:
     return status;
 }
 
+/* Points on a whole face, by the rule of its element; thickness enters the weights. */
 static pg_status whole_face (builder *b, size_t cell, int side)
 {
     pg_status status = PG_OK;
@@ -115,8 +128,8 @@ done:
     return status;
 }
 
-/* What lies in the body of a face that a cut cell has; Exodus numbers the sides of quads and hexes -y +x +y
- * -x -z +z. */
+/* Points on the part of a face of a cut cell that has the body on both sides. Exodus numbers the sides of
+ * quadrilaterals and hexahedra -y +x +y -x -z +z; the lattice -x +x -y +y -z +z. */
 static pg_status cut_face (builder *b, size_t cell, int side)
 {
     static const int lattice_side[] = { 2, 1, 3, 0, 4, 5 };
@@ -133,13 +146,14 @@ done:
     return status;
 }
 
+/* Ends the present face: its points are those appended since the last one ended. */
 static void close_face (pg_faces *out, int cell, int other)
 {
     out->cell[2 * out->n] = cell, out->cell[2 * out->n + 1] = other;
     out->start[++out->n] = out->npoint;
 }
 
-/* Faces between two cells, where the first of them comes. */
+/* Faces between two cells, at the first of the two. */
 static pg_status add_inner (builder *b, const long *partner, const int *owner)
 {
     pg_status status = PG_OK;
@@ -157,6 +171,8 @@ done:
     return status;
 }
 
+/* Facets of the boundary with the points that loads use as well: the boundary terms of the identity then
+ * equal the work of tractions. */
 static pg_status add_boundary (builder *b)
 {
     pg_status status = PG_OK;
@@ -173,7 +189,7 @@ done:
     return status;
 }
 
-/* Faces of each cell, ascending */
+/* Lists the faces of each cell, ascending, in compressed rows. */
 static pg_status sort_faces (pg_faces *out, size_t cells)
 {
     pg_status status = PG_OK;
@@ -190,6 +206,7 @@ done:
     return status;
 }
 
+/* Pairs first, because the number of faces decides how much memory there must be. */
 pg_status pg_faces_build (pg_faces *out, const pg_cells *cells, int order)
 {
     pg_status status = PG_OK;

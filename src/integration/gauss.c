@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Gauss points in background cells and on boundary facets, with their normals. */
+ * Gauss points in background cells and on boundary facets. Whole cells and facets use the rule of their
+ * element on the reference element; cut ones the quadrature of cells (pg_cut_cell, pg_cut_facet), whose
+ * weights are scaled so that they sum to the exact volume or area at any order. */
 #include "perigal/integration.h"
 #include <math.h>
 #include <string.h>
@@ -11,16 +13,23 @@ void pg_quadrature_clear (pg_quadrature *q)
 }
 
 /* ---- cells and facets ---------------------------------------------------------------------------------- */
+/* The cells, or the facets, to be integrated over, seen alike. */
 typedef struct {
     const pg_cells *cells;
+    /* facets: 1 if these are facets. order: Gauss points per direction. */
     int    dim, facets, order;
+    /* Number of cells or facets. */
     size_t n;
+    /* Kinds, first nodes and nodes as in pg_cells. */
     const unsigned char *kind;  const size_t *start;  const double *x;
-    size_t ncut, next;  size_t *first;  /* points of the cut ones, in order: first[k]..first[k + 1] */
+    /* Number of cut ones, and how many of them have been written; points of cut one k within `cut`:
+     * first[k] .. first[k + 1] - 1. */
+    size_t ncut, next;  size_t *first;
+    /* Points of all cut ones. */
     pg_cut_points cut;
 } mesh;
 
-/* The cut ones first: only then is the number of points known. */
+/* Points of the cut ones: how many there are is known only after they have been found. */
 static pg_status find_cut (mesh *m)
 {
     pg_status status = PG_OK;
@@ -36,6 +45,7 @@ done:
     return status;
 }
 
+/* Counts all points and allocates the arrays. */
 static pg_status reserve (pg_quadrature *out, const mesh *m)
 {
     pg_status status = PG_OK;
@@ -56,7 +66,7 @@ done:
     return status;
 }
 
-/* Adds the points of element e; factor multiplies the weights. */
+/* Appends the n points (xi, w) of a rule in element e, mapped; factor multiplies the weights. */
 static void add (pg_quadrature *out, const mesh *m, size_t e, int n, const double *xi, const double *w,
                  double factor)
 {
@@ -74,7 +84,8 @@ static void add (pg_quadrature *out, const mesh *m, size_t e, int n, const doubl
     }
 }
 
-/* The weights of a cut cell sum to its exact volume at any order. */
+/* Appends the points of cut element e. Scaling by size / sum removes the error of the order from the
+ * volume. */
 static void add_cut (pg_quadrature *out, mesh *m, size_t e)
 {
     size_t dim = (size_t) m->dim, from = m->first[m->next++], n = m->first[m->next] - from;
@@ -91,6 +102,7 @@ static void add_cut (pg_quadrature *out, mesh *m, size_t e)
     out->n += n;
 }
 
+/* All elements in their order. The rule is looked up again only where the kind changes. */
 static pg_status fill (pg_quadrature *out, mesh *m, double factor)
 {
     pg_status status = PG_OK;
@@ -114,6 +126,7 @@ done:
     return status;
 }
 
+/* The points of an integration entry. */
 static pg_status gauss_points (pg_quadrature *out, const pg_cells *c, double thickness, int order)
 {
     mesh m = {
@@ -122,7 +135,8 @@ static pg_status gauss_points (pg_quadrature *out, const pg_cells *c, double thi
     return fill (out, &m, c->dim == 3 ? 1 : thickness);
 }
 
-/* A flat facet has one normal, the same in every bit. */
+/* Replaces the normal of a point by the mean normal of its facet where both agree to 1e-14: a flat facet
+ * has one normal, the same in every bit at all its points. */
 static void flatten (double *normal, const double *mean, size_t dim)
 {
     double cosine = 0, size = 0;
@@ -130,6 +144,7 @@ static void flatten (double *normal, const double *mean, size_t dim)
     if (dim == 1 || !(size > 0) || fabs (cosine - 1) < 1e-14) memcpy (normal, mean, dim * sizeof *normal);
 }
 
+/* Weights of whole facets are scaled to the stored area, which has the thickness already. */
 pg_status pg_facet_points (pg_quadrature *out, const pg_cells *c, int order)
 {
     mesh m = { .cells = c,

@@ -1,40 +1,60 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Patches of the dilatation (see integration.h): which evaluation points share one. On a lattice so many
- * cells (nodal integration: points) per axis, divided evenly between the ends of the body, so that a mirrored
- * body has mirrored patches. Elsewhere every cell or point goes to the nearest of a set of roots that keep a
- * distance of each other. What is left too small joins a neighbour. */
+ * Patches of the dilatation (integration.h): which evaluation points share one mean dilatation.
+ *
+ * Units are cells, or points with nodal integration. On a lattice so many units per axis form a group,
+ * divided evenly between the ends of the body, so that a mirrored body has mirrored patches. Elsewhere a
+ * set of roots is chosen that keep a distance from each other, and every unit goes to the nearest root.
+ * Groups are then divided by material, and those that are too small join a neighbour. */
 #include "perigal/integration.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double too_small = 0.4;                   /* of the full volume: joins a neighbour */
-static const double apart = 0.875;                     /* least distance of two roots, in widths of a patch */
+/* A group with less than this share of the full volume joins a neighbour: a patch of a sliver would bring
+ * back the locking it is to remove. */
+static const double too_small = 0.4;
+/* Least distance of two roots, in widths of a patch. */
+static const double apart = 0.875;
 
+/* The patches under construction. */
 typedef struct {
+    /* What they are made from. */
     const pg_patch_source *s;
-    size_t  n, units;                                  /* points; cells or nodes */
+    /* Number of evaluation points, and of units (cells, or points). */
+    size_t  n, units;
+    /* Dimension of space. */
     int     dim;
-    double *centre;                                    /* of every unit, m (units x dim) */
-    double *size;                                      /* volume of its points (units) */
-    long   *group;                                     /* of every unit (units) */
+    /* Centre of each unit, m (units x dim). */
+    double *centre;
+    /* Volume of the evaluation points in each unit, m^3; 0: it has none and is passed over (units). */
+    double *size;
+    /* Group of each unit (units). */
+    long   *group;
+    /* Number of groups. */
     size_t  groups;
-    double *volume, *middle, *full;                    /* of every group */
-    int    *material;                                  /* of every point (n) */
-    double  extent[3], body[3];                        /* of the units, a spacing more; the middle, m */
+    /* Of each group: volume of its points (m^3), their centroid (m, groups x dim), volume of a complete
+     * group (m^3). */
+    double *volume, *middle, *full;
+    /* Material of each evaluation point (n). */
+    int    *material;
+    /* Extent of the centres of units plus one spacing, and their middle, along each axis, m. */
+    double  extent[3], body[3];
 } builder;
 
+/* The unit of evaluation point p. */
 static size_t unit_of (const builder *b, size_t p)
 {
     return b->s->points->cell[p] >= 0 ? (size_t) b->s->points->cell[p] : p;
 }
 
+/* Local spacing at evaluation point p, m. */
 static double spacing_at (const builder *b, size_t p)
 {
     return b->s->spacing ? b->s->spacing[p] : b->s->cloud->h;
 }
 
 /* ---- units --------------------------------------------------------------------------------------------- */
+/* Centres, volumes and extent of the units. */
 static pg_status measure_units (builder *b)
 {
     pg_status status = PG_OK;
@@ -65,8 +85,9 @@ done:
 }
 
 /* ---- lattices ------------------------------------------------------------------------------------------ */
-/* Group of index i of n, about `across` in each and at least two, mirror symmetric: an odd number of indices
- * makes an odd number of groups. */
+/* Group of index i among 0 .. n - 1: about `across` indices in each group. Symmetric under reflection: a
+ * middle index (n odd) needs a middle group, so that the number of groups is made odd then, by one more
+ * while each still has two indices, else by one less. */
 static long group_of (long i, long n, long across)
 {
     long mirrored = n - 1 - i, left = i < mirrored ? i : mirrored, groups = n / across < 1 ? 1 : n / across,
@@ -76,6 +97,7 @@ static long group_of (long i, long n, long across)
     return i <= mirrored ? at : groups - 1 - at;
 }
 
+/* Indices of unit u on the lattice: of its cell, or of the nearest vertex. */
 static void index_of (const builder *b, size_t u, long *at)
 {
     const pg_lattice *l = b->s->lattice;
@@ -85,6 +107,7 @@ static void index_of (const builder *b, size_t u, long *at)
                               + shift + 1e-9);
 }
 
+/* Groups on a lattice, numbered with x fastest. The range of indices is that of units with a volume. */
 static void bin_units (builder *b)
 {
     long low[3] = { 0 }, high[3] = { 0 }, at[3], groups[3] = { 1, 1, 1 };
@@ -115,6 +138,7 @@ static void bin_units (builder *b)
 }
 
 /* ---- clouds and meshes --------------------------------------------------------------------------------- */
+/* Distance of the centres of two units, m. */
 static double distance (const builder *b, size_t u, size_t v)
 {
     double s = 0;
@@ -125,7 +149,9 @@ static double distance (const builder *b, size_t u, size_t v)
     return sqrt (s);
 }
 
-/* Roots in the order of the units; every unit then goes to the nearest, among equals to the first. */
+/* Chooses roots in the order of the units: a unit becomes one unless a root is near. Every other unit then
+ * goes to the nearest root, measured in local spacings; among equals to the first. near: units within reach
+ * of each. */
 static pg_status root_units (builder *b, const double *local, const pg_family *near)
 {
     pg_status status = PG_OK;
@@ -155,6 +181,7 @@ done:
     return status;
 }
 
+/* Groups of irregular points or of a mesh; local: the largest spacing of the points of each unit. */
 static pg_status group_by_roots (builder *b)
 {
     pg_status status = PG_OK;
@@ -174,7 +201,8 @@ done:
 }
 
 /* ---- groups of one material ---------------------------------------------------------------------------- */
-/* Group of every point: that of its unit, parted by materials. */
+/* Volumes, centroids and complete volumes of the groups that `group` assigns to the points. A complete
+ * group has `across` spacings along each axis, or the extent of the body where that is less. */
 static pg_status measure_groups (builder *b, const long *group)
 {
     pg_status status = PG_OK;
@@ -204,8 +232,11 @@ done:
     return status;
 }
 
+/* Context of `unfit`: groups of the same material other than `own`, without those already found (tied). */
 typedef struct { const builder *b; const int *material; size_t own; const long *tied; size_t ntied; } choice;
 
+/* Refuses groups that are no candidates (a pg_refuse): found already, itself, of another material, too
+ * small. */
 static int unfit (void *context, const double *place, size_t c)
 {
     const choice *h = context;
@@ -215,8 +246,10 @@ static int unfit (void *context, const double *place, size_t c)
            || h->b->volume[c] < too_small * h->b->full[c];
 }
 
+/* Candidates compared that are equally near. */
 enum { MOST_TIED = 8 };
 
+/* Distance of two positions, m. */
 static double away (const builder *b, const double *x, const double *y)
 {
     double s = 0;
@@ -224,8 +257,8 @@ static double away (const builder *b, const double *x, const double *y)
     return sqrt (s);
 }
 
-/* The nearest group that is large enough; among those equally near the one nearer to the middle of the body,
- * then the first. */
+/* The nearest group that is large enough; among those equally near the one nearer to the middle of the
+ * body, so that mirrored bodies have mirrored patches, then the first. -1: there is none. */
 static long neighbour (const builder *b, const pg_nearest *grid, const int *material, size_t c)
 {
     size_t dim = (size_t) b->dim;
@@ -246,6 +279,8 @@ static long neighbour (const builder *b, const pg_nearest *grid, const int *mate
     return best;
 }
 
+/* Gives the points of small groups to a neighbour. Where each goes is decided before any is moved, so that
+ * the order does not matter. */
 static pg_status join_small (builder *b, long *group)
 {
     pg_status status = PG_OK;
@@ -269,7 +304,8 @@ done:
     return status;
 }
 
-/* Numbers without gaps, in the order of the first points; groups of different materials apart. */
+/* Renumbers the groups without gaps, in the order of their first points; groups of different materials
+ * become different groups. */
 static pg_status number (builder *b, long *group, size_t materials)
 {
     pg_status status = PG_OK;
@@ -290,8 +326,10 @@ done:
 }
 
 /* ---- result -------------------------------------------------------------------------------------------- */
+/* For qsort. */
 static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
 
+/* The nodes that the points of each patch see, ascending; f: those that each point sees. */
 static pg_status see (pg_patches *out, const pg_family *f, size_t nodes)
 {
     pg_status status = PG_OK;
@@ -317,6 +355,7 @@ done:
     return status;
 }
 
+/* Lists the points of each patch, ascending. */
 static pg_status collect (pg_patches *out, const builder *b, const long *group)
 {
     pg_status status = PG_OK;
@@ -340,6 +379,7 @@ done:
     return status;
 }
 
+/* Points of materials without lambda belong to no patch (-1). */
 pg_status pg_patches_create (pg_patches **out, const pg_patch_source *source)
 {
     pg_status status = PG_OK;

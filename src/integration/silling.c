@@ -1,12 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Silling 2017 stabilisation (theory D3a). With z_j = eta_j - sum_l (g_l.xi_j) eta_l and c = V Gs mu
- * d(d+2)/q, the energy (1/2) c sum_j w_j |z_j|^2 gives, in the differences eta, S_lm = c [ w_l delta_lm - w_l
- * xi_l.g_m - w_m xi_m.g_l + g_l.A g_m ], A = sum w xi xi, q = sum w r^2 (w includes V_j); the own node
- * collects minus the sums. */
+ * Stabilisation of nodally integrated NOSB after Silling 2017 (Comput. Methods Appl. Mech. Engrg. 322,
+ * 42-57; doc/method.md D3a).
+ *
+ * The deformation at a point predicts the relative displacement of each bond; z_j = eta_j - sum_l (g_l .
+ * xi_j) eta_l is what it misses, g_l = derivatives of the shape functions. With c = V Gs mu d (d + 2) / q
+ * the energy is
+ *
+ *     W = (1/2) c sum_j w_j |z_j|^2,    A = sum_j w_j xi_j xi_j',    q = sum_j w_j r_j^2    (w includes V_j),
+ *
+ * which in the relative displacements eta is a quadratic form with
+ *
+ *     S_lm = c (w_l delta_lm - w_l xi_l . g_m - w_m xi_m . g_l + g_l . A g_m).
+ *
+ * As eta_j = d_j - d_own, the row and the column of the own node are minus the sums of the others. W is
+ * zero for every linear field, and Gs has no unit. */
 #include "perigal/integration.h"
 
+/* Sums over the family of a point: A (3 x 3, m^5), q (m^5), sum of w (m^3) and of w xi (m^4). */
 typedef struct { double A[9], q, sum_w, sum_wxi[3]; } moments;
 
+/* Sums over live bonds (w = 0: dead), without the own node. */
 static void gather_moments (const pg_rows *rows, const pg_cloud *cloud, size_t p, moments *m)
 {
     int dim = rows->dim;
@@ -26,8 +39,9 @@ static void gather_moments (const pg_rows *rows, const pg_cloud *cloud, size_t p
     }
 }
 
-/* w, w xi and g of local node b in full form: the own node takes w = 0 here, its g is minus the sum of the
- * others. */
+/* Weight, w xi and derivative g of local node b. For the own node they are chosen so that one formula
+ * serves every entry of the matrix: the sum of the weights, minus the sum of w xi, and its own g (minus the
+ * sum of the others, as derivatives of a constant vanish). */
 static void local (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t b, const moments *m, int *own,
                    double *w, double *wxi, const double **g)
 {
@@ -40,6 +54,7 @@ static void local (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t 
     *g = rows->dN + e * dim;
 }
 
+/* The term w_l delta_lm couples each neighbour with the own node only. */
 void pg_silling_add (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_t a, size_t m, double modulus,
                      double volume, double *blocks)
 {
