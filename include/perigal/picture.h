@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * picture.h: pictures from plain arrays, as PNG or SVG by the ending of the file's name: fields on points, fields
- * on the elements of a mesh, charts. Knows points, meshes, cracks and the outline of a body; no method, no solver,
- * no scene. */
+ * picture.h: pictures from plain arrays, as PNG or SVG by the ending of the file's name: fields on points,
+ * fields on the elements of a mesh, charts. Knows points, meshes, cracks and the outline of a body; no
+ * method, no solver, no scene. */
 #ifndef PERIGAL_PICTURE_H
 #define PERIGAL_PICTURE_H
 #include "perigal/cloud.h"

@@ -11,11 +11,11 @@ struct pg_reference {
     pg_sampler mesh;                                   /* sample NULL: none */
 };
 /* The whole of a text file; to be freed with pg_free. */
-pg_status compare_load_text (const char *path, char **text);
+pg_status pg_compare_load_text (const char *path, char **text);
 /* Values of the last row of FOLDER/history.csv whose column `key` is at most stamp; what it lacks stays as it
  * is. */
-pg_status compare_history (const char *folder, const char *key, double stamp, double *load_factor,
+pg_status pg_compare_history (const char *folder, const char *key, double stamp, double *load_factor,
                            double *time, double *broken);
 /* Material of every place: that of the nearest evaluation point. Stays NULL of one material. */
-pg_status compare_materials (const pg_problem *problem, const pg_quadrature *q, int **which);
+pg_status pg_compare_materials (const pg_problem *problem, const pg_quadrature *q, int **which);
 #endif

@@ -23,21 +23,6 @@ done:
     return status;
 }
 
-pg_status compare_materials (const pg_problem *p, const pg_quadrature *q, int **which)
-{
-    pg_status status = PG_OK;
-    pg_nearest *near = NULL;
-    int bulk = p->integration->at_nodes ? PG_NODES : PG_POINTS;
-    if (p->nmaterial < 2) return PG_OK;
-    PG_ALLOC (*which, q->n);
-    PG_TRY (pg_nearest_create (&near, p->dim, p->rows[bulk].n, p->rows[bulk].x));
-    for (size_t i = 0; i < q->n; i++)
-        (*which)[i] = p->block[bulk][pg_nearest_find (near, q->x + i * (size_t) p->dim, NULL, NULL)];
-done:
-    pg_nearest_free (&near);
-    return status;
-}
-
 /* |u - u_ref| at the points, which also take part in the maximum. */
 static pg_status at_points (pg_errors *out, const pg_problem *p, const pg_sampler *value,
                             const pg_sampler *reference, const pg_expression *where)
@@ -100,7 +85,7 @@ pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int orde
     out->order = order;
     if (reference->displacement || reference->stress) {
         PG_TRY (quadrature (&q, problem, &out->order));
-        PG_TRY (compare_materials (problem, &q, &which));
+        PG_TRY (pg_compare_materials (problem, &q, &which));
         pg_norm_options options = { problem->material, which, where };
         PG_TRY (pg_norms_measure (&out->norms, &q, value, reference, &options));
         PG_TRY (at_points (out, problem, value, reference, where));

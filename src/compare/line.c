@@ -152,7 +152,7 @@ pg_status pg_line_read (pg_line *out, const char *path, int dim, double unit, do
     memset (out, 0, sizeof *out);
     out->dim = dim;
     snprintf (out->name, sizeof out->name, "%.127s", slash ? slash + 1 : path);
-    PG_TRY (compare_load_text (path, &text));
+    PG_TRY (pg_compare_load_text (path, &text));
     for (char *row = strncmp (text, "\xEF\xBB\xBF", 3) ? text : text + 3; *row;) {
         size_t length = strcspn (row, "\n");
         char *next = row + length + (row[length] == '\n');

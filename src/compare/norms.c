@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Norms of the difference of two samplers. Sums run over the places in their order, whatever the number of
  * threads. */
-#include "perigal/compare.h"
+#include "compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -207,5 +207,20 @@ pg_status pg_line_measure (pg_line_norms *out, const pg_line *line, const pg_sam
     for (size_t k = 0; k < line->ncolumn; k++) measure_column (&out[k], line, k, u, s);
 done:
     pg_free (u), pg_free (s);
+    return status;
+}
+
+pg_status pg_compare_materials (const pg_problem *p, const pg_quadrature *q, int **which)
+{
+    pg_status status = PG_OK;
+    pg_nearest *near = NULL;
+    int bulk = p->integration->at_nodes ? PG_NODES : PG_POINTS;
+    if (p->nmaterial < 2) return PG_OK;
+    PG_ALLOC (*which, q->n);
+    PG_TRY (pg_nearest_create (&near, p->dim, p->rows[bulk].n, p->rows[bulk].x));
+    for (size_t i = 0; i < q->n; i++)
+        (*which)[i] = p->block[bulk][pg_nearest_find (near, q->x + i * (size_t) p->dim, NULL, NULL)];
+done:
+    pg_nearest_free (&near);
     return status;
 }

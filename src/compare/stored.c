@@ -199,7 +199,7 @@ static pg_status find_step (pg_stored *s, const char *folder, const char *path, 
     s->step = step < 0 ? (int) nstep - 1 : step;
     s->stamp = time[s->step];
     int dynamic = !(o.flags & PG_SOLVER_QUASI_STATIC);
-    PG_TRY (compare_history (folder,
+    PG_TRY (pg_compare_history (folder,
                              dynamic   ? "time"
                              : o.event ? "step"
                                        : "load_factor",

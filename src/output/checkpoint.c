@@ -13,20 +13,12 @@
 
 typedef struct { const char *path; int ncid, open, defining, reading; uint64_t sum; } checkpoint;
 
-/* FNV-1a, http://www.isthe.com/chongo/tech/comp/fnv/: one changed byte always changes it. */
-static uint64_t sum_of (uint64_t sum, const void *data, size_t bytes)
-{
-    const unsigned char *byte = data;
-    for (size_t i = 0; i < bytes; i++) sum = (sum ^ byte[i]) * 1099511628211u;
-    return sum;
-}
-
 static size_t size_of (nc_type type) { return type == NC_BYTE ? 1 : 8; }
 
 static void sum_head (checkpoint *c, const char *name, size_t n, nc_type type)
 {
     const uint64_t head[2] = { (uint64_t) n, (uint64_t) type };
-    c->sum = sum_of (sum_of (c->sum, name, strlen (name) + 1), head, sizeof head);
+    c->sum = pg_fingerprint (pg_fingerprint (c->sum, name, strlen (name) + 1), head, sizeof head);
 }
 
 static pg_status define (checkpoint *c, const char *name, size_t n, nc_type type)
@@ -71,7 +63,7 @@ static pg_status keep (checkpoint *c, const char *name, size_t n, nc_type type, 
     NC_TRY (c->path, c->reading ? nc_get_var (c->ncid, var, value) : nc_put_var (c->ncid, var, value));
     if (c->reading) goto done;
     sum_head (c, name, n, type);
-    c->sum = sum_of (c->sum, value, n * size_of (type));
+    c->sum = pg_fingerprint (c->sum, value, n * size_of (type));
 done:
     return status;
 }
@@ -108,7 +100,7 @@ static pg_status sum_variable (checkpoint *c, int var)
     for (size_t from = 0; from < n; from += PIECE) {
         size_t count = n - from < PIECE ? n - from : PIECE;
         NC_TRY (c->path, nc_get_vara (c->ncid, var, &from, &count, part));
-        c->sum = sum_of (c->sum, part, count * size_of (type));
+        c->sum = pg_fingerprint (c->sum, part, count * size_of (type));
     }
 done:
     return status;
@@ -137,7 +129,7 @@ static pg_status make_walk (checkpoint *c, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
     pg_keeper keeper = { c, c->reading, keep_numbers, keep_counts, keep_bytes };
-    c->sum = 14695981039346656037u;
+    c->sum = PG_FINGERPRINT;
     if (c->reading) PG_TRY (check_sum (c));
     PG_TRY (walk (context, &keeper));
     long sum = (long) c->sum;

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields as pictures: which points are seen, the frame they fill, their colours; one state or several side by
- * side. 2D: a coloured cell per point; 3D: a section, or the body from outside; 1D: value over x. */
+ * Fields on points as pictures: which points are seen, the frame they fill, their colours; one state, or
+ * several side by side with one colour bar. In 2D each place of the body has the colour of its point; in
+ * 3D a section is drawn so, or the body as cubes from outside; in 1D the values are a chart over x.
+ *
+ * The steps, in the order of pg_picture_panels: the eye (view.c), the points in sight, the frame in
+ * metres, the range of colours, the sheet with its axes (sheet.c), and for each panel a screen of pixels
+ * that is filled (tiles.c, solid.c, raster.c) and painted. */
 #include "tiles.h"
 #include <math.h>
 #include <stdio.h>
@@ -24,18 +29,22 @@ typedef struct {
     char    label[32], title[440];
 } drawing;
 
+/* The displacement to draw a panel with, or NULL where the body is shown at rest. */
 static const double *displaced (const drawing *d, size_t panel)
 {
     return d->style->magnify != 0 ? d->panel[panel].u : NULL;
 }
 
+/* What is coloured: the value of the panel, or for a crack seen by its depth the coordinate towards the
+ * eye. */
 static const double *value_of (const drawing *d, size_t panel)
 {
     return d->own ? d->own : d->panel[panel].value;
 }
 
 /* ---- points -------------------------------------------------------------------------------------------- */
-/* A section shows the layer of points it lies in (the lower of two when it lies between them). */
+/* A section along an axis shows the layer of points it lies in, the lower of two when it lies just between
+ * them. */
 static pg_status choose_layer (drawing *d)
 {
     pg_status status = PG_OK;
@@ -66,6 +75,8 @@ static double half_cell (const drawing *d, const double *direction)
     return s;
 }
 
+/* Marks the points that a picture shows: those of a layer, those whose cells an oblique plane cuts, or
+ * all. */
 static pg_status choose_points (drawing *d)
 {
     pg_status status = PG_OK;
@@ -106,7 +117,7 @@ done:
     return status;
 }
 
-/* Not displaced, the body ends where its box does. */
+/* A body at rest ends where its outline does, not half a cell beyond its outer points. */
 static void end_at_body (const drawing *d, const double *direction, double *low, double *high)
 {
     const pg_body *body = d->style->outline->body;
@@ -118,7 +129,7 @@ static void end_at_body (const drawing *d, const double *direction, double *low,
     }
 }
 
-/* Range of the cells drawn along one axis of the picture, over all panels. */
+/* Range in metres of all cells drawn along one axis of the picture, over all panels. */
 static pg_status extent (const drawing *d, const double *direction, double *low, double *high)
 {
     pg_status status = PG_OK;
@@ -152,6 +163,7 @@ static void extent_of_box (const drawing *d, const double *direction, double *lo
     }
 }
 
+/* A narrow margin around the body, and the largest length unit in which it measures at least 1. */
 static pg_status choose_frame (drawing *d)
 {
     pg_status status = PG_OK;
@@ -174,12 +186,15 @@ done:
 }
 
 /* ---- colours ------------------------------------------------------------------------------------------- */
+/* Does the choice of points (for instance damage of 0.35 and more) take point i? */
 static int above (const drawing *d, size_t panel, size_t i)
 {
     const double *select = d->panel[panel].select;
     return !select || select[i] >= d->style->above;
 }
 
+/* Colours by the coordinate that points most towards the eye, in the unit of the picture: a crack surface
+ * seen alone shows its shape so. */
 static pg_status colour_by_depth (drawing *d)
 {
     pg_status status = PG_OK;
@@ -218,6 +233,8 @@ done:
     return status;
 }
 
+/* The range that was asked for, or else that of all values in sight; symmetric about zero for a diverging
+ * map. */
 static pg_status choose_colours (drawing *d, double *low, double *high)
 {
     pg_status status = PG_OK;
@@ -235,6 +252,7 @@ done:
     return status;
 }
 
+/* A line below the picture when the colours leave values out, as pg_sheet_leave_out words it. */
 static pg_status choose_note (drawing *d, const char *label, double low, double high)
 {
     pg_status status = PG_OK;
@@ -274,6 +292,8 @@ static double half_of_points (const drawing *d, int a)
 
 /* ---- painting ------------------------------------------------------------------------------------------ */
 enum { FACE = 129 };
+/* Where both faces of every pre-crack are now, sampled at FACE places each, so that an opened crack is
+ * drawn as two lines. */
 static pg_status find_faces (drawing *d, const pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -370,6 +390,7 @@ done:
     return status;
 }
 
+/* The cells that an oblique plane cuts, for a lattice at rest. */
 static void paint_slice (drawing *d, pg_screen *s)
 {
     pg_slice_draw (&d->grid, &d->sheet.eye, s);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The points of a 3D cloud as cells of the lattice they came from, found from places, steps and volumes
- * alone. */
+ * The points of a cloud as cells of the lattice they came from, found from their places, steps and volumes
+ * alone, because a result file does not say how its points were made. */
 #include "picture_private.h"
 #include <math.h>
 #include <stdlib.h>
@@ -46,12 +46,14 @@ static void cut_faces (pg_grid *g, const pg_cloud *cloud)
     }
 }
 
+/* Index of the cell that holds coordinate x; -1 or count just outside of the lattice. */
 int pg_grid_place (const pg_grid *g, int axis, double x)
 {
     double k = floor ((x - g->origin[axis]) / g->step[axis] + 0.5);
     return k < -1 ? -1 : k > g->count[axis] ? g->count[axis] : (int) k;
 }
 
+/* Position of a cell in g->at, x running fastest. */
 static size_t cell_index (const pg_grid *g, const int *cell)
 {
     return ((size_t) cell[2] * (size_t) g->count[1] + (size_t) cell[1]) * (size_t) g->count[0]
@@ -64,6 +66,8 @@ int pg_grid_point (const pg_grid *g, const int *cell)
     return g->at[cell_index (g, cell)];
 }
 
+/* Two points in one cell mean that there is no lattice (loose): then neighbours are not known and every
+ * point is drawn as a cube of its own. */
 pg_status pg_grid_build (pg_grid *g, const pg_cloud *cloud)
 {
     pg_status status = PG_OK;
@@ -99,9 +103,9 @@ static int ascending (const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Along an axis: do the phases of the points spread over a step, and are most coordinates of their own?
- * (Lattices moved a little keep their phase, those with another step than the nominal one have few
- * coordinates.) work: n */
+/* Do the points lie on no lattice along this axis? Two signs must come together: their phases spread over
+ * a step (a lattice that was moved a little keeps its phase), and most coordinates occur once (a lattice
+ * with another step than the nominal one has few). work: n values. */
 static int spreads (const pg_cloud *cloud, int axis, double *work)
 {
     double step = cloud->step[axis] > 0 ? cloud->step[axis] : cloud->h, c = 0, s = 0;
@@ -116,6 +120,7 @@ static int spreads (const pg_cloud *cloud, int axis, double *work)
     return hypot (c, s) < 0.3 * (double) n && 3 * own > n;
 }
 
+/* The spacing about a point follows from its volume, compared with the median volume. */
 pg_status pg_loose_spacing (const pg_cloud *cloud, double **spacing)
 {
     pg_status status = PG_OK;

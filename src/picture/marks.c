@@ -6,16 +6,6 @@
 
 enum { RING = 11, AWAY = 18 };
 
-void pg_chart_pale_pen (cairo_t *cr, size_t k)
-{
-    double rgb[3];
-    pg_colour_curve (k, rgb);
-    for (int c = 0; c < 3; c++) rgb[c] = 1 - 0.38 * (1 - rgb[c]);
-    cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
-    cairo_set_line_width (cr, 1);
-    cairo_set_dash (cr, NULL, 0, 0);
-}
-
 /* Right, left, above, below, then the four corners around the ring. */
 static void spot_of (const chart *c, double px, double py, double w, double h, int spot, double box[4])
 {

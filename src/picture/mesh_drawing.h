@@ -24,8 +24,6 @@ typedef struct {
     pg_grid  grid;                                     /* low, high only */
 } mesh_drawing;
 
-/* The nodes (in the mesh) and the kind of a painted face. */
-pg_element pg_drawn_face (const mesh_drawing *d, int element, int side, int node[9]);
 pg_status  pg_mesh_drawing_paint (mesh_drawing *d, pg_screen *screen);       /* values and depth */
 /* edges, outline, sets of 2D */
 void       pg_mesh_drawing_lines (const mesh_drawing *d, cairo_t *cr, const pg_screen *screen);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * owner[pixel] = the spot whose cell covers the pixel's centre, the nearest where several do. Pixels in
- * narrow gaps between cells (moved points) go to the nearest spot if there are spots on opposite sides; the
- * outline of the body does not grow. Spots of no lattice have pixels nearest to them, as far as their
- * neighbours. */
+ * Which point does each pixel belong to? owner[pixel] is the spot whose cell covers the pixel's centre,
+ * the nearest one where several do. Points that have moved leave narrow gaps between their cells: a pixel
+ * in such a gap goes to the nearest spot if there are spots on opposite sides of it, so that gaps inside
+ * the body close and its outline does not grow. Spots that lie on no lattice own the pixels nearest to
+ * them, as far as their neighbours are away. */
 #include "picture_private.h"
 #include <math.h>
 
@@ -19,6 +20,7 @@ static void span (double at, double half, int n, int *first, int *last)
     *last = b < 0 ? 0 : b > n ? n : (int) b;
 }
 
+/* Offers spot k to all pixels within its reach, and notes for each pixel on which sides the spot lies. */
 static void stamp (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance,
                    unsigned short *seen)
 {

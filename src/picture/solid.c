@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Solids on a screen: a cube around each point, its faces as triangles with a depth buffer, so that what is
- * nearer hides what is behind. Neighbours share displaced corners, except across an opening of more than half
- * a cell. */
+ * Solids on a screen: a cube around each point, its faces drawn as triangles with a depth buffer, so that
+ * what is nearer hides what is behind. Neighbours share their displaced corners, so that a body deforms
+ * without gaps, except across an opening of more than half a cell, where the points have lost each other. */
 #include "picture_private.h"
 #include <math.h>
 
+/* An empty screen: no owner, full brightness, infinitely far away. */
 pg_status pg_screen_open (pg_screen *s, int width, int height)
 {
     pg_status status = PG_OK;
@@ -27,6 +28,8 @@ void pg_screen_close (pg_screen *s)
     *s = (pg_screen) { 0 };
 }
 
+/* Fills the pixels whose centre lies inside the triangle, by barycentric coordinates, where it is nearer
+ * than what is there. */
 void pg_triangle (pg_screen *s, const double v[3][3], int owner, float shade, const double *value)
 {
     double area = (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
@@ -65,10 +68,11 @@ float pg_light_on (const pg_eye *e, const double *normal)
     return (float) (0.70 + 0.30 * fmin (fmax (light, 0), 1));
 }
 
+/* Is there a point, and is it among those chosen? */
 static int kept (const pg_solid *s, int point) { return point >= 0 && (!s->keep || s->keep[point]); }
 
-/* Have the two points drifted apart by more than half a cell? Whole ones have not, however much is
- * magnified. */
+/* Have the two points drifted apart by more than half a cell on the picture? Whole points never have,
+ * however much displacements are magnified. */
 static int torn (const pg_solid *s, int i, int j)
 {
     if (s->damage && fmin (s->damage[i], s->damage[j]) < 0.1) return 0;
@@ -79,7 +83,8 @@ static int torn (const pg_solid *s, int i, int j)
     return 0;
 }
 
-/* Place of corner (0 or 1 an axis) of the cube of point i, on pixels, with its depth. */
+/* Corner (0 or 1 along each axis) of the cube of point i in pixels, with its depth. The corner moves with
+ * the mean displacement of the up to eight points around it that hold together with point i. */
 static void corner_at (const pg_solid *s, const pg_screen *screen, int i, const int *cell, const int *corner,
                        double *out)
 {
@@ -105,6 +110,8 @@ static void corner_at (const pg_solid *s, const pg_screen *screen, int i, const 
     out[2] = pg_along (s->eye->toward, x, 3);
 }
 
+/* One face of a cube as two triangles; faces seen edge-on lie a little deeper, so that they do not flicker
+ * over their neighbours. */
 static void draw_face (const pg_solid *s, pg_screen *screen, int i, const int *cell, int axis, int side)
 {
     static const int round[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
@@ -126,6 +133,7 @@ static void draw_face (const pg_solid *s, pg_screen *screen, int i, const int *c
     pg_triangle (screen, second, i, shade, NULL);
 }
 
+/* Only faces without a neighbour, or with one that has torn off, can be seen. */
 void pg_solid_draw (const pg_solid *s, pg_screen *screen)
 {
     for (size_t i = 0; i < s->cloud->n; i++) {
@@ -156,6 +164,7 @@ int pg_on_outline (const pg_screen *s, int i, int j, double jump)
     return 0;
 }
 
+/* Draws the whole body grey, with an outline, under the points that were chosen. */
 pg_status pg_ghost_draw (const pg_solid *solid, pg_screen *screen)
 {
     pg_status status = PG_OK;
@@ -177,6 +186,8 @@ done:
     return status;
 }
 
+/* An oblique plane through a lattice at rest: each pixel belongs to the cell that its place in space falls
+ * into. */
 void pg_slice_draw (const pg_grid *g, const pg_eye *e, pg_screen *s)
 {
     for (int j = 0; j < s->height; j++)

@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body at rest on the pixels of its plane: where it is, by its outline or by its points alone, and whose
- * pixel each is: of the nearest point that no pre-crack parts from it. */
+ * The body at rest on the pixels of its plane: where it is, by its outline or by its points alone, and
+ * whose pixel each is: that of the nearest point that no pre-crack separates from it.
+ *
+ * Points are kept in square buckets of 1.6 spacings, so that neighbours of a place are found without
+ * looking at all points. */
 #include "tiles.h"
 #include <math.h>
 #include <string.h>
 
+/* From coordinates of the picture's plane to a place in space. */
 void pg_tiles_space (const pg_tiles *t, double a, double b, double *x)
 {
     for (int k = 0; k < 3; k++)
@@ -15,12 +19,14 @@ void pg_tiles_space (const pg_tiles *t, double a, double b, double *x)
 }
 
 /* ---- points in buckets --------------------------------------------------------------------------------- */
+/* Bucket of a place along one axis; places outside count to the outermost bucket. */
 static long bucket_of (const pg_tiles *t, int axis, double place)
 {
     double k = floor ((place - t->low[axis]) / t->pitch);
     return k < 0 ? 0 : k >= t->buckets[axis] ? t->buckets[axis] - 1 : (long) k;
 }
 
+/* Counting sort of the points by their buckets: `first` says where a bucket begins in `sorted`. */
 static pg_status sort_points (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -67,7 +73,7 @@ size_t pg_tiles_near (const pg_tiles *t, const double *at, double reach, size_t 
 }
 
 /* ---- spacing ------------------------------------------------------------------------------------------- */
-/* Each spacing the mean of those around it. */
+/* Replaces each spacing by the mean of those around it, so that the reach of neighbours does not jump. */
 static pg_status smooth_spacing (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -126,6 +132,7 @@ done:
 enum { NEAR_CRACK = 1, ON_CRACK };
 
 /* ---- cracks -------------------------------------------------------------------------------------------- */
+/* Does a pre-crack cross the straight line from a to b? */
 int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
 {
     double x[3], y[3];
@@ -133,6 +140,7 @@ int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
     return t->cracks && pg_cracks_cut (t->cracks, t->dim, x, y, 0);
 }
 
+/* Does the point lie on a pre-crack itself? Then it belongs to both sides. */
 static int on_crack (const pg_tiles *t, size_t k)
 {
     double x[3];
@@ -140,7 +148,7 @@ static int on_crack (const pg_tiles *t, size_t k)
     return pg_cracks_touch (t->cracks, t->dim, x, 1e-9 * t->spacing[k]) != NULL;
 }
 
-/* Points with a pre-crack within two spacings. */
+/* Points with a pre-crack within two spacings: sixteen rays around each are tested. */
 static pg_status find_cracked (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -174,6 +182,7 @@ void pg_tiles_close (pg_tiles *t)
 }
 
 /* ---- the outline --------------------------------------------------------------------------------------- */
+/* Is the cell of the lattice that holds this place part of the body? */
 static int in_lattice (const pg_lattice *l, const double *x)
 {
     size_t at = 0, stride = 1;
@@ -186,6 +195,7 @@ static int in_lattice (const pg_lattice *l, const double *x)
     return l->in[at];
 }
 
+/* A plane element as a fan of triangles, its curved sides by their mid-side nodes. */
 static void fill_element (const pg_mesh *m, size_t e, pg_screen *s)
 {
     static const unsigned char round[3][9] = { { 0, 3, 1, 4, 2, 5 },
@@ -205,6 +215,7 @@ static void fill_element (const pg_mesh *m, size_t e, pg_screen *s)
     }
 }
 
+/* Is the place in the body, as far as an outline says? */
 int pg_tiles_inside (const pg_tiles *t, const double *at)
 {
     const pg_outline *o = t->outline;
@@ -215,7 +226,7 @@ int pg_tiles_inside (const pg_tiles *t, const double *at)
                                          : pg_body_inside (o->body, x, 1e-6 * t->widest);
 }
 
-/* 1 where the body is. */
+/* mask[pixel] is 1 where the body is, by its outline. */
 static pg_status mask_of (const pg_tiles *t, const pg_screen *s, unsigned char *mask)
 {
     pg_status status = PG_OK;
@@ -245,8 +256,8 @@ static double distance_to (const pg_tiles *t, size_t k, double a, double b)
     return hypot (dx, dy);
 }
 
-/* Nearest point of every pixel within `reach` spacings; across a pre-crack only where there is no other. What
- * lies on a crack is on both sides of it. */
+/* Offers point k to the pixels within `reach` spacings: the nearest point owns a pixel, and one across a
+ * pre-crack only where there is no other. What lies on a crack is on both sides of it. */
 static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
 {
     const double *at = t->place + 2 * k;
@@ -268,7 +279,7 @@ static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
         }
 }
 
-/* Pixels of the body beyond the reach of every point take the nearest one. */
+/* Pixels of the body beyond the reach of every point go to the nearest one. */
 static pg_status adopt (const pg_tiles *t, const unsigned char *mask, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -312,8 +323,8 @@ static void transform_line (float *f, size_t step, int n, float *out, int *v, do
     for (int q = 0; q < n; q++) f[(size_t) q * step] = out[q];
 }
 
-/* Distance of every pixel to the nearest one without an owner, pixels; what lies outside of the screen has
- * none. */
+/* Distance in pixels from every owned pixel to the nearest one without an owner, by the exact distance
+ * transform (columns, then rows). */
 static pg_status distance_to_nothing (const pg_screen *s, float *f)
 {
     pg_status status = PG_OK;
@@ -333,7 +344,8 @@ done:
 }
 
 enum { GROWN = 5 };                                    /* quarters of a spacing */
-/* Pixels that stay when the outline lies `rim` spacings outside the outer points. */
+/* How many pixels stay when the outline is drawn `rim` spacings outside the outer points; drop: the others
+ * lose their owner. */
 static double kept (const pg_tiles *t, const pg_screen *s, const float *inward, double rim, int drop)
 {
     double n = 0;
@@ -381,6 +393,8 @@ done:
     return status;
 }
 
+/* With an outline the body is what the outline says; without one, a lattice is its cells, and loose points
+ * are closed to one body whose area is that of their volumes. */
 pg_status pg_tiles_rest (const pg_tiles *t, pg_screen *s)
 {
     pg_status status = PG_OK;

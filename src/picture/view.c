@@ -24,6 +24,7 @@ static void cross (const double *a, const double *b, double *c)
     c[0] = a[1] * b[2] - a[2] * b[1], c[1] = a[2] * b[0] - a[0] * b[2], c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+/* The eye looks along a coordinate axis: the picture has axes, `across` to the right and `up` upwards. */
 static void face (pg_eye *e, int across, int across_sign, int up, int up_sign)
 {
     e->axis[0] = across, e->axis[1] = up, e->sign[0] = across_sign, e->sign[1] = up_sign;
@@ -32,7 +33,8 @@ static void face (pg_eye *e, int across, int across_sign, int up, int up_sign)
     e->framed = 1;
 }
 
-/* y up; along y: z down. */
+/* The eye looks along any direction, from the body towards the eye; y points up in the picture, or z where
+ * the eye looks along y. */
 static void look (pg_eye *e, const double *direction)
 {
     double size = sqrt (pg_along (direction, direction, 3)), vertical[3] = { 0, 1, 0 };
@@ -50,6 +52,8 @@ static void look (pg_eye *e, const double *direction)
     }
 }
 
+/* Decides by dimension, view and section what kind of picture it is. The mid-plane of z is the section of
+ * a 3D body when none was asked for. */
 pg_status pg_eye_open (pg_eye *e, const pg_cloud *cloud, const pg_picture_style *style)
 {
     static const double usual[] = { 0.62, 0.46, 0.80 };
@@ -109,6 +113,7 @@ done:
     return status;
 }
 
+/* Reads "z = 5 mm" or a normal and its distance, "1, 0, 1 = 5 mm"; a number without a unit is in metres. */
 pg_status pg_picture_section (pg_picture_style *style, const char *text)
 {
     pg_status status = PG_OK;
@@ -132,6 +137,7 @@ done:
     return status;
 }
 
+/* Keeps letters, digits and ". - _"; a stretch of anything else becomes one "_", none at the ends. */
 void pg_picture_name (char *out, size_t size, const char *text)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";

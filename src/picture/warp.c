@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body displaced: a fine grid over the body at rest whose corners move with the points around them, as
- * the points on one side of a crack say; each piece of it is filled with what the pixels at rest show
- * there. */
+ * The body displaced. A fine grid is laid over the body at rest; its corners move with the points around
+ * them, separately for the points on each side of a crack, and each piece of the grid is filled with what
+ * the pixels at rest show there. Points that hold together stay joined without gaps, however much is
+ * magnified; a crack opens. */
 #include "tiles.h"
 #include <math.h>
 #include <stdlib.h>
@@ -16,12 +17,14 @@ typedef struct {
     long   count[2];
 } warp;
 
+/* Relative displacement of two points over their distance: the strain that would explain it. */
 static double strain_of (const pg_tiles *t, size_t i, size_t j)
 {
     double dx = t->place[2*j] - t->place[2*i], dy = t->place[2*j + 1] - t->place[2*i + 1];
     return hypot (t->shift[2*j] - t->shift[2*i], t->shift[2*j + 1] - t->shift[2*i + 1]) / hypot (dx, dy);
 }
 
+/* Is one of the two points whole (damage below 0.1)? Damage that is not known says nothing. */
 static int sound (const pg_tiles *t, size_t i, size_t j)
 {
     return t->damage && fmin (t->damage[i], t->damage[j]) < 0.1;
@@ -42,8 +45,9 @@ static int ascending (const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* What strain does: three times the value that 95 of 100 pairs of sound neighbours stay below (where damage
- * is not known, six times that of all pairs, and no less than half a spacing on the picture). */
+/* How much of a relative displacement is strain and no crack: three times the value that 95 of 100 pairs
+ * of sound neighbours stay below. Where damage is not known, six times that of all pairs, and no less than
+ * half a spacing on the picture. */
 static pg_status find_limit (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -69,8 +73,8 @@ done:
     return status;
 }
 
-/* Gradient of the shift at each point, by least squares over its neighbours that hold to it; 0 where they do
- * not span the plane. */
+/* Gradient of the shift at each point, by least squares over the neighbours that hold to it; 0 where they
+ * do not span the plane. */
 static pg_status find_gradients (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -100,8 +104,8 @@ done:
     return status;
 }
 
-/* One and a half spacings of the point nearest to a place about o: of all that ask about the place the
- * same. */
+/* One and a half spacings of the point nearest to a place, so that all who ask about this place use the
+ * same reach. */
 static double reach_at (const pg_tiles *t, size_t o, const double *at)
 {
     int near[NEAR];
@@ -115,8 +119,8 @@ static double reach_at (const pg_tiles *t, size_t o, const double *at)
     return reach;
 }
 
-/* Shift at a place as the points say that hold to point o: their own, carried on by their gradients, weighed
- * by nearness. */
+/* Shift of a place as the points that hold to point o see it: their own shifts, carried on by their
+ * gradients and weighed by nearness. */
 static void shift_at (const pg_tiles *t, size_t o, const double *at, double *out)
 {
     int near[NEAR];
@@ -138,7 +142,7 @@ static void shift_at (const pg_tiles *t, size_t o, const double *at, double *out
 }
 
 /* ---- faces of pre-cracks ------------------------------------------------------------------------------- */
-/* The nearest point that no pre-crack parts from a place within two spacings; -1: there is none. */
+/* The nearest point within two spacings that no pre-crack separates from a place; -1 where there is none. */
 static long beside (const pg_tiles *t, const double *place)
 {
     int near[NEAR];
@@ -169,6 +173,7 @@ void pg_tiles_face (const pg_tiles *t, const double *a, const double *b, int sid
 }
 
 /* ---- pieces -------------------------------------------------------------------------------------------- */
+/* Owner of the pixel at rest that holds a place. */
 static int rest_at (const warp *w, double a, double b)
 {
     double i = floor ((a - w->rest->left) * w->rest->scale), j = floor ((w->rest->top - b) * w->rest->scale);
@@ -176,7 +181,8 @@ static int rest_at (const warp *w, double a, double b)
     return w->rest->owner[(size_t) j * (size_t) w->rest->width + (size_t) i];
 }
 
-/* A triangle with its corners at rest (a) and on the screen (v): pixels whose place at rest belongs to o. */
+/* A triangle with corners at rest (a) and on the screen (v): fills the pixels whose place at rest belongs
+ * to point o. */
 static void fill (const warp *w, const double a[3][2], const double v[3][2], int o)
 {
     pg_screen *s = w->screen;
@@ -204,7 +210,7 @@ static void fill (const warp *w, const double a[3][2], const double v[3][2], int
         }
 }
 
-/* Whose pixels at rest a piece of the grid holds. */
+/* The points that own pixels in a piece of the grid, found on the pixels at rest. */
 static int owners_in (const warp *w, const double *low, int *owner)
 {
     int n = 0;
@@ -222,6 +228,7 @@ static int owners_in (const warp *w, const double *low, int *owner)
     return n;
 }
 
+/* Moves the corners of one piece of the grid as point o sees them, and fills it with the pixels of o. */
 static void draw_piece (const warp *w, const double *low, int o)
 {
     static const int round[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
@@ -266,6 +273,7 @@ done:
     return status;
 }
 
+/* Every piece of the grid, once for each point that owns a part of it. */
 static void displace (const warp *w)
 {
     for (long j = 0; j < w->count[1]; j++)
@@ -276,6 +284,7 @@ static void displace (const warp *w)
         }
 }
 
+/* Without displacements the screen shows the body at rest. */
 static void copy (const warp *w)
 {
     pg_screen *s = w->screen;
@@ -286,6 +295,7 @@ static void copy (const warp *w)
                                                                              s->top - (j + 0.5) / s->scale);
 }
 
+/* The grid is as fine as half a spacing or three pixels, with at most 2000 pieces along its longer side. */
 pg_status pg_tiles_draw (pg_tiles *t, pg_screen *screen)
 {
     pg_status status = PG_OK;
