@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: what a scene's reference is made of. */
+ * Private: what the section `reference` of a scene consists of, and what its readers share. */
 #ifndef PG_COMPARE_PRIVATE_H
 #define PG_COMPARE_PRIVATE_H
 #include "perigal/compare.h"
 
+/* A reference that has been read. */
 struct pg_reference {
-    int     dim, threads, order;                       /* order: Gauss points per direction of the norms */
-    pg_expression *u[3], *s[6], *where;                /* NULL: not given */
+    /* Dimension of the body; threads for closed forms; Gauss points per direction of the
+     * norms. */
+    int     dim, threads, order;
+    /* Closed forms of the components, and the condition; NULL where not given. */
+    pg_expression *u[3], *s[6], *where;
     pg_line *line;  size_t nline;
-    pg_sampler mesh;                                   /* sample NULL: none */
+    /* A finite element result; mesh.sample is NULL if there is none. */
+    pg_sampler mesh;
 };
 /* The whole of a text file; to be freed with pg_free. */
 pg_status pg_compare_load_text (const char *path, char **text);

@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A state against all that the scene's reference says: norms over the body, tables, the difference at the
- * points. */
+ * A field against all that a reference says: norms over the body, tables, and the difference
+ * at the points; and the same as JSON and as rows for people.
+ *
+ * Norms are integrals over the background cells with more Gauss points than the run has: at
+ * its own integration points a solution may be more accurate than elsewhere
+ * (superconvergence), and the norm would be too good. */
 #include "compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* The cells' quadrature; a body without cells is measured by the volumes of its points. */
+/* The quadrature of the background cells with *order points per direction. A body without
+ * cells is measured by the volumes of its points, and *order becomes 0. */
 static pg_status quadrature (pg_quadrature *q, const pg_problem *p, int *order)
 {
     pg_status status = PG_OK;
@@ -23,7 +28,7 @@ done:
     return status;
 }
 
-/* |u - u_ref| at the points, which also take part in the maximum. */
+/* |u - u_ref| at the points of the body, which also take part in the maximum norm. */
 static pg_status at_points (pg_errors *out, const pg_problem *p, const pg_sampler *value,
                             const pg_sampler *reference, const pg_expression *where)
 {
@@ -60,6 +65,7 @@ done:
     return status;
 }
 
+/* Norms of all columns of all tables. */
 static pg_status lines (pg_errors *out, const pg_reference *r, const pg_sampler *value)
 {
     pg_status status = PG_OK;
@@ -98,6 +104,8 @@ done:
     return status;
 }
 
+/* The time includes reading of tables and closed forms at all places, not the reading of
+ * files. */
 pg_status pg_errors_measure (pg_errors *out, const pg_reference *reference, const pg_problem *problem,
                              const pg_sampler *value, double t)
 {
@@ -122,6 +130,7 @@ void pg_errors_clear (pg_errors *errors)
 }
 
 /* ---- reports ------------------------------------------------------------------------------------------- */
+/* One norm as a JSON object; place = 1 with the place of the largest difference. */
 static void json_norm (pg_json *j, const char *key, const pg_norm *n, int place)
 {
     pg_json_open (j, key, '{');
@@ -136,6 +145,7 @@ static void json_norm (pg_json *j, const char *key, const pg_norm *n, int place)
     pg_json_shut (j);
 }
 
+/* The norms of one column of a table as a JSON object. */
 static void json_line (pg_json *j, const pg_line_norms *l)
 {
     pg_json_open (j, NULL, '{');
@@ -168,6 +178,8 @@ void pg_errors_json (pg_json *j, const pg_errors *e)
     pg_json_shut (j);
 }
 
+/* i counts down through the rows that exist, since displacement, stress and the note may each
+ * be missing. */
 int pg_errors_row (const pg_errors *e, size_t i, char *text, size_t size)
 {
     const pg_norms *n = &e->norms;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a result folder says about its run: the scene it was made with, and the row of history.csv that
- * belongs to a step of result.e. */
+ * What a result folder says about its run: the scene that it was made with, and the row of
+ * history.csv that belongs to a step of result.e. `perigal run` copies the scene into the
+ * folder and appends comment lines with its origin and with the --set options; both are taken
+ * off here and applied again. */
 #include "compare.h"
 #include <errno.h>
 #include <math.h>
@@ -8,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Largest number of --set options that are read back. */
 enum { MOST_SETTINGS = 64 };
 
 pg_status pg_compare_load_text (const char *path, char **text)
@@ -32,7 +35,9 @@ done:
 }
 
 /* ---- scene --------------------------------------------------------------------------------------------- */
-/* Value of a text key of report.json; "" when there is none. */
+/* Value of a text key of report.json at any level, "" if there is none or no such file. This
+ * is no JSON reader: it relies on the form that our own writer gives ("key": "value") and
+ * takes escaped characters as they are. */
 static pg_status report_text (const char *folder, const char *key, char *out, size_t size)
 {
     char path[4096], wanted[64], *text = NULL;
@@ -52,7 +57,8 @@ static pg_status report_text (const char *folder, const char *key, char *out, si
     return PG_OK;
 }
 
-/* The last line of the text, cut off it, if it begins with the mark: what follows that; NULL. */
+/* If the last line of the text begins with the mark, cuts it off the text and returns what
+ * follows the mark; otherwise NULL. The returned text stays inside the buffer. */
 static char *cut_line (char *text, const char *mark)
 {
     size_t length = strlen (text);
@@ -65,8 +71,9 @@ static char *cut_line (char *text, const char *mark)
     return text + start + strlen (mark);
 }
 
-/* Takes what a run added off its copy of a scene: where that was (NULL: not said), settings in the order of
- * the file. */
+/* Removes what `perigal run` appended: *from becomes the path of the original scene (NULL if
+ * not noted), set the --set options in the order in which they were given. Lines are removed
+ * from the end, so the order is reversed at last. Returns the number of options. */
 static size_t cut_settings (char *text, char **set, const char **from)
 {
     size_t n = 0;
@@ -83,6 +90,8 @@ static size_t cut_settings (char *text, char **set, const char **from)
     return n;
 }
 
+/* Relative file names in the scene refer to the folder of the original scene: noted in the
+ * copy, or in older folders in report.json; the copy itself is the last resort. */
 pg_status pg_stored_scene (pg_scene **out, const char *folder)
 {
     pg_status status = PG_OK;

@@ -1,21 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A finite element result as a sampler: displacement by its shape functions, stress from their gradients and
- * the scene's materials. */
+ * A finite element result as a sampler: displacement by the shape functions of its elements,
+ * stress from their gradients and the materials of the scene, so that both sides of a
+ * comparison have the same elastic law. Stresses in the file are not used, since they are
+ * often averaged at nodes. */
 #include "compare.h"
 #include "perigal/mesh_files.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* A place that lies outside by at most this many element sizes still takes the value of the
+ * nearest element: the surfaces of two discretizations of one curved body differ by a little. */
 #define FARTHEST 0.25  /* a place so far outside, in element sizes, still takes the nearest element */
 
+/* The result and what is needed to sample it. */
 typedef struct {
-    pg_mesh mesh;                                      /* places in m */
-    pg_mesh_field u;                                   /* displacement, m */
+    /* Coordinates in m. */
+    pg_mesh mesh;
+    /* Displacement at its nodes, m (nnode x dim). */
+    pg_mesh_field u;
     pg_mesh_locator *locator;
     const pg_problem *problem;
-    pg_nearest *material;                              /* over evaluation points; NULL: one material */
-    size_t  outside;  double away;  /* places so far, beyond 1e-6; farthest, element sizes */
+    /* Search among the evaluation points of the problem, whose material counts; NULL: one
+     * material. */
+    pg_nearest *material;
+    /* Places so far outside by more than 1e-6 element sizes, and the farthest of them in
+     * element sizes. */
+    size_t  outside;  double away;
 } fem;
 
 static void free_fem (void *context)
@@ -29,6 +40,7 @@ static void free_fem (void *context)
     pg_free (f);
 }
 
+/* The elastic law at a place. */
 static const pg_material *law_at (const fem *f, const double *x)
 {
     const pg_problem *p = f->problem;
@@ -37,6 +49,8 @@ static const pg_material *law_at (const fem *f, const double *x)
                                 [pg_nearest_find (f->material, x, NULL, NULL)]];
 }
 
+/* Counts the places outside, which callers report: many of them mean that the two bodies
+ * differ. */
 static pg_status sample_fem (void *context, size_t n, const double *x, double *u, double *stress)
 {
     fem *f = context;
@@ -56,7 +70,8 @@ static pg_status sample_fem (void *context, size_t n, const double *x, double *u
     return PG_OK;
 }
 
-/* Reads displacements; plane results of three-dimensional elements become plane. */
+/* Reads mesh and displacements of a step; results of one layer of 3D elements become plane.
+ * PG_E_FILE if there is no displacement or the dimension is another one. */
 static pg_status read_fields (fem *f, const char *path, int step, double unit)
 {
     pg_status status = PG_OK;

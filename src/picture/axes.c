@@ -52,8 +52,9 @@ static void number (char *text, size_t size, double value, int decimals)
     snprintf (text, size, "%s%.32s", value < 0 && !zero ? MINUS : "", plain);
 }
 
-/* SI prefix for 10^power in front of the unit at the end of the label, "stress (Pa)"; NULL when the unit
- * takes none. */
+/* The SI prefix for 10^power before the unit in brackets at the end of a label, "stress (Pa)";
+ * *unit is then the index of the unit in the label. NULL if the unit takes none: unknown
+ * units, and multiples of m and s, since neither Mm nor ks is usual. */
 static const char *prefix_of (const char *label, int power, size_t *unit)
 {
     static const char *const si[] = { "Pa", "m", "N", "J", "W", "s" };
@@ -117,7 +118,8 @@ static int scale_label (pg_axis *a, double low, double high, const char *label, 
     return power;
 }
 
-/* Smallest of 1, 2, 5 x 10^k that is not below raw, and the decimals it needs. */
+/* The smallest of 1, 2, 5 x 10^k that is not below raw, and the decimals that its multiples
+ * need. */
 static double round_step (double raw, int *decimals)
 {
     double k = floor (log10 (raw) + 1e-9), base = pow (10, k), f = raw / base;
@@ -145,8 +147,9 @@ static int texts_fit (const pg_axis *a, cairo_t *cr, double length)
     return 1;
 }
 
-/* About `target` ticks on [low, high]. grow: the axis ends on a tick, as in charts; otherwise it ends
- * where the body or the colours do. */
+/* Ticks for about `target` intervals; scale is the power of ten that the label carries. grow
+ * moves the ends outwards to ticks. Ticks are integer multiples of the step, so that rounding
+ * does not add up along the axis. */
 static void linear_ticks (pg_axis *a, double low, double high, int target, double scale, int grow)
 {
     int decimals;
@@ -177,8 +180,8 @@ static void fit_linear (pg_axis *a, cairo_t *cr, double low, double high, double
     while (!texts_fit (a, cr, length) && --target > 0);
 }
 
-/* m x 10^k with m = 1, 2, 5: the exponent of the value's place in that row, e.g. 1 -> 0, 2 -> 1, 5 -> 2, 10
- * -> 3. */
+/* The value at that place of the row ... 0.5, 1, 2, 5, 10, 20, 50 ...; place 0 is 1, place 3
+ * is 10, place -1 is 0.5. */
 static double row_value (int place)
 {
     static const double m[] = { 1, 2, 5 };
@@ -186,7 +189,9 @@ static double row_value (int place)
     return m[place - 3 * k] * pow (10, k);
 }
 
-/* Less than two decades: ticks at 1, 2 and 5, the axis ends on the nearest of them. */
+/* A logarithmic axis over less than two decades: ticks at 1, 2 and 5 times powers of ten; the
+ * axis ends on the nearest of these outside the data. Beyond 10^3 and 10^-3 the texts have a
+ * power of ten. */
 static void short_log_ticks (pg_axis *a, double low, double high)
 {
     int first = 3 * (int) floor (log10 (low)) - 3, k;
@@ -205,7 +210,8 @@ static void short_log_ticks (pg_axis *a, double low, double high)
     }
 }
 
-/* Ticks at powers of ten; every second, third ... where the texts need it. */
+/* A logarithmic axis over more than two decades: ticks at powers of ten, at every second,
+ * third ... one if the texts need it. The axis is 3 % longer than the data at each end. */
 static void long_log_ticks (pg_axis *a, cairo_t *cr, double low, double high, double length)
 {
     double l = log10 (low), h = log10 (high), pad = 0.03 * (h - l);
@@ -261,7 +267,7 @@ static double widest (const pg_axis *a, cairo_t *cr)
     return w;
 }
 
-/* Middle of the label, from the frame. */
+/* Distance of the middle of the label from the frame, pixels. */
 static double label_place (const pg_axis *a, cairo_t *cr)
 {
     double raised = a->log ? 0.15 * PG_FONT : 0;
@@ -275,7 +281,8 @@ double pg_axis_margin (const pg_axis *a, cairo_t *cr)
     return a->label[0] ? label_place (a, cr) + 0.9 * PG_FONT : label_place (a, cr) - 0.4 * PG_FONT;
 }
 
-/* Foot of a tick at `value` on the frame. */
+/* The pixel on the frame (x, y, w, h) where the tick of a value begins, moved to the middle of
+ * a pixel so that lines of two pixels' width are sharp. */
 static void foot (const pg_axis *a, double value, double x, double y, double w, double h, double *px,
                   double *py)
 {

@@ -20,6 +20,7 @@ static cairo_status_t write_bytes (void *closure, const unsigned char *data, uns
     return CAIRO_STATUS_WRITE_ERROR;
 }
 
+/* 1 if the path ends so, in capitals or not. */
 static int ends_with (const char *path, const char *ending)
 {
     size_t n = strlen (path), m = strlen (ending);

@@ -7,7 +7,8 @@
 
 enum { WIDTH = 1200, HEIGHT = 840 };
 
-/* Ranges of the points drawn: both coordinates must be finite, and positive on a log axis. */
+/* Extends the ranges x and y by the visible points of curves; *found becomes 1 at the first
+ * one. */
 static void widen (int *found, size_t ncurve, const pg_curve *curves, const chart *c, double x[2],
                    double y[2])
 {
@@ -91,8 +92,9 @@ static void draw_zero (const chart *c, cairo_t *cr)
     cairo_stroke (cr);
 }
 
-/* A polyline, broken at what cannot be drawn; points closer than a quarter of a pixel to the last one are
- * left out. */
+/* A polyline, interrupted at places that cannot be drawn. Points closer than a quarter of a
+ * pixel to the last drawn one are left out, which keeps the file of a curve with 1e6 points
+ * small. */
 static void line (const chart *c, cairo_t *cr, const pg_curve *curve)
 {
     double px, py, qx = 0, qy = 0;

@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The envelope of an event path: what a test with steadily rising displacement would show of it. Event
- * stepping follows the equilibrium path of a breaking body back and forth, load and displacement falling
- * at each break; a testing machine that only moves on jumps over those falls. The envelope keeps the
- * states whose displacement exceeds that of all before. */
+ * The envelope of an equilibrium path that is driven event by event: what a test with steadily
+ * rising displacement would show of it. Event stepping follows snap-back, where displacement
+ * and force both fall; a testing machine that moves only forwards jumps over that part at
+ * constant displacement.
+ *
+ *   a state i counts if        sign x_i > max over earlier states of sign x
+ *   between two events         y = (y_i / x_i) x, a line through the origin (proportional loads)
+ *
+ * The header has the exact definition of what is returned. */
 #include "perigal/picture.h"
 #include <math.h>
 

@@ -5,8 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Edges of a cell, and how many fit between the first and the last point. 0: too many to keep as a
- * lattice. */
+/* Edges of a cell (the cloud's steps, its spacing, or the cube root of the mean volume,
+ * whichever is known) and how many cells lie between the first and the last point. Returns 0
+ * if there would be many more cells than points: these are points on no lattice. */
 static int measure (pg_grid *g, const pg_cloud *cloud)
 {
     double cells = 1, mean = 0;
@@ -26,7 +27,8 @@ static int measure (pg_grid *g, const pg_cloud *cloud)
     return cells < 64 * (double) cloud->n + 1e6;
 }
 
-/* Lattice nodes on a face of the body hold half a cell (or less): cubes there end at the points. */
+/* Lattices whose nodes lie on the faces of the body have half cells there: their volumes show
+ * it (below 0.75 of the largest one), and the box of the cells then ends at the points. */
 static void cut_faces (pg_grid *g, const pg_cloud *cloud)
 {
     double whole = 0, most[3][2] = { { 0 } };
@@ -103,9 +105,11 @@ static int ascending (const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Do the points lie on no lattice along this axis? Two signs must come together: their phases spread over
- * a step (a lattice that was moved a little keeps its phase), and most coordinates occur once (a lattice
- * with another step than the nominal one has few). work: n values. */
+/* 1 if the coordinates along an axis are those of no lattice: their phases, 2 pi x / step,
+ * spread over the circle (length of the mean unit vector below 0.3), and more than a third of
+ * the coordinates differ from each other. Lattices whose points moved a little keep their
+ * phase; lattices with another step than the nominal one have few different coordinates. work:
+ * n values of scratch space. */
 static int spreads (const pg_cloud *cloud, int axis, double *work)
 {
     double step = cloud->step[axis] > 0 ? cloud->step[axis] : cloud->h, c = 0, s = 0;

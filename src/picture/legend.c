@@ -6,7 +6,8 @@
 #include <math.h>
 
 /* ---- slopes -------------------------------------------------------------------------------------------- */
-/* Height of a curve at x, on log axes; NAN beside it. */
+/* Value of a curve at x by linear interpolation of the logarithms; NAN where the curve does
+ * not reach. */
 static double height_at (const chart *c, const pg_curve *curve, double x)
 {
     for (size_t i = 0; i + 1 < curve->n; i++) {
@@ -29,8 +30,10 @@ static void middle_part (const chart *c, const pg_curve *curve, double *low, dou
     *low = from * pow (to / from, 0.36), *high = from * pow (to / from, 0.64);
 }
 
-/* Corners in pixels: the ends of the hypotenuse, then the right angle. The hypotenuse stays a little below
- * the curve, at its own ends and at the points between them. Returns 0 where there is nothing to draw. */
+/* Corners of a slope triangle in pixels: the two ends of the hypotenuse, then the right angle.
+ * The triangle is moved down until it lies below the curve at its ends and at all points
+ * between them. Returns 0 if there is nothing to draw: linear axes, or a curve that does not
+ * cover the range. */
 static int slope_corners (const chart *c, const pg_curve *curve, const pg_chart_slope *slope, double px[3],
                           double py[3])
 {

@@ -22,7 +22,8 @@ done:
     return status;
 }
 
-/* Places of the nodes, displaced and scaled to metres where the unit of the mesh is known. */
+/* Coordinates of the nodes, displaced by magnify u and scaled to m. PG_E_USAGE names the first
+ * node without a finite place. */
 static pg_status place_nodes (mesh_drawing *d)
 {
     pg_status status = PG_OK;
@@ -56,6 +57,8 @@ done:
     return status;
 }
 
+/* The box of the nodes, the frame with a narrow margin, and the length unit as for fields at
+ * points. */
 static void choose_frame (mesh_drawing *d)
 {
     static const double unit[] = { 1e3, 1, 1e-3, 1e-6 };
@@ -77,7 +80,8 @@ static void choose_frame (mesh_drawing *d)
 }
 
 /* ---- colours ------------------------------------------------------------------------------------------- */
-/* Sets: the body light grey, then full colours. */
+/* Colour of a name in the legend of sets: 0 is the body in light grey, then the colours of
+ * curves, and from the ninth on paler ones. */
 static void colour_of_set (double t, double rgb[3])
 {
     long k = lround (t * PG_CATEGORIES);
@@ -88,7 +92,8 @@ static void colour_of_set (double t, double rgb[3])
     }
 }
 
-/* Pale colours, so that the edges of elements stay visible. */
+/* Colour of a block of elements: colours of curves made paler, so that edges and sets stay
+ * visible on them. */
 static void colour_of_block (double t, double rgb[3])
 {
     long k = lround (t * PG_CATEGORIES);
@@ -122,7 +127,8 @@ done:
     return status;
 }
 
-/* Place of a painted face in the list, -1: it is not there; both ascend by element and side. */
+/* Index of a painted face by bisection, -1 if it is not painted; the list ascends by element
+ * and side. */
 static long face_at (const mesh_drawing *d, int element, int side)
 {
     size_t low = 0, high = d->nface;
@@ -141,8 +147,9 @@ static int has_sides (const pg_mesh *m, const char *name)
     return 0;
 }
 
-/* Sets of sides, then sets of nodes that are none of those; a side in several sets has the colour of the
- * last one. */
+/* Names and colours of the sets of sides, then of the sets of nodes without sides. A side in
+ * several sets has the colour of the last one. Sides of 2D meshes are drawn as lines by
+ * mesh_paint.c. */
 static pg_status colour_sets (mesh_drawing *d)
 {
     pg_status status = PG_OK;
@@ -190,7 +197,7 @@ done:
     return status;
 }
 
-/* Does the bar end before the values do? */
+/* Finds whether values lie beyond the ends of the colour bar, which then ends in arrows. */
 static void choose_arrows (mesh_drawing *d)
 {
     const pg_axis *bar = &d->sheet.bar;

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+/* Largest number of parts along an edge, and places on a face that these make. */
 enum { FINEST = 8, SPOTS = (FINEST + 1) * (FINEST + 1) };
 
 /* ---- faces --------------------------------------------------------------------------------------------- */
@@ -25,6 +26,7 @@ static pg_element face_of (const mesh_drawing *d, int element, int side, int nod
     return face;
 }
 
+/* 1 for elements with three corners. */
 static int is_triangle (pg_element kind) { return pg_element_types[kind].corners == 3; }
 
 /* Parts along an edge of a face: one for straight triangles, more for curved ones and for values that vary
@@ -36,8 +38,8 @@ static int parts_of (const mesh_drawing *d, pg_element kind)
     return is_triangle (kind) ? 1 : d->value ? (most + 1) / 2 : 1;
 }
 
-/* Place xi of a face: in space (x), on the screen (at, with its depth), and its value, all by the shape
- * functions of the face. */
+/* The place with the local coordinates xi on a face: its pixel and depth (at), its coordinates
+ * (x) and the value there, interpolated by the shape functions of the element. */
 static void spot_of (const mesh_drawing *d, const pg_screen *s, pg_element kind, const int *node,
                      const double *xi, double *at, double *x, double *value)
 {
@@ -54,7 +56,8 @@ static void spot_of (const mesh_drawing *d, const pg_screen *s, pg_element kind,
     at[2] = pg_along (d->sheet.eye.toward, x, 3);
 }
 
-/* As pg_light_on, but without its step on the round faces of a side view. */
+/* Brightness of a triangle with corners x. In side views it falls smoothly with the angle,
+ * whereas pg_light_on has only two steps there, which would show as stripes on round faces. */
 static float light_of (const mesh_drawing *d, const double (*x)[3])
 {
     double a[3], b[3], n[3];
@@ -96,7 +99,8 @@ static void paint_face (const mesh_drawing *d, pg_screen *s, size_t f)
             }
 }
 
-/* Owner of a pixel: the pixel itself, whose value it is. */
+/* Each pixel becomes its own owner, since every pixel has its own value. In 3D pixels on the
+ * outline turn grey. */
 pg_status pg_mesh_drawing_paint (mesh_drawing *d, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -115,7 +119,8 @@ done:
 }
 
 /* ---- lines --------------------------------------------------------------------------------------------- */
-/* Is a place in front of, or in, what the screen shows around it? */
+/* 1 if a place (pixels and depth) is nearer than one of the nine pixels around it, but for
+ * `slack`: the edges of a face must not vanish behind the face itself by rounding. */
 static int in_sight (const pg_screen *s, const double *at, double slack)
 {
     for (int k = 0; k < 9; k++) {
@@ -172,7 +177,7 @@ static void draw_edges (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, 
     cairo_stroke (cr);
 }
 
-/* Sets of 2D as broad lines on the rim; sets of nodes as dots. */
+/* Draws sets of sides in 2D as broad lines on the boundary, and sets of nodes as dots. */
 static void draw_sets (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, double pixel)
 {
     const pg_mesh *m = d->mesh;

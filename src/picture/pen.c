@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where a place of a chart lies on its sheet, and how a curve is drawn: its colour, its dashes, its marker. Eight
- * colours come first; from the ninth curve on the colours repeat with dashes and hollow markers. */
+ * Where a place of a chart lies on its sheet, and how a curve is drawn: its colour, its
+ * dashes, its marker. Eight colours come first; from the ninth curve on the colours repeat
+ * with dashes and hollow markers. The seven markers and eight colours make 56 different pairs. */
 #include "chart.h"
 #include <math.h>
 
@@ -63,6 +64,7 @@ void pg_chart_marker (cairo_t *cr, size_t k, double x, double y)
     cairo_new_path (cr);
 }
 
+/* The same colour mixed with white, which stays visible behind the full one. */
 void pg_chart_pale_pen (cairo_t *cr, size_t k)
 {
     double rgb[3];

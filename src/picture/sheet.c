@@ -6,6 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/* All sizes are in pixels. WIDE, BROAD and TALL limit a single frame; SHARED is the width that
+ * frames side by side share, LEAST_FRAME the least that one of them gets; the rest are the
+ * parts around the frames. */
 enum {
     WIDE = 1120,
     BROAD = 900,
@@ -59,7 +62,8 @@ static void size_frame (pg_sheet *p)
     }
 }
 
-/* Axis a (0 across, 1 up) of the frame, in the length unit; s and t name the axes of an oblique plane. */
+/* Fits the axis across (a = 0) or upwards (a = 1). An oblique section has the axes s and t in
+ * its plane; an axis along a coordinate that falls to the right or upwards is reversed. */
 static void fit_axis (const pg_sheet *p, pg_axis *axis, cairo_t *cr, int a)
 {
     char text[32];
@@ -73,7 +77,7 @@ static void fit_axis (const pg_sheet *p, pg_axis *axis, cairo_t *cr, int a)
     axis->reverse = reverse;
 }
 
-/* Pixels beside the bar, or of the names of the legend. */
+/* Pixels beside the colour bar: its axis, or the longest name of the legend. */
 static double width_beside_bar (const pg_sheet *p, cairo_t *cr)
 {
     double w = 0;
@@ -81,7 +85,7 @@ static double width_beside_bar (const pg_sheet *p, cairo_t *cr)
     return p->nlegend ? ceil (w) + 24 : pg_axis_margin (&p->bar, cr);
 }
 
-/* Where frames and colour bar go, and how large the whole picture is. */
+/* Places frames, colour bar and note around each other and so finds the size of the picture. */
 static void place_parts (pg_sheet *p, cairo_t *cr, const pg_picture_style *style)
 {
     double bar = width_beside_bar (p, cr);
@@ -133,6 +137,7 @@ void pg_sheet_to (const pg_sheet *p, size_t panel, double a, double b, double *p
     *py = y + (p->high[1] - b) / (p->high[1] - p->low[1]) * p->height;
 }
 
+/* A black rectangle, moved to the middle of pixels so that its lines are sharp. */
 static void draw_frame (cairo_t *cr, double x, double y, double w, double h)
 {
     cairo_set_source_rgb (cr, 0, 0, 0);
@@ -141,7 +146,7 @@ static void draw_frame (cairo_t *cr, double x, double y, double w, double h)
     cairo_stroke (cr);
 }
 
-/* The end of a bar beyond which there are values, in the colour they have. */
+/* The pointed end of a colour bar beyond which there are values, in the colour that they have. */
 static void draw_arrow (const pg_sheet *p, cairo_t *cr, int high)
 {
     double x = p->bar_at[0], y = p->bar_at[1], w = p->bar_at[2], h = p->bar_at[3], rgb[3], size = 0.6 * BAR;
@@ -200,7 +205,7 @@ static void draw_legend (const pg_sheet *p, cairo_t *cr)
     }
 }
 
-/* Below a picture without axes: the triad and the size of the body. */
+/* Below a view without axes: the directions of the axes and the size of the body's box. */
 static void draw_strip (const pg_sheet *p, cairo_t *cr, const pg_grid *g)
 {
     char text[160];
@@ -216,6 +221,7 @@ static void draw_strip (const pg_sheet *p, cairo_t *cr, const pg_grid *g)
     pg_text (cr, text, size, SIDE + 130, y, 0, 0, 1);
 }
 
+/* The line of text at the lower edge, made smaller if it is too long. */
 static void draw_note (const pg_sheet *p, cairo_t *cr)
 {
     double size = 0.8 * PG_FONT, room = p->total[0] - 2 * SIDE,
@@ -282,7 +288,9 @@ void pg_panel_draw (const pg_sheet *p, cairo_t *cr, size_t panel, const char *ti
     pg_text (cr, title, size, x + 0.5 * p->width, y - 0.5 * PANEL_TITLE, 0.5, 0, 1);
 }
 
-/* The colour of a pixel: of its point's value, NaN grey, the body behind a choice of points almost white. */
+/* The colour of a pixel as ARGB: that of its point's value times the brightness, grey for NAN,
+ * the body behind selected points almost white, its outline grey, transparent where nothing
+ * is. */
 static uint32_t pixel_of (const pg_sheet *p, const pg_screen *s, size_t at, const double *value)
 {
     int k = s->owner[at];

@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Solids on a screen: a cube around each point, its faces drawn as triangles with a depth buffer, so that
- * what is nearer hides what is behind. Neighbours share their displaced corners, so that a body deforms
- * without gaps, except across an opening of more than half a cell, where the points have lost each other. */
+ * Solids on pixels: a cube around each point, its faces drawn as triangles with a depth
+ * buffer, so that what is nearer to the eye hides what is behind. Faces between two cubes that
+ * touch are not drawn.
+ *
+ * Displaced cubes share their corners: a corner moves by the mean displacement of the up to
+ * eight points around it, which keeps the body closed. Two points whose displacements differ
+ * by more than half a cell on the picture have separated; they do not share corners, and the
+ * faces between them are drawn. */
 #include "picture_private.h"
 #include <math.h>
 
@@ -28,8 +33,9 @@ void pg_screen_close (pg_screen *s)
     *s = (pg_screen) { 0 };
 }
 
-/* Fills the pixels whose centre lies inside the triangle, by barycentric coordinates, where it is nearer
- * than what is there. */
+/* Barycentric coordinates w of each pixel centre decide whether it is inside, with 1e-6
+ * tolerance so that two triangles with a common edge leave no pixel out; depth and value are
+ * linear in w. */
 void pg_triangle (pg_screen *s, const double v[3][3], int owner, float shade, const double *value)
 {
     double area = (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
@@ -57,8 +63,8 @@ void pg_triangle (pg_screen *s, const double v[3][3], int owner, float shade, co
         }
 }
 
-/* Light from above, slightly from the left, behind the eye; a face towards the eye of a side view is fully
- * bright. */
+/* Light from above, slightly from the left and behind the eye. In side views with axes a face
+ * towards the eye is fully bright and all others are a little darker. */
 float pg_light_on (const pg_eye *e, const double *normal)
 {
     double right = pg_along (e->right, normal, 3), up = pg_along (e->up, normal, 3),
@@ -150,7 +156,8 @@ void pg_solid_draw (const pg_solid *s, pg_screen *screen)
     }
 }
 
-/* An outline where the body ends or steps back by more than two cells. */
+/* A pixel is on the outline if one of its four neighbours is farther away by more than the
+ * jump, or outside the picture. */
 int pg_on_outline (const pg_screen *s, int i, int j, double jump)
 {
     static const int beside[4][2] = { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 } };

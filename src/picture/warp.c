@@ -1,19 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body displaced. A fine grid is laid over the body at rest; its corners move with the points around
- * them, separately for the points on each side of a crack, and each piece of the grid is filled with what
- * the pixels at rest show there. Points that hold together stay joined without gaps, however much is
- * magnified; a crack opens. */
+ * The displaced body on pixels. A fine grid covers the undeformed body; its corners move with
+ * the points around them, and each piece of the grid is filled with what the undeformed pixels
+ * show there. So parts of neighbouring points stay joined along displaced lines, whatever
+ * their shape.
+ *
+ *   displacement at x, seen from point o:   u(x) = sum_j w_j (u_j + grad u_j (x - x_j)) / sum_j w_j,
+ *                                           w_j = (1 - |x - x_j| / reach)^2,   j not separated from o
+ *
+ * Two points have separated if a pre-crack passes between them or if their distance has
+ * changed more than strain explains. On both sides of a crack o differs, so the two displaced
+ * faces open. */
 #include "tiles.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Largest numbers of points around a place, and of owners in one piece of the grid. */
 enum { NEAR = 96, OWNERS = 24 };
+/* The undeformed picture, the screen to fill, and the grid between them. */
 typedef struct {
     pg_tiles *t;
-    const pg_screen *rest;                             /* owners at rest */
+    /* Owners of the pixels of the undeformed body. */
+    const pg_screen *rest;
     pg_screen *screen;
-    double origin[2], step;                            /* of the grid, m */
+    /* Lower corner of the grid and edge of a piece, m. */
+    double origin[2], step;
     long   count[2];
 } warp;
 
@@ -30,8 +41,8 @@ static int sound (const pg_tiles *t, size_t i, size_t j)
     return t->damage && fmin (t->damage[i], t->damage[j]) < 0.1;
 }
 
-/* Have two points lost each other? Never where one is whole; else if a pre-crack parts them, or they are
- * farther apart than strain explains. */
+/* 1 if two points have separated: a pre-crack passes between them, or neither is nearly whole
+ * and their distance has changed by more than the limit. */
 static int torn (const pg_tiles *t, size_t i, size_t j)
 {
     if (i == j) return 0;
@@ -39,6 +50,7 @@ static int torn (const pg_tiles *t, size_t i, size_t j)
     return !sound (t, i, j) && strain_of (t, i, j) > t->limit;
 }
 
+/* Order of doubles for qsort. */
 static int ascending (const void *a, const void *b)
 {
     double p = *(const double *) a, q = *(const double *) b;
@@ -104,8 +116,8 @@ done:
     return status;
 }
 
-/* One and a half spacings of the point nearest to a place, so that all who ask about this place use the
- * same reach. */
+/* Radius of averaging at a place: one and a half spacings of the point nearest to it, so that
+ * all pieces that share a corner compute the same displacement there. */
 static double reach_at (const pg_tiles *t, size_t o, const double *at)
 {
     int near[NEAR];
@@ -181,8 +193,9 @@ static int rest_at (const warp *w, double a, double b)
     return w->rest->owner[(size_t) j * (size_t) w->rest->width + (size_t) i];
 }
 
-/* A triangle with corners at rest (a) and on the screen (v): fills the pixels whose place at rest belongs
- * to point o. */
+/* A triangle with its corners in the undeformed body (a, m) and on the screen (v, pixels):
+ * gives to o the pixels that come from pixels of o. Triangles overlap by 3 % of their size,
+ * which closes gaps between pieces of different owners. */
 static void fill (const warp *w, const double a[3][2], const double v[3][2], int o)
 {
     pg_screen *s = w->screen;
@@ -210,7 +223,8 @@ static void fill (const warp *w, const double a[3][2], const double v[3][2], int
         }
 }
 
-/* The points that own pixels in a piece of the grid, found on the pixels at rest. */
+/* The owners of the undeformed pixels in one piece of the grid and one pixel around it;
+ * returns their number. */
 static int owners_in (const warp *w, const double *low, int *owner)
 {
     int n = 0;
@@ -251,8 +265,8 @@ static void draw_piece (const warp *w, const double *low, int o)
     }
 }
 
-/* The body at rest on a screen of its own, as fine as the picture (its longer side 3000 pixels at most), with
- * a rim wider than what the points reach. */
+/* The undeformed body on a screen of its own, 1.5 times as fine as the picture (its longer
+ * side at most 3000 pixels), with an edge wider than what the points reach. */
 static pg_status open_rest (const pg_tiles *t, const pg_screen *screen, pg_screen *rest)
 {
     pg_status status = PG_OK;

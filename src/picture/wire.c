@@ -6,12 +6,14 @@
 #include <math.h>
 #include <string.h>
 
+/* Pixels of a place in space (3, m) in a panel. */
 static void project (const pg_sheet *p, size_t panel, const double *x, double *px, double *py)
 {
     pg_sheet_to (p, panel, pg_along (p->eye.right, x, 3), pg_along (p->eye.up, x, 3), px, py);
 }
 
 /* ---- cracks -------------------------------------------------------------------------------------------- */
+/* Adds the polyline of a plane crack to the path. */
 static void path_2d (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_crack *crack)
 {
     double px, py;
@@ -22,7 +24,8 @@ static void path_2d (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_crac
     }
 }
 
-/* Share of a - b inside the box. */
+/* The part of the line a - b inside the box, as parameters from 0 to 1 (Liang-Barsky
+ * clipping); 0 if none of it is inside. */
 static int clip_line (const pg_grid *g, const double *a, const double *b, double *from, double *to)
 {
     *from = 0, *to = 1;
@@ -38,7 +41,8 @@ static int clip_line (const pg_grid *g, const double *a, const double *b, double
     return *from < *to;
 }
 
-/* Where a polygon meets the plane normal . x = at, inside the box. */
+/* Adds the lines in which a crack polygon meets the plane normal . x = at, inside the box. The
+ * edges of the polygon that cross the plane come in pairs. */
 static void path_of_cut (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                          const pg_crack *crack, const double *normal, double at)
 {
@@ -58,7 +62,8 @@ static void path_of_cut (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_
     }
 }
 
-/* Not behind what the screen shows there, to one and a half cells. */
+/* 1 if a place is not hidden behind what the screen shows there, to within one and a half
+ * cells, since cubes around points are coarser than the crack. */
 static int in_sight (const pg_sheet *p, const pg_grid *g, const pg_screen *s, const double *x)
 {
     double i = floor ((pg_along (p->eye.right, x, 3) - s->left) * s->scale),
@@ -68,7 +73,8 @@ static int in_sight (const pg_sheet *p, const pg_grid *g, const pg_screen *s, co
     return s->depth[(size_t) j * (size_t) s->width + (size_t) i] <= pg_along (p->eye.toward, x, 3) + slack;
 }
 
-/* One line in space, in the box, and where `screen` is given only what is in sight. */
+/* Adds a line in space to the path, inside the box, and where a screen is given only what is
+ * in sight, tested at 200 places. */
 static void path_of_line (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                           const pg_screen *screen, const double *a, const double *b)
 {
@@ -88,7 +94,8 @@ static void path_of_line (const pg_sheet *p, cairo_t *cr, size_t panel, const pg
     }
 }
 
-/* The rim of a polygon inside the box, and where its plane meets the faces of the box. */
+/* Adds the edges of a crack polygon inside the box, and the lines where its plane meets the
+ * faces of the box, where the crack is visible on the surface. */
 static void path_of_rim (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                          const pg_screen *screen, const pg_crack *crack)
 {
@@ -108,6 +115,8 @@ static void path_of_rim (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_
     }
 }
 
+/* Adds what a view shows of one crack: the crack itself, its cut with the section or with the
+ * face looked at, or its outline in space. */
 static void path_of_crack (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                            const pg_screen *screen, const pg_crack *crack)
 {
@@ -123,7 +132,7 @@ static void path_of_crack (const pg_sheet *p, cairo_t *cr, size_t panel, const p
     }
 }
 
-/* Black on a thin white rim, so that cracks show on dark colours. */
+/* Black lines on broader white ones, so that cracks are seen on dark and on bright colours. */
 void pg_wire_cracks (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g, const pg_cracks *cracks,
                      const pg_screen *screen)
 {
@@ -164,7 +173,8 @@ void pg_wire_faces (const pg_sheet *p, cairo_t *cr, size_t panel, size_t n, size
 }
 
 /* ---- box and triad ------------------------------------------------------------------------------------- */
-/* Edges that meet the corner farthest from the eye (hidden) or the others. */
+/* Corner k of the box has bit a set if it is the upper one along axis a; an edge joins corners
+ * that differ in one bit. */
 void pg_wire_box (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g, int hidden)
 {
     int farthest = 0;
