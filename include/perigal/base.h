@@ -3,6 +3,7 @@
 #ifndef PERIGAL_BASE_H
 #define PERIGAL_BASE_H
 #include <stddef.h>
+#include <stdint.h>
 
 /* The shared library exports what the headers of include/perigal declare between PG_API_BEGIN and PG_API_END.
  * Everything else is compiled with -fvisibility=hidden: it can be neither called nor replaced from outside. */
@@ -48,6 +49,11 @@ const char *pg_last_error_where (void);
 /* Inside a function with `pg_status status = PG_OK;` and a label `done:`. */
 #define PG_FAIL(code, ...) do { status = pg_error ((code), PG_HERE, __VA_ARGS__); goto done; } while (0)
 #define PG_TRY(call) do { status = (call); if (status != PG_OK) goto done; } while (0)
+
+/* ---- fingerprint of bytes ------------------------------------------------------------------------------- */
+/* Folds more bytes into a fingerprint, which begins with PG_FINGERPRINT; data NULL folds nothing. */
+#define PG_FINGERPRINT 14695981039346656037u
+uint64_t pg_fingerprint (uint64_t so_far, const void *data, size_t bytes);
 
 /* ---- memory
  * ---------------------------------------------------------------------------------------------------------

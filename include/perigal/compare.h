@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * compare.h: a result against what is known of it: closed forms, tables of places, finite element results,
- * other results. Everything to be compared is a sampler: it can be asked for displacement and stress at any
- * place. */
+ * compare.h: measures a result against what is known of it: closed forms, tables of places
+ * with values, finite element results, other results. Whatever is to be compared is a sampler,
+ * which can be asked for displacement and stress at any place; norms, tables and pictures of
+ * differences are written for samplers only, so every kind can be compared with every other
+ * one.
+ *
+ * Arrays of displacements have three components per place and arrays of stresses six (xx yy zz
+ * xy yz zx), whatever the dimension; what is unknown is NAN. Lengths are m, stresses Pa. */
 #ifndef PERIGAL_COMPARE_H
 #define PERIGAL_COMPARE_H
 #include "perigal/mesh.h"
@@ -11,178 +16,251 @@
 PG_API_BEGIN
 
 /* ---- samplers ------------------------------------------------------------------------------------------ */
-/* x: n x dim, m; u: n x 3, m, 0 beyond dim; stress: n x 6, Pa, xx yy zz xy yz zx, or NULL: not wanted. What
- * is not known is NAN. Borrows what it was made of; pg_sampler_clear frees what it made itself. */
+/* A field of displacement and stress. `sample` takes n places x (n x dim, m) and fills u (n x
+ * 3, m; 0 beyond dim) and stress (n x 6, Pa; or NULL: not wanted); unknown values become NAN.
+ * A sampler borrows what it was made of (problem, state, force); pg_sampler_clear frees what
+ * it allocated itself. */
 typedef struct {
     void *context;
     int   dim;
-    int   displacement, stress;                        /* bit k: component k is known */
+    /* Bit k is set if component k is known at all. */
+    int   displacement, stress;
     pg_status (*sample) (void *context, size_t n, const double *x, double *u, double *stress);
-    void (*free) (void *context);                      /* NULL: nothing to free */
+    /* Frees the context; NULL: nothing to free. */
+    void (*free) (void *context);
 } pg_sampler;
+/* Frees what the sampler owns and sets it to zero; a zero sampler is allowed. */
 void      pg_sampler_clear    (pg_sampler *sampler);
-/* A state of a force: by its own shape functions (pg_force_type.sample), else by least squares through its
- * nodal displacements. */
+/* A state of a force model. Forces that have shape functions sample with these
+ * (pg_force_type.sample); for others a least squares fit through the displacements of the
+ * points is used. */
 pg_status pg_sampler_solution (pg_sampler *out, const pg_problem *problem, const pg_force_type *force,
                                void *self, const pg_state *state);
-/* Displacements at points (n x dim, m), between them by least squares with a linear basis; stress from its
- * gradient and the materials of the nearest evaluation point. cracks and materials are the problem's. torn
- * (n, or NULL): points that have lost bonds since; a place that reaches one has the displacement of the
- * nearest point and no stress. */
+/* Displacements at the points (u: n x dim, m; copied). Between them a moving least squares fit
+ * with a linear basis; stress from the gradient of the fit and the material of the nearest
+ * evaluation point. Neighbours behind a pre-crack of the problem do not take part. torn (n, or
+ * NULL) marks points that have lost bonds during the run: a place that has one in reach gets
+ * the displacement of the nearest point and no stress. */
 pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const double *u,
                              const unsigned char *torn);
-/* A finite element result (see pg_mesh_result) of the same body: displacements (both they and places times
- * unit, m), stress from their gradients and the problem's materials. Plane results of elements one layer
- * thick become plane. Places outside the elements take the nearest one up to 0.25 element sizes, beyond they
- * are unknown. */
+/* A finite element result of the same body (see pg_mesh_result): displacement by its shape
+ * functions, stress from their gradients and the problem's materials. `unit` turns lengths and
+ * displacements of the file into m. A plane result that was computed with one layer of 3D
+ * elements becomes plane. A place outside all elements takes the value of the nearest element
+ * up to 0.25 element sizes away; beyond that it is unknown. PG_E_FILE: other dimension, or no
+ * displacement in the file. */
 pg_status pg_sampler_mesh (pg_sampler *out, const char *path, int step, double unit,
                            const pg_problem *problem);
-/* Its mesh, in m; NULL: another kind of sampler. outside, away (or NULL): places asked for so far that lay
- * outside, the farthest in element sizes. */
+/* The mesh of such a sampler, in m; NULL for other samplers. outside and away (each may be
+ * NULL): how many of the places sampled so far lay outside the elements, and the farthest
+ * distance in element sizes. */
 const pg_mesh *pg_sampler_mesh_of (const pg_sampler *sampler, size_t *outside, double *away);
-/* Points and weights (thickness: of plane elements) of all elements; cell: element. */
+/* Gauss points and weights of all elements of a mesh: x (n x dim, m), weights (m3; plane
+ * elements times `thickness`, m), and the element of each point in `cell`. */
 pg_status pg_mesh_quadrature  (pg_quadrature *out, const pg_mesh *mesh, double thickness, int order);
-/* The reference moved by shift (3, m), its values times factor; takes `sampler` over. */
+/* The field of `sampler` moved by shift (3, m) and multiplied by factor; takes the sampler
+ * over and leaves a zero one behind. */
 pg_status pg_sampler_moved    (pg_sampler *out, pg_sampler *sampler, const double *shift, double factor);
 
 /* ---- results of runs ----------------------------------------------------------------------------------- */
-/* A result folder opened for questions: the problem built anew from its copy of the scene, the fields of one
- * step of its result.e. */
+/* A result folder opened in order to sample it: the problem, built anew from the copy of the
+ * scene in it, with the unknowns of one step of its result.e. */
 typedef struct {
     pg_scene   *scene;
     pg_problem *problem;
     const pg_force_type *force;  void *self;
     pg_state   *state;
-    pg_sampler  sampler;  /* NAN beyond sqrt (dim) spacings of the nearest point */
-    double      t, stamp;                              /* time of expressions; the step's own in result.e */
+    /* The field of that step; NAN farther than sqrt (dim) spacings from the nearest point. */
+    pg_sampler  sampler;
+    /* t: the t of expressions (s, or a load factor); stamp: what result.e calls the time of
+     * the step. */
+    double      t, stamp;
     int         step;
-    char        how[200];  /* "by its own shape functions", or what replaces them and why */
+    /* How the field is found between the points, in words: "by its own shape functions", or
+     * what replaces them and why. */
+    char        how[200];
 } pg_stored;
-/* step -1: the last. */
+/* Opens step `step` of a folder, -1 for the last one. PG_E_FILE: the points in the folder are
+ * not those that its scene makes; PG_E_USAGE: no such step, or a missing field, with the
+ * remedy in the message. */
 pg_status pg_stored_open (pg_stored **out, const char *folder, int step, int threads);
 void      pg_stored_free (pg_stored **stored);
-/* The scene of a result folder: its copy with the --set options noted in it; files beside the scene are
- * looked for where it was. */
+/* The scene of a result folder: its copy with the --set options that were noted in it. Files
+ * that the scene names are searched beside the original scene. */
 pg_status pg_stored_scene (pg_scene **out, const char *folder);
 
 /* ---- reference ----------------------------------------------------------------------------------------- */
-/* A table of places with values. Columns: 0..2 displacement, 3..8 stress. */
+/* A table of places with values, read from a CSV file. Columns 0 to 2 are displacement
+ * components, 3 to 8 stress components in the order of Voigt. */
 typedef struct {
-    char    name[128];                                 /* of the file, without folders */
+    /* Name of the file without folders. */
+    char    name[128];
     int     dim;
     size_t  n, ncolumn;
+    /* Which component each of the ncolumn columns has. */
     int     column[9];
-    double *x;                                         /* m (n x dim) */
-    double *value;                                     /* m, Pa; NAN: missing (n x ncolumn) */
-    int     relative;                                  /* 1: displacements are relative to that of `datum` */
-    double  datum[3];                                  /* m */
+    /* Places, m (n x dim). */
+    double *x;
+    /* Values in m and Pa (n x ncolumn); NAN where the table has none. */
+    double *value;
+    /* 1: displacements are relative to that of the place `datum`. */
+    int     relative;
+    /* That place, m. */
+    double  datum[3];
 } pg_line;
-/* unit: length of columns that name none, m; factor: of the values; along: coordinates that are no column, m.
- * Faults: PG_E_FILE with line. */
+/* Reads a table. unit: metres in one unit of columns that name none; factor multiplies all
+ * values; along (3, m): coordinates that the table lacks. PG_E_FILE with the line of the
+ * fault. */
 pg_status pg_line_read (pg_line *out, const char *path, int dim, double unit, double factor,
                         const double *along /* 3 */);
 void      pg_line_clear (pg_line *line);
-/* What a result has in its rows: u (n x 3, m), stress (n x 6, Pa); the displacement of a table's datum is
- * taken off. */
+/* The values of a sampler in the rows of a table: u (n x 3, m), stress (n x 6, Pa); for a
+ * relative table the displacement of the datum is subtracted. */
 pg_status pg_line_sample (const pg_line *line, const pg_sampler *value, double *u, double *stress);
-const char *pg_column_name (int column);               /* "u_x" ... "s_zx" */
-const char *pg_column_unit (int column);               /* "m", "Pa" */
+/* Name of a column, "u_x" to "s_zx"; "" for a number out of range. */
+const char *pg_column_name (int column);
+/* SI unit of a column, "m" or "Pa". */
+const char *pg_column_unit (int column);
 
-/* `reference` of a scene. Files are looked for beside the scene. *out is NULL when there is none; faults go
- * to the scene. */
+/* What the section `reference` of a scene describes. */
 typedef struct pg_reference pg_reference;
+/* Reads that section; files are searched beside the scene. *out is NULL if there is no such
+ * section. Faults of the user are reported through the scene, with line and key. */
 pg_status pg_reference_read  (pg_reference **out, const pg_scene *scene, const pg_problem *problem);
 void      pg_reference_free  (pg_reference **reference);
-/* The field it describes at time t (s; static: load factor); no bits set when it has lines only. */
+/* The field that it describes at time t (s; in static runs the load factor). No component is
+ * known if it consists of tables only. Valid as long as the reference. */
 pg_status pg_reference_sampler (pg_sampler *out, const pg_reference *reference, double t);
-/* Its tables, borrowed. */
+/* Its tables, owned by the reference. */
 const pg_line *pg_reference_lines (const pg_reference *reference, size_t *n);
 
 /* ---- norms --------------------------------------------------------------------------------------------- */
+/* A norm of a difference, with the same norm of the reference to divide by. */
 typedef struct {
-    double difference, reference;                      /* norms of the difference and of the reference */
-    double relative;  /* their quotient; 0 / 0 = 0, INFINITY where only the reference vanishes */
-    double place[3];                                   /* of the largest difference (maxima only), m */
+    /* Norm of the difference and of the reference, in the units given below. */
+    double difference, reference;
+    /* Their quotient; 0 / 0 counts as 0, and INFINITY says that only the reference vanishes. */
+    double relative;
+    /* Maxima only: where the difference is largest, m. */
+    double place[3];
 } pg_norm;
+/* Norms over the body. C is the inverse of the elastic law D, so that the energy norm of the
+ * stress error equals that of the strain error. */
 typedef struct {
-    int     displacement, stress;                      /* 1: measured */
-    pg_norm l2;                                        /* sqrt (int |u - u_ref|^2 dV), m^(5/2) */
-    pg_norm maximum;  /* largest |u - u_ref|, m, at the quadrature points and at the nodes */
-    pg_norm energy;  /* sqrt (int (s - s_ref) : C : (s - s_ref) dV), J^(1/2) */
-    pg_norm stress_maximum;                            /* largest |s - s_ref| (of all components), Pa */
-    double  volume;                                    /* m^3, measured */
-    size_t  places, skipped;  /* skipped: excluded by where, or the reference is not finite there */
+    /* 1 if displacement, stress were compared. */
+    int     displacement, stress;
+    /* sqrt (int |u - u_ref|^2 dV), m^(5/2). */
+    pg_norm l2;
+    /* Largest |u - u_ref|, m, over quadrature points and points of the body. */
+    pg_norm maximum;
+    /* sqrt (int (s - s_ref) : C : (s - s_ref) dV), J^(1/2). */
+    pg_norm energy;
+    /* Largest |s - s_ref| (Frobenius norm, both shears of a pair counted), Pa, over quadrature
+     * points. */
+    pg_norm stress_maximum;
+    /* Volume of the compared part of the body, m3. */
+    double  volume;
+    /* Quadrature points that were compared, and those left out: excluded by the condition, or
+     * without a finite value on one of the sides. */
+    size_t  places, skipped;
 } pg_norms;
-/* Over quadrature points and weights (x n x dim). material: elastic law of each place (which: n, indices;
- * NULL: all the first). where: NULL, or a condition. Components that either side does not know are left out;
- * stress needs all of the dimension. */
+/* material: the elastic laws (NULL: stress is not compared); which: index of the law at each
+ * place (n), NULL if all have the first one; where: a condition on the place, or NULL. */
 typedef struct { const pg_material *material; const int *which; const pg_expression *where; } pg_norm_options;
+/* Measures the norms over quadrature points (x: n x dim, m) and weights (m3). Displacement
+ * components that one side does not know are left out; stress is compared only if both sides
+ * know all components of the dimension. PG_E_SINGULAR: a law without an inverse. */
 pg_status pg_norms_measure (pg_norms *out, const pg_quadrature *q, const pg_sampler *value,
                             const pg_sampler *reference, const pg_norm_options *options);
 
-/* Of one column of a table. */
+/* Norms of one column of a table. */
 typedef struct {
     char    file[128];  int column;
-    size_t  rows, missed;                              /* missed: no value there, or not finite */
-    pg_norm l2, maximum;                               /* root of the sum over the rows; largest */
-    double  pointwise, place[3];  /* largest |v - ref| / |ref| where |ref| > 1e-3 of the largest; where */
+    /* Rows that were compared, and rows without a value on one of the sides. */
+    size_t  rows, missed;
+    /* Root of the sum of squares over the rows; largest difference, over the largest
+     * reference. */
+    pg_norm l2, maximum;
+    /* The largest |v - ref| / |ref| among rows with |ref| above 1e-3 of the largest, and its
+     * place (m). */
+    double  pointwise, place[3];
 } pg_line_norms;
+/* Measures all columns of a table; out holds ncolumn entries. */
 pg_status pg_line_measure (pg_line_norms *out /* ncolumn */, const pg_line *line, const pg_sampler *value);
 
 /* All that a scene's reference says about a state. */
 typedef struct {
     pg_norms norms;
-    int      order;  /* Gauss points per direction of the norms; 0: the points' volumes */
+    /* Gauss points per direction of the norms; 0: the volumes of the points were the weights. */
+    int      order;
     size_t   nline;  pg_line_norms *line;
-    double  *difference;  /* |u - u_ref| at the points, m, NAN where unknown; NULL: none */
+    /* |u - u_ref| at the points (n), m, NAN where unknown; NULL if no displacement is
+     * compared. */
+    double  *difference;
+    /* Time that the comparison took, s. */
     double   seconds;
 } pg_errors;
+/* Compares a field with a reference at time t: norms over the body and all tables. To be freed
+ * with pg_errors_clear, also after zero initialisation. */
 pg_status pg_errors_measure (pg_errors *out, const pg_reference *reference, const pg_problem *problem,
                              const pg_sampler *value, double t);
-/* Norms and difference against any sampler, over the cells of `problem`; order: Gauss points per direction,
- * see pg_norm_order. */
+/* Norms and differences at the points between any two samplers, over the background cells of
+ * the problem with `order` Gauss points per direction (see pg_norm_order). */
 pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int order, const pg_expression *where,
                              const pg_sampler *value, const pg_sampler *reference);
-/* A finite element result measured against a scene's closed forms, by 5th order on its own elements (lines
- * and points are not looked at). */
+/* A finite element result compared with the closed forms of a reference, by a rule of order 5
+ * on its own elements; tables and points are not looked at. */
 pg_status pg_errors_mesh (pg_errors *out, const pg_reference *reference, const pg_problem *problem,
                           const char *path, int step, double unit, double t);
-/* two more than the run's, at most 5 */
+/* Gauss points per direction for norms: two more than the run integrates with, at most 5, so
+ * that the norm does not inherit the quadrature points of the solution, where its error may be
+ * small. */
 int       pg_norm_order     (const pg_scene *scene, const pg_problem *problem);
 void      pg_errors_clear   (pg_errors *errors);
+/* Writes the errors as entries of the JSON object that is open. */
 void      pg_errors_json    (pg_json *j, const pg_errors *errors);       /* entries of the map that is open */
-/* Row i of a short table for people; 0 past its end. */
+/* Writes row i of a short table for people; returns 0 past its end. */
 int       pg_errors_row     (const pg_errors *errors, size_t i, char *text, size_t size);
 
 /* ---- files --------------------------------------------------------------------------------------------- */
-/* CSV of place, value, reference, difference of every column both know: at the points of a body, in the rows
- * of a table. NAN: unknown. */
+/* Writes a CSV file with place, value, reference and difference of every column that both
+ * samplers know, at the points of a body or in the rows of a table. NAN where unknown. */
 pg_status pg_compare_points (const char *path, const pg_cloud *cloud, const pg_sampler *value,
                              const pg_sampler *reference);
 pg_status pg_compare_line   (const char *path, const pg_line *line, const pg_sampler *value);
-/* value - reference at the points: column 0..8; PG_COMPARE_U, PG_COMPARE_S: size of the difference of all
- * components. out: n. */
+/* The difference value - reference at the points (out: n): of the column 0 to 8, or with these
+ * numbers the Euclidean norm over all displacement, over all stress components. */
 enum { PG_COMPARE_U = 16, PG_COMPARE_S };
 pg_status pg_compare_field (double *out, const pg_cloud *cloud, int column, const pg_sampler *value,
                             const pg_sampler *reference);
 
 /* ---- order of convergence: pure functions of numbers --------------------------------------------------- */
+/* The order of convergence that numbers show. */
 typedef struct {
-    double      order;                                 /* p of value = limit + c h^p; NAN: none is seen */
-    double      limit;  /* Richardson's value for h -> 0; NAN where there is no order */
-    double      error;  /* estimated |finest value - limit|, in the unit of the values */
-    const char *why;  /* NULL, or why there is no order ("oscillates", ...; static) */
+    /* The p of value = limit + c h^p; NAN if none is seen. */
+    double      order;
+    /* Richardson's extrapolated value for h -> 0; NAN where there is no order. */
+    double      limit;
+    /* Estimate of |finest value - limit|, in the unit of the values. */
+    double      error;
+    /* NULL, or why there is no order, in words ("oscillates", ...); a static text. */
+    const char *why;
 } pg_observed;
-/* From the last three of n values at falling sizes h (any ratios; Roache 1998): p solves (v1 - v2) / (v2 -
- * v3) = (h1^p - h2^p) / (h2^p - h3^p). Values that swing or part from each other have no order, nor have
- * those that agree within 1e-10 of the largest (residuals end there) value (then limit is the last value and
- * error 0). Order above 20: differences too unlike to tell. */
+/* Order from the last three of n values at falling sizes h, whose ratios may differ (Roache
+ * 1998): p solves
+ *
+ *   (v1 - v2) / (v2 - v3) = (h1^p - h2^p) / (h2^p - h3^p).
+ *
+ * Values that oscillate or diverge have no order. Neither have values that agree to 1e-10 of
+ * the largest one, since the residuals of solvers end there; then the last value is the limit
+ * and the error is 0. An order above 20 means that the last difference is too small to tell. */
 pg_observed pg_observed_of_values (size_t n, const double *h, const double *value);
-/* Of errors, whose limit is 0: log (e1 / e2) / log (h1 / h2) of the last two; error: the last one. */
+/* Order from the last two of n errors, whose limit is 0: log (e1 / e2) / log (h1 / h2). The
+ * error returned is the last one. */
 pg_observed pg_observed_of_errors (size_t n, const double *h, const double *error);
-/* y where x reaches `at`, along straight lines between the points (x, y) in logarithms of both, in the order
- * given; the first crossing counts. NAN: no two neighbours enclose it (nothing is extrapolated), or they are
- * not positive. */
+/* The y where x reaches `at`, along straight lines between the points (x, y) in the logarithms
+ * of both, in the given order; the first crossing counts. NAN if no two neighbours enclose it,
+ * since nothing is extrapolated, or if values are not positive. */
 double      pg_loglog_at (size_t n, const double *x, const double *y, double at);
 PG_API_END
 #endif

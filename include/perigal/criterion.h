@@ -11,8 +11,7 @@ enum {
     PG_NEEDS_STRETCH = 1,
     PG_NEEDS_STRESS = 2,
     PG_NEEDS_ENERGY = 4,
-    PG_NEEDS_BEAMS = 8,
-    PG_MOST_LIMITS = 4
+    PG_NEEDS_BEAMS = 8
 };
 
 typedef struct pg_criterion_type pg_criterion_type;
@@ -58,8 +57,10 @@ typedef struct {  /* what the criterion may need to derive its constants */
 struct pg_criterion_type {
     const char *name, *summary;
     int needs;                                         /* PG_NEEDS_... */
-    const char *limit[PG_MOST_LIMITS];  /* keys of failure that it needs: "a", or "a or b" for either */
-    const char *option;                                /* one more that it takes; NULL */
+    /* Its keys: limits (failure.KEY, which a material may have of its own in materials.NAME.failure) and
+     * options (of failure alone), each a list of tables that ends with NULL. A limit without a default is
+     * needed; of several in one group any one. */
+    const pg_key_table *limits[4], *options[4];
     /* Fills c from the limits of the setting's material; what is wrong becomes a fault of the scene. */
     pg_status (*read) (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting);
     /* utilisation (n); kind (n or NULL): 't' tension, 's' shear */

@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * output.h: files from plain arrays: Exodus, CSV, JSON, checkpoints. Knows columns, fields and points, no
- * method. */
+ * output.h: writes and reads files that hold plain arrays: fields at points in Exodus format,
+ * tables as CSV, JSON, and checkpoints. This folder knows columns, fields and points; which of
+ * them a run writes, and when, is decided by results.h.
+ *
+ * Common to all writers: a file never holds half a record. Whatever cannot be written whole is
+ * removed again, and the function returns PG_E_FILE with the path and the reason of the system
+ * (a full disk, missing permission). PG_E_USAGE: the request itself is wrong; PG_E_MEMORY: no
+ * memory. */
 #ifndef PERIGAL_OUTPUT_H
 #define PERIGAL_OUTPUT_H
 #include "perigal/cloud.h"
@@ -10,51 +16,77 @@
 PG_API_BEGIN
 
 /* ---- fields on points ---------------------------------------------------------------------------------- */
+/* A field at the n points of a cloud, as the caller holds it. */
 typedef struct {
-    char   name[32];                                   /* "displacement", "damage", "stress" */
-    char   unit[16];                                   /* "m", "Pa", "" */
-    int    components;                                 /* 1; dim (vector); nv (Voigt) */
-    const double *value;                               /* n x components */
+    /* Name without its component, such as "displacement", "damage", "stress". */
+    char   name[32];
+    /* SI unit, such as "m" or "Pa"; "" for a pure number. */
+    char   unit[16];
+    /* Values per point: 1 for a scalar, dim for a vector, 3 (2D) or 6 (3D) for a symmetric
+     * tensor in Voigt order. */
+    int    components;
+    /* n x components, the components of a point side by side. */
+    const double *value;
 } pg_field_view;
 
 /* ---- result.e: Exodus layout in classic netCDF, one SPHERE element and one node per point -------------- */
 typedef struct pg_exodus pg_exodus;
+/* Creates a file for fields of these names, units and components at the points of a cloud; the
+ * values are ignored. The point volumes are written as one more field unless the caller has
+ * one of that name. */
 pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
                             size_t nfield, const pg_field_view *fields /* values ignored */);
-/* To go on: later steps than `steps` are cut off; `steps` and `bytes` as pg_exodus_size told. */
+/* Opens a file in order to append to it: keeps the first `steps` steps, which end at byte
+ * `bytes` as pg_exodus_size reported it, and cuts off what was written later. PG_E_FILE if
+ * points or components differ or bytes are missing. */
 pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *cloud, size_t nfield,
                           const pg_field_view *fields, long steps, long bytes);
-/* Appends a step; refused, the file stays as it was. */
+/* Appends a step: the fields in the order of the creation, with values. `time` is in s (a load
+ * factor in static runs). If it fails, the file is as it was before. */
 pg_status pg_exodus_write  (pg_exodus *file, double time, const pg_field_view *fields);
+/* Number of steps in the file and its length in bytes, for a checkpoint to remember. */
 void      pg_exodus_size   (const pg_exodus *file, long *steps, long *bytes);
-pg_status pg_exodus_sync   (const pg_exodus *file);  /* to the disk itself */
+/* Waits until the system has put the file on the disk. */
+pg_status pg_exodus_sync   (const pg_exodus *file);
 void      pg_exodus_close  (pg_exodus **file);
-/* Reads a field back: step -1 is the last. *value is n x *components, to be freed with pg_free. */
+/* Reads one field of one step; step -1 is the last one. *value (n x *components) is to be
+ * freed with pg_free. PG_E_USAGE: no such field (with the nearest name) or step. */
 pg_status pg_exodus_read (const char *path, const char *field, int step, size_t *n, int *components,
                           double **value);
+/* Reads the points: fills x, n, dim, volume, block, box, h, step and thickness of the cloud,
+ * whose arrays the caller frees. *nstep and *time (one value per step, to be freed with
+ * pg_free) may be NULL. Files of other programs may lack volumes and spacing; these then stay
+ * zero. */
 pg_status pg_exodus_points (const char *path, pg_cloud *cloud /* x, n, dim, volume, box, h filled */,
                             size_t *nstep, double **time);
+/* Names of the fields without component suffixes; *names is to be freed with pg_free. */
 pg_status pg_exodus_fields (const char *path, char (**names)[32], size_t *n);    /* base names as written */
-pg_status pg_exodus_unit   (const char *path, const char *field, char unit[16]);  /* "" when there is none */
+/* Unit of a field, "" if the file gives none. */
+pg_status pg_exodus_unit   (const char *path, const char *field, char unit[16]);
 
-/* and those above it; one that is there is no error; PG_E_FILE */
+/* Makes a folder and the folders above it; one that exists is no error. PG_E_FILE. */
 pg_status pg_folder_make (const char *path);
 
-/* Made anew for writing: what is in its place is removed first, a symbolic link too; PG_E_FILE. To be closed
- * with fclose. */
+/* Creates a file for writing, to be closed with fclose. A file or a symbolic link in its place
+ * is removed first, so that nothing is ever written through a link. PG_E_FILE. */
 pg_status pg_file_create (FILE **out, const char *path);
 
 /* ---- tables -------------------------------------------------------------------------------------------- */
-/* CSV: header "name [unit]" per column, one row a call, at once in the file or not at all; numbers with 17
- * digits. */
+/* CSV (RFC 4180): a header with "name [unit]" per column, then rows of numbers with 17 digits,
+ * which give the same double back. Each row reaches the file in the call that writes it. */
 typedef struct pg_table pg_table;
+/* Creates a table with n columns of these names. */
 pg_status pg_table_create (pg_table **out, const char *path, size_t n, const char *const *columns);
-/* to go on: later rows are cut off */
+/* Opens a table in order to append to it: keeps the header and `rows` rows, and cuts off the
+ * later ones. PG_E_FILE if the file has fewer rows. */
 pg_status pg_table_open   (pg_table **out, const char *path, size_t n, long rows);
-long      pg_table_rows   (const pg_table *table);     /* without the header */
-pg_status pg_table_sync   (const pg_table *table);     /* to the disk itself */
-/* NaN: the cell stays empty, it was not measured */
+/* Rows in the file, the header not counted. */
+long      pg_table_rows   (const pg_table *table);
+/* Waits until the system has put the file on the disk. */
+pg_status pg_table_sync   (const pg_table *table);
+/* Appends a row of n numbers; NaN leaves its cell empty: the quantity was not measured. */
 pg_status pg_table_row    (pg_table *table, const double *values);
+/* Appends a row of n texts, quoted where necessary; NULL leaves its cell empty. */
 pg_status pg_table_line   (pg_table *table, const char *const *values);
 void      pg_table_close  (pg_table **table);
 /* A table read back, whole: names as the header has them, with their units, and the rows as numbers. */
@@ -71,22 +103,36 @@ long      pg_csv_column (const pg_csv *csv, const char *wanted);
 size_t    pg_csv_name   (const char *column);          /* length of the name alone, without " [unit]" */
 
 /* ---- checkpoint.nc: what a run must remember, in classic netCDF ---------------------------------------- */
+/* A function that visits everything that a checkpoint holds, in a fixed order: it calls the
+ * keeper (mesh.h) with a name, a length and an array for each piece. The same function serves
+ * to write and to read, so that the two cannot differ. */
 typedef pg_status (*pg_keep) (void *context, const pg_keeper *keeper);
-/* The walk is made twice, with the same names and lengths: to define and to write. At any instant `path` is
- * the old file or the whole new one (written as PATH.new, synced, moved). */
+/* Writes a checkpoint. `walk` is called twice, with the same names and lengths: to define the
+ * variables and to write them. The file is written as PATH.new, synced and renamed, so that
+ * PATH is at any instant the old file or the whole new one. */
 pg_status pg_checkpoint_write (const char *path, pg_keep walk, void *context);
-/* The same walk; a name that the file lacks or has in another length is PG_E_FILE. */
+/* Reads a checkpoint by the same function. PG_E_FILE: damaged (the checksum differs), or a
+ * name that the file lacks or holds with another length or type. */
 pg_status pg_checkpoint_read  (const char *path, pg_keep walk, void *context);
 
 /* ---- JSON ---------------------------------------------------------------------------------------------- */
-typedef struct pg_json pg_json;                        /* written to PATH.tmp, renamed on close */
+/* A JSON text, written to PATH.tmp and renamed when it is closed. Faults of writing and of use
+ * (brackets that do not match, a key inside a list) are remembered and reported by
+ * pg_json_close; all functions accept j == NULL and do nothing then. */
+typedef struct pg_json pg_json;
 pg_status pg_json_create (pg_json **out, const char *path);
-/* '{' or '[' ; key NULL inside lists */
+/* Begins an object ('{') or a list ('['); key is NULL inside lists. */
 void      pg_json_open   (pg_json *j, const char *key, char bracket);
+/* Ends the innermost object or list. */
 void      pg_json_shut   (pg_json *j);
-void      pg_json_number (pg_json *j, const char *key, double value);     /* NaN and infinities become null */
+/* Writes a number with as few digits as give the same double back; NaN and infinities become
+ * null. */
+void      pg_json_number (pg_json *j, const char *key, double value);
 void      pg_json_count  (pg_json *j, const char *key, size_t value);
+/* Writes a text (UTF-8; other bytes become the replacement character); NULL becomes null. */
 void      pg_json_text   (pg_json *j, const char *key, const char *value);
+/* Ends what is still open, writes the file to the disk and moves it to its place; frees *j and
+ * sets it to NULL. */
 pg_status pg_json_close  (pg_json **j);
 PG_API_END
 #endif

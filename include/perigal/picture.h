@@ -1,7 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * picture.h: pictures from plain arrays, as PNG or SVG by the ending of the file's name: fields on points, fields
- * on the elements of a mesh, charts. Knows points, meshes, cracks and the outline of a body; no method, no solver,
- * no scene. */
+ * picture.h: draws plain arrays as PNG or SVG files; the ending of the file name chooses
+ * which. There are three kinds of picture: a field at the points of a cloud, a field on the
+ * elements of a mesh, and a chart of curves. This folder knows points, meshes, pre-cracks and
+ * the outline of a body. It knows nothing of methods, solvers or scenes, so any program may
+ * call it with arrays of its own.
+ *
+ * All functions that write a file return PG_E_USAGE for a request that cannot be drawn,
+ * PG_E_FILE when the file cannot be written and PG_E_MEMORY when memory runs out; after a
+ * failure no file is left behind. */
 #ifndef PERIGAL_PICTURE_H
 #define PERIGAL_PICTURE_H
 #include "perigal/cloud.h"
@@ -10,39 +16,66 @@
 PG_API_BEGIN
 
 /* ---- pictures (PNG or SVG by the file's ending) -------------------------------------------------------- */
-/* The body behind the points, one of the three: its shapes, the cells of a lattice that are in (dim > 0;
- * before the shapes), plane elements (m). */
+/* Where the body is, which the points alone do not say exactly at its edges. Exactly one of
+ * the three is used, in this order: a mesh of plane elements (coordinates in m), the cells of
+ * a lattice that belong to the body (if lattice->dim > 0), the shapes of the body. */
 typedef struct { const pg_body *body; const pg_lattice *lattice; const pg_mesh *mesh; } pg_outline;
+/* How a picture looks. A structure of zeros is a valid choice: no title, colours over the
+ * range of the values, an undeformed body, in 3D the section through the middle of z. */
 typedef struct {
-    const char *title, *label;  /* label of the colour bar, with unit: "damage", "s_yy (MPa)" */
-    double      low, high;                             /* colour range; low == high: from the data */
-    int         diverging;                             /* 1: blue-white-red around 0, else sequential */
-    double      magnify;                               /* points drawn at x + magnify u; 0: undeformed */
-    const double *u;                                   /* n x dim displacement or NULL */
-    const pg_cracks *cracks;                           /* drawn as lines, or NULL */
-    /* 3D: 0: mid-plane of z; 1, 2, 3: the plane x, y, z = at; 4: the plane direction . x / |direction| = at
-     * */
+    /* The label of the colour bar ends with its unit in brackets, as in "s_yy (MPa)". */
+    const char *title, *label;
+    /* Range of the colours in the unit of the values; low == high takes it from the values. */
+    double      low, high;
+    /* 1: blue, white and red, with white at zero; 0: a scale that grows lighter with the
+     * value. */
+    int         diverging;
+    /* Points are drawn at x + magnify u; 0 draws the undeformed body. */
+    double      magnify;
+    /* Displacement (n x dim, m), or NULL. */
+    const double *u;
+    /* Pre-cracks, drawn as lines, or NULL. */
+    const pg_cracks *cracks;
+    /* Plane of a section of a 3D body: 0 is the middle of z; 1, 2 and 3 are x, y, z = at; 4 is
+     * the oblique plane direction . x / |direction| = at. */
     int         section;
-    double      at;                                    /* m */
-    int         view;  /* 3D: a pg_view; other than PG_SECTION: the body from outside */
-    double      direction[3];  /* section 4: normal; iso, crack: towards the eye, 0: usual */
-    /* only points with select > above or equal are drawn, the body as an outline behind them; NULL: all (n)
-     * */
+    /* Distance of that plane from the origin along its normal, m. */
+    double      at;
+    /* A value of the enum below; any other than PG_SECTION shows a 3D body from outside. */
+    int         view;
+    /* Section 4: the normal of the plane. Views iso and crack: the direction from the body
+     * towards the eye, or zero for the usual oblique one. */
+    double      direction[3];
+    /* Only points with select[i] >= above are drawn, in front of the rest of the body, which
+     * is almost white with its outline in grey (n values); NULL draws all points. */
     const double *select;
     double      above;
-    int         clip;  /* colour range without a few stray values, see pg_picture_range */
-    int         by_depth;  /* coloured by the coordinate along the eye's main axis instead */
-    int         log;                                   /* colours by the decades of |value|, six at most */
-    double      length;  /* meshes: m in a unit of the mesh; 0: not known, axes without unit */
-    int         edges;  /* meshes: edges of elements: 0: if they are fewer than 5000; 1: drawn; -1: not */
-    int         sets;  /* meshes: sets of sides (or nodes) in colours instead of the value */
-    const pg_outline *outline;                         /* where the body is, or NULL: from the points alone */
-    /* of the points, or NULL: not known. Displaced, whole points hold together however much they are
-     * magnified; damaged ones may part (n) */
+    /* 1: the range of the colours leaves out a few stray values, see pg_picture_range. */
+    int         clip;
+    /* 1: the colour is not the value but the coordinate axis that the eye looks along most
+     * nearly. */
+    int         by_depth;
+    /* 1: colours by the decades of |value|, six at most. */
+    int         log;
+    /* Meshes only: metres in one unit of the mesh's coordinates; 0 if that is not known, and
+     * then the axes have no unit. */
+    double      length;
+    /* Meshes only: 1 draws the edges of elements, -1 does not, 0 draws them if fewer than 5000
+     * faces are seen. */
+    int         edges;
+    /* Meshes only: 1 colours the named sets of sides or nodes and ignores the values. */
+    int         sets;
+    /* Where the body is; NULL: this is estimated from the points alone. */
+    const pg_outline *outline;
+    /* Damage of the points (n), or NULL if it is not known. In a deformed picture two
+     * neighbours of which one has a damage below 0.1 stay together however much the
+     * displacement is magnified; others may separate. */
     const double *damage;
 } pg_picture_style;
-/* Sides as the sets of the same name: left x, bottom y, back z low; right, top, front high. The eye looks at
- * that side from outside, y up (top, bottom: x to the right). iso and crack: obliquely, y up, with light. */
+/* Views are named like the sides of a body: left is the side of small x, bottom of small y,
+ * back of small z; right, top and front are the opposite ones. The eye looks at that side from
+ * outside with y upwards (top and bottom: with x to the right). The views iso and crack look
+ * obliquely, with y upwards and with light and shade. */
 enum {
     PG_SECTION,
     PG_VIEW_FRONT,
@@ -55,78 +88,118 @@ enum {
     PG_VIEW_CRACK,
     PG_VIEWS
 };
-#define PG_CRACK_DAMAGE 0.35  /* damage of points that view crack shows unless told otherwise */
-extern const char pg_view_names[];                     /* "section|front|back|..." in that order */
-/* Range of n finite values; excess > 0: without the outer 1 % at each end (of 50 to 99 values the outermost
- * one) if the rest spans less than 1 / excess of the whole (loose fragments fly far, single points carry the
- * stress of a corner or a tip). 1 in *found when there is a finite value, else 0 to 1. */
+/* The view crack shows the points whose damage is at least this, unless the caller chooses
+ * another limit. */
+#define PG_CRACK_DAMAGE 0.35
+/* The names of the views in the order of the enum, separated by |. */
+extern const char pg_view_names[];
+/* Finds the range of the finite ones among n values. With excess > 0 the outer 1 % at each end
+ * (of 50 to 99 values the outermost one) are left out if the rest spans less than 1 / excess
+ * of the whole range: loose fragments fly far, and single points carry the stress of a corner
+ * or of a crack tip, and either would leave one colour for all else. *found is 1 if there is
+ * any finite value, else 0 with the range 0 to 1. Fails on missing memory only. */
 pg_status pg_picture_range (size_t n, const double *value, double excess, double *low, double *high,
                             int *found);
-/* "z = 5 mm", "1, 0, 1 = 5 mm" (normal = distance from the origin along it): sets section, at, direction. */
+/* Reads a section from text: "z = 5 mm", or a normal and the distance from the origin along
+ * it, "1, 0, 1 = 5 mm"; a number without a unit is in m. Sets view, section, at and direction
+ * of the style; PG_E_USAGE for other text. */
 pg_status pg_picture_section (pg_picture_style *style, const char *text);
-pg_status pg_picture_direction (double direction[3], const char *text);       /* "1, 0.5, 2", not zero */
-/* Appends text to a file name in out: letters, digits and ". - _" stay, what lies between becomes one _. */
+/* Reads a direction "1, 0.5, 2"; PG_E_USAGE if it is zero or is not three numbers. */
+pg_status pg_picture_direction (double direction[3], const char *text);
+/* Appends text to the file name in out (of `size` bytes): letters, digits and ". - _" stay,
+ * each run of other characters becomes one underscore, and none is left at the end. */
 void      pg_picture_name (char *out, size_t size, const char *text);
-/* 2D field: each place of the body has the colour of the nearest point on its side of the pre-cracks, NaN
- * grey; points of no lattice without an outline: the gaps between them closed, as much body as their volumes
- * say; length unit chosen by size (mm, m, ...), axes with ticks, colour bar. 1D: a chart over x. 3D: the
- * section or the view that style names. Labels may raise and lower text: "c_{x} (m^{2})". */
+/* Draws a field at the n points of a cloud. In 2D each place of the body has the colour of the
+ * nearest point on its own side of the pre-cracks, and NaN is grey. Of irregular points
+ * without an outline the gaps between them are closed so that the drawn area is that of the
+ * points' volumes. The length unit follows the size of the body, axes have ticks, and a colour
+ * bar stands beside the picture. A 1D body becomes a chart of the value over x. A 3D body is
+ * shown by the section or the view that the style names. Labels may raise and lower text:
+ * "c_{x} (m^{2})". */
 pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value /* n */,
                             const pg_picture_style *style);
 
+/* One state of several in a common picture: its title, the values (n), and, each or NULL,
+ * displacement (n x dim, m), the values that select points (n) and the damage (n). */
 typedef struct { const char *title; const double *value, *u, *select, *damage; } pg_panel;
-/* Several states in one picture with one colour bar, row by row; columns 0: as many as suit. style's value,
- * u, select, damage unused. */
+/* Draws n states of one cloud in one picture with one colour bar, row by row in the given
+ * number of columns; 0 chooses the number of columns by the shape of the body. The style's own
+ * u, select and damage are not used. */
 pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel,
                              int columns, const pg_picture_style *style);
 
-/* A mesh: values at its nodes (nnode, in the unit of the label; NULL: elements coloured by block), u in units
- * of the mesh (nnode x dim of the mesh), cracks and select unused. 2D: its elements, curved edges as they
- * are; 3D: the surface from a view (PG_SECTION: iso). PG_E_USAGE: 1D meshes and sections. */
+/* Draws a mesh: values at its nodes (nnode, in the unit of the label), or with value == NULL
+ * every block of elements in a colour of its own. The style's u is in units of the mesh (nnode
+ * x dim of the mesh); cracks and select are not used. In 2D all elements are drawn, curved
+ * edges as curves; in 3D the surface from a view, where PG_SECTION and PG_VIEW_CRACK mean iso.
+ * PG_E_USAGE: no elements, meshes of bars, and sections. */
 pg_status pg_picture_mesh (const char *path, const pg_mesh *mesh, const double *value,
                            const pg_picture_style *style);
-/* A field at the points of a body that is a mesh, in m (style's u: of the points): on its elements as
- * pg_picture_mesh; nodes that are no points take the value between the corners. As points (pg_picture_field)
- * where elements would not do: body NULL or no mesh, pre-cracks, sections, selections, view crack. Elements
- * hide a crack: with broken bonds give NULL. */
+/* Draws a field at the points of a body that was read from a mesh, coordinates in m (the
+ * style's u belongs to the points): on the elements, as pg_picture_mesh does, where nodes that
+ * are no points take the value between the corners. Where elements cannot show the picture
+ * (pg_picture_on_elements), the points are drawn as pg_picture_field does. Elements hide a
+ * crack, so callers whose bonds have broken pass body == NULL. */
 pg_status pg_picture_body (const char *path, const pg_mesh_body *body, const pg_cloud *cloud,
                            const double *value /* n */, const pg_picture_style *style);
+/* 1 if pg_picture_body would draw elements: there is a mesh of dimension 2 or 3, and the style
+ * asks for no pre-cracks, section, selection, colour by depth or view crack. */
 int       pg_picture_on_elements (const pg_mesh_body *body, const pg_picture_style *style);
 
-/* A time for titles: 1.337e-5 s -> "13.37 µs" in UTF-8. */
+/* Writes a time in s for titles with four digits and a suitable unit: 1.337e-5 becomes "13.37
+ * µs" in UTF-8. */
 void      pg_picture_time (double t, char *out, size_t size);
-/* A value in SI with a prefix for its unit, which begins with N, m, Pa or J: -1.5034e7, "N" -> "-15.03 MN";
- * m2, m3 and the like stay as they are. */
+/* Writes an SI value with a prefix before its unit, which begins with N, m, Pa or J: -1.5034e7
+ * and "N" become "-15.03 MN". Powers of length (m2, m3) keep their unit, for a prefix would be
+ * raised as well. */
 void      pg_picture_quantity (double value, const char *unit, char *out, size_t size);
 
 enum { PG_CURVE_LINE, PG_CURVE_MARKERS, PG_CURVE_BOTH };
+/* A curve of a chart: n places (x, y), its name in the legend, and whether it is drawn as a
+ * line, as markers or both. Places that are not finite, or not positive on a logarithmic axis,
+ * interrupt the line. */
 typedef struct { const char *name; size_t n; const double *x, *y; int points; /* PG_CURVE_... */ } pg_curve;
-/* A triangle of slope `order` (y ~ x^order) between x low and high, beside that curve, with the order written
- * at it. low == high: the middle part of the curve. Drawn where both axes are logarithmic and the curve
- * passes both ends. */
+/* A triangle that shows the slope y ~ x^order below curve number `curve` between x = low and
+ * high, with the order written at it; low == high takes the middle part of the curve. It is
+ * drawn only where both axes are logarithmic and the curve covers both ends. */
 typedef struct { double order; size_t curve; double low, high; } pg_chart_slope;
-/* a ring in the colour of that curve; text beside it, or NULL */
+/* A ring around the place (x, y) in the colour of that curve, with a text beside it, or NULL. */
 typedef struct { size_t curve; double x, y; const char *text; } pg_chart_mark;
+/* How a chart looks; zeros are a valid choice. */
 typedef struct {
     const char *title, *xlabel, *ylabel;
+    /* 1: this axis is logarithmic. */
     int logx, logy;
-    int beside;  /* legend beside the frame; else there only if it would hide data */
+    /* 1: the legend stands to the right of the frame; 0: only if there is no place inside that
+     * hides nothing. */
+    int beside;
+    /* Slope triangles. */
     size_t nslope;  const pg_chart_slope *slopes;
-    /* thin and pale behind the curve of the same number; n = 0: none; the legend has the name of the first */
+    /* Thin, pale curves that are drawn behind the curve of the same number (n = 0: none), for
+     * example a raw path behind its envelope. The legend shows the name of the first one for
+     * all of them. */
     size_t npale;   const pg_curve *pale;
+    /* Rings with texts; only the first eight texts are written. */
     size_t nmark;   const pg_chart_mark *marks;
-    int zero;  /* lines through x = 0 and y = 0 where they lie inside the frame */
+    /* 1: lines through x = 0 and y = 0 where these lie inside the frame. */
+    int zero;
 } pg_chart_style;
-/* Curves differ in colour and marker, from the ninth on also in dashes and hollow markers. */
+/* Draws curves over common axes. Curves differ in colour and in marker; from the ninth on also
+ * in dashes and by hollow markers. Nothing visible gives an empty chart from 1 to 10. */
 pg_status pg_picture_chart (const char *path, size_t ncurve, const pg_curve *curves,
                             const pg_chart_style *style);
-/* What a test shows that raises |x| steadily, of a path of n states of a body that breaks event by event,
- * where x and y fall and rise. A state counts when its |x| (of the sign that the largest one has) exceeds
- * that of all before it: up to there the body held. linear: the states between two events lie on a line
- * through the origin, as under loads that all grow in proportion; then the curve starts there, falls at the
- * same x to the line of the next state that counts, or of the last one at the end. Else it joins the states
- * that count. ex, ey hold 2 n + 2 values; returns how many were filled. *peak: which of them has the largest
- * |y|. */
+/* The envelope of an equilibrium path: what a test shows that raises |x| steadily
+ * (displacement control), given a path of n states (x, y) of a body that breaks event by
+ * event, in which both may fall and rise (snap-back). A state belongs to the envelope if its
+ * |x|, of the sign of the largest |x|, exceeds that of all states before it.
+ *
+ * linear = 1 says that between two events the states lie on a line through the origin, as they
+ * do if all loads grow in proportion: then the envelope starts at the origin, and at each
+ * event y falls at constant x to the line of the next state that counts, or at the end to that
+ * of the last state. linear = 0 joins the states that count.
+ *
+ * ex, ey must hold 2 n + 2 values each; the return value says how many were written. *peak is
+ * the index of the largest |y| among them. */
 size_t pg_envelope (size_t n, const double *x, const double *y, int linear, double *ex, double *ey,
                     size_t *peak);
 PG_API_END

@@ -54,12 +54,31 @@ static void rotate (int n, double *M, double *V, int p, int q)
     }
 }
 
+/* Largest first: the diagonal of M into lambda, the columns of W with it (selection sort). */
+static void sort_eigen (int n, double *M, double *W, double *lambda)
+{
+    for (int i = 0; i < n; i++) {
+        int top = i;
+        for (int j = i + 1; j < n; j++) if (M[j*n + j] > M[top*n + top]) top = j;
+        lambda[i] = M[top*n + top];
+        M[top*n + top] = M[i*n + i];
+        for (int k = 0; k < n; k++) {
+            double w = W[k*n + top];
+            W[k*n + top] = W[k*n + i];
+            W[k*n + i] = w;
+        }
+    }
+}
+
+/* Cyclic Jacobi: each pass rotates away every element beside the diagonal that still counts. `off` and
+ * `all` are the squares of what stands beside the diagonal and of everything. */
 void pg_dense_eigen (int n, const double *A, double *lambda, double *V)
 {
+    enum { PASSES = 60 };
     double M[256], W[256];
     for (int i = 0; i < n * n; i++) M[i] = A[i], W[i] = 0;
     for (int i = 0; i < n; i++) W[i*n + i] = 1;
-    for (int sweep = 0; sweep < 60; sweep++) {
+    for (int pass = 0; pass < PASSES; pass++) {
         double off = 0, all = 0;
         for (int i = 0; i < n; i++)
             for (int j = 0; j < n; j++) {
@@ -71,17 +90,7 @@ void pg_dense_eigen (int n, const double *A, double *lambda, double *V)
             for (int q = p + 1; q < n; q++)
                 if (M[p*n + q] * M[p*n + q] > 1e-36 * all) rotate (n, M, W, p, q);
     }
-    for (int i = 0; i < n; i++) {                      /* selection sort, descending */
-        int top = i;
-        for (int j = i + 1; j < n; j++) if (M[j*n + j] > M[top*n + top]) top = j;
-        lambda[i] = M[top*n + top];
-        M[top*n + top] = M[i*n + i];
-        for (int k = 0; k < n; k++) {
-            double w = W[k*n + top];
-            W[k*n + top] = W[k*n + i];
-            W[k*n + i] = w;
-        }
-    }
+    sort_eigen (n, M, W, lambda);
     if (V) for (int i = 0; i < n * n; i++) V[i] = W[i];
 }
 

@@ -7,15 +7,19 @@
 #include <string.h>
 
 /* ---- names --------------------------------------------------------------------------------------------- */
+/* Letters (those beyond ASCII as well), digits, - and _. */
+static int is_plain (unsigned char c)
+{
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-'
+           || c >= 0x80;
+}
+
 /* Bytes from 0x80 on are parts of letters in UTF-8 and are kept; a name is not cut off within a letter. */
 void pg_set_name (char out[57], const char *name)
 {
     size_t n = 0;
     for (; name[n] && n < 56; n++) {
-        unsigned char c = (unsigned char) name[n];
-        int plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'
-                    || c == '-' || c >= 0x80;
-        out[n] = plain ? name[n] : '_';
+        out[n] = is_plain ((unsigned char) name[n]) ? name[n] : '_';
     }
     while (n > 0 && name[n] && ((unsigned char) name[n] & 0xC0) == 0x80) n--;      /* not within a letter */
     out[n] = '\0';

@@ -74,7 +74,7 @@ void cut_gauss (int n, double *x, double *w);
 
 /* ---- surfaces ------------------------------------------------------------------------------------------ */
 /* At most so many dividing half-planes take part in one cell; any more there are ignored. */
-enum { CUT_KNIVES = 4 };
+enum { CUT_HALF_PLANES = 4 };
 /* Fills cut->surface from the shapes of the body, followed by one dividing half-plane for each ray. */
 pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattice *lattice, size_t nray,
                         const pg_ray *ray);
@@ -141,7 +141,7 @@ pg_status cut_work_cell   (cut_work *w, const double *low, const double *high, s
  * only of the given part between the dividing half-planes. */
 pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut_points *out);
 /* Number of dividing half-planes that take part in this cell: its facets have 2^number parts. */
-size_t    cut_work_knives (const cut_work *w);
+size_t    cut_work_half_planes (const cut_work *w);
 /* Appends points on a face (-x +x -y +y -z +z) of the cell where the body lies on both of its sides. dim >
  * 1; normals stay zero. */
 pg_status cut_work_face   (cut_work *w, int face, int order, pg_cut_points *out);

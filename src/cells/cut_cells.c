@@ -59,7 +59,7 @@ static void box_of (const pg_lattice *l, const int *i, double *low, double *high
 }
 
 /* Is entry k of the lists a dividing half-plane? They come last in each list. */
-static int is_knife (const builder *m, size_t k) { return m->cut->surface[m->near[k]].shape < 0; }
+static int is_half_plane (const builder *m, size_t k) { return m->cut->surface[m->near[k]].shape < 0; }
 
 /* The face of box i (-x +x -y +y -z +z) on which a plane surface lies, to half of cut_snap; -1: none. */
 static int face_of (const builder *m, const int *i, int surface)
@@ -154,7 +154,7 @@ static pg_status classify (builder *m, size_t c)
     int i[3], aligned = 1;
     index_of (m->l, c, i);
     for (size_t k = m->start[c]; k < m->start[c + 1]; k++)
-        aligned &= is_knife (m, k) || face_of (m, i, m->near[k]) >= 0;
+        aligned &= is_half_plane (m, k) || face_of (m, i, m->near[k]) >= 0;
     m->aligned[c] = (unsigned char) aligned;
     if (aligned) m->state[c] = m->l->in[c] ? WHOLE : NONE;
     else {
@@ -200,7 +200,7 @@ done:
 static pg_status find_parts (builder *m, one_facet f)
 {
     pg_status status = PG_OK;
-    int face = f.face, parts = 1 << cut_work_knives (m->cut->work);
+    int face = f.face, parts = 1 << cut_work_half_planes (m->cut->work);
     double full = m->whole / m->l->step[face >= 0 ? face / 2 : 0];
     for (f.part = 0; f.part < parts; f.part++) {
         PG_TRY (cut_work_piece (m->cut->work, f.surface, f.part, &f.piece));
@@ -218,9 +218,9 @@ done:
 static pg_status find_facets (builder *m, size_t c, int cell)
 {
     pg_status status = PG_OK;
-    int i[3], entered = 0, parted = m->start[c + 1] > m->start[c] && is_knife (m, m->start[c + 1] - 1);
+    int i[3], entered = 0, parted = m->start[c + 1] > m->start[c] && is_half_plane (m, m->start[c + 1] - 1);
     index_of (m->l, c, i);
-    for (size_t k = m->start[c]; k < m->start[c + 1] && !is_knife (m, k); k++) {
+    for (size_t k = m->start[c]; k < m->start[c + 1] && !is_half_plane (m, k); k++) {
         one_facet f = {.cell = cell, .surface = m->near[k], .face = face_of (m, i, m->near[k])};
         if (f.face >= 0 && m->state[c] == WHOLE && m->aligned[c]) {
             int behind = beyond (m, i, f.face);

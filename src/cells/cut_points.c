@@ -112,7 +112,8 @@ pg_status cut_work_cell (cut_work *w, const double *low, const double *high, siz
     if (status != PG_OK) return status;
     s->dim = w->cut->dim, s->n = n, s->status = PG_OK;
     w->all = w->real = n;
-    while (w->real > 0 && w->cut->surface[near[w->real - 1]].shape < 0) w->real--;  /* knives come last */
+    /* half-planes come last */
+    while (w->real > 0 && w->cut->surface[near[w->real - 1]].shape < 0) w->real--;
     for (int k = 0; k < s->dim; k++)
         w->centre[k] = 0.5 * (low[k] + high[k]), w->half[k] = 0.5 * (high[k] - low[k]);
     for (size_t i = 0; i < n; i++) {
@@ -146,10 +147,10 @@ static int inside (const cut_work *w, double z)
 
 /* On which sides of the dividing half-planes a local position lies: bit i is set where it is on the
  * positive side of half-plane i. */
-static int side_of_knives (const cut_work *w, const double *at)
+static int side_of_half_planes (const cut_work *w, const double *at)
 {
     int part = 0;
-    for (size_t i = w->real; i < w->all && i < w->real + CUT_KNIVES; i++)
+    for (size_t i = w->real; i < w->all && i < w->real + CUT_HALF_PLANES; i++)
         part |= (cut_value (&w->slices.level[0].q[i], at) > 1e-9) << (i - w->real);
     return part;
 }
@@ -241,37 +242,45 @@ static int owned (cut_work *w, int k, int m)
     return 1;
 }
 
-/* Surface points on the present line: intersections with the surface of this walk that have the body on
- * exactly one side. The element of area is that of the projection on the plane across the height, divided
- * by the cosine between normal and height. A root at an end of the line lies on a face between two cells:
- * it counts for the cell that has the body. */
-static void line_surface (cut_work *w, const cut_quadric *q, double weight)
+/* Emits the point of the surface at height t on the present line; `under`: the body lies below it. The
+ * element of area is that of the projection on the plane across the height, divided by the cosine between
+ * normal and height. */
+static void emit_surface (cut_work *w, double t, int under, double weight)
 {
     const cut_slices *s = &w->slices;
-    int m = line_roots (w, q), z = s->axis[s->dim - 1];
+    int z = s->axis[s->dim - 1];
+    double n[3], size = 0, at[3] = { s->at[0], s->at[1], s->at[2] };
+    at[z] = t;
+    if (side_of_half_planes (w, at) != w->part) return;
+    cut_gradient (&s->level[0].q[w->surface], at, n);
+    double steep = fabs (n[z]) / w->half[z], sign = (n[z] > 0) == under ? 1 : -1;
+    double scale = weight * w->thickness;
+    for (int i = 0; i < s->dim; i++) {
+        n[i] *= sign / w->half[i], size += n[i] * n[i];
+        if (i != z) scale *= w->half[i];
+    }
+    size = sqrt (size);
+    for (int i = 0; i < s->dim; i++) n[i] /= size;
+    emit (w, t, scale * size / steep, n);
+    w->slices.at[z] = at[z];
+}
+
+/* Surface points on the present line: intersections with the surface of this walk that have the body on
+ * exactly one side. A root at an end of the line lies on a face between two cells: it counts for the cell
+ * that has the body. */
+static void line_surface (cut_work *w, const cut_quadric *q, double weight)
+{
+    int m = line_roots (w, q);
     const double *t = w->node;
     for (int k = 1; k <= m; k++) {
         int a = k, b = k;
-        double n[3], size = 0, at[3] = {s->at[0], s->at[1], s->at[2]};
         if (!owned (w, k, m)) continue;
         while (a > 0 && t[k] - t[a] < 1e-13) a--;
         while (b < m + 1 && t[b] - t[k] < 1e-13) b++;
         int under = inside (w, 0.5 * (t[k] + (t[k] - t[a] < 1e-13 ? -1 - beyond : t[a])));
         int over = inside (w, 0.5 * (t[k] + (t[b] - t[k] < 1e-13 ? 1 + beyond : t[b])));
         if (under == over || (t[k] == -1 && under) || (t[k] == 1 && over)) continue;
-        at[z] = t[k];
-        if (side_of_knives (w, at) != w->part) continue;
-        cut_gradient (&s->level[0].q[w->surface], at, n);
-        double steep = fabs (n[z]) / w->half[z], sign = (n[z] > 0) == under ? 1 : -1,
-               scale = weight * w->thickness;
-        for (int i = 0; i < s->dim; i++) {
-            n[i] *= sign / w->half[i], size += n[i] * n[i];
-            if (i != z) scale *= w->half[i];
-        }
-        size = sqrt (size);
-        for (int i = 0; i < s->dim; i++) n[i] /= size;
-        emit (w, t[k], scale * size / steep, n);
-        w->slices.at[z] = at[z];
+        emit_surface (w, t[k], under, weight);
     }
 }
 
@@ -381,9 +390,9 @@ static void choose_axes (cut_work *w)
         }
 }
 
-size_t cut_work_knives (const cut_work *w)
+size_t cut_work_half_planes (const cut_work *w)
 {
-    return w->all - w->real < CUT_KNIVES ? w->all - w->real : CUT_KNIVES;
+    return w->all - w->real < CUT_HALF_PLANES ? w->all - w->real : CUT_HALF_PLANES;
 }
 
 pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut_points *out)

@@ -88,6 +88,12 @@ static void split_turns (cut_slices *s, cut_level *out, const conic *p)
     }
 }
 
+/* u - v, or 0 where that is rounding only. */
+static double difference (double u, double v)
+{
+    return fabs (u - v) <= 1e-14 * (fabs (u) + fabs (v)) ? 0 : u - v;
+}
+
 /* Polynomial R (y) whose roots include all y at which both conics have a z in common; returns its degree.
  * With both linear in z: B_p C_q - B_q C_p. Otherwise z^2 is eliminated first, which leaves B z + C = 0
  * with B = a_p B_q - a_q B_p and C alike, and R = a_p C^2 - B_p B C + C_p B^2. Where B vanishes the conics
@@ -96,19 +102,15 @@ static int resultant (const conic *p, const conic *q, double *R)
 {
     double B[2], C[3], scale = 0;
     if (fabs (p->a) < fabs (q->a)) { const conic *t = p; p = q, q = t; }
-    if (fabs (p->a) < flat) {
+    if (fabs (p->a) < flat) {                              /* both are linear in z */
         for (int k = 0; k < 4; k++) R[k] = 0;
         for (int i = 0; i < 2; i++)
             for (int k = 0; k < 3; k++) R[i + k] += p->B[i] * q->C[k] - q->B[i] * p->C[k];
         return 3;
     }
-    for (int k = 0; k < 2; k++) {
-        double u = p->a * q->B[k], v = q->a * p->B[k];
-        B[k] = fabs (u - v) <= 1e-14 * (fabs (u) + fabs (v)) ? 0 : u - v;
-    }
+    for (int k = 0; k < 2; k++) B[k] = difference (p->a * q->B[k], q->a * p->B[k]);
     for (int k = 0; k < 3; k++) {
-        double u = p->a * q->C[k], v = q->a * p->C[k];
-        C[k] = fabs (u - v) <= 1e-14 * (fabs (u) + fabs (v)) ? 0 : u - v;
+        C[k] = difference (p->a * q->C[k], q->a * p->C[k]);
         scale = fmax (scale, fabs (C[k]));
     }
     if (fabs (B[0]) + fabs (B[1]) <= flat * scale) {       /* mirror images: every z is common */
@@ -236,6 +238,21 @@ static int straight (const cut_quadric *q)
     return size == 0;
 }
 
+/* Splits of the four side faces of the box, those that lie along x: on each the surfaces are curves in a
+ * plane. */
+static void split_box_faces (cut_slices *s, const cut_quadric *q, cut_level *out)
+{
+    int x = s->axis[0], y = s->axis[1], z = s->axis[2];
+    cut_quadric *face = s->level[1].q;                     /* workspace that the walk needs only later */
+    for (int f = 0; f < 4; f++) {
+        int across = f < 2 ? z : y, along = f < 2 ? y : z;
+        s->at[across] = f % 2 ? 1 : -1;
+        for (size_t i = 0; i < s->n; i++) face[i] = q[i], cut_restrict (&face[i], across, f % 2 ? 1 : -1);
+        split_slice (s, face, out, x, along);
+        s->at[across] = f % 2 ? 1 : -1;
+    }
+}
+
 /* All splits of a cell along x: extreme values of surfaces and of curves of two (two planes meet in a line,
  * which has none), corners of three, and the splits of the four side faces, each a plane slice. */
 static void split_solid (cut_slices *s, const cut_quadric *q, cut_level *out)
@@ -253,14 +270,7 @@ static void split_solid (cut_slices *s, const cut_quadric *q, cut_level *out)
                     split_points (s, out, (cut_quadric[]){ q[i], q[j], q[k] }, (size_t[]){ i, j, k }, 3, x);
         }
     }
-    cut_quadric *face = s->level[1].q;                     /* workspace that the walk needs only later */
-    for (int f = 0; f < 4; f++) {
-        int across = f < 2 ? z : y, along = f < 2 ? y : z;
-        s->at[across] = f % 2 ? 1 : -1;
-        for (size_t i = 0; i < s->n; i++) face[i] = q[i], cut_restrict (&face[i], across, f % 2 ? 1 : -1);
-        split_slice (s, face, out, x, along);
-        s->at[across] = f % 2 ? 1 : -1;
-    }
+    split_box_faces (s, q, out);
 }
 
 void cut_split (cut_slices *s, int k)

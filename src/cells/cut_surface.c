@@ -215,7 +215,7 @@ static void bound (cut_surface *s, const pg_shape *shape, int dim)
 
 /* A dividing half-plane along a ray: the plane holds the ray and z, its box is open in the ray's direction
  * only. */
-static pg_status add_knife (builder *m, const pg_ray *ray)
+static pg_status add_half_plane (builder *m, const pg_ray *ray)
 {
     const pg_body *body = &m->cut->body;
     cut_surface s = {.shape = -1, .axis = -1};
@@ -282,7 +282,7 @@ pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattic
         else if (shape->kind == PG_DISK || shape->kind == PG_SPHERE) PG_TRY (add_round (&m, s, shape));
         else PG_TRY (add_polygon (&m, s, shape));
     }
-    for (size_t i = 0; i < nray; i++) PG_TRY (add_knife (&m, &ray[i]));
+    for (size_t i = 0; i < nray; i++) PG_TRY (add_half_plane (&m, &ray[i]));
 done:
     return status;
 }

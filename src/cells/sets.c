@@ -271,26 +271,32 @@ static void fault_empty_side (const pg_sets *sets, const pg_scene *scene, const 
                     *sets->parts ? ")" : "");
 }
 
+/* The surfaces of the shapes by name, each once, and the sides of meshes; as many as fit. Returns the new
+ * length. */
+static size_t list_surfaces (const pg_body *body, char *names, size_t used, size_t size)
+{
+    for (size_t i = 0; i < body->n && used + 34 < 400; i++) {
+        const pg_shape *shape = &body->shape[i];
+        const char *side;
+        size_t k = 0;
+        while (shape->kind == PG_MESH && (side = pg_shape_side (shape, k)) && used + 100 < 400)
+            used += (size_t) snprintf (names + used, size - used, "|%s", side), k++;
+        k = 0;
+        while (k < i && strcmp (body->shape[k].boundary, shape->boundary)) k++;
+        if (k == i) used += (size_t) snprintf (names + used, size - used, "|%s", shape->boundary);
+    }
+    return used;
+}
+
 /* The fault of an unknown `boundary`: lists all names, and suggests the nearest. */
 static void unknown_boundary (const builder *b, const char *at, const char *name)
 {
     char names[800] = "";
     size_t used = 0;
-    const pg_body *body = b->marks.body;
     for (int s = 0; s < 2 * b->marks.cloud->dim; s++)
         used += (size_t) snprintf (names + used, sizeof names - used, "%s|", pg_side_names[s]);
     used += (size_t) snprintf (names + used, sizeof names - used, "all");
-    for (size_t i = 0; b->marks.cells->nfacet > 0 && i < body->n && used + 34 < 400; i++) {
-        size_t k = 0;
-        const char *side;
-        while (body->shape[i].kind == PG_MESH && (side = pg_shape_side (&body->shape[i], k))
-               && used + 100 < 400)
-            used += (size_t) snprintf (names + used, sizeof names - used, "|%s", side), k++;
-        k = 0;
-        while (k < i && strcmp (body->shape[k].boundary, body->shape[i].boundary)) k++;
-        if (k == i)
-            used += (size_t) snprintf (names + used, sizeof names - used, "|%s", body->shape[i].boundary);
-    }
+    if (b->marks.cells->nfacet > 0) used = list_surfaces (b->marks.body, names, used, sizeof names);
     for (size_t i = 0; i < b->marks.cells->ngiven && used + 60 < 400; i++)
         used += (size_t) snprintf (names + used, sizeof names - used, "|%s", b->marks.cells->given[i].name);
     if (*b->out->parts && used + 2 < sizeof names)
@@ -327,6 +333,28 @@ static int mark_boundaries (builder *b, const char *name)
 /* Is any of n marks set? */
 static int marked (const unsigned char *mark, size_t n) { return n > 0 && memchr (mark, 1, n) != NULL; }
 
+/* Why a set of the scene may not have the name of one that is there already. */
+static const char *why_taken (const builder *b)
+{
+    if (b->marks.cells->ngiven) return "this set is always there or comes with the mesh, choose another name";
+    if (b->marks.body->nlayer) return "this set is always there or is a layer, choose another name";
+    return "this set is always there, choose another name";
+}
+
+/* Records the fault. An empty set of that name lets what refers to it be checked all the same. */
+static pg_status refuse_set (builder *b, const char *name, const char *at, const char *why)
+{
+    int side = b->marks.cells->ngiven ? -1 : side_of (b->out, name);
+    if (side >= 0)
+        pg_scene_fault (b->scene, at,
+                        "%s is always there, the part of the surface in the plane %c = %.6g m, and would "
+                        "have two meanings: choose another name",
+                        name, "xyz"[side / 2], b->out->plane[side]);
+    else pg_scene_fault (b->scene, at, "%s", why);
+    pg_marks_fill (&b->marks, 0);
+    return pg_sets_find (b->out, name) || strlen (name) > 56 ? PG_OK : add_set (b, name);
+}
+
 /* Adds a set of the scene. After a fault in it, it is added empty, so that the rest of the scene that names
  * it brings no fault of its own. */
 static pg_status add_named (builder *b, const char *name)
@@ -337,27 +365,11 @@ static pg_status add_named (builder *b, const char *name)
     int boundary = pg_scene_given (s, "sets.%s.boundary", name),
         angle = pg_scene_given (s, "sets.%s.angle", name);
     int where = pg_scene_given (s, "sets.%s.where", name), known = 1;
-    const char *why = strlen (name) > 56              ? "at most 56 letters in the name of a set"
-                      : !boundary && !angle && !where ? "give boundary, angle or where"
-                      : pg_sets_find (b->out, name)
-                          ? b->marks.cells->ngiven
-                                ? "this set is always there or comes with the mesh, choose another name"
-                            : b->marks.body->nlayer
-                                ? "this set is always there or is a layer, choose another name"
-                                : "this set is always there, choose another name"
-                          : NULL;
+    const char *why = !boundary && !angle && !where ? "give boundary, angle or where" : NULL;
     snprintf (at, sizeof at, "sets.%.80s", name);
-    if (why) {
-        int side = b->marks.cells->ngiven ? -1 : side_of (b->out, name);
-        if (side >= 0)
-            pg_scene_fault (s, at,
-                            "%s is always there, the part of the surface in the plane %c = %.6g m, and would "
-                            "have two meanings: choose another name",
-                            name, "xyz"[side / 2], b -> out -> plane[side]);
-        else pg_scene_fault (s, at, "%s", why);
-        pg_marks_fill (&b->marks, 0);
-        return pg_sets_find (b->out, name) || strlen (name) > 56 ? PG_OK : add_set (b, name);
-    }
+    if (strlen (name) > 56) why = "at most 56 letters in the name of a set";
+    else if (!why && pg_sets_find (b->out, name)) why = why_taken (b);
+    if (why) return refuse_set (b, name, at, why);
     pg_marks_fill (&b->marks, 1);
     b->faces = boundary;
     if (boundary) known = mark_boundaries (b, name);

@@ -7,22 +7,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* "8GB", "500 MB", "1.5 GiB", "1e9": bytes; NAN: none. */
-double afford_size (const char *text)
-{
-    static const struct { const char *unit; double size; } units[] = {
-        { "", 1 }, { "B", 1 }, { "kB", 1e3 }, { "KB", 1e3 }, { "MB", 1e6 }, { "GB", 1e9 }, { "TB", 1e12 },
-        { "k", 1e3 }, { "K", 1e3 }, { "M", 1e6 }, { "G", 1e9 }, { "T", 1e12 },
-        { "KiB", 1024 }, { "MiB", 1048576 }, { "GiB", 1073741824 }, { "TiB", 1099511627776 } };
-    char *end;
-    double v = strtod (text, &end);
-    if (end == text || !(v > 0) || !isfinite (v)) return NAN;
-    while (*end == ' ') end++;
-    for (size_t k = 0; k < sizeof units / sizeof *units; k++)
-        if (strcmp (end, units[k].unit) == 0) return v * units[k].size;
-    return NAN;
-}
-
 double afford_available (const command *c) { return c->memory > 0 ? c->memory : pg_available_memory (""); }
 
 int afford_tiny (const pg_scene *scene)

@@ -51,7 +51,6 @@ void      command_again (const command *c);                    /* how to go on w
 
 /* afford.c: PG_E_LIMIT where the run would need more than is available (--memory, else what the machine
  * grants). */
-double    afford_size      (const char *text);                 /* "8GB" in bytes; NAN: no size */
 double    afford_available (const command *c);
 /* a mesh file so small that the run fits any machine: not worth reading twice */
 int       afford_tiny      (const pg_scene *scene);

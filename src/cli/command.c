@@ -2,6 +2,7 @@
  * Options that run and check share; what each command is told by. */
 #include "cli.h"
 #include <getopt.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -115,9 +116,25 @@ static int read_threads (command *c, const char *text)
     return -1;
 }
 
+/* "8GB", "500 MB", "1.5 GiB", "1e9": bytes; NAN: none. */
+static double size_of (const char *text)
+{
+    static const struct { const char *unit; double size; } units[] = {
+        { "", 1 }, { "B", 1 }, { "kB", 1e3 }, { "KB", 1e3 }, { "MB", 1e6 }, { "GB", 1e9 }, { "TB", 1e12 },
+        { "k", 1e3 }, { "K", 1e3 }, { "M", 1e6 }, { "G", 1e9 }, { "T", 1e12 },
+        { "KiB", 1024 }, { "MiB", 1048576 }, { "GiB", 1073741824 }, { "TiB", 1099511627776 } };
+    char *end;
+    double v = strtod (text, &end);
+    if (end == text || !(v > 0) || !isfinite (v)) return NAN;
+    while (*end == ' ') end++;
+    for (size_t k = 0; k < sizeof units / sizeof *units; k++)
+        if (strcmp (end, units[k].unit) == 0) return v * units[k].size;
+    return NAN;
+}
+
 static int read_memory (command *c, const char *text)
 {
-    c->memory = afford_size (text);
+    c->memory = size_of (text);
     if (c->memory > 0) return -1;
     fprintf (stderr, "perigal: --memory %s: a size is needed, such as 500MB or 8GB\n", text);
     return PG_EXIT_USAGE;

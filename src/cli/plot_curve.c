@@ -5,7 +5,6 @@
 #include "perigal/study.h"
 #include "perigal/compare.h"
 #include "perigal/model.h"
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,72 +55,36 @@ static int is_table (const char *path)                 /* a file of its own, not
     return n > 4 && strcmp (path + n - 4, ".csv") == 0;
 }
 
-/* Reads one cell of a CSV row at *s (RFC 4180, cut to size) and steps over the comma; 0 at the end of the
- * row. */
-static int next_cell (const char **s, char *cell, size_t size)
-{
-    const char *p = *s;
-    size_t n = 0;
-    if (!p) return 0;
-    int quoted = *p == '"';
-    if (quoted) p++;
-    for (; *p; p++) {
-        if (quoted && *p == '"' && p[1] != '"') quoted = 0;
-        else if (!quoted && strchr (",\r\n", *p)) break;
-        else {
-            if (quoted && *p == '"') p++;
-            if (n + 1 < size) cell[n++] = *p;
-        }
-    }
-    cell[n] = 0;
-    *s = *p == ',' ? p + 1 : NULL;
-    return 1;
-}
-
-/* Is `column`, as "name [unit]", the one wanted by name or in full? */
+/* Is `column`, as "name (unit)" or "name [unit]", the one of that name? */
 static int is_column (const char *column, const char *wanted)
 {
-    size_t n = strlen (wanted), name = strcspn (column, "[");
-    while (name > 0 && column[name - 1] == ' ') name--;
-    return strcmp (column, wanted) == 0 || (n == name && strncmp (column, wanted, n) == 0);
+    size_t n = strcspn (column, "[(");
+    while (n > 0 && column[n - 1] == ' ') n--;
+    return n == strlen (wanted) && strncmp (column, wanted, n) == 0;
 }
 
-/* Column of the header and its label, "name (unit)". */
-static pg_status find_column (const char *path, const char *header, const char *wanted, int *column,
-                              char *label)
+/* A column of a table for an axis: its number, and its label "name (unit)", without a unit where that is 1. */
+static pg_status find_column (const char *path, const pg_csv *csv, const char *wanted, long *column, char *label)
 {
     pg_status status = PG_OK;
-    char cell[CELL], all[LIST] = "";
-    const char *s = header;
+    char all[LIST] = "";
     size_t used = 0;
-    for (int k = 0; next_cell (&s, cell, sizeof cell); k++) {
-        size_t name = strcspn (cell, "[");
-        while (name > 0 && cell[name - 1] == ' ') name--;
-        if (used + name + 2 < sizeof all)
-            used += (size_t) snprintf (all + used, sizeof all - used, "%s%.*s", k ? "|" : "", (int) name,
-                                       cell);
-        if (!is_column (cell, wanted)) continue;
-        snprintf (label, CELL, "%s", cell);
-        char *open = strrchr (label, '['), *close = strrchr (label, ']');
-        if (open && close > open + 1 && strcmp (open, "[1]") != 0) *open = '(', *close = ')';
-        else if (open) label[name] = 0;
-        *column = k;
-        goto done;
+    *column = pg_csv_column (csv, wanted);
+    for (size_t k = 0; *column < 0 && k < csv->ncolumn; k++) {
+        int name = (int) pg_csv_name (csv->name[k]);
+        if (used + (size_t) name + 2 < sizeof all)
+            used += (size_t) snprintf (all + used, sizeof all - used, "%s%.*s", k ? "|" : "", name, csv->name[k]);
     }
-    const char *near = pg_nearest_name (wanted, all);
-    PG_FAIL (PG_E_USAGE, "%s has no column '%s'%s%s%s; it has %s", path, wanted,
-             near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "", all);
+    const char *near = *column < 0 ? pg_nearest_name (wanted, all) : NULL;
+    if (*column < 0)
+        PG_FAIL (PG_E_USAGE, "%s has no column '%s'%s%s%s; it has %s", path, wanted,
+                 near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "", all);
+    snprintf (label, CELL, "%s", csv->name[*column]);
+    char *open = strrchr (label, '['), *close = strrchr (label, ']');
+    if (open && close > open + 1 && strcmp (open, "[1]") != 0) *open = '(', *close = ')';
+    else if (open) label[pg_csv_name (label)] = 0;
 done:
     return status;
-}
-
-/* Value of one column in a row, NaN when it is no number. */
-static double cell_of (const char *row, int column)
-{
-    char cell[CELL] = "", *end;
-    for (int k = 0; k <= column; k++) if (!next_cell (&row, cell, sizeof cell)) return NAN;
-    double value = strtod (cell, &end);
-    return end == cell ? NAN : value;
 }
 
 /* ---- what the scene says ------------------------------------------------------------------------------- */
@@ -129,9 +92,7 @@ static double cell_of (const char *row, int column)
 static int is_one_of (const char *column, const char *list)
 {
     char name[CELL];
-    size_t n = strcspn (column, "[");
-    while (n > 0 && column[n - 1] == ' ') n--;
-    snprintf (name, sizeof name, "%.*s", (int) n, column);
+    snprintf (name, sizeof name, "%.*s", (int) pg_csv_name (column), column);
     return pg_plot_index (name, list) >= 0;
 }
 
@@ -173,31 +134,28 @@ static void read_kind (run_kind *out, const char *directory, const char *const *
 }
 
 /* ---- one run ------------------------------------------------------------------------------------------- */
+/* Both columns of a run, and its load factors where the table has them. */
 static pg_status read_rows (run_curve *c, const char *directory, const char *const *wanted)
 {
     pg_status status = PG_OK;
-    char table[LIST], *row = NULL;
-    size_t room[3] = { 0, 0, 0 }, width = 0;
-    int column[3] = { 0, 0, -1 };
-    char none[CELL];
+    char table[LIST];
+    long column[2], factor;
+    pg_csv csv = { 0 };
     snprintf (table, sizeof table, "%s%s", directory, is_table (directory) ? "" : "/history.csv");
-    FILE *file = fopen (table, "r");
-    if (!file) PG_FAIL (PG_E_FILE, "%s: %s", table, strerror (errno));
-    if (getline (&row, &width, file) < 0) PG_FAIL (PG_E_FILE, "%s is empty", table);
-    for (int k = 0; k < 2; k++) PG_TRY (find_column (table, row, wanted[k], &column[k], c->column[k]));
-    if (find_column (table, row, "load_factor", &column[2], none) != PG_OK) column[2] = -1;
-    for (; getline (&row, &width, file) > 0; c->n++) {
-        for (int k = 0; k < 2; k++) {
-            PG_GROW (c->at[k], room[k], c->n + 1);
-            c->at[k][c->n] = cell_of (row, column[k]);
-        }
-        PG_GROW (c->factor, room[2], c->n + 1);
-        c->factor[c->n] = column[2] < 0 ? 0 : cell_of (row, column[2]);
-    }
+    PG_TRY (pg_csv_read (&csv, table));
+    for (int k = 0; k < 2; k++) PG_TRY (find_column (table, &csv, wanted[k], &column[k], c->column[k]));
+    factor = pg_csv_column (&csv, "load_factor");
+    c->n = csv.nrow;
     if (c->n == 0) PG_FAIL (PG_E_FILE, "%s has no rows yet", table);
+    for (int k = 0; k < 2; k++) PG_ALLOC (c->at[k], c->n);
+    PG_ALLOC (c->factor, c->n);
+    for (size_t i = 0; i < c->n; i++) {
+        const double *row = csv.value + i * csv.ncolumn;
+        for (int k = 0; k < 2; k++) c->at[k][i] = row[column[k]];
+        c->factor[i] = factor < 0 ? 0 : row[factor];
+    }
 done:
-    free (row);                                        /* of getline */
-    if (file) fclose (file);
+    pg_csv_clear (&csv);
     return status;
 }
 

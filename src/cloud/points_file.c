@@ -228,6 +228,24 @@ static pg_status refuse_value (reader *r, size_t what, double value, const char 
                       : " (a header such as x [mm], y [mm], volume [mm3] may give another order, and units)");
 }
 
+/* The number that a line has for one role (X, VOLUME, ...), in SI units; one that cannot be is a fault. */
+static pg_status read_value (reader *r, size_t what, const char *text, size_t dim, double *value)
+{
+    pg_status status = PG_OK;
+    double given;
+    if (!number (text, &given))
+        PG_TRY (WRONG (r, "'%.40s' in column %zu (%s) is not a finite number", text, r->column[what],
+                       role[what].name));
+    *value = pg_column_value (given, r->scale[what]);
+    if ((what == VOLUME || what == SPACING) && !(*value > 0))
+        PG_TRY (refuse_value (r, what, given, "positive", dim));
+    if (what == BLOCK && !(given >= 0 && given <= INT_MAX && given == floor (given)))
+        PG_TRY (refuse_value (r, what, given, "a whole number from 0", dim));
+done:
+    return status;
+}
+
+/* One line of the file: nothing, a header before the first point, or a point. */
 static pg_status read_line (reader *r, pg_cloud *c, char *line)
 {
     pg_status status = PG_OK;
@@ -244,16 +262,7 @@ static pg_status read_line (reader *r, pg_cloud *c, char *line)
     if (!r->columns) PG_TRY (settle_columns (r, n, dim));
     for (size_t what = 0; what < ROLES; what++) {
         size_t k = r->column[what];
-        if (!k) continue;
-        if (!number (field[k - 1], &value[what]))
-            PG_TRY (WRONG (r, "'%.40s' in column %zu (%s) is not a finite number", field[k - 1], k,
-                           role[what].name));
-        double given = value[what];
-        value[what] = pg_column_value (given, r->scale[what]);
-        if ((what == VOLUME || what == SPACING) && !(value[what] > 0))
-            PG_TRY (refuse_value (r, what, given, "positive", dim));
-        if (what == BLOCK && !(given >= 0 && given <= INT_MAX && given == floor (given)))
-            PG_TRY (refuse_value (r, what, given, "a whole number from 0", dim));
+        if (k) PG_TRY (read_value (r, what, field[k - 1], dim, &value[what]));
     }
     PG_TRY (add_point (r, c, value));
 done:

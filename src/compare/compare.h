@@ -1,21 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: what a scene's reference is made of. */
+ * Private: what the section `reference` of a scene consists of, and what its readers share. */
 #ifndef PG_COMPARE_PRIVATE_H
 #define PG_COMPARE_PRIVATE_H
 #include "perigal/compare.h"
 
+/* A reference that has been read. */
 struct pg_reference {
-    int     dim, threads, order;                       /* order: Gauss points per direction of the norms */
-    pg_expression *u[3], *s[6], *where;                /* NULL: not given */
+    /* Dimension of the body; threads for closed forms; Gauss points per direction of the
+     * norms. */
+    int     dim, threads, order;
+    /* Closed forms of the components, and the condition; NULL where not given. */
+    pg_expression *u[3], *s[6], *where;
     pg_line *line;  size_t nline;
-    pg_sampler mesh;                                   /* sample NULL: none */
+    /* A finite element result; mesh.sample is NULL if there is none. */
+    pg_sampler mesh;
 };
 /* The whole of a text file; to be freed with pg_free. */
-pg_status compare_load_text (const char *path, char **text);
+pg_status pg_compare_load_text (const char *path, char **text);
 /* Values of the last row of FOLDER/history.csv whose column `key` is at most stamp; what it lacks stays as it
  * is. */
-pg_status compare_history (const char *folder, const char *key, double stamp, double *load_factor,
+pg_status pg_compare_history (const char *folder, const char *key, double stamp, double *load_factor,
                            double *time, double *broken);
 /* Material of every place: that of the nearest evaluation point. Stays NULL of one material. */
-pg_status compare_materials (const pg_problem *problem, const pg_quadrature *q, int **which);
+pg_status pg_compare_materials (const pg_problem *problem, const pg_quadrature *q, int **which);
 #endif

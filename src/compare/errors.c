@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A state against all that the scene's reference says: norms over the body, tables, the difference at the
- * points. */
+ * A field against all that a reference says: norms over the body, tables, and the difference
+ * at the points; and the same as JSON and as rows for people.
+ *
+ * Norms are integrals over the background cells with more Gauss points than the run has: at
+ * its own integration points a solution may be more accurate than elsewhere
+ * (superconvergence), and the norm would be too good. */
 #include "compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* The cells' quadrature; a body without cells is measured by the volumes of its points. */
+/* The quadrature of the background cells with *order points per direction. A body without
+ * cells is measured by the volumes of its points, and *order becomes 0. */
 static pg_status quadrature (pg_quadrature *q, const pg_problem *p, int *order)
 {
     pg_status status = PG_OK;
@@ -23,22 +28,7 @@ done:
     return status;
 }
 
-pg_status compare_materials (const pg_problem *p, const pg_quadrature *q, int **which)
-{
-    pg_status status = PG_OK;
-    pg_nearest *near = NULL;
-    int bulk = p->integration->at_nodes ? PG_NODES : PG_POINTS;
-    if (p->nmaterial < 2) return PG_OK;
-    PG_ALLOC (*which, q->n);
-    PG_TRY (pg_nearest_create (&near, p->dim, p->rows[bulk].n, p->rows[bulk].x));
-    for (size_t i = 0; i < q->n; i++)
-        (*which)[i] = p->block[bulk][pg_nearest_find (near, q->x + i * (size_t) p->dim, NULL, NULL)];
-done:
-    pg_nearest_free (&near);
-    return status;
-}
-
-/* |u - u_ref| at the points, which also take part in the maximum. */
+/* |u - u_ref| at the points of the body, which also take part in the maximum norm. */
 static pg_status at_points (pg_errors *out, const pg_problem *p, const pg_sampler *value,
                             const pg_sampler *reference, const pg_expression *where)
 {
@@ -75,6 +65,7 @@ done:
     return status;
 }
 
+/* Norms of all columns of all tables. */
 static pg_status lines (pg_errors *out, const pg_reference *r, const pg_sampler *value)
 {
     pg_status status = PG_OK;
@@ -100,7 +91,7 @@ pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int orde
     out->order = order;
     if (reference->displacement || reference->stress) {
         PG_TRY (quadrature (&q, problem, &out->order));
-        PG_TRY (compare_materials (problem, &q, &which));
+        PG_TRY (pg_compare_materials (problem, &q, &which));
         pg_norm_options options = { problem->material, which, where };
         PG_TRY (pg_norms_measure (&out->norms, &q, value, reference, &options));
         PG_TRY (at_points (out, problem, value, reference, where));
@@ -113,6 +104,8 @@ done:
     return status;
 }
 
+/* The time includes reading of tables and closed forms at all places, not the reading of
+ * files. */
 pg_status pg_errors_measure (pg_errors *out, const pg_reference *reference, const pg_problem *problem,
                              const pg_sampler *value, double t)
 {
@@ -137,6 +130,7 @@ void pg_errors_clear (pg_errors *errors)
 }
 
 /* ---- reports ------------------------------------------------------------------------------------------- */
+/* One norm as a JSON object; place = 1 with the place of the largest difference. */
 static void json_norm (pg_json *j, const char *key, const pg_norm *n, int place)
 {
     pg_json_open (j, key, '{');
@@ -151,6 +145,7 @@ static void json_norm (pg_json *j, const char *key, const pg_norm *n, int place)
     pg_json_shut (j);
 }
 
+/* The norms of one column of a table as a JSON object. */
 static void json_line (pg_json *j, const pg_line_norms *l)
 {
     pg_json_open (j, NULL, '{');
@@ -183,6 +178,8 @@ void pg_errors_json (pg_json *j, const pg_errors *e)
     pg_json_shut (j);
 }
 
+/* i counts down through the rows that exist, since displacement, stress and the note may each
+ * be missing. */
 int pg_errors_row (const pg_errors *e, size_t i, char *text, size_t size)
 {
     const pg_norms *n = &e->norms;

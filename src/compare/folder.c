@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a result folder says about its run: the scene it was made with, and the row of history.csv that
- * belongs to a step of result.e. */
+ * What a result folder says about its run: the scene that it was made with, and the row of
+ * history.csv that belongs to a step of result.e. `perigal run` copies the scene into the
+ * folder and appends comment lines with its origin and with the --set options; both are taken
+ * off here and applied again. */
 #include "compare.h"
 #include <errno.h>
 #include <math.h>
@@ -8,9 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Largest number of --set options that are read back. */
 enum { MOST_SETTINGS = 64 };
 
-pg_status compare_load_text (const char *path, char **text)
+pg_status pg_compare_load_text (const char *path, char **text)
 {
     pg_status status = PG_OK;
     size_t size = 0, cap = 0, got = 0;
@@ -32,14 +35,16 @@ done:
 }
 
 /* ---- scene --------------------------------------------------------------------------------------------- */
-/* Value of a text key of report.json; "" when there is none. */
+/* Value of a text key of report.json at any level, "" if there is none or no such file. This
+ * is no JSON reader: it relies on the form that our own writer gives ("key": "value") and
+ * takes escaped characters as they are. */
 static pg_status report_text (const char *folder, const char *key, char *out, size_t size)
 {
     char path[4096], wanted[64], *text = NULL;
     size_t n = 0;
     out[0] = 0;
     snprintf (path, sizeof path, "%s/report.json", folder);
-    pg_status status = compare_load_text (path, &text);
+    pg_status status = pg_compare_load_text (path, &text);
     if (status != PG_OK) return status == PG_E_FILE ? PG_OK : status;
     snprintf (wanted, sizeof wanted, "\"%s\": \"", key);
     const char *s = strstr (text, wanted);
@@ -52,7 +57,8 @@ static pg_status report_text (const char *folder, const char *key, char *out, si
     return PG_OK;
 }
 
-/* The last line of the text, cut off it, if it begins with the mark: what follows that; NULL. */
+/* If the last line of the text begins with the mark, cuts it off the text and returns what
+ * follows the mark; otherwise NULL. The returned text stays inside the buffer. */
 static char *cut_line (char *text, const char *mark)
 {
     size_t length = strlen (text);
@@ -65,8 +71,9 @@ static char *cut_line (char *text, const char *mark)
     return text + start + strlen (mark);
 }
 
-/* Takes what a run added off its copy of a scene: where that was (NULL: not said), settings in the order of
- * the file. */
+/* Removes what `perigal run` appended: *from becomes the path of the original scene (NULL if
+ * not noted), set the --set options in the order in which they were given. Lines are removed
+ * from the end, so the order is reversed at last. Returns the number of options. */
 static size_t cut_settings (char *text, char **set, const char **from)
 {
     size_t n = 0;
@@ -83,6 +90,8 @@ static size_t cut_settings (char *text, char **set, const char **from)
     return n;
 }
 
+/* Relative file names in the scene refer to the folder of the original scene: noted in the
+ * copy, or in older folders in report.json; the copy itself is the last resort. */
 pg_status pg_stored_scene (pg_scene **out, const char *folder)
 {
     pg_status status = PG_OK;
@@ -90,7 +99,7 @@ pg_status pg_stored_scene (pg_scene **out, const char *folder)
     const char *from;
     *out = NULL;
     snprintf (path, sizeof path, "%s/scene.yaml", folder);
-    PG_TRY (compare_load_text (path, &text));
+    PG_TRY (pg_compare_load_text (path, &text));
     PG_TRY (report_text (folder, "scene", name, sizeof name));
     size_t n = cut_settings (text, set, &from);
     PG_TRY (pg_scene_parse_with (out, text,
@@ -104,45 +113,28 @@ done:
 }
 
 /* ---- history ------------------------------------------------------------------------------------------- */
-static const char *cell_of (const char *row, size_t column)
-{
-    for (; column > 0; column--) {
-        row += strcspn (row, ",\n");
-        if (*row != ',') return "";
-        row++;
-    }
-    return row;
-}
-
-static long column_of (const char *header, const char *name)
-{
-    const char *s = header;
-    for (long k = 0;; k++) {
-        if (strncmp (s, name, strlen (name)) == 0 && s[strlen (name)] == ' ') return k;
-        s += strcspn (s, ",\n");
-        if (*s++ != ',') return -1;
-    }
-}
-
-pg_status compare_history (const char *folder, const char *key, double stamp, double *load_factor,
-                           double *time, double *broken)
+/* Rows stand in the order of time: the last one that is not later than `stamp` is the state of that step. */
+pg_status pg_compare_history (const char *folder, const char *key, double stamp, double *load_factor,
+                              double *time, double *broken)
 {
     pg_status status = PG_OK;
-    char path[4096], *text = NULL;
+    char path[4096];
     static const char *const names[3] = { "load_factor", "time", "broken" };
     double *const out[3] = { load_factor, time, broken };
+    pg_csv csv = { 0 };
     snprintf (path, sizeof path, "%s/history.csv", folder);
-    PG_TRY (compare_load_text (path, &text));
-    long at = column_of (text, key);
+    PG_TRY (pg_csv_read (&csv, path));
+    long at = pg_csv_column (&csv, key);
     if (at < 0) PG_FAIL (PG_E_FILE, "%s has no column %s", path, key);
-    for (const char *row = strchr (text, '\n'); row && row[1]; row = strchr (row + 1, '\n')) {
-        if (strtod (cell_of (row + 1, (size_t) at), NULL) > stamp + 1e-12 * fabs (stamp)) break;
+    for (size_t r = 0; r < csv.nrow; r++) {
+        const double *row = csv.value + r * csv.ncolumn;
+        if (row[at] > stamp + 1e-12 * fabs (stamp)) break;
         for (int k = 0; k < 3; k++) {
-            long c = column_of (text, names[k]);
-            if (c >= 0) *out[k] = strtod (cell_of (row + 1, (size_t) c), NULL);
+            long c = pg_csv_column (&csv, names[k]);
+            if (c >= 0) *out[k] = row[c];
         }
     }
 done:
-    pg_free (text);
+    pg_csv_clear (&csv);
     return status;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of what a result is measured against. */
+ * The keys of the section `reference` of a scene: what the result is measured against. A row
+ * has path, kind, unit, default and the text of the documentation; ranges are not needed here. */
 #include "perigal/scene.h"
 
 #define ROW(path, kind, unit, fallback, doc) { path, kind, unit, NULL, fallback, NULL, NULL, NULL, doc }

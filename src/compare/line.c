@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Tables of places with values, as pg_table writes them: a first row of names with units in brackets, then
- * numbers. Empty cells and nan are missing values; columns of other names are passed over; '#' starts a
- * comment. */
+ * Reads tables of places with values: a first row of names with units in brackets, then
+ * numbers. Commas, semicolons and tabs separate columns; empty cells and nan are missing
+ * values; columns with other names are skipped; # starts a comment. The tables that this
+ * library writes (pg_table) have this form. */
 #include "compare.h"
 #include <math.h>
 #include <stdio.h>
@@ -10,6 +11,7 @@
 
 enum { MOST_COLUMNS = 64, PLACE = 16 };                /* PLACE + k: coordinate k */
 
+/* Both spellings of a column are accepted: the short names, and those of fields in result.e. */
 static const char *const names[9] = { "u_x", "u_y", "u_z", "s_xx", "s_yy", "s_zz", "s_xy", "s_yz", "s_zx" };
 static const char *const longer[9] = { "displacement_x", "displacement_y", "displacement_z",
                                        "stress_xx",      "stress_yy",      "stress_zz",
@@ -17,12 +19,18 @@ static const char *const longer[9] = { "displacement_x", "displacement_y", "disp
 const char *pg_column_name (int column) { return column >= 0 && column < 9 ? names[column] : ""; }
 const char *pg_column_unit (int column) { return column < 3 ? "m" : "Pa"; }
 
+/* A table that is being read. */
 typedef struct {
     const char *path;
     pg_line *line;
-    int    meaning[MOST_COLUMNS];  /* column of pg_line's list, PLACE + k, -1: passed over */
+    /* What each column holds: 0 to 8 a component, PLACE + k the coordinate k, -1 nothing of
+     * interest. */
+    int    meaning[MOST_COLUMNS];
+    /* Factor from the unit of the column to SI, the factor of the table included for values. */
     double scale[MOST_COLUMNS];
-    size_t columns, at, cap_x, cap_value;              /* at: line of the file, from 1 */
+    /* Columns of the header (0: not read yet), line of the file from 1, capacities of the
+     * arrays. */
+    size_t columns, at, cap_x, cap_value;
     double unit, factor;
     const double *along;
 } reader;
@@ -43,6 +51,8 @@ static size_t split (char *row, char *cell[MOST_COLUMNS])
     }
 }
 
+/* What a column of this name holds in a body of that dimension. In 2D the stress zz may stand
+ * in the table, although the norms do not use it. */
 static int meaning_of (const char *name, int dim)
 {
     static const int place_of[3] = { 'x', 'y', 'z' };
@@ -54,7 +64,8 @@ static int meaning_of (const char *name, int dim)
     return -1;
 }
 
-/* "u_x [mm]" */
+/* Reads one cell of the header, such as "u_x [mm]": name and unit. Two columns with the same
+ * meaning are a fault. */
 static pg_status read_name (reader *r, size_t k, char *cell)
 {
     pg_status status = PG_OK;
@@ -74,6 +85,7 @@ done:
     return status;
 }
 
+/* Reads the first row; at least one coordinate and one value are needed. */
 static pg_status read_header (reader *r, char *row)
 {
     pg_status status = PG_OK;
@@ -102,6 +114,8 @@ done:
     return status;
 }
 
+/* Reads a cell in SI; an empty one is NAN, and anything that is not a number is a fault with
+ * its line and column. */
 static pg_status read_number (const reader *r, const char *cell, size_t k, double *out)
 {
     pg_status status = PG_OK;
@@ -116,6 +130,7 @@ done:
     return status;
 }
 
+/* Appends a row. Places must be complete; values may be missing. */
 static pg_status read_row (reader *r, char *row)
 {
     pg_status status = PG_OK;
@@ -142,6 +157,7 @@ done:
     return status;
 }
 
+/* A byte order mark at the beginning, which spreadsheets write, is skipped. */
 pg_status pg_line_read (pg_line *out, const char *path, int dim, double unit, double factor,
                         const double *along)
 {
@@ -152,7 +168,7 @@ pg_status pg_line_read (pg_line *out, const char *path, int dim, double unit, do
     memset (out, 0, sizeof *out);
     out->dim = dim;
     snprintf (out->name, sizeof out->name, "%.127s", slash ? slash + 1 : path);
-    PG_TRY (compare_load_text (path, &text));
+    PG_TRY (pg_compare_load_text (path, &text));
     for (char *row = strncmp (text, "\xEF\xBB\xBF", 3) ? text : text + 3; *row;) {
         size_t length = strcspn (row, "\n");
         char *next = row + length + (row[length] == '\n');

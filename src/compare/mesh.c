@@ -1,21 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A finite element result as a sampler: displacement by its shape functions, stress from their gradients and
- * the scene's materials. */
+ * A finite element result as a sampler: displacement by the shape functions of its elements,
+ * stress from their gradients and the materials of the scene, so that both sides of a
+ * comparison have the same elastic law. Stresses in the file are not used, since they are
+ * often averaged at nodes. */
 #include "compare.h"
 #include "perigal/mesh_files.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* A place that lies outside by at most this many element sizes still takes the value of the
+ * nearest element: the surfaces of two discretizations of one curved body differ by a little. */
 #define FARTHEST 0.25  /* a place so far outside, in element sizes, still takes the nearest element */
 
+/* The result and what is needed to sample it. */
 typedef struct {
-    pg_mesh mesh;                                      /* places in m */
-    pg_mesh_field u;                                   /* displacement, m */
+    /* Coordinates in m. */
+    pg_mesh mesh;
+    /* Displacement at its nodes, m (nnode x dim). */
+    pg_mesh_field u;
     pg_mesh_locator *locator;
     const pg_problem *problem;
-    pg_nearest *material;                              /* over evaluation points; NULL: one material */
-    size_t  outside;  double away;  /* places so far, beyond 1e-6; farthest, element sizes */
+    /* Search among the evaluation points of the problem, whose material counts; NULL: one
+     * material. */
+    pg_nearest *material;
+    /* Places so far outside by more than 1e-6 element sizes, and the farthest of them in
+     * element sizes. */
+    size_t  outside;  double away;
 } fem;
 
 static void free_fem (void *context)
@@ -29,6 +40,7 @@ static void free_fem (void *context)
     pg_free (f);
 }
 
+/* The elastic law at a place. */
 static const pg_material *law_at (const fem *f, const double *x)
 {
     const pg_problem *p = f->problem;
@@ -37,6 +49,8 @@ static const pg_material *law_at (const fem *f, const double *x)
                                 [pg_nearest_find (f->material, x, NULL, NULL)]];
 }
 
+/* Counts the places outside, which callers report: many of them mean that the two bodies
+ * differ. */
 static pg_status sample_fem (void *context, size_t n, const double *x, double *u, double *stress)
 {
     fem *f = context;
@@ -56,7 +70,8 @@ static pg_status sample_fem (void *context, size_t n, const double *x, double *u
     return PG_OK;
 }
 
-/* Reads displacements; plane results of three-dimensional elements become plane. */
+/* Reads mesh and displacements of a step; results of one layer of 3D elements become plane.
+ * PG_E_FILE if there is no displacement or the dimension is another one. */
 static pg_status read_fields (fem *f, const char *path, int step, double unit)
 {
     pg_status status = PG_OK;
@@ -115,57 +130,4 @@ const pg_mesh *pg_sampler_mesh_of (const pg_sampler *sampler, size_t *outside, d
     if (outside) *outside = f ? f->outside : 0;
     if (away) *away = f ? f->away : 0;
     return f ? &f->mesh : NULL;
-}
-
-pg_status pg_mesh_quadrature (pg_quadrature *out, const pg_mesh *mesh, double thickness, int order)
-{
-    pg_status status = PG_OK;
-    size_t dim = (size_t) mesh->dim, n = 0;
-    double xi[3 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS], x[3 * PG_ELEMENT_NODES];
-    memset (out, 0, sizeof *out);
-    for (size_t e = 0; e < mesh->n; e++)
-        n += (size_t) pg_element_rule ((pg_element) mesh->kind[e], order, xi, weight);
-    PG_ALLOC (out->x, n * dim);
-    PG_ALLOC (out->weight, n);
-    PG_ALLOC (out->cell, n);
-    for (size_t e = 0; e < mesh->n; e++) {
-        size_t nodes = mesh->start[e + 1] - mesh->start[e];
-        int points = pg_element_rule ((pg_element) mesh->kind[e], order, xi, weight);
-        for (size_t a = 0; a < nodes; a++)
-            for (size_t k = 0; k < dim; k++)
-                x[a * dim + k] = mesh->x[3 * (size_t) mesh->node[mesh->start[e] + a] + k];
-        for (int q = 0; q < points; q++, out->n++) {
-            double size = pg_element_map ((pg_element) mesh->kind[e], mesh->dim, x, xi + (size_t) q * dim,
-                                          out->x + out->n * dim, NULL);
-            out->weight[out->n] = weight[q] * fabs (size) * (mesh->dim == 3 ? 1 : thickness);
-            out->cell[out->n] = (int) e;
-        }
-    }
-done:
-    if (status != PG_OK) pg_quadrature_clear (out);
-    return status;
-}
-
-pg_status pg_errors_mesh (pg_errors *out, const pg_reference *reference, const pg_problem *problem,
-                          const char *path, int step, double unit, double t)
-{
-    pg_status status = PG_OK;
-    pg_sampler value = { 0 }, field = { 0 };
-    pg_quadrature q = { 0 };
-    int *which = NULL;
-    double start = pg_seconds ();
-    memset (out, 0, sizeof *out);
-    PG_TRY (pg_sampler_mesh (&value, path, step, unit, problem));
-    PG_TRY (pg_reference_sampler (&field, reference, t));
-    PG_TRY (pg_mesh_quadrature (&q, pg_sampler_mesh_of (&value, NULL, NULL), problem->cloud.thickness, 5));
-    PG_TRY (compare_materials (problem, &q, &which));
-    pg_norm_options options = { problem->material, which, reference->where };
-    PG_TRY (pg_norms_measure (&out->norms, &q, &value, &field, &options));
-    out->order = 5, out->seconds = pg_seconds () - start;
-done:
-    pg_quadrature_clear (&q);
-    pg_sampler_clear (&field);
-    pg_sampler_clear (&value);
-    pg_free (which);
-    return status;
 }

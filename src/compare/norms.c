@@ -1,35 +1,54 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Norms of the difference of two samplers. Sums run over the places in their order, whatever the number of
- * threads. */
-#include "perigal/compare.h"
+ * Norms of the difference of two samplers over quadrature points, and over the rows of tables.
+ *
+ *   L2        sqrt (sum_q w_q |u - u_ref|^2)
+ *   energy    sqrt (sum_q w_q (s - s_ref) : D^-1 : (s - s_ref))
+ *   maxima    over the quadrature points
+ *
+ * Samplers may use threads inside, but the sums run over the places in their order, so that
+ * the norms have the same bits with any number of threads. */
+#include "compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* Places sampled at a time, which bounds the memory. */
 enum { CHUNK = 16384 };                                /* places at a time */
 
+/* A measurement at work. */
 typedef struct {
-    int     dim, nv, u, stress;                        /* u: bits of the components compared */
-    int     part[6];                                   /* Voigt component of the mode -> of six */
-    double *L;                                         /* Cholesky factors of D per material (36 each) */
+    /* Dimension; Voigt components of it; bits of the displacement components compared; 1 if
+     * stress is. */
+    int     dim, nv, u, stress;
+    /* The component among six that each Voigt component of the dimension is. */
+    int     part[6];
+    /* Cholesky factor of D of each material (36 values each). */
+    double *L;
     const pg_norm_options *options;
-    double *v, *w, *s, *t;                             /* samples: u of value and reference, stresses */
-    double  sum[4], top_u, top_s;                      /* squares; largest of the references */
+    /* Samples of one chunk: displacement of value and reference (CHUNK x 3), stresses of both
+     * (CHUNK x 6). */
+    double *v, *w, *s, *t;
+    /* Sums of squares: displacement difference and reference, energies likewise; the largest
+     * |u_ref| and |s_ref|. */
+    double  sum[4], top_u, top_s;
     pg_norms *out;
 } measuring;
 
+/* The relative norm from difference and reference. */
 static void close_norm (pg_norm *n)
 {
     n->relative = n->difference == 0 ? 0 : n->reference > 0 ? n->difference / n->reference : INFINITY;
 }
 
+/* 1 if those of n values whose bit is set are finite. */
 static int finite_all (const double *a, int n, int bits)
 {
     for (int k = 0; k < n; k++) if ((bits >> k & 1) && !isfinite (a[k])) return 0;
     return 1;
 }
 
-/* s : C : s, s packed */
+/* s : D^-1 : s for a stress s in the Voigt components of the dimension: twice the
+ * complementary energy density. */
 static double complementary (const measuring *m, size_t material, const double *s)
 {
     double e[6], sum = 0;
@@ -39,6 +58,7 @@ static double complementary (const measuring *m, size_t material, const double *
     return sum;
 }
 
+/* Keeps the largest difference and its place. */
 static void largest (pg_norm *n, double size, int dim, const double *x)
 {
     if (!(size > n->difference)) return;
@@ -46,6 +66,7 @@ static void largest (pg_norm *n, double size, int dim, const double *x)
     for (int k = 0; k < dim; k++) n->place[k] = x[k];
 }
 
+/* Adds a place with displacements v and w (reference) to L2 and maximum norm. */
 static void add_displacement (measuring *m, const double *x, const double *v, const double *w, double weight)
 {
     double d2 = 0, r2 = 0;
@@ -56,6 +77,7 @@ static void add_displacement (measuring *m, const double *x, const double *v, co
     m->top_u = fmax (m->top_u, sqrt (r2));
 }
 
+/* Adds a place with stresses s and t (reference) to energy and maximum norm. */
 static void add_stress (measuring *m, const double *x, const double *s, const double *t, double weight,
                         size_t material)
 {
@@ -71,6 +93,8 @@ static void add_stress (measuring *m, const double *x, const double *s, const do
     m->top_s = fmax (m->top_s, sqrt (r2));
 }
 
+/* Factors the elastic laws. A law that is not positive definite (a pivot below 1e-14 of the
+ * diagonal) has no energy norm. */
 static pg_status factor_laws (measuring *m, size_t n)
 {
     pg_status status = PG_OK;
@@ -85,6 +109,7 @@ done:
     return status;
 }
 
+/* Decides which components are compared and allocates the samples. */
 static pg_status prepare (measuring *m, const pg_quadrature *q, const pg_sampler *value,
                           const pg_sampler *reference)
 {
@@ -108,6 +133,7 @@ done:
     return status;
 }
 
+/* 1 if the condition does not hold at the place. */
 static int excluded (const pg_expression *where, int dim, const double *x)
 {
     if (!where) return 0;
@@ -115,6 +141,8 @@ static int excluded (const pg_expression *where, int dim, const double *x)
     return pg_expression_value (where, &at) == 0;
 }
 
+/* Adds the sampled places first to first + n - 1; those without finite values on both sides
+ * are counted as skipped. */
 static void add_chunk (measuring *m, const pg_quadrature *q, size_t first, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
@@ -162,6 +190,8 @@ done:
 }
 
 /* ---- tables -------------------------------------------------------------------------------------------- */
+/* Norms of column k of a table. Rows with a reference near zero (below 1e-3 of the largest)
+ * have no meaningful relative error and count in the other norms only. */
 static void measure_column (pg_line_norms *out, const pg_line *line, size_t k, const double *u,
                             const double *s)
 {
@@ -207,5 +237,20 @@ pg_status pg_line_measure (pg_line_norms *out, const pg_line *line, const pg_sam
     for (size_t k = 0; k < line->ncolumn; k++) measure_column (&out[k], line, k, u, s);
 done:
     pg_free (u), pg_free (s);
+    return status;
+}
+
+pg_status pg_compare_materials (const pg_problem *p, const pg_quadrature *q, int **which)
+{
+    pg_status status = PG_OK;
+    pg_nearest *near = NULL;
+    int bulk = p->integration->at_nodes ? PG_NODES : PG_POINTS;
+    if (p->nmaterial < 2) return PG_OK;
+    PG_ALLOC (*which, q->n);
+    PG_TRY (pg_nearest_create (&near, p->dim, p->rows[bulk].n, p->rows[bulk].x));
+    for (size_t i = 0; i < q->n; i++)
+        (*which)[i] = p->block[bulk][pg_nearest_find (near, q->x + i * (size_t) p->dim, NULL, NULL)];
+done:
+    pg_nearest_free (&near);
     return status;
 }

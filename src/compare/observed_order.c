@@ -1,26 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Observed order of convergence and Richardson's value, from values or from errors at falling sizes. Roache
- * 1998, Verification and validation in computational science and engineering, chapter 5 (unequal ratios of
- * sizes included). */
+ * Observed order of convergence and Richardson's extrapolated value, from values or from
+ * errors at falling sizes h. Roache PJ, Verification and validation in computational science
+ * and engineering, 1998, chapter 5; ratios of sizes may differ.
+ *
+ * The ratio (h1^p - h2^p) / (h2^p - h3^p) grows with p, so p is found by bisection without a
+ * start value. At p = 0 the ratio is that of the logarithms; differences whose ratio is below
+ * that do not get smaller. */
 #include "perigal/compare.h"
 #include <math.h>
 
+/* Halvings of an interval of 20: the last one is below the spacing of doubles. */
 enum { HALVINGS = 80 };
+/* Largest order that is sought; differences that are this small relative to the values are
+ * rounding and residuals of solvers. */
 static const double highest = 20, same = 1e-10;
 
+/* The answer without an order. */
 static pg_observed none (double limit, double error, const char *why)
 {
     pg_observed o = { NAN, limit, error, why };
     return o;
 }
 
-/* (h1^p - h2^p) / (h2^p - h3^p), growing with p; p = 0: the ratio of logarithms. */
+/* (h1^p - h2^p) / (h2^p - h3^p), written with expm1, which keeps all digits for small p. */
 static double ratio (const double *h, double p)
 {
     if (p < 1e-9) return log (h[0] / h[1]) / log (h[1] / h[2]);
     return expm1 (p * log (h[0] / h[1])) / -expm1 (p * log (h[2] / h[1]));
 }
 
+/* 1 if n sizes are positive and each is smaller than the one before. */
 static int falling (size_t n, const double *h)
 {
     for (size_t k = 0; k < n; k++) if (!(h[k] > 0) || !isfinite (h[k]) || (k && !(h[k] < h[k - 1]))) return 0;

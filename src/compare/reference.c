@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * `reference` of a scene: closed forms, tables, a condition. */
+ * Reads the section `reference` of a scene (closed forms, tables, a finite element result, a
+ * condition) and makes the closed forms a sampler. */
 #include "compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* Names of the stress components in the scene. */
 static const char *const voigt[6] = { "xx", "yy", "zz", "xy", "yz", "zx" };
 
-/* Which of xx yy zz xy yz zx a body of this dimension has. */
+/* 1 if a body of this dimension has the stress component k in its norms. */
 static int has_stress (int dim, int k) { return dim == 3 || k == 0 || (dim == 2 && (k == 1 || k == 3)); }
 
+/* Compiles an expression if the key is given; *out stays NULL otherwise. */
 static pg_status read_expression (pg_expression **out, const pg_scene *scene, const char *path,
                                   const char *unit)
 {
@@ -21,6 +24,9 @@ done:
     return status;
 }
 
+/* Reads the closed forms. Displacement components may be missing; stress must be complete,
+ * because the energy norm couples the components. The condition must not depend on time, so
+ * that all steps are compared on the same part of the body. */
 static pg_status read_forms (pg_reference *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -50,7 +56,8 @@ done:
     return status;
 }
 
-/* "mm", "0.5 m" */
+/* Metres in a unit of length, "mm" or "0.5 m"; 1 if no text is given. Returns 0 for anything
+ * else. */
 static int length_unit (const char *text, double *unit)
 {
     char one[96];
@@ -60,6 +67,8 @@ static int length_unit (const char *text, double *unit)
     return (pg_unit_parse (unit, one, "m") == PG_OK || pg_unit_parse (unit, text, "m") == PG_OK) && *unit > 0;
 }
 
+/* Reads table i of the list. A fault in the file becomes a fault of the scene at the key that
+ * names it. */
 static pg_status read_line (pg_reference *r, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;
@@ -100,6 +109,8 @@ int pg_norm_order (const pg_scene *scene, const pg_problem *problem)
     return own + 2 > 5 ? 5 : own + 2;
 }
 
+/* Reads a finite element result, moved and scaled as the scene says. It excludes closed forms
+ * of displacement. */
 static pg_status read_mesh (pg_reference *r, const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -172,9 +183,12 @@ void pg_reference_free (pg_reference **reference)
 }
 
 /* ---- closed forms as a sampler ------------------------------------------------------------------------- */
+/* The context of the sampler, and one call of it. */
 typedef struct { const pg_reference *r; double t; } forms;
 typedef struct { const forms *f; const double *x; double *u, *stress; } sampling;
 
+/* Evaluates the closed forms at the places first to last - 1; each thread writes its own
+ * places. */
 static void evaluate (void *context, size_t first, size_t last, int thread)
 {
     const sampling *s = context;

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Samplers: the solution of a force by its own shape functions, and displacements at points by least
- * squares. */
+ * Samplers of our own results: the solution of a force by its shape functions, and
+ * displacements that are known at points only, by moving least squares (RKPM with a linear
+ * basis and the cubic spline kernel, radius of two spacings). The fit reproduces linear fields
+ * exactly, so it adds an error of second order only, and its gradient gives the strain. */
 #include "perigal/compare.h"
 #include <math.h>
 #include <string.h>
 
+/* Places at a time, which bounds the memory. */
 enum { CHUNK = 2048 };                                 /* places at a time: bounds the memory */
 
 void pg_sampler_clear (pg_sampler *sampler)
@@ -13,9 +16,12 @@ void pg_sampler_clear (pg_sampler *sampler)
     memset (sampler, 0, sizeof *sampler);
 }
 
+/* The stress components that a result of this dimension has: xx; xx yy zz xy (plane strain and
+ * stress); all. */
 static int stress_bits (int dim) { return dim == 1 ? 1 : dim == 2 ? 1 | 2 | 4 | 8 : 63; }
 
 /* ---- solution ------------------------------------------------------------------------------------------ */
+/* A state of a force with shape functions of its own. */
 typedef struct { const pg_force_type *force; void *self; const pg_state *state; } solution;
 
 static pg_status sample_solution (void *context, size_t n, const double *x, double *u, double *stress)
@@ -24,6 +30,7 @@ static pg_status sample_solution (void *context, size_t n, const double *x, doub
     return s->force->sample (s->self, s->state, s->state->d, n, x, u, stress);
 }
 
+/* Forces without shape functions show their displacements at the points only. */
 static pg_status least_squares (pg_sampler *out, const pg_problem *problem, const pg_force_type *force,
                                 void *self, const pg_state *state)
 {
@@ -58,22 +65,28 @@ done:
 }
 
 /* ---- points -------------------------------------------------------------------------------------------- */
+/* Displacements at points, and the approximation between them. */
 typedef struct {
     const pg_problem *problem;
+    /* Displacements, m (n x dim). */
     double *u;
+    /* 1 for points that have lost bonds during the run (n), or NULL. */
     unsigned char *torn;
     pg_approx approx;
+    /* Search for the nearest evaluation point, which has the material; its kind is `bulk`. */
     pg_nearest *material;
     int bulk;
 } points;
 
+/* 1 if a pre-crack lies between a place and a point; that point does not take part in the fit. */
 static int cut (const pg_problem *p, const double *x, int node)
 {
     return pg_cracks_cut (pg_state_cracks (p, NULL), p->dim, x, p->cloud.x + (size_t) node * (size_t) p->dim,
                           1e-9 * p->cloud.h) != NULL;
 }
 
-/* Does a place reach a torn point? Then it has the displacement of the nearest point. */
+/* If a place has a torn point in reach, gives it the displacement of the nearest point and no
+ * stress, and returns 1: a fit across an open crack would smear the jump. */
 static int at_tear (const points *s, const pg_rows *r, size_t at, double *u, double *stress)
 {
     size_t dim = (size_t) s->problem->dim, nearest = 0;
@@ -91,6 +104,8 @@ static int at_tear (const points *s, const pg_rows *r, size_t at, double *u, dou
     return 1;
 }
 
+/* Displacement and stress at place `at` from its shape functions. Stress needs at least a
+ * complete linear basis: where the neighbours do not allow that, it is unknown. */
 static void fit_one (const points *s, const pg_rows *r, size_t at, double *u, double *stress)
 {
     const pg_problem *p = s->problem;
@@ -111,6 +126,7 @@ static void fit_one (const points *s, const pg_rows *r, size_t at, double *u, do
     if (r->grade[at] > PG_GRADE_LOWERED) for (int k = 0; k < 6; k++) stress[k] = NAN;
 }
 
+/* Builds families and shape functions of the places, chunk by chunk. */
 static pg_status sample_points (void *context, size_t n, const double *x, double *u, double *stress)
 {
     pg_status status = PG_OK;
@@ -179,6 +195,7 @@ done:
 }
 
 /* ---- moved --------------------------------------------------------------------------------------------- */
+/* A field that is shifted and scaled. */
 typedef struct { pg_sampler field; double shift[3], factor; } moved;
 
 static pg_status sample_moved (void *context, size_t n, const double *x, double *u, double *stress)

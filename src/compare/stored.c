@@ -1,13 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A result folder opened for questions: the problem of its scene, the coefficients of one step. */
+ * A result folder opened in order to sample it: the problem is built anew from the copy of the
+ * scene, and the unknowns of one step are read from result.e. With the coefficients in the
+ * file and no broken bonds the field is that of the run itself, by its own shape functions;
+ * otherwise the displacements of the points are fitted, and the difference is said in `how`. */
 #include "compare.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* What the sampler needs besides: the field proper, and where it ends. */
+/* A field that ends where the body does. */
 typedef struct { pg_sampler field; pg_nearest *points; const pg_problem *problem; } bounded;
 
+/* Samples the field and makes places unknown that are more than sqrt (dim) spacings away from
+ * every point: no cell of the body reaches that far. */
 static pg_status sample_bounded (void *context, size_t n, const double *x, double *u, double *stress)
 {
     pg_status status = PG_OK;
@@ -39,7 +44,7 @@ static void free_bounded (void *context)
     pg_free (b);
 }
 
-/* Takes the field over. */
+/* Takes over the field and limits it. */
 static pg_status bound (pg_sampler *out, const pg_problem *problem, pg_sampler *field)
 {
     pg_status status = PG_OK;
@@ -58,7 +63,8 @@ done:
 }
 
 /* ---- fields -------------------------------------------------------------------------------------------- */
-/* The points of result.e must be those of the scene. */
+/* PG_E_FILE unless the points of result.e are those that the scene makes, to 1e-9 of the
+ * spacing. */
 static pg_status check_points (const pg_stored *s, const char *path, size_t *nstep, double **time)
 {
     pg_status status = PG_OK;
@@ -78,6 +84,7 @@ done:
     return status;
 }
 
+/* *found = 1 if result.e has a field of that name. */
 static pg_status has_field (const char *path, const char *name, int *found)
 {
     pg_status status = PG_OK;
@@ -91,6 +98,7 @@ done:
     return status;
 }
 
+/* Reads a field of the step and checks the number of its components. */
 static pg_status read_field (const pg_stored *s, const char *path, const char *name, int components,
                              double **value)
 {
@@ -104,7 +112,9 @@ done:
     return status;
 }
 
-/* Points that are damaged by more than the pre-cracks. */
+/* Marks the points that have more damage now than after the pre-cracks were cut: these have
+ * lost bonds during the run (*torn: n, to be freed with pg_free). PG_E_USAGE if the file has
+ * no field damage. */
 static pg_status find_torn (pg_stored *s, const char *path, unsigned char **torn)
 {
     pg_status status = PG_OK;
@@ -132,7 +142,9 @@ done:
     return status;
 }
 
-/* The unknowns of the points: coefficients, and where points turn the spacing times their rotations. */
+/* Puts the unknowns of the points into the state: coefficients, and for points with rotational
+ * degrees of freedom the spacing times the rotations, which is the unknown (doc/method.md,
+ * G2). */
 static pg_status read_unknowns (pg_stored *s, const char *path, const char *name)
 {
     pg_status status = PG_OK;
@@ -152,6 +164,9 @@ done:
     return status;
 }
 
+/* Chooses the field. For nosb coefficients and displacements are the same. After breaks the
+ * shape functions of the run cannot be restored, as result.e does not say which bonds are
+ * alive. */
 static pg_status read_step (pg_stored *s, const char *path, double broken)
 {
     pg_status status = PG_OK;
@@ -185,6 +200,9 @@ done:
 }
 
 /* ---- folder -------------------------------------------------------------------------------------------- */
+/* Finds the step and its time. In dynamic runs result.e counts time; static runs with event
+ * stepping number their steps, and the load factor comes from history.csv; with fixed steps it
+ * is the load factor itself. */
 static pg_status find_step (pg_stored *s, const char *folder, const char *path, int step, double *broken)
 {
     pg_status status = PG_OK;
@@ -199,7 +217,7 @@ static pg_status find_step (pg_stored *s, const char *folder, const char *path, 
     s->step = step < 0 ? (int) nstep - 1 : step;
     s->stamp = time[s->step];
     int dynamic = !(o.flags & PG_SOLVER_QUASI_STATIC);
-    PG_TRY (compare_history (folder,
+    PG_TRY (pg_compare_history (folder,
                              dynamic   ? "time"
                              : o.event ? "step"
                                        : "load_factor",

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Tables of a comparison: place, value, reference, difference. */
+ * CSV files of a comparison: place, value, reference and difference of each component; and the
+ * differences at the points as one array for pictures. */
 #include "perigal/compare.h"
 #include <math.h>
 #include <stdio.h>
 
+/* Places with values of both sides: u and v displacements (n x 3), s and t stresses (n x 6). */
 typedef struct { size_t n, ncolumn; int dim, column[9]; const double *x; double *u, *s, *v, *t; } pairs;
 
+/* The value of a column at place i. */
 static double part (const double *u, const double *s, size_t i, int column)
 {
     return column < 3 ? u[3*i + (size_t) column] : s[6*i + (size_t) column - 3];
 }
 
+/* Creates the table with its header. */
 static pg_status create (pg_table **out, const char *path, const pairs *p)
 {
     char name[30][48];
@@ -27,6 +31,8 @@ static pg_status create (pg_table **out, const char *path, const pairs *p)
     return pg_table_create (out, path, n, column);
 }
 
+/* Samples both sides and lists the columns that both know. p->u is to be freed by the caller;
+ * the other arrays are parts of it. */
 static pg_status sample_both (pairs *p, const pg_sampler *value, const pg_sampler *reference)
 {
     pg_status status = PG_OK;
@@ -94,6 +100,8 @@ done:
     return status;
 }
 
+/* In the norm of the stress each shear counts twice, since it stands for two components of the
+ * tensor. */
 pg_status pg_compare_field (double *out, const pg_cloud *cloud, int column, const pg_sampler *value,
                             const pg_sampler *reference)
 {

@@ -55,12 +55,22 @@ static void describe (const pg_criterion *c, char *text, size_t size)
         c->single ? "any one of them" : "together by energy", c->parameter[ENERGY]);
 }
 
+static const pg_key option_keys[] = {
+    { .path = "failure.modes",
+      .kind = PG_NAME,
+      .fallback = "together",
+      .choices = "together|single",
+      .doc = "Shares of stretch, shear and bending in the fracture energy add up, or each has its limit "
+             "alone." },
+};
+static const pg_key_table options = { "criterion", option_keys, 1 };
+
 const pg_criterion_type pg_criterion_beam_limits = {
     .name = "beam_limits",
     .summary = "stretch, shear and bending of a bond (gmpd), each by fracture energy, together or singly",
     .needs = PG_NEEDS_BEAMS,
-    .limit = { "fracture_energy" },
-    .option = "modes",
+    .limits = { &criterion_keys_energy },
+    .options = { &options },
     .read = read,
     .utilisation = utilisation,
     .factor = factor,

@@ -23,6 +23,25 @@ const pg_criterion_type *pg_criterion_find (const char *name)
     return NULL;
 }
 
+const pg_criterion_type *pg_criterion_entry (size_t i)
+{
+    return i < sizeof table / sizeof *table ? table[i] : NULL;
+}
+
+/* ---- keys ---------------------------------------------------------------------------------------------- */
+static const char *name_of (size_t i) { return pg_criterion_entry (i) ? table[i]->name : NULL; }
+static pg_key_tables options_of (size_t i) { return table[i]->options; }
+static pg_key_tables limits_of (size_t i) { return table[i]->limits; }
+
+const pg_key_catalogue pg_entry_keys_criterion = {
+    .selector = "failure.criterion",
+    .name = name_of,
+    .keys = options_of,
+    .keys_twice = limits_of,
+    .also = "materials.{}.",
+    .also_doc = "for this material",
+};
+
 const char *pg_criterion_names (void) { return names + 1; }
 
 pg_status pg_criterion_read (pg_criterion *out, size_t n, const pg_scene *scene,

@@ -7,6 +7,11 @@
 #include "list.h"
 #undef PG_CRITERION
 
+const pg_criterion_type *pg_criterion_entry (size_t i);                /* NULL past the end */
+
+/* Limits that several criteria share (keys.c): fracture_energy; tensile_strength. */
+extern const pg_key_table criterion_keys_energy, criterion_keys_tension;
+
 enum { PG_LIMITS = 96 };                               /* bytes of a path such as materials.NAME.failure */
 /* The map that gives a need ("limit", or "limit or other") to the setting's material: its own, else
  * `failure`; returns 0: neither. */

@@ -5,10 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const limits[] = { "critical_stretch", "fracture_energy", "wc_factor",
-                                      "stretch",          "modes",           "tensile_strength",
-                                      "cohesion",         "friction_angle" };
-enum { NLIMIT = sizeof limits / sizeof *limits, WORD = 32 };
+enum { WORD = 32, NEED = 3 * WORD };
 
 /* The words of a need, "a" or "a or b". */
 static int words_of (const char *need, char word[2][WORD])
@@ -52,25 +49,74 @@ int pg_criterion_never (const pg_scene *scene, const pg_criterion_setting *setti
     return setting->material && pg_scene_bool (scene, "materials.%s.failure.never", setting->material);
 }
 
-static int takes (const pg_criterion_type *type, const char *limit)
+/* ---- keys of a criterion ------------------------------------------------------------------------------- */
+static const char *last_word (const pg_key *key) { return strrchr (key->path, '.') + 1; }
+
+/* The k-th of its limits, over all tables; NULL past the end. */
+static const pg_key *limit_of (const pg_criterion_type *type, size_t k)
 {
-    char word[2][WORD];
-    if (type->option && strcmp (type->option, limit) == 0) return 1;
-    for (size_t k = 0; k < PG_MOST_LIMITS && type->limit[k]; k++)
-        for (int i = words_of (type->limit[k], word); i-- > 0;) if (strcmp (word[i], limit) == 0) return 1;
+    for (pg_key_tables t = type->limits; *t; k -= (*t)->n, t++) if (k < (*t)->n) return &(*t)->key[k];
+    return NULL;
+}
+
+/* What the k-th limit makes needed: "a", or "a or b" for the first of a group; "": nothing. 0: past the last
+ * limit. */
+static int need_of (const pg_criterion_type *type, size_t k, char need[NEED])
+{
+    const pg_key *key = limit_of (type, k), *other;
+    need[0] = '\0';
+    if (!key) return 0;
+    if (!key->fallback || *key->fallback) return 1;
+    for (size_t j = 0; key->group && j < k; j++)
+        if ((other = limit_of (type, j))->group && strcmp (other->group, key->group) == 0) return 1;
+    size_t used = (size_t) snprintf (need, NEED, "%s", last_word (key));
+    for (size_t j = k + 1; key->group && (other = limit_of (type, j)) && used < NEED; j++)
+        if (other->group && strcmp (other->group, key->group) == 0)
+            used += (size_t) snprintf (need + used, NEED - used, " or %s", last_word (other));
+    return 1;
+}
+
+static int holds (pg_key_tables list, const pg_key_table *table)
+{
+    while (*list && *list != table) list++;
+    return *list != NULL;
+}
+
+static int owns (const pg_criterion_type *type, const pg_key_table *table)
+{
+    return holds (type->limits, table) || holds (type->options, table);
+}
+
+/* ---- checks -------------------------------------------------------------------------------------------- */
+/* Keys of a table that are given in a map though nothing asks for them. */
+static void tell_given (const pg_scene *scene, const pg_criterion_type *type, const pg_key_table *table,
+                        const char *map, int never)
+{
+    for (size_t k = 0; k < table->n; k++) {
+        char path[PG_LIMITS + WORD];
+        snprintf (path, sizeof path, "%s.%s", map, last_word (&table->key[k]));
+        if (!pg_scene_given (scene, "%s", path)) continue;
+        if (never) pg_scene_fault (scene, path, "has no effect: bonds of this material never break");
+        else if (!owns (type, table))
+            pg_scene_fault (scene, path, "has no effect with the criterion %s", type->name);
+    }
+}
+
+static int owned_before (size_t entry, const pg_key_table *table)
+{
+    for (size_t e = 0; e < entry; e++) if (owns (pg_criterion_entry (e), table)) return 1;
     return 0;
 }
 
-/* Limits given in a map that nothing asks for. */
+/* Keys of all criteria, each table once. */
 static void superfluous (const pg_scene *scene, const pg_criterion_type *type, const char *map, int never)
 {
-    for (size_t k = 0; k < NLIMIT; k++) {
-        char path[PG_LIMITS + WORD];
-        snprintf (path, sizeof path, "%s.%s", map, limits[k]);
-        if (!pg_scene_given (scene, "%s", path)) continue;
-        if (never) pg_scene_fault (scene, path, "has no effect: bonds of this material never break");
-        else if (!takes (type, limits[k]))
-            pg_scene_fault (scene, path, "has no effect with the criterion %s", type->name);
+    const pg_criterion_type *any;
+    for (size_t e = 0; (any = pg_criterion_entry (e)); e++) {
+        pg_key_tables lists[2] = { any->limits, any->options };
+        for (int l = 0; l < 2; l++)
+            for (pg_key_tables t = lists[l]; *t; t++)
+                if (!owned_before (e, *t)) tell_given (scene, type, *t, map, never);
     }
 }
 
@@ -116,6 +162,7 @@ void pg_criterion_check (const pg_scene *scene, const pg_criterion_type *type, s
         else if (pg_scene_given (scene, "%s", map) && !pg_scene_given (scene, "failure"))
             pg_scene_fault (scene, map, "has no effect without failure.criterion, which all materials share");
     }
-    for (size_t k = 0; type && k < PG_MOST_LIMITS && type->limit[k]; k++)
-        missing (scene, type, type->limit[k], n, setting);
+    char need[NEED];
+    for (size_t k = 0; type && need_of (type, k, need); k++)
+        if (*need) missing (scene, type, need, n, setting);
 }

@@ -48,13 +48,22 @@ static void describe (const pg_criterion *c, char *text, size_t size)
               c->parameter[LIMIT], c->parameter[FACTOR], c->parameter[ENERGY]);
 }
 
+static const pg_key limit_keys[] = {
+    { .path = "failure.wc_factor",
+      .kind = PG_NUMBER,
+      .unit = "1",
+      .range = "(0, inf)",
+      .fallback = "0.5",
+      .doc = "A point dies at the energy density wc_factor times fracture_energy / horizon." },
+};
+static const pg_key_table limits = { "criterion", limit_keys, 1 };
+
 const pg_criterion_type pg_criterion_node_energy = {
     .name = "node_energy",
     .summary =
         "stored energy of a point reaches a share of fracture energy over horizon: all its bonds break",
     .needs = PG_NEEDS_ENERGY,
-    .limit = { "fracture_energy" },
-    .option = "wc_factor",
+    .limits = { &criterion_keys_energy, &limits },
     .read = read,
     .utilisation = utilisation,
     .factor = factor,

@@ -113,12 +113,30 @@ static void describe (const pg_criterion *c, char *text, size_t size)
                                         : "derived: estimate of bond-based theory");
 }
 
+static const pg_key limit_keys[] = {
+    { .path = "failure.critical_stretch",
+      .kind = PG_NUMBER,
+      .unit = "1",
+      .range = "(0, inf)",
+      .fallback = "",
+      .group = "limit:most",
+      .doc = "Relative elongation at which a bond breaks; either this or fracture_energy." },
+};
+static const pg_key option_keys[] = {
+    { .path = "failure.stretch",
+      .kind = PG_NAME,
+      .fallback = "linear",
+      .choices = "linear|finite",
+      .doc = "Measured along the undeformed bond (small displacements), or from the deformed length." },
+};
+static const pg_key_table limits = { "criterion", limit_keys, 1 }, options = { "criterion", option_keys, 1 };
+
 const pg_criterion_type pg_criterion_stretch = {
     .name = "stretch",
     .summary = "elongation of the bond reaches the critical stretch",
     .needs = PG_NEEDS_STRETCH,
-    .limit = { EITHER },
-    .option = "stretch",
+    .limits = { &limits, &criterion_keys_energy },
+    .options = { &options },
     .read = read,
     .utilisation = utilisation,
     .factor = factor,

@@ -268,33 +268,43 @@ static pg_status finish_element (const reader *r)
                      r->element_line, r->element, r->have, r->type.nodes);
 }
 
+static pg_status begin_nset (reader *r)    { return begin_set (r, 1); }
+static pg_status begin_elset (reader *r)   { return begin_set (r, 0); }
+static pg_status begin_included (reader *r) { return begin_include (r, value_of (r, "INPUT")); }
+
+/* Only files of one part are read. */
+static pg_status begin_part (reader *r)
+{
+    if (++r->parts <= 1) return PG_OK;
+    return ABAQUS_WRONG (r, "a second *PART: only files of one part are read; merge the parts into one");
+}
+
+/* The keywords that say something about the mesh (blanks left out); all others are passed over. */
+static const struct { const char *keyword; pg_status (*begin) (reader *r); } keywords[] = {
+    { "NODE", begin_nodes }, { "ELEMENT", begin_elements }, { "NSET", begin_nset }, { "ELSET", begin_elset },
+    { "SURFACE", begin_surface }, { "INCLUDE", begin_included }, { "INSTANCE", begin_instance },
+    { "SOLIDSECTION", begin_section }, { "SHELLSECTION", begin_section },
+    { "MEMBRANESECTION", begin_section }, { "PART", begin_part },
+};
+
+/* A line *KEYWORD, PARAMETER=VALUE...: what its data lines fill, until the next one. */
 static pg_status begin (reader *r)
 {
+    enum { KEYWORDS = sizeof keywords / sizeof *keywords };
     pg_status status = finish_element (r);
+    size_t k = 0;
     if (status != PG_OK) return status;
     read_keyword (r);
-    const char *k = r->keyword;
     r->mode = ABAQUS_SKIP;
-    if (strcmp (k, "NODE") == 0) status = begin_nodes (r);
-    else if (strcmp (k, "ELEMENT") == 0) status = begin_elements (r);
-    else if (strcmp (k, "NSET") == 0) status = begin_set (r, 1);
-    else if (strcmp (k, "ELSET") == 0) status = begin_set (r, 0);
-    else if (strcmp (k, "SURFACE") == 0) status = begin_surface (r);
-    else if (strcmp (k, "INCLUDE") == 0) status = begin_include (r, value_of (r, "INPUT"));
-    else if (strcmp (k, "INSTANCE") == 0) status = begin_instance (r);
-    else if (strcmp (k, "SOLIDSECTION") == 0 || strcmp (k, "SHELLSECTION") == 0
-             || strcmp (k, "MEMBRANESECTION") == 0)
-        status = begin_section (r);
-    else if (strcmp (k, "PART") == 0 && ++r->parts > 1)
-        status = ABAQUS_WRONG (r,
-                               "a second *PART: only files of one part are read; merge the parts into one");
-    else if (generates (k))
-        status =
-            ABAQUS_WRONG (r,
-                          "*%s is not read: write out all nodes and elements (most programs do so on export)",
-                          k);
-    if (status == PG_OK && r->mode != ABAQUS_SKIP && strcmp (k, "INCLUDE") != 0 && value_of (r, "INPUT"))
-        status = begin_include (r, value_of (r, "INPUT"));
+    while (k < KEYWORDS && strcmp (r->keyword, keywords[k].keyword) != 0) k++;
+    if (k < KEYWORDS) status = keywords[k].begin (r);
+    else if (generates (r->keyword))
+        status = ABAQUS_WRONG (r, "*%s is not read: write out all nodes and elements (most programs do so on "
+                                  "export)", r->keyword);
+    /* the data lines may stand in a file of their own */
+    if (status == PG_OK && r->mode != ABAQUS_SKIP && strcmp (r->keyword, "INCLUDE") != 0
+        && value_of (r, "INPUT"))
+        status = begin_included (r);
     return status;
 }
 

@@ -77,14 +77,20 @@ void abaqus_node_order (pg_element kind, int order[PG_ELEMENT_NODES])
     if (kind == PG_BAR3) order[1] = 2, order[2] = 1;   /* along the line */
 }
 
-int abaqus_side (pg_element kind, int shell, const char *face)
+/* Side in the order of Exodus of face `number` (from 0) of a solid in that of Abaqus. */
+static int solid_side (pg_element kind, int number)
 {
     static const signed char tet[] = { 3, 0, 1, 2 }, wedge[] = { 3, 4, 0, 1, 2 },
                              hex[] = { 4, 5, 0, 1, 2, 3 };
-    int letter = toupper ((unsigned char) face[0]), number = face[0] ? face[1] - '1' : -1;
-    if (letter == 'S'
-        && (toupper ((unsigned char) face[1]) == 'P' || toupper ((unsigned char) face[1]) == 'N'))
-        return shell ? -2 : -1;
+    int corners = pg_element_types[kind].corners;
+    return corners == 4 ? tet[number] : corners == 6 ? wedge[number] : hex[number];
+}
+
+int abaqus_side (pg_element kind, int shell, const char *face)
+{
+    int letter = toupper ((unsigned char) face[0]), second = toupper ((unsigned char) (letter ? face[1] : 0));
+    int number = second - '1';
+    if (letter == 'S' && (second == 'P' || second == 'N')) return shell ? -2 : -1;     /* SPOS, SNEG */
     if (!letter || !strchr ("SPE", letter) || number < 0 || number > 5 || face[2]) return -1;
     if (shell && letter != 'E') {
         if (number < 2) return -2;
@@ -92,7 +98,5 @@ int abaqus_side (pg_element kind, int shell, const char *face)
     }
     if (number >= pg_element_types[kind].faces) return -1;
     if (pg_element_types[kind].dim < 3) return number;
-    return pg_element_types[kind].corners == 4   ? tet[number]
-           : pg_element_types[kind].corners == 6 ? wedge[number]
-                                                 : hex[number];
+    return solid_side (kind, number);
 }

@@ -62,6 +62,28 @@ static int slow_real (const char *first, const char *last, double *value)
     return end == text + n && isfinite (*value);
 }
 
+static int is_digit (char c) { return c >= '0' && c <= '9'; }
+
+/* The digits of a decimal number, with or without a point: their value as a whole number while it fits 2^53
+ * (`exact`), how many there are and how many stand behind the point. Returns the place behind them. */
+typedef struct { uint64_t sum; long count, behind_point; int exact; } digits;
+
+static const char *read_digits (const char *p, const char *last, digits *d)
+{
+    int point = 0;
+    *d = (digits) { .exact = 1 };
+    for (; p < last && (is_digit (*p) || (*p == '.' && !point)); p++) {
+        if (*p == '.') {
+            point = 1;
+            continue;
+        }
+        d->count++, d->behind_point += point;
+        if (d->sum < UINT64_C (900719925474099)) d->sum = 10 * d->sum + (uint64_t) (*p - '0');
+        else d->exact = 0;
+    }
+    return p;
+}
+
 /* Exact where the digits fit 2^53 and the power of ten is at most 22: one rounding (Clinger 1990). */
 int mesh_real (const char **at, const char *last, double *value)
 {
@@ -69,26 +91,21 @@ int mesh_real (const char **at, const char *last, double *value)
                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
     skip_blanks (at, last);
     const char *p = *at, *first = p;
-    uint64_t sum = 0;
-    long digits = 0, point = 0, exponent = 0;
-    int minus = p < last && *p == '-', exact = 1, dot = 0;
+    digits d;
+    long exponent = 0;
+    int minus = p < last && *p == '-';
     p += p < last && (*p == '-' || *p == '+');
-    for (; p < last && ((*p >= '0' && *p <= '9') || (*p == '.' && !dot)); p++) {
-        if (*p == '.') { dot = 1; continue; }
-        digits++, point += dot;
-        if (sum < UINT64_C (900719925474099)) sum = 10 * sum + (uint64_t) (*p - '0');
-        else exact = 0;
-    }
-    if (digits == 0) return 0;
-    if (p < last && (*p == 'e' || *p == 'E' || *p == 'd' || *p == 'D')) {
+    p = read_digits (p, last, &d);
+    if (d.count == 0) return 0;
+    if (p < last && strchr ("eEdD", *p) && *p) {
         const char *q = p + 1;
-        if (q < last && *q != ' ' && *q != '\t' && mesh_whole (&q, last, &exponent)) p = q;
-        else return 0;
+        if (q >= last || *q == ' ' || *q == '\t' || !mesh_whole (&q, last, &exponent)) return 0;
+        p = q;
     }
     *at = p;
-    exponent -= point;
-    if (!exact || exponent < -22 || exponent > 22) return slow_real (first, p, value);
-    *value = exponent < 0 ? (double) sum / power[-exponent] : (double) sum * power[exponent];
+    exponent -= d.behind_point;
+    if (!d.exact || exponent < -22 || exponent > 22) return slow_real (first, p, value);
+    *value = exponent < 0 ? (double) d.sum / power[-exponent] : (double) d.sum * power[exponent];
     if (minus) *value = -*value;
     return 1;
 }

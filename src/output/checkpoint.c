@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * checkpoint.nc: each name of a pg_keeper's walk is one variable of a CDF-5 file (doubles, 64-bit integers,
- * bytes); the last one, `checksum` over all names, types, lengths and values, tells a whole file from one
- * that was cut off or changed, before a value is used. A first walk defines, a second writes; reading is one
- * walk. */
+ * checkpoint.nc: what a run must remember in order to continue with the same bits. Each name
+ * that the keeper is given becomes one variable of a netCDF file in the CDF-5 variant of the
+ * classic format (doubles, 64-bit integers, bytes).
+ *
+ * The last variable, `checksum`, is a 64-bit FNV-1a hash over the names, types, lengths and
+ * values of all others. It is compared before any value is used, and tells a whole file from
+ * one that was cut off or changed. A checkpoint is trusted to restore the state of a run
+ * exactly; a wrong value would otherwise go unnoticed. */
 #include "disk.h"
 #include "exodus.h"
 #include "perigal/mesh_files.h"
@@ -11,24 +15,22 @@
 #include <stdio.h>
 #include <string.h>
 
+/* A checkpoint that is being written or read. open: the netCDF file is open; defining: this
+ * visit defines variables and writes nothing yet; sum: the hash so far. */
 typedef struct { const char *path; int ncid, open, defining, reading; uint64_t sum; } checkpoint;
 
-/* FNV-1a, http://www.isthe.com/chongo/tech/comp/fnv/: one changed byte always changes it. */
-static uint64_t sum_of (uint64_t sum, const void *data, size_t bytes)
-{
-    const unsigned char *byte = data;
-    for (size_t i = 0; i < bytes; i++) sum = (sum ^ byte[i]) * 1099511628211u;
-    return sum;
-}
-
+/* Bytes of one value. */
 static size_t size_of (nc_type type) { return type == NC_BYTE ? 1 : 8; }
 
+/* Adds name, length and type of a variable to the sum. */
 static void sum_head (checkpoint *c, const char *name, size_t n, nc_type type)
 {
     const uint64_t head[2] = { (uint64_t) n, (uint64_t) type };
-    c->sum = sum_of (sum_of (c->sum, name, strlen (name) + 1), head, sizeof head);
+    c->sum = pg_fingerprint (pg_fingerprint (c->sum, name, strlen (name) + 1), head, sizeof head);
 }
 
+/* Defines a variable. Variables of equal length share one dimension, named after the length.
+ * PG_E_USAGE: the same name twice. */
 static pg_status define (checkpoint *c, const char *name, size_t n, nc_type type)
 {
     pg_status status = PG_OK;
@@ -43,7 +45,7 @@ done:
     return status;
 }
 
-/* Variable of a name; its length and type must be those of the walk. */
+/* Finds the variable of a name; PG_E_FILE if its length or type is not the expected one. */
 static pg_status find (const checkpoint *c, const char *name, size_t n, nc_type type, int *var)
 {
     pg_status status = PG_OK;
@@ -58,6 +60,8 @@ done:
     return status;
 }
 
+/* One piece of the checkpoint: defines it, writes it or reads it, depending on the visit.
+ * Empty arrays are left out, because a dimension of length 0 would mean "unlimited" to netCDF. */
 static pg_status keep (checkpoint *c, const char *name, size_t n, nc_type type, void *value)
 {
     pg_status status = PG_OK;
@@ -71,11 +75,12 @@ static pg_status keep (checkpoint *c, const char *name, size_t n, nc_type type, 
     NC_TRY (c->path, c->reading ? nc_get_var (c->ncid, var, value) : nc_put_var (c->ncid, var, value));
     if (c->reading) goto done;
     sum_head (c, name, n, type);
-    c->sum = sum_of (c->sum, value, n * size_of (type));
+    c->sum = pg_fingerprint (c->sum, value, n * size_of (type));
 done:
     return status;
 }
 
+/* The three functions that a keeper offers, for doubles, counts and bytes. */
 _Static_assert (sizeof (long) == sizeof (int64_t), "counts are kept as 64-bit integers");
 static pg_status keep_numbers (void *c, const char *name, size_t n, double *value)
 {
@@ -90,7 +95,7 @@ static pg_status keep_bytes (void *c, const char *name, size_t n, void *value)
     return keep (c, name, n, NC_BYTE, value);
 }
 
-/* The same sum from the file, piece by piece. */
+/* Adds a variable of the file to the sum, read in pieces of 64 KiB. */
 static pg_status sum_variable (checkpoint *c, int var)
 {
     pg_status status = PG_OK;
@@ -108,12 +113,13 @@ static pg_status sum_variable (checkpoint *c, int var)
     for (size_t from = 0; from < n; from += PIECE) {
         size_t count = n - from < PIECE ? n - from : PIECE;
         NC_TRY (c->path, nc_get_vara (c->ncid, var, &from, &count, part));
-        c->sum = sum_of (c->sum, part, count * size_of (type));
+        c->sum = pg_fingerprint (c->sum, part, count * size_of (type));
     }
 done:
     return status;
 }
 
+/* PG_E_FILE unless the last variable is the checksum of all those before it. */
 static pg_status check_sum (checkpoint *c)
 {
     pg_status status = PG_OK;
@@ -133,11 +139,13 @@ done:
     return status;
 }
 
+/* One visit of everything, which starts the sum anew; when reading the checksum is compared
+ * first. */
 static pg_status make_walk (checkpoint *c, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
     pg_keeper keeper = { c, c->reading, keep_numbers, keep_counts, keep_bytes };
-    c->sum = 14695981039346656037u;
+    c->sum = PG_FINGERPRINT;
     if (c->reading) PG_TRY (check_sum (c));
     PG_TRY (walk (context, &keeper));
     long sum = (long) c->sum;
@@ -146,6 +154,9 @@ done:
     return status;
 }
 
+/* Writes the whole file and syncs it. It is created by our own function first, whose message
+ * says why that fails; nc__create then truncates it. 1 MiB of buffer keeps the number of
+ * system calls small. */
 static pg_status write_file (checkpoint *c, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
@@ -170,6 +181,8 @@ done:
     return status;
 }
 
+/* Syncs the folder of a path, so that the new name of the file is on the disk too. work:
+ * strlen (path) + 1 bytes. */
 static pg_status sync_folder_of (const char *path, char *work)
 {
     const char *slash = strrchr (path, '/');
@@ -179,6 +192,8 @@ static pg_status sync_folder_of (const char *path, char *work)
     return pg_disk_sync (work);
 }
 
+/* A run that is killed here leaves PATH.new at worst; the checkpoint before it stays valid.
+ * Syncing the folder makes sure that the rename itself survives a power failure. */
 pg_status pg_checkpoint_write (const char *path, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
@@ -199,6 +214,8 @@ done:
     return status;
 }
 
+/* The header is checked before netCDF opens the file, then the checksum, and only then are
+ * values handed out. */
 pg_status pg_checkpoint_read (const char *path, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;

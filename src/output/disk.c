@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Bytes to the disk: written whole or refused with the system's reason, and what was there before stays as it
- * was. */
+ * Bytes to the disk by the system's own calls: everything is written, or the call is refused
+ * with the reason that the system gives. The buffered functions of C would report a full disk
+ * only later, at fclose. */
 #include "disk.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -9,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* pwrite may write less than asked for, for example on a disk that fills up; the loop asks
+ * again for the rest and then gets the reason. EINTR is no failure. */
 pg_status pg_disk_write (const char *path, int file, const void *data, size_t bytes, long offset)
 {
     pg_status status = PG_OK;
@@ -30,6 +33,9 @@ pg_status pg_disk_cut (const char *path, int file, long bytes)
                                         : pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
 }
 
+/* A character device (/dev/full in tests, /dev/null) is written to as it is, since it holds
+ * nothing that could be lost. Other special files and folders are refused. O_EXCL makes sure
+ * that nobody has put something into the place in between. */
 pg_status pg_disk_create (const char *path, int *file)
 {
     pg_status status = PG_OK;
@@ -50,6 +56,7 @@ done:
     return status;
 }
 
+/* The same for callers that use the buffered functions of C (cairo, JSON). */
 pg_status pg_file_create (FILE **out, const char *path)
 {
     int file;
@@ -62,6 +69,7 @@ pg_status pg_file_create (FILE **out, const char *path)
     return pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
 }
 
+/* Syncing a folder is not supported everywhere; EINVAL and ENOTSUP therefore count as success. */
 pg_status pg_disk_sync (const char *path)
 {
     int file = open (path, O_RDONLY);
@@ -72,6 +80,7 @@ pg_status pg_disk_sync (const char *path)
     return bad ? pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (reason)) : PG_OK;
 }
 
+/* Goes through the path and makes every folder on the way. */
 pg_status pg_folder_make (const char *path)
 {
     pg_status status = PG_OK;

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Bytes to the disk: all of them or PG_E_FILE with path and reason. */
+ * Bytes to the disk: all of them, or PG_E_FILE with the path and the reason. `file` is a file
+ * descriptor; `path` only serves the message. */
 #ifndef PERIGAL_OUTPUT_DISK_H
 #define PERIGAL_OUTPUT_DISK_H
 #include "perigal/output.h"
 
+/* Writes `bytes` bytes at that offset, in as many system calls as it takes. */
 pg_status pg_disk_write (const char *path, int file, const void *data, size_t bytes, long offset);
+/* Shortens a file to that many bytes. */
 pg_status pg_disk_cut   (const char *path, int file, long bytes);
-/* A file made anew, to write: a file or a symbolic link in its place is removed, so that nothing is written
- * through a link. */
+/* Creates a file to be read and written. A regular file or a symbolic link in its place is
+ * removed first, so that nothing is written through a link. */
 pg_status pg_disk_create (const char *path, int *file);
-pg_status pg_disk_sync  (const char *path);               /* of a file or folder, opened by its name */
+/* Waits until a file or a folder, named by its path, is on the disk. */
+pg_status pg_disk_sync  (const char *path);
 #endif

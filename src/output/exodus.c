@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Writes result.e so that it can be read after a kill and on a full disk, at any instant. The header comes
- * from exodus_layout.c under another name and is moved to its place whole; steps are records behind it, by
- * the published layout of classic netCDF: one value of time_whole, then n values for each vals_nod_var<k>,
- * most significant byte first. The values are written first, time_whole next, and the number of records, 4 or
- * 8 bytes from byte 4 on, last. A step that cannot be written whole is cut off again. */
+ * Writes result.e so that it can be read at any instant: while the run goes on, after it was
+ * killed, and after the disk was full. netCDF itself does not promise this, therefore steps
+ * are written directly.
+ *
+ * exodus_layout.c writes the header, the points and the variables without steps by the netCDF
+ * library under another name, and the file is moved to its place when it is whole. A step is
+ * one record behind that, by the published layout of the classic format: one value of
+ * time_whole, then n values for each vals_nod_var<k>, each the most significant byte first.
+ * The values are written first, time_whole next, and last the number of records, 4 or 8 bytes
+ * from byte 4 of the file on; readers see the step only then. A step that cannot be written
+ * whole is cut off again. */
 #include "disk.h"
 #include "exodus.h"
 #include "perigal/mesh_files.h"
@@ -15,16 +21,26 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* A file that is open for appending. */
 struct pg_exodus {
-    int     file, dim, wide;                           /* wide: CDF-5 */
-    long    begin, record;                             /* first byte of the steps; bytes of one */
-    size_t  n, step, nfield, nvar;                     /* nfield: of the caller; one more when `extra` */
-    int     extra;  /* volume is not a field of the caller: written as one more */
+    /* File descriptor; dimension of the points; wide: 1 for CDF-5, whose counts have 8 bytes,
+     * 0 for 64-bit offsets with 4. */
+    int     file, dim, wide;
+    /* First byte of the steps and bytes of one step. */
+    long    begin, record;
+    /* Points, steps written, fields of the caller, components of all fields. */
+    size_t  n, step, nfield, nvar;
+    /* 1: volume is not among the caller's fields and is written as one more. */
+    int     extra;
     char   *path;
-    pg_field_view *field;                              /* nfield + 1; values only of the extra one */
-    double *volume, *buffer;                           /* n */
+    /* The fields as they were requested (nfield + 1); only the extra one has values. */
+    pg_field_view *field;
+    /* Volumes of the points, and scratch space for one component (n each). */
+    double *volume, *buffer;
 };
 
+/* PG_E_USAGE: no points or more than a 32-bit count holds, a bad dimension, fields without a
+ * name or with a bad number of components, or two of one name. */
 static pg_status check_request (const char *path, const pg_cloud *cloud, size_t nfield,
                                 const pg_field_view *fields)
 {
@@ -43,6 +59,7 @@ done:
     return status;
 }
 
+/* Copies what later steps are checked against and computes the size of a record. */
 static pg_status copy_request (pg_exodus *f, const char *path, const pg_cloud *cloud, size_t nfield,
                                const pg_field_view *fields)
 {
@@ -70,7 +87,8 @@ done:
     return status;
 }
 
-/* Opens the file and looks whether its beginning is that of a classic netCDF file of the kind we write. */
+/* Opens the file and checks that it begins as a classic netCDF file of the two kinds that we
+ * write. O_NOFOLLOW: symbolic links are refused. */
 static pg_status open_file (pg_exodus *f, long *bytes)
 {
     pg_status status = PG_OK;
@@ -87,7 +105,8 @@ done:
     return status;
 }
 
-/* The header appears whole or not at all. */
+/* Writes the header under PATH.new and renames it, so that PATH appears whole or not at all.
+ * The steps begin at the end of this file. */
 static pg_status create_file (pg_exodus *f, const pg_cloud *cloud, const char *title)
 {
     pg_status status = PG_OK;
@@ -124,6 +143,7 @@ done:
     return status;
 }
 
+/* Writes the number of steps into the header, the most significant byte first. */
 static pg_status count_records (pg_exodus *f, size_t count)
 {
     unsigned char bytes[8];
@@ -132,7 +152,7 @@ static pg_status count_records (pg_exodus *f, size_t count)
     return pg_disk_write (f->path, f->file, bytes, m, 4);
 }
 
-/* Points and components must be those the file was made for. */
+/* PG_E_FILE unless the file was made for the same number of points and components. */
 static pg_status check_sizes (const pg_exodus *f)
 {
     pg_status status = PG_OK;
@@ -151,6 +171,8 @@ done:
     return status;
 }
 
+/* The steps begin where `steps` records before byte `bytes` end up; the third condition
+ * demands that this leaves at least one byte for the header. */
 pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *cloud, size_t nfield,
                           const pg_field_view *fields, long steps, long bytes)
 {
@@ -185,6 +207,7 @@ void pg_exodus_size (const pg_exodus *f, long *steps, long *bytes)
     *bytes = f->begin + (long) f->step * f->record;
 }
 
+/* Turns n doubles into the byte order of the file. */
 static void most_significant_first (double *value, size_t n)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -199,6 +222,8 @@ static void most_significant_first (double *value, size_t n)
 #endif
 }
 
+/* Writes the components of one field one behind the other from byte *at on, and moves *at
+ * behind them. */
 static pg_status write_view (pg_exodus *f, const pg_field_view *view, long *at)
 {
     pg_status status = PG_OK;
@@ -212,6 +237,7 @@ done:
     return status;
 }
 
+/* Writes one step in the order that keeps the file readable: values, time, count. */
 static pg_status write_record (pg_exodus *f, double time, const pg_field_view *fields)
 {
     pg_status status = PG_OK;
@@ -225,6 +251,8 @@ done:
     return status;
 }
 
+/* If cutting off a failed step fails as well, its bytes stay behind the counted records, where
+ * readers ignore them and the next step overwrites them. */
 pg_status pg_exodus_write (pg_exodus *f, double time, const pg_field_view *fields)
 {
     pg_status status = PG_OK;

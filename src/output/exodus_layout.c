@@ -1,25 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The header of result.e: Exodus II in classic netCDF, 64-bit offsets (CDF-5 where a variable passes 4 GiB).
- * Every point is a node and a SPHERE element; vals_nod_var<k> (time_step x num_nodes) is one component of one
- * field. Beyond Exodus, read back by exodus_read.c: attributes `field` and `units` of each variable,
- * `point_volume`, and global attributes with spacing, lattice step, thickness, box. */
+ * The header of result.e: Exodus II in classic netCDF with 64-bit offsets, or CDF-5 if a
+ * variable exceeds 4 GiB. Every point is a node and also an element of type SPHERE, which
+ * ParaView and VisIt can draw; vals_nod_var<k> (time_step x num_nodes) is one component of one
+ * field.
+ *
+ * Beyond Exodus the file has what exodus_read.c needs to restore the points: attributes
+ * `field` and `units` of each variable, the variable `point_volume`, and global attributes for
+ * spacing, lattice step, thickness and box. */
 #include "exodus.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Longest name in the file. */
 enum { NAME = 64 };
+/* A header that is being written. */
 typedef struct {
     const exodus_layout *l;
     int     ncid, open, dim;
     size_t  n, nblock;
-    int    *block;                                     /* values of cloud->block, ascending */
-    double *work;                                      /* n */
-    int    *node;                                      /* n */
+    /* The different values of cloud->block, ascending (nblock). */
+    int    *block;
+    /* Scratch space (n). */
+    double *work;
+    /* Scratch space (n). */
+    int    *node;
 } writer;
 
-/* "_x", "_xy", "_7": what Exodus readers group into vectors and tensors (Voigt order). */
+/* The suffix of component k: "_x", "_xy", "_7". Exodus readers group names with these suffixes
+ * into vectors and into symmetric tensors in Voigt order. */
 static void part_suffix (int dim, int components, int k, char *text, size_t size)
 {
     static const char *const axis[] = { "x", "y", "z" }, *const plane[] = { "xx", "yy", "xy" };
@@ -31,16 +41,19 @@ static void part_suffix (int dim, int components, int k, char *text, size_t size
     else snprintf (text, size, "_%d", k + 1);
 }
 
+/* Writes a text attribute; returns the code of netCDF. */
 static int put_text (int ncid, int var, const char *name, const char *text)
 {
     return nc_put_att_text (ncid, var, name, strlen (text), text);
 }
 
+/* Writes a global attribute of n doubles; returns the code of netCDF. */
 static int put_numbers (int ncid, const char *name, size_t n, const double *value)
 {
     return nc_put_att_double (ncid, NC_GLOBAL, name, NC_DOUBLE, n, value);
 }
 
+/* Global attributes: those that Exodus demands, then ours. */
 static pg_status define_globals (writer *w)
 {
     pg_status status = PG_OK;
@@ -65,6 +78,7 @@ done:
     return status;
 }
 
+/* Defines an array of names. */
 static pg_status define_names (writer *w, const char *variable, int row_dim, int name_dim)
 {
     pg_status status = PG_OK;
@@ -74,6 +88,7 @@ done:
     return status;
 }
 
+/* Coordinates, names of the axes, volumes. */
 static pg_status define_points (writer *w, int nodes, int name_dim)
 {
     pg_status status = PG_OK;
@@ -89,12 +104,13 @@ done:
     return status;
 }
 
+/* 1 if point i belongs to the block k. */
 static int belongs (const writer *w, size_t i, size_t k)
 {
     return !w->l->cloud->block || w->l->cloud->block[i] == w->block[k];
 }
 
-/* One block of spheres: connect<k> (elements x 1) lists the nodes, counted from 1. */
+/* One block of spheres: connect<k> (elements x 1) lists its nodes, counted from 1. */
 static pg_status define_block (writer *w, size_t k)
 {
     pg_status status = PG_OK;
@@ -113,6 +129,7 @@ done:
     return status;
 }
 
+/* The blocks with their numbers and names. */
 static pg_status define_blocks (writer *w, int name_dim)
 {
     pg_status status = PG_OK;
@@ -127,7 +144,8 @@ done:
     return status;
 }
 
-/* The records: their order in a record is that of their definition, on which exodus.c relies. */
+/* The variables of a step. Their order in a record is the order of their definition, on which
+ * exodus.c relies. */
 static pg_status define_fields (writer *w, int steps, int nodes, int name_dim)
 {
     pg_status status = PG_OK;
@@ -148,6 +166,7 @@ done:
     return status;
 }
 
+/* All dimensions and variables. The lengths 33, 81 and 4 are those of the Exodus standard. */
 static pg_status define_all (writer *w)
 {
     pg_status status = PG_OK;
@@ -170,6 +189,7 @@ done:
 }
 
 /* ---- values that stay ---------------------------------------------------------------------------------- */
+/* Writes a whole variable of doubles. */
 static pg_status put_doubles (writer *w, const char *variable, const double *value)
 {
     pg_status status = PG_OK;
@@ -180,6 +200,7 @@ done:
     return status;
 }
 
+/* Writes a whole variable of ints. */
 static pg_status put_ints (writer *w, const char *variable, const int *value)
 {
     pg_status status = PG_OK;
@@ -190,7 +211,7 @@ done:
     return status;
 }
 
-/* One row of a char array, padded with zeros. */
+/* Writes one row of an array of names, padded with zeros. */
 static pg_status put_name (writer *w, const char *variable, size_t row, const char *name)
 {
     pg_status status = PG_OK;
@@ -204,6 +225,7 @@ done:
     return status;
 }
 
+/* Writes coordinates, names of the axes and volumes. */
 static pg_status put_points (writer *w)
 {
     pg_status status = PG_OK;
@@ -218,7 +240,7 @@ done:
     return status;
 }
 
-/* Blocks are numbered from 1 in Exodus: eb_prop1 = cloud->block + 1. */
+/* Writes the blocks. Exodus counts them from 1: eb_prop1 = cloud->block + 1. */
 static pg_status put_blocks (writer *w)
 {
     pg_status status = PG_OK;
@@ -239,6 +261,7 @@ done:
     return status;
 }
 
+/* Writes the names of all components of all fields. */
 static pg_status put_field_names (writer *w)
 {
     pg_status status = PG_OK;
@@ -255,12 +278,14 @@ done:
 }
 
 /* ---- the file ------------------------------------------------------------------------------------------ */
+/* Order of ints for qsort. */
 static int ascending (const void *a, const void *b)
 {
     int p = *(const int *) a, q = *(const int *) b;
     return (p > q) - (p < q);
 }
 
+/* Finds the different block numbers of the points; one block if there are none. */
 static pg_status find_blocks (writer *w)
 {
     pg_status status = PG_OK;
@@ -277,7 +302,9 @@ done:
     return status;
 }
 
-/* A variable of a 64-bit-offset file may have 2^32 - 4 bytes (in a step), of a CDF-5 file any number. */
+/* Creates the file. A variable may have 2^32 - 4 bytes per step with 64-bit offsets, and any
+ * number in CDF-5. The file is created by our own function first, because netCDF does not
+ * always pass on the system's reason. */
 static pg_status open_file (writer *w)
 {
     pg_status status = PG_OK;
@@ -294,6 +321,8 @@ done:
     return status;
 }
 
+/* Without fill values (NC_NOFILL) netCDF writes each byte once; every variable is therefore
+ * written whole. */
 pg_status pg_exodus_layout_write (const exodus_layout *layout)
 {
     pg_status status = PG_OK;

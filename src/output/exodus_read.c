@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Reads result.e back: points and volumes, and fields whose components are grouped by the attribute `field`
- * of vals_nod_var<k> (files of other programs, without it: every variable is a field of one component). */
+ * Reads result.e back: points with volumes and blocks, and fields, whose components are
+ * grouped by the attribute `field` of vals_nod_var<k>. Files of other programs do not have
+ * that attribute; there every variable is a field with one component.
+ *
+ * Headers are checked by pg_netcdf_check_header before netCDF sees them, because netCDF trusts
+ * the counts in them and would allocate gigabytes for a few damaged bytes. Each function opens
+ * and closes the file: they are called a few times per run of a program, and no state is left
+ * between calls. */
 #include "exodus.h"
 #include "perigal/mesh_files.h"
 #include <stdio.h>
@@ -8,7 +14,9 @@
 
 enum { NAME = 32 };
 
+/* One component of a field: name of the field, its unit, the netCDF variable. */
 typedef struct { char base[NAME], unit[16]; int var; } part;      /* one component of a field */
+/* A file that is open for reading, with all its components. */
 typedef struct {
     const char *path;
     int     ncid, open;
@@ -25,6 +33,7 @@ static size_t length_of (int ncid, const char *name)
     return n;
 }
 
+/* Reads a text attribute; 0 if there is none or it does not fit. */
 static int text_attribute (int ncid, int var, const char *name, char *text, size_t size)
 {
     size_t n;
@@ -35,6 +44,8 @@ static int text_attribute (int ncid, int var, const char *name, char *text, size
     return 1;
 }
 
+/* Reads name and unit of component k; row is scratch space of width + 1 bytes. Names of other
+ * programs are padded with blanks. */
 static pg_status read_part (reader *r, size_t k, size_t width, char *row)
 {
     pg_status status = PG_OK;
@@ -54,6 +65,7 @@ done:
     return status;
 }
 
+/* May be called for a file that never opened. */
 static void reader_close (reader *r)
 {
     if (r->open) nc_close (r->ncid);
@@ -61,6 +73,8 @@ static void reader_close (reader *r)
     *r = (reader) { 0 };
 }
 
+/* Opens a file and lists its components. PG_E_FILE: not a netCDF file, damaged, or without
+ * nodes. */
 static pg_status reader_open (reader *r, const char *path)
 {
     pg_status status = PG_OK;
@@ -84,13 +98,14 @@ done:
     return status;
 }
 
+/* 1 if component k is the first one of its field. */
 static int is_first (const reader *r, size_t k)
 {
     for (size_t j = 0; j < k; j++) if (strcmp (r->part[j].base, r->part[k].base) == 0) return 0;
     return 1;
 }
 
-/* "a|b|c" of the fields present, cut where the room ends. */
+/* The names of the fields as "a|b|c", as many as fit. */
 static void list_fields (const reader *r, char *text, size_t size)
 {
     size_t used = 0;
@@ -100,7 +115,8 @@ static void list_fields (const reader *r, char *text, size_t size)
             used += (size_t) snprintf (text + used, size - used, "%s%s", used ? "|" : "", r->part[k].base);
 }
 
-/* Index of the first part of a field and the number of its components. */
+/* Index of the first component of a field and the number of its components; PG_E_USAGE names
+ * the fields that there are. */
 static pg_status find_field (const reader *r, const char *field, size_t *first, int *components)
 {
     pg_status status = PG_OK;
@@ -117,6 +133,8 @@ done:
     return status;
 }
 
+/* The file has one variable per component; the caller gets the components of a point side by
+ * side. */
 pg_status pg_exodus_read (const char *path, const char *field, int step, size_t *n, int *components,
                           double **value)
 {
@@ -151,6 +169,7 @@ done:
     return status;
 }
 
+/* Each field is listed once, at its first component. */
 pg_status pg_exodus_fields (const char *path, char (**names)[32], size_t *n)
 {
     pg_status status = PG_OK;
@@ -181,7 +200,7 @@ done:
     return status;
 }
 
-/* Global attribute of m numbers; kept as it is when absent. */
+/* Reads a global attribute of m numbers; leaves the value as it is if there is none. */
 static void numbers (int ncid, const char *name, size_t m, double *value)
 {
     size_t n;
@@ -189,6 +208,8 @@ static void numbers (int ncid, const char *name, size_t m, double *value)
         nc_get_att_double (ncid, NC_GLOBAL, name, value);
 }
 
+/* Reads coordinates, the box, steps, spacing, thickness and volumes. Without a box in the file
+ * it is that of the points. */
 static pg_status read_places (const reader *r, pg_cloud *cloud, double *work)
 {
     pg_status status = PG_OK;
@@ -216,6 +237,7 @@ done:
     return status;
 }
 
+/* Reads which block each point belongs to; PG_E_FILE for blocks of other elements than points. */
 static pg_status read_blocks (const reader *r, pg_cloud *cloud)
 {
     pg_status status = PG_OK;
@@ -248,6 +270,8 @@ done:
     return status;
 }
 
+/* The thickness of files of other programs is 1 m, that of plane models that do not say
+ * otherwise. After a failure the cloud is empty. */
 pg_status pg_exodus_points (const char *path, pg_cloud *cloud, size_t *nstep, double **time)
 {
     pg_status status = PG_OK;

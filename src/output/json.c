@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * JSON (RFC 8259), two blanks a level, keys in the order of the calls. Faults are remembered and reported by
- * pg_json_close, which moves PATH.tmp to PATH only when all is well. The outer braces may be opened by the
- * caller or are opened by the first key. */
+ * Writes JSON (RFC 8259) with two blanks per level and the keys in the order of the calls.
+ * Faults are remembered and reported once, by pg_json_close, so that callers need not test
+ * every line; only a text without fault is moved from PATH.tmp to PATH. The outermost braces
+ * may be opened by the caller; otherwise the first key opens them. */
 #include "perigal/output.h"
 #include <errno.h>
 #include <math.h>
@@ -10,17 +11,21 @@
 #include <string.h>
 #include <unistd.h>
 
+/* Largest number of levels. */
 enum { DEPTH = 32 };
 
+/* A JSON text that is being written. misuse: a call did not fit; bracket: of the open levels. */
 struct pg_json {
     FILE *file;
     char *path, *temporary;
     int   depth, misuse;
     char  bracket[DEPTH];
-    int   count[DEPTH + 1];                            /* members written so far on each level */
+    /* Members written so far on each level. */
+    int   count[DEPTH + 1];
 };
 
-/* Bytes of the valid UTF-8 sequence at p, 0 when it is none. */
+/* Bytes of the valid UTF-8 sequence at p; 0 if it is none (overlong forms, surrogates and
+ * values above U+10FFFF included). */
 static int sequence (const unsigned char *p)
 {
     int n = p[0] < 0x80                   ? 1
@@ -35,6 +40,7 @@ static int sequence (const unsigned char *p)
     return n;
 }
 
+/* Writes a text in quotes with the escapes that JSON demands; invalid UTF-8 becomes U+FFFD. */
 static void put_string (FILE *file, const char *text)
 {
     fputc ('"', file);
@@ -51,7 +57,8 @@ static void put_string (FILE *file, const char *text)
     fputc ('"', file);
 }
 
-/* Comma, new line and key in front of a value; 0 when nothing may follow here. */
+/* Writes what comes before a value: comma, new line, key. Returns 0 if no value may stand
+ * here. */
 static int begin (pg_json *j, const char *key)
 {
     if (!j) return 0;
@@ -70,6 +77,7 @@ static int begin (pg_json *j, const char *key)
     return 1;
 }
 
+/* Nothing is visible under PATH before pg_json_close has succeeded. */
 pg_status pg_json_create (pg_json **out, const char *path)
 {
     pg_status status = PG_OK;
@@ -89,6 +97,7 @@ done:
     return status;
 }
 
+/* Levels are counted from 1; bracket[depth - 1] is the innermost one. */
 void pg_json_open (pg_json *j, const char *key, char bracket)
 {
     if (!begin (j, key)) return;
@@ -101,6 +110,7 @@ void pg_json_open (pg_json *j, const char *key, char bracket)
     j->count[j->depth] = 0;
 }
 
+/* An empty list or object stays on one line. */
 void pg_json_shut (pg_json *j)
 {
     if (!j || j->misuse) return;
@@ -113,7 +123,7 @@ void pg_json_shut (pg_json *j)
     fputc (j->bracket[j->depth] == '{' ? '}' : ']', j->file);
 }
 
-/* As few digits as give the same double back. */
+/* 15 digits are enough for most doubles; 17 always give the same double back. */
 void pg_json_number (pg_json *j, const char *key, double value)
 {
     char text[40];
@@ -141,6 +151,8 @@ void pg_json_text (pg_json *j, const char *key, const char *value)
     else fputs ("null", j->file);
 }
 
+/* The text is synced to the disk before the rename: otherwise a crash of the system could
+ * leave an empty file under the final name. */
 pg_status pg_json_close (pg_json **json)
 {
     pg_status status = PG_OK;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Tables as CSV (RFC 4180): a row goes to the file in one write, whole, or the file stays as it was. */
+ * Tables as CSV (RFC 4180). A row is collected in memory and goes to the file in one write; if
+ * that fails half-way, the file is cut back to the rows before, so that it always ends with a
+ * whole row. */
 #include "disk.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -7,15 +9,19 @@
 #include <string.h>
 #include <unistd.h>
 
+/* A table that is open for appending. */
 struct pg_table {
     int    file;
     char  *path;
     size_t n;
-    long   rows, bytes;                                /* without the header; of the whole rows */
-    char  *text;                                       /* the row at hand */
+    /* Rows without the header, and the bytes of all whole rows. */
+    long   rows, bytes;
+    /* The row that is being collected. */
+    char  *text;
     size_t length, cap;
 };
 
+/* Appends text to the current row. */
 static pg_status append (pg_table *t, const char *text, size_t length)
 {
     pg_status status = PG_OK;
@@ -26,6 +32,7 @@ done:
     return status;
 }
 
+/* Appends a cell, in quotes (and quotes doubled) if it contains commas, quotes or line ends. */
 static pg_status append_cell (pg_table *t, const char *text)
 {
     pg_status status = PG_OK;
@@ -41,6 +48,7 @@ done:
     return status;
 }
 
+/* Writes the row; if not all of it can be written, the file is shortened to what it was. */
 static pg_status end_row (pg_table *t)
 {
     pg_status status = PG_OK;
@@ -61,7 +69,7 @@ done:
     return status;
 }
 
-/* fresh: made anew, else the one that is there. */
+/* Opens the file, created if `fresh`, else an existing one that is no symbolic link. */
 static pg_status prepare (pg_table **out, const char *path, int fresh)
 {
     pg_status status = PG_OK;
@@ -80,6 +88,7 @@ done:
     return status;
 }
 
+/* The header is written like a row of texts but does not count as one. */
 pg_status pg_table_create (pg_table **out, const char *path, size_t n, const char *const *columns)
 {
     pg_status status = PG_OK;
@@ -95,7 +104,8 @@ done:
     return status;
 }
 
-/* Moves behind the header and `rows` rows: line ends within quotes do not count. */
+/* Moves behind the header and `rows` rows; line ends within quotes do not count. PG_E_FILE if
+ * there are fewer. */
 static pg_status skip_rows (pg_table *t, long rows)
 {
     pg_status status = PG_OK;
@@ -115,6 +125,8 @@ done:
     return status;
 }
 
+/* The header of the existing file is not compared with the columns; resume.c makes sure that
+ * it belongs to the same run. */
 pg_status pg_table_open (pg_table **out, const char *path, size_t n, long rows)
 {
     pg_status status = PG_OK;
@@ -133,6 +145,8 @@ done:
 
 long pg_table_rows (const pg_table *t) { return t->rows; }
 
+/* value == value is false for NaN only. Infinities are written as inf, which readers of CSV
+ * understand. */
 pg_status pg_table_row (pg_table *t, const double *values)
 {
     pg_status status = PG_OK;

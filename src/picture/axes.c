@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Axes: round ticks (1, 2, 5 x 10^k or powers of ten), texts without noise digits, and a factor or SI prefix
- * taken to the label. */
+ * Axes of charts, fields and colour bars. Ticks are round numbers (1, 2 or 5 times a power of ten, or
+ * powers of ten alone on a logarithmic axis), as many as their texts leave room for; texts carry no digits
+ * that are only rounding noise; a common power of ten is moved into the label, as an SI prefix where the
+ * unit takes one ("stress (MPa)") and as a factor elsewhere. */
 #include "picture_private.h"
 #include <math.h>
 #include <string.h>
@@ -8,6 +10,8 @@
 #define MINUS "\xe2\x88\x92"
 #define TIMES "\xc3\x97"
 
+/* Opens a range that is empty but for rounding noise: by a tenth of the value to both sides, or from 0 to
+ * 1 around zero. */
 void pg_range_widen (double *low, double *high)
 {
     double size = fmax (fabs (*low), fabs (*high));
@@ -17,6 +21,8 @@ void pg_range_widen (double *low, double *high)
     else *low = middle - 0.1 * size, *high = middle + 0.1 * size;
 }
 
+/* Cuts a range of positive values to its upper six decades, and widens one that is almost a single value
+ * to a decade. */
 void pg_range_decades (double *low, double *high)
 {
     if (!(*high > 0)) *high = 1;
@@ -37,7 +43,7 @@ int pg_range_of (size_t n, const double *value, int log, double *low, double *hi
     return found;
 }
 
-/* Writes a number with a proper minus. */
+/* Writes a number with a typographic minus, and none in front of a zero that only rounding made negative. */
 static void number (char *text, size_t size, double value, int decimals)
 {
     char plain[64];
@@ -46,8 +52,9 @@ static void number (char *text, size_t size, double value, int decimals)
     snprintf (text, size, "%s%.32s", value < 0 && !zero ? MINUS : "", plain);
 }
 
-/* SI prefix for 10^power in front of the unit at the end of the label, "stress (Pa)"; NULL when the unit
- * takes none. */
+/* The SI prefix for 10^power before the unit in brackets at the end of a label, "stress (Pa)";
+ * *unit is then the index of the unit in the label. NULL if the unit takes none: unknown
+ * units, and multiples of m and s, since neither Mm nor ks is usual. */
 static const char *prefix_of (const char *label, int power, size_t *unit)
 {
     static const char *const si[] = { "Pa", "m", "N", "J", "W", "s" };
@@ -65,6 +72,7 @@ static const char *prefix_of (const char *label, int power, size_t *unit)
     return NULL;
 }
 
+/* The unit is the largest of s, ms, µs and ns in which four digits show at least 1. */
 void pg_picture_time (double t, char *out, size_t size)
 {
     static const char *const unit[] = { "s", "ms", "\xc2\xb5s", "ns" };
@@ -73,6 +81,8 @@ void pg_picture_time (double t, char *out, size_t size)
     snprintf (out, size, "%.4g %s", t * pow (1000, k), unit[k]);
 }
 
+/* A prefix in front of m2 or m3 would be squared or cubed with the unit, so that these keep none, and
+ * lengths end at km. */
 void pg_picture_quantity (double value, const char *unit, char *out, size_t size)
 {
     static const char *const prefix[] = { "n", "\xc2\xb5", "m", "", "k", "M", "G", "T" };
@@ -83,7 +93,9 @@ void pg_picture_quantity (double value, const char *unit, char *out, size_t size
     snprintf (out, size, "%.4g %s%s", value / pow (1000, k), prefix[k + 3], unit);
 }
 
-/* Chooses the power of ten that texts are divided by and writes it into the label. */
+/* Chooses the power of ten by which the texts are divided and writes it into the label: as an SI prefix of
+ * the unit, or as a factor in front of it; values from 0.001 to 100 000 stay as they are. Returns the
+ * power. */
 static int scale_label (pg_axis *a, double low, double high, const char *label, int plain)
 {
     double top = fmax (fabs (low), fabs (high));
@@ -106,7 +118,8 @@ static int scale_label (pg_axis *a, double low, double high, const char *label, 
     return power;
 }
 
-/* Smallest of 1, 2, 5 x 10^k that is not below raw, and the decimals it needs. */
+/* The smallest of 1, 2, 5 x 10^k that is not below raw, and the decimals that its multiples
+ * need. */
 static double round_step (double raw, int *decimals)
 {
     double k = floor (log10 (raw) + 1e-9), base = pow (10, k), f = raw / base;
@@ -116,13 +129,15 @@ static double round_step (double raw, int *decimals)
     return step * base;
 }
 
-/* Room a text takes along the axis. */
+/* Pixels that the text of tick k takes along the axis, with the gap that keeps it apart from its
+ * neighbours. */
 static double extent (const pg_axis *a, cairo_t *cr, int k)
 {
     return a->side == PG_BOTTOM ? pg_text (cr, a->text[k], PG_FONT, 0, 0, 0, 0, 0) + 1.2 * PG_FONT
                                 : 1.6 * PG_FONT;
 }
 
+/* Do neighbouring texts keep clear of each other on an axis of `length` pixels? */
 static int texts_fit (const pg_axis *a, cairo_t *cr, double length)
 {
     for (int k = 0; k + 1 < a->n; k++) {
@@ -132,6 +147,9 @@ static int texts_fit (const pg_axis *a, cairo_t *cr, double length)
     return 1;
 }
 
+/* Ticks for about `target` intervals; scale is the power of ten that the label carries. grow
+ * moves the ends outwards to ticks. Ticks are integer multiples of the step, so that rounding
+ * does not add up along the axis. */
 static void linear_ticks (pg_axis *a, double low, double high, int target, double scale, int grow)
 {
     int decimals;
@@ -148,6 +166,8 @@ static void linear_ticks (pg_axis *a, double low, double high, int target, doubl
     }
 }
 
+/* Takes fewer and fewer ticks until their texts fit: at most 10, and one every 105 pixels across or 72
+ * pixels upwards. */
 static void fit_linear (pg_axis *a, cairo_t *cr, double low, double high, double length,
                         const pg_axis_request *request)
 {
@@ -160,8 +180,8 @@ static void fit_linear (pg_axis *a, cairo_t *cr, double low, double high, double
     while (!texts_fit (a, cr, length) && --target > 0);
 }
 
-/* m x 10^k with m = 1, 2, 5: the exponent of the value's place in that row, e.g. 1 -> 0, 2 -> 1, 5 -> 2, 10
- * -> 3. */
+/* The value at that place of the row ... 0.5, 1, 2, 5, 10, 20, 50 ...; place 0 is 1, place 3
+ * is 10, place -1 is 0.5. */
 static double row_value (int place)
 {
     static const double m[] = { 1, 2, 5 };
@@ -169,7 +189,9 @@ static double row_value (int place)
     return m[place - 3 * k] * pow (10, k);
 }
 
-/* Less than two decades: ticks at 1, 2 and 5, the axis ends on the nearest of them. */
+/* A logarithmic axis over less than two decades: ticks at 1, 2 and 5 times powers of ten; the
+ * axis ends on the nearest of these outside the data. Beyond 10^3 and 10^-3 the texts have a
+ * power of ten. */
 static void short_log_ticks (pg_axis *a, double low, double high)
 {
     int first = 3 * (int) floor (log10 (low)) - 3, k;
@@ -188,7 +210,8 @@ static void short_log_ticks (pg_axis *a, double low, double high)
     }
 }
 
-/* Ticks at powers of ten; every second, third ... where the texts need it. */
+/* A logarithmic axis over more than two decades: ticks at powers of ten, at every second,
+ * third ... one if the texts need it. The axis is 3 % longer than the data at each end. */
 static void long_log_ticks (pg_axis *a, cairo_t *cr, double low, double high, double length)
 {
     double l = log10 (low), h = log10 (high), pad = 0.03 * (h - l);
@@ -204,6 +227,8 @@ static void long_log_ticks (pg_axis *a, cairo_t *cr, double low, double high, do
     } while (a->n > 2 && !texts_fit (a, cr, length) && ++stride);
 }
 
+/* Below two decades the axis gets ticks at 1, 2 and 5; above, at powers of ten, with unlabelled ticks at 2
+ * to 9 times each. */
 static void fit_log (pg_axis *a, cairo_t *cr, double low, double high, double length,
                      const pg_axis_request *request)
 {
@@ -226,6 +251,7 @@ void pg_axis_fit (pg_axis *a, cairo_t *cr, double low, double high, double lengt
     (request->log ? fit_log : fit_linear) (a, cr, low, high, length, request);
 }
 
+/* Place of a value along the axis, as a share of its length from the end at `low`. */
 double pg_axis_at (const pg_axis *a, double value)
 {
     double t = a->log ? log10 (value / a->low) / log10 (a->high / a->low)
@@ -233,6 +259,7 @@ double pg_axis_at (const pg_axis *a, double value)
     return a->reverse ? 1 - t : t;
 }
 
+/* Width of the widest text of a tick, pixels. */
 static double widest (const pg_axis *a, cairo_t *cr)
 {
     double w = 0;
@@ -240,7 +267,7 @@ static double widest (const pg_axis *a, cairo_t *cr)
     return w;
 }
 
-/* Middle of the label, from the frame. */
+/* Distance of the middle of the label from the frame, pixels. */
 static double label_place (const pg_axis *a, cairo_t *cr)
 {
     double raised = a->log ? 0.15 * PG_FONT : 0;
@@ -248,12 +275,14 @@ static double label_place (const pg_axis *a, cairo_t *cr)
                                 : PG_TICK + 8 + widest (a, cr) + 1.05 * PG_FONT;
 }
 
+/* Pixels that ticks, texts and label take beside the frame. */
 double pg_axis_margin (const pg_axis *a, cairo_t *cr)
 {
     return a->label[0] ? label_place (a, cr) + 0.9 * PG_FONT : label_place (a, cr) - 0.4 * PG_FONT;
 }
 
-/* Foot of a tick at `value` on the frame. */
+/* The pixel on the frame (x, y, w, h) where the tick of a value begins, moved to the middle of
+ * a pixel so that lines of two pixels' width are sharp. */
 static void foot (const pg_axis *a, double value, double x, double y, double w, double h, double *px,
                   double *py)
 {

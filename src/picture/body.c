@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A field at the points of a body that is a mesh: on its elements. Nodes that are no points take the value
- * between the corners. */
+ * A field at the points of a body that came from a mesh, drawn on its elements.
+ *
+ * All corners of elements are points of the body. The middle nodes of quadratic elements may
+ * not be: they take the value of the linear shape functions of the corners at their place. */
 #include "picture_private.h"
 
 int pg_picture_on_elements (const pg_mesh_body *body, const pg_picture_style *style)
@@ -10,7 +12,7 @@ int pg_picture_on_elements (const pg_mesh_body *body, const pg_picture_style *st
     return body && body->mesh.n && body->point && body->mesh.dim > 1 && !cracked && !part;
 }
 
-/* The element of the same corners alone. */
+/* The linear element with the corners of this one. */
 static pg_element straight (pg_element kind)
 {
     static const pg_element same[4][9] = { [1] = { [2] = PG_BAR2 },
@@ -19,7 +21,9 @@ static pg_element straight (pg_element kind)
     return same[pg_element_types[kind].dim][pg_element_types[kind].corners];
 }
 
-/* m values a point -> m a node. Corners are points all. */
+/* Copies m values per point to m values per node (nnode x m). A node that is no point gets its
+ * value by interpolation between the corners of its element; elements that share it agree,
+ * because along the shared side the interpolation involves the corners of that side only. */
 static void to_nodes (const pg_mesh_body *body, size_t m, const double *point, double *node)
 {
     const pg_mesh *mesh = &body->mesh;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The surface under a picture, written as PNG or SVG by the file's ending, and text on it. */
+ * The surface under a picture, written as PNG or SVG by the ending of the file's name, and text on it.
+ * Cairo draws into memory and hands the bytes to a function of ours, so that a full disk is reported with
+ * the system's reason and leaves no half file. */
 #include "picture_private.h"
 #include "perigal/output.h"
 #include <cairo-svg.h>
@@ -7,6 +9,8 @@
 #include <string.h>
 #include <strings.h>
 
+/* Takes the bytes that cairo has encoded; remembers errno of the first write that failed, because cairo
+ * itself only says that one did. */
 static cairo_status_t write_bytes (void *closure, const unsigned char *data, unsigned int n)
 {
     pg_canvas *c = closure;
@@ -16,12 +20,15 @@ static cairo_status_t write_bytes (void *closure, const unsigned char *data, uns
     return CAIRO_STATUS_WRITE_ERROR;
 }
 
+/* 1 if the path ends so, in capitals or not. */
 static int ends_with (const char *path, const char *ending)
 {
     size_t n = strlen (path), m = strlen (ending);
     return n >= m && strcasecmp (path + n - m, ending) == 0;
 }
 
+/* A white sheet of width x height pixels (points in SVG); the file is made at once, so that a folder that
+ * cannot be written is noticed before anything is drawn. */
 pg_status pg_canvas_open (pg_canvas *c, const char *path, double width, double height)
 {
     pg_status status = PG_OK;
@@ -42,6 +49,8 @@ done:
     return status;
 }
 
+/* Writes the picture if all went well so far, and otherwise removes the file. Returns the first fault: of
+ * the caller, of the disk, of cairo. */
 pg_status pg_canvas_close (pg_canvas *c, pg_status given)
 {
     pg_status status = given;
@@ -68,7 +77,8 @@ done:
     return status;
 }
 
-/* Lays the runs of a text behind each other from the current point; returns the width. */
+/* Lays the runs of a text one behind the other from the current point: plain runs, and those in ^{...} and
+ * _{...}, which are smaller and raised or lowered. Returns the width of all; draw = 0 only measures. */
 static double runs (cairo_t *cr, const char *text, double size, int draw)
 {
     double x = 0;
@@ -115,6 +125,7 @@ double pg_text (cairo_t *cr, const char *text, double size, double x, double y, 
     return width;
 }
 
+/* Shrinks a title that is wider than the picture, and moves one that would stick out at a side. */
 void pg_title (cairo_t *cr, const char *title, double x, double y, double width)
 {
     double size = PG_FONT_TITLE, room = width - 20, w = pg_text (cr, title, size, 0, 0, 0, 0, 0);

@@ -1,22 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Charts: curves as lines or markers over linear or logarithmic axes, with grid and legend. */
+ * Charts: curves as lines, markers or both over linear or logarithmic axes, with a grid, a legend, slope
+ * triangles and marked points. The layout is found first, by measuring texts on a scratch surface; then
+ * everything is drawn once. */
 #include "chart.h"
 #include <math.h>
 
-enum { WIDTH = 1200, HEIGHT = 840, DASHES = 4 };
+enum { WIDTH = 1200, HEIGHT = 840 };
 
-int pg_chart_visible (const chart *c, double x, double y)
-{
-    return isfinite (x) && isfinite (y) && (!c->x.log || x > 0) && (!c->y.log || y > 0);
-}
-
-void pg_chart_place (const chart *c, double x, double y, double *px, double *py)
-{
-    *px = c->left + pg_axis_at (&c->x, x) * c->width;
-    *py = c->top + (1 - pg_axis_at (&c->y, y)) * c->height;
-}
-
-/* Ranges of the points drawn: both coordinates must be finite, and positive on a log axis. */
+/* Extends the ranges x and y by the visible points of curves; *found becomes 1 at the first
+ * one. */
 static void widen (int *found, size_t ncurve, const pg_curve *curves, const chart *c, double x[2],
                    double y[2])
 {
@@ -30,6 +22,7 @@ static void widen (int *found, size_t ncurve, const pg_curve *curves, const char
         }
 }
 
+/* Ranges of everything drawn, the pale curves too; a chart without a single point shows 1 to 10. */
 static void ranges (size_t ncurve, const pg_curve *curves, const chart *c, const pg_chart_style *style,
                     double x[2], double y[2])
 {
@@ -39,6 +32,9 @@ static void ranges (size_t ncurve, const pg_curve *curves, const chart *c, const
     if (!found) x[0] = y[0] = 1, x[1] = y[1] = 10;
 }
 
+/* Axes first (the height of the plot depends on the texts below it, its width on those beside it), then
+ * the texts of marks, then the legend, which keeps clear of everything placed so far and may widen the
+ * picture. */
 static void lay_out (chart *c, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
 {
     double x[2], y[2];
@@ -66,6 +62,7 @@ static void lay_out (chart *c, size_t ncurve, const pg_curve *curves, const pg_c
     cairo_surface_destroy (scratch);
 }
 
+/* Pale lines at the ticks of both axes, paler ones at the unlabelled ticks. */
 static void draw_grid (const chart *c, cairo_t *cr)
 {
     for (int pass = 0; pass < 2; pass++) {
@@ -82,7 +79,7 @@ static void draw_grid (const chart *c, cairo_t *cr)
     }
 }
 
-/* The lines of zero, where values of both signs are seen. */
+/* The lines x = 0 and y = 0, where values of both signs are seen. */
 static void draw_zero (const chart *c, cairo_t *cr)
 {
     double x = pg_axis_at (&c->x, 0), y = pg_axis_at (&c->y, 0);
@@ -95,54 +92,9 @@ static void draw_zero (const chart *c, cairo_t *cr)
     cairo_stroke (cr);
 }
 
-void pg_chart_pen (cairo_t *cr, size_t k)
-{
-    static const double dash[DASHES][4] = { { 0 }, { 14, 7, 14, 7 }, { 3, 6, 3, 6 }, { 16, 6, 3, 6 } };
-    double rgb[3];
-    size_t kind = k / PG_CURVE_COLOURS % DASHES;
-    pg_colour_curve (k, rgb);
-    cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
-    cairo_set_line_width (cr, 3);
-    cairo_set_dash (cr, dash[kind], kind ? 4 : 0, 0);
-}
-
-/* Circle, square, triangle, diamond, triangle upside down, plus, cross in turn. */
-void pg_chart_marker (cairo_t *cr, size_t k, double x, double y)
-{
-    static const double corner[4][4][2] = { { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } },
-                                            { { 0, -1.3 }, { 1.2, 0.9 }, { -1.2, 0.9 }, { 0, -1.3 } },
-                                            { { 0, -1.4 }, { 1.2, 0 }, { 0, 1.4 }, { -1.2, 0 } },
-                                            { { 0, 1.3 }, { 1.2, -0.9 }, { -1.2, -0.9 }, { 0, 1.3 } } };
-    double r = 7, rgb[3], s = 1.3 * r;
-    size_t kind = k % 7;
-    pg_colour_curve (k, rgb);
-    cairo_set_dash (cr, NULL, 0, 0);
-    cairo_set_line_width (cr, 3);
-    cairo_new_sub_path (cr);
-    if (kind == 0) cairo_arc (cr, x, y, r, 0, 6.283185307179586);
-    else if (kind < 5)
-        for (int e = 0; e < 4; e++)
-            cairo_line_to (cr, x + r * corner[kind - 1][e][0], y + r * corner[kind - 1][e][1]);
-    else {
-        double a = kind == 5 ? 0 : 0.75 * s, b = kind == 5 ? s : 0.75 * s;
-        cairo_move_to (cr, x - b, y - a), cairo_line_to (cr, x + b, y + a);
-        cairo_move_to (cr, x - a, y + b), cairo_line_to (cr, x + a, y - b);
-        cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
-        cairo_set_line_width (cr, 4);
-        cairo_stroke (cr);
-        return;
-    }
-    cairo_close_path (cr);
-    if (k >= PG_CURVE_COLOURS) cairo_set_source_rgb (cr, 1, 1, 1);
-    else cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
-    cairo_fill_preserve (cr);
-    cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
-    if (k >= PG_CURVE_COLOURS) cairo_stroke (cr);
-    cairo_new_path (cr);
-}
-
-/* A polyline, broken at what cannot be drawn; points closer than a quarter of a pixel to the last one are
- * left out. */
+/* A polyline, interrupted at places that cannot be drawn. Points closer than a quarter of a
+ * pixel to the last drawn one are left out, which keeps the file of a curve with 1e6 points
+ * small. */
 static void line (const chart *c, cairo_t *cr, const pg_curve *curve)
 {
     double px, py, qx = 0, qy = 0;
@@ -161,6 +113,7 @@ static void line (const chart *c, cairo_t *cr, const pg_curve *curve)
     cairo_stroke (cr);
 }
 
+/* The line of a curve, its markers, or both. */
 static void draw_curve (const chart *c, cairo_t *cr, const pg_curve *curve, size_t k)
 {
     double px, py;
@@ -174,6 +127,7 @@ static void draw_curve (const chart *c, cairo_t *cr, const pg_curve *curve, size
     cairo_set_dash (cr, NULL, 0, 0);
 }
 
+/* Grid, frame and axes, then what lies inside the frame, clipped to it, then texts. */
 static void draw_chart (const chart *c, cairo_t *cr, size_t ncurve, const pg_curve *curves,
                         const pg_chart_style *style)
 {

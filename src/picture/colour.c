@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Colour maps: sequential (lightness rises evenly from indigo to yellow), diverging (blue - white - red),
- * curve colours. */
+ * Colour maps. The sequential map rises evenly in lightness from indigo to yellow, so that it
+ * keeps its order in print without colours and for readers who do not tell red from green. The
+ * diverging map goes from blue through near-white to red. Curves of charts have eight colours. */
 #include "picture_private.h"
 
+/* Linear interpolation in t, limited to [0, 1] (NAN gives the first colour), between n colours
+ * at equal distances. */
 static void ramp (size_t n, const double anchor[][3], double t, double rgb[3])
 {
     if (!(t > 0)) t = 0;

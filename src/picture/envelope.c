@@ -1,9 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The envelope of an event path: what a test with steadily rising displacement would show of it. */
+ * The envelope of an equilibrium path that is driven event by event: what a test with steadily
+ * rising displacement would show of it. Event stepping follows snap-back, where displacement
+ * and force both fall; a testing machine that moves only forwards jumps over that part at
+ * constant displacement.
+ *
+ *   a state i counts if        sign x_i > max over earlier states of sign x
+ *   between two events         y = (y_i / x_i) x, a line through the origin (proportional loads)
+ *
+ * The header has the exact definition of what is returned. */
 #include "perigal/picture.h"
 #include <math.h>
 
-/* The sign of the value farthest from zero. */
+/* The sign of the value farthest from zero: the way in which the test pulls. */
 static double direction_of (size_t n, const double *x)
 {
     double most = 0;
@@ -11,6 +19,8 @@ static double direction_of (size_t n, const double *x)
     return most < 0 ? -1 : 1;
 }
 
+/* Between two events all loads grow in proportion (linear = 1), so that the states lie on a line through
+ * the origin: at the displacement of one event the curve falls to the line of the next state that counts. */
 size_t pg_envelope (size_t n, const double *x, const double *y, int linear, double *ex, double *ey,
                     size_t *peak)
 {

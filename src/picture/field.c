@@ -1,41 +1,62 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields as pictures: which points are seen, the frame they fill, their colours; one state or several side by
- * side. 2D: a coloured cell per point; 3D: a section, or the body from outside; 1D: value over x. */
+ * Fields on points as pictures: which points are seen, the frame they fill, their colours; one state, or
+ * several side by side with one colour bar. In 2D each place of the body has the colour of its point; in
+ * 3D a section is drawn so, or the body as cubes from outside; in 1D the values are a chart over x.
+ *
+ * The steps, in the order of pg_picture_panels: the eye (view.c), the points in sight, the frame in
+ * metres, the range of colours, the sheet with its axes (sheet.c), and for each panel a screen of pixels
+ * that is filled (tiles.c, solid.c, raster.c) and painted. */
 #include "tiles.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* One picture that is being drawn. */
 typedef struct {
     const pg_cloud *cloud;
     const pg_picture_style *style;
-    size_t  n;                                         /* panels */
+    /* Number of panels, and their states. */
+    size_t  n;
     const pg_panel *panel;
-    pg_grid grid;                                      /* 3D */
+    /* 3D: the lattice of the points. */
+    pg_grid grid;
     pg_sheet sheet;
-    unsigned char *seen;                               /* points in the section, or all */
-    unsigned char *keep;                               /* points above the limit, of the panel at work */
-    double *own;  /* coloured by depth: coordinate in the picture's unit */
-    int    *index, layer;                              /* of a spot's point; of the section */
+    /* 1 for the points that the section meets, or all (cloud->n). */
+    unsigned char *seen;
+    /* 1 for the points that the current panel selects (cloud->n). */
+    unsigned char *keep;
+    /* Coloured by depth: the coordinate of each point in the picture's length unit (cloud->n);
+     * else NULL. */
+    double *own;
+    /* index: the point in the cloud that the k-th seen point is; layer: the index of the shown
+     * layer. */
+    int    *index, layer;
     pg_spots spots;
-    double *spacing;  /* of the points of a 2D cloud that is no lattice, m, or NULL */
-    double *face;  size_t nface, cap_face;  /* displaced faces of pre-cracks, FACE places each, m (2D) */
+    /* Spacing around the points of a 2D cloud that is no lattice, m (cloud->n), or NULL. */
+    double *spacing;
+    /* Displaced faces of pre-cracks in 2D, FACE places each, m. */
+    double *face;  size_t nface, cap_face;
     char    label[32], title[440];
 } drawing;
 
+/* The displacement to draw a panel with, or NULL where the body is shown at rest. */
 static const double *displaced (const drawing *d, size_t panel)
 {
     return d->style->magnify != 0 ? d->panel[panel].u : NULL;
 }
 
+/* What is coloured: the value of the panel, or for a crack seen by its depth the coordinate towards the
+ * eye. */
 static const double *value_of (const drawing *d, size_t panel)
 {
     return d->own ? d->own : d->panel[panel].value;
 }
 
 /* ---- points -------------------------------------------------------------------------------------------- */
-/* A section shows the layer of points it lies in (the lower of two when it lies between them). */
+/* A section shows the layer of points that it lies in, the lower of two when it lies half-way
+ * between them; the tolerance 1e-6 of a step decides that, not rounding. PG_E_USAGE if the
+ * plane misses the points. */
 static pg_status choose_layer (drawing *d)
 {
     pg_status status = PG_OK;
@@ -53,7 +74,8 @@ done:
     return status;
 }
 
-/* How far a cell reaches from its point along a direction, m. */
+/* How far the cell of a point reaches along a unit direction, m: the support function of a
+ * box. */
 static double half_cell (const drawing *d, const double *direction)
 {
     double s = 0;
@@ -66,6 +88,8 @@ static double half_cell (const drawing *d, const double *direction)
     return s;
 }
 
+/* Marks the points that a picture shows: those of a layer, those whose cells an oblique plane cuts, or
+ * all. */
 static pg_status choose_points (drawing *d)
 {
     pg_status status = PG_OK;
@@ -85,8 +109,9 @@ done:
 }
 
 /* ---- frame --------------------------------------------------------------------------------------------- */
-/* Places of the points of one panel along a direction; NAN for those not seen and, displaced, for fragments
- * that fly far. */
+/* The coordinate along a direction, displaced, of each point of a panel (out: cloud->n, m);
+ * NAN for points that are not seen and for fragments that have flown so far that the frame
+ * would show little else. */
 static pg_status places (const drawing *d, size_t panel, const double *direction, double *out)
 {
     pg_status status = PG_OK;
@@ -106,7 +131,7 @@ done:
     return status;
 }
 
-/* Not displaced, the body ends where its box does. */
+/* A body at rest ends where its outline does, not half a cell beyond its outer points. */
 static void end_at_body (const drawing *d, const double *direction, double *low, double *high)
 {
     const pg_body *body = d->style->outline->body;
@@ -118,7 +143,7 @@ static void end_at_body (const drawing *d, const double *direction, double *low,
     }
 }
 
-/* Range of the cells drawn along one axis of the picture, over all panels. */
+/* Range in metres of all cells drawn along one axis of the picture, over all panels. */
 static pg_status extent (const drawing *d, const double *direction, double *low, double *high)
 {
     pg_status status = PG_OK;
@@ -141,7 +166,8 @@ done:
     return status;
 }
 
-/* The box of a solid, which may end at the points themselves. */
+/* The range of a solid's box along a direction; the box may end at the outer points
+ * themselves. */
 static void extent_of_box (const drawing *d, const double *direction, double *low, double *high)
 {
     for (int corner = 0; corner < 8; corner++) {
@@ -152,6 +178,8 @@ static void extent_of_box (const drawing *d, const double *direction, double *lo
     }
 }
 
+/* Chooses the frame, with a narrow margin, and the length unit: the largest of km, m, mm, µm,
+ * nm that is not larger than the body. */
 static pg_status choose_frame (drawing *d)
 {
     pg_status status = PG_OK;
@@ -174,12 +202,15 @@ done:
 }
 
 /* ---- colours ------------------------------------------------------------------------------------------- */
+/* Does the choice of points (for instance damage of 0.35 and more) take point i? */
 static int above (const drawing *d, size_t panel, size_t i)
 {
     const double *select = d->panel[panel].select;
     return !select || select[i] >= d->style->above;
 }
 
+/* Colours by the coordinate that points most towards the eye, in the unit of the picture: a crack surface
+ * seen alone shows its shape so. */
 static pg_status colour_by_depth (drawing *d)
 {
     pg_status status = PG_OK;
@@ -193,7 +224,8 @@ done:
     return status;
 }
 
-/* Range of what is shown in all panels; a point that is not seen counts as no number. */
+/* Range of the values shown in all panels; a point that is not shown counts as NAN, which
+ * pg_picture_range leaves out. */
 static pg_status range_of_panels (const drawing *d, double *low, double *high)
 {
     pg_status status = PG_OK;
@@ -218,6 +250,8 @@ done:
     return status;
 }
 
+/* The range that was asked for, or else that of all values in sight; symmetric about zero for a diverging
+ * map. */
 static pg_status choose_colours (drawing *d, double *low, double *high)
 {
     pg_status status = PG_OK;
@@ -235,6 +269,7 @@ done:
     return status;
 }
 
+/* A line below the picture when the colours leave values out, as pg_sheet_leave_out words it. */
 static pg_status choose_note (drawing *d, const char *label, double low, double high)
 {
     pg_status status = PG_OK;
@@ -250,7 +285,7 @@ done:
     return status;
 }
 
-/* Does the bar end before the values do? */
+/* Finds whether values lie beyond the ends of the colour bar, which then ends in arrows. */
 static void choose_arrows (drawing *d)
 {
     const pg_axis *bar = &d->sheet.bar;
@@ -264,8 +299,8 @@ static void choose_arrows (drawing *d)
         }
 }
 
-/* How far the cell of a point reaches along an axis of the picture, m; of points without a spacing by their
- * number. */
+/* How far the cell of a point reaches along axis a of the picture, m. Where the spacing is not
+ * known it follows from the number of points. */
 static double half_of_points (const drawing *d, int a)
 {
     double half = half_cell (d, a ? d->sheet.eye.up : d->sheet.eye.right);
@@ -274,6 +309,8 @@ static double half_of_points (const drawing *d, int a)
 
 /* ---- painting ------------------------------------------------------------------------------------------ */
 enum { FACE = 129 };
+/* Where both faces of every pre-crack are now, sampled at FACE places each, so that an opened crack is
+ * drawn as two lines. */
 static pg_status find_faces (drawing *d, const pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -289,7 +326,9 @@ done:
     return status;
 }
 
-/* The parts of the points in the plane, as 2D bodies and layers show them. */
+/* Paints a 2D body or a layer of a 3D one: collects the seen points in the plane of the
+ * picture, divides the body among them (tiles.h) and translates the owners back to points of
+ * the cloud. Points that are not selected become PG_GHOST. */
 static pg_status paint_tiles (drawing *d, size_t panel, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -339,7 +378,9 @@ done:
     return status;
 }
 
-/* Cells of the points near an oblique plane. */
+/* Paints the cells of the points near an oblique plane, where displaced points or irregular
+ * ones have no cells to cut. Gaps of displaced points are closed less, so that opened cracks
+ * stay open. */
 static pg_status paint_spots (drawing *d, size_t panel, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -370,6 +411,7 @@ done:
     return status;
 }
 
+/* The cells that an oblique plane cuts, for a lattice at rest. */
 static void paint_slice (drawing *d, pg_screen *s)
 {
     pg_slice_draw (&d->grid, &d->sheet.eye, s);
@@ -377,6 +419,8 @@ static void paint_slice (drawing *d, pg_screen *s)
         if (s->owner[p] >= 0 && !d->keep[s->owner[p]]) s->owner[p] = PG_GHOST;
 }
 
+/* Paints one panel: owners of pixels by the kind of view, their colours, then cracks, axes and
+ * title. `fine` is the number of pixels per pixel of the picture. */
 static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
 {
     pg_status status = PG_OK;
@@ -408,7 +452,7 @@ done:
     return status;
 }
 
-/* The cut that nobody asked for is named. */
+/* The title with the section in it, for a 3D body of which no section was asked for. */
 static const char *name_layer (drawing *d)
 {
     const char *given = d->style->title ? d->style->title : "";
@@ -419,6 +463,8 @@ static const char *name_layer (drawing *d)
     return d->title;
 }
 
+/* Lays out and draws the whole picture. SVG files and pictures without a frame are painted
+ * twice as fine. */
 static pg_status draw_sheet (drawing *d, const char *path)
 {
     pg_status status = PG_OK;
@@ -449,6 +495,8 @@ static int by_place (const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
+/* 1D bodies: a chart of the value over the (displaced) place, one curve per panel, sorted by
+ * place. */
 static pg_status draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, const pg_panel *panel,
                             const pg_picture_style *style)
 {

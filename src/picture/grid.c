@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The points of a 3D cloud as cells of the lattice they came from, found from places, steps and volumes
- * alone. */
+ * The points of a cloud as cells of the lattice they came from, found from their places, steps and volumes
+ * alone, because a result file does not say how its points were made. */
 #include "picture_private.h"
 #include <math.h>
 #include <stdlib.h>
 
-/* Edges of a cell, and how many fit between the first and the last point. 0: too many to keep as a
- * lattice. */
+/* Edges of a cell (the cloud's steps, its spacing, or the cube root of the mean volume,
+ * whichever is known) and how many cells lie between the first and the last point. Returns 0
+ * if there would be many more cells than points: these are points on no lattice. */
 static int measure (pg_grid *g, const pg_cloud *cloud)
 {
     double cells = 1, mean = 0;
@@ -26,7 +27,8 @@ static int measure (pg_grid *g, const pg_cloud *cloud)
     return cells < 64 * (double) cloud->n + 1e6;
 }
 
-/* Lattice nodes on a face of the body hold half a cell (or less): cubes there end at the points. */
+/* Lattices whose nodes lie on the faces of the body have half cells there: their volumes show
+ * it (below 0.75 of the largest one), and the box of the cells then ends at the points. */
 static void cut_faces (pg_grid *g, const pg_cloud *cloud)
 {
     double whole = 0, most[3][2] = { { 0 } };
@@ -46,12 +48,14 @@ static void cut_faces (pg_grid *g, const pg_cloud *cloud)
     }
 }
 
+/* Index of the cell that holds coordinate x; -1 or count just outside of the lattice. */
 int pg_grid_place (const pg_grid *g, int axis, double x)
 {
     double k = floor ((x - g->origin[axis]) / g->step[axis] + 0.5);
     return k < -1 ? -1 : k > g->count[axis] ? g->count[axis] : (int) k;
 }
 
+/* Position of a cell in g->at, x running fastest. */
 static size_t cell_index (const pg_grid *g, const int *cell)
 {
     return ((size_t) cell[2] * (size_t) g->count[1] + (size_t) cell[1]) * (size_t) g->count[0]
@@ -64,6 +68,8 @@ int pg_grid_point (const pg_grid *g, const int *cell)
     return g->at[cell_index (g, cell)];
 }
 
+/* Two points in one cell mean that there is no lattice (loose): then neighbours are not known and every
+ * point is drawn as a cube of its own. */
 pg_status pg_grid_build (pg_grid *g, const pg_cloud *cloud)
 {
     pg_status status = PG_OK;
@@ -99,9 +105,11 @@ static int ascending (const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Along an axis: do the phases of the points spread over a step, and are most coordinates of their own?
- * (Lattices moved a little keep their phase, those with another step than the nominal one have few
- * coordinates.) work: n */
+/* 1 if the coordinates along an axis are those of no lattice: their phases, 2 pi x / step,
+ * spread over the circle (length of the mean unit vector below 0.3), and more than a third of
+ * the coordinates differ from each other. Lattices whose points moved a little keep their
+ * phase; lattices with another step than the nominal one have few different coordinates. work:
+ * n values of scratch space. */
 static int spreads (const pg_cloud *cloud, int axis, double *work)
 {
     double step = cloud->step[axis] > 0 ? cloud->step[axis] : cloud->h, c = 0, s = 0;
@@ -116,6 +124,7 @@ static int spreads (const pg_cloud *cloud, int axis, double *work)
     return hypot (c, s) < 0.3 * (double) n && 3 * own > n;
 }
 
+/* The spacing about a point follows from its volume, compared with the median volume. */
 pg_status pg_loose_spacing (const pg_cloud *cloud, double **spacing)
 {
     pg_status status = PG_OK;

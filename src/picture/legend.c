@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Slope triangles and legends of charts. */
+ * Legends of charts, and the triangles that show the slope of a curve on logarithmic axes. A legend goes
+ * where it hides nothing: eight places inside the frame are tried, and when all of them are crowded the
+ * picture grows to hold it beside the frame. */
 #include "chart.h"
 #include <math.h>
 
 /* ---- slopes -------------------------------------------------------------------------------------------- */
-/* Height of a curve at x, on log axes; NAN beside it. */
+/* Value of a curve at x by linear interpolation of the logarithms; NAN where the curve does
+ * not reach. */
 static double height_at (const chart *c, const pg_curve *curve, double x)
 {
     for (size_t i = 0; i + 1 < curve->n; i++) {
@@ -16,6 +19,8 @@ static double height_at (const chart *c, const pg_curve *curve, double x)
     return NAN;
 }
 
+/* Where a slope triangle goes unless the caller says: around the middle of the curve, over 28 % of its
+ * decades. */
 static void middle_part (const chart *c, const pg_curve *curve, double *low, double *high)
 {
     double from = INFINITY, to = 0;
@@ -25,8 +30,10 @@ static void middle_part (const chart *c, const pg_curve *curve, double *low, dou
     *low = from * pow (to / from, 0.36), *high = from * pow (to / from, 0.64);
 }
 
-/* Corners on pixels: the ends of the hypotenuse, then the right angle. It stays a little below the curve, at
- * its ends and at the points between them. 0: there is nothing to draw. */
+/* Corners of a slope triangle in pixels: the two ends of the hypotenuse, then the right angle.
+ * The triangle is moved down until it lies below the curve at its ends and at all points
+ * between them. Returns 0 if there is nothing to draw: linear axes, or a curve that does not
+ * cover the range. */
 static int slope_corners (const chart *c, const pg_curve *curve, const pg_chart_slope *slope, double px[3],
                           double py[3])
 {
@@ -46,6 +53,7 @@ static int slope_corners (const chart *c, const pg_curve *curve, const pg_chart_
     return 1;
 }
 
+/* The triangle, with the order beside its upright side and 1 below the level one. */
 void pg_chart_slope_draw (const chart *c, cairo_t *cr, const pg_curve *curve, size_t k,
                        const pg_chart_slope *slope)
 {
@@ -69,13 +77,14 @@ void pg_chart_slope_draw (const chart *c, cairo_t *cr, const pg_curve *curve, si
 /* ---- legend -------------------------------------------------------------------------------------------- */
 static const double row = 1.45 * PG_FONT;
 
+/* One row for each curve, and one for all the pale ones together. */
 size_t pg_chart_legend_rows (size_t ncurve, const pg_chart_style *style)
 {
     for (size_t k = 0; k < style->npale; k++) if (style->pale[k].n) return ncurve + 1;
     return ncurve;
 }
 
-/* Row k: a curve, or at the end the pale ones together. */
+/* Row k: the name of curve k, or at the end that of the pale curves. */
 static const char *name_of_row (size_t k, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
 {
     const char *name = k < ncurve ? curves[k].name : style->pale[0].name;
@@ -93,6 +102,7 @@ void pg_chart_legend_size (chart *c, cairo_t *cr, size_t ncurve, const pg_curve 
     c->legend[3] = ceil (row * (double) rows + CHART_GAP);
 }
 
+/* How many of the places sampled on a curve (16 between neighbouring points) lie in a box. */
 static size_t crowd_of_curve (const chart *c, const pg_curve *curve, const double *box)
 {
     double x = box[0], y = box[1], w = box[2], h = box[3];
@@ -113,6 +123,8 @@ static size_t crowd_of_curve (const chart *c, const pg_curve *curve, const doubl
     return count;
 }
 
+/* How much a text or the legend in this box would hide: slope triangles, texts of marks and places on
+ * curves, all counted alike. */
 size_t pg_chart_crowd (const chart *c, size_t ncurve, const pg_curve *curves, const pg_chart_style *style,
                     const double *box)
 {
@@ -134,6 +146,7 @@ size_t pg_chart_crowd (const chart *c, size_t ncurve, const pg_curve *curves, co
     return count;
 }
 
+/* Tries eight spots; returns 1 where none is free and the legend goes beside the frame. */
 int pg_chart_legend_place (chart *c, size_t ncurve, const pg_curve *curves, const pg_chart_style *style)
 {
     double w = c->legend[2], h = c->legend[3], gap = CHART_GAP;

@@ -1,22 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Marks of charts: rings around places of curves, with texts that stay inside the frame and off the curves;
- * pale curves' pen. */
+ * Marked places of charts: rings around places of curves, with texts that stay inside the
+ * frame and off the curves as far as possible. Also the pen of the pale curves behind the
+ * others. */
 #include "chart.h"
 #include <math.h>
 
+/* Radius of a ring, and distance of the text from its middle, pixels. */
 enum { RING = 11, AWAY = 18 };
 
-void pg_chart_pale_pen (cairo_t *cr, size_t k)
-{
-    double rgb[3];
-    pg_colour_curve (k, rgb);
-    for (int c = 0; c < 3; c++) rgb[c] = 1 - 0.38 * (1 - rgb[c]);
-    cairo_set_source_rgb (cr, rgb[0], rgb[1], rgb[2]);
-    cairo_set_line_width (cr, 1);
-    cairo_set_dash (cr, NULL, 0, 0);
-}
-
-/* Right, left, above, below, then the four corners around the ring. */
+/* The box of a text of size w x h at one of eight places around a ring: right, left, above,
+ * below, then the four corners. It is moved into the frame. */
 static void spot_of (const chart *c, double px, double py, double w, double h, int spot, double box[4])
 {
     static const signed char side[8][2] = { { 1, 0 },  { -1, 0 },  { 0, -1 }, { 0, 1 },
@@ -28,6 +21,8 @@ static void spot_of (const chart *c, double px, double py, double w, double h, i
     box[2] = w, box[3] = h;
 }
 
+/* For each text the place of the eight with the least in it; covering the ring itself counts
+ * as worst. Earlier texts are obstacles to later ones. */
 void pg_chart_marks_place (chart *c, cairo_t *cr, size_t ncurve, const pg_curve *curves,
                         const pg_chart_style *style)
 {

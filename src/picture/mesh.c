@@ -1,26 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Pictures of meshes: which faces are seen, the frame they fill, their colours: values at the nodes, blocks
- * of elements or sets. */
+ * Pictures of meshes: which faces of elements are seen, the frame they fill, their colours: a value at the
+ * nodes, the blocks of elements or the sets of sides and nodes. How faces and edges are painted stands in
+ * mesh_paint.c. */
 #include "mesh_drawing.h"
 #include <math.h>
 #include <string.h>
 
-pg_element pg_drawn_face (const mesh_drawing *d, int element, int side, int node[9])
-{
-    const pg_mesh *m = d->mesh;
-    const int *all = m->node + m->start[element];
-    pg_element kind = (pg_element) m->kind[element];
-    int local[9];
-    if (side < 0) {
-        for (int a = 0; a < pg_element_types[kind].nodes; a++) node[a] = all[a];
-        return kind;
-    }
-    pg_element face = pg_element_face (kind, side, local);
-    for (int a = 0; a < pg_element_types[face].nodes; a++) node[a] = all[local[a]];
-    return face;
-}
-
 /* ---- what is seen -------------------------------------------------------------------------------------- */
+/* A plane mesh shows its elements (and the sides on its boundary), a solid one the faces on its surface. */
 static pg_status choose_faces (mesh_drawing *d)
 {
     pg_status status = PG_OK;
@@ -35,6 +22,8 @@ done:
     return status;
 }
 
+/* Coordinates of the nodes, displaced by magnify u and scaled to m. PG_E_USAGE names the first
+ * node without a finite place. */
 static pg_status place_nodes (mesh_drawing *d)
 {
     pg_status status = PG_OK;
@@ -55,6 +44,7 @@ done:
     return status;
 }
 
+/* A solid is seen obliquely unless a view was asked for; sections of meshes are not drawn. */
 static pg_status choose_eye (mesh_drawing *d)
 {
     pg_status status = PG_OK;
@@ -67,6 +57,8 @@ done:
     return status;
 }
 
+/* The box of the nodes, the frame with a narrow margin, and the length unit as for fields at
+ * points. */
 static void choose_frame (mesh_drawing *d)
 {
     static const double unit[] = { 1e3, 1, 1e-3, 1e-6 };
@@ -88,7 +80,8 @@ static void choose_frame (mesh_drawing *d)
 }
 
 /* ---- colours ------------------------------------------------------------------------------------------- */
-/* Sets: the body light grey, then full colours. */
+/* Colour of a name in the legend of sets: 0 is the body in light grey, then the colours of
+ * curves, and from the ninth on paler ones. */
 static void colour_of_set (double t, double rgb[3])
 {
     long k = lround (t * PG_CATEGORIES);
@@ -99,6 +92,8 @@ static void colour_of_set (double t, double rgb[3])
     }
 }
 
+/* Colour of a block of elements: colours of curves made paler, so that edges and sets stay
+ * visible on them. */
 static void colour_of_block (double t, double rgb[3])
 {
     long k = lround (t * PG_CATEGORIES);
@@ -106,6 +101,7 @@ static void colour_of_block (double t, double rgb[3])
     for (int c = 0; c < 3; c++) rgb[c] = 1 - (k < PG_CURVE_COLOURS ? 0.42 : 0.72) * (1 - rgb[c]);
 }
 
+/* Another row of the legend: the name of a block or set, or its number where it has no name. */
 static void add_name (mesh_drawing *d, const char *name, const char *kind, int id)
 {
     size_t k = d->sheet.nlegend++;
@@ -115,6 +111,7 @@ static void add_name (mesh_drawing *d, const char *name, const char *kind, int i
     d->sheet.legend = d->legend;
 }
 
+/* Each element has the colour of its block; blocks beyond the legend share the last one. */
 static pg_status colour_blocks (mesh_drawing *d)
 {
     pg_status status = PG_OK;
@@ -130,7 +127,8 @@ done:
     return status;
 }
 
-/* Place of a painted face in the list, -1: it is not there; both ascend by element and side. */
+/* Index of a painted face by bisection, -1 if it is not painted; the list ascends by element
+ * and side. */
 static long face_at (const mesh_drawing *d, int element, int side)
 {
     size_t low = 0, high = d->nface;
@@ -142,14 +140,16 @@ static long face_at (const mesh_drawing *d, int element, int side)
     return low < d->nface && d->element[low] == element && d->side[low] == side ? (long) low : -1;
 }
 
+/* Is there a set of sides of this name? A set of nodes of the same name is the same set twice. */
 static int has_sides (const pg_mesh *m, const char *name)
 {
     for (size_t t = 0; t < m->nsides; t++) if (strcmp (m->sides[t].name, name) == 0) return 1;
     return 0;
 }
 
-/* Sets of sides, then sets of nodes that are none of those; a side in several sets has the colour of the
- * last. */
+/* Names and colours of the sets of sides, then of the sets of nodes without sides. A side in
+ * several sets has the colour of the last one. Sides of 2D meshes are drawn as lines by
+ * mesh_paint.c. */
 static pg_status colour_sets (mesh_drawing *d)
 {
     pg_status status = PG_OK;
@@ -172,6 +172,7 @@ done:
     return status;
 }
 
+/* The range that was asked for, or else that of the values at the nodes. */
 static pg_status colour_values (mesh_drawing *d, double *low, double *high)
 {
     pg_status status = PG_OK;
@@ -196,7 +197,7 @@ done:
     return status;
 }
 
-/* Does the bar end before the values do? */
+/* Finds whether values lie beyond the ends of the colour bar, which then ends in arrows. */
 static void choose_arrows (mesh_drawing *d)
 {
     const pg_axis *bar = &d->sheet.bar;
@@ -209,6 +210,7 @@ static void choose_arrows (mesh_drawing *d)
 }
 
 /* ---- the sheet ----------------------------------------------------------------------------------------- */
+/* Colours, sheet, faces with a depth buffer, then lines on top. */
 static pg_status draw_sheet (mesh_drawing *d, const char *path)
 {
     pg_status status = PG_OK;

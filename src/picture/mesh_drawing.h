@@ -1,32 +1,47 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What pictures of meshes share: the faces seen and their colours (mesh.c), how they are painted
- * (mesh_paint.c). */
+ * What the two files that draw meshes share: which faces are seen and in which colours
+ * (mesh.c), and how these are put on pixels (mesh_paint.c). */
 #ifndef PG_PICTURE_MESH_DRAWING_H
 #define PG_PICTURE_MESH_DRAWING_H
 #include "picture_private.h"
 
+/* Longest name in the legend, and the largest number of sets or blocks with a colour of their
+ * own. */
 enum { MESH_NAME = 80, MESH_SETS = 24 };
+/* A picture of a mesh that is being drawn. Lengths are m, or units of the mesh if its unit is
+ * not known. */
 typedef struct {
     const pg_mesh *mesh;
     const pg_picture_style *style;
-    double  scale;                                     /* m (bare: 1) in a unit of the mesh */
-    double *x;                                         /* displaced places of the nodes, scaled (nnode x 3) */
-    size_t  nface;  /* faces that are painted: elements (2D), surface (3D) */
-    int    *element, *side;                            /* side -1: the element itself */
-    size_t  nrim;                                      /* 2D: sides of elements on the boundary */
+    /* Metres in one unit of the mesh, 1 if that is not known. */
+    double  scale;
+    /* Displaced and scaled coordinates of the nodes (nnode x 3). */
+    double *x;
+    /* Faces that are painted: in 2D all elements, in 3D the sides of elements on the surface. */
+    size_t  nface;
+    /* Element and side of each face (nface); side -1 means the element itself. Ascending by
+     * element and side. */
+    int    *element, *side;
+    /* 2D: the sides of elements on the boundary of the body. */
+    size_t  nrim;
     int    *rim_element, *rim_side;
-    double *own;                                       /* category of an element or a face, or NULL (nface) */
-    const double *value;                               /* at the nodes, or NULL */
-    char    name[MESH_SETS + 1][MESH_NAME];            /* legend */
+    /* Number of the name in the legend that a face belongs to (nface), or NULL: colours show
+     * values. */
+    double *own;
+    /* Values at the nodes (nnode), or NULL. */
+    const double *value;
+    /* The names of the legend. */
+    char    name[MESH_SETS + 1][MESH_NAME];
     const char *legend[MESH_SETS + 1];
-    int     categories;                                /* sets drawn, body not counted */
+    /* Number of sets that have a colour; the body itself is not counted. */
+    int     categories;
     pg_sheet sheet;
-    pg_grid  grid;                                     /* low, high only */
+    /* Only low and high are used: the box of the mesh, whose size stands below a view. */
+    pg_grid  grid;
 } mesh_drawing;
 
-/* The nodes (in the mesh) and the kind of a painted face. */
-pg_element pg_drawn_face (const mesh_drawing *d, int element, int side, int node[9]);
-pg_status  pg_mesh_drawing_paint (mesh_drawing *d, pg_screen *screen);       /* values and depth */
-/* edges, outline, sets of 2D */
+/* Paints all faces with a depth buffer: sets owner, value, depth and shade of the pixels. */
+pg_status  pg_mesh_drawing_paint (mesh_drawing *d, pg_screen *screen);
+/* Draws edges of elements, the boundary of a plane body, and sets, where they are in sight. */
 void       pg_mesh_drawing_lines (const mesh_drawing *d, cairo_t *cr, const pg_screen *screen);
 #endif

@@ -1,16 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Faces of elements on a screen: cut into small triangles along their own coordinates, so that curved edges
- * look curved and values vary as the shape functions do; then the edges that are in sight. */
+ * Faces of elements on a screen. A face is cut into small triangles along its own coordinates, so that
+ * curved edges look curved and values vary as the shape functions of the element do; then come the edges
+ * that are in sight, and the sets of sides and nodes. */
 #include "mesh_drawing.h"
 #include <math.h>
 #include <string.h>
 
+/* Largest number of parts along an edge, and places on a face that these make. */
 enum { FINEST = 8, SPOTS = (FINEST + 1) * (FINEST + 1) };
 
 /* ---- faces --------------------------------------------------------------------------------------------- */
+/* The nodes (in the mesh) and the kind of a painted face; side -1 is a plane element itself. */
+static pg_element face_of (const mesh_drawing *d, int element, int side, int node[9])
+{
+    const pg_mesh *m = d->mesh;
+    const int *all = m->node + m->start[element];
+    pg_element kind = (pg_element) m->kind[element];
+    int local[9];
+    if (side < 0) {
+        for (int a = 0; a < pg_element_types[kind].nodes; a++) node[a] = all[a];
+        return kind;
+    }
+    pg_element face = pg_element_face (kind, side, local);
+    for (int a = 0; a < pg_element_types[face].nodes; a++) node[a] = all[local[a]];
+    return face;
+}
+
+/* 1 for elements with three corners. */
 static int is_triangle (pg_element kind) { return pg_element_types[kind].corners == 3; }
 
-/* How many parts along an edge: straight triangles are one. */
+/* Parts along an edge of a face: one for straight triangles, more for curved ones and for values that vary
+ * within a face; fewer when there are many faces. */
 static int parts_of (const mesh_drawing *d, pg_element kind)
 {
     int most = d->nface > 20000 ? 2 : d->nface > 4000 ? 4 : FINEST;
@@ -18,7 +38,8 @@ static int parts_of (const mesh_drawing *d, pg_element kind)
     return is_triangle (kind) ? 1 : d->value ? (most + 1) / 2 : 1;
 }
 
-/* Place on the screen and value of place xi of a face. */
+/* The place with the local coordinates xi on a face: its pixel and depth (at), its coordinates
+ * (x) and the value there, interpolated by the shape functions of the element. */
 static void spot_of (const mesh_drawing *d, const pg_screen *s, pg_element kind, const int *node,
                      const double *xi, double *at, double *x, double *value)
 {
@@ -35,7 +56,8 @@ static void spot_of (const mesh_drawing *d, const pg_screen *s, pg_element kind,
     at[2] = pg_along (d->sheet.eye.toward, x, 3);
 }
 
-/* As pg_light_on, but without its step on the round faces of a side view. */
+/* Brightness of a triangle with corners x. In side views it falls smoothly with the angle,
+ * whereas pg_light_on has only two steps there, which would show as stripes on round faces. */
 static float light_of (const mesh_drawing *d, const double (*x)[3])
 {
     double a[3], b[3], n[3];
@@ -48,10 +70,11 @@ static float light_of (const mesh_drawing *d, const double (*x)[3])
                                : pg_light_on (&d->sheet.eye, n);
 }
 
+/* Samples a face on a grid of its own coordinates and fills the triangles between. */
 static void paint_face (const mesh_drawing *d, pg_screen *s, size_t f)
 {
     int node[9], row = 0;
-    pg_element kind = pg_drawn_face (d, d->element[f], d->side[f], node);
+    pg_element kind = face_of (d, d->element[f], d->side[f], node);
     int triangle = is_triangle (kind), m = parts_of (d, kind), stride = m + 1;
     double at[SPOTS][3], x[SPOTS][3], value[SPOTS];
     for (int j = 0; j <= m; j++)
@@ -76,7 +99,8 @@ static void paint_face (const mesh_drawing *d, pg_screen *s, size_t f)
             }
 }
 
-/* Owner of a pixel: the pixel itself, whose value it is. */
+/* Each pixel becomes its own owner, since every pixel has its own value. In 3D pixels on the
+ * outline turn grey. */
 pg_status pg_mesh_drawing_paint (mesh_drawing *d, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -95,7 +119,8 @@ done:
 }
 
 /* ---- lines --------------------------------------------------------------------------------------------- */
-/* Is a place in front of, or in, what the screen shows around it? */
+/* 1 if a place (pixels and depth) is nearer than one of the nine pixels around it, but for
+ * `slack`: the edges of a face must not vanish behind the face itself by rounding. */
 static int in_sight (const pg_screen *s, const double *at, double slack)
 {
     for (int k = 0; k < 9; k++) {
@@ -106,7 +131,7 @@ static int in_sight (const pg_screen *s, const double *at, double slack)
     return 0;
 }
 
-/* Side `e` of a face, from corner to corner, what of it is in sight. */
+/* Adds side e of a face to the current path, from corner to corner, as far as it is in sight. */
 static void path_of_side (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, pg_element kind,
                           const int *node, int e)
 {
@@ -130,19 +155,21 @@ static void path_of_side (const mesh_drawing *d, cairo_t *cr, const pg_screen *s
     }
 }
 
+/* Adds a side on the boundary of a plane mesh to the current path. */
 static void path_of_rim (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, int element, int side)
 {
     int node[9];
-    pg_element kind = pg_drawn_face (d, element, -1, node);
+    pg_element kind = face_of (d, element, -1, node);
     path_of_side (d, cr, s, kind, node, side);
 }
 
+/* Edges of elements: drawn when asked for, or when there are fewer than 5000 faces. */
 static void draw_edges (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, double pixel)
 {
     int edges = d->style->edges, node[9];
     if (edges < 0 || (edges == 0 && d->nface >= 5000)) return;
     for (size_t f = 0; f < d->nface; f++) {
-        pg_element kind = pg_drawn_face (d, d->element[f], d->side[f], node);
+        pg_element kind = face_of (d, d->element[f], d->side[f], node);
         for (int e = 0; e < pg_element_types[kind].corners; e++) path_of_side (d, cr, s, kind, node, e);
     }
     cairo_set_source_rgba (cr, 0.1, 0.1, 0.1, 0.75);
@@ -150,7 +177,7 @@ static void draw_edges (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, 
     cairo_stroke (cr);
 }
 
-/* Sets of 2D as broad lines on the rim; sets of nodes as dots. */
+/* Draws sets of sides in 2D as broad lines on the boundary, and sets of nodes as dots. */
 static void draw_sets (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, double pixel)
 {
     const pg_mesh *m = d->mesh;
@@ -182,6 +209,7 @@ static void draw_sets (const mesh_drawing *d, cairo_t *cr, const pg_screen *s, d
     }
 }
 
+/* All lines are clipped to the frame and drawn in pixels of the screen. */
 void pg_mesh_drawing_lines (const mesh_drawing *d, cairo_t *cr, const pg_screen *s)
 {
     const pg_sheet *p = &d->sheet;

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The range of values of a picture: all finite ones, or without the few that lie far from the rest. */
+ * The range of values of a picture: all finite ones, or without the few that lie far from the
+ * rest. A quantile alone would always cut something; the outer values are left out only if
+ * this shortens the range considerably (pg_picture_range in the header). */
 #include "picture_private.h"
 #include <math.h>
 #include <stdlib.h>
 
+/* Order of doubles for qsort. */
 static int ascending (const void *a, const void *b)
 {
     double p = *(const double *) a, q = *(const double *) b;

@@ -1,17 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * owner[pixel] = the spot whose cell covers the pixel's centre, the nearest where several do. Pixels in
- * narrow gaps between cells (moved points) go to the nearest spot if there are spots on opposite sides; the
- * outline of the body does not grow. Spots of no lattice have pixels nearest to them, as far as their
- * neighbours. */
+ * Assigns pixels to points drawn as cells: owner[pixel] is the point whose cell covers the
+ * centre of the pixel, the nearest one where several do.
+ *
+ * Displaced cells leave narrow gaps. A pixel in a gap goes to the nearest point if it has
+ * points on opposite sides, because then it lies within the body; a pixel with points on one
+ * side only lies outside, so that the outline of the body does not grow. Which sides have
+ * points is collected in a bit mask per pixel while the cells are drawn, so the cost is that
+ * of drawing and does not depend on the order of the points.
+ *
+ * Irregular points have no cells: a pixel belongs to the nearest point if that is closer than
+ * a quarter of its spacing, or closer than one spacing with points on about opposite sides. */
 #include "picture_private.h"
 #include <math.h>
 
-/* Sides on which a pixel has a spot: straight beside it (low four bits), or near in any direction (high four
- * bits). */
+/* Bits for the sides on which a pixel has a point: in the low four bits straight beside it, in
+ * the high four bits near it in any direction. */
 enum { LEFT = 1, RIGHT = 2, ABOVE = 4, BELOW = 8, ALL = 15 };
 
-/* First and one past the last pixel whose centre lies within `half` of `at`, cut to [0, n). Written so that
- * cells side by side neither overlap nor leave a pixel out. */
+/* First pixel, and one past the last pixel, whose centre lies within `half` of `at`, limited
+ * to [0, n). Both ends are rounded alike, so that cells side by side neither overlap nor leave
+ * a pixel out. */
 static void span (double at, double half, int n, int *first, int *last)
 {
     double a = ceil (at - half - 0.5 - 1e-6), b = ceil (at + half - 0.5 - 1e-6);
@@ -19,6 +27,8 @@ static void span (double at, double half, int n, int *first, int *last)
     *last = b < 0 ? 0 : b > n ? n : (int) b;
 }
 
+/* Draws the cell of point k of a lattice, enlarged by `reach`, and notes for each pixel on
+ * which sides it has this point. Distances are in cells. */
 static void stamp (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance,
                    unsigned short *seen)
 {
@@ -42,7 +52,8 @@ static void stamp (const pg_spots *s, size_t k, int width, int height, int *owne
         }
 }
 
-/* In a cell, or in a gap with spots straight on two opposite sides, or near on all four. */
+/* 1 if the pixel lies in a cell, in a gap with points straight on two opposite sides, or has
+ * points near it on all four sides. */
 static int enclosed (unsigned short seen)
 {
     return (seen & (LEFT | RIGHT)) == (LEFT | RIGHT) || (seen & (ABOVE | BELOW)) == (ABOVE | BELOW)
@@ -50,7 +61,8 @@ static int enclosed (unsigned short seen)
 }
 
 /* ---- spots without a lattice --------------------------------------------------------------------------- */
-/* The 16 sectors in which a pixel has spots within one and a half of their spacings. */
+/* Draws irregular point k: pixels within one and a half spacings note in which of 16 sectors
+ * it lies. */
 static void stamp_near (const pg_spots *s, size_t k, int width, int height, int *owner, float *distance,
                         unsigned short *seen)
 {
@@ -69,7 +81,8 @@ static void stamp_near (const pg_spots *s, size_t k, int width, int height, int 
         }
 }
 
-/* Spots on about opposite sides: sectors seven to nine apart. */
+/* 1 if a pixel has points on about opposite sides: in sectors that are seven to nine of the
+ * sixteen apart. */
 static int between (unsigned short seen)
 {
     for (int k = 0; k < 16; k++)
@@ -77,7 +90,8 @@ static int between (unsigned short seen)
     return 0;
 }
 
-/* Near its spot, or not far and between others: the outline grows by a quarter of a spacing. */
+/* Takes from irregular points the pixels that are neither near nor between points; the outline
+ * of the body grows by a quarter of a spacing at most. */
 static void keep_near (const pg_spots *s, size_t n, const unsigned short *seen, const float *distance,
                        int *owner)
 {

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The sheet of a picture: one frame or several of equal scales in rows, axes with the length unit, a common
- * colour bar, title. */
+ * The sheet of a picture: one frame, or several of equal scale in rows; axes with the length unit; one
+ * colour bar (or a legend) for all frames; title and note. Sizes are pixels of the PNG. */
 #include "picture_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* All sizes are in pixels. WIDE, BROAD and TALL limit a single frame; SHARED is the width that
+ * frames side by side share, LEAST_FRAME the least that one of them gets; the rest are the
+ * parts around the frames. */
 enum {
     WIDE = 1120,
     BROAD = 900,
@@ -23,6 +26,7 @@ enum {
     NOTE = 36
 };
 
+/* Name of the length unit, "" for a mesh whose unit is not known. */
 const char *pg_sheet_unit (const pg_sheet *p)
 {
     return p->bare           ? ""
@@ -33,12 +37,14 @@ const char *pg_sheet_unit (const pg_sheet *p)
                              : "nm";
 }
 
+/* Width or height for one of `parts` frames that share a side of the picture. */
 static double most_of (double share, int parts)
 {
     return fmax (LEAST_FRAME, share / parts);
 }
 
-/* Size of one frame; one wider than the body keeps the scale. */
+/* Rows, columns and the size of one frame. The frame keeps the shape of the body unless it would become a
+ * thin strip; a frame wider than the body keeps the scale. */
 static void size_frame (pg_sheet *p)
 {
     double w = p->high[0] - p->low[0], h = p->high[1] - p->low[1];
@@ -56,6 +62,8 @@ static void size_frame (pg_sheet *p)
     }
 }
 
+/* Fits the axis across (a = 0) or upwards (a = 1). An oblique section has the axes s and t in
+ * its plane; an axis along a coordinate that falls to the right or upwards is reversed. */
 static void fit_axis (const pg_sheet *p, pg_axis *axis, cairo_t *cr, int a)
 {
     char text[32];
@@ -69,7 +77,7 @@ static void fit_axis (const pg_sheet *p, pg_axis *axis, cairo_t *cr, int a)
     axis->reverse = reverse;
 }
 
-/* Pixels beside the bar, or of the names of the legend. */
+/* Pixels beside the colour bar: its axis, or the longest name of the legend. */
 static double width_beside_bar (const pg_sheet *p, cairo_t *cr)
 {
     double w = 0;
@@ -77,6 +85,7 @@ static double width_beside_bar (const pg_sheet *p, cairo_t *cr)
     return p->nlegend ? ceil (w) + 24 : pg_axis_margin (&p->bar, cr);
 }
 
+/* Places frames, colour bar and note around each other and so finds the size of the picture. */
 static void place_parts (pg_sheet *p, cairo_t *cr, const pg_picture_style *style)
 {
     double bar = width_beside_bar (p, cr);
@@ -94,6 +103,7 @@ static void place_parts (pg_sheet *p, cairo_t *cr, const pg_picture_style *style
     p->bar_at[1] = p->flat ? p->top + h + ceil (below) + 14 : p->top, p->bar_at[3] = p->flat ? BAR : h;
 }
 
+/* Sizes depend on texts and texts on sizes, so that texts are measured on a scratch surface. */
 void pg_sheet_fit (pg_sheet *p, const pg_picture_style *style, double low, double high)
 {
     cairo_surface_t *scratch = cairo_image_surface_create (CAIRO_FORMAT_A8, 1, 1);  /* to measure texts on */
@@ -111,12 +121,14 @@ void pg_sheet_fit (pg_sheet *p, const pg_picture_style *style, double low, doubl
     cairo_surface_destroy (scratch);
 }
 
+/* Upper left corner of the frame of a panel, pixels. */
 static void corner_of (const pg_sheet *p, size_t panel, double *x, double *y)
 {
     *x = p->left + (double) (panel % (size_t) p->columns) * p->pitch[0];
     *y = p->top + (double) (panel / (size_t) p->columns) * p->pitch[1];
 }
 
+/* From metres in the plane of the picture to pixels. */
 void pg_sheet_to (const pg_sheet *p, size_t panel, double a, double b, double *px, double *py)
 {
     double x, y;
@@ -125,6 +137,7 @@ void pg_sheet_to (const pg_sheet *p, size_t panel, double a, double b, double *p
     *py = y + (p->high[1] - b) / (p->high[1] - p->low[1]) * p->height;
 }
 
+/* A black rectangle, moved to the middle of pixels so that its lines are sharp. */
 static void draw_frame (cairo_t *cr, double x, double y, double w, double h)
 {
     cairo_set_source_rgb (cr, 0, 0, 0);
@@ -133,7 +146,7 @@ static void draw_frame (cairo_t *cr, double x, double y, double w, double h)
     cairo_stroke (cr);
 }
 
-/* The end of a bar beyond which there are values, in the colour they have. */
+/* The pointed end of a colour bar beyond which there are values, in the colour that they have. */
 static void draw_arrow (const pg_sheet *p, cairo_t *cr, int high)
 {
     double x = p->bar_at[0], y = p->bar_at[1], w = p->bar_at[2], h = p->bar_at[3], rgb[3], size = 0.6 * BAR;
@@ -157,6 +170,7 @@ static void draw_arrow (const pg_sheet *p, cairo_t *cr, int high)
     cairo_stroke (cr);
 }
 
+/* The colour bar as a gradient of 65 stops, with an arrow at an end beyond which there are values. */
 static void draw_bar (const pg_sheet *p, cairo_t *cr)
 {
     double x = p->bar_at[0], y = p->bar_at[1], w = p->bar_at[2], h = p->bar_at[3], rgb[3];
@@ -174,6 +188,7 @@ static void draw_bar (const pg_sheet *p, cairo_t *cr)
     pg_axis_draw (&p->bar, cr, x, y, w, h);
 }
 
+/* Names with their colours, in place of a colour bar: blocks and sets of a mesh. */
 static void draw_legend (const pg_sheet *p, cairo_t *cr)
 {
     double x = p->bar_at[0], y = p->bar_at[1], rgb[3];
@@ -190,7 +205,7 @@ static void draw_legend (const pg_sheet *p, cairo_t *cr)
     }
 }
 
-/* Below a picture without axes: the triad and the size of the body. */
+/* Below a view without axes: the directions of the axes and the size of the body's box. */
 static void draw_strip (const pg_sheet *p, cairo_t *cr, const pg_grid *g)
 {
     char text[160];
@@ -206,6 +221,7 @@ static void draw_strip (const pg_sheet *p, cairo_t *cr, const pg_grid *g)
     pg_text (cr, text, size, SIDE + 130, y, 0, 0, 1);
 }
 
+/* The line of text at the lower edge, made smaller if it is too long. */
 static void draw_note (const pg_sheet *p, cairo_t *cr)
 {
     double size = 0.8 * PG_FONT, room = p->total[0] - 2 * SIDE,
@@ -215,6 +231,8 @@ static void draw_note (const pg_sheet *p, cairo_t *cr)
     pg_text (cr, p->note, size, 0.5 * p->total[0], p->total[1] - 0.5 * NOTE - 4, 0.5, 0, 1);
 }
 
+/* A range that leaves out stray values is only honest if the picture says so: how many points the colours
+ * cover, and from where to where the values go. */
 void pg_sheet_leave_out (pg_sheet *p, const char *label, size_t n, const double *value, double low,
                          double high)
 {
@@ -238,6 +256,7 @@ void pg_sheet_leave_out (pg_sheet *p, const char *label, size_t n, const double 
               floor (1000 * in / all) / 10, end[0], end[1]);
 }
 
+/* All that belongs to the sheet and not to one frame. */
 void pg_sheet_draw (const pg_sheet *p, cairo_t *cr, const pg_cloud *cloud, const pg_grid *grid,
                     const pg_picture_style *style)
 {
@@ -269,7 +288,9 @@ void pg_panel_draw (const pg_sheet *p, cairo_t *cr, size_t panel, const char *ti
     pg_text (cr, title, size, x + 0.5 * p->width, y - 0.5 * PANEL_TITLE, 0.5, 0, 1);
 }
 
-/* The colour of a pixel: of its point's value, NaN grey, the body behind a choice of points almost white. */
+/* The colour of a pixel as ARGB: that of its point's value times the brightness, grey for NAN,
+ * the body behind selected points almost white, its outline grey, transparent where nothing
+ * is. */
 static uint32_t pixel_of (const pg_sheet *p, const pg_screen *s, size_t at, const double *value)
 {
     int k = s->owner[at];

@@ -1,10 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Solids on a screen: a cube around each point, its faces as triangles with a depth buffer, so that what is
- * nearer hides what is behind. Neighbours share displaced corners, except across an opening of more than half
- * a cell. */
+ * Solids on pixels: a cube around each point, its faces drawn as triangles with a depth
+ * buffer, so that what is nearer to the eye hides what is behind. Faces between two cubes that
+ * touch are not drawn.
+ *
+ * Displaced cubes share their corners: a corner moves by the mean displacement of the up to
+ * eight points around it, which keeps the body closed. Two points whose displacements differ
+ * by more than half a cell on the picture have separated; they do not share corners, and the
+ * faces between them are drawn. */
 #include "picture_private.h"
 #include <math.h>
 
+/* An empty screen: no owner, full brightness, infinitely far away. */
 pg_status pg_screen_open (pg_screen *s, int width, int height)
 {
     pg_status status = PG_OK;
@@ -27,6 +33,9 @@ void pg_screen_close (pg_screen *s)
     *s = (pg_screen) { 0 };
 }
 
+/* Barycentric coordinates w of each pixel centre decide whether it is inside, with 1e-6
+ * tolerance so that two triangles with a common edge leave no pixel out; depth and value are
+ * linear in w. */
 void pg_triangle (pg_screen *s, const double v[3][3], int owner, float shade, const double *value)
 {
     double area = (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
@@ -54,8 +63,8 @@ void pg_triangle (pg_screen *s, const double v[3][3], int owner, float shade, co
         }
 }
 
-/* Light from above, slightly from the left, behind the eye; a face towards the eye of a side view is fully
- * bright. */
+/* Light from above, slightly from the left and behind the eye. In side views with axes a face
+ * towards the eye is fully bright and all others are a little darker. */
 float pg_light_on (const pg_eye *e, const double *normal)
 {
     double right = pg_along (e->right, normal, 3), up = pg_along (e->up, normal, 3),
@@ -65,10 +74,11 @@ float pg_light_on (const pg_eye *e, const double *normal)
     return (float) (0.70 + 0.30 * fmin (fmax (light, 0), 1));
 }
 
+/* Is there a point, and is it among those chosen? */
 static int kept (const pg_solid *s, int point) { return point >= 0 && (!s->keep || s->keep[point]); }
 
-/* Have the two points drifted apart by more than half a cell? Whole ones have not, however much is
- * magnified. */
+/* Have the two points drifted apart by more than half a cell on the picture? Whole points never have,
+ * however much displacements are magnified. */
 static int torn (const pg_solid *s, int i, int j)
 {
     if (s->damage && fmin (s->damage[i], s->damage[j]) < 0.1) return 0;
@@ -79,7 +89,8 @@ static int torn (const pg_solid *s, int i, int j)
     return 0;
 }
 
-/* Place of corner (0 or 1 an axis) of the cube of point i, on pixels, with its depth. */
+/* Corner (0 or 1 along each axis) of the cube of point i in pixels, with its depth. The corner moves with
+ * the mean displacement of the up to eight points around it that hold together with point i. */
 static void corner_at (const pg_solid *s, const pg_screen *screen, int i, const int *cell, const int *corner,
                        double *out)
 {
@@ -105,6 +116,8 @@ static void corner_at (const pg_solid *s, const pg_screen *screen, int i, const 
     out[2] = pg_along (s->eye->toward, x, 3);
 }
 
+/* One face of a cube as two triangles; faces seen edge-on lie a little deeper, so that they do not flicker
+ * over their neighbours. */
 static void draw_face (const pg_solid *s, pg_screen *screen, int i, const int *cell, int axis, int side)
 {
     static const int round[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
@@ -126,6 +139,7 @@ static void draw_face (const pg_solid *s, pg_screen *screen, int i, const int *c
     pg_triangle (screen, second, i, shade, NULL);
 }
 
+/* Only faces without a neighbour, or with one that has torn off, can be seen. */
 void pg_solid_draw (const pg_solid *s, pg_screen *screen)
 {
     for (size_t i = 0; i < s->cloud->n; i++) {
@@ -142,7 +156,8 @@ void pg_solid_draw (const pg_solid *s, pg_screen *screen)
     }
 }
 
-/* An outline where the body ends or steps back by more than two cells. */
+/* A pixel is on the outline if one of its four neighbours is farther away by more than the
+ * jump, or outside the picture. */
 int pg_on_outline (const pg_screen *s, int i, int j, double jump)
 {
     static const int beside[4][2] = { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 } };
@@ -156,6 +171,7 @@ int pg_on_outline (const pg_screen *s, int i, int j, double jump)
     return 0;
 }
 
+/* Draws the whole body grey, with an outline, under the points that were chosen. */
 pg_status pg_ghost_draw (const pg_solid *solid, pg_screen *screen)
 {
     pg_status status = PG_OK;
@@ -177,6 +193,8 @@ done:
     return status;
 }
 
+/* An oblique plane through a lattice at rest: each pixel belongs to the cell that its place in space falls
+ * into. */
 void pg_slice_draw (const pg_grid *g, const pg_eye *e, pg_screen *s)
 {
     for (int j = 0; j < s->height; j++)

@@ -1,10 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body at rest on the pixels of its plane: where it is, by its outline or by its points alone, and whose
- * pixel each is: of the nearest point that no pre-crack parts from it. */
+ * The undeformed body on the pixels of its plane. Two questions are answered for each pixel:
+ * is the body there, which its outline says, or the points alone where there is no outline;
+ * and which point does it belong to: the nearest one that no pre-crack separates from it (a
+ * Voronoi diagram that respects cracks).
+ *
+ * Irregular points without an outline are surrounded by discs of one and a quarter spacings,
+ * which close all gaps; then the outline is moved inwards by an exact distance transform
+ * (Felzenszwalb and Huttenlocher, Theory of Computing 8, 2012) until the area of what remains
+ * is that of the points together. */
 #include "tiles.h"
 #include <math.h>
 #include <string.h>
 
+/* From coordinates of the picture's plane to a place in space. */
 void pg_tiles_space (const pg_tiles *t, double a, double b, double *x)
 {
     for (int k = 0; k < 3; k++)
@@ -15,12 +23,15 @@ void pg_tiles_space (const pg_tiles *t, double a, double b, double *x)
 }
 
 /* ---- points in buckets --------------------------------------------------------------------------------- */
+/* Bucket of a place along one axis; places outside count to the outermost bucket. */
 static long bucket_of (const pg_tiles *t, int axis, double place)
 {
     double k = floor ((place - t->low[axis]) / t->pitch);
     return k < 0 ? 0 : k >= t->buckets[axis] ? t->buckets[axis] - 1 : (long) k;
 }
 
+/* Sorts the points into square buckets of 1.6 times the largest spacing by counting: the first
+ * pass counts, the second one fills each bucket from its end. */
 static pg_status sort_points (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -67,7 +78,7 @@ size_t pg_tiles_near (const pg_tiles *t, const double *at, double reach, size_t 
 }
 
 /* ---- spacing ------------------------------------------------------------------------------------------- */
-/* Each spacing the mean of those around it. */
+/* Replaces each spacing by the mean of those around it, so that the reach of neighbours does not jump. */
 static pg_status smooth_spacing (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -86,8 +97,9 @@ done:
     return status;
 }
 
-/* Local spacings: given, or, of points of no lattice, the distance of the third nearest neighbour; of a
- * lattice its step. */
+/* Spacings of the points: the given ones; else the step of the lattice; else, for irregular
+ * points, the distance of the third nearest neighbour, searched in circles that double until
+ * three are found. */
 static pg_status measure_spacing (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -123,9 +135,11 @@ done:
     return status;
 }
 
+/* Values of pg_tiles.cracked. */
 enum { NEAR_CRACK = 1, ON_CRACK };
 
 /* ---- cracks -------------------------------------------------------------------------------------------- */
+/* Does a pre-crack cross the straight line from a to b? */
 int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
 {
     double x[3], y[3];
@@ -133,6 +147,7 @@ int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
     return t->cracks && pg_cracks_cut (t->cracks, t->dim, x, y, 0);
 }
 
+/* Does the point lie on a pre-crack itself? Then it belongs to both sides. */
 static int on_crack (const pg_tiles *t, size_t k)
 {
     double x[3];
@@ -140,7 +155,8 @@ static int on_crack (const pg_tiles *t, size_t k)
     return pg_cracks_touch (t->cracks, t->dim, x, 1e-9 * t->spacing[k]) != NULL;
 }
 
-/* Points with a pre-crack within two spacings. */
+/* Marks the points with a pre-crack within about two spacings, found by 16 rays. Only these
+ * need the costly question whether a crack lies between a pixel and a point. */
 static pg_status find_cracked (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -174,6 +190,8 @@ void pg_tiles_close (pg_tiles *t)
 }
 
 /* ---- the outline --------------------------------------------------------------------------------------- */
+/* 1 if a place lies in a cell of the lattice that belongs to the body; the upper faces belong
+ * to the last cells. */
 static int in_lattice (const pg_lattice *l, const double *x)
 {
     size_t at = 0, stride = 1;
@@ -186,6 +204,8 @@ static int in_lattice (const pg_lattice *l, const double *x)
     return l->in[at];
 }
 
+/* Fills the pixels of a plane element as a fan of triangles through its nodes in their order
+ * around it; the sides of quadratic elements become two straight pieces. */
 static void fill_element (const pg_mesh *m, size_t e, pg_screen *s)
 {
     static const unsigned char round[3][9] = { { 0, 3, 1, 4, 2, 5 },
@@ -205,6 +225,7 @@ static void fill_element (const pg_mesh *m, size_t e, pg_screen *s)
     }
 }
 
+/* Is the place in the body, as far as an outline says? */
 int pg_tiles_inside (const pg_tiles *t, const double *at)
 {
     const pg_outline *o = t->outline;
@@ -215,7 +236,7 @@ int pg_tiles_inside (const pg_tiles *t, const double *at)
                                          : pg_body_inside (o->body, x, 1e-6 * t->widest);
 }
 
-/* 1 where the body is. */
+/* mask = 1 for each pixel whose centre lies in the body (width x height). */
 static pg_status mask_of (const pg_tiles *t, const pg_screen *s, unsigned char *mask)
 {
     pg_status status = PG_OK;
@@ -237,7 +258,8 @@ done:
 }
 
 /* ---- owners -------------------------------------------------------------------------------------------- */
-/* Distance of a place from point k: lattice cells are nearest in steps. */
+/* Distance of a place from point k, m. On a lattice with unequal steps it is measured in
+ * steps, so that a pixel belongs to the cell that it lies in. */
 static double distance_to (const pg_tiles *t, size_t k, double a, double b)
 {
     double dx = a - t->place[2*k], dy = b - t->place[2*k + 1];
@@ -245,8 +267,8 @@ static double distance_to (const pg_tiles *t, size_t k, double a, double b)
     return hypot (dx, dy);
 }
 
-/* Nearest point of every pixel within `reach` spacings; across a pre-crack only where there is no other. What
- * lies on a crack is on both sides of it. */
+/* Offers point k to the pixels within `reach` spacings: the nearest point owns a pixel, and one across a
+ * pre-crack only where there is no other. What lies on a crack is on both sides of it. */
 static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
 {
     const double *at = t->place + 2 * k;
@@ -268,7 +290,8 @@ static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
         }
 }
 
-/* Pixels of the body beyond the reach of every point take the nearest one. */
+/* Pixels of the body beyond the reach of every point take the nearest one; pixels outside are
+ * emptied. */
 static pg_status adopt (const pg_tiles *t, const unsigned char *mask, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -287,8 +310,9 @@ done:
 }
 
 /* ---- clouds without an outline ------------------------------------------------------------------------- */
-/* One pass of the exact distance transform (lower envelope of parabolas) along n values, `step` apart. v: n,
- * z: n + 1 */
+/* One pass of the exact distance transform along n values, `step` apart: replaces f(q) by min
+ * over r of (q - r)^2 + f(r), which is the lower envelope of parabolas. v (n) and z (n + 1)
+ * hold the parabolas of the envelope and their borders, out (n) the result. */
 static void transform_line (float *f, size_t step, int n, float *out, int *v, double *z)
 {
     int k = 0;
@@ -312,8 +336,8 @@ static void transform_line (float *f, size_t step, int n, float *out, int *v, do
     for (int q = 0; q < n; q++) f[(size_t) q * step] = out[q];
 }
 
-/* Distance of every pixel to the nearest one without an owner, pixels; what lies outside of the screen has
- * none. */
+/* Distance in pixels from every owned pixel to the nearest one without an owner, by the exact distance
+ * transform (columns, then rows). */
 static pg_status distance_to_nothing (const pg_screen *s, float *f)
 {
     pg_status status = PG_OK;
@@ -332,8 +356,10 @@ done:
     return status;
 }
 
+/* Radius of the discs that close the gaps, in quarters of a spacing. */
 enum { GROWN = 5 };                                    /* quarters of a spacing */
-/* Pixels that stay when the outline lies `rim` spacings outside the outer points. */
+/* How many pixels stay when the outline is drawn `rim` spacings outside the outer points; drop: the others
+ * lose their owner. */
 static double kept (const pg_tiles *t, const pg_screen *s, const float *inward, double rim, int drop)
 {
     double n = 0;
@@ -346,8 +372,8 @@ static double kept (const pg_tiles *t, const pg_screen *s, const float *inward, 
     return n;
 }
 
-/* Discs of one and a quarter spacings around the points close every gap between them; then the outline is
- * drawn in, so far that the area is that of the points together. */
+/* Finds by bisection the outline that encloses the area of the points. Where that is not
+ * known, the outline lies 0.4 spacings outside of the outer points. */
 static pg_status close_gaps (const pg_tiles *t, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -366,7 +392,7 @@ done:
     return status;
 }
 
-/* Points of a lattice of which no more is known: their cells. */
+/* Points of a lattice of which nothing else is known: their rectangular cells. */
 static pg_status lay_cells (const pg_tiles *t, pg_screen *s)
 {
     pg_status status = PG_OK;
@@ -381,6 +407,8 @@ done:
     return status;
 }
 
+/* With an outline the body is what the outline says; without one, a lattice is its cells, and loose points
+ * are closed to one body whose area is that of their volumes. */
 pg_status pg_tiles_rest (const pg_tiles *t, pg_screen *s)
 {
     pg_status status = PG_OK;

@@ -1,47 +1,72 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The points seen in a plane as parts of the body that share it without gaps: at rest (tiles.c) and
- * displaced (warp.c). */
+ * Pictures of points in a plane: the body is divided into one part per point, without gaps
+ * between the parts, as it was at rest (tiles.c) and as it is displaced (warp.c). Drawing a
+ * rectangle around each point would leave gaps between irregular or displaced points and would
+ * blur cracks. */
 #ifndef PG_PICTURE_TILES_H
 #define PG_PICTURE_TILES_H
 #include "picture_private.h"
 
+/* The points of one picture. The caller fills the first part, which stays the caller's;
+ * pg_tiles_open makes the second part, which pg_tiles_close frees. */
 typedef struct {                                       /* borrowed unless said otherwise */
+    /* Number of points that are seen. */
     size_t  n;
-    int     dim, loose;                                /* of the body; 1: the points lie on no lattice */
-    const double *place;                               /* in the picture's plane, m (n x 2) */
-    const double *shift;                               /* magnified displacement in it, m, or NULL (n x 2) */
-    const double *damage;                              /* or NULL: not known (n) */
-    const double *size;                                /* local spacings, m, or NULL (n) */
-    /* lattice; 3D: depth of the plane, m; of all points in the plane, m2, 0: not known */
+    /* Dimension of the body, 2 or 3 (a layer); loose = 1: the points lie on no lattice. */
+    int     dim, loose;
+    /* Places in the plane of the picture, m (n x 2). */
+    const double *place;
+    /* Displacement in that plane times the magnification, m (n x 2), or NULL: undeformed. */
+    const double *shift;
+    /* Damage of the points (n), or NULL if it is not known. */
+    const double *damage;
+    /* Spacing around each point, m (n), or NULL: measured from the points. */
+    const double *size;
+    /* Cell of a lattice along both axes of the picture, m; in 3D the depth of the plane, m;
+     * the area of all points in the plane, m2, or 0 if it is not known. */
     double  step[2], at, area;
     const pg_eye *eye;
-    const pg_outline *outline;                         /* NULL: the points are all that is known */
+    /* The body, or NULL: the points are all that is known of it. */
+    const pg_outline *outline;
     const pg_cracks *cracks;
-    /* made by pg_tiles_open */
-    double *spacing, widest, pitch, low[2];            /* of every point, the largest; buckets, m */
+    /* Spacing around each point (n) and the largest one, m; edge and lower corner of the
+     * search buckets, m. */
+    double *spacing, widest, pitch, low[2];
+    /* Search buckets along both axes; the points of bucket b are sorted[first[b]] to
+     * sorted[first[b + 1] - 1]. */
     long    buckets[2];
     size_t *first;  int *sorted;
-    unsigned char *cracked;  /* a pre-crack is near: 1; the point lies on it: 2 (n) */
-    double *gradient, limit;  /* of the shift, 1 (n x 4); strain above which damaged points are torn apart */
+    /* Of each point (n): 1 if a pre-crack is within about two spacings, 2 if the point lies on
+     * one, else 0. */
+    unsigned char *cracked;
+    /* Gradient of the shift at each point (n x 4: d shift_x / dx, dy, d shift_y / dx, dy); the
+     * relative change of distance above which two damaged neighbours count as separated. */
+    double *gradient, limit;
 } pg_tiles;
+/* Measures spacings, sorts the points into buckets and finds those near pre-cracks. Fails on
+ * missing memory only. */
 pg_status pg_tiles_open  (pg_tiles *t);
 void      pg_tiles_close (pg_tiles *t);
-/* Owners of the pixels of a fresh screen, the body at rest: indices of points. */
+/* Assigns each pixel of a new screen to the point it belongs to, the body being undeformed. */
 pg_status pg_tiles_rest  (const pg_tiles *t, pg_screen *screen);
-/* The same where the body is now: displaced by `shift` if there is one. Parts of points that hold together
- * share their corners; those that have lost each other move apart. */
+/* The same for the displaced body, or the undeformed one if there is no shift. Parts of
+ * neighbours that hold together share their boundary; those that have separated move apart and
+ * leave a gap. */
 pg_status pg_tiles_draw  (pg_tiles *t, pg_screen *screen);
 
-/* After pg_tiles_draw with a shift: where n places along the left (side 1) or right face of a crack from a to
- * b are now, NAN outside of the body. */
+/* After pg_tiles_draw with a shift: where n places along one face of a crack from a to b (m)
+ * are now (side 1: the face on the left of the direction a to b; 0: on the right); NAN outside
+ * the body. */
 void pg_tiles_face (const pg_tiles *t, const double *a, const double *b, int side, size_t n,
                     double *out /* n x 2, m */);
 
-int       pg_tiles_inside (const pg_tiles *t, const double *at);  /* 1 also where there is no outline */
-/* points, itself too */
+/* 1 if a place lies in the body; also 1 where there is no outline, or one that is a mesh. */
+int       pg_tiles_inside (const pg_tiles *t, const double *at);
+/* Points within `reach` (m) of a place, in no particular order; writes at most `most` of them
+ * and returns how many were written. */
 size_t    pg_tiles_near  (const pg_tiles *t, const double *at, double reach, size_t most, int *out);
-/* does a pre-crack lie between? */
+/* 1 if a pre-crack passes between two places of the plane. */
 int       pg_tiles_cut   (const pg_tiles *t, const double *a, const double *b);
-/* place of the plane in space */
+/* The coordinates in space (3, m) of the place (a, b) of the plane. */
 void      pg_tiles_space (const pg_tiles *t, double a, double b, double *x);
 #endif

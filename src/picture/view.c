@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where the eye of a picture is: a plane body, a section, or a solid from one of its sides or obliquely;
- * always parallel rays. */
+ * The direction of view: a plane body, a section, a solid from one of its sides or obliquely;
+ * always a parallel projection. Also the reading of sections, directions and file names from
+ * text. */
 #include "picture_private.h"
 #include <math.h>
 #include <stdlib.h>
@@ -15,15 +16,18 @@ double pg_along (const double *direction, const double *x, int dim)
     return s;
 }
 
-/* x and y axis of the picture for each side: coordinate and sign. */
+/* For the views front, back, left, right, top, bottom: which coordinate runs across and which
+ * upwards, and with which sign. */
 static const signed char side_axis[][2] = { { 0, 1 }, { 0, 1 }, { 2, 1 }, { 2, 1 }, { 0, 2 }, { 0, 2 } };
 static const signed char side_sign[][2] = { { 1, 1 }, { -1, 1 }, { 1, 1 }, { -1, 1 }, { 1, -1 }, { 1, 1 } };
 
+/* The vector product c = a x b. */
 static void cross (const double *a, const double *b, double *c)
 {
     c[0] = a[1] * b[2] - a[2] * b[1], c[1] = a[2] * b[0] - a[0] * b[2], c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+/* The eye looks along a coordinate axis: the picture has axes, `across` to the right and `up` upwards. */
 static void face (pg_eye *e, int across, int across_sign, int up, int up_sign)
 {
     e->axis[0] = across, e->axis[1] = up, e->sign[0] = across_sign, e->sign[1] = up_sign;
@@ -32,7 +36,9 @@ static void face (pg_eye *e, int across, int across_sign, int up, int up_sign)
     e->framed = 1;
 }
 
-/* y up; along y: z down. */
+/* Looks along any direction, with y upwards; nearly along y with -z (from above) or z (from
+ * below) upwards. An axis of the picture that happens to be a coordinate axis is noted, so
+ * that its label can name it. */
 static void look (pg_eye *e, const double *direction)
 {
     double size = sqrt (pg_along (direction, direction, 3)), vertical[3] = { 0, 1, 0 };
@@ -50,6 +56,8 @@ static void look (pg_eye *e, const double *direction)
     }
 }
 
+/* Decides by dimension, view and section what kind of picture it is. The mid-plane of z is the section of
+ * a 3D body when none was asked for. */
 pg_status pg_eye_open (pg_eye *e, const pg_cloud *cloud, const pg_picture_style *style)
 {
     static const double usual[] = { 0.62, 0.46, 0.80 };
@@ -79,7 +87,8 @@ done:
     return status;
 }
 
-/* Up to three numbers between commas; returns how many, 0 for anything else. */
+/* Reads up to three numbers between commas from n characters; returns how many, 0 for anything
+ * else. */
 static int numbers_of (const char *text, size_t n, double *out)
 {
     char copy[128], *s = copy, *end;
@@ -109,6 +118,7 @@ done:
     return status;
 }
 
+/* Reads "z = 5 mm" or a normal and its distance, "1, 0, 1 = 5 mm"; a number without a unit is in metres. */
 pg_status pg_picture_section (pg_picture_style *style, const char *text)
 {
     pg_status status = PG_OK;
@@ -132,6 +142,7 @@ done:
     return status;
 }
 
+/* Keeps letters, digits and ". - _"; a stretch of anything else becomes one "_", none at the ends. */
 void pg_picture_name (char *out, size_t size, const char *text)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";

@@ -1,34 +1,48 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body displaced: a fine grid over the body at rest whose corners move with the points around them, as
- * the points on one side of a crack say; each piece of it is filled with what the pixels at rest show
- * there. */
+ * The displaced body on pixels. A fine grid covers the undeformed body; its corners move with
+ * the points around them, and each piece of the grid is filled with what the undeformed pixels
+ * show there. So parts of neighbouring points stay joined along displaced lines, whatever
+ * their shape.
+ *
+ *   displacement at x, seen from point o:   u(x) = sum_j w_j (u_j + grad u_j (x - x_j)) / sum_j w_j,
+ *                                           w_j = (1 - |x - x_j| / reach)^2,   j not separated from o
+ *
+ * Two points have separated if a pre-crack passes between them or if their distance has
+ * changed more than strain explains. On both sides of a crack o differs, so the two displaced
+ * faces open. */
 #include "tiles.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Largest numbers of points around a place, and of owners in one piece of the grid. */
 enum { NEAR = 96, OWNERS = 24 };
+/* The undeformed picture, the screen to fill, and the grid between them. */
 typedef struct {
     pg_tiles *t;
-    const pg_screen *rest;                             /* owners at rest */
+    /* Owners of the pixels of the undeformed body. */
+    const pg_screen *rest;
     pg_screen *screen;
-    double origin[2], step;                            /* of the grid, m */
+    /* Lower corner of the grid and edge of a piece, m. */
+    double origin[2], step;
     long   count[2];
 } warp;
 
+/* Relative displacement of two points over their distance: the strain that would explain it. */
 static double strain_of (const pg_tiles *t, size_t i, size_t j)
 {
     double dx = t->place[2*j] - t->place[2*i], dy = t->place[2*j + 1] - t->place[2*i + 1];
     return hypot (t->shift[2*j] - t->shift[2*i], t->shift[2*j + 1] - t->shift[2*i + 1]) / hypot (dx, dy);
 }
 
+/* Is one of the two points whole (damage below 0.1)? Damage that is not known says nothing. */
 static int sound (const pg_tiles *t, size_t i, size_t j)
 {
     return t->damage && fmin (t->damage[i], t->damage[j]) < 0.1;
 }
 
-/* Have two points lost each other? Never where one is whole; else if a pre-crack parts them, or they are
- * farther apart than strain explains. */
+/* 1 if two points have separated: a pre-crack passes between them, or neither is nearly whole
+ * and their distance has changed by more than the limit. */
 static int torn (const pg_tiles *t, size_t i, size_t j)
 {
     if (i == j) return 0;
@@ -36,14 +50,16 @@ static int torn (const pg_tiles *t, size_t i, size_t j)
     return !sound (t, i, j) && strain_of (t, i, j) > t->limit;
 }
 
+/* Order of doubles for qsort. */
 static int ascending (const void *a, const void *b)
 {
     double p = *(const double *) a, q = *(const double *) b;
     return (p > q) - (p < q);
 }
 
-/* What strain does: three times the value that 95 of 100 pairs of sound neighbours stay below (where damage
- * is not known, six times that of all pairs, and no less than half a spacing on the picture). */
+/* How much of a relative displacement is strain and no crack: three times the value that 95 of 100 pairs
+ * of sound neighbours stay below. Where damage is not known, six times that of all pairs, and no less than
+ * half a spacing on the picture. */
 static pg_status find_limit (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -69,8 +85,8 @@ done:
     return status;
 }
 
-/* Gradient of the shift at each point, by least squares over its neighbours that hold to it; 0 where they do
- * not span the plane. */
+/* Gradient of the shift at each point, by least squares over the neighbours that hold to it; 0 where they
+ * do not span the plane. */
 static pg_status find_gradients (pg_tiles *t)
 {
     pg_status status = PG_OK;
@@ -100,8 +116,8 @@ done:
     return status;
 }
 
-/* One and a half spacings of the point nearest to a place about o: of all that ask about the place the
- * same. */
+/* Radius of averaging at a place: one and a half spacings of the point nearest to it, so that
+ * all pieces that share a corner compute the same displacement there. */
 static double reach_at (const pg_tiles *t, size_t o, const double *at)
 {
     int near[NEAR];
@@ -115,8 +131,8 @@ static double reach_at (const pg_tiles *t, size_t o, const double *at)
     return reach;
 }
 
-/* Shift at a place as the points say that hold to point o: their own, carried on by their gradients, weighed
- * by nearness. */
+/* Shift of a place as the points that hold to point o see it: their own shifts, carried on by their
+ * gradients and weighed by nearness. */
 static void shift_at (const pg_tiles *t, size_t o, const double *at, double *out)
 {
     int near[NEAR];
@@ -138,7 +154,7 @@ static void shift_at (const pg_tiles *t, size_t o, const double *at, double *out
 }
 
 /* ---- faces of pre-cracks ------------------------------------------------------------------------------- */
-/* The nearest point that no pre-crack parts from a place within two spacings; -1: there is none. */
+/* The nearest point within two spacings that no pre-crack separates from a place; -1 where there is none. */
 static long beside (const pg_tiles *t, const double *place)
 {
     int near[NEAR];
@@ -169,6 +185,7 @@ void pg_tiles_face (const pg_tiles *t, const double *a, const double *b, int sid
 }
 
 /* ---- pieces -------------------------------------------------------------------------------------------- */
+/* Owner of the pixel at rest that holds a place. */
 static int rest_at (const warp *w, double a, double b)
 {
     double i = floor ((a - w->rest->left) * w->rest->scale), j = floor ((w->rest->top - b) * w->rest->scale);
@@ -176,7 +193,9 @@ static int rest_at (const warp *w, double a, double b)
     return w->rest->owner[(size_t) j * (size_t) w->rest->width + (size_t) i];
 }
 
-/* A triangle with its corners at rest (a) and on the screen (v): pixels whose place at rest belongs to o. */
+/* A triangle with its corners in the undeformed body (a, m) and on the screen (v, pixels):
+ * gives to o the pixels that come from pixels of o. Triangles overlap by 3 % of their size,
+ * which closes gaps between pieces of different owners. */
 static void fill (const warp *w, const double a[3][2], const double v[3][2], int o)
 {
     pg_screen *s = w->screen;
@@ -204,7 +223,8 @@ static void fill (const warp *w, const double a[3][2], const double v[3][2], int
         }
 }
 
-/* Whose pixels at rest a piece of the grid holds. */
+/* The owners of the undeformed pixels in one piece of the grid and one pixel around it;
+ * returns their number. */
 static int owners_in (const warp *w, const double *low, int *owner)
 {
     int n = 0;
@@ -222,6 +242,7 @@ static int owners_in (const warp *w, const double *low, int *owner)
     return n;
 }
 
+/* Moves the corners of one piece of the grid as point o sees them, and fills it with the pixels of o. */
 static void draw_piece (const warp *w, const double *low, int o)
 {
     static const int round[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
@@ -244,8 +265,8 @@ static void draw_piece (const warp *w, const double *low, int o)
     }
 }
 
-/* The body at rest on a screen of its own, as fine as the picture (its longer side 3000 pixels at most), with
- * a rim wider than what the points reach. */
+/* The undeformed body on a screen of its own, 1.5 times as fine as the picture (its longer
+ * side at most 3000 pixels), with an edge wider than what the points reach. */
 static pg_status open_rest (const pg_tiles *t, const pg_screen *screen, pg_screen *rest)
 {
     pg_status status = PG_OK;
@@ -266,6 +287,7 @@ done:
     return status;
 }
 
+/* Every piece of the grid, once for each point that owns a part of it. */
 static void displace (const warp *w)
 {
     for (long j = 0; j < w->count[1]; j++)
@@ -276,6 +298,7 @@ static void displace (const warp *w)
         }
 }
 
+/* Without displacements the screen shows the body at rest. */
 static void copy (const warp *w)
 {
     pg_screen *s = w->screen;
@@ -286,6 +309,7 @@ static void copy (const warp *w)
                                                                              s->top - (j + 0.5) / s->scale);
 }
 
+/* The grid is as fine as half a spacing or three pixels, with at most 2000 pieces along its longer side. */
 pg_status pg_tiles_draw (pg_tiles *t, pg_screen *screen)
 {
     pg_status status = PG_OK;

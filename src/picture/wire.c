@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Lines on pictures: pre-cracks (2D as they are, 3D where they meet the plane shown, or their outline), the
- * body's box, a triad. */
+ * Lines on pictures: pre-cracks (as they are in 2D; in 3D where they meet the plane shown, or their
+ * outline), the displaced faces of cracks and the box of the body. They are projected by the eye of the
+ * sheet and drawn over the painted pixels. */
 #include "picture_private.h"
 #include <math.h>
 #include <string.h>
 
+/* Pixels of a place in space (3, m) in a panel. */
 static void project (const pg_sheet *p, size_t panel, const double *x, double *px, double *py)
 {
     pg_sheet_to (p, panel, pg_along (p->eye.right, x, 3), pg_along (p->eye.up, x, 3), px, py);
 }
 
 /* ---- cracks -------------------------------------------------------------------------------------------- */
+/* Adds the polyline of a plane crack to the path. */
 static void path_2d (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_crack *crack)
 {
     double px, py;
@@ -21,7 +24,8 @@ static void path_2d (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_crac
     }
 }
 
-/* Share of a - b inside the box. */
+/* The part of the line a - b inside the box, as parameters from 0 to 1 (Liang-Barsky
+ * clipping); 0 if none of it is inside. */
 static int clip_line (const pg_grid *g, const double *a, const double *b, double *from, double *to)
 {
     *from = 0, *to = 1;
@@ -37,7 +41,8 @@ static int clip_line (const pg_grid *g, const double *a, const double *b, double
     return *from < *to;
 }
 
-/* Where a polygon meets the plane normal . x = at, inside the box. */
+/* Adds the lines in which a crack polygon meets the plane normal . x = at, inside the box. The
+ * edges of the polygon that cross the plane come in pairs. */
 static void path_of_cut (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                          const pg_crack *crack, const double *normal, double at)
 {
@@ -57,7 +62,8 @@ static void path_of_cut (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_
     }
 }
 
-/* Not behind what the screen shows there, to one and a half cells. */
+/* 1 if a place is not hidden behind what the screen shows there, to within one and a half
+ * cells, since cubes around points are coarser than the crack. */
 static int in_sight (const pg_sheet *p, const pg_grid *g, const pg_screen *s, const double *x)
 {
     double i = floor ((pg_along (p->eye.right, x, 3) - s->left) * s->scale),
@@ -67,7 +73,8 @@ static int in_sight (const pg_sheet *p, const pg_grid *g, const pg_screen *s, co
     return s->depth[(size_t) j * (size_t) s->width + (size_t) i] <= pg_along (p->eye.toward, x, 3) + slack;
 }
 
-/* One line in space, in the box, and where `screen` is given only what is in sight. */
+/* Adds a line in space to the path, inside the box, and where a screen is given only what is
+ * in sight, tested at 200 places. */
 static void path_of_line (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                           const pg_screen *screen, const double *a, const double *b)
 {
@@ -87,7 +94,8 @@ static void path_of_line (const pg_sheet *p, cairo_t *cr, size_t panel, const pg
     }
 }
 
-/* The rim of a polygon inside the box, and where its plane meets the faces of the box. */
+/* Adds the edges of a crack polygon inside the box, and the lines where its plane meets the
+ * faces of the box, where the crack is visible on the surface. */
 static void path_of_rim (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                          const pg_screen *screen, const pg_crack *crack)
 {
@@ -107,6 +115,8 @@ static void path_of_rim (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_
     }
 }
 
+/* Adds what a view shows of one crack: the crack itself, its cut with the section or with the
+ * face looked at, or its outline in space. */
 static void path_of_crack (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                            const pg_screen *screen, const pg_crack *crack)
 {
@@ -122,7 +132,7 @@ static void path_of_crack (const pg_sheet *p, cairo_t *cr, size_t panel, const p
     }
 }
 
-/* Black on a thin white rim, so that cracks show on dark colours. */
+/* Black lines on broader white ones, so that cracks are seen on dark and on bright colours. */
 void pg_wire_cracks (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g, const pg_cracks *cracks,
                      const pg_screen *screen)
 {
@@ -163,7 +173,8 @@ void pg_wire_faces (const pg_sheet *p, cairo_t *cr, size_t panel, size_t n, size
 }
 
 /* ---- box and triad ------------------------------------------------------------------------------------- */
-/* Edges that meet the corner farthest from the eye (hidden) or the others. */
+/* Corner k of the box has bit a set if it is the upper one along axis a; an edge joins corners
+ * that differ in one bit. */
 void pg_wire_box (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g, int hidden)
 {
     int farthest = 0;
@@ -187,39 +198,4 @@ void pg_wire_box (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g
     if (hidden) cairo_set_dash (cr, (double[]) { 6, 6 }, 2, 0);
     cairo_stroke (cr);
     cairo_restore (cr);
-}
-
-/* Arrows along x, y, z with their names; those towards the eye last. */
-void pg_wire_triad (const pg_sheet *p, cairo_t *cr, double x, double y, double length)
-{
-    static const double colour[3][3] = { { 0.75, 0.15, 0.12 }, { 0.10, 0.50, 0.20 }, { 0.10, 0.30, 0.70 } };
-    int order[3] = { 0, 1, 2 };
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 2; j++)
-            if (p->eye.toward[order[j]] > p->eye.toward[order[j + 1]]) {
-                int swap = order[j];
-                order[j] = order[j + 1], order[j + 1] = swap;
-            }
-    cairo_set_line_width (cr, 3);
-    for (int k = 0; k < 3; k++) {
-        int a = order[k];
-        double dx = length * p->eye.right[a], dy = -length * p->eye.up[a], size = hypot (dx, dy), arm = 11;
-        cairo_set_source_rgb (cr, colour[a][0], colour[a][1], colour[a][2]);
-        if (size < 0.15 * length) {                    /* straight at the eye, or away from it */
-            cairo_arc (cr, x, y, 5, 0, 6.283185307179586);
-            cairo_fill (cr);
-            pg_text (cr, (const char[2]) { "xyz"[a], 0 }, 0.85 * PG_FONT, x - 16, y + 14, 0.5, 0, 1);
-            continue;
-        }
-        cairo_move_to (cr, x, y);
-        cairo_line_to (cr, x + dx, y + dy);
-        cairo_stroke (cr);
-        double ux = dx / size, uy = dy / size;
-        cairo_move_to (cr, x + dx + 3 * ux, y + dy + 3 * uy);
-        cairo_line_to (cr, x + dx - arm * ux - 0.4 * arm * uy, y + dy - arm * uy + 0.4 * arm * ux);
-        cairo_line_to (cr, x + dx - arm * ux + 0.4 * arm * uy, y + dy - arm * uy - 0.4 * arm * ux);
-        cairo_fill (cr);
-        pg_text (cr, (const char[2]){ "xyz"[a], 0 }, 0.85 * PG_FONT, x + dx + 17 * ux, y + dy + 17 * uy, 0.5,
-                 0, 1);
-    }
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * output.averages: the mean of one component of a field over the points of a set, a column of history.csv
  * each. */
-#include "result.h"
+#include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,7 +22,7 @@ static void component_names (int dim, int turns, char *out, size_t size)
             at += (size_t) snprintf (out + at, size - at, "|%s.%c", vector[f], "xyz"[k]);
     for (int f = 0; f < 2; f++)
         for (int k = 0; k < pg_voigt_size (dim); k++)
-            at += (size_t) snprintf (out + at, size - at, "|%s.%s", tensor[f], result_voigt (dim, k));
+            at += (size_t) snprintf (out + at, size - at, "|%s.%s", tensor[f], pg_result_voigt (dim, k));
     if (turns) snprintf (out + at, size - at, turns == 3 ? "|rotation.x|rotation.y|rotation.z" : "|rotation");
 }
 
@@ -79,7 +79,7 @@ static void check_names (const pg_scene *scene)
         }
 }
 
-void result_averages_check (const pg_scene *scene, const pg_problem *problem)
+void pg_result_averages_check (const pg_scene *scene, const pg_problem *problem)
 {
     char path[64];
     check_names (scene);
@@ -93,7 +93,7 @@ void result_averages_check (const pg_scene *scene, const pg_problem *problem)
 }
 
 /* ---- columns and rows ---------------------------------------------------------------------------------- */
-pg_status result_averages_read (pg_result *r, const pg_scene *scene)
+pg_status pg_result_averages_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     r->naverage = pg_scene_count (scene, "output.averages");
@@ -113,13 +113,13 @@ pg_status result_averages_read (pg_result *r, const pg_scene *scene)
                                                            : "1";
         if (dot && !dot[2]) a->component = dot[1] - 'x';
         for (int k = 0; dot && dot[2] && k < pg_voigt_size (dim); k++)
-            if (strcmp (dot + 1, result_voigt (dim, k)) == 0) a->component = k;
+            if (strcmp (dot + 1, pg_result_voigt (dim, k)) == 0) a->component = k;
     }
 done:
     return status;
 }
 
-void result_average_column (const pg_result *r, size_t i, char *out, size_t size)
+void pg_result_average_column (const pg_result *r, size_t i, char *out, size_t size)
 {
     snprintf (out, size, "%s [%s]", r->average[i].name, r->average[i].unit);
 }
@@ -133,7 +133,7 @@ static double mean_of (const result_average *a, const double *value, int compone
 }
 
 /* Each field is computed once, whatever the number of averages that ask for it. */
-pg_status result_averages_row (pg_result *r, const pg_state *state, double *row, double *work)
+pg_status pg_result_averages_row (pg_result *r, const pg_state *state, double *row, double *work)
 {
     pg_status status = PG_OK;
     void *self;

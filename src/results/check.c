@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What of output a body of this dimension can show: names of pictures (a scalar, a vector's size, or a part),
  * views, names given once. */
-#include "result.h"
+#include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +20,7 @@ static void picture_names (int dim, int turns, char *out, size_t size)
     for (int f = 0; f < 2; f++) {
         if (dim == 1) at += (size_t) snprintf (out + at, size - at, "|%s", tensor[f]);
         for (int k = 0; k < pg_voigt_size (dim); k++)
-            at += (size_t) snprintf (out + at, size - at, "|%s.%s", tensor[f], result_voigt (dim, k));
+            at += (size_t) snprintf (out + at, size - at, "|%s.%s", tensor[f], pg_result_voigt (dim, k));
     }
     if (turns)
         at += (size_t) snprintf (out + at, size - at, "|rotation%s",
@@ -120,11 +120,11 @@ static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
         pg_scene_fault (scene, path, "a file name of at most 60 letters, digits, '-', '_' and '.'");
         return;
     }
-    if (result_view_read (&mine, scene, i, p->dim) != PG_OK) return;
+    if (pg_result_view_read (&mine, scene, i, p->dim) != PG_OK) return;
     for (size_t k = 0; (word = pg_scene_name (scene, k, "output.pictures")); k++)
         twice |= strcmp (word, mine.name) == 0;
     for (size_t k = 0; k < i; k++)
-        twice |= result_view_read (&other, scene, k, p->dim) == PG_OK && strcmp (other.name, mine.name) == 0;
+        twice |= pg_result_view_read (&other, scene, k, p->dim) == PG_OK && strcmp (other.name, mine.name) == 0;
     if (twice || strcmp (mine.name, "load_displacement") == 0 || strcmp (mine.name, "error") == 0
         || strcmp (mine.name, "tip") == 0 || strcmp (mine.name, "tip_speed") == 0)
         pg_scene_fault (scene, path, "another picture is called %s.png; give another name", mine.name);
@@ -207,8 +207,8 @@ pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
     if (count >= MOST_PICTURES)
         pg_scene_fault (scene, "output.pictures", "at most %d pictures", MOST_PICTURES - 1);
     check_estimate (scene, problem);
-    result_averages_check (scene, problem);
-    if (result_tips_check (scene, problem) != PG_OK) return PG_E_MEMORY;
+    pg_result_averages_check (scene, problem);
+    if (pg_result_tips_check (scene, problem) != PG_OK) return PG_E_MEMORY;
     if (pg_reference_read (&reference, scene, problem) == PG_E_MEMORY) return PG_E_MEMORY;
     pg_reference_free (&reference);
     given_once (scene, "output.pictures");

@@ -5,7 +5,7 @@
  * with a normal that may lie anywhere |xi . n| is |xi| times its mean: 1, 2/pi, 1/2 in 1, 2, 3 dimensions. An
  * estimate: exact for one plane cut on average over its directions; parallel or smeared cracks count for as
  * many as they are. */
-#include "result.h"
+#include "results_private.h"
 #include <math.h>
 
 /* Area of what has broken at one point of a bond set; m2. */
@@ -30,7 +30,7 @@ static double area_of (const pg_problem *p, int set, size_t i, double volume, co
 
 /* Points of evaluation where there are some, else the points themselves. A run does not fail for want of
  * memory for this. */
-pg_status result_crack_measure (pg_result *r, const pg_state *state)
+pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;

@@ -2,7 +2,7 @@
  * The load-displacement curve of a run: force with its sign over the mean displacement of what is loaded, its
  * picture, its peak, its stiffness. Event stepping: the envelope of pg_envelope is the line, the path of
  * events is pale behind it. */
-#include "result.h"
+#include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +20,7 @@ static int pushes_along (const pg_problem *p, const pg_load *load, int k)
 }
 
 /* The curve follows the prescribed component that moves most, else the first load with a force. */
-void result_curve_choose (pg_result *r)
+void pg_result_curve_choose (pg_result *r)
 {
     const pg_problem *p = r->problem;
     double most = 0;
@@ -44,7 +44,7 @@ void result_curve_choose (pg_result *r)
 
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-pg_status result_curve_row (pg_result *r, double x, double y, const double *gauges, const pg_step *step)
+pg_status pg_result_curve_row (pg_result *r, double x, double y, const double *gauges, const pg_step *step)
 {
     pg_status status = PG_OK;
     size_t width = FIRST_GAUGE + r->problem->ngauge, i = r->npoint;
@@ -60,7 +60,7 @@ done:
     return status;
 }
 
-pg_status result_curve_keep (pg_result *r, size_t n, const pg_keeper *k)
+pg_status pg_result_curve_keep (pg_result *r, size_t n, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     size_t width = FIRST_GAUGE + r->problem->ngauge;
@@ -106,7 +106,7 @@ static double initial_stiffness (const pg_result *r, size_t peak)
 }
 
 /* The row of largest |force|; under event stepping among those that the envelope passes. */
-pg_status result_curve_read (pg_result *r)
+pg_status pg_result_curve_read (pg_result *r)
 {
     pg_status status = PG_OK;
     double *x = NULL, *y = NULL;
@@ -131,7 +131,7 @@ done:
     return status;
 }
 
-void result_curve_json (pg_json *j, const pg_result *r)
+void pg_result_curve_json (pg_json *j, const pg_result *r)
 {
     const result_peak *k = &r->peak;
     const pg_problem *p = r->problem;
@@ -202,7 +202,7 @@ int pg_result_words (const pg_result *r, size_t k, char *out, size_t size)
 }
 
 /* ---- its picture --------------------------------------------------------------------------------------- */
-pg_status result_curve_picture (pg_result *r)
+pg_status pg_result_curve_picture (pg_result *r)
 {
     pg_status status = PG_OK;
     double *x = NULL, *y = NULL;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Who may write into a result folder: one run at a time, and none over what another one left for later or
  * over a scene that no run put there. */
-#include "result.h"
+#include "results_private.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -58,7 +58,7 @@ done:
     return status;
 }
 
-pg_status result_lock (const char *folder, int *lock)
+pg_status pg_result_lock (const char *folder, int *lock)
 {
     pg_status status = PG_OK;
     char path[4096];
@@ -77,7 +77,7 @@ done:
     return status;
 }
 
-void result_unlock (const char *folder, int *lock)
+void pg_result_unlock (const char *folder, int *lock)
 {
     char path[4096];
     if (!*lock) return;
@@ -163,7 +163,7 @@ static int same_file (const char *a, const char *b)
 }
 
 /* A run in the folder of its own scene leaves that as it is. */
-pg_status result_copy_scene (const char *folder, const pg_scene *scene)
+pg_status pg_result_copy_scene (const char *folder, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     char path[4096], *text = NULL;
@@ -270,13 +270,13 @@ pg_status pg_result_discard (const char *folder)
     int lock = 0;
     struct stat s;
     if (stat (folder, &s) != 0 || !S_ISDIR (s.st_mode)) return PG_OK;
-    PG_TRY (result_lock (folder, &lock));
+    PG_TRY (pg_result_lock (folder, &lock));
     for (size_t k = 0; k < 2; k++) {
         snprintf (path, sizeof path, "%s/%s", folder, name[k]);
         if (unlink (path) != 0 && errno != ENOENT)
             PG_FAIL (PG_E_FILE, "cannot remove %s: %s", path, strerror (errno));
     }
 done:
-    result_unlock (folder, &lock);
+    pg_result_unlock (folder, &lock);
     return status;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * history.csv: one row a step with reactions and mean displacements of every load, gauges, energies;
  * events.csv: one row a bond. */
-#include "result.h"
+#include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +15,7 @@ static const char *const last_columns[] = { "energy_strain [J]",   "energy_kinet
 
 enum { EVENT_NUMBERS = 10, EVENT_COLUMNS = EVENT_NUMBERS + 2 };
 
-pg_status result_history_create (pg_result *r, const result_marks *from)
+pg_status pg_result_history_create (pg_result *r, const result_marks *from)
 {
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
@@ -35,7 +35,7 @@ pg_status result_history_create (pg_result *r, const result_marks *from)
                       p->load[l].name, axis);
         }
     for (size_t g = 0; g < p->ngauge; g++) snprintf (name[n++], sizeof *name, "%s [m]", p->gauge[g].name);
-    for (size_t a = 0; a < r->naverage; a++) result_average_column (r, a, name[n++], sizeof *name);
+    for (size_t a = 0; a < r->naverage; a++) pg_result_average_column (r, a, name[n++], sizeof *name);
     for (size_t t = 0; t < r->ntip; t++) snprintf (name[n++], sizeof *name, "%s [m]", r->tip[t].name);
     for (size_t k = 0; k < sizeof last_columns / sizeof *last_columns; k++)
         snprintf (name[n++], sizeof *name, "%s", last_columns[k]);
@@ -112,7 +112,7 @@ done:
     return status;
 }
 
-pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
+pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
@@ -145,10 +145,10 @@ pg_status result_history_row (pg_result *r, const pg_state *state, const pg_step
         }
         r->row[n++] = opening (&p->gauge[g], p->dim, a, b);
     }
-    if (r->curve_load >= 0) PG_TRY (result_curve_row (r, x, y, gauges, step));
-    PG_TRY (result_averages_row (r, state, r->row + n, r->u));
+    if (r->curve_load >= 0) PG_TRY (pg_result_curve_row (r, x, y, gauges, step));
+    PG_TRY (pg_result_averages_row (r, state, r->row + n, r->u));
     n += r->naverage;
-    PG_TRY (result_tips_row (r, state, step, r->row + n, r->u));
+    PG_TRY (pg_result_tips_row (r, state, step, r->row + n, r->u));
     n += r->ntip;
     r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic,
     r->row[n++] = report->energy_external;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * report.json: what the run did, in fixed keys (doc/output.md). */
-#include "result.h"
+#include "results_private.h"
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -133,7 +133,7 @@ static void criteria (pg_json *j, const pg_problem *p)
     if (p->nmaterial > 1) pg_json_shut (j);
 }
 
-pg_status result_json (pg_result *res, const pg_state *state, const char *failure, double search,
+pg_status pg_result_json (pg_result *res, const pg_state *state, const char *failure, double search,
                        double total)
 {
     pg_status status = PG_OK;
@@ -149,7 +149,7 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
     files_block (j, res);
     pg_json_text (j, "outcome", failure ? failure : "done");
     run_block (j, res, r, state);
-    result_curve_json (j, res);
+    pg_result_curve_json (j, res);
     crack_block (j, res);
     patch_block (j, res->problem);
     estimate_block (j, res);
@@ -159,7 +159,7 @@ pg_status result_json (pg_result *res, const pg_state *state, const char *failur
         pg_errors_json (j, &res->errors);
         pg_json_shut (j);
     }
-    result_tips_json (j, res);
+    pg_result_tips_json (j, res);
     pg_json_count (j, "peak_bytes", pg_memory_process_peak ());
     pg_json_count (j, "threads", (size_t) res->problem->threads);
     criteria (j, res->problem);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Pictures of the last state or of a stage. */
-#include "result.h"
+#include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-const char *result_voigt (int dim, int k)
+const char *pg_result_voigt (int dim, int k)
 {
     static const char *const part[4][6] = {
         { "" }, { "xx" }, { "xx", "yy", "xy" }, { "xx", "yy", "zz", "xy", "yz", "zx" }
@@ -19,7 +19,7 @@ static int part_of (const char *dot, int dim, int components)
     if (!dot) return components == 1 ? 0 : components == dim ? -1 : 0;
     if (components == dim && dot[1] && !dot[2])
         return dot[1] >= 'x' && dot[1] < 'x' + dim ? dot[1] - 'x' : -2;
-    for (int k = 0; k < components; k++) if (strcmp (dot + 1, result_voigt (dim, k)) == 0) return k;
+    for (int k = 0; k < components; k++) if (strcmp (dot + 1, pg_result_voigt (dim, k)) == 0) return k;
     return -2;
 }
 
@@ -127,7 +127,7 @@ done:
     return status;
 }
 
-pg_status result_stage (pg_result *r, const pg_state *state)
+pg_status pg_result_draw_stage (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
     char path[4096], suffix[32];
@@ -159,7 +159,7 @@ done:
     return status;
 }
 
-pg_status result_errors (pg_result *r, const pg_state *state)
+pg_status pg_result_measure (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
     pg_sampler solution = { 0 };
@@ -176,12 +176,12 @@ done:
     return status;
 }
 
-pg_status result_pictures (pg_result *r, const pg_state *state)
+pg_status pg_result_draw (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
     PG_TRY (draw_all (r, state, "", "", 1));
-    if (r->curve_load >= 0 && r->npoint > 1) PG_TRY (result_curve_picture (r));
-    PG_TRY (result_tips_pictures (r));
+    if (r->curve_load >= 0 && r->npoint > 1) PG_TRY (pg_result_curve_picture (r));
+    PG_TRY (pg_result_tips_pictures (r));
 done:
     return status;
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The result folder: opened before the first step, every row on disk when its step is over. */
-#include "result.h"
+#include "results_private.h"
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <math.h>
 
-static pg_status read_wishes (pg_result *r, const pg_scene *scene)
+static pg_status read_requests (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     const char *name;
@@ -26,7 +26,7 @@ static pg_status read_wishes (pg_result *r, const pg_scene *scene)
     /* shape functions that do not interpolate: the field between points is that of the coefficients */
     if (with_u && r->nfield < MOST_FIELDS && strcmp (r->problem->approx.type->name, "nosb") != 0)
         snprintf (r->field[r->nfield++].name, sizeof r->field[0].name, "coefficient");
-    PG_TRY (result_views_read (r, scene));
+    PG_TRY (pg_result_views_read (r, scene));
     for (size_t k = 0; k < r->nfield; k++) {
         pg_field_view *f = &r->field[k];
         int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0
@@ -49,7 +49,7 @@ done:
     return status;
 }
 
-pg_status result_remove (const pg_result *r, const char *name)
+pg_status pg_result_remove (const pg_result *r, const char *name)
 {
     pg_status status = PG_OK;
     char path[4096];
@@ -61,7 +61,7 @@ done:
 }
 
 /* What new and resumed results have in common; leaves the folder as it is. */
-pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem,
+pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem,
                           pg_solver *solver)
 {
     pg_status status = PG_OK;
@@ -73,11 +73,11 @@ pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scen
     PG_TRY (pg_scene_files (scene, &r->nnamed, &r->named));
     const pg_solver_options *settled = pg_solver_settled (solver);
     r->length = ((settled->flags & PG_SOLVER_QUASI_STATIC) ? 1 : settled->end) / (double) settled->steps;
-    PG_TRY (read_wishes (r, scene));
-    PG_TRY (result_averages_read (r, scene));
-    PG_TRY (result_tips_read (r, scene));
+    PG_TRY (read_requests (r, scene));
+    PG_TRY (pg_result_averages_read (r, scene));
+    PG_TRY (pg_result_tips_read (r, scene));
     PG_TRY (pg_reference_read (&r->reference, scene, problem));
-    result_curve_choose (r);
+    pg_result_curve_choose (r);
     r->next_broken = r->broken_share > 0 ? 1 : 0;
 done:
     return status;
@@ -93,16 +93,16 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     double t0 = pg_seconds ();
     PG_TRY (pg_result_check (scene, problem));
     PG_ALLOC (r, 1);
-    PG_TRY (result_prepare (r, folder, scene, problem, solver));
+    PG_TRY (pg_result_prepare (r, folder, scene, problem, solver));
     PG_TRY (pg_folder_make (folder));
-    PG_TRY (result_lock (folder, &r->lock));
+    PG_TRY (pg_result_lock (folder, &r->lock));
     PG_TRY (pg_result_may_open (folder, scene));
-    PG_TRY (result_remove (r, "report.json"));
-    PG_TRY (result_copy_scene (folder, scene));
-    PG_TRY (result_history_create (r, NULL));
+    PG_TRY (pg_result_remove (r, "report.json"));
+    PG_TRY (pg_result_copy_scene (folder, scene));
+    PG_TRY (pg_result_history_create (r, NULL));
     snprintf (path, sizeof path, "%s/result.e", folder);
     PG_TRY (pg_exodus_create (&r->file, path, &problem->cloud, problem->title, r->nfield, r->field));
-    r->done = result_marks_now (r);
+    r->done = pg_result_marks_now (r);
     r->seconds += pg_seconds () - t0;
     *out = r;
     r = NULL;
@@ -111,7 +111,7 @@ done:
     return status;
 }
 
-result_marks result_marks_now (const pg_result *r)
+result_marks pg_result_marks_now (const pg_result *r)
 {
     result_marks m = {
         pg_table_rows (r->history), pg_table_rows (r->events), 0,        0,      r->next_broken,
@@ -136,7 +136,7 @@ static pg_status write_fields (pg_result *r, const pg_state *state, double time)
     PG_TRY (pg_exodus_write (r->file, time, r->field));
     r->exodus_steps++;
     r->time = time;
-    if (r->stages) PG_TRY (result_stage (r, state));
+    if (r->stages) PG_TRY (pg_result_draw_stage (r, state));
 done:
     return status;
 }
@@ -164,10 +164,10 @@ pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *s
     double t0 = pg_seconds ();
     long next = r->next_broken;
     r->rounds = so_far->iterations;
-    r->now = result_marks_now (r);
+    r->now = pg_result_marks_now (r);
     r->last_written = share_has_broken (r, state);
     if (r->last_written) status = write_fields (r, state, time_within (r));
-    if (status == PG_OK) r->now = result_marks_now (r);
+    if (status == PG_OK) r->now = pg_result_marks_now (r);
     else r->last_written = 0, r->next_broken = next;
     r->seconds += pg_seconds () - t0;
     return status;
@@ -184,17 +184,17 @@ pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *st
 {
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
-    r->done = result_marks_now (r);
+    r->done = pg_result_marks_now (r);
     r->pending = *step, r->is_pending = 1;
     r->rounds = 0;
     r->last_written = 0;
     r->stamp = step->stamp;
-    PG_TRY (result_history_row (r, state, step));
+    PG_TRY (pg_result_history_row (r, state, step));
     int due = r->every > 0 && step->event && state->events % r->every == 0;
     due |= share_has_broken (r, state) || step->level;
     if (due) PG_TRY (write_fields (r, state, step->stamp));
     r->last_written = due;
-    r->done = result_marks_now (r);
+    r->done = pg_result_marks_now (r);
     r->is_pending = 0;
 done:
     r->seconds += pg_seconds () - t0;
@@ -221,17 +221,17 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     double t0 = pg_seconds ();
     if (!r->last_written) PG_TRY (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp));
     r->last_written = 1;
-    PG_TRY (result_curve_read (r));
-    PG_TRY (result_crack_measure (r, state));
-    PG_TRY (result_pictures (r, state));
-    PG_TRY (result_errors (r, state));
+    PG_TRY (pg_result_curve_read (r));
+    PG_TRY (pg_result_crack_measure (r, state));
+    PG_TRY (pg_result_draw (r, state));
+    PG_TRY (pg_result_measure (r, state));
     if (!failure) PG_TRY (estimate (r, state));
 done:
     r->seconds += pg_seconds () - t0;
     /* the report comes also without pictures */
-    pg_status written = result_json (r, state, failure, search, r->earlier + total);
+    pg_status written = pg_result_json (r, state, failure, search, r->earlier + total);
     if (status == PG_OK) status = written;
-    if (status == PG_OK && !failure) status = result_remove (r, "checkpoint.nc");
+    if (status == PG_OK && !failure) status = pg_result_remove (r, "checkpoint.nc");
     return status;
 }
 
@@ -242,12 +242,12 @@ void pg_result_free (pg_result **result)
     pg_exodus_close (&r->file);
     pg_table_close (&r->history);
     pg_table_close (&r->events);
-    result_unlock (r->folder, &r->lock);
+    pg_result_unlock (r->folder, &r->lock);
     pg_scene_files_free (r->nnamed, &r->named);
     for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);
     pg_reference_free (&r->reference);
     pg_errors_clear (&r->errors);
-    result_tips_free (r);
+    pg_result_tips_free (r);
     pg_free (r->row), pg_free (r->u), pg_free (r->average), pg_free (r->curve_x), pg_free (r->curve_y),
         pg_free (r->curve_more);
     pg_free (r);

@@ -2,7 +2,7 @@
  * checkpoint.nc of a result folder: the marks of its files, what the result remembers, a step that could not
  * be written, and all that the solver keeps. Reading it back cuts the files to their marks, so that what a
  * killed run has added since does not count. */
-#include "result.h"
+#include "results_private.h"
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -22,20 +22,13 @@ typedef struct {
     pg_broken *broken;  double *reaction;              /* of the pending step, when read back */
 } memory;
 
-static uint64_t print_of (uint64_t hash, const void *data, size_t bytes)
-{
-    const unsigned char *byte = data;
-    for (size_t i = 0; data && i < bytes; i++) hash = (hash ^ byte[i]) * 1099511628211u;
-    return hash;
-}
-
 /* Places, volumes and blocks: also of files that the scene does not name itself. */
 static long fingerprint (const pg_cloud *cloud)
 {
-    uint64_t hash = print_of (14695981039346656037u, cloud->x,
+    uint64_t hash = pg_fingerprint (PG_FINGERPRINT, cloud->x,
                               cloud->n * (size_t) cloud->dim * sizeof *cloud->x);
-    hash = print_of (hash, cloud->volume, cloud->n * sizeof *cloud->volume);
-    return (long) (print_of (hash, cloud->block, cloud->n * sizeof *cloud->block) >> 1);
+    hash = pg_fingerprint (hash, cloud->volume, cloud->n * sizeof *cloud->volume);
+    return (long) (pg_fingerprint (hash, cloud->block, cloud->n * sizeof *cloud->block) >> 1);
 }
 
 /* Each file of the scene must hold what it held. */
@@ -185,8 +178,8 @@ static pg_status keep_all (void *context, const pg_keeper *k)
     if (k->reading) r->seconds = seconds[1];
     PG_TRY (keep_marks (m, &m->now, "now", k));
     PG_TRY (keep_marks (m, &r->done, "done", k));
-    PG_TRY (result_curve_keep (r, (size_t) m->now.points, k));
-    PG_TRY (result_tips_keep (r, (size_t) m->now.history, k));
+    PG_TRY (pg_result_curve_keep (r, (size_t) m->now.points, k));
+    PG_TRY (pg_result_tips_keep (r, (size_t) m->now.history, k));
     PG_TRY (keep_pending (m, k));
     PG_TRY (pg_solver_keep (r->solver, m->state, k));
 done:
@@ -243,7 +236,7 @@ static pg_status open_files (pg_result *r, const result_marks *at)
 {
     pg_status status = PG_OK;
     char path[4096];
-    PG_TRY (result_history_create (r, at));
+    PG_TRY (pg_result_history_create (r, at));
     snprintf (path, sizeof path, "%s/result.e", r->folder);
     PG_TRY (pg_exodus_open (&r->file, path, &r->problem->cloud, r->nfield, r->field, at->steps, at->bytes));
     r->exodus_steps = at->steps;
@@ -282,11 +275,11 @@ pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene 
         PG_FAIL (PG_E_USAGE, "there is no %s to go on from: run without --resume", path);
     PG_ALLOC (r, 1);
     m.r = r;
-    PG_TRY (result_prepare (r, folder, scene, problem, solver));
-    PG_TRY (result_lock (folder, &r->lock));
+    PG_TRY (pg_result_prepare (r, folder, scene, problem, solver));
+    PG_TRY (pg_result_lock (folder, &r->lock));
     PG_TRY (pg_checkpoint_read (path, keep_all, &m));
     PG_TRY (open_files (r, &m.now));
-    PG_TRY (result_remove (r, "report.json"));
+    PG_TRY (pg_result_remove (r, "report.json"));
     r->earlier = m.seconds;
     PG_TRY (catch_up (&m));
     *from = (pg_resumed) { state->step, m.rounds, m.seconds, (int) m.threads };

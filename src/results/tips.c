@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * output.tips: how far a crack has come along a direction, a column of history.csv each; pictures of length
  * and speed, and their summary for report.json. */
-#include "result.h"
+#include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -75,7 +75,7 @@ done:
     return status;
 }
 
-pg_status result_tips_check (const pg_scene *scene, const pg_problem *problem)
+pg_status pg_result_tips_check (const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
     size_t n = pg_scene_count (scene, "output.tips");
@@ -86,7 +86,7 @@ done:
     return status;
 }
 
-pg_status result_tips_read (pg_result *r, const pg_scene *scene)
+pg_status pg_result_tips_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     r->ntip = pg_scene_count (scene, "output.tips");
@@ -97,7 +97,7 @@ done:
     return status;
 }
 
-void result_tips_free (pg_result *r)
+void pg_result_tips_free (pg_result *r)
 {
     for (size_t i = 0; r->tip && i < r->ntip; i++) pg_free (r->tip[i].along), pg_free (r->tip[i].length);
     pg_free (r->tip), pg_free (r->tip_time);
@@ -156,7 +156,7 @@ done:
     return status;
 }
 
-pg_status result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row,
+pg_status pg_result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row,
                            double *work)
 {
     pg_status status = PG_OK;
@@ -182,7 +182,7 @@ done:
     return status;
 }
 
-pg_status result_tips_keep (pg_result *r, size_t n, const pg_keeper *k)
+pg_status pg_result_tips_keep (pg_result *r, size_t n, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     if (r->ntip == 0) goto done;
@@ -200,7 +200,7 @@ done:
 }
 
 /* ---- speeds -------------------------------------------------------------------------------------------- */
-double result_tips_rayleigh (const pg_result *r)
+double pg_result_tips_rayleigh (const pg_result *r)
 {
     double speed = 0;
     for (size_t m = 0; m < r->problem->nmaterial; m++)
@@ -223,10 +223,10 @@ static double slope (const result_tip *tip, const double *time, size_t first, si
     return tt > 0 ? ts / tt : 0;
 }
 
-void result_tips_run (const pg_result *r, size_t i, result_tip_run *out, double *speed)
+void pg_result_tips_run (const pg_result *r, size_t i, result_tip_run *out, double *speed)
 {
     const result_tip *tip = &r->tip[i];
-    const double *time = r->tip_time, rayleigh = result_tips_rayleigh (r);
+    const double *time = r->tip_time, rayleigh = pg_result_tips_rayleigh (r);
     size_t n = r->tips, start, stop;
     *out = (result_tip_run) { .first = 0 };
     while (out->first < n && !(tip->length[out->first] > 0)) out->first++;
@@ -277,14 +277,14 @@ static void write_names (const pg_result *r, size_t i, char *out, size_t size)
             used += snprintf (out + used, size - (size_t) used, " = %s", r->tip[k].name);
 }
 
-pg_status result_tips_pictures (pg_result *r)
+pg_status pg_result_tips_pictures (pg_result *r)
 {
     enum { ROOM = 256 };
     pg_status status = PG_OK;
     size_t n = r->tips, alone = 0, moving = 0;
     pg_curve *curve = NULL, *fast = NULL;
     char *names = NULL;
-    double *speed = NULL, limit[2] = { result_tips_rayleigh (r), result_tips_rayleigh (r) },
+    double *speed = NULL, limit[2] = { pg_result_tips_rayleigh (r), pg_result_tips_rayleigh (r) },
            ends[2] = { 0, 0 };
     result_tip_run run;
     if (r->ntip == 0 || n < 2) return PG_OK;
@@ -297,7 +297,7 @@ pg_status result_tips_pictures (pg_result *r)
         if (like_an_earlier (r, i)) continue;
         write_names (r, i, names + i * ROOM, ROOM);
         curve[alone++] = (pg_curve) { names + i * ROOM, n, r->tip_time, r->tip[i].length, 0 };
-        result_tips_run (r, i, &run, v);
+        pg_result_tips_run (r, i, &run, v);
         if (run.moved && r->dynamic)
             fast[moving++] = (pg_curve){ names + i * ROOM, n - run.first, r->tip_time + run.first,
                                          v + run.first, 0 };
@@ -316,12 +316,12 @@ done:
  * m/s = 0.68 c_R at most (at 9.52 us, 9.35 mm)" */
 int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
 {
-    double rayleigh = result_tips_rayleigh (r);
+    double rayleigh = pg_result_tips_rayleigh (r);
     result_tip_run run;
     char until[32] = "the end";
     if (i >= r->ntip || r->tips == 0) return 0;
     const result_tip *tip = &r->tip[i];
-    result_tips_run (r, i, &run, NULL);
+    pg_result_tips_run (r, i, &run, NULL);
     int used = snprintf (out, size, "%s: ", tip->name);
     out += used, size -= (size_t) used;
     if (!run.moved)
@@ -344,9 +344,9 @@ int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
     return 1;
 }
 
-void result_tips_json (pg_json *j, const pg_result *r)
+void pg_result_tips_json (pg_json *j, const pg_result *r)
 {
-    double rayleigh = result_tips_rayleigh (r);
+    double rayleigh = pg_result_tips_rayleigh (r);
     const char *when[2] = { r->dynamic ? "started" : "started_at_factor",
                             r->dynamic ? "stopped" : "stopped_at_factor" };
     if (r->ntip == 0) return;
@@ -354,7 +354,7 @@ void result_tips_json (pg_json *j, const pg_result *r)
     for (size_t i = 0; i < r->ntip; i++) {
         const result_tip *tip = &r->tip[i];
         result_tip_run run;
-        result_tips_run (r, i, &run, NULL);
+        pg_result_tips_run (r, i, &run, NULL);
         pg_json_open (j, NULL, '{');
         pg_json_text (j, "name", tip->name);
         pg_json_number (j, "damage", tip->damage);

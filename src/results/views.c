@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What pictures a scene wants: the words of output.pictures, then the maps of output.views, each with a file
  * name of its own. */
-#include "result.h"
+#include "results_private.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -34,7 +34,7 @@ static void read_limits (result_view *v, const pg_scene *scene, size_t i)
 }
 
 /* Direction and section must have been checked (or their faults are the status). */
-pg_status result_view_read (result_view *v, const pg_scene *scene, size_t i, int dim)
+pg_status pg_result_view_read (result_view *v, const pg_scene *scene, size_t i, int dim)
 {
     pg_status status = PG_OK;
     const char *field = text_of (scene, i, "field"), *view = text_of (scene, i, "view"),
@@ -65,7 +65,7 @@ done:
     return status;
 }
 
-pg_status result_views_read (pg_result *r, const pg_scene *scene)
+pg_status pg_result_views_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     const char *name;
@@ -80,7 +80,7 @@ pg_status result_views_read (pg_result *r, const pg_scene *scene)
         snprintf (v->field, sizeof v->field, "%s", name);
     }
     for (size_t k = 0; k < pg_scene_count (scene, "output.views") && r->npicture < MOST_PICTURES - 1; k++)
-        PG_TRY (result_view_read (&r->picture[r->npicture++], scene, k, r->problem->dim));
+        PG_TRY (pg_result_view_read (&r->picture[r->npicture++], scene, k, r->problem->dim));
 done:
     return status;
 }

@@ -38,40 +38,49 @@ const pg_variable *pg_expression_variable (size_t i)
     return i < sizeof variables / sizeof *variables ? &variables[i] : NULL;
 }
 
+/* ---- operations ---------------------------------------------------------------------------------------- */
+/* Truth is 1 and 0; any number but 0 is true. */
+static double negate (double a)                 { return -a; }
+static double not (double a)                    { return a == 0; }
+static double step (double a)                   { return a >= 0; }
+static double add (double a, double b)          { return a + b; }
+static double subtract (double a, double b)     { return a - b; }
+static double multiply (double a, double b)     { return a * b; }
+static double divide (double a, double b)       { return a / b; }
+static double smaller (double a, double b)      { return a < b ? a : b; }
+static double larger (double a, double b)       { return a > b ? a : b; }
+static double less (double a, double b)         { return a < b; }
+static double at_most (double a, double b)      { return a <= b; }
+static double more (double a, double b)         { return a > b; }
+static double at_least (double a, double b)     { return a >= b; }
+static double equal (double a, double b)        { return a == b; }
+static double different (double a, double b)    { return a != b; }
+static double and (double a, double b)          { return a != 0 && b != 0; }
+static double or (double a, double b)           { return a != 0 || b != 0; }
+
+typedef double (*unary) (double a);
+typedef double (*binary) (double a, double b);
+static const unary of_one[] = {
+    [PG_OP_NEGATE] = negate, [PG_OP_NOT] = not, [PG_OP_SIN] = sin, [PG_OP_COS] = cos, [PG_OP_TAN] = tan,
+    [PG_OP_SQRT] = sqrt, [PG_OP_ABS] = fabs, [PG_OP_EXP] = exp, [PG_OP_LOG] = log, [PG_OP_STEP] = step,
+};
+static const binary of_two[] = {
+    [PG_OP_ADD] = add, [PG_OP_SUBTRACT] = subtract, [PG_OP_MULTIPLY] = multiply, [PG_OP_DIVIDE] = divide,
+    [PG_OP_POWER] = pow, [PG_OP_MIN] = smaller, [PG_OP_MAX] = larger, [PG_OP_HYPOT] = hypot,
+    [PG_OP_ATAN2] = atan2, [PG_OP_LESS] = less, [PG_OP_AT_MOST] = at_most, [PG_OP_MORE] = more,
+    [PG_OP_AT_LEAST] = at_least, [PG_OP_EQUAL] = equal, [PG_OP_DIFFERENT] = different, [PG_OP_AND] = and,
+    [PG_OP_OR] = or,
+};
+
 double pg_op_apply (pg_op op, double a, double b)
 {
-    switch (op) {
-    case PG_OP_NEGATE:    return -a;
-    case PG_OP_NOT:       return a == 0;
-    case PG_OP_SIN:       return sin (a);
-    case PG_OP_COS:       return cos (a);
-    case PG_OP_TAN:       return tan (a);
-    case PG_OP_SQRT:      return sqrt (a);
-    case PG_OP_ABS:       return fabs (a);
-    case PG_OP_EXP:       return exp (a);
-    case PG_OP_LOG:       return log (a);
-    case PG_OP_STEP:      return a >= 0;
-    case PG_OP_ADD:       return a + b;
-    case PG_OP_SUBTRACT:  return a - b;
-    case PG_OP_MULTIPLY:  return a * b;
-    case PG_OP_DIVIDE:    return a / b;
-    case PG_OP_POWER:     return pow (a, b);
-    case PG_OP_MIN:       return a < b ? a : b;
-    case PG_OP_MAX:       return a > b ? a : b;
-    case PG_OP_HYPOT:     return hypot (a, b);
-    case PG_OP_ATAN2:     return atan2 (a, b);
-    case PG_OP_LESS:      return a < b;
-    case PG_OP_AT_MOST:   return a <= b;
-    case PG_OP_MORE:      return a > b;
-    case PG_OP_AT_LEAST:  return a >= b;
-    case PG_OP_EQUAL:     return a == b;
-    case PG_OP_DIFFERENT: return a != b;
-    case PG_OP_AND:       return a != 0 && b != 0;
-    case PG_OP_OR:        return a != 0 || b != 0;
-    default:              return 0;
-    }
+    size_t k = (size_t) op;
+    if (k < sizeof of_one / sizeof *of_one && of_one[k]) return of_one[k] (a);
+    if (k < sizeof of_two / sizeof *of_two && of_two[k]) return of_two[k] (a, b);
+    return 0;
 }
 
+/* ---- evaluation ---------------------------------------------------------------------------------------- */
 double pg_expression_value (const pg_expression *e, const pg_place *at)
 {
     double stack[PG_STACK];

@@ -19,35 +19,46 @@ static void printable (char *out, size_t most, const char *text)
     snprintf (out + n, 4, "%s", text[n] ? "..." : "");
 }
 
+/* The text of a fault: "file:line:column: key = value: reason", or with the origin of the value (--set)
+ * in place of the file. */
+static void write_fault (char text[2 * LINE], const char *file, const pg_node *at, const char *path,
+                         int with_value, const char *reason)
+{
+    char value[VALUE + 4] = "", origin[VALUE + 4], clean[LINE + 4], name[LINE / 3 + 4];
+    size_t used;
+    printable (clean, LINE, reason);
+    printable (name, LINE / 3, path);
+    if (with_value && at && at->shape == PG_SCALAR && at->text) printable (value, VALUE, at->text);
+    if (at && at->origin) {
+        printable (origin, VALUE, at->origin);
+        used = (size_t) snprintf (text, 2 * LINE, "%s: ", origin);
+    } else
+        used = (size_t) snprintf (text, 2 * LINE, "%.300s:%d:%d: ", file, at && at->line ? at->line : 1,
+                                  at && at->column ? at->column : 1);
+    snprintf (text + used, 2 * LINE - used, "%s%s%s%s%s", name, *value ? " = " : "", value, *name ? ": " : "",
+              clean);
+}
+
 void pg_faults_add_v (pg_faults *f, const char *file, const pg_node *at, const char *path, int with_value,
                       const char *format, va_list args)
 {
-    char text[2 * LINE], value[VALUE + 4] = "", origin[VALUE + 4], reason[LINE], clean[LINE + 4],
-                                       name[LINE / 3 + 4];
+    char text[2 * LINE], reason[LINE];
     pg_status status = PG_OK;
-    int line = at && at->line ? at->line : 1, column = at && at->column ? at->column : 1;
+    if (!path) path = "";
     vsnprintf (reason, sizeof reason, format, args);
-    printable (clean, LINE, reason);
-    printable (name, LINE / 3, path ? path : "");
-    if (with_value && at && at->shape == PG_SCALAR && at->text) printable (value, VALUE, at->text);
-    int shows = with_value && *value;
-    size_t used;
-    if (at && at->origin) {
-        printable (origin, VALUE, at->origin);
-        used = (size_t) snprintf (text, sizeof text, "%s: ", origin);
-        line = INT_MAX;
-    } else used = (size_t) snprintf (text, sizeof text, "%.300s:%d:%d: ", file, line, column);
-    snprintf (text + used, sizeof text - used, "%s%s%s%s%s", name, shows ? " = " : "", value,
-              *name ? ": " : "", clean);
+    write_fault (text, file, at, path, with_value, reason);
     if (f->n == KEPT) {
         f->more++;
         return;
     }
     PG_GROW (f->fault, f->cap, f->n + 1);
-    f->fault[f->n] = (pg_fault) { .text = pg_strdup (text), .line = line, .column = column };
-    snprintf (f->fault[f->n].top, sizeof f->fault[f->n].top, "%.*s", (int) strcspn (path ? path : "", ".["),
-              path ? path : "");
-    if (f->fault[f->n].text) f->n++;
+    pg_fault *fault = &f->fault[f->n];
+    /* faults of overrides stand behind those of the file */
+    *fault = (pg_fault) { .text = pg_strdup (text), .line = at && at->line ? at->line : 1,
+                          .column = at && at->column ? at->column : 1 };
+    if (at && at->origin) fault->line = INT_MAX;
+    snprintf (fault->top, sizeof fault->top, "%.*s", (int) strcspn (path, ".["), path);
+    if (fault->text) f->n++;
     else f->lost = 1;
 done:
     if (status != PG_OK) f->lost = 1;

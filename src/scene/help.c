@@ -139,23 +139,28 @@ static const char *nearest_key (const pg_schema *s, const char *key)
     return near;
 }
 
+/* All rows that match `key` in this way (see match), `before` each. */
+static void print_matches (FILE *to, const pg_schema *s, const char *key, int how, const char *before)
+{
+    for (size_t k = 0; k < s->n; k++) {
+        if (match (s->row[k], key) != how) continue;
+        fprintf (to, "%s", before);
+        print_key (to, s, s->row[k]);
+    }
+}
+
 pg_status pg_help_write (FILE *to, const char *key, const pg_schema *s)
 {
     char plain[PG_PATTERN];
     plain_path (plain, key);
     size_t same = count (s, plain, 3), ends = count (s, plain, 2), below = count (s, plain, 1);
     if (*plain && (same || below)) {
-        for (size_t k = 0; k < s->n; k++)
-            if (match (s->row[k], plain) == 3) print_key (to, s, s->row[k]);
+        print_matches (to, s, plain, 3, "");
         if (!same) fprintf (to, "%s\n", plain);
         print_below (to, s, plain);
-    } else if (*plain && ends == 1) {
-        for (size_t k = 0; k < s->n; k++)
-            if (match (s->row[k], plain) == 2) print_key (to, s, s->row[k]);
     } else if (*plain && ends) {
-        fprintf (to, "%s occurs in %zu places:\n", plain, ends);
-        for (size_t k = 0; k < s->n; k++)
-            if (match (s->row[k], plain) == 2) fprintf (to, "\n"), print_key (to, s, s->row[k]);
+        if (ends > 1) fprintf (to, "%s occurs in %zu places:\n", plain, ends);
+        print_matches (to, s, plain, 2, ends > 1 ? "\n" : "");
     } else {
         const char *near = nearest_key (s, plain);
         if (near) return pg_error (PG_E_USAGE, PG_HERE, "unknown key '%.100s'; did you mean %s?", key, near);

@@ -92,25 +92,49 @@ static int is_letter (char c)
 
 static int is_digit (char c) { return c >= '0' && c <= '9'; }
 
+/* Each of these skips one part of the text of a unit; NULL: it is not there. */
+static const char *skip_word (const char *s)
+{
+    if (!is_letter (*s)) return NULL;
+    while (is_letter (*s)) s++;
+    return s;
+}
+
+static int is_sign (char c) { return c == '-' || c == '+'; }
+
+/* A whole power, with or without ^: "2", "-1", "^+3"; after ^ there must be one. */
+static const char *skip_power (const char *s)
+{
+    int raised = *s == '^';
+    s += raised;
+    if (is_sign (*s) && is_digit (s[1])) s++;
+    if (raised && !is_digit (*s)) return NULL;
+    while (is_digit (*s)) s++;
+    return s;
+}
+
+/* What joins two words: space . * or /, with blanks around it. */
+static const char *skip_joint (const char *s)
+{
+    while (*s == ' ' && s[1] && strchr (" /*.", s[1])) s++;
+    if (!*s || !strchr (" .*/", *s)) return NULL;
+    s++;
+    while (*s == ' ') s++;
+    return s;
+}
+
 /* Words with whole powers, joined by space . * or /, perhaps after "1/": udunits itself also takes "m)" or "5
  * m @ 3". */
 static int well_formed (const char *s)
 {
     if (s[0] == '1' && s[1] == '/') s += 2;
     for (;;) {
-        if (!is_letter (*s)) return 0;
-        while (is_letter (*s)) s++;
-        if (*s == '^') {
-            s++;
-            if (!is_digit (*s) && !((*s == '-' || *s == '+') && is_digit (s[1]))) return 0;
-        }
-        if ((*s == '-' || *s == '+') && is_digit (s[1])) s++;
-        while (is_digit (*s)) s++;
-        while (*s == ' ' && (s[1] == ' ' || s[1] == '/' || s[1] == '*' || s[1] == '.')) s++;
+        s = skip_word (s);
+        if (s) s = skip_power (s);
+        if (!s) return 0;
         if (*s == '\0') return 1;
-        if (*s != ' ' && *s != '.' && *s != '*' && *s != '/') return 0;
-        s++;
-        while (*s == ' ') s++;
+        s = skip_joint (s);
+        if (!s) return 0;
     }
 }
 

@@ -129,29 +129,21 @@ void pg_schema_names (const pg_schema *s, const char *pattern, char names[PG_LEV
 
 const char *pg_key_choices (const pg_key *key) { return key->choices_of ? key->choices_of () : key->choices; }
 
+/* What a value of each kind is called in messages; numbers and names say more. */
+static const char *const kind_text[] = {
+    [PG_MAP] = "a map (key: value)", [PG_LIST] = "a list", [PG_INTEGER] = "a whole number",
+    [PG_BOOL] = "on or off", [PG_TEXT] = "a text", [PG_FILE] = "the name of a file",
+    [PG_VECTOR] = "a vector such as [0, 0]", [PG_NUMBERS] = "a list of numbers",
+    [PG_NAMES] = "a name or a list of names", [PG_EXPRESSION] = "a number or an expression",
+};
+
 void pg_schema_wanted (const pg_schema *s, const char *pattern, char *out, size_t n)
 {
     const pg_key *key = pg_schema_any (s, pattern);
-    char number[200];
-    pg_quantity_describe (number, sizeof number, key ? key->unit : NULL);
-    if (!key) {
-        snprintf (out, n, "%s", pg_schema_opens (s, pattern, '[') ? "a list" : "a map (key: value)");
-        return;
-    }
-    switch (key->kind) {
-    case PG_MAP:        snprintf (out, n, "a map (key: value)"); break;
-    case PG_LIST:       snprintf (out, n, "a list"); break;
-    case PG_NUMBER:     snprintf (out, n, "%s", number); break;
-    case PG_INTEGER:    snprintf (out, n, "a whole number"); break;
-    case PG_BOOL:       snprintf (out, n, "on or off"); break;
-    case PG_NAME:
-        snprintf (out, n, "one of %s", pg_key_choices (key) ? pg_key_choices (key) : "the names known here");
-        break;
-    case PG_TEXT:       snprintf (out, n, "a text"); break;
-    case PG_FILE:       snprintf (out, n, "the name of a file"); break;
-    case PG_VECTOR:     snprintf (out, n, "a vector such as [0, 0]"); break;
-    case PG_NUMBERS:    snprintf (out, n, "a list of numbers"); break;
-    case PG_NAMES:      snprintf (out, n, "a name or a list of names"); break;
-    case PG_EXPRESSION: snprintf (out, n, "a number or an expression"); break;
-    }
+    const char *choices = key ? pg_key_choices (key) : NULL;
+    if (!key)
+        snprintf (out, n, "%s", pg_schema_opens (s, pattern, '[') ? kind_text[PG_LIST] : kind_text[PG_MAP]);
+    else if (key->kind == PG_NUMBER) pg_quantity_describe (out, n, key->unit);
+    else if (key->kind == PG_NAME) snprintf (out, n, "one of %s", choices ? choices : "the names known here");
+    else snprintf (out, n, "%s", kind_text[key->kind]);
 }

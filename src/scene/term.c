@@ -78,31 +78,37 @@ done:
     return status;
 }
 
+/* Argument number n of a function: the first becomes o, each other is combined with it. */
+static pg_status read_argument (pg_reader *p, pg_operand *o, const pg_function *f, int n)
+{
+    pg_status status = PG_OK;
+    pg_operand b = { 0 };
+    pg_read_skip (p);
+    size_t at = p->at;
+    PG_TRY (pg_read_or (p, n ? &b : o));
+    PG_TRY (pg_operand_number (p, n ? &b : o, at));
+    if (f->takes == PG_TAKES_PLAIN && !pg_operand_plain (o)) {
+        char text[80];
+        pg_measure_text (&o->m, text, sizeof text);
+        PG_BAD (at, "%s needs a plain number or an angle, not %s", f->name, text);
+    }
+    if (n == 0) goto done;
+    if (n >= f->arguments && f->arguments > 0)
+        PG_BAD (at, "%s takes %d argument%s", f->name, f->arguments, f->arguments > 1 ? "s" : "");
+    PG_TRY (pg_operand_agree (p, o, &b, at, "compare"));
+    PG_TRY (pg_operand_combine (p, f->op, o, &b));
+done:
+    return status;
+}
+
+/* A function behind its name: "( argument, ... )". */
 static pg_status read_call (pg_reader *p, pg_operand *o, const pg_function *f)
 {
     pg_status status = PG_OK;
     size_t start = p->at - strlen (f->name);
     int n = 0;
     if (!pg_read_take (p, "(")) PG_BAD (p->at, "%s needs an argument in ( )", f->name);
-    do {
-        pg_operand b = { 0 };
-        pg_read_skip (p);
-        size_t at = p->at;
-        PG_TRY (pg_read_or (p, n ? &b : o));
-        PG_TRY (pg_operand_number (p, n ? &b : o, at));
-        if (f->takes == PG_TAKES_PLAIN && !pg_operand_plain (o)) {
-            char text[80];
-            pg_measure_text (&o->m, text, sizeof text);
-            PG_BAD (at, "%s needs a plain number or an angle, not %s", f->name, text);
-        }
-        if (n) {
-            if (n >= f->arguments && f->arguments > 0)
-                PG_BAD (at, "%s takes %d argument%s", f->name, f->arguments, f->arguments > 1 ? "s" : "");
-            PG_TRY (pg_operand_agree (p, o, &b, at, "compare"));
-            PG_TRY (pg_operand_combine (p, f->op, o, &b));
-        }
-        n++;
-    } while (pg_read_take (p, ","));
+    do PG_TRY (read_argument (p, o, f, n++)); while (pg_read_take (p, ","));
     if (!pg_read_take (p, ")")) PG_BAD (p->at, "')' is missing");
     if (n < f->arguments) PG_BAD (start, "%s takes %d arguments", f->name, f->arguments);
     if (n < -f->arguments) PG_BAD (start, "%s takes at least %d arguments", f->name, -f->arguments);

@@ -98,6 +98,14 @@ static int is_part_of_shape (const pg_scene *s, const char *base, const char *te
     return !strcmp (base, "rim") || !strcmp (base, "side") || !strcmp (base, "hole");
 }
 
+/* Appends "|name" for each child of a map. Returns the new length. */
+static size_t add_children (const pg_node *map, char *names, size_t at, size_t size)
+{
+    for (size_t k = 0; map && k < map->n && at < size - 70; k++)
+        if (map->child[k].name) at += (size_t) snprintf (names + at, size - at, "|%s", map->child[k].name);
+    return at;
+}
+
 /* Choices "sets.{}|left|...": a name of that map of the scene, one of the others, or a part of either
  * (name.top). */
 static void check_reference (pg_scene *s, const pg_node *node, const char *choices, const char *path)
@@ -107,15 +115,12 @@ static void check_reference (pg_scene *s, const pg_node *node, const char *choic
     snprintf (map, sizeof map, "%.*s", (int) m, choices);
     snprintf (base, sizeof base, "%.*s", (int) strcspn (node->text, "."), node->text);
     at = (size_t) snprintf (names, sizeof names, "%s", choices[m + 3] ? choices + m + 4 : "");
-    const pg_node *known = pg_node_child (&s->root, map, m);
-    for (size_t k = 0; known && k < known->n && at < sizeof names - 70; k++)
-        if (known->child[k].name)
-            at += (size_t) snprintf (names + at, sizeof names - at, "|%s", known->child[k].name);
-    if (m == 4 && strncmp (map, "sets", 4) == 0) add_layers (s, names, at, sizeof names);
+    at = add_children (pg_node_child (&s->root, map, m), names, at, sizeof names);
+    int sets = strcmp (map, "sets") == 0;
+    if (sets) add_layers (s, names, at, sizeof names);
     if (is_choice (base, names)) return;
-    if (m == 4 && strncmp (map, "sets", 4) == 0 && is_part_of_shape (s, base, node->text)) return;
-    /* its own sets: looked up once it is read */
-    if (m == 4 && strncmp (map, "sets", 4) == 0 && pg_node_child (&s->root, "mesh", 4)) return;
+    /* parts of shapes and the sets of a mesh are looked up once they are there */
+    if (sets && (is_part_of_shape (s, base, node->text) || pg_node_child (&s->root, "mesh", 4))) return;
     const char *near = pg_nearest_name (node->text, names);
     FAULT (node, "there is no %.*s of this name%s%s%s", (int) (m ? m - 1 : 0), map,
            near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");

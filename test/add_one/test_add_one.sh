@@ -14,7 +14,7 @@ offered() { grep -F "| \`$1\` |" "$work/manual" | grep -q "\`$2\`"; verdict "the
 key()     { grep -F "| \`$1\` |" "$work/manual" | grep -q -- "$2"; verdict "the manual: $1" $?; }
 once=(--threads 1 --set solver.max_events=3)
 
-for part in kernel criterion material solver force; do
+for part in kernel criterion material solve force; do
     if [ -e "check_$part.sh" ]; then . "./check_$part.sh"; fi
 done
 finish

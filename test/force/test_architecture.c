@@ -3,7 +3,7 @@
  * cloud, with a matrix or as an operator only, with supports by springs or by elimination, and with every
  * entry missing that may be missing. */
 #include "scene_runs/run.h"
-#include "output/fonts.h"
+#include "picture/fonts.h"
 
 #define BAR "dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.05\n" \
     "materials: {steel: {youngs_modulus: 1, poissons_ratio: 0, density: 1}}\n"

@@ -2,7 +2,7 @@
  * The load-displacement curve of a run: its sign, where it begins, unloading, the peak and the stiffness in
  * report.json and in words; the crack that broken bonds amount to. */
 #include "folder.h"
-#include "output/fonts.h"
+#include "picture/fonts.h"
 #include <cairo.h>
 
 #define PLATE \

@@ -3,7 +3,7 @@
  * steps), then each of the result folder. Nothing crashes, nothing is lost, the status says so, and a refused
  * step leaves the state as it was. */
 #include "folder.h"
-#include "output/fonts.h"
+#include "picture/fonts.h"
 
 #define BODY \
     "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.6, 0.5]}}}]\nspacing: 0.1\n" \

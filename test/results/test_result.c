@@ -4,7 +4,7 @@
 #include "folder.h"
 #include <fcntl.h>
 #include <unistd.h>
-#include "output/fonts.h"
+#include "picture/fonts.h"
 
 static const char scene_text[] =
     "title: Plate with an edge crack\ndimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: "

@@ -2,7 +2,7 @@
  * Going on from a checkpoint: from every break round and every step of small runs the files come out as if
  * nothing had happened; what was written after the checkpoint is cut off; a disk that is full for a while. */
 #include "again.h"
-#include "output/fonts.h"
+#include "picture/fonts.h"
 #include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>

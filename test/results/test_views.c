@@ -2,7 +2,7 @@
  * output.views and output.stages: the files they make and are called, what is wrong in them, and that memory
  * may end. */
 #include "folder.h"
-#include "output/fonts.h"
+#include "picture/fonts.h"
 
 #define SOLID \
     "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 0.5]}}}]\nspacing: 0.25\nmaterials: " \

@@ -2,7 +2,7 @@
  * output.fields and output.pictures: what a body of each dimension can show, and the words for what it
  * cannot. */
 #include "folder.h"
-#include "output/fonts.h"
+#include "picture/fonts.h"
 
 static const char *const bodies[] = {
     "",
@@ -14,9 +14,9 @@ static const char *const bodies[] = {
     "{youngs_modulus: 1, poissons_ratio: 0}}\n"
 };
 
-static pg_status check_wishes (int dim, const char *wishes)
+static pg_status check_requests (int dim, const char *requests)
 {
-    run r = scene_of (1, "%soutput: {%s}\n", bodies[dim], wishes);
+    run r = scene_of (1, "%soutput: {%s}\n", bodies[dim], requests);
     pg_status status = pg_result_check (r.scene, r.problem);
     clear (&r);
     return status;
@@ -109,12 +109,12 @@ static void the_error_estimate_is_reported (void **state)
 static void another_name_is_a_fault_with_the_list (void **state)
 {
     (void) state;
-    check_fails (check_wishes (2, "pictures: [damage, strss.xx]"), PG_E_SCENE);
+    check_fails (check_requests (2, "pictures: [damage, strss.xx]"), PG_E_SCENE);
     check_contains (pg_last_error (), "test.yaml:5:");
     check_contains (pg_last_error (),
                     "output.pictures[1] = strss.xx: there is no such picture; did you mean stress.xx?");
     check_contains (pg_last_error (), "damage, displacement, displacement.x, displacement.y, velocity");
-    check_fails (check_wishes (2, "pictures: temperature"), PG_E_SCENE);
+    check_fails (check_requests (2, "pictures: temperature"), PG_E_SCENE);
     check_contains (
         pg_last_error (),
         "output.pictures[0] = temperature: there is no such picture: one of damage, displacement");
@@ -123,23 +123,23 @@ static void another_name_is_a_fault_with_the_list (void **state)
 static void parts_depend_on_the_dimension (void **state)
 {
     (void) state;
-    check_ok (check_wishes (3, "pictures: [displacement.z]"));
-    check_fails (check_wishes (2, "pictures: [displacement.z]"), PG_E_SCENE);
-    check_fails (check_wishes (2, "pictures: [stress.zz]"), PG_E_SCENE);
-    check_fails (check_wishes (1, "pictures: [stress.yy]"), PG_E_SCENE);
-    check_fails (check_wishes (2, "pictures: [stress]"), PG_E_SCENE);  /* which part? */
-    check_fails (check_wishes (2, "pictures: [stress.]"), PG_E_SCENE);
-    check_fails (check_wishes (2, "pictures: ['']"), PG_E_SCENE);
-    check_fails (check_wishes (2, "pictures: ['damage|displacement']"), PG_E_SCENE);
+    check_ok (check_requests (3, "pictures: [displacement.z]"));
+    check_fails (check_requests (2, "pictures: [displacement.z]"), PG_E_SCENE);
+    check_fails (check_requests (2, "pictures: [stress.zz]"), PG_E_SCENE);
+    check_fails (check_requests (1, "pictures: [stress.yy]"), PG_E_SCENE);
+    check_fails (check_requests (2, "pictures: [stress]"), PG_E_SCENE);  /* which part? */
+    check_fails (check_requests (2, "pictures: [stress.]"), PG_E_SCENE);
+    check_fails (check_requests (2, "pictures: ['']"), PG_E_SCENE);
+    check_fails (check_requests (2, "pictures: ['damage|displacement']"), PG_E_SCENE);
 }
 
 static void names_come_once (void **state)
 {
     (void) state;
-    check_ok (check_wishes (2, "fields: []\n  , pictures: []"));
-    check_fails (check_wishes (2, "pictures: [damage, stress.xx, damage]"), PG_E_SCENE);
+    check_ok (check_requests (2, "fields: []\n  , pictures: []"));
+    check_fails (check_requests (2, "pictures: [damage, stress.xx, damage]"), PG_E_SCENE);
     check_contains (pg_last_error (), "output.pictures[2] = damage: is given twice");
-    check_fails (check_wishes (2, "fields: [damage, damage]"), PG_E_SCENE);
+    check_fails (check_requests (2, "fields: [damage, damage]"), PG_E_SCENE);
     check_contains (pg_last_error (), "output.fields[1] = damage: is given twice");
 }
 
@@ -202,5 +202,5 @@ int main (void)
         cmocka_unit_test (a_result_is_not_opened_with_such_names),
         cmocka_unit_test (a_share_of_broken_bonds_writes_fields),
     };
-    return cmocka_run_group_tests_name ("results/wishes", tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("results/requests", tests, NULL, NULL);
 }

@@ -35,13 +35,13 @@ typedef struct {
     pg_picture_style style;
     int limited, by_damage;
 } result_view;
-/* What the curve comes to (result_curve_read). found: 0: there is no curve. row: of the largest |force|. */
+/* What the curve comes to (pg_result_curve_read). found: 0: there is no curve. row: of the largest |force|. */
 typedef struct {
     int found;
     size_t row;
     double force, displacement, step, time, factor, initial, secant;
 } result_peak;
-/* What broken bonds say of new crack faces (result_crack_measure). m2; m (2D), else NAN; J/m2 or NAN. */
+/* What broken bonds say of new crack faces (pg_result_crack_measure). m2; m (2D), else NAN; J/m2 or NAN. */
 typedef struct { int found; double area, length, dissipated; } result_crack;
 struct pg_result {
     char     folder[3072];
@@ -91,47 +91,47 @@ struct pg_result {
     double    opened, earlier;  /* pg_seconds at the opening; s in processes before this one */
     double    interval, checkpoint_at, checkpoint_cost;        /* s */
 };
-pg_status result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem,
+pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem,
                           pg_solver *solver);
-result_marks result_marks_now   (const pg_result *r);
-pg_status result_remove         (const pg_result *r, const char *name);
+result_marks pg_result_marks_now   (const pg_result *r);
+pg_status pg_result_remove         (const pg_result *r, const char *name);
 /* New tables, or those of `from`, cut to its rows. */
-pg_status result_history_create (pg_result *r, const result_marks *from);
-pg_status result_history_row    (pg_result *r, const pg_state *state, const pg_step *step);
-/* PG_E_USAGE: another run has the folder. *lock: what result_unlock takes. */
-pg_status result_lock           (const char *folder, int *lock);
-void      result_unlock         (const char *folder, int *lock);
-pg_status result_copy_scene     (const char *folder, const pg_scene *scene);
-void      result_averages_check (const pg_scene *scene, const pg_problem *problem);
-pg_status result_averages_read  (pg_result *r, const pg_scene *scene);
-void      result_average_column (const pg_result *r, size_t i, char *out, size_t size);
-pg_status result_averages_row (pg_result *r, const pg_state *state, double *row,
+pg_status pg_result_history_create (pg_result *r, const result_marks *from);
+pg_status pg_result_history_row    (pg_result *r, const pg_state *state, const pg_step *step);
+/* PG_E_USAGE: another run has the folder. *lock: what pg_result_unlock takes. */
+pg_status pg_result_lock           (const char *folder, int *lock);
+void      pg_result_unlock         (const char *folder, int *lock);
+pg_status pg_result_copy_scene     (const char *folder, const pg_scene *scene);
+void      pg_result_averages_check (const pg_scene *scene, const pg_problem *problem);
+pg_status pg_result_averages_read  (pg_result *r, const pg_scene *scene);
+void      pg_result_average_column (const pg_result *r, size_t i, char *out, size_t size);
+pg_status pg_result_averages_row (pg_result *r, const pg_state *state, double *row,
                                double *work /* 6 a point */);
-pg_status result_tips_check     (const pg_scene *scene, const pg_problem *problem);
-pg_status result_tips_read      (pg_result *r, const pg_scene *scene);
-void      result_tips_free      (pg_result *r);
-pg_status result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row,
+pg_status pg_result_tips_check     (const pg_scene *scene, const pg_problem *problem);
+pg_status pg_result_tips_read      (pg_result *r, const pg_scene *scene);
+void      pg_result_tips_free      (pg_result *r);
+pg_status pg_result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row,
                            double *work /* 6 a point */);
-pg_status result_tips_keep      (pg_result *r, size_t rows, const pg_keeper *keeper);
-double    result_tips_rayleigh  (const pg_result *r);  /* of the fastest material, m/s; 0: none */
+pg_status pg_result_tips_keep      (pg_result *r, size_t rows, const pg_keeper *keeper);
+double    pg_result_tips_rayleigh  (const pg_result *r);  /* of the fastest material, m/s; 0: none */
 /* speed: m/s at every row (tips), or NULL. */
-void      result_tips_run       (const pg_result *r, size_t i, result_tip_run *out, double *speed);
-pg_status result_tips_pictures  (pg_result *r);        /* tip.png, tip_speed.png */
-void      result_tips_json      (pg_json *j, const pg_result *r);
-void      result_curve_choose   (pg_result *r);        /* which load and component; curve_load -1: none */
-pg_status result_curve_row      (pg_result *r, double x, double y, const double *gauges, const pg_step *step);
-pg_status result_curve_keep     (pg_result *r, size_t n, const pg_keeper *keeper);
-pg_status result_curve_picture  (pg_result *r);        /* load_displacement.png */
-pg_status result_curve_read     (pg_result *r);        /* fills peak */
-void      result_curve_json     (pg_json *j, const pg_result *r);
-pg_status result_crack_measure  (pg_result *r, const pg_state *state);        /* fills crack */
-const char *result_voigt        (int dim, int k);       /* "xx", "yy", ... of component k */
-pg_status result_pictures       (pg_result *r, const pg_state *state);
+void      pg_result_tips_run       (const pg_result *r, size_t i, result_tip_run *out, double *speed);
+pg_status pg_result_tips_pictures  (pg_result *r);        /* tip.png, tip_speed.png */
+void      pg_result_tips_json      (pg_json *j, const pg_result *r);
+void      pg_result_curve_choose   (pg_result *r);        /* which load and component; curve_load -1: none */
+pg_status pg_result_curve_row      (pg_result *r, double x, double y, const double *gauges, const pg_step *step);
+pg_status pg_result_curve_keep     (pg_result *r, size_t n, const pg_keeper *keeper);
+pg_status pg_result_curve_picture  (pg_result *r);        /* load_displacement.png */
+pg_status pg_result_curve_read     (pg_result *r);        /* fills peak */
+void      pg_result_curve_json     (pg_json *j, const pg_result *r);
+pg_status pg_result_crack_measure  (pg_result *r, const pg_state *state);        /* fills crack */
+const char *pg_result_voigt        (int dim, int k);       /* "xx", "yy", ... of component k */
+pg_status pg_result_draw       (pg_result *r, const pg_state *state);
 /* stages/NAME_0007.png of step 7 of result.e */
-pg_status result_stage          (pg_result *r, const pg_state *state);
-pg_status result_view_read      (result_view *v, const pg_scene *scene, size_t i, int dim);
-pg_status result_views_read     (pg_result *r, const pg_scene *scene);
+pg_status pg_result_draw_stage          (pg_result *r, const pg_state *state);
+pg_status pg_result_view_read      (result_view *v, const pg_scene *scene, size_t i, int dim);
+pg_status pg_result_views_read     (pg_result *r, const pg_scene *scene);
 /* measured against the reference, error.png */
-pg_status result_errors         (pg_result *r, const pg_state *state);
-pg_status result_json (pg_result *r, const pg_state *state, const char *failure, double search, double total);
+pg_status pg_result_measure         (pg_result *r, const pg_state *state);
+pg_status pg_result_json (pg_result *r, const pg_state *state, const char *failure, double search, double total);
 #endif
