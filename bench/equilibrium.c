@@ -105,7 +105,7 @@ static pg_status start (job *j, const body *b, size_t along, int threads)
     *j = (job) { .name = b->name };
     PG_TRY (pg_scene_parse (&j->scene, text, b->name));
     PG_TRY (pg_problem_build (&j->problem, j->scene, threads));
-    j->force = pg_force_find (j->problem->force);
+    j->force = pg_force_of (j->problem);
     PG_TRY (j->force->create (&j->self, j->problem));
     size_t nfield = j->force->fields (j->self, 2, field);
     for (size_t k = 0; k < nfield && k < 2; k++) j->components += field[k].components;

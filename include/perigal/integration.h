@@ -40,6 +40,7 @@ typedef struct {
 } pg_integration_type;
 /* The entry of that name, NULL: there is none; all names, separated by |. */
 const pg_integration_type *pg_integration_find (const char *name);
+const pg_integration_type *pg_integration_at_nodes (void);     /* the entry whose points are the nodes */
 const char *pg_integration_names (void);
 
 /* Gauss points on every facet (order^(dim - 1) on bars and quadrilaterals), with normals; cell holds the

@@ -80,6 +80,7 @@ typedef struct {
 typedef struct pg_linear_type {
     const char *name, *summary;
     int symmetric;  /* 1: takes the upper triangle of a symmetric positive definite A */
+    int factors;                                       /* 1: by a factor of A; 0: by products with A */
     /* pattern only */
     pg_status (*analyse) (void **self, const pg_sparse *A, const pg_linear_options *options);
     /* PG_E_NOT_SPD / PG_E_SINGULAR: message names the row */

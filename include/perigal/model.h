@@ -23,7 +23,7 @@ typedef enum {
     PG_MOMENT
 } pg_load_kind;
 typedef enum { PG_ESSENTIAL_NITSCHE, PG_ESSENTIAL_TRANSFORMATION, PG_ESSENTIAL_PENALTY } pg_essential;
-typedef struct {
+typedef struct pg_load {
     char           name[64];
     pg_load_kind   kind;
     const pg_set  *set;
@@ -32,7 +32,8 @@ typedef struct {
     pg_expression *ramp;                               /* factor of t; NULL: from the table */
     double        *table; size_t ntable;               /* ntable x 2: t (s), factor */
     int            proportional;                       /* factor is t itself */
-    /* m: tractions, pressure of direct forces act on points so far below the surface; 0: the outermost */
+    /* m, without shape functions: a traction or pressure acts on the points down to this depth; 0: on the
+     * outermost ones */
     double         depth;
     pg_essential   essential;                          /* how PG_DISPLACEMENT and PG_VELOCITY are imposed */
     double         penalty;  /* its factor of E / h, h the local spacing, for PG_ESSENTIAL_PENALTY */
@@ -48,7 +49,7 @@ double pg_load_factor  (const pg_load *load, double t);
 double pg_load_pattern (const pg_load *load, int k, int dim, const double *x);
 pg_place pg_place_of (int dim, const double *x, double t);             /* what expressions see at x */
 int    pg_load_prescribes (const pg_load *load);       /* displacement, velocity or rotation */
-int    pg_load_turns (const pg_load *load);            /* rotation or moment */
+int    pg_load_rotates (const pg_load *load);            /* rotation or moment */
 int    pg_load_components (const pg_load *load, int dim);  /* dim; of a rotation or moment 1 in 2D, 3 in 3D */
 char   pg_load_axis (const pg_load *load, int dim, int k);             /* 'x', 'y', 'z' of component k */
 
@@ -78,7 +79,57 @@ typedef struct {
     double seconds;
 } pg_patch;
 typedef struct { char name[32]; double from[3], to[3]; } pg_gauge;      /* opening along from -> to, m */
+
+/* What a force tells the model about itself before any of it exists: what it stands on, which keys it reads,
+ * what it can carry. Every force has one of these in its own file (src/force/<name>.c). The model asks these
+ * flags and calls these functions; it compares no names. */
+typedef struct pg_problem pg_problem;
 typedef struct {
+    const char *name, *summary;
+    /* Tables of its keys below `method` (beside those that every force reads); forces may share them. Keys of
+     * other forces that the scene gives are listed as ignored. */
+    const pg_key_table *keys[6];
+    /* 1: a weak form with the shape functions of method.approximation, on points of evaluation and boundary
+     * facets. 0: bonds between the points themselves carry the force: rows[PG_NODES] come from pg_problem.sums,
+     * without the own point, and PG_POINTS and PG_FACETS are empty. */
+    int         shape_functions;
+    int         rotations[4];  /* rotational degrees of freedom of a point, by the dimension of the body */
+    int         anisotropic;   /* 1: carries any material, by its tangent; 0: isotropic ones, by E and nu */
+    int         shows;         /* PG_NEEDS_...: what its bonds can show to a failure criterion */
+    const char *criterion;     /* where `failure` names none; NULL: stretch, if the scene gives its limits */
+    /* Without shape functions: kernel and horizon (spacings) where the scene gives none. */
+    const char *kernel;
+    double      horizon;
+    /* Static systems of more unknowns than this are solved by conjugate gradients instead of a factor, by the
+     * dimension of the body: with the multilevel preconditioner, and with the diagonal alone. 0: never. */
+    double      iterate_above[2][4];
+    /* 1: forces reach the neighbours of neighbours, so that there is no matrix. NULL: they never do. */
+    int       (*long_range) (const pg_scene *scene);
+    /* Without shape functions: how its bonds are summed, on a lattice or not (also for forecasts). */
+    void      (*rule) (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
+                       double spacing, int lattice);
+    /* Reads its keys once points, materials and the approximation are there: sets `integration`, `sums` (without
+     * shape functions) and, in one block of memory, `options`. What is wrong becomes a fault of the scene. */
+    pg_status (*read) (pg_problem *problem, const pg_scene *scene);
+    /* How entry i of `boundary` holds its displacement. NULL: as a constraint on the points of its set. */
+    void      (*support) (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
+    /* Completes what failure criteria derive their constants from. NULL: nothing to add. */
+    pg_status (*limits) (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
+    /* Last checks, as faults: once criteria are read; once every point has its material. NULL: none. */
+    void      (*check_laws) (const pg_problem *problem, const pg_scene *scene);
+    void      (*check_points) (const pg_problem *problem, const pg_scene *scene);
+    /* The stiffest support, as a factor of E / spacing, for an estimate of the largest frequency. NULL: 0. */
+    double    (*support_stiffness) (const pg_problem *problem);
+    /* The choices of the method in one line: "rkpm, linear basis, cubic_spline kernel, gauss integration". */
+    void      (*words) (const pg_problem *problem, char *text, size_t size);
+} pg_method;
+/* 1: static systems of so many unknowns are cheaper by conjugate gradients than by a factor (stored rates,
+ * bench/equilibrium.c). preconditioned: the force gives the rows that the multilevel preconditioner needs. */
+int pg_method_iterates (const pg_method *method, int preconditioned, int dim, double dofs);
+/* The entry of a catalogue (ends with NULL) that the scene asks for. */
+const pg_method *pg_method_of (const pg_method *const *methods, const pg_scene *scene);
+
+struct pg_problem {
     char     title[256], name[64];                     /* name: of the scene's folder or file */
     int      dim, threads;
     pg_mode  mode;
@@ -92,17 +143,10 @@ typedef struct {
     pg_consistency *consistency;                       /* integration: consistent; else NULL */
     /* dilatation of patches where Poisson's ratio is near 1/2; NULL: at the points everywhere */
     pg_patches *patches;
-    char     force[32];
-    /* 1: bonds between points carry the force themselves (bond, fcbm, lps, later gmpd): rows[PG_NODES] come
-     * from `sums` without the own point, PG_POINTS and PG_FACETS are empty */
-    int      direct;
-    pg_sums *sums;                                     /* direct; else NULL */
-    int      turns;  /* rotations of every point: gmpd 1 in 2D, 3 in 3D; else 0 */
-    double   bending;                                  /* gmpd: B / C_t */
-    /* gmpd with volumetric: on: Poisson's ratio that was asked of the bonds; NAN: usual */
-    double   bond_poisson;
-    double   silling;                                  /* Gs; 0: no stabilisation */
-    double   nitsche, penalty;                         /* factors of E / h, h the local spacing */
+    const pg_method *method;                           /* the force, as the scene asks for it */
+    const pg_method *const *methods;                   /* all there are; ends with NULL */
+    void    *options;                                  /* what method->read made of the keys; NULL: nothing */
+    pg_sums *sums;                                     /* without shape functions; else NULL */
     pg_load *load;   size_t nload;
     pg_gauge *gauge; size_t ngauge;
     pg_expression *initial[3];  /* velocity at the start per component, m/s; NULL: at rest */
@@ -120,29 +164,29 @@ typedef struct {
     size_t   eroded;                                   /* points that lie on a pre-crack */
     /* what the plan says: keys without meaning, constants taken otherwise */
     char     note[16][224];  size_t nnote;
-} pg_problem;
+};
 /* A remark on the scene, as printf. One that begins with PG_WARNING counts among the warnings of the run
  * (pg_solver_doubts), others among its notes (pg_solver_note). At most 16 are kept. */
 #define PG_WARNING "warning: "
 void pg_problem_note (pg_problem *problem, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
-pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads);
-/* The same in two halves, so that faults of solver and output can be found beside those of the problem.
- * prepare: all but the bonds, also of a scene with faults that do not keep it from that (they are passed by,
- * pg_scene_pass; *out then serves to look for more of them only). complete: PG_E_SCENE with all faults if
- * there are any, else the bonds. */
-pg_status pg_problem_prepare  (pg_problem **out, const pg_scene *scene, int threads);
+/* A problem from a scene, in two halves, so that faults of solver and output can be found beside those of the
+ * problem. prepare: all but the bonds, also of a scene with faults that do not keep it from that (they are
+ * passed by, pg_scene_pass; *out then serves to look for more of them only). complete: PG_E_SCENE with all
+ * faults if there are any, else the bonds. `methods`: the forces there are, which this layer does not know;
+ * programs call pg_problem_prepare and pg_problem_build of perigal/force.h, which hand them down. */
+pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, const pg_method *const *methods,
+                                   int threads);
 pg_status pg_problem_complete (pg_problem *problem, const pg_scene *scene);
 void      pg_problem_free  (pg_problem **problem);
 /* The same discretisation without loads, supports, cracks and failure, all of its material with the largest
  * Poisson's ratio; the one load left is a traction of zero on all facets, and PG_FACETS are points on all of
- * them (none for direct forces). It borrows from `problem`. */
+ * them (none without shape functions). It borrows from `problem`. */
 pg_status pg_problem_bare  (pg_problem **out, const pg_problem *problem);
 void      pg_problem_bare_free (pg_problem **bare);
 /* The bond set and the point of that set that own a bond (an index into state->alive). */
 void      pg_problem_locate (const pg_problem *problem, size_t bond, int *set, size_t *point);
-/* gmpd: Young's modulus (Pa) and Poisson's ratio of what the bonds of a material make alone; dilation (Pa): A
- * of the dilatation beside them (pg_beam_split), 0 without volumetric: on. */
-void pg_problem_beams (const pg_problem *problem, size_t material, double *E, double *nu, double *dilation);
+int       pg_problem_rotations (const pg_problem *problem);            /* of every point */
+int       pg_problem_unknowns  (const pg_problem *problem);            /* of every point: dim + rotations */
 /* The box of the body, m (dim each); of points of a file or mesh: of the points. */
 void      pg_problem_box (const pg_problem *problem, double *low, double *high);
 double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);   /* local, m */
@@ -207,10 +251,10 @@ typedef struct {
     /* nodal: the points of evaluation are the nodes; breaks: with a criterion */
     int    dim, nodal, breaks, pictures;
     int    matrixless;                                 /* 1: the force has no matrix (state-based) */
-    int    turns;                                      /* rotations of a point */
-    /* pg_problem.direct; its points are no lattice; no linear systems at all */
-    int    direct, listed, explicit_;
-    int    by_list;  /* direct: bonds are summed by lists of neighbours, on a lattice or off it */
+    int    rotations;                                      /* rotations of a point */
+    const pg_method *method;                           /* the force */
+    int    listed, explicit_;                          /* its points are no lattice; no linear systems at all */
+    int    by_list;  /* without shape functions: bonds are summed by lists of neighbours, on a lattice or off it */
     int    counted, analysed;  /* 1: the counts, the factor are exact, not estimates */
     char   linear[16];  /* what will solve: "cholmod", "umfpack", "cg" (no matrix at all) */
     int    automatic, dynamic;                         /* solver.linear: auto; newmark */
@@ -229,14 +273,10 @@ typedef struct {
     double matrix_entries, factor_entries, factor_flops;  /* upper triangle; of L */
     double bytes[PG_BYTES_COUNT], peak;
 } pg_forecast;
-/* 1: static systems of so many unknowns of direct forces are cheaper by conjugate gradients with the sweep
- * than by a factor: by stored rates (bench/equilibrium.c). told: the force tells the rows of K, so that the
- * multilevel preconditioner can be made. */
-int         pg_direct_large (int told, int dim, double dofs);
 /* From the scene alone: points and bonds by counting on its lattice (a coarser one when it has more than 4e6
  * cells), the factor by the law of nested dissection. PG_E_SCENE: the scene has faults, which were added to
  * it. */
-pg_status pg_forecast_scene   (pg_forecast *out, const pg_scene *scene);
+pg_status pg_forecast_scene   (pg_forecast *out, const pg_scene *scene, const pg_method *const *methods);
 /* Replaces counts by those of the problem built from that scene. */
 pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *problem);
 /* Replaces pairs and factor by those of an analysis (pg_assembly_graph, pg_linear_forecast). */

@@ -30,14 +30,13 @@ static int is (const pg_scene *scene, const char *key, const char *value)
     return text && strcmp (text, value) == 0;
 }
 
-/* Forces straight between points: the values at points are the unknowns, no shape functions; other
- * defaults. */
-static void use_direct (pg_approx *a, const pg_scene *scene, double spacing)
+/* Horizon and kernel are those that any force asks for. */
+static pg_status check_horizon (const pg_approx *a, const pg_scene *scene, double spacing)
 {
-    a->type = pg_approx_find ("nosb"), a->use_volume = 1, a->order = 1, a->shape = PG_RADIAL,
-    a->projected = 0;
-    if (!pg_scene_given (scene, "method.kernel")) a->kernel = pg_kernel_find ("constant");
-    if (!pg_scene_given (scene, "method.horizon")) a->horizon = 3.015 * spacing;
+    if (a->horizon >= spacing * (1 - 1e-9)) return PG_OK;
+    pg_scene_fault (scene, "method.horizon",
+                    "is %.4g spacings: a point would see no neighbour (use 1.5 or more)", a->horizon / spacing);
+    return pg_scene_verdict (scene);
 }
 
 pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing)
@@ -47,7 +46,7 @@ pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing)
     const pg_approx_type *type = pg_approx_find (pg_scene_text (scene, "method.approximation"));
     const pg_kernel *kernel = pg_kernel_find (pg_scene_text (scene, "method.kernel"));
     if (!type || !kernel)
-        PG_FAIL (PG_E_USAGE, "method.approximation or method.kernel names nothing in this library");
+        PG_FAIL (PG_E_USAGE, "method.approximation or method.kernel: unknown");
     pg_approx a = { .type = type, .kernel = kernel, .use_volume = type->use_volume };
     a.order = is (scene, "method.basis", "quadratic") ? 2 : 1;
     a.shape = is (scene, "method.support", "tensor") ? PG_TENSOR : PG_RADIAL;
@@ -55,13 +54,26 @@ pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing)
     if (is (scene, "method.weights", "volume")) a.use_volume = 1;
     a.projected = is (scene, "method.degenerate", "projected");
     a.horizon = pg_scene_length (scene, spacing, "method.horizon");
-    if (!is (scene, "method.force", "galerkin")) use_direct (&a, scene, spacing);
-    if (!(a.horizon >= spacing * (1 - 1e-9))) {
-        pg_scene_fault (scene, "method.horizon",
-                        "is %.4g spacings: a point would see no neighbour (use 1.5 or more)",
-                        a.horizon / spacing);
-        PG_TRY (pg_scene_verdict (scene));
-    }
+    PG_TRY (check_horizon (&a, scene, spacing));
+    *out = a;
+done:
+    return status;
+}
+
+pg_status pg_approx_read_points (pg_approx *out, const pg_scene *scene, double spacing, const char *kernel,
+                                 double horizon)
+{
+    pg_status status = PG_OK;
+    pg_approx a = { .use_volume = 1, .order = 1, .shape = PG_RADIAL };
+    *out = (pg_approx) { 0 };
+    for (size_t i = 0; i < sizeof table / sizeof *table && !a.type; i++)
+        if (table[i]->interpolates) a.type = table[i];
+    a.kernel = pg_kernel_find (pg_scene_given (scene, "method.kernel") ? pg_scene_text (scene, "method.kernel")
+                                                                       : kernel);
+    if (!a.kernel) PG_FAIL (PG_E_USAGE, "method.kernel: unknown");
+    a.horizon = pg_scene_given (scene, "method.horizon") ? pg_scene_length (scene, spacing, "method.horizon")
+                                                         : horizon * spacing;
+    PG_TRY (check_horizon (&a, scene, spacing));
     *out = a;
 done:
     return status;

@@ -36,5 +36,7 @@ const pg_approx_type pg_approx_nosb = {
     .name = "nosb",
     .summary = "non-ordinary state-based: deformation gradient at nodes from the shape tensor",
     .use_volume = 1,
+    .interpolates = 1,
+    .tip = { .linear = 0.26, .quadratic = 0.29, .nodal = 0.45 },
     .evaluate = evaluate
 };

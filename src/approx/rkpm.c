@@ -67,5 +67,7 @@ const pg_approx_type pg_approx_rkpm = {
     .name = "rkpm",
     .summary = "reproducing kernel particle method: exact derivatives of the shape functions",
     .use_volume = 0,
+    .exact = 1,
+    .tip = { .linear = 0.2, .quadratic = 0.29, .nodal = 0.75 },
     .evaluate = evaluate
 };

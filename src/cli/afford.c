@@ -27,7 +27,7 @@ pg_status afford_scene (const command *c, pg_forecast *f)
     pg_scene *scene = NULL;
     memset (f, 0, sizeof *f);
     PG_TRY (command_scene (c, &scene));
-    status = pg_forecast_scene (f, scene);
+    status = pg_forecast_scene (f, scene, pg_force_methods ());
     if (pg_scene_partial (scene)) {  /* its geometry is built to look for more faults, if it is small */
         if (f->points > 3e5) status = pg_scene_conclude (scene);
         else status = PG_OK;
@@ -60,9 +60,9 @@ static pg_status analyse (pg_forecast *f, const pg_problem *p)
         pinned += pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
     n += pinned > 0;
     if (p->patches) seen[n++] = &p->patches->family;
-    if (p->direct) PG_TRY (pg_assembly_graph_pairwise (&G, &p->rows[PG_NODES].family));
+    if (p->sums) PG_TRY (pg_assembly_graph_pairwise (&G, &p->rows[PG_NODES].family));
     else PG_TRY (pg_assembly_graph (&G, p->cloud.n, n, seen));
-    PG_TRY (pg_linear_forecast (&G, p->dim + p->turns, &info));
+    PG_TRY (pg_linear_forecast (&G, pg_problem_unknowns (p), &info));
     pg_forecast_analysed (f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
     if (f->slaves > 0) f->analysed = 0;                /* elimination joins the masters: a little more */
 done:

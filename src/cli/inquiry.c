@@ -7,7 +7,7 @@ typedef const char *(*summary_of) (const char *name);
 static const char *of_force (const char *n)
 {
     const pg_force_type *t = pg_force_find (n);
-    return t ? t->summary : "";
+    return t ? t->method.summary : "";
 }
 static const char *of_approx (const char *n)
 {

@@ -26,13 +26,14 @@ static void describe (const pg_problem *p, int width)
     }
 }
 
-/* What the force itself says of its constants. */
-static void print_direct (const pg_problem *p)
+/* The choices of the method, and what the force itself says of its constants. */
+static void print_method (const pg_problem *p)
 {
-    const pg_force_type *force = pg_force_find (p->force);
+    const pg_force_type *force = pg_force_of (p);
     void *self = NULL;
     char text[400];
-    printf ("  %-18s  force %s, %s kernel\n", "method", p->force, p->approx.kernel->name);
+    p->method->words (p, text, sizeof text);
+    printf ("  %-18s  %s\n", "method", text);
     if (!force || !force->describe || force->create (&self, p) != PG_OK) return;
     for (size_t line = 0; force->describe (self, line, text, sizeof text); line++)
         printf ("  %-18s  %s\n", line ? "" : "bonds", text);
@@ -64,18 +65,14 @@ void plan_doubts (const pg_problem *p, const pg_solver_options *o)
 
 void plan_print (const pg_problem *p, const pg_solver_options *o)
 {
+    char text[400];
     printf ("%s\n", p->title);
     print_box (p, 0);
     printf ("  %zu points, spacing %.6g m, %zu evaluation points, %zu bonds, %zu unknowns\n", p->cloud.n,
             p->cloud.h, p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n, p->first_bond[PG_BOND_SETS],
-            p->cloud.n * (size_t) (p->dim + p->turns));
-    if (p->direct)
-        printf ("  force %s (%s kernel, horizon %.6g m)\n", p->force, p->approx.kernel->name,
-                p->approx.horizon);
-    else
-        printf ("  %s (%s basis, %s kernel, horizon %.6g m), %s integration\n", p->approx.type->name,
-                p->approx.order == 2 ? "quadratic" : "linear", p->approx.kernel->name, p->approx.horizon,
-                p->integration->name);
+            p->cloud.n * (size_t) pg_problem_unknowns (p));
+    p->method->words (p, text, sizeof text);
+    printf ("  %s; horizon %.6g m\n", text, p->approx.horizon);
     describe (p, 9);
     printf ("  solver %s%s\n", o->kind, stepping (o));
     plan_doubts (p, o);
@@ -96,22 +93,20 @@ void plan_settled (const pg_solver *solver)
 }
 
 /* ---- at length ----------------------------------------------------------------------------------------- */
-/* Unless measured: 2 c_p / h inside, and where Nitsche's terms (beta = nitsche E / h) stiffen boundary points
- * omega^2 = 2 nitsche E / (rho h^2). */
+/* Unless measured: 2 c_p / h inside, and where supports of stiffness beta E / h stiffen boundary points omega^2 = 2
+ * beta E / (rho h^2). */
 plan_times plan_times_of (const plan *p)
 {
     const pg_problem *q = p->problem;
     plan_times t = { 0, 0, 0, 0 };
     double speed = 0, stiff = 0;
-    int nitsche = 0;
-    for (size_t l = 0; l < q->nload; l++)
-        nitsche |= pg_load_prescribes (&q->load[l]) && q->load[l].essential == PG_ESSENTIAL_NITSCHE;
+    double support = q->method->support_stiffness ? q->method->support_stiffness (q) : 0;
     for (size_t m = 0; m < q->nmaterial; m++) {
         if (!(q->material[m].density > 0)) return t;
         speed = fmax (speed, pg_material_waves (&q->material[m]).pressure);
         stiff = fmax (stiff, q->material[m].modulus / q->material[m].density);
     }
-    t.omega = fmax (2 * speed, nitsche ? sqrt (2 * q->nitsche * stiff) : 0) / pg_cloud_finest (&q->cloud);
+    t.omega = fmax (2 * speed, sqrt (2 * support * stiff)) / pg_cloud_finest (&q->cloud);
     if (isfinite (p->stable)) {
         t.omega = 2 / p->stable, t.dt = p->stable, t.measured = 2;
         t.courant = !(p->options->flags & PG_SOLVER_QUASI_STATIC)
@@ -220,7 +215,7 @@ static void print_counts (const plan *p)
     printf ("  %-18s  node-node %zu, point-node %zu, facet-node %zu\n", "bonds", first[1],
             first[2] - first[1], first[3] - first[2]);
     printf ("  %-18s  %zu\n  %-18s  %.6g m = %.4g spacings, mean family %.3g points\n", "unknowns",
-            q->cloud.n * (size_t) (q->dim + q->turns), "horizon", q->approx.horizon,
+            q->cloud.n * (size_t) pg_problem_unknowns (q), "horizon", q->approx.horizon,
             q->approx.horizon / q->cloud.h, (double) first[1] / (double) q->cloud.n);
 }
 
@@ -256,7 +251,7 @@ static void print_times (const plan *p)
         if (t.courant > 0) printf (", c_p dt / h = %.4g", t.courant);
         printf ("\n");
     }
-    if (t.omega > 0 && (!p->problem->direct || t.measured))
+    if (t.omega > 0 && (p->problem->method->shape_functions || t.measured))
         printf ("  %-18s  stable up to %.3g s (%s)\n", "explicit steps", t.dt,
                 t.measured == 2 ? p->from
                 : t.measured    ? "2 / largest frequency"
@@ -267,7 +262,7 @@ static void print_factor (const pg_forecast *f)
 {
     printf ("  %-18s  %s", "linear solver",
             strcmp (f->linear, "cg") == 0
-                ? f->direct && !f->dynamic
+                ? !f->method->shape_functions && !f->dynamic
                       ? "conjugate gradients, no matrix, preconditioned on several grids\n"
                       : "conjugate gradients, no matrix\n"
                 : f->linear);
@@ -346,10 +341,7 @@ void plan_print_long (const plan *p)
     size_t nskip = plan_skips (p, skip, 8);
     print_counts (p);
     plan_mesh (q);
-    if (q->direct) print_direct (q);
-    else
-        printf ("  %-18s  %s, %s basis, %s kernel, %s integration\n", "method", q->approx.type->name,
-                q->approx.order == 2 ? "quadratic" : "linear", q->approx.kernel->name, q->integration->name);
+    print_method (q);
     print_patch (q);
     describe (q, 19);
     print_materials (q);

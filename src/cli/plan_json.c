@@ -29,7 +29,7 @@ static void counts (pg_json *j, const plan *p)
     for (int s = 0; s < PG_BOND_SETS; s++)
         pg_json_count (j, sets[s], q->first_bond[s + 1] - q->first_bond[s]);
     pg_json_shut (j);
-    pg_json_count (j, "dofs", q->cloud.n * (size_t) (q->dim + q->turns));
+    pg_json_count (j, "dofs", q->cloud.n * (size_t) pg_problem_unknowns (q));
     pg_json_count (j, "eroded_points", q->eroded);
     pg_json_number (j, "horizon", q->approx.horizon);
     pg_json_number (j, "horizon_spacings", q->approx.horizon / q->cloud.h);

@@ -191,7 +191,7 @@ void openblas_set_num_threads (int threads);
  * on a busy one. */
 static void settle_blas (const pg_problem *p)
 {
-    size_t unknowns = p->cloud.n * (size_t) (p->dim + p->turns), enough = p->dim == 3 ? 10000 : 50000;
+    size_t unknowns = p->cloud.n * (size_t) pg_problem_unknowns (p), enough = p->dim == 3 ? 10000 : 50000;
     openblas_set_num_threads (unknowns < enough ? 1 : p->threads);
 }
 

@@ -41,7 +41,7 @@ static pg_status least_squares (pg_sampler *out, const pg_problem *problem, cons
     PG_ALLOC (u, 6 * problem->cloud.n);
     if (force->field) PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, u));
     if (components != problem->dim)
-        PG_FAIL (PG_E_USAGE, "the force %s has no displacement field: nothing to compare", force->name);
+        PG_FAIL (PG_E_USAGE, "the force %s has no displacement field: nothing to compare", force->method.name);
     PG_TRY (pg_sampler_points (out, problem, u, NULL));
 done:
     pg_free (u);

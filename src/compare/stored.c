@@ -150,9 +150,9 @@ static pg_status read_unknowns (pg_stored *s, const char *path, const char *name
     pg_status status = PG_OK;
     double *part[2] = { NULL, NULL };
     const pg_problem *p = s->problem;
-    size_t count[2] = { (size_t) p->dim, (size_t) p->turns }, stride = count[0] + count[1];
+    size_t count[2] = { (size_t) p->dim, (size_t) pg_problem_rotations (p) }, stride = count[0] + count[1];
     PG_TRY (read_field (s, path, name, p->dim, &part[0]));
-    if (p->turns) PG_TRY (read_field (s, path, "rotation", p->turns, &part[1]));
+    if (count[1]) PG_TRY (read_field (s, path, "rotation", (int) count[1], &part[1]));
     for (size_t i = 0; i < p->cloud.n; i++)
         for (size_t k = 0; k < stride; k++) {
             int turn = k >= count[0];
@@ -173,11 +173,11 @@ static pg_status read_step (pg_stored *s, const char *path, double broken)
     double *u = NULL;
     unsigned char *torn = NULL;
     pg_sampler field = { 0 };
-    int nosb = strcmp (s->problem->approx.type->name, "nosb") == 0, coefficients, displacements,
+    int nosb = s->problem->approx.type->interpolates, coefficients, displacements,
         rotations = 1;
     PG_TRY (has_field (path, "coefficient", &coefficients));
     PG_TRY (has_field (path, "displacement", &displacements));
-    if (s->problem->turns) PG_TRY (has_field (path, "rotation", &rotations));
+    if (pg_problem_rotations (s->problem)) PG_TRY (has_field (path, "rotation", &rotations));
     if (broken == 0 && rotations && (coefficients || (nosb && displacements))) {
         PG_TRY (read_unknowns (s, path, coefficients ? "coefficient" : "displacement"));
         PG_TRY (pg_sampler_solution (&field, s->problem, s->force, s->self, s->state));
@@ -242,8 +242,8 @@ pg_status pg_stored_open (pg_stored **out, const char *folder, int step, int thr
         PG_FAIL (PG_E_USAGE, "the path is too long");
     PG_TRY (pg_stored_scene (&s->scene, folder));
     PG_TRY (pg_problem_build (&s->problem, s->scene, threads));
-    s->force = pg_force_find (s->problem->force);
-    if (!s->force) PG_FAIL (PG_E_USAGE, "%s: this program has no force %s", folder, s->problem->force);
+    s->force = pg_force_of (s->problem);
+    if (!s->force) PG_FAIL (PG_E_USAGE, "%s: this program has no force %s", folder, s->problem->method->name);
     PG_TRY (s->force->create (&s->self, s->problem));
     size_t n = s->force->fields (s->self, 4, fields);
     int components = 0;

@@ -147,11 +147,11 @@ pg_status bond_create (void **self, const pg_problem *problem)
     pg_status status = PG_OK;
     bond *b = NULL;
     *self = NULL;
-    if (!problem->sums) PG_FAIL (PG_E_USAGE, "force: bond needs a problem built for it");
+    if (!problem->sums) PG_FAIL (PG_E_USAGE, "forces between points need a problem built for them");
     PG_ALLOC (b, 1);
     *self = b;
     b->problem = problem, b->dim = problem->dim, b->threads = problem->threads, b->n = problem->cloud.n;
-    b->stride = problem->dim + problem->turns;
+    b->stride = pg_problem_unknowns (problem);
     b->family = &problem->rows[PG_NODES].family;
     b->all_stale = 1, b->revision = 1;
     b->op = (pg_operator) { ndof (b), b, bond_apply, bond_diagonal };
@@ -306,8 +306,39 @@ pg_status bond_impose (void *self, double t, double *d)
     return PG_OK;
 }
 
+/* ---- what it is before it exists ----------------------------------------------------------------------- */
+/* E is kept; the tangent, wave speeds and the stress of a gradient are those of the material that the bonds
+ * make. */
+void bond_take_poisson (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
+{
+    double nu = pg_bond_poisson (p->mode);
+    (void) scene, (void) rule;
+    for (size_t m = 0; m < p->nmaterial && p->mode != PG_LINE; m++) {
+        pg_material *a = &p->material[m];
+        double E = a->modulus, asked = a->nu;
+        if (fabs (asked - nu) > 0.005)
+            pg_problem_note (p,
+                             "warning: material %.40s: Poisson's ratio is %.4g, not %.4g: bonds alone leave "
+                             "no choice (Young's modulus is kept)",
+                             a->name, nu, asked);
+        pg_elastic_set (a, E, nu);
+    }
+}
+
+pg_status bond_read (pg_problem *p, const pg_scene *scene)
+{
+    return point_force_read (p, scene, bond_take_poisson);
+}
+
 const pg_force_type pg_force_bond = {
-    .name = "bond",
-    .summary = "bond-based peridynamics: pair forces between points (Silling 2000)",
+    .method = { .name = "bond",
+                .summary = "bond-based peridynamics: pair forces between points, Poisson's ratio 1/3 in plane stress, "
+                           "1/4 in plane strain and 3D (Silling 2000)",
+                .keys = { &point_force_keys },
+                .shows = PG_NEEDS_STRETCH | PG_NEEDS_ENERGY,
+                .rule = point_force_rule,
+                .read = bond_read,
+                .limits = point_force_limits,
+                POINT_FORCE_METHOD },
     BOND_ENTRIES
 };

@@ -8,6 +8,8 @@
 #ifndef PG_BOND_H
 #define PG_BOND_H
 #include "nodal.h"
+#include "point_force_scene.h"
+#include "micropolar.h"
 
 typedef struct bond_tiles bond_tiles;                  /* bond_tiles.c */
 typedef struct lps_rows lps_rows;                      /* lps_rows.c */
@@ -145,6 +147,9 @@ void      lps_rows_free (bond *b);
 pg_status gmpd_create (bond *b);  /* moduli and limits; nothing unless the rule is of beams */
 char      gmpd_kind_of (void *self, const double *d, size_t entry);
 void      gmpd_free   (bond *b);
+/* Of pairwise forces (pg_method.read): sums, and the only Poisson's ratio that they know. */
+void      bond_take_poisson (pg_problem *problem, const pg_scene *scene, const pg_sum_rule *rule);
+pg_status bond_read   (pg_problem *problem, const pg_scene *scene);
 /* words */
 int         bond_describe (const void *self, size_t line, char *text, size_t size);
 const char *bond_refuses  (const pg_problem *problem, unsigned solver);

@@ -13,7 +13,7 @@ static void say_beams (const bond *b, size_t m, char *text, size_t size)
     double axial, shear, E, nu, dilation;
     pg_beam_sums sums;
     int used = 0;
-    pg_problem_beams (p, m, &E, &nu, &dilation);
+    gmpd_split (p, m, &E, &nu, &dilation);
     if (p->nmaterial > 1) used = snprintf (text, size, "material %.60s: ", a->name);
     if (pg_beam_moduli (&axial, &shear, p->mode, p->sums->rule.kernel, p->sums->rule.horizon, E, nu,
                         p->cloud.thickness)
@@ -21,7 +21,7 @@ static void say_beams (const bond *b, size_t m, char *text, size_t size)
         || pg_beam_measure (&sums, p->sums) != PG_OK)
         return;
     used += snprintf (text + used, size - (size_t) used, "C_N %.6g N/m^6, C_t %.6g N/m^4, bending %.6g C_t",
-                      axial, shear, p->bending);
+                      axial, shear, ((const gmpd_options *) p->options)->bending);
     if (p->sums->rule.calibrate && (size_t) used < size)
         used += snprintf (text + used, size - (size_t) used,
                           ", times %.6g and %.6g for these points (calibrated)", p->sums->calibration,

@@ -13,10 +13,27 @@ static const pg_force_type *const entries[] = {
 #undef PG_FORCE
 };
 
+static const pg_method *const methods[] = {
+#define PG_FORCE(name) &pg_force_##name.method,
+#include "list.h"
+#undef PG_FORCE
+    NULL
+};
+
+enum { COUNT = sizeof entries / sizeof *entries };
+
+const pg_method *const *pg_force_methods (void) { return methods; }
+
 const pg_force_type *pg_force_find (const char *name)
 {
-    for (size_t i = 0; i < sizeof entries / sizeof *entries; i++)
-        if (strcmp (entries[i]->name, name) == 0) return entries[i];
+    for (size_t i = 0; name && i < COUNT; i++)
+        if (strcmp (entries[i]->method.name, name) == 0) return entries[i];
+    return NULL;
+}
+
+const pg_force_type *pg_force_of (const pg_problem *problem)
+{
+    for (size_t i = 0; i < COUNT; i++) if (&entries[i]->method == problem->method) return entries[i];
     return NULL;
 }
 
@@ -28,6 +45,44 @@ const char *pg_force_names (void)
 #undef PG_FORCE
     ;
     return names + 1;
+}
+
+/* ---- keys of the scene --------------------------------------------------------------------------------- */
+static const char *name_of (size_t i) { return i < COUNT ? entries[i]->method.name : NULL; }
+static pg_key_tables keys_of (size_t i) { return entries[i]->method.keys; }
+const pg_key_catalogue pg_entry_keys_force = { .selector = "method.force", .name = name_of, .keys = keys_of };
+
+static const pg_key keys[] = {
+    { .path = "method.force",
+      .kind = PG_NAME,
+      .fallback = "galerkin",
+      .choices_of = pg_force_names,
+      .doc = "How bonds make forces; `perigal list` says what each of these is." },
+    { .path = "method.accept_inexact",
+      .kind = PG_BOOL,
+      .fallback = "off",
+      .doc = "Run although the patch test of the discretisation, which every run makes, is off by more than 50 % "
+             "(report.json: patch_error)." },
+};
+const pg_key_table pg_keys_force = { "force", keys, sizeof keys / sizeof *keys };
+
+/* ---- problems ------------------------------------------------------------------------------------------ */
+pg_status pg_problem_prepare (pg_problem **out, const pg_scene *scene, int threads)
+{
+    return pg_problem_prepare_with (out, scene, methods, threads);
+}
+
+pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads)
+{
+    pg_status status = PG_OK;
+    pg_problem *p = NULL;
+    PG_TRY (pg_problem_prepare (&p, scene, threads));
+    PG_TRY (pg_problem_complete (p, scene));
+    *out = p;
+    p = NULL;
+done:
+    pg_problem_free (&p);
+    return status;
 }
 
 void pg_work_balance_clear (pg_work_balance *work_balance)

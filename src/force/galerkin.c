@@ -186,8 +186,17 @@ done:
 }
 
 const pg_force_type pg_force_galerkin = {
-    .name = "galerkin",
-    .summary = "global stiffness from NOSB, PDDO or RKPM bonds (Cui 2022)",
+    .method = { .name = "galerkin",
+                .summary = "weak form with the shape functions of method.approximation (Cui 2022)",
+                .keys = { &galerkin_keys, &pg_keys_shape_functions },
+                .shape_functions = 1,
+                .anisotropic = 1,
+                .shows = PG_NEEDS_STRETCH | PG_NEEDS_STRESS,
+                .read = galerkin_read,
+                .support = galerkin_support,
+                .limits = galerkin_limits,
+                .support_stiffness = galerkin_support_stiffness,
+                .words = galerkin_words },
     .create = galerkin_create,
     .free = galerkin_free,
     .fields = galerkin_fields,

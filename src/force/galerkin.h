@@ -67,6 +67,20 @@ typedef struct {
     pg_nearest *near_point, *near_node;  /* bulk points, nodes; NULL until a place is asked for */
 } galerkin;
 
+/* What the scene says of the method (pg_problem.options). */
+typedef struct {
+    double silling;                                    /* Gs; 0: no stabilisation */
+    double nitsche, penalty;                           /* factors of E / h, h the local spacing */
+} galerkin_options;
+/* scene: entries of pg_method */
+extern const pg_key_table galerkin_keys;
+pg_status galerkin_read (pg_problem *problem, const pg_scene *scene);
+void      galerkin_support (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
+double    galerkin_support_stiffness (const pg_problem *problem);
+pg_status galerkin_limits (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
+void      galerkin_words (const pg_problem *problem, char *text, size_t size);
+static inline const galerkin_options *galerkin_options_of (const galerkin *g) { return g->problem->options; }
+
 /* sum: the loops over points */
 pg_status galerkin_slices_create (galerkin *g);
 void galerkin_slices_free (galerkin *g);

@@ -48,7 +48,7 @@ static pg_status find_masters (galerkin *g, int k, int *role)
     elimination *e = &g->side[k];
     const pg_family *f = &g->rows[PG_NODES].family;
     size_t cap = 0;
-    if (strcmp (g->problem->approx.type->name, "nosb") == 0) goto done;
+    if (g->problem->approx.type->interpolates) goto done;
     if (e->n > PG_MOST_ELIMINATED)
         PG_FAIL (PG_E_LIMIT,
                  "essential: transformation of %zu points in one direction needs too much memory (at most "

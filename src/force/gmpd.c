@@ -4,6 +4,7 @@
  * a dilatation beside them (theory G3) that of lps.c. */
 #include "bond.h"
 #include <math.h>
+#include <string.h>
 
 /* The s, gamma or kappa at which a bond of two points like this one breaks: the criterion's own answer for a
  * bond of unit stretch, shear or bending. */
@@ -48,11 +49,11 @@ pg_status gmpd_create (bond *b)
     PG_ALLOC (b->idle, b->n);
     for (size_t i = 0; i < b->n; i++) {
         double E, nu, dilation;
-        pg_problem_beams (p, (size_t) p->block[PG_NODES][i], &E, &nu, &dilation);
+        gmpd_split (p, (size_t) p->block[PG_NODES][i], &E, &nu, &dilation);
         PG_TRY (pg_beam_moduli (&b->modulus[i], &b->shear[i], p->mode, rule->kernel, rule->horizon, E, nu,
                                 p->cloud.thickness));
         b->modulus[i] *= p->sums->calibration, b->shear[i] *= sums.calibration;
-        b->bending[i] = p->bending * b->shear[i];
+        b->bending[i] = ((const gmpd_options *) p->options)->bending * b->shear[i];
         b->idle[i] = b->shear[i] == 0;
     }
     b->beams = (pg_beam_law) { .shear = b->shear, .bending = b->bending, .length = p->cloud.h };
@@ -95,9 +96,216 @@ void gmpd_free (bond *b)
         pg_free (b->bending_limit);
 }
 
+/* ---- what it is before it exists ----------------------------------------------------------------------- */
+static const char *const no_choice = NULL;
+static const pg_key keys[] = {
+    { "method.beam", PG_NAME, NULL, NULL, "euler", "euler|timoshenko|chen", NULL, NULL,
+      "Bending stiffness of bonds, which sets a length of the order of the horizon and no modulus: "
+      "euler: as Euler and Bernoulli's beam; timoshenko: "
+      "(1 + shear_parameter) of that; chen: 4 cm_ratio - 3 of that, none as published." },
+    { "method.shear_parameter", PG_NUMBER, "1", "[0, inf)", "1", NULL, NULL, NULL,
+      "With beam: timoshenko, 12 EI / (k G A r^2), the same for every bond." },
+    { "method.cm_ratio", PG_NUMBER, "1", "[0.75, inf)", "0.75", NULL, NULL, NULL,
+      "With beam: chen, C_M / C_t; below 0.75 a bond would not be stable." },
+    { "method.volumetric", PG_BOOL, NULL, NULL, "off", no_choice, NULL, NULL,
+      "An energy of the dilatation beside that of the bonds (state-based, with weighted_volume), so "
+      "that Poisson's ratio is free: off: bonds alone, up to "
+      "1/4 (plane stress 1/3)." },
+    { "method.bond_poisson", PG_NUMBER, "1", "(-1, 0.5)", "", no_choice, NULL, NULL,
+      "With volumetric: on, Poisson's ratio of what the bonds alone make, at most the material's and 1/4 "
+      "(plane stress 1/3, where bonds bear no shear "
+      "and points have no rotations); default 0.2 (plane stress 0.25), where a lattice is nearest to isotropic, or "
+      "the material's if that is less." },
+};
+static const pg_key_table own_keys = { "force", keys, sizeof keys / sizeof *keys };
+
+static int is (const pg_scene *scene, const char *key, const char *word)
+{
+    const char *text = pg_scene_text (scene, "%s", key);
+    return text && strcmp (text, word) == 0;
+}
+
+static int long_range (const pg_scene *scene) { return pg_scene_bool (scene, "method.volumetric"); }
+
+static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx, double spacing,
+                  int lattice)
+{
+    point_force_rule (out, scene, mode, approx, spacing, lattice);
+    out->beams = 1;
+    if (long_range (scene)) point_force_rule_with_dilatation (out, scene);
+}
+
+/* Of micropolar bonds beside an energy of the dilatation, at most: there the two shears of a lattice with a
+ * horizon of 3 spacings come nearest to each other (0.3 %; 2 % at the largest ratio, where bonds bear no
+ * shear, 6 % at 0) */
+static double usual_poisson (pg_mode mode) { return mode == PG_PLANE_STRESS ? 0.25 : 0.2; }
+
+void gmpd_split (const pg_problem *p, size_t material, double *E, double *nu, double *dilation)
+{
+    const gmpd_options *o = p->options;
+    const pg_material *m = &p->material[material];
+    *E = m->modulus, *nu = m->nu, *dilation = 0;
+    if (!p->sums->rule.state) return;
+    *nu = isnan (o->bond_poisson) ? fmin (*nu, usual_poisson (p->mode)) : o->bond_poisson;
+    pg_beam_split (E, dilation, p->mode, m->modulus, m->nu, *nu);
+}
+
+/* The bonds' own Poisson's ratio may be neither more than they bear nor more than the material's: dilatation
+ * would have negative energy. */
+static void check_volumetric (const pg_problem *p, gmpd_options *o, const pg_scene *scene)
+{
+    static const char key[] = "method.bond_poisson";
+    double most = pg_beam_poisson (p->mode);
+    point_force_refuse_matrix (p, scene, " with volumetric: on");
+    o->bond_poisson = pg_scene_given (scene, key) ? pg_scene_number (scene, key) : NAN;
+    if (o->bond_poisson > most + 1e-9)
+        pg_scene_fault (scene, key, "%.6g is more than %.6g, the largest of micropolar bonds%s",
+                        o->bond_poisson, most, p->mode == PG_PLANE_STRESS ? " in plane stress" : "");
+    for (size_t m = 0; m < p->nmaterial; m++)
+        if (o->bond_poisson > p->material[m].nu)
+            pg_scene_fault (scene, key,
+                            "%.6g is more than that of material %.63s, %.6g: less energy of dilatation than "
+                            "none; choose at most that",
+                            o->bond_poisson, p->material[m].name, p->material[m].nu);
+}
+
+/* Beams of negative shear stiffness would make the body unstable; a dilatation beside them bears the rest. */
+static void check_materials (const pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
+{
+    for (size_t m = 0; m < p->nmaterial && p->mode != PG_LINE; m++) {
+        double nu = rule->state ? 0 : p->material[m].nu, most = pg_beam_poisson (p->mode);
+        char path[120];
+        snprintf (path, sizeof path, "materials.%.63s.poissons_ratio", p->material[m].name);
+        double axial, shear;
+        if (nu <= most + 1e-9
+            && pg_beam_moduli (&axial, &shear, p->mode, rule->kernel, rule->horizon, p->material[m].modulus,
+                               nu, p->cloud.thickness)
+                   != PG_OK)
+            pg_scene_fault (scene, "method.kernel", "%s", pg_last_error ());
+        if (nu > most + 1e-9)
+            pg_scene_fault (scene, path,
+                            "%.6g is more than %.6g, the largest of micropolar bonds%s: their shear "
+                            "stiffness would be negative and the body unstable; "
+                            "use volumetric: on, which lets the dilatation bear the difference",
+                            nu, most, p->mode == PG_PLANE_STRESS ? " in plane stress" : "");
+    }
+}
+
+/* B / C_t of a beam: Euler and Bernoulli 1; with shear, phi = 12 EI / (k G A r^2), 1 + phi; Chen's 4 C_M - 3
+ * C_t (theory G1) */
+static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
+{
+    gmpd_options *o = p->options;
+    static const char *const only[] = { "method.shear_parameter", "method.cm_ratio" }, *const of[] = {
+        "timoshenko", "chen"
+    };
+    if (p->mode == PG_LINE)
+        pg_scene_fault (scene, "method.force",
+                        "gmpd has no meaning in one dimension, where bonds bear no shear: use force: bond");
+    if (rule->finite)
+        pg_scene_fault (
+            scene, "method.stretch",
+            "force: gmpd is linear in displacement and rotation: use stretch: linear, or force: bond");
+    if (rule->evaluation == PG_EVALUATE_FFT)
+        pg_scene_fault (scene, "method.evaluation",
+                        "bonds that bear shear have no sums by FFT: use auto, stencil or list");
+    for (int k = 0; k < 2; k++)
+        if (pg_scene_given (scene, "%s", only[k]) && !is (scene, "method.beam", of[k]))
+            pg_scene_fault (scene, only[k], "is for method.beam: %s", of[k]);
+    o->bending = is (scene, "method.beam", "timoshenko") ? 1 + pg_scene_number (scene, "%s", only[0])
+               : is (scene, "method.beam", "chen") ? 4 * pg_scene_number (scene, "%s", only[1]) - 3 : 1;
+    if (rule->state) check_volumetric (p, o, scene);
+    else if (pg_scene_given (scene, "method.bond_poisson"))
+        pg_scene_fault (scene, "method.bond_poisson", "is for method.volumetric: on");
+    check_materials (p, scene, rule);
+}
+
+static pg_status read (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    gmpd_options *o = NULL;
+    PG_ALLOC (o, 1);
+    *o = (gmpd_options) { .bond_poisson = NAN };
+    p->options = o;
+    if (!long_range (scene) && pg_scene_given (scene, "method.weighted_volume"))
+        pg_problem_note (p, "ignored with volumetric: off: weighted_volume of method");
+    PG_TRY (point_force_read (p, scene, read_beams));
+done:
+    return status;
+}
+
+/* ---- criteria and loads -------------------------------------------------------------------------------- */
+/* Energy of a straight cut, J/m^2, all bonds at s = 1, gamma = 1, kappa = 1. */
+static pg_status measure_beams (double *out, const pg_problem *p, double axial, double shear)
+{
+    pg_status status = PG_OK;
+    pg_beam_sums sums;
+    PG_TRY (pg_beam_measure (&sums, p->sums));
+    out[0] = 0.5 * p->sums->calibration * axial * sums.along;
+    out[1] = 6 * sums.calibration * shear * sums.across;
+    out[2] = 0.5 * ((const gmpd_options *) p->options)->bending * sums.calibration * shear * sums.across;
+done:
+    return status;
+}
+
+static pg_status limits (const pg_problem *p, size_t material, pg_criterion_setting *s)
+{
+    pg_status status = PG_OK;
+    const pg_material *m = &p->material[material];
+    const pg_kernel *kernel = p->approx.kernel;
+    double axial, shear, E, nu, dilation, beside, h = p->approx.horizon, t = p->cloud.thickness;
+    PG_TRY (point_force_limits (p, material, s));
+    gmpd_split (p, material, &E, &nu, &dilation);
+    PG_TRY (pg_beam_moduli (&axial, &shear, p->mode, kernel, h, E, nu, t));
+    PG_TRY (measure_beams (s->beam, p, axial, shear));
+    beside = pg_beam_cut_dilatation (p->sums, dilation) / s->beam[0];
+    s->beam[0] *= 1 + beside;
+    s->toughness = (s->toughness > 0 ? s->toughness : 1) * (1 + beside);
+    s->modulus = m->modulus * axial / pg_bond_modulus (p->mode, kernel, h, m->modulus, t);
+done:
+    return status;
+}
+
+static int bears_shear (const pg_problem *p, int material)
+{
+    double E, nu, dilation;
+    gmpd_split (p, (size_t) material, &E, &nu, &dilation);
+    return fabs (nu - pg_beam_poisson (p->mode)) > 1e-9;
+}
+
+/* Where bonds bear no shear nothing resists rotations, and none are solved for: a moment would go nowhere.
+ * Once every point has its material. */
+static void check_moments (const pg_problem *p, const pg_scene *scene)
+{
+    const int *material = p->block[PG_NODES];
+    char path[64];
+    for (size_t i = 0; i < p->nload; i++) {
+        const pg_set *set = p->load[i].set;
+        size_t k = 0;
+        if (p->load[i].kind != PG_MOMENT) continue;
+        while (k < set->npoint && bears_shear (p, material[set->point[k]])) k++;
+        if (k == set->npoint) continue;
+        snprintf (path, sizeof path, "boundary[%zu].moment", i);
+        pg_scene_fault (scene, path,
+                        "material %.40s: at a Poisson's ratio of %.6g its bonds bear no shear, and nothing "
+                        "resists rotations: use a smaller one, or forces",
+                        p->material[material[set->point[k]]].name, pg_beam_poisson (p->mode));
+    }
+}
+
 const pg_force_type pg_force_gmpd = {
-    .name = "gmpd",
-    .summary = "micropolar peridynamics: bonds as beams, points that turn (Chen et al. 2022)",
+    .method = { .name = "gmpd",
+                .summary = "micropolar peridynamics: bonds as beams, points with rotations (Chen et al. 2022)",
+                .keys = { &point_force_keys, &state_based_keys, &own_keys },
+                .rotations = { 0, 0, 1, 3 },
+                .shows = PG_NEEDS_STRETCH | PG_NEEDS_BEAMS,
+                .criterion = "beam_limits",
+                .long_range = long_range,
+                .rule = rule,
+                .read = read,
+                .limits = limits,
+                .check_points = check_moments,
+                POINT_FORCE_METHOD },
     BOND_ENTRIES,
     .kind_of = gmpd_kind_of
 };

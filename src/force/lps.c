@@ -37,7 +37,7 @@ pg_status lps_create (bond *b)
         const pg_material *m = &p->material[p->block[PG_NODES][i]];
         double E, nu;
         if (p->sums->rule.beams)
-            pg_problem_beams (p, (size_t) p->block[PG_NODES][i], &E, &nu, &b->dilation[i]);
+            gmpd_split (p, (size_t) p->block[PG_NODES][i], &E, &nu, &b->dilation[i]);
         else pg_state_moduli (p->mode, m->modulus, m->nu, &b->dilation[i], &b->deviation[i]);
     }
     PG_TRY (count_bonds (b));
@@ -157,8 +157,53 @@ void lps_virial (const bond *b, size_t i, const point_bonds *s, const unsigned c
     for (size_t k = 0; k < dim * dim; k++) T[k] += alpha * spread[k];
 }
 
+/* ---- what it is before it exists ----------------------------------------------------------------------- */
+static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx, double spacing,
+                  int lattice)
+{
+    static const char surface[] = "method.surface_correction";
+    point_force_rule (out, scene, mode, approx, spacing, lattice);
+    point_force_rule_with_dilatation (out, scene);
+    if (strcmp (pg_scene_text (scene, surface), "auto") == 0) out->surface = PG_SURFACE_NONE;
+}
+
+static int long_range (const pg_scene *scene)
+{
+    (void) scene;
+    return 1;
+}
+
+/* Any Poisson's ratio; families that are not whole count by their own q. */
+static void check (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
+{
+    point_force_refuse_matrix (p, scene, "");
+    if (p->mode == PG_LINE)
+        pg_scene_fault (scene, "method.force",
+                        "%s has no meaning in one dimension, where it is the same as bond: use force: bond",
+                        p->method->name);
+    if (rule->finite)
+        pg_scene_fault (scene, "method.stretch",
+                        "force: %s is linear in the displacement: use stretch: linear, or force: bond",
+                        p->method->name);
+    if (rule->surface != PG_SURFACE_NONE)
+        pg_scene_fault (
+            scene, "method.surface_correction",
+            "force: %s weighs families that are not whole by their own weighted volume: use none or auto",
+            p->method->name);
+}
+
+
+static pg_status read (pg_problem *p, const pg_scene *scene) { return point_force_read (p, scene, check); }
+
 const pg_force_type pg_force_lps = {
-    .name = "lps",
-    .summary = "ordinary state-based peridynamics, any Poisson's ratio (Silling et al. 2007)",
+    .method = { .name = "lps",
+                .summary = "ordinary state-based peridynamics, any Poisson's ratio (Silling et al. 2007)",
+                .keys = { &point_force_keys, &state_based_keys },
+                .shows = PG_NEEDS_STRETCH | PG_NEEDS_ENERGY,
+                .long_range = long_range,
+                .rule = rule,
+                .read = read,
+                .limits = point_force_limits,
+                POINT_FORCE_METHOD },
     BOND_COMMON
 };

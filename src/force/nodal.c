@@ -12,7 +12,7 @@ static int prescribes (const pg_load *load, int k) { return pg_load_prescribes (
 enum { FREE = -1, IDLE = -2 };
 
 /* First of the unknowns of a point that a load is about, and a unit of its values in theirs */
-static int first_of (const nodal *s, const pg_load *load) { return pg_load_turns (load) ? s->dim : 0; }
+static int first_of (const nodal *s, const pg_load *load) { return pg_load_rotates (load) ? s->dim : 0; }
 static double unit_of (const nodal *s, const pg_load *load)
 {
     return load->kind == PG_ROTATION ? s->length : load->kind == PG_MOMENT ? 1 / s->length : 1;

@@ -22,6 +22,12 @@ const pg_integration_type *pg_integration_find (const char *name)
     return NULL;
 }
 
+const pg_integration_type *pg_integration_at_nodes (void)
+{
+    for (size_t i = 0; i < COUNT; i++) if (entries[i]->at_nodes) return entries[i];
+    return NULL;
+}
+
 /* The literal begins with a separator, which is skipped. */
 const char *pg_integration_names (void)
 {

@@ -16,7 +16,7 @@ static const pg_linear_type *const entries[] = {
 const pg_linear_type *pg_linear_find (const char *name)
 {
     for (size_t i = 0; i < sizeof entries / sizeof *entries; i++)
-        if (strcmp (entries[i]->name, name) == 0) return entries[i];
+        if (name && strcmp (entries[i]->name, name) == 0) return entries[i];
     return NULL;
 }
 

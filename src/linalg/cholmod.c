@@ -208,6 +208,6 @@ static void chol_info (const void *self, pg_linear_info *info)
 }
 
 const pg_linear_type pg_linear_cholmod = {
-    "cholmod", "supernodal Cholesky factorization (SuiteSparse CHOLMOD)", 1,
+    "cholmod", "supernodal Cholesky factorization (SuiteSparse CHOLMOD)", 1, 1,
     chol_analyse, chol_factor, chol_solve, chol_info, chol_free
 };

@@ -189,6 +189,6 @@ static void pcg_info (const void *self, pg_linear_info *info)
 }
 
 const pg_linear_type pg_linear_pcg = {
-    "pcg", "conjugate gradients with diagonal preconditioning", 1,
+    "pcg", "conjugate gradients with diagonal preconditioning", 1, 0,
     pcg_analyse, pcg_factor, pcg_solve, pcg_info, pcg_free
 };

@@ -69,7 +69,7 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     for (int k = 0; k < 3; k++) b->initial[k] = NULL;
     b->material = (pg_material *) stiffest (p), b->nmaterial = 1;
     PG_ALLOC (b->criterion, 1);
-    if (!p->direct) PG_TRY (make_surface (b, p));
+    if (p->method->shape_functions) PG_TRY (make_surface (b, p));
     else b->rows[PG_FACETS] = p->rows[PG_FACETS];
     PG_TRY (make_load (b, p));
     for (int s = 0; s < PG_BOND_SETS; s++) {
@@ -92,7 +92,7 @@ void pg_problem_bare_free (pg_problem **bare)
 {
     pg_problem *b = *bare;
     if (!b) return;
-    if (!b->direct) {
+    if (b->method->shape_functions) {
         pg_rows_clear (&b->rows[PG_FACETS]);
         pg_free (b->facet_normal);
     }

@@ -213,7 +213,29 @@ done:
     return status;
 }
 
-/* Forces straight between points: a point without a bond bears nothing and would fly off, or leave K
+/* Bonds between the points themselves, as pg_sums has them. */
+static pg_status make_point_bonds (pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_rows *r = &p->rows[PG_NODES];
+    size_t n = p->cloud.n, dim = (size_t) p->dim;
+    *r = (pg_rows) { .dim = p->dim, .n = n };
+    PG_ALLOC (r->x, n * dim);
+    PG_ALLOC (r->weight, n);
+    PG_ALLOC (r->own, n);
+    PG_ALLOC (r->cell, n);
+    memcpy (r->x, p->cloud.x, n * dim * sizeof *r->x);
+    memcpy (r->weight, p->cloud.volume, n * sizeof *r->weight);
+    for (size_t i = 0; i < n; i++) r->own[i] = (int) i, r->cell[i] = -1;
+    PG_TRY (pg_sums_family (&r->family, p->sums));
+    for (int s = PG_POINTS; s < PG_BOND_SETS; s++)
+        PG_TRY (pg_rows_create (&p->rows[s], &p->approx, &p->cloud, 0, NULL, NULL, NULL, NULL));
+    PG_ALLOC (p->facet_normal, 0);
+done:
+    return status;
+}
+
+/* Without shape functions: a point without a bond bears nothing and would fly off, or leave K
  * singular. */
 static pg_status check_company (const pg_problem *p, const pg_scene *scene)
 {
@@ -267,8 +289,8 @@ static void count_eroded (pg_problem *p, const pg_scene *scene)
 pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    if (p->direct) {
-        PG_TRY (pg_direct_bonds (p));
+    if (!p->method->shape_functions) {
+        PG_TRY (make_point_bonds (p));
         PG_TRY (check_company (p, scene));
     } else {
         PG_TRY (make_nodes (p, scene));

@@ -20,15 +20,15 @@ static void warn (pg_problem *p, const char *mode)
 {
     for (size_t m = 0; m < p->nmaterial; m++) {
         const pg_material *a = &p->material[m];
-        int state = p->direct && p->sums->rule.state;
+        int state = p->sums && p->sums->rule.state;
         if (!nearly_incompressible (a)) continue;
         if (state)
             pg_problem_note (p,
                              "warning: material %.40s: Poisson's ratio is near 1/2, and force: %s takes the "
                              "dilatation at every point: it locks, pressures "
                              "oscillate, and large systems may not converge: use force: galerkin",
-                             a->name, p->force);
-        else if (!p->direct && strcmp (mode, "pointwise") == 0)
+                             a->name, p->method->name);
+        else if (p->method->shape_functions && strcmp (mode, "pointwise") == 0)
             pg_problem_note (p,
                              "warning: material %.40s: Poisson's ratio is near 1/2, and with "
                              "method.dilatation: pointwise the body locks: too stiff, with wrong "
@@ -51,7 +51,7 @@ pg_status pg_dilatation_build (pg_problem *p, const pg_scene *scene)
     size_t some = 0;
     int set;
     warn (p, mode);
-    if (p->direct || p->dim == 1 || strcmp (mode, "pointwise") == 0) return PG_OK;
+    if (!p->method->shape_functions || p->dim == 1 || strcmp (mode, "pointwise") == 0) return PG_OK;
     PG_ALLOC (lambda, p->nmaterial);
     for (size_t m = 0; m < p->nmaterial; m++) {
         int wanted = p->material[m].lambda > 0

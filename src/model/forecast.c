@@ -30,7 +30,7 @@ static void halve (parts *p, int k)
 static void dissect (const pg_forecast *f, double *entries, double *flops)
 {
     parts p = { 0 };
-    double L[3] = { f->edge[0], f->edge[1], f->edge[2] }, m = f->dim + f->turns;
+    double L[3] = { f->edge[0], f->edge[1], f->edge[2] }, m = f->dim + f->rotations;
     p.count[0][0][0] = 1;
     *entries = *flops = 0;
     for (int level = 0, k = 0, last = 0; level < 200 && !last; level++) {
@@ -59,7 +59,8 @@ static void choose_linear (pg_forecast *f)
     if (!f->automatic) return;
     int none = f->explicit_ || f->matrixless ? 1
                : f->dynamic                  ? f->weight <= 9 * f->spacing * f->spacing
-               : f->direct                   ? pg_direct_large (1, f->dim, f->points * (f->dim + f->turns))
+               : !f->method->shape_functions
+                   ? pg_method_iterates (f->method, 1, f->dim, f->points * (f->dim + f->rotations))
                                              : f->dim == 3 && f->points * 3 > 200000;
     strcpy (f->linear, none ? "cg" : "cholmod");
 }
@@ -85,7 +86,7 @@ void pg_forecast_sum (pg_forecast *f)
            corners = pow (2, d), *b = f->bytes;
     choose_linear (f);
     int factors = strcmp (f->linear, "cg") != 0, lu = strcmp (f->linear, "umfpack") == 0;
-    double m = d + f->turns;
+    double m = d + f->rotations;
     f->dofs = n * m;
     f->matrix_entries = (f->pairs - n) * m * m + n * m * (m + 1) / 2;
     b[PG_BYTES_PROGRAM] = 35e6;
@@ -95,11 +96,11 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;  /* pg_consistency */
     b[PG_BYTES_SHAPES] += (4 + 8 * d * (d + 1)) * f->patched;  /* galerkin_dilatation */
     /* pg_bond_loop, bond */
-    if (f->direct)
-        b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? (f->turns ? 25 + 8 * d : 7) : 0.25) * all
-                             + (100 + 16 * f->turns) * n + (factors ? 0 : 8 * f->dofs);
+    if (!f->method->shape_functions)
+        b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? (f->rotations ? 25 + 8 * d : 7) : 0.25) * all
+                             + (100 + 16 * f->rotations) * n + (factors ? 0 : 8 * f->dofs);
     /* dilatations */
-    if (f->matrixless && f->turns)
+    if (f->matrixless && f->rotations)
         b[PG_BYTES_SHAPES] += (f->listed || f->by_list ? 9 : 0.25) * all + (120 + 40 * d) * n;
     /* states; break_loop; factored */
     b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;
@@ -108,12 +109,12 @@ void pg_forecast_sum (pg_forecast *f)
     if (f->matrixless && !f->explicit_ && !f->dynamic)
         b[PG_BYTES_VECTORS] += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));
     /* the multilevel preconditioner: its finest level, its first coarse matrix */
-    if (f->direct && !factors && !f->explicit_ && !f->dynamic)
+    if (!f->method->shape_functions && !factors && !f->explicit_ && !f->dynamic)
         b[PG_BYTES_VECTORS] += n * (32 * m + 16 * corners + 16) + n * m * m * 12 * pow (1.25, d);
     b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
     b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
     if (factors)
-        b[PG_BYTES_MATRIX] = f->direct ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
+        b[PG_BYTES_MATRIX] = !f->method->shape_functions ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
                                        : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated
                                              + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
     if (factors) {
@@ -174,10 +175,10 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
     f->points = (double) p->cloud.n, f->cells = (double) p->cells.n;
     f->evaluation = (double) p->rows[PG_POINTS].n, f->facets = (double) p->rows[PG_FACETS].n;
     for (int s = 0; s < PG_BOND_SETS; s++) f->bonds[s] = (double) (p->first_bond[s + 1] - p->first_bond[s]);
-    f->pairs = p->direct ? 0.5 * f->bonds[PG_NODES] + f->points : shared * f->points;
+    f->pairs = !p->method->shape_functions ? 0.5 * f->bonds[PG_NODES] + f->points : shared * f->points;
     f->matrixless = p->sums && p->sums->rule.state;
-    f->direct = p->direct, f->listed = p->sums && p->sums->stencil.n == 0,
-    f->by_list = p->sums && summed_by_list (p), f->turns = p->turns;
+    f->method = p->method, f->listed = p->sums && p->sums->stencil.n == 0,
+    f->by_list = p->sums && summed_by_list (p), f->rotations = pg_problem_rotations (p);
     f->summed = p->consistency ? (double) (p->consistency->family.start[p->consistency->family.n]
                                            + p->consistency->face.family.start[p->consistency->face.n])
                                : 0;
@@ -260,7 +261,7 @@ pg_status pg_forecast_afford (const pg_forecast *f, double available)
                                        pg_forecast_item (i), in_words (word, sizeof word, f->bytes[i]));
     double fit = pg_forecast_fitting (f, available);
     if (isfinite (fit)) snprintf (text, sizeof text, "; a spacing of %.3g m or more fits", fit);
-    if (!f->nodal && !f->direct) {
+    if (!f->nodal && f->method->shape_functions) {
         pg_forecast g = *f;
         double share = f->bonds[PG_POINTS] > 0
                            ? f->bonds[PG_NODES] / f->points * f->evaluation / f->bonds[PG_POINTS]

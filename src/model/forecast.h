@@ -9,7 +9,7 @@ typedef struct {
     const pg_approx  *approx;
     int centred, nodal, order;  /* points at cell centres; Gauss points per direction */
     const pg_body *body;                               /* cells are cut by its surface; NULL: staircase */
-    const pg_stencil *direct;  /* forces straight between points: the bonds of one; NULL: not so */
+    const pg_stencil *bonds;  /* without shape functions: the bonds of a point; else NULL */
 } pg_counting;
 typedef struct {                                       /* of the lattice given */
     double cells, points, open[6];                     /* open faces -x +x -y +y -z +z */

@@ -75,15 +75,15 @@ static void read_method (pg_forecast *f, const pg_scene *scene)
 {
     const pg_integration_type *integration = pg_integration_find (
         pg_scene_text (scene, "method.integration"));
-    f->direct = pg_direct_force (scene), f->matrixless = pg_direct_state (scene),
-    f->turns = pg_direct_turns (scene, f->dim);
-    f->by_list = f->direct
+    f->matrixless = f->method->long_range && f->method->long_range (scene);
+    f->rotations = f->method->rotations[f->dim];
+    f->by_list = !f->method->shape_functions
                  && (is (pg_scene_text (scene, "method.evaluation"), "list")
                      || is (pg_scene_text (scene, "method.surface_correction"), "volume")
                      || pg_scene_number (scene, "perturb.amount") > 0
                      || pg_scene_count (scene, "blocks") > 1);
-    f->nodal = f->direct || (integration && integration->at_nodes);
-    f->summed = !f->direct && integration && integration->consistent;  /* until bonds are counted */
+    f->nodal = !f->method->shape_functions || (integration && integration->at_nodes);
+    f->summed = f->method->shape_functions && integration && integration->consistent;  /* until bonds are counted */
     f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
     f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients */
     f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
@@ -129,7 +129,7 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
     f->pairs = t->pairs * more;
     f->bonds[PG_NODES] = t->node_bonds * more, f->bonds[PG_POINTS] = t->point_bonds * more;
     add_cut (f, t, finer);
-    f->facets = f->direct ? 0 : facets * per;
+    f->facets = !f->method->shape_functions ? 0 : facets * per;
     widen (f, how->approx->horizon / lattice_step (l));
     f->bonds[PG_FACETS] = f->facets * 0.6 * t->node_bonds / t->points;
     f->width = 0.93 * radius_of (f->dim, t->coupled);
@@ -143,14 +143,15 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
 
 /* The bonds of one point of forces straight between points; moved points have those of whole volumes and a
  * falling rim. */
-static pg_status make_direct (pg_stencil *out, const pg_scene *scene, const pg_lattice *l, const pg_approx *a)
+static pg_status make_bonds (pg_stencil *out, const pg_method *method, const pg_scene *scene, const pg_lattice *l,
+                             const pg_approx *a)
 {
     pg_mode mode = l->dim == 1                                     ? PG_LINE
                    : l->dim == 3                                   ? PG_SOLID
                    : is (pg_scene_text (scene, "plane"), "strain") ? PG_PLANE_STRAIN
                                                                    : PG_PLANE_STRESS;
     pg_sum_rule rule;
-    pg_direct_rule (&rule, scene, mode, a, lattice_step (l),
+    method->rule (&rule, scene, mode, a, lattice_step (l),
                     !(pg_scene_number (scene, "perturb.amount") > 0));
     return pg_stencil_build (out, &rule, l->dim, l->step);
 }
@@ -161,7 +162,7 @@ static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_
     pg_lattice l = { 0 };
     pg_approx a;
     pg_tally t;
-    pg_stencil direct = { 0 };
+    pg_stencil bonds = { 0 };
     double spacing = pg_scene_number (scene, "spacing"), cells = 1, offset[3] = { 0 }, finer = 1;
     int shifted = pg_scene_vector (scene, 3, offset, "lattice_offset") > 0;
     if (!(spacing > 0)) PG_FAIL (PG_E_SCENE, "there is no spacing");
@@ -170,25 +171,25 @@ static pg_status count_lattice (pg_forecast *f, const pg_scene *scene, const pg_
     while (cells / pow (finer, body->dim) > most_cells) finer *= 2;
     PG_TRY (pg_lattice_fit (&l, body, spacing * finer, shifted ? offset : NULL));
     f->spacing = lattice_step (&l) / finer;
-    PG_TRY (pg_approx_read (&a, scene, f->spacing));
+    PG_TRY (pg_method_approx (&a, f->method, scene, f->spacing));
     f->horizon = a.horizon, a.horizon *= finer;            /* as many spacings on the coarser lattice */
     for (int k = 0; k < 3; k++) f->step[k] = l.step[k] / finer;
     int order = pg_scene_given (scene, "method.gauss_points")
                     ? (int) pg_scene_integer (scene, "method.gauss_points")
                     : a.order + 1;
-    if (f->direct) PG_TRY (make_direct (&direct, scene, &l, &a));
+    if (!f->method->shape_functions) PG_TRY (make_bonds (&bonds, f->method, scene, &l, &a));
     pg_counting how = { &l,
                         &a,
                         is (pg_scene_text (scene, "lattice"), "cells"),
                         f->nodal,
                         order,
                         is (pg_scene_text (scene, "cells"), "cut") ? body : NULL,
-                        f->direct ? &direct : NULL };
+                        !f->method->shape_functions ? &bonds : NULL };
     PG_TRY (pg_tally_count (&t, &how));
     if (!(t.points > 0)) PG_FAIL (PG_E_SCENE, "no point lies in the body");
     take_tally (f, scene, &t, &how, &l, finer);
 done:
-    pg_stencil_clear (&direct);
+    pg_stencil_clear (&bonds);
     pg_lattice_clear (&l);
     return status;
 }
@@ -216,7 +217,7 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
         all += count[pg_element_face ((pg_element) m->kind[element[k]], side[k], node)];
     /* a side each */
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);
-    f->facets = f->direct ? 0 : fmin (facets, all), f->bonds[PG_FACETS] = f->facets * 0.6 * each;
+    f->facets = !f->method->shape_functions ? 0 : fmin (facets, all), f->bonds[PG_FACETS] = f->facets * 0.6 * each;
 done:
     pg_free (element), pg_free (side);
     return status;
@@ -237,19 +238,19 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
         PG_TRY (pg_mesh_body_read (&part, scene));
         PG_TRY (pg_mesh_body_cloud (&c, &part, scene));
     } else PG_TRY (pg_cloud_build (&c, &l, body, scene));
-    PG_TRY (pg_approx_read (&a, scene, c.h));
+    PG_TRY (pg_method_approx (&a, f->method, scene, c.h));
     size_t stride = c.n / 20000 + 1, n = 0, dim = (size_t) c.dim;
     PG_ALLOC (centre, (c.n / stride + 1) * dim);
     for (size_t i = 0; i < c.n; i += stride) memcpy (centre + n++ * dim, c.x + i * dim, dim * sizeof *centre);
     /* volumes fall over one spacing */
-    if (f->direct && !is (pg_scene_text (scene, "method.partial_volume"), "none")) a.horizon += 0.5 * c.h;
+    if (!f->method->shape_functions && !is (pg_scene_text (scene, "method.partial_volume"), "none")) a.horizon += 0.5 * c.h;
     PG_TRY (pg_family_build (&near, &c, n, centre, a.horizon, a.shape, a.kernel->closed));
     PG_TRY (pg_family_build (&far, &c, n / 8 + 1, centre, 1.6 * a.horizon, a.shape, a.kernel->closed));
     f->spacing = c.h, f->horizon = a.horizon, f->points = (double) c.n;
     if (!part.mesh.n) f->nodal = 1;
     f->bonds[PG_NODES] = (double) near.start[n] / (double) n * f->points;
     double coupled = (double) far.start[far.n] / (double) far.n, side = 1;
-    if (f->direct) coupled = f->bonds[PG_NODES] / f->points, f->bonds[PG_NODES] -= f->points;
+    if (!f->method->shape_functions) coupled = f->bonds[PG_NODES] / f->points, f->bonds[PG_NODES] -= f->points;
     f->pairs = 0.5 * f->points * (coupled + 1);
     f->width = 0.93 * radius_of (f->dim, coupled);
     for (int k = 0; k < 3; k++)
@@ -265,12 +266,14 @@ done:
     return status;
 }
 
-pg_status pg_forecast_scene (pg_forecast *out, const pg_scene *scene)
+pg_status pg_forecast_scene (pg_forecast *out, const pg_scene *scene, const pg_method *const *methods)
 {
     pg_status status = PG_OK;
     pg_body body = { 0 };
     memset (out, 0, sizeof *out);
     out->dim = (int) pg_scene_integer (scene, "dimension");
+    out->method = pg_method_of (methods, scene);
+    if (!out->method) PG_FAIL (PG_E_USAGE, "method.force: unknown");
     PG_TRY (pg_scene_verdict (scene));
     PG_TRY (pg_body_read (&body, scene));
     PG_TRY (pg_scene_verdict (scene));

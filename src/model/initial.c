@@ -27,15 +27,16 @@ pg_status pg_initial_read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     const char *kind = pg_scene_text (scene, "solver.kind");
+    char names[160];
     if (!pg_scene_given (scene, "initial.velocity")) return PG_OK;
     if (pg_solver_is (kind, PG_SOLVER_QUASI_STATIC)) {
-        pg_problem_note (p, "without meaning for solver: %s: initial", kind);
+        pg_problem_note (p, "ignored with solver: %s: initial", kind);
         return PG_OK;
     }
-    if (!p->direct)
-        pg_scene_fault (scene, "initial.velocity",
-                        "not with force: galerkin so far: use bond, fcbm, lps or gmpd");
-    for (int k = 0; p->direct && k < 3; k++) PG_TRY (read_component (p, scene, k));
+    if (p->method->shape_functions)
+        pg_scene_fault (scene, "initial.velocity", "not with force: %s so far: use %s", p->method->name,
+                        pg_methods_of_points (p, names, sizeof names));
+    for (int k = 0; !p->method->shape_functions && k < 3; k++) PG_TRY (read_component (p, scene, k));
 done:
     return status;
 }
@@ -60,17 +61,18 @@ static double slope_at (const pg_problem *p, size_t i, size_t k, size_t a)
     return isfinite (slope) ? slope : 0;
 }
 
-/* Points that turn do so with the velocity of the body about them, half its curl (unknown: spacing times
+/* Points with rotations turn with the velocity of the body about them, half its curl (unknown: spacing times
  * rotation): a body that spins is at rest in itself. */
 void pg_initial_set (const pg_problem *p, double *v)
 {
-    size_t dim = (size_t) p->dim, stride = dim + (size_t) p->turns;
+    size_t dim = (size_t) p->dim, stride = (size_t) pg_problem_unknowns (p);
+    int rotations = pg_problem_rotations (p);
     if (!p->initial[0] && !p->initial[1] && !p->initial[2]) return;
     for (size_t i = 0; i < p->cloud.n; i++) {
         double *own = v + i * stride;
         for (size_t k = 0; k < dim; k++) own[k] = velocity_at (p, p->cloud.x + i * dim, k);
-        if (p->turns == 1) own[2] = 0.5 * p->cloud.h * (slope_at (p, i, 1, 0) - slope_at (p, i, 0, 1));
-        for (size_t t = 0; p->turns == 3 && t < 3; t++) {
+        if (rotations == 1) own[2] = 0.5 * p->cloud.h * (slope_at (p, i, 1, 0) - slope_at (p, i, 0, 1));
+        for (size_t t = 0; rotations == 3 && t < 3; t++) {
             size_t y = (t + 1) % 3, z = (t + 2) % 3;
             own[3 + t] = 0.5 * p->cloud.h * (slope_at (p, i, z, y) - slope_at (p, i, y, z));
         }

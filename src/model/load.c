@@ -17,14 +17,14 @@ int pg_load_prescribes (const pg_load *load)
 {
     return load->kind == PG_DISPLACEMENT || load->kind == PG_VELOCITY || load->kind == PG_ROTATION;
 }
-int pg_load_turns (const pg_load *load) { return load->kind == PG_ROTATION || load->kind == PG_MOMENT; }
+int pg_load_rotates (const pg_load *load) { return load->kind == PG_ROTATION || load->kind == PG_MOMENT; }
 int pg_load_components (const pg_load *load, int dim)
 {
-    return !pg_load_turns (load) || dim == 3 ? dim : dim == 2;
+    return !pg_load_rotates (load) || dim == 3 ? dim : dim == 2;
 }
 char pg_load_axis (const pg_load *load, int dim, int k)
 {
-    return "xyz"[pg_load_turns (load) && dim < 3 ? 2 : k];
+    return "xyz"[pg_load_rotates (load) && dim < 3 ? 2 : k];
 }
 
 static double table_value (const pg_load *load, double t)
@@ -167,10 +167,10 @@ static pg_status read_values (pg_load *load, const pg_scene *scene, size_t i, co
         const char *text = pg_scene_text (scene, "boundary[%zu].%s.%c", i, key, "xyz"[axis]);
         if (!text || !*text) continue;
         snprintf (path, sizeof path, "boundary[%zu].%s.%c", i, key, "xyz"[axis]);
-        int k = pg_load_turns (load) && dim < 3 ? axis - 2 : axis;
+        int k = pg_load_rotates (load) && dim < 3 ? axis - 2 : axis;
         if (k < 0 || k >= pg_load_components (load, dim)) {
             pg_scene_fault (scene, path, "a %dD body has no such component%s", dim,
-                            pg_load_turns (load) && dim == 2 ? ": it turns about z alone" : "");
+                            pg_load_rotates (load) && dim == 2 ? ": it turns about z alone" : "");
             found++;
             continue;
         }
@@ -235,16 +235,18 @@ static double deepest (const pg_problem *problem, const pg_set *set)
 /* Shape functions carry a traction on the surface itself. */
 static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i)
 {
-    char path[64];
+    char path[64], names[160];
     snprintf (path, sizeof path, "boundary[%zu].depth", i);
     if (!pg_scene_given (scene, "%s", path)) return;
     load->depth = pg_scene_length (scene, problem->cloud.h, "%s", path);
     if (load->kind != PG_TRACTION && load->kind != PG_PRESSURE)
         pg_scene_fault (scene, path,
                         "is for a traction or a pressure: others act on the points of their set");
-    else if (!problem->direct)
+    else if (problem->method->shape_functions)
         pg_scene_fault (scene, path,
-                        "is for force: bond; shape functions carry a traction on the surface itself");
+                        "the shape functions of force: %s carry a traction on the surface itself; a depth is for "
+                        "force: %s",
+                        problem->method->name, pg_methods_of_points (problem, names, sizeof names));
     else if (load->set->nfacet) {
         double most = deepest (problem, load->set);
         if (load->depth > most * (1 + 1e-9))
@@ -258,7 +260,7 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
                             int is_static, double duration)
 {
     pg_status status = PG_OK;
-    char path[64];
+    char path[64], names[160];
     const char *set = pg_scene_text (scene, "boundary[%zu].set", i),
                *name = pg_scene_text (scene, "boundary[%zu].name", i);
     size_t k = 0;
@@ -267,8 +269,9 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
         k++;
     load->kind = kinds[k].kind;
     snprintf (path, sizeof path, "boundary[%zu].%s", i, kinds[k].key);
-    if (pg_load_turns (load) && !problem->turns)
-        pg_scene_fault (scene, path, "is for force: gmpd: points of force: %s do not turn", problem->force);
+    if (pg_load_rotates (load) && !pg_problem_rotations (problem))
+        pg_scene_fault (scene, path, "points of force: %s have no rotations, only those of force: %s",
+                        problem->method->name, pg_methods_with_rotations (problem, names, sizeof names));
     snprintf (load->name, sizeof load->name, "%.63s", name && *name ? name : set);
     /* polygon.edge 3: a column of history.csv */
     for (char *c = load->name; *c && !(name && *name); c++) if (*c == ' ') *c = '_';
@@ -277,26 +280,8 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     if (!load->set) goto done;
     if (is_static && load->kind == PG_VELOCITY)
         pg_scene_fault (scene, path, "a static run has no velocity: prescribe a displacement");
-    const char *how = pg_scene_text (scene,
-                                     pg_scene_given (scene, "boundary[%zu].essential", i)
-                                         ? "boundary[%zu].essential"
-                                         : "method.essential",
-                                     i);
-    int nosb = strcmp (pg_scene_text (scene, "method.approximation"), "nosb") == 0;
-    load->essential = strcmp (how, "transformation") == 0 ? PG_ESSENTIAL_TRANSFORMATION
-                      : strcmp (how, "penalty") == 0      ? PG_ESSENTIAL_PENALTY
-                      : strcmp (how, "nitsche") == 0      ? PG_ESSENTIAL_NITSCHE
-                      : load->set->nfacet > 0 && !nosb    ? PG_ESSENTIAL_NITSCHE
-                                                          : PG_ESSENTIAL_TRANSFORMATION;
-    if (problem->direct) load->essential = PG_ESSENTIAL_TRANSFORMATION;
-    load->penalty = problem->penalty;
-    if (!problem->direct && strcmp (how, "auto") == 0 && !nosb
-        && (load->set->ninner || (load->set->nfacet == 0 && load->set->npoint > PG_MOST_ELIMINATED))) {
-        load->essential = PG_ESSENTIAL_PENALTY;  /* a set with an inside: its facets would leave that free */
-        /* no shorter time step */
-        if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT))
-            load->penalty = fmin (problem->penalty, problem->nitsche);
-    }
+    load->essential = PG_ESSENTIAL_TRANSFORMATION;
+    if (problem->method->support) problem->method->support (problem, load, scene, i);
     check_place (problem, load, scene, i);
     read_depth (problem, load, scene, i);
     if (pg_scene_given (scene, "boundary[%zu].table", i)) PG_TRY (read_table (load, scene, i));
@@ -343,33 +328,6 @@ pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
     pg_supports_check_eliminated (problem, scene);
 done:
     return status;
-}
-
-static int bears_shear (const pg_problem *p, int material)
-{
-    double E, nu, dilation;
-    pg_problem_beams (p, (size_t) material, &E, &nu, &dilation);
-    return fabs (nu - pg_beam_poisson (p->mode)) > 1e-9;
-}
-
-/* Where bonds bear no shear nothing resists rotations, and none are solved for: a moment would go nowhere.
- * Once every point has its material. */
-void pg_loads_check_moments (const pg_problem *p, const pg_scene *scene)
-{
-    const int *material = p->block[PG_NODES];
-    char path[64];
-    for (size_t i = 0; p->turns && i < p->nload; i++) {
-        const pg_set *set = p->load[i].set;
-        size_t k = 0;
-        if (p->load[i].kind != PG_MOMENT) continue;
-        while (k < set->npoint && bears_shear (p, material[set->point[k]])) k++;
-        if (k == set->npoint) continue;
-        snprintf (path, sizeof path, "boundary[%zu].moment", i);
-        pg_scene_fault (scene, path,
-                        "material %.40s: at a Poisson's ratio of %.6g its bonds bear no shear, and nothing "
-                        "resists rotations: use a smaller one, or forces",
-                        p->material[material[set->point[k]]].name, pg_beam_poisson (p->mode));
-    }
 }
 
 void pg_loads_clear (pg_problem *problem)

@@ -8,7 +8,6 @@ pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
  * faults. duration: end of the run, s (static: 1). */
 void      pg_supports_check (pg_problem *problem, const pg_scene *scene, double duration);
 void      pg_supports_check_eliminated (const pg_problem *problem, const pg_scene *scene);
-void      pg_loads_check_moments (const pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
 /* initial.velocity: checked and compiled; put into v (n x dim, m/s), which is left alone where nothing is
  * given. */
@@ -18,23 +17,15 @@ void      pg_initial_clear (pg_problem *problem);
 /* method.tip_offset: how far behind its tips and fronts each pre-crack cuts. */
 pg_status pg_tips_retreat (pg_problem *problem, const pg_scene *scene);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
-/* Forces straight between points: their rule, their sums, the only Poisson's ratio they know; and their
- * bonds. */
-pg_status pg_direct_build (pg_problem *problem, const pg_scene *scene);
-/* keys of method that say nothing to its force */
-void      pg_direct_note_unused (pg_problem *p, const pg_scene *scene);
-pg_status pg_direct_bonds (pg_problem *problem);
-/* Can all points have one law where the evaluation asked for wants that? Once criteria are read. */
-void      pg_direct_check_laws (const pg_problem *problem, const pg_scene *scene);
-int       pg_direct_force (const pg_scene *scene);
-/* 1: its bonds are those of state-based theory. */
-int       pg_direct_state (const pg_scene *scene);
-int       pg_direct_turns (const pg_scene *scene, int dim);              /* rotations of a point */
-/* Criterion of that force where the scene names none; NULL: it must.  */
-const char *pg_direct_criterion (const pg_scene *scene);
-/* Its rule, on a lattice or not; mode and kernel as given. */
-void pg_direct_rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
-                     double spacing, int lattice);
+/* What is asked of the descriptor of the force (method.c): keys of other forces are noted; what it cannot carry
+ * or show becomes a fault. */
+pg_status pg_method_approx (pg_approx *out, const pg_method *method, const pg_scene *scene, double spacing);
+void      pg_method_note_ignored    (pg_problem *problem, const pg_scene *scene);
+pg_status pg_method_check_materials (const pg_problem *problem, const pg_scene *scene);
+void      pg_method_check_criterion (const pg_problem *problem, const pg_scene *scene);
+/* Names of the forces without shape functions, with rotations: "a, b or c" */
+const char *pg_methods_of_points (const pg_problem *problem, char *out, size_t size);
+const char *pg_methods_with_rotations (const pg_problem *problem, char *out, size_t size);
 /* The node nearest to a point of a bond set among those it sees; -1: it sees none. */
 int       pg_bonds_nearest (const pg_problem *problem, int set, size_t point);
 /* block of every point, once the rows are there. */

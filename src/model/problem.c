@@ -76,17 +76,14 @@ done:
     return status;
 }
 
-/* Energy of a straight cut, J/m^2, all bonds at s = 1, gamma = 1, kappa = 1. */
-static pg_status measure_beams (double *out, const pg_problem *p, double axial, double shear)
+/* The criterion where `failure` names none: the force's own, or that of a limit which the scene gives. */
+static const char *usual_criterion (const pg_problem *p, const pg_scene *scene)
 {
-    pg_status status = PG_OK;
-    pg_beam_sums sums;
-    PG_TRY (pg_beam_measure (&sums, p->sums));
-    out[0] = 0.5 * p->sums->calibration * axial * sums.along;
-    out[1] = 6 * sums.calibration * shear * sums.across;
-    out[2] = 0.5 * p->bending * sums.calibration * shear * sums.across;
-done:
-    return status;
+    if (p->method->criterion) return p->method->criterion;
+    return pg_scene_given (scene, "failure.fracture_energy")
+                   || pg_scene_given (scene, "failure.critical_stretch")
+               ? "stretch"
+               : NULL;
 }
 
 static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
@@ -95,85 +92,24 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
     pg_criterion_setting *setting = NULL;
     PG_ALLOC (setting, p->nmaterial);
     PG_ALLOC (p->criterion, p->nmaterial);
-    for (size_t i = 0; i < p->nmaterial; i++)
-        setting[i] = (pg_criterion_setting){
-            .mode = p->mode,
-            .horizon = p->approx.horizon,
-            .modulus = p->material[i].E,
-            .poisson = p->material[i].nu,
-            .thickness = p->cloud.thickness,
-            .kernel = p->approx.kernel->name,
-            .material = p->material[i].name,
-            .graded = p->cloud.size != NULL && !p->direct,
-            .toughness = p->direct && p->sums->rule.calibrate
-                             ? pg_sums_toughness (p->sums, p->material[i].modulus,
-                                                  p->material[i].nu)
-                             : 0,
-            .stretch = !p->direct             ? NULL
-                       : p->sums->rule.finite ? "finite"
-                                              : "linear",
-            .usual = pg_direct_criterion (scene),
-            .state = p->direct && p->sums->rule.state && !p->turns
-        };
-    for (size_t i = 0; p->turns && i < p->nmaterial; i++) {
-        double axial, shear, E, nu, dilation, beside;
-        pg_problem_beams (p, i, &E, &nu, &dilation);
-        PG_TRY (pg_beam_moduli (&axial, &shear, p->mode, p->approx.kernel, p->approx.horizon, E, nu,
-                                p->cloud.thickness));
-        PG_TRY (measure_beams (setting[i].beam, p, axial, shear));
-        beside = pg_beam_cut_dilatation (p->sums, dilation) / setting[i].beam[0];
-        setting[i].beam[0] *= 1 + beside;
-        setting[i].toughness = (setting[i].toughness > 0 ? setting[i].toughness : 1) * (1 + beside);
-        setting[i].modulus = p->material[i].modulus * axial
-                             / pg_bond_modulus (p->mode, p->approx.kernel, p->approx.horizon,
-                                                p->material[i].modulus, p->cloud.thickness);
+    for (size_t i = 0; i < p->nmaterial; i++) {
+        const pg_material *m = &p->material[i];
+        setting[i] = (pg_criterion_setting) { .mode = p->mode,
+                                              .horizon = p->approx.horizon,
+                                              .modulus = m->E,
+                                              .poisson = m->nu,
+                                              .thickness = p->cloud.thickness,
+                                              .kernel = p->approx.kernel->name,
+                                              .material = m->name,
+                                              .usual = usual_criterion (p, scene) };
+        if (p->method->limits) PG_TRY (p->method->limits (p, i, &setting[i]));
     }
     PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));
-    int needs = p->criterion->type ? p->criterion->type->needs : 0;
-    if (p->direct && (needs & PG_NEEDS_STRESS))
-        pg_scene_fault (
-            scene, "failure.criterion",
-            "%s needs stresses, and force: %s knows only %s of its bonds: use %s, or force: galerkin",
-            p->criterion->type->name, p->force, p->turns ? "stretch, shear and bending" : "the stretch",
-            p->turns ? "beam_limits or stretch" : "stretch");
-    if (!p->turns && (needs & PG_NEEDS_BEAMS))
-        pg_scene_fault (
-            scene, "failure.criterion",
-            "%s judges bonds that bear shear and bending, which only force: gmpd has: use that, or stretch",
-            p->criterion->type->name);
-    if (p->turns && (needs & PG_NEEDS_ENERGY))
-        pg_scene_fault (
-            scene, "failure.criterion",
-            "%s is for bonds that pull along themselves: with force: gmpd use beam_limits or stretch",
-            p->criterion->type->name);
-    if (!p->direct && (needs & PG_NEEDS_ENERGY))
-        pg_scene_fault (scene, "failure.criterion",
-                        "%s needs the energy that bonds store at a point, and force: %s has bonds without "
-                        "energy: use stretch, "
-                        "principal_stress or mohr_coulomb, or force: bond or fcbm",
-                        p->criterion->type->name, p->force);
-    if (p->direct) pg_direct_check_laws (p, scene);
+    pg_method_check_criterion (p, scene);
+    if (p->method->check_laws) p->method->check_laws (p, scene);
 done:
     pg_free (setting);
     return status;
-}
-
-static void read_galerkin (pg_problem *p, const pg_scene *scene)
-{
-    const char *stab = pg_scene_text (scene, "method.stabilization");
-    p->integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
-    p->approx.extrapolates = p->integration->consistent;
-    if (!p->integration->at_nodes && p->cells.n == 0)
-        pg_scene_fault (scene, "method.integration",
-                        "a body of explicit points has no background cells: use nodal");
-    int nosb = strcmp (p->approx.type->name, "nosb") == 0;
-    int silling = strcmp (stab, "silling") == 0
-                  || (strcmp (stab, "auto") == 0 && nosb && p->integration->at_nodes);
-    if (strcmp (stab, "silling") == 0 && !(nosb && p->integration->at_nodes))
-        pg_scene_fault (scene, "method.stabilization", "silling stabilises nosb with nodal integration");
-    p->silling = silling ? pg_scene_number (scene, "method.stabilization_factor") : 0;
-    p->nitsche = pg_scene_number (scene, "method.nitsche_factor");
-    p->penalty = pg_scene_number (scene, "method.penalty_factor");
 }
 
 static pg_status build_laws (pg_problem *p, const pg_scene *scene)
@@ -188,12 +124,10 @@ static pg_status build_laws (pg_problem *p, const pg_scene *scene)
         pg_scene_fault (scene, "materials", "at least one material is needed");
         PG_TRY (pg_scene_verdict (scene));
     }
-    PG_TRY (pg_approx_read (&p->approx, scene, p->cloud.h));
-    snprintf (p->force, sizeof p->force, "%s", pg_scene_text (scene, "method.force"));
-    p->direct = pg_direct_force (scene);
-    pg_direct_note_unused (p, scene);
-    if (p->direct) PG_TRY (pg_direct_build (p, scene));
-    else read_galerkin (p, scene);
+    PG_TRY (pg_method_approx (&p->approx, p->method, scene, p->cloud.h));
+    pg_method_note_ignored (p, scene);
+    PG_TRY (pg_method_check_materials (p, scene));
+    PG_TRY (p->method->read (p, scene));
     PG_TRY (read_criteria (p, scene));
 done:
     return status;
@@ -240,11 +174,14 @@ done:
     return status;
 }
 
-pg_status pg_problem_prepare (pg_problem **out, const pg_scene *scene, int threads)
+pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, const pg_method *const *methods,
+                                   int threads)
 {
     pg_status status = PG_OK;
     pg_problem *p = NULL;
     PG_ALLOC (p, 1);
+    p->methods = methods, p->method = pg_method_of (methods, scene);
+    if (!p->method) PG_FAIL (PG_E_USAGE, "method.force: unknown");
     p->dim = (int) pg_scene_integer (scene, "dimension");
     p->threads = threads < 1 ? 1 : threads;
     p->mode = mode_of (scene, p->dim);
@@ -281,22 +218,9 @@ pg_status pg_problem_complete (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_bonds_build (p, scene));
     PG_TRY (pg_remark_parts (p));
     PG_TRY (pg_remark_contrast (p));
-    pg_loads_check_moments (p, scene);
+    if (p->method->check_points) p->method->check_points (p, scene);
     PG_TRY (pg_scene_verdict (scene));
 done:
-    return status;
-}
-
-pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads)
-{
-    pg_status status = PG_OK;
-    pg_problem *p = NULL;
-    PG_TRY (pg_problem_prepare (&p, scene, threads));
-    PG_TRY (pg_problem_complete (p, scene));
-    *out = p;
-    p = NULL;
-done:
-    pg_problem_free (&p);
     return status;
 }
 
@@ -309,6 +233,7 @@ void pg_problem_free (pg_problem **problem)
     pg_consistency_free (&p->consistency);
     pg_patches_free (&p->patches);
     pg_sums_free (&p->sums);
+    pg_free (p->options);
     pg_loads_clear (p), pg_initial_clear (p);
     pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->material), pg_free (p->criterion);
     pg_sets_clear (&p->sets);

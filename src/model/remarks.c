@@ -104,7 +104,7 @@ pg_status pg_remark_contrast (pg_problem *p)
 {
     pg_status status = PG_OK;
     unsigned char *seen = NULL;
-    if (p->direct || p->nmaterial < 2) return PG_OK;
+    if (!p->method->shape_functions || p->nmaterial < 2) return PG_OK;
     int set = p->integration->at_nodes ? PG_NODES : PG_POINTS;
     const pg_rows *r = &p->rows[set];
     PG_ALLOC (seen, p->cloud.n);

@@ -22,7 +22,7 @@ pg_status pg_state_create (pg_state **out, const pg_problem *problem, int compon
     s->ndof = ndof, s->nbond = nbond, s->bytes = bytes;
     place (s);
     pg_bonds_cut (problem, s->alive);
-    if (components == problem->dim + problem->turns) pg_initial_set (problem, s->v);
+    if (components == pg_problem_unknowns (problem)) pg_initial_set (problem, s->v);
     *out = s;
 done:
     return status;

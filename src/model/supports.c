@@ -86,7 +86,7 @@ static void tell (pg_problem *p, const pg_scene *scene, size_t i, size_t l, int 
 {
     const pg_load *a = &p->load[i], *b = &p->load[l];
     char path[96], other[96], line[32] = "", at[80] = "";
-    const char *unit = pg_load_turns (a) ? "rad" : "m", *what = kind == PG_FACETS ? "facet" : "point",
+    const char *unit = pg_load_rotates (a) ? "rad" : "m", *what = kind == PG_FACETS ? "facet" : "point",
                *many = c->differ > 1 ? "s" : "", *verb = c->differ > 1 ? "belong" : "belongs";
     int number, used = 0;
     snprintf (other, sizeof other, "boundary[%zu].%s.%c", i, key_of (a), pg_load_axis (a, p->dim, k));
@@ -112,7 +112,7 @@ static void tell (pg_problem *p, const pg_scene *scene, size_t i, size_t l, int 
 
 static int comparable (const pg_load *a, const pg_load *b, int k)
 {
-    return pg_load_prescribes (a) && pg_load_prescribes (b) && pg_load_turns (a) == pg_load_turns (b)
+    return pg_load_prescribes (a) && pg_load_prescribes (b) && pg_load_rotates (a) == pg_load_rotates (b)
            && a->set && b->set && a->value[k] && b->value[k];
 }
 
@@ -133,11 +133,11 @@ void pg_supports_check (pg_problem *p, const pg_scene *scene, double duration)
 }
 
 /* Elimination makes full matrices of the points prescribed in one direction, unless shape functions are 1 at
- * their own point (nosb). */
+ * their own point. */
 static int eliminates (const pg_problem *p, const pg_load *load)
 {
-    return !p->direct && load->set && pg_load_prescribes (load)
-           && load->essential == PG_ESSENTIAL_TRANSFORMATION && strcmp (p->approx.type->name, "nosb") != 0;
+    return p->method->shape_functions && !p->approx.type->interpolates && load->set && pg_load_prescribes (load)
+           && load->essential == PG_ESSENTIAL_TRANSFORMATION;
 }
 
 void pg_supports_check_eliminated (const pg_problem *p, const pg_scene *scene)

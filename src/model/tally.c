@@ -138,7 +138,7 @@ static pg_status make_stencils (counter *c)
     pg_status status = PG_OK;
     double x[5], w[5], at[3] = { 0, 0, 0 };
     int order = c->how->order;
-    if (c->how->direct) PG_TRY (copy_stencil (&c->node, c->how->direct));
+    if (c->how->bonds) PG_TRY (copy_stencil (&c->node, c->how->bonds));
     else PG_TRY (make_stencil (&c->node, c, at));
     c->ngauss = c->how->nodal ? 0 : 1;
     for (int k = 0; k < c->l->dim; k++) c->ngauss *= (size_t) order;
@@ -181,7 +181,7 @@ static size_t mark_seen (counter *c, const int *node, const int *from, const ste
 static size_t coupled (counter *c, const int *node)
 {
     size_t n = 0;
-    if (c->how->direct) return seen (c, node, &c->node) + 1;
+    if (c->how->bonds) return seen (c, node, &c->node) + 1;
     c->epoch++;
     for (size_t g = 0; g < c->ngauss; g++)
         for (size_t k = 0; k < c->gauss[g].n; k++) {
@@ -225,7 +225,7 @@ static size_t stride_for (double items, double visits_each)
 
 static void count_nodes (counter *c, pg_tally *t)
 {
-    double work = c->how->direct  ? (double) c->node.n
+    double work = c->how->bonds  ? (double) c->node.n
                   : c->how->nodal ? (double) c->node.n * (double) c->node.n
                                   : 0,
            bonds = 0, pairs = 0;
@@ -284,7 +284,7 @@ static int wide_open (const counter *c, pg_tally *t)
     double each = fmin (t->points, ball * box);
     t->evaluation = c->how->nodal ? 0 : points * t->cells;
     t->node_bonds = t->points * each, t->point_bonds = t->evaluation * each;
-    t->coupled = fmin (t->points, ball * box * (c->how->direct ? 1 : 1 << c->l->dim));
+    t->coupled = fmin (t->points, ball * box * (c->how->bonds ? 1 : 1 << c->l->dim));
     t->pairs = 0.5 * t->points * (t->coupled + 1);
     t->sampled = 1;
     return 1;

@@ -19,10 +19,6 @@ static const row approximate[2][5] = {
     { { 2, 0.3 }, { 2.6, 0.48 }, { 3, 0.66 }, { 3.5, 0.94 }, { 4, 1.2 } }
 };
 enum { ROWS = 5 };
-/* What is left of it, in spacings, by where the tip lies among the points: the worst of eight places there.
- * At the points alone it is more, for what resists few of their motions resists the opening little. */
-static const struct { const char *approximation; double linear, quadratic, nodal; } known[] = {
-    { "rkpm", 0.2, 0.29, 0.75 }, { "pddo", 0.26, 0.29, 1.1 }, { "nosb", 0.26, 0.29, 0.45 } };
 #define WORTH_A_WARNING 0.05                           /* of the opening */
 #define NODAL 0.25  /* evaluation at the points alone: +- 0.3 by where they lie */
 
@@ -40,12 +36,10 @@ static double offset_of (const pg_problem *p, const pg_scene *scene)
     double horizon = p->approx.horizon / p->cloud.h;
     if (pg_scene_given (scene, "method.tip_offset"))
         return pg_scene_length (scene, p->cloud.h, "method.tip_offset");
-    if (p->direct) return 0;
+    if (!p->method->shape_functions) return 0;
     if (p->integration->at_nodes) return NODAL * p->cloud.h;
     return p->cloud.h
-           * interpolated ((strcmp (p->approx.type->name, "rkpm") == 0 ? exact
-                                                                       : approximate)[p->approx.order == 2],
-                           horizon);
+           * interpolated ((p->approx.type->exact ? exact : approximate)[p->approx.order == 2], horizon);
 }
 
 /* ---- where the body is --------------------------------------------------------------------------------- */
@@ -279,15 +273,12 @@ static double sensitivity (const extent *e, int dim)
     return 1 / length_of (e, dim) + (e->open ? 2 : 0.4) / e->ligament;
 }
 
-/* How well tips are known, in spacings. */
+/* How well tips are known, in spacings, by where they lie among the points. At the points alone it is worse, for
+ * what resists few of their motions resists the opening little. */
 static double known_to (const pg_problem *p)
 {
-    size_t k = 0;
-    while (k + 1 < sizeof known / sizeof *known && strcmp (p->approx.type->name, known[k].approximation) != 0)
-        k++;
-    return p->integration->at_nodes ? known[k].nodal
-           : p->approx.order == 2   ? known[k].quadratic
-                                    : known[k].linear;
+    const pg_approx_type *a = p->approx.type;
+    return p->integration->at_nodes ? a->tip.nodal : p->approx.order == 2 ? a->tip.quadratic : a->tip.linear;
 }
 
 /* Of the crack whose opening is known worst. */
@@ -322,7 +313,7 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     double *out = NULL, **made = NULL;
     if (p->cracks.n == 0) return PG_OK;
     s.offset = offset_of (p, scene);
-    if (p->direct && !(s.offset > 0)) return PG_OK;
+    if (!p->method->shape_functions && !(s.offset > 0)) return PG_OK;
     if (p->part.mesh.n) PG_TRY (pg_mesh_locator_create (&s.locator, &p->part.mesh));
     PG_TRY (pg_nearest_create (&s.near, p->dim, p->cloud.n, p->cloud.x));
     PG_ALLOC (made, p->cracks.n);
@@ -336,7 +327,7 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
         else retreat_polygon (&s, k, c, out);
         made[k] = out, out = NULL;
     }
-    if (!p->direct) tell (p, scene, s.extent);         /* before they retreat: cracks as drawn */
+    if (p->method->shape_functions) tell (p, scene, s.extent);         /* before they retreat: cracks as drawn */
     for (size_t k = 0; s.offset > 0 && k < p->cracks.n; k++)
         p->cracks.crack[k].retreat = made[k], made[k] = NULL;
 done:

@@ -152,14 +152,14 @@ static void check_estimate (const pg_scene *scene, const pg_problem *problem)
     static const char *const keys[] = { "output.fields", "output.pictures" };
     const char *name;
     char path[64];
-    for (int k = 0; k < 2 && problem->direct; k++)
+    for (int k = 0; k < 2 && !problem->method->shape_functions; k++)
         for (size_t i = 0; (name = pg_scene_name (scene, i, "%s", keys[k])); i++) {
             if (strcmp (name, "error_estimate") != 0) continue;
             snprintf (path, sizeof path, "%s[%zu]", keys[k], i);
             pg_scene_fault (scene, path,
                             "force: %s has no shape functions whose stress could be smoothed: leave it out, "
                             "or use force: galerkin",
-                            problem->force);
+                            problem->method->name);
         }
 }
 
@@ -180,9 +180,9 @@ static size_t check_pictures (const pg_scene *scene, const char *names)
 void pg_result_check_names (const pg_scene *scene)
 {
     char names[512];
-    const char *force = pg_scene_text (scene, "method.force");
+    const pg_force_type *force = pg_force_find (pg_scene_text (scene, "method.force"));
     int dim = (int) pg_scene_integer (scene, "dimension"),
-        turns = force && strcmp (force, "gmpd") == 0 ? dim == 3 ? 3 : 1 : 0;
+        turns = force && dim > 0 && dim < 4 ? force->method.rotations[dim] : 0;
     /* no list: told already */
     if (dim < 1 || dim > 3 || !pg_scene_given (scene, "output.pictures[0]")) return;
     picture_names (dim, turns, names, sizeof names);
@@ -194,13 +194,13 @@ pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
     char names[512], path[64];
     const char *name;
     pg_reference *reference = NULL;
-    picture_names (problem->dim, problem->turns, names, sizeof names);
+    picture_names (problem->dim, pg_problem_rotations (problem), names, sizeof names);
     size_t count = check_pictures (scene, names);
     for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")); k++)
-        if (strcmp (name, "rotation") == 0 && !problem->turns) {
+        if (strcmp (name, "rotation") == 0 && !pg_problem_rotations (problem)) {
             snprintf (path, sizeof path, "output.fields[%zu]", k);
-            pg_scene_fault (scene, path, "is for force: gmpd: points of force: %s do not turn",
-                            problem->force);
+            pg_scene_fault (scene, path, "points of force: %s have no rotations",
+                            problem->method->name);
         }
     for (size_t i = 0; i < pg_scene_count (scene, "output.views"); i++, count++)
         check_view (scene, problem, i, names);

@@ -28,7 +28,7 @@ void pg_result_curve_choose (pg_result *r)
     for (size_t l = 0; l < p->nload; l++)
         for (int k = 0; k < p->dim; k++) {
             const pg_load *load = &p->load[l];
-            if (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_turns (load)) continue;
+            if (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_rotates (load)) continue;
             double end = load->kind == PG_VELOCITY ? 1e-9 : 1, size = 0;
             for (size_t i = 0; i < load->set->npoint; i++)
                 size = fmax (size,

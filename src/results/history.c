@@ -28,7 +28,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     for (size_t l = 0; l < p->nload; l++)
         for (int k = 0; k < pg_load_components (&p->load[l], p->dim); k++) {
             char axis = pg_load_axis (&p->load[l], p->dim, k);
-            int turns = pg_load_turns (&p->load[l]);
+            int turns = pg_load_rotates (&p->load[l]);
             snprintf (name[n++], sizeof *name, turns ? "%s.moment_%c [N m]" : "%s.force_%c [N]",
                       p->load[l].name, axis);
             snprintf (name[n++], sizeof *name, turns ? "%s.rotation_%c [rad]" : "%s.displacement_%c [m]",
@@ -125,14 +125,14 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     const char *unit;
     r->row[n++] = (double) step->number, r->row[n++] = step->time, r->row[n++] = step->factor;
     if (force->field) PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, r->u));
-    if (force->field && p->turns)
+    if (force->field && pg_problem_rotations (p))
         PG_TRY (force->field (self, state, state->d, "rotation", &components, &unit, r->u + 3 * p->cloud.n));
     for (size_t l = 0; l < p->nload; l++)
         for (int k = 0; k < pg_load_components (&p->load[l], p->dim); k++) {
-            int turns = pg_load_turns (&p->load[l]);
+            int turns = pg_load_rotates (&p->load[l]);
             double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0;
             double u = mean_of (p->load[l].set, turns ? r->u + 3 * p->cloud.n : r->u,
-                                turns ? p->turns : p->dim, k);
+                                turns ? pg_problem_rotations (p) : p->dim, k);
             if ((int) l == r->curve_load && k == r->curve_component) x = u, y = f;
             r->row[n++] = f, r->row[n++] = u;
         }

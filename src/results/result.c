@@ -24,7 +24,7 @@ static pg_status read_requests (pg_result *r, const pg_scene *scene)
         with_u |= strcmp (name, "displacement") == 0;
     }
     /* shape functions that do not interpolate: the field between points is that of the coefficients */
-    if (with_u && r->nfield < MOST_FIELDS && strcmp (r->problem->approx.type->name, "nosb") != 0)
+    if (with_u && r->nfield < MOST_FIELDS && !r->problem->approx.type->interpolates)
         snprintf (r->field[r->nfield++].name, sizeof r->field[0].name, "coefficient");
     PG_TRY (pg_result_views_read (r, scene));
     for (size_t k = 0; k < r->nfield; k++) {
@@ -33,7 +33,7 @@ static pg_status read_requests (pg_result *r, const pg_scene *scene)
                      || strcmp (f->name, "coefficient") == 0;
         PG_ALLOC (r->value[k], 6 * r->problem->cloud.n);
         int turns = strcmp (f->name, "rotation") == 0;
-        f->components = turns ? r->problem->turns
+        f->components = turns ? pg_problem_rotations (r->problem)
                         : strcmp (f->name, "damage") == 0 || strcmp (f->name, "error_estimate") == 0 ? 1
                         : vector ? r->problem->dim
                                  : pg_voigt_size (r->problem->dim);

@@ -16,7 +16,7 @@ static pg_status sum_rows (pg_system *sys, double *sum)
         PG_FAIL (PG_E_USAGE,
                  "adr needs the rows of the stiffness, and the force %s tells neither them nor their sums: "
                  "use relax",
-                 sys->force->name);
+                 sys->force->method.name);
     if (sys->force->assemble) PG_TRY (sys->force->assemble (sys->self));
     const pg_sparse *K = sys->force->matrix (sys->self);
     for (size_t j = 0; j < K->ncol; j++)

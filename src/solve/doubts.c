@@ -40,7 +40,7 @@ static int may_turn (const pg_problem *p)
         size = fmax (size, p->cloud.high[k] - p->cloud.low[k]);
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        if (pg_load_prescribes (load) && pg_load_turns (load)) return 0;
+        if (pg_load_prescribes (load) && pg_load_rotates (load)) return 0;
         for (size_t k = 0; pg_load_prescribes (load) && k < dim; k++)
             for (size_t i = 0; load->value[k] && i < load->set->npoint; i++) {
                 double row[6] = { 0 }, x[3] = { 0 };
@@ -63,7 +63,7 @@ static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg
     for (int k = 0; k < p->dim; k++) {
         int held = !(o->flags & PG_SOLVER_QUASI_STATIC);
         for (size_t l = 0; l < p->nload; l++) {
-            held |= pg_load_prescribes (&p->load[l]) && !pg_load_turns (&p->load[l]) && p->load[l].value[k];
+            held |= pg_load_prescribes (&p->load[l]) && !pg_load_rotates (&p->load[l]) && p->load[l].value[k];
             moving |= acts (p, &p->load[l], k, (o->flags & PG_SOLVER_QUASI_STATIC) ? 1 : o->end)
                       || p->load[l].kind == PG_PRESSURE;
         }
@@ -88,7 +88,7 @@ static void doubt_all (pg_statistics *report, const pg_problem *p)
     unsigned held = 0;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        if (!pg_load_prescribes (load) || pg_load_turns (load) || load->essential == PG_ESSENTIAL_NITSCHE
+        if (!pg_load_prescribes (load) || pg_load_rotates (load) || load->essential == PG_ESSENTIAL_NITSCHE
             || load->set->npoint < p->cloud.n)
             continue;
         for (int k = 0; k < p->dim; k++) held |= (unsigned) (load->value[k] != NULL) << k;

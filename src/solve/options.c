@@ -130,7 +130,7 @@ static int goes_with (const pg_solver_type *type, const void *context)
 /* A force may refuse kinds of solvers: then the others are named. */
 static void check_force (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
-    pairing with = { problem, pg_force_find (problem->force) };
+    pairing with = { problem, pg_force_of (problem) };
     const char *why = with.force && with.force->refuses ? with.force->refuses (problem, o->flags) : NULL;
     char others[200];
     if (!why) return;

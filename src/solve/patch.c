@@ -140,7 +140,7 @@ static int outermost (const pg_problem *p, size_t i)
 static int borne_by_rows (const pg_problem *p)
 {
     size_t dim = (size_t) p->dim;
-    if (!p->direct) return 1;
+    if (p->method->shape_functions) return 1;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_set *set = p->load[l].set;
         double least = INFINITY;
@@ -242,7 +242,7 @@ static double size_of (const probe *t, const double *f)
 static int mark_supports (probe *t, const pg_problem *p)
 {
     size_t marked = 0;
-    if (p->direct || strcmp (p->approx.type->name, "nosb") != 0 || !t->p->borne) return 0;
+    if (!p->method->shape_functions || !p->approx.type->interpolates || !t->p->borne) return 0;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         if (!pg_load_prescribes (load) || load->essential == PG_ESSENTIAL_NITSCHE || !load->set->nfacet)
@@ -349,7 +349,7 @@ static void clear (probe *t)
 /* What the intact body lacks: points that carry no stress, and parts that hang together by nothing. */
 static void count_defects (probe *t)
 {
-    const pg_rows *bulk = &t->p->rows[t->p->direct || t->p->integration->at_nodes ? PG_NODES : PG_POINTS];
+    const pg_rows *bulk = &t->p->rows[t->p->integration->at_nodes ? PG_NODES : PG_POINTS];
     t->out.points = bulk->n;
     if (t->force->census) t->force->census (t->self, &t->out.degenerate, &t->out.isolated, &t->out.fragments);
 }
@@ -358,7 +358,7 @@ pg_status pg_patch_probe (pg_problem *problem)
 {
     pg_status status = PG_OK;
     pg_problem *bare = NULL;
-    probe t = { .force = pg_force_find (problem->force) };
+    probe t = { .force = pg_force_of (problem) };
     double start = pg_seconds ();
     t.out = (pg_patch) { .error = NAN, .compliance = NAN, .settled = 1 };
     if (!t.force || !t.force->surface || !t.force->operator_ || !t.force->field) return PG_OK;

@@ -45,19 +45,19 @@ static double thinnest (const pg_problem *p)
 void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
 {
     double reach = p->approx.horizon / p->cloud.h, across = thinnest (p);
-    int rkpm = strcmp (p->approx.type->name, "rkpm") == 0, consistent = p->integration->consistent,
+    int exact = p->approx.type->exact, consistent = p->integration->consistent,
         smooth = strcmp (p->approx.kernel->name, "cubic_spline") == 0;
-    if (p->direct && across < 4 * reach)
+    if (p->sums && across < 4 * reach)
         snprintf (out, size,
                   "bond-type forces want at least %.0f points across, four horizons, and this body has %.0f: "
                   "use a smaller spacing or force: galerkin",
                   ceil (4 * reach), across);
-    else if (p->direct && p->lattice.dim && p->cloud.step[0] > 0)
+    else if (p->sums && p->lattice.dim && p->cloud.step[0] > 0)
         snprintf (out, size,
                   "families cut by the surface and rows that bear loads make the difference: use a smaller "
                   "spacing, a smaller horizon (now %.3g spacings), or force: galerkin",
                   reach);
-    else if (p->direct)
+    else if (p->sums)
         snprintf (out, size,
                   "points that lie unevenly, or a kernel and horizon that few points sum badly: use a "
                   "lattice, a smaller spacing, horizon: 3 spacing, or force: galerkin");
@@ -65,16 +65,16 @@ void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
         snprintf (out, size,
                   "points without cells are integrated by their volumes: use points that lie more evenly, or "
                   "a mesh or body with integration: consistent");
-    else if (strcmp (p->approx.type->name, "nosb") == 0)
+    else if (p->approx.type->interpolates)
         snprintf (out, size,
                   "use %sessential: nitsche (supports on the points of nosb are not consistent), or "
                   "approximation: rkpm",
                   consistent ? "" : "integration: consistent and ");
     else if (!consistent)
         snprintf (out, size, "use integration: consistent%s%s",
-                  rkpm ? "" : ", with approximation: rkpm if the horizon is wide",
+                  exact ? "" : ", with approximation: rkpm if the horizon is wide",
                   smooth ? "" : ", or kernel: cubic_spline");
-    else snprintf (out, size, "use a smaller spacing%s", rkpm ? "" : ", or approximation: rkpm");
+    else snprintf (out, size, "use a smaller spacing%s", exact ? "" : ", or approximation: rkpm");
 }
 
 pg_status pg_patch_refuse (const pg_problem *p, const pg_scene *scene)

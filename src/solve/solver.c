@@ -20,8 +20,8 @@ pg_status solver_fault (const pg_solver *s, const char *key, const char *format,
 
 pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg_solver_options *options)
 {
-    const pg_force_type *force = pg_force_find (problem->force);
-    if (!force) return pg_error (PG_E_USAGE, PG_HERE, "there is no force %s", problem->force);
+    const pg_force_type *force = pg_force_of (problem);
+    if (!force) return pg_error (PG_E_USAGE, PG_HERE, "there is no force %s", problem->method->name);
     return pg_solver_create_with (out, problem, options, force);
 }
 

@@ -54,7 +54,7 @@ pg_status system_create (pg_system *s)
     s->nred = T ? T->ncol : s->ndof;
     s->stale = 1;
     if (!system_has_matrix (s) && !operator_of (s))
-        PG_FAIL (PG_E_USAGE, "the force %s offers neither a matrix nor an operator", s->force->name);
+        PG_FAIL (PG_E_USAGE, "the force %s offers neither a matrix nor an operator", s->force->method.name);
     PG_ALLOC (s->scratch, s->ndof);
     PG_ALLOC (s->mass, s->ndof);
     PG_ALLOC (s->residual, s->ndof);
@@ -211,12 +211,12 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
             continue;
         }
         /* no bond has negative energy, but those of a chain or a sheet leave motions free */
-        if (s->problem->direct && !s->all_weak) {
+        if (s->problem->sums && !s->all_weak) {
             memset (s->touched, 1, s->problem->cloud.n);
             s->all_weak = 1, s->shift = 1e-11;
             continue;
         }
-        if (s->problem->direct)
+        if (s->problem->sums)
             PG_FAIL (PG_E_NOT_SPD,
                      "%s; bonds leave parts of the body free to move: hold them, or set solver.linear: pcg",
                      pg_last_error ());
@@ -252,7 +252,7 @@ static double solve_cost (const pg_system *s) { return 4 * s->report->factor_ent
 static double apply_cost (const pg_system *s)
 {
     const pg_problem *p = s->problem;
-    if (p->direct) return (p->sums->stencil.n ? 0.6e-9 : 3e-9) * (double) p->first_bond[PG_BOND_SETS];
+    if (p->sums) return (p->sums->stencil.n ? 0.6e-9 : 3e-9) * (double) p->first_bond[PG_BOND_SETS];
     return 4e-9
            * (double) (p->first_bond[PG_BOND_SETS]
                        - (p->integration->at_nodes ? 0 : p->first_bond[PG_POINTS]));
@@ -299,7 +299,7 @@ done:
 static int by_sweeps (const pg_system *s, int can)
 {
     const pg_problem *p = s->problem;
-    return p->direct && (can || p->sums->stencil.n) && pg_direct_large (can, p->dim, (double) s->ndof);
+    return p->sums && (can || p->sums->stencil.n) && pg_method_iterates (p->method, can, p->dim, (double) s->ndof);
 }
 
 /* Chosen once: solver.linear says it, a force without a matrix leaves no choice, and in a small time step the
@@ -359,7 +359,7 @@ static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double
         limit = LAST_TRY;
     }
     pg_status now = system_iterate (s, dyn, 0, tolerance, limit, &used);
-    int free_to_move = (can && now == PG_E_EQUILIBRIUM) || (s->problem->direct && now == PG_E_NOT_SPD);
+    int free_to_move = (can && now == PG_E_EQUILIBRIUM) || (s->problem->sums && now == PG_E_NOT_SPD);
     if (free_to_move)
         PG_FAIL (now,
                  "%s; probably a loaded part has come loose: try prescribed displacements, newmark, or a "

@@ -131,7 +131,7 @@ pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *aske
     pg_bench_request *q = NULL;
     PG_ALLOC (q, 1);
     *q = *asked;
-    fill (&q->force, "galerkin"), fill (&q->approximation, pg_approx_names ()),
+    fill (&q->force, (*pg_force_methods ())->name), fill (&q->approximation, pg_approx_names ()),
         fill (&q->integration, pg_integration_names ());
     fill (&q->basis, "linear|quadratic");
     if (!q->mesh.n) q->mesh = q->size;
@@ -149,7 +149,8 @@ pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *aske
             mix m = { word_of (list[0], k, of[0]), word_of (list[1], k, of[1]), word_of (list[2], k, of[2]),
                       word_of (list[3], k, of[3]), word_of (list[4], k, of[4]), word_of (list[5], k, of[5]),
                       word_of (list[6], k, of[6]) };
-            if (strcmp (m.force, "galerkin") != 0) {  /* once: it has no shape functions to choose among */
+            const pg_force_type *force = pg_force_find (m.force);
+            if (force && !force->method.shape_functions) {  /* once: it has no shape functions to choose among */
                 if (k / of[1] % list[1]->n || k / of[2] % list[2]->n || k / of[3] % list[3]->n) continue;
                 m.approximation = m.integration = m.basis = NULL;
             }

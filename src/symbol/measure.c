@@ -65,7 +65,7 @@ static pg_status build (box *b, const pg_scene *scene, const pg_problem *p, cons
     for (int k = 0; k < p->dim; k++)
         points *= 2 * size->half[k] + 1, family *= 1.7 * p->approx.horizon / size->step[k];
     double pairs = points * family
-                   * (p->direct ? 1 : 10 * fmax (1, (double) p->rows[PG_POINTS].n / (double) p->cloud.n));
+                   * (p->sums ? 1 : 10 * fmax (1, (double) p->rows[PG_POINTS].n / (double) p->cloud.n));
     if (pairs > most_pairs)
         PG_FAIL (PG_E_LIMIT,
                  "the waves of this lattice need a box of %.0f points with about %.0f neighbours each, as "
@@ -75,7 +75,7 @@ static pg_status build (box *b, const pg_scene *scene, const pg_problem *p, cons
     PG_TRY (box_fits (size, p->dim));
     PG_TRY (box_scene (&b->scene, scene, p, size));
     PG_TRY (pg_problem_build (&b->problem, b->scene, p->threads));
-    b->force = pg_force_find (b->problem->force);
+    b->force = pg_force_of (b->problem);
     PG_TRY (b->force->create (&b->self, b->problem));
     size_t n = b->force->fields (b->self, sizeof field / sizeof *field, field);
     for (size_t f = 0; f < n; f++) b->m += field[f].components;
@@ -112,7 +112,7 @@ static void offset_of (const box *b, const box_size *size, size_t j, int *offset
 static int large_enough (const box *b, box_size *size)
 {
     int reach[3] = { 0 }, offset[3], enough = 1, dim = b->problem->dim, m = b->m,
-        weighed = b->problem->direct && b->problem->sums->rule.surface != PG_SURFACE_NONE;
+        weighed = b->problem->sums && b->problem->sums->rule.surface != PG_SURFACE_NONE;
     double largest = 0;
     for (size_t k = 0; k < b->problem->cloud.n * (size_t) (m * m); k++)
         largest = fmax (largest, fabs (b->answer[k]));

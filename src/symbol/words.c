@@ -38,11 +38,11 @@ void pg_motion_where (const pg_motion *m, const pg_symbol *s, char *text, size_t
 void pg_survey_verdict (const pg_survey *v, const pg_symbol *s, const pg_problem *p, char *text, size_t size)
 {
     char where[64];
-    int nodal = !p->direct && p->integration->at_nodes,
-        nosb = nodal && strcmp (p->approx.type->name, "nosb") == 0;
+    int nodal = p->method->shape_functions && p->integration->at_nodes,
+        nosb = nodal && p->approx.type->interpolates;
     const char *cure = nosb    ? "method.stabilization: silling, or method.integration: gauss"
                        : nodal ? "method.integration: gauss"
-                       : p->turns && v->negative        ? "a smaller Poisson's ratio"
+                       : pg_problem_rotations (p) && v->negative        ? "a smaller Poisson's ratio"
                        : p->approx.horizon < 1.7 * s->h ? "a larger horizon"
                                                         : "another kernel or a smaller horizon";
     if (v->negative) {

@@ -12,7 +12,7 @@ loose+=(--set 'boundary[0].essential=penalty' --set spacing='0.5 mm')
 expect "a quiet run prints nothing"             0 '' '' run plate.yaml --quiet -o "$work/loose" "${once[@]}" "${loose[@]}"
 holds "report.json: nothing holds the body"     "$work/loose/report.json" '"nothing holds the body along x: '
 holds "report.json: another Poisson's ratio"    "$work/loose/report.json" "^ *\"material glass: Poisson's ratio is 0.3333, not 0.22"
-holds "report.json: keys without meaning"       "$work/loose/report.json" '"without meaning for force: bond: boundary\[0\].essential'
+holds "report.json: keys that are ignored"       "$work/loose/report.json" '"ignored with force: bond: boundary\[0\].essential'
 python3 -c "import json, sys; w = json.load (open (sys.argv[1]))['warnings']; sys.exit (len (w) < 3 or len (set (w)) != len (w))" "$work/loose/report.json"
 verdict "each of them once" $?
 "$perigal" check plate.yaml --json "${loose[@]}" > "$work/out" 2> "$work/err"

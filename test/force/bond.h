@@ -30,11 +30,11 @@ static inline bonded bonded_with (const char *text, int threads, size_t nset, co
     bonded b = { 0 };
     check_ok (pg_scene_parse_with (&b.scene, text, "test.yaml", nset, set));
     check_ok (pg_problem_build (&b.problem, b.scene, threads));
-    b.force = pg_force_find (b.problem->force);
-    check_ok (pg_state_create (&b.state, b.problem, b.problem->dim + b.problem->turns));
+    b.force = pg_force_of (b.problem);
+    check_ok (pg_state_create (&b.state, b.problem, pg_problem_unknowns (b.problem)));
     check_ok (b.force->create (&b.self, b.problem));
     check_ok (b.force->refresh (b.self, b.state, NULL));
-    b.n = b.problem->cloud.n, b.dim = (size_t) b.problem->dim, b.stride = b.dim + (size_t) b.problem->turns,
+    b.n = b.problem->cloud.n, b.dim = (size_t) b.problem->dim, b.stride = b.dim + (size_t) pg_problem_rotations (b.problem),
     b.ndof = b.n * b.stride;
     return b;
 }
@@ -80,8 +80,8 @@ static inline double *linear_field (const bonded *b, const double *H)
         for (size_t a = 0; a < b->dim; a++)
             for (size_t c = 0; c < b->dim; c++)
                 own[a] += H[a * b->dim + c] * b->problem->cloud.x[i * b->dim + c];
-        if (b->problem->turns == 1) own[2] = 0.5 * h * (H[2] - H[1]);
-        for (size_t k = 0; b->problem->turns == 3 && k < 3; k++) {
+        if (pg_problem_rotations (b->problem) == 1) own[2] = 0.5 * h * (H[2] - H[1]);
+        for (size_t k = 0; pg_problem_rotations (b->problem) == 3 && k < 3; k++) {
             size_t y = (k + 1) % 3, z = (k + 2) % 3;
             own[3 + k] = 0.5 * h * (H[z * 3 + y] - H[y * 3 + z]);
         }

@@ -125,7 +125,7 @@ static pg_status beam_impose (void *self, double t, double *d)
 
 #define FORCE(name_, refresh_, mass_, operator__, matrix_) \
     { \
-        .name = name_, .summary = "a beam", .create = beam_create, .free = beam_free, .fields = beam_fields, \
+        .method = { .name = name_, .summary = "a beam" }, .create = beam_create, .free = beam_free, .fields = beam_fields, \
         .refresh = refresh_, .balance = beam_balance, .mass = mass_, .operator_ = operator__, \
         .matrix = matrix_, .basis = beam_basis, .impose = beam_impose \
     }
@@ -133,13 +133,13 @@ static const pg_force_type with_matrix = FORCE ("beam", beam_refresh, beam_mass,
 static const pg_force_type matrix_free = FORCE ("beam_free", beam_refresh, beam_mass, beam_operator,
                                                 no_matrix);
 static const pg_force_type nothing = FORCE ("beam_of_nothing", NULL, NULL, NULL, NULL);
-static const pg_force_type least = { .name = "least",
+static const pg_force_type least = { .method = { .name = "least" },
                                      .create = beam_create,
                                      .free = beam_free,
                                      .fields = beam_fields,
                                      .balance = beam_balance,
                                      .matrix = beam_matrix };
-static const pg_force_type least_free = { .name = "least_free",
+static const pg_force_type least_free = { .method = { .name = "least_free" },
                                           .create = beam_create,
                                           .free = beam_free,
                                           .fields = beam_fields,
@@ -182,7 +182,7 @@ static void two_fields_give_two_unknowns_a_point (void **state)
     run r = beam_of (&with_matrix, 0, BAR);
     assert_int_equal (pg_solver_components (r.solver), 2);
     assert_int_equal (r.state->ndof, 2 * r.problem->cloud.n);
-    assert_string_equal (pg_solver_force (r.solver, NULL)->name, "beam");
+    assert_string_equal (pg_solver_force (r.solver, NULL)->method.name, "beam");
     clear (&r);
 }
 

@@ -125,7 +125,7 @@ static void it_goes_with_tractions_of_direct_forces_only (void **state)
                  "is for a traction or a pressure");
     must_refuse (
         PLATE "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, traction: {y: 1}, depth: 1}]",
-        "is for force: bond");
+        "a depth is for force");
 }
 
 /* All of the height is allowed, whichever points the lattice has; more is refused with what is. */

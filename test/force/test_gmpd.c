@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 #include "bond.h"
+#include "force/micropolar.h"
 #include "scene_runs/run.h"
 
 static const char turned[] = BODY3_OF ("0.2") "perturb: {amount: 0.2}\nmethod: {force: gmpd}\n";
@@ -191,7 +192,7 @@ static double cut_energy (const bonded *b, int axis, int mode)
             r = sqrt (r);
             if (mode == 0) sum += 0.5 * axial * r * limit[0] * limit[0] * V;
             if (mode == 1) sum += 6 * shear / r * limit[1] * limit[1] * V;
-            if (mode == 2) sum += 0.5 * p->bending * shear / r * limit[2] * limit[2] * V;
+            if (mode == 2) sum += 0.5 * ((const gmpd_options *) p->options)->bending * shear / r * limit[2] * limit[2] * V;
         }
     }
     pg_free (all);
@@ -459,7 +460,7 @@ static void test_refused (void **unused)
     check_problem_refused (BODY2_OF ("0.2") "method: {force: gmpd, cm_ratio: 1}\n", "method.beam: chen");
     check_problem_refused (BODY2_OF (
                                "0.2") "method: {force: bond}\nboundary: [{set: left, rotation: {z: 0}}]\n",
-                           "do not turn");
+                           "have no rotations");
     check_problem_refused (BODY2_OF (
                                "0.2") "method: {force: gmpd}\nboundary: [{set: left, rotation: {x: 0}}]\n",
                            "no such component");

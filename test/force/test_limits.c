@@ -112,7 +112,7 @@ static void dead_bonds_have_no_utilisation (void **unused)
         double *d = random_vector (b.ndof, 5), *u = pg_calloc (n, sizeof *u), *f = pg_calloc (n, sizeof *f);
         char *kind = pg_calloc (n, 1);
         for (size_t i = 0; i < n; i++) b.state->alive[i] = i % 3 > 0, u[i] = f[i] = 7;
-        for (size_t i = 0; b.problem->direct && i < b.n; i++)                 /* both directions of a bond */
+        for (size_t i = 0; b.problem->sums && i < b.n; i++)                 /* both directions of a bond */
             for (size_t e = b.problem->rows[PG_NODES].family.start[i];
                  e < b.problem->rows[PG_NODES].family.start[i + 1]; e++)
                 b.state->alive[e] = (i + (size_t) b.problem->rows[PG_NODES].family.node[e]) % 3 > 0;

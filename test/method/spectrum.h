@@ -23,7 +23,7 @@ static inline assembled assemble (const char *text, const char *name)
     assembled a = { 0 };
     check_ok (pg_scene_parse (&a.scene, text, name));
     check_ok (pg_problem_build (&a.problem, a.scene, 1));
-    a.force = pg_force_find (a.problem->force);
+    a.force = pg_force_of (a.problem);
     check_ok (a.force->create (&a.self, a.problem));
     check_ok (pg_state_create (&a.state, a.problem, a.problem->dim));
     check_ok (a.force->refresh (a.self, a.state, NULL));

@@ -22,7 +22,7 @@ static pg_forecast forecast (const char *text)
     pg_forecast f;
     pg_scene *scene = NULL;
     check_ok (pg_scene_parse (&scene, text, "test.yaml"));
-    check_ok (pg_forecast_scene (&f, scene));
+    check_ok (pg_forecast_scene (&f, scene, pg_force_methods ()));
     pg_scene_free (&scene);
     return f;
 }
@@ -41,8 +41,8 @@ static void counts_as_built (const char *text)
     assert_true (f.bonds[PG_POINTS] == (double) (p->first_bond[2] - p->first_bond[1]));
     const pg_family *bulk = &p->rows[f.nodal ? PG_NODES : PG_POINTS].family;
     pg_sparse G;
-    check_ok (p->direct ? pg_assembly_graph_pairwise (&G, bulk)
-                        : pg_assembly_graph (&G, p->cloud.n, 1, &bulk));
+    check_ok (p->sums ? pg_assembly_graph_pairwise (&G, bulk)
+                      : pg_assembly_graph (&G, p->cloud.n, 1, &bulk));
     assert_true (f.pairs == (double) G.start[G.ncol]);
     pg_sparse_clear (&G);
     unbuild (&b);
@@ -291,7 +291,7 @@ static void test_astronomic_sizes (void **state)
     check_fails (pg_forecast_afford (&f, 1e13), PG_E_LIMIT);
     pg_scene *scene = NULL;
     check_ok (pg_scene_parse (&scene, CUBE "spacing: 1e-9\n", "test.yaml"));
-    check_fails (pg_forecast_scene (&f, scene), PG_E_SCENE);
+    check_fails (pg_forecast_scene (&f, scene, pg_force_methods ()), PG_E_SCENE);
     pg_scene_free (&scene);
     check_refused (CUBE "spacing: 1e-6\n",
                    "too fine for this body: 1e+18 cells, and 2147483647 are possible");
@@ -303,7 +303,7 @@ static void test_faults_are_faults (void **state)
     pg_forecast f;
     pg_scene *scene = NULL;
     check_ok (pg_scene_parse (&scene, DISK "spacing: 0.1\nmethod: {horizon: 0.01 m}\n", "test.yaml"));
-    check_fails (pg_forecast_scene (&f, scene), PG_E_SCENE);
+    check_fails (pg_forecast_scene (&f, scene, pg_force_methods ()), PG_E_SCENE);
     pg_scene_free (&scene);
 }
 
@@ -316,7 +316,7 @@ static void test_failing_allocations (void **state)
     size_t used = pg_memory_used ();
     for (size_t k = 1;; k++) {
         pg_memory_fail_at (k);
-        pg_status status = pg_forecast_scene (&f, scene);
+        pg_status status = pg_forecast_scene (&f, scene, pg_force_methods ());
         pg_memory_fail_at (0);
         assert_int_equal (pg_memory_used (), used);
         if (status == PG_OK) break;

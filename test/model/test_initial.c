@@ -42,7 +42,7 @@ static void each_point_has_its_own_velocity (void **state)
                            "0}}]\ninitial: {velocity: {y: 1}}\nsolver: {kind: static, steps: 2}\n");
     int noted = 0;
     for (size_t k = 0; k < r.problem->nnote; k++)
-        noted |= strstr (r.problem->note[k], "without meaning for solver: static: initial") != NULL;
+        noted |= strstr (r.problem->note[k], "ignored with solver: static: initial") != NULL;
     assert_true (noted);
     assert_true (largest_of (r.state->v, r.state->ndof) == 0);
     clear (&r);
@@ -69,7 +69,7 @@ static void a_spinning_body_is_at_rest_in_itself (void **state)
         const pg_statistics *p = pg_solver_report_now (r.solver);
         assert_true (p->energy_kinetic > 0);
         check_below (p->energy_strain, (k % 3 == 2 ? 1e-12 : 1e-18) * p->energy_kinetic);
-        size_t m = (size_t) (r.problem->dim + r.problem->turns);
+        size_t m = (size_t) (pg_problem_unknowns (r.problem));
         for (size_t i = 0; i < r.problem->cloud.n; i++) {
             const double *own = r.state->d + i * m;
             check_scaled (own[0], -300 * 5e-6 * r.problem->cloud.x[i * (size_t) dim + 1], 1e-7, 6e-6);

@@ -2,6 +2,7 @@
  * The problem: bond sets, what pre-cracks cut, exempt points, the state, names, gauges, and what is
  * refused. */
 #include "scenes.h"
+#include "force/galerkin.h"
 
 static void bond_sets_are_numbered_through (void **state)
 {
@@ -40,10 +41,10 @@ static void nodal_integration_has_no_points (void **state)
     built b = build (PLATE "method: {integration: nodal, approximation: nosb}\n");
     assert_int_equal (b.problem->rows[PG_POINTS].n, 0);
     assert_int_equal (b.problem->rows[PG_FACETS].n, 0);
-    assert_true (b.problem->silling > 0);              /* auto: nosb with nodal integration */
+    assert_true (((const galerkin_options *) b.problem->options)->silling > 0);              /* auto: nosb with nodal integration */
     unbuild (&b);
     b = build (PLATE "method: {integration: nodal, approximation: pddo}\n");
-    assert_true (b.problem->silling == 0);
+    assert_true (((const galerkin_options *) b.problem->options)->silling == 0);
     unbuild (&b);
 }
 

@@ -49,8 +49,8 @@ static inline double rotation_difference (const view *v, const run *a, const run
 {
     size_t n = a->problem->cloud.n;
     double worst = 0, top = 0;
-    assert_int_equal (a->problem->turns, b->problem->turns);
-    if (!a->problem->turns) return 0;
+    assert_int_equal (pg_problem_rotations (a->problem), pg_problem_rotations (b->problem));
+    if (!pg_problem_rotations (a->problem)) return 0;
     double *ra = field_of (a, NULL, "rotation", NULL), *rb = field_of (b, NULL, "rotation", NULL);
     for (size_t i = 0; i < n; i++)
         top = fmax (top, fabs (ra[i])), worst = fmax (worst, fabs (rb[image[i]] * v->sx * v->sy - ra[i]));

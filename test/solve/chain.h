@@ -129,7 +129,7 @@ static pg_status chain_row_sums (void *self, double *sum)
         sum[i] = (i == 0 ? c->ground : 2 * c->k) + (i + 1 < c->n ? 2 * c->k : 0);
     return PG_OK;
 }
-static const pg_force_type chain_type = { .name = "chain",
+static const pg_force_type chain_type = { .method = { .name = "chain" },
                                           .create = chain_create,
                                           .free = chain_free,
                                           .fields = chain_fields,

@@ -51,7 +51,7 @@ static pg_status spring_mass (void *self, double *mass) { mass[0] = ((spring *) 
 static const pg_operator *spring_operator (void *self) { return &((spring *) self)->op; }
 static const pg_sparse *spring_matrix (void *self) { return &((spring *) self)->K; }
 
-static const pg_force_type spring_types[2] = { { .name = "spring",
+static const pg_force_type spring_types[2] = { { .method = { .name = "spring" },
                                                  .create = spring_create,
                                                  .free = spring_free,
                                                  .fields = spring_fields,
@@ -60,7 +60,7 @@ static const pg_force_type spring_types[2] = { { .name = "spring",
                                                  .mass = spring_mass,
                                                  .operator_ = spring_operator,
                                                  .matrix = spring_matrix },
-                                               { .name = "spring",
+                                               { .method = { .name = "spring" },
                                                  .create = spring_create,
                                                  .free = spring_free,
                                                  .fields = spring_fields,

@@ -167,8 +167,10 @@ static void unknown_solvers_are_refused (void **state)
     strcpy (o.kind, "static"), strcpy (o.linear, "mumps");
     check_fails (pg_solver_create (&solver, b.problem, &o), PG_E_USAGE);
     check_contains (pg_last_error (), "mumps");
-    strcpy (o.linear, "auto"), strcpy (b.problem->force, "fcbm");
+    const pg_method unknown = { .name = "unknown" }, *known = b.problem->method;
+    strcpy (o.linear, "auto"), b.problem->method = &unknown;
     check_fails (pg_solver_create (&solver, b.problem, &o), PG_E_USAGE);
+    b.problem->method = known;
     assert_null (solver);
     assert_int_equal (pg_memory_used (), used);
     assert_string_equal (pg_solver_names (), "static|newmark|verlet|central|adr|relax");

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The Galerkin form as a scene asks for it: keys, stabilisation, and how displacements are prescribed (Nitsche,
+ * elimination or penalty). */
+#include "galerkin.h"
+#include <math.h>
+#include <string.h>
+
+static const pg_key keys[] = {
+    { "method.integration", PG_NAME, NULL, NULL, "gauss", NULL, pg_integration_names, NULL,
+      "Where the weak form is evaluated." },
+    { "method.gauss_points", PG_INTEGER, NULL, "[1, 5]", "", NULL, NULL, NULL,
+      "Gauss points per direction of a background cell; default 2 for the linear basis, 3 for the quadratic "
+      "one (with 2 it converges slowly); "
+      "2 more in a mesh with points in the middle of edges. Triangles and tetrahedra take the rule of the "
+      "same degree." },
+    { "method.dilatation", PG_NAME, NULL, NULL, "auto", "auto|pointwise|projected", NULL, NULL,
+      "The dilatation that carries the pressure, against locking near Poisson's ratio 1/2 (plane strain, "
+      "3D): pointwise: at every evaluation point; projected: "
+      "of patches of about 2 x 2 (x 2) cells, linear in each; auto: projected for materials with a Poisson's "
+      "ratio of 0.45 or more." },
+    { "method.stabilization", PG_NAME, NULL, NULL, "auto", "auto|none|silling", NULL, NULL,
+      "Against zero-energy modes of nodal integration; auto: silling for nosb with nodal integration, else "
+      "none." },
+    { "method.stabilization_factor", PG_NUMBER, "1", "(0, inf)", "0.1", NULL, NULL, NULL,
+      "Strength Gs of the stabilisation, 0.05 to 1." },
+    { "method.essential", PG_NAME, NULL, NULL, "auto", "auto|nitsche|transformation|penalty", NULL, NULL,
+      "How displacements are prescribed; auto: nitsche on boundary facets; penalty on all points of a set "
+      "that has points behind its facets (wide grips), or more than 6000 points and no facet; "
+      "else transformation on points (always for nosb)." },
+    { "method.nitsche_factor", PG_NUMBER, "1", "(0, inf)", "100", NULL, NULL, NULL,
+      "Nitsche's beta in units of E / spacing (of (lambda + 2 mu) / 4 where that is more and dilatation is "
+      "pointwise)." },
+    { "method.penalty_factor", PG_NUMBER, "1", "(0, inf)", "1e6", NULL, NULL, NULL,
+      "Penalty in units of E / spacing." },
+};
+const pg_key_table galerkin_keys = { "force", keys, sizeof keys / sizeof *keys };
+
+pg_status galerkin_read (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    galerkin_options *o = NULL;
+    const char *stabilization = pg_scene_text (scene, "method.stabilization");
+    PG_ALLOC (o, 1);
+    p->options = o;
+    p->integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
+    p->approx.extrapolates = p->integration->consistent;
+    if (!p->integration->at_nodes && p->cells.n == 0)
+        pg_scene_fault (scene, "method.integration",
+                        "a body of explicit points has no background cells: use nodal");
+    /* an expansion about the node itself does not resist what changes from node to node (theory D4) */
+    int wanted = p->approx.type->interpolates && p->integration->at_nodes;
+    int asked = strcmp (stabilization, "silling") == 0;
+    if (asked && !wanted)
+        pg_scene_fault (scene, "method.stabilization", "silling stabilises nosb with nodal integration");
+    if (asked || (wanted && strcmp (stabilization, "auto") == 0))
+        o->silling = pg_scene_number (scene, "method.stabilization_factor");
+    o->nitsche = pg_scene_number (scene, "method.nitsche_factor");
+    o->penalty = pg_scene_number (scene, "method.penalty_factor");
+done:
+    return status;
+}
+
+static pg_essential essential_of (const char *how, int facets)
+{
+    if (strcmp (how, "transformation") == 0) return PG_ESSENTIAL_TRANSFORMATION;
+    if (strcmp (how, "penalty") == 0) return PG_ESSENTIAL_PENALTY;
+    return strcmp (how, "nitsche") == 0 || facets ? PG_ESSENTIAL_NITSCHE : PG_ESSENTIAL_TRANSFORMATION;
+}
+
+/* Unless the scene says how: Nitsche's terms on facets; a penalty on the points of a set with an inside, which its
+ * facets would leave free, and of a set too large to eliminate; else elimination, always where the shape functions
+ * are 1 at their own nodes. */
+void galerkin_support (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
+{
+    const galerkin_options *o = p->options;
+    const pg_set *set = load->set;
+    const char *how = pg_scene_given (scene, "boundary[%zu].essential", i)
+                          ? pg_scene_text (scene, "boundary[%zu].essential", i)
+                          : pg_scene_text (scene, "method.essential");
+    int eliminate = p->approx.type->interpolates;
+    int large = set->ninner || (set->nfacet == 0 && set->npoint > PG_MOST_ELIMINATED);
+    load->essential = essential_of (how, set->nfacet > 0 && !eliminate);
+    load->penalty = o->penalty;
+    if (strcmp (how, "auto") != 0 || eliminate || !large) return;
+    load->essential = PG_ESSENTIAL_PENALTY;
+    /* no shorter time step than with Nitsche's terms */
+    if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT)) load->penalty = fmin (o->penalty, o->nitsche);
+}
+
+double galerkin_support_stiffness (const pg_problem *p)
+{
+    int any = 0;
+    for (size_t l = 0; l < p->nload; l++)
+        any |= pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_NITSCHE;
+    return any ? ((const galerkin_options *) p->options)->nitsche : 0;
+}
+
+/* Limits of bonds between unlike ends hold for the mean of their supports. */
+pg_status galerkin_limits (const pg_problem *p, size_t material, pg_criterion_setting *setting)
+{
+    (void) material;
+    setting->graded = p->cloud.size != NULL;
+    return PG_OK;
+}
+
+void galerkin_words (const pg_problem *p, char *text, size_t size)
+{
+    snprintf (text, size, "%s, %s basis, %s kernel, %s integration", p->approx.type->name,
+              p->approx.order == 2 ? "quadratic" : "linear", p->approx.kernel->name, p->integration->name);
+}
