@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The bond sets: node-node, evaluation point-node, facet point-node (Cui 2022 section 3.1; theory F1), their
- * exemptions, and the bonds that the pre-cracks cut. */
+ * The bond sets: node-node, evaluation point-node, facet point-node (Cui 2022 section 3.1; theory F1), and
+ * their exemptions. Which bonds are alive: alive_mask.c. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
@@ -306,34 +306,4 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
     count_eroded (p, scene);
 done:
     return status;
-}
-
-void pg_problem_locate (const pg_problem *p, size_t bond, int *set, size_t *point)
-{
-    *set = 0;
-    while (bond >= p->first_bond[*set + 1]) ++*set;
-    const size_t *start = p->rows[*set].family.start;
-    size_t e = bond - p->first_bond[*set], lo = 0, hi = p->rows[*set].n;
-    while (hi - lo > 1) {
-        size_t mid = (lo + hi) / 2;
-        if (start[mid] <= e) lo = mid;
-        else hi = mid;
-    }
-    *point = lo;
-}
-
-void pg_bonds_cut (const pg_problem *p, unsigned char *alive)
-{
-    const pg_cracks *cracks = pg_state_cracks (p, NULL);
-    size_t dim = (size_t) p->dim;
-    for (int s = 0; s < PG_BOND_SETS; s++) {
-        const pg_rows *rows = &p->rows[s];
-        for (size_t q = 0; q < rows->n; q++)
-            for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++) {
-                int j = rows->family.node[e];
-                alive[p->first_bond[s] + e] =
-                    j == rows->own[q] || !pg_cracks_cut (cracks, p->dim, rows->x + q * dim,
-                                                         p->cloud.x + (size_t) j * dim, 1e-9 * p->cloud.h);
-            }
-    }
 }
