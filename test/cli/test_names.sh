@@ -4,7 +4,7 @@
 cd "$(dirname "$0")/../.." || exit 1
 n=0; bad=0
 while IFS='|' read -r _ what pattern file _; do
-    what=$(xargs <<< "$what"); pattern=$(tr -d ' `' <<< "$pattern"); file=$(tr -d ' `' <<< "$file")
+    what=$(sed 's,^ *,,; s, *$,,' <<< "$what"); pattern=$(tr -d ' `' <<< "$pattern"); file=$(tr -d ' `' <<< "$file")
     n=$((n + 1))
     if find src -name "$pattern" | grep -qx "src/$file"; then echo "ok $n - $what: $pattern"
     else bad=1; echo "not ok $n - $what: find src -name '$pattern' does not find src/$file"; fi
