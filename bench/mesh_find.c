@@ -45,7 +45,7 @@ static int make (pg_mesh *out, pg_element kind, int n)
     return failed;
 }
 
-enum { QUESTIONS = 1000000, REPEATS = 5 };
+enum { QUESTIONS = 1000000, REPEATS = 3 };
 
 /* A place in the box [0, 1]^dim by a generator that is the same everywhere. */
 static void place_of (const pg_mesh *m, unsigned *seed, double *place)
