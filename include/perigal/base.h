@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * base.h: status codes and messages, memory, clock, threads, small dense algebra. Knows no physics. */
+ * base.h: status codes and messages, memory, checkpoint walks, clock, threads, small dense algebra,
+ * disjoint sets. Knows no physics. */
 #ifndef PERIGAL_BASE_H
 #define PERIGAL_BASE_H
 #include <stddef.h>
 #include <stdint.h>
 
 /* The shared library exports what the headers of include/perigal declare between PG_API_BEGIN and PG_API_END.
- * Everything else is compiled with -fvisibility=hidden: it can be neither called nor replaced from outside. */
+ * Everything else is compiled with -fvisibility=hidden: it can be neither called nor replaced from
+ * outside. */
 #define PG_API_BEGIN _Pragma ("GCC visibility push (default)")
 #define PG_API_END   _Pragma ("GCC visibility pop")
 PG_API_BEGIN
 
-/* ---- status
- * ---------------------------------------------------------------------------------------------------------
- * Three families: input (the user can mend the scene), resource (memory, files), numerical (the mechanics
- * failed). */
+/* ---- status ------------------------------------------------------------------------------------------- */
+/* Every function that can fail returns one of these. Three families: input (the user can mend the scene),
+ * resource (memory, files, limits), numerical (the mechanics failed). */
 #define PG_STATUS_LIST(X) \
     X (OK, "ok") \
     X (E_SCENE, "the scene is wrong") \
@@ -33,6 +34,7 @@ typedef enum {
     PG_STATUS_COUNT
 } pg_status;
 
+/* A few words for a status. */
 const char *pg_status_text (pg_status status);
 /* Message of the last failure on this thread; "" when there was none. Borrowed, valid until the next
  * failure. */
@@ -41,49 +43,62 @@ const char *pg_last_error (void);
  * pg_last_error_where. */
 pg_status pg_error (pg_status code, const char *where, const char *format, ...)
     __attribute__ ((format (printf, 3, 4)));
+/* Source file and line of that failure. */
 const char *pg_last_error_where (void);
 
 #define PG_STRING_(x) #x
 #define PG_STRING(x) PG_STRING_ (x)
+/* "file:line" of the place where it stands. */
 #define PG_HERE __FILE__ ":" PG_STRING (__LINE__)
-/* Inside a function with `pg_status status = PG_OK;` and a label `done:`. */
+/* For functions with `pg_status status = PG_OK;` and a label `done:` that releases what was acquired:
+ * PG_FAIL records a message and leaves with that code; PG_TRY leaves where a call fails, whose message
+ * stands. */
 #define PG_FAIL(code, ...) do { status = pg_error ((code), PG_HERE, __VA_ARGS__); goto done; } while (0)
 #define PG_TRY(call) do { status = (call); if (status != PG_OK) goto done; } while (0)
 
-/* ---- fingerprint of bytes ------------------------------------------------------------------------------- */
+/* ---- fingerprint of bytes ----------------------------------------------------------------------------- */
 /* Folds more bytes into a fingerprint, which begins with PG_FINGERPRINT; data NULL folds nothing. */
 #define PG_FINGERPRINT 14695981039346656037u
 uint64_t pg_fingerprint (uint64_t so_far, const void *data, size_t bytes);
 
-/* ---- memory
- * ---------------------------------------------------------------------------------------------------------
- * All memory of the library passes here: zero-filled, overflow-checked, counted. */
-void  *pg_calloc  (size_t n, size_t size);  /* NULL when there is none left; n = 0 gives a valid pointer */
-void  *pg_resize  (void *p, size_t n, size_t size);    /* as realloc; the old block stays valid on failure */
-void   pg_free    (void *p);                           /* NULL-safe */
+/* ---- memory ------------------------------------------------------------------------------------------- */
+/* All memory of the library passes through these: zero-filled, overflow-checked, counted, aligned to 64
+ * bytes. n elements of `size` bytes; NULL when there is no memory; n = 0 gives a valid pointer. */
+void  *pg_calloc  (size_t n, size_t size);
+/* As realloc, the new part zero-filled; on failure NULL, and the old block stays valid. */
+void  *pg_resize  (void *p, size_t n, size_t size);
+/* NULL is allowed. */
+void   pg_free    (void *p);
+/* A copy of the text, NULL when there is no memory. */
 char  *pg_strdup  (const char *text);
-size_t pg_memory_used  (void);                         /* bytes now held */
-size_t pg_memory_peak  (void);                         /* largest value of pg_memory_used so far */
-size_t pg_memory_calls (void);                         /* number of allocations so far */
-void   pg_memory_fail_at (size_t k);  /* testing: the k-th allocation from now fails (0: never) */
-size_t pg_memory_process_peak (void);                  /* peak resident bytes of the whole process */
-/* allocator.c: how glibc hands out memory. This process keeps what it frees; programs that are started from here
- * on ask for large pages. */
+/* Bytes now held; the largest value of that so far; number of allocations so far. */
+size_t pg_memory_used  (void);
+size_t pg_memory_peak  (void);
+size_t pg_memory_calls (void);
+/* For tests: the k-th allocation from now fails; 0: none does. */
+void   pg_memory_fail_at (size_t k);
+/* Peak resident memory of the whole process, bytes. */
+size_t pg_memory_process_peak (void);
+/* allocator.c: how glibc hands out memory. pg_memory_keep: this process keeps what it frees.
+ * pg_memory_large_pages: programs that are started from here on ask for large pages. */
 void   pg_memory_keep (void);
 void   pg_memory_large_pages (void);
 
+/* Allocates n elements for the pointer p; in a function with `status` and `done:`. */
 #define PG_ALLOC(p, n) do { (p) = pg_calloc ((n), sizeof *(p)); \
     if (!(p)) PG_FAIL (PG_E_MEMORY, "no memory for %zu x %zu bytes", (size_t) (n), sizeof *(p)); } while (0)
-/* Grows *p (capacity *cap entries) so that `need` entries fit; doubles. */
+/* Grows p (cap: its capacity in elements, updated) so that `need` elements fit; doubles, so that appending
+ * one by one costs linear time. */
 #define PG_GROW(p, cap, need) do { if ((size_t) (need) > (cap)) { \
     size_t cap_ = 2 * (size_t) (need) + 16; void *q_ = pg_resize ((p), cap_, sizeof *(p)); \
     if (!q_) PG_FAIL (PG_E_MEMORY, "no memory for %zu x %zu bytes", cap_, sizeof *(p)); \
     (p) = q_; (cap) = cap_; } } while (0)
 
-/* ---- keeping
- * ------------------------------------------------------------------------------------------------------- One
- * walk over what a run must remember: writes it, or reads it back into the same places (reading = 1). */
+/* ---- checkpoints -------------------------------------------------------------------------------------- */
+/* One walk over everything that a run must remember: the same code writes a checkpoint or reads it back
+ * into the same places. Each call names an array of n entries. */
 typedef struct {
+    /* Passed to the functions; reading = 1: values are read back into the arrays. */
     void *context;
     int   reading;
     pg_status (*numbers) (void *context, const char *name, size_t n, double *value);
@@ -92,28 +107,36 @@ typedef struct {
 } pg_keeper;
 
 /* ---- clock and threads --------------------------------------------------------------------------------- */
-double pg_seconds (void);                              /* monotonic wall clock, s */
-/* Calls work (context, first, last, thread) on disjoint ranges covering [0, n). Which thread gets which range
- * never changes a result as long as each item writes only its own output. */
+/* Monotonic wall clock, s. */
+double pg_seconds (void);
+/* A part of a parallel loop: the items first .. last - 1, on the thread of that number. */
 typedef void (*pg_work) (void *context, size_t first, size_t last, int thread);
-void pg_parallel (int threads, size_t n, pg_work work, void *context);               /* many light items */
-/* few items, each worth a thread */
+/* Calls work on disjoint ranges that cover [0, n). Which thread gets which range does not change a result
+ * as long as each item writes only its own output. For many light items: fewer than 64 run on the calling
+ * thread. */
+void pg_parallel (int threads, size_t n, pg_work work, void *context);
+/* For few items, each worth a thread. */
 void pg_parallel_heavy (int threads, size_t n, pg_work work, void *context);
 
 /* ---- small dense algebra (row-major, n <= 16) ---------------------------------------------------------- */
-/* A = L L' in place (lower triangle); returns 0, or 1 + the row whose pivot fell to <= tiny * its
- * diagonal. */
+/* A = L L' in place (lower triangle). Returns 0, or 1 + the row whose pivot fell to `tiny` times its
+ * diagonal entry or below. */
 int  pg_dense_cholesky (int n, double *A, double tiny);
-void pg_dense_solve    (int n, const double *L, double *b);          /* b <- (L L')^-1 b */
-/* Eigenvalues (descending) and, if V is not NULL, eigenvectors as columns of V (n x n), of symmetric A
- * (kept). Jacobi. */
+/* b <- (L L')^-1 b. */
+void pg_dense_solve    (int n, const double *L, double *b);
+/* Eigenvalues lambda (n, descending) of a symmetric A, which is kept, and unless V is NULL the eigenvectors
+ * as columns of V (n x n). Jacobi's method. */
 void pg_dense_eigen    (int n, const double *A, double *lambda, double *V);
-double pg_dense_det    (int n, const double *A);                     /* n = 1, 2, 3 */
+/* Determinant, n = 1, 2, 3. */
+double pg_dense_det    (int n, const double *A);
 
 /* ---- disjoint sets ------------------------------------------------------------------------------------- */
-/* parent[i] leads from a member towards the root of its set; two members of one set have the same root. */
-void pg_disjoint_start (int *parent, size_t n);        /* every member is a set of its own */
+/* Sets of 0 .. n - 1 as trees: parent[i] leads from a member towards the root of its set; two members
+ * belong to the same set if their roots are equal. At the start every member is a set of its own. */
+void pg_disjoint_start (int *parent, size_t n);
+/* The root of i; shortens the path on the way. */
 int  pg_disjoint_root  (int *parent, int i);
-int  pg_disjoint_join  (int *parent, int a, int b);    /* one set of two; the root of b is that of both */
+/* Unites the sets of a and b; the root of b becomes that of both and is returned. */
+int  pg_disjoint_join  (int *parent, int a, int b);
 PG_API_END
 #endif

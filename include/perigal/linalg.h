@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * linalg.h: sparse matrices, matrix-free operators, linear solvers. Catalogue: src/linalg/<name>.c + one line
- * in list.h. */
+ * linalg.h: sparse matrices, matrix-free operators, assembly, linear solvers and preconditioners. A solver
+ * is an entry of the catalogue: src/linalg/NAME.c and one line in list.h. */
 #ifndef PERIGAL_LINALG_H
 #define PERIGAL_LINALG_H
 #include "perigal/base.h"
@@ -8,30 +8,43 @@
 PG_API_BEGIN
 
 /* ---- operators and matrices ---------------------------------------------------------------------------- */
-typedef struct {                                       /* y = A x without a matrix */
+/* A linear operator without a matrix, n x n. */
+typedef struct {
+    /* Number of unknowns. */
     size_t n;
+    /* Passed to the functions: y = A x, and d = diagonal of A. */
     void  *context;
     void (*apply)    (void *context, const double *x, double *y);
     void (*diagonal) (void *context, double *d);
 } pg_operator;
 
-typedef struct {                                       /* compressed columns, rows ascending in each column */
+/* A sparse matrix by compressed columns: entries of column j are start[j] .. start[j + 1] - 1, rows
+ * ascending. */
+typedef struct {
+    /* Numbers of rows and columns. */
     size_t  nrow, ncol;
-    int     symmetric;                                 /* 1: only the upper triangle is stored */
-    long   *start;                                     /* (ncol + 1) */
-    long   *row;                                       /* (nnz) */
-    double *value;                                     /* (nnz) */
+    /* 1: the matrix is symmetric, and only its upper triangle (row <= column) is stored. */
+    int     symmetric;
+    /* First entry of each column (ncol + 1). */
+    long   *start;
+    /* Row and value of each entry (start[ncol]). */
+    long   *row;
+    double *value;
 } pg_sparse;
+/* Allocates a matrix with room for nnz entries, all zero, columns empty. PG_E_MEMORY. */
 pg_status pg_sparse_create   (pg_sparse *out, size_t nrow, size_t ncol, size_t nnz, int symmetric);
 void      pg_sparse_clear    (pg_sparse *A);
-void      pg_sparse_multiply (const pg_sparse *A, const double *x, double *y);             /* y = A x */
-void      pg_sparse_multiply_transposed (const pg_sparse *A, const double *x, double *y);  /* y = A' x */
-/* B = T' A T, upper triangle, A symmetric. The pattern depends on the patterns only. B is created anew. */
+/* y = A x and y = A' x; x and y may not overlap. */
+void      pg_sparse_multiply (const pg_sparse *A, const double *x, double *y);
+void      pg_sparse_multiply_transposed (const pg_sparse *A, const double *x, double *y);
+/* B = T' A T, upper triangle, for a symmetric A; B is created. Its pattern depends on the patterns of A and
+ * T only, not on the values, so that one symbolic analysis serves all. PG_E_MEMORY. */
 pg_status pg_sparse_congruence (pg_sparse *B, const pg_sparse *A, const pg_sparse *T);
+/* The matrix as an operator; A is borrowed. */
 pg_operator pg_sparse_operator (pg_sparse *A);
 
 /* ---- assembly ------------------------------------------------------------------------------------------ */
-/* Lists of nodes, compressed: those of item i are node[start[i]..start[i + 1]), ascending. */
+/* Options of a linear solver. */
 typedef struct { size_t n; size_t *start; int *node; } pg_adjacency;
 
 /* A global matrix of dense node blocks is the sum of what its sources couple. A source is a list of
@@ -66,96 +79,134 @@ pg_status pg_assembly_graph_pairwise (pg_sparse *out, const pg_adjacency *seen);
 
 /* ---- solvers ------------------------------------------------------------------------------------------- */
 typedef struct {
-    int    block;  /* dofs per node when dofs are numbered node by node, else 1 */
-    int    dim;                                        /* of space: chooses the ordering */
+    /* Unknowns per node where they are numbered node by node, else 1: nodes are ordered instead of
+     * unknowns. */
+    int    block;
+    /* Dimension of space. */
+    int    dim;
+    /* Threads that the solver may use. */
     int    threads;
-    double tolerance;                                  /* iterative solvers: |r| <= tolerance |b| */
+    /* Iterative solvers stop at |r| <= tolerance |b| (Euclidean norms). */
+    double tolerance;
 } pg_linear_options;
+
+/* What a solver reports. */
 typedef struct {
-    const char *ordering;                              /* "amd", "metis", "none" */
-    double factor_entries, flops;                      /* predicted */
-    size_t iterations;                                 /* iterative solvers: of all solves */
+    /* Fill-reducing ordering: "amd", "metis", "none". */
+    const char *ordering;
+    /* Predicted entries of the factor and operations of a factorisation. */
+    double factor_entries, flops;
+    /* Iterative solvers: sum over all solves. */
+    size_t iterations;
 } pg_linear_info;
 
+/* An entry of the catalogue. */
 typedef struct pg_linear_type {
+    /* The value of `solver.linear` in a scene, and one line of description. */
     const char *name, *summary;
-    int symmetric;  /* 1: takes the upper triangle of a symmetric positive definite A */
+    /* 1: takes the upper triangle of a symmetric positive definite matrix. */
+    int symmetric;
     int factors;                                       /* 1: by a factor of A; 0: by products with A */
-    /* pattern only */
+    /* Creates the solver's state from the pattern of A; values are not read. */
     pg_status (*analyse) (void **self, const pg_sparse *A, const pg_linear_options *options);
-    /* PG_E_NOT_SPD / PG_E_SINGULAR: message names the row */
+    /* Takes the values of A, of the same pattern. PG_E_NOT_SPD, PG_E_SINGULAR: the message names the row. */
     pg_status (*factor)  (void *self, const pg_sparse *A);
-    /* column-major, b and x may not overlap */
+    /* Solves for nrhs right-hand sides, column by column (n x nrhs); b and x may not overlap. */
     pg_status (*solve)   (void *self, size_t nrhs, const double *b, double *x);
+    /* Fills in the report; frees the state. */
     void      (*info)    (const void *self, pg_linear_info *info);
     void      (*free)    (void **self);
 } pg_linear_type;
+/* The entry of that name, NULL: there is none; all names, separated by |, and "auto". */
 const pg_linear_type *pg_linear_find  (const char *name);
 const char           *pg_linear_names (void);
 
-/* What cholmod's factor of a matrix with dense blocks (block x block) on `graph` (upper triangle, diagonal
- * included; values ignored) will hold and cost, by the same ordering and a symbolic analysis of the graph
- * alone. */
+/* Predicts what the factor of a matrix with dense blocks (block x block) on `graph` will hold and cost: the
+ * same ordering, and a symbolic analysis of the graph of the nodes alone. graph: upper triangle, diagonal
+ * included; values are ignored. */
 pg_status pg_linear_forecast (const pg_sparse *graph, int block, pg_linear_info *info);
 
-/* Conjugate gradients with diagonal preconditioning on any operator; x holds the first guess and the answer.
- * The same bits for any number of threads. */
+/* Conjugate gradients with the diagonal as preconditioner. x: first guess in, solution out. Stops at |r| <=
+ * tolerance |b|. PG_E_EQUILIBRIUM after `limit` iterations, PG_E_NOT_SPD where p.A p <= 0. Sums are taken
+ * in chunks of fixed size, so that the bits do not depend on the number of threads. */
 pg_status pg_conjugate_gradients (const pg_operator *A, const double *b, double *x, double tolerance,
                                   size_t limit, size_t *iterations);
-/* The same with a preconditioner of the caller's: z = P^-1 r, symmetric positive definite (NULL: the
- * diagonal); threads: of the loops beside it. */
+
+/* A preconditioner, symmetric positive definite: z = P^-1 r. threads: of the vector loops beside it. */
 typedef struct {
     void *context;
     pg_status (*solve) (void *context, const double *r, double *z);
     int threads;
 } pg_preconditioner;
+/* The same with a preconditioner of the caller's; P NULL: the diagonal. */
 pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b,
                                        double *x, double tolerance, size_t limit, size_t *iterations);
-/* Row whose pivot failed in the last factor call on this thread (-1: none). */
+/* Unknown whose pivot failed in the most recent failed Cholesky factorisation on this thread; -1: none has
+ * failed yet. A later success does not reset it. */
 long pg_linear_failed_row (void);
 
 /* ---- multilevel preconditioner ------------------------------------------------------------------------- */
-/* the rows of a matrix of nodes, or of one like it with fewer couplings: the same rigid motions, energies
- * within a small factor */
+/* Rows of a matrix of nodes, or of one like it with fewer couplings: it must have the same rigid motions,
+ * and its energies must agree within a small factor. The multilevel preconditioner is built from these. */
 typedef struct {
     void  *context;
-    size_t widest;  /* most couplings of one node, its own block among them */
-    double reach;                                      /* m: no two nodes further apart are coupled */
-    /* Couplings of node i, itself among them, in any order: node (m) and, unless value is NULL, blocks (m x
-     * block x block); returns m. Called by several threads, each with a number of its own. */
+    /* Largest number of couplings of one node, its own block among them. */
+    size_t widest;
+    /* No two nodes further apart than this are coupled, m. */
+    double reach;
+    /* Couplings of node i, itself among them, in any order: writes nodes (m) and, unless value is NULL,
+     * blocks (m x block x block), and returns m. Called by several threads, each with its own number. */
     size_t (*row) (void *context, size_t i, int thread, int *node, double *value);
-    /* Nodes of a lattice, its steps (0: none), m; of all nodes that are alike the rows are the same: blocks
-     * and offsets, in order. NULL: not known. */
+    /* Steps of the lattice that the nodes form, m; 0: none. alike (i) says whether node i has the same row
+     * as all others for which it says so: equal blocks at equal offsets, in the same order. NULL: not
+     * known. */
     double lattice[3];
     int    (*alike) (void *context, size_t i);
 } pg_couplings;
+
+/* What the preconditioner is built from. */
 typedef struct {
-    /* of space; unknowns of a node (numbered node by node), 1 to 6; of the loops */
+    /* Dimension of space; unknowns of a node (numbered node by node), 1 to 6; threads of the loops. */
     int     dim, block, threads;
-    size_t  n;                                         /* nodes */
-    const double *x;                                   /* their places, m (n x dim), borrowed */
-    const unsigned char *fixed;  /* unknowns that are prescribed; NULL: none (n x block) */
-    const pg_operator *A;                              /* y = A x, all n x block unknowns, borrowed */
-    pg_couplings rows;  /* of the same A; asked while it is created, not later */
-    double  step;                                      /* of the first coarse grid over the reach; 0: 4/3 */
-    int     degree;                                    /* of the smoothing polynomial; 0: 2 */
+    /* Number of nodes. */
+    size_t  n;
+    /* Their positions, m (n x dim); borrowed. */
+    const double *x;
+    /* 1 for each prescribed unknown; NULL: none is (n x block). */
+    const unsigned char *fixed;
+    /* y = A x with all n x block unknowns; borrowed. */
+    const pg_operator *A;
+    /* Rows of the same A; read only during creation. */
+    pg_couplings rows;
+    /* Step of the first coarse grid in units of the reach; 0: 4/3. */
+    double  step;
+    /* Degree of the smoothing polynomial; 0: 2. */
+    int     degree;
 } pg_multilevel_setting;
+
+/* What the preconditioner reports. */
 typedef struct {
+    /* Number of levels, the finest among them; degree of smoothing. */
     int     levels, degree;
-    size_t  unknowns[8];                               /* of the finest, the next, ... */
-    double  top[8];                                    /* bounds of the spectra of D^-1 A */
-    size_t  split;  /* hats of the first coarse grid that cracks or gaps have split */
+    /* Unknowns of each level, the finest first. */
+    size_t  unknowns[8];
+    /* Upper bounds of the spectra of D^-1 A, D = diagonal of A. */
+    double  top[8];
+    /* Functions of the first coarse grid that cracks or gaps have split into several. */
+    size_t  split;
+    /* V-cycles so far. */
     size_t  applications;
 } pg_multilevel_info;
 typedef struct pg_multilevel pg_multilevel;
-/* z = M r for A symmetric positive (semi)definite: one symmetric V-cycle, Chebyshev smoothing by products
- * with A, coarse levels of multilinear hats on grids over the nodes, split where a crack runs through (they
- * carry the unknowns of a node each and make its rigid motions and uniform strains), their matrices P' A P,
- * the last by Cholesky. Unknowns that are prescribed or without stiffness: z = 0. The same bits for any
- * number of threads. It stays valid while A loses couplings, only less and less good. PG_E_USAGE,
- * PG_E_MEMORY, PG_E_NOT_SPD. */
+/* Builds z = M r for a symmetric positive (semi)definite A: one symmetric V-cycle with Chebyshev smoothing
+ * by products with A. Coarse spaces: multilinear functions on grids over the nodes, split where a crack
+ * runs through; they carry the unknowns of a node each and so reproduce its rigid motions and uniform
+ * strains. Their matrices are P' A P, the last one factored by Cholesky. z = 0 at unknowns that are
+ * prescribed or have no stiffness. The bits do not depend on the number of threads. M remains valid while A
+ * loses couplings, but becomes less effective. PG_E_USAGE, PG_E_MEMORY, PG_E_NOT_SPD. */
 pg_status pg_multilevel_create (pg_multilevel **out, const pg_multilevel_setting *setting);
 void      pg_multilevel_free   (pg_multilevel **multilevel);
+/* The V-cycle in the form that conjugate gradients take; borrows the multilevel object. */
 pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *multilevel);
 void      pg_multilevel_describe (const pg_multilevel *multilevel, pg_multilevel_info *info);
 PG_API_END

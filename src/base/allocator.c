@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How glibc hands out memory. A run takes and returns large arrays all the time; by glibc's habit each comes
- * from the system anew and is cleared page by page, which costs up to 40 % of a short run. Kept in the
- * process, and in large pages where the system grants them on request (transparent huge pages: madvise), they
- * are cleared once. Results do not depend on it. */
+ * How glibc hands out memory. A run takes and returns large arrays all the time; by default glibc takes
+ * each from the system anew, which clears it page by page: up to 40 % of a short run. Kept in the process,
+ * and in large pages where the system grants them on request (transparent huge pages: madvise), pages are
+ * cleared once. Results do not depend on it. With other C libraries these functions do little or nothing. */
 #include "perigal/base.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +11,7 @@
 #include <malloc.h>
 #endif
 
+/* Blocks up to 1 GiB come from the heap, and the heap is not returned to the system. */
 void pg_memory_keep (void)
 {
 #if defined (__GLIBC__)
@@ -19,7 +20,8 @@ void pg_memory_keep (void)
 #endif
 }
 
-/* Read by glibc when a program starts. */
+/* glibc reads GLIBC_TUNABLES when a program starts, so that this acts on programs started later. A setting
+ * of the user's own is left alone. */
 void pg_memory_large_pages (void)
 {
     static const char large[] = "glibc.malloc.hugetlb=1";

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Small dense algebra for moment matrices, shape tensors and principal stresses: A = L L', x = A \ b, A = V
- * diag(lambda) V'. */
+ * Small dense algebra for moment matrices, shape tensors and principal stresses, row-major: Cholesky
+ * factorisation A = L L', solution of A x = b, eigenvalues A = V diag (lambda) V'. */
 #include "perigal/base.h"
 #include <math.h>
 
+/* Column by column. A pivot is compared with the diagonal entry it came from: the loss of digits by
+ * cancellation is what makes it worthless, whatever the scale of the row. */
 int pg_dense_cholesky (int n, double *A, double tiny)
 {
     for (int j = 0; j < n; j++) {
@@ -21,6 +23,7 @@ int pg_dense_cholesky (int n, double *A, double tiny)
     return 0;
 }
 
+/* Forward, then backward substitution. */
 void pg_dense_solve (int n, const double *L, double *b)
 {
     for (int i = 0; i < n; i++) {
@@ -33,7 +36,7 @@ void pg_dense_solve (int n, const double *L, double *b)
     }
 }
 
-/* One Jacobi rotation that zeroes M[p][q]. */
+/* One Jacobi rotation, M <- R' M R, V <- V R, that makes M[p][q] zero. */
 static void rotate (int n, double *M, double *V, int p, int q)
 {
     double theta = (M[q*n + q] - M[p*n + p]) / (2 * M[p*n + q]);
@@ -70,8 +73,8 @@ static void sort_eigen (int n, double *M, double *W, double *lambda)
     }
 }
 
-/* Cyclic Jacobi: each pass rotates away every element beside the diagonal that still counts. `off` and
- * `all` are the squares of what stands beside the diagonal and of everything. */
+/* Cyclic Jacobi rotations until the sum of the squares off the diagonal is 1e-32 of that of all entries;
+ * small entries are passed over. n <= 16. */
 void pg_dense_eigen (int n, const double *A, double *lambda, double *V)
 {
     enum { PASSES = 60 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The only file that calls malloc: zero-filled, counted, overflow-checked blocks, and a switch that makes one
- * fail. */
+ * The only file that calls malloc: blocks that are zero-filled, counted and checked for overflow, and a
+ * switch for tests that makes one allocation fail. Counters are atomic, as threads allocate too. */
 #include "perigal/base.h"
 #include <stdatomic.h>
 #include <stdint.h>
@@ -8,10 +8,14 @@
 #include <string.h>
 #include <sys/resource.h>
 
+/* Bytes in front of each block that hold its size; 64, so that the block keeps the alignment. */
 #define HEAD 64  /* bytes in front of each block: its size; keeps 64-byte alignment */
 
+/* Bytes held, their maximum, number of allocations, and how many allocations from now on until one fails
+ * (0: none does). */
 static atomic_size_t used, peak, calls, fail_at;
 
+/* Counts an allocation; 1 if it is the one that is to fail. */
 static int must_fail (void)
 {
     atomic_fetch_add (&calls, 1);
@@ -20,12 +24,14 @@ static int must_fail (void)
     return atomic_fetch_sub (&fail_at, 1) == 1;
 }
 
+/* Updates the bytes held and their maximum. */
 static void count (size_t add, size_t drop)
 {
     size_t now = atomic_fetch_add (&used, add - drop) + add - drop, top = atomic_load (&peak);
     while (now > top && !atomic_compare_exchange_weak (&peak, &top, now)) continue;
 }
 
+/* A block with its size written in front, not cleared; NULL: overflow or no memory. */
 static char *fresh (size_t bytes)
 {
     size_t whole = (bytes + HEAD + 63) / 64 * 64;
@@ -35,6 +41,7 @@ static char *fresh (size_t bytes)
     return block;
 }
 
+/* Sizes above half of the address space are refused before they can wrap around. */
 void *pg_calloc (size_t n, size_t size)
 {
     if (n == 0) n = 1;

@@ -1,21 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A clock and a parallel loop over disjoint ranges (plain threads: the OpenMP limit that CHOLMOD needs does
- * not bind them). The threads are started once and wait, awake for some microseconds, then asleep. What a
- * thread has not begun when the caller is done with its own part, the caller does itself: on a busy machine
- * nobody waits for a thread that gets no processor. Loops inside loops stay on their thread; a loop that
- * finds the threads busy with another's starts some of its own. */
+ * A clock, and a parallel loop over disjoint ranges, by POSIX threads: the limit on OpenMP threads that
+ * CHOLMOD needs does not bind them.
+ *
+ * Helper threads are started once and wait for a job, awake for some microseconds, then asleep. A part of a
+ * loop that no helper has begun when the calling thread is done with its own part, the calling thread does
+ * itself: on a busy machine nobody waits for a helper that gets no processor. Loops inside loops stay on
+ * their thread; a loop that finds the helpers busy with another loop starts threads of its own. */
 #include "perigal/base.h"
 #include <pthread.h>
 #include <stdatomic.h>
 #include <time.h>
 #include <unistd.h>
 
-enum { MAX_THREADS = 64, LOOKS = 1000 };  /* LOOKS at a word, some ten ns each, before going to sleep */
+/* Threads at most. LOOKS: how often a waiting thread looks at a variable, some ten ns each, before it
+ * sleeps. */
+enum { MAX_THREADS = 64, LOOKS = 1000 };
 
+/* A part of a loop. */
 typedef struct { pg_work work; void *context; size_t first, last; int thread; } job;
+
+/* A helper thread and its present job. */
 typedef struct {
-    _Alignas (64) atomic_uint turn;                    /* goes up: there is a job */
-    atomic_uint claimed;                               /* turn whose job somebody has begun */
+    /* Number of the present job; a change means that there is one. On a cache line of its own. */
+    _Alignas (64) atomic_uint turn;
+    /* Number of the last job that somebody, the helper or the calling thread, has begun. */
+    atomic_uint claimed;
     job       job;
     int       quit;
     pthread_t id;
@@ -23,14 +32,18 @@ typedef struct {
     pthread_cond_t  wake;
 } helper;
 
-static helper helpers[MAX_THREADS];                    /* 1 .. started - 1 */
+/* Helpers 1 .. started - 1; number 0 is the calling thread. */
+static helper helpers[MAX_THREADS];
 static int started = 1, looks = -1;
-/* gate: held during a loop */
+/* gate: held during a loop that uses the helpers. end, end_lock: tell the calling thread that all parts are
+ * done. */
 static pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER, end_lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_cond_t end = PTHREAD_COND_INITIALIZER;
+/* Parts of the present loop that are given to helpers and not done. */
 static atomic_int unfinished;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
-static _Thread_local int inside;                       /* this thread runs a part of a loop */
+/* 1: this thread is running a part of a loop. */
+static _Thread_local int inside;
 
 double pg_seconds (void)
 {
@@ -39,6 +52,7 @@ double pg_seconds (void)
     return (double) t.tv_sec + 1e-9 * (double) t.tv_nsec;
 }
 
+/* Runs a part of a loop; in the form of a thread's main function. */
 static void *run (void *p)
 {
     job *j = p;
@@ -49,6 +63,7 @@ static void *run (void *p)
     return NULL;
 }
 
+/* Tells the processor that this is a waiting loop. */
 static void pause_briefly (void)
 {
 #ifdef __x86_64__
@@ -56,13 +71,16 @@ static void pause_briefly (void)
 #endif
 }
 
-static int claim (helper *h, unsigned turn)            /* 1: the job of this turn is the caller's */
+/* 1: the caller has the job of this turn; exactly one thread gets it. */
+static int claim (helper *h, unsigned turn)
 {
     unsigned before = turn - 1;
     return atomic_compare_exchange_strong (&h->claimed, &before, turn);
 }
 
 /* ---- threads that wait --------------------------------------------------------------------------------- */
+/* Main function of a helper. The lock is taken even where the job was seen without it, because `quit` and
+ * `job` are written under it. */
 static void *serve (void *p)
 {
     helper *h = p;
@@ -85,6 +103,7 @@ static void *serve (void *p)
     }
 }
 
+/* Announces a new job to a helper, or that it is to end. */
 static void give_turn (helper *h, int quit)
 {
     pthread_mutex_lock (&h->lock);
@@ -94,7 +113,8 @@ static void give_turn (helper *h, int quit)
     pthread_cond_signal (&h->wake);
 }
 
-static void forget (void)                              /* a child of fork has none of these threads */
+/* In a child of fork none of these threads exist: as at the start. */
+static void forget (void)
 {
     started = 1;
     inside = 0;
@@ -103,13 +123,14 @@ static void forget (void)                              /* a child of fork has no
     pthread_cond_init (&end, NULL);
 }
 
+/* Once per process. With one processor, waiting awake would only take time from the others. */
 static void prepare (void)
 {
     pthread_atfork (NULL, NULL, forget);
     looks = sysconf (_SC_NPROCESSORS_ONLN) > 1 ? LOOKS : 0;
 }
 
-/* At exit and where the library is unloaded: no thread may be left in its code. */
+/* At exit, and where the library is unloaded: no thread may be left in its code. */
 __attribute__ ((destructor)) static void dismiss (void)
 {
     if (pthread_mutex_trylock (&gate) != 0) return;    /* exit from within a loop */
@@ -119,6 +140,7 @@ __attribute__ ((destructor)) static void dismiss (void)
     pthread_mutex_unlock (&gate);
 }
 
+/* Starts helpers until there are as many as wanted, or the system gives no more. */
 static void hire (int threads)
 {
     pthread_once (&once, prepare);
@@ -133,6 +155,8 @@ static void hire (int threads)
     }
 }
 
+/* Gives a part to each helper, runs its own, takes back those that no helper has begun, and waits for the
+ * rest. */
 static void run_with_helpers (int threads, job *jobs)
 {
     hire (threads);
@@ -155,6 +179,7 @@ static void run_with_helpers (int threads, job *jobs)
 }
 
 /* ---- loops --------------------------------------------------------------------------------------------- */
+/* The same with threads started for this loop only. */
 static void run_with_own (int threads, job *jobs)
 {
     pthread_t id[MAX_THREADS];
@@ -172,6 +197,7 @@ void pg_parallel (int threads, size_t n, pg_work work, void *context)
     pg_parallel_heavy (n < 64 ? 1 : threads, n, work, context);
 }
 
+/* Part k begins at n k / threads, whichever thread runs it. */
 void pg_parallel_heavy (int threads, size_t n, pg_work work, void *context)
 {
     if (threads > MAX_THREADS) threads = MAX_THREADS;

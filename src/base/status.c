@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Status texts and the message of the last failure, one per thread. */
+ * Texts of the status codes, and the message of the last failure on each thread. */
 #include "perigal/base.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+/* The message, and "file:line" of the source that recorded it. */
 static _Thread_local char message[16384];
 static _Thread_local char place[256];
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The table of influence functions. */
+ * The catalogue of influence functions: the entries of list.h as a table and as a string of names. */
 #include "entries.h"
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * w = q. A point on a node gives that node no weight. */
+ * w = q. A point that coincides with a node gives that node no weight. */
 #include "entries.h"
 
 static void value (size_t n, const double *q, double *w, double *dw)

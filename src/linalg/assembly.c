@@ -1,20 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K_IJ = sum over sources and their points of the blocks K_ab: pattern once, then a row-owned gather of all
- * or of some node rows. */
+ * Assembly of a symmetric matrix of dense node blocks, K_IJ = sum over sources and their points p of the
+ * blocks K_ab (p) with a, b the local numbers of I, J in p.
+ *
+ * The pattern is found once: nodes I and J are coupled if some point sees both. Values are gathered row by
+ * row: the row of node I collects from all points that see I (by the inverse lists), in the same order
+ * every time. Hence no two threads write to the same place, the sums do not depend on the number of
+ * threads, and a few rows can be redone after bonds broke with the same bits as in a new assembly. The
+ * price is that the blocks of a point are asked for row by row. */
 #include "perigal/linalg.h"
 #include <string.h>
 
-typedef struct { size_t *start; size_t *point, *local; } inverse;      /* node -> (point, local index) */
+/* The inverse of a list of points: for each node the points that see it, and its local number in each. */
+typedef struct { size_t *start; size_t *point, *local; } inverse;
 
 struct pg_assembly {
-    size_t     n, nsource, widest;                     /* nodes; sources; most nodes a point sees */
+    /* Numbers of nodes and sources; the most nodes that one point sees. */
+    size_t     n, nsource, widest;
+    /* Unknowns per node. */
     int        block;
     pg_assembly_source *source;
-    inverse   *inverse;                                /* per source */
-    pg_adjacency lower;                                /* node I -> nodes J <= I, ascending */
+    /* Inverse list of each source. */
+    inverse   *inverse;
+    /* For each node I the coupled nodes J <= I, ascending. */
+    pg_adjacency lower;
+    /* The matrix, upper triangle: column I of blocks holds the rows J <= I. */
     pg_sparse  K;
 };
 
+/* Inverts the list of n nodes; points of each node in ascending order. */
 static pg_status invert (inverse *out, const pg_adjacency *seen, size_t n)
 {
     pg_status status = PG_OK;
@@ -35,7 +48,8 @@ done:
     return status;
 }
 
-/* Counts (node NULL) or lists the nodes J <= I that share a point with I; mark[J] = I + 1 once seen. */
+/* Counts (node NULL) or lists the nodes J <= I that share a point with I. mark[J] = I + 1 once J has been
+ * found. As the nodes of a point ascend, those up to its local number suffice. */
 static size_t neighbours (const pg_assembly *K, size_t I, size_t *mark, int *node)
 {
     size_t count = 0;
@@ -58,7 +72,8 @@ static size_t neighbours (const pg_assembly *K, size_t I, size_t *mark, int *nod
     return count;
 }
 
-static void sort_nodes (int *a, size_t n)              /* insertion sort of nearly sorted runs, shell gaps */
+/* Shell sort: the lists are sequences of sorted runs. */
+static void sort_nodes (int *a, size_t n)
 {
     static const size_t gaps[] = { 301, 132, 57, 23, 10, 4, 1 };
     for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++)
@@ -70,7 +85,7 @@ static void sort_nodes (int *a, size_t n)              /* insertion sort of near
         }
 }
 
-/* K->lower: which nodes share a point. */
+/* Fills K->lower: counts, allocates, lists. */
 static pg_status couple (pg_assembly *K)
 {
     pg_status status = PG_OK;
@@ -91,6 +106,7 @@ done:
     return status;
 }
 
+/* Pattern of the matrix of unknowns; of the diagonal blocks the upper triangle only. */
 static pg_status pattern (pg_assembly *K)
 {
     pg_status status = PG_OK;
@@ -112,7 +128,7 @@ done:
     return status;
 }
 
-/* Sources and their inverses; no pattern yet. */
+/* Copies the sources and inverts their lists; no pattern yet. */
 static pg_status create (pg_assembly **out, size_t n, int block, size_t nsource, const pg_assembly_source *sources)
 {
     pg_status status = PG_OK;
@@ -149,6 +165,7 @@ done:
     return status;
 }
 
+/* The graph is `lower` itself, as columns. */
 pg_status pg_assembly_graph (pg_sparse *out, size_t n, size_t nlist, const pg_adjacency *const *lists)
 {
     pg_status status = PG_OK;
@@ -170,6 +187,7 @@ done:
     return status;
 }
 
+/* The nodes that a node sees are its couplings: nothing has to be inverted. */
 pg_status pg_assembly_graph_pairwise (pg_sparse *out, const pg_adjacency *f)
 {
     pg_status status = PG_OK;
@@ -208,9 +226,11 @@ void pg_assembly_free (pg_assembly **K)
 pg_sparse *pg_assembly_matrix (pg_assembly *K) { return &K->K; }
 
 /* ---- gather -------------------------------------------------------------------------------------------- */
+/* Workspaces of all threads: slot (node -> place within the row, threads x n) and blocks. */
 typedef struct { pg_assembly *K; const int *list; size_t *slot; double *blocks; } gathering;
 
-/* Adds block b of a row of blocks (row-major m x m, transposed into the columns of node I). */
+/* Adds block (I, J), row-major m x m, transposed into the columns of node I; `slot` is the place of J among
+ * the rows of these columns. */
 static void add_block (pg_assembly *K, size_t I, size_t J, size_t slot, const double *block)
 {
     size_t m = (size_t) K->block;
@@ -221,6 +241,7 @@ static void add_block (pg_assembly *K, size_t I, size_t J, size_t slot, const do
     }
 }
 
+/* Computes the columns of node I anew. */
 static void gather_row (gathering *g, size_t I, size_t *slot, double *blocks)
 {
     pg_assembly *K = g->K;
@@ -242,6 +263,7 @@ static void gather_row (gathering *g, size_t I, size_t *slot, double *blocks)
     }
 }
 
+/* The rows first .. last - 1 of the list. */
 static void gather (void *context, size_t first, size_t last, int thread)
 {
     gathering *g = context;

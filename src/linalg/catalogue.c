@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The list of linear solvers. */
+ * The catalogue of linear solvers: the entries of list.h as a table and as a string of names. */
 #include "perigal/linalg.h"
 #include <string.h>
 
+/* Each pass over list.h gives the macro another meaning: declarations, table, names. */
 #define PG_LINEAR(name) extern const pg_linear_type pg_linear_##name;
 #include "list.h"
 #undef PG_LINEAR
@@ -20,6 +21,7 @@ const pg_linear_type *pg_linear_find (const char *name)
     return NULL;
 }
 
+/* "auto" is no entry: the solver of the scene chooses one. */
 const char *pg_linear_names (void)
 {
     return ""

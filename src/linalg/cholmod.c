@@ -1,26 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * P K P' = L L', supernodal, by CHOLMOD. Nodes are ordered, not dofs (METIS, AMD for small bodies: with the
- * wide rows of meshfree shape functions METIS saves 15 % of a factorization at 4 000 and at 16 000 unknowns
- * in 2D, for 15 to 60 ms more of analysis), the order is expanded and given: one analysis serves every later
- * factorization of the same pattern. 64-bit interface throughout. The forecast analyses the graph of the
- * nodes alone: a column of it with c entries stands for m columns of the dofs with m (c - 1) + m, ..., m (c -
- * 1) + 1 entries. */
+ * Supernodal Cholesky factorisation P K P' = L L' by CHOLMOD of SuiteSparse, 64-bit interface.
+ *
+ * Nodes are ordered, not unknowns: by METIS, by AMD for small systems (with the wide rows of meshfree shape
+ * functions METIS saves 15 % of a factorisation at 4 000 and at 16 000 unknowns in 2D, for 15 to 60 ms more
+ * of analysis). The ordering of nodes is expanded to unknowns and given to CHOLMOD, and one analysis serves
+ * every later factorisation of the same pattern.
+ *
+ * The forecast analyses the graph of the nodes alone: a column with c entries there stands for m columns of
+ * the unknowns with m (c - 1) + m, ..., m (c - 1) + 1 entries; a column of e entries costs e^2 operations. */
 #include "perigal/linalg.h"
 #include <cholmod.h>
 #include <stdint.h>
 #include <string.h>
 
+/* State of the solver. */
 typedef struct {
     cholmod_common common;
     cholmod_factor *L;
-    cholmod_dense *X, *Y, *E;                          /* kept between solves */
+    /* Workspaces that CHOLMOD keeps between solves. */
+    cholmod_dense *X, *Y, *E;
     const char *ordering;
+    /* Predicted entries of L and operations of a factorisation. */
     double entries, flops;
 } chol;
 
+/* A diagnosis asks for it after a failed factorisation, on the same thread. */
 static _Thread_local long failed_row = -1;
 long pg_linear_failed_row (void) { return failed_row; }
 
+/* CHOLMOD may not print; its status is looked at instead. */
 static void quiet (int status, const char *file, int line, const char *message)
 {
     (void) status, (void) file, (void) line, (void) message;
@@ -39,6 +47,7 @@ static void chol_free (void **self)
     *self = NULL;
 }
 
+/* The matrix as CHOLMOD's structure, sharing the arrays; stype 1: upper triangle. */
 static cholmod_sparse view (const pg_sparse *A)
 {
     cholmod_sparse S = { 0 };
@@ -49,6 +58,7 @@ static cholmod_sparse view (const pg_sparse *A)
     return S;
 }
 
+/* The same without values. */
 static cholmod_sparse pattern_of (const pg_sparse *A)
 {
     cholmod_sparse S = view (A);
@@ -56,7 +66,7 @@ static cholmod_sparse pattern_of (const pg_sparse *A)
     return S;
 }
 
-/* Graph of the nodes (upper triangle) from the matrix of the dofs. */
+/* Graph of the nodes, upper triangle, from the matrix of unknowns with `block` unknowns per node. */
 static pg_status node_graph (pg_sparse *G, const pg_sparse *A, int block)
 {
     pg_status status = PG_OK;
@@ -75,7 +85,8 @@ done:
     return status;
 }
 
-/* METIS counts in 32 bits where it was built so: a larger graph goes to AMD. */
+/* Fills the permutation of the nodes of G. METIS counts in 32 bits where it was built so; a graph too large
+ * for that goes to AMD. */
 static pg_status order_nodes (chol *c, const pg_sparse *G, size_t unknowns, SuiteSparse_long *node)
 {
     pg_status status = PG_OK;
@@ -90,6 +101,7 @@ done:
     return status;
 }
 
+/* Permutation of the unknowns: that of the nodes, the unknowns of a node together. */
 static pg_status order (chol *c, const pg_sparse *A, const pg_linear_options *o, SuiteSparse_long *perm)
 {
     pg_status status = PG_OK;
@@ -107,6 +119,7 @@ done:
     return status;
 }
 
+/* Starts CHOLMOD with a given ordering only. */
 static void start (chol *c, int supernodal)
 {
     cholmod_l_start (&c->common);
@@ -118,6 +131,7 @@ static void start (chol *c, int supernodal)
     c->common.postorder = 1;
 }
 
+/* Ordering and symbolic factorisation. PG_E_MEMORY also where the problem is too large for the integers. */
 static pg_status chol_analyse (void **self, const pg_sparse *A, const pg_linear_options *options)
 {
     pg_status status = PG_OK;
@@ -139,6 +153,7 @@ done:
     return status;
 }
 
+/* Simplicial analysis, because only the column counts are wanted. */
 pg_status pg_linear_forecast (const pg_sparse *graph, int block, pg_linear_info *info)
 {
     pg_status status = PG_OK;
@@ -167,6 +182,7 @@ done:
     return status;
 }
 
+/* A pivot that is not positive is reported with its unknown in the numbering of A. */
 static pg_status chol_factor (void *self, const pg_sparse *A)
 {
     pg_status status = PG_OK;
@@ -186,6 +202,7 @@ done:
     return status;
 }
 
+/* All right-hand sides at once. */
 static pg_status chol_solve (void *self, size_t nrhs, const double *b, double *x)
 {
     pg_status status = PG_OK;

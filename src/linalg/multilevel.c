@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * z = M r by a symmetric V-cycle over grids of hats: life, choice of levels, the coarsest matrix and its
- * factor. */
+ * The multilevel preconditioner: creation, choice of levels, the coarsest matrix and its factor.
+ *
+ * Grids double their step from level to level until some thousand unknowns remain, which a Cholesky
+ * factorisation takes. */
 #include "multilevel.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-enum { DIRECT = 3000 };                                /* most unknowns of a coarsest level */
+/* Most unknowns of a coarsest level, unless there are MOST_LEVELS of them. */
+enum { DIRECT = 3000 };
 
+/* Frees a level; positions, right-hand side and solution of the finest belong to the caller. */
 static void level_clear (level *l, int finest)
 {
     void *all[] = { l->start,
@@ -44,11 +48,12 @@ void pg_multilevel_free (pg_multilevel **multilevel)
 }
 
 /* ---- the coarsest matrix ------------------------------------------------------------------------------- */
+/* Is unknown k of node i masked? */
 static int masked (const level *l, size_t i, size_t k) { return l->mask[i] >> k & 1; }
 
-/* Upper triangle; masked unknowns: identity. `lift` of each diagonal entry is added: the matrix may be
- * singular (loose fragments, functions that are sums of others), and its right-hand sides have nothing there
- * but rounding. */
+/* Upper triangle of the coarsest matrix, identity at masked unknowns. `lift` times each diagonal entry is
+ * added, because the matrix may be singular (loose fragments; functions that are sums of others); its
+ * right-hand sides have nothing in those directions but rounding. */
 static pg_status coarsest_matrix (pg_sparse *A, const level *l, double lift)
 {
     pg_status status = PG_OK;
@@ -74,6 +79,7 @@ done:
     return status;
 }
 
+/* Factors it, with a lift of 1e-10, raised to 1e-4 at most while the factorisation fails. */
 static pg_status factor_coarsest (pg_multilevel *m, level *l)
 {
     pg_status status = PG_OK;
@@ -95,6 +101,7 @@ done:
 }
 
 /* ---- levels -------------------------------------------------------------------------------------------- */
+/* Vectors of the cycle. */
 static pg_status make_vectors (level *l, int finest)
 {
     pg_status status = PG_OK;
@@ -108,6 +115,7 @@ done:
     return status;
 }
 
+/* Levels from the finest down; each needs the bound of its spectrum before it is smoothed. */
 static pg_status make_levels (pg_multilevel *m, double step)
 {
     pg_status status = PG_OK;
@@ -126,6 +134,8 @@ done:
     return status;
 }
 
+/* Grid steps below the reach of the couplings would give coarse matrices as full as the fine one: 4/3 of
+ * the reach by default. */
 pg_status pg_multilevel_create (pg_multilevel **out, const pg_multilevel_setting *s)
 {
     pg_status status = PG_OK;

@@ -1,63 +1,96 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: the levels of the multilevel preconditioner. Files: multilevel.c (life, coarsest level),
- * multilevel_space.c (coarse functions of a level), multilevel_matrix.c (their matrix), multilevel_cycle.c
- * (smoothing, transfers, the cycle). Unknown k of node i is i * block + k. A masked unknown (prescribed, or
- * without stiffness) takes no part: 1 / diagonal is 0 there. */
+ * Private: the levels of the multilevel preconditioner, a V-cycle whose coarse spaces are built from grids
+ * over the nodes (doc/method.md, How the systems are solved).
+ *
+ * Files: multilevel.c (creation, coarsest level), multilevel_space.c (coarse functions of a level),
+ * multilevel_matrix.c (their matrix), multilevel_cycle.c (smoothing, transfers, the cycle).
+ *
+ * Unknown k of node i has the number i * block + k. A masked unknown (prescribed, or without stiffness)
+ * takes no part: its inverse diagonal is stored as 0. In the code a `hat` is a multilinear function on the
+ * grid, 1 at its vertex and 0 at all others; all hats together are a partition of unity. A `function` is a
+ * hat, or the part of one on one side of a crack; functions are the nodes of the next level. */
 #ifndef PG_MULTILEVEL_H
 #define PG_MULTILEVEL_H
 #include "perigal/linalg.h"
 
+/* Levels at most; unknowns per node at most. */
 enum { MOST_LEVELS = 12, MOST_BLOCK = 6 };
 
+/* One level: its matrix, and the functions that make the next level. */
 typedef struct {
-    int     dim, block, threads, corners;              /* corners: of a coarse cell, 2^dim */
+    /* Dimension, unknowns per node, threads, corners of a coarse cell (2^dim). */
+    int     dim, block, threads, corners;
+    /* Numbers of nodes and of unknowns. */
     size_t  n, ndof;
-    double *x;                                         /* m (n x dim); finest: borrowed */
-    double  reach[3];                                  /* m: no coupling goes further along the axes */
+    /* Positions of the nodes, m (n x dim); on the finest level borrowed. */
+    double *x;
+    /* No coupling goes further than this along each axis, m. */
+    double  reach[3];
     /* the matrix: finest an operator and the caller's rows, else rows of blocks, nodes ascending */
     const pg_operator *A;
     pg_couplings rows;
-    size_t *start;  int *node;  double *value;         /* (n + 1), (start[n]), (start[n] x block x block) */
-    unsigned char *mask;                               /* bit k: unknown k is masked (n) */
-    double *inverse;                                   /* 1 / diagonal, 0: masked (ndof) */
-    double  top;                                       /* bound of the eigenvalues of D^-1 A, 1 */
-    /* coarse functions: multilinear hats on a grid, one for each connected part of the nodes under a hat */
+    /* Coarse levels: rows of blocks, nodes ascending: start (n + 1), node (start[n]), value (start[n] x
+     * block x block). */
+    size_t *start;  int *node;  double *value;
+    /* Bit k is set where unknown k of the node is masked (n). */
+    unsigned char *mask;
+    /* 1 / diagonal; 0 where masked (ndof). */
+    double *inverse;
+    /* Upper bound of the eigenvalues of D^-1 A. */
+    double  top;
+    /* Grid of the coarse functions: its first vertex and its steps, m. */
     double  low[3], step[3];
-    /* share_of: lattice steps in a step, nodes in the middle of theirs; 0: no lattice */
+    /* cells: cells along each axis. share_of: lattice steps in a cell where the nodes form a lattice, they
+     * are in the middle of their steps then; 0: no lattice. */
     int     cells[3], share_of[3];
+    /* Numbers of cells, of hats, of functions. */
     size_t  ncell, nhat, nfunction;
-    int    *cell;                                      /* of each node (n) */
-    size_t *cell_start;  int *cell_node;               /* nodes of each cell, ascending (ncell + 1), (n) */
-    size_t *first;                                     /* first function of each hat (nhat + 1) */
-    int    *function;  /* of each corner of a node's cell, -1: none (n x corners) */
-    float  *weight;                                    /* its value at the node (n x corners) */
-    size_t *at;  int *member;  float *share;  /* the same by functions (nfunction + 1), (at[nfunction]) */
-    double *b, *z, *r, *d, *q;                         /* (ndof); finest: b, z are the caller's */
+    /* Cell of each node (n). */
+    int    *cell;
+    /* Nodes of each cell, ascending: cell_start (ncell + 1), cell_node (n). */
+    size_t *cell_start;  int *cell_node;
+    /* First function of each hat (nhat + 1). */
+    size_t *first;
+    /* Function at each corner of a node's cell, as this node sees it; -1: none (n x corners). */
+    int    *function;
+    /* Its value at the node (n x corners). */
+    float  *weight;
+    /* The same by functions: nodes and values of function f are at[f] .. at[f + 1] - 1 (nfunction + 1). */
+    size_t *at;  int *member;  float *share;
+    /* Vectors of the cycle (ndof): right-hand side and solution (on the finest level the caller's),
+     * residual, step, A times step. */
+    double *b, *z, *r, *d, *q;
 } level;
 
+/* The levels, the factor of the coarsest matrix, and counts. */
 struct pg_multilevel {
-    int     count, degree;                             /* levels; products of a smoothing */
+    /* Number of levels; products with A in one smoothing. */
+    int     count, degree;
     level   at[MOST_LEVELS];
-    void   *factor;                                    /* of the coarsest matrix */
+    /* State of the direct solver on the coarsest level. */
+    void   *factor;
     const pg_linear_type *direct;
     size_t  applications;
 };
 
 /* ---- multilevel_space.c -------------------------------------------------------------------------------- */
-/* Chooses grid and functions of the next level; step: m, wanted. */
+/* Chooses grid and functions of the next level; step: wanted size of its cells, m. */
 pg_status level_space (level *l, double step);
-/* Grid index of corner c of a cell, and of a cell or hat from its place on the grid. */
+/* The hat at a corner of a cell (bit k of corner: high along axis k); the position of a hat on the grid. */
 size_t level_hat (const level *l, size_t cell, int corner);
 void   level_hat_place (const level *l, size_t hat, int *at);
 /* ---- multilevel_matrix.c ------------------------------------------------------------------------------- */
-/* Nodes (m of them, returned) that node i is coupled with and the blocks, row by row; value NULL: nodes
- * only. */
+/* Nodes that node i is coupled with (returns how many) and the blocks, row by row; value NULL: nodes only. */
 size_t level_row (const level *l, size_t i, int thread, int *node, double *value);
+/* Builds the matrix of the next level, P' A P. */
 pg_status level_coarsen (level *coarse, const level *fine);
-/* mask and inverse from the rows and, on the finest level, the prescribed unknowns. */
+/* Fills mask and inverse from the matrix; fixed: prescribed unknowns (finest level), or NULL. */
 pg_status level_diagonal (level *l, const unsigned char *fixed);
 /* ---- multilevel_cycle.c -------------------------------------------------------------------------------- */
+/* y = A x on this level. */
 void      level_multiply (const level *l, const double *x, double *y);
-pg_status level_bound (level *l);                      /* sets top */
+/* Sets top. */
+pg_status level_bound (level *l);
+/* z = M b from level k down. */
 pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z);
 #endif

@@ -1,18 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The symmetric V-cycle: Chebyshev polynomials of the fourth kind in D^-1 A before and after the correction
- * by the next level (Lottes 2023, "Optimal polynomial smoothers for multigrid V-cycles": only an upper bound
- * of the spectrum is needed), which is found from the Lanczos matrix of a few steps of conjugate
- * gradients. */
+ * The symmetric V-cycle: smoothing, residual, restriction, correction by the next level, smoothing.
+ *
+ * The smoother is a Chebyshev polynomial of the fourth kind in D^-1 A, before and after the coarse
+ * correction (Lottes 2023, Optimal polynomial smoothers for multigrid V-cycles, Numer. Linear Algebra Appl.
+ * 30): it needs only an upper bound of the spectrum, no lower one. The bound comes from the Lanczos matrix
+ * of a few steps of conjugate gradients. */
 #include "multilevel.h"
 #include <math.h>
 #include <string.h>
 
+/* Steps of Lanczos. */
 enum { LANCZOS = 10 };
-static const double margin = 1.05;                     /* of the largest Ritz value after so many steps */
+/* Factor on the largest Ritz value after so many steps, which approaches the eigenvalue from below. */
+static const double margin = 1.05;
 
 /* ---- products and transfers ---------------------------------------------------------------------------- */
+/* Arguments of a parallel loop: input x, output out, coefficients of the smoother. */
 typedef struct { const level *l; const double *x, *y; double *out; double c1, c2; } sweep;
 
+/* Rows of blocks times x, with unrolled products for 2 and 3 unknowns per node. */
 static void multiply_rows (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -46,6 +52,7 @@ void level_multiply (const level *l, const double *x, double *y)
     pg_parallel (l->threads, l->n, multiply_rows, &w);
 }
 
+/* out = P' x: each function collects from its nodes, in their order. */
 static void restrict_functions (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -64,7 +71,7 @@ static void restrict_functions (void *context, size_t first, size_t last, int th
     }
 }
 
-/* d = P e, z += d */
+/* d = P x, out += d; zero at masked unknowns. */
 static void correct_nodes (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -87,6 +94,7 @@ static void correct_nodes (void *context, size_t first, size_t last, int thread)
 }
 
 /* ---- smoothing ----------------------------------------------------------------------------------------- */
+/* r = b, z = d = c2 D^-1 r: the first step from z = 0. */
 static void first_step (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -98,6 +106,7 @@ static void first_step (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* r -= A d, then d = c1 d + c2 D^-1 r, z += d: one step of the Chebyshev recurrence. */
 static void next_step (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -112,6 +121,7 @@ static void next_step (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* r -= q */
 static void take_off (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -119,8 +129,8 @@ static void take_off (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) w->l->r[i] -= w->l->q[i];
 }
 
-/* Steps of the smoother; the first one with the residual at hand, or with what the last d leaves of it (z
- * given: a second smoothing). */
+/* `degree` steps of the smoother. b given: from z = 0. b NULL: a second smoothing of a z whose last change
+ * d has not been taken from the residual yet, which the first step does. */
 static void smooth (const level *l, int degree, const double *b, double *z)
 {
     sweep w = { .l = l, .x = b, .out = z };
@@ -132,6 +142,7 @@ static void smooth (const level *l, int degree, const double *b, double *z)
     }
 }
 
+/* The two smoothings are the same polynomial, hence the cycle is symmetric. */
 pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
 {
     pg_status status = PG_OK;
@@ -152,6 +163,7 @@ done:
 }
 
 /* ---- bound --------------------------------------------------------------------------------------------- */
+/* a . b over the unknowns that are not masked. */
 static double dot (const level *l, const double *a, const double *b)
 {
     double s = 0;
@@ -159,7 +171,7 @@ static double dot (const level *l, const double *a, const double *b)
     return s;
 }
 
-/* Number of eigenvalues of the tridiagonal matrix above x (Sturm). */
+/* Number of eigenvalues of the symmetric tridiagonal matrix above x (Sturm sequence). */
 static int above (int n, const double *diagonal, const double *off, double x)
 {
     int count = 0;
@@ -172,6 +184,7 @@ static int above (int n, const double *diagonal, const double *off, double x)
     return count;
 }
 
+/* Its largest eigenvalue by bisection, from Gershgorin's bound. */
 static double largest (int n, const double *diagonal, const double *off)
 {
     double low = 0, high = 0;
@@ -186,8 +199,8 @@ static double largest (int n, const double *diagonal, const double *off)
     return high;
 }
 
-/* Conjugate gradients on A x = b, b of a fixed random draw: their coefficients are the Lanczos matrix of
- * D^-1/2 A D^-1/2. */
+/* Conjugate gradients on A x = b with a fixed pseudo-random b: their coefficients are the entries of the
+ * Lanczos matrix of D^-1/2 A D^-1/2, whose eigenvalues are those of D^-1 A. No thread order enters. */
 pg_status level_bound (level *l)
 {
     pg_status status = PG_OK;

@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A_c = P' A P of the coarse functions of a level, from the rows of A, cell by cell: all nodes of a cell add
- * into one small dense matrix, rows the functions at its corners, columns those of the nodes they are coupled
- * with, and that goes into A_c. Cells whose corners are apart go at the same time: no row of A_c is written
- * by two threads, and the order of additions is always the same. */
+ * Coarse matrix A_c = P' A P of the functions of a level (a Galerkin product), from the rows of A, cell by
+ * cell.
+ *
+ * All nodes of a cell add into one small dense matrix: its rows are the functions at the corners of the
+ * cell, its columns the functions of the nodes they are coupled with; that is added into A_c. Cells are
+ * taken in 2^dim groups by the parity of their position: cells of one group share no corner, so that no row
+ * of A_c is written by two threads and the order of additions is always the same. On a lattice, cells with
+ * equal rows have equal sums; these are computed once. */
 #include "multilevel.h"
 #include <math.h>
 #include <string.h>
 
+/* Zero blocks are in the pattern but couple nothing. */
 size_t level_row (const level *l, size_t i, int thread, int *node, double *value)
 {
     if (l->rows.row) return l->rows.row (l->rows.context, i, thread, node, value);
@@ -24,7 +29,8 @@ size_t level_row (const level *l, size_t i, int thread, int *node, double *value
 }
 
 /* ---- diagonal ------------------------------------------------------------------------------------------ */
-typedef struct { int **node; double **value; } workspace;                   /* of a row, for each thread */
+/* Nodes and blocks of one row, for each thread. */
+typedef struct { int **node; double **value; } workspace;
 
 static void room_free (workspace *r, int threads)
 {
@@ -46,6 +52,7 @@ done:
     return status;
 }
 
+/* Diagonal entries of a coarse matrix. */
 static void diagonal_nodes (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -75,8 +82,7 @@ done:
 }
 
 /* ---- pattern ------------------------------------------------------------------------------------------- */
-/* Calls for every hat that may be coupled with one at `at`, ascending: the number of functions so far goes in
- * and out. */
+/* Counts, or lists ascending, the functions of all hats within `reach` cells of grid position `at`. */
 static size_t neighbours_of (const level *f, const int *at, const int *reach, int *out)
 {
     size_t count = 0;
@@ -96,6 +102,8 @@ static size_t neighbours_of (const level *f, const int *at, const int *reach, in
     return count;
 }
 
+/* Pattern of A_c. Two hats are coupled if nodes under them are: a hat extends one step to either side, so
+ * that the couplings of two hats end before two steps and the reach of the fine couplings. */
 static pg_status make_pattern (level *c, const level *f)
 {
     pg_status status = PG_OK;
@@ -129,21 +137,33 @@ done:
 }
 
 /* ---- sums by cells ------------------------------------------------------------------------------------- */
-typedef struct {                                       /* of one thread */
-    int    *where;                                     /* column of a function, -1: none (functions) */
-    int    *row_of;                                    /* row of a function, -1: none (functions) */
-    int    *row, *column;                              /* functions of rows and columns */
+/* Workspace of one thread for the sums of a cell. */
+typedef struct {
+    /* Column of a function in the sums, -1: none (functions). */
+    int    *where;
+    /* Row of a function, -1: none (functions). */
+    int    *row_of;
+    /* Functions of the rows and of the columns. */
+    int    *row, *column;
     size_t  nrow, ncolumn, cap_row, cap_column, cap_sum, cap_spread;
-    double *sum;                                       /* (columns x rows x block x block) */
-    double *spread;                                    /* A P of one node: (columns x block x block) */
+    /* The sums (columns x rows x block x block). */
+    double *sum;
+    /* A P of one node (columns x block x block). */
+    double *spread;
     pg_status status;
 } summer;
-typedef struct {                                       /* sums of a cell like many others */
-    unsigned char *like;                               /* of each cell: it is one of them; NULL: none is */
+
+/* Sums of a cell that many others are like. */
+typedef struct {
+    /* 1 for each cell that is one of them; NULL: none is. */
+    unsigned char *like;
     size_t nrow, ncolumn;
-    int   *row, *column;  /* offsets of hats from the cell's first corner (x 3) */
+    /* Hats of rows and columns, as offsets from the cell's first corner (x 3). */
+    int   *row, *column;
     double *sum;
 } pattern;
+
+/* All that the threads share. */
 typedef struct {
     level *c;
     const level *f;
@@ -153,12 +173,13 @@ typedef struct {
     pattern pattern;
 } galerkin;
 
+/* out += w a, bb entries. */
 static inline void add_scaled (size_t bb, double w, const double *restrict a, double *restrict out)
 {
     for (size_t k = 0; k < bb; k++) out[k] += w * a[k];
 }
 
-/* spread += value of every coupling times the functions at its node, whose columns are known. */
+/* spread += each coupling times the functions at its node; their columns are known already. */
 static inline void spread_row (const summer *s, const level *f, size_t bb, size_t m, const int *node,
                                const double *value)
 {
@@ -172,7 +193,7 @@ static inline void spread_row (const summer *s, const level *f, size_t bb, size_
     }
 }
 
-/* sum += functions at node i times spread */
+/* sum += functions at node i times spread. */
 static inline void gather_node (const summer *s, const level *f, size_t bb, size_t i)
 {
     size_t corners = (size_t) f->corners;
@@ -184,12 +205,14 @@ static inline void gather_node (const summer *s, const level *f, size_t bb, size
     }
 }
 
+/* Zeroes rows and columns of masked unknowns in a block. */
 static void blank_masked (const level *f, int rows, int columns, double *B)
 {
     for (int a = 0; a < f->block; a++)
         for (int c = 0; c < f->block; c++) if ((rows >> a & 1) || (columns >> c & 1)) B[a * f->block + c] = 0;
 }
 
+/* The rows of a cell: all functions at its m nodes. */
 static pg_status find_rows (summer *s, const level *f, const int *node, size_t m)
 {
     pg_status status = PG_OK;
@@ -205,6 +228,7 @@ done:
     return status;
 }
 
+/* Appends the column of function p, zero. */
 static pg_status new_column (summer *s, size_t bb, int p)
 {
     pg_status status = PG_OK;
@@ -218,6 +242,7 @@ done:
     return status;
 }
 
+/* Adds node i of the cell with its m couplings. */
 static pg_status add_node (summer *s, const level *f, size_t i, size_t m, const int *node, double *value)
 {
     pg_status status = PG_OK;
@@ -239,6 +264,7 @@ done:
     return status;
 }
 
+/* Place of p in an ascending list, -1: it is not there. */
 static long find (const int *list, size_t n, int p)
 {
     size_t low = 0, high = n;
@@ -250,6 +276,8 @@ static long find (const int *list, size_t n, int p)
     return low < n && list[low] == p ? (long) low : -1;
 }
 
+/* Adds the sums of a cell into A_c. A nonzero sum outside the pattern means that the caller's reach was
+ * wrong. */
 static pg_status hand_over (const summer *s, const double *sums, level *c)
 {
     pg_status status = PG_OK;
@@ -270,13 +298,14 @@ done:
 }
 
 /* ---- cells that are alike ------------------------------------------------------------------------------ */
+/* Position of a cell on the grid. */
 static void cell_place (const level *f, size_t cell, int *at)
 {
     for (int k = 0; k < f->dim; k++)
         at[k] = (int) (cell % (size_t) f->cells[k]), cell /= (size_t) f->cells[k];
 }
 
-/* No node of the cell has a masked unknown, no hat at its corners is split. */
+/* No node of the cell has a masked unknown, and no hat at its corners is split. */
 static int is_plain (const level *f, size_t cell)
 {
     for (size_t p = f->cell_start[cell]; p < f->cell_start[cell + 1]; p++)
@@ -288,6 +317,7 @@ static int is_plain (const level *f, size_t cell)
     return 1;
 }
 
+/* What is known of a cell: it is plain; all its nodes have the same rows (and it is full). */
 enum { PLAIN = 1, ALIKE = 2 };
 
 static void classify (void *context, size_t first, size_t last, int thread)
@@ -306,7 +336,7 @@ static void classify (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* All that its couplings reach is plain. */
+/* Are all cells within reach of its couplings plain, and none beyond the grid? */
 static int stands_free (const level *f, const unsigned char *like, size_t cell)
 {
     int at[3] = { 0 }, far[3] = { 0 };
@@ -323,7 +353,7 @@ static int stands_free (const level *f, const unsigned char *like, size_t cell)
     return 1;
 }
 
-/* The hat of a function relative to the first corner of a cell. */
+/* Offset of a function's hat from the first corner of a cell; the hat by bisection in `first`. */
 static void offset_of (const level *f, const int *cell, int function, int *out)
 {
     size_t low = 0, high = f->nhat;
@@ -336,6 +366,7 @@ static void offset_of (const level *f, const int *cell, int function, int *out)
     for (int k = 0; k < f->dim; k++) out[k] -= cell[k];
 }
 
+/* The function at that offset from a cell; such hats have one function. */
 static int function_at (const level *f, const int *cell, const int *offset)
 {
     size_t hat = 0, stride = 1;
@@ -347,7 +378,7 @@ static int function_at (const level *f, const int *cell, const int *offset)
 static pg_status sum_nodes (galerkin *g, size_t cell, int thread);
 static void forget_cell (summer *s);
 
-/* Sums of the first of the cells that are alike. */
+/* Computes the sums of the first cell that is like others, and keeps them. */
 static pg_status make_pattern_of (galerkin *g, size_t cell)
 {
     pg_status status = PG_OK;
@@ -369,6 +400,7 @@ done:
     return status;
 }
 
+/* Finds the cells that are alike; none where nodes form no lattice. */
 static pg_status find_alike (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -391,7 +423,7 @@ done:
     return status;
 }
 
-/* The summer as it would be after the cell's own sums. */
+/* Rows and columns of a cell that is like the kept one. */
 static pg_status take_pattern (galerkin *g, size_t cell, summer *s)
 {
     pg_status status = PG_OK;
@@ -409,6 +441,7 @@ done:
 }
 
 /* ---- all of them --------------------------------------------------------------------------------------- */
+/* Sums over the nodes of a cell, in ascending order. */
 static pg_status sum_nodes (galerkin *g, size_t cell, int thread)
 {
     pg_status status = PG_OK;
@@ -426,6 +459,7 @@ done:
     return status;
 }
 
+/* Clears the marks that a cell left in the workspace. */
 static void forget_cell (summer *s)
 {
     for (size_t r = 0; r < s->nrow; r++) s->row_of[s->row[r]] = -1;
@@ -454,7 +488,7 @@ static void sum_cells (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Cells whose place is odd or even along each axis as `parity` says. */
+/* Lists the cells with nodes whose position along axis k is odd or even as bit k of `parity` says. */
 static size_t cells_of_parity (const level *f, int parity, size_t *out)
 {
     size_t count = 0;
@@ -469,6 +503,7 @@ static size_t cells_of_parity (const level *f, int parity, size_t *out)
     return count;
 }
 
+/* One group of cells after the other. */
 static pg_status sum_all (galerkin *g)
 {
     pg_status status = PG_OK;

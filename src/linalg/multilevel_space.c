@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Coarse functions of a level: multilinear hats on a grid over the box of its nodes. Where the couplings
- * leave the nodes under a hat in several parts (a crack runs through, a slit, two bodies side by side) each
- * part has a function of its own: the hat on it, 0 on the others. Together they make every linear
- * displacement of every part that holds together. */
+ * Coarse functions of a level: multilinear functions ("hats") on a grid over the box of its nodes. Where
+ * the couplings leave the nodes under a hat in several connected parts (a crack runs through, a slit, two
+ * bodies side by side), each part gets a function of its own: the hat on it, zero on the others. Together
+ * they reproduce every linear displacement of every connected part, so that rigid motions and uniform
+ * strains of fragments are corrected on the coarse level. */
 #include "multilevel.h"
 #include <math.h>
 #include <string.h>
 
-static const double negligible = 1e-5;                 /* weights below it are left out */
+/* Weights below this are left out. */
+static const double negligible = 1e-5;
 
+/* Grid with cells of about `step` (m). Where nodes form a lattice every cell holds the same nodes at the
+ * same relative positions, so that rows of coarse matrices can be shared. */
 static void make_grid (level *l, double step)
 {
     l->ncell = l->nhat = 1;
@@ -47,8 +51,11 @@ void level_hat_place (const level *l, size_t hat, int *at)
         at[k] = (int) (hat % ((size_t) l->cells[k] + 1)), hat /= (size_t) l->cells[k] + 1;
 }
 
+/* Has node i an unknown that is not masked? */
 static int takes_part (const level *l, size_t i) { return l->mask[i] != (1 << l->block) - 1; }
 
+/* Cell of each node, and the values of the hats at the cell's corners there. On a lattice the position
+ * within the cell is rounded to the lattice, so that equal nodes have equal bits. */
 static void place_nodes (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -73,6 +80,7 @@ static void place_nodes (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* Lists the nodes of each cell, ascending. */
 static pg_status sort_by_cell (level *l)
 {
     pg_status status = PG_OK;
@@ -86,11 +94,13 @@ done:
 }
 
 /* ---- parts of a hat ------------------------------------------------------------------------------------ */
-/* of one thread; seen: hat + 1 that reached a node */
+/* Workspace of one thread: nodes under the hat, queue of the search, couplings of a node; seen: hat + 1 of
+ * the last hat that reached each node. */
 typedef struct { int *under, *queue, *node; size_t *seen; } walker;
+/* All threads: the level, their workspaces, the number of parts of each hat. */
 typedef struct { level *l; walker *walker; size_t *parts; pg_status failed; } search;
 
-/* Corner of the node's cell at which the hat stands, -1: the node is not under it. */
+/* Corner of node i's cell at which the hat stands; -1: the node is not under the hat. */
 static int corner_of (const level *l, size_t i, const int *hat)
 {
     size_t cell = (size_t) l->cell[i];
@@ -103,7 +113,7 @@ static int corner_of (const level *l, size_t i, const int *hat)
     return l->weight[i * (size_t) l->corners + (size_t) corner] > 0 ? corner : -1;
 }
 
-/* Nodes under the hat, by cells; their number. */
+/* Lists the nodes under a hat at grid position `hat`, cell by cell; returns how many. */
 static size_t gather (const level *l, const int *hat, int *under)
 {
     size_t count = 0;
@@ -124,8 +134,9 @@ static size_t gather (const level *l, const int *hat, int *under)
     return count;
 }
 
-/* Numbers the parts under the hat: function[node, corner] = part; the rest of a part is not looked at once
- * all nodes are reached. */
+/* Numbers the connected parts of the nodes under hat h by breadth-first search along the couplings:
+ * function[node, corner] = part. Ends early once all nodes have been reached. Returns the number of parts.
+ * Each entry of `function` belongs to one hat, so that threads do not meet. */
 static size_t find_parts (level *l, size_t h, walker *w, int thread)
 {
     int hat[3];
@@ -152,12 +163,14 @@ static size_t find_parts (level *l, size_t h, walker *w, int thread)
     return parts;
 }
 
+/* The hats first .. last - 1. */
 static void search_hats (void *context, size_t first, size_t last, int thread)
 {
     search *s = context;
     for (size_t h = first; h < last; h++) s->parts[h] = find_parts (s->l, h, &s->walker[thread], thread);
 }
 
+/* Bound of the number of nodes under one hat. */
 static size_t most_under (const level *l)
 {
     size_t most = 0;
@@ -166,6 +179,7 @@ static size_t most_under (const level *l)
     return most * (size_t) l->corners;
 }
 
+/* Finds the parts of all hats and numbers the functions, hat by hat. */
 static pg_status split_hats (level *l)
 {
     pg_status status = PG_OK;
@@ -191,7 +205,7 @@ done:
     return status;
 }
 
-/* From parts of hats to functions, and the members of every function. */
+/* Turns parts into numbers of functions, and lists the nodes of every function. */
 static pg_status number_functions (level *l)
 {
     pg_status status = PG_OK;

@@ -1,10 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Conjugate gradients with diagonal preconditioning, on any operator; also as a solver of matrices. */
+ * Preconditioned conjugate gradients (Hestenes and Stiefel 1952) on any operator, and as an entry of the
+ * catalogue with the diagonal as preconditioner.
+ *
+ * Every sum over the unknowns is taken in chunks of fixed length, each chunk in four partial sums, and the
+ * chunks are added in their order: the result has the same bits for any number of threads and any width of
+ * the vector registers. */
 #include "perigal/linalg.h"
 #include <math.h>
 #include <string.h>
 
-enum { CHUNK = 4096 };  /* of sums: their order does not depend on the threads */
+/* Unknowns in a chunk. */
+enum { CHUNK = 4096 };
+
+/* Vectors of an iteration (n each): residual r, preconditioned residual z, direction p, q = A p, inverse
+ * diagonal d, solution x; sums of the chunks (nchunk); step length alpha and turn = beta of the new
+ * direction; a, b: arguments of a dot product. */
 typedef struct {
     size_t n, nchunk;
     int threads;
@@ -12,11 +22,13 @@ typedef struct {
     const double *a, *b;
 } vectors;
 
+/* End of a chunk. */
 static size_t chunk_end (const vectors *v, size_t chunk)
 {
     return (chunk + 1) * CHUNK < v->n ? (chunk + 1) * CHUNK : v->n;
 }
 
+/* Runs `work` on all chunks and adds their sums. Below 16 chunks threads cost more than they save. */
 static double total (vectors *v, pg_work work)
 {
     double s = 0;
@@ -25,6 +37,7 @@ static double total (vectors *v, pg_work work)
     return s;
 }
 
+/* Sums of a . b. */
 static void dot_chunks (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -39,12 +52,14 @@ static void dot_chunks (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* a . b */
 static double dot (vectors *v, const double *a, const double *b)
 {
     v->a = a, v->b = b;
     return total (v, dot_chunks);
 }
 
+/* p = z + turn p */
 static void turn_chunks (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -52,7 +67,7 @@ static void turn_chunks (void *context, size_t first, size_t last, int thread)
     for (size_t i = first * CHUNK; i < chunk_end (v, last - 1); i++) v->p[i] = v->z[i] + v->turn * v->p[i];
 }
 
-/* x += alpha p, r -= alpha q; sums of r r */
+/* x += alpha p, r -= alpha q, and sums of r . r, in one pass over memory. */
 static void step_chunks (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -75,6 +90,7 @@ static void step_chunks (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* z = P^-1 r, or the inverse diagonal times r. */
 static pg_status precondition (const pg_preconditioner *P, const vectors *v)
 {
     if (P) return P->solve (P->context, v->r, v->z);
@@ -82,6 +98,7 @@ static pg_status precondition (const pg_preconditioner *P, const vectors *v)
     return PG_OK;
 }
 
+/* r = b - A x; a zero first guess saves the product. */
 static void first_residual (const pg_operator *A, const double *b, const vectors *v)
 {
     size_t n = A->n, zero = 1;
@@ -91,6 +108,7 @@ static void first_residual (const pg_operator *A, const double *b, const vectors
     for (size_t i = 0; i < n && !zero; i++) v->r[i] = b[i] - v->q[i];
 }
 
+/* Allocates the vectors. Rows without a positive diagonal get 1. */
 static pg_status make_vectors (vectors *v, const pg_operator *A, const pg_preconditioner *P, double *x)
 {
     pg_status status = PG_OK;
@@ -107,6 +125,7 @@ done:
     return status;
 }
 
+/* The test `!(pq > 0)` also catches NaN. */
 pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b,
                                        double *x, double tolerance, size_t limit, size_t *iterations)
 {
@@ -145,10 +164,12 @@ pg_status pg_conjugate_gradients (const pg_operator *A, const double *b, double 
     return pg_conjugate_gradients_with (A, NULL, b, x, tolerance, limit, iterations);
 }
 
+/* State of the catalogue entry. */
 typedef struct { const pg_sparse *A; double tolerance; size_t iterations; } pcg;
 
 static void pcg_free (void **self) { pg_free (*self), *self = NULL; }
 
+/* Nothing to analyse; the tolerance is 1e-10 unless given. */
 static pg_status pcg_analyse (void **self, const pg_sparse *A, const pg_linear_options *options)
 {
     pg_status status = PG_OK;
@@ -166,6 +187,7 @@ static pg_status pcg_factor (void *self, const pg_sparse *A)
     return PG_OK;
 }
 
+/* From zero for each right-hand side, at most 20 n + 1000 iterations. */
 static pg_status pcg_solve (void *self, size_t nrhs, const double *b, double *x)
 {
     pg_status status = PG_OK;

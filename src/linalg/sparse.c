@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Compressed columns: y = A x, y = A' x, B = T' A T. */
+ * Sparse matrices by compressed columns: products y = A x and y = A' x, and the congruence B = T' A T that
+ * eliminates constrained unknowns. */
 #include "perigal/linalg.h"
 #include <string.h>
 
@@ -22,6 +23,8 @@ void pg_sparse_clear (pg_sparse *A)
     memset (A, 0, sizeof *A);
 }
 
+/* In a symmetric matrix each stored entry above the diagonal acts twice; the part of the row of j that
+ * comes from column j is summed apart, which keeps the order of additions fixed. */
 void pg_sparse_multiply (const pg_sparse *A, const double *x, double *y)
 {
     memset (y, 0, A->nrow * sizeof *y);
@@ -51,6 +54,7 @@ void pg_sparse_multiply_transposed (const pg_sparse *A, const double *x, double 
 
 static void apply (void *context, const double *x, double *y) { pg_sparse_multiply (context, x, y); }
 
+/* Entries of the diagonal; zero where none is stored. */
 static void diagonal (void *context, double *d)
 {
     const pg_sparse *A = context;
@@ -62,11 +66,12 @@ static void diagonal (void *context, double *d)
 
 pg_operator pg_sparse_operator (pg_sparse *A) { return (pg_operator) { A->ncol, A, apply, diagonal }; }
 
-/* ---- B = T' A T
- * ---------------------------------------------------------------------------------------------------------
- * Column k of B: c = A T(:,k) is scattered densely, then T' c on the columns that share a row with it. */
-typedef struct { long *start, *row; double *value; } rows_view;     /* T by rows */
+/* ---- congruence --------------------------------------------------------------------------------------- */
+/* Column k of B = T' A T: c = A T(:,k) is accumulated in a dense vector, then T' c for the columns of T
+ * that share a row with it. R is T by rows: */
+typedef struct { long *start, *row; double *value; } rows_view;
 
+/* The transpose of the storage: entries of row i are start[i] .. start[i + 1] - 1, columns ascending. */
 static pg_status by_rows (rows_view *R, const pg_sparse *T)
 {
     pg_status status = PG_OK;
@@ -88,7 +93,7 @@ done:
     return status;
 }
 
-/* A with both triangles. */
+/* F = A with both triangles stored. */
 static pg_status both_triangles (pg_sparse *F, const pg_sparse *A)
 {
     pg_status status = PG_OK;
@@ -112,6 +117,8 @@ done:
     return status;
 }
 
+/* Workspace of one column: dense vectors c = A T(:,k) and b = T' c, the indices that are in use in them
+ * (hit_c, hit_b; nc, nb of them), and flags for these (on_c, on_b). */
 typedef struct {
     const pg_sparse *A, *T;
     const rows_view *R;
@@ -120,7 +127,7 @@ typedef struct {
     char *on_c, *on_b;
 } work;
 
-/* w->b, w->hit_b: column k of T' A T. */
+/* Computes column k, rows up to k, into w->b at the rows w->hit_b. */
 static void one_column (work *w, size_t k)
 {
     w->nc = w->nb = 0;
@@ -145,7 +152,8 @@ static void one_column (work *w, size_t k)
     for (long h = 0; h < w->nb; h++) w->on_b[w->hit_b[h]] = 0;
 }
 
-static void sort_ascending (long *a, long n)                       /* heap sort */
+/* Heap sort of n indices: never quadratic, no memory. */
+static void sort_ascending (long *a, long n)
 {
     for (long m = n / 2 - 1, top = n; top > 1;) {
         long root, value;

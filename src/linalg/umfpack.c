@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A = L U for unsymmetric or indefinite matrices, by UMFPACK (64-bit interface), with its iterative
- * refinement. */
+ * Sparse LU factorisation P R A Q = L U for unsymmetric or indefinite matrices, by UMFPACK of SuiteSparse
+ * (64-bit interface), with its iterative refinement. */
 #include "perigal/linalg.h"
 #include <umfpack.h>
 #include <string.h>
 
+/* State of the solver. */
 typedef struct {
-    pg_sparse F;                                       /* both triangles of a symmetric A, else a copy */
-    long *from;                                        /* F.value[k] = A.value[from[k]] */
+    /* The matrix as UMFPACK wants it: both triangles of a symmetric A, else a copy. */
+    pg_sparse F;
+    /* Where each entry of F comes from: F.value[k] = A.value[from[k]]. */
+    long *from;
+    /* UMFPACK's symbolic and numeric factors. */
     void *symbolic, *numeric;
     double control[UMFPACK_CONTROL], flops, entries;
 } lu;
@@ -24,7 +28,7 @@ static void lu_free (void **self)
     *self = NULL;
 }
 
-/* Pattern of F and the map of its entries to those of A. */
+/* Pattern of F, rows ascending in each column, and `from`. */
 static pg_status expand (lu *u, const pg_sparse *A)
 {
     pg_status status = PG_OK;
@@ -53,6 +57,7 @@ done:
     return status;
 }
 
+/* The symbolic analysis waits for the first values, which UMFPACK uses to choose its strategy. */
 static pg_status lu_analyse (void **self, const pg_sparse *A, const pg_linear_options *options)
 {
     pg_status status = PG_OK;
@@ -67,6 +72,8 @@ done:
     return status;
 }
 
+/* A ratio of smallest to largest pivot (of scaled rows) below 1e-14 counts as singular: no digit of the
+ * solution would be right. */
 static pg_status lu_factor (void *self, const pg_sparse *A)
 {
     pg_status status = PG_OK;
