@@ -44,40 +44,43 @@ pg_status pg_sparse_congruence (pg_sparse *B, const pg_sparse *A, const pg_spars
 pg_operator pg_sparse_operator (pg_sparse *A);
 
 /* ---- assembly ------------------------------------------------------------------------------------------ */
-/* Options of a linear solver. */
+/* Lists of nodes in compressed rows: those of item i are node[start[i]] .. node[start[i + 1] - 1],
+ * ascending. */
 typedef struct { size_t n; size_t *start; int *node; } pg_adjacency;
 
-/* A global matrix of dense node blocks is the sum of what its sources couple. A source is a list of
- * points, each of which couples all pairs of the nodes that it sees (an element of a mesh, an evaluation
- * point, a bond). Assembly goes by rows: the row of a node collects from all points that see the node. So
- * no two threads write to the same place, sums have the same order for any number of threads, and redoing
- * some rows after a change is the same routine as the first assembly. */
+/* A global matrix of dense node blocks is the sum of what its sources couple. A source is a list of points,
+ * each of which couples all pairs of the nodes that it sees (an element of a mesh, an evaluation point, a
+ * bond). Assembly goes by rows: the row of a node collects from all points that see the node. So no two
+ * threads write to the same place, sums have the same order for any number of threads, and redoing some
+ * rows after a change is the same routine as the first assembly. */
 typedef struct {
-    const pg_adjacency *seen;                          /* points -> nodes, borrowed */
+    /* The nodes that each point sees; borrowed. */
+    const pg_adjacency *seen;
     void *context;
-    /* Blocks (block x block, row-major) K_ab of point p between its local nodes a and b = 0..m-1, written
-     * to out (zero on entry). */
+    /* Blocks K_ab (block x block, row-major) of point p between its local nodes a and b = 0 .. m - 1,
+     * written one behind the other to out, which is zero on entry. Called by several threads. */
     void (*blocks) (void *context, size_t p, size_t a, size_t m, double *out);
 } pg_assembly_source;
 
 typedef struct pg_assembly pg_assembly;
-/* The pattern of all sources on n nodes with `block` dofs each. The sources are copied, their lists
- * borrowed. */
+/* Finds the pattern of all sources on n nodes with `block` unknowns each; no values yet. The sources are
+ * copied, their lists borrowed. PG_E_MEMORY. */
 pg_status pg_assembly_create (pg_assembly **out, size_t n, int block, size_t nsource,
                               const pg_assembly_source *sources);
 void      pg_assembly_free   (pg_assembly **assembly);
-/* Computes the rows of the nodes list[0..count) anew (NULL: those of all n). */
+/* Computes the rows of the nodes list[0 .. count - 1] anew (list NULL: those of nodes 0 .. count - 1). */
 pg_status pg_assembly_gather (pg_assembly *assembly, size_t count, const int *list, int threads);
 /* The matrix, borrowed: its upper triangle; zeros that the pattern holds are stored. */
 pg_sparse *pg_assembly_matrix (pg_assembly *assembly);
 
 /* The graph of the nodes alone: entry (J, I), J <= I, where a point of some list sees both (values NULL). */
 pg_status pg_assembly_graph (pg_sparse *out, size_t n, size_t nlist, const pg_adjacency *const *lists);
-/* The same for pairwise forces: a node, and the nodes that it sees itself (symmetric lists, without the
+/* The same for pairwise forces: node I and the nodes that it sees itself (symmetric lists without the
  * node's own number). */
 pg_status pg_assembly_graph_pairwise (pg_sparse *out, const pg_adjacency *seen);
 
 /* ---- solvers ------------------------------------------------------------------------------------------- */
+/* Options of a linear solver. */
 typedef struct {
     /* Unknowns per node where they are numbered node by node, else 1: nodes are ordered instead of
      * unknowns. */
@@ -106,7 +109,8 @@ typedef struct pg_linear_type {
     const char *name, *summary;
     /* 1: takes the upper triangle of a symmetric positive definite matrix. */
     int symmetric;
-    int factors;                                       /* 1: by a factor of A; 0: by products with A */
+    /* 1: solves by a factor of A; 0: by products with A. */
+    int factors;
     /* Creates the solver's state from the pattern of A; values are not read. */
     pg_status (*analyse) (void **self, const pg_sparse *A, const pg_linear_options *options);
     /* Takes the values of A, of the same pattern. PG_E_NOT_SPD, PG_E_SINGULAR: the message names the row. */
