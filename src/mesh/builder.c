@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A mesh under construction: the readers hand over nodes, elements and sets in the numbers of their file. */
+ * A mesh under construction: readers hand over nodes, elements and sets in the numbers of their file, in
+ * any order; pg_mesh_builder_finish makes a mesh of them (builder_solid.c, builder_set.c). */
 #include "builder.h"
 #include <limits.h>
 #include <math.h>
@@ -36,6 +37,7 @@ void pg_mesh_builder_free (pg_mesh_builder **builder)
     *builder = NULL;
 }
 
+/* Coordinates beyond 1e100 are refused: their cubes, which volumes need, would overflow. */
 pg_status pg_mesh_builder_node (pg_mesh_builder *m, long id, const double *x)
 {
     enum { EXPONENT = 100 };                               /* 1e100: its cube is still a number */
@@ -54,6 +56,7 @@ done:
     return status;
 }
 
+/* Whether the nodes exist is asked only at the end, since files may give elements first. */
 pg_status pg_mesh_builder_element (pg_mesh_builder *m, long id, pg_element kind, const long *node, long group,
                                    long line)
 {
@@ -76,8 +79,8 @@ done:
     return status;
 }
 
-/* Letters that cannot be written in one line become _; what is too long is cut between characters of
- * UTF-8. */
+/* Control characters become _, as names appear in messages of one line; what is too long is cut between
+ * characters of UTF-8. */
 static void copy_name (char to[64], const char *name)
 {
     size_t n = strlen (name);
@@ -98,6 +101,7 @@ done:
     return status;
 }
 
+/* Begins a set at entry `first`. */
 static void name_list (mesh_list *l, const char *name, long id, size_t first)
 {
     memset (l, 0, sizeof *l);
@@ -147,6 +151,7 @@ done:
     return status;
 }
 
+/* A view of the arrays, without copies. */
 pg_mesh_given pg_mesh_builder_given (const pg_mesh_builder *m)
 {
     return (pg_mesh_given) { .nnode = m->nnode, .node_id = m->node_id, .n = m->n, .element_id = m->element_id,
@@ -155,13 +160,14 @@ pg_mesh_given pg_mesh_builder_given (const pg_mesh_builder *m)
 
 void pg_mesh_builder_regroup (pg_mesh_builder *m, size_t e, long group) { m->group[e] = group; }
 
-/* Are all numbers of the list 1 to `most`? */
+/* Are all numbers of the list within 1 .. most? */
 static int counted (const long *list, size_t n, size_t most)
 {
     for (size_t i = 0; i < n; i++) if (list[i] < 1 || (size_t) list[i] > most) return 0;
     return 1;
 }
 
+/* Replaces each number k by by[k - 1]. */
 static void replace (long *list, size_t n, const long *by)
 {
     for (size_t i = 0; i < n; i++) list[i] = by[list[i] - 1];
@@ -188,6 +194,7 @@ void builder_where (const pg_mesh_builder *m, size_t e, char *text, size_t size)
     else snprintf (text, size, "%.400s: element %ld", m->path, m->element_id[e]);
 }
 
+/* Order of groups: by dimension, then number. */
 static int by_group (const void *p, const void *q)
 {
     const mesh_group *a = p, *b = q;
@@ -195,12 +202,14 @@ static int by_group (const void *p, const void *q)
     return (a->group > b->group) - (a->group < b->group);
 }
 
+/* The same, then by name, so that of several names the first in the alphabet is taken. */
 static int by_group_and_name (const void *p, const void *q)
 {
     int c = by_group (p, q);
     return c ? c : strcmp (((const mesh_group *) p)->name, ((const mesh_group *) q)->name);
 }
 
+/* The groups have been sorted; the first of equal ones counts. */
 void builder_name (const pg_mesh_builder *m, int dim, long group, char name[64])
 {
     snprintf (name, 64, "%ld", group);
@@ -210,6 +219,7 @@ void builder_name (const pg_mesh_builder *m, int dim, long group, char name[64])
     if (g) memcpy (name, g->name, 64);
 }
 
+/* On failure the mesh is cleared; the builder can only be freed afterwards. */
 pg_status pg_mesh_builder_finish (pg_mesh_builder *m, pg_mesh *out)
 {
     pg_status status = PG_OK;

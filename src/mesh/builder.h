@@ -1,49 +1,70 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * builder.h: a mesh under construction: what the readers gave, in the numbers of the file. */
+ * Private: a mesh under construction. Until pg_mesh_builder_finish everything is in the numbers of the
+ * file. */
 #ifndef MESH_BUILDER_H
 #define MESH_BUILDER_H
 #include "perigal/mesh.h"
 
+/* Name of a group of elements of one dimension. */
 typedef struct { int dim; long group; char name[64]; } mesh_group;
-/* a set of the file: entries [first, end) */
+/* A set of the file: its entries first .. end - 1 in the list of all entries. */
 typedef struct { char name[64]; long id; size_t first, end; } mesh_list;
 
+/* Arrays grow by PG_GROW; each has its own capacity (..._cap). */
 struct pg_mesh_builder {
+    /* File, for messages. */
     char      *path;
     size_t     nnode, node_cap;
+    /* Numbers of the nodes (nnode). */
     long      *node_id;
-    double    *x;                                      /* nnode x 3 */
+    /* Positions (nnode x 3). */
+    double    *x;
     size_t     x_cap;
-    size_t     n, element_cap, start_cap;              /* elements of all dimensions */
+    /* Number of elements of all dimensions. */
+    size_t     n, element_cap, start_cap;
+    /* Number, group and line of the file of each element (n). */
     long      *element_id, *group, *line;
     size_t     group_cap, line_cap, kind_cap;
     unsigned char *kind;
-    size_t    *start;                                  /* into `node` (n + 1) */
+    /* First entry of each element in `list` (n + 1). */
+    size_t    *start;
     size_t     nlist, list_cap;
-    long      *list;                                   /* ids of nodes */
+    /* Numbers of the nodes of all elements (nlist). */
+    long      *list;
     size_t     ngroup, groups_cap;
+    /* Names of groups (ngroup). */
     mesh_group *groups;
     size_t     nset, set_cap, nside_set, side_set_cap;
+    /* Node sets (nset) and side sets (nside_set) of the file. */
     mesh_list *sets, *side_sets;
     size_t     nset_node, set_node_cap, nside, side_cap, side_element_cap;
+    /* Entries of all node sets (nset_node); elements and sides of all side sets (nside). */
     long      *set_node, *side_element;
     int       *side;
-    /* while finishing */
-    int        dim;                                    /* largest of all elements */
+    /* From here on: filled while finishing. Largest dimension of all elements. */
+    int        dim;
+    /* Finds nodes by number. */
     pg_id_table   nodes;
-    int       *index;  /* node of each entry of list, by its place in node_id */
-    int       *solid;  /* number of element e among the solid ones; -1: it is none; -2: a twin */
-    unsigned char *turned;  /* 1: nodes of this solid element were mirrored (out->n) */
-    int       *kept;  /* number of node k in the mesh; -1: no solid element uses it */
+    /* The node of each entry of `list`, as a place in node_id (nlist). */
+    int       *index;
+    /* Number of each element among the solid ones; -1: it is of lower dimension; -2: it repeats another one
+     * (n). */
+    int       *solid;
+    /* 1: this solid element was given inside out and has been mirrored (out->n). */
+    unsigned char *turned;
+    /* Number of each node in the mesh; -1: no solid element uses it (nnode). */
+    int       *kept;
+    /* The mesh that is being filled. */
     pg_mesh   *out;
 };
 
-/* Steps of pg_mesh_builder_finish, in this order. */
-pg_status builder_resolve (pg_mesh_builder *m);            /* ids to places; dimension; twins */
-pg_status builder_solids  (pg_mesh_builder *m);  /* solid elements, nodes in use, blocks, orientation */
-pg_status builder_sets    (pg_mesh_builder *m);            /* node sets, side sets */
-/* "path, line 7: element 12" of element e. */
+/* Steps of pg_mesh_builder_finish, in this order: numbers become places, the dimension and repeated
+ * elements are found; solid elements, nodes in use, orientation and blocks; node sets and side sets. */
+pg_status builder_resolve (pg_mesh_builder *m);
+pg_status builder_solids  (pg_mesh_builder *m);
+pg_status builder_sets    (pg_mesh_builder *m);
+/* "path, line 7: element 12" for element e, or without the line where it is unknown. */
 void      builder_where   (const pg_mesh_builder *m, size_t e, char *text, size_t size);
-/* Name of group (dim, group): the one given, else its number. */
+/* Name of a group: the one given, else its number. */
 void      builder_name    (const pg_mesh_builder *m, int dim, long group, char name[64]);
 #endif

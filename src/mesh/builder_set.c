@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Node sets and side sets of a mesh: those of the file, those that elements of lower dimension name, the
- * nodes of every side set. Sets of equal name are one. Members are gathered as pairs (set, member) in one
- * sorted list. */
+ * Node sets and side sets of a mesh: those of the file, those that elements of lower dimension name, and
+ * the nodes of every side set. Sets of equal name are one. Members are collected as integers (set, member)
+ * in one list; sorting it puts the sets in order and their members too, and shows repetitions. */
 #include "builder.h"
 #include "element.h"
 #include <stdint.h>
@@ -9,21 +9,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* place: order of appearance; sides: also a side set */
+/* A set before equal names are united. place: order of appearance. sides: it is a side set as well. */
 typedef struct { char name[64]; long id; size_t place; int sides; } named;
-typedef struct { int dim; long group; size_t set; } source;      /* a group that names a set */
-typedef struct { size_t n, cap; uint64_t *pair; } pairs;       /* (set, node), or (set, element, side) */
+/* A group of elements that names a set. */
+typedef struct { int dim; long group; size_t set; } source;
+/* Members: set << 32 | node, or set << 34 | element << 3 | side. */
+typedef struct { size_t n, cap; uint64_t *pair; } pairs;
+
+/* The sets under construction. */
 typedef struct {
     pg_mesh_builder *m;
-    size_t  n, cap;                                    /* sets before equal names are one */
+    /* Number of sets before equal names are united, and capacity. */
+    size_t  n, cap;
     named  *set;
-    size_t *final;                                     /* number of the set in the mesh (n) */
+    /* Number of each in the mesh (n). */
+    size_t *final;
+    /* Number of sets in the mesh. */
     size_t  nfinal;
     size_t  nsource, source_cap;
     source *source;
     pairs   nodes, sides;
 } builder;
 
+/* So that the set fits into its bits of a pair. */
 enum { MOST_SETS = 1 << 28 };
 
 static pg_status add_pair (pairs *p, uint64_t pair)
@@ -35,11 +43,13 @@ done:
     return status;
 }
 
+/* Adds a node of the mesh to a set; -1 (a node that no solid element uses) adds nothing. */
 static pg_status add_node (builder *b, size_t set, int node)
 {
     return node < 0 ? PG_OK : add_pair (&b->nodes, (uint64_t) b->final[set] << 32 | (unsigned) node);
 }
 
+/* Adds a side of solid element e and the nodes of that face. */
 static pg_status add_side (builder *b, size_t set, size_t e, int side)
 {
     pg_status status = PG_OK;
@@ -52,6 +62,7 @@ done:
 }
 
 /* ---- names --------------------------------------------------------------------------------------------- */
+/* Appends a set. */
 static pg_status add_name (builder *b, const char *name, long id, int sides)
 {
     pg_status status = PG_OK;
@@ -65,7 +76,8 @@ done:
     return status;
 }
 
-static int by_source (const void *p, const void *q)    /* solid twins first, then faces, lines, points */
+/* Repeated solid elements first, then faces, lines, points. */
+static int by_source (const void *p, const void *q)
 {
     const source *a = p, *b = q;
     if (a->dim != b->dim) return a->dim > b->dim ? -1 : 1;
@@ -78,6 +90,7 @@ static int names_a_set (const pg_mesh_builder *m, size_t e)
     return m->group[e] && m->solid[e] < 0;
 }
 
+/* One set for each group of such elements. */
 static pg_status add_sources (builder *b)
 {
     pg_status status = PG_OK;
@@ -103,6 +116,7 @@ done:
     return status;
 }
 
+/* Equal names in the order of their appearance. */
 static int by_name (const void *p, const void *q)
 {
     const named *a = p, *b = q;
@@ -116,7 +130,8 @@ static int by_place (const void *p, const void *q)
     return (a->place > b->place) - (a->place < b->place);
 }
 
-/* Sets of equal name get the number of the first of them. */
+/* Sets of equal name get the number of the first of them. As final[k] <= k, the sets can be moved in
+ * place. */
 static pg_status unite (builder *b)
 {
     pg_status status = PG_OK;
@@ -139,6 +154,7 @@ done:
     return status;
 }
 
+/* Node sets, side sets, groups, in this order. */
 static pg_status collect_names (builder *b)
 {
     pg_status status = PG_OK;
@@ -153,6 +169,7 @@ done:
 }
 
 /* ---- sets of the file ---------------------------------------------------------------------------------- */
+/* Members of the node sets of the file. A number that the file has no node for is a fault. */
 static pg_status add_node_sets (builder *b)
 {
     pg_status status = PG_OK;
@@ -169,7 +186,7 @@ done:
     return status;
 }
 
-/* Side `side` of an element that was given inside out, after its nodes were mirrored. */
+/* The number of side `side` after the element was mirrored: the face with the mirrored corners. */
 static int mirrored_side (pg_element kind, int side)
 {
     const signed char *mirror = element_mirror (kind);
@@ -182,6 +199,7 @@ static int mirrored_side (pg_element kind, int side)
     return side;
 }
 
+/* Members of the side sets of the file. */
 static pg_status add_side_sets (builder *b, const pg_id_table *elements)
 {
     pg_status status = PG_OK;
@@ -207,12 +225,14 @@ done:
 }
 
 /* ---- sets by elements of lower dimension --------------------------------------------------------------- */
+/* The set that element e of lower dimension names. */
 static size_t set_of (const builder *b, size_t e)
 {
     source key = { pg_element_types[b->m->kind[e]].dim, b->m->group[e], 0 };
     return ((source *) bsearch (&key, b->source, b->nsource, sizeof key, by_source))->set;
 }
 
+/* All nodes of these elements join their sets. */
 static pg_status add_lower_nodes (builder *b)
 {
     pg_status status = PG_OK;
@@ -227,8 +247,11 @@ done:
     return status;
 }
 
+/* An element of dimension dim - 1 by its corners (ascending, then -1), its set, and whether its face was
+ * found. */
 typedef struct { int key[4]; size_t set; int found; } lower;
 
+/* Order by corners only; then also by set. */
 static int by_corners (const void *p, const void *q)
 {
     const lower *a = p, *b = q;
@@ -243,7 +266,7 @@ static int by_corners_and_set (const void *p, const void *q)
     return c ? c : (a->set > b->set) - (a->set < b->set);
 }
 
-/* Elements that may be faces of solid ones, by their corners; mark: nodes of theirs. */
+/* Lists the elements that may be faces of solid ones, sorted by corners; marks their corners. */
 static pg_status list_lower (const builder *b, size_t *n, lower **list, unsigned char *mark)
 {
     pg_status status = PG_OK;
@@ -270,13 +293,15 @@ done:
     return status;
 }
 
+/* Are all corners of this face marked? A quick test before the search. */
 static int all_marked (const unsigned char *mark, const int key[4])
 {
     for (int k = 0; k < 4 && key[k] >= 0; k++) if (!mark[key[k]]) return 0;
     return 1;
 }
 
-/* A face between two solid elements becomes a side of the first of them. */
+/* Elements that are faces of solid ones become sides; a face between two solid elements becomes a side of
+ * the first. */
 static pg_status add_lower_sides (builder *b)
 {
     pg_status status = PG_OK;
@@ -310,6 +335,7 @@ static int by_pair (const void *p, const void *q)
     return (a > b) - (a < b);
 }
 
+/* Sorts, and drops repetitions. */
 static void sort_pairs (pairs *p)
 {
     size_t n = 0;
@@ -318,13 +344,14 @@ static void sort_pairs (pairs *p)
     p->n = n;
 }
 
-/* End of the run of pairs that belong to one set. */
+/* End of the run of pairs that belong to `set`. */
 static size_t run_end (const pairs *p, size_t first, size_t set, int shift)
 {
     while (first < p->n && p->pair[first] >> shift == set) first++;
     return first;
 }
 
+/* Every set has a node set, also one that is empty. */
 static pg_status put_nodes (builder *b)
 {
     pg_status status = PG_OK;
@@ -343,6 +370,7 @@ done:
     return status;
 }
 
+/* Sets without sides become no side set, unless the file gave them as one. */
 static pg_status put_sides (builder *b)
 {
     pg_status status = PG_OK;
@@ -366,6 +394,7 @@ done:
     return status;
 }
 
+/* Elements must have different numbers. */
 static pg_status check_ids (const pg_mesh_builder *m, pg_id_table *elements)
 {
     pg_status status = PG_OK;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * From the numbers of a file to a mesh: nodes found, solid elements told from those that only name a set,
- * turned outside out. */
+ * From the numbers of a file to a mesh: nodes are looked up, solid elements are separated from those that
+ * only name a set, nodes that no solid element uses are dropped, and elements that were given inside out
+ * are mirrored. */
 #include "builder.h"
 #include "element.h"
 #include <math.h>
@@ -9,9 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Dimension, and number of nodes, of element e. */
 static int dimension (const pg_mesh_builder *m, size_t e) { return pg_element_types[m->kind[e]].dim; }
 static size_t length (const pg_mesh_builder *m, size_t e) { return m->start[e + 1] - m->start[e]; }
 
+/* A fault of element e, with its place in the file and its kind. */
 #define ELEMENT_FAIL(m, e, ...) \
     do { \
         char at_[512], why_[400]; \
@@ -21,6 +24,8 @@ static size_t length (const pg_mesh_builder *m, size_t e) { return m->start[e + 
     } while (0)
 
 /* ---- numbers to places --------------------------------------------------------------------------------- */
+/* Looks up the nodes of all elements. A solid element may name no node twice: a collapsed hexahedron would
+ * have a singular map. */
 static pg_status find_nodes (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -46,6 +51,7 @@ static int by_int (const void *p, const void *q)
     return (a > b) - (a < b);
 }
 
+/* Do two elements have the same kind and the same nodes, in whatever order? */
 static int same_nodes (const pg_mesh_builder *m, size_t e, size_t f)
 {
     int a[PG_ELEMENT_NODES], b[PG_ELEMENT_NODES];
@@ -56,6 +62,7 @@ static int same_nodes (const pg_mesh_builder *m, size_t e, size_t f)
     return !memcmp (a, b, n * sizeof *a);
 }
 
+/* Scatters the bits of a number. Sums of mixed numbers do not depend on the order of the nodes. */
 static uint64_t mix (uint64_t h)
 {
     h = (h ^ (h >> 31)) * UINT64_C (0x7FB5D329728EA185);
@@ -63,8 +70,8 @@ static uint64_t mix (uint64_t h)
     return h ^ (h >> 33);
 }
 
-/* Files that write an element once for each group it belongs to: the first is the element, its twins only
- * join a set. */
+/* Some files write an element once for each group it belongs to: the first is the element, later ones only
+ * join a set. Found by a hash table over the sets of nodes. */
 static pg_status number_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -91,6 +98,7 @@ done:
     return status;
 }
 
+/* Faults of a file without nodes, or without elements that have an extent, are found first. */
 pg_status builder_resolve (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -112,6 +120,7 @@ done:
 }
 
 /* ---- nodes in use -------------------------------------------------------------------------------------- */
+/* Numbers the nodes in use, in the order of the file. */
 static pg_status keep_nodes (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -131,7 +140,8 @@ done:
     return status;
 }
 
-/* A mesh of lines lies on the x axis or parallel to it, one of triangles parallel to the plane x, y. */
+/* A mesh of lines lies parallel to the x axis, one of triangles and quadrilaterals parallel to the plane x,
+ * y, to 1e-9 of its size. */
 static pg_status check_plane (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -156,6 +166,7 @@ done:
 }
 
 /* ---- solid elements ------------------------------------------------------------------------------------ */
+/* Writes the solid elements in the order of the file. */
 static pg_status fill_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -178,7 +189,7 @@ done:
     return status;
 }
 
-/* Size of the map at the centre; flat: less than 1e-12 of the cube around the element. */
+/* Size factor of the map at the centre of element e. flat: below 1e-12 of the cube around the element. */
 static double centre_size (const pg_mesh *out, size_t e, int *flat)
 {
     double x[3 * PG_ELEMENT_NODES], xi[3], longest = 0;
@@ -197,6 +208,7 @@ static double centre_size (const pg_mesh *out, size_t e, int *flat)
     return size;
 }
 
+/* Mirrors elements with a negative size; a flat element is a fault. */
 static pg_status turn_outside_out (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;
@@ -230,7 +242,7 @@ static int by_long (const void *p, const void *q)
     return (a > b) - (a < b);
 }
 
-/* Numbers of the groups of solid elements, ascending. */
+/* Groups of the solid elements, ascending, each once. */
 static pg_status list_groups (const pg_mesh_builder *m, size_t *n, long **group)
 {
     pg_status status = PG_OK;
@@ -247,6 +259,7 @@ done:
     return status;
 }
 
+/* Blocks in the order of their numbers. */
 static pg_status make_blocks (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;

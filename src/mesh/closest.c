@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Least distance to an element: a sequence of small quadratic programmes, min |J d - r|^2 with xi + d in the
- * reference element, each solved by going through the sets of bounds that may hold with equality (at most
- * three of at most six). */
+ * Least distance from a place to an element: Gauss-Newton for |x (xi) - place|^2 under the bounds of the
+ * reference element. Each step is a small quadratic programme, min |J d - r|^2 with xi + d within the
+ * bounds, solved by trying all sets of bounds that may hold with equality (at most three of at most six):
+ * with so few that is simpler and safer than an active-set method. */
 #include "closest.h"
 #include "element.h"
 #include <math.h>
 #include <string.h>
 
 enum { BOUNDS = 6, UNKNOWNS = 6 };
-typedef struct { int dim, n; double g[BOUNDS][3], b[BOUNDS]; } bounds;      /* g[k] . xi <= b[k] */
+/* The bounds g[k] . xi <= b[k] of a reference element (n of them). */
+typedef struct { int dim, n; double g[BOUNDS][3], b[BOUNDS]; } bounds;
 
+/* Axes of a simplex: xi >= 0 and their sum <= 1; other axes: -1 <= xi <= 1. */
 static bounds bounds_of (pg_element kind)
 {
     bounds s = { .dim = pg_element_types[kind].dim };
@@ -24,7 +27,7 @@ static bounds bounds_of (pg_element kind)
     return s;
 }
 
-/* Gauss with row exchange; 0: singular. */
+/* Gaussian elimination with pivoting, right-hand side in column n; 0: singular. */
 static int solve (int n, double A[UNKNOWNS][UNKNOWNS + 1], double *x)
 {
     for (int k = 0; k < n; k++) {
@@ -45,8 +48,8 @@ static int solve (int n, double A[UNKNOWNS][UNKNOWNS + 1], double *x)
     return 1;
 }
 
-/* Optimum with the bounds of `set` held with equality; 1 if it is that of the programme: within all bounds,
- * held by all of `set`. */
+/* The optimum with the bounds of `set` (bits) held with equality, by its Karush-Kuhn-Tucker system. 1 if it
+ * is the optimum of the programme: all bounds are met and no multiplier is negative. */
 static int try_set (const bounds *s, double H[3][3], const double c[3], const double *xi, unsigned set,
                     double to[3])
 {
@@ -74,6 +77,7 @@ static int try_set (const bounds *s, double H[3][3], const double c[3], const do
     return 1;
 }
 
+/* The optimum, fewest active bounds first. 0: none was found (J is singular). */
 static int next_point (const bounds *s, double H[3][3], const double c[3], const double *xi, double to[3])
 {
     for (int size = 0; size <= s->dim; size++)
@@ -82,7 +86,8 @@ static int next_point (const bounds *s, double H[3][3], const double c[3], const
     return 0;
 }
 
-/* r = place - x (xi), H = J'J / size^2, c = J'r / size^2 with size^2 = trace J'J; returns |r|^2. */
+/* r = place - x (xi), H = J'J / s, c = J'r / s with s = trace J'J, so that tolerances have no unit; returns
+ * |r|^2. */
 static double normal_equations (pg_element kind, int dim, const double *x, const double *place,
                                 const double *xi, double H[3][3], double c[3])
 {
@@ -110,6 +115,7 @@ static double normal_equations (pg_element kind, int dim, const double *x, const
     return square;
 }
 
+/* A step that does not come nearer is halved; none that does ends the search. */
 double closest_in_element (pg_element kind, int dim, const double *x, const double *place, double *xi)
 {
     enum { STEPS = 30, HALVINGS = 6 };

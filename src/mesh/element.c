@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The table of finite elements: nodes on the reference element, faces, edges, shape functions. Order of nodes
- * and sides: Exodus II. */
+ * Tables of the finite elements: nodes on the reference element, faces, edges, shape functions. Nodes and
+ * sides are in the order of Exodus II, which fixes all tables here. */
 #include "element.h"
 #include <string.h>
 
+/* Name, dimension, nodes, corners, order, faces, edges. */
 const pg_element_type pg_element_types[PG_ELEMENTS] = {
     [PG_POINT1]  = { "point1",  0,  1, 1, 1, 0,  0 },
     [PG_BAR2]    = { "bar2",    1,  2, 2, 1, 2,  1 },
@@ -22,6 +23,7 @@ const pg_element_type pg_element_types[PG_ELEMENTS] = {
     [PG_WEDGE15] = { "wedge15", 3, 15, 6, 2, 5,  9 },
 };
 
+/* Shapes of elements; tables are shared by all orders of a shape. */
 typedef enum { POINT, BAR, TRI, QUAD, TET, HEX, WEDGE, FAMILIES } family;
 static const family family_of[PG_ELEMENTS] = {
     [PG_POINT1] = POINT, [PG_BAR2] = BAR,   [PG_BAR3] = BAR,   [PG_TRI3] = TRI,     [PG_TRI6] = TRI,
@@ -30,8 +32,8 @@ static const family family_of[PG_ELEMENTS] = {
 };
 
 /* ---- faces and edges ----------------------------------------------------------------------------------- */
-/* Nodes of each face of the richest element of a family: corners, middles, centre; poorer elements stop
- * earlier. */
+/* Nodes of each face of the richest element of a shape: corners, middles, centre; poorer elements take
+ * fewer. */
 static const signed char face_nodes[FAMILIES][6][9] = {
     [BAR] = { { 0 }, { 1 } },
     [TRI] = { { 0, 1, 3 }, { 1, 2, 4 }, { 2, 0, 5 } },
@@ -50,6 +52,7 @@ static const signed char face_nodes[FAMILIES][6][9] = {
                 { 3, 4, 5, 12, 13, 14 } },
 };
 
+/* The two corners of each edge. */
 static const signed char edge_nodes[FAMILIES][12][2] = {
     [BAR] = { { 0, 1 } },
     [TRI] = { { 0, 1 }, { 1, 2 }, { 2, 0 } },
@@ -70,6 +73,7 @@ static const signed char edge_nodes[FAMILIES][12][2] = {
     [WEDGE] = { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 4 }, { 2, 5 }, { 3, 4 }, { 4, 5 }, { 5, 3 } },
 };
 
+/* Kind of face f. */
 static pg_element face_kind (pg_element kind, int f)
 {
     switch (kind) {
@@ -107,6 +111,8 @@ void pg_element_edge (pg_element kind, int e, int node[2])
     node[1] = edge_nodes[family_of[kind]][e][1];
 }
 
+/* Bars turn round; triangles, quadrilaterals and tetrahedra exchange two corners; hexahedra and wedges
+ * exchange bottom and top. */
 const signed char *element_mirror (pg_element kind)
 {
     static const signed char turn[FAMILIES][PG_ELEMENT_NODES] = {
@@ -122,6 +128,7 @@ const signed char *element_mirror (pg_element kind)
 }
 
 /* ---- the reference element ----------------------------------------------------------------------------- */
+/* Reference coordinates of the nodes of hexahedra, quadrilaterals and bars. */
 static const signed char brick[27][3] = {
     { -1, -1, -1 }, { 1, -1, -1 }, { 1, 1, -1 }, { -1, 1, -1 }, { -1, -1, 1 }, { 1, -1, 1 },  { 1, 1, 1 },
     { -1, 1, 1 },   { 0, -1, -1 }, { 1, 0, -1 }, { 0, 1, -1 },  { -1, 0, -1 }, { -1, -1, 0 }, { 1, -1, 0 },
@@ -132,13 +139,14 @@ static const signed char square[9][3] = { { -1, -1 }, { 1, -1 }, { 1, 1 },  { -1
                                           { 1, 0 },   { 0, 1 },  { -1, 0 }, { 0, 0 } };
 static const signed char rod[3][3] = { { -1 }, { 1 }, { 0 } };
 
-/* Signs of a node of a bar, quad or hex. */
+/* The same for a node of one of these kinds. */
 static const signed char *signs (pg_element kind, int node)
 {
     family f = family_of[kind];
     return f == HEX ? brick[node] : f == QUAD ? square[node] : rod[node];
 }
 
+/* Nodes of simplices and wedges beyond the corners lie in the middle of an edge. */
 void pg_element_node (pg_element kind, int node, double *xi)
 {
     static const double corner[6][3] = { { 0, 0, -1 }, { 1, 0, -1 }, { 0, 1, -1 },
@@ -156,7 +164,8 @@ void pg_element_node (pg_element kind, int node, double *xi)
 }
 
 /* ---- shape functions ----------------------------------------------------------------------------------- */
-/* One factor of a product of linear (nodes -1, 1) or quadratic (and 0) polynomials, and its slope. */
+/* A factor of a product of Lagrange polynomials in one coordinate t, and its slope: linear with nodes -1
+ * and 1, or quadratic with nodes -1, 0 and 1; s: the node. */
 static double factor (int order, int s, double t, double *slope)
 {
     if (order == 1) {
@@ -167,6 +176,7 @@ static double factor (int order, int s, double t, double *slope)
     return s ? t * (t + s) / 2 : (1 - t) * (1 + t);
 }
 
+/* Bars, quadrilaterals and hexahedra with all nodes of a product: products of Lagrange polynomials. */
 static void shape_product (pg_element kind, const double *xi, double *N, double *dN)
 {
     const pg_element_type *type = &pg_element_types[kind];
@@ -185,8 +195,8 @@ static void shape_product (pg_element kind, const double *xi, double *N, double 
     }
 }
 
-/* Quads and hexes without nodes inside faces: corners prod (1 + s t) (sum s t - dim + 1) / 2^dim, middles (1
- * - t^2) prod (1 + s t) / 2^(dim-1). */
+/* Quadrilaterals and hexahedra without nodes inside faces: corners prod (1 + s t) (sum s t - dim + 1) /
+ * 2^dim, middles of edges (1 - t^2) prod (1 + s t) / 2^(dim - 1). */
 static void shape_serendipity (pg_element kind, const double *xi, double *N, double *dN)
 {
     const pg_element_type *type = &pg_element_types[kind];
@@ -209,7 +219,7 @@ static void shape_serendipity (pg_element kind, const double *xi, double *N, dou
     }
 }
 
-/* Barycentric L_k, slope[k]: of L_k. Corners L (2 L - 1), middles 4 L_a L_b. */
+/* Triangles and tetrahedra in barycentric coordinates L: corners L, or L (2 L - 1); middles 4 L_a L_b. */
 static void shape_simplex (pg_element kind, const double *xi, double *N, double *dN)
 {
     const pg_element_type *type = &pg_element_types[kind];
@@ -228,8 +238,8 @@ static void shape_simplex (pg_element kind, const double *xi, double *N, double 
     }
 }
 
-/* Triangle (p, q: its corners) times line; s: end of the line, 0 half-way. Corners of wedge15: L (1 + s t) (2
- * L - 2 + s t) / 2. */
+/* Triangle (corners p, q) times line; s: end of the line, 0 half-way. Corners of wedge15: L (1 + s t) (2 L
+ * - 2 + s t) / 2. */
 static void shape_wedge (pg_element kind, const double *xi, double *N, double *dN)
 {
     const pg_element_type *type = &pg_element_types[kind];

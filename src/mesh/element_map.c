@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The isoparametric map x (xi) = sum N x_i: size, normal, and its inverse by Newton. */
+ * The isoparametric map x (xi) = sum N_i (xi) x_i: its size factor and normal, and its inverse by Newton's
+ * method. */
 #include "element.h"
 #include <math.h>
 
-/* x and J[axis][reference axis]. */
+/* x and J[axis][reference axis] = dx / dxi at xi. */
 static void place_and_slope (pg_element kind, int dim, const double *x, const double *xi, double place[3],
                              double J[3][3])
 {
@@ -21,7 +22,7 @@ static void place_and_slope (pg_element kind, int dim, const double *x, const do
         }
 }
 
-/* Length, area or volume of the image of the unit cube; n: normal, not of unit length. */
+/* Length, area or volume of the image of the unit cube of dimension d; n: normal, not of unit length. */
 static double size_of (int d, int dim, double J[3][3], double n[3])
 {
     n[0] = 1, n[1] = n[2] = 0;
@@ -53,7 +54,7 @@ double pg_element_map (pg_element kind, int dim, const double *x, const double *
 }
 
 /* ---- inverse ------------------------------------------------------------------------------------------- */
-/* step = J^-1 r; 0 where J is singular. */
+/* step = J^-1 r (d x d) by Cramer's rule; 0 where J is singular. */
 static int solve (int d, double J[3][3], const double r[3], double step[3])
 {
     double n[3], det = size_of (d, d, J, n);
@@ -85,6 +86,8 @@ void element_centre (pg_element kind, double *xi)
     }
 }
 
+/* Linear simplices converge in one step. Steps of curved elements are limited to 2, so that the iteration
+ * does not leave the region where the map is invertible. */
 int pg_element_invert (pg_element kind, const double *x, const double *place, double *xi)
 {
     enum { STEPS = 40 };
@@ -106,6 +109,7 @@ int pg_element_invert (pg_element kind, const double *x, const double *place, do
     return 0;
 }
 
+/* The largest violation of a bound of the reference element. */
 double pg_element_outside (pg_element kind, const double *xi)
 {
     int d = pg_element_types[kind].dim, corners = pg_element_types[kind].corners,

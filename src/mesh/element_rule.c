@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Quadrature on the reference elements. Triangles and tetrahedra: orbits of points under the symmetries of
- * the simplex; weights and places were found by solving the moment equations of the invariant polynomials
- * (Newton from random starts, polished with 70 digits). */
+ * Quadrature on the reference elements. Rules of triangles and tetrahedra consist of orbits of points under
+ * the symmetries of the simplex; weights and positions were found by solving the moment equations of the
+ * invariant polynomials (Newton's method from random starts, polished with 70 digits). test/mesh checks
+ * their degree. */
 #include "element.h"
 #include <string.h>
 
@@ -26,11 +27,14 @@ void pg_gauss_rule (int order, double *x, double *w)
     memcpy (w, W[order - 1], (size_t) order * sizeof *w);
 }
 
-/* All arrangements of barycentric coordinates; equal ones have equal places in `same`. Weight: share of the
- * simplex, each point. */
+/* An orbit: all permutations of barycentric coordinates; coordinates with equal numbers in `same` are
+ * equal. weight: of each point, as a share of the simplex. */
 typedef struct { signed char same[4]; double weight, value[3]; } orbit;
+/* A rule of n orbits. */
 typedef struct { int n; orbit orbit[7]; } rule;
 
+/* Kinds of orbits, named by the multiplicities of their coordinates; the last coordinate follows from the
+ * sum. */
 #define CENTRE(w)            { { 0, 0, 0, 0 }, (w), { 1.0 / 3 } }
 #define TRI_21(w, a)         { { 0, 0, 1 }, (w), { (a), 1 - 2 * (a) } }
 #define TRI_111(w, a, b)     { { 0, 1, 2 }, (w), { (a), (b), 1 - (a) - (b) } }
@@ -85,7 +89,7 @@ static const rule tetrahedron[5] = { /* degrees 1, 2, 5, 6, 8; points 1, 4, 14, 
                                                   0.58871478189603453445) } }
 };
 
-/* Next arrangement in the order of a dictionary; 0: that was the last. */
+/* Next permutation in lexicographic order; 0: that was the last. */
 static int next (int n, signed char *a)
 {
     int i = n - 2, j = n - 1;

@@ -1,19 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A mesh one element thick between two planes of constant z, as CalculiX makes of plane elements, back to the
- * plane mesh. */
+ * A mesh one element thick between two planes of constant z, as CalculiX makes of plane elements, back to
+ * the plane mesh. Each element must have a face on either plane, and the nodes of the upper face must lie
+ * above those of the lower one. */
 #include "builder.h"
 #include "element.h"
 #include <math.h>
 #include <string.h>
 
+/* The mesh, and what is known of its nodes. */
 typedef struct {
     const pg_mesh *mesh;
-    double  low, high;                                 /* z */
-    signed char *level;                                /* of each node: 0 below, 1 between, 2 above */
-    int    *twin;                                      /* of a node below: that above it, and back; -1 */
+    /* The two planes, z. */
+    double  low, high;
+    /* Of each node: 0 on the lower plane, 1 half-way, 2 on the upper plane (nnode). */
+    signed char *level;
+    /* Of each node on a plane the node opposite it, -1: none (nnode). */
+    int    *twin;
     pg_mesh_builder *builder;
 } plate;
 
+/* Levels of all nodes, to 1e-3 of the thickness. */
 static pg_status find_levels (plate *p)
 {
     pg_status status = PG_OK;
@@ -35,7 +41,7 @@ done:
     return status;
 }
 
-/* Face of element e with all corners on a level; -1. */
+/* Face of element e with all corners on a level, -1: none. */
 static int face_on (const plate *p, size_t e, int level)
 {
     const pg_mesh *m = p->mesh;
@@ -48,7 +54,8 @@ static int face_on (const plate *p, size_t e, int level)
     return -1;
 }
 
-/* The nodes below those of the upper face, in the order of the upper face: counter-clockwise. */
+/* Finds the lower twin of each node of the upper face of element e, and writes their numbers in the order
+ * of the upper face, which is counter-clockwise seen from above. Twins must agree between elements. */
 static pg_status pair_nodes (plate *p, size_t e, long node[9], pg_element *kind)
 {
     pg_status status = PG_OK;
@@ -82,11 +89,13 @@ done:
     return status;
 }
 
+/* Number of block b, its place + 1 where the file gave none. */
 static long group_of (const pg_mesh *m, size_t b)
 {
     return m->blocks[b].id > 0 ? m->blocks[b].id : (long) b + 1;
 }
 
+/* Plane elements, blocks, and the nodes half-way between twins. */
 static pg_status add_elements (plate *p)
 {
     pg_status status = PG_OK;
@@ -110,8 +119,8 @@ done:
     return status;
 }
 
-/* Side of the plane element (the upper face, turned to the nodes below) that a side of element e stands on;
- * -1: it lies flat. */
+/* The side of the plane element that side `side` of solid element e stands on; -1: it is one of the faces
+ * on the planes. */
 static int standing (const plate *p, size_t e, int side)
 {
     const pg_mesh *m = p->mesh;
@@ -127,6 +136,7 @@ static int standing (const plate *p, size_t e, int side)
     return -1;
 }
 
+/* Node sets by the lower twins, side sets by sides that stand upright. */
 static pg_status add_sets (plate *p)
 {
     pg_status status = PG_OK;
@@ -154,7 +164,8 @@ done:
     return status;
 }
 
-/* Means of both sides, at the nodes of the plane mesh; at: node below of each. */
+/* The field becomes the means of both sides at the nodes of the plane mesh; at: the node below of each.
+ * work: room for nodes x components. */
 static void take_means (const plate *p, const pg_mesh *flat, const int *at, pg_mesh_field *f, double *work)
 {
     size_t n = (size_t) f->components, keep = n == 3 ? 2 : n;
@@ -167,6 +178,7 @@ static void take_means (const plate *p, const pg_mesh *flat, const int *at, pg_m
     f->components = (int) keep;
 }
 
+/* All fields, after the nodes of the plane mesh have been found by their numbers. */
 static pg_status flatten_fields (const plate *p, const pg_mesh *flat, size_t nfield, pg_mesh_field *fields)
 {
     pg_status status = PG_OK;

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Numbers of nodes and elements as a file gives them, found again in constant time. */
+ * Numbers of nodes and elements as a file gives them, found again in constant time. Most files number
+ * without large gaps: a plain table serves. Else a hash table with open addressing, at most half full. */
 #include "perigal/mesh.h"
 #include <stdint.h>
 #include <string.h>
 
+/* Fibonacci hashing: multiplication by 2^64 over the golden ratio spreads consecutive numbers. */
 static size_t slot_of (const pg_id_table *t, long id)
 {
     uint64_t h = (uint64_t) id * UINT64_C (0x9E3779B97F4A7C15);
     return (size_t) (h >> 32) & t->mask;
 }
 
-/* Places in `direct` hold the number of the entry + 1. */
+/* Entries of `direct` hold the place of a number + 1; 0: empty. */
 static pg_status build_dense (pg_id_table *t, size_t *twice)
 {
     pg_status status = PG_OK;
@@ -24,6 +26,7 @@ done:
     return status;
 }
 
+/* The same with linear probing. */
 static pg_status build_hash (pg_id_table *t, size_t *twice)
 {
     pg_status status = PG_OK;
@@ -41,6 +44,7 @@ done:
     return status;
 }
 
+/* A plain table takes at most four times the memory of the list. */
 pg_status pg_id_table_build (pg_id_table *t, size_t n, const long *id, size_t *twice)
 {
     long low = n ? id[0] : 0, high = low;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields at nodes of a mesh between them: sum N value, and its gradient. */
+ * Fields given at the nodes of a mesh, within its elements: sum N_i value_i, and the gradient. */
 #include "element.h"
 #include <math.h>
 #include <string.h>
@@ -15,7 +15,7 @@ void pg_mesh_value (const pg_mesh *mesh, const pg_mesh_field *field, size_t elem
         for (size_t c = 0; c < n; c++) out[c] += N[k - first] * field->value[(size_t) mesh->node[k] * n + c];
 }
 
-/* Inverse of J (dim x dim) by cofactors; its determinant. */
+/* Inverse of J (dim x dim, enlarged to 3 x 3 by ones) by cofactors; returns its determinant. */
 static double invert (int dim, double J[3][3], double inverse[3][3])
 {
     for (int a = dim; a < 3; a++) for (int b = 0; b < 3; b++) J[a][b] = J[b][a] = a == b;
@@ -30,6 +30,7 @@ static double invert (int dim, double J[3][3], double inverse[3][3])
     return det;
 }
 
+/* dN/dx = dN/dxi J^-1, summed with the values at the nodes. */
 int pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi,
                       double *out)
 {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Search for the element that holds a place: a tree of boxes, halved by the middle of the centres. A mesh may
- * be as graded as it likes. Of several elements that hold a place (on a face between them) the lowest is
- * taken, so that the shape of the tree does not matter. */
+ * Search for the element that holds a place: a binary tree of boxes over the elements, divided at the
+ * median of the centres along the longest axis, so that the depth is log2 n however graded the mesh is. Of
+ * several elements that hold a place (on a face between them) the lowest is taken, so that the answer does
+ * not depend on the shape of the tree. */
 #include "closest.h"
 #include "locator.h"
 #include "element.h"
@@ -10,22 +11,34 @@
 #include <math.h>
 #include <string.h>
 
+/* Elements in a leaf at most; depth of the stack of a search. */
 enum { LEAF = 4, DEPTH = 64 };
-static const double inside = 1e-9;  /* reference units: no gaps between neighbours by rounding */
+/* A place this far outside the reference element still counts as inside: rounding must leave no gaps
+ * between neighbours. */
+static const double inside = 1e-9;
+/* A box along the axes. */
 typedef struct { double low[3], high[3]; } box;
-/* leaf: n elements from `first`; else n = 0, left child is the next node */
+/* A leaf has the n items from `first` on. An inner node has n = 0; its left child is the next node, its
+ * right child has the number `right`. */
 typedef struct { box box; int first, n, right; } tree_node;
+
+/* The tree. */
 struct pg_mesh_locator {
     const pg_mesh *mesh;
     int        dim;
     tree_node *tree;
     size_t     ntree;
-    int       *item;                                   /* elements in the order of the leaves */
-    box       *box;                                    /* of item k */
-    double    *centre;                                 /* while building (n x dim) */
-    double     largest;                                /* element size */
+    /* Elements in the order of the leaves (mesh->n). */
+    int       *item;
+    /* Box of each item. */
+    box       *box;
+    /* Centres of the boxes, only while building (n x dim). */
+    double    *centre;
+    /* Largest size of an element. */
+    double     largest;
 };
 
+/* Copies the nodes of element e (nodes x dim); returns its kind. */
 static pg_element nodes_of (const pg_mesh_locator *f, size_t e, double x[3 * PG_ELEMENT_NODES])
 {
     const pg_mesh *m = f->mesh;
@@ -72,18 +85,21 @@ static box box_of (const pg_mesh_locator *f, size_t e, double *size)
     return b;
 }
 
+/* Enlarges a so that it holds b. */
 static void unite (box *a, const box *b, int dim)
 {
     for (int k = 0; k < dim; k++)
         a->low[k] = fmin (a->low[k], b->low[k]), a->high[k] = fmax (a->high[k], b->high[k]);
 }
 
+/* Does the box hold the place? */
 static int holds (const box *b, const double *place, int dim)
 {
     for (int a = 0; a < dim; a++) if (!(place[a] >= b->low[a] && place[a] <= b->high[a])) return 0;
     return 1;
 }
 
+/* Distance of the place from the box; 0 inside. */
 static double distance (const box *b, const double *place, int dim)
 {
     double square = 0;
@@ -95,6 +111,7 @@ static double distance (const box *b, const double *place, int dim)
 }
 
 /* ---- tree ---------------------------------------------------------------------------------------------- */
+/* Order of two elements along an axis; equal centres by number, so that the tree is unique. */
 static int before (const pg_mesh_locator *f, int p, int q, int axis)
 {
     double a = f->centre[(size_t) p * (size_t) f->dim + (size_t) axis],
@@ -102,7 +119,7 @@ static int before (const pg_mesh_locator *f, int p, int q, int axis)
     return a < b || (a == b && p < q);
 }
 
-/* Puts the k smallest of the n items from `first` on first (Hoare's selection; equal centres by number). */
+/* Puts the k smallest of the n items from `first` on first (Hoare's selection). */
 static void halve (pg_mesh_locator *f, int first, int n, int k, int axis)
 {
     int *v = f->item + first, low = 0, high = n - 1;
@@ -119,6 +136,7 @@ static void halve (pg_mesh_locator *f, int first, int n, int k, int axis)
     }
 }
 
+/* The axis along which the centres of these items extend farthest. */
 static int longest_axis (const pg_mesh_locator *f, int first, int n)
 {
     int best = 0;
@@ -134,8 +152,8 @@ static int longest_axis (const pg_mesh_locator *f, int first, int n)
     return best;
 }
 
-/* Nodes in the order of a walk: a node, its left half, its right half. boxes: of elements, by their
- * number. */
+/* Builds the subtree of n items, nodes in the order: a node, its left half, its right half. boxes: by
+ * elements. Returns the number of its root. */
 static int build (pg_mesh_locator *f, const box *boxes, int first, int n)
 {
     int k = (int) f->ntree++;
@@ -197,7 +215,7 @@ void pg_mesh_locator_free (pg_mesh_locator **locator)
     *locator = NULL;
 }
 
-/* Triangles and tetrahedra with straight sides, without Newton's method; 0: flat. */
+/* Reference coordinates in triangles and tetrahedra with straight edges, in closed form; 0: flat. */
 static int invert_simplex (int dim, const double *x, const double *p, double *xi)
 {
     double e[3][3], r[3];
@@ -221,6 +239,7 @@ static int invert_simplex (int dim, const double *x, const double *p, double *xi
     return det != 0;
 }
 
+/* Reference coordinates in any element. */
 static int invert (pg_element kind, int dim, const double *x, const double *place, double *xi)
 {
     return kind == PG_TRI3 || kind == PG_TET4 ? invert_simplex (dim, x, place, xi)
@@ -228,6 +247,7 @@ static int invert (pg_element kind, int dim, const double *x, const double *plac
 }
 
 /* ---- questions ----------------------------------------------------------------------------------------- */
+/* The lowest element that holds the place, -1: none. */
 static long find_inside (const pg_mesh_locator *f, const double *place, double *xi)
 {
     int todo[DEPTH], n = 0, dim = f->dim;
@@ -275,9 +295,12 @@ double pg_mesh_locator_depth (const pg_mesh_locator *f, const double *place, dou
 }
 
 /* The nearest so far; d: its distance. Elements as near as that to nine digits: the lowest. */
-/* far: more than its own size away counts too */
+/* The nearest element so far, at distance d; away: d in sizes of the element. far: elements farther away
+ * than their own size count too. */
 typedef struct { long element; double d, away, xi[3]; int far; } nearest;
 
+/* Compares item k with the nearest so far. Distances that agree to nine digits are equal, and the lower
+ * element wins. */
 static void consider (const pg_mesh_locator *f, const double *place, int k, nearest *best)
 {
     double x[3 * PG_ELEMENT_NODES], xi[3], size;
@@ -291,6 +314,7 @@ static void consider (const pg_mesh_locator *f, const double *place, int k, near
     memcpy (best->xi, xi, (size_t) f->dim * sizeof *xi);
 }
 
+/* Walks down the tree, nearer child first; boxes farther away than the nearest element are passed over. */
 static void find_nearest (const pg_mesh_locator *f, const double *place, nearest *best)
 {
     int todo[DEPTH], n = 0;

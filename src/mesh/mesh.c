@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Meshes: their surface, and their end. */
+ * Meshes: release, keys of faces, and the surface.
+ *
+ * The surface consists of the faces that belong to one element only. Faces are put into buckets by their
+ * smallest node, where equal ones meet: linear time, and a few faces in each bucket. */
 #include "element.h"
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +19,7 @@ void pg_mesh_clear (pg_mesh *mesh)
     memset (mesh, 0, sizeof *mesh);
 }
 
+/* Insertion sort of at most four nodes. */
 void mesh_face_key (const pg_mesh *mesh, size_t e, int f, int key[4])
 {
     int corner[4], n = element_face_corners (mesh->kind[e], f, corner);
@@ -28,11 +32,15 @@ void mesh_face_key (const pg_mesh *mesh, size_t e, int f, int key[4])
 }
 
 /* ---- surface ------------------------------------------------------------------------------------------- */
+/* Faces of an element at most; up to FEW faces a bucket is searched pair by pair. */
 enum { SIDES = 6, FEW = 48 };
-typedef struct { int key[3]; unsigned face; } entry;       /* the other corners; element * SIDES + side */
+/* A face in a bucket: its other corners, and element * SIDES + side. */
+typedef struct { int key[3]; unsigned face; } entry;
 
+/* Do two entries of a bucket have the same corners? */
 static int same (const entry *a, const entry *b) { return !memcmp (a->key, b->key, sizeof a->key); }
 
+/* For qsort. */
 static int by_key (const void *p, const void *q)
 {
     const entry *a = p, *b = q;
@@ -40,7 +48,7 @@ static int by_key (const void *p, const void *q)
     return (a->face > b->face) - (a->face < b->face);
 }
 
-/* Marks in `open` the faces of one bucket (those with the same smallest node) that have no twin. */
+/* Marks in `open` the faces of one bucket that no other equals. */
 static void open_faces (entry *b, size_t n, unsigned char *open)
 {
     if (n > FEW) {
@@ -56,7 +64,7 @@ static void open_faces (entry *b, size_t n, unsigned char *open)
     }
 }
 
-/* Faces in buckets by their smallest node: those of node k are (*out)[start[k]..start[k+1]). */
+/* Fills the buckets: those of node k are (*out)[start[k]] .. (*out)[start[k + 1] - 1]. */
 static pg_status fill_buckets (const pg_mesh *mesh, size_t *start, entry **out)
 {
     pg_status status = PG_OK;

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The surface of a mesh as a mesh of faces, in a tree: distance to it, its box, its size. */
+ * The surface of a mesh as a mesh of faces in a search tree: distance to it, its box, its size. */
 #include "locator.h"
 #include <math.h>
 #include <string.h>
 
+/* The faces as a mesh whose elements have one dimension less than its space; positions are borrowed. */
 struct pg_mesh_skin {
     pg_mesh faces;  /* dim of the space, elements of one less; x is borrowed */
     pg_mesh_locator *locator;
     int *element, *side;
 };
 
+/* Copies kinds and nodes of the faces. */
 static void fill (pg_mesh *f, const pg_mesh *m, const int *element, const int *side)
 {
     int node[9];
@@ -54,6 +56,7 @@ void pg_skin_free (pg_mesh_skin **skin)
     *skin = NULL;
 }
 
+/* A place with a coordinate that is no number is at no distance. */
 double pg_skin_distance (const pg_mesh_skin *skin, const double *place, double reach, long *face)
 {
     double d = HUGE_VAL;
@@ -70,6 +73,7 @@ void pg_skin_face (const pg_mesh_skin *skin, size_t face, int *element, int *sid
     *element = skin->element[face], *side = skin->side[face];
 }
 
+/* Copies the nodes of face k (nodes x dim); returns its kind. */
 static pg_element nodes_of (const pg_mesh *f, size_t k, double *x)
 {
     size_t dim = (size_t) f->dim, first = f->start[k];
@@ -78,8 +82,8 @@ static pg_element nodes_of (const pg_mesh *f, size_t k, double *x)
     return (pg_element) f->kind[k];
 }
 
-/* Where a curved face passes its nodes: on a grid of 32 steps, whose height misses that of a parabola by (1 /
- * 32)^2 at most. */
+/* Enlarges low and high by a curved face, sampled on a grid of 32 steps: its height misses that of a
+ * parabola by (1/32)^2 at most. */
 static void widen (const double *x, pg_element kind, int dim, double *low, double *high)
 {
     enum { STEPS = 32 };
@@ -94,7 +98,7 @@ static void widen (const double *x, pg_element kind, int dim, double *low, doubl
         }
 }
 
-/* Flat faces end where their nodes are, to the last bit. */
+/* Plane faces end at their nodes, to the last bit; curved ones may pass beyond these. */
 void pg_skin_box (const pg_mesh_skin *skin, double *low, double *high)
 {
     const pg_mesh *f = &skin->faces;
@@ -114,6 +118,7 @@ void pg_skin_box (const pg_mesh_skin *skin, double *low, double *high)
     }
 }
 
+/* Quadrature of the highest order over all faces. */
 double pg_skin_size (const pg_mesh_skin *skin)
 {
     const pg_mesh *f = &skin->faces;

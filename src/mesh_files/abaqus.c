@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Input files of Abaqus and CalculiX: nodes, elements, sets, surfaces; files by *INCLUDE; all other keywords
- * are passed over. Keywords and names count without regard to case and blanks around them. */
+ * Input files of Abaqus and CalculiX: nodes, elements, sets, surfaces, and files by *INCLUDE; all other
+ * keywords are skipped, unless they would generate nodes or elements, which is a fault. Keywords and names
+ * are compared without regard to case and surrounding blanks. This file reads keyword lines; abaqus_data.c
+ * reads the data lines behind them. */
 #include "abaqus.h"
 #include <ctype.h>
 #include <stdarg.h>
@@ -9,8 +11,10 @@
 #include <string.h>
 #include <strings.h>
 
+/* A limit, since files may include one another. */
 enum { MOST_INCLUDES = 1000 };
 typedef abaqus_reader reader;
+/* The innermost open file. */
 static const abaqus_file *now (const reader *r) { return &r->file[r->depth]; }
 
 pg_status abaqus_wrong (const reader *r, const char *where, const char *format, ...)
@@ -23,6 +27,7 @@ pg_status abaqus_wrong (const reader *r, const char *where, const char *format, 
     return pg_error (PG_E_FILE, where, "%s, line %ld: %s", now (r)->bytes.path, now (r)->c.line, why);
 }
 
+/* Reads the next line of a file; 0: its end. */
 static int next_line (abaqus_file *f) { return mesh_line (&f->c, &f->line, &f->end); }
 
 static void file_close (abaqus_file *f)
@@ -32,6 +37,7 @@ static void file_close (abaqus_file *f)
 }
 
 /* ---- keyword lines ------------------------------------------------------------------------------------- */
+/* Names may be in quotes, within which blanks and commas are letters. */
 void abaqus_trim (char *to, size_t size, const char *s, const char *end)
 {
     while (s < end && isspace ((unsigned char) *s)) s++;
@@ -42,6 +48,7 @@ void abaqus_trim (char *to, size_t size, const char *s, const char *end)
     to[n] = 0;
 }
 
+/* Copies [s, end) in capitals without blanks. */
 static void copy_key (char *to, size_t size, const char *s, const char *end)
 {
     size_t n = 0;
@@ -50,11 +57,13 @@ static void copy_key (char *to, size_t size, const char *s, const char *end)
     to[n] = 0;
 }
 
+/* Comment lines begin with two asterisks. */
 static int is_comment (const abaqus_file *f)
 {
     return f->end - f->line >= 2 && f->line[0] == '*' && f->line[1] == '*';
 }
 
+/* Appends KEY or KEY=VALUE; more parameters than there is room for are ignored. */
 static void add_parameter (reader *r, const char *s, const char *end)
 {
     const char *equal = memchr (s, '=', (size_t) (end - s));
@@ -66,7 +75,7 @@ static void add_parameter (reader *r, const char *s, const char *end)
     if (p->key[0]) r->nparameter++;
 }
 
-/* *KEYWORD, KEY=VALUE, KEY ...; a line that ends with a comma goes on. */
+/* A keyword line, *KEYWORD, KEY=VALUE, KEY ...; one that ends with a comma continues on the next line. */
 static void read_keyword (reader *r)
 {
     abaqus_file *f = &r->file[r->depth];
@@ -88,6 +97,7 @@ static void read_keyword (reader *r)
     }
 }
 
+/* Value of a parameter, "" where it has none, NULL: it is not given. */
 static const char *value_of (const reader *r, const char *key)
 {
     for (int k = 0; k < r->nparameter; k++)
@@ -95,7 +105,7 @@ static const char *value_of (const reader *r, const char *key)
     return NULL;
 }
 
-/* Name of a set or surface; one that an assembly writes as INSTANCE.NAME is that of the one instance. */
+/* The name that parameter `key` (or `fallback`) gives; it must be there. */
 static pg_status name_of (const reader *r, const char *key, const char *fallback, char name[ABAQUS_NAME])
 {
     const char *value = value_of (r, key);
@@ -105,6 +115,7 @@ static pg_status name_of (const reader *r, const char *key, const char *fallback
     return PG_OK;
 }
 
+/* *NODE; only rectangular coordinates are read. */
 static pg_status begin_nodes (reader *r)
 {
     pg_status status = PG_OK;
@@ -124,6 +135,7 @@ done:
     return status;
 }
 
+/* *ELEMENT; an unknown type is a fault that lists the known ones. */
 static pg_status begin_elements (reader *r)
 {
     pg_status status = PG_OK;
@@ -152,6 +164,7 @@ done:
     return status;
 }
 
+/* *NSET or *ELSET. */
 static pg_status begin_set (reader *r, int nodes)
 {
     pg_status status = PG_OK;
@@ -171,6 +184,7 @@ done:
     return status;
 }
 
+/* *SURFACE of elements or nodes; combinations of surfaces are skipped. */
 static pg_status begin_surface (reader *r)
 {
     pg_status status = PG_OK;
@@ -196,6 +210,7 @@ done:
     return status;
 }
 
+/* A section makes its element set a block where elements have no other. */
 static pg_status begin_section (reader *r)
 {
     pg_status status = PG_OK;
@@ -209,7 +224,7 @@ done:
     return status;
 }
 
-/* A file named relative to the one that includes it. */
+/* *INCLUDE: opens a file named relative to the one that includes it. */
 static pg_status begin_include (reader *r, const char *name)
 {
     pg_status status = PG_OK;
@@ -239,6 +254,7 @@ done:
     return status;
 }
 
+/* *INSTANCE: only one. */
 static pg_status begin_instance (reader *r)
 {
     pg_status status = PG_OK;
@@ -252,7 +268,7 @@ done:
     return status;
 }
 
-/* What makes nodes or elements from others: without it the mesh would be another. */
+/* Keywords that make nodes or elements from others: skipping them would give another mesh. */
 static int generates (const char *keyword)
 {
     static const char *const word[] = { "NGEN",   "NFILL",  "NCOPY",  "NMAP",    "ELGEN",
@@ -261,6 +277,7 @@ static int generates (const char *keyword)
     return 0;
 }
 
+/* A fault if the element being read lacks nodes. */
 static pg_status finish_element (const reader *r)
 {
     if (r->have < 0) return PG_OK;

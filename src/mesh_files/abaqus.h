@@ -1,49 +1,66 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * abaqus.h: what the files of the .inp reader share: element types (abaqus_type.c), what was read before it
- * is resolved (abaqus.c fills it), and the way from there into a mesh (abaqus_sets.c). */
+ * Private: what the files of the .inp reader share: element types (abaqus_type.c), what was read before
+ * names and numbers are resolved (filled by abaqus.c and abaqus_data.c), and the way from there into a mesh
+ * (abaqus_sets.c). An .inp file may name sets before their members exist, and sets of sets, so that
+ * resolving has to wait for the end. */
 #ifndef MESH_ABAQUS_H
 #define MESH_ABAQUS_H
 #include "format.h"
 
 /* ---- abaqus_type.c ------------------------------------------------------------------------------------- */
+/* An element type of Abaqus or CalculiX. */
 typedef struct {
     pg_element kind;
-    int  nodes;                                        /* on the lines of the file */
-    int  shell;                                        /* its faces 1, 2 are not sides of the plane element */
+    /* Number of nodes on the lines of the file. */
+    int  nodes;
+    /* 1: a shell or membrane: its faces 1 and 2 are no sides of the plane element. */
+    int  shell;
 } abaqus_type;
-/* 0: unknown (near: the nearest known name); 1: an element; 2: one without extent (springs, masses ...), to
- * be passed over. */
+/* Looks up a type. 0: unknown (near: the nearest known name, or ""); 1: an element; 2: one without extent
+ * (springs, masses ...), which is skipped. */
 int abaqus_find_type (const char *name, abaqus_type *type, char near[32]);
 /* order[k]: which node of the file is node k of the element. */
 void abaqus_node_order (pg_element kind, int order[PG_ELEMENT_NODES]);
-/* Side from 0 of a face as in *SURFACE (S1, P2, E3), -1: the element has none such, -2: face of a shell
- * (SPOS, SNEG, S1, S2). */
+/* Side, from 0, of a face as *SURFACE names it (S1, P2, E3); -1: the element has none such; -2: a face of a
+ * shell (SPOS, SNEG, S1, S2). */
 int abaqus_side (pg_element kind, int shell, const char *face);
 
 /* ---- what the lines say -------------------------------------------------------------------------------- */
 enum { ABAQUS_NAME = 64 };
-typedef struct { long first, last, step, line; } abaqus_range;  /* line: of entries that must exist, else 0 */
-/* step: of numbers first, first + step ... last; or one of these: all of set number `first`, the nodes of
- * element set number `first`. */
+/* Members of a set: the numbers first, first + step, ... last. line: of the file, where a member that does
+ * not exist is a fault, else 0. */
+typedef struct { long first, last, step, line; } abaqus_range;
+/* Other values of step: all of set number `first`; the nodes of element set number `first`. */
 enum { ABAQUS_SET = 0, ABAQUS_NODES_OF = -1 };
-/* named: by *ELEMENT: a block */
+/* A set; named: *ELEMENT names it, so that it is a block. */
 typedef struct { char name[ABAQUS_NAME]; size_t n, capacity; abaqus_range *range; int named; } abaqus_set;
 typedef struct { size_t n, capacity; abaqus_set *set; } abaqus_sets;
-typedef struct { long element, line; int set; char face[8]; } abaqus_face;  /* set -1: one element */
+/* A line of *SURFACE: an element (set = -1) or an element set, and the face. */
+typedef struct { long element, line; int set; char face[8]; } abaqus_face;
 typedef struct { char name[ABAQUS_NAME]; size_t n, capacity; abaqus_face *face; } abaqus_surface;
+
+/* All that was read. */
 typedef struct {
+    /* Receives nodes and elements at once, sets at the end. */
     pg_mesh_builder *builder;
+    /* The main file, for messages. */
     const char *path;
-    int    included;                                   /* files by *INCLUDE so far */
-    size_t capacity;  unsigned char *shell;                /* of every element of the builder */
+    /* Number of files read by *INCLUDE. */
+    int    included;
+    /* 1 for each element of the builder that is a shell. */
+    size_t capacity;  unsigned char *shell;
+    /* Node sets and element sets. */
     abaqus_sets nset, elset;
-    /* element sets of *SOLID SECTION, in their order */
+    /* Element sets of *SOLID SECTION and the like, in their order. */
     size_t nsection, section_capacity;  int *section;
     size_t nsurface, surface_capacity;  abaqus_surface *surface;
 } abaqus;
 
 /* ---- abaqus.c, abaqus_data.c: a file being read -------------------------------------------------------- */
+/* Files that include one another, at most; parameters of a keyword; length of a word. */
 enum { ABAQUS_DEEPEST = 8, ABAQUS_PARAMETERS = 24, ABAQUS_WORD = 256 };
+
+/* What data lines mean at present. */
 typedef enum {
     ABAQUS_SKIP,
     ABAQUS_NODE_LINES,
@@ -54,37 +71,53 @@ typedef enum {
     ABAQUS_NODE_SURFACE,
     ABAQUS_INSTANCE
 } abaqus_mode;
-/* line: the one now, up to its end */
+/* A file that is open; line .. end: the present line. */
 typedef struct { char *path; mesh_file bytes; mesh_cursor c; const char *line, *end; } abaqus_file;
+/* A parameter KEY=VALUE of a keyword line. */
 typedef struct { char key[32], value[ABAQUS_WORD]; } abaqus_parameter;
+
+/* State of the reader. */
 typedef struct {
     abaqus      data;
-    abaqus_file file[ABAQUS_DEEPEST];  /* file[0]: the main one; the others by *INCLUDE */
-    int         depth;                                 /* files open - 1 */
+    /* file[0] is the main file, the others are included. */
+    abaqus_file file[ABAQUS_DEEPEST];
+    /* Number of open files - 1. */
+    int         depth;
     abaqus_mode mode;
-    char        keyword[32];                           /* capitals, no blanks */
+    /* The present keyword in capitals, without blanks. */
+    char        keyword[32];
     int         nparameter;
     abaqus_parameter parameter[ABAQUS_PARAMETERS];
-    int         set, generate, surface;                /* what data lines fill */
+    /* What data lines fill: set, whether by ranges (GENERATE), surface. */
+    int         set, generate, surface;
     abaqus_type type;
+    /* order[k]: which node on the lines is node k of the element. */
     int         order[PG_ELEMENT_NODES];
-    long        element, element_line, node[PG_ELEMENT_NODES];   /* element whose nodes are being read */
-    int         have;                                  /* of its nodes; -1: no element begun */
+    /* The element whose nodes are being read, and the line where it begins. */
+    long        element, element_line, node[PG_ELEMENT_NODES];
+    /* How many of its nodes have been read; -1: no element has begun. */
+    int         have;
+    /* Numbers of *PART and *INSTANCE so far; name of the one instance. */
     int         parts, instances;
     char        instance[ABAQUS_WORD];
 } abaqus_reader;
 /* Records "file, line: why". */
 #define ABAQUS_WRONG(r, ...) abaqus_wrong ((r), PG_HERE, __VA_ARGS__)
+/* Records a fault at the present line. */
 pg_status abaqus_wrong (const abaqus_reader *r, const char *where, const char *format, ...)
     __attribute__ ((format (printf, 3, 4)));
 /* Copies [s, end) without blanks at its ends and without quotes. */
 void      abaqus_trim  (char *to, size_t size, const char *s, const char *end);
-pg_status abaqus_data  (abaqus_reader *r);  /* one data line behind the keyword that r->mode stands for */
+/* Reads one data line behind the present keyword. */
+pg_status abaqus_data  (abaqus_reader *r);
 
 /* ---- abaqus_sets.c ------------------------------------------------------------------------------------- */
-int       abaqus_set_find (const abaqus_sets *sets, const char *name);  /* -1: none; case does not count */
-pg_status abaqus_set_get  (abaqus_sets *sets, const char *name, int *set);  /* made where there is none */
+/* Number of the set of that name, without regard to case; -1: there is none. abaqus_set_get creates it
+ * then. */
+int       abaqus_set_find (const abaqus_sets *sets, const char *name);
+pg_status abaqus_set_get  (abaqus_sets *sets, const char *name, int *set);
 pg_status abaqus_set_add  (abaqus_set *set, abaqus_range range);
 void      abaqus_sets_free (abaqus_sets *sets);
-pg_status abaqus_resolve (abaqus *a);  /* elements, blocks, sets and surfaces into the builder */
+/* Gives blocks, sets and surfaces to the builder. */
+pg_status abaqus_resolve (abaqus *a);
 #endif

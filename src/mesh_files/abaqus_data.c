@@ -1,32 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The data lines of a .inp behind *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE, *INSTANCE. */
+ * The data lines of an .inp file behind *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE and *INSTANCE. */
 #include "abaqus.h"
 #include <ctype.h>
 #include <string.h>
 #include <strings.h>
 
 typedef abaqus_reader reader;
+/* The innermost open file. */
 static const abaqus_file *now (const reader *r) { return &r->file[r->depth]; }
 
+/* Behind blanks and one comma. */
 static const char *skip_comma (const char *s, const char *end)
 {
     while (s < end && (*s == ' ' || *s == '\t')) s++;
     return s < end && *s == ',' ? s + 1 : s;
 }
 
+/* Only blanks up to the end of the line? */
 static int at_end (const char *s, const char *end)
 {
     while (s < end && isspace ((unsigned char) *s)) s++;
     return s == end;
 }
 
-/* Nothing up to the next comma. */
+/* Only blanks up to the next comma or the end? */
 static int empty (const char *s, const char *end)
 {
     while (s < end && isspace ((unsigned char) *s)) s++;
     return s == end || *s == ',';
 }
 
+/* NUMBER, X, Y, Z; coordinates left out are zero. */
 static pg_status node_line (reader *r)
 {
     pg_status status = PG_OK;
@@ -50,6 +54,7 @@ done:
     return status;
 }
 
+/* The element whose nodes are complete goes to the builder, its group being its set + 1. */
 static pg_status add_element (reader *r)
 {
     pg_status status = PG_OK;
@@ -68,7 +73,7 @@ done:
     return status;
 }
 
-/* Number of the element, then its nodes, on as many lines as it takes. */
+/* Number of an element, then its nodes, on as many lines as it takes. */
 static pg_status element_line (reader *r)
 {
     pg_status status = PG_OK;
@@ -91,7 +96,8 @@ done:
     return status;
 }
 
-/* Next word between commas; the name of the one instance before it, with a dot, is cut off. 0: no more. */
+/* The next word between commas, without the name of the one instance and a dot before it. 0: no more
+ * words. */
 static int next_word (const reader *r, const char **s, const char *end, char word[ABAQUS_WORD])
 {
     if (at_end (*s, end)) return 0;
@@ -105,12 +111,14 @@ static int next_word (const reader *r, const char **s, const char *end, char wor
     return 1;
 }
 
+/* Is the whole word a whole number? */
 static int is_number (const char *word, long *value)
 {
     const char *end = word + strlen (word);
     return mesh_whole (&word, end, value) && word == end;
 }
 
+/* Members of a set: numbers, or names of sets that exist already. */
 static pg_status set_line (reader *r, abaqus_sets *sets, const char *what)
 {
     pg_status status = PG_OK;
@@ -133,6 +141,7 @@ done:
     return status;
 }
 
+/* FIRST, LAST, STEP. */
 static pg_status generate_line (reader *r, abaqus_set *set)
 {
     pg_status status = PG_OK;
@@ -149,6 +158,7 @@ done:
     return status;
 }
 
+/* An element or an element set, and a face. */
 static pg_status surface_line (reader *r)
 {
     pg_status status = PG_OK;
@@ -174,7 +184,7 @@ done:
     return status;
 }
 
-/* Behind *INSTANCE: where the part is put. */
+/* Where an instance is placed: only parts that stay where they are written can be read. */
 static pg_status instance_line (reader *r)
 {
     pg_status status = PG_OK;
@@ -190,6 +200,7 @@ done:
     return status;
 }
 
+/* Empty lines are skipped. */
 pg_status abaqus_data (reader *r)
 {
     abaqus *a = &r->data;

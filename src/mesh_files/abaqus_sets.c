@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Sets of a .inp: numbers, ranges and other sets by name, resolved when all nodes and elements are known. */
+ * Sets of an .inp file: numbers, ranges and other sets by name, resolved once all nodes and elements are
+ * known. */
 #include "abaqus.h"
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
 /* ---- the sets as written ------------------------------------------------------------------------------- */
+/* A linear search: files have few sets. */
 int abaqus_set_find (const abaqus_sets *sets, const char *name)
 {
     for (size_t k = 0; k < sets->n; k++) if (strcasecmp (sets->set[k].name, name) == 0) return (int) k;
@@ -25,7 +27,7 @@ done:
     return status;
 }
 
-/* Numbers that follow one another share an entry. */
+/* Numbers that follow one another share an entry, as sets often list a million of them. */
 pg_status abaqus_set_add (abaqus_set *set, abaqus_range range)
 {
     pg_status status = PG_OK;
@@ -49,16 +51,25 @@ void abaqus_sets_free (abaqus_sets *sets)
 }
 
 /* ---- what is in a set ---------------------------------------------------------------------------------- */
+/* The members of one set, collected as places in the list of all nodes or all elements. */
 typedef struct {
-    const char *what;                                  /* "node", "element" */
+    /* "node" or "element", for messages. */
+    const char *what;
     const abaqus_sets *sets;
+    /* Finds a place by its number. */
     pg_id_table table;
     const long *id;
-    size_t   all, n;                                   /* of the file, in the set */
-    int     *place;                                    /* of those in the set */
-    unsigned char *in, *seen;                          /* of places, of sets */
-    int     *todo;                                     /* sets */
+    /* How many there are in the file, and in the set. */
+    size_t   all, n;
+    /* Places of those in the set (n). */
+    int     *place;
+    /* in: 1 for places in the set (all). seen: 1 for sets that have been visited. */
+    unsigned char *in, *seen;
+    /* Sets to be visited. */
+    int     *todo;
 } gather;
+
+/* All that resolving needs. */
 typedef struct { abaqus *a; pg_mesh_given given; gather node, element; } resolver;
 
 static void gather_clear (gather *g)
@@ -67,6 +78,7 @@ static void gather_clear (gather *g)
     pg_free (g->place), pg_free (g->in), pg_free (g->seen), pg_free (g->todo);
 }
 
+/* Numbers that are given twice are left for the builder to report. */
 static pg_status gather_start (gather *g, const char *what, const abaqus_sets *sets, size_t n, const long *id)
 {
     pg_status status = PG_OK;
@@ -82,6 +94,7 @@ done:
     return status;
 }
 
+/* Adds a place, once; -1 adds nothing. */
 static void put (gather *g, long place)
 {
     if (place < 0 || g->in[place]) return;
@@ -89,12 +102,15 @@ static void put (gather *g, long place)
     g->place[g->n++] = (int) place;
 }
 
+/* Empties the set. */
 static void forget (gather *g)
 {
     for (size_t k = 0; k < g->n; k++) g->in[g->place[k]] = 0;
     g->n = 0;
 }
 
+/* The fault of a member that does not exist. Lines are not named where files were included, as they might
+ * belong to any of these. */
 static pg_status fault (const resolver *r, long line, const char *what, long id, const char *set)
 {
     char at[32] = "";
@@ -103,6 +119,7 @@ static pg_status fault (const resolver *r, long line, const char *what, long id,
                      set);
 }
 
+/* Adds the members of a range. A range with more numbers than the file has is not walked number by number. */
 static pg_status put_range (const resolver *r, gather *g, const abaqus_range *range, const char *set)
 {
     size_t count = range->last < range->first
@@ -130,6 +147,7 @@ static pg_status put_range (const resolver *r, gather *g, const abaqus_range *ra
 
 /* Sets named by sets are walked once each, so that sets that name one another end. */
 static pg_status collect (resolver *r, gather *g, int set);
+/* Adds the nodes of element e. */
 static void put_nodes (resolver *r, int e)
 {
     const pg_mesh_given *m = &r->given;
@@ -137,6 +155,7 @@ static void put_nodes (resolver *r, int e)
         put (&r->node, pg_id_table_find (&r->node.table, m->node[j]));
 }
 
+/* Adds the nodes of an element set. */
 static pg_status put_nodes_of (resolver *r, int element_set)
 {
     pg_status status = collect (r, &r->element, element_set);
@@ -144,6 +163,8 @@ static pg_status put_nodes_of (resolver *r, int element_set)
     return status;
 }
 
+/* Collects a set. Sets named by sets are visited once each, so that sets which name one another come to an
+ * end. */
 static pg_status collect (resolver *r, gather *g, int set)
 {
     pg_status status = PG_OK;
@@ -165,7 +186,7 @@ static pg_status collect (resolver *r, gather *g, int set)
 }
 
 /* ---- into the builder ---------------------------------------------------------------------------------- */
-/* Elements without a set of their own: the set of the section they were given. */
+/* Elements without a set of their own belong to the set of the first section that names them. */
 static pg_status resolve_blocks (resolver *r)
 {
     pg_status status = PG_OK;
@@ -188,6 +209,7 @@ done:
     return status;
 }
 
+/* The collected nodes become a node set, unless there are none. */
 static pg_status emit_nodes (resolver *r, const char *name, long id)
 {
     pg_status status = PG_OK;
@@ -199,6 +221,7 @@ done:
     return status;
 }
 
+/* Node sets; and the nodes of element sets that are neither blocks nor have the name of a node set. */
 static pg_status resolve_sets (resolver *r)
 {
     pg_status status = PG_OK;
@@ -217,6 +240,7 @@ done:
     return status;
 }
 
+/* Highest dimension of all elements. */
 static int top_dimension (const pg_mesh_given *m)
 {
     int dim = 0;
@@ -225,7 +249,7 @@ static int top_dimension (const pg_mesh_given *m)
     return dim;
 }
 
-/* Side that a line of a surface means for one element; -2: it is the face of a shell. */
+/* Side that a line of a surface means for one element; -2: the face of a shell. */
 static pg_status side_of (const resolver *r, const abaqus_surface *surface, const abaqus_face *face,
                           int place, int dim, int *side)
 {
@@ -256,7 +280,8 @@ static pg_status collect_face (resolver *r, const abaqus_surface *surface, const
     return PG_OK;
 }
 
-/* The faces of shells are no sides of plane elements: their nodes become a set. */
+/* Sides become a side set. Faces of shells are no sides of plane elements: their nodes become a node set,
+ * unless the surface has sides as well. */
 static pg_status resolve_surface (resolver *r, const abaqus_surface *surface, long id, int dim)
 {
     pg_status status = PG_OK;

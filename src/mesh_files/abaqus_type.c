@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Element types of Abaqus and CalculiX: what they are, the order of their nodes and the numbers of their
- * faces against Exodus. */
+ * Element types of Abaqus and CalculiX: which elements they are, the order of their nodes, and the numbers
+ * of their faces in terms of Exodus. */
 #include "abaqus.h"
 #include "perigal/scene.h"
 #include <ctype.h>
@@ -41,14 +41,17 @@ static const struct { const char *base; abaqus_type type;
     { "B22", { PG_BAR3, 3, 0 } },     { "B32", { PG_BAR3, 3, 0 } },
     { "R2D2", { PG_BAR2, 2, 0 } },
 };
+
+/* Names to suggest for unknown ones. */
 static const char *const known = "C3D4|C3D6|C3D8|C3D10|C3D15|C3D20|CPS3|CPS4|CPS6|CPS8|CPE3|CPE4|CPE6|CPE8|"
                                  "C2D3|C2D4|C2D6|C2D8|M3D3|M3D4|M3D6|M3D8|"
                                  "S3|S4|S6|S8|T2D2|T3D2|T3D3|B31|B32";
 
-/* What may follow a base name: R reduced, I incompatible modes, H hybrid, M modified, T, P, E coupled fields,
- * S; 5 of S4R5. */
+/* May this follow a base name? R reduced, I incompatible modes, H hybrid, M modified, T, P, E coupled
+ * fields, S; 5 of S4R5. */
 static int is_variant (const char *s) { return s[strspn (s, "RIHMTPES5")] == 0 && strlen (s) <= 4; }
 
+/* The longest base name that fits counts. */
 int abaqus_find_type (const char *name, abaqus_type *type, char near[32])
 {
     static const char *const points[] = { "MASS",   "ROTARYI", "SPRING", "DASHPOT", "GAP",
@@ -68,6 +71,7 @@ int abaqus_find_type (const char *name, abaqus_type *type, char near[32])
     return 0;
 }
 
+/* Abaqus lists the middles of the upper edges before those of the upright ones. */
 void abaqus_node_order (pg_element kind, int order[PG_ELEMENT_NODES])
 {
     for (int k = 0; k < PG_ELEMENT_NODES; k++) order[k] = k;
@@ -77,7 +81,7 @@ void abaqus_node_order (pg_element kind, int order[PG_ELEMENT_NODES])
     if (kind == PG_BAR3) order[1] = 2, order[2] = 1;   /* along the line */
 }
 
-/* Side in the order of Exodus of face `number` (from 0) of a solid in that of Abaqus. */
+/* Side in the order of Exodus of face `number` (from 0) of a solid element in that of Abaqus. */
 static int solid_side (pg_element kind, int number)
 {
     static const signed char tet[] = { 3, 0, 1, 2 }, wedge[] = { 3, 4, 0, 1, 2 },
@@ -86,6 +90,7 @@ static int solid_side (pg_element kind, int number)
     return corners == 4 ? tet[number] : corners == 6 ? wedge[number] : hex[number];
 }
 
+/* The edges of shells are E1, E2 ..., or S3, S4 ... behind their two faces. */
 int abaqus_side (pg_element kind, int shell, const char *face)
 {
     int letter = toupper ((unsigned char) face[0]), second = toupper ((unsigned char) (letter ? face[1] : 0));

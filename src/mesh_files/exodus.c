@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Meshes and nodal results of Exodus II (any netCDF): nodes and elements go by their place in the file while
- * it is read; the numbers that node_num_map and elem_map give them come last. */
+ * Meshes and nodal results of Exodus II files (any kind of netCDF), by the netCDF library. Nodes and
+ * elements go by their place in the file while it is read; the numbers that node_num_map and elem_map give
+ * them are assigned last. */
 #include "format.h"
 #include <ctype.h>
 #include <math.h>
@@ -11,14 +12,19 @@
 #include <strings.h>
 
 enum { NAME = 256 };
+
+/* The open file. */
 typedef struct {
     const char *path;
     int    ncid, open;
+    /* Numbers of nodes, elements and blocks; size of the file. */
     size_t nnode, n, nblock, bytes;
     pg_mesh_builder *builder;
-    unsigned char *shell;                              /* of each element: its sides 1, 2 are faces (n) */
+    /* 1: sides 1 and 2 of this element are its faces, as of shells (n). */
+    unsigned char *shell;
 } reader;
 
+/* Leaves with a fault where a call of netCDF fails. */
 #define NC_TRY(r, call) \
     do { \
         int rc_ = (call); \
@@ -28,7 +34,7 @@ typedef struct {
     } while (0)
 
 /* ---- netCDF -------------------------------------------------------------------------------------------- */
-/* Length of a dimension; 0 when there is none. */
+/* Length of a dimension; 0: there is none of that name. */
 static size_t length_of (int ncid, const char *name)
 {
     int dim;
@@ -37,7 +43,7 @@ static size_t length_of (int ncid, const char *name)
     return n;
 }
 
-/* Variable of a name, whose values must be n in number. *var -1: there is none. */
+/* The variable of that name, which must have n values; *var = -1: there is none. */
 static pg_status find (const reader *r, const char *name, size_t n, int *var)
 {
     pg_status status = PG_OK;
@@ -60,8 +66,7 @@ done:
     return status;
 }
 
-/* The n whole numbers of a variable; *value NULL: there is none. A file says less than it holds: n is bounded
- * by its bytes. */
+/* The n whole numbers of a variable (newly allocated); *value NULL: there is none. */
 static pg_status whole_numbers (const reader *r, const char *name, size_t n, long **value)
 {
     pg_status status = PG_OK;
@@ -76,6 +81,7 @@ done:
     return status;
 }
 
+/* The same, for a variable without which the file makes no sense. */
 static pg_status must (const reader *r, const char *name, size_t n, long **value)
 {
     pg_status status = whole_numbers (r, name, n, value);
@@ -84,7 +90,7 @@ static pg_status must (const reader *r, const char *name, size_t n, long **value
     return status;
 }
 
-/* Row k of a table of names; "" when there is none. */
+/* Row k of a table of names without trailing blanks; "" where there is none. */
 static void name_of (const reader *r, const char *table, size_t k, char name[NAME])
 {
     int var, dims[NC_MAX_VAR_DIMS], ndims;
@@ -103,10 +109,11 @@ static void name_of (const reader *r, const char *table, size_t k, char name[NAM
     for (size_t m = strlen (name); m > 0 && name[m - 1] == ' '; m--) name[m - 1] = 0;
 }
 
-/* Dimensions are bounded by what the file can hold, before anything is made of them; 1: a compressed value
- * takes a bit at least. */
+/* Bounds a count by what the file can hold before memory is asked for; even compressed, 4096 values need a
+ * byte. */
 static int too_many (const reader *r, size_t n) { return n > 4096 * r->bytes || n > 0x7fffffff; }
 
+/* Opens the file from memory, after its header has been checked. */
 static pg_status open_file (reader *r, const mesh_file *file)
 {
     pg_status status = PG_OK;
@@ -132,6 +139,7 @@ static void close_file (reader *r)
 }
 
 /* ---- mesh ---------------------------------------------------------------------------------------------- */
+/* Coordinates: coordx, coordy, coordz, or in old files one table `coord`. */
 static pg_status read_nodes (reader *r)
 {
     pg_status status = PG_OK;
@@ -162,7 +170,7 @@ done:
     return status;
 }
 
-/* Names of element types begin so; the number of nodes tells the rest. PG_ELEMENTS: unknown. */
+/* The element that a type name (by its beginning) with that number of nodes means; PG_ELEMENTS: unknown. */
 static pg_element kind_of (const char *type, size_t nodes, int *shell)
 {
     static const struct { const char *begin; int shell; pg_element kind[4];
@@ -193,6 +201,7 @@ static pg_element kind_of (const char *type, size_t nodes, int *shell)
     return PG_ELEMENTS;
 }
 
+/* Number and kind of the elements of block k; PG_ELEMENTS: the block is empty. */
 static pg_status block_kind (const reader *r, size_t k, size_t *count, pg_element *kind, int *shell)
 {
     pg_status status = PG_OK;
@@ -219,6 +228,7 @@ done:
     return status;
 }
 
+/* Elements of block k; *first: number of elements before it, updated. */
 static pg_status read_block (reader *r, size_t k, size_t *first)
 {
     pg_status status = PG_OK;
@@ -247,7 +257,7 @@ done:
     return status;
 }
 
-/* Files of Perigal, and of other codes without a mesh: every element is a point. */
+/* Results of Perigal and of other meshfree codes hold points only, each as an element: that is no mesh. */
 static pg_status check_points (const reader *r)
 {
     pg_status status = PG_OK;
@@ -258,6 +268,7 @@ done:
     return status;
 }
 
+/* Node sets with their names and numbers. */
 static pg_status read_node_sets (reader *r)
 {
     pg_status status = PG_OK;
@@ -282,7 +293,7 @@ done:
     return status;
 }
 
-/* Sides of shells: 1, 2 the faces (no sides of a plane element), 3 ... the edges. */
+/* Sides of shells: 1 and 2 are the faces (no sides of a plane element), 3 and on the edges. */
 static pg_status add_side (const reader *r, long element, long side)
 {
     pg_status status = PG_OK;
@@ -297,6 +308,7 @@ done:
     return status;
 }
 
+/* Side sets with their names and numbers. */
 static pg_status read_side_sets (reader *r)
 {
     pg_status status = PG_OK;
@@ -323,7 +335,7 @@ done:
     return status;
 }
 
-/* The numbers a file gives its nodes and elements, in place of their places; those of sets follow. */
+/* Assigns the numbers that the file gives its nodes and elements. */
 static pg_status renumber (const reader *r)
 {
     pg_status status = PG_OK;
@@ -358,6 +370,7 @@ done:
     return status;
 }
 
+/* Classic netCDF (versions 1, 2, 5) and HDF5. */
 static int knows_exodus (const mesh_file *file)
 {
     return file->size > 8
@@ -366,10 +379,10 @@ static int knows_exodus (const mesh_file *file)
 }
 
 /* ---- fields -------------------------------------------------------------------------------------------- */
-/* part: which component, -1 the name has no suffix */
+/* A nodal variable. part: which component its suffix names, -1: it has no suffix. */
 typedef struct { char base[NAME]; int part, var; } variable;
 
-/* "stress_xy" -> "stress", 3. */
+/* Splits "stress_xy" into "stress" and 3; components of vectors are 10 and on. */
 static void split_name (const char *name, variable *v)
 {
     static const char *const suffix[] = { "xx", "yy", "zz", "xy", "yz", "zx", "xz", "x", "y", "z" };
@@ -381,14 +394,17 @@ static void split_name (const char *name, variable *v)
         if (strcasecmp (bar + 1, suffix[k]) == 0) v->part = part[k], v->base[bar - name] = 0;
 }
 
+/* Are these components of one field? */
 static int together (const variable *a, const variable *b)
 {
     return a->part >= 0 && b->part >= 0 && a->part / 10 == b->part / 10 && strcmp (a->base, b->base) == 0;
 }
 
-/* Components a field has in a mesh; those that the file leaves out are 0. */
+/* Components that a field has in a mesh; those that the file leaves out stay 0. */
 static int components_of (const variable *v) { return v->part < 0 ? 1 : v->part >= 10 ? 3 : 6; }
 
+/* Values of one variable in one step, into its component of the field; at: place in the file of each node;
+ * work: room for all nodes of the file. */
 static pg_status read_values (const reader *r, const variable *v, size_t step, const pg_mesh *mesh,
                               const int *at, double *work, pg_mesh_field *field)
 {
@@ -406,6 +422,7 @@ done:
     return status;
 }
 
+/* Names and variables of all n nodal variables. */
 static pg_status list_variables (const reader *r, size_t steps, size_t n, variable *v)
 {
     pg_status status = PG_OK;
@@ -443,6 +460,7 @@ done:
     return status;
 }
 
+/* Each field is read with the first of its components. */
 static pg_status read_fields (mesh_fields *out, const reader *r, const pg_mesh *mesh, size_t n,
                               const variable *v, size_t step)
 {

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * pg_mesh_result: mesh and fields of one step. */
+ * pg_mesh_result: a mesh and the nodal fields of one step. */
 #include "format.h"
 #include <stdio.h>
 #include <string.h>
 
+/* Names are cut at 31 bytes. */
 pg_status mesh_fields_add (mesh_fields *f, size_t nnode, const char *name, int components,
                            pg_mesh_field **field)
 {
@@ -20,6 +21,7 @@ done:
     return status;
 }
 
+/* A file without fields is a fault of its own. */
 pg_status mesh_fields_step (const char *path, size_t steps, int step, size_t *out)
 {
     pg_status status = PG_OK;
@@ -31,7 +33,7 @@ done:
     return status;
 }
 
-/* Vectors of a plane mesh have two components. */
+/* In a plane mesh vectors keep two of their three components. */
 static void flatten_vectors (const pg_mesh *mesh, mesh_fields *f)
 {
     for (size_t k = 0; k < f->n && mesh->dim == 2; k++) {
@@ -43,6 +45,7 @@ static void flatten_vectors (const pg_mesh *mesh, mesh_fields *f)
     }
 }
 
+/* On failure neither mesh nor fields remain. */
 pg_status mesh_parse_result (pg_mesh *out, const mesh_file *file, int step, size_t *nfield,
                              pg_mesh_field **fields, double *time)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Results of CalculiX (.frd; format by the manual of its viewer cgx): blocks of nodes, elements and results,
- * each as text in short or long columns, or binary. Numbers stand in fixed columns, often without blanks
- * between them. */
+ * Results of CalculiX (.frd; format by the manual of its viewer cgx): blocks of nodes, elements and
+ * results, each as text in short or long columns, or binary. Numbers stand in fixed columns, often without
+ * blanks between them. */
 #include "format.h"
 #include <ctype.h>
 #include <math.h>
@@ -9,24 +9,34 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Formats 0 to 3 of a block; length of a name; most components of a result. */
 enum { SHORT, LONG, FLOATS, DOUBLES, NAME = 9, MOST_COMPONENTS = 64 };
+
+/* A block of results. */
 typedef struct {
     char   name[NAME];
-    double value;                                      /* time */
-    long   number, nodes;                              /* of the step; of nodes */
+    /* Time of its step. */
+    double value;
+    /* Number of the step; number of nodes. */
+    long   number, nodes;
     int    format, components;
-    mesh_cursor data;                                  /* where the values begin */
+    /* Where the values begin. */
+    mesh_cursor data;
 } block;
+
+/* State of the reader. */
 typedef struct {
     mesh_cursor    c;
-    const char    *first, *last;                       /* the line now */
-    pg_mesh_builder *builder;                              /* NULL: only the results count */
+    /* The present line. */
+    const char    *first, *last;
+    /* Receives the mesh; NULL: only results are wanted. */
+    pg_mesh_builder *builder;
     size_t  nblock, capacity;
     block  *block;
 } reader;
 
 /* ---- columns ------------------------------------------------------------------------------------------- */
-/* The columns [at, at + width) of a line without the blanks around; 0: nothing there. */
+/* The text in columns [at, at + width) of the line without surrounding blanks; 0: there is none. */
 static int column (const reader *r, size_t at, size_t width, const char **s, const char **end)
 {
     size_t n = (size_t) (r->last - r->first);
@@ -38,6 +48,7 @@ static int column (const reader *r, size_t at, size_t width, const char **s, con
     return *s < *end;
 }
 
+/* A whole or real number in these columns; 0: there is none. */
 static int whole (const reader *r, size_t at, size_t width, long *value)
 {
     const char *s, *end;
@@ -50,6 +61,7 @@ static int real (const reader *r, size_t at, size_t width, double *value)
     return column (r, at, width, &s, &end) && mesh_real (&s, end, value) && s == end;
 }
 
+/* A word in these columns, "" where there is none. */
 static void word (const reader *r, size_t at, size_t width, char *text, size_t size)
 {
     const char *s = "", *end = s;
@@ -59,15 +71,17 @@ static void word (const reader *r, size_t at, size_t width, char *text, size_t s
     text[n] = 0;
 }
 
+/* Reads the next line; 0: the end. */
 static int next (reader *r) { return mesh_line (&r->c, &r->first, &r->last); }
 
-/* The line begins with this key: " -1", "    2C". */
+/* Does the line begin with this key, such as " -1" or "    2C"? */
 static int is_key (const reader *r, const char *key)
 {
     size_t n = strlen (key);
     return (size_t) (r->last - r->first) >= n && memcmp (r->first, key, n) == 0;
 }
 
+/* Columns of a number of a node or element. */
 static size_t id_width (int format) { return format == SHORT ? 5 : 10; }
 
 /* Takes n bytes behind the line; NULL where the file is shorter. */
@@ -79,6 +93,7 @@ static const char *bytes (reader *r, size_t n)
     return at;
 }
 
+/* Binary numbers, in the byte order of the machine. */
 static long int_at (const char *p)
 {
     int32_t v;
@@ -95,7 +110,7 @@ static double real_at (const char *p, int format)
     return format == DOUBLES ? d : (double) f;
 }
 
-/* Number of items and format at the end of the line that begins a block. */
+/* Number of items and format, at the end of the line that begins a block. */
 static pg_status block_head (const reader *r, const char *what, size_t at, size_t format_at, long *n,
                              int *format)
 {
@@ -110,6 +125,7 @@ done:
 }
 
 /* ---- nodes --------------------------------------------------------------------------------------------- */
+/* n nodes: number and three coordinates each. */
 static pg_status binary_nodes (reader *r, long n, int format)
 {
     pg_status status = PG_OK;
@@ -125,6 +141,7 @@ done:
     return status;
 }
 
+/* A block of nodes. */
 static pg_status read_nodes (reader *r)
 {
     pg_status status = PG_OK;
@@ -156,6 +173,7 @@ static const pg_element kinds[] = { PG_ELEMENTS, PG_HEX8, PG_WEDGE6, PG_TET4,  P
                                     PG_TRI3,     PG_TRI6, PG_QUAD4,  PG_QUAD8, PG_BAR2,  PG_BAR3 };
 
 
+/* The element of that kind; others are a fault. */
 static pg_status check_kind (const reader *r, long id, long kind, pg_element *out)
 {
     pg_status status = PG_OK;
@@ -165,6 +183,7 @@ done:
     return status;
 }
 
+/* n elements: number, kind, group, material, nodes. */
 static pg_status binary_elements (reader *r, long n)
 {
     pg_status status = PG_OK;
@@ -185,6 +204,7 @@ done:
     return status;
 }
 
+/* An element on several lines. */
 static pg_status text_element (reader *r, int format)
 {
     pg_status status = PG_OK;
@@ -207,6 +227,7 @@ done:
     return status;
 }
 
+/* A block of elements. */
 static pg_status read_elements (reader *r)
 {
     pg_status status = PG_OK;
@@ -224,6 +245,7 @@ done:
 }
 
 /* ---- results ------------------------------------------------------------------------------------------- */
+/* Goes behind the values of a block. */
 static pg_status skip_values (reader *r, const block *b)
 {
     pg_status status = PG_OK;
@@ -239,6 +261,8 @@ done:
     return status;
 }
 
+/* Notes name, step and place of a block of results; components that the viewer computes are not stored in
+ * it. */
 static pg_status read_block (reader *r)
 {
     pg_status status = PG_OK;
@@ -263,7 +287,7 @@ done:
     return status;
 }
 
-/* "    1UMAT    1STEEL" */
+/* Names of materials, as in "    1UMAT    1STEEL", are names of groups. */
 static pg_status read_material (reader *r)
 {
     pg_status status = PG_OK;
@@ -276,6 +300,7 @@ done:
     return status;
 }
 
+/* Walks through the whole file. */
 static pg_status read_all (reader *r)
 {
     pg_status status = PG_OK;
@@ -306,12 +331,13 @@ static pg_status read_frd (pg_mesh_builder *m, const mesh_file *file)
 }
 
 /* ---- fields -------------------------------------------------------------------------------------------- */
+/* Do two blocks belong to one step? */
 static int same_step (const block *a, const block *b)
 {
     return a->value == b->value && a->number == b->number;
 }
 
-/* Values of the next node; 0: no more. */
+/* Number and values of the next node; *more = 0: there is none. */
 static pg_status next_values (reader *r, const block *b, long *id, double *value, int *more)
 {
     pg_status status = PG_OK;
@@ -337,6 +363,7 @@ done:
     return status;
 }
 
+/* The field's name here: displacement, stress, strain, else as in the file. */
 static const char *field_name (const char *name)
 {
     return strcmp (name, "DISP") == 0       ? "displacement"
@@ -345,6 +372,8 @@ static const char *field_name (const char *name)
                                             : name;
 }
 
+/* One field. Nodes that the mesh does not use are passed over; a node of the mesh without a value is a
+ * fault. */
 static pg_status read_field (mesh_fields *out, const pg_mesh *mesh, const pg_id_table *nodes, reader *r,
                              const block *b, unsigned char *have)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What versions 2.2 and 4.1 of Gmsh's format share. */
+ * What versions 2.2 and 4.1 of Gmsh's format share (Gmsh reference manual, chapter File formats). */
 #include "gmsh.h"
 #include <string.h>
 
@@ -10,6 +10,7 @@ const char *gmsh_at (const gmsh_reader *g, char text[40])
     return text;
 }
 
+/* Is the line [first, last), without trailing blanks, this word? */
 static int is (const char *first, const char *last, const char *word)
 {
     size_t n = strlen (word);
@@ -18,7 +19,7 @@ static int is (const char *first, const char *last, const char *word)
 }
 
 /* ---- header -------------------------------------------------------------------------------------------- */
-/* The header may follow comments. */
+/* Finds $MeshFormat; comments may stand before it. */
 static int find_header (mesh_cursor *c)
 {
     const char *first, *last;
@@ -35,6 +36,7 @@ int gmsh_knows (const mesh_file *file, double *version)
     return find_header (&c) && mesh_line (&c, &first, &last) && mesh_real (&first, last, version);
 }
 
+/* In binary files a whole number 1 tells the byte order. */
 pg_status gmsh_open (gmsh_reader *g, pg_mesh_builder *m, const mesh_file *file)
 {
     pg_status status = PG_OK;
@@ -61,6 +63,7 @@ done:
 }
 
 /* ---- sections ------------------------------------------------------------------------------------------ */
+/* Lines outside of sections are passed over. */
 int gmsh_section (gmsh_reader *g, char name[64])
 {
     const char *first, *last;
@@ -73,6 +76,7 @@ int gmsh_section (gmsh_reader *g, char name[64])
     return 0;
 }
 
+/* In binary files by searching for the bytes, in text line by line. */
 pg_status gmsh_skip (gmsh_reader *g, const char *name)
 {
     pg_status status = PG_OK;
@@ -141,7 +145,7 @@ done:
     return status;
 }
 
-/* dimension number "name" */
+/* Lines: dimension, number, "name". */
 pg_status gmsh_names (gmsh_reader *g)
 {
     pg_status status = PG_OK;
@@ -167,6 +171,7 @@ done:
 }
 
 /* ---- elements ------------------------------------------------------------------------------------------ */
+/* Orders of nodes: Gmsh numbers the middles of edges differently in tetrahedra, hexahedra and wedges. */
 static const signed char same_order[PG_ELEMENT_NODES] = { 0, 1, 2, 3, 4, 5, 6, 7, 8 };
 static const signed char tet_order[10] = { 0, 1, 2, 3, 4, 5, 6, 7, 9, 8 };
 static const signed char hex_order[27] = { 0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  10, 12,
@@ -205,6 +210,7 @@ done:
     return status;
 }
 
+/* A negative group only says that the element is seen from the other side. */
 pg_status gmsh_element (gmsh_reader *g, const gmsh_type *type, long id, const long *node, long group,
                         long line)
 {
@@ -225,6 +231,7 @@ done:
     return status;
 }
 
+/* Copies a number of `size` bytes, in the machine's order. */
 static void take (gmsh_reader *g, void *value, size_t size)
 {
     unsigned char *to = value;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 /* ---- text ---------------------------------------------------------------------------------------------- */
+/* Lines: number x y z. */
 static pg_status nodes_of_text (gmsh_reader *g, long n)
 {
     pg_status status = PG_OK;
@@ -20,7 +21,7 @@ done:
     return status;
 }
 
-/* number type tags: group ... nodes */
+/* A line: number, type, number of tags, tags, nodes; the first tag is the group. */
 static pg_status element_of_text (gmsh_reader *g, const char *at, const char *last)
 {
     pg_status status = PG_OK;
@@ -45,6 +46,7 @@ done:
     return status;
 }
 
+/* One element per line. */
 static pg_status elements_of_text (gmsh_reader *g, long n)
 {
     pg_status status = PG_OK;
@@ -58,6 +60,8 @@ done:
 }
 
 /* ---- binary -------------------------------------------------------------------------------------------- */
+/* Number and coordinates; parametric nodes have parameters on their curve or surface behind, which are
+ * skipped. */
 static pg_status nodes_of_bytes (gmsh_reader *g, long n, int parametric)
 {
     pg_status status = PG_OK;
@@ -78,7 +82,7 @@ done:
     return status;
 }
 
-/* Elements of one type and number of tags: number, tags, nodes. */
+/* Elements of one type and one number of tags: number, tags, nodes of each. */
 static pg_status block_of_bytes (gmsh_reader *g, long *left)
 {
     pg_status status = PG_OK;
@@ -108,6 +112,7 @@ done:
 }
 
 /* ---- sections ------------------------------------------------------------------------------------------ */
+/* Section $Nodes or $ParametricNodes. */
 static pg_status read_nodes (gmsh_reader *g, const char *name)
 {
     pg_status status = PG_OK;
@@ -120,6 +125,7 @@ done:
     return status;
 }
 
+/* Section $Elements. */
 static pg_status read_elements (gmsh_reader *g)
 {
     pg_status status = PG_OK;

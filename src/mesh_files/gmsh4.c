@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Gmsh .msh 4.1, text and binary: elements belong to entities, entities to physical groups. */
+ * Gmsh .msh 4.1, text and binary: elements belong to entities (points, curves, surfaces, volumes of the
+ * geometry), and entities belong to physical groups. */
 #include "gmsh.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* groups of an entity: group[first .. first + n) */
+/* An entity; its groups are group[first] .. group[first + n - 1]. */
 typedef struct { long dim, tag; size_t first, n; } entity;
 typedef struct {
     gmsh_reader g;
@@ -13,6 +14,7 @@ typedef struct {
     long   *group;
 } reader;
 
+/* Appends an entity without groups. */
 static pg_status add_entity (reader *r, long dim, long tag)
 {
     pg_status status = PG_OK;
@@ -22,6 +24,7 @@ done:
     return status;
 }
 
+/* Groups of one entity at most: an element is given once for each. */
 enum { MOST_GROUPS = 100 };
 static pg_status add_group (reader *r, long group)
 {
@@ -37,7 +40,7 @@ done:
 }
 
 /* ---- entities ------------------------------------------------------------------------------------------ */
-/* tag, box (points: place), groups; what bounds it is left out. */
+/* A line: tag, box (of points: position), groups, and what bounds it, which is not read. */
 static pg_status entity_of_text (reader *r, int dim)
 {
     pg_status status = PG_OK;
@@ -62,6 +65,7 @@ done:
     return status;
 }
 
+/* The same as bytes. */
 static pg_status entity_of_bytes (reader *r, int dim)
 {
     pg_status status = PG_OK;
@@ -83,6 +87,7 @@ done:
     return status;
 }
 
+/* By dimension, then tag. */
 static int by_entity (const void *p, const void *q)
 {
     const entity *a = p, *b = q;
@@ -90,6 +95,7 @@ static int by_entity (const void *p, const void *q)
     return (a->tag > b->tag) - (a->tag < b->tag);
 }
 
+/* Section $Entities, sorted for the search. */
 static pg_status read_entities (reader *r)
 {
     pg_status status = PG_OK;
@@ -109,7 +115,7 @@ done:
 }
 
 /* ---- blocks -------------------------------------------------------------------------------------------- */
-/* Four numbers before the blocks of a section: blocks, members, lowest and highest number. */
+/* Four numbers before the blocks of a section: blocks, members, lowest and highest number of a member. */
 static pg_status section_head (gmsh_reader *g, const char *what, long *blocks, long *members)
 {
     pg_status status = PG_OK;
@@ -124,7 +130,7 @@ done:
     return status;
 }
 
-/* Dimension and number of the entity, a third number (nodes: parametric; elements: type), members. */
+/* Dimension and tag of the entity, a third number (nodes: parametric; elements: type), number of members. */
 static pg_status block_head (gmsh_reader *g, const char *what, long head[4], long *left)
 {
     pg_status status = PG_OK;
@@ -142,7 +148,7 @@ done:
 }
 
 /* ---- nodes --------------------------------------------------------------------------------------------- */
-/* First all numbers, then all places: `number` walks behind. */
+/* First all numbers, then all positions: a second reader, `number`, follows behind. */
 static pg_status nodes_of_text (gmsh_reader *g, long n)
 {
     pg_status status = PG_OK;
@@ -161,6 +167,7 @@ done:
     return status;
 }
 
+/* The same as bytes; `parameters` numbers behind each position are skipped. */
 static pg_status nodes_of_bytes (gmsh_reader *g, long n, size_t parameters)
 {
     pg_status status = PG_OK;
@@ -178,6 +185,7 @@ done:
     return status;
 }
 
+/* Section $Nodes. */
 static pg_status read_nodes (gmsh_reader *g)
 {
     pg_status status = PG_OK;
@@ -195,7 +203,7 @@ done:
 }
 
 /* ---- elements ------------------------------------------------------------------------------------------ */
-/* Once for each group of the entity: the builder knows twins. */
+/* Once for each group of the entity; the builder recognises repeated elements. */
 static pg_status add_element (reader *r, const entity *e, const gmsh_type *t, long id, const long *node,
                               long line)
 {
@@ -248,6 +256,7 @@ static long first_number (const gmsh_reader *g)
     return g->c.end - g->c.at >= 8 ? gmsh_long (&ahead) : 0;
 }
 
+/* A block of elements of one entity and one type. */
 static pg_status read_block (reader *r, long *left)
 {
     pg_status status = PG_OK;
@@ -265,6 +274,7 @@ done:
     return status;
 }
 
+/* Section $Elements. */
 static pg_status read_elements (reader *r)
 {
     pg_status status = PG_OK;
@@ -301,6 +311,7 @@ done:
     return status;
 }
 
+/* Any version of Gmsh's format other than 2: `read` refuses the unknown ones by a message that helps. */
 static int knows (const mesh_file *file)
 {
     double version;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The header of classic netCDF files, by the published grammar of the format: lists of dimensions, attributes
- * and variables. */
+ * Checks the header of classic netCDF files by the published grammar of the format: lists of dimensions,
+ * attributes and variables. The netCDF library trusts the counts in a header, so that a few changed bytes
+ * could make it ask for gigabytes; here every count must fit into the bytes that are left. */
 #include "format.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -10,10 +11,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* Tags of the lists; most dimensions of a variable. */
 enum { DIMENSION = 10, VARIABLE = 11, ATTRIBUTE = 12, MOST_DIMENSIONS = 1024 };
-typedef struct { const unsigned char *text; size_t size, at, ndim; int kind; } walker;   /* kind: 1, 2, 5 */
+/* The header; at: next byte; ndim: number of dimensions; kind: version of the format (1, 2, 5). */
+typedef struct { const unsigned char *text; size_t size, at, ndim; int kind; } walker;
 
-/* A whole number of some bytes; 0: the file ends before. */
+/* A whole number of that many bytes, high byte first; 0: the file ends before. */
 static int whole (walker *w, size_t bytes, uint64_t *value)
 {
     if (w->size - w->at < bytes) return 0;
@@ -23,12 +26,13 @@ static int whole (walker *w, size_t bytes, uint64_t *value)
     return 1;
 }
 
-/* A count of things of at least `least` bytes each that the rest of the file can hold. */
+/* A count of things of at least `least` bytes each, which the rest of the file can hold. */
 static int count (walker *w, size_t least, uint64_t *n)
 {
     return whole (w, w->kind == 5 ? 8 : 4, n) && *n <= (w->size - w->at) / least;
 }
 
+/* Skips bytes, padded to a multiple of four. */
 static int skip (walker *w, uint64_t bytes)
 {
     uint64_t padded = (bytes + 3) / 4 * 4;
@@ -37,12 +41,14 @@ static int skip (walker *w, uint64_t bytes)
     return 1;
 }
 
+/* A name: length and letters. */
 static int name (walker *w)
 {
     uint64_t n;
     return count (w, 1, &n) && n > 0 && n <= 256 && !memchr (w->text + w->at, 0, n) && skip (w, n);
 }
 
+/* A type of values, and the size of one. */
 static int type (walker *w, size_t *bytes)
 {
     static const unsigned char size[] = { 0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8 };
@@ -52,13 +58,14 @@ static int type (walker *w, size_t *bytes)
     return 1;
 }
 
-/* The head of a list: its tag and count, or zeros for none. */
+/* The head of a list: its tag and count, or zeros where there is none. */
 static int list (walker *w, uint64_t tag, size_t least, uint64_t *n)
 {
     uint64_t got;
     return whole (w, 4, &got) && count (w, least, n) && (got == tag || (got == 0 && *n == 0));
 }
 
+/* A list of attributes; then of dimensions. */
 static int attributes (walker *w)
 {
     uint64_t n, values;
@@ -79,6 +86,7 @@ static int dimensions (walker *w)
     return 1;
 }
 
+/* One variable: name, dimensions, attributes, type, size, offset. */
 static int variable (walker *w)
 {
     uint64_t n, id, bytes, begin;
@@ -89,6 +97,7 @@ static int variable (walker *w)
            && whole (w, w->kind == 1 ? 4 : 8, &begin) && !(begin >> 62);
 }
 
+/* The whole header. */
 static int header (walker *w)
 {
     uint64_t n;
@@ -99,6 +108,7 @@ static int header (walker *w)
     return 1;
 }
 
+/* Files that are no classic netCDF have no such header and pass. */
 pg_status mesh_netcdf_check_header (const mesh_file *file)
 {
     walker w = { .text = (const unsigned char *) file->text, .size = file->size, .at = 4 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * pg_mesh_read: a file into memory, its format told by content; lines and numbers of text. */
+ * pg_mesh_read: loads a file, recognises its format by its content, and builds the mesh. */
 #include "format.h"
 #include <errno.h>
 #include <limits.h>
@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+/* Each pass over list.h gives the macro another meaning: declarations, then the table. */
 #define PG_MESH_FORMAT(name) extern const mesh_format mesh_format_##name;
 #include "list.h"
 #undef PG_MESH_FORMAT
@@ -20,6 +21,7 @@ static const mesh_format *const formats[] = {
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
 
+/* Folders, devices and pipes are refused: their size says nothing. */
 pg_status mesh_load (mesh_file *out, const char *path)
 {
     pg_status status = PG_OK;
@@ -40,6 +42,7 @@ done:
     return status;
 }
 
+/* The fault of a file that no format knows. */
 static pg_status unknown (const mesh_file *file)
 {
     char names[400] = "";
@@ -57,6 +60,7 @@ const mesh_format *mesh_format_of (const mesh_file *file)
     return NULL;
 }
 
+/* The builder checks what the format cannot know: missing nodes, flat elements, repeated numbers. */
 pg_status mesh_parse (pg_mesh *out, const mesh_file *file)
 {
     pg_status status = PG_OK;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Lines and numbers of text files. Files of meshes are long, so that reading a number must be quick: the
- * usual ones need no strtod. */
+ * Lines and numbers of text files. Mesh files are long, so that numbers are converted here; strtod is
+ * called only where the quick way would not give the last bit. */
 #include "format.h"
 #include <limits.h>
 #include <math.h>
@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A file may begin with the byte order mark of UTF-8. */
 mesh_cursor mesh_begin (const mesh_file *file)
 {
     size_t mark = file->size >= 3 && !memcmp (file->text, "\xEF\xBB\xBF", 3) ? 3 : 0;
@@ -26,11 +27,13 @@ int mesh_line (mesh_cursor *c, const char **first, const char **last)
     return 1;
 }
 
+/* Blanks and tabs. */
 static void skip_blanks (const char **at, const char *last)
 {
     while (*at < last && (**at == ' ' || **at == '\t')) ++*at;
 }
 
+/* Numbers that do not fit a long are no numbers. */
 int mesh_whole (const char **at, const char *last, long *value)
 {
     skip_blanks (at, last);
@@ -49,7 +52,7 @@ int mesh_whole (const char **at, const char *last, long *value)
     return 1;
 }
 
-/* What the quick way cannot do to the last bit. */
+/* By strtod, after D exponents of Fortran have become e. 0: no number, not finite, or too long to be one. */
 static int slow_real (const char *first, const char *last, double *value)
 {
     enum { LONGEST = 400 };
@@ -64,10 +67,11 @@ static int slow_real (const char *first, const char *last, double *value)
 
 static int is_digit (char c) { return c >= '0' && c <= '9'; }
 
-/* The digits of a decimal number, with or without a point: their value as a whole number while it fits 2^53
- * (`exact`), how many there are and how many stand behind the point. Returns the place behind them. */
+/* The digits of a decimal number: their value as a whole number while it fits 2^53 (exact), how many there
+ * are, and how many stand behind the point. */
 typedef struct { uint64_t sum; long count, behind_point; int exact; } digits;
 
+/* Returns the place behind them. */
 static const char *read_digits (const char *p, const char *last, digits *d)
 {
     int point = 0;
@@ -84,7 +88,8 @@ static const char *read_digits (const char *p, const char *last, digits *d)
     return p;
 }
 
-/* Exact where the digits fit 2^53 and the power of ten is at most 22: one rounding (Clinger 1990). */
+/* Where the digits fit 2^53 and the power of ten is at most 10^22, both are exact in binary and one
+ * rounding remains: the result is the nearest double (Clinger 1990). */
 int mesh_real (const char **at, const char *last, double *value)
 {
     static const double power[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
