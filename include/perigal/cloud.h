@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * cloud.h: the body as shapes, points with volumes, families of neighbours, pre-cracks. */
+ * cloud.h: the body as shapes, the background lattice, points with volumes, families of neighbours, nearest
+ * points, pre-cracks. Lengths are in m; volumes include thickness (2D) or cross section (1D), hence m^3. */
 #ifndef PERIGAL_CLOUD_H
 #define PERIGAL_CLOUD_H
 #include "perigal/scene.h"
@@ -9,170 +10,224 @@
 PG_API_BEGIN
 
 /* ---- shapes -------------------------------------------------------------------------------------------- */
+/* Kinds of shapes. PG_STAIRS is no shape of a scene: it is a mesh as a lattice sees it. */
 enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM, PG_MESH, PG_STAIRS };
+
+/* A shape that is added to or subtracted from the body. */
 typedef struct {
-    int    kind, add;                                  /* add: 1 adds, 0 subtracts */
-    /* name of its surface for `sets: {boundary: NAME}`: as given by `name:`, else "rim" (round, added),
-     * "hole" (subtracted), "side" */
+    /* add: 1: added, 0: subtracted. */
+    int    kind, add;
+    /* Name of its surface for `sets: {boundary: NAME}`: the one given by `name:`, else "rim" (round,
+     * added), "hole" (subtracted) or "side". */
     char   boundary[32];
-    double low[3], high[3];                            /* box, prism (along z): m */
-    double centre[3], axis[3], radius, length;  /* disk, sphere; cylinder: axis from centre, length, m */
-    double *vertex; size_t nvertex;                    /* polygon, prism: nvertex x 2, m */
-    struct pg_solid *solid;  /* mesh: its elements and their surface; stairs: cells of a lattice */
+    /* Corners of a box; of a prism, which extends along z, only z. m. */
+    double low[3], high[3];
+    /* Disk and sphere: centre and radius. Cylinder: centre of one end, unit axis from there, length,
+     * radius. m. */
+    double centre[3], axis[3], radius, length;
+    /* Polygon, prism: vertices x, y (nvertex x 2), m. */
+    double *vertex; size_t nvertex;
+    /* Mesh: its elements and their surface. Stairs: the cells of a lattice. */
+    struct pg_solid *solid;
 } pg_shape;
-/* A fictitious boundary layer: a box over one face of the bounding box of the shapes, outside of it; over all
- * of the face, or over its part from the first to the last place along each axis below which, half a cell
- * deep, the body lies. */
+
+/* A fictitious boundary layer: a box of whole lattice cells over one face of the bounding box of the
+ * shapes, outside of it (doc/method.md B3). It covers the whole face, or its part from the first to the
+ * last place along each axis below which, half a cell deep, the body lies. */
 typedef struct {
-    char   name[32];                                   /* of the layer, of its set and of its surface */
-    int    side;  /* left right bottom top back front: 2 axis + (high side) */
-    int    rows;                                       /* lattice cells across it */
-    double face;                                       /* coordinate of that face, m */
+    /* Name of the layer, of its set and of its surface. */
+    char   name[32];
+    /* Side of the bounding box: left right bottom top back front, 2 axis + (1 on the high side). */
+    int    side;
+    /* Number of lattice cells across it. */
+    int    rows;
+    /* Coordinate of the face that it lies on, m. */
+    double face;
 } pg_layer;
+
+/* The body: shapes in the order of the scene. */
 typedef struct {
     int dim;
-    pg_shape *shape; size_t n;                         /* those of `body`, then a box for each layer */
-    double low[3], high[3];                            /* bounding box of the added shapes and layers, m */
+    /* The shapes of `body`, then a box for each layer (n). */
+    pg_shape *shape; size_t n;
+    /* Bounding box of the added shapes and the layers, m. */
+    double low[3], high[3];
+    /* The layers (nlayer). */
     pg_layer *layer; size_t nlayer;
 } pg_body;
-/* body: list of {add|subtract: {...}}; layers: list of {name, side, thickness, over}, which become whole
- * cells of the lattice that pg_lattice_fit lays over the body without them at the scene's spacing: round
- * (thickness / step) of them. */
+/* Reads `body` (a list of {add|subtract: {...}}) and `layers` (a list of {name, side, thickness, over}).
+ * Layers become whole cells of the lattice that pg_lattice_fit lays over the body without them at the
+ * scene's spacing, round (thickness / step) of them. What is wrong is a fault of the scene: PG_E_SCENE. */
 pg_status pg_body_read  (pg_body *out, const pg_scene *scene);
-/* The layer that x lies in, beyond the face by more than `margin` (m); -1: none. */
+/* The layer that x lies in, beyond its face by more than `margin` (m); -1: none. */
 long      pg_body_layer (const pg_body *body, const double *x, double margin);
 void      pg_body_clear (pg_body *body);
-/* shapes in order, tolerance in m */
+/* Does x lie in the body? Shapes act in their order; a position within `tolerance` (m) of a surface is
+ * inside. */
 int       pg_body_inside (const pg_body *body, const double *x, double tolerance);
-/* Index of the shape whose surface is nearest to x, and its distance (m). */
+/* Index of the shape whose surface is nearest to x, and its distance (m; may be NULL). */
 size_t    pg_body_nearest (const pg_body *body, const double *x, double *distance);
-const char *pg_shape_kind (const pg_shape *shape);      /* "box", "disk" ...: as the scene calls it */
-/* Volume (2D: area, m^2) and surface (2D: length, m) in closed form; 0: known for one shape alone. */
+/* What the scene calls this kind: "box", "disk" ... */
+const char *pg_shape_kind (const pg_shape *shape);
+/* Volume (2D: area) and surface (2D: length) in closed form, without thickness; 0: known for one shape
+ * only. */
 int       pg_body_measure (const pg_body *body, double *volume, double *surface);
-/* Shapes of kind PG_MESH: how many the body has. The side sets of their files are names of their parts: does
- * the surface nearest to x belong to that one? Name k of them, NULL: there are no more. */
+/* Number of shapes of kind PG_MESH. The side sets of their files name parts of their surface: does the face
+ * nearest to x belong to the side set `side`? Name k of these, NULL: there are no more. */
 size_t      pg_body_meshes   (const pg_body *body);
 int         pg_shape_on_side (const pg_shape *shape, const double *x, const char *side);
 const char *pg_shape_side    (const pg_shape *shape, size_t k);
 
 /* ---- background lattice -------------------------------------------------------------------------------- */
+/* Equal boxes over the bounding box of the body. */
 typedef struct {
-    int    dim, count[3];                              /* cells per axis (1 beyond dim) */
-    /* m: corners of the lattice; step = L / round (L / spacing), L without layers */
+    /* count: cells along each axis, 1 beyond dim. */
+    int    dim, count[3];
+    /* Corners of the lattice, and its steps: L / round (L / spacing), L being the extent without
+     * layers. m. */
     double origin[3], high[3], step[3];
-    unsigned char *in;  /* count[0]*count[1]*count[2], x fastest: cell centre in the body */
+    /* 1 for each cell whose centre lies in the body (count[0] x count[1] x count[2], x fastest). */
+    unsigned char *in;
 } pg_lattice;
+/* Lays a lattice over the body. offset: shift in fractions of a step, or NULL. PG_E_LIMIT: more cells than
+ * an int can number. */
 pg_status pg_lattice_fit (pg_lattice *out, const pg_body *body, double spacing,
                           const double *offset /* fraction of a step or NULL */);
 void      pg_lattice_clear (pg_lattice *lattice);
-/* Coordinate (m) of vertex i along an axis, i + 0.5: of a cell centre. Corners exact, mirror symmetric about
- * the middle. */
+/* Coordinate (m) of vertex i along an axis; i + 0.5: of a cell's centre. Corners are exact, and the
+ * coordinates are symmetric about the middle to the last bit. */
 double    pg_lattice_at    (const pg_lattice *lattice, int axis, double i);
-/* m: a centre so near to the surface lies on it */
+/* A centre as near to the surface as this lies on it, m. */
 double    pg_lattice_tolerance (const pg_lattice *lattice);
-/* A mesh as a lattice sees it (kind PG_STAIRS, made from one of kind PG_MESH): every place of a cell is
- * inside or outside as its centre is. */
+/* A mesh as a lattice sees it: every position in a cell is inside or outside as its centre is. */
 pg_status pg_stairs_create (pg_shape *out, const pg_shape *mesh, const pg_lattice *lattice);
 void      pg_stairs_clear  (pg_shape *stairs);
-/* 1: cell i of the lattice and the one beyond its face (-x +x -y +y -z +z) are not both inside, not both
- * outside. */
+/* 1: of cell i and the one beyond its face (-x +x -y +y -z +z) one is inside and the other is not. */
 int       pg_stairs_step   (const pg_shape *stairs, const int *i, int face);
 
 /* ---- points -------------------------------------------------------------------------------------------- */
+/* The points. */
 typedef struct {
     int     dim;
     size_t  n;
-    double *x;                                         /* position, m (n x dim) */
-    double *volume;                                    /* m^3: 2D area*thickness, 1D length*area (n) */
-    int    *block;                                     /* block number, 0 unless given (n) */
-    double *size;                                      /* local spacing, m; NULL: h everywhere (n) */
-    double  h;  /* nominal spacing, m: (volume of a lattice cell)^(1/dim) */
-    double  step[3];                                   /* lattice step per axis, m */
-    double  thickness;                                 /* 2D m; 1D cross-section m^2; 3D 1 */
-    double  low[3], high[3];                           /* bounding box, m */
+    /* Positions, m (n x dim). */
+    double *x;
+    /* Volumes, m^3 (n). */
+    double *volume;
+    /* Number of the block, 0 unless given (n). */
+    int    *block;
+    /* Local spacing, m (n); NULL: h everywhere. */
+    double *size;
+    /* Nominal spacing, m: (volume of a lattice cell)^(1/dim), or the mean. */
+    double  h;
+    /* Step of the lattice along each axis; h where there is none. m. */
+    double  step[3];
+    /* Thickness in 2D (m), cross section in 1D (m^2), 1 in 3D. */
+    double  thickness;
+    /* Bounding box of the points, m. */
+    double  low[3], high[3];
 } pg_cloud;
-/* Points of the scene: lattice: nodes (grid vertices, boundary included) | cells (cell centres), kept where
- * in the body (nodes: vertices of kept cells); cell volume shared equally by its vertices (nodes). Then
- * perturbed (reproducibly; only points whose surrounding cells are all kept move), or read from `points:
- * FILE`. The lattice is returned as well (empty: dim = 0, for points from a file). */
+/* Points of the scene. On a lattice (`lattice: nodes` or `cells`): the vertices of the cells whose centre
+ * lies in the body, each with an equal share of the volume of its cells, or the centres of these cells;
+ * then perturbed reproducibly, but only points with kept cells all around. Or read from `points: FILE`; the
+ * lattice is empty then (dim = 0). PG_E_SCENE, PG_E_MEMORY. */
 pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene);
 void      pg_cloud_clear (pg_cloud *cloud);
 /* Local spacing of point i over the nominal one: the support of node i is `horizon` times this. Exactly 1
- * where size is NULL or h. */
+ * where size is NULL or equals h. */
 double    pg_cloud_ratio (const pg_cloud *cloud, size_t i);
-double    pg_cloud_finest (const pg_cloud *cloud);     /* smallest local spacing, m */
+/* Smallest local spacing, m. */
+double    pg_cloud_finest (const pg_cloud *cloud);
 
 /* ---- points of a mesh ---------------------------------------------------------------------------------- */
-typedef struct {  /* the body as a mesh; mesh.n = 0: the scene has none */
-    pg_mesh mesh;                                      /* the blocks in use, in metres */
-    char    file[256];                                 /* as the scene names it */
-    double  unit;                                      /* m per unit of the file */
-    double *volume;                                    /* of every element, m^dim (mesh.n) */
-    double  smallest, largest;                         /* elements' size, volume^(1/dim), m */
-    double  quality;  /* worst scaled Jacobian at a corner: 1 best, 0 flat; of the straight element */
-    size_t  worst;                                     /* the element that has it */
-    int    *point;  /* point of the cloud at each node, -1: none (mesh.nnode) */
+/* The body as a mesh; mesh.n = 0: the scene has none. */
+typedef struct {
+    /* The blocks in use, in m. */
+    pg_mesh mesh;
+    /* File as the scene names it. */
+    char    file[256];
+    /* Length of a unit of the file, m. */
+    double  unit;
+    /* Volume of every element, m^dim (mesh.n). */
+    double *volume;
+    /* Smallest and largest size of an element, volume^(1/dim), m. */
+    double  smallest, largest;
+    /* Worst scaled Jacobian at a corner of any element, seen with straight edges: 1 best, 0 flat. */
+    double  quality;
+    /* The element that has it. */
+    size_t  worst;
+    /* Point of the cloud at each node, -1: none (mesh.nnode). Filled by pg_mesh_body_cloud. */
+    int    *point;
 } pg_mesh_body;
-/* `mesh` of the scene: file, unit, blocks. A file that cannot be read, another dimension, unknown blocks and
- * elements whose map turns inside out somewhere are faults of the scene. */
+/* Reads `mesh` of the scene: file, unit, blocks. Faults of the scene: a file that cannot be read, another
+ * dimension, unknown blocks, and elements whose map turns inside out somewhere. */
 pg_status pg_mesh_body_read  (pg_mesh_body *out, const pg_scene *scene);
-/* Points at the nodes (`mesh.points`: all or corners). Volumes: integrals of the shape functions, in elements
- * where one is not positive (tri6, tet10, quad8 ...) in the ratio of the integrals of their squares; the sum
- * is that of the elements. size: mean length of the edges at a node (half of it where middle nodes are
- * points), and so large that each end of an edge lies in the support of the other from a horizon of 1.7
- * spacings on; h: its mean. Fills body->point. */
+/* Points at the nodes (`mesh.points`: all or corners). Volumes are integrals of the shape functions; where
+ * one of an element is not positive (tri6, tet10, quad8 ...) they are in the ratio of the integrals of the
+ * squares. Their sum is the volume of the elements. size: mean length of the edges at a node (half of it
+ * where nodes in the middle of edges are points), at least so large that both ends of an edge lie in the
+ * support of each other from a horizon of 1.7 spacings on; h: its mean. */
 pg_status pg_mesh_body_cloud (pg_cloud *out, pg_mesh_body *body, const pg_scene *scene);
 void      pg_mesh_body_clear (pg_mesh_body *body);
-/* 1: there are elements with points in the middle of their edges, half an edge apart: they want finer
- * quadrature. */
+/* 1: some points lie in the middle of edges, half an edge from the next, so that finer quadrature is
+ * needed. */
 int       pg_mesh_body_halved (const pg_mesh_body *body);
-/* Index of the block of that name, or else of that number; -1: there is none. All names as a|b|c. */
+/* Index of the block of that name, or else of that number; -1: there is none. The second function writes
+ * all names, separated by |. */
 int       pg_mesh_body_block  (const pg_mesh *mesh, const char *name);
 void      pg_mesh_body_blocks (const pg_mesh *mesh, char *out, size_t size);
 
 /* ---- families ------------------------------------------------------------------------------------------ */
 /* The nodes that each of n centres sees. */
 typedef pg_adjacency pg_family;
-enum { PG_RADIAL, PG_TENSOR };  /* ball |x_j - c| | cube max_k |x_jk - c_k| */
-/* Cloud points within `reach` of each of n centres; where the cloud has local spacings, point j is within
- * reach * size[j] / h: a node may see another that does not see it. closed: a distance of exactly reach
- * counts (to 1e-9); else not. A point at the centre is included. */
+/* Shapes of a family: the ball |x_j - c|, the cube max_k |x_jk - c_k|. */
+enum { PG_RADIAL, PG_TENSOR };
+/* Points of the cloud within `reach` (m) of each of n centres. Where the cloud has local spacings, point j
+ * must be within reach * size[j] / h: a node may then see another that does not see it. closed: a distance
+ * of exactly `reach` counts (to 1e-9), else it does not. A point at a centre belongs to its family.
+ * PG_E_MEMORY; PG_E_USAGE for positions that are not finite. */
 pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, const double *centre,
                            double reach, int shape, int closed);
 void      pg_family_clear (pg_family *family);
 
 /* ---- nearest point ------------------------------------------------------------------------------------- */
-typedef struct pg_nearest pg_nearest;                  /* a grid over points; x is borrowed */
-/* 1: this point does not count */
+/* A grid over points for nearest-point searches; x is borrowed. */
+typedef struct pg_nearest pg_nearest;
+/* Says whether a point does not count: 1: it is passed over. */
 typedef int (*pg_refuse) (void *context, const double *place, size_t point);
 pg_status pg_nearest_create (pg_nearest **out, int dim, size_t n, const double *x /* n x dim, m */);
 void      pg_nearest_free   (pg_nearest **nearest);
-/* The nearest point that is not refused (refuse NULL: none is); of equals the lowest number; -1: all are
- * refused. Thread-safe. */
+/* The nearest point that is not refused (refuse NULL: none is); of equally near ones the lowest number; -1:
+ * all are refused. Thread-safe. */
 long      pg_nearest_find   (const pg_nearest *nearest, const double *place, pg_refuse refuse, void *context);
 
+/* Positions no further apart than this part of the local spacing are at one place. */
 #define PG_NO_LENGTH 1e-6  /* of the local spacing: what is no further apart is at one place */
 
 /* ---- pre-cracks ---------------------------------------------------------------------------------------- */
 enum { PG_CRACK_SEGMENT, PG_CRACK_POLYGON, PG_CRACK_DISC };
+
+/* A pre-crack: a segment in 2D, a plane polygon or a disc in 3D. */
 typedef struct {
     int    kind;
-    double *vertex; size_t nvertex;  /* segment: 2 x 2; polygon: n x 3, planar (disc: as drawn, 64-gon) */
-    double centre[3], normal[3], radius;  /* disc; normal of polygon, unit normal of segment (2D) */
-    /* m: how far behind a tip or front bonds cross that are cut; of the two ends of a segment, of the edges
-     * of a polygon (edge i from vertex i to the next), of a disc one; NULL: 0 */
+    /* Segment: 2 x 2; polygon: n x 3; disc: a regular polygon of 64 vertices, for pictures. m. */
+    double *vertex; size_t nvertex;
+    /* Centre and radius of a disc, m; unit normal of any kind. */
+    double centre[3], normal[3], radius;
+    /* How far from its tip or front the crack cuts no bonds, m: for the two ends of a segment, the edges of
+     * a polygon (edge i from vertex i to the next), the rim of a disc; NULL: 0. */
     double *retreat;
 } pg_crack;
 typedef struct { int dim; pg_crack *crack; size_t n; } pg_cracks;
+/* Reads `cracks`. Each must meet the body; what is wrong is a fault of the scene. */
 pg_status pg_cracks_read  (pg_cracks *out, const pg_scene *scene);
 void      pg_cracks_clear (pg_cracks *cracks);
-/* Does the bond x - y meet crack c, less the strip along its tips and fronts that `retreat` says (a touch
- * within `tolerance` m counts)? The answer is the same for y - x. */
+/* Does the bond x - y meet the crack, less the strips along its tips and fronts that `retreat` gives? A
+ * touch within `tolerance` (m) counts. The answer for y - x is the same. */
 int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance);
-/* x lies on the crack */
+/* Does x lie on the crack, within the tolerance? */
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance);
-/* The same asked of several cracks: the first of them that the bond x - y meets, or that x lies on; NULL:
- * none does. */
+/* The same for several cracks: the first of them that the bond meets, or that x lies on; NULL: none. */
 const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,
                                double tolerance);
 const pg_crack *pg_cracks_touch (const pg_cracks *cracks, int dim, const double *x, double tolerance);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body: shapes added and subtracted in the order of the scene. A point on a surface belongs to the
+ * The body: shapes added and subtracted in the order of the scene. A position on a surface belongs to the
  * body. */
 #include "shape.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* Names the surface of shape i; names of the sides of the bounding box are taken. */
 static void name_boundary (pg_shape *s, const pg_scene *scene, size_t i)
 {
     const char *name = !s->add ? "hole" : pg_shape_types[s->kind].round ? "rim" : "side";
@@ -18,6 +19,7 @@ static void name_boundary (pg_shape *s, const pg_scene *scene, size_t i)
     snprintf (s->boundary, sizeof s->boundary, "%.31s", name);
 }
 
+/* Reads shape i of the scene. After a fault it is a box, so that the other shapes can still be read. */
 static pg_status read_shape (pg_shape *s, int dim, const pg_scene *scene, size_t i)
 {
     char at[96];
@@ -40,6 +42,7 @@ static pg_status read_shape (pg_shape *s, int dim, const pg_scene *scene, size_t
     return PG_OK;
 }
 
+/* Bounding box of the added shapes. */
 static void bound (pg_body *body)
 {
     for (int k = 0; k < body->dim; k++) body->low[k] = INFINITY, body->high[k] = -INFINITY;
@@ -54,6 +57,8 @@ static void bound (pg_body *body)
     }
 }
 
+/* A body so far from the origin that its size is lost in rounding is refused: tolerances would be
+ * meaningless. */
 pg_status pg_body_read (pg_body *out, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -97,6 +102,8 @@ void pg_body_clear (pg_body *body)
     memset (body, 0, sizeof *body);
 }
 
+/* A shape that would not change the answer so far is not asked. Shapes need only distances up to the
+ * tolerance. */
 int pg_body_inside (const pg_body *body, const double *x, double tolerance)
 {
     int in = 0;
@@ -111,6 +118,7 @@ int pg_body_inside (const pg_body *body, const double *x, double tolerance)
 
 const char *pg_shape_kind (const pg_shape *shape) { return pg_shape_types[shape->kind].name; }
 
+/* The least distance so far is the reach of the next question, which shapes may use to stop early. */
 size_t pg_body_nearest (const pg_body *body, const double *x, double *distance)
 {
     size_t nearest = 0;

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Which bonds does a crack cut? The part of the bond within the tolerance of the crack's line or plane is
- * compared there with the crack, grown by the tolerance: one rule for crossing, touching and lying in the
- * crack. */
+ * Which bonds does a crack cut? One rule for crossing, touching and lying in the crack: the part of the
+ * bond that lies within the tolerance of the crack's line or plane is compared with the crack there, grown
+ * by the tolerance. The ends of a bond are put in a fixed order first, so that x - y and y - x have the
+ * same bits. */
 #include "perigal/cloud.h"
 #include "polygon.h"
 #include <math.h>
 #include <string.h>
 
+/* a . b */
 static double dot (int dim, const double *a, const double *b)
 {
     double s = 0;
@@ -14,13 +16,14 @@ static double dot (int dim, const double *a, const double *b)
     return s;
 }
 
+/* a + s (b - a); exactly b for s = 1. */
 static void point_at (int dim, const double *a, const double *b, double s, double *out)
 {
     for (int k = 0; k < dim; k++) out[k] = s == 1 ? b[k] : a[k] + s * (b[k] - a[k]);
 }
 
 /* ---- distances ----------------------------------------------------------------------------------------- */
-/* of p from segment a b */
+/* Distance of p from the segment a b. */
 static double distance_point (int dim, const double *p, const double *a, const double *b)
 {
     double u[3] = { 0 }, w[3] = { 0 };
@@ -31,8 +34,8 @@ static double distance_point (int dim, const double *p, const double *a, const d
     return sqrt (dot (dim, w, w));
 }
 
-/* Segments a b and c d: least of the distances of the ends and, if the lines are nearest inside both, of the
- * lines. */
+/* Distance of the segments a b and c d: the least distance of the ends or, where the lines are nearest
+ * inside both, that of the lines. Parallel lines (determinant below 1e-14) are nearest at an end. */
 static double distance_segments (const double *a, const double *b, const double *c, const double *d)
 {
     double u[3], v[3], w[3];
@@ -49,6 +52,7 @@ static double distance_segments (const double *a, const double *b, const double 
 }
 
 /* ---- in the line or plane of the crack ----------------------------------------------------------------- */
+/* Along the line of the crack: does the interval of a b overlap that of the crack without its retreats? */
 static int meets_segment (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
     const double *p = c->vertex, *q = p + 2, t[2] = {c->normal[1], -c->normal[0]};
@@ -60,12 +64,14 @@ static int meets_segment (const pg_crack *c, const double *a, const double *b, d
     return fmax (i, j) >= low - tolerance && fmin (i, j) <= high + tolerance;
 }
 
+/* In the plane of the disc. */
 static int meets_disc (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
     return distance_point (3, c->centre, a, b) <= c->radius - (c->retreat ? c->retreat[0] : 0) + tolerance;
 }
 
-/* p, lying in the plane of the polygon: inside? Seen along the axis nearest to the normal. */
+/* Is p, which lies in the plane of the polygon, inside? By crossing number in the projection along the axis
+ * nearest to the normal. */
 static int in_polygon (const pg_crack *c, const double *p)
 {
     int k = 0, in = 0;
@@ -80,13 +86,16 @@ static int in_polygon (const pg_crack *c, const double *p)
 }
 
 /* ---- a polygon less the strips along its fronts -------------------------------------------------------- */
-typedef struct { const double *a, *b, *from, *to; } chord;             /* of a bond, in the plane; an edge */
+/* The part a b of a bond in the plane, and an edge from - to of the polygon. */
+typedef struct { const double *a, *b, *from, *to; } chord;
 
+/* Position at t in [0, 1] on the chord. */
 static void along (const chord *h, double t, double *out)
 {
     for (int k = 0; k < 3; k++) out[k] = h->a[k] + t * (h->b[k] - h->a[k]);
 }
 
+/* Its distance from the edge. */
 static double away (const chord *h, double t)
 {
     double x[3];
@@ -94,7 +103,8 @@ static double away (const chord *h, double t)
     return distance_point (3, x, h->from, h->to);
 }
 
-/* Where the chord is nearest to the edge: the distance is convex along it. */
+/* Where the chord is nearest to the edge, by ternary search: the distance from a segment is convex along a
+ * line. */
 static double nearest (const chord *h)
 {
     double low = 0, high = 1;
@@ -106,8 +116,8 @@ static double nearest (const chord *h)
     return 0.5 * (low + high);
 }
 
-/* Where it comes to within d of the edge, between a place `far` that is further away and one `near` that is
- * not: at least d away. */
+/* Where the chord comes within d of the edge, by bisection between `far`, which is farther away, and
+ * `near`, which is not. The result is at least d away. */
 static double crossing (const chord *h, double d, double far, double near)
 {
     for (int i = 0; i < 60; i++) {
@@ -118,6 +128,7 @@ static double crossing (const chord *h, double d, double far, double near)
     return far;
 }
 
+/* Is p in the polygon, or within the tolerance of its outline, and not in the strip along a front? */
 static int in_what_is_left (const pg_crack *c, const double *p, double tolerance)
 {
     int in = in_polygon (c, p);
@@ -129,8 +140,8 @@ static int in_what_is_left (const pg_crack *c, const double *p, double tolerance
     return in;
 }
 
-/* Along the chord what is left of the polygon begins and ends at its ends, at an edge, or where it comes near
- * to a front. */
+/* Along the chord, what is left of the polygon can begin and end only at the ends of the chord, at an edge,
+ * or where the chord enters the strip along an edge: these places are tried. */
 static int meets_what_is_left (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
     double length = 0;
@@ -150,6 +161,7 @@ static int meets_what_is_left (const pg_crack *c, const double *a, const double 
     return 0;
 }
 
+/* Without retreats: an end of the chord inside, or an edge within the tolerance. */
 static int meets_polygon (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
     if (c->retreat) return meets_what_is_left (c, a, b, tolerance);
@@ -160,11 +172,12 @@ static int meets_polygon (const pg_crack *c, const double *a, const double *b, d
 }
 
 /* ---- the bond ------------------------------------------------------------------------------------------ */
+/* One function for each kind of crack. */
 static int (*const meets[]) (const pg_crack *, const double *, const double *, double) = {
     [PG_CRACK_SEGMENT] = meets_segment, [PG_CRACK_POLYGON] = meets_polygon, [PG_CRACK_DISC] = meets_disc,
 };
 
-/* order of the ends, so that x - y and y - x agree */
+/* Order of the ends of a bond, lexicographic. */
 static int after (int dim, const double *x, const double *y)
 {
     for (int k = 0; k < dim; k++)
@@ -172,6 +185,8 @@ static int after (int dim, const double *x, const double *y)
     return 0;
 }
 
+/* d, e: distances of the ends from the plane of the crack; s, t: the part of the bond within the
+ * tolerance. */
 int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance)
 {
     const double *p = crack->kind == PG_CRACK_DISC ? crack->centre : crack->vertex;

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Pre-cracks of the scene: segments in 2D, plane polygons and discs in 3D; each must meet the body. */
+ * Pre-cracks of the scene: segments in 2D, plane polygons and discs in 3D. A crack that certainly does not
+ * meet the body is a fault: most likely its coordinates are in other units. */
 #include "perigal/cloud.h"
 #include "polygon.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* Vertices of a drawn disc; depth of the subdivision. */
 enum { DISC_CORNERS = 64, DEEPEST = 8 };
 
+/* |a| */
 static double length (int dim, const double *a)
 {
     double s = 0;
@@ -16,8 +19,8 @@ static double length (int dim, const double *a)
 }
 
 /* ---- does it meet the body? ---------------------------------------------------------------------------- */
-/* 0 only when the triangle certainly lies outside: a ball around a piece misses the body, or all parts of the
- * piece do. */
+/* Can the triangle a b c meet the body? 0 only if it certainly does not: a ball around a piece misses the
+ * body, or around all parts of the piece, by subdivision into four. */
 static int may_meet (const pg_body *body, const double *a, const double *b, const double *c, int depth)
 {
     double m[3] = {0, 0, 0}, ab[3] = {0, 0, 0}, bc[3] = {0, 0, 0}, ca[3] = {0, 0, 0}, radius = 0;
@@ -37,6 +40,7 @@ static int may_meet (const pg_body *body, const double *a, const double *b, cons
         || may_meet (body, c, ca, bc, depth + 1) || may_meet (body, ab, bc, ca, depth + 1);
 }
 
+/* The same for a crack; polygons as fans of triangles. */
 static int crack_may_meet (const pg_body *body, const pg_crack *c)
 {
     const double *v = c->vertex;
@@ -47,6 +51,7 @@ static int crack_may_meet (const pg_body *body, const pg_crack *c)
 }
 
 /* ---- kinds --------------------------------------------------------------------------------------------- */
+/* from and to. */
 static pg_status read_segment (pg_crack *c, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -65,7 +70,7 @@ done:
     return status;
 }
 
-/* Unit normal: the area vector of the polygon, which no choice of three vertices can spoil. */
+/* Unit normal by the area vector of the polygon, which no unlucky choice of three vertices can spoil. */
 static void find_normal (pg_crack *c)
 {
     const double *o = c->vertex;
@@ -80,7 +85,7 @@ static void find_normal (pg_crack *c)
     for (int k = 0; k < 3 && size > 0; k++) c->normal[k] /= size;
 }
 
-/* What is wrong with the polygon, or NULL. */
+/* What is wrong with the polygon, or NULL; flat: room for its projection (nvertex x 2). */
 static const char *polygon_fault (const pg_crack *c, double *flat)
 {
     double size = 0, off = 0;
@@ -100,6 +105,7 @@ static const char *polygon_fault (const pg_crack *c, double *flat)
     return pg_polygon_fault (c->nvertex, flat);
 }
 
+/* A list of vertices. */
 static pg_status read_polygon (pg_crack *c, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -118,6 +124,7 @@ done:
     return status;
 }
 
+/* Centre, normal, radius; e and f are unit vectors in its plane. */
 static pg_status read_disc (pg_crack *c, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -149,6 +156,7 @@ done:
     return status;
 }
 
+/* Reads crack i; in 2D segments, in 3D polygons and discs. */
 static pg_status read_crack (pg_crack *c, int dim, const pg_scene *scene, size_t i)
 {
     char at[64];
@@ -166,6 +174,7 @@ static pg_status read_crack (pg_crack *c, int dim, const pg_scene *scene, size_t
     return PG_OK;
 }
 
+/* The fault says where the body is. */
 static void fault_outside (const pg_scene *scene, const char *at, const pg_body *body, int dim)
 {
     char text[128];
@@ -176,6 +185,7 @@ static void fault_outside (const pg_scene *scene, const char *at, const pg_body 
     pg_scene_fault (scene, at, "lies outside the body, which fills %s", text);
 }
 
+/* The body is read only to see whether cracks meet it. */
 pg_status pg_cracks_read (pg_cracks *out, const pg_scene *scene)
 {
     pg_status status = PG_OK;

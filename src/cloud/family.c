@@ -1,19 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Families { j : |x_j - c_i| <= reach } in O(n): the centres are sorted into grid cells; the points then
- * visit, in ascending order, the cells near them, so that each family comes out sorted. Where every point has
- * its own reach the centres are sorted into a tree instead: O(n log n) however crowded some places are. */
+ * Families { j : |x_j - c_i| <= reach } in O(n). The centres are sorted into the cells of a grid; the
+ * points then visit the cells near them in ascending order, so that each family comes out sorted without
+ * being sorted. Where every point has its own reach the centres are sorted into a tree instead: O(n log n),
+ * however crowded some places are. Two passes: the first counts, the second writes. */
 #include "perigal/cloud.h"
 #include "tree.h"
 #include <math.h>
 #include <string.h>
 
+/* A grid of cells over the centres. */
 typedef struct {
     int     dim;
     size_t  count[3];
-    double  low[3], inverse[3];                        /* m, 1/m: cell = (x - low) * inverse */
-    size_t *start, *item;                              /* centres of each cell */
+    /* cell = (x - low) * inverse along each axis (m, 1/m). */
+    double  low[3], inverse[3];
+    /* Centres of each cell (compressed rows). */
+    size_t *start, *item;
 } grid;
 
+/* Cell index of coordinate x along axis k; outside: the nearest cell. */
 static size_t cell_along (const grid *g, int k, double x)
 {
     double c = (x - g->low[k]) * g->inverse[k];
@@ -21,6 +26,7 @@ static size_t cell_along (const grid *g, int k, double x)
     return c < (double) g->count[k] ? (size_t) c : g->count[k] - 1;
 }
 
+/* Number of the cell that holds x, x fastest. */
 static size_t cell_of (const grid *g, const double *x)
 {
     size_t c = 0;
@@ -28,7 +34,7 @@ static size_t cell_of (const grid *g, const double *x)
     return c;
 }
 
-/* Cells as wide as the reach, but no more than about n of them. */
+/* Cells as wide as the reach, but not many more than there are centres. */
 static void fit_grid (grid *g, size_t n, const double *x, double reach)
 {
     double high[3], cells = 1, most = pow ((double) n + 1, 1.0 / g->dim) + 1;
@@ -57,6 +63,7 @@ static void grid_clear (grid *g)
     memset (g, 0, sizeof *g);
 }
 
+/* Counting sort of the centres. */
 static pg_status grid_build (grid *g, int dim, size_t n, const double *x, double reach)
 {
     pg_status status = PG_OK;
@@ -75,17 +82,23 @@ done:
     return status;
 }
 
+/* What a pass needs. */
 typedef struct {
     const grid *g;
-    const pg_tree *tree;                               /* in place of g where reaches differ */
+    /* In place of the grid where reaches differ. */
+    const pg_tree *tree;
     int dim;
     const double *centre;
-    double reach, limit;                               /* search width; largest distance (radial: squared) */
+    /* Width of the search; largest distance of a member (radial: squared). */
+    double reach, limit;
     int shape, closed;
-    size_t *next;                                      /* per centre: counts up */
-    int *node;                                         /* NULL in the counting pass */
+    /* Per centre: number of members so far, or place of the next one. */
+    size_t *next;
+    /* Members; NULL in the counting pass. */
+    int *node;
 } search;
 
+/* Is x within the limit of c? closed: the limit itself counts. */
 static int belongs (const search *s, int dim, const double *c, const double *x)
 {
     double d = 0;
@@ -96,8 +109,10 @@ static int belongs (const search *s, int dim, const double *c, const double *x)
     return s->closed ? d <= s->limit : d < s->limit;
 }
 
+/* The point whose turn it is. */
 typedef struct { const search *s; const double *x; int j; } visitor;
 
+/* Adds point j to the family of centre i, if it belongs there. */
 static void tell (void *context, size_t i)
 {
     const visitor *v = context;
@@ -107,6 +122,7 @@ static void tell (void *context, size_t i)
     s->next[i]++;
 }
 
+/* The same for all centres of a row of cells. */
 static void visit_row (const search *s, const double *x, int j, size_t first, size_t last)
 {
     const grid *g = s->g;
@@ -118,7 +134,7 @@ static void visit_row (const search *s, const double *x, int j, size_t first, si
     }
 }
 
-/* Tells all centres within reach of point j; cells of a row along x lie one after the other. */
+/* Adds point j to all families it belongs to; the cells of a row along x are contiguous. */
 static void visit_point (const search *s, const double *x, int j)
 {
     const grid *g = s->g;
@@ -135,7 +151,7 @@ static void visit_point (const search *s, const double *x, int j)
         }
 }
 
-/* Tells all centres, point after point; the reach of a point follows its spacing. */
+/* All points in ascending order; the reach of a point is proportional to its spacing. */
 static void visit_points (const search *all, const pg_cloud *cloud, double reach)
 {
     search s = *all;
@@ -150,6 +166,7 @@ static void visit_points (const search *all, const pg_cloud *cloud, double reach
     }
 }
 
+/* Positions and spacings must be finite numbers. */
 static pg_status check_input (const pg_cloud *cloud, size_t n, const double *centre, double reach)
 {
     pg_status status = PG_OK;
@@ -168,6 +185,8 @@ done:
     return status;
 }
 
+/* A relative margin of 1e-9 decides about distances of exactly `reach`, which rounding would leave to
+ * chance; the search is a little wider. */
 pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, const double *centre,
                            double reach, int shape, int closed)
 {

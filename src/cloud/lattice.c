@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Background lattice: round (L / spacing) equal cells per axis over the bounding box, and whole ones in the
- * layers outside of it; a cell is kept when its centre lies in the body. A centre on the surface counts as
- * inside (to 1e-9 of a step), whichever side it is seen from, so symmetry is kept. */
+ * Background lattice: round (L / spacing) equal cells along each axis of the bounding box, and whole cells
+ * in the layers outside of it. A cell is kept when its centre lies in the body. A centre on the surface
+ * counts as inside (to 1e-9 of a step), whichever side it is approached from, so that symmetric bodies have
+ * symmetric lattices. */
 #include "perigal/cloud.h"
 #include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <string.h>
 
+/* Far from the origin the rounding of coordinates is coarser than 1e-9 of a step. */
 double pg_lattice_tolerance (const pg_lattice *l)
 {
     double step = INFINITY, size = 0;
@@ -18,7 +20,8 @@ double pg_lattice_tolerance (const pg_lattice *l)
     return 1e-9 * step + 8 * DBL_EPSILON * size;  /* far from the origin rounding is coarser than 1e-9 step */
 }
 
-/* Cells of the body without its layers, in [low, high], and of the layers on the two sides of that. */
+/* Number of cells of the body without its layers, in [low, high]; *more: those of the layers on both
+ * sides. */
 static double cells_along (const pg_body *body, int k, double spacing, double *low, double *high,
                            double *more)
 {
@@ -31,6 +34,7 @@ static double cells_along (const pg_body *body, int k, double spacing, double *l
     return cells;
 }
 
+/* Counts, steps and corners; an offset shifts the lattice towards the low side and adds a cell. */
 static pg_status fit_axes (pg_lattice *l, const pg_body *body, double spacing, const double *offset)
 {
     pg_status status = PG_OK;
@@ -76,6 +80,7 @@ done:
     return status;
 }
 
+/* From the nearer end, so that mirror images have the same bits. */
 double pg_lattice_at (const pg_lattice *l, int axis, double i)
 {
     double n = l->count[axis];

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fictitious boundary layers: boxes of whole lattice cells outside the bounding box of the shapes (theory
- * B3). */
+ * Fictitious boundary layers: boxes of whole lattice cells outside the bounding box of the shapes, in which
+ * displacements are prescribed (doc/method.md B3). */
 #include "shape.h"
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* Names of the sides, 2 axis + (1 on the high side). */
 static const char *const sides[] = {"left", "right", "bottom", "top", "back", "front"};
 
 int pg_layers_taken (const char *name)
@@ -15,7 +16,7 @@ int pg_layers_taken (const char *name)
     return !strcmp (name, "all");
 }
 
-/* A scene's set of this name is found when the sets are made. */
+/* Reads and checks a name. Whether a set of the scene has it too is found when the sets are built. */
 static void read_name (pg_layer *layer, const pg_body *body, const pg_scene *scene, size_t i)
 {
     const char *name = pg_scene_text (scene, "layers[%zu].name", i);
@@ -35,6 +36,7 @@ static void read_name (pg_layer *layer, const pg_body *body, const pg_scene *sce
     snprintf (layer->name, sizeof layer->name, "%.31s", name);
 }
 
+/* Reads a side; each may have one layer. */
 static int read_side (const pg_body *body, const pg_scene *scene, size_t i)
 {
     const char *side = pg_scene_text (scene, "layers[%zu].side", i);
@@ -49,7 +51,8 @@ static int read_side (const pg_body *body, const pg_scene *scene, size_t i)
     return number;
 }
 
-/* Whole cells of the lattice over low..high, the box of the body without layers. */
+/* Number of rows and their thickness *reach (m), in cells of the lattice over low..high, the box of the
+ * body without layers. */
 static void read_thickness (pg_layer *layer, const double *low, const double *high, const pg_scene *scene,
                             size_t i, double *reach)
 {
@@ -66,6 +69,7 @@ static void read_thickness (pg_layer *layer, const double *low, const double *hi
     *reach = layer->rows * step;
 }
 
+/* Makes the box of a layer. */
 static void lay (pg_shape *box, pg_layer *layer, int dim, const double *low, const double *high, double reach)
 {
     int k = layer->side / 2, far = layer->side % 2;
@@ -78,7 +82,7 @@ static void lay (pg_shape *box, pg_layer *layer, int dim, const double *low, con
     memcpy (box->boundary, layer->name, sizeof box->boundary);
 }
 
-/* Where the body ends between x, which is inside, and `to` along an axis. */
+/* Where the body ends between x, which is inside, and `to` along an axis, by bisection to the last bit. */
 static double edge_of (const pg_body *body, const double *x, int axis, double to)
 {
     double at[3] = { x[0], x[1], x[2] }, inside = x[axis], outside = to;
@@ -92,11 +96,12 @@ static double edge_of (const pg_body *body, const double *x, int axis, double to
     return inside;
 }
 
-enum { MOST_LOOKS = 4096 };                                /* along an axis */
+/* Cells looked at along an axis, at most. */
+enum { MOST_LOOKS = 4096 };
 
 /* Shrinks the box of a layer to the part of the face below which, half a cell deep, the body lies: from the
- * first cell to the last one along every axis, and there to the body's own edge. body: without layers. 0: it
- * lies below none. */
+ * first cell to the last along every axis, and there to the body's own edge. body: without layers. 0: there
+ * is no such part. */
 static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, const double *low,
                    const double *high, double spacing)
 {
@@ -128,6 +133,7 @@ static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, co
     return found;
 }
 
+/* Layers are cells of a lattice: bodies without one cannot have them. */
 static void refuse (const pg_scene *scene)
 {
     const char *origin = pg_scene_given (scene, "mesh")     ? "a mesh"
@@ -144,6 +150,7 @@ static void refuse (const pg_scene *scene)
             "are whole cells outside the body, which lattice_offset would cut: leave one of the two out");
 }
 
+/* Each layer is appended to the shapes, and the bounding box grows by it. */
 pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
 {
     pg_status status = PG_OK;

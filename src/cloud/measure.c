@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Volume and surface of a body of one shape, in closed form (of a mesh: by quadrature over its elements). */
+ * Volume and surface of a body of one shape: in closed form, or by quadrature over the elements of a mesh. */
 #include "shape.h"
 #include "polygon.h"
 #include <math.h>
 
+/* Area and length of the outline. */
 static void of_polygon (const pg_shape *s, double *area, double *outline)
 {
     *area = fabs (pg_polygon_area (s->nvertex, s->vertex)), *outline = 0;

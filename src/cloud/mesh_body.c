@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body as a mesh: file, unit, blocks in use, and whether its elements are fit to be cells. */
+ * The body as a mesh: file, unit, blocks in use, and whether its elements can serve as cells. */
 #include "place.h"
 #include "mesh_body.h"
 #include "perigal/mesh_files.h"
@@ -8,6 +8,8 @@
 #include <string.h>
 
 /* ---- file and unit ------------------------------------------------------------------------------------- */
+/* Reads the file that key AT.file names, relative to the scene. What is wrong becomes a fault of the
+ * scene. */
 static pg_status read_file (pg_mesh_body *b, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -33,7 +35,7 @@ done:
     return status;
 }
 
-/* "mm", "25.4 mm" */
+/* Unit of the file: a unit ("mm") or a length ("25.4 mm"). */
 static pg_status scale (pg_mesh_body *b, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -72,7 +74,7 @@ void pg_mesh_body_blocks (const pg_mesh *m, char *out, size_t size)
         at += (size_t) snprintf (out + at, size - at, "%s%s", k ? "|" : "", m->blocks[k].name);
 }
 
-/* Elements that are not in use leave, and with them their nodes and sides. */
+/* Removes the elements of blocks that are not in use, and with them their nodes and sides; in place. */
 static pg_status keep_elements (pg_mesh *m, const unsigned char *keep)
 {
     pg_status status = PG_OK;
@@ -120,6 +122,7 @@ done:
     return status;
 }
 
+/* Key AT.blocks: the blocks in use, by name or number. */
 static pg_status keep_blocks (pg_mesh *m, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -166,8 +169,8 @@ void pg_mesh_body_nodes (const pg_mesh *m, size_t e, double *x)
         for (size_t a = 0; a < dim; a++) x[(k - first) * dim + a] = m->x[3 * (size_t) m->node[k] + a];
 }
 
-/* |det| of the unit vectors along the edges at a corner, over that of the regular element; least of all
- * corners. */
+/* Quality of an element: |det| of the unit vectors along the edges at a corner, over that of the regular
+ * element; the least of all corners. 1 in 1D. */
 static double scaled_jacobian (pg_element kind, int dim, const double *x)
 {
     const pg_element_type *t = &pg_element_types[kind];
@@ -199,7 +202,8 @@ static double scaled_jacobian (pg_element kind, int dim, const double *x)
     return least;
 }
 
-/* Volume of element e; the least Jacobian, at its nodes and points of quadrature, over the mean. */
+/* Volume of element e. least: the smallest Jacobian at its nodes and quadrature points over the mean; not
+ * positive where the element turns inside out. */
 static double measure (const pg_mesh *m, size_t e, double *least)
 {
     double x[3 * PG_ELEMENT_NODES], xi[3 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS],
@@ -221,6 +225,7 @@ static double measure (const pg_mesh *m, size_t e, double *least)
     return volume;
 }
 
+/* Volumes, sizes and quality of all elements. */
 static pg_status check_elements (pg_mesh_body *b, const pg_scene *scene, const char *key)
 {
     pg_status status = PG_OK;
@@ -248,7 +253,7 @@ done:
     return status;
 }
 
-/* As pg_body_read: places whose differences are lost in rounding. */
+/* As in pg_body_read: a body too far from the origin loses its size in rounding. */
 static pg_status check_place (const pg_mesh *m, const pg_scene *scene, const char *key)
 {
     for (int k = 0; k < m->dim; k++) {

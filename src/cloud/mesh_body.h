@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * mesh_body.h: what the files of a body from a mesh share. */
+ * Private: what the files of a body from a mesh share. */
 #ifndef PERIGAL_CLOUD_MESH_BODY_H
 #define PERIGAL_CLOUD_MESH_BODY_H
 #include "perigal/cloud.h"
 
-enum { PG_MESH_BODY_ORDER = 4 };                       /* of the rule for volumes: curved elements too */
-/* Places of the nodes of element e (nodes x dim). */
+/* Order of the quadrature of volumes: sufficient for curved elements. */
+enum { PG_MESH_BODY_ORDER = 4 };
+/* Positions of the nodes of element e (nodes x dim), m. */
 void pg_mesh_body_nodes (const pg_mesh *mesh, size_t e, double *x);
-/* pg_mesh_body_read for the map at this path: "mesh", "body[0].add.mesh". */
+/* pg_mesh_body_read for the map at this path of the scene: "mesh", "body[0].add.mesh". */
 pg_status mesh_body_at (pg_mesh_body *out, const pg_scene *scene, const char *at);
 #endif

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The element of the same shape with corners only. */
+/* The element of the same shape that has corners only. */
 static pg_element straight (pg_element kind)
 {
     const pg_element_type *t = &pg_element_types[kind];
@@ -16,6 +16,7 @@ static pg_element straight (pg_element kind)
     return kind;
 }
 
+/* Looks for elements of second order whose last node is a point. */
 int pg_mesh_body_halved (const pg_mesh_body *b)
 {
     const pg_mesh *m = &b->mesh;
@@ -25,7 +26,9 @@ int pg_mesh_body_halved (const pg_mesh_body *b)
 }
 
 /* ---- volumes ------------------------------------------------------------------------------------------- */
-/* Share of the volume for each node of `shape`, which has its own N on the same reference element. */
+/* Share of the volume of element e for each node of `shape`, an element on the same reference element with
+ * its own N. Row sums where all are clearly positive, else diagonal scaling: in the ratio of the integrals
+ * of N^2, which are positive always (Hinton, Rock, Zienkiewicz 1976). */
 static void share_of (const pg_mesh *m, size_t e, pg_element shape, double volume, double *share)
 {
     double x[3 * PG_ELEMENT_NODES], xi[3 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS], N[PG_ELEMENT_NODES];
@@ -45,6 +48,7 @@ static void share_of (const pg_mesh *m, size_t e, pg_element shape, double volum
     for (int i = 0; i < nodes; i++) share[i] = volume * (scaled ? square[i] / squares : row[i] / rows);
 }
 
+/* Volumes and blocks; a node between blocks belongs to the first of them. */
 static void place_volumes (pg_cloud *c, const pg_mesh_body *b, int corners)
 {
     const pg_mesh *m = &b->mesh;
@@ -62,6 +66,7 @@ static void place_volumes (pg_cloud *c, const pg_mesh_body *b, int corners)
 }
 
 /* ---- spacings ------------------------------------------------------------------------------------------ */
+/* Lengths of the edges at a point, m. */
 typedef struct { double sum, longest; size_t n; } edges;
 
 static void add_edge (edges *at, double length)
@@ -70,8 +75,8 @@ static void add_edge (edges *at, double length)
     at->longest = fmax (at->longest, length);
 }
 
-/* Lengths between neighbouring points: to the corners of each edge, and of all edges to the nodes that are no
- * corners. */
+/* Lengths between neighbouring points: each edge counts at its corners, and all edges of an element at its
+ * nodes that are no corners. */
 static void collect (edges *at, const pg_mesh_body *b, int corners)
 {
     const pg_mesh *m = &b->mesh;
@@ -93,6 +98,7 @@ static void collect (edges *at, const pg_mesh_body *b, int corners)
     }
 }
 
+/* Local spacings and their mean; local = 0: only the mean is kept. */
 static pg_status place_sizes (pg_cloud *c, const pg_mesh_body *b, int corners, int local)
 {
     static const double reach = 0.6;  /* of the longest edge at a node: 1.7 times it passes the other end */
@@ -115,7 +121,7 @@ done:
 }
 
 /* ---- the cloud ----------------------------------------------------------------------------------------- */
-/* Moves the points inside the body; the cells stay. */
+/* Moves the points inside the body by random parts of their spacing; the elements stay. */
 static pg_status perturb (pg_cloud *c, const pg_mesh_body *b, double amount, uint64_t seed)
 {
     pg_status status = PG_OK;

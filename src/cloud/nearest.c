@@ -1,23 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Nearest point of a set: a grid of cells over the points, searched in shells about the place until the next
- * shell lies farther away than the best found. Of equally near points the one with the lowest number: no
- * answer depends on the grid. */
+ * Nearest point of a set: a grid of cells over the points, searched in shells about the position until the
+ * next shell lies farther away than the best found. Of equally near points the one with the lowest number
+ * is taken, so that no answer depends on the grid. */
 #include "perigal/cloud.h"
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* The grid. */
 struct pg_nearest {
     int     dim;
     size_t  n;
     const double *x;
     long    count[3];
-    double  low[3], width[3];                          /* m */
+    /* Corner and width of the cells, m. */
+    double  low[3], width[3];
     size_t *start;
-    int    *item;                                      /* points of each cell, ascending */
+    /* Points of each cell, ascending. */
+    int    *item;
 };
 
+/* Cell index of coordinate x along axis k; outside: the nearest cell. */
 static long cell_along (const pg_nearest *g, int k, double x)
 {
     double c = floor ((x - g->low[k]) / g->width[k]);
@@ -32,7 +36,7 @@ static size_t cell_of (const pg_nearest *g, const double *x)
     return c;
 }
 
-/* About one point a cell. */
+/* About one point in each cell; axes along which the points have no extent have one cell. */
 static void fit (pg_nearest *g)
 {
     double length[3] = { 0 }, longest = 0, volume = 1;
@@ -59,6 +63,7 @@ static void fit (pg_nearest *g)
     }
 }
 
+/* Counting sort of the points. */
 pg_status pg_nearest_create (pg_nearest **out, int dim, size_t n, const double *x)
 {
     pg_status status = PG_OK;
@@ -91,13 +96,16 @@ void pg_nearest_free (pg_nearest **nearest)
     *nearest = NULL;
 }
 
+/* A question and its best answer so far. */
 typedef struct {
     const double *place;
     pg_refuse refuse;  void *context;
     long   found;
-    double best;                                       /* squared; m^2 */
+    /* Squared distance, m^2. */
+    double best;
 } query;
 
+/* Looks at the points of one cell. A point is offered for refusal only if it would be the best. */
 static void look (const pg_nearest *g, query *q, size_t cell)
 {
     for (size_t e = g->start[cell]; e < g->start[cell + 1]; e++) {
@@ -110,7 +118,7 @@ static void look (const pg_nearest *g, query *q, size_t cell)
     }
 }
 
-/* Distance from the place to all cells beyond the shell, at least; < 0: there are none. */
+/* Least distance from the position to any cell beyond the shell; < 0: there are none. */
 static double beyond (const pg_nearest *g, const double *place, const long *at, long shell)
 {
     double least = -1;

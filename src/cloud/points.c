@@ -9,17 +9,23 @@
 #include <stdint.h>
 #include <string.h>
 
+/* The sites of a lattice: its vertices or cells. */
 typedef struct {
-    size_t size[3];                                    /* sites (vertices or cells) per axis */
-    size_t n;                                          /* all of them */
-    double shift;                                      /* coordinate index of site 0: 0 vertex, 0.5 centre */
-    int    whole;                                      /* cells around a site that may move */
-    unsigned char *around;                             /* kept cells around each site; 0: no point there */
+    /* Sites along each axis. */
+    size_t size[3];
+    /* All of them. */
+    size_t n;
+    /* Coordinate index of site 0: 0 for vertices, 0.5 for centres. */
+    double shift;
+    /* Number of cells around a site inside the body, which may be moved. */
+    int    whole;
+    /* Kept cells around each site; 0: no point there (n). */
+    unsigned char *around;
 } sites;
 
 /* ---- sites --------------------------------------------------------------------------------------------- */
-/* Adds one to all sites around cell (a, b, c): its vertices (reach 0..1), or the cell and its neighbours
- * (reach -1..1). */
+/* Adds one to all sites around a cell: its vertices (first = 0), or the cell and its neighbours (first =
+ * -1). */
 static void spread (sites *s, const pg_lattice *l, const int *cell, int first)
 {
     int i[3], low[3], high[3];
@@ -35,6 +41,7 @@ static void spread (sites *s, const pg_lattice *l, const int *cell, int first)
                 s->around[((size_t) i[2] * s->size[1] + (size_t) i[1]) * s->size[0] + (size_t) i[0]]++;
 }
 
+/* Counts the kept cells around all sites. */
 static pg_status count_around (sites *s, const pg_lattice *l, int cells)
 {
     pg_status status = PG_OK;
@@ -58,7 +65,8 @@ done:
 }
 
 /* ---- random shifts ------------------------------------------------------------------------------------- */
-static uint64_t mix (uint64_t z)                       /* a bijection that spreads every bit */
+/* A bijection that spreads every bit (the finaliser of splitmix64). */
+static uint64_t mix (uint64_t z)
 {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -72,6 +80,7 @@ double pg_place_shift (uint64_t seed, uint64_t site, int axis)
 }
 
 /* ---- the cloud ----------------------------------------------------------------------------------------- */
+/* Positions and volumes. Only sites with kept cells all around are moved, so that the boundary stays. */
 static pg_status place_points (pg_cloud *c, const pg_lattice *l, const sites *s, double amount, uint64_t seed)
 {
     pg_status status = PG_OK;
@@ -110,6 +119,7 @@ void pg_place_bounds (pg_cloud *c)
     }
 }
 
+/* h from the mean volume of the points. */
 static pg_status from_file (pg_cloud *c, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -122,6 +132,7 @@ done:
     return status;
 }
 
+/* Fits the lattice; a spacing that is too fine or too coarse is a fault of the scene. */
 static pg_status fit (pg_lattice *l, const pg_body *body, const pg_scene *scene, double spacing)
 {
     double offset[3] = {0, 0, 0};
@@ -144,6 +155,7 @@ static pg_status fit (pg_lattice *l, const pg_body *body, const pg_scene *scene,
     return pg_scene_verdict (scene);
 }
 
+/* `lattice: cells` puts points at centres, else at vertices. */
 static pg_status from_lattice (pg_cloud *c, pg_lattice *l, const pg_body *body, const pg_scene *scene)
 {
     pg_status status = PG_OK;

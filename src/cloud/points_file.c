@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * points: FILE. One point a line, x [y [z]] volume [block] [spacing], by commas or blanks; '#' starts a
- * comment. One header line may lead: it names the columns, in any order, with their units in brackets (and
- * must, for a spacing without a block). */
+ * points: FILE. One point per line, x [y [z]] volume [block] [spacing], separated by commas or blanks; #
+ * starts a comment. A header line may come first: it names the columns, in any order, with their units in
+ * brackets (and must, for a spacing without a block). */
 #include "points_file.h"
 #include "place.h"
 #include <errno.h>
@@ -13,22 +13,32 @@
 #include <string.h>
 #include <strings.h>
 
+/* Columns at most. */
 enum { MOST_FIELDS = 16 };
-enum { X, VOLUME = 3, BLOCK, SPACING, ROLES };         /* X + k: coordinate k */
+/* What a column can hold; X + k: coordinate k. */
+enum { X, VOLUME = 3, BLOCK, SPACING, ROLES };
 static const struct { const char *name, *unit; } role[ROLES] = {
     { "x", "m" }, { "y", "m" }, { "z", "m" }, { "volume", "m3" }, { "block", "1" }, { "spacing", "m" } };
 
+/* State of the reader. */
 typedef struct {
     const pg_scene *scene;
-    const char *name;                                  /* as the user wrote it */
+    /* File as the scene names it. */
+    const char *name;
     char   *text;
-    size_t  line;                                      /* being read, from 1 */
-    size_t  columns;                                   /* of all lines, 0: not known yet */
-    size_t  column[ROLES];                             /* that holds it, from 1; 0: none does */
-    double  scale[ROLES];                              /* SI units a unit of that column */
-    int     headed;                                    /* a header has named the columns */
+    /* Present line, from 1. */
+    size_t  line;
+    /* Number of columns of all lines; 0: not known yet. */
+    size_t  columns;
+    /* Column of each role, from 1; 0: there is none. */
+    size_t  column[ROLES];
+    /* SI units per unit of that column. */
+    double  scale[ROLES];
+    /* 1: a header has named the columns. */
+    int     headed;
     size_t  capacity;
-    size_t *line_of;                                   /* line of each point */
+    /* Line of each point, for messages. */
+    size_t *line_of;
 } reader;
 
 #define WRONG(r, ...) wrong_at ((r)->scene, (r)->name, (r)->line, __VA_ARGS__)
@@ -46,6 +56,7 @@ wrong_at (const pg_scene *scene, const char *name, size_t line, const char *form
 }
 
 /* ---- the file ------------------------------------------------------------------------------------------ */
+/* Reads the whole file; bytes that are zero show that it is no text. */
 static pg_status load (reader *r)
 {
     pg_status status = PG_OK;
@@ -70,8 +81,8 @@ done:
 }
 
 /* ---- a line -------------------------------------------------------------------------------------------- */
-/* Cuts a line into fields in place; with a comma anywhere only commas separate. Counts also those that do not
- * fit. */
+/* Divides a line into fields in place; if there is a comma anywhere, only commas separate. Also counts
+ * fields for which there is no room. */
 static size_t split (char *line, char *field[MOST_FIELDS])
 {
     int comma = strchr (line, ',') != NULL;
@@ -91,6 +102,7 @@ static size_t split (char *line, char *field[MOST_FIELDS])
     }
 }
 
+/* A finite number that fills the field. */
 static int number (const char *text, double *value)
 {
     char *end;
@@ -99,7 +111,7 @@ static int number (const char *text, double *value)
 }
 
 /* ---- header -------------------------------------------------------------------------------------------- */
-/* Nothing in it is a number. */
+/* A header has several columns, none of which is a number. */
 static int is_header (size_t n, char *const *field)
 {
     char *end;
@@ -110,7 +122,7 @@ static int is_header (size_t n, char *const *field)
     return n > 1;
 }
 
-/* Blanks separate "x [mm] y [mm]" into four: a unit goes back to its name. */
+/* Blanks separate "x [mm] y [mm]" into four fields: a unit is joined to its name again. */
 static size_t join_units (size_t n, char **field)
 {
     size_t kept = 0;
@@ -121,7 +133,7 @@ static size_t join_units (size_t n, char **field)
     return n > MOST_FIELDS ? n : kept;
 }
 
-/* Names a body of this dimension has, "x, y, volume, block, spacing". */
+/* Names of the columns that a body of this dimension has: "x, y, volume, block, spacing". */
 static const char *names_of (size_t dim, const char *between)
 {
     static _Thread_local char text[64];
@@ -132,6 +144,7 @@ static const char *names_of (size_t dim, const char *between)
     return text;
 }
 
+/* Reads column k of the header: name and unit. */
 static pg_status read_name (reader *r, size_t k, char *cell, size_t dim)
 {
     const char *unit, *near;
@@ -158,6 +171,7 @@ static pg_status read_name (reader *r, size_t k, char *cell, size_t dim)
     return PG_OK;
 }
 
+/* Coordinates and a volume must be there. */
 static pg_status read_header (reader *r, size_t n, char **field, size_t dim)
 {
     pg_status status = PG_OK;
@@ -178,6 +192,7 @@ done:
 }
 
 /* ---- points -------------------------------------------------------------------------------------------- */
+/* All arrays grow together. */
 static pg_status add_point (reader *r, pg_cloud *c, const double *value)
 {
     pg_status status = PG_OK;
@@ -202,6 +217,7 @@ done:
     return status;
 }
 
+/* Without a header the order of columns is fixed; block and spacing may be absent. */
 static pg_status settle_columns (reader *r, size_t n, size_t dim)
 {
     if (n < dim + 1 || n > dim + 3)
@@ -217,7 +233,7 @@ static pg_status settle_columns (reader *r, size_t n, size_t dim)
     return PG_OK;
 }
 
-/* A value that cannot be: what it was taken for, and why. */
+/* The fault of a value that cannot be: says what the column was taken for. */
 static pg_status refuse_value (reader *r, size_t what, double value, const char *must, size_t dim)
 {
     return WRONG (r, "the %s %g must be %s: it stands in column %zu%s%s%s", role[what].name, value, must,
@@ -228,7 +244,7 @@ static pg_status refuse_value (reader *r, size_t what, double value, const char 
                       : " (a header such as x [mm], y [mm], volume [mm3] may give another order, and units)");
 }
 
-/* The number that a line has for one role (X, VOLUME, ...), in SI units; one that cannot be is a fault. */
+/* Reads the value that a line has for one role, in SI units. */
 static pg_status read_value (reader *r, size_t what, const char *text, size_t dim, double *value)
 {
     pg_status status = PG_OK;
@@ -270,6 +286,7 @@ done:
 }
 
 /* ---- duplicates ---------------------------------------------------------------------------------------- */
+/* A rounded position and its line. */
 typedef struct { double x[3]; size_t line; } place;
 
 static int by_place (const void *p, const void *q)
@@ -280,7 +297,8 @@ static int by_place (const void *p, const void *q)
     return (a->line > b->line) - (a->line < b->line);
 }
 
-/* Points closer than about 1e-9 of their mean distance share a rounded place. */
+/* Two points at the same position are a fault. Positions are rounded to 1e-9 of the mean distance and
+ * sorted. */
 static pg_status find_twins (reader *r, const pg_cloud *c)
 {
     pg_status status = PG_OK;
@@ -307,6 +325,7 @@ done:
     return status;
 }
 
+/* All lines, behind a byte order mark if there is one. */
 static pg_status read_text (reader *r, pg_cloud *cloud)
 {
     pg_status status = PG_OK;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Plane polygons: A = 1/2 sum (x_i y_i+1 - x_i+1 y_i), inside by crossing number, signed distance, is it
- * simple? */
+ * Plane polygons: area 1/2 sum (x_i y_i+1 - x_i+1 y_i), inside by crossing number, signed distance, and
+ * whether the outline is simple. */
 #include "polygon.h"
 #include <math.h>
 
+/* As a fan of triangles from the first vertex: no digits are lost far from the origin. */
 double pg_polygon_area (size_t n, const double *v)
 {
     double sum = 0;
@@ -14,6 +15,7 @@ double pg_polygon_area (size_t n, const double *v)
     return 0.5 * sum;
 }
 
+/* Counts the edges that a ray from x along the axis crosses. */
 int pg_polygon_inside (size_t n, const double *v, const double *x)
 {
     int in = 0;
@@ -25,6 +27,7 @@ int pg_polygon_inside (size_t n, const double *v, const double *x)
     return in;
 }
 
+/* Distance of x from the edge a b. */
 static double edge_distance (const double *a, const double *b, const double *x)
 {
     double u[2] = {b[0] - a[0], b[1] - a[1]}, w[2] = {x[0] - a[0], x[1] - a[1]};
@@ -50,12 +53,14 @@ static int side (const double *a, const double *b, const double *c)
     return (s > 0) - (s < 0);
 }
 
-static int within (const double *a, const double *b, const double *c)  /* c on line a b: between a and b? */
+/* Does c, which lies on the line a b, lie between a and b? */
+static int within (const double *a, const double *b, const double *c)
 {
     return fmin (a[0], b[0]) <= c[0] && c[0] <= fmax (a[0], b[0]) && fmin (a[1], b[1]) <= c[1]
            && c[1] <= fmax (a[1], b[1]);
 }
 
+/* Do the segments a b and c d touch or cross? */
 static int edges_meet (const double *a, const double *b, const double *c, const double *d)
 {
     int p = side (a, b, c), q = side (a, b, d), r = side (c, d, a), s = side (c, d, b);
@@ -64,6 +69,7 @@ static int edges_meet (const double *a, const double *b, const double *c, const 
            || (!s && within (c, d, b));
 }
 
+/* Tests all pairs of edges; polygons of scenes are small. */
 const char *pg_polygon_fault (size_t n, const double *v)
 {
     if (n < 3) return "needs three vertices or more";

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Shapes: reading from the scene, signed distance to the surface (exact, negative inside), bounding box. */
+ * Shapes: reading from the scene, signed distance from the surface (exact, negative inside), bounding box. */
 #include "shape.h"
 #include "polygon.h"
 #include <math.h>
 
+/* |x| */
 static double norm (int dim, const double *x)
 {
     double s = 0;
@@ -11,7 +12,8 @@ static double norm (int dim, const double *x)
     return sqrt (s);
 }
 
-/* Signed distance of the intersection of two slabs at right angles. */
+/* Signed distance from the intersection of two sets whose surfaces are at right angles, from the distances
+ * p and q. */
 static double both (double p, double q)
 {
     if (p <= 0 || q <= 0) return fmax (p, q);
@@ -32,6 +34,7 @@ static pg_status read_box (pg_shape *s, int dim, const pg_scene *scene, const ch
     return PG_OK;
 }
 
+/* Outside: the Euclidean distance; inside: that of the nearest side. */
 static double distance_box (const pg_shape *s, int dim, const double *x, double reach)
 {
     (void) reach;
@@ -50,6 +53,7 @@ static void box_box (const pg_shape *s, int dim, double *low, double *high)
 }
 
 /* ---- disk, sphere -------------------------------------------------------------------------------------- */
+/* By diameter or radius. */
 static void read_radius (pg_shape *s, const pg_scene *scene, const char *at)
 {
     s->radius = pg_scene_given (scene, "%s.diameter", at) ? 0.5 * pg_scene_number (scene, "%s.diameter", at)
@@ -109,6 +113,7 @@ static void box_cylinder (const pg_shape *s, int dim, double *low, double *high)
 }
 
 /* ---- polygon, prism ------------------------------------------------------------------------------------ */
+/* A last vertex equal to the first closes the polygon twice and is dropped. */
 static pg_status read_polygon (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -168,6 +173,7 @@ static void box_prism (const pg_shape *s, int dim, double *low, double *high)
     low[2] = s->low[2], high[2] = s->high[2];
 }
 
+/* Name, lowest and highest dimension, round, functions. */
 const pg_shape_type pg_shape_types[PG_SHAPES + 1] = {
     [PG_BOX]      = {"box",      1, 3, 0, read_box,      distance_box,      box_box},
     [PG_DISK]     = {"disk",     2, 2, 1, read_ball,     distance_ball,     box_ball},

@@ -1,23 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * One row per kind of shape: its key, where it may be used, how it is read, its signed distance (m, negative
- * inside) and box. */
+ * Private: one row per kind of shape: its key, the dimensions it may be used in, how it is read, its signed
+ * distance (m, negative inside) and its box. */
 #ifndef PERIGAL_CLOUD_SHAPE_H
 #define PERIGAL_CLOUD_SHAPE_H
 #include "perigal/cloud.h"
 
+/* A kind of shape. */
 typedef struct {
-    const char *name;                                  /* key under add: and subtract: */
-    int lowest, highest;                               /* dimensions in which it may be used */
-    int round;                                         /* its surface is called rim */
-    /* at: "body[2].add.disk" */
+    /* Key under add: and subtract:. */
+    const char *name;
+    /* Dimensions in which it may be used. */
+    int lowest, highest;
+    /* 1: its surface is called rim. */
+    int round;
+    /* Reads it from the map at path `at`, such as "body[2].add.disk". */
     pg_status (*read)     (pg_shape *shape, int dim, const pg_scene *scene, const char *at);
-    /* farther than reach: any such */
+    /* Signed distance of x from the surface; beyond `reach` any value of the right sign and at least that
+     * size. */
     double    (*distance) (const pg_shape *shape, int dim, const double *x, double reach);
     void      (*box)      (const pg_shape *shape, int dim, double *low, double *high);
 } pg_shape_type;
 
-enum { PG_SHAPES = PG_MESH + 1 };                      /* those of a scene; then PG_STAIRS */
+/* Kinds that a scene may use; PG_STAIRS comes behind them. */
+enum { PG_SHAPES = PG_MESH + 1 };
 extern const pg_shape_type pg_shape_types[PG_SHAPES + 1];/* indexed by pg_shape.kind */
+/* Shapes from a mesh (shape_mesh.c). */
 pg_status shape_mesh_read     (pg_shape *shape, int dim, const pg_scene *scene, const char *at);
 double    shape_mesh_distance (const pg_shape *shape, int dim, const double *x, double reach);
 void      shape_mesh_box      (const pg_shape *shape, int dim, double *low, double *high);
@@ -25,6 +32,7 @@ double    shape_mesh_volume   (const pg_shape *shape, double *surface);
 void      shape_mesh_clear    (pg_shape *shape);
 /* Reads `layers`: each becomes a box behind the shapes, and the bounding box grows. */
 pg_status pg_layers_read      (pg_body *body, const pg_scene *scene);
-int       pg_layers_taken     (const char *name);      /* a side of the body, or all */
+/* Is this the name of a side of the body, or all? */
+int       pg_layers_taken     (const char *name);
 double    shape_stairs_distance (const pg_shape *shape, int dim, const double *x, double reach);
 #endif

@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A mesh as a shape: inside where an element holds the place, the distance that to the nearest face of its
- * surface. And as a lattice sees it: stairs, every cell of the lattice as its centre. */
+ * A mesh as a shape: inside where an element holds the position, at the distance from the nearest face of
+ * its surface. And as a lattice sees it: stairs, every cell of the lattice as its centre is. */
 #include "mesh_body.h"
 #include "shape.h"
 #include <math.h>
 #include <string.h>
 
+/* What belongs to such a shape. */
 struct pg_solid {
-    pg_mesh_body part;                                 /* a mesh */
+    /* The mesh, with the search for elements and for faces. */
+    pg_mesh_body part;
     pg_mesh_locator *locator;
     pg_mesh_skin *skin;
-    pg_lattice lattice;                                /* stairs: without in */
-    signed char *sign;                                 /* of the distance at the centre of each cell */
+    /* Stairs: the lattice, without `in`. */
+    pg_lattice lattice;
+    /* Sign of the distance at the centre of each cell; 0: on the surface. */
+    signed char *sign;
 };
 
 /* ---- mesh ---------------------------------------------------------------------------------------------- */
@@ -37,6 +41,8 @@ void shape_mesh_clear (pg_shape *s)
     s->solid = NULL;
 }
 
+/* Most positions are far from the surface, compared with reach: the depth within an element decides quickly
+ * there. The distance itself is asked for only near the surface. */
 double shape_mesh_distance (const pg_shape *s, int dim, const double *x, double reach)
 {
     double near = 1000 * fabs (reach) / s->solid->part.smallest, xi[3];
@@ -77,6 +83,7 @@ const char *pg_shape_side (const pg_shape *s, size_t k)
     return k < m->nsides ? m->sides[k].name : NULL;
 }
 
+/* Does the face nearest to x belong to that side set? */
 int pg_shape_on_side (const pg_shape *s, const double *x, const char *side)
 {
     const pg_mesh *m = &s->solid->part.mesh;
@@ -118,7 +125,7 @@ done:
 
 void pg_stairs_clear (pg_shape *stairs) { shape_mesh_clear (stairs); }
 
-/* Beyond the lattice: outside. */
+/* The sign at cell i; beyond the lattice: outside. */
 static int sign_at (const struct pg_solid *s, const int *i)
 {
     const int *n = s->lattice.count;
@@ -126,6 +133,7 @@ static int sign_at (const struct pg_solid *s, const int *i)
     return s->sign[((size_t) i[2] * (size_t) n[1] + (size_t) i[1]) * (size_t) n[0] + (size_t) i[0]];
 }
 
+/* Only the sign matters: any distance is infinite. */
 double shape_stairs_distance (const pg_shape *s, int dim, const double *x, double reach)
 {
     const pg_lattice *l = &s->solid->lattice;

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A balanced tree without pointers: the middle item of a range parts it along one axis, the axes take
- * turns. */
+ * A balanced tree without pointers: the item in the middle of a range divides it along one axis, and the
+ * axes take turns (a k-d tree). */
 #include "tree.h"
 #include <string.h>
 
+/* Ranges of this length are not divided further. */
 enum { LEAF = 8 };
 
+/* Coordinate of the item at a place of the list. */
 static double along (const pg_tree *t, size_t place, int axis)
 {
     return t->x[t->item[place] * (size_t) t->dim + (size_t) axis];
@@ -17,8 +19,8 @@ static void swap (size_t *a, size_t *b)
     *a = *b, *b = c;
 }
 
-/* Puts the item at `middle` that a sorted range first..last - 1 would have there, smaller ones before it,
- * larger ones behind. */
+/* Quickselect: puts at `middle` the item that a sorted range first .. last - 1 would have there, smaller
+ * ones before it, larger ones behind. */
 static void part (pg_tree *t, size_t first, size_t last, size_t middle, int axis)
 {
     while (last - first > 1) {
@@ -36,6 +38,7 @@ static void part (pg_tree *t, size_t first, size_t last, size_t middle, int axis
     }
 }
 
+/* Divides a range and its two parts. */
 static void halve (pg_tree *t, size_t first, size_t last, int axis)
 {
     if (last - first <= LEAF) return;
@@ -64,6 +67,7 @@ void pg_tree_clear (pg_tree *tree)
 
 typedef struct { const double *at; double reach; pg_tree_teller tell; void *context; } question;
 
+/* Both parts of a range where the interval of the search reaches across the dividing item. */
 static void visit (const pg_tree *t, const question *q, size_t first, size_t last, int axis)
 {
     if (last - first <= LEAF) {
