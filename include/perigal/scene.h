@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * scene.h: what the user wrote. YAML -> checked names, SI numbers, expressions, each with its place in the
- * file. Knows no method: every folder brings a table of its keys (`pg_keys_<folder>`), src/scene/list.h has
- * one line per table; these tables drive parsing, checks, `perigal help KEY` and doc/input.md alike. */
+ * scene.h: what the user wrote. YAML becomes checked names, SI numbers and expressions, each with its place
+ * in the file. Knows no method: every folder brings a table of its keys (`pg_keys_<folder>`), and
+ * src/scene/list.h has one line per table. These tables drive parsing, checks, `perigal help KEY` and
+ * doc/input.md alike. */
 #ifndef PERIGAL_SCENE_H
 #define PERIGAL_SCENE_H
 #include "perigal/base.h"
@@ -10,6 +11,7 @@
 PG_API_BEGIN
 
 /* ---- keys ---------------------------------------------------------------------------------------------- */
+/* Kinds of values. */
 typedef enum {
     PG_MAP,  /* a mapping; entries below it as path.name; `path.{}` stands for a name the user chooses */
     PG_LIST,       /* a sequence; one element is path[] */
@@ -25,24 +27,32 @@ typedef enum {
     PG_EXPRESSION  /* a number with unit, or an expression in x y z r angle t (text, compiled by its user) */
 } pg_kind;
 
+/* One key of a scene: a row of a key table. */
 typedef struct {
-    const char *path;       /* "materials.{}.youngs_modulus" */
+    /* Where it stands: "materials.{}.youngs_modulus". */
+    const char *path;
+    /* What its value is. */
     pg_kind     kind;
-    /* SI unit in udunits spelling ("Pa", "m", "kg/m3", "1"); "m|spacing": also multiples of the point
-     * spacing, resolved by pg_scene_length; NULL where it makes no sense */
+    /* SI unit in the spelling of udunits ("Pa", "m", "kg/m3", "1"); "m|spacing": multiples of the point
+     * spacing are allowed too, resolved by pg_scene_length; NULL where a unit makes no sense. */
     const char *unit;
-    const char *range;      /* "[0, 0.5)", "(0, inf)", NULL: any finite number */
-    /* default as the user would write it, "" optional without default, NULL required */
+    /* Allowed values: "[0, 0.5)", "(0, inf)"; NULL: any finite number. */
+    const char *range;
+    /* Default as the user would write it; "": optional without a default; NULL: required. */
     const char *fallback;
-    /* "static|newmark", for PG_NAME; "sets.{}|left|right": also any name of that map of the scene (or a part
-     * of it, NAME.top); NULL: ask choices_of */
+    /* For PG_NAME: "static|newmark". "sets.{}|left|right": also any name of that map of the scene (or a
+     * part of it, NAME.top). NULL: choices_of gives them. */
     const char *choices;
-    const char *(*choices_of) (void);   /* the same from a catalogue */
-    /* keys of one parent sharing "name:one" must appear exactly once; "name:most" at most once */
+    /* The same from a catalogue. */
+    const char *(*choices_of) (void);
+    /* Of the keys of one parent with the same "name:one" exactly one must be given; with "name:most" at
+     * most one. */
     const char *group;
-    const char *doc;        /* one sentence */
+    /* One sentence of explanation. */
+    const char *doc;
 } pg_key;
 
+/* The keys that a folder brings. */
 typedef struct { const char *folder; const pg_key *key; size_t n; } pg_key_table;
 
 /* Keys of the entries of a catalogue. An entry (a material, a criterion, a solver ...) declares its own keys
@@ -67,18 +77,18 @@ int pg_listed (const char *names, const char *name);
 /* ---- life cycle ---------------------------------------------------------------------------------------- */
 typedef struct pg_scene pg_scene;
 
-/* Reads and checks a file. On PG_E_SCENE pg_last_error holds all faults, a line each:
- * `plate.yaml:14:5: materials.rock.poissons_ratio = 0.6: must lie in [0, 0.5)`. */
+/* Reads and checks a file. PG_E_SCENE: pg_last_error has all faults, one per line, such as
+ * `plate.yaml:14:5: materials.rock.poissons_ratio = 0.6: must lie in [0, 0.5)`. PG_E_FILE, PG_E_MEMORY. */
 pg_status pg_scene_load   (pg_scene **out, const char *path);
 /* The same with overrides "key=value" (value is YAML), applied before the checks. */
 pg_status pg_scene_load_with (pg_scene **out, const char *path, size_t nset, const char *const *set);
-/* The same, so that one pass tells all faults: a scene that is wrong only beside its geometry (materials,
- * failure, blocks, boundary, initial, solver, output, reference) is given with PG_OK. pg_scene_partial is
- * then 1, its faults are passed by (pg_scene_pass), and of a problem only the geometry may be built:
- * pg_problem_prepare does that and returns all faults. */
+/* The same, so that one pass reports all faults: a scene that is wrong only beside its geometry (materials,
+ * failure, blocks, boundary, initial, solver, output, reference) is returned with PG_OK. pg_scene_partial
+ * is 1 then, its faults do not stop later checks (pg_scene_pass), and of a problem only the geometry may be
+ * built: pg_problem_prepare does that and returns all faults. */
 pg_status pg_scene_load_some (pg_scene **out, const char *path, size_t nset, const char *const *set);
 int       pg_scene_partial (const pg_scene *s);
-/* from memory, `name` for messages */
+/* From memory; `name` stands for the file in messages. */
 pg_status pg_scene_parse  (pg_scene **out, const char *text, const char *name);
 /* The same with overrides as in pg_scene_load_with. */
 pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset,
@@ -86,41 +96,45 @@ pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *nam
 void      pg_scene_free   (pg_scene **scene);
 
 /* ---- use: paths are printf formats, e.g. pg_scene_number (s, "cracks[%zu].width", i) ------------------- */
+/* Lets the compiler check the format. */
 #define PG_PATH(k, m) __attribute__ ((format (printf, k, m)))
-/* the user wrote it */
+/* Did the user write it? */
 int         pg_scene_given   (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
-/* where the file says it; 0: it does not */
+/* Line of the file; 0: it is not written there. */
 int         pg_scene_line    (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
-/* written or has a default */
+/* Is it written, or has it a default? */
 int         pg_scene_has     (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
-/* elements of a list, names of a map, 1 for a scalar, 0 absent */
+/* Number of elements of a list or of names in a map; 1 for a single value, 0: absent. */
 size_t      pg_scene_count   (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
-/* i-th name in a map or PG_NAMES; NULL past the end */
+/* The i-th name in a map or of a list of names; NULL past the end. */
 const char *pg_scene_name    (const pg_scene *s, size_t i, const char *path, ...) PG_PATH (3, 4);
-/* SI; 0 when absent */
+/* The value in SI units; 0: absent. */
 double      pg_scene_number  (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
-/* A number of unit "m|spacing": metres, with `spacing` (m) for one spacing. */
+/* A number of unit "m|spacing" in metres, `spacing` (m) being the point spacing. */
 double      pg_scene_length  (const pg_scene *s, double spacing, const char *path, ...) PG_PATH (3, 4);
 long        pg_scene_integer (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
 int         pg_scene_bool    (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
-/* NULL when absent */
+/* The text; NULL: absent. */
 const char *pg_scene_text    (const pg_scene *s, const char *path, ...) PG_PATH (2, 3);
-/* count */
+/* Writes up to `max` numbers in SI units; returns how many. */
 int         pg_scene_vector  (const pg_scene *s, int max, double *out, const char *path, ...) PG_PATH (4, 5);
-/* A fault found by a higher folder, placed at the key; collected, not returned. */
+/* Records a fault that a higher folder found at this key; faults are collected, and the scene is otherwise
+ * const. */
 void        pg_scene_fault   (const pg_scene *s, const char *path, const char *format, ...) PG_PATH (3, 4);
 /* PG_OK, or PG_E_SCENE with all faults so far in pg_last_error. */
 pg_status   pg_scene_verdict (const pg_scene *s);
-/* The faults so far do not keep later checks from being made: pg_scene_verdict fails only when there are
- * more, with all of them. */
+/* The faults so far shall not stop later checks: pg_scene_verdict fails only when there are more, and then
+ * names all of them. */
 void        pg_scene_pass    (const pg_scene *s);
-/* As pg_scene_verdict, of those that were passed by too. */
+/* As pg_scene_verdict, but fails also for faults that were passed. */
 pg_status   pg_scene_conclude (const pg_scene *s);
-const char *pg_scene_file    (const pg_scene *s);            /* path as given */
-const char *pg_scene_source  (const pg_scene *s);            /* the text read, overrides not applied */
-/* k-th override "key=value"; NULL past the end */
+/* The path as given; the text that was read, without overrides. */
+const char *pg_scene_file    (const pg_scene *s);
+const char *pg_scene_source  (const pg_scene *s);
+/* The k-th override "key=value"; NULL past the end. */
 const char *pg_scene_setting (const pg_scene *s, size_t k);
-const char *pg_scene_hash    (const pg_scene *s);  /* SHA-256 of text and overrides, 64 hex digits */
+/* SHA-256 of text and overrides, 64 hexadecimal digits. */
+const char *pg_scene_hash    (const pg_scene *s);
 /* The k-th key below a map of the scene ("solver", "materials.glass") that is given, though it is of other
  * entries than the one chosen there: its path, from which the name below the map is returned; NULL: there are
  * no more. */
@@ -128,48 +142,56 @@ enum { PG_STRAY_PATH = 256 };
 const char *pg_scene_stray (const pg_scene *s, size_t k, const char *map, char path[PG_STRAY_PATH]);
 
 /* ---- files --------------------------------------------------------------------------------------------- */
-/* Path of a file that the scene names: beside the scene unless it is absolute; pg_free. */
+/* Path of a file that the scene names: beside the scene unless it is absolute; the caller frees it by
+ * pg_free. */
 pg_status pg_scene_beside (char **out, const pg_scene *s, const char *name);
-/* The files that are named by keys of kind PG_FILE, in the order of the scene, with the SHA-256 of what is in
- * them now (64 hex digits). PG_E_FILE: one cannot be read. */
+/* A file named by a key of kind PG_FILE, with the SHA-256 of its present content (64 hexadecimal digits).
+ * pg_scene_files lists them in the order of the scene. PG_E_FILE: one cannot be read. */
 typedef struct { char key[128], hash[65]; char *path; } pg_named_file;
 pg_status pg_scene_files      (const pg_scene *s, size_t *n, pg_named_file **out);
 void      pg_scene_files_free (size_t n, pg_named_file **file);
 
 /* ---- units --------------------------------------------------------------------------------------------- */
-/* "10 GPa" with unit "Pa" -> 1e10. A bare number is SI. On failure *why (static text or last error) says what
- * is wrong. */
+/* Reads a number with a unit: "10 GPa" with unit "Pa" gives 1e10; a number without unit is in SI.
+ * PG_E_SCENE: the message says what is wrong. */
 pg_status pg_unit_parse (double *out, const char *text, const char *unit);
 
 /* ---- columns of tables --------------------------------------------------------------------------------- */
-/* Cuts the header of a column, "u_x [mm]" or "u_x (mm)", in place into its name and *unit, "" where it names
- * none (borrowed from `header`). PG_E_SCENE: the bracket does not close, or something follows it; the name is
- * cut all the same. */
+/* Divides the header of a column, "u_x [mm]" or "u_x (mm)", in place into its name and *unit ("" where
+ * there is none; borrowed from `header`). PG_E_SCENE: the bracket does not close, or something follows it;
+ * the name is separated all the same. */
 pg_status pg_column_cut (char *header, const char **unit);
-/* The size of that unit ("": 1) in units of `kind`: "m", "m3", "Pa", "1" for a plain number. PG_E_SCENE:
+/* Size of that unit ("": 1) in SI units of `kind`: "m", "m3", "Pa", "1" for a plain number. PG_E_SCENE:
  * unknown, or of another kind. */
 pg_status pg_column_scale (double *scale, const char *unit, const char *kind);
-/* A value of such a column in SI: 3 at a scale of 1e-3 is exactly 0.003. */
+/* A value of such a column in SI units: 3 at a scale of 1e-3 is exactly 0.003. */
 double    pg_column_value (double value, double scale);
 
 /* ---- expressions --------------------------------------------------------------------------------------- */
-/* Variables x y z r (m), angle (rad, atan2 (y, x) in [0, 2 pi)), t (s; load factor 0..1 when static); numbers
- * may carry units; + - * / ^, comparisons, and or not, functions sin cos tan sqrt abs min max exp log step
- * hypot atan2, pi. Comparing or adding different units is an error. */
+/* A compiled expression. Variables: x y z r (m), angle (rad, atan2 (y, x) in [0, 2 pi)), t (s; in a static
+ * scene the load factor 0 to 1). Numbers may carry units; + - * / ^, comparisons, and or not, functions
+ * (see src/scene/expression.c), pi. Comparing or adding different units is an error. */
 typedef struct pg_expression pg_expression;
+/* Values of the variables. */
 typedef struct { double x, y, z, r, angle, t; } pg_place;
-/* unit: "Pa" ..., or "bool" for a condition. Errors name the column. */
+/* unit: that of the result, "Pa" ..., or "bool" for a condition. PG_E_SCENE: the message names the column. */
 pg_status pg_expression_compile (pg_expression **out, const char *text, const char *unit);
+/* The value in SI units; 0 or 1 for a condition. Thread-safe. */
 double    pg_expression_value   (const pg_expression *e, const pg_place *at);
-int       pg_expression_uses    (const pg_expression *e, char variable);   /* 't', 'x', ... */
+/* Does this variable ('t', 'x', ...) occur? */
+int       pg_expression_uses    (const pg_expression *e, char variable);
 void      pg_expression_free    (pg_expression **e);
 
 /* ---- inquiry ------------------------------------------------------------------------------------------- */
+/* The key tables of all folders. */
 const pg_key_table *pg_scene_tables (size_t *n);
-/* full path or last word; PG_E_USAGE names the nearest key */
+/* Writes what is known of a key, given by its full path or last word; PG_E_USAGE: unknown, names the
+ * nearest. */
 pg_status pg_scene_help     (FILE *to, const char *key);
-pg_status pg_scene_manual   (FILE *to);                      /* doc/input.md */
-/* of "a|b|c"; NULL when nothing is near */
+/* Writes doc/input.md. */
+pg_status pg_scene_manual   (FILE *to);
+/* The name of "a|b|c" nearest to a word, for messages; NULL: none is near. Valid until the next call on
+ * this thread. */
 const char *pg_nearest_name (const char *word, const char *choices);
 PG_API_END
 #endif

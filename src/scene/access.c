@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Values by path: what the user wrote, or the default of the key. */
+ * Values by path: what the user wrote, or the default of the key. Values were checked when the scene was
+ * read, so that these functions cannot fail: what is absent is 0 or NULL. */
 #include "document.h"
 #include "unit.h"
 #include "value.h"
@@ -8,12 +9,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Where a path leads. */
 typedef struct {
-    const pg_node *node;                               /* NULL: absent */
-    const pg_node *nearest;                            /* last written node on the way */
-    int            given;                              /* the node is written, not a default */
+    /* The node, written or default; NULL: absent. */
+    const pg_node *node;
+    /* The last written node on the way: where a fault is reported. */
+    const pg_node *nearest;
+    /* 1: the node is written, no default. */
+    int            given;
 } found;
 
+/* The default of the key with this pattern, NULL: it has none. */
 static const pg_node *default_of (const pg_scene *s, const char *pattern)
 {
     for (size_t k = 0; k < s->schema.n; k++) {
@@ -23,6 +29,7 @@ static const pg_node *default_of (const pg_scene *s, const char *pattern)
     return NULL;
 }
 
+/* Element i of a list; a single value is a list of one. */
 static const pg_node *item (const pg_node *list, size_t i)
 {
     if (!list || list->shape == PG_MAPPING) return NULL;
@@ -30,7 +37,8 @@ static const pg_node *item (const pg_node *list, size_t i)
     return i < list->n ? &list->child[i] : NULL;
 }
 
-/* Walks "a.b[3].c". Defaults never stand in for an element of a list or for a name the user chooses. */
+/* Walks along "a.b[3].c". Defaults never stand in for an element of a list or for a name that the user
+ * chooses. */
 static found locate (const pg_scene *s, const char *path)
 {
     char pattern[PG_PATTERN] = "";
@@ -62,6 +70,7 @@ static found locate (const pg_scene *s, const char *path)
     return f;
 }
 
+/* Formats the path and locates it. */
 #define LOCATE(f, s, path) \
     found f; \
     do { \
@@ -107,8 +116,8 @@ const char *pg_scene_name (const pg_scene *s, size_t i, const char *path, ...)
     return node && node->shape == PG_SCALAR ? node->text : NULL;
 }
 
-/* SI value; `spacing` metres for one point spacing. A node without a numeric kind (dimension: 2) is read as
- * plain number. */
+/* The value in SI units, `spacing` metres for one point spacing. A node without a numeric kind (dimension:
+ * 2) is read as a plain number. */
 static double number_of (const pg_node *node, double spacing)
 {
     double value = 0;
@@ -121,6 +130,7 @@ static double number_of (const pg_node *node, double spacing)
     return node->spacing ? node->value * spacing : node->value;
 }
 
+/* NAN for a multiple of the spacing: these need pg_scene_length. */
 double pg_scene_number (const pg_scene *s, const char *path, ...)
 {
     LOCATE (f, s, path);
@@ -133,6 +143,7 @@ double pg_scene_length (const pg_scene *s, double spacing, const char *path, ...
     return number_of (f.node, spacing);
 }
 
+/* Only up to 2^53, where a double holds every whole number. */
 long pg_scene_integer (const pg_scene *s, const char *path, ...)
 {
     LOCATE (f, s, path);

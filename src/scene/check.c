@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The tree against the key tables: unknown, missing, doubled and wrongly shaped keys, groups. Values are in
- * value.c. */
+ * Checks the tree of a scene against the key tables: unknown, missing, repeated and wrongly shaped keys,
+ * groups. Single values are checked by value.c. Faults are collected and do not stop the walk. */
 #include "document.h"
 #include "value.h"
 #include <string.h>
@@ -10,7 +10,7 @@ static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN
 #define FAULT(node, value, ...) pg_faults_add (s->faults, s->file, (node), path, (value), __VA_ARGS__)
 
 /* ---- unknown and doubled keys -------------------------------------------------------------------------- */
-/* A key of that name somewhere else: "materials.NAME.density"; NULL. */
+/* The path of a key of that name anywhere else, such as "materials.NAME.density"; NULL: there is none. */
 static const char *known_elsewhere (const pg_schema *schema, const char *name)
 {
     for (size_t k = 0; k < schema->n; k++) {
@@ -20,6 +20,7 @@ static const char *known_elsewhere (const pg_schema *schema, const char *name)
     return NULL;
 }
 
+/* "a|b" becomes "a, b". */
 static void list_with_commas (char *out, size_t n, const char *names)
 {
     size_t used = 0;
@@ -30,6 +31,7 @@ static void list_with_commas (char *out, size_t n, const char *names)
     out[used] = '\0';
 }
 
+/* The fault of an unknown key: suggests the nearest name, or the place where the key belongs. */
 static void unknown_key (pg_scene *s, const pg_node *node, const char *pattern, const char *path)
 {
     char names[PG_LEVEL_NAMES], listed[500];
@@ -44,11 +46,13 @@ static void unknown_key (pg_scene *s, const pg_node *node, const char *pattern, 
     else FAULT (node, 1, "unknown key; known here: %s", listed);
 }
 
+/* May the user choose this name? */
 static int good_name (const char *name)
 {
     return *name && strlen (name) < 64 && !strpbrk (name, ".[]{}=");
 }
 
+/* An earlier child of the same name as child k; NULL: none. */
 static const pg_node *earlier (const pg_node *node, size_t k)
 {
     for (size_t j = 0; j < k; j++)
@@ -57,11 +61,13 @@ static const pg_node *earlier (const pg_node *node, size_t k)
 }
 
 /* ---- missing keys and groups --------------------------------------------------------------------------- */
+/* Has the map a key of that name? */
 static int present (const pg_node *node, const char *name)
 {
     return pg_node_child (node, name, strlen (name)) != NULL;
 }
 
+/* Is row k the first of its path? A path may have rows for several kinds of values. */
 static int first_of_path (const pg_schema *schema, size_t k)
 {
     for (size_t j = 0; j < k; j++)
@@ -69,6 +75,7 @@ static int first_of_path (const pg_schema *schema, size_t k)
     return 1;
 }
 
+/* Appends to a path; returns its old length, so that the caller can cut it again. */
 static size_t write_path (char path[PG_PATH_TEXT], const char *joint, const char *name)
 {
     size_t n = strlen (path);
@@ -76,6 +83,7 @@ static size_t write_path (char path[PG_PATH_TEXT], const char *joint, const char
     return n;
 }
 
+/* Keys of this level without a default must be there, if they are wanted. */
 static void check_missing (pg_scene *s, const pg_node *node, const char *pattern, char path[PG_PATH_TEXT])
 {
     for (size_t k = 0; k < s->schema.n; k++) {
@@ -90,6 +98,7 @@ static void check_missing (pg_scene *s, const pg_node *node, const char *pattern
     }
 }
 
+/* Members of a group at one level: how many are given, all names, the last one given. */
 typedef struct { size_t given; char names[400], last[64]; } membership;
 
 static membership count_members (const pg_scene *s, const pg_node *node, const char *pattern,
@@ -111,6 +120,7 @@ static membership count_members (const pg_scene *s, const pg_node *node, const c
     return m;
 }
 
+/* Is row k the first of its group at this level? */
 static int first_of_group (const pg_schema *schema, size_t k, const char *pattern)
 {
     const char *group = schema->row[k]->group;
@@ -121,6 +131,7 @@ static int first_of_group (const pg_schema *schema, size_t k, const char *patter
     return 1;
 }
 
+/* Of the keys of a group at most or exactly one must be given. */
 static void check_groups (pg_scene *s, const pg_node *node, const char *pattern, char path[PG_PATH_TEXT])
 {
     for (size_t k = 0; k < s->schema.n; k++) {
@@ -141,6 +152,7 @@ static void check_groups (pg_scene *s, const pg_node *node, const char *pattern,
 }
 
 /* ---- shapes -------------------------------------------------------------------------------------------- */
+/* All children of a map; pattern and path are restored afterwards. */
 static pg_status check_map (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT])
 {
     pg_status status = PG_OK;
@@ -163,6 +175,7 @@ done:
     return status;
 }
 
+/* All elements of a list. */
 static pg_status check_list (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT])
 {
     pg_status status = PG_OK;
@@ -180,7 +193,7 @@ done:
     return status;
 }
 
-/* `cracks:` with nothing after it is an empty list where only a list fits, likewise a map. */
+/* A key with nothing behind it is an empty list where only a list fits, likewise a map. */
 static void shape_of_nothing (const pg_schema *schema, pg_node *node, const char *pattern)
 {
     if (!pg_node_null (node) || pg_schema_row (schema, pattern, PG_SCALAR)) return;
@@ -193,6 +206,7 @@ static void shape_of_nothing (const pg_schema *schema, pg_node *node, const char
     node->shape = shape;
 }
 
+/* A node of any shape, after its row has been found. */
 static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT])
 {
     static const char *const shape[] = { "a single value", "a list", "a map" };
@@ -211,6 +225,7 @@ static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN
 }
 
 /* ---- all ----------------------------------------------------------------------------------------------- */
+/* Defaults are read and checked as if the user had written them. */
 static pg_status check_defaults (pg_scene *s)
 {
     pg_status status = PG_OK;
@@ -233,6 +248,7 @@ done:
     return status;
 }
 
+/* The dimension comes first, because the length of vectors depends on it. */
 pg_status pg_scene_check (pg_scene *s)
 {
     pg_status status = PG_OK;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Headers of the columns of tables, "u_x [mm]": name, unit, values in that unit. */
+ * Headers of the columns of tables, "u_x [mm]": name, unit, and values in that unit. */
 #include "unit.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* Ends the text before the blanks in front of `end`. */
 static void cut_blanks (char *end, const char *start)
 {
     while (end > start && (end[-1] == ' ' || end[-1] == '\t')) end--;
@@ -41,6 +42,7 @@ pg_status pg_column_scale (double *scale, const char *unit, const char *kind)
     return pg_unit_parse (scale, one, kind);
 }
 
+/* Through pg_measure_scale, which divides by 1000 where a product with 0.001 would be rounded. */
 double pg_column_value (double value, double scale)
 {
     const pg_measure m = { .factor = scale };

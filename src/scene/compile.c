@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Text -> stack code, by recursive descent, with the dimension of every part. `or` < `and` < `not` <
- * comparison < + - < * / < sign < ^. A bare number fits any unit (it is SI); a product of a bare number with
- * something dimensionless stays bare. */
+ * Compiles the text of an expression into code for a stack machine, by recursive descent, with the
+ * dimension of every part. Precedence, loose to tight: or, and, not, comparison, + -, * /, sign, ^. A
+ * number without unit fits any unit (it is in SI); the product of such a number with something
+ * dimensionless remains one. */
 #include "compile.h"
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 
+/* Characters of an expression, at most. */
 enum { LONGEST = 4000 };
 
+/* A rule of the grammar: reads its part of the text and describes it as an operand. */
 typedef pg_status (*rule) (pg_reader *, pg_operand *);
 static pg_status read_unary (pg_reader *, pg_operand *);
 
+/* A number with unit, a name, or an expression in parentheses. */
 static pg_status read_primary (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -33,6 +37,7 @@ done:
 }
 
 /* ---- signs, from tight to loose ------------------------------------------------------------------------ */
+/* a ^ b; ^ binds to the right, as b may begin with a sign and hold a power of its own. */
 static pg_status read_power (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -54,6 +59,7 @@ done:
     return status;
 }
 
+/* Signs. */
 static pg_status read_unary (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -69,6 +75,7 @@ done:
     return status;
 }
 
+/* * and /, from left to right. */
 static pg_status read_product (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -91,6 +98,7 @@ done:
     return status;
 }
 
+/* + and -, from left to right; both sides need the same dimension. */
 static pg_status read_sum (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -109,6 +117,7 @@ done:
     return status;
 }
 
+/* Passes a sign of comparison; longer ones first. */
 static int take_comparison (pg_reader *p, pg_op *op)
 {
     static const struct { const char *sign; pg_op op; } signs[] = {
@@ -123,6 +132,7 @@ static int take_comparison (pg_reader *p, pg_op *op)
     return 0;
 }
 
+/* At most one comparison: a < b < c would mean something else than in mathematics. */
 static pg_status read_comparison (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -143,6 +153,7 @@ done:
     return status;
 }
 
+/* not needs a condition. */
 static pg_status read_not (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -158,6 +169,7 @@ done:
     return status;
 }
 
+/* Operands of `next` joined by `word`. */
 static pg_status read_joined (pg_reader *p, pg_operand *o, const char *word, pg_op op, rule next)
 {
     pg_status status = PG_OK;
@@ -182,6 +194,7 @@ static pg_status read_and (pg_reader *p, pg_operand *o)
 pg_status pg_read_or (pg_reader *p, pg_operand *o) { return read_joined (p, o, "or", PG_OP_OR, read_and); }
 
 /* ---- the whole ----------------------------------------------------------------------------------------- */
+/* Has the result the unit that is wanted? A bare number fits any. */
 static pg_status check_result (pg_reader *p, const pg_operand *o, const char *unit)
 {
     pg_measure wanted;
@@ -197,6 +210,7 @@ static pg_status check_result (pg_reader *p, const pg_operand *o, const char *un
     return pg_read_fault (p, 0, "the result is in %s, expected %.*s", given, (int) n, unit);
 }
 
+/* The whole text must be one expression. */
 static pg_status read_all (pg_reader *p, const char *unit)
 {
     pg_status status = PG_OK;
@@ -213,8 +227,9 @@ done:
     return status;
 }
 
-/* A plain quantity in the full unit grammar ("5 1/s", "2 m s-1"), or an expression, with t in s or else as a
- * load factor. */
+/* A plain quantity in the full grammar of units ("5 1/s", "2 m s-1"), or an expression. t is taken as a
+ * time in seconds first and, if that does not fit, as the load factor; of two faults the one farther on in
+ * the text is reported. */
 static pg_status compile (pg_reader *p, const char *unit)
 {
     pg_status status = PG_OK;

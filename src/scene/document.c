@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Scene from a file or from memory: read, override, check, verdict. */
+ * A scene from a file or from memory: read, apply overrides, check, report all faults. */
 #include "document.h"
 #include "sha256.h"
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 
-enum { LARGEST = 1 << 28 };                            /* bytes of a scene file */
+/* Bytes of a scene file, at most. */
+enum { LARGEST = 1 << 28 };
 
+/* SHA-256 of the text and of the overrides, each separated by a zero byte. */
 static void hash (pg_scene *s, size_t length, size_t nset, const char *const *set)
 {
     pg_sha256 sum;
@@ -20,6 +22,7 @@ static void hash (pg_scene *s, size_t length, size_t nset, const char *const *se
     pg_sha256_end (&sum, s->hash);
 }
 
+/* Copies what was given, and allocates the list of faults. */
 static pg_status keep_texts (pg_scene *s, const char *text, size_t length, const char *name, size_t nset,
                              const char *const *set)
 {
@@ -40,6 +43,7 @@ done:
     return status;
 }
 
+/* Reads the YAML text; a scene must be a map. */
 static pg_status read_tree (pg_scene *s, const char *text, size_t length)
 {
     int good;
@@ -53,7 +57,7 @@ static pg_status read_tree (pg_scene *s, const char *text, size_t length)
     return PG_OK;
 }
 
-/* All faults lie where body, points, cracks and sets do not look. */
+/* Do all faults concern keys that body, points, cracks and sets do not read? */
 static int geometry_is_sound (const pg_scene *s)
 {
     static const char *const elsewhere[] = { "title",   "materials", "failure", "blocks",   "boundary",
@@ -66,7 +70,7 @@ static int geometry_is_sound (const pg_scene *s)
     return s->dimension > 0 && !s->faults->more;
 }
 
-/* some: a scene whose geometry has no fault is given with the faults it has. */
+/* some: a scene whose geometry has no fault is returned together with the faults it has. */
 static pg_status read_some (pg_scene **out, const char *text, size_t length, const char *name, size_t nset,
                             const char *const *set, const pg_key_table *table, size_t ntable, int some)
 {
@@ -108,6 +112,7 @@ pg_status pg_scene_parse (pg_scene **out, const char *text, const char *name)
     return pg_scene_parse_with (out, text, name, 0, NULL);
 }
 
+/* Reads a regular file. A pipe would block, and would be empty when it is read again. */
 static pg_status read_file (char **text, size_t *length, const char *path)
 {
     pg_status status = PG_OK;
@@ -184,6 +189,7 @@ const char *pg_scene_setting (const pg_scene *s, size_t k)
 
 const char *pg_scene_hash   (const pg_scene *s) { return s->hash; }
 
+/* Faults that were passed do not count, unless memory was short for one. */
 pg_status pg_scene_verdict (const pg_scene *s)
 {
     return s->faults->n > s->faults->passed || s->faults->lost ? pg_faults_verdict (s->faults) : PG_OK;

@@ -1,29 +1,41 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * document.h: the scene itself, and reading one against any key tables (tests bring their own). */
+ * Private: the scene itself, and reading one against any key tables (tests bring their own). */
 #ifndef PG_SCENE_DOCUMENT_H
 #define PG_SCENE_DOCUMENT_H
 #include "schema.h"
 
+/* A scene. */
 struct pg_scene {
-    char      *file, *source;                          /* as given */
+    /* Path and text as given. */
+    char      *file, *source;
+    /* SHA-256 of text and overrides. */
     char       hash[65];
-    char     **set;                                    /* overrides, "--set key=value" (nset) */
+    /* Overrides as "--set key=value" (nset). */
+    char     **set;
     size_t     nset;
-    int        dimension;                              /* 0: not known */
+    /* Dimension of space; 0: not known. */
+    int        dimension;
+    /* All rows of all tables. */
     pg_schema  schema;
+    /* What the user wrote. */
     pg_node    root;
-    pg_node   *fallback;  /* default of each row; no text and no child: none (schema.n) */
-    pg_faults *faults;                                 /* grows even in a const scene */
-    int        partial;  /* it has faults beside its geometry (pg_scene_load_some) */
+    /* Default of each row; without text and children: none (schema.n). */
+    pg_node   *fallback;
+    /* Faults so far; grows even in a const scene. */
+    pg_faults *faults;
+    /* 1: it has faults beside its geometry (pg_scene_load_some). */
+    int        partial;
 };
 
+/* Reads a scene from memory with overrides `set`, against these tables. */
 pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const char *name, size_t nset,
                          const char *const *set, const pg_key_table *table, size_t ntable);
-/* "key=value" into the tree; what is wrong with it is a fault. */
+/* Puts "key=value" into the tree; what is wrong with it is a fault. */
 pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin);
-/* Checks the tree and the defaults against the rows; faults are collected, only lack of memory or of the unit
- * database fails. */
+/* Checks tree and defaults against the rows. Faults are collected; it fails only for lack of memory or of
+ * the database of units. */
 pg_status pg_scene_check (pg_scene *s);
-/* 0: the key is of entries of a catalogue, and another one is chosen in the map `node` of this pattern. */
+/* 0: the key belongs to entries of a catalogue, and another entry is chosen in the map `node` of this
+ * pattern. */
 int pg_key_wanted (const pg_scene *s, const pg_key *key, const pg_node *node, const char *pattern);
 #endif

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys that belong to entries of a catalogue (pg_key_catalogue): whether the entry chosen in a scene knows
- * them. */
+ * Keys that belong to entries of a catalogue (pg_key_catalogue): does the entry chosen in a scene know
+ * them? */
 #include "document.h"
 #include <string.h>
 
+/* Whole names only: "stat" is not in "static|newmark". */
 int pg_listed (const char *names, const char *name)
 {
     size_t length = strlen (name);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Value of a compiled expression at a place: a stack machine. The compiler is in compile.c. */
+ * Value of a compiled expression at a position: a stack machine. The compiler is in compile.c. */
 #include "expression.h"
 #include <math.h>
 #include <string.h>
 
+/* The variables, in the order of their operations. */
 static const pg_variable variables[] = {
     { "x",     PG_OP_X,     "coordinate, m" },
     { "y",     PG_OP_Y,     "coordinate, m (0 in 1D)" },
@@ -13,6 +14,7 @@ static const pg_variable variables[] = {
     { "t",     PG_OP_T,     "time, s; the load factor 0 to 1 in a static scene" },
 };
 
+/* Name, operation, number of arguments (-2: two or more), dimensions it takes and gives, explanation. */
 static const pg_function functions[] = {
     { "sin", PG_OP_SIN, 1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "sine of an angle" },
     { "cos", PG_OP_COS, 1, PG_TAKES_PLAIN, PG_GIVES_PLAIN, "cosine of an angle" },
@@ -39,7 +41,7 @@ const pg_variable *pg_expression_variable (size_t i)
 }
 
 /* ---- operations ---------------------------------------------------------------------------------------- */
-/* Truth is 1 and 0; any number but 0 is true. */
+/* Truth is 1 and 0; any number other than 0 is true. */
 static double negate (double a)                 { return -a; }
 static double not (double a)                    { return a == 0; }
 static double step (double a)                   { return a >= 0; }
@@ -58,6 +60,7 @@ static double different (double a, double b)    { return a != b; }
 static double and (double a, double b)          { return a != 0 && b != 0; }
 static double or (double a, double b)           { return a != 0 || b != 0; }
 
+/* Operations of one and of two numbers by their code. */
 typedef double (*unary) (double a);
 typedef double (*binary) (double a, double b);
 static const unary of_one[] = {
@@ -81,6 +84,7 @@ double pg_op_apply (pg_op op, double a, double b)
 }
 
 /* ---- evaluation ---------------------------------------------------------------------------------------- */
+/* The order of pg_op says how many operands an operation takes. */
 double pg_expression_value (const pg_expression *e, const pg_place *at)
 {
     double stack[PG_STACK];

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * expression.h: the small stack machine an expression is compiled to, and the words the language knows. */
+ * Private: the small stack machine that an expression is compiled to, and the words of the language. */
 #ifndef PG_SCENE_EXPRESSION_H
 #define PG_SCENE_EXPRESSION_H
 #include "perigal/scene.h"
 
-enum { PG_STACK = 64 };                                /* deepest stack; the compiler refuses more */
+/* Height of the stack; the compiler refuses more. */
+enum { PG_STACK = 64 };
 
+/* Operations: a constant, variables, operations of one number, operations of two. */
 typedef enum {
     PG_OP_CONSTANT,
     PG_OP_X,
@@ -43,17 +45,23 @@ typedef enum {
     PG_OP_OR
 } pg_op;
 
+/* An instruction; value: of a constant. */
 typedef struct { pg_op op; double value; } pg_code;
 
+/* A compiled expression. */
 struct pg_expression {
     pg_code *code;
     size_t   n, cap;
-    unsigned uses;                                     /* bit op: a variable that occurs */
+    /* Bit op is set for each variable that occurs. */
+    unsigned uses;
 };
 
-/* What a function wants of its arguments and gives. */
+/* Dimensions of the arguments of a function: none, any, the same for all; of its result: none, that of the
+ * argument, its square root. */
 typedef enum { PG_TAKES_PLAIN, PG_TAKES_ANY, PG_TAKES_ALIKE } pg_takes;
 typedef enum { PG_GIVES_PLAIN, PG_GIVES_SAME, PG_GIVES_ROOT } pg_gives;
+
+/* A function of the language. */
 typedef struct {
     const char *name;
     pg_op op;
@@ -62,10 +70,14 @@ typedef struct {
     pg_gives gives;
     const char *doc;
 } pg_function;
+/* A variable of the language. */
 typedef struct { const char *name; pg_op op; const char *doc; } pg_variable;
 
-const pg_function *pg_expression_function (size_t i);  /* NULL past the end; arguments -2: two or more */
+/* Function or variable i; NULL past the end. */
+const pg_function *pg_expression_function (size_t i);
 const pg_variable *pg_expression_variable (size_t i);
-double pg_op_apply (pg_op op, double a, double b);     /* of one or two numbers; conditions are 0 and 1 */
-int    pg_expression_constant (const pg_expression *e, double *value);   /* 1 when no variable occurs */
+/* The operation on one or two numbers. */
+double pg_op_apply (pg_op op, double a, double b);
+/* 1 when no variable occurs: *value is its value then. */
+int    pg_expression_constant (const pg_expression *e, double *value);
 #endif

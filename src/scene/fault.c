@@ -5,9 +5,10 @@
 #include <limits.h>
 #include <string.h>
 
+/* Faults in a message; faults kept (more are only counted); lengths of a line and of a value in it. */
 enum { SHOWN = 50, KEPT = 1000, LINE = 1200, VALUE = 60 };
 
-/* At most `most` bytes of `text` with control characters as '?', cut between characters. */
+/* At most `most` bytes of a text, control characters as ?, cut between characters of UTF-8. */
 static void printable (char *out, size_t most, const char *text)
 {
     size_t n = 0, length = strlen (text);
@@ -39,6 +40,7 @@ static void write_fault (char text[2 * LINE], const char *file, const pg_node *a
               clean);
 }
 
+/* If there is no memory for a fault, the verdict becomes PG_E_MEMORY, so that a wrong scene never passes. */
 void pg_faults_add_v (pg_faults *f, const char *file, const pg_node *at, const char *path, int with_value,
                       const char *format, va_list args)
 {
@@ -73,12 +75,14 @@ void pg_faults_add (pg_faults *f, const char *file, const pg_node *at, const cha
     va_end (args);
 }
 
+/* Order of the file. */
 static int before (const pg_fault *a, const pg_fault *b)
 {
     return a->line != b->line ? a->line < b->line : a->column < b->column;
 }
 
-static void sort (pg_fault *fault, size_t n)           /* by place, stable */
+/* Stable insertion sort. */
+static void sort (pg_fault *fault, size_t n)
 {
     for (size_t i = 1; i < n; i++) {
         pg_fault moving = fault[i];
@@ -88,6 +92,7 @@ static void sort (pg_fault *fault, size_t n)           /* by place, stable */
     }
 }
 
+/* One line per fault, as many as fit. */
 pg_status pg_faults_verdict (const pg_faults *f)
 {
     char text[15000];

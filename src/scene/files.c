@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The files that a scene names: where they are, and what is in them. */
+ * The files that a scene names: where they are, and a fingerprint of their content, by which a result can
+ * be traced to its input. */
 #include "document.h"
 #include "sha256.h"
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 
+/* The folder of the scene is what stands before its last slash. */
 pg_status pg_scene_beside (char **out, const pg_scene *s, const char *name)
 {
     pg_status status = PG_OK;
@@ -18,6 +20,7 @@ done:
     return status;
 }
 
+/* SHA-256 of a regular file. */
 static pg_status hash_file (const char *path, char hash[65])
 {
     pg_status status = PG_OK;
@@ -38,8 +41,10 @@ done:
     return status;
 }
 
+/* The list under construction. */
 typedef struct { const pg_scene *scene; pg_named_file *file; size_t n, cap; } collection;
 
+/* Walks through the tree; path: of the node. */
 static pg_status collect (collection *c, const pg_node *node, const char *path)
 {
     pg_status status = PG_OK;

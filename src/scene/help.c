@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a key means, from the tables: for one key on the terminal, for all keys as doc/input.md. */
+ * What a key means, from the tables: for one key on the terminal; for all keys see manual.c. */
 #include "help.h"
 #include "schema.h"
 #include <string.h>
 
+/* In the order of pg_kind. */
 const char *pg_key_kind (const pg_key *key)
 {
     static const char *const kind[] = {
@@ -13,7 +14,7 @@ const char *pg_key_kind (const pg_key *key)
     return (unsigned) key->kind < sizeof kind / sizeof *kind ? kind[key->kind] : "?";
 }
 
-/* "materials.{}.youngs_modulus" and "materials.youngs_modulus" become the same text: what a user would
+/* "materials.{}.youngs_modulus" and "materials.youngs_modulus" become the same text, which a user would
  * type. */
 static void plain_path (char out[PG_PATTERN], const char *path)
 {
@@ -28,6 +29,7 @@ static void plain_path (char out[PG_PATTERN], const char *path)
     out[n] = '\0';
 }
 
+/* Separators become commas. */
 void pg_help_meaning (FILE *to, const pg_key *key)
 {
     const char *entries = pg_key_entries (key, NULL);
@@ -39,7 +41,7 @@ void pg_help_meaning (FILE *to, const pg_key *key)
     fprintf (to, "%s%s", entries ? ") " : "", key->doc ? key->doc : "");
 }
 
-/* 3: the row's path is the key; 2: it ends with the key; 1: it lies below the key; 0: neither. */
+/* 3: the path of the row is the key; 2: it ends with the key; 1: it lies below the key; 0: neither. */
 static int match (const pg_key *row, const char *key)
 {
     char path[PG_PATTERN];
@@ -50,6 +52,7 @@ static int match (const pg_key *row, const char *key)
     return n > m && path[m] == '.' && strncmp (path, key, m) == 0;
 }
 
+/* Names separated by commas. */
 static void print_names (FILE *to, const char *before, const char *names)
 {
     fprintf (to, "%s", before);
@@ -60,6 +63,7 @@ static void print_names (FILE *to, const char *before, const char *names)
     fprintf (to, "\n");
 }
 
+/* The other keys of the same group and parent. */
 static void print_partners (FILE *to, const pg_schema *s, const pg_key *key)
 {
     const char *last = strrchr (key->path, '.'), *rule = strrchr (key->group, ':'), *joint = "";
@@ -79,6 +83,7 @@ static void print_partners (FILE *to, const pg_schema *s, const pg_key *key)
     fprintf (to, "\n");
 }
 
+/* All that is known of one key. */
 static void print_key (FILE *to, const pg_schema *s, const pg_key *key)
 {
     const char *choices = pg_key_choices (key);
@@ -98,6 +103,7 @@ static void print_key (FILE *to, const pg_schema *s, const pg_key *key)
     if (key->group) print_partners (to, s, key);
 }
 
+/* The keys below, one per line. */
 static void print_below (FILE *to, const pg_schema *s, const char *key)
 {
     const char *title = "  below it:\n";
@@ -110,6 +116,7 @@ static void print_below (FILE *to, const pg_schema *s, const char *key)
     }
 }
 
+/* How many rows match in this way. */
 static size_t count (const pg_schema *s, const char *key, int how)
 {
     size_t n = 0;

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * help.h: help and manual of any list of rows (tests bring their own). */
+ * Private: help and manual of any list of rows (tests bring their own). */
 #ifndef PG_SCENE_HELP_H
 #define PG_SCENE_HELP_H
 #include "schema.h"
 
-const char *pg_key_kind (const pg_key *key);           /* "whole number" */
+/* The kind in words: "whole number". */
+const char *pg_key_kind (const pg_key *key);
 /* What a key is for, after the names of the entries that own it: "(adr, relax) Number of ...". */
 void      pg_help_meaning (FILE *to, const pg_key *key);
+/* Writes what is known of one key; writes the manual of all keys. */
 pg_status pg_help_write   (FILE *to, const char *key, const pg_schema *s);
 pg_status pg_manual_write (FILE *to, const pg_schema *s);
 #endif

@@ -21,11 +21,13 @@ void pg_read_skip (pg_reader *p)
     while (p->text[p->at] && strchr (" \t\r\n", p->text[p->at])) p->at++;
 }
 
+/* Bytes from 0x80 on are parts of letters in UTF-8, such as the micro sign. */
 int pg_read_is_letter (char c)
 {
     return isalpha ((unsigned char) c) || c == '_' || c == '%' || (unsigned char) c >= 0x80;
 }
 
+/* The sign % is a word of its own. */
 size_t pg_word_length (const char *s)
 {
     size_t n = 0;
@@ -39,6 +41,7 @@ int pg_is_word (const char *s, size_t n, const char *word)
     return strlen (word) == n && memcmp (s, word, n) == 0;
 }
 
+/* A symbol of letters must be a whole word. */
 int pg_read_take (pg_reader *p, const char *symbol)
 {
     pg_read_skip (p);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * One line per folder that brings keys of the scene file (const pg_key_table pg_keys_<folder>, in
+ * One line per folder that brings keys of the scene (const pg_key_table pg_keys_<folder>, in
  * src/<folder>/keys.c), and one per folder whose catalogue entries bring keys of their own (const
  * pg_key_catalogue pg_entry_keys_<folder>). */
 PG_KEYS (scene)

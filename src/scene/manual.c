@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * doc/input.md: an introduction, then one section with a table of keys for each word at the top of a
+ * Writes doc/input.md: an introduction, then one section with a table of keys for each word at the top of a
  * scene. */
 #include "expression.h"
 #include "help.h"
@@ -30,6 +30,7 @@ static const char overrides[] =
     "a list grows by\n"
     "naming the element after its last. Overrides enter the hash by which results name their scene.\n\n";
 
+/* The language of expressions, from its tables. */
 static void write_expressions (FILE *to)
 {
     fprintf (to, "## Expressions\n\nA value of kind *expression* is a number with unit or a formula. Numbers "
@@ -54,6 +55,7 @@ static void write_expressions (FILE *to)
                  "> 0`.\n\n");
 }
 
+/* Names in back quotes. */
 static void write_list (FILE *to, const char *names)
 {
     fprintf (to, "`");
@@ -64,6 +66,7 @@ static void write_list (FILE *to, const char *names)
     fprintf (to, "`");
 }
 
+/* One key as a row of a table. */
 static void write_row (FILE *to, const pg_key *key)
 {
     const char *choices = pg_key_choices (key);
@@ -85,15 +88,17 @@ static void write_row (FILE *to, const pg_key *key)
     fprintf (to, " |\n");
 }
 
+/* Length of the first word of a path. */
 static size_t top_length (const char *path) { return strcspn (path, ".["); }
 
+/* Do two paths begin with the same word? */
 static int same_top (const char *a, const char *b)
 {
     size_t n = top_length (a);
     return top_length (b) == n && strncmp (a, b, n) == 0;
 }
 
-/* Rows under the same word at the top: before row k, or all. */
+/* Number of rows with the same first word as row k, among the first `end`. */
 static size_t companions (const pg_schema *s, size_t k, size_t end)
 {
     size_t n = 0;
@@ -101,11 +106,13 @@ static size_t companions (const pg_schema *s, size_t k, size_t end)
     return n;
 }
 
+/* Is row k the only one with its first word? */
 static int stands_alone (const pg_schema *s, size_t k)
 {
     return !strpbrk (s->row[k]->path, ".[") && companions (s, k, s->n) == 1;
 }
 
+/* Title and head of a table. */
 static void write_title (FILE *to, const char *title, size_t n)
 {
     fprintf (
@@ -114,6 +121,7 @@ static void write_title (FILE *to, const char *title, size_t n)
         (int) n, title);
 }
 
+/* Keys that stand alone come first, in one table. */
 static void write_sections (FILE *to, const pg_schema *s)
 {
     static const char first[] = "The whole scene";

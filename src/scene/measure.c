@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Units through udunits2: text -> factor and powers of the base units. The database is read once, on first
- * use. */
+ * Units by udunits2: a text becomes a factor and powers of the base units. The database is read once, on
+ * first use, and only if a unit occurs that is not among the common ones. */
 #include "unit.h"
 #include <locale.h>
 #include <math.h>
@@ -8,13 +8,16 @@
 #include <string.h>
 #include <udunits2.h>
 
+/* Length of the text of a unit; number of units remembered. */
 enum { WORD = 40, REMEMBERED = 128 };
 
+/* udunits2 is not thread-safe: one lock for it and for the units met before, which are kept by hash. */
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static ut_system *units;
 static struct { char text[WORD]; pg_measure measure; } memory[REMEMBERED];   /* units met before, by hash */
 
+/* Reads the database, in the C locale as it has decimal points, and adds deg. */
 static void load (void)
 {
     locale_t c = newlocale (LC_ALL_MASK, "C", (locale_t) 0), before = (locale_t) 0;
@@ -33,8 +36,10 @@ static void load (void)
 }
 
 /* ---- powers of the base units, by visiting the tree of a unit ------------------------------------------ */
+/* Base units in the order of pg_measure.power. */
 static const char *const base_symbol[PG_BASE_UNITS] = { "m", "kg", "s", "A", "K", "mol", "cd" };
 
+/* Adds a power of a base unit. */
 static ut_status add_basic (const ut_unit *unit, double power, pg_measure *m)
 {
     const char *symbol = ut_get_symbol (unit, UT_ASCII);
@@ -45,6 +50,7 @@ static ut_status add_basic (const ut_unit *unit, double power, pg_measure *m)
     return UT_SUCCESS;
 }
 
+/* Called by udunits2 for each kind of unit in the tree of one. */
 static ut_status visit_basic (const ut_unit *unit, void *p) { return add_basic (unit, 1, p); }
 
 static ut_status visit_product (const ut_unit *unit, int n, const ut_unit *const *basic, const int *power,
@@ -60,6 +66,7 @@ static ut_status visit_product (const ut_unit *unit, int n, const ut_unit *const
 
 static ut_visitor visitor;
 
+/* A factor; units with an origin (degC) have no meaning here. */
 static ut_status visit_galilean (const ut_unit *unit, double scale, const ut_unit *under, double origin,
                                  void *p)
 {
@@ -84,6 +91,7 @@ static ut_status visit_log (const ut_unit *unit, double base, const ut_unit *ref
 static ut_visitor visitor = { visit_basic, visit_product, visit_galilean, visit_time, visit_log };
 
 /* ---- text ---------------------------------------------------------------------------------------------- */
+/* Letters of unit names, in UTF-8. */
 static int is_letter (char c)
 {
     unsigned char u = (unsigned char) c;
@@ -123,8 +131,8 @@ static const char *skip_joint (const char *s)
     return s;
 }
 
-/* Words with whole powers, joined by space . * or /, perhaps after "1/": udunits itself also takes "m)" or "5
- * m @ 3". */
+/* Words with whole powers, joined by space . * or /, perhaps after "1/". udunits2 alone would also accept
+ * "m)" or "5 m @ 3". */
 static int well_formed (const char *s)
 {
     if (s[0] == '1' && s[1] == '/') s += 2;
@@ -138,6 +146,7 @@ static int well_formed (const char *s)
     }
 }
 
+/* By udunits2; 0: no unit with a positive factor. */
 static int parse (const char *text, pg_measure *m)
 {
     ut_unit *unit = ut_parse (units, text, UT_UTF8);
@@ -148,6 +157,7 @@ static int parse (const char *text, pg_measure *m)
     return good;
 }
 
+/* Hash of a text. */
 static size_t place_of (const char *text)
 {
     size_t h = 5381;
@@ -155,8 +165,8 @@ static size_t place_of (const char *text)
     return h % REMEMBERED;
 }
 
-/* What most scenes make do with: reading the database takes longer than a small run. The same bits as udunits
- * gives. */
+/* Units that most scenes make do with: reading the database takes longer than a small run. The same bits as
+ * udunits2 gives. */
 static const struct { const char *text; double factor, m, kg, s;
 } common[] = {
     { "m", 1, 1, 0, 0 },     { "mm", 1e-3, 1, 0, 0 },   { "m2", 1, 2, 0, 0 },      { "m3", 1, 3, 0, 0 },
@@ -167,6 +177,7 @@ static const struct { const char *text; double factor, m, kg, s;
     { "min", 60, 0, 0, 1 },
 };
 
+/* Is it one of these? */
 static int is_common (pg_measure *m, const char *text, size_t n)
 {
     for (size_t k = 0; k < sizeof common / sizeof *common; k++) {
@@ -224,6 +235,8 @@ int pg_measure_plain (const pg_measure *m)
     return pg_measure_same (m, &one);
 }
 
+/* Where the factor is the inverse of a whole number, division by that is exact where the product would be
+ * rounded: 3 mm is exactly 0.003 m. */
 double pg_measure_scale (double value, const pg_measure *m)
 {
     double inverse = round (1 / m->factor);
@@ -232,6 +245,7 @@ double pg_measure_scale (double value, const pg_measure *m)
 }
 
 /* ---- names for messages -------------------------------------------------------------------------------- */
+/* Names of dimensions, and an example for each. */
 static const struct { const char *unit; double m, kg, s; const char *example;
 } known[] = {
     { "1", 0, 0, 0, "0.25" },       { "rad", 0, 0, 0, "40 deg" },        { "m", 1, 0, 0, "5 mm" },
@@ -242,6 +256,7 @@ static const struct { const char *unit; double m, kg, s; const char *example;
     { "J", 2, 1, -2, "5 J" },       { "N/m3", -2, 1, -2, "25 kN/m3" },   { "N s/m", 0, 1, -1, "5 N s/m" },
 };
 
+/* Has row k this dimension? */
 static int is_known (size_t k, const pg_measure *m)
 {
     const pg_measure other = { .factor = 1, .power = { known[k].m, known[k].kg, known[k].s } };

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The nearest of some names: edit distance with swaps of neighbours, regardless of case. */
+ * The nearest of some names, to suggest in messages: edit distance with swaps of neighbours, regardless of
+ * case. */
 #include "perigal/scene.h"
 #include <ctype.h>
 #include <string.h>
 
+/* Longer names are not compared. */
 enum { LONGEST = 64 };
 
 static int lower (char c) { return tolower ((unsigned char) c); }
 
-/* Optimal string alignment distance of a (na) and b (nb), both at most LONGEST long. */
+/* Optimal string alignment distance of a (na bytes) and b (nb bytes). */
 static size_t distance (const char *a, size_t na, const char *b, size_t nb)
 {
     size_t row[3][LONGEST + 1];
@@ -28,6 +30,7 @@ static size_t distance (const char *a, size_t na, const char *b, size_t nb)
     return row[na % 3][nb];
 }
 
+/* Is `word`, of at least three letters, the beginning of the name? */
 static int starts (const char *name, size_t n, const char *word, size_t nw)
 {
     for (size_t k = 0; k < nw; k++)
@@ -35,6 +38,7 @@ static int starts (const char *name, size_t n, const char *word, size_t nw)
     return nw >= 3;
 }
 
+/* A name is near if at most a third of its letters differ; else one that begins with the word is taken. */
 const char *pg_nearest_name (const char *word, const char *choices)
 {
     static _Thread_local char found[LONGEST + 1];

@@ -3,6 +3,7 @@
 #include "node.h"
 #include <string.h>
 
+/* Children of a node are one array, which may move when it grows. */
 pg_status pg_node_add (pg_node **child, pg_node *parent, const char *name)
 {
     pg_status status = PG_OK;

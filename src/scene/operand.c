@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Operands of an expression: stack code with folding of constants, and the dimension of each part. */
+ * Operands of an expression: code for the stack machine with constants computed at once, and the dimension
+ * of each part. */
 #include "compile.h"
 
 /* ---- code ---------------------------------------------------------------------------------------------- */
+/* Constants and variables push a value, operations of two numbers remove one. */
 pg_status pg_operand_emit (pg_reader *p, pg_op op, double value)
 {
     pg_status status = PG_OK;
@@ -22,6 +24,7 @@ pg_status pg_operand_push (pg_reader *p, pg_operand *o, double value)
     return pg_operand_emit (p, PG_OP_CONSTANT, value);
 }
 
+/* Of known operands only one constant remains in the code. */
 pg_status pg_operand_combine (pg_reader *p, pg_op op, pg_operand *a, const pg_operand *b)
 {
     if (!a->fixed || (b && !b->fixed)) {
@@ -43,6 +46,7 @@ pg_status pg_operand_number (pg_reader *p, const pg_operand *o, size_t at)
     return o->condition ? pg_read_fault (p, at, "a condition cannot be used as a number") : PG_OK;
 }
 
+/* An operand that is bare on the left takes the dimension of the right one. */
 pg_status pg_operand_agree (pg_reader *p, pg_operand *a, const pg_operand *b, size_t at, const char *verb)
 {
     char left[80], right[80];

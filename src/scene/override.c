@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * "a.b[0].c=value": puts a value, read as YAML, into the tree; maps and lists on the way are made when they
- * are missing. */
+ * "a.b[0].c=value": puts a value, read as YAML, into the tree; maps and lists on the way are created where
+ * they are missing. */
 #include "document.h"
 #include <string.h>
 
+/* Depth of a path; length of a word. */
 enum { DEEPEST = 30, WORD = 128 };
 
-/* An empty node becomes the shape the path needs. 0: it is something else already. */
+/* An empty node becomes the shape that the path needs. 0: it has another one already. */
 static int become (pg_node *node, pg_node_shape shape)
 {
     if (pg_node_null (node)) {
@@ -17,6 +18,7 @@ static int become (pg_node *node, pg_node_shape shape)
     return node->shape == shape;
 }
 
+/* Appends an empty child. */
 static pg_status add (pg_node **child, pg_node *parent, const char *name, const char *origin)
 {
     pg_status status = pg_node_add (child, parent, name);
@@ -24,7 +26,7 @@ static pg_status add (pg_node **child, pg_node *parent, const char *name, const 
     return status;
 }
 
-/* Reads "name" or "[3]" at *path. Returns 0 when it is neither; index is -1 for a name. */
+/* Reads "name" or "[3]" at *path. 0: it is neither; index is -1 for a name. */
 static int next_part (const char **path, const char *end, char word[WORD], long *index)
 {
     const char *s = *path;
@@ -46,6 +48,7 @@ static int next_part (const char **path, const char *end, char word[WORD], long 
     return 1;
 }
 
+/* Checked first, so that a wrong path leaves no trace in the tree. */
 static int well_formed (const char *path, const char *end)
 {
     char word[WORD];
@@ -58,7 +61,7 @@ static int well_formed (const char *path, const char *end)
     return 1;
 }
 
-/* The node at the path (well formed), made if need be; *why says what is wrong. */
+/* The node at a well-formed path, created if need be; *why says what is wrong. */
 static pg_status reach (pg_scene *s, pg_node **node, const char *path, const char *end, const char *origin,
                         const char **why)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Finding the row of a key table for a place in the scene. */
+ * Finds the row of a key table for a place in the scene. A pattern is a path in which {} stands for a name
+ * chosen by the user and [] for an element of a list. */
 #include "schema.h"
 #include "unit.h"
 #include <string.h>
@@ -22,7 +23,7 @@ void pg_schema_clear (pg_schema *s)
     *s = (pg_schema) { 0 };
 }
 
-/* What follows the pattern in the path when it leads there; NULL otherwise. */
+/* What follows the pattern in the path, if it leads there; else NULL. */
 static const char *rest_of (const char *path, const char *pattern)
 {
     size_t n = strlen (pattern);
@@ -31,6 +32,7 @@ static const char *rest_of (const char *path, const char *pattern)
     return *path == '\0' || *path == '.' || *path == '[' || n == 0 ? path : NULL;
 }
 
+/* Does any row begin with the pattern? */
 static int leads_somewhere (const pg_schema *s, const char *pattern)
 {
     for (size_t k = 0; k < s->n; k++)
@@ -38,6 +40,7 @@ static int leads_somewhere (const pg_schema *s, const char *pattern)
     return 0;
 }
 
+/* Appends a part to the pattern, if that leads somewhere. */
 static int extend (const pg_schema *s, char *pattern, const char *joint, const char *name, size_t length)
 {
     size_t n = strlen (pattern);
@@ -48,6 +51,7 @@ static int extend (const pg_schema *s, char *pattern, const char *joint, const c
     return 0;
 }
 
+/* A key of its own comes before names that the user chooses. */
 int pg_schema_enter (const pg_schema *s, char pattern[PG_PATTERN], const char *name, size_t length)
 {
     const char *joint = *pattern ? "." : "";
@@ -59,6 +63,7 @@ int pg_schema_enter (const pg_schema *s, char pattern[PG_PATTERN], const char *n
 
 int pg_schema_item (const pg_schema *s, char pattern[PG_PATTERN]) { return extend (s, pattern, "", "[]", 2); }
 
+/* Does a key of this kind take a node of this shape? */
 static int takes (pg_kind kind, pg_node_shape shape)
 {
     switch (kind) {
@@ -102,6 +107,7 @@ const char *pg_schema_below (const pg_key *row, const char *pattern)
     return *rest == '{' || strpbrk (rest, ".[") ? NULL : rest;
 }
 
+/* Is the name (n bytes) one of "a|b|c"? */
 static int listed (const char *names, const char *name, size_t n)
 {
     for (const char *s = names; *s; s += *s == '|') {
@@ -127,6 +133,7 @@ void pg_schema_names (const pg_schema *s, const char *pattern, char names[PG_LEV
     }
 }
 
+/* From the table or from a catalogue. */
 const char *pg_key_choices (const pg_key *key) { return key->choices_of ? key->choices_of () : key->choices; }
 
 /* What a value of each kind is called in messages; numbers and names say more. */

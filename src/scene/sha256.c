@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * SHA-256 after FIPS 180-4; the constants are computed as the standard defines them, from roots of primes. */
+ * SHA-256 after FIPS 180-4. The constants are computed as the standard defines them, from roots of primes,
+ * instead of being copied. */
 #include "sha256.h"
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 
+/* Constants of the rounds and of the first state. */
 static uint32_t K[64], H0[8];
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 
-/* First 32 bits of the fractional part of the root of p of order `order`: the largest x / 2^32 with x^order
- * <= p, in whole numbers. */
+/* First 32 bits of the fractional part of the square (order 2) or cube root (3) of p: the largest x / 2^32
+ * with x^order <= p, in whole numbers. */
 static uint32_t root_bits (unsigned p, int order)
 {
     uint64_t x = 0;
@@ -21,6 +23,7 @@ static uint32_t root_bits (unsigned p, int order)
     return (uint32_t) x;
 }
 
+/* From the first 64 primes. */
 static void constants (void)
 {
     unsigned n = 0;
@@ -33,8 +36,10 @@ static void constants (void)
     }
 }
 
+/* Rotation to the right. */
 static uint32_t turn (uint32_t x, int n) { return x >> n | x << (32 - n); }
 
+/* One block of 64 bytes into the state (section 6.2.2 of the standard). */
 static void mix (uint32_t h[8], const unsigned char *block)
 {
     uint32_t w[64], v[8];
@@ -76,6 +81,7 @@ void pg_sha256_add (pg_sha256 *s, const void *data, size_t n)
     }
 }
 
+/* Padding: a bit, zeros, the length in bits. */
 void pg_sha256_end (pg_sha256 *s, char hex[65])
 {
     uint64_t bits = s->length * 8;

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-static size_t exponent_length (const char *s)          /* "^2", "^-1"; 0 when none */
+/* Length of "^2" or "^-1"; 0: no whole exponent. */
+static size_t exponent_length (const char *s)
 {
     size_t n = *s == '^';
     if (!n) return 0;
@@ -13,8 +14,8 @@ static size_t exponent_length (const char *s)          /* "^2", "^-1"; 0 when no
     return digits && s[n + digits] != '.' ? n + digits : 0;
 }
 
-/* The unit after a number: "mm", "kN/m2", "kN m": words that are no words of the language. Copies it without
- * spaces. */
+/* The unit after a number: "mm", "kN/m2", "kN m": words that are no words of the language. Copied without
+ * blanks. */
 static pg_status read_unit (pg_reader *p, char *unit, size_t size)
 {
     pg_status status = PG_OK;
@@ -47,6 +48,7 @@ done:
     return status;
 }
 
+/* A unit; what is wrong with it becomes a fault at a position. */
 static pg_status measure_of (pg_reader *p, pg_measure *m, const char *word, size_t n, size_t at)
 {
     pg_status status = pg_measure_read (m, word, n);
@@ -56,6 +58,7 @@ static pg_status measure_of (pg_reader *p, pg_measure *m, const char *word, size
     return pg_read_fault (p, at, "%s", why);
 }
 
+/* Sizes beyond 1e60 or below 1e-60 are refused: their products would leave the range of a double. */
 pg_status pg_read_number (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;
@@ -78,7 +81,7 @@ done:
     return status;
 }
 
-/* Argument number n of a function: the first becomes o, each other is combined with it. */
+/* Argument n of a function: the first becomes o, each other one is combined with it. */
 static pg_status read_argument (pg_reader *p, pg_operand *o, const pg_function *f, int n)
 {
     pg_status status = PG_OK;
@@ -122,6 +125,7 @@ done:
     return status;
 }
 
+/* The message about a name that is not known. */
 static void unknown_name (const char *s, size_t n, char *out, size_t size)
 {
     char known[400] = "pi", word[PG_WORD];
@@ -138,6 +142,7 @@ static void unknown_name (const char *s, size_t n, char *out, size_t size)
     else snprintf (out, size, "unknown name '%s'; variables are x, y, z, r, angle, t", word);
 }
 
+/* Coordinates are in m; t is in s or a plain number. */
 static pg_status read_variable (pg_reader *p, pg_operand *o, const pg_variable *v)
 {
     o->first = p->e->n;
@@ -151,6 +156,7 @@ static pg_status read_variable (pg_reader *p, pg_operand *o, const pg_variable *
     return pg_operand_emit (p, v->op, 0);
 }
 
+/* A variable, a function, pi, a truth value, or a unit by itself as in x/mm. */
 pg_status pg_read_name (pg_reader *p, pg_operand *o)
 {
     pg_status status = PG_OK;

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Numbers with units ("10 GPa" -> 1e10) and ranges ("[0, 0.5)"). */
+ * Numbers with units ("10 GPa" gives 1e10) and ranges ("[0, 0.5)"). */
 #include "unit.h"
 #include <locale.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Characters of a number, at most. */
 enum { LONGEST_NUMBER = 400 };
 
+/* Behind digits; behind blanks. */
 static const char *skip_digits (const char *s)
 {
     while (*s >= '0' && *s <= '9') s++;
@@ -20,6 +22,7 @@ static const char *skip_space (const char *s)
     return s;
 }
 
+/* Sign, digits with at most one point, and an exponent if it is complete. */
 const char *pg_number_end (const char *text)
 {
     const char *s = text + (*text == '-' || *text == '+'), *digits = s;
@@ -38,7 +41,7 @@ const char *pg_number_end (const char *text)
     return s - text < LONGEST_NUMBER ? s : NULL;
 }
 
-/* strtod follows the locale of the host program: give it that locale's decimal point */
+/* strtod follows the locale of the program: it gets the decimal point of that locale. */
 const char *pg_number_read (const char *text, double *value)
 {
     const char *end = pg_number_end (text);
@@ -60,10 +63,11 @@ const char *pg_number_read (const char *text, double *value)
 }
 
 /* ---- number with unit ---------------------------------------------------------------------------------- */
-/* Length of the unit text before the alternative "|spacing". */
+/* Length of the unit before the alternative "|spacing"; is there that alternative? */
 static size_t unit_length (const char *unit) { return strcspn (unit, "|"); }
 static int takes_spacing (const char *unit) { return strstr (unit, "|spacing") != NULL; }
 
+/* An example of a value in this unit. */
 static const char *example_of (const char *unit)
 {
     static _Thread_local char text[80];
@@ -76,6 +80,7 @@ static const char *example_of (const char *unit)
     return text;
 }
 
+/* The unit in words. */
 static const char *unit_words (const char *unit)
 {
     static _Thread_local char text[80];
@@ -92,6 +97,8 @@ void pg_quantity_describe (char *out, size_t n, const char *unit)
         snprintf (out, n, "a number with a unit of %s, for example %s", unit_words (unit), example_of (unit));
 }
 
+/* Converts a value with the unit `word` (n bytes) into `unit`. Angles are told from plain numbers: 5 % is
+ * no angle. */
 static pg_status convert (double *out, double value, const char *word, size_t n, const char *unit)
 {
     pg_measure given, wanted;
@@ -116,6 +123,7 @@ pg_status pg_quantity_sane (double value)
     return PG_OK;
 }
 
+/* A comma is reported as such: it is the decimal mark of many languages. */
 pg_status pg_quantity_read (double *out, int *spacing, const char *text, const char *unit)
 {
     double value;
@@ -152,7 +160,7 @@ pg_status pg_unit_parse (double *out, const char *text, const char *unit)
 }
 
 /* ---- ranges -------------------------------------------------------------------------------------------- */
-/* A number, "pi", "2 pi", "pi/2", "inf" or "-inf". */
+/* A bound of a range: a number, "pi", "2 pi", "pi/2", "inf" or "-inf". NULL: none of these. */
 static const char *read_bound (const char *s, double *value)
 {
     s = skip_space (s);
@@ -176,6 +184,7 @@ static const char *read_bound (const char *s, double *value)
     return end;
 }
 
+/* A bracket includes its bound, a parenthesis does not. */
 int pg_range_holds (const char *range, double value, int *fault)
 {
     double low, high;

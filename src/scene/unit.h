@@ -1,27 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * unit.h: units as a factor to SI and powers of the seven base units; numbers with units. */
+ * Private: units as a factor to SI and powers of the seven base units; numbers with units. */
 #ifndef PG_SCENE_UNIT_H
 #define PG_SCENE_UNIT_H
 #include "perigal/scene.h"
 
-enum { PG_BASE_UNITS = 7 };                            /* m kg s A K mol cd */
+/* m kg s A K mol cd */
+enum { PG_BASE_UNITS = 7 };
+
+/* A unit. */
 typedef struct {
-    double factor;                                     /* value in this unit * factor = value in SI */
+    /* A value in this unit times the factor is the value in SI. */
+    double factor;
+    /* Powers of the base units. */
     double power[PG_BASE_UNITS];
-    double angle;  /* power of rad: 1 in SI, kept to tell 40 deg from 5 % */
+    /* Power of rad, which is 1 in SI: tells 40 deg from 5 %. */
+    double angle;
 } pg_measure;
 
-/* The first `n` characters of text, e.g. "kg/m3", "GPa", "%". PG_E_SCENE: no such unit (message); PG_E_FILE:
- * no database. */
+/* The unit in the first n characters of a text: "kg/m3", "GPa", "%". PG_E_SCENE: there is none (message);
+ * PG_E_FILE: no database of units. */
 pg_status   pg_measure_read    (pg_measure *m, const char *text, size_t n);
-/* same dimension; rad counts as 1 */
+/* Have both the same dimension? rad counts as 1. */
 int         pg_measure_same    (const pg_measure *a, const pg_measure *b);
-int         pg_measure_plain   (const pg_measure *m);                         /* dimensionless */
-void        pg_measure_text    (const pg_measure *m, char *out, size_t n);    /* "Pa", "m2 kg", "1" */
-const char *pg_measure_example (const pg_measure *m, const char *unit);       /* "10 GPa"; NULL: none known */
-double      pg_measure_scale   (double value, const pg_measure *m);  /* to SI; 3 mm is exactly 0.003 */
+/* Is it dimensionless? */
+int         pg_measure_plain   (const pg_measure *m);
+/* Name of the dimension: "Pa", "m^2 kg", "1"; an example of a value: "10 GPa", NULL: none is known. */
+void        pg_measure_text    (const pg_measure *m, char *out, size_t n);
+const char *pg_measure_example (const pg_measure *m, const char *unit);
+/* The value in SI; 3 mm is exactly 0.003 m. */
+double      pg_measure_scale   (double value, const pg_measure *m);
 
-/* Decimal number at the start of text, in any locale. Returns its end, NULL when there is none. */
+/* End of the decimal number at the beginning of text, NULL: there is none; and its value, in any locale. */
 const char *pg_number_end  (const char *text);
 const char *pg_number_read (const char *text, double *value);
 /* "10 GPa" for unit "Pa"; with unit "m|spacing" also "2 spacing" (*spacing = 1, *out = 2). */

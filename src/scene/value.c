@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * One value against its row: number, unit, range, choice, length of a vector. */
+ * Checks one value against its row: number, unit, range, choice, length of a vector. */
 #include "value.h"
 #include "expression.h"
 #include "unit.h"
@@ -12,7 +12,7 @@ const char pg_default_origin[] = "default";
 
 #define FAULT(node, ...) pg_faults_add (s->faults, s->file, (node), path, 1, __VA_ARGS__)
 
-/* The last message becomes a fault; lack of memory or of the unit database stays a failure. */
+/* Turns the last message into a fault; lack of memory or of the database of units remains a failure. */
 static pg_status as_fault (pg_scene *s, const pg_node *node, const char *path, pg_status status)
 {
     char why[600];
@@ -22,6 +22,7 @@ static pg_status as_fault (pg_scene *s, const pg_node *node, const char *path, p
     return PG_OK;
 }
 
+/* An angle without unit gets a hint, since degrees are the usual mistake. */
 static void check_range (pg_scene *s, const pg_node *node, const pg_key *row, const char *path)
 {
     int wrong, holds = pg_range_holds (row->range, node->value, &wrong);
@@ -34,6 +35,7 @@ static void check_range (pg_scene *s, const pg_node *node, const pg_key *row, co
                bare ? "; a number without unit is in rad, degrees are written 40 deg" : "");
 }
 
+/* Number with unit. */
 static pg_status check_number (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
 {
     pg_status status = pg_quantity_read (&node->value, &node->spacing, node->text, row->unit);
@@ -42,6 +44,7 @@ static pg_status check_number (pg_scene *s, pg_node *node, const pg_key *row, co
     return PG_OK;
 }
 
+/* A whole number up to 2^53. */
 static void check_integer (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
 {
     const char *end = pg_number_read (node->text, &node->value);
@@ -51,6 +54,7 @@ static void check_integer (pg_scene *s, pg_node *node, const pg_key *row, const 
     else check_range (s, node, row, path);
 }
 
+/* on, yes, true; off, no, false. */
 static void check_bool (pg_scene *s, pg_node *node, const char *path)
 {
     static const char *const word[] = { "off", "on", "no", "yes", "false", "true" };
@@ -62,6 +66,7 @@ static void check_bool (pg_scene *s, pg_node *node, const char *path)
     FAULT (node, "must be on or off");
 }
 
+/* Is the text one of "a|b|c"? */
 static int is_choice (const char *text, const char *choices)
 {
     for (size_t n = strlen (text); ; choices++) {
@@ -72,7 +77,7 @@ static int is_choice (const char *text, const char *choices)
     }
 }
 
-/* Layers of the body are sets too. */
+/* Appends the names of layers, which are sets too. */
 static void add_layers (const pg_scene *s, char *names, size_t at, size_t size)
 {
     const pg_node *list = pg_node_child (&s->root, "layers", 6);
@@ -82,7 +87,8 @@ static void add_layers (const pg_scene *s, char *names, size_t at, size_t size)
     }
 }
 
-/* So are the parts of shapes (disk.rim): by what a shape is, or its name. Looked up once they are there. */
+/* Parts of shapes (disk.rim) are sets as well, named by what a shape is or by its name. Whether the part
+ * exists is found when the sets are built. */
 static int is_part_of_shape (const pg_scene *s, const char *base, const char *text)
 {
     const pg_node *list = pg_node_child (&s->root, "body", 4);
@@ -126,6 +132,7 @@ static void check_reference (pg_scene *s, const pg_node *node, const char *choic
            near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
 }
 
+/* A name among fixed choices, or a reference. */
 static void check_choice (pg_scene *s, const pg_node *node, const pg_key *row, const char *path)
 {
     const char *choices = pg_key_choices (row);
@@ -146,6 +153,7 @@ static void check_choice (pg_scene *s, const pg_node *node, const pg_key *row, c
     else FAULT (node, "must be one of %s", listed);
 }
 
+/* Compiles the expression only to find its faults; a constant one is checked as a number. */
 static pg_status check_expression (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
 {
     pg_expression *e = NULL;
@@ -161,6 +169,7 @@ static pg_status check_expression (pg_scene *s, pg_node *node, const pg_key *row
     return PG_OK;
 }
 
+/* A single value of any kind. */
 static pg_status check_scalar (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
 {
     node->key = row;
@@ -184,7 +193,7 @@ static pg_status check_scalar (pg_scene *s, pg_node *node, const pg_key *row, co
     return PG_OK;
 }
 
-/* A list in quotes: "0, 5 mm". */
+/* Is it a list in quotes, such as "0, 5 mm"? A fault then. */
 static int is_quoted_list (pg_scene *s, const pg_node *node, const char *path)
 {
     if (node->shape != PG_SCALAR || !strchr (node->text, ',')) return 0;
@@ -192,6 +201,7 @@ static int is_quoted_list (pg_scene *s, const pg_node *node, const char *path)
     return 1;
 }
 
+/* A vector has as many numbers as the scene has dimensions; a default may be longer. */
 static void check_length (pg_scene *s, const pg_node *node, const char *path)
 {
     size_t n = node->shape == PG_SCALAR ? 1 : node->n, dim = (size_t) s->dimension;
@@ -200,6 +210,7 @@ static void check_length (pg_scene *s, const pg_node *node, const char *path)
     else if (n < 1 || n > 3) FAULT (node, "needs 1 to 3 numbers, has %zu", n);
 }
 
+/* A list is checked element by element against the same row. */
 pg_status pg_value_check (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
 {
     pg_status status = PG_OK;

@@ -1,19 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * YAML text -> tree of nodes with line and column, through the document interface of libyaml. */
+ * YAML text to a tree of nodes with line and column, through the document interface of libyaml. */
 #include "node.h"
 #include <string.h>
 #include <yaml.h>
 
+/* Nesting, at most. */
 enum { DEEPEST = 30 };
 
+/* What the functions share. */
 typedef struct {
     yaml_document_t *document;
     const char      *origin, *file;
     pg_faults       *faults;
-    size_t           left;  /* nodes still allowed: aliases may repeat parts without end */
+    /* Nodes still allowed: aliases could repeat parts without end. */
+    size_t           left;
     int              good;
 } reader;
 
+/* Line and column of a node; none for an override. */
 static void place (const reader *r, pg_node *node, const yaml_node_t *y)
 {
     node->origin = r->origin;
@@ -21,6 +25,7 @@ static void place (const reader *r, pg_node *node, const yaml_node_t *y)
     node->column = r->origin ? 0 : (int) y->start_mark.column + 1;
 }
 
+/* Adds a fault and marks the text as wrong. */
 static void complain (reader *r, const pg_node *node, const char *why)
 {
     pg_faults_add (r->faults, r->file, node, NULL, 0, "%s", why);
@@ -29,6 +34,7 @@ static void complain (reader *r, const pg_node *node, const char *why)
 
 static pg_status convert (reader *r, pg_node *node, const yaml_node_t *y, int deep);
 
+/* A single value. */
 static pg_status convert_scalar (reader *r, pg_node *node, const yaml_node_t *y)
 {
     const char *text = (const char *) y->data.scalar.value;
@@ -39,6 +45,7 @@ static pg_status convert_scalar (reader *r, pg_node *node, const yaml_node_t *y)
     return node->text ? PG_OK : pg_error (PG_E_MEMORY, PG_HERE, "no memory for a value of the scene");
 }
 
+/* A list, a map, any node. deep: nesting so far. */
 static pg_status convert_list (reader *r, pg_node *node, const yaml_node_t *y, int deep)
 {
     pg_status status = PG_OK;
@@ -91,7 +98,7 @@ static pg_status convert (reader *r, pg_node *node, const yaml_node_t *y, int de
     return convert_scalar (r, node, y);
 }
 
-/* Line and column of a byte, when libyaml gives only an offset. */
+/* Line and column of a byte, where libyaml gives only its offset. */
 static void locate (pg_node *at, const char *text, size_t length, size_t offset)
 {
     at->line = at->column = 1;
@@ -101,6 +108,7 @@ static void locate (pg_node *at, const char *text, size_t length, size_t offset)
     }
 }
 
+/* Is there a tab before this column of the line? YAML does not allow tabs as indentation. */
 static int has_tab (const char *text, size_t length, int line, int column)
 {
     size_t k = 0;
@@ -110,6 +118,7 @@ static int has_tab (const char *text, size_t length, int line, int column)
     return 0;
 }
 
+/* Says in words of the user what libyaml found. */
 static void syntax_fault (reader *r, const yaml_parser_t *parser, const char *text, size_t length)
 {
     pg_node at = { .origin = r->origin,
