@@ -3,7 +3,7 @@
  * axes of equal steps) and looked up for the rest, so that mirrored and permuted offsets have the same
  * bits. */
 #include "sums_private.h"
-#include "overlap.h"
+#include "partial_volume.h"
 #include <math.h>
 #include <string.h>
 
@@ -23,13 +23,6 @@ static double value (const pg_kernel *kernel, double q)
     double w;
     kernel->value (1, &q, &w, NULL);
     return w;
-}
-
-double sums_partial (pg_partial partial, double r, double horizon, double width)
-{
-    if (partial == PG_PARTIAL_NONE) return r <= horizon * (1 + 1e-9);
-    double beta = (horizon - r) / width + 0.5;
-    return beta >= 1 ? 1 : beta > 1e-9 ? beta : 0;
 }
 
 double sums_kernel (const pg_sum_rule *rule, double r, double horizon)

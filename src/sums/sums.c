@@ -21,13 +21,6 @@ done:
     return status;
 }
 
-double sums_surface (const pg_sums *sums, size_t i, size_t j)
-{
-    const double *v = sums->family_volume;
-    if (!v) return 1;
-    return sums->rule.surface == PG_SURFACE_VOLUME ? 2 / (v[i] + v[j]) : 1 / sqrt (v[i] * v[j]);
-}
-
 /* ---- on a lattice -------------------------------------------------------------------------------------- */
 static pg_status find_shares (pg_sums *s, double cell)
 {
@@ -47,25 +40,6 @@ static void check_order (pg_sums *s)
     for (size_t i = 1; i < s->cloud->n; i++) s->ordered &= s->sites.site[i - 1] < s->sites.site[i];
 }
 
-static pg_status lattice_volumes (pg_sums *s)
-{
-    pg_status status = PG_OK;
-    const pg_stencil *t = &s->stencil;
-    double whole = 0;
-    for (size_t b = 0; b < t->n; b++) whole += t->beta[b];
-    PG_ALLOC (s->family_volume, s->cloud->n);
-    for (size_t i = 0; i < s->cloud->n; i++) {
-        double sum = 0;
-        for (size_t b = 0; b < t->n; b++) {
-            int j = sums_neighbour (&s->sites, s->sites.site[i], t->offset + 3*b);
-            if (j >= 0) sum += t->beta[b] * (s->share ? s->share[j] : 1);
-        }
-        s->family_volume[i] = sum / whole;
-    }
-done:
-    return status;
-}
-
 static pg_status from_lattice (pg_sums *s)
 {
     pg_status status = PG_OK;
@@ -82,7 +56,7 @@ static pg_status from_lattice (pg_sums *s)
     for (size_t b = 0; b < s->stencil.n; b++) s->full += s->stencil.beta[b] * cell;
     PG_TRY (find_shares (s, cell));
     check_order (s);
-    if (rule->surface != PG_SURFACE_NONE) PG_TRY (lattice_volumes (s));
+    if (rule->surface != PG_SURFACE_NONE) PG_TRY (sums_family_volumes (s));
 done:
     return status;
 }

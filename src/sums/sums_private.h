@@ -20,5 +20,7 @@ typedef struct { double r, beta, weight; } sums_bond;
 sums_bond sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, size_t i, size_t j);
 /* The point at an offset (x, y, z) from a site; -1: none. */
 int       sums_neighbour    (const pg_sites *sites, int site, const int *offset);
-double    sums_surface      (const pg_sums *sums, size_t i, size_t j);          /* g_ij */
+double    sums_surface      (const pg_sums *sums, size_t i, size_t j);          /* g_ij; 1: no correction */
+/* Fills sums->family_volume of points on a lattice. */
+pg_status sums_family_volumes (pg_sums *sums);
 #endif

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a box and a ball about the origin have in common: length and area in closed form, volume by Gauss
+ * Partial volumes: the share of a neighbour's cell that lies inside the horizon (method.partial_volume; theory
+ * A2). `none` and `linear` follow from the distance of the points alone. `overlap` is what a box and a ball
+ * about the origin have in common: length and area in closed form, volume by Gauss
  * points over slices between the places where a corner enters. A box that the axes cut through is folded into
  * the first octant before, so that corners are its nearest and its farthest points. Means of a kernel over
  * the common part follow from the volumes V (rho) of all smaller balls: int k dV = -int k' V d rho for k (1)
  * = 0. */
-#include "overlap.h"
+#include "partial_volume.h"
+#include "sums_private.h"
 #include <math.h>
 #include <string.h>
 
@@ -16,6 +19,14 @@ static const double weight[POINTS / 2] = { 0.1894506104550685, 0.182603415044923
                                            0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
                                            0.0622535239386479, 0.0271524594117541 };
 
+double sums_partial (pg_partial partial, double r, double horizon, double width)
+{
+    if (partial == PG_PARTIAL_NONE) return r <= horizon * (1 + 1e-9);
+    double beta = (horizon - r) / width + 0.5;
+    return beta >= 1 ? 1 : beta > 1e-9 ? beta : 0;
+}
+
+/* ---- a box and a ball ---------------------------------------------------------------------------------- */
 typedef struct { int dim; double low[3], high[3]; } box;          /* 0 <= low < high */
 
 /* Point g of a rule on [a, b] whose points crowd at both ends, where integrands may go as a power of 3/2.

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * overlap.h: private: a box and a ball about the origin. */
-#ifndef PERIGAL_SUMS_OVERLAP_H
-#define PERIGAL_SUMS_OVERLAP_H
+ * partial_volume.h: private: how much of a neighbour's cell lies inside the horizon. */
+#ifndef PERIGAL_SUMS_PARTIAL_VOLUME_H
+#define PERIGAL_SUMS_PARTIAL_VOLUME_H
 #include "perigal/kernel.h"
 
 /* The cell of a lattice `n` sites from the origin (n >= 0 along each axis), and the ball of this radius, in

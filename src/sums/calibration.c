@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the bonds of an infinite lattice add up to: hydrostatic energy, stiffness, energy of a straight cut
- * (theory A2). */
+ * Calibration to a lattice (method.calibrate; theory A2): what the bonds of an infinite lattice add up to over
+ * what they should. The hydrostatic energy gives the factor of the micromodulus, the energy of a straight cut
+ * that of the fracture energy; the stiffness shows how isotropic the lattice is. */
 #include "sums_private.h"
 #include <math.h>
 #include <string.h>

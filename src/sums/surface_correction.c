@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Surface correction (method.surface_correction; theory A3): near a surface the family of a point is cut off
+ * and the body is softer there. Bonds are stiffened by g = 2 / (v_i + v_j) or 1 / sqrt (v_i v_j), v being the
+ * volume of a point's family over that of a complete one. */
+#include "sums_private.h"
+#include <math.h>
+
+double sums_surface (const pg_sums *sums, size_t i, size_t j)
+{
+    const double *v = sums->family_volume;
+    if (!v) return 1;
+    return sums->rule.surface == PG_SURFACE_VOLUME ? 2 / (v[i] + v[j]) : 1 / sqrt (v[i] * v[j]);
+}
+
+/* v of every point of a lattice, from the shares beta of its stencil. Points on no lattice: from_cloud in
+ * sums.c, which sums their bonds anyway. */
+pg_status sums_family_volumes (pg_sums *s)
+{
+    pg_status status = PG_OK;
+    const pg_stencil *t = &s->stencil;
+    double whole = 0;
+    for (size_t b = 0; b < t->n; b++) whole += t->beta[b];
+    PG_ALLOC (s->family_volume, s->cloud->n);
+    for (size_t i = 0; i < s->cloud->n; i++) {
+        double sum = 0;
+        for (size_t b = 0; b < t->n; b++) {
+            int j = sums_neighbour (&s->sites, s->sites.site[i], t->offset + 3*b);
+            if (j >= 0) sum += t->beta[b] * (s->share ? s->share[j] : 1);
+        }
+        s->family_volume[i] = sum / whole;
+    }
+done:
+    return status;
+}
