@@ -195,6 +195,7 @@ void      pg_family_clear (pg_family *family);
 typedef struct pg_nearest pg_nearest;
 /* Says whether a point does not count: 1: it is passed over. */
 typedef int (*pg_refuse) (void *context, const double *place, size_t point);
+/* Sorts n points into a grid. PG_E_USAGE: there are none; PG_E_MEMORY. */
 pg_status pg_nearest_create (pg_nearest **out, int dim, size_t n, const double *x /* n x dim, m */);
 void      pg_nearest_free   (pg_nearest **nearest);
 /* The nearest point that is not refused (refuse NULL: none is); of equally near ones the lowest number; -1:
@@ -205,6 +206,7 @@ long      pg_nearest_find   (const pg_nearest *nearest, const double *place, pg_
 #define PG_NO_LENGTH 1e-6  /* of the local spacing: what is no further apart is at one place */
 
 /* ---- pre-cracks ---------------------------------------------------------------------------------------- */
+/* Kinds of pre-cracks. */
 enum { PG_CRACK_SEGMENT, PG_CRACK_POLYGON, PG_CRACK_DISC };
 
 /* A pre-crack: a segment in 2D, a plane polygon or a disc in 3D. */
@@ -218,6 +220,7 @@ typedef struct {
      * a polygon (edge i from vertex i to the next), the rim of a disc; NULL: 0. */
     double *retreat;
 } pg_crack;
+/* All pre-cracks of a scene. */
 typedef struct { int dim; pg_crack *crack; size_t n; } pg_cracks;
 /* Reads `cracks`. Each must meet the body; what is wrong is a fault of the scene. */
 pg_status pg_cracks_read  (pg_cracks *out, const pg_scene *scene);

@@ -62,6 +62,7 @@ typedef struct {
     void (*blocks) (void *context, size_t p, size_t a, size_t m, double *out);
 } pg_assembly_source;
 
+/* A matrix under assembly: pattern, values, and what is needed to compute rows anew. */
 typedef struct pg_assembly pg_assembly;
 /* Finds the pattern of all sources on n nodes with `block` unknowns each; no values yet. The sources are
  * copied, their lists borrowed. PG_E_MEMORY. */
@@ -212,6 +213,7 @@ pg_status pg_multilevel_create (pg_multilevel **out, const pg_multilevel_setting
 void      pg_multilevel_free   (pg_multilevel **multilevel);
 /* The V-cycle in the form that conjugate gradients take; borrows the multilevel object. */
 pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *multilevel);
+/* Fills in the report. */
 void      pg_multilevel_describe (const pg_multilevel *multilevel, pg_multilevel_info *info);
 PG_API_END
 #endif

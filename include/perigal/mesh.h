@@ -27,6 +27,7 @@ typedef struct {
     /* Numbers of faces (of dimension dim - 1) and of edges. */
     int faces, edges;
 } pg_element_type;
+/* Indexed by pg_element. */
 extern const pg_element_type pg_element_types[PG_ELEMENTS];
 /* Face f of an element (numbered from 0 as the sides of Exodus): returns its kind, and its nodes as numbers
  * within the element, in an order that makes its normal point outward: in 3D counter-clockwise seen from
@@ -186,6 +187,7 @@ int pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, size_t el
 /* ---- search -------------------------------------------------------------------------------------------- */
 /* Search for elements: a tree of boxes over the elements; borrows the mesh. All questions are thread-safe. */
 typedef struct pg_mesh_locator pg_mesh_locator;
+/* Builds the tree, O(n log n). PG_E_USAGE: no elements; PG_E_MEMORY. */
 pg_status pg_mesh_locator_create (pg_mesh_locator **out, const pg_mesh *mesh);
 void      pg_mesh_locator_free   (pg_mesh_locator **locator);
 /* The element that holds a place (dim coordinates) and its xi there; of several, on a face between them,
@@ -202,6 +204,7 @@ double    pg_mesh_locator_depth  (const pg_mesh_locator *locator, const double *
 /* ---- distance to the surface --------------------------------------------------------------------------- */
 /* The faces of pg_mesh_surface in a tree, for distances; borrows the mesh. */
 typedef struct pg_mesh_skin pg_mesh_skin;
+/* Finds the surface and builds its tree. PG_E_MEMORY, PG_E_LIMIT; PG_E_USAGE: there are no faces. */
 pg_status pg_skin_create (pg_mesh_skin **out, const pg_mesh *mesh);
 void      pg_skin_free   (pg_mesh_skin **skin);
 /* Distance (without sign) to the surface where that is at most `reach`, else HUGE_VAL. *face: number of the

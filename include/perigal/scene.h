@@ -75,6 +75,7 @@ const char *pg_key_entries (const pg_key *key, const char **selector);
 int pg_listed (const char *names, const char *name);
 
 /* ---- life cycle ---------------------------------------------------------------------------------------- */
+/* A scene: constant once read, but for its list of faults. */
 typedef struct pg_scene pg_scene;
 
 /* Reads and checks a file. PG_E_SCENE: pg_last_error has all faults, one per line, such as
@@ -139,6 +140,9 @@ const char *pg_scene_hash    (const pg_scene *s);
  * entries than the one chosen there: its path, from which the name below the map is returned; NULL: there are
  * no more. */
 enum { PG_STRAY_PATH = 256 };
+/* The k-th key below a map of the scene ("solver", "materials.glass") that is given although it belongs to
+ * other entries of a catalogue than the one chosen there. Writes its path and returns the name below the
+ * map; NULL: there are no more. */
 const char *pg_scene_stray (const pg_scene *s, size_t k, const char *map, char path[PG_STRAY_PATH]);
 
 /* ---- files --------------------------------------------------------------------------------------------- */

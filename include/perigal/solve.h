@@ -125,6 +125,7 @@ typedef struct {  /* of one step: a user level, a time step or an event */
 
 /* ---- solver -------------------------------------------------------------------------------------------- */
 typedef struct pg_solver pg_solver;
+struct pg_progress;
 struct pg_dynamics;                                    /* what a matrix holds besides K: src/solve/solve.h */
 
 /* An entry of the catalogue: src/solve/<name>.c. Entries that are NULL: nothing to do, but for `step`. */
@@ -145,6 +146,11 @@ typedef struct {
     /* What it carries from step to step, written to or read from a checkpoint. */
     pg_status (*keep)    (pg_solver *s, const pg_keeper *keeper);
     double    (*progress) (const pg_solver *s, const pg_state *state); /* NULL: steps done of options.steps */
+    /* Other ends that a run may come to: progress_offer. */
+    void      (*ends)    (const pg_solver *s, const pg_state *state, struct pg_progress *out);
+    /* The largest stable time step, s, and *from what; NAN: not known. */
+    double    (*stable)  (const pg_solver *s, const char **from);
+    size_t    own_size;  /* bytes of its own state, zero at first; `free` frees what is in it */
     /* How a plan calls its steps: ", event stepping". NULL: nothing to say. */
     const char *(*manner) (const pg_solver_options *o);
     const struct pg_dynamics *(*dynamics) (pg_solver *s);              /* NULL: the matrix is K alone */
@@ -182,7 +188,7 @@ pg_status pg_solver_fastest (pg_solver *solver, const pg_state *state, double *o
 int       pg_solver_done   (const pg_solver *solver, const pg_state *state);
 /* How far a run has come. Event stepping cannot know which of its ends comes first: the nearest one
  * counts. */
-typedef struct {
+typedef struct pg_progress {
     double      share;                                 /* 0..1, of `end` */
     /* "the load", "the time", "the time steps", "the stages", "max_events", "stop.damage" */
     const char *end;

@@ -20,7 +20,7 @@ int pg_cli_trial_of_mesh (int argc, char **argv);
 typedef struct {
     double start, last;                                /* s; when a line was last written */
     struct { double at, share, events; } mark[2];      /* the pace is that since mark[0] */
-    int    tenth, tty, quiet, marching, staged, begun;
+    int    tenth, tty, quiet, steps_in_time, staged, begun;
 } progress;
 void progress_start (progress *p, int quiet, const pg_solver_options *settled);
 /* within: between the rounds of a step that is not done yet, `step` so far. */

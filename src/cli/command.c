@@ -195,6 +195,26 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
     return 0;
 }
 
+/* One option of run or check; -1: go on, else the exit code. */
+static int read_option (command *c, const char *name, int option, const char *word)
+{
+    int checks = strcmp (name, "check") == 0;
+    switch (option) {
+    case 'h': return command_usage (stdout, name) ? PG_EXIT_DONE : PG_EXIT_USAGE;
+    case 'o': c->folder = optarg; return -1;
+    case 't': return read_threads (c, optarg);
+    case 's': return read_set (c, optarg);
+    case 'm': return read_memory (c, optarg);
+    case 'q': c->quiet = 1; return -1;
+    case 'r': c->resume = 1; return -1;
+    case 'f': c->force = 1; return checks ? refuse (name, option, word) : -1;
+    case 'j': c->json = 1; return checks ? -1 : refuse (name, option, word);
+    case 'v': c->solve = 1; return checks ? -1 : refuse (name, option, word);
+    case 'w': c->spectrum = 1; return checks ? -1 : refuse (name, option, word);
+    default: return refuse (name, option, word);
+    }
+}
+
 int command_parse (command *c, int argc, char **argv)
 {
     static const struct option options[] = {
@@ -206,24 +226,12 @@ int command_parse (command *c, int argc, char **argv)
         { "help", no_argument, NULL, 'h' },      { NULL, 0, NULL, 0 }
     };
     char unquoted[1200];
-    int checks = strcmp (argv[0], "check") == 0,
-        lost = command_unquoted (unquoted, sizeof unquoted, argc, argv);
+    int lost = command_unquoted (unquoted, sizeof unquoted, argc, argv);
     memset (c, 0, sizeof *c);
     optind = 1, opterr = 0;
-    for (int k, wrong = -1; (k = getopt_long (argc, argv, ":o:qs:h", options, NULL)) != -1;) {
-        if (k == 'h') return command_usage (stdout, argv[0]) ? PG_EXIT_DONE : PG_EXIT_USAGE;
-        if (k == 'o') c->folder = optarg;
-        else if (k == 't') wrong = read_threads (c, optarg);
-        else if (k == 's') wrong = read_set (c, optarg);
-        else if (k == 'q') c->quiet = 1;
-        else if (k == 'r') c->resume = 1;
-        else if (k == 'f' && !checks) c->force = 1;
-        else if (k == 'm') wrong = read_memory (c, optarg);
-        else if (k == 'j' && checks) c->json = 1;
-        else if (k == 'v' && checks) c->solve = 1;
-        else if (k == 'w' && checks) c->spectrum = 1;
-        else wrong = refuse (argv[0], k, argv[optind - 1]);
-        if (wrong >= 0) return wrong;
+    for (int k; (k = getopt_long (argc, argv, ":o:qs:h", options, NULL)) != -1;) {
+        int code = read_option (c, argv[0], k, argv[optind - 1]);
+        if (code >= 0) return code;
     }
     if (lost) {
         fprintf (stderr, "perigal: %s\n", unquoted);
@@ -235,7 +243,8 @@ int command_parse (command *c, int argc, char **argv)
         return PG_EXIT_USAGE;
     }
     if (c->force && c->resume) {
-        fprintf (stderr, "perigal: --resume and --force exclude each other: go on, or begin anew\n");
+        fprintf (stderr,
+                 "perigal: --resume and --force exclude each other: continue the run, or start it anew\n");
         return PG_EXIT_USAGE;
     }
     c->scene = argv[optind];

@@ -69,41 +69,41 @@ static int read_number (const char *text, double *out)
     return end != text && !*end && isfinite (*out);
 }
 
-static int read_option (pg_comparison_request *q, int *json, int option, const char *text)
+/* --threads N */
+static int read_threads (const char *text, int *out)
 {
     double threads = 0;
+    if (!read_number (text, &threads) || threads < 0 || threads > 64) return 0;
+    *out = (int) threads;
+    return 1;
+}
+
+/* One option; -1: go on, else the exit code (message printed). */
+static int read_option (pg_comparison_request *q, int *json, int option, const char *text)
+{
+    static const char *const faults[] = {
+        ['n'] = "--step %s: expected 0, 1, 2 ... or -1 (the last)",
+        ['m'] = "--reference-step %s: expected 0, 1, 2 ... or -1 (the last)",
+        ['f'] = "--field %s: displacement, stress, or a part such as displacement.x, stress.xx",
+        ['u'] = "--unit %s: a unit of length is needed, such as mm",
+        ['d'] = "--shift %s: up to three lengths are needed, such as 0,-5mm",
+        ['c'] = "--scale %s: a number is needed",
+        ['t'] = "--threads %s: a number from 0 (all) to 64 is needed",
+    };
+    int good = 1;
     switch (option) {
-    case 'n':
-        return read_step (text, &q->step)
-                   ? -1
-                   : complain ("--step %s: expected 0, 1, 2 ... or -1 (the last)", text);
-    case 'm':
-        return read_step (text, &q->other_step)
-                   ? -1
-                   : complain ("--reference-step %s: expected 0, 1, 2 ... or -1 (the last)", text);
-    case 'f':
-        return read_field (text, &q->column)
-                   ? -1
-                   : complain (
-                       "--field %s: displacement, stress, or a part such as displacement.x, stress.xx", text);
-    case 'u':
-        return read_unit (text, &q->unit)
-                   ? -1
-                   : complain ("--unit %s: a unit of length is needed, such as mm", text);
-    case 'd':
-        return read_shift (text, q->shift)
-                   ? -1
-                   : complain ("--shift %s: up to three lengths are needed, such as 0,-5mm", text);
-    case 'c': return read_number (text, &q->scale) ? -1 : complain ("--scale %s: a number is needed", text);
-    case 't':
-        if (!read_number (text, &threads) || threads < 0 || threads > 64)
-            return complain ("--threads %s: a number from 0 (all) to 64 is needed", text);
-        q->threads = (int) threads;
-        return -1;
-    case 'o': q->picture = text; return -1;
-    case 'j': *json = 1; return -1;
-    default:  q->out = NULL; return -1;
+    case 'n': good = read_step (text, &q->step); break;
+    case 'm': good = read_step (text, &q->other_step); break;
+    case 'f': good = read_field (text, &q->column); break;
+    case 'u': good = read_unit (text, &q->unit); break;
+    case 'd': good = read_shift (text, q->shift); break;
+    case 'c': good = read_number (text, &q->scale); break;
+    case 't': good = read_threads (text, &q->threads); break;
+    case 'o': q->picture = text; break;
+    case 'j': *json = 1; break;
+    default: q->out = NULL; break;
     }
+    return good ? -1 : complain (faults[option], text);
 }
 
 static int parse (pg_comparison_request *q, int *json, int argc, char **argv)

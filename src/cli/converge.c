@@ -61,19 +61,25 @@ done:
     return status;
 }
 
+/* The long name of an option. */
+static const char *long_name (const char *word)
+{
+    static const char *const names[][2] = { { "-o", "--out" }, { "-s", "--set" }, { "-q", "--quiet" } };
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (strcmp (word, names[k][0]) == 0) return names[k][1];
+    return word;
+}
+
 static pg_status read_arguments (pg_converge_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;
     int delta = 0;
+    char unquoted[1200];
     memset (q, 0, sizeof *q);
     q->threads = 1, q->ratio = 2, q->folder = "out/converge", q->out = stdout;
-    char unquoted[1200];
     if (command_unquoted (unquoted, sizeof unquoted, argc, argv)) PG_FAIL (PG_E_USAGE, "%s", unquoted);
     for (int k = 1; k < argc; k++) {
-        const char *name = strcmp (argv[k], "-o") == 0   ? "--out"
-                           : strcmp (argv[k], "-s") == 0 ? "--set"
-                           : strcmp (argv[k], "-q") == 0 ? "--quiet"
-                                                         : argv[k];
+        const char *name = long_name (argv[k]);
         if (strcmp (name, "--m") == 0) q->fixed = 1;
         else if (strcmp (name, "--delta") == 0) delta = 1;
         else if (strcmp (name, "--quiet") == 0) q->out = NULL;

@@ -130,37 +130,37 @@ static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, c
     skip[(*n)++].seconds_saved = 0;
 }
 
+/* A reason for which a run leaves something out. */
+typedef struct { int applies; const char *what, *why; } reason;
+
+/* What the run will not do, as far as that is known before it starts. */
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
 {
     const pg_solver_options *o = p->options;
-    int is_static = (o->flags & PG_SOLVER_QUASI_STATIC), breaks = p->problem->criterion->type != NULL,
-        none = strcmp (p->forecast->linear, "cg") == 0;
+    int fails = p->problem->criterion->type != NULL, steps = (o->flags & PG_SOLVER_EXPLICIT) != 0;
+    int relaxed = !steps && (o->flags & PG_SOLVER_STAGED), solves = !steps && !relaxed;
+    int matrix = solves && strcmp (p->forecast->linear, "cg") != 0, iterates = solves && !matrix;
+    int quasi_static = (o->flags & PG_SOLVER_QUASI_STATIC) != 0;
+    const reason reasons[] = {
+        { !fails, "bond failure", "there is no failure criterion" },
+        { steps, "stiffness matrix and factorization", "explicit time steps need neither" },
+        { relaxed, "stiffness matrix and factorization", "relaxation needs neither" },
+        { solves && !fails && o->event, "all solves but one",
+          "nothing can break: the answer is linear in the load factor" },
+        { solves && fails && o->event, "load increments in which nothing breaks",
+          "event stepping goes from break to break in closed form" },
+        { iterates && !quasi_static, "stiffness matrix and factorization",
+          "small time step: the mass dominates, conjugate gradients need few iterations" },
+        { iterates && quasi_static, "stiffness matrix and factorization",
+          "conjugate gradients need neither" },
+        { matrix && !quasi_static && !fails, "all factorizations but one",
+          "the time step is constant and nothing breaks" },
+        { matrix && fails && !p->forecast->nodal, "factorization where only node-node bonds broke",
+          "they do not enter K under Gauss integration" },
+    };
     size_t n = 0;
-    if ((o->flags & PG_SOLVER_EXPLICIT) || (o->flags & PG_SOLVER_STAGED)) {
-        if (!breaks) add_skip (skip, &n, most, "bond sweeps", "there is no failure criterion");
-        add_skip (skip, &n, most, "stiffness matrix and factorization",
-                  (o->flags & PG_SOLVER_EXPLICIT) ? "explicit time steps need neither"
-                                                  : "relaxation needs neither");
-        return n;
-    }
-    if (!breaks) add_skip (skip, &n, most, "bond sweeps", "there is no failure criterion");
-    if (!breaks && o->event)
-        add_skip (skip, &n, most, "all solves but one",
-                  "nothing can break: the answer is linear in the load factor");
-    if (breaks && o->event)
-        add_skip (skip, &n, most, "load increments in which nothing breaks",
-                  "event stepping goes from break to break in closed form");
-    if (none && !is_static)
-        add_skip (skip, &n, most, "stiffness matrix and factorization",
-                  "small time step: the mass dominates, conjugate gradients need few rounds");
-    if (none && is_static)
-        add_skip (skip, &n, most, "stiffness matrix and factorization", "conjugate gradients need neither");
-    if (!none && !is_static && !breaks)
-        add_skip (skip, &n, most, "all factorizations but one",
-                  "the time step is constant and nothing breaks");
-    if (!none && breaks && !p->forecast->nodal)
-        add_skip (skip, &n, most, "factorization where only node-node bonds broke",
-                  "they do not enter K under Gauss integration");
+    for (size_t k = 0; k < sizeof reasons / sizeof *reasons; k++)
+        if (reasons[k].applies) add_skip (skip, &n, most, reasons[k].what, reasons[k].why);
     return n;
 }
 

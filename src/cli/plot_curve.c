@@ -63,8 +63,10 @@ static int is_column (const char *column, const char *wanted)
     return n == strlen (wanted) && strncmp (column, wanted, n) == 0;
 }
 
-/* A column of a table for an axis: its number, and its label "name (unit)", without a unit where that is 1. */
-static pg_status find_column (const char *path, const pg_csv *csv, const char *wanted, long *column, char *label)
+/* A column of a table for an axis: its number, and its label "name (unit)", without a unit where that is
+ * 1. */
+static pg_status find_column (const char *path, const pg_csv *csv, const char *wanted, long *column,
+                              char *label)
 {
     pg_status status = PG_OK;
     char all[LIST] = "";
@@ -73,7 +75,8 @@ static pg_status find_column (const char *path, const pg_csv *csv, const char *w
     for (size_t k = 0; *column < 0 && k < csv->ncolumn; k++) {
         int name = (int) pg_csv_name (csv->name[k]);
         if (used + (size_t) name + 2 < sizeof all)
-            used += (size_t) snprintf (all + used, sizeof all - used, "%s%.*s", k ? "|" : "", name, csv->name[k]);
+            used +=
+                (size_t) snprintf (all + used, sizeof all - used, "%s%.*s", k ? "|" : "", name, csv->name[k]);
     }
     const char *near = *column < 0 ? pg_nearest_name (wanted, all) : NULL;
     if (*column < 0)
@@ -365,29 +368,32 @@ done:
     return status;
 }
 
+/* One option and its values; used: how many words of the command line that takes. */
 static pg_status read_option (request *q, const char *name, char **value, int left, int *used)
 {
-    static const char names[] = "--curve|--labels|--negate|--abs|--log|--markers|--out";
+    static const char names[] = "--curve|--labels|--out|--log|--negate|--abs|--markers";
+    enum { CURVE, LABELS, OUT, LOG, NEGATE, ABS, MARKERS };
+    static const int values[] = { 2, 1, 1, 1, 0, 0, 0 };
     pg_status status = PG_OK;
-    int curve = strcmp (name, "--curve") == 0, label = strcmp (name, "--labels") == 0,
-        out = strcmp (name, "--out") == 0;
-    int sign = strcmp (name, "--negate") == 0 || strcmp (name, "--abs") == 0,
-        axes = sign && left > 0 && is_axes (value[0]);
-    int logs = strcmp (name, "--log") == 0, markers = strcmp (name, "--markers") == 0;
-    if (!curve && !label && !out && !sign && !logs && !markers) {
-        const char *near = pg_nearest_name (name, names);
+    int k = pg_plot_index (name, names), axes = left > 0 && is_axes (value[0]);
+    const char *near = k < 0 ? pg_nearest_name (name, names) : NULL;
+    if (k < 0)
         PG_FAIL (PG_E_USAGE, "unknown option %s beside --curve%s%s", name, near ? "; did you mean " : "",
                  near ? near : "");
+    *used = 1 + values[k];
+    if (left < values[k])
+        PG_FAIL (PG_E_USAGE, "%s needs %s", name, k == CURVE ? "two column names" : "a value");
+    if (k == CURVE) q->x = value[0], q->y = value[1];
+    else if (k == LABELS) q->labels = value[0];
+    else if (k == OUT) q->out = value[0];
+    else if (k == MARKERS) q->markers = 1;
+    else if (k == LOG) {
+        if (!axes) PG_FAIL (PG_E_USAGE, "--log %s: expected x, y or xy", value[0]);
+        for (int a = 0; a < 2; a++) q->log[a] = strchr (value[0], "xy"[a]) != NULL;
+    } else {
+        *used += axes;
+        PG_TRY (read_sign (q, name, axes ? value[0] : "y"));
     }
-    *used = 1 + label + out + logs + axes + 2 * curve;
-    if (left < *used - 1) PG_FAIL (PG_E_USAGE, "%s needs %s", name, curve ? "two column names" : "a value");
-    if (curve) q->x = value[0], q->y = value[1];
-    if (label) q->labels = value[0];
-    if (out) q->out = value[0];
-    q->markers |= markers;
-    if (sign) PG_TRY (read_sign (q, name, axes ? value[0] : "y"));
-    if (logs && !is_axes (value[0])) PG_FAIL (PG_E_USAGE, "--log %s: expected x, y or xy", value[0]);
-    if (logs) for (int k = 0; k < 2; k++) q->log[k] = strchr (value[0], "xy"[k]) != NULL;
 done:
     return status;
 }

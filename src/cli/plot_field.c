@@ -53,6 +53,14 @@ static int number_of (const char *text, int most)
     return end == text || *end || k < 0 || k >= most ? -1 : (int) k;
 }
 
+/* Index of a component by name ("yy") or number; -1: there is none of that name. */
+static int component_of (const char *wanted, const char *names, int m)
+{
+    int k = pg_plot_index (wanted, names);
+    return k >= 0 ? k : number_of (wanted, m);
+}
+
+/* The component that --component names, or the usual one: the magnitude of vectors, xx of tensors. */
 static pg_status choose_component (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -60,14 +68,11 @@ static pg_status choose_component (const plot_request *q, source *s)
     const char *names = component_names (dim, m), *wanted = q->component;
     if (!wanted && m > 1) wanted = m == dim || !names[0] ? "magnitude" : "xx";
     s->norm = wanted && strcmp (wanted, "magnitude") == 0 && m > 1;
-    if (wanted && !s->norm) {
-        k = pg_plot_index (wanted, names);
-        if (k < 0) k = number_of (wanted, m);
-        if (k < 0 && m == 1) PG_FAIL (PG_E_USAGE, "field %s has one component", q->field);
-        if (k < 0)
-            PG_FAIL (PG_E_USAGE, "field %s has no component %s: 0 to %d%s%s or magnitude", q->field, wanted,
-                     m - 1, names[0] ? ", " : "", names);
-    }
+    if (wanted && !s->norm) k = component_of (wanted, names, m);
+    if (k < 0 && m == 1) PG_FAIL (PG_E_USAGE, "field %s has one component", q->field);
+    if (k < 0)
+        PG_FAIL (PG_E_USAGE, "field %s has no component %s: 0 to %d%s%s or magnitude", q->field, wanted,
+                 m - 1, names[0] ? ", " : "", names);
     s->component = k;
     if (s->norm) snprintf (s->name, sizeof s->name, "|%.31s|", q->field);
     else if (m > 1 && names[0]) {
@@ -125,35 +130,51 @@ static void read_scene (const plot_request *q, source *s)
     read_outline (s);
 }
 
-/* The mesh of the run, unless it is gone or no longer that of the points: where the body is. Fields are drawn
- * on its elements (whole) unless something broke: they would hide the crack. */
+/* Are the nodes of the mesh of the run, as its files are today, the points of the result? */
+static int is_same_mesh (const plot_request *q, source *s)
+{
+    pg_scene *scene = NULL;
+    pg_cloud cloud = { 0 };
+    size_t known = s->cloud.n * (size_t) s->cloud.dim;
+    int same = pg_stored_scene (&scene, q->directory) == PG_OK && pg_mesh_body_read (&s->part, scene) == PG_OK
+               && pg_mesh_body_cloud (&cloud, &s->part, scene) == PG_OK;
+    same = same && cloud.n == s->cloud.n && cloud.dim == s->cloud.dim;
+    for (size_t i = 0; same && i < known; i++) same = fabs (cloud.x[i] - s->cloud.x[i]) <= 1e-6 * cloud.h;
+    pg_cloud_clear (&cloud);
+    pg_scene_free (&scene);
+    return same;
+}
+
+/* Is no point damaged in the steps that are drawn? */
+static pg_status nothing_broke (const plot_request *q, const source *s, int *whole)
+{
+    pg_status status = PG_OK;
+    double *damage = NULL;
+    int last = (int) s->nstep - 1, first = q->all ? 0 : q->step[0] < 0 ? last : q->step[0], components;
+    size_t n;
+    for (int k = first; *whole && k <= (q->all ? last : first); k++) {
+        PG_TRY (pg_exodus_read (q->result, "damage", k, &n, &components, &damage));
+        for (size_t i = 0; i < n; i++) *whole &= !(damage[i] > 0);
+        pg_free (damage), damage = NULL;
+    }
+done:
+    pg_free (damage);
+    return status;
+}
+
+/* The mesh of the run says where the body is, unless it is gone or no longer that of the points. Fields
+ * are drawn on its elements (whole) unless something broke, because elements would hide a crack. */
 static pg_status read_part (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
-    pg_scene *scene = NULL;
-    pg_cloud cloud = { 0 };
-    double *damage = NULL;
-    size_t n, known = s->cloud.n * (size_t) s->cloud.dim;
-    int m, same = 0, whole = !q->panels && strcmp (q->field, "damage") != 0;
+    int same = 0, whole = !q->panels && strcmp (q->field, "damage") != 0;
     if (!s->scene || !pg_scene_given (s->scene, "mesh")) return PG_OK;
-    if (pg_stored_scene (&scene, q->directory) == PG_OK && pg_mesh_body_read (&s->part, scene) == PG_OK
-        && pg_mesh_body_cloud (&cloud, &s->part, scene) == PG_OK)
-        same = cloud.n == s->cloud.n && cloud.dim == s->cloud.dim;
-    for (size_t i = 0; same && i < known; i++) same = fabs (cloud.x[i] - s->cloud.x[i]) <= 1e-6 * cloud.h;
-    for (int k = 0; same && whole && k < (int) s->nstep; k++) {
-        int step = q->all ? k : q->step[0] < 0 ? (int) s->nstep - 1 : q->step[0];
-        PG_TRY (pg_exodus_read (q->result, "damage", step, &n, &m, &damage));
-        for (size_t i = 0; i < n; i++) whole &= !(damage[i] > 0);
-        pg_free (damage), damage = NULL;
-        if (!q->all) break;
-    }
+    same = is_same_mesh (q, s);
+    if (same) PG_TRY (nothing_broke (q, s, &whole));
 done:
     if (status != PG_OK || !same) pg_mesh_body_clear (&s->part);
     s->whole = whole;
     if (s->part.mesh.n && s->cloud.dim == 2) s->outline = (pg_outline) { .mesh = &s->part.mesh };
-    pg_free (damage);
-    pg_cloud_clear (&cloud);
-    pg_scene_free (&scene);
     return status;
 }
 
@@ -286,6 +307,30 @@ static void settle_range (const plot_request *q, pg_picture_style *style)
         style->diverging &= style->low == -style->high;
 }
 
+/* "damage, iso (damage >= 0.35), time 2 ms, displacements x 10": what the picture shows, as far as it is
+ * not usual. */
+static void write_title (const plot_request *q, const source *s, const pg_picture_style *style,
+                         const char *stage_title, char *title, size_t size)
+{
+    const char *unit = q->limited ? s->unit : "";
+    int used = snprintf (title, size, "%s%s%.60s", s->name, q->look ? ", " : "", q->look ? q->look : "");
+    if (style->view == PG_VIEW_CRACK || q->limited)
+        used += snprintf (title + used, size - (size_t) used, " (%s\xe2\x89\xa5 %.4g%s%s)",
+                          q->limited ? "" : "damage ", style->above, unit[0] ? " " : "", unit);
+    if (stage_title) used += snprintf (title + used, size - (size_t) used, ", %s", stage_title);
+    if (style->magnify != 0)
+        snprintf (title + used, size - (size_t) used, ", displacements \xc3\x97 %g", style->magnify);
+}
+
+/* Label of the colour bar: "|stress_{xx}| (Pa)" where decades of the magnitude are shown. */
+static void write_label (const source *s, const pg_picture_style *style, char *label, size_t size)
+{
+    const char *bar = style->log && !s->norm ? "|" : "", *unit = s->unit;
+    snprintf (label, size, "%s%s%s%s%s%s", bar, s->name, bar, unit[0] ? " (" : "", unit, unit[0] ? ")" : "");
+}
+
+/* One state, or several in panels, as one file, whose name is printed. number: of the step in a series, or
+ * -1. */
 static pg_status draw (const plot_request *q, const source *s, size_t n, const stage *g,
                        const pg_picture_style *given, int number)
 {
@@ -293,26 +338,17 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
     char title[256], label[160], path[PLOT_PATH];
     pg_panel *panel = NULL;
     pg_picture_style style = *given;
-    int crack = style.view == PG_VIEW_CRACK;
+    int crack = style.view == PG_VIEW_CRACK, titled = n > 1 || s->cloud.dim == 1;
     PG_ALLOC (panel, n);
-    for (size_t k = 0; k < n; k++)
-        panel[k] = (pg_panel){ n > 1 || s->cloud.dim == 1 ? g[k].title : NULL, g[k].value, g[k].u,
-                               q->limited ? g[k].value : g[k].select, g[k].damage };
+    for (size_t k = 0; k < n; k++) {
+        panel[k] = (pg_panel) { titled ? g[k].title : NULL, g[k].value, g[k].u, g[k].select, g[k].damage };
+        if (q->limited) panel[k].select = g[k].value;
+    }
     if (crack && !q->limited) style.above = PG_CRACK_DAMAGE;
     style.by_depth = crack && strcmp (q->field, "damage") == 0;
-    int used = snprintf (title, sizeof title, "%s%s%.60s", s->name, q->look ? ", " : "",
-                         q->look ? q->look : "");
-    if (crack || q->limited)
-        used += snprintf (title + used, sizeof title - (size_t) used, " (%s\xe2\x89\xa5 %.4g%s%s)",
-                          q->limited ? "" : "damage ", style.above, q->limited && s->unit[0] ? " " : "",
-                          q->limited ? s->unit : "");
-    if (n == 1) used += snprintf (title + used, sizeof title - (size_t) used, ", %s", g->title);
-    if (style.magnify != 0)
-        snprintf (title + used, sizeof title - (size_t) used, ", displacements \xc3\x97 %g", style.magnify);
-    const char *bar = style.log && !s->norm ? "|" : "";
-    snprintf (label, sizeof label, "%s%s%s%s%s%s", bar, s->name, bar, s->unit[0] ? " (" : "", s->unit,
-              s->unit[0] ? ")" : "");
-    style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL,
+    write_title (q, s, &style, n == 1 ? g->title : NULL, title, sizeof title);
+    write_label (s, &style, label, sizeof label);
+    style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL;
     style.outline = s->outline.body || s->outline.mesh ? &s->outline : NULL;
     name_picture (q, number, path, sizeof path);
     style.u = panel->u, style.select = panel->select;

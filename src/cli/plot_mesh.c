@@ -58,33 +58,43 @@ static double size_of (const double *v, int m)
     return sqrt (sum);
 }
 
+/* What of a field is drawn: one component, the magnitude, or the equivalent stress of von Mises. */
+typedef struct { const char *names, *wanted; int norm, equivalent, component; } choice;
+
+static pg_status choose_part (choice *c, const plot_request *q, int m)
+{
+    pg_status status = PG_OK;
+    int tensor = m == 6;
+    c->names = tensor ? "xx|yy|zz|xy|yz|zx" : m == 3 ? "x|y|z" : m == 2 ? "x|y" : "";
+    c->wanted = q->component ? q->component : tensor ? "xx" : "magnitude";
+    c->norm = m > 1 && strcmp (c->wanted, "magnitude") == 0;
+    c->equivalent = tensor && strcmp (c->wanted, "mises") == 0;
+    c->component = m > 1 && !c->norm && !c->equivalent ? pg_plot_index (c->wanted, c->names) : 0;
+    if (c->component < 0)
+        PG_FAIL (PG_E_USAGE, "field %s has no component %s: one of %s%s, magnitude", q->field, c->wanted,
+                 c->names, tensor ? "|mises" : "");
+done:
+    return status;
+}
+
+/* The values at the nodes, and the label of their colour bar. */
 static pg_status choose_value (const plot_request *q, fem *f)
 {
     pg_status status = PG_OK;
     const pg_mesh_field *field;
+    choice c = { 0 };
     PG_TRY (need_field (q, f, q->field, &field));
-    int m = field->components, tensor = m == 6, k = 0;
-    const char *names = tensor   ? "xx|yy|zz|xy|yz|zx"
-                        : m == 3 ? "x|y|z"
-                        : m == 2 ? "x|y"
-                                 : "",
-               *wanted = q->component ? q->component
-                         : tensor     ? "xx"
-                                      : "magnitude";
-    int norm = m > 1 && strcmp (wanted, "magnitude") == 0, equal = tensor && strcmp (wanted, "mises") == 0;
-    if (m > 1 && !norm && !equal) k = pg_plot_index (wanted, names);
-    if (k < 0)
-        PG_FAIL (PG_E_USAGE, "field %s has no component %s: one of %s%s, magnitude", q->field, wanted, names,
-                 tensor ? "|mises" : "");
+    int m = field->components;
+    PG_TRY (choose_part (&c, q, m));
     PG_ALLOC (f->value, f->mesh.nnode);
     for (size_t i = 0; i < f->mesh.nnode; i++) {
         const double *v = field->value + i * (size_t) m;
-        f->value[i] = norm ? size_of (v, m) : equal ? mises (v) : v[k];
+        f->value[i] = c.norm ? size_of (v, m) : c.equivalent ? mises (v) : v[c.component];
     }
-    if (norm) snprintf (f->label, sizeof f->label, "|%.31s|", q->field);
-    else
-        snprintf (f->label, sizeof f->label, m > 1 ? "%s%.31s_{%.10s}%s" : "%s%.31s%.0s%s",
-                  q->style.log ? "|" : "", q->field, wanted, q->style.log ? "|" : "");
+    const char *bar = q->style.log ? "|" : "";
+    if (c.norm) snprintf (f->label, sizeof f->label, "|%.31s|", q->field);
+    else if (m > 1) snprintf (f->label, sizeof f->label, "%s%.31s_{%.10s}%s", bar, q->field, c.wanted, bar);
+    else snprintf (f->label, sizeof f->label, "%s%.31s%s", bar, q->field, bar);
 done:
     return status;
 }

@@ -15,7 +15,7 @@ void progress_start (progress *p, int quiet, const pg_solver_options *o)
                      .last = now,
                      .tty = isatty (2),
                      .quiet = quiet,
-                     .marching = (o->flags & PG_SOLVER_EXPLICIT) != 0,
+                     .steps_in_time = (o->flags & PG_SOLVER_EXPLICIT) != 0,
                      .staged = (o->flags & PG_SOLVER_STAGED) != 0 };
     p->mark[0].at = p->mark[1].at = now;
 }
@@ -54,7 +54,7 @@ static void add_step (char *line, const progress *p, const pg_progress *at, cons
     char text[96];
     double passed = now - p->mark[0].at,
            pace = passed > 0.5 ? ((double) r->events - p->mark[0].events) / passed : 0;
-    if (p->marching)
+    if (p->steps_in_time)
         snprintf (text, sizeof text, "step %ld, %.4g s", r->iterations + (within ? step->iterations : 0),
                   step->time);
     else if (!at->event && within)
@@ -79,26 +79,30 @@ static void add_time (char *line, const progress *p, const pg_progress *at, doub
     add (line, text);
 }
 
-/* full: 0 the least, FULL everything. */
+static void add_number (char *line, const char *format, double value)
+{
+    char text[96];
+    snprintf (text, sizeof text, format, value);
+    add (line, text);
+}
+
+/* One line of progress. full: 0 the least, FULL everything. */
 static void compose (char *line, int full, const progress *p, const pg_progress *at, const pg_step *step,
                      const pg_statistics *r, double now, int within)
 {
     char text[96];
+    int relaxes_or_solves = !p->steps_in_time;
     snprintf (line, LINE, at->event ? "%5.1f %% of %s" : "%5.1f %%", 100 * at->share, at->end);
     add_step (line, p, at, step, r, now, within);
-    if (full > 0 && !p->marching && !within)
-        snprintf (text, sizeof text, "load factor %.4g", step->factor), add (line, text);
+    if (full > 0 && relaxes_or_solves && !within) add_number (line, "load factor %.4g", step->factor);
     if (full > 2 && at->event && isfinite (at->stiffness))
-        snprintf (text, sizeof text, "stiffness %.3g of the first", at->stiffness), add (line, text);
-    if (full > 2 && isfinite (at->damage))
-        snprintf (text, sizeof text, "damage in stop.set %.2g", at->damage), add (line, text);
-    if (full > 1)
-        snprintf (text, sizeof text, "%ld bonds broken", r->broken + (within ? (long) step->nbroken : 0)),
-            add (line, text);
-    if (full > 2 && !p->marching)
-        snprintf (text, sizeof text, "residual %.1e", r->residual_max), add (line, text);
-    /* nobody knows how many rounds will follow */
-    add_time (line, p, at, now, within && step->nbroken && !p->marching);
+        add_number (line, "stiffness %.3g of the initial one", at->stiffness);
+    if (full > 2 && isfinite (at->damage)) add_number (line, "damage in stop.set %.2g", at->damage);
+    snprintf (text, sizeof text, "%ld bonds broken", r->broken + (within ? (long) step->nbroken : 0));
+    if (full > 1) add (line, text);
+    if (full > 2 && relaxes_or_solves) add_number (line, "residual %.1e", r->residual_max);
+    /* While bonds break nobody knows how many rounds will follow. */
+    add_time (line, p, at, now, within && step->nbroken && relaxes_or_solves);
 }
 
 static size_t width_of_terminal (void)

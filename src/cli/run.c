@@ -195,75 +195,107 @@ static void settle_blas (const pg_problem *p)
     openblas_set_num_threads (unknowns < enough ? 1 : p->threads);
 }
 
-/* Everything between an open result and the last message. */
+/* What a run leaves behind, whatever ended it: the reasons on stderr, and how to go on where that is
+ * possible. */
+static void tell_outcome (const command *c, pg_status outcome, const char *failure, pg_status written,
+                          const char *fault, int kept)
+{
+    int ended_early = outcome == PG_E_INTERRUPTED || outcome == PG_E_FILE || outcome == PG_E_MEMORY;
+    if (outcome != PG_OK) command_complain (outcome, failure);
+    if (written != PG_OK && (outcome == PG_OK || strcmp (failure, fault) != 0))
+        command_complain (written, fault);
+    if (kept && (outcome == PG_OK || ended_early)) command_again (c);
+}
+
+/* Everything between an open result and the last message. search, start: seconds of building; when the run
+ * began. */
 static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w, double search, double start)
 {
-    char failure[4096] = "", last[4096];
+    char failure[4096] = "", fault[4096];
     pg_status outcome = advance (solver, w, c->quiet), status;
-    int kept = 0;
-    if (outcome != PG_OK) {
-        snprintf (failure, sizeof failure, "%s", pg_last_error ());
-        kept = keep_for_later (w);
-    }
-    status = pg_result_finish (w->result, w->state, outcome == PG_OK ? NULL : failure, search,
-                               pg_seconds () - start);
-    snprintf (last, sizeof last, "%s", pg_last_error ());
-    if (status != PG_OK && outcome == PG_OK) kept = keep_for_later (w);
+    int kept = 0, failed = outcome != PG_OK;
+    if (failed) snprintf (failure, sizeof failure, "%s", pg_last_error ()), kept = keep_for_later (w);
+    status = pg_result_finish (w->result, w->state, failed ? failure : NULL, search, pg_seconds () - start);
+    snprintf (fault, sizeof fault, "%s", pg_last_error ());
+    if (status != PG_OK && !failed) kept = keep_for_later (w);
     if (status == PG_OK && !c->quiet)
         print_summary (w->result, pg_solver_report_now (solver), pg_solver_settled (solver), w->problem,
                        pg_seconds () - start);
-    if (outcome != PG_OK) command_complain (outcome, failure);
-    if (status != PG_OK && (outcome == PG_OK || strcmp (failure, last) != 0)) command_complain (status, last);
-    if (kept
-        && (outcome == PG_OK || outcome == PG_E_INTERRUPTED || outcome == PG_E_FILE
-            || outcome == PG_E_MEMORY))
-        command_again (c);
-    return outcome != PG_OK ? outcome : status;
+    tell_outcome (c, outcome, failure, status, fault, kept);
+    return failed ? outcome : status;
+}
+
+/* Everything a run is made of; freed in the reverse order of making. */
+typedef struct {
+    command    c;
+    pg_scene  *scene;
+    pg_problem *problem;
+    pg_solver *solver;
+    pg_solver_options options;
+    char       folder[4096];                           /* of the results */
+    watched    w;
+    int        finished;                               /* --resume of a run that is whole already */
+} run;
+
+/* Scene, memory, problem, result folder: all that can refuse a run before its long work begins. */
+static pg_status prepare (run *r)
+{
+    pg_status status = PG_OK;
+    command *c = &r->c;
+    int fresh = !c->resume && !c->force;
+    pg_forecast forecast;
+    PG_TRY (command_scene (c, &r->scene));
+    if (c->folder && fresh) PG_TRY (pg_result_may_open (c->folder, r->scene));
+    PG_TRY (afford_scene (c, &forecast));
+    PG_TRY (command_problem (c, r->scene, &r->problem, &r->options));
+    PG_TRY (afford_problem (c, &forecast, r->problem, 0));
+    PG_TRY (pg_patch_probe (r->problem));
+    if (c->folder) snprintf (r->folder, sizeof r->folder, "%s", c->folder);
+    else snprintf (r->folder, sizeof r->folder, "out/%s", r->problem->name);
+    if (!c->folder && fresh) PG_TRY (pg_result_may_open (r->folder, r->scene));
+    r->finished = c->resume && pg_result_finished (r->folder, r->scene);
+done:
+    return status;
+}
+
+/* The solver and the state it starts from, and the result folder that takes what comes of them. */
+static pg_status open_run (run *r)
+{
+    pg_status status = PG_OK;
+    if (!r->c.quiet) plan_print (r->problem, &r->options);
+    settle_blas (r->problem);
+    PG_TRY (pg_solver_create (&r->solver, r->problem, &r->options));
+    PG_TRY (pg_patch_refuse (r->problem, r->scene));
+    if (!r->c.quiet) plan_settled (r->solver);
+    PG_TRY (pg_state_create (&r->w.state, r->problem, pg_solver_components (r->solver)));
+    PG_TRY (open_result (&r->c, r->folder, r->scene, r->problem, r->solver, &r->w));
+    r->w.problem = r->problem;
+done:
+    return status;
 }
 
 int pg_cli_run (int argc, char **argv)
 {
     pg_status status = PG_OK;
-    command c;
-    pg_scene *scene = NULL;
-    pg_problem *problem = NULL;
-    pg_solver *solver = NULL;
-    watched w = { 0 };
-    pg_solver_options options;
-    pg_forecast forecast;
-    char folder[512];
+    run r = { .finished = 0 };
     double start = pg_seconds ();
-    int wrong = command_parse (&c, argc, argv), told = 0;
+    int wrong = command_parse (&r.c, argc, argv), complained = 0;
     if (wrong >= 0) return wrong;
     settle_signals ();
-    PG_TRY (command_scene (&c, &scene));
-    /* before the long work */
-    if (c.folder && !c.resume && !c.force) PG_TRY (pg_result_may_open (c.folder, scene));
-    PG_TRY (afford_scene (&c, &forecast));
-    PG_TRY (command_problem (&c, scene, &problem, &options));
-    PG_TRY (afford_problem (&c, &forecast, problem, 0));
-    PG_TRY (pg_patch_probe (problem));
-    snprintf (folder, sizeof folder, "out/%s", problem->name);
-    if (!c.folder && !c.resume && !c.force) PG_TRY (pg_result_may_open (folder, scene));
-    if (c.resume && pg_result_finished (c.folder ? c.folder : folder, scene)) {
-        if (!c.quiet) printf ("%s: this run is finished\n", c.folder ? c.folder : folder);
+    PG_TRY (prepare (&r));
+    if (r.finished) {
+        if (!r.c.quiet) printf ("%s: this run is finished\n", r.folder);
         goto done;
     }
-    if (!c.quiet) plan_print (problem, &options);
-    settle_blas (problem);
-    PG_TRY (pg_solver_create (&solver, problem, &options));
-    PG_TRY (pg_patch_refuse (problem, scene));
-    if (!c.quiet) plan_settled (solver);
-    PG_TRY (pg_state_create (&w.state, problem, pg_solver_components (solver)));
-    PG_TRY (open_result (&c, c.folder ? c.folder : folder, scene, problem, solver, &w));
-    told = 1, w.problem = problem;
-    status = run_to_the_end (&c, solver, &w, pg_seconds () - start, start);
+    PG_TRY (open_run (&r));
+    complained = 1;                                    /* by run_to_the_end, whatever comes */
+    status = run_to_the_end (&r.c, r.solver, &r.w, pg_seconds () - start, start);
 done:
-    if (status != PG_OK && !told) command_complain (status, pg_last_error ());
-    pg_result_free (&w.result);
-    pg_state_free (&w.state);
-    pg_solver_free (&solver);
-    pg_problem_free (&problem);
-    pg_scene_free (&scene);
+    if (status != PG_OK && !complained) command_complain (status, pg_last_error ());
+    pg_result_free (&r.w.result);
+    pg_state_free (&r.w.state);
+    pg_solver_free (&r.solver);
+    pg_problem_free (&r.problem);
+    pg_scene_free (&r.scene);
     return pg_exit_code (status);
 }

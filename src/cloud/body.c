@@ -58,7 +58,7 @@ static void bound (pg_body *body)
 }
 
 /* A body so far from the origin that its size is lost in rounding is refused: tolerances would be
- * meaningless. */
+ * meaningless. Later checks build on earlier ones, so that the faults are reported in stages. */
 pg_status pg_body_read (pg_body *out, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -205,11 +205,13 @@ int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double
     return meets[crack->kind] (crack, from, to, tolerance);
 }
 
+/* A bond of no length: both ends at x. */
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance)
 {
     return pg_crack_cuts (crack, dim, x, x, tolerance);
 }
 
+/* The first crack in the order of the scene counts, so that the answer does not depend on anything else. */
 const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,
                                double tolerance)
 {

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of the body, its points and its pre-cracks. */
+ * Keys of the body, its layers, its points and its pre-cracks. The macros serve keys that occur several
+ * times: the same shapes may be added and subtracted. */
 #include "perigal/cloud.h"
 
 #define LENGTH "(0, inf)"
+/* Diameter or radius of a round shape: exactly one of them. */
 #define ROUND(at) \
     { .path = at ".diameter", \
       .kind = PG_NUMBER, \
@@ -15,6 +17,7 @@
         .path = at ".radius", .kind = PG_NUMBER, .unit = "m", .range = LENGTH, .fallback = "", \
         .group = "size:one", .doc = "Radius." \
     }
+/* A map that describes one shape; of all shapes of an entry exactly one is given. */
 #define SHAPE(at, word) { .path = at, .kind = PG_MAP, .fallback = "", .group = "shape:one", .doc = word }
 /* The shapes are the same under add: and subtract: */
 #define SHAPES(op) \

@@ -55,6 +55,7 @@ done:
     return status;
 }
 
+/* The tolerance follows from the steps, which must be known before any centre is asked for. */
 pg_status pg_lattice_fit (pg_lattice *out, const pg_body *body, double spacing, const double *offset)
 {
     pg_status status = PG_OK;

@@ -10,6 +10,7 @@
 /* Names of the sides, 2 axis + (1 on the high side). */
 static const char *const sides[] = {"left", "right", "bottom", "top", "back", "front"};
 
+/* These names always mean sides of the bounding box. */
 int pg_layers_taken (const char *name)
 {
     for (size_t k = 0; k < sizeof sides / sizeof *sides; k++) if (!strcmp (name, sides[k])) return 1;
@@ -189,6 +190,8 @@ done:
     return status;
 }
 
+/* Only the coordinate across the layer is compared: beyond a face of the body there is nothing but its
+ * layer. */
 long pg_body_layer (const pg_body *body, const double *x, double margin)
 {
     for (size_t i = 0; i < body->nlayer; i++) {

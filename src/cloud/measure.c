@@ -12,6 +12,7 @@ static void of_polygon (const pg_shape *s, double *area, double *outline)
         *outline += hypot (s->vertex[2*i] - s->vertex[2*j], s->vertex[2*i + 1] - s->vertex[2*j + 1]);
 }
 
+/* Shapes that overlap or are subtracted would need their intersections: no closed form then. */
 int pg_body_measure (const pg_body *body, double *volume, double *surface)
 {
     const pg_shape *s = body->shape;

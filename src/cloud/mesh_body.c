@@ -55,6 +55,7 @@ done:
 }
 
 /* ---- blocks -------------------------------------------------------------------------------------------- */
+/* Names come before numbers: a block may be called "2". */
 int pg_mesh_body_block (const pg_mesh *m, const char *name)
 {
     char number[24];
@@ -271,6 +272,7 @@ static pg_status check_place (const pg_mesh *m, const pg_scene *scene, const cha
     return pg_scene_verdict (scene);
 }
 
+/* Positions are in m from `scale` on; blocks that are not in use take no part in any check. */
 pg_status mesh_body_at (pg_mesh_body *out, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;

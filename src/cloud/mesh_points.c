@@ -69,6 +69,7 @@ static void place_volumes (pg_cloud *c, const pg_mesh_body *b, int corners)
 /* Lengths of the edges at a point, m. */
 typedef struct { double sum, longest; size_t n; } edges;
 
+/* Notes an edge at one of its ends. */
 static void add_edge (edges *at, double length)
 {
     at->sum += length, at->n++;
@@ -165,6 +166,7 @@ done:
     return status;
 }
 
+/* Volumes use the elements before points are perturbed: the cells stay where they are. */
 pg_status pg_mesh_body_cloud (pg_cloud *out, pg_mesh_body *body, const pg_scene *scene)
 {
     pg_status status = PG_OK;

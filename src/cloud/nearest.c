@@ -29,6 +29,7 @@ static long cell_along (const pg_nearest *g, int k, double x)
     return c < (double) g->count[k] ? (long) c : g->count[k] - 1;
 }
 
+/* Number of the cell that holds x, x fastest. */
 static size_t cell_of (const pg_nearest *g, const double *x)
 {
     size_t c = 0;
@@ -132,6 +133,8 @@ static double beyond (const pg_nearest *g, const double *place, const long *at, 
     return least;
 }
 
+/* Shell s has the cells at distance s (in the maximum norm) from the cell of the position. The search ends
+ * when no cell beyond the shell can hold anything nearer, with a margin for rounding. */
 long pg_nearest_find (const pg_nearest *g, const double *place, pg_refuse refuse, void *context)
 {
     query q = { place, refuse, context, -1, INFINITY };

@@ -73,6 +73,7 @@ static uint64_t mix (uint64_t z)
     return z ^ (z >> 31);
 }
 
+/* 53 random bits as a number in [-1, 1), from a hash of seed, site and axis. */
 double pg_place_shift (uint64_t seed, uint64_t site, int axis)
 {
     uint64_t z = mix (mix (seed + 0x9e3779b97f4a7c15u) + 3 * site + (uint64_t) axis + 1);
@@ -177,6 +178,7 @@ done:
     return status;
 }
 
+/* Either from a file or from a lattice; on failure nothing remains. */
 pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -289,6 +289,7 @@ done:
 /* A rounded position and its line. */
 typedef struct { double x[3]; size_t line; } place;
 
+/* Order of rounded positions, then of lines, so that of two equal points the later one is reported. */
 static int by_place (const void *p, const void *q)
 {
     const place *a = p, *b = q;
@@ -346,6 +347,7 @@ done:
     return status;
 }
 
+/* The file is read as a whole; scenes with millions of points take some hundred MB for a moment. */
 pg_status pg_points_read (pg_cloud *cloud, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -36,6 +36,7 @@ static double edge_distance (const double *a, const double *b, const double *x)
     return hypot (w[0] - s*u[0], w[1] - s*u[1]);
 }
 
+/* The least distance from any edge; the sign by pg_polygon_inside. */
 double pg_polygon_distance (size_t n, const double *v, const double *x)
 {
     double least = INFINITY;

@@ -21,6 +21,7 @@ static double both (double p, double q)
 }
 
 /* ---- box ----------------------------------------------------------------------------------------------- */
+/* Faults of a shape are recorded; reading goes on, so that all are found in one pass. */
 static pg_status read_box (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     pg_scene_vector (scene, 3, s->low, "%s.low", at);
@@ -60,6 +61,7 @@ static void read_radius (pg_shape *s, const pg_scene *scene, const char *at)
                                                           : pg_scene_number (scene, "%s.radius", at);
 }
 
+/* Disks and spheres alike. */
 static pg_status read_ball (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     (void) dim;
@@ -82,6 +84,7 @@ static void box_ball (const pg_shape *s, int dim, double *low, double *high)
 }
 
 /* ---- cylinder ------------------------------------------------------------------------------------------ */
+/* The axis is scaled to unit length. */
 static pg_status read_cylinder (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     read_ball (s, dim, scene, at);
@@ -93,6 +96,7 @@ static pg_status read_cylinder (pg_shape *s, int dim, const pg_scene *scene, con
     return PG_OK;
 }
 
+/* Distance from the round surface and from the two ends, which meet at right angles. */
 static double distance_cylinder (const pg_shape *s, int dim, const double *x, double reach)
 {
     (void) reach;
@@ -102,6 +106,7 @@ static double distance_cylinder (const pg_shape *s, int dim, const double *x, do
     return both (norm (dim, r) - s->radius, fmax (-along, along - s->length));
 }
 
+/* A disc across the unit axis a extends R sqrt (1 - a_k^2) along axis k. */
 static void box_cylinder (const pg_shape *s, int dim, double *low, double *high)
 {
     for (int k = 0; k < dim; k++) {
@@ -135,6 +140,7 @@ done:
     return status;
 }
 
+/* Its base is a polygon in the plane x, y. */
 static pg_status read_prism (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     s->low[2]  = pg_scene_number (scene, "%s.low", at);
@@ -152,11 +158,13 @@ static double distance_polygon (const pg_shape *s, int dim, const double *x, dou
     return pg_polygon_distance (s->nvertex, s->vertex, x);
 }
 
+/* Distance from the sides and from the two ends, which meet at right angles. */
 static double distance_prism (const pg_shape *s, int dim, const double *x, double reach)
 {
     return both (distance_polygon (s, dim, x, reach), fmax (s->low[2] - x[2], x[2] - s->high[2]));
 }
 
+/* Box of the vertices. */
 static void box_polygon (const pg_shape *s, int dim, double *low, double *high)
 {
     (void) dim;

@@ -23,7 +23,8 @@ typedef struct {
 
 /* Kinds that a scene may use; PG_STAIRS comes behind them. */
 enum { PG_SHAPES = PG_MESH + 1 };
-extern const pg_shape_type pg_shape_types[PG_SHAPES + 1];/* indexed by pg_shape.kind */
+/* Indexed by pg_shape.kind. */
+extern const pg_shape_type pg_shape_types[PG_SHAPES + 1];
 /* Shapes from a mesh (shape_mesh.c). */
 pg_status shape_mesh_read     (pg_shape *shape, int dim, const pg_scene *scene, const char *at);
 double    shape_mesh_distance (const pg_shape *shape, int dim, const double *x, double reach);

@@ -19,6 +19,7 @@ struct pg_solid {
 };
 
 /* ---- mesh ---------------------------------------------------------------------------------------------- */
+/* Elements for the question inside or outside, faces for the distance. */
 pg_status shape_mesh_read (pg_shape *s, int dim, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
@@ -77,6 +78,7 @@ size_t pg_body_meshes (const pg_body *body)
 }
 
 /* ---- side sets ----------------------------------------------------------------------------------------- */
+/* Side sets in the order of the file. */
 const char *pg_shape_side (const pg_shape *s, size_t k)
 {
     const pg_mesh *m = &s->solid->part.mesh;
@@ -99,6 +101,7 @@ int pg_shape_on_side (const pg_shape *s, const double *x, const char *side)
 }
 
 /* ---- stairs -------------------------------------------------------------------------------------------- */
+/* The signs at all centres are computed once: later questions take constant time. */
 pg_status pg_stairs_create (pg_shape *out, const pg_shape *mesh, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;
@@ -147,6 +150,8 @@ double shape_stairs_distance (const pg_shape *s, int dim, const double *x, doubl
     return sign == 0 ? 0 : sign > 0 ? HUGE_VAL : -HUGE_VAL;
 }
 
+/* A centre on the surface belongs to the body: of an added shape it is inside, of a subtracted one
+ * outside. */
 int pg_stairs_step (const pg_shape *stairs, const int *i, int face)
 {
     /* a centre on the surface belongs to the body */

@@ -48,6 +48,7 @@ static void halve (pg_tree *t, size_t first, size_t last, int axis)
     halve (t, middle + 1, last, (axis + 1) % t->dim);
 }
 
+/* O(n log n) on average; equal coordinates do no harm. */
 pg_status pg_tree_build (pg_tree *out, int dim, size_t n, const double *x)
 {
     pg_status status = PG_OK;
@@ -81,6 +82,7 @@ static void visit (const pg_tree *t, const question *q, size_t first, size_t las
     if (ahead >= -q->reach) visit (t, q, middle + 1, last, (axis + 1) % t->dim);
 }
 
+/* Only coordinates decide here: the caller tests the distance. */
 void pg_tree_near (const pg_tree *tree, const double *at, double reach, pg_tree_teller tell, void *context)
 {
     question q = { at, reach, tell, context };

@@ -49,6 +49,19 @@ static const pg_material *law_at (const fem *f, const double *x)
                                 [pg_nearest_find (f->material, x, NULL, NULL)]];
 }
 
+/* One place; 1: an element holds it, or one lies near enough. A place that no element knows gives NAN. */
+static int sample_place (fem *f, const double *x, double *u, double *stress)
+{
+    double xi[3], away = 0, H[9];
+    long e = pg_mesh_locator_find (f->locator, x, xi, &away);
+    if (e < 0 || away > FARTHEST) return 0;
+    if (stress && !pg_mesh_gradient (&f->mesh, &f->u, (size_t) e, xi, H)) return 0;
+    pg_mesh_value (&f->mesh, &f->u, (size_t) e, xi, u);
+    if (away > 1e-6) f->outside++, f->away = fmax (f->away, away);
+    if (stress) pg_stress_of_gradient (law_at (f, x), f->mesh.dim, H, stress);
+    return 1;
+}
+
 /* Counts the places outside, which callers report: many of them mean that the two bodies
  * differ. */
 static pg_status sample_fem (void *context, size_t n, const double *x, double *u, double *stress)
@@ -56,16 +69,10 @@ static pg_status sample_fem (void *context, size_t n, const double *x, double *u
     fem *f = context;
     size_t dim = (size_t) f->mesh.dim;
     for (size_t i = 0; i < n; i++) {
-        double xi[3], away = 0, H[9];
-        long e = pg_mesh_locator_find (f->locator, x + i * dim, xi, &away);
-        int known = e >= 0 && away <= FARTHEST
-                    && (!stress || pg_mesh_gradient (&f->mesh, &f->u, (size_t) e, xi, H));
         u[3*i + 1] = u[3*i + 2] = 0;
-        if (known) pg_mesh_value (&f->mesh, &f->u, (size_t) e, xi, u + 3*i);
-        if (known && away > 1e-6) f->outside++, f->away = fmax (f->away, away);
-        if (known && stress) pg_stress_of_gradient (law_at (f, x + i * dim), f->mesh.dim, H, stress + 6*i);
-        for (size_t k = 0; !known && k < 3; k++) u[3*i + k] = k < dim ? NAN : 0;
-        for (size_t k = 0; !known && stress && k < 6; k++) stress[6*i + k] = NAN;
+        if (sample_place (f, x + i * dim, u + 3*i, stress ? stress + 6*i : NULL)) continue;
+        for (size_t k = 0; k < 3; k++) u[3*i + k] = k < dim ? NAN : 0;
+        for (size_t k = 0; stress && k < 6; k++) stress[6*i + k] = NAN;
     }
     return PG_OK;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A finite element result measured against the reference of a scene, by the same norms as results of points, but
- * over its own elements: Gauss points of each element, stresses from the gradient of its displacement. */
+ * A finite element result measured against the reference of a scene, by the same norms as results of
+ * points, but over its own elements: Gauss points of each element, stresses from the gradient of its
+ * displacement. */
 #include "compare.h"
 #include <math.h>
 #include <string.h>

@@ -173,12 +173,12 @@ static pg_status read_step (pg_stored *s, const char *path, double broken)
     double *u = NULL;
     unsigned char *torn = NULL;
     pg_sampler field = { 0 };
-    int nosb = s->problem->approx.type->interpolates, coefficients, displacements,
+    int interpolates = s->problem->approx.type->interpolates, coefficients, displacements,
         rotations = 1;
     PG_TRY (has_field (path, "coefficient", &coefficients));
     PG_TRY (has_field (path, "displacement", &displacements));
     if (pg_problem_rotations (s->problem)) PG_TRY (has_field (path, "rotation", &rotations));
-    if (broken == 0 && rotations && (coefficients || (nosb && displacements))) {
+    if (broken == 0 && rotations && (coefficients || (interpolates && displacements))) {
         PG_TRY (read_unknowns (s, path, coefficients ? "coefficient" : "displacement"));
         PG_TRY (pg_sampler_solution (&field, s->problem, s->force, s->self, s->state));
         snprintf (s->how, sizeof s->how,

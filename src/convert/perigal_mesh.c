@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct { const char *input, *output; double size; int order, dim; } wishes;
+typedef struct { const char *input, *output; double size; int order, dim; } request;
 typedef struct { int *pair; size_t n; } entities;  /* n numbers: dimension, tag, dimension, tag ... */
 
 static const char usage[] =
@@ -42,46 +42,62 @@ static int number_of (const char *text, double low, double high, double *value)
     return end != text && !*end && *value >= low && *value <= high;
 }
 
+/* Options with a number: name, range, whether it must be whole, what to say of another one. */
+enum { SIZE, ORDER, DIM };
+static const struct { const char *name; double low, high; int whole; const char *needs; } options[] = {
+    [SIZE] = { "--size", 1e-300, 1e300, 0, "a positive length" },
+    [ORDER] = { "--order", 1, 2, 1, "1 or 2" },
+    [DIM] = { "--dim", 2, 3, 1, "2 or 3" },
+};
+
+static int option_of (const char *word)
+{
+    for (int k = 0; k <= DIM; k++) if (strcmp (word, options[k].name) == 0) return k;
+    return -1;
+}
+
+/* 1: a number of the option's range. */
+static int read_option (request *w, int option, const char *text)
+{
+    double v;
+    if (!text || !number_of (text, options[option].low, options[option].high, &v)) return 0;
+    if (options[option].whole && v != (int) v) return 0;
+    if (option == SIZE) w->size = v;
+    else *(option == ORDER ? &w->order : &w->dim) = (int) v;
+    return 1;
+}
+
+/* The files: given, and the one to write of the right kind. 0: good. */
+static int check_files (const request *w)
+{
+    if (!w->output) {
+        fprintf (stderr, "perigal-mesh: give a file to read and one to write\n%s", usage);
+        return 2;
+    }
+    size_t n = strlen (w->output);
+    if (n > 4 && strcmp (w->output + n - 4, ".msh") == 0) return 0;
+    fprintf (stderr, "perigal-mesh: %s: the name of the file to write must end in .msh\n", w->output);
+    return 2;
+}
+
 /* 0: good; else the exit code (help: -1). */
-static int read_arguments (wishes *w, int argc, char **argv)
+static int read_arguments (request *w, int argc, char **argv)
 {
     for (int k = 1; k < argc; k++) {
-        double v;
-        int size = !strcmp (argv[k], "--size"), order = !strcmp (argv[k], "--order"),
-            dim = !strcmp (argv[k], "--dim");
+        int option = option_of (argv[k]);
         if (!strcmp (argv[k], "--help") || !strcmp (argv[k], "-h")) return -1;
-        if (size || order || dim) {
-            if (k + 1 == argc
-                || !number_of (argv[k + 1],
-                               size    ? 1e-300
-                               : order ? 1
-                                       : 2,
-                               size    ? 1e300
-                               : order ? 2
-                                       : 3,
-                               &v)
-                || (!size && v != (int) v)) {
-                fprintf (stderr, "perigal-mesh: %s needs %s\n", argv[k],
-                         size    ? "a positive length"
-                         : order ? "1 or 2"
-                                 : "2 or 3");
+        if (option >= 0) {
+            if (!read_option (w, option, k + 1 < argc ? argv[k + 1] : NULL)) {
+                fprintf (stderr, "perigal-mesh: %s needs %s\n", argv[k], options[option].needs);
                 return 2;
             }
-            if (size) w->size = v;
-            else *(order ? &w->order : &w->dim) = (int) v;
             k++;
         } else if (argv[k][0] == '-' || w->output) {
-            fprintf (stderr, "perigal-mesh: what is '%s'?\n%s", argv[k], usage);
+            fprintf (stderr, "perigal-mesh: unknown argument '%s'\n%s", argv[k], usage);
             return 2;
         } else *(w->input ? &w->output : &w->input) = argv[k];
     }
-    if (!w->output) fprintf (stderr, "perigal-mesh: give a file to read and one to write\n%s", usage);
-    size_t n = w->output ? strlen (w->output) : 0;
-    if (n && (n < 5 || strcmp (w->output + n - 4, ".msh"))) {
-        fprintf (stderr, "perigal-mesh: %s: the name of the file to write must end in .msh\n", w->output);
-        return 2;
-    }
-    return n ? 0 : 2;
+    return check_files (w);
 }
 
 /* ---- meshing ------------------------------------------------------------------------------------------- */
@@ -103,7 +119,7 @@ static entities entities_of (int dim)
 }
 
 /* A closed surface of triangles (.stl) becomes a body: corners sharper than 40 degrees are edges. */
-static int fill_surface (const wishes *w)
+static int fill_surface (const request *w)
 {
     int e, bad = 0;
     gmshModelMeshClassifySurfaces (0.6981317, 1, 1, 3.1415926, 0, &e);
@@ -127,10 +143,34 @@ static int is_stl (const char *path)
     return n > 4 && (!strcmp (path + n - 4, ".stl") || !strcmp (path + n - 4, ".STL"));
 }
 
-static int make_mesh (const wishes *w)
+/* Elements of dimension `want` for the geometry that is loaded; 0: done. */
+static int generate (const request *w, int want)
+{
+    int e;
+    gmshModelMeshGenerate (want, &e);
+    return e || !elements_of (want) ? failed ("could not be meshed", w->input) : 0;
+}
+
+/* Sets the length of edges; a mesh that has its elements already keeps them, which is said. */
+static void set_size (const request *w, int meshed)
+{
+    int e;
+    if (!(w->size > 0)) return;
+    gmshOptionSetNumber ("Mesh.MeshSizeMin", 0.5 * w->size, &e);
+    gmshOptionSetNumber ("Mesh.MeshSizeMax", w->size, &e);
+    if (meshed) fprintf (stderr, "perigal-mesh: %s: has elements already; --size is not used\n", w->input);
+}
+
+/* Meshes a geometry, fills a closed surface of triangles (.stl), or keeps the elements of a mesh file;
+ * then changes the order of the elements where another one was asked for. 0: done. */
+static int make_mesh (const request *w)
 {
     int e, dim = gmshModelGetDimension (&e), stl = dim == 2 && elements_of (2) && is_stl (w->input);
-    int has_mesh = dim > 0 && elements_of (dim), want = w->dim ? w->dim : stl ? 3 : dim;
+    int meshed = dim > 0 && elements_of (dim),
+        want = w->dim ? w->dim
+               : stl  ? 3
+                      : dim,
+        fill = stl && want == 3;
     if (dim < 1) return failed ("there is no body and no mesh in it", w->input);
     if (want > dim && !stl) {
         fprintf (stderr,
@@ -138,19 +178,12 @@ static int make_mesh (const wishes *w)
                  w->input, dim, want);
         return 1;
     }
-    if (stl && want == 3 && fill_surface (w)) return 1;
-    if (w->size > 0) {
-        gmshOptionSetNumber ("Mesh.MeshSizeMin", 0.5 * w->size, &e),
-            gmshOptionSetNumber ("Mesh.MeshSizeMax", w->size, &e);
-        if (has_mesh && !stl)
-            fprintf (stderr, "perigal-mesh: %s: has elements already; --size is not used\n", w->input);
-    }
-    if (!has_mesh || (stl && want == 3)) {
-        gmshModelMeshGenerate (want, &e);
-        if (e || !elements_of (want)) return failed ("could not be meshed", w->input);
-    }
-    if (w->order) gmshModelMeshSetOrder (w->order, &e);
-    return w->order && e ? failed ("the order of the elements could not be changed", w->input) : 0;
+    if (fill && fill_surface (w)) return 1;
+    set_size (w, meshed && !stl);
+    if ((!meshed || fill) && generate (w, want)) return 1;
+    if (!w->order) return 0;
+    gmshModelMeshSetOrder (w->order, &e);
+    return e ? failed ("the order of the elements could not be changed", w->input) : 0;
 }
 
 /* ---- groups -------------------------------------------------------------------------------------------- */
@@ -171,7 +204,7 @@ static void name_entities (int dim, const char *stem)
     gmshFree (list.pair);
 }
 
-static int write_mesh (const wishes *w)
+static int write_mesh (const request *w)
 {
     entities groups = { NULL, 0 }, top = { NULL, 0 };
     int e, dim = 3;
@@ -187,7 +220,7 @@ static int write_mesh (const wishes *w)
 }
 
 /* Reads the file as Perigal will, and says what is in it. */
-static int look_at (const wishes *w)
+static int look_at (const request *w)
 {
     pg_mesh mesh;
     size_t count[PG_ELEMENTS] = { 0 };
@@ -223,7 +256,7 @@ static void start (void)
 
 int main (int argc, char **argv)
 {
-    wishes w = { .size = 0 };
+    request w = { .size = 0 };
     int code = read_arguments (&w, argc, argv), e;
     if (code < 0) return fputs (usage, stdout) < 0;
     if (code) return code;

@@ -151,6 +151,7 @@ done:
     return status;
 }
 
+/* The pattern alone; values come by pg_assembly_gather. */
 pg_status pg_assembly_create (pg_assembly **out, size_t n, int block, size_t nsource,
                                const pg_assembly_source *sources)
 {
@@ -273,6 +274,7 @@ static void gather (void *context, size_t first, size_t last, int thread)
                     g->blocks + (size_t) thread * wide * mm);
 }
 
+/* Each thread needs a map from nodes to places in a row, and room for the blocks of one point. */
 pg_status pg_assembly_gather (pg_assembly *K, size_t count, const int *list, int threads)
 {
     pg_status status = PG_OK;

@@ -163,6 +163,7 @@ done:
     return status;
 }
 
+/* One V-cycle from zero. */
 static pg_status solve (void *context, const double *r, double *z)
 {
     pg_multilevel *m = context;
@@ -175,6 +176,7 @@ pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *m)
     return (pg_preconditioner){ m, solve, m->at[0].threads };
 }
 
+/* The coarsest level has no functions and no bound. */
 void pg_multilevel_describe (const pg_multilevel *m, pg_multilevel_info *info)
 {
     *info = (pg_multilevel_info) { .levels = m->count, .degree = m->degree, .applications = m->applications };

@@ -42,6 +42,7 @@ static void multiply_rows (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* The finest level has an operator, coarse ones have matrices. */
 void level_multiply (const level *l, const double *x, double *y)
 {
     if (l->A) {

@@ -64,6 +64,7 @@ static void diagonal_nodes (void *context, size_t first, size_t last, int thread
                 l->inverse[i * block + k] = l->value[(e * block + k) * block + k];
 }
 
+/* Unknowns without a positive diagonal are masked as if they were prescribed: a smoother divides by it. */
 pg_status level_diagonal (level *l, const unsigned char *fixed)
 {
     pg_status status = PG_OK;
@@ -320,6 +321,7 @@ static int is_plain (const level *f, size_t cell)
 /* What is known of a cell: it is plain; all its nodes have the same rows (and it is full). */
 enum { PLAIN = 1, ALIKE = 2 };
 
+/* Marks the cells first .. last - 1 in pattern.like. */
 static void classify (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -466,6 +468,7 @@ static void forget_cell (summer *s)
     for (size_t q = 0; q < s->ncolumn; q++) s->where[s->column[q]] = -1;
 }
 
+/* Sums of one cell, own or kept, into A_c. */
 static pg_status sum_cell (galerkin *g, size_t cell, int thread)
 {
     pg_status status = PG_OK;
@@ -524,6 +527,7 @@ done:
     return status;
 }
 
+/* Workspaces exist once per thread and are marked as empty by -1. */
 pg_status level_coarsen (level *c, const level *f)
 {
     pg_status status = PG_OK;

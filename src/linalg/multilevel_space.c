@@ -231,6 +231,7 @@ done:
     return status;
 }
 
+/* Grid, then positions on it, then parts, then numbers. */
 pg_status level_space (level *l, double step)
 {
     pg_status status = PG_OK;

@@ -158,6 +158,7 @@ done:
     return status;
 }
 
+/* Without a preconditioner of the caller's there are no threads of the caller's either. */
 pg_status pg_conjugate_gradients (const pg_operator *A, const double *b, double *x, double tolerance,
                                   size_t limit, size_t *iterations)
 {
@@ -181,6 +182,7 @@ done:
     return status;
 }
 
+/* There is no factor: the matrix is kept for the products. */
 static pg_status pcg_factor (void *self, const pg_sparse *A)
 {
     ((pcg *) self)->A = A;

@@ -64,6 +64,7 @@ static void diagonal (void *context, double *d)
     }
 }
 
+/* The context is the matrix itself. */
 pg_operator pg_sparse_operator (pg_sparse *A) { return (pg_operator) { A->ncol, A, apply, diagonal }; }
 
 /* ---- congruence --------------------------------------------------------------------------------------- */
@@ -168,6 +169,7 @@ static void sort_ascending (long *a, long n)
     }
 }
 
+/* Dense vectors with lists of used indices make the cost proportional to the products, not to the size. */
 pg_status pg_sparse_congruence (pg_sparse *B, const pg_sparse *A, const pg_sparse *T)
 {
     pg_status status = PG_OK;

@@ -89,6 +89,7 @@ static void copy_name (char to[64], const char *name)
     to[n] = '\0';
 }
 
+/* Several names for one group are kept; builder_name chooses. */
 pg_status pg_mesh_builder_group (pg_mesh_builder *m, int dim, long group, const char *name)
 {
     pg_status status = PG_OK;
@@ -110,6 +111,7 @@ static void name_list (mesh_list *l, const char *name, long id, size_t first)
     else snprintf (l->name, sizeof l->name, "%ld", id);
 }
 
+/* The set begins where the entries of the last one end. */
 pg_status pg_mesh_builder_nodeset (pg_mesh_builder *m, const char *name, long id)
 {
     pg_status status = PG_OK;
@@ -173,6 +175,7 @@ static void replace (long *list, size_t n, const long *by)
     for (size_t i = 0; i < n; i++) list[i] = by[list[i] - 1];
 }
 
+/* All lists are checked first, so that nothing is half renumbered. */
 void pg_mesh_builder_renumber (pg_mesh_builder *m, size_t nnode, const long *node, const long *element)
 {
     if (node && (!counted (m->list, m->nlist, nnode) || !counted (m->set_node, m->nset_node, nnode))) return;

@@ -34,6 +34,7 @@ typedef struct {
 /* So that the set fits into its bits of a pair. */
 enum { MOST_SETS = 1 << 28 };
 
+/* Repetitions are removed after sorting. */
 static pg_status add_pair (pairs *p, uint64_t pair)
 {
     pg_status status = PG_OK;
@@ -259,6 +260,7 @@ static int by_corners (const void *p, const void *q)
     return 0;
 }
 
+/* Elements with the same corners in the order of their sets. */
 static int by_corners_and_set (const void *p, const void *q)
 {
     const lower *a = p, *b = q;
@@ -406,6 +408,7 @@ done:
     return status;
 }
 
+/* Members are collected from all sources before anything is written into the mesh. */
 pg_status builder_sets (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;

@@ -45,6 +45,7 @@ done:
     return status;
 }
 
+/* For qsort: ascending. */
 static int by_int (const void *p, const void *q)
 {
     int a = *(const int *) p, b = *(const int *) q;
@@ -285,6 +286,7 @@ done:
     return status;
 }
 
+/* Orientation needs the nodes in place; blocks come last because they need no more than the elements. */
 pg_status builder_solids (pg_mesh_builder *m)
 {
     pg_status status = PG_OK;

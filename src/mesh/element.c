@@ -90,6 +90,7 @@ static pg_element face_kind (pg_element kind, int f)
     }
 }
 
+/* The tables list the nodes in the order of the face's own element. */
 pg_element pg_element_face (pg_element kind, int f, int node[9])
 {
     pg_element face = face_kind (kind, f);
@@ -267,6 +268,7 @@ static void shape_wedge (pg_element kind, const double *xi, double *N, double *d
     }
 }
 
+/* Points have N = 1 and no derivative. */
 void pg_element_shape (pg_element kind, const double *xi, double *N, double *dN)
 {
     switch (family_of[kind]) {

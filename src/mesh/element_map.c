@@ -41,6 +41,8 @@ static double size_of (int d, int dim, double J[3][3], double n[3])
     return n[0] * J[0][2] + n[1] * J[1][2] + n[2] * J[2][2];
 }
 
+/* Derivatives of the map are the columns of J; the normal is their cross product (3D), or the tangent
+ * turned by a right angle (2D). */
 double pg_element_map (pg_element kind, int dim, const double *x, const double *xi, double *place,
                        double *normal)
 {
@@ -75,6 +77,7 @@ static int solve (int d, double J[3][3], const double r[3], double step[3])
     return 1;
 }
 
+/* For simplices the centroid, for other elements the origin. */
 void element_centre (pg_element kind, double *xi)
 {
     int d = pg_element_types[kind].dim, corners = pg_element_types[kind].corners;

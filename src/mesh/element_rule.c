@@ -6,6 +6,7 @@
 #include "element.h"
 #include <string.h>
 
+/* Exact to degree 2 order - 1. */
 void pg_gauss_rule (int order, double *x, double *w)
 {
     static const double X[5][5] = { { 0 },
@@ -102,6 +103,7 @@ static int next (int n, signed char *a)
     return 1;
 }
 
+/* All permutations of each orbit; weights are shares of the reference simplex, whose size is 1/2 or 1/6. */
 static int simplex_rule (int dim, int order, double *xi, double *weight)
 {
     const rule *r = dim == 2 ? &triangle[order - 1] : &tetrahedron[order - 1];
@@ -117,7 +119,7 @@ static int simplex_rule (int dim, int order, double *xi, double *weight)
     return n;
 }
 
-/* The first axis runs fastest. */
+/* Product of Gauss rules, the first axis fastest. */
 static int brick_rule (int dim, int order, double *xi, double *weight)
 {
     int n = 1;
@@ -132,6 +134,7 @@ static int brick_rule (int dim, int order, double *xi, double *weight)
     return n;
 }
 
+/* Product of the rule of a triangle with a Gauss rule along the axis. */
 static int wedge_rule (int order, double *xi, double *weight)
 {
     double place[2 * PG_ELEMENT_POINTS], share[PG_ELEMENT_POINTS];
@@ -145,6 +148,7 @@ static int wedge_rule (int order, double *xi, double *weight)
     return m * order;
 }
 
+/* Orders outside 1 to 5 are moved into that range. */
 int pg_element_rule (pg_element kind, int order, double *xi, double *weight)
 {
     int dim = pg_element_types[kind].dim;

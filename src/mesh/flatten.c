@@ -199,6 +199,8 @@ done:
     return status;
 }
 
+/* The plane mesh is built like one from a file, which also orients its elements. Only after everything has
+ * succeeded does it replace the given one. */
 pg_status pg_mesh_flatten (pg_mesh *mesh, size_t nfield, pg_mesh_field *fields)
 {
     pg_status status = PG_OK;

@@ -60,6 +60,7 @@ pg_status pg_id_table_build (pg_id_table *t, size_t n, const long *id, size_t *t
     return t->range ? build_dense (t, twice) : build_hash (t, twice);
 }
 
+/* Subtraction in unsigned numbers covers also numbers below the lowest. */
 long pg_id_table_find (const pg_id_table *t, long id)
 {
     if (t->n == 0) return -1;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+/* Components of one node stand together in memory. */
 void pg_mesh_value (const pg_mesh *mesh, const pg_mesh_field *field, size_t element, const double *xi,
                     double *out)
 {

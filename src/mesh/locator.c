@@ -172,6 +172,7 @@ static int build (pg_mesh_locator *f, const box *boxes, int first, int n)
     return k;
 }
 
+/* A binary tree with leaves of at least two items has fewer nodes than there are items. */
 pg_status pg_mesh_locator_create (pg_mesh_locator **out, const pg_mesh *mesh)
 {
     pg_status status = PG_OK;
@@ -272,6 +273,7 @@ static long find_inside (const pg_mesh_locator *f, const double *place, double *
     return best == LONG_MAX ? -1 : best;
 }
 
+/* Elements whose map cannot be inverted at this position are passed over. */
 double pg_mesh_locator_depth (const pg_mesh_locator *f, const double *place, double enough)
 {
     int todo[DEPTH], n = 0, dim = f->dim;
@@ -342,6 +344,7 @@ long locator_nearest (const pg_mesh_locator *f, const double *place, double reac
     return best.element;
 }
 
+/* First the elements whose boxes hold the position; the nearest is searched for only where none holds it. */
 long pg_mesh_locator_find (const pg_mesh_locator *f, const double *place, double *xi, double *away)
 {
     for (int a = 0; a < f->dim; a++) if (!isfinite (place[a])) return -1;

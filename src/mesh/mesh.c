@@ -85,6 +85,7 @@ done:
     return status;
 }
 
+/* The result is ordered by element and side, since it is read off the flags in that order. */
 pg_status pg_mesh_surface (const pg_mesh *mesh, size_t *n, int **element, int **side)
 {
     pg_status status = PG_OK;

@@ -24,6 +24,7 @@ static void fill (pg_mesh *f, const pg_mesh *m, const int *element, const int *s
     }
 }
 
+/* The locator works on elements of any dimension, hence on faces too. */
 pg_status pg_skin_create (pg_mesh_skin **out, const pg_mesh *mesh)
 {
     pg_status status = PG_OK;

@@ -17,6 +17,7 @@ typedef abaqus_reader reader;
 /* The innermost open file. */
 static const abaqus_file *now (const reader *r) { return &r->file[r->depth]; }
 
+/* The place is that of the innermost file. */
 pg_status abaqus_wrong (const reader *r, const char *where, const char *format, ...)
 {
     char why[400];
@@ -285,6 +286,7 @@ static pg_status finish_element (const reader *r)
                      r->element_line, r->element, r->have, r->type.nodes);
 }
 
+/* Entries of the table below. */
 static pg_status begin_nset (reader *r)    { return begin_set (r, 1); }
 static pg_status begin_elset (reader *r)   { return begin_set (r, 0); }
 static pg_status begin_included (reader *r) { return begin_include (r, value_of (r, "INPUT")); }
@@ -326,6 +328,7 @@ static pg_status begin (reader *r)
 }
 
 /* ---- the file ------------------------------------------------------------------------------------------ */
+/* Lines of all files, the included ones in their place. */
 static pg_status read_all (reader *r)
 {
     pg_status status = PG_OK;
@@ -358,6 +361,7 @@ static void reader_free (reader *r)
     pg_free (r);
 }
 
+/* Names and numbers are resolved only after the last line. */
 static pg_status read_abaqus (pg_mesh_builder *m, const mesh_file *file)
 {
     pg_status status = PG_OK;

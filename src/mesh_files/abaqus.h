@@ -26,6 +26,7 @@ void abaqus_node_order (pg_element kind, int order[PG_ELEMENT_NODES]);
 int abaqus_side (pg_element kind, int shell, const char *face);
 
 /* ---- what the lines say -------------------------------------------------------------------------------- */
+/* Length of a name. */
 enum { ABAQUS_NAME = 64 };
 /* Members of a set: the numbers first, first + step, ... last. line: of the file, where a member that does
  * not exist is a fault, else 0. */
@@ -37,6 +38,7 @@ typedef struct { char name[ABAQUS_NAME]; size_t n, capacity; abaqus_range *range
 typedef struct { size_t n, capacity; abaqus_set *set; } abaqus_sets;
 /* A line of *SURFACE: an element (set = -1) or an element set, and the face. */
 typedef struct { long element, line; int set; char face[8]; } abaqus_face;
+/* A surface: its lines. */
 typedef struct { char name[ABAQUS_NAME]; size_t n, capacity; abaqus_face *face; } abaqus_surface;
 
 /* All that was read. */

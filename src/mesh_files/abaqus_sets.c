@@ -14,6 +14,7 @@ int abaqus_set_find (const abaqus_sets *sets, const char *name)
     return -1;
 }
 
+/* A new set is empty. */
 pg_status abaqus_set_get (abaqus_sets *sets, const char *name, int *set)
 {
     pg_status status = PG_OK;
@@ -307,6 +308,7 @@ done:
     return status;
 }
 
+/* Blocks first: whether an element set is a block decides what becomes of it as a set. */
 pg_status abaqus_resolve (abaqus *a)
 {
     pg_status status = PG_OK;

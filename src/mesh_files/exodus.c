@@ -1,7 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Meshes and nodal results of Exodus II files (any kind of netCDF), by the netCDF library. Nodes and
- * elements go by their place in the file while it is read; the numbers that node_num_map and elem_map give
- * them are assigned last. */
+ * Meshes and nodal results of Exodus II files (any kind of netCDF), by the netCDF library.
+ *
+ * Dimensions and variables used: num_dim, num_nodes, num_elem, num_el_blk; coordx, coordy, coordz (or
+ * coord); num_el_in_blk1, num_nod_per_el1, connect1 with the attribute elem_type, eb_names; node_ns1,
+ * ns_prop1, ns_names; elem_ss1, side_ss1, ss_prop1, ss_names; node_num_map, elem_num_map; time_whole,
+ * name_nod_var, vals_nod_var1.
+ *
+ * Nodes and elements go by their place in the file while it is read; the numbers that node_num_map and
+ * elem_num_map give them are assigned last. */
 #include "format.h"
 #include <ctype.h>
 #include <math.h>
@@ -348,6 +354,7 @@ done:
     return status;
 }
 
+/* Blocks must hold exactly as many elements as the file says. */
 static pg_status read_exodus (pg_mesh_builder *m, const mesh_file *file)
 {
     pg_status status = PG_OK;
@@ -485,6 +492,7 @@ done:
     return status;
 }
 
+/* Variables whose names differ in their suffix only (u_x, u_y) become one field. */
 static pg_status fields_exodus (mesh_fields *out, const pg_mesh *mesh, const mesh_file *file, int step)
 {
     pg_status status = PG_OK;

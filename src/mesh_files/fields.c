@@ -69,6 +69,7 @@ done:
     return status;
 }
 
+/* The file is loaded once for mesh and fields. */
 pg_status pg_mesh_result (pg_mesh *out, const char *path, int step, size_t *nfield, pg_mesh_field **fields,
                           double *time)
 {

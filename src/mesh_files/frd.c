@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Results of CalculiX (.frd; format by the manual of its viewer cgx): blocks of nodes, elements and
- * results, each as text in short or long columns, or binary. Numbers stand in fixed columns, often without
- * blanks between them. */
+ * results, each as text in short or long columns, or binary.
+ *
+ * The first characters of a line are a key: "    2C" nodes, "    3C" elements, "  100C" results, within
+ * blocks " -1" an item, " -2" its continuation, " -3" the end, " -4" and " -5" names of a result and its
+ * components, " 9999" the end of the file. Numbers stand in fixed columns, often without blanks between
+ * them. */
 #include "format.h"
 #include <ctype.h>
 #include <math.h>
@@ -315,6 +319,7 @@ done:
     return status;
 }
 
+/* The first line is a header, a line of the user's, or a block of nodes. */
 static int knows_frd (const mesh_file *file)
 {
     return file->size > 6
@@ -403,6 +408,8 @@ done:
     return status;
 }
 
+/* Blocks of results that follow one another with the same time and number are one step. Blocks without
+ * components of their own hold only derived values. */
 static pg_status fields_frd (mesh_fields *out, const pg_mesh *mesh, const mesh_file *file, int step)
 {
     pg_status status = PG_OK;

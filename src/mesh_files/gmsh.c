@@ -29,6 +29,7 @@ static int find_header (mesh_cursor *c)
     return 0;
 }
 
+/* The header may be missing in files of version 1, which are not known. */
 int gmsh_knows (const mesh_file *file, double *version)
 {
     mesh_cursor c = mesh_begin (file);
@@ -97,6 +98,7 @@ done:
     return status;
 }
 
+/* What stands there instead goes into the message. */
 pg_status gmsh_end (gmsh_reader *g, const char *name)
 {
     pg_status status = PG_OK;
@@ -178,6 +180,7 @@ static const signed char hex_order[27] = { 0,  1,  2,  3,  4,  5,  6,  7,  8,  1
                                            14, 15, 16, 18, 19, 17, 26, 20, 25, 22, 23, 21, 24 };
 static const signed char wedge_order[15] = { 0, 1, 2, 3, 4, 5, 6, 9, 7, 8, 10, 11, 12, 14, 13 };
 
+/* Types by the numbers of the manual; pyramids have no place among the elements here. */
 pg_status gmsh_kind (gmsh_reader *g, long type, long element, gmsh_type *out)
 {
     pg_status status = PG_OK;
@@ -220,6 +223,7 @@ pg_status gmsh_element (gmsh_reader *g, const gmsh_type *type, long id, const lo
 }
 
 /* ---- binary numbers ------------------------------------------------------------------------------------ */
+/* By division, as a product of counts from a file could overflow. */
 pg_status gmsh_has_left (gmsh_reader *g, const char *what, size_t n, size_t size)
 {
     pg_status status = PG_OK;

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Gmsh .msh 2.0 to 2.2, text and binary: every element names its physical group. */
+ * Gmsh .msh 2.0 to 2.2, text and binary: every element names its physical group.
+ *
+ * Sections: $MeshFormat, $PhysicalNames, $Nodes (number x y z), $Elements (number type tags nodes); all
+ * others are skipped. In binary files numbers of nodes and elements have 4 bytes, coordinates 8. */
 #include "gmsh.h"
 #include <string.h>
 
@@ -139,6 +142,7 @@ done:
     return status;
 }
 
+/* The order of sections does not matter. */
 static pg_status read (pg_mesh_builder *m, const mesh_file *file)
 {
     pg_status status = PG_OK;

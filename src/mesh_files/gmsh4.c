@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Gmsh .msh 4.1, text and binary: elements belong to entities (points, curves, surfaces, volumes of the
- * geometry), and entities belong to physical groups. */
+ * geometry), and entities belong to physical groups.
+ *
+ * Sections: $MeshFormat, $PhysicalNames, $Entities, $Nodes and $Elements in blocks, one for each entity;
+ * all others are skipped. In binary files counts and numbers of nodes have 8 bytes, tags of entities 4. */
 #include "gmsh.h"
 #include <stdlib.h>
 #include <string.h>
@@ -215,6 +218,7 @@ done:
     return status;
 }
 
+/* A line: number, nodes. */
 static pg_status element_of_text (reader *r, const entity *e, const gmsh_type *t)
 {
     pg_status status = PG_OK;
@@ -233,6 +237,7 @@ done:
     return status;
 }
 
+/* n elements of one type: number and nodes of 8 bytes each. */
 static pg_status elements_of_bytes (reader *r, const entity *e, const gmsh_type *t, long n)
 {
     pg_status status = PG_OK;
@@ -289,6 +294,7 @@ done:
 }
 
 /* ---- file ---------------------------------------------------------------------------------------------- */
+/* Versions 4.0 and 5 have other layouts. */
 static pg_status read (pg_mesh_builder *m, const mesh_file *file)
 {
     pg_status status = PG_OK;

@@ -54,6 +54,7 @@ static pg_status unknown (const mesh_file *file)
         file->path, names);
 }
 
+/* The order of list.h counts where several would take a file. */
 const mesh_format *mesh_format_of (const mesh_file *file)
 {
     for (size_t k = 0; k < FORMATS; k++) if (formats[k]->knows (file)) return formats[k];
@@ -76,6 +77,7 @@ done:
     return status;
 }
 
+/* The bytes of the file are released after the mesh has been built. */
 pg_status pg_mesh_read (pg_mesh *out, const char *path)
 {
     mesh_file file;

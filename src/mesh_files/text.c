@@ -15,6 +15,7 @@ mesh_cursor mesh_begin (const mesh_file *file)
     return (mesh_cursor) { file, file->text + mark, file->text + file->size, 0 };
 }
 
+/* Lines are counted from 1; the last one may lack its end. */
 int mesh_line (mesh_cursor *c, const char **first, const char **last)
 {
     if (c->at >= c->end) return 0;

@@ -24,19 +24,29 @@ struct pg_json {
     int   count[DEPTH + 1];
 };
 
-/* Bytes of the valid UTF-8 sequence at p; 0 if it is none (overlong forms, surrogates and
- * values above U+10FFFF included). */
+/* Length of a UTF-8 sequence by its first byte; 0: no sequence begins with it. */
+static int length_of (unsigned char first)
+{
+    static const struct { unsigned char low, high; int length; } ranges[] = {
+        { 0x00, 0x7f, 1 }, { 0xc2, 0xdf, 2 }, { 0xe0, 0xef, 3 }, { 0xf0, 0xf4, 4 }
+    };
+    for (size_t k = 0; k < sizeof ranges / sizeof *ranges; k++)
+        if (first >= ranges[k].low && first <= ranges[k].high) return ranges[k].length;
+    return 0;
+}
+
+/* Bytes of the valid UTF-8 sequence at p (RFC 3629), 0 when it is none. After four of the first bytes the
+ * second one has a narrower range: shorter forms exist, or the code point would be a surrogate or beyond
+ * U+10FFFF. */
 static int sequence (const unsigned char *p)
 {
-    int n = p[0] < 0x80                   ? 1
-            : p[0] >= 0xc2 && p[0] < 0xe0 ? 2
-            : p[0] >= 0xe0 && p[0] < 0xf0 ? 3
-            : p[0] >= 0xf0 && p[0] < 0xf5 ? 4
-                                          : 0;
+    static const struct { unsigned char first, low, high; } second[] = {
+        { 0xe0, 0xa0, 0xbf }, { 0xed, 0x80, 0x9f }, { 0xf0, 0x90, 0xbf }, { 0xf4, 0x80, 0x8f }
+    };
+    int n = length_of (p[0]);
     for (int k = 1; k < n; k++) if ((p[k] & 0xc0) != 0x80) return 0;
-    if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) || (p[0] == 0xf0 && p[1] < 0x90)
-        || (p[0] == 0xf4 && p[1] > 0x8f))
-        return 0;
+    for (size_t k = 0; k < sizeof second / sizeof *second; k++)
+        if (p[0] == second[k].first && (p[1] < second[k].low || p[1] > second[k].high)) return 0;
     return n;
 }
 

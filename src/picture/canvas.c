@@ -49,60 +49,63 @@ done:
     return status;
 }
 
+/* Ends the surface, whose bytes go to the file if the picture is whole; returns cairo's first fault. */
+static cairo_status_t end_surface (pg_canvas *c, int whole)
+{
+    cairo_status_t fault = c->cr ? cairo_status (c->cr) : CAIRO_STATUS_SUCCESS;
+    if (c->cr) cairo_destroy (c->cr);
+    if (!c->surface) return fault;
+    if (whole && fault == CAIRO_STATUS_SUCCESS && !c->svg)
+        fault = cairo_surface_write_to_png_stream (c->surface, write_bytes, c);
+    cairo_surface_finish (c->surface);
+    if (fault == CAIRO_STATUS_SUCCESS) fault = cairo_surface_status (c->surface);
+    cairo_surface_destroy (c->surface);
+    return fault;
+}
+
 /* Writes the picture if all went well so far, and otherwise removes the file. Returns the first fault: of
  * the caller, of the disk, of cairo. */
 pg_status pg_canvas_close (pg_canvas *c, pg_status given)
 {
     pg_status status = given;
-    cairo_status_t fault = c->cr ? cairo_status (c->cr) : CAIRO_STATUS_SUCCESS;
-    if (c->cr) cairo_destroy (c->cr);
-    if (c->surface) {
-        if (given == PG_OK && fault == CAIRO_STATUS_SUCCESS && !c->svg)
-            fault = cairo_surface_write_to_png_stream (c->surface, write_bytes, c);
-        cairo_surface_finish (c->surface);
-        if (fault == CAIRO_STATUS_SUCCESS) fault = cairo_surface_status (c->surface);
-        cairo_surface_destroy (c->surface);
-    }
+    cairo_status_t fault = end_surface (c, given == PG_OK);
     errno = 0;
     if (c->file && fclose (c->file) != 0 && !c->reason) c->reason = errno ? errno : EIO;
-    if (given == PG_OK) {
-        if (c->reason) PG_FAIL (PG_E_FILE, "%s: %s", c->path, strerror (c->reason));
-        if (fault == CAIRO_STATUS_NO_MEMORY) PG_FAIL (PG_E_MEMORY, "%s: no memory to draw", c->path);
-        if (fault != CAIRO_STATUS_SUCCESS)
-            PG_FAIL (PG_E_FILE, "%s: %s", c->path, cairo_status_to_string (fault));
-    }
+    if (given != PG_OK) goto done;
+    if (c->reason) PG_FAIL (PG_E_FILE, "%s: %s", c->path, strerror (c->reason));
+    if (fault == CAIRO_STATUS_NO_MEMORY) PG_FAIL (PG_E_MEMORY, "%s: no memory to draw", c->path);
+    if (fault != CAIRO_STATUS_SUCCESS) PG_FAIL (PG_E_FILE, "%s: %s", c->path, cairo_status_to_string (fault));
 done:
     if (status != PG_OK && c->file) remove (c->path);
     *c = (pg_canvas) { 0 };
     return status;
 }
 
+/* 1 where raised text begins, -1 where lowered text does, else 0. */
+static int level_at (const char *text)
+{
+    if ((text[0] != '^' && text[0] != '_') || text[1] != '{') return 0;
+    return text[0] == '^' ? 1 : -1;
+}
+
 /* Lays the runs of a text one behind the other from the current point: plain runs, and those in ^{...} and
  * _{...}, which are smaller and raised or lowered. Returns the width of all; draw = 0 only measures. */
 static double runs (cairo_t *cr, const char *text, double size, int draw)
 {
-    double x = 0;
+    double x = 0, rise[] = { 0.16 * size, 0, -0.36 * size };
     char run[256];
     cairo_text_extents_t e;
     while (*text) {
-        int level = (text[0] == '^' || text[0] == '_') && text[1] == '{' && strchr (text, '}')
-                        ? (text[0] == '^' ? 1 : -1)
-                        : 0;
+        int level = strchr (text, '}') ? level_at (text) : 0;
         size_t n = 1;
-        if (level) {
-            text += 2;
-            n = strcspn (text, "}");
-        } else
-            while (text[n] && !((text[n] == '^' || text[n] == '_') && text[n + 1] == '{')) n++;
+        if (level) text += 2, n = strcspn (text, "}");
+        else while (text[n] && !level_at (text + n)) n++;
         size_t keep = n < sizeof run ? n : sizeof run - 1;
         memcpy (run, text, keep);
         run[keep] = 0;
         cairo_set_font_size (cr, level ? 0.72 * size : size);
         cairo_text_extents (cr, run, &e);
-        if (draw) {
-            cairo_move_to (cr, x, level > 0 ? -0.36 * size : level < 0 ? 0.16 * size : 0);
-            cairo_show_text (cr, run);
-        }
+        if (draw) cairo_move_to (cr, x, rise[level + 1]), cairo_show_text (cr, run);
         x += e.x_advance;
         text += n + (level != 0);
     }

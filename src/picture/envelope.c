@@ -19,26 +19,34 @@ static double direction_of (size_t n, const double *x)
     return most < 0 ? -1 : 1;
 }
 
-/* Between two events all loads grow in proportion (linear = 1), so that the states lie on a line through
- * the origin: at the displacement of one event the curve falls to the line of the next state that counts. */
+/* The curve so far, and the last state that counted (n: none yet). */
+typedef struct { double *x, *y, sign, top; size_t m, last; } envelope;
+
+/* Appends a state that goes beyond all before. Between two events all loads grow in proportion (linear),
+ * so that the states lie on a line through the origin: at the displacement of one event the curve falls to
+ * the line of the next. */
+static void append (envelope *e, double x, double y, int fell)
+{
+    double line = fell ? y / x * e->x[e->m - 1] : 0;
+    if (fell && fabs (line - e->y[e->m - 1]) > 1e-9 * fabs (e->y[e->m - 1]))
+        e->x[e->m] = e->x[e->m - 1], e->y[e->m] = line, e->m++;
+    e->x[e->m] = x, e->y[e->m] = y, e->m++;
+    e->top = e->sign * x;
+}
+
 size_t pg_envelope (size_t n, const double *x, const double *y, int linear, double *ex, double *ey,
                     size_t *peak)
 {
-    double sign = direction_of (n, x), top = linear ? 0 : -INFINITY;
-    size_t m = 0, last = n;
-    if (linear) ex[0] = ey[0] = 0, m = 1;
+    envelope e = { .x = ex, .y = ey, .sign = direction_of (n, x), .top = linear ? 0 : -INFINITY, .last = n };
+    if (linear) ex[0] = ey[0] = 0, e.m = 1;
     for (size_t i = 0; i < n; i++) {
-        int fell = linear && last < n;
+        int fell = linear && e.last < n;
         if (!isfinite (x[i]) || !isfinite (y[i])) continue;
-        if (sign * x[i] > top) {
-            double line = fell ? y[i] / x[i] * ex[m - 1] : 0;
-            if (fell && fabs (line - ey[m - 1]) > 1e-9 * fabs (ey[m - 1]))
-                ex[m] = ex[m - 1], ey[m] = line, m++;
-            ex[m] = x[i], ey[m] = y[i], m++;
-            top = sign * x[i], last = i;
-        } else if (fell && i + 1 == n && x[i] != 0) ex[m] = ex[m - 1], ey[m] = y[i] / x[i] * ex[m - 1], m++;
+        if (e.sign * x[i] > e.top) append (&e, x[i], y[i], fell), e.last = i;
+        else if (fell && i + 1 == n && x[i] != 0)      /* the path ends on a line of its own */
+            ex[e.m] = ex[e.m - 1], ey[e.m] = y[i] / x[i] * ex[e.m - 1], e.m++;
     }
     *peak = 0;
-    for (size_t k = 0; k < m; k++) if (fabs (ey[k]) > fabs (ey[*peak])) *peak = k;
-    return m;
+    for (size_t k = 0; k < e.m; k++) if (fabs (ey[k]) > fabs (ey[*peak])) *peak = k;
+    return e.m;
 }

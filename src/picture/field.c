@@ -326,55 +326,75 @@ done:
     return status;
 }
 
-/* Paints a 2D body or a layer of a 3D one: collects the seen points in the plane of the
- * picture, divides the body among them (tiles.h) and translates the owners back to points of
- * the cloud. Points that are not selected become PG_GHOST. */
+/* What is handed to tiles.c: coordinates, shifts, damage and local spacings of the points in sight, in the
+ * plane. */
+typedef struct { double *place, *shift, *damage, *size; } plane_points;
+
+static void free_plane_points (plane_points *p)
+{
+    pg_free (p->place), pg_free (p->shift), pg_free (p->damage), pg_free (p->size);
+}
+
+/* Takes the points in sight over into the plane; d->index remembers which points they are. */
+static pg_status collect_points (drawing *d, size_t panel, pg_tiles *t, plane_points *p)
+{
+    pg_status status = PG_OK;
+    const pg_eye *e = &d->sheet.eye;
+    const pg_cloud *c = d->cloud;
+    const double *u = displaced (d, panel), *damage = d->panel[panel].damage,
+                 *size = c->size ? c->size : d->spacing;
+    size_t dim = (size_t) c->dim, n = c->n;
+    int has_area = dim == 2 && c->volume && c->thickness > 0;
+    PG_ALLOC (p->place, 2 * n);
+    if (u) PG_ALLOC (p->shift, 2 * n);
+    if (damage) PG_ALLOC (p->damage, n);
+    if (size) PG_ALLOC (p->size, n);
+    for (size_t i = 0; i < n; i++) {
+        const double *x = c->x + i * dim;
+        if (!d->seen[i] || !isfinite (x[0]) || !isfinite (x[1])) continue;
+        size_t k = t->n++;
+        for (int a = 0; a < 2; a++) {
+            const double *direction = a ? e->up : e->right;
+            size_t at = 2 * k + (size_t) a;
+            p->place[at] = pg_along (direction, x, (int) dim);
+            if (u) p->shift[at] = d->style->magnify * pg_along (direction, u + i * dim, (int) dim);
+        }
+        if (damage) p->damage[k] = damage[i];
+        if (size) p->size[k] = size[i];
+        if (has_area) t->area += c->volume[i] / c->thickness;
+        d->index[k] = (int) i;
+    }
+done:
+    return status;
+}
+
+/* The parts of the points in the plane, as 2D bodies and layers show them. */
 static pg_status paint_tiles (drawing *d, size_t panel, pg_screen *s)
 {
     pg_status status = PG_OK;
     const pg_eye *e = &d->sheet.eye;
-    const double *u = displaced (d, panel), *damage = d->panel[panel].damage,
-                 *size = d->cloud->size ? d->cloud->size : d->spacing;
-    size_t dim = (size_t) d->cloud->dim, n = d->cloud->n;
-    double *place = NULL, *shift = NULL, *harm = NULL, *local = NULL;
+    plane_points p = { 0 };
     pg_tiles t = { .dim = d->cloud->dim,
                    .loose = d->spacing || d->cloud->size || d->grid.loose,
                    .eye = e,
                    .outline = d->style->outline,
                    .cracks = d->style->cracks };
-    PG_ALLOC (place, 2 * n);
-    if (u) PG_ALLOC (shift, 2 * n);
-    if (damage) PG_ALLOC (harm, n);
-    if (size) PG_ALLOC (local, n);
-    for (size_t i = 0; i < n; i++) {
-        if (!d->seen[i] || !isfinite (d->cloud->x[i * dim]) || !isfinite (d->cloud->x[i * dim + 1])) continue;
-        size_t k = t.n++;
-        for (int a = 0; a < 2; a++) {
-            const double *direction = a ? e->up : e->right;
-            place[2*k + (size_t) a] = pg_along (direction, d->cloud->x + i * dim, (int) dim);
-            if (u) shift[2*k + (size_t) a] = d->style->magnify * pg_along (direction, u + i * dim, (int) dim);
-        }
-        if (damage) harm[k] = damage[i];
-        if (size) local[k] = size[i];
-        if (dim == 2 && d->cloud->volume && d->cloud->thickness > 0)
-            t.area += d->cloud->volume[i] / d->cloud->thickness;
-        d->index[k] = (int) i;
-    }
+    PG_TRY (collect_points (d, panel, &t, &p));
     for (int a = 0; a < 2; a++) t.step[a] = 2 * half_of_points (d, a);
     if (e->kind == PG_LAYER)
         t.at = e->toward[e->cut] * (d->grid.origin[e->cut] + d->layer * d->grid.step[e->cut]);
-    t.place = place, t.shift = shift, t.damage = harm, t.size = d->cloud->size ? local : NULL;
+    t.place = p.place, t.shift = p.shift, t.damage = p.damage, t.size = d->cloud->size ? p.size : NULL;
     PG_TRY (pg_tiles_open (&t));
     PG_TRY (pg_tiles_draw (&t, s));
     PG_TRY (find_faces (d, &t));
-    for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++) {
-        if (s->owner[p] < 0) continue;
-        s->owner[p] = d->index[s->owner[p]];
-        if (!d->keep[s->owner[p]]) s->owner[p] = PG_GHOST;
+    for (size_t k = 0; k < (size_t) s->width * (size_t) s->height; k++) {
+        if (s->owner[k] < 0) continue;
+        s->owner[k] = d->index[s->owner[k]];
+        if (!d->keep[s->owner[k]]) s->owner[k] = PG_GHOST;
     }
 done:
     pg_tiles_close (&t);
-    pg_free (place), pg_free (shift), pg_free (harm), pg_free (local);
+    free_plane_points (&p);
     return status;
 }
 
@@ -419,33 +439,43 @@ static void paint_slice (drawing *d, pg_screen *s)
         if (s->owner[p] >= 0 && !d->keep[s->owner[p]]) s->owner[p] = PG_GHOST;
 }
 
-/* Paints one panel: owners of pixels by the kind of view, their colours, then cracks, axes and
- * title. `fine` is the number of pixels per pixel of the picture. */
+/* Fills the screen of a panel by the way of looking: cubes from outside, a plane through cells, or parts
+ * of points. */
+static pg_status fill_screen (drawing *d, size_t panel, pg_screen *s)
+{
+    const pg_eye *e = &d->sheet.eye;
+    const double *u = displaced (d, panel);
+    pg_solid solid = { d->cloud, &d->grid, e, u, d->style->magnify, d->keep, d->panel[panel].damage };
+    if (e->kind == PG_SOLID) {
+        pg_solid_draw (&solid, s);
+        return d->panel[panel].select ? pg_ghost_draw (&solid, s) : PG_OK;
+    }
+    if (e->kind != PG_SLICE) return paint_tiles (d, panel, s);
+    if (d->grid.loose || u) return paint_spots (d, panel, s);
+    paint_slice (d, s);
+    return PG_OK;
+}
+
+/* One frame: pixels, then the box around a choice of points, cracks, frame and title. */
 static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
 {
     pg_status status = PG_OK;
     const pg_sheet *p = &d->sheet;
     const pg_eye *e = &p->eye;
-    const double *u = displaced (d, panel);
+    const double *u = displaced (d, panel), *select = d->panel[panel].select;
     pg_screen s = { .left = p->low[0],
                     .top = p->high[1],
                     .scale = fine * p->width / (p->high[0] - p->low[0]) };
     PG_TRY (pg_screen_open (&s, (int) p->width * fine, (int) p->height * fine));
     for (size_t i = 0; i < d->cloud->n; i++) d->keep[i] = (unsigned char) above (d, panel, i);
-    pg_solid solid = { d->cloud, &d->grid, e, u, d->style->magnify, d->keep, d->panel[panel].damage };
-    if (e->kind == PG_SOLID) {
-        pg_solid_draw (&solid, &s);
-        if (d->panel[panel].select) PG_TRY (pg_ghost_draw (&solid, &s));
-    } else if (e->kind == PG_SLICE && !d->grid.loose && !u) paint_slice (d, &s);
-    else if (e->kind == PG_SLICE) PG_TRY (paint_spots (d, panel, &s));
-    else PG_TRY (paint_tiles (d, panel, &s));
-    int box = e->kind == PG_SOLID && !e->framed && d->panel[panel].select;
+    PG_TRY (fill_screen (d, panel, &s));
+    int box = e->kind == PG_SOLID && !e->framed && select;
     if (box) pg_wire_box (p, cr, panel, &d->grid, 1);
     PG_TRY (pg_panel_paint (p, cr, panel, &s, value_of (d, panel), fine));
     if (box) pg_wire_box (p, cr, panel, &d->grid, 0);
     if (u && d->cloud->dim == 2) pg_wire_faces (p, cr, panel, d->nface, FACE, d->face);
     else if (d->style->cracks && !u)
-        pg_wire_cracks (p, cr, panel, &d->grid, d->style->cracks, d->panel[panel].select ? NULL : &s);
+        pg_wire_cracks (p, cr, panel, &d->grid, d->style->cracks, select ? NULL : &s);
     pg_panel_draw (p, cr, panel, d->panel[panel].title);
 done:
     pg_screen_close (&s);

@@ -57,21 +57,25 @@ done:
     return status;
 }
 
-/* The box of the nodes, the frame with a narrow margin, and the length unit as for fields at
- * points. */
+/* Widens a range by a value; the first value is the range. */
+static void include (double *low, double *high, double value, int first)
+{
+    *low = first ? value : fmin (*low, value), *high = first ? value : fmax (*high, value);
+}
+
+/* The box of the nodes in space, and the frame that holds them in the plane of the picture, with a narrow
+ * margin. */
 static void choose_frame (mesh_drawing *d)
 {
     static const double unit[] = { 1e3, 1, 1e-3, 1e-6 };
     pg_sheet *p = &d->sheet;
     double size = 0, margin = p->eye.framed ? 0.025 : 0.015;
-    for (size_t i = 0; i < d->mesh->nnode; i++)
-        for (int a = 0; a < 3; a++) {
-            double v = d->x[3 * i + (size_t) a],
-                   s = a < 2 ? pg_along (a ? p->eye.up : p->eye.right, d->x + 3 * i, 3) : 0;
-            d->grid.low[a] = i ? fmin (d->grid.low[a], v) : v,
-            d->grid.high[a] = i ? fmax (d->grid.high[a], v) : v;
-            if (a < 2) p->low[a] = i ? fmin (p->low[a], s) : s, p->high[a] = i ? fmax (p->high[a], s) : s;
-        }
+    for (size_t i = 0; i < d->mesh->nnode; i++) {
+        const double *x = d->x + 3 * i;
+        for (int a = 0; a < 3; a++) include (&d->grid.low[a], &d->grid.high[a], x[a], i == 0);
+        include (&p->low[0], &p->high[0], pg_along (p->eye.right, x, 3), i == 0);
+        include (&p->low[1], &p->high[1], pg_along (p->eye.up, x, 3), i == 0);
+    }
     for (int a = 0; a < 2; a++) size = fmax (size, p->high[a] - p->low[a]);
     if (!(size > 0)) size = 1;
     for (int a = 0; a < 2; a++) p->low[a] -= margin * size, p->high[a] += margin * size;

@@ -70,33 +70,47 @@ static float light_of (const mesh_drawing *d, const double (*x)[3])
                                : pg_light_on (&d->sheet.eye, n);
 }
 
-/* Samples a face on a grid of its own coordinates and fills the triangles between. */
+/* A face sampled on a grid of its own coordinates: m parts along an edge; a triangle fills half of the
+ * grid. */
+typedef struct { int triangle, m, stride; double at[SPOTS][3], x[SPOTS][3], value[SPOTS]; } face_grid;
+
+static void sample_face (const mesh_drawing *d, const pg_screen *s, size_t f, face_grid *g)
+{
+    int node[9];
+    pg_element kind = face_of (d, d->element[f], d->side[f], node);
+    g->triangle = is_triangle (kind), g->m = parts_of (d, kind), g->stride = g->m + 1;
+    for (int j = 0; j <= g->m; j++)
+        for (int i = 0; i <= (g->triangle ? g->m - j : g->m); i++) {
+            double xi[2] = { (double) i / g->m, (double) j / g->m };
+            int k = j * g->stride + i;
+            if (!g->triangle) xi[0] = 2 * xi[0] - 1, xi[1] = 2 * xi[1] - 1;
+            spot_of (d, s, kind, node, xi, g->at[k], g->x[k], &g->value[k]);
+            if (d->own) g->value[k] = d->own[f];
+        }
+}
+
+/* One triangle of the grid, with its corners at these spots. */
+static void paint_triangle (const mesh_drawing *d, pg_screen *s, const face_grid *g, const int corner[3])
+{
+    double v[3][3], y[3][3], w[3];
+    for (int k = 0; k < 3; k++) {
+        memcpy (v[k], g->at[corner[k]], sizeof v[k]), memcpy (y[k], g->x[corner[k]], sizeof y[k]);
+        w[k] = g->value[corner[k]];
+    }
+    if (isfinite (v[0][0] + v[0][1] + v[1][0] + v[1][1] + v[2][0] + v[2][1]))
+        pg_triangle (s, (const double (*)[3]) v, 0, light_of (d, (const double (*)[3]) y), w);
+}
+
 static void paint_face (const mesh_drawing *d, pg_screen *s, size_t f)
 {
-    int node[9], row = 0;
-    pg_element kind = face_of (d, d->element[f], d->side[f], node);
-    int triangle = is_triangle (kind), m = parts_of (d, kind), stride = m + 1;
-    double at[SPOTS][3], x[SPOTS][3], value[SPOTS];
-    for (int j = 0; j <= m; j++)
-        for (int i = 0; i <= (triangle ? m - j : m); i++) {
-            double xi[2] = { (double) i / m, (double) j / m };
-            if (!triangle) xi[0] = 2 * xi[0] - 1, xi[1] = 2 * xi[1] - 1;
-            spot_of (d, s, kind, node, xi, at[j * stride + i], x[j * stride + i], &value[j * stride + i]);
-            if (d->own) value[j * stride + i] = d->own[f];
+    face_grid g;
+    sample_face (d, s, f, &g);
+    for (int row = 0; row < g.m; row++)
+        for (int i = 0; i < (g.triangle ? g.m - row : g.m); i++) {
+            int a = row * g.stride + i, upper = !(g.triangle && i == g.m - row - 1);
+            paint_triangle (d, s, &g, (const int[]) { a, a + 1, a + g.stride });
+            if (upper) paint_triangle (d, s, &g, (const int[]) { a + 1, a + 1 + g.stride, a + g.stride });
         }
-    for (row = 0; row < m; row++)
-        for (int i = 0; i < (triangle ? m - row : m); i++)
-            for (int half = 0; half < (triangle && i == m - row - 1 ? 1 : 2); half++) {
-                int a = row * stride + i,
-                    corner[3] = { half ? a + 1 : a, half ? a + 1 + stride : a + 1, a + stride };
-                double v[3][3], y[3][3], w[3];
-                for (int k = 0; k < 3; k++) {
-                    memcpy (v[k], at[corner[k]], sizeof v[k]), memcpy (y[k], x[corner[k]], sizeof y[k]);
-                    w[k] = value[corner[k]];
-                }
-                if (isfinite (v[0][0] + v[0][1] + v[1][0] + v[1][1] + v[2][0] + v[2][1]))
-                    pg_triangle (s, (const double (*)[3]) v, 0, light_of (d, (const double (*)[3]) y), w);
-            }
 }
 
 /* Each pixel becomes its own owner, since every pixel has its own value. In 3D pixels on the

@@ -43,23 +43,29 @@ static double most_of (double share, int parts)
     return fmax (LEAST_FRAME, share / parts);
 }
 
+/* How many frames stand in a row when nobody said: wide bodies stand one above the other. */
+static int usual_columns (int n, int wide)
+{
+    static const int columns[] = { 1, 1, 2, 2, 2, 3, 3, 3, 3, 3 };
+    if (wide && n < 6) return 1;
+    return n < 10 ? columns[n] : 4;
+}
+
 /* Rows, columns and the size of one frame. The frame keeps the shape of the body unless it would become a
  * thin strip; a frame wider than the body keeps the scale. */
 static void size_frame (pg_sheet *p)
 {
     double w = p->high[0] - p->low[0], h = p->high[1] - p->low[1];
-    int n = (int) p->panels;
-    if (p->columns < 1) p->columns = n < 2 || (w > 2.2 * h && n < 6) ? 1 : n < 5 ? 2 : n < 10 ? 3 : 4;
+    int n = (int) p->panels, wide = w > 2.2 * h;
+    if (p->columns < 1) p->columns = usual_columns (n, wide);
     if (p->columns > n) p->columns = n;
     p->rows = (n + p->columns - 1) / p->columns;
-    p->flat = n == 1 && w > 2.2 * h && p->eye.framed && !p->nlegend;
-    double broad = p->columns > 1 ? most_of (SHARED, p->columns) : w > 2.2 * h ? WIDE : BROAD;
+    p->flat = n == 1 && wide && p->eye.framed && !p->nlegend;
+    double broad = p->columns > 1 ? most_of (SHARED, p->columns) : wide ? WIDE : BROAD;
     double scale = fmin (broad / w, (p->rows > 1 ? most_of (SHARED, p->rows) : TALL) / h);
     p->width = ceil (fmax (w * scale, 0.15 * broad)), p->height = ceil (fmax (h * scale, 60));
-    for (int a = 0; a < 2; a++) {
-        double extra = 0.5 * ((a ? p->height : p->width) / scale - (a ? h : w));
-        p->low[a] -= extra, p->high[a] += extra;
-    }
+    double extra[2] = { 0.5 * (p->width / scale - w), 0.5 * (p->height / scale - h) };
+    for (int a = 0; a < 2; a++) p->low[a] -= extra[a], p->high[a] += extra[a];
 }
 
 /* Fits the axis across (a = 0) or upwards (a = 1). An oblique section has the axes s and t in

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The triad: the coordinate axes as the eye sees them, the one that is farthest away drawn first. An axis that points
- * straight at the eye, or away from it, is a dot. */
+ * The triad: the coordinate axes as the eye sees them, the one that is farthest away drawn first. An axis
+ * that points straight at the eye, or away from it, is a dot. */
 #include "picture_private.h"
 #include <math.h>
 

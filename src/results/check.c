@@ -103,30 +103,39 @@ static void check_3d (const pg_scene *scene, const pg_problem *p, size_t i)
     }
 }
 
-/* File names: of its own letters, and not one that another picture has. */
-static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
+/* File names: of plain letters, and not one that another picture has. */
+static int is_file_name (const char *name)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
-    char path[64];
-    const char *given = pg_scene_given (scene, "output.views[%zu].name", i)
-                            ? pg_scene_text (scene, "output.views[%zu].name", i)
-                            : NULL,
-               *word;
-    result_view mine, other;
-    int twice = 0;
-    snprintf (path, sizeof path, given ? "output.views[%zu].name" : "output.views[%zu]", i);
-    if (given
-        && (!*given || *given == '.' || strlen (given) > 60 || strspn (given, plain) < strlen (given))) {
-        pg_scene_fault (scene, path, "a file name of at most 60 letters, digits, '-', '_' and '.'");
-        return;
-    }
-    if (pg_result_view_read (&mine, scene, i, p->dim) != PG_OK) return;
+    return *name && *name != '.' && strlen (name) <= 60 && strspn (name, plain) == strlen (name);
+}
+
+/* Has another picture of this run the name: one of output.pictures, of the views before, or one that every
+ * run makes? */
+static int is_taken (const pg_scene *scene, const pg_problem *p, size_t view, const char *name)
+{
+    static const char *const own[] = { "load_displacement", "error", "tip", "tip_speed" };
+    const char *word;
+    result_view other;
     for (size_t k = 0; (word = pg_scene_name (scene, k, "output.pictures")); k++)
-        twice |= strcmp (word, mine.name) == 0;
-    for (size_t k = 0; k < i; k++)
-        twice |= pg_result_view_read (&other, scene, k, p->dim) == PG_OK && strcmp (other.name, mine.name) == 0;
-    if (twice || strcmp (mine.name, "load_displacement") == 0 || strcmp (mine.name, "error") == 0
-        || strcmp (mine.name, "tip") == 0 || strcmp (mine.name, "tip_speed") == 0)
+        if (strcmp (word, name) == 0) return 1;
+    for (size_t k = 0; k < view; k++)
+        if (pg_result_view_read (&other, scene, k, p->dim) == PG_OK && strcmp (other.name, name) == 0)
+            return 1;
+    for (size_t k = 0; k < sizeof own / sizeof *own; k++) if (strcmp (own[k], name) == 0) return 1;
+    return 0;
+}
+
+/* The name of a view must be a file name of its own. */
+static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
+{
+    char path[64];
+    int given = pg_scene_given (scene, "output.views[%zu].name", i);
+    result_view mine;
+    snprintf (path, sizeof path, given ? "output.views[%zu].name" : "output.views[%zu]", i);
+    if (given && !is_file_name (pg_scene_text (scene, "output.views[%zu].name", i)))
+        pg_scene_fault (scene, path, "must be a file name of at most 60 letters, digits, '-', '_' and '.'");
+    else if (pg_result_view_read (&mine, scene, i, p->dim) == PG_OK && is_taken (scene, p, i, mine.name))
         pg_scene_fault (scene, path, "another picture is called %s.png; give another name", mine.name);
 }
 

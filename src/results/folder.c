@@ -27,25 +27,34 @@ static long owner_of (int file, char host[128])
     return process;
 }
 
-/* The system's lock ends with its process, also a killed one; where a file system has none, or another host
- * may hold it, what the file says counts. */
+/* Is the process that is named in the lock still there? Only a process of this host can be asked. */
+static int is_alive (long process) { return process && (kill ((pid_t) process, 0) == 0 || errno == EPERM); }
+
+/* Is the open file still the one at `path`, or has its owner removed it in between? */
+static int is_still (int file, const char *path)
+{
+    struct stat own, present;
+    return fstat (file, &own) == 0 && stat (path, &present) == 0 && own.st_ino == present.st_ino
+           && own.st_dev == present.st_dev;
+}
+
+/* The system's lock ends with its process, also a killed one. Where a file system has no locks, or another
+ * host may hold it, what the file says counts. retry: the file has been removed in between, so that it
+ * must be made again. */
 static pg_status claim (int file, const char *path, const char *folder, int *retry)
 {
     pg_status status = PG_OK;
     char host[128], here[128] = "", text[200];
-    struct stat own, present;
     gethostname (here, sizeof here - 1);
     for (char *c = here; *c; c++) if (*c == ' ') *c = '_';
-    int held = flock (file, LOCK_EX | LOCK_NB) != 0, none = held && errno != EWOULDBLOCK;
+    int taken = flock (file, LOCK_EX | LOCK_NB) != 0, without_locks = taken && errno != EWOULDBLOCK;
     long process = owner_of (file, host);
-    if (none && process && strcmp (host, here) == 0) held = kill ((pid_t) process, 0) == 0 || errno == EPERM;
-    else if (none) held = 0;
-    if (held)
+    if (without_locks) taken = strcmp (host, here) == 0 && is_alive (process);
+    if (taken)
         PG_FAIL (PG_E_USAGE, "%s is in use by another run (process %ld on %s): name another folder with -o",
                  folder, process, *host ? host : "this host");
-    *retry = fstat (file, &own) != 0 || stat (path, &present) != 0 || own.st_ino != present.st_ino
-             || own.st_dev != present.st_dev;
-    if (*retry) goto done;                             /* its owner has removed it in between */
+    *retry = !is_still (file, path);
+    if (*retry) goto done;
     if (process && strcmp (host, here) != 0)
         PG_FAIL (
             PG_E_USAGE,

@@ -6,6 +6,35 @@
 #include <string.h>
 #include <math.h>
 
+/* Unit and number of components of every field that a run can write. */
+static const struct {
+    const char *name, *unit;
+    enum { ONE, VECTOR, TENSOR, TURNS } kind;
+} known_fields[] = {
+    { "displacement", "m", VECTOR }, { "coefficient", "m", VECTOR }, { "velocity", "m/s", VECTOR },
+    { "damage", "", ONE },           { "error_estimate", "Pa", ONE }, { "stress", "Pa", TENSOR },
+    { "strain", "", TENSOR },        { "rotation", "rad", TURNS },
+};
+
+/* Makes room for the values of a field, one of the list above (as the keys of the scene have checked). */
+static pg_status prepare_field (pg_field_view *f, double **value, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    const int components[] = { 1, p->dim, pg_voigt_size (p->dim), pg_problem_rotations (p) };
+    for (size_t k = 0; k < sizeof known_fields / sizeof *known_fields; k++) {
+        if (strcmp (known_fields[k].name, f->name) != 0) continue;
+        f->components = components[known_fields[k].kind];
+        snprintf (f->unit, sizeof f->unit, "%s", known_fields[k].unit);
+    }
+    PG_ALLOC (*value, 6 * p->cloud.n);
+    f->value = *value;
+done:
+    return status;
+}
+
+/* What the scene asks for: when fields are written, which, and the views. A file with displacements also
+ * gets the coefficients of shape functions that do not interpolate, because these are the field between
+ * points. */
 static pg_status read_requests (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -15,36 +44,17 @@ static pg_status read_requests (pg_result *r, const pg_scene *scene)
     r->estimating = pg_scene_bool (scene, "output.estimate")
                     && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC);
     r->interval = pg_scene_number (scene, "output.checkpoint");
-    r->every = pg_scene_has (scene, "output.at.events") ? pg_scene_integer (scene, "output.at.events") : 0;
-    r->broken_share = pg_scene_has (scene, "output.at.broken") ? pg_scene_number (scene, "output.at.broken")
-                                                               : 0;
+    if (pg_scene_has (scene, "output.at.events")) r->every = pg_scene_integer (scene, "output.at.events");
+    if (pg_scene_has (scene, "output.at.broken"))
+        r->broken_share = pg_scene_number (scene, "output.at.broken");
     for (size_t k = 0; (name = pg_scene_name (scene, k, "output.fields")) && r->nfield < MOST_FIELDS; k++) {
-        pg_field_view *f = &r->field[r->nfield++];
-        snprintf (f->name, sizeof f->name, "%s", name);
+        snprintf (r->field[r->nfield++].name, sizeof r->field->name, "%s", name);
         with_u |= strcmp (name, "displacement") == 0;
     }
-    /* shape functions that do not interpolate: the field between points is that of the coefficients */
     if (with_u && r->nfield < MOST_FIELDS && !r->problem->approx.type->interpolates)
-        snprintf (r->field[r->nfield++].name, sizeof r->field[0].name, "coefficient");
+        snprintf (r->field[r->nfield++].name, sizeof r->field->name, "coefficient");
     PG_TRY (pg_result_views_read (r, scene));
-    for (size_t k = 0; k < r->nfield; k++) {
-        pg_field_view *f = &r->field[k];
-        int vector = strcmp (f->name, "displacement") == 0 || strcmp (f->name, "velocity") == 0
-                     || strcmp (f->name, "coefficient") == 0;
-        PG_ALLOC (r->value[k], 6 * r->problem->cloud.n);
-        int turns = strcmp (f->name, "rotation") == 0;
-        f->components = turns ? pg_problem_rotations (r->problem)
-                        : strcmp (f->name, "damage") == 0 || strcmp (f->name, "error_estimate") == 0 ? 1
-                        : vector ? r->problem->dim
-                                 : pg_voigt_size (r->problem->dim);
-        snprintf (f->unit, sizeof f->unit, "%s",
-                  strcmp (f->name, "stress") == 0 || *f->name == 'e' ? "Pa"
-                  : !vector                                          ? ""
-                  : f->name[0] == 'v'                                ? "m/s"
-                                                                     : "m");
-        if (turns) snprintf (f->unit, sizeof f->unit, "rad");
-        f->value = r->value[k];
-    }
+    for (size_t k = 0; k < r->nfield; k++) PG_TRY (prepare_field (&r->field[k], &r->value[k], r->problem));
 done:
     return status;
 }
@@ -61,8 +71,8 @@ done:
 }
 
 /* What new and resumed results have in common; leaves the folder as it is. */
-pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem,
-                          pg_solver *solver)
+pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
+                             const pg_problem *problem, pg_solver *solver)
 {
     pg_status status = PG_OK;
     r->problem = problem, r->solver = solver;

@@ -35,7 +35,8 @@ typedef struct {
     pg_picture_style style;
     int limited, by_damage;
 } result_view;
-/* What the curve comes to (pg_result_curve_read). found: 0: there is no curve. row: of the largest |force|. */
+/* What the curve comes to (pg_result_curve_read). found: 0: there is no curve. row: of the largest
+ * |force|. */
 typedef struct {
     int found;
     size_t row;
@@ -91,8 +92,8 @@ struct pg_result {
     double    opened, earlier;  /* pg_seconds at the opening; s in processes before this one */
     double    interval, checkpoint_at, checkpoint_cost;        /* s */
 };
-pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene, const pg_problem *problem,
-                          pg_solver *solver);
+pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
+                             const pg_problem *problem, pg_solver *solver);
 result_marks pg_result_marks_now   (const pg_result *r);
 pg_status pg_result_remove         (const pg_result *r, const char *name);
 /* New tables, or those of `from`, cut to its rows. */
@@ -119,7 +120,7 @@ void      pg_result_tips_run       (const pg_result *r, size_t i, result_tip_run
 pg_status pg_result_tips_pictures  (pg_result *r);        /* tip.png, tip_speed.png */
 void      pg_result_tips_json      (pg_json *j, const pg_result *r);
 void      pg_result_curve_choose   (pg_result *r);        /* which load and component; curve_load -1: none */
-pg_status pg_result_curve_row      (pg_result *r, double x, double y, const double *gauges, const pg_step *step);
+pg_status pg_result_curve_row (pg_result *r, double x, double y, const double *gauges, const pg_step *step);
 pg_status pg_result_curve_keep     (pg_result *r, size_t n, const pg_keeper *keeper);
 pg_status pg_result_curve_picture  (pg_result *r);        /* load_displacement.png */
 pg_status pg_result_curve_read     (pg_result *r);        /* fills peak */
@@ -133,5 +134,6 @@ pg_status pg_result_view_read      (result_view *v, const pg_scene *scene, size_
 pg_status pg_result_views_read     (pg_result *r, const pg_scene *scene);
 /* measured against the reference, error.png */
 pg_status pg_result_measure         (pg_result *r, const pg_state *state);
-pg_status pg_result_json (pg_result *r, const pg_state *state, const char *failure, double search, double total);
+pg_status pg_result_json (pg_result *r, const pg_state *state, const char *failure, double search,
+                          double total);
 #endif

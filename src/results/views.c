@@ -33,13 +33,32 @@ static void read_limits (result_view *v, const pg_scene *scene, size_t i)
     v->style.by_depth = v->style.view == PG_VIEW_CRACK && strcmp (v->field, "damage") == 0;
 }
 
+/* "section z = 5 mm", "back", "iso": how a solid is looked at, for titles and names; "" in one and two
+ * dimensions. */
+static void write_look (result_view *v, const char *view, const char *section, int dim)
+{
+    v->look[0] = 0;
+    if (dim < 3) return;
+    if (section) snprintf (v->look, sizeof v->look, "section %s", section);
+    else snprintf (v->look, sizeof v->look, "%.40s", view ? view : "iso");
+}
+
+/* The file name of a view: its own, or the field and the way of looking, "damage_back". */
+static void write_name (result_view *v, const char *name, const char *section)
+{
+    pg_picture_name (v->name, sizeof v->name, name ? name : v->field);
+    if (name || !v->look[0]) return;
+    size_t n = strlen (v->name);
+    if (n + 2 < sizeof v->name) v->name[n] = '_', v->name[n + 1] = 0;
+    pg_picture_name (v->name, sizeof v->name, section ? section : v->look);
+}
+
 /* Direction and section must have been checked (or their faults are the status). */
 pg_status pg_result_view_read (result_view *v, const pg_scene *scene, size_t i, int dim)
 {
     pg_status status = PG_OK;
     const char *field = text_of (scene, i, "field"), *view = text_of (scene, i, "view"),
                *section = text_of (scene, i, "section");
-    const char *name = text_of (scene, i, "name");
     *v = (result_view) { .style.magnify = pg_scene_number (scene, "output.magnify") };
     if (pg_scene_given (scene, "output.views[%zu].magnify", i))
         v->style.magnify = pg_scene_number (scene, "output.views[%zu].magnify", i);
@@ -49,18 +68,8 @@ pg_status pg_result_view_read (result_view *v, const pg_scene *scene, size_t i, 
         pg_scene_vector (scene, 3, v->style.direction, "output.views[%zu].direction", i);
     read_limits (v, scene, i);
     if (section && dim == 3) PG_TRY (pg_picture_section (&v->style, section));
-    snprintf (v->look, sizeof v->look, "%.40s%s",
-              dim < 3   ? ""
-              : section ? "section "
-              : view    ? view
-                        : "iso",
-              section && dim == 3 ? section : "");
-    pg_picture_name (v->name, sizeof v->name, name ? name : v->field);
-    if (!name && v->look[0]) {
-        size_t n = strlen (v->name);
-        if (n + 2 < sizeof v->name) v->name[n] = '_', v->name[n + 1] = 0;
-        pg_picture_name (v->name, sizeof v->name, section ? section : v->look);
-    }
+    write_look (v, view, section, dim);
+    write_name (v, text_of (scene, i, "name"), section);
 done:
     return status;
 }

@@ -82,6 +82,7 @@ static found locate (const pg_scene *s, const char *path)
         f = locate (s, text_); \
     } while (0)
 
+/* A default counts as not given. */
 int pg_scene_given (const pg_scene *s, const char *path, ...)
 {
     LOCATE (f, s, path);
@@ -100,6 +101,7 @@ int pg_scene_has (const pg_scene *s, const char *path, ...)
     return f.node != NULL;
 }
 
+/* A list that is one value, as in `names: top`, has one element. */
 size_t pg_scene_count (const pg_scene *s, const char *path, ...)
 {
     LOCATE (f, s, path);
@@ -175,6 +177,8 @@ int pg_scene_vector (const pg_scene *s, int max, double *out, const char *path, 
     return n;
 }
 
+/* The value is shown only if the key itself is written; else the fault is placed at the last written key
+ * above. */
 void pg_scene_fault (const pg_scene *s, const char *path, const char *format, ...)
 {
     va_list args;

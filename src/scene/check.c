@@ -101,6 +101,7 @@ static void check_missing (pg_scene *s, const pg_node *node, const char *pattern
 /* Members of a group at one level: how many are given, all names, the last one given. */
 typedef struct { size_t given; char names[400], last[64]; } membership;
 
+/* Rows of one path count once, even if it may have several shapes. */
 static membership count_members (const pg_scene *s, const pg_node *node, const char *pattern,
                                  const char *group)
 {

@@ -12,6 +12,7 @@ static void cut_blanks (char *end, const char *start)
     *end = 0;
 }
 
+/* Units may stand in square brackets or in parentheses. */
 pg_status pg_column_cut (char *header, const char **unit)
 {
     char *open = header + strcspn (header, "[("), *shut;
@@ -32,6 +33,7 @@ pg_status pg_column_cut (char *header, const char **unit)
     return PG_OK;
 }
 
+/* "1 mm" is read as a quantity, which also checks the dimension. */
 pg_status pg_column_scale (double *scale, const char *unit, const char *kind)
 {
     char one[96];

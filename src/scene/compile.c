@@ -258,6 +258,7 @@ static pg_status compile (pg_reader *p, const char *unit)
     return status;
 }
 
+/* The result is dimensioned in SI, whatever units the text uses. */
 pg_status pg_expression_compile (pg_expression **out, const char *text, const char *unit)
 {
     pg_status status = PG_OK;

@@ -138,6 +138,7 @@ done:
     return status;
 }
 
+/* A file with the key tables of all folders. */
 static pg_status load (pg_scene **out, const char *path, size_t nset, const char *const *set, int some)
 {
     pg_status status = PG_OK;
@@ -162,6 +163,7 @@ pg_status pg_scene_load_some (pg_scene **out, const char *path, size_t nset, con
 }
 pg_status pg_scene_load (pg_scene **out, const char *path) { return pg_scene_load_with (out, path, 0, NULL); }
 
+/* NULL, or a pointer to NULL, is allowed. */
 void pg_scene_free (pg_scene **scene)
 {
     if (!scene || !*scene) return;

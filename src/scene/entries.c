@@ -33,6 +33,7 @@ static int concrete (char out[PG_PATTERN], const char *pattern, const char *map)
     return snprintf (out, PG_PATTERN, "%s%s", map, pattern) < PG_PATTERN;
 }
 
+/* Keys of the schema in their order; only those of catalogue entries are looked at. */
 const char *pg_scene_stray (const pg_scene *s, size_t k, const char *map, char path[PG_STRAY_PATH])
 {
     char own[PG_PATTERN], chosen[PG_PATTERN];
@@ -62,6 +63,7 @@ static const char *chosen_entry (const pg_scene *s, const pg_node *node, const c
     return row ? row->fallback : NULL;
 }
 
+/* Keys that belong to no entry are always wanted. */
 int pg_key_wanted (const pg_scene *s, const pg_key *key, const pg_node *node, const char *pattern)
 {
     const char *selector, *entries = pg_key_entries (key, &selector);

@@ -75,6 +75,7 @@ static const binary of_two[] = {
     [PG_OP_OR] = or,
 };
 
+/* Also used by the compiler, so that constants computed in advance have the same bits. */
 double pg_op_apply (pg_op op, double a, double b)
 {
     size_t k = (size_t) op;
@@ -110,6 +111,7 @@ int pg_expression_uses (const pg_expression *e, char variable)
     return 0;
 }
 
+/* Evaluated anywhere, as no variable occurs. */
 int pg_expression_constant (const pg_expression *e, double *value)
 {
     static const pg_place origin;

@@ -68,6 +68,7 @@ done:
     return status;
 }
 
+/* A file that cannot be read is a failure: a result without its fingerprint could not be traced. */
 pg_status pg_scene_files (const pg_scene *s, size_t *n, pg_named_file **out)
 {
     collection c = { .scene = s };

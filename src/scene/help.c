@@ -156,6 +156,8 @@ static void print_matches (FILE *to, const pg_schema *s, const char *key, int ho
     }
 }
 
+/* A full path comes first, else all keys that end with the word; an unknown one is an error with a
+ * suggestion. */
 pg_status pg_help_write (FILE *to, const char *key, const pg_schema *s)
 {
     char plain[PG_PATTERN];

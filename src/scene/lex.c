@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+/* Columns are counted from 1. */
 pg_status pg_read_fault (pg_reader *p, size_t at, const char *format, ...)
 {
     char text[400];
@@ -36,6 +37,7 @@ size_t pg_word_length (const char *s)
     return n;
 }
 
+/* Is the word of n bytes at s this one? */
 int pg_is_word (const char *s, size_t n, const char *word)
 {
     return strlen (word) == n && memcmp (s, word, n) == 0;

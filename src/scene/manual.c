@@ -138,6 +138,7 @@ static void write_sections (FILE *to, const pg_schema *s)
     }
 }
 
+/* Write errors are found at the end, by ferror. */
 pg_status pg_manual_write (FILE *to, const pg_schema *s)
 {
     fprintf (to, "%s", introduction);

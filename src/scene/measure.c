@@ -53,6 +53,7 @@ static ut_status add_basic (const ut_unit *unit, double power, pg_measure *m)
 /* Called by udunits2 for each kind of unit in the tree of one. */
 static ut_status visit_basic (const ut_unit *unit, void *p) { return add_basic (unit, 1, p); }
 
+/* A product of powers of base units. */
 static ut_status visit_product (const ut_unit *unit, int n, const ut_unit *const *basic, const int *power,
                                 void *p)
 {
@@ -76,6 +77,7 @@ static ut_status visit_galilean (const ut_unit *unit, double scale, const ut_uni
     return ut_accept_visitor (under, &visitor, p);
 }
 
+/* Times since an origin, and logarithmic units, have no place in formulas. */
 static ut_status visit_time (const ut_unit *unit, const ut_unit *second, double origin, void *p)
 {
     (void) unit, (void) second, (void) origin, (void) p;
@@ -188,6 +190,7 @@ static int is_common (pg_measure *m, const char *text, size_t n)
     return 0;
 }
 
+/* Unknown units are a fault with a suggestion. */
 pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
 {
     static const char usual[] =
@@ -222,6 +225,7 @@ pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
     return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s'", word);
 }
 
+/* Powers may be fractions, from roots; 1e-9 tells them apart. */
 int pg_measure_same (const pg_measure *a, const pg_measure *b)
 {
     for (int k = 0; k < PG_BASE_UNITS; k++)

@@ -27,6 +27,7 @@ pg_status pg_node_word (pg_node *node, const char *text, const char *origin)
     return node->text ? PG_OK : pg_error (PG_E_MEMORY, PG_HERE, "no memory for a value of the scene");
 }
 
+/* A linear search: maps of scenes have few keys. */
 pg_node *pg_node_child (const pg_node *parent, const char *name, size_t length)
 {
     if (parent->shape != PG_MAPPING) return NULL;

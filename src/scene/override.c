@@ -88,6 +88,8 @@ done:
     return status;
 }
 
+/* The new value keeps the name of the node it replaces; its origin is the override, so that faults name
+ * that. */
 pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin)
 {
     pg_status status = PG_OK;

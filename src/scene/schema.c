@@ -76,6 +76,7 @@ static int takes (pg_kind kind, pg_node_shape shape)
     }
 }
 
+/* Of rows with one path, such as a list or a single value, the one that takes this shape. */
 const pg_key *pg_schema_row (const pg_schema *s, const char *pattern, pg_node_shape shape)
 {
     for (size_t k = 0; k < s->n; k++)
@@ -118,6 +119,7 @@ static int listed (const char *names, const char *name, size_t n)
     return 0;
 }
 
+/* Names that do not fit are left out: they only serve messages. */
 void pg_schema_names (const pg_schema *s, const char *pattern, char names[PG_LEVEL_NAMES])
 {
     size_t used = 0;

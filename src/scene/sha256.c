@@ -72,6 +72,7 @@ void pg_sha256_start (pg_sha256 *s)
     memcpy (s->h, H0, sizeof H0);
 }
 
+/* Blocks of 64 bytes are mixed as they become full. */
 void pg_sha256_add (pg_sha256 *s, const void *data, size_t n)
 {
     const unsigned char *p = data;

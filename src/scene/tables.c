@@ -31,6 +31,7 @@ static pg_key twin[MOST_TWINS];
 static struct { char path[TWIN_PATH], doc[TWIN_DOC]; } twin_text[MOST_TWINS];
 static size_t ntwin;
 
+/* Beyond MOST_TABLES tables are dropped. */
 static void add_table (const pg_key_table *table, const pg_key *declared, const pg_key_catalogue *catalogue,
                        const char *name)
 {
@@ -67,6 +68,7 @@ static int share_table (const pg_key_table *table, const char *name)
     return shared;
 }
 
+/* Tables of one entry; twice: also below the second place of the catalogue. */
 static void add_tables (pg_key_tables list, const pg_key_catalogue *catalogue, const char *name, int twice)
 {
     for (; list && *list; list++) {
@@ -96,6 +98,7 @@ static void gather (void)
 #undef PG_ENTRY_KEYS
 }
 
+/* Gathered on the first call, whichever thread makes it. */
 const pg_key_table *pg_scene_tables (size_t *n)
 {
     pthread_once (&once, gather);
@@ -103,6 +106,7 @@ const pg_key_table *pg_scene_tables (size_t *n)
     return tables;
 }
 
+/* By the address of the row: rows are unique. */
 const char *pg_key_entries (const pg_key *key, const char **selector)
 {
     size_t n;

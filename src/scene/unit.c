@@ -149,6 +149,7 @@ pg_status pg_quantity_read (double *out, int *spacing, const char *text, const c
     return status == PG_OK ? pg_quantity_sane (*out) : status;
 }
 
+/* The same without the alternative of a spacing. */
 pg_status pg_unit_parse (double *out, const char *text, const char *unit)
 {
     int spacing;

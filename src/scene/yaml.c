@@ -62,6 +62,7 @@ done:
     return status;
 }
 
+/* Keys must be single words; others are reported and skipped. */
 static pg_status convert_map (reader *r, pg_node *node, const yaml_node_t *y, int deep)
 {
     pg_status status = PG_OK;
@@ -85,6 +86,7 @@ done:
     return status;
 }
 
+/* Aliases may repeat parts: the number of nodes is limited, so that a small file cannot fill the memory. */
 static pg_status convert (reader *r, pg_node *node, const yaml_node_t *y, int deep)
 {
     if (deep > DEEPEST || r->left == 0) {
@@ -147,6 +149,7 @@ static void syntax_fault (reader *r, const yaml_parser_t *parser, const char *te
                            : "");
 }
 
+/* Reads one document; root NULL: there must be no further one. */
 static pg_status load_one (reader *r, yaml_parser_t *parser, pg_node *root, const char *text, size_t length)
 {
     pg_status status = PG_OK;
@@ -198,6 +201,7 @@ static pg_status check_depth (reader *r, const char *text, size_t length)
     return PG_OK;
 }
 
+/* Depth is checked before the tree is built; a second document is a fault. */
 pg_status pg_node_read (pg_node *root, const char *text, size_t length, const char *origin, const char *file,
                         pg_faults *faults, int *good)
 {

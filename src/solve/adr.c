@@ -32,13 +32,14 @@ done:
 static pg_status weigh (pg_solver *s)
 {
     pg_status status = PG_OK;
+    motion *m = motion_of (s);
     pg_system *sys = &s->break_loop.system;
-    double *mass = s->motion->relaxation->mass;
+    double *mass = m->relaxation->mass;
     memset (mass, 0, sys->ndof * sizeof *mass);
     PG_TRY (sys->force->row_sums ? sys->force->row_sums (sys->self, mass) : sum_rows (sys, mass));
     for (size_t i = 0; i < sys->ndof; i++) {
         mass[i] *= 0.25 * margin;
-        s->motion->inverse[i] = mass[i] > 0 ? 1 / mass[i] : 0;
+        m->inverse[i] = mass[i] > 0 ? 1 / mass[i] : 0;
     }
 done:
     return status;
@@ -51,7 +52,7 @@ static pg_status prepare (pg_solver *s)
     pg_status status = PG_OK;
     pg_system *sys = &s->break_loop.system;
     PG_TRY (relaxation_create (s));
-    struct relaxation *x = s->motion->relaxation;
+    struct relaxation *x = motion_of (s)->relaxation;
     PG_TRY (system_refresh (sys, s->backup, NULL));
     x->dt = 1;
     PG_TRY (weigh (s));
@@ -74,6 +75,8 @@ const pg_solver_type pg_solver_adr = {
     .refused = relaxation_refused,
     .free = relaxation_free,
     .keep = relaxation_keep,
+    .own_size = sizeof (motion),
+    .stable = explicit_bound,
     .progress = relaxation_progress,
     .manner = relaxation_manner,
 };

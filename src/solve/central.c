@@ -56,5 +56,7 @@ const pg_solver_type pg_solver_central = {
     .refused = march_refused,
     .free = explicit_free,
     .keep = explicit_keep,
+    .own_size = sizeof (motion),
+    .stable = explicit_bound,
     .progress = march_progress,
 };

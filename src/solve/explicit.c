@@ -52,9 +52,7 @@ pg_status explicit_create (pg_solver *s)
     pg_system *sys = &s->break_loop.system;
     const pg_force_type *force = sys->force;
     const pg_sparse *T = force->basis ? force->basis (sys->self) : NULL;
-    motion *m = NULL;
-    PG_ALLOC (s->motion, 1);
-    m = s->motion;
+    motion *m = motion_of (s);
     if (T && force->impose) PG_TRY (find_held (m, T, sys->ndof, s->type->name));
     PG_ALLOC (m->lists, 3 * m->nheld);
     m->before = m->lists, m->goal = m->before + m->nheld, m->next = m->goal + m->nheld;
@@ -74,24 +72,22 @@ done:
 
 void explicit_free (pg_solver *s)
 {
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     if (!m) return;
     pg_free (m->held), pg_free (m->lists), pg_free (m->push), pg_free (m->P), pg_free (m->inverse),
         pg_free (m->sum);
-    pg_free (m);
-    s->motion = NULL;
 }
 
 void explicit_release (pg_solver *s, pg_state *state)
 {
-    const motion *m = s->motion;
+    const motion *m = motion_of (s);
     for (size_t k = 0; k < m->nheld; k++) state->v[m->held[k]] = state->a[m->held[k]] = 0;
 }
 
 static pg_status gather (pg_solver *s, double t, double *out)
 {
     pg_status status = PG_OK;
-    const motion *m = s->motion;
+    const motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     if (m->nheld == 0) return PG_OK;
     PG_TRY (sys->force->impose (sys->self, t, sys->full));
@@ -103,7 +99,7 @@ done:
 pg_status explicit_follow (pg_solver *s, double before, double now, double next)
 {
     pg_status status = PG_OK;
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     if (m->fresh) {  /* they come from the step before: one evaluation is enough */
         double *first = m->before;
@@ -124,7 +120,7 @@ done:
 static pg_status find_bound (pg_solver *s)
 {
     pg_status status = PG_OK;
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     pg_system *sys = &s->break_loop.system;
     int exact = !sys->force->bound && !sys->force->row_sums;
     if (!sys->force->bound) PG_TRY (system_refresh (sys, s->backup, NULL));
@@ -141,7 +137,7 @@ done:
 static pg_status check_dt (pg_solver *s)
 {
     pg_status status = PG_OK;
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     double omega;
     if (s->options.dt <= m->stable) goto done;
     PG_TRY (pg_solver_fastest (s, s->backup, &omega));
@@ -167,7 +163,7 @@ pg_status explicit_stable (pg_solver *s)
 {
     pg_status status = PG_OK;
     pg_system *sys = &s->break_loop.system;
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     for (size_t i = 0; i < sys->ndof; i++) {
         if (!(sys->mass[i] > 0))
             PG_TRY (solver_fault (s, "solver.kind",
@@ -185,10 +181,11 @@ done:
     return status;
 }
 
-double pg_solver_stable (const pg_solver *s, const char **from)
+double explicit_bound (const pg_solver *s, const char **from)
 {
-    if (from) *from = s->motion && s->motion->from ? s->motion->from : "";
-    return s->motion && s->motion->from ? s->motion->stable : NAN;
+    const motion *m = motion_of (s);
+    if (m->from) *from = m->from;
+    return m->from ? m->stable : NAN;
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
@@ -251,7 +248,7 @@ done:
 
 void explicit_total (const pg_solver *s, double *sum)
 {
-    const motion *m = s->motion;
+    const motion *m = motion_of (s);
     for (int k = 0; k < SUMS; k++) {
         sum[k] = 0;
         for (size_t b = 0; b < m->nblock; b++) sum[k] += m->sum[b * SUMS + (size_t) k];
@@ -326,7 +323,7 @@ done:
 pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     double number[5] = { m->damped, m->damped0, m->resist, m->resist0, m->most };
     PG_TRY (k->numbers (k->context, "motion.numbers", 5, number));
     m->damped = number[0], m->damped0 = number[1], m->resist = number[2], m->resist0 = number[3],

@@ -7,7 +7,7 @@
 #define PG_EXPLICIT_H
 #include "solve.h"
 
-struct motion {
+typedef struct {
     size_t  nheld, *held;                              /* prescribed unknowns, ascending */
     double *lists, *before, *goal, *next;  /* their displacement at t_n-1, t_n, t_n+1, m (nheld) */
     double *push, *push0;  /* force on them from outside at t_n; at the start of the step, N (nheld) */
@@ -22,13 +22,15 @@ struct motion {
     double  damped, damped0;  /* energy taken by damping, J; at the start of the step */
     double  resist, resist0;  /* m v_n v(n+1/2) where the last step was closed; as damped0 */
     struct relaxation *relaxation;                         /* relax.h */
-};
+} motion;
+static inline motion *motion_of (const pg_solver *s) { return s->own; }
 /* Work of loads over the half step before t_n and after; m v_n v before and after; m v v; not finite. */
 enum { LANES = 8 };                                   /* unknowns at once, a number the compiler knows */
 enum { SUM_A, SUM_B, SUM_C, SUM_D, SUM_K, SUM_BAD, SUMS };
 
 /* ---- explicit.c ---------------------------------------------------------------------------------------- */
 pg_status explicit_create  (pg_solver *s);             /* supports, masses, work space */
+double    explicit_bound   (const pg_solver *s, const char **from);
 void      explicit_free    (pg_solver *s);
 /* Bound of the largest frequency into omega, stable and from; then options.dt: 0.9 of the stable one if not
  * given; one that is too large is refused. */

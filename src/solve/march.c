@@ -93,7 +93,7 @@ static void work_on_blocks (void *context, size_t first, size_t last, int thread
 /* Work of loads and supports over one half of a step, whose velocity is v (held: that of the list). */
 static double push_work (const pg_solver *s, double loads, const double *from, const double *to)
 {
-    const motion *m = s->motion;
+    const motion *m = motion_of (s);
     double sum = s->options.dt * loads;
     for (size_t k = 0; k < m->nheld; k++) sum += m->push[k] * (to[k] - from[k]);
     return 0.5 * sum;
@@ -102,7 +102,7 @@ static double push_work (const pg_solver *s, double loads, const double *from, c
 static pg_status move (pg_solver *s, pg_state *state, sweep_range range, int settle, int launch)
 {
     pg_status status = PG_OK;
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     double t0 = pg_seconds (), total[SUMS], c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
            dt = s->options.dt;
@@ -138,7 +138,7 @@ done:
 /* What the held unknowns show of v and a at t_n. */
 static void show_held (const pg_solver *s, pg_state *state, int staggered)
 {
-    const motion *m = s->motion;
+    const motion *m = motion_of (s);
     double dt = s->options.dt;
     for (size_t k = 0; k < m->nheld; k++) {
         size_t i = m->held[k];
@@ -150,7 +150,7 @@ static void show_held (const pg_solver *s, pg_state *state, int staggered)
 /* The force on held unknowns from outside; their out-of-balance force is none. */
 static void take_reactions (pg_solver *s)
 {
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     double dt = s->options.dt;
     for (size_t k = 0; k < m->nheld; k++) {
@@ -177,13 +177,14 @@ done:
 /* What motion adds to the residual, for reactions. */
 static void inertia (pg_solver *s, const pg_state *state, int staggered, double *out)
 {
+    motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     double c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
            half = staggered ? 0.5 * s->options.dt : 0;
     for (size_t i = 0; i < sys->ndof; i++)
         out[i] = -sys->mass[i] * (state->a[i] + c * (state->v[i] - half * state->a[i]));
-    for (size_t k = 0; c > 0 && k < s->motion->nheld; k++)
-        out[s->motion->held[k]] = -sys->mass[s->motion->held[k]] * state->a[s->motion->held[k]];
+    for (size_t k = 0; c > 0 && k < m->nheld; k++)
+        out[m->held[k]] = -sys->mass[m->held[k]] * state->a[m->held[k]];
 }
 
 static pg_status account (pg_solver *s, pg_state *state, double t, int staggered, int book)
@@ -208,7 +209,7 @@ done:
 static pg_status begin (pg_solver *s, pg_state *state, int staggered)
 {
     pg_status status = PG_OK;
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     pg_system *sys = &s->break_loop.system;
     double dt = s->options.dt, c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass, kinetic = 0;
     PG_TRY (explicit_follow (s, 0, 0, dt));
@@ -253,7 +254,7 @@ static pg_status look (pg_solver *s, pg_state *state, pg_step *step, long n)
 static pg_status check_growth (pg_solver *s, double t)
 {
     pg_status status = PG_OK;
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     double stored = s->report.energy_strain + s->report.energy_kinetic;
     m->most = fmax (m->most, fabs (s->break_loop.work));
     if ((s->problem->nload == 0 || s->break_loop.system.force->work_balance) && stored > 10 * m->most)
@@ -271,15 +272,16 @@ done:
 static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long n, int staggered)
 {
     pg_status status = PG_OK;
+    motion *m = motion_of (s);
     break_loop *b = &s->break_loop;
     const pg_statistics *r = &s->report;
     double t = time_at (s, n);
     int breaks = (b->system.force->march || b->system.force->utilisation) && s->problem->criterion->type;
-    if (!s->motion->by_work_balance) PG_TRY (account (s, state, t, staggered, 0));
-    s->report.energy_damping = s->motion->damped;
+    if (!m->by_work_balance) PG_TRY (account (s, state, t, staggered, 0));
+    s->report.energy_damping = m->damped;
     PG_TRY (check_growth (s, t));
     step->dissipated = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0)
-                       - (s->motion->damped - s->motion->damped0);
+                       - (m->damped - m->damped0);
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     state->time = step->time = t;
@@ -296,7 +298,7 @@ pg_status march_step (pg_solver *s, pg_state *state, pg_step *step, sweep_range 
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     long n = state->iterations + b->round, last = explicit_row (s, s->options.time_steps, state->iterations);
     int settled = 1;
     if (b->round == 0) {
@@ -329,7 +331,7 @@ done:
 
 void march_refused (pg_solver *s)
 {
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     m->damped = m->damped0, m->resist = m->resist0;
     if (m->nheld) memcpy (m->push, m->push0, m->nheld * sizeof *m->push);
     m->fresh = 0;

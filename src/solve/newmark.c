@@ -9,7 +9,7 @@
  *     motions that the step cannot
  * resolve; beta = (1 - alpha)^2 / 4 and gamma = 1/2 - alpha then keep it of second order.
  * Nodes whose motion is prescribed by elimination take V and A from that motion (newmark_start.c). */
-#include "solve.h"
+#include "newmark_state.h"
 #include <math.h>
 #include <string.h>
 
@@ -60,13 +60,13 @@ static void add_inertia (void *context, const double *d, double *residual, doubl
     const course *m = context;
     pg_system *sys = &m->s->break_loop.system;
     const pg_state *f = m->from;
-    double *v = m->s->work1, *a = m->s->work3, size = 0, parts = 0,
+    double *v = newmark_of (m->s)->work1, *a = newmark_of (m->s)->work3, size = 0, parts = 0,
            alpha = PG_OWN (pg_newmark_options, &m->s->options)->alpha;
     rates (m, d, v, a);
     newmark_damp (m->s, v, residual);
     for (size_t i = 0; alpha != 0 && i < sys->ndof; i++)
-        residual[i] = (1 + alpha) * residual[i] - alpha * m->s->force0[i];
-    double *known = m->s->work4, *Mknown = known + sys->ndof, *Ma = Mknown + sys->ndof;
+        residual[i] = (1 + alpha) * residual[i] - alpha * newmark_of (m->s)->force0[i];
+    double *known = newmark_of (m->s)->work4, *Mknown = known + sys->ndof, *Ma = Mknown + sys->ndof;
     memset (Mknown, 0, 2 * sys->ndof * sizeof *Mknown);
     for (size_t i = 0; i < sys->ndof; i++) known[i] = m->c.b[1] * f->v[i] + (m->c.b[2] - 1) * f->a[i];
     system_add_mass (sys, 1, known, Mknown);
@@ -81,9 +81,9 @@ static const dynamics *newmark_dynamics (pg_solver *s)
     const pg_newmark_options *own = PG_OWN (pg_newmark_options, &s->options);
     double b[8], share = 1 + own->alpha;
     pg_newmark_coefficients (&s->options, b);
-    s->dyn.k = share * (1 + b[3] * own->rayleigh_stiffness);
-    s->dyn.m = b[0] + share * b[3] * own->rayleigh_mass;
-    return &s->dyn;
+    newmark_of (s)->dyn.k = share * (1 + b[3] * own->rayleigh_stiffness);
+    newmark_of (s)->dyn.m = b[0] + share * b[3] * own->rayleigh_mass;
+    return &newmark_of (s)->dyn;
 }
 
 static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
@@ -116,6 +116,22 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
         pg_statistics_warn (&s->report, "the crack has arrived at %s: the run ends at t = %.6g s",
                             s->options.stop_set->name, t);
     if (arrived || last) s->finished = 1;
+done:
+    return status;
+}
+
+static void newmark_free (pg_solver *s)
+{
+    newmark *n = newmark_of (s);
+    pg_free (n->work1), pg_free (n->work2), pg_free (n->work3), pg_free (n->work4);
+    pg_free (n->support), pg_free (n->force0);
+}
+
+static pg_status newmark_keep (pg_solver *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    newmark *n = newmark_of (s);
+    if (n->force0) PG_TRY (k->numbers (k->context, "newmark.force0", s->break_loop.system.ndof, n->force0));
 done:
     return status;
 }
@@ -159,5 +175,8 @@ const pg_solver_type pg_solver_newmark = {
     .read = newmark_read,
     .start = newmark_start,
     .step = newmark_step,
+    .free = newmark_free,
+    .keep = newmark_keep,
+    .own_size = sizeof (newmark),
     .dynamics = newmark_dynamics,
 };

@@ -3,7 +3,7 @@
  * Their V = T q' + z' and A = T q'' + z'' follow from z: Newmark's own recursion would turn any error in them
  * into an oscillation that never dies. Start: d, V as given but for the supports; T' M T q'' = T' (P - F_int
  * - C V - M z''). */
-#include "solve.h"
+#include "newmark_state.h"
 #include <string.h>
 
 static const pg_sparse *elimination (const pg_system *sys)
@@ -16,7 +16,7 @@ void newmark_damp (pg_solver *s, const double *v, double *residual)
 {
     pg_system *sys = &s->break_loop.system;
     const pg_newmark_options *own = PG_OWN (pg_newmark_options, &s->options);
-    double *Kv = s->work2, cm = own->rayleigh_mass, ck = own->rayleigh_stiffness;
+    double *Kv = newmark_of (s)->work2, cm = own->rayleigh_mass, ck = own->rayleigh_stiffness;
     system_add_mass (sys, -cm, v, residual);
     if (ck == 0) return;
     system_multiply (sys, v, Kv);
@@ -34,10 +34,11 @@ void newmark_resist (pg_solver *s, const double *v, const double *a, double *res
 pg_status newmark_remember (pg_solver *s, double t, const pg_state *state)
 {
     pg_status status = PG_OK;
+    newmark *own = newmark_of (s);
     pg_system *sys = &s->break_loop.system;
     double unused;
-    PG_TRY (sys->force->balance (sys->self, t, state->d, s->force0, &unused));
-    newmark_damp (s, state->v, s->force0);
+    PG_TRY (sys->force->balance (sys->self, t, state->d, own->force0, &unused));
+    newmark_damp (s, state->v, own->force0);
 done:
     return status;
 }
@@ -45,7 +46,7 @@ done:
 double newmark_kinetic (pg_solver *s, const double *v)
 {
     const pg_system *sys = &s->break_loop.system;
-    double sum = 0, *Mv = s->work2;
+    double sum = 0, *Mv = newmark_of (s)->work2;
     memset (Mv, 0, sys->ndof * sizeof *Mv);
     system_add_mass (sys, 1, v, Mv);
     for (size_t i = 0; i < sys->ndof; i++) sum += 0.5 * v[i] * Mv[i];
@@ -56,12 +57,13 @@ double newmark_kinetic (pg_solver *s, const double *v)
 pg_status newmark_supports (pg_solver *s, double t, int start)
 {
     pg_status status = PG_OK;
+    newmark *own = newmark_of (s);
     pg_system *sys = &s->break_loop.system;
     double *z[3], e = s->options.dt / 16;
-    s->support_updates = s->report.updates;
+    own->support_updates = s->report.updates;
     if (!elimination (sys)) return PG_OK;
     for (size_t k = 0; k < 3; k++) {
-        z[k] = s->support + k * sys->ndof;
+        z[k] = own->support + k * sys->ndof;
         memset (z[k], 0, sys->ndof * sizeof *z[k]);
         PG_TRY (sys->force->impose (sys->self, t + ((double) k - !start) * e, z[k]));
     }
@@ -77,13 +79,14 @@ done:
 
 void newmark_follow (pg_solver *s, double t, double *v, double *a)
 {
+    newmark *own = newmark_of (s);
     const pg_system *sys = &s->break_loop.system;
     if (!elimination (sys)) return;
-    if (s->support_updates != s->report.updates) newmark_supports (s, t, 0);
+    if (own->support_updates != s->report.updates) newmark_supports (s, t, 0);
     for (size_t k = 1; k < 3; k++) {
         double *w = k == 1 ? v : a;
         sys->force->impose (sys->self, t, w);          /* prescribed nodes: T q + z */
-        for (size_t i = 0; i < sys->ndof; i++) w[i] += s->support[k * sys->ndof + i] - s->support[i];
+        for (size_t i = 0; i < sys->ndof; i++) w[i] += own->support[k * sys->ndof + i] - own->support[i];
     }
 }
 
@@ -153,16 +156,19 @@ done:
 pg_status newmark_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
+    newmark *own = newmark_of (s);
     pg_system *sys = &s->break_loop.system;
     size_t ndof = sys->ndof;
     double reference;
     PG_TRY (system_refresh (sys, state, NULL));
     s->next_level = 1;
-    if (!s->work3) PG_ALLOC (s->work3, ndof);
-    if (!s->work4) PG_ALLOC (s->work4, 3 * ndof);
+    if (!own->work1) PG_ALLOC (own->work1, ndof);
+    if (!own->work2) PG_ALLOC (own->work2, ndof);
+    if (!own->work3) PG_ALLOC (own->work3, ndof);
+    if (!own->work4) PG_ALLOC (own->work4, 3 * ndof);
     PG_TRY (system_mass (sys, PG_OWN (pg_newmark_options, &s->options)->consistent));
-    if (!s->support) PG_ALLOC (s->support, 3 * ndof);
-    if (PG_OWN (pg_newmark_options, &s->options)->alpha != 0 && !s->force0) PG_ALLOC (s->force0, ndof);
+    if (!own->support) PG_ALLOC (own->support, 3 * ndof);
+    if (PG_OWN (pg_newmark_options, &s->options)->alpha != 0 && !own->force0) PG_ALLOC (own->force0, ndof);
     if (state->step > 0) goto done;
     for (size_t i = 0; i < ndof; i++)
         if (!(sys->mass[i] > 0))
@@ -177,7 +183,7 @@ pg_status newmark_start (pg_solver *s, pg_state *state)
     newmark_resist (s, state->v, state->a, sys->residual);
     PG_TRY (accelerate (sys, state->a));
     PG_TRY (first_account (s, state));
-    if (s->force0) PG_TRY (newmark_remember (s, state->time, state));
+    if (own->force0) PG_TRY (newmark_remember (s, state->time, state));
 done:
     return status;
 }

@@ -11,7 +11,7 @@ static pg_status prepare (pg_solver *s)
     size_t components = (size_t) sys->components;
     PG_TRY (relaxation_create (s));
     PG_TRY (explicit_stable (s));
-    struct relaxation *x = s->motion->relaxation;
+    struct relaxation *x = motion_of (s)->relaxation;
     x->dt = s->options.dt;
     for (size_t i = 0; i < sys->ndof; i++) x->mass[i] = sys->mass[i];
     if (PG_OWN (pg_stages_options, &s->options)->damping > 0) {
@@ -53,6 +53,8 @@ const pg_solver_type pg_solver_relax = {
     .refused = relaxation_refused,
     .free = relaxation_free,
     .keep = relaxation_keep,
+    .own_size = sizeof (motion),
+    .stable = explicit_bound,
     .progress = relaxation_progress,
     .manner = relaxation_manner,
 };

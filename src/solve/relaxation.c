@@ -19,10 +19,11 @@ static pg_stages_options *stages_of (const pg_solver *s) { return PG_OWN (pg_sta
 pg_status relaxation_create (pg_solver *s)
 {
     pg_status status = PG_OK;
+    motion *m = motion_of (s);
     struct relaxation *x = NULL;
     PG_TRY (explicit_create (s));
-    PG_ALLOC (s->motion->relaxation, 1);
-    x = s->motion->relaxation;
+    PG_ALLOC (m->relaxation, 1);
+    x = m->relaxation;
     PG_ALLOC (x->mass, s->break_loop.system.ndof);
 done:
     return status;
@@ -30,7 +31,7 @@ done:
 
 void relaxation_free (pg_solver *s)
 {
-    struct relaxation *x = s->motion ? s->motion->relaxation : NULL;
+    struct relaxation *x = motion_of (s) ? motion_of (s)->relaxation : NULL;
     if (x) pg_free (x->mass), pg_free (x->rate);
     pg_free (x);
     explicit_free (s);
@@ -63,7 +64,8 @@ static double smallest_stretch (const pg_problem *p)
 static pg_status limit_stages (pg_solver *s)
 {
     pg_status status = PG_OK;
-    motion *m = s->motion;
+    pg_stages_options *own = stages_of (s);
+    motion *m = motion_of (s);
     const struct relaxation *x = m->relaxation;
     double most = 0;
     if (!m->P || !breaks (s)) goto done;
@@ -78,12 +80,12 @@ static pg_status limit_stages (pg_solver *s)
                               "the load would need %g stages so that its mere arrival breaks no bond: it is "
                               "too large for these limits",
                               needed));
-    if (needed > (double) stages_of (s)->stages) {
+    if (needed > (double) own->stages) {
         pg_statistics_warn (&s->report,
                             "the load comes in %.0f stages instead of %ld, so that its mere arrival breaks "
                             "no bond (Shen 2016 eq (22))",
-                            needed, stages_of (s)->stages);
-        stages_of (s)->stages = (long) needed;
+                            needed, own->stages);
+        own->stages = (long) needed;
     }
 done:
     return status;
@@ -92,13 +94,14 @@ done:
 pg_status relaxation_stages (pg_solver *s)
 {
     pg_status status = PG_OK;
+    const pg_stages_options *own = stages_of (s);
     pg_solver_options *o = &s->options;
-    if (stages_of (s)->stages < 1) PG_FAIL (PG_E_USAGE, "%s needs a number of stages", o->kind);
-    if (!(stages_of (s)->imbalance > 0)) PG_FAIL (PG_E_USAGE, "%s needs an imbalance to end at", o->kind);
+    if (own->stages < 1) PG_FAIL (PG_E_USAGE, "%s needs a number of stages", o->kind);
+    if (!(own->imbalance > 0)) PG_FAIL (PG_E_USAGE, "%s needs an imbalance to end at", o->kind);
     PG_TRY (limit_stages (s));
-    o->steps = stages_of (s)->hold ? stages_of (s)->stages : 0;
-    for (long n = 0; !stages_of (s)->hold && n < stages_of (s)->stages;
-         n = explicit_row (s, stages_of (s)->stages, n))
+    o->steps = own->hold ? own->stages : 0;
+    for (long n = 0; !own->hold && n < own->stages;
+         n = explicit_row (s, own->stages, n))
         o->steps++;
 done:
     return status;
@@ -107,7 +110,7 @@ done:
 pg_status relaxation_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
-    struct relaxation *x = s->motion->relaxation;
+    struct relaxation *x = motion_of (s)->relaxation;
     s->next_level = 1;
     x->resting = 1;
     PG_TRY (system_refresh (&s->break_loop.system, state, NULL));
@@ -118,7 +121,8 @@ done:
 
 static double factor_at (const pg_solver *s, long stage)
 {
-    return stage == stages_of (s)->stages ? 1 : (double) stage / (double) stages_of (s)->stages;
+    const pg_stages_options *own = stages_of (s);
+    return stage == own->stages ? 1 : (double) stage / (double) own->stages;
 }
 
 /* ---- one iteration ------------------------------------------------------------------------------------- */
@@ -178,7 +182,8 @@ static double norm (const double *a, size_t n) { return sqrt (sweep_dot (a, a, 0
 static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
 {
     pg_status status = PG_OK;
-    motion *m = s->motion;
+    const pg_stages_options *own = stages_of (s);
+    motion *m = motion_of (s);
     struct relaxation *x = m->relaxation;
     pg_system *sys = &s->break_loop.system;
     double reference = 0, total[SUMS];
@@ -190,7 +195,7 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
         m->push[k] = -sys->residual[m->held[k]], sys->residual[m->held[k]] = 0;
     if (m->P) reference = 0;
     reference = fmax (reference, fmax (m->P ? norm (m->P, sys->ndof) : 0, norm (m->push, m->nheld)));
-    if (x->armed || !stages_of (s)->hold) x->most = fmax (x->most, reference);
+    if (x->armed || !own->hold) x->most = fmax (x->most, reference);
     reference = fmax (reference, least * x->most);
     iterating all = { x, state->d, state->v, state->a, sys->residual, m->inverse, m->sum, 0, sys->ndof, 0 };
     pg_parallel (s->problem->threads, m->nblock, measure, &all);
@@ -200,8 +205,8 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     x->imbalance = reference > 0 ? size / reference : size > 0 ? 1 : 0;
     if (x->resting) x->stiff = x->heavy = 0;
     else if (!x->broke && total[SUM_MASS] > 0) {
-        x->stiff = memory[stages_of (s)->hold] * x->stiff + total[SUM_STIFF],
-        x->heavy = memory[stages_of (s)->hold] * x->heavy + total[SUM_MASS];
+        x->stiff = memory[own->hold] * x->stiff + total[SUM_STIFF],
+        x->heavy = memory[own->hold] * x->heavy + total[SUM_MASS];
         x->c = fmin (1.9 / x->dt, fmax (x->floor, 2 * sqrt (fmax (0, x->stiff / (x->heavy * x->dt)))));
     }
     s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
@@ -211,7 +216,7 @@ done:
 
 static void iterate (pg_solver *s, pg_state *state)
 {
-    motion *m = s->motion;
+    motion *m = motion_of (s);
     struct relaxation *x = m->relaxation;
     const pg_system *sys = &s->break_loop.system;
     double t0 = pg_seconds ();
@@ -225,7 +230,7 @@ static void iterate (pg_solver *s, pg_state *state)
 /* ---- a stage that is held ------------------------------------------------------------------------------ */
 static void impose (const pg_solver *s, pg_state *state)
 {
-    const motion *m = s->motion;
+    const motion *m = motion_of (s);
     for (size_t k = 0; k < m->nheld; k++)
         state->d[m->held[k]] = m->goal[k], state->v[m->held[k]] = state->a[m->held[k]] = 0;
 }
@@ -234,7 +239,7 @@ static void impose (const pg_solver *s, pg_state *state)
  * break. */
 static void open_stage (pg_solver *s, pg_state *state)
 {
-    struct relaxation *x = s->motion->relaxation;
+    struct relaxation *x = motion_of (s)->relaxation;
     double ratio = state->step > 0 && pg_problem_proportional (s->problem)
                        ? (double) (state->step + 1) / (double) state->step
                        : 1;
@@ -248,7 +253,7 @@ static void open_stage (pg_solver *s, pg_state *state)
 static pg_status arm (pg_solver *s, const pg_state *state, double t, int breaking)
 {
     pg_status status = PG_OK;
-    struct relaxation *x = s->motion->relaxation;
+    struct relaxation *x = motion_of (s)->relaxation;
     pg_system *sys = &s->break_loop.system;
     x->armed = 1;
     if (!sys->force->work_balance || !breaking) return PG_OK;
@@ -260,7 +265,7 @@ done:
 
 static pg_status book_pending (pg_solver *s)
 {
-    struct relaxation *x = s->motion->relaxation;
+    struct relaxation *x = motion_of (s)->relaxation;
     if (!x->pending) return PG_OK;
     x->pending = 0;
     return break_loop_book (&s->break_loop, 1);
@@ -270,6 +275,7 @@ static pg_status book_pending (pg_solver *s)
 static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_step *step, size_t *died)
 {
     pg_status status = PG_OK;
+    motion *m = motion_of (s);
     break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     const pg_solver_options *o = &s->options;
@@ -291,7 +297,7 @@ static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_s
         s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
         if (b->changes.n) {
             PG_TRY (system_refresh (sys, state, &b->changes));
-            if (s->motion->relaxation->weigh) PG_TRY (s->motion->relaxation->weigh (s));
+            if (m->relaxation->weigh) PG_TRY (m->relaxation->weigh (s));
             state->events++, s->report.events++;
         }
     }
@@ -314,7 +320,7 @@ static pg_status too_long (const pg_solver *s, const pg_state *state, long itera
                      "(%g, %g, %g) m: probably a loaded part has come loose; try prescribed displacements or "
                      "more solver.stages, else raise "
                      "solver.max_iterations or solver.imbalance",
-                     iterations, s->motion->relaxation->imbalance, stages_of (s)->imbalance,
+                     iterations, motion_of (s)->relaxation->imbalance, stages_of (s)->imbalance,
                      worst / (size_t) sys->components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0);
 }
 
@@ -332,12 +338,13 @@ static pg_status look (pg_solver *s, pg_state *state, pg_step *step)
 static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
 {
     pg_status status = PG_OK;
+    motion *m = motion_of (s);
     break_loop *b = &s->break_loop;
-    struct relaxation *x = s->motion->relaxation;
+    struct relaxation *x = m->relaxation;
     const pg_solver_options *o = &s->options;
     int can = breaks (s), passing = can && o->break_mode == PG_BREAK_PASSING;
     for (;; b->round++) {
-        if (b->watch && b->round > b->began && b->round % s->motion->between == 0)
+        if (b->watch && b->round > b->began && b->round % m->between == 0)
             PG_TRY (look (s, state, step));
         int tested = passing && x->armed;
         PG_TRY (examine (s, state, t, tested));
@@ -365,9 +372,10 @@ done:
 static pg_status step_held (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
+    motion *m = motion_of (s);
     break_loop *b = &s->break_loop;
     double t = factor_at (s, state->step + 1);
-    s->motion->fresh = 0;
+    m->fresh = 0;
     PG_TRY (explicit_follow (s, t, t, t));
     if (b->round == 0) open_stage (s, state);
     PG_TRY (hold (s, state, t, step));
@@ -375,7 +383,7 @@ static pg_status step_held (pg_solver *s, pg_state *state, pg_step *step)
     memset (state->v, 0, state->ndof * sizeof *state->v);
     memset (state->a, 0, state->ndof * sizeof *state->a);
     b->round = 0;
-    step->residual = s->motion->relaxation->imbalance;
+    step->residual = m->relaxation->imbalance;
     state->factor = t;
     while ((double) s->next_level / (double) s->options.levels <= t * (1 + 1e-12))
         s->next_level++, step->level = 1;
@@ -390,7 +398,7 @@ done:
  * does: d . (P - r) is d K d. */
 static double steady_damping (const pg_solver *s, const pg_state *state)
 {
-    const motion *m = s->motion;
+    const motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     const double *d = state->d, *mass = m->relaxation->mass;
     double stiff = 0, heavy = 0;
@@ -410,15 +418,17 @@ static int is_due (long n) { return n % 64 == 0 || (n < 64 && (n & (n - 1)) == 0
 static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
+    const pg_stages_options *own = stages_of (s);
+    motion *m = motion_of (s);
     break_loop *b = &s->break_loop;
-    struct relaxation *x = s->motion->relaxation;
-    long n = state->iterations + b->round, last = explicit_row (s, stages_of (s)->stages, state->iterations);
+    struct relaxation *x = m->relaxation;
+    long n = state->iterations + b->round, last = explicit_row (s, own->stages, state->iterations);
     if (b->round == 0) b->nbroken = 0, x->worst = 0;
     explicit_release (s, state);
-    s->motion->fresh = 0;
+    m->fresh = 0;
     while (n < last) {
         double t = factor_at (s, ++n);
-        s->motion->fresh = 0;
+        m->fresh = 0;
         PG_TRY (explicit_follow (s, t, t, t));
         impose (s, state);
         PG_TRY (examine (s, state, t, 1));
@@ -426,7 +436,7 @@ static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
         x->worst = fmax (x->worst, x->imbalance);
         iterate (s, state);
         b->round = n - state->iterations;
-        if (b->watch && n % s->motion->between == 0 && n < last) {
+        if (b->watch && n % m->between == 0 && n < last) {
             step->time = t;
             PG_TRY (look (s, state, step));
         }
@@ -437,8 +447,8 @@ static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
     b->round = 0;
     step->residual = x->worst;
     state->factor = t;
-    step->level = explicit_level (s, stages_of (s)->stages, n);
-    PG_TRY (explicit_end (s, state, n == stages_of (s)->stages, "load factor", t));
+    step->level = explicit_level (s, own->stages, n);
+    PG_TRY (explicit_end (s, state, n == own->stages, "load factor", t));
     if (s->finished)
         pg_statistics_warn (&s->report,
                             "hold: off takes one iteration a stage: its states are not in equilibrium, the "
@@ -465,25 +475,27 @@ done:
 
 int relaxation_done (const pg_solver *s, const pg_state *state)
 {
-    return (stages_of (s)->hold ? state->step : state->iterations) >= stages_of (s)->stages;
+    const pg_stages_options *own = stages_of (s);
+    return (own->hold ? state->step : state->iterations) >= own->stages;
 }
 
 double relaxation_progress (const pg_solver *s, const pg_state *state)
 {
-    return (double) (stages_of (s)->hold ? state->step : state->iterations + s->break_loop.round)
-           / (double) stages_of (s)->stages;
+    const pg_stages_options *own = stages_of (s);
+    return (double) (own->hold ? state->step : state->iterations + s->break_loop.round)
+           / (double) own->stages;
 }
 
 void relaxation_refused (pg_solver *s)
 {
-    struct relaxation *x = s->motion->relaxation;
+    struct relaxation *x = motion_of (s)->relaxation;
     x->resting = 1, x->armed = x->pending = 0;
 }
 
 pg_status relaxation_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    struct relaxation *x = s->motion->relaxation;
+    struct relaxation *x = motion_of (s)->relaxation;
     double number[7] = { x->c, x->imbalance, x->worst, x->most, x->stiff, x->heavy, x->floor };
     long count[4] = { x->armed, x->resting, x->pending, x->broke };
     PG_TRY (k->numbers (k->context, "relaxation.numbers", 7, number));

@@ -145,7 +145,6 @@ void   options_read_times (pg_solver_options *o, const pg_problem *problem, cons
  * knows it. */
 pg_status solver_fault (const pg_solver *s, const char *key, const char *format, ...)
     __attribute__ ((format (printf, 3, 4)));
-typedef struct motion motion;                          /* explicit.h */
 
 struct pg_solver {
     const pg_solver_type *type;
@@ -155,42 +154,23 @@ struct pg_solver {
     pg_statistics report;
     int       started, finished, overlap_told, energy_told, skips_told, spared_told;
     long      next_level;                              /* next level to report: next_level / levels */
-    double   *unit;                                    /* event stepping: displacement at load factor 1 */
-    double   *base;                                    /* affine loads: at load factor 0 */
-    long      held;                                    /* affine loads: events at a held load factor */
-    double    unit_residual;                           /* of `unit` */
-    pg_status ended;  char why[1024];  /* event stepping: why no step can follow, told by the next */
-    int       work_balance_fresh;                            /* the work balance is that of `unit` */
-    double    secant0;  /* event stepping: first work per squared load factor */
-    /* event stepping: work per squared load factor over the first; largest load factor */
-    double    secant, top_factor;
     pg_state *backup;                                  /* last accepted state, for refused steps */
     double   *reaction;
-    double   *work1, *work2, *work3, *work4;           /* newmark (work4: 3 x ndof) */
-    double   *force0;  /* newmark with alpha: loads less resistance at the last step's end, N */
-    dynamics  dyn;                                     /* newmark: coefficients of its matrix */
-    double   *support;  /* newmark: motion z, z', z'' of prescribed nodes (3 x ndof) */
-    motion   *motion;                                  /* explicit and relaxed methods */
-    long      support_updates;  /* report.updates when it was found: breaking changes z */
+    void     *own;  /* what the method alone knows (type->own_size bytes), or NULL */
 };
 
-/* ---- static.c, affine.c: events ------------------------------------------------------------------------ */
-pg_status affine_solve (pg_solver *s);                 /* both equilibria */
-pg_status affine_step  (pg_solver *s, pg_state *state, pg_step *step);
-/* What the equilibrium after an event came to: 1: there is none, and the next step says why. */
-int       event_ended  (pg_solver *s, const pg_state *state, double factor, pg_status now);
-/* crack arrived, body apart */
-pg_status event_stops  (pg_solver *s, const pg_state *state, double factor, double secant);
-void      event_limit  (pg_solver *s, const pg_state *state, double factor);  /* max_events */
+/* ---- progress.c ---------------------------------------------------------------------------------------- */
+/* One of the ends that a run may come to, and how far it has come towards it: the nearest counts. */
+void progress_offer (pg_progress *p, double share, const char *end, int even);
 
-/* ---- newmark_start.c ----------------------------------------------------------------------------------- */
-pg_status newmark_start    (pg_solver *s, pg_state *state);
-pg_status newmark_supports (pg_solver *s, double t, int start);  /* fills s->support for time t */
-/* V and A of prescribed nodes from support */
-void      newmark_follow   (pg_solver *s, double t, double *v, double *a);
-/* residual -= M a + C v */
-void      newmark_resist   (pg_solver *s, const double *v, const double *a, double *residual);
-void      newmark_damp     (pg_solver *s, const double *v, double *residual);
-pg_status newmark_remember (pg_solver *s, double t, const pg_state *state);      /* fills s->force0 */
-double    newmark_kinetic  (pg_solver *s, const double *v);
+/* ---- checkpoint.c -------------------------------------------------------------------------------------- */
+/* What is read back must lie where the rest of the program may rely on it. */
+#define PG_KEEP_BOUND(k, name, value, low, high) \
+    do { \
+        if ((k)->reading && ((value) < (low) || (value) > (high))) \
+            PG_FAIL (PG_E_FILE, "the checkpoint is not of this run: %s is %ld, not from %ld to %ld", (name), \
+                     (long) (value), (long) (low), (long) (high)); \
+    } while (0)
+/* A text in an array of fixed size, ended whatever was read. */
+pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper *k);
 #endif

@@ -40,10 +40,13 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     pg_system *sys = &s->break_loop.system;
     sys->problem = problem, sys->force = force, sys->options = &s->options, sys->report = &s->report;
     pg_solver_doubts (&s->report, problem, &s->options);
+    if (s->type->own_size) {
+        char *own = NULL;
+        PG_ALLOC (own, s->type->own_size);
+        s->own = own;
+    }
     PG_TRY (break_loop_create (&s->break_loop));
     PG_ALLOC (s->reaction, 3 * problem->nload);
-    PG_ALLOC (s->work1, sys->ndof);
-    PG_ALLOC (s->work2, sys->ndof);
     PG_TRY (pg_state_create (&s->backup, problem, sys->components));
     if (s->type->prepare) PG_TRY (s->type->prepare (s));
     s->options.scene = NULL;                               /* may be gone from here on */
@@ -62,13 +65,21 @@ void pg_solver_free (pg_solver **solver)
 {
     pg_solver *s = *solver;
     if (!s) return;
-    if (s->type && s->type->free) s->type->free (s);
+    if (s->own && s->type->free) s->type->free (s);
+    pg_free (s->own);
     break_loop_free (&s->break_loop);
-    pg_free (s->unit), pg_free (s->base), pg_free (s->reaction), pg_free (s->work1), pg_free (s->work2),
-        pg_free (s->work3), pg_free (s->work4), pg_free (s->support), pg_free (s->force0);
+    pg_free (s->reaction);
     pg_state_free (&s->backup);
     pg_free (s);
     *solver = NULL;
+}
+
+double pg_solver_stable (const pg_solver *s, const char **from)
+{
+    const char *unknown = "";
+    if (!from) from = &unknown;
+    *from = "";
+    return s->type->stable ? s->type->stable (s, from) : NAN;
 }
 
 int pg_solver_components (const pg_solver *s) { return s->break_loop.system.components; }

@@ -63,5 +63,7 @@ const pg_solver_type pg_solver_verlet = {
     .refused = march_refused,
     .free = explicit_free,
     .keep = explicit_keep,
+    .own_size = sizeof (motion),
+    .stable = explicit_bound,
     .progress = march_progress,
 };

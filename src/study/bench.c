@@ -3,7 +3,26 @@
  * reference. */
 #include "bench.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+static int ascending (const void *a, const void *b)
+{
+    double p = *(const double *) a, q = *(const double *) b;
+    return (p > q) - (p < q);
+}
+
+void pg_bench_spread (const pg_bench_case *c, double *least, double *median, double *largest)
+{
+    double sorted[PG_BENCH_REPEATS];
+    size_t n = (size_t) (c->runs < PG_BENCH_REPEATS ? c->runs : PG_BENCH_REPEATS);
+    *least = *median = *largest = NAN;
+    if (n == 0) return;
+    memcpy (sorted, c->cpu, n * sizeof *sorted);
+    qsort (sorted, n, sizeof *sorted, ascending);
+    *least = sorted[0], *largest = sorted[n - 1];
+    *median = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
+}
 
 static pg_status make_folders (const pg_bench_request *q)
 {
@@ -46,7 +65,24 @@ static void tell (FILE *out, const pg_bench_case *c)
     fflush (out);
 }
 
-/* A curve of which one size cannot be is left out at once; sizes that fail later only end with a note. */
+/* A combination that cannot be leaves its larger sizes out too; a run that failed only ends with a note. */
+static void note_trouble (pg_bench_cases *cases, size_t k, pg_status outcome)
+{
+    pg_bench_case *c = &cases->at[k];
+    int impossible = outcome == PG_E_SCENE;
+    snprintf (c->trouble, sizeof c->trouble, "%s: %s", impossible ? "skipped" : "failed", pg_last_error ());
+    for (size_t i = k + 1; impossible && i < cases->n && cases->at[i].curve == c->curve; i++)
+        snprintf (cases->at[i].trouble, sizeof c->trouble, "skipped: see the size before");
+}
+
+static void count_run (pg_bench_case *c, const pg_trial *t)
+{
+    if (c->runs < PG_BENCH_REPEATS) c->cpu[c->runs] = t->value[PG_TRIAL_CPU];
+    if (c->runs++ == 0 || t->value[PG_TRIAL_CPU] < c->best.value[PG_TRIAL_CPU]) c->best = *t;
+}
+
+/* All cases one after the other, and that as often as asked: what else the machine does at a time then
+ * meets each case once and not one case in all its runs. */
 static pg_status run_all (pg_bench_cases *cases, const pg_bench_request *q)
 {
     pg_status status = PG_OK;
@@ -54,26 +90,30 @@ static pg_status run_all (pg_bench_cases *cases, const pg_bench_request *q)
         for (size_t k = 0; k < cases->n; k++) {
             pg_bench_case *c = &cases->at[k];
             pg_trial t;
-            if (c->trouble[0]) {
-                if (q->out && r == 0) tell (q->out, c);
-                continue;
-            }
-            pg_status outcome = c->fem ? pg_bench_fem_run (c, q) : run_once (c, q, &t);
+            int troubled = c->trouble[0] != 0;
+            pg_status outcome = troubled ? PG_OK : c->fem ? pg_bench_fem_run (c, q) : run_once (c, q, &t);
             if (outcome == PG_E_INTERRUPTED) PG_TRY (outcome);
-            if (outcome != PG_OK) {
-                snprintf (c->trouble, sizeof c->trouble, "%s: %s",
-                          outcome == PG_E_SCENE ? "skipped" : "failed", pg_last_error ());
-                for (size_t i = k + 1;
-                     outcome == PG_E_SCENE && i < cases->n && cases->at[i].curve == c->curve; i++)
-                    snprintf (cases->at[i].trouble, sizeof c->trouble, "skipped: see the size before");
-            } else if (!c->fem) {
-                int better = c->runs++ == 0 || t.value[PG_TRIAL_CPU] < c->best.value[PG_TRIAL_CPU];
-                if (better) c->best = t;
-            }
+            if (outcome != PG_OK) note_trouble (cases, k, outcome);
+            else if (!troubled && !c->fem) count_run (c, &t);
             if (q->out && r == 0) tell (q->out, c);
         }
 done:
     return status;
+}
+
+/* CPU seconds of every case over its repeats: a difference between two cases that is smaller than the
+ * spread of one says nothing. */
+static void tell_spread (FILE *out, const pg_bench_cases *cases, int repeat)
+{
+    fprintf (out, "  CPU seconds of %d runs: least, median, largest\n", repeat);
+    for (size_t k = 0; k < cases->n; k++) {
+        const pg_bench_case *c = &cases->at[k];
+        double least, median, largest;
+        pg_bench_spread (c, &least, &median, &largest);
+        if (!c->runs) continue;
+        fprintf (out, "  %-22s %-34s %8.0f dofs  %8.3g %8.3g %8.3g\n", c->name, c->method,
+                 c->best.value[PG_TRIAL_DOFS], least, median, largest);
+    }
 }
 
 pg_status pg_bench_run (const pg_bench_request *q)
@@ -83,6 +123,7 @@ pg_status pg_bench_run (const pg_bench_request *q)
     PG_TRY (make_folders (q));
     PG_TRY (pg_bench_cases_make (&cases, q));
     PG_TRY (run_all (&cases, q));
+    if (q->out && q->repeat > 1) tell_spread (q->out, &cases, q->repeat);
     PG_TRY (pg_bench_report (&cases, q));
 done:
     pg_free (cases.at);

@@ -4,6 +4,7 @@
 #define PG_STUDY_BENCH_H
 #include "perigal/study.h"
 
+enum { PG_BENCH_REPEATS = 100 };
 /* A point of a curve: one scene, one method, one size. best: the repeat with the least CPU seconds. */
 typedef struct {
     size_t scene, curve;
@@ -13,7 +14,8 @@ typedef struct {
     char   element[16];  long size;  /* fem, and scenes on meshes of make_mesh.py; else "" */
     char   mesh[4300];                                 /* of the latter: "mesh.file=..." once it is made */
     size_t nset;
-    pg_trial best;
+    pg_trial best;                                     /* the run with the least CPU seconds */
+    double cpu[PG_BENCH_REPEATS];                      /* s of every run, in the order of running (runs) */
 } pg_bench_case;
 typedef struct { size_t n, cap, ncurve; pg_bench_case *at; } pg_bench_cases;
 
@@ -41,6 +43,8 @@ pg_status   pg_bench_mesh_set  (pg_bench_case *c, const pg_bench_request *q); /*
 pg_status pg_bench_fem_add (pg_bench_cases *out, const pg_bench_request *q, size_t scene,
                             const char *name);
 pg_status pg_bench_fem_run (pg_bench_case *c, const pg_bench_request *q);
+/* Least, median and largest CPU seconds of the runs of a case. */
+void      pg_bench_spread (const pg_bench_case *c, double *least, double *median, double *largest);
 /* bench_report.c: bench.csv, pictures, ratios of CPU seconds at equal error. */
 pg_status pg_bench_report (const pg_bench_cases *cases, const pg_bench_request *q);
 #endif

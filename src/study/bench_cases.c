@@ -65,8 +65,66 @@ static const char *horizon_for (const pg_bench_base *b, const pg_bench_request *
     return quadratic ? "2.5 spacing" : "2 spacing";
 }
 
+/* Does the force choose among approximations, integrations and bases? */
+static int has_shape_functions (const char *force)
+{
+    const pg_force_type *type = pg_force_find (force);
+    return !type || type->method.shape_functions;
+}
+
+/* One combination of the lists; NULL: the scene's own choice. */
 typedef struct { const char *force, *approximation, *integration, *basis, *cells, *perturb, *horizon; } mix;
 
+/* Appends a word to a name, with a blank before it unless the name is empty; "" and NULL append nothing. */
+static void append (char *name, size_t size, const char *word)
+{
+    size_t n = strlen (name);
+    if (word && *word && n < size) snprintf (name + n, size - n, "%s%s", n ? " " : "", word);
+}
+
+/* "rkpm gauss quadratic perturbed 0.2": what tells the curves of a picture apart. The force is named where
+ * there are several, or where it has no shape functions. */
+static void name_method (pg_bench_case *c, const pg_bench_request *q, const pg_bench_base *b, const mix *m)
+{
+    int perturbed = m->perturb && strcmp (m->perturb, "0") != 0;
+    if (q->force.n > 1 || !m->basis) append (c->method, sizeof c->method, m->force);
+    append (c->method, sizeof c->method, m->approximation);
+    append (c->method, sizeof c->method, m->integration);
+    append (c->method, sizeof c->method, m->basis);
+    append (c->method, sizeof c->method, m->horizon);
+    append (c->method, sizeof c->method, perturbed ? "perturbed" : "");
+    append (c->method, sizeof c->method, perturbed ? m->perturb : "");
+    append (c->method, sizeof c->method, m->cells);
+    append (c->method, sizeof c->method, b->mesh ? "mesh" : "");
+}
+
+/* A case without its size: names, and the keys that make the scene this combination. */
+static void fill_case (pg_bench_case *c, const pg_bench_request *q, const pg_bench_base *b, const mix *m)
+{
+    const pg_bench_body *body = pg_bench_body_find (b->name);
+    pg_trial_read (&c->best, "");
+    snprintf (c->name, sizeof c->name, "%s", b->name);
+    snprintf (c->group, sizeof c->group, "%s", body ? body->group : b->name);
+    snprintf (c->perturb, sizeof c->perturb, "%s", m->perturb ? m->perturb : "");
+    snprintf (c->cells, sizeof c->cells, "%s", m->cells ? m->cells : "");
+    name_method (c, q, b, m);
+    put (c, "method.force", m->force), put (c, "method.approximation", m->approximation);
+    put (c, "method.integration", m->integration), put (c, "method.basis", m->basis);
+    put (c, "cells", m->cells), put (c, "perturb.amount", m->perturb);
+    put (c, "method.horizon", m->horizon || !m->basis ? m->horizon : horizon_for (b, q, m->basis));
+}
+
+/* How many sizes a curve has: those asked for; twice, once and half the scene's spacing; one where nothing
+ * sets it. */
+static size_t count_sizes (const pg_bench_request *q, const pg_bench_base *b, int meshed)
+{
+    if (meshed) return q->mesh.n;
+    if (b->mesh) return 1;
+    if (q->spacing.n) return q->spacing.n;
+    return b->spacing > 0 ? 3 : 1;
+}
+
+/* All sizes of one combination. */
 static pg_status add_curve (pg_bench_cases *out, const pg_bench_request *q, size_t s, const pg_bench_base *b,
                             const mix *m)
 {
@@ -74,35 +132,18 @@ static pg_status add_curve (pg_bench_cases *out, const pg_bench_request *q, size
     static const double factor[3] = { 2, 1, 0.5 };
     const pg_bench_body *body = pg_bench_body_find (b->name);
     int meshed = b->mesh && body && body->own && !pg_bench_mesh_missing (q->scene[s], b->name);
-    size_t sizes = meshed ? q->mesh.n : b->mesh ? 1 : q->spacing.n ? q->spacing.n : b->spacing > 0 ? 3 : 1;
-    char number[32];
+    size_t sizes = count_sizes (q, b, meshed);
     for (size_t k = 0; k < sizes; k++) {
         PG_GROW (out->at, out->cap, out->n + 1);
         pg_bench_case *c = &out->at[out->n++];
         memset (c, 0, sizeof *c);
         c->scene = s, c->curve = out->ncurve;
-        pg_trial_read (&c->best, "");
-        snprintf (c->name, sizeof c->name, "%s", b->name);
-        snprintf (c->group, sizeof c->group, "%s", body ? body->group : b->name);
-        snprintf (c->perturb, sizeof c->perturb, "%s", m->perturb ? m->perturb : "");
-        snprintf (c->cells, sizeof c->cells, "%s", m->cells ? m->cells : "");
-        const char *shape = m->approximation ? m->approximation : "",
-                   *where = m->integration ? m->integration : "", *basis = m->basis ? m->basis : "";
-        int named = q->force.n > 1 || !m->basis, shaped = m->basis != NULL;
-        snprintf (c->method, sizeof c->method, "%s%s%s%s%s%s%s%s%s%s%s%s%s%s", named ? m->force : "",
-                  named && shaped ? " " : "", shape, shaped ? " " : "", where, shaped ? " " : "", basis,
-                  m->horizon ? " " : "", m->horizon ? m->horizon : "",
-                  m->perturb && strcmp (m->perturb, "0") != 0 ? " perturbed " : "",
-                  m->perturb && strcmp (m->perturb, "0") != 0 ? m->perturb : "", m->cells ? " " : "",
-                  m->cells ? m->cells : "", b->mesh ? " mesh" : "");
-        put (c, "method.force", m->force), put (c, "method.approximation", m->approximation),
-            put (c, "method.integration", m->integration);
-        put (c, "method.basis", m->basis), put (c, "cells", m->cells), put (c, "perturb.amount", m->perturb);
-        put (c, "method.horizon", m->horizon || !m->basis ? m->horizon : horizon_for (b, q, m->basis));
-        snprintf (number, sizeof number, "%.15g", b->spacing * factor[k < 3 ? k : 2]);
+        fill_case (c, q, b, m);
         if (meshed)
             snprintf (c->element, sizeof c->element, "CPS8"), c->size = strtol (q->mesh.word[k], NULL, 10);
         if (b->mesh) continue;
+        char number[32];
+        snprintf (number, sizeof number, "%.15g", b->spacing * factor[k < 3 ? k : 2]);
         if (q->spacing.n) put (c, "spacing", q->spacing.word[k]);
         else if (b->spacing > 0) put (c, "spacing", number);
     }
@@ -125,37 +166,58 @@ static int has_fem (const pg_bench_cases *cases, const char *name)
     return 0;
 }
 
-pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *asked)
+/* Lists that were not given stand for the whole catalogue. */
+static void fill_lists (pg_bench_request *q)
 {
-    pg_status status = PG_OK;
-    pg_bench_request *q = NULL;
-    PG_ALLOC (q, 1);
-    *q = *asked;
-    fill (&q->force, (*pg_force_methods ())->name), fill (&q->approximation, pg_approx_names ()),
-        fill (&q->integration, pg_integration_names ());
+    fill (&q->force, (*pg_force_methods ())->name);
+    fill (&q->approximation, pg_approx_names ());
+    fill (&q->integration, pg_integration_names ());
     fill (&q->basis, "linear|quadratic");
     if (!q->mesh.n) q->mesh = q->size;
     else if (!q->size.n) q->size = q->mesh;
     if (!q->mesh.n) fill (&q->mesh, "8|16|32");
     count_spacings (&q->horizon);
-    for (size_t s = 0; s < q->nscene; s++) {
-        pg_bench_base b;
-        const pg_word_list *list[7] = { &q->force, &q->approximation, &q->integration, &q->basis,
-                                       &q->cells, &q->perturb,       &q->horizon };
-        size_t of[7], all = 1;
-        PG_TRY (pg_bench_look (&b, q->scene[s], q->nset, q->set));
-        for (int k = 6; k >= 0; k--) of[k] = all, all *= list[k]->n ? list[k]->n : 1;
-        for (size_t k = 0; k < all; k++) {
-            mix m = { word_of (list[0], k, of[0]), word_of (list[1], k, of[1]), word_of (list[2], k, of[2]),
-                      word_of (list[3], k, of[3]), word_of (list[4], k, of[4]), word_of (list[5], k, of[5]),
-                      word_of (list[6], k, of[6]) };
-            const pg_force_type *force = pg_force_find (m.force);
-            if (force && !force->method.shape_functions) {  /* once: it has no shape functions to choose among */
-                if (k / of[1] % list[1]->n || k / of[2] % list[2]->n || k / of[3] % list[3]->n) continue;
-                m.approximation = m.integration = m.basis = NULL;
-            }
-            PG_TRY (add_curve (out, q, s, &b, &m));
+}
+
+/* Every combination of the lists for one scene, as digits of a number with the last list running fastest.
+ * A force without shape functions comes once, not for every approximation, integration and basis. */
+static pg_status add_combinations (pg_bench_cases *out, const pg_bench_request *q, size_t s,
+                                   const pg_bench_base *b)
+{
+    pg_status status = PG_OK;
+    enum { FORCE, APPROXIMATION, INTEGRATION, BASIS, CELLS, PERTURB, HORIZON, LISTS };
+    const pg_word_list *list[LISTS] = { &q->force, &q->approximation, &q->integration, &q->basis,
+                                        &q->cells, &q->perturb,       &q->horizon };
+    size_t of[LISTS], all = 1;
+    for (int k = LISTS - 1; k >= 0; k--) of[k] = all, all *= list[k]->n ? list[k]->n : 1;
+    for (size_t k = 0; k < all; k++) {
+        const char *word[LISTS];
+        for (int l = 0; l < LISTS; l++) word[l] = word_of (list[l], k, of[l]);
+        mix m = { word[FORCE], word[APPROXIMATION], word[INTEGRATION], word[BASIS],
+                  word[CELLS], word[PERTURB],       word[HORIZON] };
+        if (!has_shape_functions (m.force)) {
+            size_t first = 1;
+            for (int l = APPROXIMATION; l <= BASIS; l++) first &= k / of[l] % list[l]->n == 0;
+            if (!first) continue;
+            m.approximation = m.integration = m.basis = NULL;
         }
+        PG_TRY (add_curve (out, q, s, b, &m));
+    }
+done:
+    return status;
+}
+
+pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *asked)
+{
+    pg_status status = PG_OK;
+    pg_bench_request *q = NULL;
+    pg_bench_base b;
+    PG_ALLOC (q, 1);
+    *q = *asked;
+    fill_lists (q);
+    for (size_t s = 0; s < q->nscene; s++) {
+        PG_TRY (pg_bench_look (&b, q->scene[s], q->nset, q->set));
+        PG_TRY (add_combinations (out, q, s, &b));
         if (q->fem && !has_fem (out, b.name)) PG_TRY (pg_bench_fem_add (out, q, s, b.name));
     }
 done:

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { FIRST = 8, COLUMNS = FIRST + PG_TRIAL_COUNT + 2, CURVES = 10 };
+enum { FIRST = 8, COLUMNS = FIRST + PG_TRIAL_COUNT + 4, CURVES = 10 };
 
 /* The error a case is judged by: over the body, else on the lines of its reference. */
 static double error_of (const pg_bench_case *c)
@@ -15,39 +15,61 @@ static double error_of (const pg_bench_case *c)
     return isnan (l2) ? c->best.value[PG_TRIAL_LINES] : l2;
 }
 
+/* Numbers of a row behind its words: those of the best run, the spread of all runs, how many there were. */
+enum { MEDIAN = PG_TRIAL_COUNT, LARGEST, RUNS, NUMBERS };
+
+/* Names of the columns, and where a key=value of the case fills one. */
+static const char *const words[FIRST] = { "case",  "method",  "approximation", "integration",
+                                          "basis", "perturb", "cells",         "fem" };
+static const char *const word_key[FIRST] = { [2] = "method.approximation=", [3] = "method.integration=",
+                                             [4] = "method.basis=" };
+
+static void fill_words (const pg_bench_case *c, const char *cell[FIRST])
+{
+    const char *fixed[FIRST] = { c->name, c->method,  "",       "",
+                                 "",      c->perturb, c->cells, c->fem ? c->element : "" };
+    for (int k = 0; k < FIRST; k++) {
+        cell[k] = fixed[k];
+        for (size_t s = 0; word_key[k] && s < c->nset; s++)
+            if (strncmp (c->set[s], word_key[k], strlen (word_key[k])) == 0)
+                cell[k] = c->set[s] + strlen (word_key[k]);
+    }
+}
+
+static void fill_numbers (const pg_bench_case *c, char number[NUMBERS][32])
+{
+    double value[NUMBERS], least;
+    memcpy (value, c->best.value, sizeof c->best.value);
+    pg_bench_spread (c, &least, &value[MEDIAN], &value[LARGEST]);
+    value[RUNS] = c->runs;
+    for (int k = 0; k < NUMBERS; k++) {
+        number[k][0] = 0;                              /* empty: not known */
+        if (!isnan (value[k])) snprintf (number[k], sizeof *number, "%.8g", value[k]);
+    }
+}
+
 static pg_status write_table (const pg_bench_cases *cases, const pg_bench_request *q)
 {
     pg_status status = PG_OK;
-    static const char *const first[FIRST] = { "case",  "method",  "approximation", "integration",
-                                              "basis", "perturb", "cells",         "fem" };
-    static const char *const key[FIRST] = {
-        NULL, NULL, "method.approximation=", "method.integration=", "method.basis=", NULL, NULL, NULL
-    };
-    char title[COLUMNS][64], number[PG_TRIAL_COUNT + 1][32], path[4096];
+    char title[COLUMNS][64], number[NUMBERS][32], path[4096];
     const char *column[COLUMNS], *cell[COLUMNS];
     pg_table *table = NULL;
     for (int k = 0; k < COLUMNS; k++) column[k] = title[k];
-    for (int k = 0; k < FIRST; k++) snprintf (title[k], sizeof *title, "%s [name]", first[k]);
+    for (int k = 0; k < FIRST; k++) snprintf (title[k], sizeof *title, "%s [name]", words[k]);
     for (int k = 0; k < PG_TRIAL_COUNT; k++)
         snprintf (title[FIRST + k], sizeof *title, "%s [%s]", pg_trial_name[k], pg_trial_unit[k]);
-    snprintf (title[COLUMNS - 2], sizeof *title, "runs [1]"),
-        snprintf (title[COLUMNS - 1], sizeof *title, "outcome [name]");
+    snprintf (title[FIRST + MEDIAN], sizeof *title, "cpu_median [s]");
+    snprintf (title[FIRST + LARGEST], sizeof *title, "cpu_largest [s]");
+    snprintf (title[FIRST + RUNS], sizeof *title, "runs [1]");
+    snprintf (title[FIRST + NUMBERS], sizeof *title, "outcome [name]");
     snprintf (path, sizeof path, "%s/bench.csv", q->folder);
     PG_TRY (pg_table_create (&table, path, COLUMNS, column));
     for (size_t i = 0; i < cases->n; i++) {
         const pg_bench_case *c = &cases->at[i];
-        const char *text[FIRST] = { c->name, c->method,  "",       "",
-                                    "",      c->perturb, c->cells, c->fem ? c->element : "" };
-        for (int k = 0; k < FIRST; k++)
-            for (size_t s = 0; key[k] && s < c->nset; s++)
-                if (strncmp (c->set[s], key[k], strlen (key[k])) == 0) text[k] = c->set[s] + strlen (key[k]);
-        for (int k = 0; k < FIRST; k++) cell[k] = text[k];
-        for (int k = 0; k < PG_TRIAL_COUNT; k++) {
-            snprintf (number[k], sizeof *number, "%.8g", c->best.value[k]);
-            cell[FIRST + k] = isnan (c->best.value[k]) ? "" : number[k];
-        }
-        snprintf (number[PG_TRIAL_COUNT], sizeof *number, "%d", c->runs);
-        cell[COLUMNS - 2] = number[PG_TRIAL_COUNT], cell[COLUMNS - 1] = c->trouble[0] ? c->trouble : "done";
+        fill_words (c, cell);
+        fill_numbers (c, number);
+        for (int k = 0; k < NUMBERS; k++) cell[FIRST + k] = number[k];
+        cell[FIRST + NUMBERS] = c->trouble[0] ? c->trouble : "done";
         PG_TRY (pg_table_line (table, cell));
     }
 done:

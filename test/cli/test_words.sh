@@ -25,7 +25,7 @@ verdict "check --json has them too" $?
 # Without a terminal: a line each tenth of the nearest end, which is named; event stepping counts events.
 "$perigal" run plate.yaml -o "$work/events" --threads 1 --set solver.max_events=20 > "$work/out" 2> "$work/err"
 [ "$(grep -c ' % of max_events, [0-9]* event' "$work/err")" -ge 6 ]; verdict "progress goes on after the peak of the load" $?
-holds "it ends at its end" "$work/err" '^100.0 % of max_events, 20 events.*, load factor .*, stiffness .* of the first, .* bonds broken, residual'
+holds "it ends at its end" "$work/err" '^100.0 % of max_events, 20 events.*, load factor .*, stiffness .* of the initial one, .* bonds broken, residual'
 "$perigal" run plate.yaml -o "$work/load" --threads 1 --set failure='{criterion: none}' > "$work/out" 2> "$work/err"
 holds "event stepping without a break: the load" "$work/err" '^ 50.0 % of the load, 0 events, load factor 0.5'
 "$perigal" run plate.yaml -o "$work/stop" --threads 1 --set 'solver.stop={set: right, damage: 20 %}' > "$work/out" 2> "$work/err"

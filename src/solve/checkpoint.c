@@ -7,25 +7,17 @@
 #include <string.h>
 
 static const long most = 1L << 50;                     /* of any count */
-/* What is read back must lie where the rest of the program may rely on it. */
-#define BOUND(k, name, value, low, high) \
-    do { \
-        if ((k)->reading && ((value) < (low) || (value) > (high))) \
-            PG_FAIL (PG_E_FILE, "the checkpoint is not of this run: %s is %ld, not from %ld to %ld", (name), \
-                     (long) (value), (long) (low), (long) (high)); \
-    } while (0)
-
 static pg_status keep_flags (const char *name, size_t n, unsigned char *flag, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     PG_TRY (k->bytes (k->context, name, n, flag));
-    for (size_t i = 0; k->reading && i < n; i++) BOUND (k, name, flag[i], 0, 1);
+    for (size_t i = 0; k->reading && i < n; i++) PG_KEEP_BOUND (k, name, flag[i], 0, 1);
 done:
     return status;
 }
 
 /* A text of fixed workspace, ended whatever was read. */
-static pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper *k)
+pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper *k)
 {
     pg_status status = k->bytes (k->context, name, size, text);
     if (k->reading) text[size - 1] = 0;
@@ -43,7 +35,7 @@ static pg_status keep_state (pg_state *s, const char *name, const pg_keeper *k)
 #define PART(suffix) (strcpy (part, name), strcat (part, suffix))
     PG_TRY (k->counts (k->context, PART (".counts"), 5, count));
     PG_TRY (k->numbers (k->context, PART (".numbers"), 3, number));
-    for (int i = 0; i < 5; i++) BOUND (k, name, count[i], 0, most);
+    for (int i = 0; i < 5; i++) PG_KEEP_BOUND (k, name, count[i], 0, most);
     s->step = count[0], s->events = count[1], s->iterations = count[2], s->broken = count[3],
     s->history_rows = count[4];
     s->time = number[0], s->factor = number[1], s->work = number[2];
@@ -68,9 +60,9 @@ static pg_status keep_bond (const pg_problem *p, pg_broken *b, const pg_keeper *
         for (int i = 0; i < 3; i++) number[2 + i] = b->place[i];
         goto done;
     }
-    BOUND (k, "the set of a broken bond", count[1], 0, PG_BOND_SETS - 1);
-    BOUND (k, "a broken bond", count[0], 0, (long) p->first_bond[PG_BOND_SETS] - 1);
-    BOUND (k, "the kind of a broken bond", count[2], 0, 127);
+    PG_KEEP_BOUND (k, "the set of a broken bond", count[1], 0, PG_BOND_SETS - 1);
+    PG_KEEP_BOUND (k, "a broken bond", count[0], 0, (long) p->first_bond[PG_BOND_SETS] - 1);
+    PG_KEEP_BOUND (k, "the kind of a broken bond", count[2], 0, 127);
     *b = (pg_broken){
         (size_t) count[0], (int) count[1], (char) count[2], number[0], { number[2], number[3], number[4] },
         number[1]
@@ -126,9 +118,9 @@ static pg_status keep_report (pg_statistics *r, const pg_keeper *k)
     memcpy (number + 10, r->seconds, sizeof r->seconds);
     PG_TRY (k->counts (k->context, "report.counts", 15, count));
     PG_TRY (k->numbers (k->context, "report.numbers", 10 + PG_SECONDS_COUNT, number));
-    for (int i = 0; i < 13; i++) BOUND (k, "a count of the report", count[i], 0, most);
-    BOUND (k, "the number of skipped things", count[13], 0, SKIPS);
-    BOUND (k, "the number of warnings", count[14], 0, WARNINGS);
+    for (int i = 0; i < 13; i++) PG_KEEP_BOUND (k, "a count of the report", count[i], 0, most);
+    PG_KEEP_BOUND (k, "the number of skipped things", count[13], 0, SKIPS);
+    PG_KEEP_BOUND (k, "the number of warnings", count[14], 0, WARNINGS);
     for (int i = 0; i < 9; i++) *word[i] = count[i];
     for (int i = 0; i < 6; i++) *size[i] = (size_t) count[9 + i];
     for (int i = 0; i < 10; i++) *value[i] = number[i];
@@ -161,7 +153,7 @@ static pg_status keep_broken (break_loop *b, const pg_problem *p, const pg_keepe
     pg_status status = PG_OK;
     long n = (long) b->nbroken;
     PG_TRY (k->counts (k->context, "solver.broken_count", 1, &n));
-    BOUND (k, "the number of broken bonds", n, 0, (long) p->first_bond[PG_BOND_SETS]);
+    PG_KEEP_BOUND (k, "the number of broken bonds", n, 0, (long) p->first_bond[PG_BOND_SETS]);
     if (k->reading) {
         PG_GROW (b->broken, b->cap_broken, (size_t) n);
         b->nbroken = (size_t) n;
@@ -180,9 +172,9 @@ static pg_status keep_work_balance (pg_work_balance *l, const char *name, size_t
     long count[2] = { l->force != NULL ? (long) l->npair : -1, l->reaction != NULL };
     strcat (strcpy (part, name), ".counts");
     PG_TRY (k->counts (k->context, part, 2, count));
-    BOUND (k, part, count[0], count[0] < 0 ? -1 : pairs, count[0] < 0 ? -1 : pairs);
+    PG_KEEP_BOUND (k, part, count[0], count[0] < 0 ? -1 : pairs, count[0] < 0 ? -1 : pairs);
     if (count[0] < 0) goto done;
-    BOUND (k, part, count[1], reactions, 1);
+    PG_KEEP_BOUND (k, part, count[1], reactions, 1);
     if (k->reading) {
         pg_work_balance_clear (l);
         l->npair = (size_t) count[0];
@@ -214,9 +206,9 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     PG_TRY (k->numbers (k->context, "system.numbers", 3, number));
     PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
     PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, s->touched, k));
-    BOUND (k, "the way to solve", count[0], SYSTEM_UNDECIDED,
+    PG_KEEP_BOUND (k, "the way to solve", count[0], SYSTEM_UNDECIDED,
            !system_has_matrix (s) && count[0] != SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_NO_FACTOR);
-    BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, solves ? 1 : 0);
+    PG_KEEP_BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, solves ? 1 : 0);
     s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6],
     s->spared = count[7];
     s->mean_diagonal = number[0], s->shift = number[1], s->rent = number[2];
@@ -227,9 +219,9 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     }
     long made = s->multilevel != NULL || s->remake;
     PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));
-    BOUND (k, "the multilevel preconditioner", made, 0,
+    PG_KEEP_BOUND (k, "the multilevel preconditioner", made, 0,
            solves && s->force->couplings && operates (s) && count[4] ? 1 : 0);
-    BOUND (k, "a factor of the bonds", made ? 0 : count[4], 0, system_has_matrix (s) ? 1 : 0);
+    PG_KEEP_BOUND (k, "a factor of the bonds", made ? 0 : count[4], 0, system_has_matrix (s) ? 1 : 0);
     PG_TRY (k->numbers (k->context, "system.pace", 1, &s->pace));
     PG_TRY (k->numbers (k->context, "system.borne", 1, &s->borne));
     if (k->reading) s->remake = made != 0;
@@ -261,30 +253,19 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     break_loop *b = &s->break_loop;
     size_t nload = s->problem->nload;
     long pairs = -1;
-    long count[11] = { s->finished,     s->overlap_told,   s->energy_told,        s->skips_told,
-                       s->next_level,   (long) s->ended,   s->work_balance_fresh, b->round,
-                       s->unit != NULL, s->force0 != NULL, s->spared_told };
-    double number[5] = { s->unit_residual, s->secant0, b->work, b->work0, b->stored0 };
-    PG_TRY (k->counts (k->context, "solver.counts", 11, count));
-    PG_TRY (k->numbers (k->context, "solver.numbers", 5, number));
-    BOUND (k, "the next level", count[4], 0, s->options.levels + 1);
-    BOUND (k, "the round", count[7], 0, most);
-    BOUND (k, "the end of the run", count[5], 0, 63);
+    long count[7] = { s->finished,   s->overlap_told, s->energy_told, s->skips_told,
+                      s->next_level, b->round,        s->spared_told };
+    double number[3] = { b->work, b->work0, b->stored0 };
+    PG_TRY (k->counts (k->context, "solver.counts", 7, count));
+    PG_TRY (k->numbers (k->context, "solver.numbers", 3, number));
+    PG_KEEP_BOUND (k, "the next level", count[4], 0, s->options.levels + 1);
+    PG_KEEP_BOUND (k, "the round", count[5], 0, most);
     s->finished = (int) count[0], s->overlap_told = (int) count[1], s->energy_told = (int) count[2],
     s->skips_told = (int) count[3];
-    s->next_level = count[4], s->ended = (pg_status) count[5], s->work_balance_fresh = (int) count[6],
-    b->round = count[7], s->spared_told = (int) count[10];
-    s->unit_residual = number[0], s->secant0 = number[1], b->work = number[2], b->work0 = number[3],
-    b->stored0 = number[4];
-    PG_TRY (keep_text ("solver.why", sizeof s->why, s->why, k));
+    s->next_level = count[4], b->round = count[5], s->spared_told = (int) count[6];
+    b->work = number[0], b->work0 = number[1], b->stored0 = number[2];
     PG_TRY (keep_report (&s->report, k));
     if (nload) PG_TRY (k->numbers (k->context, "solver.reaction", 3 * nload, s->reaction));
-    if (count[8] && s->unit) PG_TRY (k->numbers (k->context, "solver.unit", b->system.ndof, s->unit));
-    if (s->base) {
-        PG_TRY (k->numbers (k->context, "solver.base", b->system.ndof, s->base));
-        PG_TRY (k->counts (k->context, "solver.held", 1, &s->held));
-    }
-    if (count[9] && s->force0) PG_TRY (k->numbers (k->context, "solver.force0", b->system.ndof, s->force0));
     PG_TRY (keep_broken (b, s->problem, k));
     if (k->reading) PG_TRY (count_pairs (s, &pairs));
     PG_TRY (keep_work_balance (&b->work_balance, "work_balance", nload, pairs, 1, k));

@@ -6,7 +6,7 @@
  * bond and then by regula falsi on the largest. After a break no place at or below the present factor may be
  * left: then the constant part drives the crack, the factor is held and the worst bonds break one after the
  * other. */
-#include "solve.h"
+#include "event_stepping.h"
 #include <math.h>
 #include <string.h>
 
@@ -15,8 +15,9 @@ enum { MOST_LOOKS = 80, MOST_THIRDS = 40 };
 
 static void move_to (const pg_solver *s, pg_state *state, double factor)
 {
+    event_stepping *e = events_of (s);
     for (size_t i = 0; i < state->ndof; i++)
-        state->d[i] = factor == 1 ? s->unit[i] : s->base[i] + factor * (s->unit[i] - s->base[i]);
+        state->d[i] = factor == 1 ? e->unit[i] : e->base[i] + factor * (e->unit[i] - e->base[i]);
 }
 
 /* Utilisation of every bond at this factor; *top the largest. */
@@ -125,7 +126,7 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
     if (found) PG_TRY (way_out (s, state, in, now, factor));
     else {
         *factor = now;
-        if (!s->held++)
+        if (!events_of (s)->held++)
             pg_statistics_warn (&s->report,
                                 "at load factor %.6g, after event %ld, no lower factor lets the remaining "
                                 "bonds live: the constant loads drive the crack, which then runs "
@@ -140,11 +141,12 @@ done:
 pg_status affine_solve (pg_solver *s)
 {
     pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
     double first, second;
     pg_system *sys = &s->break_loop.system;
-    PG_TRY (system_solve (sys, 0, s->base, NULL, &first));
-    PG_TRY (system_solve (sys, 1, s->unit, NULL, &second));
-    s->unit_residual = fmax (first, second);
+    PG_TRY (system_solve (sys, 0, e->base, NULL, &first));
+    PG_TRY (system_solve (sys, 1, e->unit, NULL, &second));
+    e->unit_residual = fmax (first, second);
 done:
     return status;
 }
@@ -153,12 +155,13 @@ done:
 static pg_status secant (pg_solver *s, double *out)
 {
     pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
     pg_system *sys = &s->break_loop.system;
     pg_work_balance zero = { 0 }, one = { 0 };
     *out = 0;
     if (!sys->force->work_balance) return PG_OK;
-    PG_TRY (sys->force->work_balance (sys->self, 0, s->base, NULL, &zero));
-    PG_TRY (sys->force->work_balance (sys->self, 1, s->unit, NULL, &one));
+    PG_TRY (sys->force->work_balance (sys->self, 0, e->base, NULL, &zero));
+    PG_TRY (sys->force->work_balance (sys->self, 1, e->unit, NULL, &one));
     for (size_t k = 0; k < one.npair; k++)
         *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
 done:
@@ -195,6 +198,7 @@ done:
 pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
     double level = (double) s->next_level / (double) s->options.levels, factor;
     int breaks, start = state->step == 0;
@@ -204,17 +208,17 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     if (breaks && factor > level) factor = level;
     move_to (s, state, factor);
     state->factor = state->time = step->factor = step->time = factor;
-    s->top_factor = fmax (s->top_factor, factor);
+    e->top_factor = fmax (e->top_factor, factor);
     PG_TRY (break_loop_account (b, factor, state->d, NULL, 1));
     s->report.energy_strain = b->work_balance.strain;
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
-    if (start) PG_TRY (secant (s, &s->secant0));
-    step->residual = s->unit_residual;
+    if (start) PG_TRY (secant (s, &e->secant0));
+    step->residual = e->unit_residual;
     if (s->problem->criterion->type && b->system.force->utilisation) {
         long over = break_loop_over (b, state, 1, &step->utilisation);
         /* at a held factor they are about to break */
-        if (!s->held || !breaks) s->report.bonds_over_limit += over;
+        if (!e->held || !breaks) s->report.bonds_over_limit += over;
     }
     if (breaks) PG_TRY (break_here (s, state, factor, step));
     if (start) step->level = 1;

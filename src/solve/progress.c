@@ -5,7 +5,7 @@
 #include <math.h>
 
 /* The nearer end counts. */
-static void offer (pg_progress *p, double share, const char *end, int even)
+void progress_offer (pg_progress *p, double share, const char *end, int even)
 {
     if (p->end && !(share > p->share)) return;
     p->share = fmin (1, fmax (0, share)), p->end = end, p->even = even;
@@ -18,17 +18,10 @@ void pg_solver_progress (const pg_solver *s, const pg_state *state, pg_progress 
     *out = (pg_progress) { .event = o->event, .stiffness = NAN, .damage = NAN };
     if (o->stop_set && b->looked) out->damage = b->nearest;
     if (s->type->progress)
-        offer (out, s->type->progress (s, state),
+        progress_offer (out, s->type->progress (s, state),
                (o->flags & PG_SOLVER_EXPLICIT) ? "the time steps" : "the stages", 1);
     else if (!o->event)
-        offer (out, (double) state->step / (double) o->steps,
+        progress_offer (out, (double) state->step / (double) o->steps,
                (o->flags & PG_SOLVER_QUASI_STATIC) ? "the load" : "the time", 1);
-    if (!o->event) return;
-    if (s->secant > 0) out->stiffness = s->secant;
-    offer (out, fmax (s->top_factor, (double) (s->next_level - 1) / (double) o->levels), "the load",
-           state->events == 0);
-    if (s->problem->criterion->type)
-        offer (out, (double) state->events / (double) o->max_events, "max_events", 1);
-    if (o->stop_set && b->nearest > b->nearest0)
-        offer (out, (b->nearest - b->nearest0) / (o->stop_damage - b->nearest0), "stop.damage", 0);
+    if (s->type->ends) s->type->ends (s, state, out);
 }

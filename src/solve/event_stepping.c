@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Event stepping: from one break to the next. Between breaks everything is linear in the load factor lambda,
+ * so that d = lambda d_1 and the factor of the next break follows in closed form (theory F6): go there, break
+ * the bonds that reach their limit (ties included), solve for the new d_1, and so on; levels that the user
+ * wants are reported as they are passed. This file: loads proportional to lambda, and what both kinds share;
+ * event_stepping_affine.c: loads with a constant part as well. */
+#include "event_stepping.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+pg_status event_start (pg_solver *s, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    double residual;
+    int affine = PG_OWN (pg_static_options, &s->options)->affine;
+    if (!e->unit) PG_ALLOC (e->unit, state->ndof);
+    if (affine && !e->base) PG_ALLOC (e->base, state->ndof);
+    if (affine) {
+        memcpy (e->unit, state->d, state->ndof * sizeof *e->unit);
+        memcpy (e->base, state->d, state->ndof * sizeof *e->base);
+        PG_TRY (affine_solve (s));
+    } else {
+        for (size_t i = 0; state->factor != 0 && i < state->ndof; i++)
+            e->unit[i] = state->d[i] / state->factor;
+        PG_TRY (system_solve (&s->break_loop.system, 1, e->unit, NULL, &residual));
+        e->unit_residual = residual;
+    }
+done:
+    return status;
+}
+
+static double smallest (const double *a, size_t n)
+{
+    double low = INFINITY;
+    for (size_t i = 0; i < n; i++) if (a[i] < low) low = a[i];
+    return low;
+}
+
+/* d = factor * unit; energies are quadratic in the factor. */
+static pg_status go_to (pg_solver *s, pg_state *state, double factor)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    for (size_t i = 0; i < state->ndof; i++) state->d[i] = factor * e->unit[i];
+    state->factor = state->time = factor;
+    if (!e->balance_fresh) PG_TRY (break_loop_account (&s->break_loop, 1, e->unit, NULL, factor));
+    else PG_TRY (break_loop_book (&s->break_loop, factor));
+    e->balance_fresh = 1;
+    s->report.energy_strain = factor * factor * s->break_loop.work_balance.strain;
+done:
+    return status;
+}
+
+/* Work per squared load factor: a stiffness under prescribed displacements, a compliance under forces. */
+static double secant (const break_loop *b)
+{
+    double sum = 0;
+    for (size_t k = 0; k < b->work_balance.npair; k++)
+        sum += b->work_balance.force[k] * b->work_balance.displacement[k];
+    return sum;
+}
+
+int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status now)
+{
+    event_stepping *e = events_of (s);
+    if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD && now != PG_E_SINGULAR) return 0;
+    e->ended = now;
+    snprintf (e->why, sizeof e->why, "after event %ld at load factor %.6g: %s", state->events, factor,
+              pg_last_error ());
+    return 1;
+}
+
+pg_status event_stops (pg_solver *s, const pg_state *state, double factor, double secant)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    const pg_solver_options *o = &s->options;
+    int arrived;
+    PG_TRY (break_loop_arrived (&s->break_loop, state, state->d, &arrived));
+    if (arrived) {
+        pg_statistics_warn (&s->report,
+                            "the crack has arrived at %s: the run ends at event %ld, load factor %.6g",
+                            o->stop_set->name, state->events, factor);
+        s->finished = 1;
+    }
+    double least = PG_OWN (pg_static_options, o)->stop_stiffness;
+    double share = e->secant = secant / e->secant0;
+    if (s->problem->nload
+        && (share < least || share > 1 / fmax (least, 1e-12))) {
+        pg_statistics_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g",
+                            state->events, factor);
+        s->finished = 1;
+    }
+done:
+    return status;
+}
+
+void event_limit (pg_solver *s, const pg_state *state, double factor)
+{
+    if (state->events < s->options.max_events) return;
+    pg_statistics_warn (&s->report, "stopped after solver.max_events = %ld events at load factor %.6g",
+                        state->events, factor);
+    s->finished = 1;
+}
+
+/* Breaks what reaches its limit at `factor` and finds the next unit displacement; where there is none the
+ * next step is refused. */
+static pg_status break_at (pg_solver *s, pg_state *state, double factor, double scale, pg_step *step)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    break_loop *b = &s->break_loop;
+    const pg_solver_options *o = &s->options;
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, residual;
+    /* utilisation here */
+    for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;
+    PG_TRY (break_loop_kill (b, state, b->factor, 1 - width, scale, factor));
+    step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
+    state->events++, s->report.events++;
+    double strain = s->report.energy_strain, work = b->work;
+    PG_TRY (system_refresh (&b->system, state, &b->changes));
+    pg_status now = system_solve (&b->system, 1, e->unit, NULL, &residual);
+    if (event_ended (s, state, factor, now)) goto done;
+    PG_TRY (now);
+    e->unit_residual = residual;
+    PG_TRY (break_loop_account (b, 1, e->unit, NULL, factor));
+    s->report.energy_strain = factor * factor * b->work_balance.strain;
+    step->dissipated = b->work - work - (s->report.energy_strain - strain);
+    PG_TRY (event_stops (s, state, factor, secant (b)));
+done:
+    return status;
+}
+
+/* Utilisation of the accepted state, from the sweep of the unit displacement: independent of the closed form
+ * that gave the factor. Where a measure is not linear (finite stretch) and seems over its limit, the state
+ * itself is measured. *scale belongs to the sweep kept. */
+static pg_status look_over (pg_solver *s, const pg_state *state, double factor, double *scale, pg_step *step)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    *scale = factor;
+    if (!s->problem->criterion->type || !b->system.force->utilisation) return PG_OK;
+    long over = break_loop_over (b, state, *scale, &step->utilisation);
+    if (over) {
+        *scale = 1;
+        PG_TRY (
+            b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
+        over = break_loop_over (b, state, *scale, &step->utilisation);
+    }
+    s->report.bonds_over_limit += over;
+done:
+    return status;
+}
+
+static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    break_loop *b = &s->break_loop;
+    double next = INFINITY, level = (double) s->next_level / (double) s->options.levels, scale,
+           t0 = pg_seconds ();
+    b->nbroken = 0;
+    step->iterations = 1;
+    if (s->problem->criterion->type && b->system.force->utilisation) {
+        PG_TRY (break_loop_ready (b));
+        PG_TRY (b->system.force->utilisation (b->system.self, state, e->unit, b->utilisation, b->kind,
+                                              b->factor));
+        next = smallest (b->factor, state->nbond);
+    }
+    s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
+    double factor = next < level ? next : level;
+    PG_TRY (go_to (s, state, factor));
+    e->top_factor = fmax (e->top_factor, factor);
+    if (b->work_balance.reaction)
+        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (e->secant0 == 0) e->secant0 = secant (b);
+    step->factor = step->time = factor;
+    step->residual = e->unit_residual;
+    PG_TRY (look_over (s, state, factor, &scale, step));
+    if (next <= level) PG_TRY (break_at (s, state, factor, scale, step));
+    if (!(level > factor)) {
+        step->level = 1;
+        if (s->next_level++ >= s->options.levels) {
+            s->finished = 1;
+            if (state->events == 0 && s->options.levels > 1)
+                pg_statistics_skip (&s->report,
+                                    (double) (s->options.levels - 1) * s->report.seconds[PG_SECONDS_SOLVE],
+                                    "solves of all levels but one",
+                                    "no bond broke: the answer is linear in the load factor");
+        }
+    }
+    event_limit (s, state, factor);
+    for (size_t k = 0; k < 3 * s->problem->nload; k++) s->reaction[k] *= factor;
+done:
+    return status;
+}
+
+pg_status event_step (pg_solver *s, pg_state *state, pg_step *step)
+{
+    const event_stepping *e = events_of (s);
+    if (e->ended != PG_OK) return pg_error (e->ended, PG_HERE, "%s", e->why);
+    return PG_OWN (pg_static_options, &s->options)->affine ? affine_step (s, state, step)
+                                                           : proportional_step (s, state, step);
+}
+
+/* ---- the run ------------------------------------------------------------------------------------------- */
+void event_free (pg_solver *s)
+{
+    event_stepping *e = events_of (s);
+    pg_free (e->unit), pg_free (e->base);
+}
+
+void event_ends (const pg_solver *s, const pg_state *state, pg_progress *out)
+{
+    const pg_solver_options *o = &s->options;
+    const break_loop *b = &s->break_loop;
+    const event_stepping *e = events_of (s);
+    if (!o->event) return;
+    if (e->secant > 0) out->stiffness = e->secant;
+    progress_offer (out, fmax (e->top_factor, (double) (s->next_level - 1) / (double) o->levels), "the load",
+                    state->events == 0);
+    if (s->problem->criterion->type)
+        progress_offer (out, (double) state->events / (double) o->max_events, "max_events", 1);
+    if (o->stop_set && b->nearest > b->nearest0)
+        progress_offer (out, (b->nearest - b->nearest0) / (o->stop_damage - b->nearest0), "stop.damage", 0);
+}
+
+pg_status event_keep (pg_solver *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    size_t ndof = s->break_loop.system.ndof;
+    long count[4] = { (long) e->ended, e->balance_fresh, e->unit != NULL, e->held };
+    double number[2] = { e->unit_residual, e->secant0 };
+    PG_TRY (k->counts (k->context, "event_stepping.counts", 4, count));
+    PG_TRY (k->numbers (k->context, "event_stepping.numbers", 2, number));
+    PG_KEEP_BOUND (k, "the end of the run", count[0], 0, 63);
+    e->ended = (pg_status) count[0], e->balance_fresh = (int) count[1], e->held = count[3];
+    e->unit_residual = number[0], e->secant0 = number[1];
+    PG_TRY (keep_text ("event_stepping.why", sizeof e->why, e->why, k));
+    if (count[2] && e->unit) PG_TRY (k->numbers (k->context, "event_stepping.unit", ndof, e->unit));
+    if (e->base) PG_TRY (k->numbers (k->context, "event_stepping.base", ndof, e->base));
+done:
+    return status;
+}
