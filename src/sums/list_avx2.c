@@ -5,11 +5,12 @@
 #include <immintrin.h>
 #include <string.h>
 
-#define SET    _avx2
+#define TABLE  pg_list_avx2
 #define TARGET __attribute__ ((target ("avx2")))
 #define V      __m256d
 #define WIDTH  4
 #define V_LOAD(p)        _mm256_load_pd (p)
+#define V_STORE(p, v)    _mm256_store_pd (p, v)
 #define V_SET(s)         _mm256_set1_pd (s)
 #define V_ROOT(v)        _mm256_sqrt_pd (v)
 #define V_KEEP(v, bits)  keep (v, bits)
@@ -17,33 +18,42 @@
 
 static inline __attribute__ ((always_inline)) TARGET __m256d keep (__m256d v, unsigned bits)
 {
-    const __m256i bit = _mm256_set_epi64x (8, 4, 2, 1),
-                  got = _mm256_and_si256 (_mm256_set1_epi64x ((long long) bits), bit);
+    const __m256i bit = _mm256_set_epi64x (8, 4, 2, 1);
+    const __m256i got = _mm256_and_si256 (_mm256_set1_epi64x ((long long) bits), bit);
     return _mm256_and_pd (v, _mm256_castsi256_pd (_mm256_cmpeq_epi64 (got, bit)));
 }
 
-/* Rows to columns; of rows that are not needed the columns are left out by the compiler. */
-#define TURN(r0, r1, r2, r3, c0, c1, c2, c3) \
-    const __m256d c0##l = _mm256_unpacklo_pd (r0, r1), c0##h = _mm256_unpackhi_pd (r0, r1); \
-    const __m256d c2##l = _mm256_unpacklo_pd (r2, r3), c2##h = _mm256_unpackhi_pd (r2, r3); \
-    const __m256d c0 = _mm256_permute2f128_pd (c0##l, c2##l, 0x20), \
-                  c1 = _mm256_permute2f128_pd (c0##h, c2##h, 0x20); \
-    const __m256d c2 = _mm256_permute2f128_pd (c0##l, c2##l, 0x31), \
-                  c3 = _mm256_permute2f128_pd (c0##h, c2##h, 0x31)
+/* Four rows to four columns; of columns that nobody reads the compiler leaves the work out. */
+static inline __attribute__ ((always_inline)) TARGET void turn (__m256d r0, __m256d r1, __m256d r2,
+                                                                __m256d r3, __m256d *out)
+{
+    const __m256d low = _mm256_unpacklo_pd (r0, r1), high = _mm256_unpackhi_pd (r0, r1);
+    const __m256d low2 = _mm256_unpacklo_pd (r2, r3), high2 = _mm256_unpackhi_pd (r2, r3);
+    out[0] = _mm256_permute2f128_pd (low, low2, 0x20), out[1] = _mm256_permute2f128_pd (high, high2, 0x20);
+    out[2] = _mm256_permute2f128_pd (low, low2, 0x31), out[3] = _mm256_permute2f128_pd (high, high2, 0x31);
+}
+
 #define ROW(record, o, k) _mm256_load_pd ((record) + (o)[k])
-#define V_FETCH1(record, o) \
-    const __m128d p0_ = _mm_load_pd ((record) + (o)[0]), p1_ = _mm_load_pd ((record) + (o)[1]); \
-    const __m128d p2_ = _mm_load_pd ((record) + (o)[2]), p3_ = _mm_load_pd ((record) + (o)[3]); \
-    const __m256d q0_ = _mm256_set_m128d (p2_, p0_), q1_ = _mm256_set_m128d (p3_, p1_); \
-    const __m256d x0 = _mm256_unpacklo_pd (q0_, q1_), u0 = _mm256_unpackhi_pd (q0_, q1_)
-#define V_FETCH2(record, o) \
-    TURN (ROW (record, o, 0), ROW (record, o, 1), ROW (record, o, 2), ROW (record, o, 3), x0, x1, u0, u1)
-#define V_FETCH3(record, o) \
-    TURN (ROW (record, o, 0), ROW (record, o, 1), ROW (record, o, 2), ROW (record, o, 3), x0, x1, x2, u0); \
-    const __m128d p0_ = _mm_load_pd ((record) + (o)[0] + 4), p1_ = _mm_load_pd ((record) + (o)[1] + 4); \
-    const __m128d p2_ = _mm_load_pd ((record) + (o)[2] + 4), p3_ = _mm_load_pd ((record) + (o)[3] + 4); \
-    const __m256d q0_ = _mm256_set_m128d (p2_, p0_), q1_ = _mm256_set_m128d (p3_, p1_); \
-    const __m256d u1 = _mm256_unpacklo_pd (q0_, q1_), u2 = _mm256_unpackhi_pd (q0_, q1_)
+#define HALF(record, o, k) _mm_load_pd ((record) + (o)[k])
+#define TURN(record, o, out) \
+    turn (ROW (record, o, 0), ROW (record, o, 1), ROW (record, o, 2), ROW (record, o, 3), out)
+/* Two columns alone */
+#define PAIR(record, o, out) \
+    do { \
+        const __m256d even_ = _mm256_set_m128d (HALF (record, o, 2), HALF (record, o, 0)); \
+        const __m256d odd_ = _mm256_set_m128d (HALF (record, o, 3), HALF (record, o, 1)); \
+        (out)[0] = _mm256_unpacklo_pd (even_, odd_), (out)[1] = _mm256_unpackhi_pd (even_, odd_); \
+    } while (0)
+/* `columns` is a constant: one of these branches is left. */
+#define FETCH(record, o, columns, out) \
+    do { \
+        if ((columns) <= 2) PAIR (record, o, out); \
+        else TURN (record, o, out); \
+        if ((columns) > 4 && (columns) <= 6) PAIR ((record) + 4, o, (out) + 4); \
+        else if ((columns) > 4) TURN ((record) + 4, o, (out) + 4); \
+        if ((columns) > 8) TURN ((record) + 8, o, (out) + 8); \
+    } while (0)
+
 #define PLACE(sum, o, k) (double *) (void *) ((char *) (sum) + 4 * (size_t) (o)[k])
 #define TAKE2(sum, o, k, v) \
     do { \
@@ -55,35 +65,36 @@ static inline __attribute__ ((always_inline)) TARGET __m256d keep (__m256d v, un
         double *p_ = PLACE (sum, o, k); \
         _mm256_store_pd (p_, _mm256_sub_pd (_mm256_load_pd (p_), v)); \
     } while (0)
-#define V_GIVE1(sum, o) do { for (int k_ = 0; k_ < 4; k_++) *PLACE (sum, o, k_) -= f0[k_]; } while (0)
-#define V_GIVE2(sum, o) \
+/* In the order of the lanes: two of them may meet at one point. */
+#define GIVE1(sum, o, f) \
     do { \
-        const __m256d l_ = _mm256_unpacklo_pd (f0, f1), h_ = _mm256_unpackhi_pd (f0, f1); \
+        for (int k_ = 0; k_ < 4; k_++) *PLACE (sum, o, k_) -= (f)[0][k_]; \
+    } while (0)
+#define GIVE2(sum, o, f) \
+    do { \
+        const __m256d l_ = _mm256_unpacklo_pd ((f)[0], (f)[1]), h_ = _mm256_unpackhi_pd ((f)[0], (f)[1]); \
         TAKE2 (sum, o, 0, _mm256_castpd256_pd128 (l_)); \
         TAKE2 (sum, o, 1, _mm256_castpd256_pd128 (h_)); \
         TAKE2 (sum, o, 2, _mm256_extractf128_pd (l_, 1)); \
         TAKE2 (sum, o, 3, _mm256_extractf128_pd (h_, 1)); \
     } while (0)
-#define V_GIVE3(sum, o) \
+#define GIVE3(sum, o, f) \
     do { \
-        TURN (f0, f1, f2, _mm256_setzero_pd (), t0_, t1_, t2_, t3_); \
-        TAKE4 (sum, o, 0, t0_); \
-        TAKE4 (sum, o, 1, t1_); \
-        TAKE4 (sum, o, 2, t2_); \
-        TAKE4 (sum, o, 3, t3_); \
+        __m256d t_[4]; \
+        turn ((f)[0], (f)[1], (f)[2], _mm256_setzero_pd (), t_); \
+        TAKE4 (sum, o, 0, t_[0]); \
+        TAKE4 (sum, o, 1, t_[1]); \
+        TAKE4 (sum, o, 2, t_[2]); \
+        TAKE4 (sum, o, 3, t_[3]); \
+    } while (0)
+#define GIVE(sum, o, dim, f) \
+    do { \
+        if ((dim) == 1) GIVE1 (sum, o, f); \
+        else if ((dim) == 2) GIVE2 (sum, o, f); \
+        else GIVE3 (sum, o, f); \
     } while (0)
 
-#define DIM 1
-#include "list_kernel.h"
-#define DIM 2
-#include "list_kernel.h"
-#define DIM 3
-#include "list_kernel.h"
-
-const bond_list_kernel bond_list_avx2[3][2][2] = {
-    { { linear1_avx2, linear_check1_avx2 }, { finite1_avx2, finite_check1_avx2 } },
-    { { linear2_avx2, linear_check2_avx2 }, { finite2_avx2, finite_check2_avx2 } },
-    { { linear3_avx2, linear_check3_avx2 }, { finite3_avx2, finite_check3_avx2 } } };
+#include "list_instances.h"
 #else
-const bond_list_kernel bond_list_avx2[3][2][2];
+const list_kernels pg_list_avx2;
 #endif

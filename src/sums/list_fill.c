@@ -6,15 +6,16 @@
 
 typedef struct {
     bond_list *list;
-    const pg_bond_loop_setting *setting;
     size_t  most;                                      /* bonds of the largest family */
     double *xi, *weight;  /* of one family, for each thread (threads x most x dim, x most) */
 } filler;
 
-/* Sort of the bond from point i to point j: 0 shared and kept by i, 1 between chunks, -1: kept by j. */
+/* Sort of the bond from point i to point j: 0 shared and kept by i, 1 kept by both, -1 shared and kept by j.
+ * */
 static int sort_of (const bond_list *list, size_t i, size_t j)
 {
-    if ((size_t) list->rank[i] / list->chunk != (size_t) list->rank[j] / list->chunk) return 1;
+    size_t p = (size_t) list->rank[i], q = (size_t) list->rank[j];
+    if (!list->law.shared || p / list->chunk != q / list->chunk) return 1;
     return list->before[i] < list->before[j] ? 0 : -1;
 }
 
@@ -36,10 +37,12 @@ static void count_slots (bond_list *list)
         for (size_t s = 0; s < list->slices; s++) list->slots[k].start[s + 1] += list->slots[k].start[s];
 }
 
-static double pair_modulus (const double *c, size_t i, size_t j)
+/* Offset of the record of point q (new number) as it stands in slots of point p. */
+static void set_end (const bond_list *list, bond_slots *slots, size_t at, size_t p, size_t q)
 {
-    if (c[i] == c[j]) return c[i];
-    return c[i] + c[j] > 0 ? 2 * (c[i] * c[j]) / (c[i] + c[j]) : 0;
+    size_t pitch = (size_t) list->pitch;
+    if (slots->shared) slots->near[at] = (uint16_t) ((q - p / list->chunk * list->chunk) * pitch);
+    else slots->far[at] = (uint32_t) (q * pitch);
 }
 
 /* Bonds of point p of the new order, into its lane. */
@@ -47,25 +50,19 @@ static void fill_lane (const filler *g, size_t p, double *xi, double *weight)
 {
     bond_list *list = g->list;
     const pg_family *family = list->family;
-    const double *V = list->sums->cloud->volume;
-    size_t i = (size_t) list->point[p], dim = (size_t) list->dim, slice = p / LIST_LANES,
-           lane = p % LIST_LANES, used[2] = { 0, 0 };
+    size_t i = (size_t) list->point[p], dim = (size_t) list->dim, used[2] = { 0, 0 };
+    double term[LIST_TERMS];
     pg_sums_bonds (list->sums, family, i, xi, weight, NULL);
     for (size_t b = 0; b < family->start[i + 1] - family->start[i]; b++) {
         size_t j = (size_t) family->node[family->start[i] + b];
         int sort = sort_of (list, i, j);
         if (sort < 0) continue;
         bond_slots *slots = &list->slots[sort];
-        size_t slot = slots->start[slice] + used[sort]++, at = LIST_LANES * slot + lane;
-        size_t to = (size_t) list->rank[j] * (size_t) list->pitch;
-        if (sort == 0)
-            slots->near[at] = (uint16_t) (to - p / list->chunk * list->chunk * (size_t) list->pitch);
-        else           slots->far[at] = (uint32_t) to;
-        double rr = 0;
-        for (size_t c = 0; c < dim; c++) rr += xi[b*dim + c] * xi[b*dim + c];
-        double pull = pair_modulus (g->setting->modulus, i, j) * weight[b] * (V[i] * V[j]) / sqrt (rr);
-        slots->a[at] = list->finite ? pull * list->unit : pull / rr * (list->unit * list->unit);
-        slots->alive[slot] |= (unsigned char) (1u << lane);
+        size_t slot = slots->start[p / LIST_LANES] + used[sort]++, at = LIST_LANES * slot + p % LIST_LANES;
+        set_end (list, slots, at, p, (size_t) list->rank[j]);
+        list->law.term (list, i, j, xi + b * dim, weight[b], term);
+        for (int t = 0; t < list->law.terms; t++) slots->term[t][at] = term[t];
+        slots->alive[slot] |= (unsigned char) (1u << p % LIST_LANES);
     }
 }
 
@@ -73,31 +70,29 @@ static void fill_slices (void *context, size_t first, size_t last, int thread)
 {
     const filler *g = context;
     bond_list *list = g->list;
+    double *xi = g->xi + (size_t) thread * g->most * (size_t) list->dim;
+    double *weight = g->weight + (size_t) thread * g->most;
     for (size_t slice = first; slice < last; slice++) {
         for (int sort = 0; sort < 2; sort++) {         /* lanes without a bond: the point itself, dead */
             bond_slots *slots = &list->slots[sort];
-            for (size_t at = LIST_LANES * slots->start[slice]; at < LIST_LANES * slots->start[slice + 1];
-                 at++) {
-                size_t own = (slice * LIST_LANES + at % LIST_LANES) * (size_t) list->pitch;
-                if (sort == 0)
-                    slots->near[at] = (uint16_t) (own
-                                                  - slice * LIST_LANES / list->chunk * list->chunk
-                                                        * (size_t) list->pitch);
-                else           slots->far[at] = (uint32_t) own;
+            size_t end = LIST_LANES * slots->start[slice + 1];
+            for (size_t at = LIST_LANES * slots->start[slice]; at < end; at++) {
+                size_t own = slice * LIST_LANES + at % LIST_LANES;
+                set_end (list, slots, at, own, own);
             }
         }
         for (size_t p = slice * LIST_LANES; p < (slice + 1) * LIST_LANES && p < list->n; p++)
-            fill_lane (g, p, g->xi + (size_t) thread * g->most * (size_t) list->dim,
-                       g->weight + (size_t) thread * g->most);
+            fill_lane (g, p, xi, weight);
     }
 }
 
-static double pair_limit (const bond_list *list, const pg_bond_loop_setting *setting, size_t p, size_t q)
+/* Limit of the bond of points p and q (new numbers) */
+static double bond_limit (const bond_list *list, size_t p, size_t q)
 {
+    const unsigned char *exempt = list->setting.exempt;
     size_t i = (size_t) list->point[p], j = (size_t) list->point[q];
-    if (setting->exempt && (setting->exempt[i] || setting->exempt[j])) return INFINITY;
-    double s0 = fmin (setting->limit[i], setting->limit[j]);
-    return list->finite ? s0 * (2 + s0) : s0 * list->unit;
+    if (exempt && (exempt[i] || exempt[j])) return INFINITY;
+    return list->law.limit (list, i, j);
 }
 
 /* Are the first eight limits all this one? */
@@ -109,8 +104,7 @@ static int first_eight (const bond_list *list, double limit)
 }
 
 /* Limits of one slice: where all are the same, eight of them; most slices share those of the first one. */
-static pg_status fill_limits (bond_list *list, bond_slots *slots, const pg_bond_loop_setting *setting,
-                              size_t slice)
+static pg_status fill_limits (bond_list *list, bond_slots *slots, size_t slice)
 {
     pg_status status = PG_OK;
     size_t first = slots->start[slice], n = slots->start[slice + 1] - first, end = list->limits;
@@ -118,8 +112,8 @@ static pg_status fill_limits (bond_list *list, bond_slots *slots, const pg_bond_
     double *limit = list->limit + end * LIST_LANES, low = INFINITY, high = -INFINITY;
     for (size_t k = 0; k < n * LIST_LANES; k++) {
         if (!(slots->alive[first + k / LIST_LANES] >> k % LIST_LANES & 1)) { limit[k] = INFINITY; continue; }
-        limit[k] = pair_limit (list, setting, slice * LIST_LANES + k % LIST_LANES,
-                               bond_list_end (list, slots, slice, first * LIST_LANES + k));
+        limit[k] = bond_limit (list, slice * LIST_LANES + k % LIST_LANES,
+                               pg_list_end (list, slots, slice, first * LIST_LANES + k));
         low = fmin (low, limit[k]), high = fmax (high, limit[k]);
     }
     slots->limit_at[slice] = 0;
@@ -134,13 +128,13 @@ done:
     return status;
 }
 
-static pg_status alloc_slots (bond_slots *slots, size_t slices)
+static pg_status alloc_slots (bond_slots *slots, size_t slices, int terms)
 {
     pg_status status = PG_OK;
     size_t n = slots->start[slices];
     if (slots->shared) PG_ALLOC (slots->near, n * LIST_LANES);
     else               PG_ALLOC (slots->far, n * LIST_LANES);
-    PG_ALLOC (slots->a, n * LIST_LANES);
+    for (int t = 0; t < terms; t++) PG_ALLOC (slots->term[t], n * LIST_LANES);
     PG_ALLOC (slots->alive, n);
     PG_ALLOC (slots->lost, n);
     PG_ALLOC (slots->limit_at, slices);
@@ -149,10 +143,10 @@ done:
     return status;
 }
 
-pg_status bond_list_fill (bond_list *list, const pg_bond_loop_setting *setting)
+pg_status pg_list_fill (bond_list *list)
 {
     pg_status status = PG_OK;
-    filler g = { .list = list, .setting = setting };
+    filler g = { .list = list };
     const size_t *start = list->family->start;
     for (size_t i = 0; i < list->n; i++)
         if (start[i + 1] - start[i] > g.most) g.most = start[i + 1] - start[i];
@@ -160,10 +154,10 @@ pg_status bond_list_fill (bond_list *list, const pg_bond_loop_setting *setting)
     PG_ALLOC (g.weight, (size_t) list->threads * g.most);
     for (int k = 0; k < 2; k++) PG_ALLOC (list->slots[k].start, list->slices + 1);
     count_slots (list);
-    for (int k = 0; k < 2; k++) PG_TRY (alloc_slots (&list->slots[k], list->slices));
+    for (int k = 0; k < 2; k++) PG_TRY (alloc_slots (&list->slots[k], list->slices, list->law.terms));
     pg_parallel (list->threads, list->slices, fill_slices, &g);
-    for (int k = 0; setting->limit && k < 2; k++)
-        for (size_t s = 0; s < list->slices; s++) PG_TRY (fill_limits (list, &list->slots[k], setting, s));
+    for (int k = 0; list->setting.limit && k < 2; k++)
+        for (size_t s = 0; s < list->slices; s++) PG_TRY (fill_limits (list, &list->slots[k], s));
 done:
     pg_free (g.xi);
     pg_free (g.weight);

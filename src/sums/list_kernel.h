@@ -1,145 +1,126 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The loop over the slots of a chunk, written once for all dimensions and instruction sets: included with DIM
- * defined by a file that defines
- *   SET, TARGET            suffix of names, attribute of functions
- *   V, WIDTH               a vector of WIDTH numbers
- *   V_LOAD V_STORE V_SET V_ROOT, V_KEEP (v, bits): 0 where a bit is 0, V_LEAST (a, b): bits where a >= b
- *   V_FETCH<dim> (record, o, ...): places and displacements at offsets o; V_GIVE<dim> (sum, o, ...):
- *     subtracts forces at half these offsets. No operation is contracted and the order is the same for every
- *     WIDTH: all instruction sets give the same bits. */
-#define GLUE_(a, b, c) a##b##c
-#define GLUE(a, b, c) GLUE_ (a, b, c)
-#define NAME(what) GLUE (what, DIM, SET)
-#define PARTS (LIST_LANES / WIDTH)
-#if DIM == 1
-#define PITCH 2
-#define EACH(S) S (0)
-#define DOT(a, b) (a##0 * b##0)
-#elif DIM == 2
-#define PITCH 4
-#define EACH(S) S (0) S (1)
-#define DOT(a, b) (a##0 * b##0 + a##1 * b##1)
-#else
-#define PITCH 8
-#define EACH(S) S (0) S (1) S (2)
-#define DOT(a, b) (a##0 * b##0 + a##1 * b##1 + a##2 * b##2)
-#endif
-#define FETCH(record, o) GLUE (V_FETCH, DIM,) (record, o)
-#define GIVE(sum, o)     GLUE (V_GIVE, DIM,) (sum, o)
-
-typedef struct { V x[DIM], u[DIM], f[DIM]; } NAME (lanes);
+ * list_kernel.h: the traversal of a list of bonds, written once for all laws, dimensions and instruction sets
+ * (private, no guard): list_instances.h includes it with LAW and LEAST_DIMENSION defined, in terms of its
+ * vectors. Of a law it uses (LAW = pair_linear, say)
+ *   LAW_columns (dim, check)   numbers of a record to be fetched; LAW_sums (dim): numbers that a point sums
+ *   up
+ *   LAW_first, LAW_terms       which numbers of a bond it reads
+ *   LAW_shared                 1: bonds of slots[0] give the opposite of their sums to the other end
+ *   LAW_add (dim, own, other, term, live, constant, out): what the bond adds to the own sums, 0 in dead
+ *   lanes. */
+#define OF_LAW(what) GLUE (LAW, what)
 
 /* Slots of one slice and one sort. */
-#define SLOTS(type, index, from, gives) \
-    do { \
-        const bond_slots *slots = &list->slots[1 - gives]; \
-        const type *restrict to = slots->index; \
-        const double *restrict pull = slots->a, *restrict limit = check ? list->limit \
-                                                                              + LIST_LANES \
-                                                                                    * slots->limit_at[slice] \
-                                                                        : NULL; \
-        unsigned char *restrict alive = slots->alive; \
-        const size_t end = slots->start[slice + 1], step = check ? slots->limit_step[slice] : 0; \
-        for (size_t k = slots->start[slice]; k < end; k++, limit = check ? limit + step : NULL) \
-            for (int part = 0; part < PARTS; part++) { \
-                const unsigned all = (1u << WIDTH) - 1, shift = (unsigned) (part * WIDTH); \
-                NAME (lanes) *l = &lane[part]; \
-                const type *o = to + LIST_LANES * k + shift; \
-                unsigned live = (unsigned) alive[k] >> shift & all; \
-                FETCH (from, o); \
-                EACH (SEPARATE) \
-                V dot = DOT (d, e), value = dot, a = V_LOAD (pull + LIST_LANES * k + shift), rr = V_SET (0); \
-                if (finite || check) rr = DOT (d, d); \
-                if (finite) value = dot + dot + DOT (e, e); \
-                if (check) { \
-                    unsigned over = V_LEAST (value, V_LOAD (limit + shift) * rr) & live; \
-                    if (__builtin_expect (over != 0, 0)) { \
-                        alive[k] ^= (unsigned char) (over << shift), \
-                            slots->lost[k] |= (unsigned char) (over << shift); \
-                        live ^= over, *broke = 1; \
-                    } \
-                } \
-                if (finite) { \
-                    EACH (DEFORM) \
-                    V yy = DOT (d, d); \
-                    a = a * value / (yy + V_ROOT (yy * rr)); \
-                } else a = a * dot; \
-                a = V_KEEP (a, live); \
-                EACH (PULL) \
-                if (gives) GIVE (sum, o); \
-            } \
-    } while (0)
-#define SEPARATE(c) V d##c = x##c - l->x[c], e##c = u##c - l->u[c];
-#define DEFORM(c)   d##c = d##c + e##c;
-#define PULL(c)     V f##c = a * d##c; l->f[c] = l->f[c] + f##c;
-
-static inline __attribute__ ((always_inline)) TARGET void NAME (slice) (
-    const bond_list *list, const size_t chunk, const size_t slice, double *restrict sum, const int finite,
-    const int check, int *broke)
+INLINE void OF_LAW (_slots) (const bond_list *list, const bond_slots *slots, size_t slice, const double *from,
+                             const double *constant, double *sum, lanes *lane, const int dim, const int check,
+                             const int gives, int *broke)
 {
-    NAME (lanes) lane[PARTS];
-    const double *own = list->record + (size_t) PITCH * LIST_LANES * slice,
-                 *first = list->record + (size_t) PITCH * chunk * list->chunk;
-    static const uint16_t row[LIST_LANES] = { 0,         PITCH,     2 * PITCH, 3 * PITCH,
-                                              4 * PITCH, 5 * PITCH, 6 * PITCH, 7 * PITCH };
-    for (int part = 0; part < PARTS; part++) {
-        FETCH (own, row + part * WIDTH);
-#define START(c) lane[part].x[c] = x##c, lane[part].u[c] = u##c, lane[part].f[c] = V_SET (0);
-        EACH (START)
-#undef START
-    }
-    SLOTS (uint16_t, near, first, 1);
-    SLOTS (uint32_t, far, list->record, 0);
-    double *mine = sum + (own - first) / 2;
-    for (int part = 0; part < PARTS; part++) {
-        V f0 = V_SET (0) - lane[part].f[0];
-#if DIM > 1
-        V f1 = V_SET (0) - lane[part].f[1];
+    enum { AHEAD = 32 };                               /* slots to ask for ahead of their use */
+    const double *limit = check ? list->limit + LIST_LANES * slots->limit_at[slice] : NULL;
+    const size_t end = slots->start[slice + 1], step = check ? slots->limit_step[slice] : 0;
+    const uint16_t *near = slots->near;
+    const uint32_t *far = slots->far;
+    const double *terms[LIST_TERMS];
+    UNROLL for (int t = 0; t < OF_LAW (_terms); t++) terms[t] = slots->term[OF_LAW (_first) + t];
+    for (size_t k = slots->start[slice]; k < end; k++) {
+        UNROLL for (int t = 0; t < OF_LAW (_terms); t++)
+            __builtin_prefetch (terms[t] + LIST_LANES * (k + AHEAD));
+        if (gives) __builtin_prefetch (near + LIST_LANES * (k + 2 * AHEAD));
+        else __builtin_prefetch (far + LIST_LANES * (k + AHEAD));
+        for (int part = 0; part < PARTS; part++) {
+            const unsigned all = (1u << WIDTH) - 1, shift = (unsigned) (part * WIDTH);
+            const size_t at = LIST_LANES * k + shift;
+            lanes *l = &lane[part];
+            unsigned live = (unsigned) slots->alive[k] >> shift & all;
+            V other[MOST_COLUMNS], term[LIST_TERMS], out[MOST_SUMS];
+            if (gives) FETCH (from, near + at, OF_LAW (_columns) (dim, check), other);
+            else FETCH (from, far + at, OF_LAW (_columns) (dim, check), other);
+            UNROLL for (int t = 0; t < OF_LAW (_terms); t++) term[t] = V_LOAD (terms[t] + at);
+#if LAW_BREAKS
+            if (check) {
+                unsigned over = OF_LAW (_over) (dim, l->own, other, V_LOAD (limit + shift), constant) & live;
+                if (__builtin_expect (over != 0, 0)) {
+                    slots->alive[k] ^= (unsigned char) (over << shift);
+                    slots->lost[k] |= (unsigned char) (over << shift);
+                    live ^= over, *broke = 1;
+                }
+            }
+#else
+            (void) broke;
 #endif
-#if DIM > 2
-        V f2 = V_SET (0) - lane[part].f[2];
-#endif
-        GIVE (mine, row + part * WIDTH);
+            OF_LAW (_add) (dim, l->own, other, term, live, constant, out);
+            UNROLL for (int c = 0; c < OF_LAW (_sums) (dim); c++) l->sum[c] = l->sum[c] + out[c];
+            if (gives) GIVE (sum, near + at, dim, out);
+        }
+        if (check) limit += step;
     }
 }
 
-static inline __attribute__ ((always_inline)) TARGET int NAME (chunk) (const bond_list *list, size_t chunk,
-                                                                       double *sum, const int finite,
-                                                                       const int check)
+/* All bonds of a slice; `sum` is that of the chunk, whose first record is `first`. */
+INLINE void OF_LAW (_slice) (const bond_list *list, const double *first, const size_t slice, double *sum,
+                             const int dim, const int check, int *broke)
 {
-    size_t first = chunk * list->chunk / LIST_LANES, last = (chunk + 1) * list->chunk / LIST_LANES;
+    const size_t pitch = (size_t) list->pitch;
+    const double *own = list->record + pitch * LIST_LANES * slice;
+    const size_t in_chunk = (size_t) (own - first) / (pitch * LIST_LANES);
+    lanes lane[PARTS];
+    double constant[LIST_CONSTANTS];
+    uint32_t row[LIST_LANES];
+    for (int c = 0; c < LIST_CONSTANTS; c++) constant[c] = list->constant[c];
+    for (uint32_t l = 0; l < LIST_LANES; l++) row[l] = l * (uint32_t) pitch;
+    for (int part = 0; part < PARTS; part++) {
+        FETCH (own, row + part * WIDTH, OF_LAW (_columns) (dim, check), lane[part].own);
+        UNROLL for (int c = 0; c < OF_LAW (_sums) (dim); c++) lane[part].sum[c] = V_SET (0);
+    }
+    if (OF_LAW (_shared))
+        OF_LAW (_slots) (list, &list->slots[0], slice, first, constant, sum, lane, dim, check, 1, broke);
+    OF_LAW (_slots) (list, &list->slots[1], slice, list->record, constant, sum, lane, dim, check, 0, broke);
+    for (int part = 0; part < PARTS; part++) {
+        V *total = lane[part].sum;
+        if (OF_LAW (_shared)) {                        /* to what other slices gave: less the opposite */
+            UNROLL for (int c = 0; c < OF_LAW (_sums) (dim); c++) total[c] = V_SET (0) - total[c];
+            GIVE (sum + (own - first) / 2, row + part * WIDTH, dim, total);
+        } else {
+            double *to = sum + in_chunk * OF_LAW (_sums) (dim) * LIST_LANES + (size_t) (part * WIDTH);
+            UNROLL for (int c = 0; c < OF_LAW (_sums) (dim); c++) V_STORE (to + c * LIST_LANES, total[c]);
+        }
+    }
+}
+
+INLINE int OF_LAW (_chunk) (const bond_list *list, size_t chunk, double *sum, const int dim, const int check)
+{
+    const size_t first = chunk * list->chunk / LIST_LANES, end = (chunk + 1) * list->chunk / LIST_LANES;
+    const size_t last = end < list->slices ? end : list->slices;
+    const double *record = list->record + (size_t) list->pitch * chunk * list->chunk;
     int broke = 0;
-    if (last > list->slices) last = list->slices;
-    memset (sum, 0, (last - first) * LIST_LANES * (PITCH / 2) * sizeof *sum);
+    const size_t sums = (last - first) * LIST_LANES * (size_t) list->pitch / 2;
+    if (OF_LAW (_shared)) memset (sum, 0, sums * sizeof *sum);
     for (size_t slice = first; slice < last; slice++)
-        NAME (slice) (list, chunk, slice, sum, finite, check, &broke);
+        OF_LAW (_slice) (list, record, slice, sum, dim, check, &broke);
     return broke;
 }
 
-static TARGET int NAME (linear) (const bond_list *list, size_t chunk, double *sum)
-{
-    return NAME (chunk) (list, chunk, sum, 0, 0);
-}
-static TARGET int NAME (linear_check) (const bond_list *list, size_t chunk, double *sum)
-{
-    return NAME (chunk) (list, chunk, sum, 0, 1);
-}
-static TARGET int NAME (finite) (const bond_list *list, size_t chunk, double *sum)
-{
-    return NAME (chunk) (list, chunk, sum, 1, 0);
-}
-static TARGET int NAME (finite_check) (const bond_list *list, size_t chunk, double *sum)
-{
-    return NAME (chunk) (list, chunk, sum, 1, 1);
-}
-
-#undef DIM
-#undef PITCH
-#undef EACH
-#undef DOT
-#undef FETCH
-#undef GIVE
-#undef SLOTS
-#undef SEPARATE
-#undef DEFORM
-#undef PULL
+#define LOOP_OF(dim, check) \
+    static TARGET int GLUE (OF_LAW (_), GLUE (dim, check)) (const bond_list *list, size_t chunk, \
+                                                            double *sum) \
+    { \
+        return OF_LAW (_chunk) (list, chunk, sum, dim, check); \
+    }
+#define NO_LOOP(dim, check) enum { GLUE (OF_LAW (_), GLUE (dim, check)) };   /* 0: a null pointer */
+#if LEAST_DIMENSION == 1
+LOOP_OF (1, 0) LOOP_OF (1, 1)
+#else
+NO_LOOP (1, 0) NO_LOOP (1, 1)
+#endif
+LOOP_OF (2, 0) LOOP_OF (3, 0)
+#if LAW_BREAKS
+LOOP_OF (2, 1) LOOP_OF (3, 1)
+#else
+NO_LOOP (2, 1) NO_LOOP (3, 1)
+#endif
+#undef LAW
+#undef LEAST_DIMENSION
+#undef LAW_BREAKS
+#undef OF_LAW
+#undef LOOP_OF
+#undef NO_LOOP

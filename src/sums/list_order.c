@@ -80,7 +80,7 @@ static void count_bonds (load *loads, const bond_list *list, size_t first, size_
     }
 }
 
-pg_status bond_list_order (bond_list *list)
+pg_status pg_list_order (bond_list *list)
 {
     pg_status status = PG_OK;
     const pg_cloud *cloud = list->sums->cloud;

@@ -1,306 +1,234 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * State-based sums (linear peridynamic solid) over lists of neighbours, for any cloud: every point sums its
- * own bonds in the order of the family, first for the dilatations (bonds over their limit die there), then
- * for the forces. Both ends compute the same products of a bond. theory B6. */
+ * State-based bonds (linear peridynamic solid) from a list, for any cloud: a loop for the dilatations, in
+ * which bonds over their limit die, then one for the forces. Every point sums its own bonds in the order of
+ * the family. The laws are in law_state.h; theory B6. */
+#include "list.h"
 #include "state.h"
 #include <math.h>
 #include <string.h>
 
-enum { MAX_THREADS = 64, FEW = 1 << 15 };
+enum { DILATE, PULL, WEIGHT, TERMS };                  /* numbers of a bond: w V_j, w V_i V_j, w */
 typedef struct {
-    pg_bond_loop_setting setting;
-    double *w;                                         /* k beta / r of each bond, 1/m (entries) */
-    unsigned char *alive;                              /* (entries) */
-    double *q, *factor, *beta, *alpha;                 /* (n) */
-    pg_changes found[MAX_THREADS];
-    pg_status  failed[MAX_THREADS];
-} list;
+    bond_list list;                                    /* first: the traversal sees it alone */
+    double *q, *W;                                     /* of points in their own order (n) */
+    double *factor, *alpha;                            /* in that of the list: A d / q^2, sum w V p (n) */
+} state_list;
 
-static void list_free (void *self)
+static void release (void *self)
 {
-    list *s = self;
-    if (!s) return;
-    for (int t = 0; t < MAX_THREADS; t++) pg_free (s->found[t].bond);
-    pg_free (s->w), pg_free (s->alive), pg_free (s->q), pg_free (s->factor), pg_free (s->beta),
-        pg_free (s->alpha);
-    pg_free (s);
+    state_list *s = self;
+    if (s) pg_free (s->q), pg_free (s->W), pg_free (s->factor), pg_free (s->alpha);
+    pg_list_free (s);
 }
 
-static int threads_for (const list *s)
+static double squared_length (int dim, const double *xi)
 {
-    const pg_family *f = s->setting.family;
-    int t = s->setting.threads;
-    return f->start[f->n] < FEW || t < 1 ? 1 : t < MAX_THREADS ? t : MAX_THREADS;
-}
-
-/* xi.eta and r^2 of a bond; of the other direction the same bits */
-#define INLINE static inline __attribute__ ((always_inline))
-INLINE double product (const double *x, const double *u, size_t dim, size_t i, size_t j, double *xi,
-                       double *rr)
-{
-    double s = 0, r2 = 0;
-    for (size_t k = 0; k < dim; k++) {
-        double d = x[j * dim + k] - x[i * dim + k];
-        s += d * (u[j * dim + k] - u[i * dim + k]), r2 += d * d;
-        xi[k] = d;
-    }
-    *rr = r2;
-    return s;
-}
-
-static double length2 (const double *x, size_t dim, size_t i, size_t j)
-{
-    double xi[3], rr;
-    product (x, x, dim, i, j, xi, &rr);
+    double rr = 0;
+    for (int c = 0; c < dim; c++) rr += xi[c] * xi[c];
     return rr;
 }
 
-/* ---- q ------------------------------------------------------------------------------------------------- */
-static void weigh (list *s, size_t i, const unsigned char *counts)
+/* xi from the places of the points, which on a lattice differ from the lattice's own by rounding */
+static void between (const bond_list *list, size_t i, size_t j, double *xi)
 {
-    const pg_family *f = s->setting.family;
-    const pg_cloud *c = s->setting.sums->cloud;
-    double q = 0;
-    for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
-        if (!counts || counts[e])
-            q += s->w[e] * length2 (c->x, (size_t) c->dim, i, (size_t) f->node[e]) * c->volume[f->node[e]];
-    s->q[i] = q, s->factor[i] = state_factor (&s->setting, i, q), s->beta[i] = state_beta (&s->setting, i, q);
+    const double *x = list->sums->cloud->x;
+    size_t dim = (size_t) list->dim;
+    for (size_t c = 0; c < dim; c++) xi[c] = x[j * dim + c] - x[i * dim + c];
 }
 
-typedef struct { list *s; const unsigned char *counts; } weighing;
+/* ---- q ------------------------------------------------------------------------------------------------- */
+/* Alpha and beta of a record, which the loop for the forces reads. */
+static void set_record (state_list *s, size_t p, double beta)
+{
+    double *of = s->list.record + p * (size_t) s->list.pitch + 2 * (size_t) s->list.dim;
+    of[0] = s->factor[p] * s->alpha[p], of[1] = beta;
+}
+
+/* q = sum w r^2 V_j of point i over the bonds that `counts` (entries of the family) or, where that is NULL,
+ * the list has alive; and what follows from it. */
+static void weigh (state_list *s, size_t i, const unsigned char *counts)
+{
+    const bond_list *list = &s->list;
+    const pg_family *f = list->family;
+    size_t p = (size_t) list->rank[i], first = list->slots[1].start[p / LIST_LANES];
+    const double *w = list->slots[1].term[WEIGHT] + first * LIST_LANES + p % LIST_LANES;
+    double q = 0, xi[3];
+    for (size_t k = 0; k < f->start[i + 1] - f->start[i]; k++) {
+        size_t e = f->start[i] + k, j = (size_t) f->node[e];
+        if (counts ? !counts[e] : !pg_list_alive (list, p, k)) continue;
+        between (list, i, j, xi);
+        q += w[k * LIST_LANES] * squared_length (list->dim, xi) * list->sums->cloud->volume[j];
+    }
+    s->q[i] = q, s->factor[p] = state_factor (&list->setting, i, q);
+    set_record (s, p, state_beta (&list->setting, i, q));
+}
+
+typedef struct { state_list *s; const unsigned char *counts; } weighing;
 
 static void weigh_points (void *context, size_t first, size_t last, int thread)
 {
-    (void) thread;
     const weighing *w = context;
+    (void) thread;
     for (size_t i = first; i < last; i++) weigh (w->s, i, w->counts);
 }
 
-static void weigh_all (list *s, const unsigned char *counts)
+static void weigh_all (state_list *s, const unsigned char *counts)
 {
-    pg_parallel_heavy (threads_for (s), s->setting.family->n, weigh_points, &(weighing) { s, counts });
+    pg_parallel_heavy (s->list.threads, s->list.n, weigh_points, &(weighing) { s, counts });
 }
 
-static size_t owner (const list *s, size_t entry)
+/* The points that lost bonds, which ascend: each once */
+static void weigh_some (state_list *s, size_t n, const size_t *bond)
 {
-    const size_t *start = s->setting.family->start;
-    size_t low = 0, high = s->setting.family->n;
-    while (high - low > 1) {
-        size_t middle = (low + high) / 2;
-        if (start[middle] <= entry) low = middle;
-        else high = middle;
-    }
-    return low;
-}
-
-static void list_update (void *self, const unsigned char *alive, const pg_changes *changes)
-{
-    list *s = self;
-    size_t entries = s->setting.family->start[s->setting.family->n];
-    if (!changes && alive) memcpy (s->alive, alive, entries);
-    else if (!changes) memset (s->alive, 1, entries);
-    for (size_t c = 0; changes && c < changes->n; c++) s->alive[changes->bond[c]] = 0;
-    if (!s->setting.sums->rule.follow) return;
-    if (!changes) weigh_all (s, s->alive);
-    for (size_t c = 0; changes && c < changes->n; c++) weigh (s, owner (s, changes->bond[c]), s->alive);
-}
-
-/* ---- life ---------------------------------------------------------------------------------------------- */
-static void find_weights (void *context, size_t first, size_t last, int thread)
-{
-    (void) thread;
-    list *s = context;
-    const pg_family *f = s->setting.family;
-    const pg_cloud *c = s->setting.sums->cloud;
-    for (size_t i = first; i < last; i++) {
-        pg_sums_bonds (s->setting.sums, f, i, NULL, s->w + f->start[i], NULL);
-        for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
-            s->w[e] /= sqrt (length2 (c->x, (size_t) c->dim, i, (size_t) f->node[e]));
+    size_t last = SIZE_MAX;
+    for (size_t k = 0; k < n; k++) {
+        size_t i = pg_list_owner (s->list.family, bond[k]);
+        if (i != last) weigh (s, i, NULL);
+        last = i;
     }
 }
 
-static pg_status list_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
+static void update (void *self, const unsigned char *alive, const pg_changes *changes)
+{
+    state_list *s = self;
+    pg_list_update (self, alive, changes);
+    if (!s->list.sums->rule.follow) return;
+    if (changes) weigh_some (s, changes->n, changes->bond);
+    else weigh_all (s, NULL);
+}
+
+/* ---- building ------------------------------------------------------------------------------------------ */
+static void term (const bond_list *list, size_t i, size_t j, const double *unused, double weight, double *out)
+{
+    const double *V = list->sums->cloud->volume;
+    double xi[3];
+    (void) unused;
+    between (list, i, j, xi);
+    double w = weight / sqrt (squared_length (list->dim, xi));
+    out[DILATE] = w * V[j], out[PULL] = w * (V[i] * V[j]), out[WEIGHT] = w;
+}
+
+static double limit (const bond_list *list, size_t i, size_t j)
+{
+    return fmin (list->setting.limit[i], list->setting.limit[j]);
+}
+
+static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
-    (void) set;
-    list *s = NULL;
-    PG_ALLOC (s, 1);
-    *self = s;
-    s->setting = *setting;
-    size_t n = setting->sums->cloud->n, entries = setting->family->start[n];
-    PG_ALLOC (s->w, entries);
-    PG_ALLOC (s->alive, entries);
-    PG_ALLOC (s->q, n);
-    PG_ALLOC (s->factor, n);
-    PG_ALLOC (s->beta, n);
-    PG_ALLOC (s->alpha, n);
-    memset (s->alive, 1, entries);
-    pg_parallel_heavy (threads_for (s), n, find_weights, s);
+    int dim = setting->sums->cloud->dim;
+    const list_law law = { .pitch = 8, .unknowns = dim, .sums = dim, .terms = TERMS, .term = term,
+                           .limit = limit };
+    PG_TRY (pg_list_create (self, sizeof (state_list), setting, set, &law, NULL));
+    state_list *s = *self;
+    PG_ALLOC (s->q, s->list.n);
+    PG_ALLOC (s->W, s->list.n);
+    PG_ALLOC (s->factor, s->list.n);
+    PG_ALLOC (s->alpha, s->list.n);
     weigh_all (s, setting->sums->rule.follow ? NULL : setting->counted);
 done:
     return status;
 }
 
-static void list_bytes (const void *self, double *per_bond, double *per_point)
+/* Two loops, each of which reads the ends, the bits and one number of every bond, and a record of every
+ * point. */
+static void bytes (const void *self, double *per_bond, double *per_point)
 {
-    const list *s = self;
-    size_t dim = (size_t) s->setting.sums->cloud->dim;
-    *per_bond = 2 * (sizeof (double) + sizeof (int) + 1);
-    *per_point = sizeof (double) * (double) (5 * dim + 6);
+    const state_list *s = self;
+    const double slots = (double) s->list.slots[1].start[s->list.slices];
+    const double bonds = (double) s->list.family->start[s->list.n];
+    pg_list_bytes (self, per_bond, per_point);
+    *per_bond = bonds > 0 ? 2 * slots * (LIST_LANES * (sizeof (uint32_t) + sizeof (double)) + 1) / bonds : 0;
+    *per_point += 6 * sizeof (double);                 /* alpha, factor twice; alpha and beta of the record */
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-typedef struct { list *s; const double *u; double *out; int check; } sweep;
-
-static int breaks (const list *s, size_t i, size_t j, double product_, double rr)
+static void take_dilatations (void *context, const bond_list *list, size_t first, size_t last,
+                              const double *sum)
 {
-    const pg_bond_loop_setting *g = &s->setting;
-    if (g->exempt && (g->exempt[i] || g->exempt[j])) return 0;
-    return product_ >= fmin (g->limit[i], g->limit[j]) * rr;
+    state_list *s = context;
+    double *of = list->record + first * (size_t) list->pitch + 2 * (size_t) list->dim;
+    for (size_t p = first; p < last; p++, of += list->pitch) {
+        s->alpha[p] = pg_list_sum (sum, 1, p - first, 0);
+        *of = s->factor[p] * s->alpha[p];
+    }
 }
 
-static pg_status note (pg_changes *found, size_t entry)
+typedef struct { state_list *s; double *out; } pass;
+
+static void take_forces (void *f, const bond_list *list, size_t first, size_t last, const double *sum)
+{
+    int dim = list->dim;
+    for (size_t p = first; p < last; p++) {
+        double *to = (double *) f + (size_t) list->point[p] * (size_t) dim;
+        for (int c = 0; c < dim; c++) to[c] = pg_list_sum (sum, dim, p - first, c);
+    }
+}
+
+static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
-    PG_GROW (found->bond, found->cap, found->n + 1);
-    found->bond[found->n++] = entry;
+    state_list *s = self;
+    int check = broken && s->list.limits > 0;
+    size_t before = broken ? broken->n : 0;
+    pg_list_read (&s->list, u);
+    pg_list_run (&s->list, LIST_state_dilate, check, take_dilatations, s);
+    if (check) PG_TRY (pg_list_lost (&s->list, broken));
+    if (check && s->list.sums->rule.follow) weigh_some (s, broken->n - before, broken->bond + before);
+    pg_list_run (&s->list, LIST_state_pull, 0, take_forces, f);
 done:
     return status;
 }
 
-INLINE void dilate (const sweep *w, size_t first, size_t last, int thread, const size_t dim)
+/* W_i = 1/2 [factor (sum w V p)^2 + beta sum w V p^2 / r^2] */
+static void take_energies (void *context, const bond_list *list, size_t first, size_t last, const double *sum)
 {
-    list *s = w->s;
-    const pg_family *f = s->setting.family;
-    const pg_cloud *c = s->setting.sums->cloud;
-    double xi[3], rr;
-    for (size_t i = first; i < last; i++) {
-        double sum = 0;
-        int lost = 0;
-        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
-            size_t j = (size_t) f->node[e];
-            if (!s->alive[e]) continue;
-            double p = product (c->x, w->u, dim, i, j, xi, &rr);
-            if (w->check && breaks (s, i, j, p, rr)) {
-                pg_status now = note (&s->found[thread], e);
-                if (now != PG_OK) s->failed[thread] = now;
-                s->alive[e] = 0, lost = 1;
-                continue;
-            }
-            sum += s->w[e] * c->volume[j] * p;
-        }
-        if (lost && s->setting.sums->rule.follow) weigh (s, i, s->alive);
-        s->alpha[i] = sum;
+    const pass *g = context;
+    for (size_t p = first; p < last; p++) {
+        double beta = list->record[p * (size_t) list->pitch + 2 * (size_t) list->dim + 1];
+        double all = pg_list_sum (sum, 2, p - first, 0), square = pg_list_sum (sum, 2, p - first, 1);
+        g->out[list->point[p]] = 0.5 * (g->s->factor[p] * all * all + beta * square);
     }
 }
 
-static void dilate_points (void *context, size_t first, size_t last, int thread)
+static pg_status energies (void *self, const double *u, double *W)
 {
-    const sweep *w = context;
-    if (w->s->setting.sums->cloud->dim == 2) dilate (w, first, last, thread, 2);
-    else dilate (w, first, last, thread, 3);
-}
-
-INLINE void pull (const sweep *w, size_t first, size_t last, const size_t dim)
-{
-    const list *s = w->s;
-    const pg_family *f = s->setting.family;
-    const pg_cloud *c = s->setting.sums->cloud;
-    double xi[3], rr;
-    for (size_t i = first; i < last; i++) {
-        double own = s->factor[i] * s->alpha[i], sum[3] = { 0 };
-        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
-            size_t j = (size_t) f->node[e];
-            if (!s->alive[e]) continue;
-            double p = product (c->x, w->u, dim, i, j, xi, &rr);
-            double t = s->w[e] * (c->volume[i] * c->volume[j])
-                       * ((own + s->factor[j] * s->alpha[j]) + (s->beta[i] + s->beta[j]) * p / rr);
-            for (size_t k = 0; k < dim; k++) sum[k] += t * xi[k];
-        }
-        for (size_t k = 0; k < dim; k++) w->out[i * dim + k] = sum[k];
-    }
-}
-
-static void pull_points (void *context, size_t first, size_t last, int thread)
-{
-    (void) thread;
-    const sweep *w = context;
-    if (w->s->setting.sums->cloud->dim == 2) pull (w, first, last, 2);
-    else pull (w, first, last, 3);
-}
-
-static pg_status list_force (void *self, const double *u, double *f, pg_changes *broken)
-{
-    pg_status status = PG_OK;
-    list *s = self;
-    sweep w = { s, u, f, broken && s->setting.limit };
-    size_t n = s->setting.family->n;
-    pg_parallel_heavy (threads_for (s), n, dilate_points, &w);
-    if (w.check) PG_TRY (sweep_collect (broken, threads_for (s), s->found, s->failed));
-    pg_parallel_heavy (threads_for (s), n, pull_points, &w);
-done:
-    return status;
-}
-
-static void store_points (void *context, size_t first, size_t last, int thread)
-{
-    (void) thread;
-    const sweep *w = context;
-    const list *s = w->s;
-    const pg_family *f = s->setting.family;
-    const pg_cloud *c = s->setting.sums->cloud;
-    double xi[3], rr;
-    for (size_t i = first; i < last; i++) {
-        double sum = 0, square = 0;
-        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
-            size_t j = (size_t) f->node[e];
-            if (!s->alive[e]) continue;
-            double p = product (c->x, w->u, (size_t) c->dim, i, j, xi, &rr),
-                   part = s->w[e] * c->volume[j] * p;
-            sum += part, square += part * p / rr;
-        }
-        w->out[i] = 0.5 * (s->factor[i] * sum * sum + s->beta[i] * square);
-    }
-}
-
-static pg_status list_energies (void *self, const double *u, double *W)
-{
-    list *s = self;
-    pg_parallel_heavy (threads_for (s), s->setting.family->n, store_points, &(sweep) { s, u, W, 0 });
+    state_list *s = self;
+    pg_list_read (&s->list, u);
+    pg_list_run (&s->list, LIST_state_store, 0, take_energies, &(pass) { s, W });
     return PG_OK;
 }
 
-static double list_energy (void *self, const double *u)
+static double energy (void *self, const double *u)
 {
-    list *s = self;
+    state_list *s = self;
     double sum = 0;
-    list_energies (self, u, s->alpha);                 /* which every force makes anew */
-    for (size_t i = 0; i < s->setting.family->n; i++) sum += s->alpha[i] * s->setting.sums->cloud->volume[i];
+    energies (self, u, s->W);
+    for (size_t i = 0; i < s->list.n; i++) sum += s->W[i] * s->list.sums->cloud->volume[i];
     return sum;
 }
 
-static pg_status list_dilatation (void *self, const double *u, double *theta, double *q)
+/* theta = d / q sum w V p */
+static void take_theta (void *context, const bond_list *list, size_t first, size_t last, const double *sum)
 {
-    list *s = self;
-    size_t n = s->setting.family->n;
-    if (q) memcpy (q, s->q, n * sizeof *q);
+    const pass *g = context;
+    for (size_t p = first; p < last; p++) {
+        size_t i = (size_t) list->point[p];
+        g->out[i] = g->s->q[i] > 0 ? list->dim / g->s->q[i] * pg_list_sum (sum, 1, p - first, 0) : 0;
+    }
+}
+
+static pg_status dilatation (void *self, const double *u, double *theta, double *q)
+{
+    state_list *s = self;
+    if (q) memcpy (q, s->q, s->list.n * sizeof *q);
     if (!theta) return PG_OK;
-    pg_parallel_heavy (threads_for (s), n, dilate_points, &(sweep) { s, u, NULL, 0 });
-    for (size_t i = 0; i < n; i++)
-        theta[i] = s->q[i] > 0 ? s->setting.sums->cloud->dim / s->q[i] * s->alpha[i] : 0;
+    pg_list_read (&s->list, u);
+    pg_list_run (&s->list, LIST_state_dilate, 0, take_theta, &(pass) { s, theta });
     return PG_OK;
 }
 
 const pg_bond_loop_kind pg_bond_loop_state_list = {
-    .name = "list",
-    .state = 1,
-    .refusal = state_refusal,
-    .create = list_create,
-    .free = list_free,
-    .bytes = list_bytes,
-    .update = list_update,
-    .force = list_force,
-    .energy = list_energy,
-    .energies = list_energies,
-    .dilatation = list_dilatation,
+    .name = "list", .state = 1, .refusal = state_refusal, .create = create, .free = release, .bytes = bytes,
+    .update = update, .force = force, .energy = energy, .energies = energies, .dilatation = dilatation,
 };
