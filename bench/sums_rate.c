@@ -1,12 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Sums over bonds: directed bonds per second, milliseconds, memory, and the error of the forces against a
- * plain loop over bonds in the same row; a row per force, body, kind of sweep, loop and number of threads.
- *     sums_rate [FORCE...] [BODY...] Forces: bond (loops over bonds), fcbm (transforms beside the stencil),
- *       lps (state-based), gmpd (micropolar); none: all. Bodies: those named, by every loop and instruction
- *       set that can sum them; none: those that the table lists for the force, by the best instructions.
- *       Least of several repetitions; of one thread its own time. Bonds carry bits whether any is broken or
- *       not; `cut`: a tenth of them is; `crack`: all across the middle as far as half way; `check`: bonds are
- *       compared with limits that none reaches. `transforms`: these with their product alone. */
+ * plain loop over bonds in the same row; a row per force, body, kind of sum, loop and number of threads.
+ *     sums_rate [FORCE...] [BODY...] [KIND...]
+ * Forces: bond (loops over bonds), fcbm (transforms beside the stencil), lps (state-based), gmpd
+ * (micropolar); none named: all. Bodies: those named, by every loop and instruction set that can sum them;
+ * none: those that the table lists for the force, by the best instructions. Kinds: those named; none: all of
+ * the force.
+ *
+ * A sum is repeated for a quarter of a second at least; the row has the least, the median and the largest
+ * time of one. The least is what the machine can do, the others say how much else it had to do. Times of one
+ * thread are its own, those of several are the clock's. The error is the largest difference from the plain
+ * loop's forces over the largest force.
+ *
+ * Bonds carry bits whether any is broken or not; `cut`: a tenth of them is; `crack`: all across the middle as
+ * far as half way; `check`: bonds are compared with limits that none reaches. `transforms`: these with their
+ * product alone. A `cloud` is made of irregular points with random numbers, whose bonds only a list sums. */
 #include "lattice.h"
 #include "sums/fft_rows.h"
 #include "sums/bond_loop.h"
@@ -35,7 +43,8 @@ static const shape shapes[] = {
     { "cube_64", 3, 64, 3.015, 0, BOND | LPS },
     { "cube_64_m4", 3, 64, 4.015, 0, LPS },
     { "cube_64_m5", 3, 64, 5.015, 0, LPS },
-    { "cloud_400", 2, 400, 3.015, 0.3, BOND | GMPD },
+    { "cloud_400", 2, 400, 3.015, 0.3, BOND | LPS | GMPD },
+    { "cloud_cube_40", 3, 40, 3.015, 0.3, BOND | LPS | GMPD },
     { "square_100", 2, 100, 3.015, 0, 0 },
     { "square_1000", 2, 1000, 3.015, 0, FCBM },
     { "cube_128", 3, 128, 2.015, 0, FCBM },
@@ -305,42 +314,68 @@ static void print_start (const bench *b, const char *loop, int threads)
             b->body.family.start[b->body.cloud.n], b->kind->name, loop, threads);
 }
 
+enum { MOST_REPEATS = 2000 };
+typedef struct { int n; double time[MOST_REPEATS]; } repeats;          /* s */
+
+static int ascending (const void *a, const void *b)
+{
+    double x = *(const double *) a, y = *(const double *) b;
+    return (x > y) - (x < y);
+}
+
+/* Is it time for another one? Five at least, a quarter of a second of them all since `start`. */
+static int again (const repeats *r, double start)
+{
+    return r->n < 5 || (r->n < MOST_REPEATS && lattice_seconds (2) - start < 0.25);
+}
+
+/* Least, median and largest, in milliseconds */
+static void print_times (repeats *r)
+{
+    qsort (r->time, (size_t) r->n, sizeof *r->time, ascending);
+    printf ("%.4f,%.4f,%.4f,", 1e3 * r->time[0], 1e3 * r->time[r->n / 2], 1e3 * r->time[r->n - 1]);
+}
+
 static pg_status time_row (bench *b, const char *set, int threads)
 {
     pg_status status = PG_OK;
-    pg_bond_loop *sweep = NULL;
+    pg_bond_loop *loop = NULL;
     pg_changes broken = { 0 };
     pg_bond_loop_setting setting = setting_of (b);
     lattice_body *body = &b->body;
-    double best = INFINITY, start = lattice_seconds (2), per_bond, per_point;
+    double start = lattice_seconds (2), per_bond, per_point;
+    static repeats all;
     setting.threads = threads, setting.instructions = set;
-    status = pg_bond_loop_create (&sweep, &setting);
+    status = pg_bond_loop_create (&loop, &setting);
     if (status == PG_E_USAGE) return PG_OK;            /* not on this machine, or not by this loop */
     PG_TRY (status);
     /* the same loop by all */
-    if (set && strcmp (set, "scalar") != 0 && !strstr (pg_bond_loop_name (sweep), set)) goto done;
-    pg_bond_loop_update (sweep, body->alive, NULL);
+    if (set && strcmp (set, "scalar") != 0 && !strstr (pg_bond_loop_name (loop), set)) goto done;
+    pg_bond_loop_update (loop, body->alive, NULL);
     double setup = lattice_seconds (2) - start;
     start = lattice_seconds (2);
-    for (int repeat = 0; repeat < 5 || (repeat < 2000 && lattice_seconds (2) - start < 0.25); repeat++) {
+    for (all.n = 0; again (&all, start); all.n++) {
         double t = lattice_seconds (threads);
-        PG_TRY (pg_bond_loop_force (sweep, body->u, body->f, b->kind->check ? &broken : NULL));
-        best = fmin (best, lattice_seconds (threads) - t);
+        PG_TRY (pg_bond_loop_force (loop, body->u, body->f, b->kind->check ? &broken : NULL));
+        all.time[all.n] = lattice_seconds (threads) - t;
     }
     if (broken.n) PG_FAIL (PG_E_EQUILIBRIUM, "%zu bonds broke", broken.n);
     pg_bond_loop_counts count;
-    pg_bond_loop_counted (sweep, &count);
-    pg_bond_loop_bytes (sweep, &per_bond, &per_point);
-    print_start (b, pg_bond_loop_name (sweep), threads);
-    printf ("%.4f,%.4f,%.3g,%.4f,%.3f,%.1f,", (double) body->family.start[body->cloud.n] / best * 1e-9,
-            best * 1e3, lattice_apart (body, body->f, body->plain), setup, per_bond, per_point);
+    pg_bond_loop_counted (loop, &count);
+    pg_bond_loop_bytes (loop, &per_bond, &per_point);
+    print_start (b, pg_bond_loop_name (loop), threads);
+    double best = all.time[0];
+    for (int k = 1; k < all.n; k++) best = fmin (best, all.time[k]);
+    printf ("%.4f,", (double) body->family.start[body->cloud.n] / best * 1e-9);
+    print_times (&all);
+    printf ("%.3g,%.4f,%.3f,%.1f,", lattice_apart (body, body->f, body->plain), setup, per_bond, per_point);
     if (count.sums)
         printf ("%.1f,%.1f,%.3g\n", (double) count.forward / (double) count.sums,
                 (double) count.back / (double) count.sums, (double) count.bonds / (double) count.blocks);
     else puts (",,");
     fflush (stdout);
 done:
-    pg_bond_loop_free (&sweep);
+    pg_bond_loop_free (&loop);
     pg_free (broken.bond);
     return status;
 }
@@ -367,7 +402,8 @@ static pg_status time_transforms (bench *b)
     const pg_sums *sums = b->body.sums;
     const int *count = sums->sites.count;
     size_t n[3] = { (size_t) count[0], (size_t) count[1], (size_t) count[2] };
-    double x = 0, best = INFINITY, start;
+    double x = 0, start;
+    static repeats all;
     char name[60];
     fft f = { 0 };
     fft_job job = { b->body.cloud.dim, b->body.cloud.dim, fill, take, &x };
@@ -377,14 +413,16 @@ static pg_status time_transforms (bench *b)
     PG_TRY (fft_create (&f, b->body.cloud.dim, n, sums->stencil.n, sums->stencil.offset, one, NULL, kernels,
                         1, 1));
     start = lattice_seconds (2);
-    for (int repeat = 0; repeat < 5 || (repeat < 1000 && lattice_seconds (2) - start < 0.25); repeat++) {
+    for (all.n = 0; again (&all, start); all.n++) {
         double t = lattice_seconds (1);
         fft_convolve (&f, &job);
-        best = fmin (best, lattice_seconds (1) - t);
+        all.time[all.n] = lattice_seconds (1) - t;
     }
     snprintf (name, sizeof name, "transforms %zux%zux%zu", f.box.T[0], f.box.T[1], f.box.T[2]);
     print_start (b, name, 1);
-    printf (",%.4f,,,,,%d,%d,\n", 1e3 * best, b->body.cloud.dim, b->body.cloud.dim);
+    putchar (',');
+    print_times (&all);
+    printf (",,,,%d,%d,\n", b->body.cloud.dim, b->body.cloud.dim);
 done:
     fft_clear (&f);
     return status;
@@ -419,22 +457,25 @@ static int named (const char *name, int argc, char **argv)
 
 int main (int argc, char **argv)
 {
-    int some_forces = 0, some_shapes = 0;
+    int some_forces = 0, some_shapes = 0, some_kinds = 0;
     for (size_t f = 0; f < FORCES; f++) some_forces += named (forces[f].name, argc, argv);
     for (size_t s = 0; s < SHAPES; s++) some_shapes += named (shapes[s].name, argc, argv);
-    if (some_forces + some_shapes < argc - 1) {
-        fprintf (stderr, "usage: sums_rate [bond|fcbm|lps|gmpd]... [BODY]...\n");
+    for (size_t k = 0; k < KINDS; k++) some_kinds += named (kinds[k].name, argc, argv);
+    if (some_forces + some_shapes + some_kinds < argc - 1) {
+        fprintf (stderr, "usage: sums_rate [bond|fcbm|lps|gmpd]... [BODY]... [KIND]...\n");
         return 64;
     }
-    puts ("force,body,points,m,directed_bonds,kind,loop,threads,Gbonds_per_s,ms,error,setup_s,bytes_per_bond,"
-          "bytes_per_point,forward,back,blocks_direct");
+    puts ("force,body,points,m,directed_bonds,kind,loop,threads,Gbonds_per_s,ms,ms_median,ms_most,error,"
+          "setup_s,"
+          "bytes_per_bond,bytes_per_point,forward,back,blocks_direct");
     for (size_t f = 0; f < FORCES; f++)
         for (size_t s = 0; s < SHAPES; s++)
             for (size_t k = 0; k < KINDS; k++) {
                 int listed = some_shapes ? named (shapes[s].name, argc, argv)
                                          : shapes[s].forces & forces[f].bit;
                 if (!listed || !(kinds[k].forces & forces[f].bit)
-                    || (some_forces && !named (forces[f].name, argc, argv)))
+                    || (some_forces && !named (forces[f].name, argc, argv))
+                    || (some_kinds && !named (kinds[k].name, argc, argv)))
                     continue;
                 if (time_body (&forces[f], &shapes[s], &kinds[k], some_shapes) == PG_OK) continue;
                 fprintf (stderr, "sums_rate: %s\n", pg_last_error ());
