@@ -15,23 +15,24 @@ INLINE void OF_LAW (_slots) (const bond_list *list, const bond_slots *slots, siz
                              const double *constant, double *sum, lanes *lane, const int dim, const int check,
                              const int gives, int *broke)
 {
-    enum { AHEAD = 32 };                               /* slots to ask for ahead of their use */
-    const double *limit = check ? list->limit + LIST_LANES * slots->limit_at[slice] : NULL;
+    enum { AHEAD = 64 };                               /* slots to ask for ahead of their use */
+    const double *restrict limit = check ? list->limit + LIST_LANES * slots->limit_at[slice] : NULL;
     const size_t end = slots->start[slice + 1], step = check ? slots->limit_step[slice] : 0;
-    const uint16_t *near = slots->near;
-    const uint32_t *far = slots->far;
-    const double *terms[LIST_TERMS];
+    const uint16_t *restrict near = slots->near;
+    const uint32_t *restrict far = slots->far;
+    unsigned char *restrict alive = slots->alive;
+    const double *restrict terms[LIST_TERMS];
     UNROLL for (int t = 0; t < OF_LAW (_terms); t++) terms[t] = slots->term[OF_LAW (_first) + t];
     for (size_t k = slots->start[slice]; k < end; k++) {
         UNROLL for (int t = 0; t < OF_LAW (_terms); t++)
             __builtin_prefetch (terms[t] + LIST_LANES * (k + AHEAD));
-        if (gives) __builtin_prefetch (near + LIST_LANES * (k + 2 * AHEAD));
+        if (gives) __builtin_prefetch (near + LIST_LANES * (k + AHEAD));
         else __builtin_prefetch (far + LIST_LANES * (k + AHEAD));
         for (int part = 0; part < PARTS; part++) {
             const unsigned all = (1u << WIDTH) - 1, shift = (unsigned) (part * WIDTH);
             const size_t at = LIST_LANES * k + shift;
             lanes *l = &lane[part];
-            unsigned live = (unsigned) slots->alive[k] >> shift & all;
+            unsigned live = (unsigned) alive[k] >> shift & all;
             V other[MOST_COLUMNS], term[LIST_TERMS], out[MOST_SUMS];
             if (gives) FETCH (from, near + at, OF_LAW (_columns) (dim, check), other);
             else FETCH (from, far + at, OF_LAW (_columns) (dim, check), other);
@@ -40,7 +41,7 @@ INLINE void OF_LAW (_slots) (const bond_list *list, const bond_slots *slots, siz
             if (check) {
                 unsigned over = OF_LAW (_over) (dim, l->own, other, V_LOAD (limit + shift), constant) & live;
                 if (__builtin_expect (over != 0, 0)) {
-                    slots->alive[k] ^= (unsigned char) (over << shift);
+                    alive[k] ^= (unsigned char) (over << shift);
                     slots->lost[k] |= (unsigned char) (over << shift);
                     live ^= over, *broke = 1;
                 }
