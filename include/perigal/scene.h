@@ -2,7 +2,14 @@
  * scene.h: what the user wrote. YAML becomes checked names, SI numbers and expressions, each with its place
  * in the file. Knows no method: every folder brings a table of its keys (`pg_keys_<folder>`), and
  * src/scene/list.h has one line per table. These tables drive parsing, checks, `perigal help KEY` and
- * doc/input.md alike. */
+ * doc/input.md alike.
+ *
+ * A scene goes through these steps: libyaml reads the text into a tree (src/scene/yaml.c); overrides `--set
+ * KEY=VALUE` change it (override.c); every node is checked against the row of its key (check.c, value.c),
+ * where numbers are converted to SI (unit.c, measure.c) and expressions compiled once to find their faults
+ * (compile.c). After that values are asked for by their path (access.c), and a default stands in for what
+ * is not written. All faults are collected and reported together, each with file, line, column, key and
+ * value (fault.c). */
 #ifndef PERIGAL_SCENE_H
 #define PERIGAL_SCENE_H
 #include "perigal/base.h"

@@ -70,6 +70,7 @@ pg_status pg_body_read (pg_body *out, const pg_scene *scene)
                         "is missing: give body (a list of shapes), points (a file) or mesh (a file)");
     PG_ALLOC (out->shape, n + pg_scene_count (scene, "layers"));
     out->n = n;
+    /* All shapes are read, also behind a wrong one. */
     for (size_t i = 0; i < n; i++) {
         PG_TRY (read_shape (&out->shape[i], out->dim, scene, i));
         added += out->shape[i].add != 0;
@@ -77,6 +78,7 @@ pg_status pg_body_read (pg_body *out, const pg_scene *scene)
     if (n > 0 && added == 0) pg_scene_fault (scene, "body", "nothing is added, only subtracted");
     PG_TRY (pg_scene_verdict (scene));
     if (n > 0) bound (out);
+    /* 1e-9 of the distance leaves seven digits for the body itself. */
     for (int k = 0; k < out->dim && n > 0; k++) {
         double width = out->high[k] - out->low[k], far = fmax (fabs (out->low[k]), fabs (out->high[k]));
         if (!(width > 1e-9 * far)) {

@@ -141,6 +141,7 @@ static pg_status read_disc (pg_crack *c, const pg_scene *scene, const char *at)
         pg_scene_fault (scene, at, "the normal has no length");
         goto done;
     }
+    /* e: the axis least along the normal, without its part along the normal; f = n x e. */
     for (int k = 0; k < 3; k++) n[k] /= size;
     for (int k = 1; k < 3; k++) if (fabs (n[k]) < fabs (n[least])) least = k;
     for (int k = 0; k < 3; k++) e[k] = (k == least) - n[least] * n[k];

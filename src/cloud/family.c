@@ -203,12 +203,14 @@ pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, cons
     PG_ALLOC (out->start, n + 1);
     PG_ALLOC (s.next, n);
     out->n = n;
+    /* First pass: numbers of members. */
     visit_points (&s, cloud, far);
     for (size_t i = 0; i < n; i++) {
         out->start[i + 1] = out->start[i] + s.next[i];
         s.next[i] = out->start[i];
     }
     PG_ALLOC (out->node, out->start[n]);
+    /* Second pass: members. */
     s.node = out->node;
     visit_points (&s, cloud, far);
 done:

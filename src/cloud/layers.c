@@ -110,6 +110,7 @@ static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, co
     double step[3] = { 0 }, first[3], last[3];
     for (int k = 0; k < body->dim; k++) {
         first[k] = high[k], last[k] = low[k];
+        /* As many places as the lattice has cells, but not more than MOST_LOOKS along an axis. */
         double cells = fmax (1, floor ((high[k] - low[k]) / spacing + 0.5));
         if (k != normal) count[k] = (int) (cells = fmin (cells, MOST_LOOKS));
         step[k] = (high[k] - low[k]) / cells;
@@ -119,11 +120,13 @@ static int shrink (pg_shape *box, const pg_layer *layer, const pg_body *body, co
             for (i[0] = 0; i[0] < count[0]; i[0]++) {
                 double x[3] = { 0 };
                 for (int k = 0; k < body->dim; k++) x[k] = low[k] + (i[k] + 0.5) * step[k];
+                /* Half a cell below the face. */
                 x[normal] = layer->face + (layer->side % 2 ? -0.5 : 0.5) * step[normal];
                 if (!pg_body_inside (body, x, 0)) continue;
                 found = 1;
                 for (int k = 0; k < body->dim; k++) {
                     if (k == normal) continue;
+                    /* The body may end between this cell and the next: its edge is found by bisection. */
                     if (x[k] - step[k] < first[k])
                         first[k] = fmin (first[k], edge_of (body, x, k, fmax (low[k], x[k] - step[k])));
                     if (x[k] + step[k] > last[k])
@@ -168,6 +171,7 @@ pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
     for (size_t i = 0; i < n; i++) {
         pg_layer *layer = &body->layer[i];
         double reach;
+        /* Faults do not stop the loop, but a wrong side leaves no box to make. */
         read_name (layer, body, scene, i);
         layer->side = read_side (body, scene, i);
         body->nlayer = i + 1;
@@ -182,6 +186,7 @@ pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
                 scene, at,
                 "half a cell below this side there is no body: it meets the side in a corner only");
         }
+        /* The box of the body now includes the layer. */
         if (layer->side % 2) body->high[layer->side / 2] = body->shape[body->n].high[layer->side / 2];
         else body->low[layer->side / 2] = body->shape[body->n].low[layer->side / 2];
         body->n++;

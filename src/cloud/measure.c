@@ -35,7 +35,8 @@ int pg_body_measure (const pg_body *body, double *volume, double *surface)
         height = s->high[2] - s->low[2], *volume = area * height, *surface = 2 * area + outline * height;
         return 1;
     }
-    *volume = 1, *surface = 0;                             /* box */
+    /* Each pair of opposite sides has the area volume / length. */
+    *volume = 1, *surface = 0;
     for (int k = 0; k < body->dim; k++) *volume *= s->high[k] - s->low[k];
     for (int k = 0; k < body->dim; k++) *surface += 2 * *volume / (s->high[k] - s->low[k]);
     return 1;

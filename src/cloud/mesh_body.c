@@ -83,6 +83,7 @@ static pg_status keep_elements (pg_mesh *m, const unsigned char *keep)
     size_t n = 0, nnode = 0, at = 0;
     PG_ALLOC (element, m->n);
     PG_ALLOC (node, m->nnode);
+    /* Elements move to the front; element[e] becomes their new number, node marks what they use. */
     for (size_t e = 0; e < m->n; e++) {
         element[e] = keep[m->block[e]] ? (int) n : -1;
         if (element[e] < 0) continue;
@@ -94,6 +95,7 @@ static pg_status keep_elements (pg_mesh *m, const unsigned char *keep)
         at += count;
     }
     m->start[n] = at, m->n = n;
+    /* Nodes likewise; node[i] becomes the new number. */
     for (size_t i = 0; i < m->nnode; i++) {
         if (!node[i]) node[i] = -1;
         else {
@@ -102,6 +104,7 @@ static pg_status keep_elements (pg_mesh *m, const unsigned char *keep)
         }
     }
     m->nnode = nnode;
+    /* Numbers in elements, node sets and side sets. */
     for (size_t k = 0; k < at; k++) m->node[k] = node[m->node[k]];
     for (size_t s = 0; s < m->nnodes; s++) {
         size_t left = 0;
@@ -136,6 +139,7 @@ static pg_status keep_blocks (pg_mesh *m, const pg_scene *scene, const char *at)
     if (!pg_scene_given (scene, "%s", key)) return PG_OK;
     PG_ALLOC (keep, m->nblock);
     PG_ALLOC (number, m->nblock);
+    /* Every name must be that of a block. */
     for (size_t i = 0; (name = pg_scene_name (scene, i, "%s", key)); i++) {
         char path[160], names[2000];
         int k = pg_mesh_body_block (m, name);
@@ -149,6 +153,7 @@ static pg_status keep_blocks (pg_mesh *m, const pg_scene *scene, const char *at)
     }
     PG_TRY (pg_scene_verdict (scene));
     PG_TRY (keep_elements (m, keep));
+    /* Blocks in use move to the front. */
     for (size_t k = 0; k < m->nblock; k++) {
         number[k] = (int) n;
         if (keep[k]) m->blocks[n++] = m->blocks[k];
@@ -183,6 +188,7 @@ static double scaled_jacobian (pg_element kind, int dim, const double *x)
     for (int c = 0; c < t->corners; c++) {
         double v[3][3] = { { 0 } };
         int n = 0;
+        /* Unit vectors along the edges that meet at corner c: dim of them. */
         for (int e = 0; e < t->edges && n < dim; e++) {
             int end[2];
             pg_element_edge (kind, e, end);
@@ -194,6 +200,7 @@ static double scaled_jacobian (pg_element kind, int dim, const double *x)
             for (int a = 0; a < dim && size > 0; a++) v[n][a] /= sqrt (size);
             n++;
         }
+        /* Their volume, over that at a corner of the regular element. */
         double det = dim == 2 ? v[0][0] * v[1][1] - v[0][1] * v[1][0]
                               : v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1])
                                     - v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0])
@@ -236,6 +243,7 @@ static pg_status check_elements (pg_mesh_body *b, const pg_scene *scene, const c
     for (size_t e = 0; e < m->n; e++) {
         double x[3 * PG_ELEMENT_NODES], least;
         b->volume[e] = measure (m, e, &least);
+        /* Written so that NaN is a fault as well. */
         if (!(least > 0)) {
             pg_scene_fault (
                 scene, key,

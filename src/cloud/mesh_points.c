@@ -181,6 +181,7 @@ pg_status pg_mesh_body_cloud (pg_cloud *out, pg_mesh_body *body, const pg_scene 
     PG_ALLOC (out->x, out->n * dim);
     PG_ALLOC (out->volume, out->n);
     PG_ALLOC (out->block, out->n);
+    /* Meshes store three coordinates, clouds as many as there are dimensions. */
     for (size_t i = 0; i < m->nnode; i++)
         if (body->point[i] >= 0)
             memcpy (out->x + (size_t) body->point[i] * dim, m->x + 3 * i, dim * sizeof *out->x);

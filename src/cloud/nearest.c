@@ -140,6 +140,7 @@ long pg_nearest_find (const pg_nearest *g, const double *place, pg_refuse refuse
     query q = { place, refuse, context, -1, INFINITY };
     long at[3] = { 0 }, a[3] = { 0 }, b[3] = { 0 };
     for (int k = 0; k < g->dim; k++) at[k] = cell_along (g, k, place[k]);
+    /* The shell is visited as the cells of a growing box that lie at its surface. */
     for (long shell = 0;; shell++) {
         for (int k = 0; k < g->dim; k++) {
             a[k] = at[k] - shell < 0 ? 0 : at[k] - shell;

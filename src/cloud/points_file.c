@@ -307,6 +307,7 @@ static pg_status find_twins (reader *r, const pg_cloud *c)
     size_t dim = (size_t) c->dim;
     double size = 0;
     for (size_t i = dim; i < c->n * dim; i++) size = fmax (size, fabs (c->x[i] - c->x[i % dim]));
+    /* About 1e-9 of the mean distance between points. */
     double grain = 1e-9 * size / (1 + pow ((double) c->n, 1.0 / c->dim));
     PG_ALLOC (p, c->n);
     for (size_t i = 0; i < c->n; i++) {

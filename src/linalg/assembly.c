@@ -249,8 +249,10 @@ static void gather_row (gathering *g, size_t I, size_t *slot, double *blocks)
     size_t m = (size_t) K->block, mm = m * m;
     memset (K->K.value + K->K.start[I * m], 0,
             (size_t) (K->K.start[(I + 1) * m] - K->K.start[I * m]) * sizeof (double));
+    /* Where each coupled node stands in this row. */
     for (size_t k = K->lower.start[I]; k < K->lower.start[I + 1]; k++)
         slot[K->lower.node[k]] = k - K->lower.start[I];
+    /* Sources, and points within a source, in their order. */
     for (size_t s = 0; s < K->nsource; s++) {
         const pg_assembly_source *source = &K->source[s];
         for (size_t k = K->inverse[s].start[I]; k < K->inverse[s].start[I + 1]; k++) {

@@ -171,6 +171,7 @@ pg_status pg_linear_forecast (const pg_sparse *graph, int block, pg_linear_info 
     if (!c->L) PG_FAIL (PG_E_MEMORY, "no memory for the symbolic analysis of %zu nodes", graph->ncol);
     const SuiteSparse_long *count = c->L->ColCount;
     *info = (pg_linear_info) { .ordering = c->ordering };
+    /* Columns of the unknowns from columns of the nodes. */
     for (size_t k = 0; k < graph->ncol; k++)
         for (int a = 1; a <= block; a++) {
             double entries = m * ((double) count[k] - 1) + a;

@@ -3,8 +3,12 @@
  *
  * The smoother is a Chebyshev polynomial of the fourth kind in D^-1 A, before and after the coarse
  * correction (Lottes 2023, Optimal polynomial smoothers for multigrid V-cycles, Numer. Linear Algebra Appl.
- * 30): it needs only an upper bound of the spectrum, no lower one. The bound comes from the Lanczos matrix
- * of a few steps of conjugate gradients. */
+ * 30). It needs only an upper bound rho of the spectrum of D^-1 A, no lower one. Steps k = 1, 2, ... with
+ * residual r:
+ *
+ *     d_k = (2k - 3) / (2k + 1) d_k-1 + (8k - 4) / ((2k + 1) rho) D^-1 r,    z += d_k,    r -= A d_k.
+ *
+ * The bound comes from the Lanczos matrix of a few steps of conjugate gradients. */
 #include "multilevel.h"
 #include <math.h>
 #include <string.h>
@@ -153,6 +157,7 @@ pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
     if (k + 1 == m->count) return PG_OK;
     level *c = &m->at[k + 1];
     sweep down = { .l = l, .x = l->r, .out = c->b }, up = { .l = l, .x = c->z, .out = z };
+    /* The residual of the smoothed z, which the last change d has not entered yet. */
     level_multiply (l, l->d, l->q);
     pg_parallel (l->threads, l->ndof, take_off, &down);
     pg_parallel (l->threads, c->n, restrict_functions, &down);
@@ -211,6 +216,7 @@ pg_status level_bound (level *l)
     l->top = 1;
     PG_ALLOC (z, l->ndof);
     for (size_t i = 0; i < l->ndof; i++) {
+        /* A linear congruential generator (Knuth's MMIX); scaled so that D^-1/2 b is uniform. */
         seed = seed * 6364136223846793005ul + 1442695040888963407ul;
         l->r[i] = l->inverse[i] > 0 ? ((double) (seed >> 33) / 2147483648.0 - 0.5) / sqrt (l->inverse[i]) : 0;
         z[i] = l->inverse[i] * l->r[i], l->d[i] = 0;
@@ -223,6 +229,8 @@ pg_status level_bound (level *l)
         double dq = dot (l, l->d, l->q);
         if (!(dq > 0)) break;
         rz = next, alpha = next / dq;
+        /* Entries of the Lanczos matrix from the coefficients alpha and beta of conjugate gradients (Saad
+         * 2003, 6.7.3). */
         diagonal[k] = 1 / alpha + (k ? turn / before : 0);
         if (k) off[k - 1] = sqrt (turn) / before;
         n = k + 1;

@@ -114,6 +114,7 @@ static pg_status make_pattern (level *c, const level *f)
         reach[k] = (int) ceil (2 + f->reach[k] / f->step[k] + 1e-6) - 1;
         c->reach[k] = reach[k] * f->step[k];
     }
+    /* All functions of one hat have the same couplings. */
     PG_ALLOC (c->start, c->n + 1);
     for (size_t h = 0; h < f->nhat; h++) {
         if (f->first[h] == f->first[h + 1]) continue;

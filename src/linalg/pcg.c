@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Preconditioned conjugate gradients (Hestenes and Stiefel 1952) on any operator, and as an entry of the
- * catalogue with the diagonal as preconditioner.
+ * catalogue with the diagonal as preconditioner. In each iteration
+ *
+ *     z = P^-1 r,   beta = r.z / (r.z)_before,   p = z + beta p,   alpha = r.z / p.A p,   x += alpha p,
+ *     r -= alpha A p.
  *
  * Every sum over the unknowns is taken in chunks of fixed length, each chunk in four partial sums, and the
  * chunks are added in their order: the result has the same bits for any number of threads and any width of
@@ -143,6 +146,7 @@ pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditi
         rz = next;
         A->apply (A->context, v.p, v.q);
         double pq = dot (&v, v.p, v.q);
+        /* Written so that NaN ends the iteration as well. */
         if (!(pq > 0))
             PG_FAIL (PG_E_NOT_SPD, "conjugate gradients met a direction of energy %g after %zu iterations",
                      pq, k);

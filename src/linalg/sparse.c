@@ -188,6 +188,7 @@ pg_status pg_sparse_congruence (pg_sparse *B, const pg_sparse *A, const pg_spars
     PG_ALLOC (w.hit_b, T->ncol);
     PG_ALLOC (w.on_c, T->nrow);
     PG_ALLOC (w.on_b, T->ncol);
+    /* Rows of a column come out in the order in which they were met; they are sorted, as solvers expect. */
     for (size_t k = 0; k < T->ncol; k++) {
         one_column (&w, k);
         sort_ascending (w.hit_b, w.nb);

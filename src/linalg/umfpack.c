@@ -37,6 +37,7 @@ static pg_status expand (lu *u, const pg_sparse *A)
     PG_TRY (pg_sparse_create (&u->F, A->nrow, A->ncol, nnz, 0));
     PG_ALLOC (u->from, nnz);
     PG_ALLOC (fill, A->ncol);
+    /* Numbers of entries of each column, with the lower triangle of a symmetric A. */
     for (size_t j = 0; j < A->ncol; j++)
         for (long p = A->start[j]; p < A->start[j + 1]; p++) {
             u->F.start[j + 1]++;

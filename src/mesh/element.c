@@ -249,6 +249,7 @@ static void shape_wedge (pg_element kind, const double *xi, double *N, double *d
     for (int i = 0; i < type->nodes; i++) {
         int end[2] = { i, i };
         if (i >= 6) pg_element_edge (kind, i - 6, end);
+        /* Corners 0 to 2 below, 3 to 5 above; an edge between both is upright. */
         int p = end[0] % 3, q = end[1] % 3, s = end[0] / 3 != end[1] / 3 ? 0 : end[0] < 3 ? -1 : 1;
         /* f: N; df: by L_p, L_q, t */
         double side = (1 + s * t) / 2, bubble = (1 - t) * (1 + t), f, df[3] = { 0 };

@@ -68,6 +68,8 @@ static pg_status pair_nodes (plate *p, size_t e, long node[9], pg_element *kind)
     *kind = pg_element_face ((pg_element) m->kind[e], above, upper);
     pg_element_face ((pg_element) m->kind[e], below, lower);
     int n = pg_element_types[*kind].nodes;
+    /* The lower node nearest in x and y; least: its distance, size: that of the farthest one, as a
+     * measure. */
     for (int k = 0; k < n; k++) {
         int top = m->node[m->start[e] + (size_t) upper[k]], best = -1;
         double least = HUGE_VAL, size = 0;
@@ -77,6 +79,7 @@ static pg_status pair_nodes (plate *p, size_t e, long node[9], pg_element *kind)
             size = fmax (size, d);
             if (d < least) least = d, best = low;
         }
+        /* It must lie below, and neighbouring elements must agree about it. */
         if (least > 1e-3 * size || (p->twin[top] >= 0 && p->twin[top] != best)
             || (p->twin[best] >= 0 && p->twin[best] != top))
             PG_FAIL (PG_E_USAGE,
@@ -145,6 +148,7 @@ static pg_status add_sets (plate *p)
         const pg_mesh_nodes *set = &m->nodes[s];
         PG_TRY (pg_mesh_builder_nodeset (p->builder, set->name, set->id));
         for (size_t k = 0; k < set->n; k++) {
+            /* Nodes half-way have no place in the plane mesh. */
             int i = set->node[k];
             if (p->level[i] == 2) i = p->twin[i];
             if (i >= 0 && p->level[i] == 0) PG_TRY (pg_mesh_builder_nodeset_add (p->builder, m->node_id[i]));

@@ -66,6 +66,7 @@ static box box_of (const pg_mesh_locator *f, size_t e, double *size)
         for (int i = 1; i < corners; i++)
             b.low[a] = fmin (b.low[a], x[i * dim + a]), b.high[a] = fmax (b.high[a], x[i * dim + a]);
     }
+    /* How far the other nodes lie off the linear map of the corners. */
     for (int k = corners; k < pg_element_types[kind].nodes; k++) {
         pg_element_node (kind, k, xi);
         pg_element_shape (linear[kind], xi, N, NULL);
@@ -78,6 +79,7 @@ static box box_of (const pg_mesh_locator *f, size_t e, double *size)
     *size = 0;
     for (int a = 0; a < dim; a++) *size = fmax (*size, b.high[a] - b.low[a]);
     for (int a = 0; a < dim; a++) {
+        /* The bound of curved elements, the tolerance of `inside`, and rounding far from the origin. */
         double grow = 3 * off[a] + 10 * inside * *size
                       + 4 * DBL_EPSILON * fmax (fabs (b.low[a]), fabs (b.high[a]));
         b.low[a] -= grow, b.high[a] += grow;
@@ -191,6 +193,7 @@ pg_status pg_mesh_locator_create (pg_mesh_locator **out, const pg_mesh *mesh)
     PG_ALLOC (f->centre, mesh->n * dim);
     PG_ALLOC (f->tree, mesh->n);  /* at least 2 items a leaf where there is more than one leaf */
     for (size_t e = 0; e < mesh->n; e++) {
+        /* Centres decide about the division, boxes about the search. */
         double size;
         boxes[e] = box_of (f, e, &size);
         f->item[e] = (int) e;

@@ -51,6 +51,7 @@ static int by_key (const void *p, const void *q)
 /* Marks in `open` the faces of one bucket that no other equals. */
 static void open_faces (entry *b, size_t n, unsigned char *open)
 {
+    /* Large buckets are sorted: equal faces become neighbours. */
     if (n > FEW) {
         qsort (b, n, sizeof *b, by_key);
         for (size_t i = 0; i < n; i++)

@@ -151,6 +151,7 @@ static pg_status begin_elements (reader *r)
                               "20, CPS and CPE 3, 4, 6, 8, S3, 4, 6, 8, "
                               "M3D3, 4, 6, 8, T3D2, B31, with letters behind them as in C3D8R",
                               type, near[0] ? " (did you mean '" : "", near, near[0] ? "'?)" : ""));
+    /* Elements without extent (springs, masses) are passed over with their data lines. */
     r->mode = found == 1 ? ABAQUS_ELEMENT_LINES : ABAQUS_SKIP;
     r->have = -1;
     r->set = -1;
@@ -235,12 +236,14 @@ static pg_status begin_include (reader *r, const char *name)
     if (r->depth + 1 == ABAQUS_DEEPEST || r->data.included == MOST_INCLUDES)
         PG_TRY (ABAQUS_WRONG (r, "files include one another more than %d deep or %d times", ABAQUS_DEEPEST,
                               MOST_INCLUDES));
+    /* Relative to the file that names it. */
     size_t folder = slash && *name != '/' ? (size_t) (slash - now (r)->bytes.path) + 1 : 0;
     PG_ALLOC (path, folder + strlen (name) + 1);
     memcpy (path, now (r)->bytes.path, folder);
     memcpy (path + folder, name, strlen (name));
     abaqus_file *f = &r->file[r->depth + 1];
     status = mesh_load (&f->bytes, path);
+    /* The fault names both files. */
     if (status == PG_E_FILE) {
         char why[300];
         snprintf (why, sizeof why, "%.299s", pg_last_error ());

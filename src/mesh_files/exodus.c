@@ -161,6 +161,7 @@ static pg_status read_nodes (reader *r)
         NC_TRY (r, nc_get_var_double (r->ncid, var, together));
         for (size_t a = 0; a < dim; a++) memcpy (x[a], together + a * r->nnode, r->nnode * sizeof (double));
     }
+    /* Files of today: one variable for each coordinate. */
     for (size_t a = 0; var < 0 && a < dim; a++) {
         int one;
         snprintf (name, sizeof name, "coord%c", "xyz"[a]);
@@ -168,6 +169,7 @@ static pg_status read_nodes (reader *r)
         if (one < 0) PG_FAIL (PG_E_FILE, "%.400s: no '%s'", r->path, name);
         NC_TRY (r, nc_get_var_double (r->ncid, one, x[a]));
     }
+    /* Coordinates beyond num_dim stay zero. */
     for (size_t i = 0; i < r->nnode; i++)
         PG_TRY (pg_mesh_builder_node (r->builder, (long) i + 1, (double[3]){ x[0][i], x[1][i], x[2][i] }));
 done:
@@ -246,6 +248,7 @@ static pg_status read_block (reader *r, size_t k, size_t *first)
     PG_TRY (block_kind (r, k, &count, &kind, &shell));
     if (kind == PG_ELEMENTS) goto done;
     size_t nodes = (size_t) pg_element_types[kind].nodes;
+    /* Counts of blocks may not exceed that of the file: other arrays have that size. */
     if (count > r->n - *first)
         PG_FAIL (PG_E_FILE, "%.400s: its blocks have more than the %zu elements of the file", r->path, r->n);
     snprintf (name, sizeof name, "connect%zu", k + 1);
@@ -392,6 +395,7 @@ typedef struct { char base[NAME]; int part, var; } variable;
 /* Splits "stress_xy" into "stress" and 3; components of vectors are 10 and on. */
 static void split_name (const char *name, variable *v)
 {
+    /* xz is another name of zx. */
     static const char *const suffix[] = { "xx", "yy", "zz", "xy", "yz", "zx", "xz", "x", "y", "z" };
     static const int part[] = { 0, 1, 2, 3, 4, 5, 5, 10, 11, 12 };      /* 10 on: of a vector */
     const char *bar = strrchr (name, '_');

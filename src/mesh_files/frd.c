@@ -220,6 +220,7 @@ static pg_status text_element (reader *r, int format)
     whole (r, 13 + width, 5, &material);
     PG_TRY (check_kind (r, id, type, &kind));
     size_t nodes = (size_t) pg_element_types[kind].nodes;
+    /* Nodes stand on lines " -2", 15 of short or 10 of long numbers each. */
     for (size_t k = 0; k < nodes; k++) {
         if (k % per_line == 0 && (!next (r) || !is_key (r, " -2")))
             MESH_FAIL (&r->c, "element %ld has %zu of %zu nodes", id, k, nodes);
@@ -390,6 +391,7 @@ static pg_status read_field (mesh_fields *out, const pg_mesh *mesh, const pg_id_
     PG_TRY (mesh_fields_add (out, mesh->nnode, field_name (b->name), b->components, &field));
     memset (have, 0, mesh->nnode);
     r->c = b->data;
+    /* Text ends with a line " -3", binary blocks after their number of nodes. */
     for (long k = 0; b->format < FLOATS || k < b->nodes; k++) {
         long id = 0;
         PG_TRY (next_values (r, b, &id, value, &more));

@@ -96,6 +96,7 @@ static pg_status block_of_bytes (gmsh_reader *g, long *left)
         GMSH_FAIL (g, "a block of %d elements with %d tags each where %ld elements are left", n, tags, *left);
     PG_TRY (gmsh_has_left (g, "tags", (size_t) tags, 4));
     PG_TRY (gmsh_has_left (g, "an element", 1, 4));
+    /* Number of the first element, for the message about an unknown type. */
     gmsh_reader peek = *g;
     PG_TRY (gmsh_kind (g, type, gmsh_int (&peek), &t));
     int nodes = pg_element_types[t.kind].nodes;

@@ -92,6 +92,7 @@ static int variable (walker *w)
     uint64_t n, id, bytes, begin;
     size_t size;
     if (!name (w) || !count (w, 4, &n) || n > MOST_DIMENSIONS) return 0;
+    /* Dimensions of the variable, by number. */
     for (; n > 0; n--) if (!whole (w, w->kind == 5 ? 8 : 4, &id) || id >= w->ndim) return 0;
     return attributes (w) && type (w, &size) && whole (w, w->kind == 5 ? 8 : 4, &bytes)
            && whole (w, w->kind == 1 ? 4 : 8, &begin) && !(begin >> 62);

@@ -110,6 +110,7 @@ int mesh_real (const char **at, const char *last, double *value)
     }
     *at = p;
     exponent -= d.behind_point;
+    /* Too many digits or too large a power for one exact operation. */
     if (!d.exact || exponent < -22 || exponent > 22) return slow_real (first, p, value);
     *value = exponent < 0 ? (double) d.sum / power[-exponent] : (double) d.sum * power[exponent];
     if (minus) *value = -*value;

@@ -38,7 +38,8 @@ static const pg_node *item (const pg_node *list, size_t i)
 }
 
 /* Walks along "a.b[3].c". Defaults never stand in for an element of a list or for a name that the user
- * chooses. */
+ * chooses. The pattern grows with the path, "materials.{}.density" for "materials.glass.density", and finds
+ * the default. */
 static found locate (const pg_scene *s, const char *path)
 {
     char pattern[PG_PATTERN] = "";
@@ -47,12 +48,14 @@ static found locate (const pg_scene *s, const char *path)
         int may_default = 1;
         const pg_node *child;
         if (*path == '[') {
+            /* An element of a list. */
             child = item (f.node, (size_t) strtoul (path + 1, NULL, 10));
             path += strcspn (path, "]");
             path += *path == ']';
             pg_schema_item (&s->schema, pattern);
             may_default = 0;
         } else {
+            /* A key of a map, or a name that the user chose. */
             path += *path == '.';
             size_t n = strcspn (path, ".[");
             child = f.node && n ? pg_node_child (f.node, path, n) : NULL;
@@ -61,6 +64,7 @@ static found locate (const pg_scene *s, const char *path)
             may_default = entered == 1;
             path += n;
         }
+        /* Below a node that is not written nothing is written either. */
         if (child && f.given) f.nearest = child;
         if (!child) f.given = 0;
         f.node = child;

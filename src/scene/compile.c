@@ -237,12 +237,14 @@ static pg_status compile (pg_reader *p, const char *unit)
     double value;
     char message[500] = "";
     size_t first = 0;
+    /* Most values are plain quantities. */
     if (strcmp (unit, "bool") != 0) {
         status = pg_unit_parse (&value, p->text, unit);
         if (status == PG_OK) return pg_operand_push (p, &o, value);
         if (status != PG_E_SCENE) return status;
     }
     pg_expression *e = p->e;
+    /* The second pass is needed only if t occurs and does not fit as a time. */
     for (int time = 1; time >= 0; time--) {
         e->n = e->uses = 0;
         *p = (pg_reader) { .text = p->text, .e = e, .t_is_time = time };

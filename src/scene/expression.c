@@ -93,6 +93,8 @@ double pg_expression_value (const pg_expression *e, const pg_place *at)
     size_t n = 0;
     for (size_t k = 0; k < e->n; k++) {
         pg_op op = e->code[k].op;
+        /* Constants and variables push, operations of one number replace, those of two replace and drop
+         * one. */
         if (op == PG_OP_CONSTANT) stack[n++] = e->code[k].value;
         else if (op <= PG_OP_T) stack[n++] = variable[op - PG_OP_X];
         else if (op < PG_OP_ADD) stack[n - 1] = pg_op_apply (op, stack[n - 1], 0);

@@ -202,6 +202,7 @@ pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
     }
     snprintf (word, sizeof word, "%.*s", (int) (n < WORD ? n : WORD - 1), text);
     if (n >= WORD) return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s...'", word);
+    /* Without the database, if possible. */
     if (is_common (m, word, n)) return PG_OK;
     pthread_once (&once, load);
     if (!units)
@@ -209,6 +210,7 @@ pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
                          "the unit database of udunits2 cannot be read (see UDUNITS2_XML_PATH)");
     int good = well_formed (word);
     if (good) {
+        /* A unit that was met before, or udunits2. */
         pthread_mutex_lock (&lock);
         size_t k = place_of (word);
         if (strcmp (memory[k].text, word) == 0) *m = memory[k].measure;

@@ -16,6 +16,7 @@ static size_t distance (const char *a, size_t na, const char *b, size_t nb)
     size_t row[3][LONGEST + 1];
     for (size_t j = 0; j <= nb; j++) row[0][j] = j;
     for (size_t i = 1; i <= na; i++) {
+        /* Three rows of the table suffice: a swap looks back two rows. */
         size_t *now = row[i % 3], *last = row[(i + 2) % 3], *before = row[(i + 1) % 3];
         now[0] = i;
         for (size_t j = 1; j <= nb; j++) {

@@ -100,6 +100,7 @@ pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin)
         pg_faults_add (s->faults, s->file, &here, NULL, 0, "must have the form key=value");
         goto done;
     }
+    /* The value is YAML: a number, a text, a list or a map. */
     PG_TRY (pg_node_read (&value, end + 1, strlen (end + 1), origin, s->file, s->faults, &good));
     if (!good) goto done;
     if (well_formed (set, end)) PG_TRY (reach (s, &node, set, end, origin, &why));
@@ -108,6 +109,7 @@ pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin)
         pg_faults_add (s->faults, s->file, &here, NULL, 0, "%s", why);
         goto done;
     }
+    /* The value takes the place of the node. */
     value.name = node->name;
     node->name = NULL;
     value.origin = origin;

@@ -21,6 +21,8 @@ static pg_status read_unit (pg_reader *p, char *unit, size_t size)
     pg_status status = PG_OK;
     size_t used = 0;
     for (;;) {
+        /* A quotient or, by a blank, a product of units; where no unit follows, the reader returns to
+         * `start`. */
         size_t start = p->at;
         pg_read_skip (p);
         const char *joint = "";
@@ -31,6 +33,7 @@ static pg_status read_unit (pg_reader *p, char *unit, size_t size)
         } else if (used) joint = ".";
         const char *s = p->text + p->at;
         size_t n = pg_word_length (s);
+        /* "2 x" would read as two units of x: the user must write 2*x. */
         const pg_variable *v = pg_variable_of (s, n);
         if (n && v && *joint != '/')
             PG_BAD (p->at, "'%s' is a variable: write a sign before it, as in 2*%s", v->name, v->name);
@@ -167,6 +170,7 @@ pg_status pg_read_name (pg_reader *p, pg_operand *o)
     const pg_function *f = pg_function_of (s, n);
     p->at += n;
     o->m = (pg_measure) { .factor = 1 };
+    /* Words of the language hide units of the same name, such as t. */
     if (v) PG_TRY (read_variable (p, o, v));
     else if (f) PG_TRY (read_call (p, o, f));
     else if (pg_is_word (s, n, "pi")) {

@@ -127,12 +127,14 @@ static void syntax_fault (reader *r, const yaml_parser_t *parser, const char *te
                    .line = (int) parser->problem_mark.line + 1,
                    .column = (int) parser->problem_mark.column + 1 };
     r->good = 0;
+    /* Bytes that are no UTF-8: libyaml gives only an offset. */
     if (parser->error == YAML_READER_ERROR) {
         locate (&at, text, length, parser->problem_offset);
         pg_faults_add (r->faults, r->file, &at, NULL, 0, "not a text in UTF-8: %s",
                        parser->problem ? parser->problem : "cannot be read");
         return;
     }
+    /* The usual case: "spacing:2 mm" without a blank. */
     if (parser->context && strstr (parser->context, "simple key")) {
         at.line = (int) parser->context_mark.line + 1, at.column = (int) parser->context_mark.column + 1;
         pg_faults_add (r->faults, r->file, &at, NULL, 0,
