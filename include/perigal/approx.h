@@ -54,10 +54,12 @@ struct pg_approx_type {
     const char *name, *summary;
     int use_volume;                                    /* the default */
     int exact;                                         /* 1: derivatives are those of the shape functions */
-    /* How far the tip of a crack may lie from where it is drawn, in spacings: the worst of eight places among the
-     * points, with evaluation at Gauss points by the basis, and at the points alone (src/model/tips.c). */
+    /* How far the tip of a crack may lie from where it is drawn, in spacings: the worst of eight places
+     * among the points, with evaluation at Gauss points by the basis, and at the points alone
+     * (src/model/tips.c). */
     struct { double linear, quadratic, nodal; } tip;
-    int interpolates;  /* 1: N of a node is 1 at that node and 0 at the others, so that values are coefficients */
+    /* 1: N of a node is 1 at that node and 0 at the others, so that values are coefficients */
+    int interpolates;
     /* Re-evaluates rows list[0..count) (list NULL: rows 0..count) from `alive` (nnz, 0/1; NULL: all alive),
      * on `threads`. Of N, dN and w, those that are NULL are left out, the others and the grades are the same
      * bits. */
@@ -68,8 +70,9 @@ const pg_approx_type *pg_approx_find (const char *name);
 const char *pg_approx_names (void);
 /* The approximation of `method` in the scene; spacing in m. */
 pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing);
-/* The same for a force without shape functions, whose unknowns are displacements of points: kernel and horizon of
- * the scene, else those given (horizon: spacings); the expansion about a point serves to sample. */
+/* The same for a force without shape functions, whose unknowns are displacements of points: kernel and
+ * horizon of the scene, else those given (horizon: spacings); the expansion about a point serves to sample.
+ */
 pg_status pg_approx_read_points (pg_approx *out, const pg_scene *scene, double spacing, const char *kernel,
                                  double horizon);
 /* Keys of forces with shape functions: approximation, basis, support, weights, degenerate. */

@@ -120,9 +120,11 @@ void pg_stress_of_gradient (const pg_material *material, int dim, const double *
 pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass,
                           double *workspace, double *omega, const char **from);
 const pg_force_type *pg_force_find  (const char *name);
-const pg_force_type *pg_force_of    (const pg_problem *problem);       /* the one that the problem was built for */
+/* the one that the problem was built for */
+const pg_force_type *pg_force_of    (const pg_problem *problem);
 const pg_method *const *pg_force_methods (void);                       /* of all forces; ends with NULL */
-/* The problem of a scene: pg_problem_prepare_with and pg_problem_complete of perigal/model.h, for all forces. */
+/* The problem of a scene: pg_problem_prepare_with and pg_problem_complete of perigal/model.h, for all
+ * forces. */
 pg_status pg_problem_prepare (pg_problem **out, const pg_scene *scene, int threads);
 pg_status pg_problem_build   (pg_problem **out, const pg_scene *scene, int threads);
 const char          *pg_force_names (void);

@@ -90,8 +90,8 @@ typedef struct {
      * other forces that the scene gives are listed as ignored. */
     const pg_key_table *keys[6];
     /* 1: a weak form with the shape functions of method.approximation, on points of evaluation and boundary
-     * facets. 0: bonds between the points themselves carry the force: rows[PG_NODES] come from pg_problem.sums,
-     * without the own point, and PG_POINTS and PG_FACETS are empty. */
+     * facets. 0: bonds between the points themselves carry the force: rows[PG_NODES] come from
+     * pg_problem.sums, without the own point, and PG_POINTS and PG_FACETS are empty. */
     int         shape_functions;
     int         rotations[4];  /* rotational degrees of freedom of a point, by the dimension of the body */
     int         anisotropic;   /* 1: carries any material, by its tangent; 0: isotropic ones, by E and nu */
@@ -108,8 +108,9 @@ typedef struct {
     /* Without shape functions: how its bonds are summed, on a lattice or not (also for forecasts). */
     void      (*rule) (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
                        double spacing, int lattice);
-    /* Reads its keys once points, materials and the approximation are there: sets `integration`, `sums` (without
-     * shape functions) and, in one block of memory, `options`. What is wrong becomes a fault of the scene. */
+    /* Reads its keys once points, materials and the approximation are there: sets `integration`, `sums`
+     * (without shape functions) and, in one block of memory, `options`. What is wrong becomes a fault of
+     * the scene. */
     pg_status (*read) (pg_problem *problem, const pg_scene *scene);
     /* How entry i of `boundary` holds its displacement. NULL: as a constraint on the points of its set. */
     void      (*support) (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
@@ -253,8 +254,10 @@ typedef struct {
     int    matrixless;                                 /* 1: the force has no matrix (state-based) */
     int    rotations;                                      /* rotations of a point */
     const pg_method *method;                           /* the force */
-    int    listed, explicit_;                          /* its points are no lattice; no linear systems at all */
-    int    by_list;  /* without shape functions: bonds are summed by lists of neighbours, on a lattice or off it */
+    /* its points are no lattice; no linear systems at all */
+    int    listed, explicit_;
+    /* without shape functions: bonds are summed by lists of neighbours, on a lattice or off it */
+    int    by_list;
     int    counted, analysed;  /* 1: the counts, the factor are exact, not estimates */
     char   linear[16];  /* what will solve: "cholmod", "umfpack", "cg" (no matrix at all) */
     int    automatic, dynamic;                         /* solver.linear: auto; newmark */

@@ -35,7 +35,8 @@ static pg_status check_horizon (const pg_approx *a, const pg_scene *scene, doubl
 {
     if (a->horizon >= spacing * (1 - 1e-9)) return PG_OK;
     pg_scene_fault (scene, "method.horizon",
-                    "is %.4g spacings: a point would see no neighbour (use 1.5 or more)", a->horizon / spacing);
+                    "is %.4g spacings: a point would see no neighbour (use 1.5 or more)",
+                        a->horizon / spacing);
     return pg_scene_verdict (scene);
 }
 
@@ -68,7 +69,8 @@ pg_status pg_approx_read_points (pg_approx *out, const pg_scene *scene, double s
     *out = (pg_approx) { 0 };
     for (size_t i = 0; i < sizeof table / sizeof *table && !a.type; i++)
         if (table[i]->interpolates) a.type = table[i];
-    a.kernel = pg_kernel_find (pg_scene_given (scene, "method.kernel") ? pg_scene_text (scene, "method.kernel")
+    a.kernel = pg_kernel_find (pg_scene_given (scene, "method.kernel")
+                               ? pg_scene_text (scene, "method.kernel")
                                                                        : kernel);
     if (!a.kernel) PG_FAIL (PG_E_USAGE, "method.kernel: unknown");
     a.horizon = pg_scene_given (scene, "method.horizon") ? pg_scene_length (scene, spacing, "method.horizon")

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of method that choose the neighbours of a point, for every force, and the shape functions, for forces that
- * have some. */
+ * Keys of method that choose the neighbours of a point, for every force, and the shape functions, for
+ * forces that have some. */
 #include "perigal/approx.h"
 
 static const pg_key keys[] = {
@@ -8,15 +8,15 @@ static const pg_key keys[] = {
       .kind = PG_NAME,
       .fallback = "cubic_spline",
       .choices_of = pg_kernel_names,
-      .doc = "Influence function of the distance divided by the horizon; of a force without shape functions that "
-             "of its bonds, and constant unless given." },
+      .doc = "Influence function of the distance divided by the horizon; of a force without shape "
+             "functions that of its bonds, and constant unless given." },
     { .path = "method.horizon",
       .kind = PG_NUMBER,
       .unit = "m|spacing",
       .range = "(0, inf)",
       .fallback = "2.0 spacing",
-      .doc = "Radius of influence of a point (radial), or half the edge of its box (tensor); of a force without "
-             "shape functions 3.015 spacing unless given." },
+      .doc = "Radius of influence of a point (radial), or half the edge of its box (tensor); of a force "
+             "without shape functions 3.015 spacing unless given." },
     { .path = "method.tip_offset",
       .kind = PG_NUMBER,
       .unit = "m|spacing",

@@ -332,8 +332,8 @@ pg_status bond_read (pg_problem *p, const pg_scene *scene)
 
 const pg_force_type pg_force_bond = {
     .method = { .name = "bond",
-                .summary = "bond-based peridynamics: pair forces between points, Poisson's ratio 1/3 in plane stress, "
-                           "1/4 in plane strain and 3D (Silling 2000)",
+                .summary = "bond-based peridynamics: pair forces between points, Poisson's ratio 1/3 in "
+                           "plane stress, 1/4 in plane strain and 3D (Silling 2000)",
                 .keys = { &point_force_keys },
                 .shows = PG_NEEDS_STRETCH | PG_NEEDS_ENERGY,
                 .rule = point_force_rule,

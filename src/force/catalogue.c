@@ -61,8 +61,8 @@ static const pg_key keys[] = {
     { .path = "method.accept_inexact",
       .kind = PG_BOOL,
       .fallback = "off",
-      .doc = "Run although the patch test of the discretisation, which every run makes, is off by more than 50 % "
-             "(report.json: patch_error)." },
+      .doc = "Run although the patch test of the discretisation, which every run makes, is off by more "
+             "than 50 % (report.json: patch_error)." },
 };
 const pg_key_table pg_keys_force = { "force", keys, sizeof keys / sizeof *keys };
 

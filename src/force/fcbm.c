@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The fast convolution-based method (Jafarzadeh et al. 2022; theory B): the forces of bonds, whose sums are by FFT
- * and whose points die by energy unless the scene says otherwise. */
+ * The fast convolution-based method (Jafarzadeh et al. 2022; theory B): the forces of bonds, whose sums are
+ * by FFT and whose points die by energy unless the scene says otherwise. */
 #include "bond.h"
 
-static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx, double spacing,
+static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
+                  double spacing,
                   int lattice)
 {
     point_force_rule (out, scene, mode, approx, spacing, lattice);

@@ -69,7 +69,8 @@ static pg_status galerkin_create (void **self, const pg_problem *problem)
     galerkin *g = NULL;
     PG_ALLOC (g, 1);
     *self = g;
-    g->problem = problem, g->dim = problem->dim, g->nv = pg_voigt_size (problem->dim),
+    g->problem = problem, g->options = problem->options, g->dim = problem->dim,
+        g->nv = pg_voigt_size (problem->dim),
     g->threads = problem->threads, g->n = problem->cloud.n;
     g->bulk = problem->integration->at_nodes ? PG_NODES : PG_POINTS;
     for (int s = 0; s < PG_BOND_SETS; s++) PG_TRY (create_set (g, s));

@@ -26,8 +26,14 @@ typedef struct {  /* one component's elimination: C_s d_s = g - C_m d_m */
 typedef struct galerkin_slices galerkin_slices;         /* galerkin_sum.c */
 typedef struct galerkin_dilatation galerkin_dilatation; /* galerkin_dilatation.c */
 
+/* What the scene says of the method (pg_problem.options). */
+typedef struct {
+    double silling;                                    /* Gs; 0: no stabilisation */
+    double nitsche, penalty;                           /* factors of E / h, h the local spacing */
+} galerkin_options;
 typedef struct {
     const pg_problem *problem;
+    const galerkin_options *options;                   /* pg_problem.options */
     int      dim, nv, threads, bulk;                   /* bulk: PG_NODES or PG_POINTS */
     size_t   n;                                        /* nodes */
     pg_rows  rows[PG_BOND_SETS];                       /* geometry borrowed from the problem, values owned */
@@ -67,11 +73,6 @@ typedef struct {
     pg_nearest *near_point, *near_node;  /* bulk points, nodes; NULL until a place is asked for */
 } galerkin;
 
-/* What the scene says of the method (pg_problem.options). */
-typedef struct {
-    double silling;                                    /* Gs; 0: no stabilisation */
-    double nitsche, penalty;                           /* factors of E / h, h the local spacing */
-} galerkin_options;
 /* scene: entries of pg_method */
 extern const pg_key_table galerkin_keys;
 pg_status galerkin_read (pg_problem *problem, const pg_scene *scene);
@@ -79,7 +80,6 @@ void      galerkin_support (const pg_problem *problem, pg_load *load, const pg_s
 double    galerkin_support_stiffness (const pg_problem *problem);
 pg_status galerkin_limits (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
 void      galerkin_words (const pg_problem *problem, char *text, size_t size);
-static inline const galerkin_options *galerkin_options_of (const galerkin *g) { return g->problem->options; }
 
 /* sum: the loops over points */
 pg_status galerkin_slices_create (galerkin *g);

@@ -116,7 +116,7 @@ static double beta (const galerkin *g, size_t q)
     double E = galerkin_material (g, PG_FACETS, q)->modulus;
     const double *D = galerkin_plain (g, PG_FACETS, q)->D;
     for (int k = 0; k < g->dim; k++) E = fmax (E, 0.25 * D[k * g->nv + k]);
-    return galerkin_options_of (g)->nitsche * E / pg_problem_spacing (g->problem, PG_FACETS, q);
+    return g->options->nitsche * E / pg_problem_spacing (g->problem, PG_FACETS, q);
 }
 
 static const double *normal (const galerkin *g, size_t q)

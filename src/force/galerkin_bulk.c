@@ -36,7 +36,7 @@ static double stabilisation (const galerkin *g, size_t p)
 {
     const pg_material *m = galerkin_material (g, g->bulk, p);
     double mu = m->mu;
-    return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : galerkin_options_of (g)->silling * mu;
+    return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->options->silling * mu;
 }
 
 WIDE static void add_plane_blocks (const double *DB, size_t m, const double *q, double *k)
@@ -93,7 +93,7 @@ void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *
     const pg_rows *r = &g->sums;
     if (r->weight[p] == 0) return;
     add_point (g, p, a, m, out);
-    double Gs = galerkin_options_of (g)->silling > 0 ? stabilisation (g, p) : 0;
+    double Gs = g->options->silling > 0 ? stabilisation (g, p) : 0;
     if (Gs > 0) pg_silling_add (r, &g->problem->cloud, p, a, m, Gs, r->weight[p], out);
 }
 
@@ -142,14 +142,14 @@ static double silling_force (const galerkin *g, size_t p, const double *d, doubl
 void galerkin_bulk_force (galerkin *g, const double *d, double *f)
 {
     galerkin_sum_stress (g, f);
-    for (size_t p = 0; p < g->rows[g->bulk].n && galerkin_options_of (g)->silling > 0; p++) silling_force (g, p, d, f);
+    for (size_t p = 0; p < g->rows[g->bulk].n && g->options->silling > 0; p++) silling_force (g, p, d, f);
 }
 
 void galerkin_bulk_apply (galerkin *g, const double *x, double *y)
 {
     galerkin_sum_tangent (g, x, y);
     if (g->dilatation) galerkin_dilatation_apply (g, x, y);
-    for (size_t p = 0; p < g->rows[g->bulk].n && galerkin_options_of (g)->silling > 0; p++) silling_force (g, p, x, y);
+    for (size_t p = 0; p < g->rows[g->bulk].n && g->options->silling > 0; p++) silling_force (g, p, x, y);
 }
 
 double galerkin_bulk_energy (const galerkin *g, const double *d)
@@ -162,7 +162,7 @@ double galerkin_bulk_energy (const galerkin *g, const double *d)
         for (size_t v = 0; v < nv; v++)
             w += 0.5 * g->stress[g->bulk][p * nv + v] * g->strain[g->bulk][p * nv + v];
         sum += r->weight[p] * w;
-        if (galerkin_options_of (g)->silling > 0) sum += silling_force (g, p, d, NULL);
+        if (g->options->silling > 0) sum += silling_force (g, p, d, NULL);
     }
     return sum;
 }

@@ -312,7 +312,7 @@ void galerkin_dilatation_blocks (void *context, size_t c, size_t a, size_t m, do
             for (size_t r = 0; r < dim; r++) {
                 const part *q = &patch->part[k];
                 double share = lambda * entry (q, (t * n + a) * dim + r),
-                       flux = q->s ? lambda * galerkin_options_of (g)->nitsche * q->s[(t * n + a) * dim + r] : 0;
+                       flux = q->s ? lambda * g->options->nitsche * q->s[(t * n + a) * dim + r] : 0;
                 for (size_t b = 0; b < m && share != 0; b++)
                     for (size_t s = 0; s < dim; s++)
                         out[(b * dim + r) * dim + s] += share * entry (q, (t * n + b) * dim + s);
@@ -373,7 +373,7 @@ void galerkin_dilatation_apply (galerkin *g, const double *x, double *y)
                         y[(size_t) f->node[e] * dim + s] +=
                             lambda
                             * (a->amount[t] * entry (a, at)
-                               + (a->s ? galerkin_options_of (g)->nitsche * a->flux[t] * a->s[at] : 0));
+                               + (a->s ? g->options->nitsche * a->flux[t] * a->s[at] : 0));
         }
     }
 }
@@ -393,7 +393,7 @@ void galerkin_dilatation_diagonal (galerkin *g, double *d)
                         d[(size_t) f->node[e] * dim + s] +=
                             lambda
                             * (entry (a, at) * entry (a, at)
-                               + (a->s ? galerkin_options_of (g)->nitsche * a->s[at] * a->s[at] : 0));
+                               + (a->s ? g->options->nitsche * a->s[at] * a->s[at] : 0));
         }
     }
 }

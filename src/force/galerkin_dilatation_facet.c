@@ -203,7 +203,7 @@ double galerkin_dilatation_traction (const galerkin *g, const pin *q)
     if (!a) return 0;
     galerkin_dilatation_polynomials (g, a, g->rows[PG_FACETS].x + q->point * (size_t) g->dim, psi);
     for (int m = 0; m < a->terms; m++) sum += psi[m] * a->gap[m];
-    return -(1 + galerkin_options_of (g)->nitsche) * lambda_behind (g, q->point) * normal (g, q->point, q->component)
+    return -(1 + g->options->nitsche) * lambda_behind (g, q->point) * normal (g, q->point, q->component)
            * sum;
 }
 

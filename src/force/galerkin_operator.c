@@ -92,7 +92,7 @@ void galerkin_diagonal (void *context, double *d)
     if (g->diagonal_of != g->revision || g->revision == 0) {
         memset (g->diagonal, 0, ndof * sizeof *g->diagonal);
         if (g->dilatation) galerkin_dilatation_diagonal (g, g->diagonal);
-        if (!(galerkin_options_of (g)->silling > 0) && all_isotropic (g->problem)) bulk_diagonal (g, g->diagonal);
+        if (!(g->options->silling > 0) && all_isotropic (g->problem)) bulk_diagonal (g, g->diagonal);
         else add_diagonal_blocks (g, &g->sums.family, galerkin_bulk_blocks, g->wide, g->diagonal);
         if (g->npin)
             add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, g->wide, g->diagonal);
@@ -123,7 +123,8 @@ static pg_status create_matrix (galerkin *g)
 {
     pg_assembly_source source[4];
     size_t n = 0;
-    if (g->whole) source[n++] = (pg_assembly_source){ &g->problem->consistency->cell_family, g, galerkin_cell_blocks };
+    if (g->whole) source[n++] = (pg_assembly_source){ &g->problem->consistency->cell_family, g,
+                                                      galerkin_cell_blocks };
     else source[n++] = (pg_assembly_source) { &g->sums.family, g, galerkin_bulk_blocks };
     if (g->npin) source[n++] = (pg_assembly_source) { &g->rows[PG_FACETS].family, g, galerkin_facet_blocks };
     if (g->dilatation)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The Galerkin form as a scene asks for it: keys, stabilisation, and how displacements are prescribed (Nitsche,
- * elimination or penalty). */
+ * The Galerkin form as a scene asks for it: keys, stabilisation, and how displacements are prescribed
+ * (Nitsche, elimination or penalty). */
 #include "galerkin.h"
 #include <math.h>
 #include <string.h>
@@ -67,9 +67,9 @@ static pg_essential essential_of (const char *how, int facets)
     return strcmp (how, "nitsche") == 0 || facets ? PG_ESSENTIAL_NITSCHE : PG_ESSENTIAL_TRANSFORMATION;
 }
 
-/* Unless the scene says how: Nitsche's terms on facets; a penalty on the points of a set with an inside, which its
- * facets would leave free, and of a set too large to eliminate; else elimination, always where the shape functions
- * are 1 at their own nodes. */
+/* Unless the scene says how: Nitsche's terms on facets; a penalty on the points of a set with an inside,
+ * which its facets would leave free, and of a set too large to eliminate; else elimination, always where
+ * the shape functions are 1 at their own nodes. */
 void galerkin_support (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
 {
     const galerkin_options *o = p->options;
@@ -84,7 +84,8 @@ void galerkin_support (const pg_problem *p, pg_load *load, const pg_scene *scene
     if (strcmp (how, "auto") != 0 || eliminate || !large) return;
     load->essential = PG_ESSENTIAL_PENALTY;
     /* no shorter time step than with Nitsche's terms */
-    if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT)) load->penalty = fmin (o->penalty, o->nitsche);
+    if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT))
+        load->penalty = fmin (o->penalty, o->nitsche);
 }
 
 double galerkin_support_stiffness (const pg_problem *p)

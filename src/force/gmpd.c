@@ -113,9 +113,8 @@ static const pg_key keys[] = {
       "1/4 (plane stress 1/3)." },
     { "method.bond_poisson", PG_NUMBER, "1", "(-1, 0.5)", "", no_choice, NULL, NULL,
       "With volumetric: on, Poisson's ratio of what the bonds alone make, at most the material's and 1/4 "
-      "(plane stress 1/3, where bonds bear no shear "
-      "and points have no rotations); default 0.2 (plane stress 0.25), where a lattice is nearest to isotropic, or "
-      "the material's if that is less." },
+      "(plane stress 1/3, where bonds bear no shear and points have no rotations); default 0.2 (plane stress "
+      "0.25), where a lattice is nearest to isotropic, or the material's if that is less." },
 };
 static const pg_key_table own_keys = { "force", keys, sizeof keys / sizeof *keys };
 
@@ -127,7 +126,8 @@ static int is (const pg_scene *scene, const char *key, const char *word)
 
 static int long_range (const pg_scene *scene) { return pg_scene_bool (scene, "method.volumetric"); }
 
-static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx, double spacing,
+static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
+                  double spacing,
                   int lattice)
 {
     point_force_rule (out, scene, mode, approx, spacing, lattice);
@@ -295,7 +295,8 @@ static void check_moments (const pg_problem *p, const pg_scene *scene)
 
 const pg_force_type pg_force_gmpd = {
     .method = { .name = "gmpd",
-                .summary = "micropolar peridynamics: bonds as beams, points with rotations (Chen et al. 2022)",
+                .summary = "micropolar peridynamics: bonds as beams, points with rotations "
+                           "(Chen et al. 2022)",
                 .keys = { &point_force_keys, &state_based_keys, &own_keys },
                 .rotations = { 0, 0, 1, 3 },
                 .shows = PG_NEEDS_STRETCH | PG_NEEDS_BEAMS,

@@ -158,7 +158,8 @@ void lps_virial (const bond *b, size_t i, const point_bonds *s, const unsigned c
 }
 
 /* ---- what it is before it exists ----------------------------------------------------------------------- */
-static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx, double spacing,
+static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
+                  double spacing,
                   int lattice)
 {
     static const char surface[] = "method.surface_correction";

@@ -37,7 +37,8 @@ static const pg_key dilatation_keys[] = {
       "bonds that live, so that what is left of a family carries on as if it had never had more (stiffer "
       "near new cracks; small time steps)." },
 };
-const pg_key_table state_based_keys = { "force", dilatation_keys, sizeof dilatation_keys / sizeof *dilatation_keys };
+const pg_key_table state_based_keys = { "force", dilatation_keys,
+                                        sizeof dilatation_keys / sizeof *dilatation_keys };
 
 static int is (const pg_scene *scene, const char *key, const char *word)
 {
@@ -155,7 +156,8 @@ void point_force_check_laws (const pg_problem *p, const pg_scene *scene)
     for (size_t m = 1; m < p->nmaterial && asked != PG_EVALUATE_AUTO && asked != PG_EVALUATE_LIST; m++) {
         const pg_criterion *a = &p->criterion[0], *b = &p->criterion[m];
         int at_points = a->type && (a->type->needs & PG_NEEDS_ENERGY);  /* the loops know of no limit */
-        int alike = (p->sums->rule.state && !p->sums->rule.beams) /* whose loops know each point's constants */
+        /* state-based loops know each point's constants */
+        int alike = (p->sums->rule.state && !p->sums->rule.beams)
                     || (p->material[m].modulus == p->material[0].modulus
                         && (!p->sums->rule.beams || p->material[m].nu == p->material[0].nu));
         int same = alike

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: what forces between points (bond, fcbm, lps, gmpd) have in common before they exist: their keys of the
- * scene, the rule by which bonds are summed, the checks of both. */
+ * Private: what forces between points (bond, fcbm, lps, gmpd) have in common before they exist: their keys
+ * of the scene, the rule by which bonds are summed, the checks of both. */
 #ifndef PG_POINT_FORCE_SCENE_H
 #define PG_POINT_FORCE_SCENE_H
 #include "perigal/force.h"
@@ -16,18 +16,19 @@ void point_force_rule_with_dilatation (pg_sum_rule *rule, const pg_scene *scene)
 /* Makes pg_problem.sums from method->rule. check: what the theory asks of rule and materials, as faults. */
 typedef void (*point_force_check) (pg_problem *problem, const pg_scene *scene, const pg_sum_rule *rule);
 pg_status point_force_read (pg_problem *problem, const pg_scene *scene, point_force_check check);
-/* A fault for solvers that need the matrix which a force with dilatations does not have; of: "" or a setting. */
+/* A fault for solvers that need the matrix which a force with dilatations does not have; of: "" or a
+ * setting. */
 void point_force_refuse_matrix (const pg_problem *problem, const pg_scene *scene, const char *of);
 /* Entries of pg_method. */
 pg_status point_force_limits (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
 void point_force_check_laws (const pg_problem *problem, const pg_scene *scene);
 void point_force_words (const pg_problem *problem, char *text, size_t size);
 
-/* Unknowns above which static systems are solved by conjugate gradients. With the multilevel preconditioner a
- * solve is some 10 iterations of 15 sums of the bonds each, at any size, and making it costs two solves; the
- * analysis and factorization of K alone are dearer from about 1000 unknowns on, and below 4000 (2D) and 1500 (3D)
- * both take a few hundredths of a second: there the factor stays, whose residual is rounding. With the diagonal
- * alone iterations grow as the points along the body. */
+/* Unknowns above which static systems are solved by conjugate gradients. With the multilevel preconditioner
+ * a solve is some 10 iterations of 15 sums of the bonds each, at any size, and making it costs two solves;
+ * the analysis and factorization of K alone are dearer from about 1000 unknowns on, and below 4000 (2D) and
+ * 1500 (3D) both take a few hundredths of a second: there the factor stays, whose residual is rounding.
+ * With the diagonal alone iterations grow as the points along the body. */
 #define POINT_FORCE_ITERATES { { 0, 0, 4000, 1500 }, { 0, 0, 4e5, 3e4 } }
 /* What all of these say about themselves (pg_method). */
 #define POINT_FORCE_METHOD \

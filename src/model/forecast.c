@@ -114,7 +114,8 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
     b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
     if (factors)
-        b[PG_BYTES_MATRIX] = !f->method->shape_functions ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
+        b[PG_BYTES_MATRIX] = !f->method->shape_functions
+            ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
                                        : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated
                                              + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
     if (factors) {

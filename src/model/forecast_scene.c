@@ -83,7 +83,8 @@ static void read_method (pg_forecast *f, const pg_scene *scene)
                      || pg_scene_number (scene, "perturb.amount") > 0
                      || pg_scene_count (scene, "blocks") > 1);
     f->nodal = !f->method->shape_functions || (integration && integration->at_nodes);
-    f->summed = f->method->shape_functions && integration && integration->consistent;  /* until bonds are counted */
+    /* until bonds are counted */
+    f->summed = f->method->shape_functions && integration && integration->consistent;
     f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
     f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients */
     f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
@@ -143,7 +144,8 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
 
 /* The bonds of one point of forces straight between points; moved points have those of whole volumes and a
  * falling rim. */
-static pg_status make_bonds (pg_stencil *out, const pg_method *method, const pg_scene *scene, const pg_lattice *l,
+static pg_status make_bonds (pg_stencil *out, const pg_method *method, const pg_scene *scene,
+                             const pg_lattice *l,
                              const pg_approx *a)
 {
     pg_mode mode = l->dim == 1                                     ? PG_LINE
@@ -217,7 +219,8 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
         all += count[pg_element_face ((pg_element) m->kind[element[k]], side[k], node)];
     /* a side each */
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);
-    f->facets = !f->method->shape_functions ? 0 : fmin (facets, all), f->bonds[PG_FACETS] = f->facets * 0.6 * each;
+    f->facets = !f->method->shape_functions ? 0 : fmin (facets, all),
+        f->bonds[PG_FACETS] = f->facets * 0.6 * each;
 done:
     pg_free (element), pg_free (side);
     return status;
@@ -243,14 +246,16 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
     PG_ALLOC (centre, (c.n / stride + 1) * dim);
     for (size_t i = 0; i < c.n; i += stride) memcpy (centre + n++ * dim, c.x + i * dim, dim * sizeof *centre);
     /* volumes fall over one spacing */
-    if (!f->method->shape_functions && !is (pg_scene_text (scene, "method.partial_volume"), "none")) a.horizon += 0.5 * c.h;
+    if (!f->method->shape_functions && !is (pg_scene_text (scene, "method.partial_volume"), "none"))
+        a.horizon += 0.5 * c.h;
     PG_TRY (pg_family_build (&near, &c, n, centre, a.horizon, a.shape, a.kernel->closed));
     PG_TRY (pg_family_build (&far, &c, n / 8 + 1, centre, 1.6 * a.horizon, a.shape, a.kernel->closed));
     f->spacing = c.h, f->horizon = a.horizon, f->points = (double) c.n;
     if (!part.mesh.n) f->nodal = 1;
     f->bonds[PG_NODES] = (double) near.start[n] / (double) n * f->points;
     double coupled = (double) far.start[far.n] / (double) far.n, side = 1;
-    if (!f->method->shape_functions) coupled = f->bonds[PG_NODES] / f->points, f->bonds[PG_NODES] -= f->points;
+    if (!f->method->shape_functions)
+        coupled = f->bonds[PG_NODES] / f->points, f->bonds[PG_NODES] -= f->points;
     f->pairs = 0.5 * f->points * (coupled + 1);
     f->width = 0.93 * radius_of (f->dim, coupled);
     for (int k = 0; k < 3; k++)

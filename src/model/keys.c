@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of the model: blocks, boundary, initial, gauges. Those of `method` stand with the forces that read them. */
+ * Keys of the model: blocks, boundary, initial, gauges. Those of `method` stand with the forces that read
+ * them. */
 #include "perigal/scene.h"
 
 static const char *const no_choice = NULL;

@@ -244,8 +244,8 @@ static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene
                         "is for a traction or a pressure: others act on the points of their set");
     else if (problem->method->shape_functions)
         pg_scene_fault (scene, path,
-                        "the shape functions of force: %s carry a traction on the surface itself; a depth is for "
-                        "force: %s",
+                        "the shape functions of force: %s carry a traction on the surface itself; a depth "
+                        "is for force: %s",
                         problem->method->name, pg_methods_of_points (problem, names, sizeof names));
     else if (load->set->nfacet) {
         double most = deepest (problem, load->set);

@@ -17,8 +17,8 @@ void      pg_initial_clear (pg_problem *problem);
 /* method.tip_offset: how far behind its tips and fronts each pre-crack cuts. */
 pg_status pg_tips_retreat (pg_problem *problem, const pg_scene *scene);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
-/* What is asked of the descriptor of the force (method.c): keys of other forces are noted; what it cannot carry
- * or show becomes a fault. */
+/* What is asked of the descriptor of the force (method.c): keys of other forces are noted; what it cannot
+ * carry or show becomes a fault. */
 pg_status pg_method_approx (pg_approx *out, const pg_method *method, const pg_scene *scene, double spacing);
 void      pg_method_note_ignored    (pg_problem *problem, const pg_scene *scene);
 pg_status pg_method_check_materials (const pg_problem *problem, const pg_scene *scene);

@@ -136,7 +136,8 @@ void pg_supports_check (pg_problem *p, const pg_scene *scene, double duration)
  * their own point. */
 static int eliminates (const pg_problem *p, const pg_load *load)
 {
-    return p->method->shape_functions && !p->approx.type->interpolates && load->set && pg_load_prescribes (load)
+    return p->method->shape_functions && !p->approx.type->interpolates && load->set
+        && pg_load_prescribes (load)
            && load->essential == PG_ESSENTIAL_TRANSFORMATION;
 }
 

@@ -273,8 +273,8 @@ static double sensitivity (const extent *e, int dim)
     return 1 / length_of (e, dim) + (e->open ? 2 : 0.4) / e->ligament;
 }
 
-/* How well tips are known, in spacings, by where they lie among the points. At the points alone it is worse, for
- * what resists few of their motions resists the opening little. */
+/* How well tips are known, in spacings, by where they lie among the points. At the points alone it is
+ * worse, for what resists few of their motions resists the opening little. */
 static double known_to (const pg_problem *p)
 {
     const pg_approx_type *a = p->approx.type;
@@ -327,7 +327,8 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
         else retreat_polygon (&s, k, c, out);
         made[k] = out, out = NULL;
     }
-    if (p->method->shape_functions) tell (p, scene, s.extent);         /* before they retreat: cracks as drawn */
+    /* before they retreat: cracks as drawn */
+    if (p->method->shape_functions) tell (p, scene, s.extent);
     for (size_t k = 0; s.offset > 0 && k < p->cracks.n; k++)
         p->cracks.crack[k].retreat = made[k], made[k] = NULL;
 done:

@@ -11,5 +11,5 @@ expect "its limit, of a material"              0 '*' '*' check plate.yaml --set 
 expect "its limit with another criterion"     65 '' 'failure.shear_strength = 1: has no effect with the criterion stretch' \
        check plate.yaml --set 'failure={criterion: stretch, critical_stretch: 1e-3, shear_strength: 1}'
 expect "a limit of another criterion"         65 '' 'failure.cohesion = 1: has no effect with the criterion tresca' check plate.yaml "${glass[@]}" --set failure.cohesion=1
-expect "a force that knows no stresses"       65 '' 'failure.criterion = tresca: tresca needs stresses, and force: bond' check plate.yaml "${glass[@]}" --set method.force=bond
+expect "a force that knows no stresses"       65 '' 'failure.criterion = tresca: tresca needs the stress of bonds, and those of force: bond show only' check plate.yaml "${glass[@]}" --set method.force=bond
 expect "help for its limit"                    0 '(tresca) Largest shear stress' '' help failure.shear_strength
