@@ -1,102 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Generalised micropolar peridynamics (Chen et al. 2022, corrected in theory G): bonds are beams that bear
- * elongation, shear and bending, points have rotations. Everything else is that of bonds, whose code this is;
- * a dilatation beside them (theory G3) that of lps.c. */
-#include "bond.h"
+ * Generalised micropolar peridynamics as an entry of the catalogue: its keys, what it needs and refuses,
+ * what failure criteria take their constants from. */
+#include "micropolar.h"
 #include <math.h>
 #include <string.h>
 
-/* The s, gamma or kappa at which a bond of two points like this one breaks: the criterion's own answer for a
- * bond of unit stretch, shear or bending. */
-static double limit_at (const pg_criterion *c, double ratio, int which)
-{
-    double one = 1, factor = 0, part[3] = { which == 0, which == 1, which == 2 };
-    pg_bond_measures m = {
-        .n = 1, .dim = 1, .xi = &one, .eta = &part[0], .reach = &ratio, .shear = &part[1], .bending = &part[2]
-    };
-    c->type->factor (c, &m, &factor);
-    return factor;
-}
-
-static pg_status make_limits (bond *b)
-{
-    pg_status status = PG_OK;
-    const pg_problem *p = b->problem;
-    double **of[3] = { &b->limit, &b->shear_limit, &b->bending_limit };
-    if (!p->criterion->type || (p->criterion->type->needs & PG_NEEDS_ENERGY)) return PG_OK;
-    for (int k = 0; k < 3; k++) PG_ALLOC (*of[k], b->n);
-    for (size_t i = 0; i < b->n; i++) {
-        const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];
-        for (int k = 0; k < 3; k++)
-            (*of[k])[i] = c->never ? INFINITY : limit_at (c, pg_cloud_ratio (&p->cloud, i), k);
-    }
-    b->beams.shear_limit = b->shear_limit, b->beams.bending_limit = b->bending_limit,
-    b->beams.single = p->criterion->single;
-done:
-    return status;
-}
-
-pg_status gmpd_create (bond *b)
-{
-    pg_status status = PG_OK;
-    const pg_problem *p = b->problem;
-    const pg_sum_rule *rule = &p->sums->rule;
-    pg_beam_sums sums;
-    if (!rule->beams) return PG_OK;
-    PG_TRY (pg_beam_measure (&sums, p->sums));
-    PG_ALLOC (b->shear, b->n);
-    PG_ALLOC (b->bending, b->n);
-    PG_ALLOC (b->idle, b->n);
-    for (size_t i = 0; i < b->n; i++) {
-        double E, nu, dilation;
-        gmpd_split (p, (size_t) p->block[PG_NODES][i], &E, &nu, &dilation);
-        PG_TRY (pg_beam_moduli (&b->modulus[i], &b->shear[i], p->mode, rule->kernel, rule->horizon, E, nu,
-                                p->cloud.thickness));
-        b->modulus[i] *= p->sums->calibration, b->shear[i] *= sums.calibration;
-        b->bending[i] = ((const gmpd_options *) p->options)->bending * b->shear[i];
-        b->idle[i] = b->shear[i] == 0;
-    }
-    b->beams = (pg_beam_law) { .shear = b->shear, .bending = b->bending, .length = p->cloud.h };
-    PG_TRY (make_limits (b));
-done:
-    return status;
-}
-
-/* By the law of the end that is nearer to its limit */
-char gmpd_kind_of (void *self, const double *d, size_t entry)
-{
-    const bond *b = self;
-    const pg_problem *p = b->problem;
-    size_t i, j = (size_t) b->family->node[entry], dim = (size_t) b->dim, m = (size_t) b->stride;
-    double xi[3], eta[3], shear, bending, most = -1;
-    char kind = 't';
-    int set;
-    pg_problem_locate (p, entry, &set, &i);
-    for (size_t k = 0; k < dim; k++)
-        xi[k] = p->cloud.x[j * dim + k] - p->cloud.x[i * dim + k], eta[k] = d[j * m + k] - d[i * m + k];
-    pg_beam_strain (b->dim, xi, b->beams.length, d + i * m, d + j * m, &shear, &bending);
-    for (int end = 0; end < 2; end++) {
-        size_t point = end ? j : i;
-        const pg_criterion *c = &p->criterion[p->block[PG_NODES][point]];
-        double ratio = pg_cloud_ratio (&p->cloud, point), u;
-        char own;
-        pg_bond_measures one = {
-            .n = 1, .dim = b->dim, .xi = xi, .eta = eta, .reach = &ratio, .shear = &shear, .bending = &bending
-        };
-        if (c->never) continue;
-        c->type->utilisation (c, &one, &u, &own);
-        if (u > most) most = u, kind = own;
-    }
-    return kind;
-}
-
-void gmpd_free (bond *b)
-{
-    pg_free (b->shear), pg_free (b->bending), pg_free (b->idle), pg_free (b->shear_limit),
-        pg_free (b->bending_limit);
-}
-
-/* ---- what it is before it exists ----------------------------------------------------------------------- */
 static const char *const no_choice = NULL;
 static const pg_key keys[] = {
     { "method.beam", PG_NAME, NULL, NULL, "euler", "euler|timoshenko|chen", NULL, NULL,
@@ -130,33 +38,18 @@ static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const p
                   double spacing,
                   int lattice)
 {
-    point_force_rule (out, scene, mode, approx, spacing, lattice);
+    bond_force_rule (out, scene, mode, approx, spacing, lattice);
     out->beams = 1;
-    if (long_range (scene)) point_force_rule_with_dilatation (out, scene);
-}
-
-/* Of micropolar bonds beside an energy of the dilatation, at most: there the two shears of a lattice with a
- * horizon of 3 spacings come nearest to each other (0.3 %; 2 % at the largest ratio, where bonds bear no
- * shear, 6 % at 0) */
-static double usual_poisson (pg_mode mode) { return mode == PG_PLANE_STRESS ? 0.25 : 0.2; }
-
-void gmpd_split (const pg_problem *p, size_t material, double *E, double *nu, double *dilation)
-{
-    const gmpd_options *o = p->options;
-    const pg_material *m = &p->material[material];
-    *E = m->modulus, *nu = m->nu, *dilation = 0;
-    if (!p->sums->rule.state) return;
-    *nu = isnan (o->bond_poisson) ? fmin (*nu, usual_poisson (p->mode)) : o->bond_poisson;
-    pg_beam_split (E, dilation, p->mode, m->modulus, m->nu, *nu);
+    if (long_range (scene)) bond_force_rule_with_dilatation (out, scene);
 }
 
 /* The bonds' own Poisson's ratio may be neither more than they bear nor more than the material's: dilatation
  * would have negative energy. */
-static void check_volumetric (const pg_problem *p, gmpd_options *o, const pg_scene *scene)
+static void check_volumetric (const pg_problem *p, micropolar_options *o, const pg_scene *scene)
 {
     static const char key[] = "method.bond_poisson";
     double most = pg_beam_poisson (p->mode);
-    point_force_refuse_matrix (p, scene, " with volumetric: on");
+    bond_force_refuse_matrix (p, scene, " with volumetric: on");
     o->bond_poisson = pg_scene_given (scene, key) ? pg_scene_number (scene, key) : NAN;
     if (o->bond_poisson > most + 1e-9)
         pg_scene_fault (scene, key, "%.6g is more than %.6g, the largest of micropolar bonds%s",
@@ -195,7 +88,7 @@ static void check_materials (const pg_problem *p, const pg_scene *scene, const p
  * C_t (theory G1) */
 static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
 {
-    gmpd_options *o = p->options;
+    micropolar_options *o = p->options;
     static const char *const only[] = { "method.shear_parameter", "method.cm_ratio" }, *const of[] = {
         "timoshenko", "chen"
     };
@@ -223,13 +116,13 @@ static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule 
 static pg_status read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    gmpd_options *o = NULL;
+    micropolar_options *o = NULL;
     PG_ALLOC (o, 1);
-    *o = (gmpd_options) { .bond_poisson = NAN };
+    *o = (micropolar_options) { .bond_poisson = NAN };
     p->options = o;
     if (!long_range (scene) && pg_scene_given (scene, "method.weighted_volume"))
         pg_problem_note (p, "ignored with volumetric: off: weighted_volume of method");
-    PG_TRY (point_force_read (p, scene, read_beams));
+    PG_TRY (bond_force_read (p, scene, read_beams));
 done:
     return status;
 }
@@ -243,7 +136,8 @@ static pg_status measure_beams (double *out, const pg_problem *p, double axial, 
     PG_TRY (pg_beam_measure (&sums, p->sums));
     out[0] = 0.5 * p->sums->calibration * axial * sums.along;
     out[1] = 6 * sums.calibration * shear * sums.across;
-    out[2] = 0.5 * ((const gmpd_options *) p->options)->bending * sums.calibration * shear * sums.across;
+    const micropolar_options *o = p->options;
+    out[2] = 0.5 * o->bending * sums.calibration * shear * sums.across;
 done:
     return status;
 }
@@ -254,8 +148,8 @@ static pg_status limits (const pg_problem *p, size_t material, pg_criterion_sett
     const pg_material *m = &p->material[material];
     const pg_kernel *kernel = p->approx.kernel;
     double axial, shear, E, nu, dilation, beside, h = p->approx.horizon, t = p->cloud.thickness;
-    PG_TRY (point_force_limits (p, material, s));
-    gmpd_split (p, material, &E, &nu, &dilation);
+    PG_TRY (bond_force_limits (p, material, s));
+    micropolar_split (p, material, &E, &nu, &dilation);
     PG_TRY (pg_beam_moduli (&axial, &shear, p->mode, kernel, h, E, nu, t));
     PG_TRY (measure_beams (s->beam, p, axial, shear));
     beside = pg_beam_cut_dilatation (p->sums, dilation) / s->beam[0];
@@ -269,7 +163,7 @@ done:
 static int bears_shear (const pg_problem *p, int material)
 {
     double E, nu, dilation;
-    gmpd_split (p, (size_t) material, &E, &nu, &dilation);
+    micropolar_split (p, (size_t) material, &E, &nu, &dilation);
     return fabs (nu - pg_beam_poisson (p->mode)) > 1e-9;
 }
 
@@ -297,7 +191,7 @@ const pg_force_type pg_force_gmpd = {
     .method = { .name = "gmpd",
                 .summary = "micropolar peridynamics: bonds as beams, points with rotations "
                            "(Chen et al. 2022)",
-                .keys = { &point_force_keys, &state_based_keys, &own_keys },
+                .keys = { &bond_force_keys, &state_based_keys, &own_keys },
                 .rotations = { 0, 0, 1, 3 },
                 .shows = PG_NEEDS_STRETCH | PG_NEEDS_BEAMS,
                 .criterion = "beam_limits",
@@ -306,7 +200,8 @@ const pg_force_type pg_force_gmpd = {
                 .read = read,
                 .limits = limits,
                 .check_points = check_moments,
-                POINT_FORCE_METHOD },
-    BOND_ENTRIES,
-    .kind_of = gmpd_kind_of
+                BOND_FORCE_METHOD },
+    .create = micropolar_create,
+    .kind_of = micropolar_kind_of,
+    BOND_FORCE_ENTRIES
 };

@@ -3,15 +3,29 @@
  * the share of a dilatation beside them. */
 #ifndef PG_MICROPOLAR_H
 #define PG_MICROPOLAR_H
-#include "perigal/model.h"
+#include "dilatation.h"
 
 /* What is read from the scene (pg_problem.options). */
 typedef struct {
     double bending;                                    /* B / C_t */
     /* Poisson's ratio asked of the bonds; NAN: the usual one */
     double bond_poisson;
-} gmpd_options;
+} micropolar_options;
 /* Young's modulus (Pa) and Poisson's ratio of what the bonds of a material make alone; dilation (Pa): A of
  * the dilatation beside them (pg_beam_split), 0 without volumetric: on. */
-void      gmpd_split  (const pg_problem *problem, size_t material, double *E, double *nu, double *dilation);
+void      micropolar_split  (const pg_problem *problem, size_t material, double *E, double *nu,
+                             double *dilation);
+
+typedef struct {
+    bond_force base;
+    double *modulus;                                   /* C_N of each point, N/m^6 (n) */
+    double *shear, *bending;                           /* C_t and B of each point, N/m^4 (n) */
+    /* gamma0, kappa0; NULL: bonds do not break by theirs (n) */
+    double *shear_limit, *bending_limit;
+    pg_beam_law law;                                   /* the same for the loop over bonds */
+} micropolar;
+static inline const micropolar *micropolar_of (const bond_force *b) { return (const micropolar *) b; }
+
+pg_status micropolar_create (void **self, const pg_problem *problem);
+char      micropolar_kind_of (void *self, const double *d, size_t entry);      /* pg_force_type.kind_of */
 #endif

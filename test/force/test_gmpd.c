@@ -192,7 +192,7 @@ static double cut_energy (const bonded *b, int axis, int mode)
             r = sqrt (r);
             if (mode == 0) sum += 0.5 * axial * r * limit[0] * limit[0] * V;
             if (mode == 1) sum += 6 * shear / r * limit[1] * limit[1] * V;
-            if (mode == 2) sum += 0.5 * ((const gmpd_options *) p->options)->bending * shear / r * limit[2] * limit[2] * V;
+            if (mode == 2) sum += 0.5 * ((const micropolar_options *) p->options)->bending * shear / r * limit[2] * limit[2] * V;
         }
     }
     pg_free (all);

@@ -3,7 +3,7 @@
  * as a product by the sweep, as a sparse matrix whose columns are made again when a bond of their point
  * breaks, its diagonal and row sums, and the bound omega^2 <= 2 lambda_max (P_i) / rho_i, P_i = sum_j kappa
  * xi x xi / V_i (theory A4). */
-#include "bond.h"
+#include "dilatation.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -20,12 +20,13 @@ static void negate (void *context, size_t first, size_t last, int thread)
 
 /* K x = - forces at displacement x. A sweep does not fail without breaking; making that of finite stretch
  * may: then K x is not a number. */
-void bond_apply (void *context, const double *x, double *y)
+void bond_force_apply (void *context, const double *x, double *y)
 {
-    bond *b = context;
+    bond_force *b = context;
     pg_bond_loop *sweep;
     size_t ndof = b->n * (size_t) b->stride;
-    int failed = bond_tangent_sweep (b, &sweep) != PG_OK || pg_bond_loop_force (sweep, x, y, NULL) != PG_OK;
+    int failed = bond_force_tangent_loop (b, &sweep) != PG_OK
+        || pg_bond_loop_force (sweep, x, y, NULL) != PG_OK;
     negation w = { y, failed };
     pg_parallel (b->threads, ndof, negate, &w);
 }
@@ -34,27 +35,29 @@ enum { MOST = 36 };                                    /* numbers of a block */
 
 /* Sum of the bonds' own blocks over the live (or all) bonds of a point; exact: of a dilatation beside beams
  * nothing */
-static void own_block (const bond *b, size_t i, const point_bonds *s, int all, int exact, double *D)
+static void own_block (const bond_force *b, size_t i, const point_bonds *s, int all, int exact, double *D)
 {
     size_t bb = (size_t) (b->stride * b->stride);
+    const unsigned char *counted = b->dilatation ? b->dilatation->counted : NULL;
     double own[MOST], other[MOST];
     memset (D, 0, bb * sizeof *D);
     for (size_t e = 0; e < s->m; e++) {
-        if (all ? b->counted && !b->counted[s->first + e] : !bond_lives (b, s->first + e)) continue;
-        if (exact) bond_beam (b, i, s, e, own, other);
-        else bond_blocks (b, i, s, e, own, NULL);
+        if (all ? counted && !counted[s->first + e] : !bond_force_lives (b, s->first + e)) continue;
+        if (exact) b->theory->alone (b, i, s, e, own, other);
+        else b->theory->blocks (b, i, s, e, own, NULL);
         for (size_t k = 0; k < bb; k++) D[k] += own[k];
     }
 }
 
 /* ---- rows of points that have all their bonds ---------------------------------------------------------- */
-static size_t row_of_star (const bond *b, size_t i, const point_bonds *s, int all, int *node, double *value)
+static size_t row_of_star (const bond_force *b, size_t i, const point_bonds *s, int all, int *node,
+                           double *value)
 {
     size_t bb = (size_t) (b->stride * b->stride), m = 0;
     double own[MOST] = { 0 }, part[MOST];
     for (size_t e = 0; e < s->m; e++) {
-        if (!all && !bond_lives (b, s->first + e)) continue;
-        bond_blocks (b, i, s, e, part, value + m * bb);
+        if (!all && !bond_force_lives (b, s->first + e)) continue;
+        b->theory->blocks (b, i, s, e, part, value + m * bb);
         for (size_t k = 0; k < bb; k++) own[k] += part[k];
         if (node) node[m] = s->node[e];
         m++;
@@ -64,19 +67,19 @@ static size_t row_of_star (const bond *b, size_t i, const point_bonds *s, int al
     return m + 1;
 }
 
-static size_t family_size (const bond *b, size_t i) { return b->family->start[i + 1] - b->family->start[i]; }
+static size_t family_size (const bond_force *b,
+                           size_t i) { return b->family->start[i + 1] - b->family->start[i]; }
 
 /* On a lattice without shares of volume, factors of surfaces or several moduli one row serves all whole
  * points; where there is no workspace for it every row is made by itself. */
-static void find_whole (bond *b)
+static void find_whole (bond_force *b)
 {
     const pg_sums *sums = b->problem->sums;
     size_t i = 0, n = sums->stencil.n, bb = (size_t) (b->stride * b->stride);
     if (b->searched) return;
     b->searched = 1;
-    if (b->dilation || !n || !sums->ordered || sums->share || sums->family_volume) return;
-    for (size_t k = 1; k < b->n; k++)
-        if (b->modulus[k] != b->modulus[0] || (b->shear && b->shear[k] != b->shear[0])) return;
+    if (!b->theory->alike || !n || !sums->ordered || sums->share || sums->family_volume) return;
+    for (size_t k = 0; k < b->n; k++) if (!b->theory->alike (b, k)) return;
     while (i < b->n && family_size (b, i) != n) i++;
     if (i == b->n) return;
     point_bonds s;
@@ -87,21 +90,21 @@ static void find_whole (bond *b)
 
 static int is_whole (void *context, size_t i)
 {
-    const bond *b = context;
+    const bond_force *b = context;
     size_t first = b->family->start[i], m = family_size (b, i);
     return b->whole && m == b->problem->sums->stencil.n && !(b->alive && memchr (b->alive + first, 0, m));
 }
 
-typedef struct { const bond *b; double *out; const double *mass; } job;
+typedef struct { const bond_force *b; double *out; const double *mass; } job;
 
 /* State-based: what the dilatations add to the own block, that of beams beside them included */
-static void exact_block (const bond *b, size_t i, const point_bonds *s, double *D)
+static void exact_block (const bond_force *b, size_t i, const point_bonds *s, double *D)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     double state[9];
-    lps_own (b, i, s, state);
+    dilatation_own (b, i, s, state);
     memset (D, 0, m * m * sizeof *D);
-    if (b->shear) own_block (b, i, s, 0, 1, D);
+    if (b->theory->alone) own_block (b, i, s, 0, 1, D);
     for (size_t a = 0; a < dim; a++)
         for (size_t c = 0; c < dim; c++) D[a * m + c] += state[a * dim + c];
 }
@@ -117,16 +120,16 @@ static void diagonal_points (void *context, size_t first, size_t last, int threa
         if (is_whole ((void *) (uintptr_t) w->b, i)) own = w->b->whole + family_size (w->b, i) * dim * dim;
         else {
             point_bonds_at (w->b, i, thread, &s);
-            if (!w->b->dilation) own_block (w->b, i, &s, 0, 0, D);
+            if (!w->b->dilatation) own_block (w->b, i, &s, 0, 0, D);
             else exact_block (w->b, i, &s, D);
         }
         for (size_t k = 0; k < dim; k++) w->out[i * dim + k] = own[k * dim + k];
     }
 }
 
-void bond_diagonal (void *context, double *d)
+void bond_force_diagonal (void *context, double *d)
 {
-    bond *b = context;
+    bond_force *b = context;
     size_t ndof = b->n * (size_t) b->stride;
     if (b->diagonal && b->diagonal_of == b->revision) {
         memcpy (d, b->diagonal, ndof * sizeof *d);
@@ -134,7 +137,7 @@ void bond_diagonal (void *context, double *d)
     }
     job w = { b, d, NULL };
     find_whole (b);
-    lps_weigh (b);
+    dilatation_weigh (b);
     pg_parallel (b->threads, b->n, diagonal_points, &w);
     if (!b->diagonal) b->diagonal = pg_calloc (ndof, sizeof *d);  /* kept where there is workspace for it */
     if (b->diagonal) memcpy (b->diagonal, d, ndof * sizeof *d), b->diagonal_of = b->revision;
@@ -158,18 +161,18 @@ static void row_sum_points (void *context, size_t first, size_t last, int thread
         memset (w->out + i * m, 0, m * sizeof *w->out);
         add_sizes (m, D, w->out + i * m);
         for (size_t e = 0; e < s.m; e++) {
-            if (!bond_lives (w->b, s.first + e)) continue;
-            bond_blocks (w->b, i, &s, e, own, other);
+            if (!bond_force_lives (w->b, s.first + e)) continue;
+            w->b->theory->blocks (w->b, i, &s, e, own, other);
             add_sizes (m, other, w->out + i * m);
         }
     }
 }
 
-pg_status bond_row_sums (void *self, double *sum)
+pg_status bond_force_row_sums (void *self, double *sum)
 {
-    bond *b = self;
+    bond_force *b = self;
     job w = { b, sum, NULL };
-    if (lps_weigh (b) != PG_OK) return PG_E_MEMORY;
+    if (dilatation_weigh (b) != PG_OK) return PG_E_MEMORY;
     pg_parallel (b->threads, b->n, row_sum_points, &w);
     return PG_OK;
 }
@@ -177,11 +180,11 @@ pg_status bond_row_sums (void *self, double *sum)
 /* Row of blocks of a point over live bonds, its own block last. */
 static size_t couplings_of (void *context, size_t i, int thread, int *node, double *value)
 {
-    const bond *b = context;
+    const bond_force *b = context;
     size_t bb = (size_t) (b->stride * b->stride), m = 0;
     if (!value) {
         for (size_t e = b->family->start[i]; e < b->family->start[i + 1]; e++)
-            if (bond_lives (b, e)) node[m++] = b->family->node[e];
+            if (bond_force_lives (b, e)) node[m++] = b->family->node[e];
         node[m++] = (int) i;
         return m;
     }
@@ -214,15 +217,15 @@ static void farthest_points (void *context, size_t first, size_t last, int threa
     }
 }
 
-pg_status bond_couplings (void *self, pg_couplings *out)
+pg_status bond_force_couplings (void *self, pg_couplings *out)
 {
-    bond *b = self;
+    bond_force *b = self;
     const pg_stencil *t = &b->problem->sums->stencil;
     double far = 0;
     pg_status status = PG_OK;
     *out = (pg_couplings) { .context = b, .widest = b->widest + 1, .row = couplings_of };
     find_whole (b);
-    if (b->dilation) PG_TRY (lps_couplings (b, out));
+    if (b->dilatation) PG_TRY (dilatation_couplings (b, out));
     if (b->whole) out->alike = is_whole;
     for (int k = 0; b->whole && k < b->dim; k++) out->lattice[k] = b->problem->sums->sites.step[k];
     if (t->n) for (size_t e = 0; e < t->n * (size_t) t->dim; e++) far = fmax (far, fabs (t->xi[e]));
@@ -248,28 +251,29 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) {
         const double *mass = w->mass + i * m;
         point_bonds_at (w->b, i, thread, &s);
-        int grows = w->b->dilation && p->sums->rule.follow && (w->b->limit || w->b->critical);
-        double state = grows ? lps_bound (w->b, i, &s) * p->cloud.volume[i] / mass[0] : 0;
+        int grows = w->b->dilatation && p->sums->rule.follow && (w->b->limit || w->b->critical);
+        double state = grows ? dilatation_bound (w->b, i, &s) * p->cloud.volume[i] / mass[0] : 0;
         w->out[i] = state;
-        if (grows && !w->b->shear) continue;
+        if (grows && !w->b->theory->alone) continue;
         own_block (w->b, i, &s, 1, grows, P);
-        for (size_t k = 0; w->b->shear && k < m * m; k++) P[k] *= mass[0] / sqrt (mass[k / m] * mass[k % m]);
+        for (size_t k = 0; w->b->stride > w->b->dim
+             && k < m * m; k++) P[k] *= mass[0] / sqrt (mass[k / m] * mass[k % m]);
         pg_dense_eigen ((int) m, P, lambda, NULL);
         w->out[i] = state + 2 * lambda[0] / mass[0];
     }
 }
 
-pg_status bond_bound (void *self, double *omega)
+pg_status bond_force_bound (void *self, double *omega)
 {
     pg_status status = PG_OK;
-    bond *b = self;
+    bond_force *b = self;
     double top = 0, *mass = NULL;
     for (size_t m = 0; m < b->problem->nmaterial; m++)
         if (!(b->problem->material[m].density > 0))
             return pg_error (PG_E_USAGE, PG_HERE, "material %s has no density: there is no frequency",
                              b->problem->material[m].name);
     PG_ALLOC (mass, b->n * (size_t) b->stride);
-    PG_TRY (bond_mass (b, mass));
+    PG_TRY (bond_force_mass (b, mass));
     pg_parallel (b->threads, b->n, bound_points, &(job) { b, b->work, mass });
     for (size_t i = 0; i < b->n; i++) top = fmax (top, b->work[i]);
     *omega = sqrt (top);
@@ -280,14 +284,14 @@ done:
 
 /* ---- the matrix ---------------------------------------------------------------------------------------- */
 /* Bonds of point i to points before it. */
-static size_t lower (const bond *b, size_t i)
+static size_t lower (const bond_force *b, size_t i)
 {
     size_t at = b->family->start[i], first = at;
     while (at < b->family->start[i + 1] && (size_t) b->family->node[at] < i) at++;
     return at - first;
 }
 
-static pg_status create_matrix (bond *b)
+static pg_status create_matrix (bond_force *b)
 {
     pg_status status = PG_OK;
     size_t dim = (size_t) b->stride, nnz = 0;
@@ -313,7 +317,7 @@ done:
 static void make_columns (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
-    const bond *b = w->b;
+    const bond_force *b = w->b;
     size_t m = (size_t) b->stride;
     point_bonds s;
     double D[MOST], own[MOST], other[MOST];
@@ -325,7 +329,7 @@ static void make_columns (void *context, size_t first, size_t last, int thread)
         /* the block of row i, column node: its transpose stands above */
         for (size_t e = 0; e < below; e++) {
             memset (other, 0, sizeof other);
-            if (bond_lives (b, s.first + e)) bond_blocks (b, i, &s, e, own, other);
+            if (bond_force_lives (b, s.first + e)) b->theory->blocks (b, i, &s, e, own, other);
             for (size_t c = 0; c < m; c++)
                 for (size_t a = 0; a < m; a++)
                     b->K.value[b->K.start[i * m + c] + (long) (e * m + a)] = other[c * m + a];
@@ -336,10 +340,10 @@ static void make_columns (void *context, size_t first, size_t last, int thread)
     }
 }
 
-pg_status bond_assemble (void *self)
+pg_status bond_force_assemble (void *self)
 {
     pg_status status = PG_OK;
-    bond *b = self;
+    bond_force *b = self;
     if (!b->K.row) PG_TRY (create_matrix (b));
     job w = { b, NULL, NULL };
     pg_parallel (b->threads, b->n, make_columns, &w);
@@ -349,10 +353,10 @@ done:
     return status;
 }
 
-int bond_matrix_free (const void *self) { return ((const bond *) self)->dilation != NULL; }
+int bond_force_matrix_free (const void *self) { return ((const bond_force *) self)->dilatation != NULL; }
 
-const pg_sparse *bond_matrix (void *self)
+const pg_sparse *bond_force_matrix (void *self)
 {
-    bond *b = self;
+    bond_force *b = self;
     return b->K.row ? &b->K : NULL;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Forces between points as a scene asks for them: keys, how bonds are summed (theory A1 to A3), checks. */
-#include "point_force_scene.h"
+#include "bond_force_scene.h"
 #include <math.h>
 #include <string.h>
 
@@ -28,7 +28,7 @@ static const pg_key keys[] = {
       "length along the deformed bond (verlet, central, "
       "adr, relax only)." },
 };
-const pg_key_table point_force_keys = { "force", keys, sizeof keys / sizeof *keys };
+const pg_key_table bond_force_keys = { "force", keys, sizeof keys / sizeof *keys };
 
 static const pg_key dilatation_keys[] = {
     { "method.weighted_volume", PG_NAME, NULL, NULL, "intact", "intact|live", NULL, NULL,
@@ -56,7 +56,7 @@ static double sweeps_of (const pg_scene *scene)
     return 1000;
 }
 
-void point_force_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
+void bond_force_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
                        double spacing, int lattice)
 {
     static const char partial[] = "method.partial_volume", surface[] = "method.surface_correction",
@@ -84,13 +84,13 @@ void point_force_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, c
     rule->sweeps = sweeps_of (scene);
 }
 
-void point_force_rule_with_dilatation (pg_sum_rule *rule, const pg_scene *scene)
+void bond_force_rule_with_dilatation (pg_sum_rule *rule, const pg_scene *scene)
 {
     rule->state = 1;
     rule->follow = is (scene, "method.weighted_volume", "live");
 }
 
-void point_force_refuse_matrix (const pg_problem *p, const pg_scene *scene, const char *of)
+void bond_force_refuse_matrix (const pg_problem *p, const pg_scene *scene, const char *of)
 {
     const pg_linear_type *linear = pg_linear_find (pg_scene_text (scene, "solver.linear"));
     if (linear && linear->factors)
@@ -110,7 +110,7 @@ static pg_status on_lattice (const pg_problem *p, int *yes)
     return status;
 }
 
-pg_status point_force_read (pg_problem *p, const pg_scene *scene, point_force_check check)
+pg_status bond_force_read (pg_problem *p, const pg_scene *scene, bond_force_check check)
 {
     pg_status status = PG_OK;
     pg_sum_rule rule;
@@ -150,7 +150,7 @@ done:
     return status;
 }
 
-void point_force_check_laws (const pg_problem *p, const pg_scene *scene)
+void bond_force_check_laws (const pg_problem *p, const pg_scene *scene)
 {
     pg_evaluation asked = p->sums->rule.evaluation;
     for (size_t m = 1; m < p->nmaterial && asked != PG_EVALUATE_AUTO && asked != PG_EVALUATE_LIST; m++) {
@@ -174,7 +174,7 @@ void point_force_check_laws (const pg_problem *p, const pg_scene *scene)
 }
 
 /* ---- criteria and words -------------------------------------------------------------------------------- */
-pg_status point_force_limits (const pg_problem *p, size_t material, pg_criterion_setting *setting)
+pg_status bond_force_limits (const pg_problem *p, size_t material, pg_criterion_setting *setting)
 {
     const pg_sum_rule *rule = &p->sums->rule;
     const pg_material *m = &p->material[material];
@@ -185,7 +185,7 @@ pg_status point_force_limits (const pg_problem *p, size_t material, pg_criterion
     return PG_OK;
 }
 
-void point_force_words (const pg_problem *p, char *text, size_t size)
+void bond_force_words (const pg_problem *p, char *text, size_t size)
 {
     snprintf (text, size, "force %s, %s kernel", p->method->name, p->approx.kernel->name);
 }

@@ -9,7 +9,7 @@
  * bounds the last factor. Points that this does not clear are looked at one by one; when these have cost as
  *     much as a sweep, it tells all energies again.
  * What is decided does not depend on any of this. */
-#include "bond.h"
+#include "pairwise.h"
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +18,7 @@ static const double margin = 1e-6;                     /* of the limit: far more
 enum { EDGE = 8, DEAR = 3, LANES = 8 };
 
 typedef struct { size_t first, n; } run;               /* points one after the other */
-struct bond_tiles {
+struct pairwise_tiles {
     int     dim, count[3];
     size_t  n;                                         /* tiles */
     size_t *start;  run *run;                          /* runs of each, ascending (n + 1; of all) */
@@ -33,9 +33,9 @@ struct bond_tiles {
     size_t  spent;                                     /* points looked at one by one since then */
 };
 
-void bond_tiles_free (bond_tiles **tiles)
+void pairwise_tiles_free (pairwise_tiles **tiles)
 {
-    bond_tiles *t = *tiles;
+    pairwise_tiles *t = *tiles;
     if (!t) return;
     pg_free (t->start), pg_free (t->run), pg_free (t->box), pg_free (t->known), pg_free (t->gain),
         pg_free (t->reach), pg_free (t->near);
@@ -45,7 +45,7 @@ void bond_tiles_free (bond_tiles **tiles)
 }
 
 /* ---- building ------------------------------------------------------------------------------------------ */
-static double longest_bond (const bond *b)
+static double longest_bond (const bond_force *b)
 {
     size_t dim = (size_t) b->dim;
     double top = 0;
@@ -60,7 +60,7 @@ static double longest_bond (const bond *b)
     return sqrt (top);
 }
 
-static size_t tile_of (const bond_tiles *t, const pg_cloud *cloud, double edge, size_t i)
+static size_t tile_of (const pairwise_tiles *t, const pg_cloud *cloud, double edge, size_t i)
 {
     size_t at = 0;
     for (int k = t->dim; k-- > 0;) {
@@ -72,7 +72,7 @@ static size_t tile_of (const bond_tiles *t, const pg_cloud *cloud, double edge, 
 
 typedef struct { size_t run, next; } place;
 /* The next point of a tile; where: { start of the tile, 0 } at first. */
-static int next_point (const bond_tiles *t, size_t tile, place *where, size_t *i)
+static int next_point (const pairwise_tiles *t, size_t tile, place *where, size_t *i)
 {
     while (where->run < t->start[tile + 1] && where->next == t->run[where->run].n)
         where->run++, where->next = 0;
@@ -84,8 +84,8 @@ static int next_point (const bond_tiles *t, size_t tile, place *where, size_t *i
 /* Largest sqrt (A / W_c) of the points of a tile, kappa of all their bonds. */
 static void find_gains (void *context, size_t first, size_t last, int thread)
 {
-    const bond *b = context;
-    const bond_tiles *t = b->tiles;
+    const bond_force *b = context;
+    const pairwise_tiles *t = pairwise_of (b)->tiles;
     point_bonds s;
     double r;
     size_t i;
@@ -94,7 +94,7 @@ static void find_gains (void *context, size_t first, size_t last, int thread)
             double sum = 0;
             point_bonds_at (b, i, thread, &s);
             for (size_t e = 0; e < s.m; e++) {
-                double kappa = bond_kappa (b, i, &s, e, &r);
+                double kappa = pairwise_kappa (b, i, &s, e, &r);
                 sum += kappa * r * r;
             }
             t->gain[k] = fmax (t->gain[k], sqrt (sum / (4 * b->problem->cloud.volume[i] * b->critical[i])));
@@ -102,7 +102,7 @@ static void find_gains (void *context, size_t first, size_t last, int thread)
 }
 
 /* Runs of points of every tile: neighbours in number that lie in one tile. */
-static pg_status fill (bond_tiles *t, const pg_cloud *cloud, double edge)
+static pg_status fill (pairwise_tiles *t, const pg_cloud *cloud, double edge)
 {
     pg_status status = PG_OK;
     size_t *next = NULL, last = t->n;
@@ -122,10 +122,10 @@ done:
     return status;
 }
 
-static pg_status create (bond *b)
+static pg_status create (bond_force *b)
 {
     pg_status status = PG_OK;
-    bond_tiles *t = NULL;
+    pairwise_tiles *t = NULL;
     const pg_cloud *cloud = &b->problem->cloud;
     double edge = fmax (EDGE * cloud->h, longest_bond (b) * (1 + 1e-9)),
            most = pow ((double) b->n, 1.0 / b->dim) + 1;
@@ -146,15 +146,15 @@ static pg_status create (bond *b)
     PG_ALLOC (t->near, b->n);
     PG_ALLOC (t->d0, b->n * (size_t) t->dim);
     PG_TRY (fill (t, cloud, edge));
-    b->tiles = t, t = NULL;
-    pg_parallel (b->threads, b->tiles->n, find_gains, b);
+    ((pairwise *) b)->tiles = t, t = NULL;
+    pg_parallel (b->threads, pairwise_of (b)->tiles->n, find_gains, b);
 done:
-    bond_tiles_free (&t);
+    pairwise_tiles_free (&t);
     return status;
 }
 
 /* ---- what may have happened ---------------------------------------------------------------------------- */
-typedef struct { bond *b; const double *d; } looking;
+typedef struct { bond_force *b; const double *d; } looking;
 
 /* Lane l belongs to component l modulo dim: LANES and LANES - LANES % 3 are whole numbers of points. */
 static void box_run (const double *now, const double *then, size_t n, size_t lanes, double *low, double *high)
@@ -174,7 +174,7 @@ static void box_run (const double *now, const double *then, size_t n, size_t lan
 static void box_tiles (void *context, size_t first, size_t last, int thread)
 {
     const looking *w = context;
-    const bond_tiles *t = w->b->tiles;
+    const pairwise_tiles *t = pairwise_of (w->b)->tiles;
     size_t dim = (size_t) t->dim;
     (void) thread;
     for (size_t k = first; k < last; k++) {
@@ -194,7 +194,7 @@ static void box_tiles (void *context, size_t first, size_t last, int thread)
 }
 
 /* Diagonal of the box of delta over a tile and those around it. */
-static double width_around (const bond_tiles *t, size_t tile)
+static double width_around (const pairwise_tiles *t, size_t tile)
 {
     double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY },
            square = 0;
@@ -220,7 +220,7 @@ static double width_around (const bond_tiles *t, size_t tile)
 }
 
 /* A point is open when sqrt (W / W_c) at d0 and what may have come since reach 1. */
-static int is_open (const bond_tiles *t, size_t tile, double at_d0)
+static int is_open (const pairwise_tiles *t, size_t tile, double at_d0)
 {
     return !(at_d0 + t->reach[tile] < 1 - margin);
 }
@@ -228,7 +228,7 @@ static int is_open (const bond_tiles *t, size_t tile, double at_d0)
 static void clear_tiles (void *context, size_t first, size_t last, int thread)
 {
     const looking *w = context;
-    bond_tiles *t = w->b->tiles;
+    pairwise_tiles *t = pairwise_of (w->b)->tiles;
     size_t i;
     (void) thread;
     for (size_t k = first; k < last; k++) {
@@ -242,16 +242,16 @@ static void clear_tiles (void *context, size_t first, size_t last, int thread)
 }
 
 /* ---- looking ------------------------------------------------------------------------------------------- */
-static int dies (const bond *b, size_t i, int thread, const double *d)
+static int dies (const bond_force *b, size_t i, int thread, const double *d)
 {
-    return isfinite (b->critical[i]) && bond_energy_at (b, i, thread, d) >= b->critical[i];
+    return isfinite (b->critical[i]) && pairwise_energy_at (b, i, thread, d) >= b->critical[i];
 }
 
 /* Open points, by their own bonds. */
 static void look_at_open (void *context, size_t first, size_t last, int thread)
 {
     const looking *w = context;
-    const bond_tiles *t = w->b->tiles;
+    const pairwise_tiles *t = pairwise_of (w->b)->tiles;
     size_t i;
     for (size_t k = first; k < last; k++)
         for (place p = { t->start[k], 0 }; t->open[k] && next_point (t, k, &p, &i);)
@@ -262,8 +262,8 @@ static void look_at_open (void *context, size_t first, size_t last, int thread)
 static void look_at_all (void *context, size_t first, size_t last, int thread)
 {
     const looking *w = context;
-    const bond *b = w->b;
-    bond_tiles *t = b->tiles;
+    const bond_force *b = w->b;
+    pairwise_tiles *t = pairwise_of (b)->tiles;
     size_t i;
     for (size_t k = first; k < last; k++) {
         t->known[k] = 0;
@@ -275,16 +275,16 @@ static void look_at_all (void *context, size_t first, size_t last, int thread)
     }
 }
 
-void bond_tiles_forget (bond *b) { if (b->tiles) b->tiles->fresh = 0; }
+void pairwise_tiles_forget (bond_force *b) { if (pairwise_of (b)->tiles) pairwise_of (b)->tiles->fresh = 0; }
 
-pg_status bond_tiles_look (bond *b, const double *d, size_t *dying)
+pg_status pairwise_tiles_look (bond_force *b, const double *d, size_t *dying)
 {
     pg_status status = PG_OK;
     looking w = { b, d };
     size_t open = 0, i;
     *dying = 0;
-    if (!b->tiles) PG_TRY (create (b));
-    bond_tiles *t = b->tiles;
+    if (!pairwise_of (b)->tiles) PG_TRY (create (b));
+    pairwise_tiles *t = pairwise_of (b)->tiles;
     if (t->fresh) {
         pg_parallel (b->threads, t->n, box_tiles, &w);
         pg_parallel (b->threads, t->n, clear_tiles, &w);
@@ -294,7 +294,7 @@ pg_status bond_tiles_look (bond *b, const double *d, size_t *dying)
     int all = !t->fresh || t->spent + open > b->n / DEAR;
     t->spent = all ? 0 : t->spent + open;
     if (all) {
-        PG_TRY (pg_bond_loop_energies (b->sweep, d, b->density));
+        PG_TRY (pg_bond_loop_energies (b->loop, d, b->density));
         memcpy (t->d0, d, b->n * (size_t) t->dim * sizeof *d);
         t->fresh = 1;
     }

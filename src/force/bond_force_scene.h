@@ -1,37 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: what forces between points (bond, fcbm, lps, gmpd) have in common before they exist: their keys
  * of the scene, the rule by which bonds are summed, the checks of both. */
-#ifndef PG_POINT_FORCE_SCENE_H
-#define PG_POINT_FORCE_SCENE_H
+#ifndef PG_BOND_FORCE_SCENE_H
+#define PG_BOND_FORCE_SCENE_H
 #include "perigal/force.h"
 
-extern const pg_key_table point_force_keys;            /* of all of them */
+extern const pg_key_table bond_force_keys;            /* of all of them */
 extern const pg_key_table state_based_keys;            /* of those with dilatations */
 
 /* The rule of pair forces as the scene asks for it; state-based and micropolar forces add to it. */
-void point_force_rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
+void bond_force_rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
                        double spacing, int lattice);
 /* Adds that the forces are state-based: method.weighted_volume. */
-void point_force_rule_with_dilatation (pg_sum_rule *rule, const pg_scene *scene);
+void bond_force_rule_with_dilatation (pg_sum_rule *rule, const pg_scene *scene);
 /* Makes pg_problem.sums from method->rule. check: what the theory asks of rule and materials, as faults. */
-typedef void (*point_force_check) (pg_problem *problem, const pg_scene *scene, const pg_sum_rule *rule);
-pg_status point_force_read (pg_problem *problem, const pg_scene *scene, point_force_check check);
+typedef void (*bond_force_check) (pg_problem *problem, const pg_scene *scene, const pg_sum_rule *rule);
+pg_status bond_force_read (pg_problem *problem, const pg_scene *scene, bond_force_check check);
 /* A fault for solvers that need the matrix which a force with dilatations does not have; of: "" or a
  * setting. */
-void point_force_refuse_matrix (const pg_problem *problem, const pg_scene *scene, const char *of);
+void bond_force_refuse_matrix (const pg_problem *problem, const pg_scene *scene, const char *of);
 /* Entries of pg_method. */
-pg_status point_force_limits (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
-void point_force_check_laws (const pg_problem *problem, const pg_scene *scene);
-void point_force_words (const pg_problem *problem, char *text, size_t size);
+pg_status bond_force_limits (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
+void bond_force_check_laws (const pg_problem *problem, const pg_scene *scene);
+void bond_force_words (const pg_problem *problem, char *text, size_t size);
 
 /* Unknowns above which static systems are solved by conjugate gradients. With the multilevel preconditioner
  * a solve is some 10 iterations of 15 sums of the bonds each, at any size, and making it costs two solves;
  * the analysis and factorization of K alone are dearer from about 1000 unknowns on, and below 4000 (2D) and
  * 1500 (3D) both take a few hundredths of a second: there the factor stays, whose residual is rounding.
  * With the diagonal alone iterations grow as the points along the body. */
-#define POINT_FORCE_ITERATES { { 0, 0, 4000, 1500 }, { 0, 0, 4e5, 3e4 } }
+#define BOND_FORCE_ITERATES { { 0, 0, 4000, 1500 }, { 0, 0, 4e5, 3e4 } }
 /* What all of these say about themselves (pg_method). */
-#define POINT_FORCE_METHOD \
-    .kernel = "constant", .horizon = 3.015, .iterate_above = POINT_FORCE_ITERATES, \
-    .check_laws = point_force_check_laws, .words = point_force_words
+#define BOND_FORCE_METHOD \
+    .kernel = "constant", .horizon = 3.015, .iterate_above = BOND_FORCE_ITERATES, \
+    .check_laws = bond_force_check_laws, .words = bond_force_words
 #endif

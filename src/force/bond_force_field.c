@@ -2,7 +2,7 @@
  * What bonds show: how far each is to its limit; at points damage (share of the family's partial volume that
  * is lost), strain (linear fit of the displacements over live bonds), stress (virial of their forces, 1/2 sum
  * f x xi V_j); displacement and stress at any place; overlap of broken bonds; fragments. */
-#include "bond.h"
+#include "dilatation.h"
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@ enum { BATCH = 128 };
 
 /* ---- limits -------------------------------------------------------------------------------------------- */
 typedef struct {
-    const bond *b;
+    const bond_force *b;
     const pg_state *state;
     const double *d;
     double *utilisation, *factor;
@@ -39,7 +39,8 @@ static void judge_by (const sweep *s, const batch *all, int material)
     }
     if (n == 0) return;
     pg_bond_measures m = { .n = n, .dim = p->dim, .xi = xi, .eta = eta, .reach = p->cloud.size ? reach : NULL,
-                           .shear = s->b->shear ? shear : NULL, .bending = s->b->shear ? bending : NULL };
+                           .shear = s->b->theory->strain ? shear : NULL,
+                           .bending = s->b->theory->strain ? bending : NULL };
     if (s->utilisation) c->type->utilisation (c, &m, out, kind);
     for (size_t k = 0; s->utilisation && k < n; k++) {
         if (out[k] < s->utilisation[some[k]]) continue;
@@ -64,9 +65,9 @@ static void add (const sweep *s, batch *all, size_t i, const point_bonds *star, 
     memcpy (all->xi + k * dim, star->xi + e * dim, dim * sizeof *all->xi);
     for (size_t a = 0; a < dim; a++) all->eta[k * dim + a] = s->d[j * m + a] - s->d[i * m + a];
     all->shear[k] = all->bending[k] = 0;
-    if (s->b->shear)
-        pg_beam_strain (s->b->dim, star->xi + e * dim, s->b->beams.length, s->d + i * m, s->d + j * m,
-                        &all->shear[k], &all->bending[k]);
+    if (s->b->theory->strain)
+        s->b->theory->strain (s->b, star->xi + e * dim, s->d + i * m, s->d + j * m, &all->shear[k],
+                              &all->bending[k]);
     all->reach[k] = ratio;
     all->entry[k] = star->first + e, all->material[k] = material;
     if (all->n == BATCH) judge (s, all);
@@ -75,7 +76,7 @@ static void add (const sweep *s, batch *all, size_t i, const point_bonds *star, 
 static void judge_points (void *context, size_t first, size_t last, int thread)
 {
     const sweep *s = context;
-    const bond *b = s->b;
+    const bond_force *b = s->b;
     const unsigned char *exempt = b->problem->exempt[PG_NODES];
     const int *material = b->problem->block[PG_NODES];
     point_bonds star;
@@ -98,26 +99,27 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     judge (s, &all);
 }
 
-pg_status bond_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
+pg_status bond_force_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
                             char *kind, double *factor)
 {
-    bond *b = self;
+    bond_force *b = self;
     sweep s = { b, state, d, utilisation, factor, kind };
     if (!b->problem->criterion->type)
         return pg_error (PG_E_USAGE, PG_HERE, "there is no failure criterion, and so no utilisation");
     if (b->problem->criterion->type->needs & PG_NEEDS_ENERGY)
-        return bond_energy_utilisation (b, state, d, utilisation, kind, factor);
+        return bond_force_energy_utilisation (b, state, d, utilisation, kind, factor);
     pg_parallel (b->threads, b->n, judge_points, &s);
     return PG_OK;
 }
 
 /* ---- at points ----------------------------------------------------------------------------------------- */
 typedef struct {
-    const bond *b;
+    const bond_force *b;
     const unsigned char *alive;
     const double *d;
     double *value;
-    void (*at) (const bond *b, const unsigned char *alive, const double *d, size_t i, const point_bonds *s,
+    void (*at) (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
+                const point_bonds *s,
                 double *out);
     size_t components;
 } painting;
@@ -132,7 +134,7 @@ static void paint_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-static void damage_at (const bond *b, const unsigned char *alive, const double *d, size_t i,
+static void damage_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                        const point_bonds *s, double *out)
 {
     double all = 0, dead = 0;
@@ -160,7 +162,7 @@ static void paint_damage (void *context, size_t first, size_t last, int thread)
 }
 
 /* H[c * dim + k] = du_c/dx_k; 0 where the live bonds do not spread in all directions (design section 3) */
-static void gradient_at (const bond *b, const unsigned char *alive, const double *d, size_t i,
+static void gradient_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                          const point_bonds *s, double *H)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
@@ -183,7 +185,7 @@ static void gradient_at (const bond *b, const unsigned char *alive, const double
     for (size_t a = 0; a < dim; a++) pg_dense_solve (b->dim, M, H + a * dim);
 }
 
-static void strain_at (const bond *b, const unsigned char *alive, const double *d, size_t i,
+static void strain_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                        const point_bonds *s, double *out)
 {
     double H[9];
@@ -194,49 +196,11 @@ static void strain_at (const bond *b, const unsigned char *alive, const double *
         out[1] = H[4], out[2] = H[8], out[3] = H[1] + H[3], out[4] = H[5] + H[7], out[5] = H[2] + H[6];
 }
 
-/* The same with shear */
-static void add_beam_virial (const bond *b, size_t i, const point_bonds *s, size_t e, const double *d,
-                             double *T)
-{
-    size_t dim = (size_t) b->dim, m = (size_t) b->stride, j = (size_t) s->node[e];
-    double own[36], other[36];
-    bond_beam (b, i, s, e, own, other);
-    for (size_t a = 0; a < dim; a++) {
-        double f = 0;
-        for (size_t k = 0; k < m; k++) f -= own[a * m + k] * d[i * m + k] + other[a * m + k] * d[j * m + k];
-        for (size_t c = 0; c < dim; c++)
-            T[a * dim + c] += 0.5 / b->problem->cloud.volume[i] * f * s->xi[e * dim + c];
-    }
-}
-
-/* Of one bond, over V_i: force on i times 1/2 xi; T[a * dim + c] += f_a xi_c */
-static void add_virial (const bond *b, size_t i, const point_bonds *s, size_t e, const double *d, double *T)
-{
-    size_t dim = (size_t) b->dim, j = (size_t) s->node[e];
-    const double *xi = s->xi + e * dim;
-    double r, kappa = bond_kappa (b, i, s, e, &r), f[3], along = 0, length = 0;
-    if (b->shear) {
-        add_beam_virial (b, i, s, e, d, T);
-        return;
-    }
-    for (size_t a = 0; a < dim; a++) {
-        double eta = d[j * dim + a] - d[i * dim + a];
-        f[a] = xi[a] + eta, along += xi[a] * eta, length += f[a] * f[a];
-    }
-    length = sqrt (length);
-    if (!b->problem->sums->rule.finite) for (size_t a = 0; a < dim; a++) f[a] = kappa * along * xi[a];
-    else for (size_t a = 0; a < dim; a++) f[a] *= length > 0 ? kappa * r * r * (length - r) / length : 0;
-    for (size_t a = 0; a < dim; a++)
-        for (size_t c = 0; c < dim; c++) T[a * dim + c] += 0.5 / b->problem->cloud.volume[i] * f[a] * xi[c];
-}
-
-static void stress_at (const bond *b, const unsigned char *alive, const double *d, size_t i,
+static void stress_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                        const point_bonds *s, double *out)
 {
     double T[9] = { 0 };
-    if (b->dilation) lps_virial (b, i, s, alive, d, T);
-    for (size_t e = 0; (b->shear || !b->dilation) && e < s->m; e++)
-        if (!alive || alive[s->first + e]) add_virial (b, i, s, e, d, T);
+    b->theory->virial (b, i, s, alive, d, T);
     out[0] = T[0];
     if (b->dim == 2) out[1] = T[3], out[2] = 0.5 * (T[1] + T[2]);
     if (b->dim == 3)
@@ -244,17 +208,19 @@ static void stress_at (const bond *b, const unsigned char *alive, const double *
         out[5] = 0.5 * (T[2] + T[6]);
 }
 
-static void take_parts (const bond *b, const double *d, int first, int count, double scale, double *value)
+static void take_parts (const bond_force *b, const double *d, int first, int count, double scale,
+                        double *value)
 {
     for (size_t i = 0; i < b->n; i++)
         for (size_t k = 0; k < (size_t) count; k++)
             value[i * (size_t) count + k] = scale * d[i * (size_t) b->stride + (size_t) first + k];
 }
 
-pg_status bond_field (void *self, const pg_state *state, const double *d, const char *name, int *components,
+pg_status bond_force_field (void *self, const pg_state *state, const double *d, const char *name,
+                            int *components,
                       const char **unit, double *value)
 {
-    bond *b = self;
+    bond_force *b = self;
     painting p = { b, state->alive, d, value, NULL, 1 };
     int vector = !strcmp (name, "displacement") || !strcmp (name, "coefficient")
                  || !strcmp (name, "velocity"),
@@ -265,9 +231,9 @@ pg_status bond_field (void *self, const pg_state *state, const double *d, const 
         take_parts (b, *name == 'v' ? state->v : d, 0, b->dim, 1, value);
         return PG_OK;
     }
-    if (b->shear && strcmp (name, "rotation") == 0) {
+    if (b->stride > b->dim && strcmp (name, "rotation") == 0) {
         *components = b->stride - b->dim, *unit = "rad";
-        take_parts (b, d, b->dim, b->stride - b->dim, 1 / b->beams.length, value);
+        take_parts (b, d, b->dim, b->stride - b->dim, 1 / b->length, value);
         return PG_OK;
     }
     if (strcmp (name, "damage") == 0) *components = 1, p.at = damage_at;
@@ -276,13 +242,13 @@ pg_status bond_field (void *self, const pg_state *state, const double *d, const 
         p.at = strain ? strain_at : stress_at;
     else return PG_OK;
     p.components = (size_t) *components;
-    if (p.at == stress_at && lps_weigh (b) != PG_OK) return PG_E_MEMORY;
+    if (p.at == stress_at && dilatation_weigh (b) != PG_OK) return PG_E_MEMORY;
     pg_parallel (b->threads, b->n, p.at == damage_at ? paint_damage : paint_points, &p);
     return PG_OK;
 }
 
 /* ---- at any place -------------------------------------------------------------------------------------- */
-static pg_status make_near (bond *b)
+static pg_status make_near (bond_force *b)
 {
     return b->near ? PG_OK : pg_nearest_create (&b->near, b->dim, b->n, b->problem->cloud.x);
 }
@@ -299,7 +265,7 @@ static int hidden (void *context, const double *place, size_t point)
 }
 
 /* First-order expansion about the nearest point on the same side of the pre-cracks; returns that point. */
-static size_t expand (bond *b, const pg_state *state, const double *d, const double *x, point_bonds *s,
+static size_t expand (bond_force *b, const pg_state *state, const double *d, const double *x, point_bonds *s,
                       double *u)
 {
     size_t dim = (size_t) b->dim;
@@ -317,11 +283,11 @@ static size_t expand (bond *b, const pg_state *state, const double *d, const dou
     return i;
 }
 
-pg_status bond_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
+pg_status bond_force_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
                        double *u, double *stress)
 {
     pg_status status = PG_OK;
-    bond *b = self;
+    bond_force *b = self;
     point_bonds s;
     PG_TRY (make_near (b));
     for (size_t k = 0; k < n; k++) {
@@ -341,14 +307,14 @@ done:
 }
 
 /* ---- broken bonds -------------------------------------------------------------------------------------- */
-typedef struct { bond *b; const pg_state *state; const double *d; double *worst; } closing;
+typedef struct { bond_force *b; const pg_state *state; const double *d; double *worst; } closing;
 
 /* Approach of the ends of short dead bonds beyond the shortening of the material about point i, largest
  * (m). */
 static void closing_points (void *context, size_t first, size_t last, int thread)
 {
     const closing *w = context;
-    const bond *b = w->b;
+    const bond_force *b = w->b;
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
     point_bonds s;
     double H[9];
@@ -374,9 +340,9 @@ static void closing_points (void *context, size_t first, size_t last, int thread
     }
 }
 
-double bond_overlap (void *self, const pg_state *state, const double *d)
+double bond_force_overlap (void *self, const pg_state *state, const double *d)
 {
-    bond *b = self;
+    bond_force *b = self;
     closing w = { b, state, d, b->work };
     double worst = 0;
     pg_parallel (b->threads, b->n, closing_points, &w);
@@ -384,9 +350,9 @@ double bond_overlap (void *self, const pg_state *state, const double *d)
     return worst;
 }
 
-void bond_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
+void bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
 {
-    bond *b = self;
+    bond_force *b = self;
     int *parent = pg_calloc (b->n, sizeof *parent), *size = pg_calloc (b->n, sizeof *size);
     *degenerate = *isolated = *fragments = 0;
     if (parent && size) {
@@ -394,7 +360,7 @@ void bond_census (void *self, size_t *degenerate, size_t *isolated, size_t *frag
         for (size_t i = 0; i < b->n; i++)
             for (size_t e = b->family->start[i];
                  e < b->family->start[i + 1] && (size_t) b->family->node[e] < i; e++)
-                if (bond_lives (b, e)) pg_disjoint_join (parent, b->family->node[e], (int) i);
+                if (bond_force_lives (b, e)) pg_disjoint_join (parent, b->family->node[e], (int) i);
         for (size_t i = 0; i < b->n; i++) size[pg_disjoint_root (parent, (int) i)]++;
         for (size_t i = 0; i < b->n; i++) *isolated += size[i] == 1, *fragments += size[i] > 1;
         if (*fragments) --*fragments;                  /* the body itself is none */

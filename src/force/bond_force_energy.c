@@ -2,9 +2,9 @@
  * Points that die by their energy (theory B2): at or over its limit a point loses all its bonds, for good.
  * Bits of bonds are the only memory: a dead point stores nothing and has none left to lose. The energy that
  * decides is always the plain sum over the point's own bonds: it does not depend on how sums are evaluated,
- * and neither on which points are looked at (bond_tiles.c leaves out those that cannot have reached their
+ * and neither on which points are looked at (pairwise_tiles.c leaves out those that cannot have reached their
  * limit). */
-#include "bond.h"
+#include "bond_force.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ static double limit_at (const pg_criterion *c, double ratio)
     return u > 0 ? 1 / (u * u) : INFINITY;
 }
 
-pg_status bond_energy_create (bond *b)
+pg_status bond_force_energy_create (bond_force *b)
 {
     pg_status status = PG_OK;
     const pg_problem *p = b->problem;
@@ -35,35 +35,9 @@ done:
     return status;
 }
 
-void bond_energy_free (bond *b)
+void bond_force_energy_free (bond_force *b)
 {
-    bond_tiles_free (&b->tiles);
     pg_free (b->critical), pg_free (b->density), pg_free (b->dying);
-}
-
-/* ---- energy of a point --------------------------------------------------------------------------------- */
-/* Half the energy of each live bond: linear 1/4 kappa (xi . eta)^2, finite 1/4 kappa r^2 (|xi + eta| -
- * r)^2. */
-double bond_energy_at (const bond *b, size_t i, int thread, const double *d)
-{
-    size_t dim = (size_t) b->dim;
-    int finite = b->problem->sums->rule.finite;
-    double sum = 0, r;
-    point_bonds s;
-    point_bonds_at (b, i, thread, &s);
-    for (size_t e = 0; e < s.m; e++) {
-        if (!bond_lives (b, s.first + e)) continue;
-        const double *xi = s.xi + e * dim, *far = d + (size_t) s.node[e] * dim;
-        double kappa = bond_kappa (b, i, &s, e, &r), along = 0, square = 0;
-        for (size_t a = 0; a < dim; a++) {
-            double eta = far[a] - d[i * dim + a];
-            along += xi[a] * eta, square += eta * eta;
-        }
-        double grown = 2 * along + square,
-               longer = finite ? r * grown / (sqrt (fmax (0, r * r + grown)) + r) : along;
-        sum += kappa * (longer * longer);
-    }
-    return sum / (4 * b->problem->cloud.volume[i]);
 }
 
 /* ---- breaking ------------------------------------------------------------------------------------------ */
@@ -85,7 +59,7 @@ static int ascending (const void *a, const void *b)
 }
 
 /* Both directions of the live bonds of dying points. */
-static pg_status collect (const bond *b, pg_changes *out)
+static pg_status collect (const bond_force *b, pg_changes *out)
 {
     pg_status status = PG_OK;
     const pg_family *f = b->family;
@@ -93,7 +67,7 @@ static pg_status collect (const bond *b, pg_changes *out)
     for (size_t i = 0; i < b->n; i++)
         for (size_t e = f->start[i]; b->dying[i] && e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e];
-            if (!bond_lives (b, e)) continue;
+            if (!bond_force_lives (b, e)) continue;
             PG_GROW (out->bond, out->cap, out->n + 2);
             out->bond[out->n++] = e;
             if (!b->dying[j]) out->bond[out->n++] = back_of (f, i, j);
@@ -104,24 +78,24 @@ done:
     return status;
 }
 
-pg_status bond_energy_kill (bond *b, const double *d, pg_changes *broken)
+pg_status bond_force_energy_kill (bond_force *b, const double *d, pg_changes *broken)
 {
     pg_status status = PG_OK;
     size_t before = broken->n, dying = 0;
-    if (b->dilation) PG_TRY (lps_look (b, d, &dying));
-    else PG_TRY (bond_tiles_look (b, d, &dying));
+    PG_TRY (b->theory->find_dying (b, d, &dying));
     if (dying == 0) goto done;
     status = collect (b, broken);
     memset (b->dying, 0, b->n);
     PG_TRY (status);
     pg_changes fresh = { broken->n - before, 0, broken->bond + before };
-    pg_bond_loop_update (b->sweep, b->alive, &fresh);
+    pg_bond_loop_update (b->loop, b->alive, &fresh);
 done:
     return status;
 }
 
 /* ---- utilisation --------------------------------------------------------------------------------------- */
-typedef struct { const bond *b; const unsigned char *alive; double *utilisation, *factor; char *kind; } sweep;
+typedef struct { const bond_force *b; const unsigned char *alive; double *utilisation,
+                 *factor; char *kind; } sweep;
 
 static void spread_points (void *context, size_t first, size_t last, int thread)
 {
@@ -138,13 +112,14 @@ static void spread_points (void *context, size_t first, size_t last, int thread)
         }
 }
 
-pg_status bond_energy_utilisation (bond *b, const pg_state *state, const double *d, double *utilisation,
+pg_status bond_force_energy_utilisation (bond_force *b, const pg_state *state, const double *d,
+                                         double *utilisation,
                                    char *kind, double *factor)
 {
     pg_status status = PG_OK;
     sweep s = { b, state->alive, utilisation, factor, kind };
-    PG_TRY (bond_energy_create (b));  /* a plan asks of a problem whose criterion comes later */
-    PG_TRY (pg_bond_loop_energies (b->sweep, d, b->density));
+    PG_TRY (bond_force_energy_create (b));  /* a plan asks of a problem whose criterion comes later */
+    PG_TRY (pg_bond_loop_energies (b->loop, d, b->density));
     for (size_t i = 0; i < b->n; i++) b->density[i] = sqrt (fmax (0, b->density[i] / b->critical[i]));
     pg_parallel (b->threads, b->n, spread_points, &s);
 done:

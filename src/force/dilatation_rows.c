@@ -4,13 +4,13 @@
  * nearest points alone (half the horizon, 1.5 spacings at most; exact for uniform strain, as theta is, so
  * that coarse grids see the body's own bulk modulus), where these and the bonds among them live; elsewhere
  * bonds alone that are at least as stiff (d A / q, lps.c). */
-#include "bond.h"
+#include "dilatation.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
 enum { MOST = 36, NEAR = 40 };                         /* numbers of a block; nearest points looked at */
-struct lps_rows {
+struct dilatation_rows {
     size_t *start;  int *node;                         /* nearest points of each (n + 1; of all) */
     double *inverse;                                   /* of sum V xi x xi over them, 1/m^5 (n x dim x dim) */
     double *stiff;  /* C / q, or B / q where theta is that of the nearest (n) */
@@ -19,18 +19,18 @@ struct lps_rows {
     double *whole;                                     /* that row; NULL: there is none */
 };
 
-void lps_rows_free (bond *b)
+void dilatation_rows_free (bond_force *b)
 {
-    lps_rows *r = b->rows;
+    dilatation_rows *r = b->dilatation->rows;
     if (!r) return;
     pg_free (r->start), pg_free (r->node), pg_free (r->inverse), pg_free (r->stiff), pg_free (r->narrow),
         pg_free (r->uniform), pg_free (r->intact), pg_free (r->whole);
     pg_free (r);
-    b->rows = NULL;
+    b->dilatation->rows = NULL;
 }
 
 /* ---- nearest points ------------------------------------------------------------------------------------ */
-static void offset (const bond *b, size_t i, size_t j, double *xi)
+static void offset (const bond_force *b, size_t i, size_t j, double *xi)
 {
     for (size_t k = 0; k < (size_t) b->dim; k++)
         xi[k] = b->problem->cloud.x[j * (size_t) b->dim + k] - b->problem->cloud.x[i * (size_t) b->dim + k];
@@ -38,7 +38,7 @@ static void offset (const bond *b, size_t i, size_t j, double *xi)
 
 /* Those of point i, at most NEAR; -1: its bond is dead. Half the horizon, so that they are each other's
  * neighbours: a kernel that vanishes there has none. */
-static size_t nearest (const bond *b, size_t i, int *node)
+static size_t nearest (const bond_force *b, size_t i, int *node)
 {
     const pg_family *f = b->family;
     double h = pg_problem_spacing (b->problem, PG_NODES, i), ratio = h / b->problem->cloud.h, xi[3];
@@ -50,13 +50,13 @@ static size_t nearest (const bond *b, size_t i, int *node)
         double rr = 0;
         offset (b, i, (size_t) f->node[e], xi);
         for (int k = 0; k < b->dim; k++) rr += xi[k] * xi[k];
-        if (rr <= reach * reach) node[m++] = bond_lives (b, e) ? f->node[e] : -1;
+        if (rr <= reach * reach) node[m++] = bond_force_lives (b, e) ? f->node[e] : -1;
     }
     return m;
 }
 
 /* Entry of the bond to j in point i's part of the family; one that is dead or missing: -1 */
-static long entry_of (const bond *b, size_t i, int j)
+static long entry_of (const bond_force *b, size_t i, int j)
 {
     const int *node = b->family->node;
     size_t low = b->family->start[i], high = b->family->start[i + 1];
@@ -65,14 +65,14 @@ static long entry_of (const bond *b, size_t i, int j)
         if (node[middle] <= j) low = middle;
         else high = middle;
     }
-    return low < high && node[low] == j && bond_lives (b, low) ? (long) low : -1;
+    return low < high && node[low] == j && bond_force_lives (b, low) ? (long) low : -1;
 }
 
 /* Live, in all directions, and each the other's neighbour */
-static int is_narrow (const bond *b, const lps_rows *r, size_t i, size_t m, const int *node)
+static int is_narrow (const bond_force *b, const dilatation_rows *r, size_t i, size_t m, const int *node)
 {
     int intact = r->intact[i] && b->problem->sums->stencil.n;
-    if (!(b->dilation[i] > 0) || m < 2 * (size_t) b->dim) return 0;
+    if (!(b->dilatation->A[i] > 0) || m < 2 * (size_t) b->dim) return 0;
     for (size_t k = 0; k < m; k++) {
         if (node[k] < 0) return 0;
         intact &= r->intact[node[k]];
@@ -82,7 +82,7 @@ static int is_narrow (const bond *b, const lps_rows *r, size_t i, size_t m, cons
     return 1;
 }
 
-static int invert (const bond *b, size_t i, size_t m, const int *node, double *out)
+static int invert (const bond_force *b, size_t i, size_t m, const int *node, double *out)
 {
     size_t dim = (size_t) b->dim;
     double M[9] = { 0 }, lambda[3], xi[3], copy[9];
@@ -104,20 +104,21 @@ static int invert (const bond *b, size_t i, size_t m, const int *node, double *o
 
 static void count_points (void *context, size_t first, size_t last, int thread)
 {
-    bond *b = context;
+    bond_force *b = context;
     const size_t *start = b->family->start;
     int node[NEAR];
     (void) thread;
     for (size_t i = first; i < last; i++) {
-        b->rows->start[i + 1] = nearest (b, i, node);
-        b->rows->intact[i] = !(b->alive && memchr (b->alive + start[i], 0, start[i + 1] - start[i]));
+        b->dilatation->rows->start[i + 1] = nearest (b, i, node);
+        b->dilatation->rows->intact[i] = !(b->alive
+                                           && memchr (b->alive + start[i], 0, start[i + 1] - start[i]));
     }
 }
 
 static void find_points (void *context, size_t first, size_t last, int thread)
 {
-    bond *b = context;
-    lps_rows *r = b->rows;
+    bond_force *b = context;
+    dilatation_rows *r = b->dilatation->rows;
     (void) thread;
     for (size_t i = first; i < last; i++) {
         int *node = r->node + r->start[i];
@@ -125,7 +126,8 @@ static void find_points (void *context, size_t first, size_t last, int thread)
         r->narrow[i] = (unsigned char) (is_narrow (b, r, i, m, node)
                                         && invert (b, i, m, node,
                                                    r->inverse + i * (size_t) (b->dim * b->dim)));
-        r->stiff[i] = !r->narrow[i] ? b->stiff[i] : b->q[i] > 0 ? b->deviation[i] / b->q[i] : 0;
+        r->stiff[i] = !r->narrow[i] ? b->dilatation->stiff[i] : b->dilatation->q[i] > 0
+            ? b->dilatation->B[i] / b->dilatation->q[i] : 0;
     }
 }
 
@@ -133,8 +135,8 @@ static void find_points (void *context, size_t first, size_t last, int thread)
  * whatever it sees */
 static void compare_points (void *context, size_t first, size_t last, int thread)
 {
-    bond *b = context;
-    lps_rows *r = b->rows;
+    bond_force *b = context;
+    dilatation_rows *r = b->dilatation->rows;
     (void) thread;
     for (size_t i = first; i < last; i++) {
         size_t at = b->family->start[i], end = b->family->start[i + 1];
@@ -149,9 +151,9 @@ static void compare_points (void *context, size_t first, size_t last, int thread
 
 /* ---- a row --------------------------------------------------------------------------------------------- */
 /* g_j of theta_k = sum g_j . (u_j - u_k); of k itself minus their sum */
-static void gradient (const bond *b, size_t k, int j, double *g)
+static void gradient (const bond_force *b, size_t k, int j, double *g)
 {
-    const lps_rows *r = b->rows;
+    const dilatation_rows *r = b->dilatation->rows;
     size_t dim = (size_t) b->dim;
     double xi[3], sum[3] = { 0 };
     for (size_t e = r->start[k]; e < r->start[k + 1]; e++) {
@@ -166,11 +168,11 @@ static void gradient (const bond *b, size_t k, int j, double *g)
 
 /* What the dilatation of point k adds to the row of point i, whose n blocks are at `node`, its own the
  * last. */
-static void add_dilatation (const bond *b, size_t i, size_t k, size_t n, const int *node, double *value)
+static void add_dilatation (const bond_force *b, size_t i, size_t k, size_t n, const int *node, double *value)
 {
-    const lps_rows *r = b->rows;
+    const dilatation_rows *r = b->dilatation->rows;
     size_t dim = (size_t) b->dim, m = (size_t) b->stride, near = r->start[k + 1] - r->start[k];
-    double mine[3], other[3], scale = b->problem->cloud.volume[k] * b->dilation[k] / b->dim;
+    double mine[3], other[3], scale = b->problem->cloud.volume[k] * b->dilatation->A[k] / b->dim;
     gradient (b, k, (int) i, mine);
     for (size_t e = 0; e <= near; e++) {
         int j = e < near ? r->node[r->start[k] + e] : (int) k;
@@ -188,23 +190,25 @@ static void add_dilatation (const bond *b, size_t i, size_t k, size_t n, const i
     }
 }
 
-static void pull_block (const bond *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
+static void pull_block (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own,
+                        double *other)
 {
     size_t mm = (size_t) (b->stride * b->stride);
-    if (b->shear) bond_beam (b, i, s, e, own, other);
+    if (b->theory->alone) b->theory->alone (b, i, s, e, own, other);
     else memset (own, 0, mm * sizeof *own), memset (other, 0, mm * sizeof *other);
-    bond_pull (b, i, s, e, b->rows->stiff[i] + b->rows->stiff[s->node[e]], own, other);
+    dilatation_pull (b, i, s, e, b->dilatation->rows->stiff[i] + b->dilatation->rows->stiff[s->node[e]], own,
+                     other);
 }
 
-static size_t make_row (const bond *b, size_t i, int thread, int *node, double *value)
+static size_t make_row (const bond_force *b, size_t i, int thread, int *node, double *value)
 {
-    const lps_rows *r = b->rows;
+    const dilatation_rows *r = b->dilatation->rows;
     size_t bb = (size_t) (b->stride * b->stride), m = 0;
     double own[MOST] = { 0 }, part[MOST];
     point_bonds s;
     point_bonds_at (b, i, thread, &s);
     for (size_t e = 0; e < s.m; e++) {
-        if (!bond_lives (b, s.first + e)) continue;
+        if (!bond_force_lives (b, s.first + e)) continue;
         pull_block (b, i, &s, e, part, value + m * bb);
         for (size_t k = 0; k < bb; k++) own[k] += part[k];
         node[m++] = s.node[e];
@@ -221,8 +225,8 @@ static size_t make_row (const bond *b, size_t i, int thread, int *node, double *
 
 static size_t row (void *context, size_t i, int thread, int *node, double *value)
 {
-    const bond *b = context;
-    const lps_rows *r = b->rows;
+    const bond_force *b = context;
+    const dilatation_rows *r = b->dilatation->rows;
     size_t first = b->family->start[i], m = 0;
     if (value && r->whole && r->uniform[i]) {
         m = b->family->start[i + 1] - first;
@@ -233,17 +237,20 @@ static size_t row (void *context, size_t i, int thread, int *node, double *value
     }
     if (value) return make_row (b, i, thread, node, value);
     for (size_t e = first; e < b->family->start[i + 1]; e++)
-        if (bond_lives (b, e)) node[m++] = b->family->node[e];
+        if (bond_force_lives (b, e)) node[m++] = b->family->node[e];
     node[m++] = (int) i;
     return m;
 }
 
-static int is_uniform (void *context, size_t i) { return ((const bond *) context)->rows->uniform[i]; }
+static int is_uniform (void *context, size_t i)
+{
+    return ((const bond_force *) context)->dilatation->rows->uniform[i];
+}
 
 /* ---- all of them --------------------------------------------------------------------------------------- */
 /* One row serves all points alike on a lattice without shares of volume, factors of surfaces or several
  * moduli. */
-static pg_status find_whole (bond *b, pg_couplings *out)
+static pg_status find_whole (bond_force *b, pg_couplings *out)
 {
     pg_status status = PG_OK;
     const pg_sums *sums = b->problem->sums;
@@ -251,11 +258,11 @@ static pg_status find_whole (bond *b, pg_couplings *out)
     int *node = NULL;
     if (!n || !sums->ordered || sums->share || sums->family_volume || b->problem->nmaterial > 1) return PG_OK;
     pg_parallel (b->threads, b->n, compare_points, b);
-    while (i < b->n && !b->rows->uniform[i]) i++;
+    while (i < b->n && !b->dilatation->rows->uniform[i]) i++;
     if (i == b->n) return PG_OK;
     PG_ALLOC (node, n + 1);
-    PG_ALLOC (b->rows->whole, (n + 1) * (size_t) (b->stride * b->stride));
-    make_row (b, i, 0, node, b->rows->whole);
+    PG_ALLOC (b->dilatation->rows->whole, (n + 1) * (size_t) (b->stride * b->stride));
+    make_row (b, i, 0, node, b->dilatation->rows->whole);
     out->alike = is_uniform;
     for (int k = 0; k < b->dim; k++) out->lattice[k] = sums->sites.step[k];
 done:
@@ -263,14 +270,14 @@ done:
     return status;
 }
 
-pg_status lps_couplings (bond *b, pg_couplings *out)
+pg_status dilatation_couplings (bond_force *b, pg_couplings *out)
 {
     pg_status status = PG_OK;
-    lps_rows *r = NULL;
-    lps_rows_free (b);
-    PG_TRY (lps_weigh (b));
+    dilatation_rows *r = NULL;
+    dilatation_rows_free (b);
+    PG_TRY (dilatation_weigh (b));
     PG_ALLOC (r, 1);
-    b->rows = r;
+    b->dilatation->rows = r;
     PG_ALLOC (r->start, b->n + 1);
     PG_ALLOC (r->inverse, b->n * (size_t) (b->dim * b->dim));
     PG_ALLOC (r->stiff, b->n);

@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Bond-based peridynamics: forces straight between points, by the sweeps of direct sums (Silling 2000;
+ * Silling and Askari 2005; theory A). */
+#include "dilatation.h"
+#include <math.h>
+#include <string.h>
+
+static size_t ndof (const bond_force *b) { return b->n * (size_t) b->stride; }
+
+/* ---- one point ----------------------------------------------------------------------------------------- */
+void point_bonds_at (const bond_force *b, size_t i, int thread, point_bonds *s)
+{
+    double *workspace = b->workspace + (size_t) thread * b->widest * (size_t) (b->dim + 2);
+    s->first = b->family->start[i], s->m = b->family->start[i + 1] - s->first;
+    s->node = b->family->node + s->first;
+    s->xi = workspace, s->weight = workspace + b->widest * (size_t) b->dim, s->beta = s->weight + b->widest;
+    pg_sums_bonds (b->problem->sums, b->family, i, s->xi, s->weight, s->beta);
+}
+
+/* ---- life ---------------------------------------------------------------------------------------------- */
+void bond_force_free (void **self)
+{
+    bond_force *b = *self;
+    if (!b) return;
+    pg_bond_loop_free (&b->loop), pg_bond_loop_free (&b->tangent);
+    bond_force_energy_free (b);
+    b->theory->free (b);
+    nodal_free (&b->nodal);
+    pg_sparse_clear (&b->K);
+    pg_nearest_free (&b->near);
+    pg_free (b->idle), pg_free (b->limit), pg_free (b->workspace), pg_free (b->work), pg_free (b->stale),
+        pg_free (b->diagonal), pg_free (b->whole);
+    pg_free (b);
+    *self = NULL;
+}
+
+/* The stretch at which a bond of two points like this one breaks: the criterion's own answer for a bond of
+ * unit stretch. */
+static double limit_at (const pg_criterion *c, double ratio)
+{
+    double one = 1, factor = 0;
+    pg_bond_measures m = { .n = 1, .dim = 1, .xi = &one, .eta = &one, .reach = &ratio };
+    c->type->factor (c, &m, &factor);
+    return factor;
+}
+
+static pg_status make_limits (bond_force *b)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = b->problem;
+    PG_TRY (bond_force_energy_create (b));
+    if (!p->criterion->type || b->critical || b->limit) goto done;
+    PG_ALLOC (b->limit, b->n);
+    for (size_t i = 0; i < b->n; i++) {
+        const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];
+        b->limit[i] = c->never ? INFINITY : limit_at (c, pg_cloud_ratio (&p->cloud, i));
+    }
+done:
+    return status;
+}
+
+static pg_status make_loop (bond_force *b, pg_bond_loop **out, const pg_sums *sums, const double *limit)
+{
+    pg_bond_loop_setting *s = &b->setting;             /* constants: of the theory */
+    s->sums = sums, s->family = b->family, s->limit = limit, s->threads = b->threads;
+    s->exempt = b->problem->exempt[PG_NODES];
+    return pg_bond_loop_create (out, s);
+}
+
+pg_status bond_force_make (void **self, const pg_problem *problem, const bond_theory *theory)
+{
+    pg_status status = PG_OK;
+    bond_force *b = NULL;
+    *self = NULL;
+    if (!problem->sums) PG_FAIL (PG_E_USAGE, "forces between points need a problem built for them");
+    b = pg_calloc (1, theory->size);
+    if (!b) PG_FAIL (PG_E_MEMORY, "no memory for a force");
+    *self = b;
+    b->theory = theory;
+    b->problem = problem, b->dim = problem->dim, b->threads = problem->threads, b->n = problem->cloud.n;
+    b->stride = pg_problem_unknowns (problem);
+    b->family = &problem->rows[PG_NODES].family;
+    b->all_stale = 1, b->revision = 1;
+    b->op = (pg_operator) { ndof (b), b, bond_force_apply, bond_force_diagonal };
+    for (size_t i = 0; i < b->n; i++) {
+        size_t m = b->family->start[i + 1] - b->family->start[i];
+        b->widest = m > b->widest ? m : b->widest;
+    }
+    PG_ALLOC (b->workspace, (size_t) b->threads * b->widest * (size_t) (b->dim + 2));
+    PG_ALLOC (b->work, ndof (b));
+    PG_ALLOC (b->stale, b->n);
+    PG_TRY (theory->create (b));
+    PG_TRY (make_limits (b));
+    PG_TRY (make_loop (b, &b->loop, problem->sums, b->limit));
+    PG_TRY (dilatation_weigh (b));
+    PG_TRY (nodal_create (&b->nodal, problem, b->stride, b->length, b->idle));
+done:
+    if (status != PG_OK) bond_force_free (self);
+    return status;
+}
+
+pg_status bond_force_tangent_loop (bond_force *b, pg_bond_loop **out)
+{
+    pg_status status = PG_OK;
+    *out = b->loop;
+    if (!b->problem->sums->rule.finite) return PG_OK;
+    if (!b->tangent) {
+        b->small = *b->problem->sums;
+        b->small.rule.finite = 0;
+        PG_TRY (make_loop (b, &b->tangent, &b->small, NULL));
+        if (b->alive) pg_bond_loop_update (b->tangent, b->alive, NULL);
+    }
+    *out = b->tangent;
+done:
+    return status;
+}
+
+size_t bond_force_fields (const void *self, size_t max, pg_field *out)
+{
+    const bond_force *b = self;
+    if (max > 0) out[0] = (pg_field) { "displacement", "m", b->dim };
+    if (max > 1 && b->stride > b->dim) out[1] = (pg_field) { "rotation", "m", b->stride - b->dim };
+    return b->stride > b->dim ? 2 : 1;
+}
+
+/* ---- breaking ------------------------------------------------------------------------------------------ */
+static void mark_stale (bond_force *b, const pg_changes *changes)
+{
+    for (size_t c = 0; c < changes->n; c++) {
+        int set;
+        size_t point;
+        pg_problem_locate (b->problem, changes->bond[c], &set, &point);
+        b->stale[point] = b->stale[b->family->node[changes->bond[c]]] = 1;
+    }
+    b->revision += changes->n > 0;
+}
+
+pg_status bond_force_refresh (void *self, const pg_state *state, const pg_changes *changes)
+{
+    bond_force *b = self;
+    b->alive = state->alive;
+    pg_bond_loop_update (b->loop, state->alive, changes);
+    if (b->tangent) pg_bond_loop_update (b->tangent, state->alive, changes);
+    if (changes) mark_stale (b, changes);
+    else b->all_stale = 1, b->revision++, b->theory->forget ? b->theory->forget (b) : (void) 0;
+    return PG_OK;
+}
+
+/* residual = f + P (t); f already there */
+static void finish (bond_force *b, double t, double *residual, double *reference)
+{
+    double inside = 0;
+    for (size_t i = 0; reference && i < ndof (b); i++) inside += residual[i] * residual[i];
+    if (reference) *reference = fmax (sqrt (inside), nodal_size (&b->nodal, t));
+    nodal_add (&b->nodal, t, residual);
+}
+
+pg_status bond_force_balance (void *self, double t, const double *d, double *residual, double *reference)
+{
+    pg_status status = PG_OK;
+    bond_force *b = self;
+    PG_TRY (pg_bond_loop_force (b->loop, d, residual, NULL));
+    finish (b, t, residual, reference);
+done:
+    return status;
+}
+
+pg_status bond_force_march (void *self, double t, const double *d, double *residual, double *reference,
+                      pg_changes *broken)
+{
+    pg_status status = PG_OK;
+    bond_force *b = self;
+    size_t before = broken->n;
+    if (b->critical) PG_TRY (bond_force_energy_kill (b, d, broken));
+    PG_TRY (pg_bond_loop_force (b->loop, d, residual, b->limit ? broken : NULL));
+    if (broken->n > before) {
+        pg_changes fresh = { broken->n - before, 0, broken->bond + before };
+        if (b->tangent) pg_bond_loop_update (b->tangent, b->alive, &fresh);
+        mark_stale (b, &fresh);
+    }
+    finish (b, t, residual, reference);
+done:
+    return status;
+}
+
+pg_status bond_force_external (void *self, double t, double *P)
+{
+    bond_force *b = self;
+    memset (P, 0, ndof (b) * sizeof *P);
+    nodal_add (&b->nodal, t, P);
+    return PG_OK;
+}
+
+pg_status bond_force_surface (void *self, const double *stress, double *P)
+{
+    const bond_force *b = self;
+    return b->problem->nload ? nodal_surface (&b->nodal, 0, stress, P) : PG_OK;
+}
+
+/* ---- the rest ------------------------------------------------------------------------------------------ */
+pg_status bond_force_mass (void *self, double *mass)
+{
+    const bond_force *b = self;
+    const pg_problem *p = b->problem;
+    for (size_t i = 0; i < b->n; i++) {
+        double own = p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i], across = 0;
+        if (b->length > 0) across = pg_problem_spacing (p, PG_NODES, i) / b->length;
+        for (size_t k = 0; k < (size_t) b->stride; k++)  /* a cube of the spacing's size turns: theory G4 */
+            mass[i * (size_t) b->stride + k] = k < (size_t) b->dim ? own : own * across * across / 6;
+    }
+    return PG_OK;
+}
+
+pg_status bond_force_work_balance (void *self, double t, const double *d, const double *inertia,
+                             pg_work_balance *out)
+{
+    pg_status status = PG_OK;
+    bond_force *b = self;
+    PG_TRY (bond_force_balance (b, t, d, b->work, NULL));
+    for (size_t i = 0; inertia && i < ndof (b); i++) b->work[i] += inertia[i];
+    PG_TRY (nodal_work_balance (&b->nodal, t, d, b->work, out));
+    out->strain = pg_bond_loop_energy (b->loop, d);
+done:
+    return status;
+}
+
+unsigned long bond_force_revision (const void *self) { return ((const bond_force *) self)->revision; }
+const pg_operator *bond_force_operator (void *self) { return &((bond_force *) self)->op; }
+const pg_sparse *bond_force_basis (void *self) { return nodal_basis (&((bond_force *) self)->nodal); }
+
+pg_status bond_force_impose (void *self, double t, double *d)
+{
+    nodal_impose (&((bond_force *) self)->nodal, t, d);
+    return PG_OK;
+}

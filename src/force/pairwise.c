@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Bond-based peridynamics: forces straight between points, each by the stretch of its own bond (Silling
+ * 2000; Silling and Askari 2005; theory A). */
+#include "pairwise.h"
+#include <math.h>
+#include <stdio.h>
+
+/* ---- one bond ------------------------------------------------------------------------------------------ */
+double pairwise_kappa (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *r)
+{
+    size_t j = (size_t) s->node[e];
+    const double *V = b->problem->cloud.volume, *xi = s->xi + e * (size_t) b->dim,
+        *c = pairwise_of (b)->modulus;
+    double rr = 0, both = c[i] == c[j] ? c[i] : 2 * c[i] * c[j] / (c[i] + c[j]);
+    for (int k = 0; k < b->dim; k++) rr += xi[k] * xi[k];
+    if (r) *r = sqrt (rr);
+    return both * s->weight[e] * (V[i] * V[j]) / (rr * sqrt (rr));
+}
+
+static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
+{
+    size_t dim = (size_t) b->dim;
+    const double *xi = s->xi + e * dim;
+    double kappa = pairwise_kappa (b, i, s, e, NULL);
+    for (size_t a = 0; a < dim; a++)
+        for (size_t c = 0; c < dim; c++) own[a * dim + c] = kappa * xi[a] * xi[c];
+    for (size_t k = 0; other && k < dim * dim; k++) other[k] = -own[k];
+}
+
+/* Of one bond, over V_i: force on i times 1/2 xi; T[a * dim + c] += f_a xi_c */
+static void add_virial (const bond_force *b, size_t i, const point_bonds *s, size_t e, const double *d,
+                        double *T)
+{
+    size_t dim = (size_t) b->dim, j = (size_t) s->node[e];
+    const double *xi = s->xi + e * dim;
+    double r, kappa = pairwise_kappa (b, i, s, e, &r), f[3], along = 0, length = 0;
+    for (size_t a = 0; a < dim; a++) {
+        double eta = d[j * dim + a] - d[i * dim + a];
+        f[a] = xi[a] + eta, along += xi[a] * eta, length += f[a] * f[a];
+    }
+    length = sqrt (length);
+    if (!b->problem->sums->rule.finite) for (size_t a = 0; a < dim; a++) f[a] = kappa * along * xi[a];
+    else for (size_t a = 0; a < dim; a++) f[a] *= length > 0 ? kappa * r * r * (length - r) / length : 0;
+    for (size_t a = 0; a < dim; a++)
+        for (size_t c = 0; c < dim; c++) T[a * dim + c] += 0.5 / b->problem->cloud.volume[i] * f[a] * xi[c];
+}
+
+static void virial (const bond_force *b, size_t i, const point_bonds *s, const unsigned char *alive,
+                    const double *d, double *T)
+{
+    for (size_t e = 0; e < s->m; e++) if (!alive || alive[s->first + e]) add_virial (b, i, s, e, d, T);
+}
+
+/* ---- energy of a point --------------------------------------------------------------------------------- */
+/* Half the energy of each live bond: linear 1/4 kappa (xi . eta)^2, finite 1/4 kappa r^2 (|xi + eta| -
+ * r)^2. */
+double pairwise_energy_at (const bond_force *b, size_t i, int thread, const double *d)
+{
+    size_t dim = (size_t) b->dim;
+    int finite = b->problem->sums->rule.finite;
+    double sum = 0, r;
+    point_bonds s;
+    point_bonds_at (b, i, thread, &s);
+    for (size_t e = 0; e < s.m; e++) {
+        if (!bond_force_lives (b, s.first + e)) continue;
+        const double *xi = s.xi + e * dim, *far = d + (size_t) s.node[e] * dim;
+        double kappa = pairwise_kappa (b, i, &s, e, &r), along = 0, square = 0;
+        for (size_t a = 0; a < dim; a++) {
+            double eta = far[a] - d[i * dim + a];
+            along += xi[a] * eta, square += eta * eta;
+        }
+        double grown = 2 * along + square,
+               longer = finite ? r * grown / (sqrt (fmax (0, r * r + grown)) + r) : along;
+        sum += kappa * (longer * longer);
+    }
+    return sum / (4 * b->problem->cloud.volume[i]);
+}
+
+/* ---- constants ----------------------------------------------------------------------------------------- */
+static pg_status create (bond_force *b)
+{
+    pg_status status = PG_OK;
+    pairwise *own = (pairwise *) b;
+    const pg_problem *p = b->problem;
+    const pg_sum_rule *rule = &p->sums->rule;
+    PG_ALLOC (own->modulus, b->n);
+    for (size_t i = 0; i < b->n; i++) {
+        size_t block = (size_t) p->block[PG_NODES][i];
+        double E = p->material[block].modulus;
+        if (i > 0 && block == (size_t) p->block[PG_NODES][i - 1]) own->modulus[i] = own->modulus[i - 1];
+        else
+            own->modulus[i] = p->sums->calibration
+                              * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);
+    }
+    b->setting.modulus = own->modulus;
+done:
+    return status;
+}
+
+static void destroy (bond_force *b)
+{
+    pairwise *own = (pairwise *) b;
+    pg_free (own->modulus);
+    pairwise_tiles_free (&own->tiles);
+}
+
+static int alike (const bond_force *b, size_t k)
+{
+    return pairwise_of (b)->modulus[k] == pairwise_of (b)->modulus[0];
+}
+
+static void words (const bond_force *b, size_t m, char *text, size_t size)
+{
+    const pg_problem *p = b->problem;
+    const pg_sum_rule *rule = &p->sums->rule;
+    double c = pg_bond_modulus (p->mode, rule->kernel, rule->horizon, p->material[m].modulus,
+                                p->cloud.thickness);
+    int used = snprintf (text, size, "%s%s%sconstant %.6g N/m^6, Poisson's ratio %.4g",
+                         p->nmaterial > 1 ? "material " : "", p->nmaterial > 1 ? p->material[m].name : "",
+                         p->nmaterial > 1 ? ": " : "", c, pg_bond_poisson (p->mode));
+    if (rule->calibrate && used > 0 && (size_t) used < size)
+        snprintf (text + used, size - (size_t) used,
+                  ", times %.6g for these points (calibrated: energy of hydrostatic strain)",
+                  p->sums->calibration);
+}
+
+static const bond_theory theory = { .size = sizeof (pairwise),
+                                     .create = create,
+                                     .free = destroy,
+                                     .blocks = blocks,
+                                     .alike = alike,
+                                     .virial = virial,
+                                     .find_dying = pairwise_tiles_look,
+                                     .forget = pairwise_tiles_forget,
+                                     .words = words };
+
+pg_status pairwise_create (void **self, const pg_problem *problem)
+{
+    return bond_force_make (self, problem, &theory);
+}
+
+/* ---- what is read from the scene ----------------------------------------------------------------------- */
+/* E is kept; the tangent, wave speeds and the stress of a gradient are those of the material that the bonds
+ * make. */
+static void take_poisson (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
+{
+    double nu = pg_bond_poisson (p->mode);
+    (void) scene, (void) rule;
+    for (size_t m = 0; m < p->nmaterial && p->mode != PG_LINE; m++) {
+        pg_material *a = &p->material[m];
+        double E = a->modulus, asked = a->nu;
+        if (fabs (asked - nu) > 0.005)
+            pg_problem_note (p,
+                             "warning: material %.40s: Poisson's ratio is %.4g, not %.4g: bonds alone leave "
+                             "no choice (Young's modulus is kept)",
+                             a->name, nu, asked);
+        pg_elastic_set (a, E, nu);
+    }
+}
+
+pg_status pairwise_read (pg_problem *p, const pg_scene *scene)
+{
+    return bond_force_read (p, scene, take_poisson);
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: pair forces along bonds (bond-based peridynamics). Force on i from j: V_i V_j c k beta g s e, s
+ * = e . eta / r; linear in the displacement: kappa (xi . eta) xi, kappa = V_i V_j c k beta g / r^3 (N/m^3),
+ * the same bits from either end. */
+#ifndef PG_PAIRWISE_H
+#define PG_PAIRWISE_H
+#include "bond_force.h"
+
+typedef struct pairwise_tiles pairwise_tiles;          /* pairwise_tiles.c */
+typedef struct {
+    bond_force base;
+    double *modulus;                                   /* c of each point, N/m^6 (n) */
+    pairwise_tiles *tiles;                             /* NULL until points are looked at in motion */
+} pairwise;
+static inline const pairwise *pairwise_of (const bond_force *b) { return (const pairwise *) b; }
+
+pg_status pairwise_create (void **self, const pg_problem *problem);
+/* N/m^3; r (m) or NULL */
+double    pairwise_kappa  (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *r);
+/* J/m^3, of its live bonds */
+double    pairwise_energy_at (const bond_force *b, size_t i, int thread, const double *d);
+/* bond_theory.find_dying */
+pg_status pairwise_tiles_look    (bond_force *b, const double *d, size_t *dying);
+void      pairwise_tiles_forget  (bond_force *b);
+void      pairwise_tiles_free    (pairwise_tiles **tiles);
+/* Entries of pg_method: sums, and the only Poisson's ratio that these forces know. */
+pg_status pairwise_read   (pg_problem *problem, const pg_scene *scene);
+#endif
