@@ -189,7 +189,7 @@ done:
 const pg_force_type pg_force_galerkin = {
     .method = { .name = "galerkin",
                 .summary = "weak form with the shape functions of method.approximation (Cui 2022)",
-                .keys = { &galerkin_keys, &pg_keys_shape_functions },
+                .keys = { &pg_keys_shape_functions, &galerkin_keys },
                 .shape_functions = 1,
                 .anisotropic = 1,
                 .shows = PG_NEEDS_STRETCH | PG_NEEDS_STRESS,

@@ -220,7 +220,7 @@ static void refusals (void **unused)
     (void) unused;
     refused (PLATE ROCK PULL
              "method: {force: bond}\nfailure: {criterion: principal_stress, tensile_strength: 1 MPa}\n",
-             "use stretch, or force: galerkin");
+             "use stretch, node_energy, or force: galerkin");
     refused (PLATE ROCK PULL "method: {force: bond, stretch: finite}\n",
              "static and newmark need linear ones");
     refused (PLATE ROCK PULL "method: {force: bond, stretch: finite}\nfailure: {criterion: stretch, "
