@@ -149,7 +149,7 @@ doc: perigal         ## doc/input.md, from the tables that check a scene
 
 bench: packages      ## measures the tables of doc/benchmarks.md with the spread of repeats and rewrites them (T="group group")
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal bench-programs
-	$(Q)bench/run $(BUILD) $(T)
+	$(Q)bench/run $(BUILD) $(if $(REPEAT),--repeat $(REPEAT)) $(T)
 
 accuracy: packages   ## measures the tables of doc/accuracy*.md and rewrites them (T="group group": of some)
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal bench-programs $(ACCURACY:%=$(BUILD)/test/%)
